@@ -20,6 +20,10 @@ struct GuidedError {
   double tip_m = 0.0;      ///< distance of the two tips
   double across_m = 0.0;   ///< of that, across the planned axis
   double angle_rad = 0.0;  ///< between the two axes
+  /// `across_m` in SDs of the two offsets as they were shown: 68 % of them are to lie within 1.51,
+  /// 95 % within 2.45. Absent: no SD was shown.
+  std::optional<double> across_sds = {};
+  bool sure = false;  ///< both offsets were shown as sure, not greyed
 };
 
 struct ScrewOutcome {

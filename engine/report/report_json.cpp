@@ -50,9 +50,14 @@ void put_guided(Json& out, const ScrewOutcome& screw) {
   }
   put_mm(out, "preoperative_entry_error_mm", screw.preoperative_entry_error_m);
   if (screw.guided) {
-    out["guided"] = Json{{"tip_mm", screw.guided->tip_m * 1e3},
-                         {"across_mm", screw.guided->across_m * 1e3},
-                         {"angle_deg", degrees(screw.guided->angle_rad)}};
+    Json& guided = out["guided"];
+    guided = Json{{"tip_mm", screw.guided->tip_m * 1e3},
+                  {"across_mm", screw.guided->across_m * 1e3},
+                  {"angle_deg", degrees(screw.guided->angle_rad)},
+                  {"sure", screw.guided->sure}};
+    if (screw.guided->across_sds) {
+      guided["across_sds"] = *screw.guided->across_sds;
+    }
   }
   if (screw.guided || screw.executed) {
     out["warned"] = screw.warned();

@@ -42,6 +42,8 @@ class AxisCheck {
   [[nodiscard]] bool offers() const {
     return last_ && !last_->corrected && last_->by_rad >= rules_.worth_rad;
   }
+  /// Of the axis in use, about each direction across it.
+  [[nodiscard]] double sd_rad() const { return sd_rad_; }
   /// The surgeon consents: the axis that is used from now on.
   [[nodiscard]] Direction<Marker> correct();
   [[nodiscard]] const std::optional<AxisDifference>& last() const { return last_; }

@@ -30,6 +30,7 @@ enum class Event : std::uint8_t {
   kLandmarkTouched,      ///< "next" was said and the landmark was found where it was recorded
   kLandmarkMissing,      ///< "next" was said before the landmark was touched
   kLandmarkMoved,        ///< the landmark was touched, farther from where it was than may be
+  kBoneUnchecked,        ///< before a drill is set, World has walked too far since it was found
   kWireSettled,          ///< "next" was said, and nothing of the wire is left to decide
   kWireUndecided,        ///< "next" was said of a wire beyond a limit
   kScrewRedone,          ///< "delete" was said of it, and another entry was found
@@ -48,7 +49,7 @@ enum class Event : std::uint8_t {
   kReferenceSeen,        ///< one is seen again, or for the first time
   kReferenceMoved,       ///< references moved against each other: what hangs on them means nothing
 };
-inline constexpr std::size_t kEventCount = 40;
+inline constexpr std::size_t kEventCount = 41;
 
 /// What the session does about it. The first is the answer of a forgotten cell.
 enum class Action : std::uint8_t {

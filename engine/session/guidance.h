@@ -9,6 +9,7 @@
 
 #include "base/tracked.h"
 #include "engine/case/operation.h"
+#include "engine/session/bone_found.h"
 #include "engine/session/landmark.h"
 #include "engine/session/placed_wire.h"
 #include "engine/session/status_line.h"
@@ -70,6 +71,8 @@ struct LevelState {
   std::optional<RegistrationAttempt> newest;
   /// Of the bone, by the registration that it was first touched on; gone with it.
   std::optional<Landmark> landmark;
+  /// Where that registration has it; gone with it.
+  std::optional<BoneFound> bone_found;
   bool accepted = false;                 ///< by the surgeon; only then anything is guided on it
   std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration
   double digitization_s = 0.0;           ///< from the first press to the registration
@@ -107,12 +110,17 @@ struct LevelState {
     predicted.clear();
     check_points.clear();
     landmark.reset();
+    bone_found.reset();
     accepted = false;
     first_press.reset();
   }
   /// The errors that are expected lack what all strokes share: nobody knows it.
   [[nodiscard]] bool registration_only() const {
     return registration && !(registration->common.sd_m() > 0.0);
+  }
+  /// SD along an axis by which World may be off the registration since the bone was found.
+  [[nodiscard]] double walked_sd_m(Timestamp now) const {
+    return bone_found ? bone_found->sd_at_m(now) : 0.0;
   }
   /// World's vertebra may be shown and guided on.
   [[nodiscard]] bool usable() const { return accepted && registration && !map_moved; }

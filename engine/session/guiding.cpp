@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/session/tool_in_vertebra.h"
-
 namespace orthonav::engine {
 namespace {
 
@@ -68,6 +66,13 @@ std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWa
   return guidance;
 }
 
+ToolInVertebra Guiding::in_bone(const LevelState& level, const nav::TrackedPose& pose,
+                                const nav::ToolGeometry& tool) const {
+  ToolErrors errors = errors_;
+  errors.walked_sd_m = level.walked_sd_m(pose.time);
+  return in_vertebra(*level.registration, pose, tool, errors);
+}
+
 void Guiding::lose_measurement() {
   numbers_.forget();
   clearance_.forget();
@@ -78,7 +83,7 @@ void Guiding::take_measurement(ToolGuidance& guidance, const LevelState& level,
                                const nav::TrackedPose& pose, const nav::ToolGeometry& tool) {
   const nav::ScrewPlan& plan = level.plan.screws[screw_];
   const nav::ScrewGuidance& measured = *guidance.measured;
-  const ToolInVertebra there = in_vertebra(*level.registration, pose, tool);
+  const ToolInVertebra there = in_bone(level, pose, tool);
   const nav::PoseUncertainty* uncertainty = there.uncertainty ? &*there.uncertainty : nullptr;
   const auto deviation = nav::anatomical_deviation(plan, there.axis, uncertainty);
   if (deviation) {
@@ -115,7 +120,8 @@ std::optional<nav::ScrewClearance> Guiding::clearance_along(const LevelState& le
     return std::nullopt;
   }
   const nav::ScrewPlan& plan = level.plan.screws[screw_];
-  const ToolInVertebra there = in_vertebra(*level.registration, pose, tool);
+  const ToolInVertebra there =
+      in_vertebra(*level.registration, pose, tool, {level.walked_sd_m(pose.time)});
   const nav::Axis<Vertebra>& axis = there.axis;
   const Vec3 planned = plan.target - plan.entry;
   const Vec3 off_m = (axis.point - plan.entry).cross(planned.normalized());

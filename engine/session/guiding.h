@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/session/guidance.h"
+#include "engine/session/tool_in_vertebra.h"
 #include "engine/session/tool_watch.h"
 
 namespace orthonav::engine {
@@ -25,6 +26,9 @@ class Guiding {
   void begin_drill() { drill_.begin(); }
   void toggle_twin() { twin_ = !twin_; }
 
+  /// How far the tool may be off, from now on; World's walk is the level's (BoneFound).
+  void know_errors(const ToolErrors& errors) { errors_ = errors; }
+
   /// The tool against the selected screw. Absent where nothing fresh is there to guide on.
   [[nodiscard]] std::optional<ToolGuidance> guide(const LevelState& level, const ToolWatch& watch,
                                                   const nav::ToolGeometry& tool, Timestamp now,
@@ -37,7 +41,8 @@ class Guiding {
   [[nodiscard]] const ToolGuidance* at_depth() const { return at_depth_ ? &*at_depth_ : nullptr; }
   /// Of the selected screw if it were driven along the tool's axis; none where the tool is not held
   /// near the plan (15 mm, 30°). Of the pose's uncertainty and the registration's, where there is
-  /// one. Allocates nothing.
+  /// one. What shifts bone and tool alike counts in full: the hand and the drill go astray
+  /// as well, and a bound may be too careful, never too hopeful. Allocates nothing.
   [[nodiscard]] std::optional<nav::ScrewClearance> clearance_along(
       const LevelState& level, const nav::TrackedPose& pose, const nav::ToolGeometry& tool) const;
   /// That, and as it is written, into guidance on a measurement.
@@ -58,6 +63,10 @@ class Guiding {
   void remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,
                       const nav::TrackedPose& pose);
 
+  [[nodiscard]] ToolInVertebra in_bone(const LevelState& level, const nav::TrackedPose& pose,
+                                       const nav::ToolGeometry& tool) const;
+
+  ToolErrors errors_;
   std::size_t screw_ = 0;
   std::optional<ToolGuidance> at_depth_;
   nav::TrackedPose pose_at_depth_;  ///< of the tool, where there is an `at_depth_`

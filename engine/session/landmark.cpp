@@ -10,10 +10,13 @@ double LandmarkRules::touch_variance_m2(bool anchored) const {
   return dimple_sd_m * dimple_sd_m + lasting_m * lasting_m;
 }
 
-double LandmarkRules::limit_m(double recorded_sd_m, double sd_m, bool anchored) const {
-  const double variance_m2 = recorded_sd_m * recorded_sd_m + sd_m * sd_m +
-                             2.0 * touch_variance_m2(anchored) / touches_of(anchored);
-  return std::min(sds * std::sqrt(variance_m2), most_m);
+double LandmarkRules::distance_sd_m(double recorded_sd_m, double sd_m, bool anchored) const {
+  return std::sqrt(recorded_sd_m * recorded_sd_m + sd_m * sd_m +
+                   2.0 * touch_variance_m2(anchored) / touches_of(anchored));
+}
+
+double LandmarkRules::limit_m(double distance_sd_m) const {
+  return std::min(sds * distance_sd_m, most_m);
 }
 
 double LandmarkRules::apart_m(double sd_m, bool anchored) const {
@@ -38,6 +41,7 @@ std::vector<std::string> LandmarkRules::check() const {
   in("landmark.lasting_sd_anchored_m", lasting_sd_anchored_m, 0.0, 0.001);
   in("landmark.sds", sds, 2.0, 6.0);
   in("landmark.most_m", most_m, 0.0005, 0.003);
+  in("landmark.most_walked_m", most_walked_m, 0.0, 0.003);
   in("landmark.from_reference_m", from_reference_m, 0.0, 0.1);
   in("landmark.reach", reach, 0.0, 1.0);
   return problems;

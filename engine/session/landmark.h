@@ -15,6 +15,8 @@ struct Landmark {
   Point<Vertebra> in_vertebra;  ///< where it was touched first, by the registration of that moment
   double sd_m = 0.0;            ///< of that touch, along an axis
   Timestamp recorded{};
+  /// By which the bone may have been off its registration at that moment (BoneFound::sd_m).
+  double bone_sd_m = 0.0;
 };
 
 /// How it was found, by as many touches as it takes.
@@ -23,6 +25,7 @@ struct LandmarkTouch {
   int missing = 0;       ///< touches still to come, before which nothing is known
   double off_m = 0.0;    ///< from where it was recorded
   double limit_m = 0.0;  ///< beyond which something has moved
+  double sd_m = 0.0;     ///< of the distance between the two places, along an axis
   [[nodiscard]] bool held() const { return missing == 0 && off_m <= limit_m; }
   [[nodiscard]] bool moved() const { return missing == 0 && !(off_m <= limit_m); }
 };
@@ -44,6 +47,10 @@ struct LandmarkRules {
   double sds = 3.583;
   /// And never more than this, however badly the tip was seen: of shifts by 2 mm, 95 of 100 show.
   double most_m = 0.0014;
+  /// On the headset's map: once World may have walked by this SD along an axis since the bone was
+  /// last found, nothing is guided before it is found again. By then one in twenty walks along an
+  /// axis is longer than `most_m`.
+  double most_walked_m = 0.0007;
   /// So far from the tag and the foot of a patient reference, or, where the bone does not reach so
   /// far, `reach` of as far as it does: a clamp that turned moves what is near it least.
   double from_reference_m = 0.030;
@@ -54,8 +61,10 @@ struct LandmarkRules {
   }
   /// Of one touch along an axis, besides what its press tells of itself.
   [[nodiscard]] double touch_variance_m2(bool anchored) const;
-  /// Of the distance between two places of these SDs along an axis, each of so many touches.
-  [[nodiscard]] double limit_m(double recorded_sd_m, double sd_m, bool anchored) const;
+  /// SD along an axis of the distance between two places of these SDs, each of so many touches.
+  [[nodiscard]] double distance_sd_m(double recorded_sd_m, double sd_m, bool anchored) const;
+  /// Of a distance with this SD.
+  [[nodiscard]] double limit_m(double distance_sd_m) const;
   /// Of the distance between two touches of one place: farther apart, they are not one.
   [[nodiscard]] double apart_m(double sd_m, bool anchored) const;
   /// Every problem at once; empty when all is well.

@@ -89,8 +89,9 @@ std::variant<LandmarkTouch, TouchRefusal> Landmarking::take(LevelState& level,
   variances_m2_ += pressed->sd_m * pressed->sd_m;
   ++touches_;
   const double recorded_sd_m = level.landmark ? level.landmark->sd_m : sd_m();
+  const double distance_sd_m = rules_.distance_sd_m(recorded_sd_m, sd_m(), anchored);
   last_ = LandmarkTouch{!level.landmark, std::max(0, rules_.touches_of(anchored) - touches_), 0.0,
-                        rules_.limit_m(recorded_sd_m, sd_m(), anchored)};
+                        rules_.limit_m(distance_sd_m), distance_sd_m};
   if (last_->missing > 0) {
     return *last_;
   }

@@ -15,6 +15,7 @@ struct ToNotice {
   Notice operator()(const TouchNotRecorded& /*m*/) const { return Notice::kTouchNotRecorded; }
   Notice operator()(const LandmarkMissing& /*m*/) const { return Notice::kLandmarkMissing; }
   Notice operator()(const LandmarkMoved& /*m*/) const { return Notice::kLandmarkMoved; }
+  Notice operator()(const BoneUnchecked& /*m*/) const { return Notice::kBoneUnchecked; }
   Notice operator()(const TipCorrected& /*m*/) const { return Notice::kTipCorrected; }
   Notice operator()(const AxisCorrected& /*m*/) const { return Notice::kAxisCorrected; }
   Notice operator()(const WireUndecided& /*m*/) const { return Notice::kWireUndecided; }

@@ -91,6 +91,12 @@ struct LandmarkMoved {
   double limit_m = 0.0;
   bool anchored = false;  ///< to a patient reference: what moves with it shows nowhere
 };
+/// For so long nothing has told whether the bone is where its registration has it, and the map may
+/// have drifted by so much since: two SDs along an axis.
+struct BoneUnchecked {
+  double for_s = 0.0;
+  double drift_m = 0.0;
+};
 /// "next" was said of a wire beyond a limit, before it was kept or redone.
 struct WireUndecided {};
 /// There is no other entry through which the screw stays inside the bone.
@@ -125,9 +131,9 @@ struct Ended {};
 using Message =
     std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown, NothingToDelete,
                  ConfirmDelete, RegistrationRefused, ChecksMissing, TouchNotRecorded,
-                 LandmarkMissing, LandmarkMoved, TipCorrected, AxisCorrected, WireUndecided,
-                 NoOtherEntry, ConfirmRedo, ScrewRedone, ReplanUnclear, ReplanRefusal,
-                 ScrewReplanned, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
+                 LandmarkMissing, LandmarkMoved, BoneUnchecked, TipCorrected, AxisCorrected,
+                 WireUndecided, NoOtherEntry, ConfirmRedo, ScrewRedone, ReplanUnclear,
+                 ReplanRefusal, ScrewReplanned, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
 
 /// It is about a change of the screw, and what the step asks for stays asked beside it.
 [[nodiscard]] inline bool is_about_replan(const Message& message) {

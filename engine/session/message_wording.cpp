@@ -164,6 +164,13 @@ struct MessageWriter {
     text.begin(Importance::kNext, ": ");
     out += "check again or reject";
   }
+  void operator()(const BoneUnchecked& m) {
+    text.begin(Importance::kDanger);
+    append_printed(out, "bone not checked for %.0f s, the map may have drifted ", m.for_s);
+    append_mm(out, m.drift_m, 1);
+    text.begin(Importance::kNext, ": ");
+    out += words::kTouchDimple;
+  }
   void operator()(const TipCorrected& m) {
     text.begin(Importance::kMessage);
     out += "guide's tip corrected by ";

@@ -34,14 +34,17 @@ void Placing::collect(const nav::TrackedPose& pose, const nav::ToolGeometry& gui
 
 std::optional<TouchRefusal> Placing::take(const LevelState& level, std::size_t screw,
                                           const nav::TrackedPose& pose,
-                                          const nav::ToolGeometry& guide, double max_spread_m) {
+                                          const nav::ToolGeometry& guide,
+                                          const ToolErrors& guide_errors, double max_spread_m) {
   const auto taken = touch_.take(max_spread_m, rules_.most_turn_rad);
   if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
     return *refusal;
   }
   RestingAxis resting = std::get<RestingAxis>(taken);
   use_turning(guide, resting);
-  const auto now = in_vertebra(*level.registration, pose, guide);
+  // The axis is the sleeve's own, below.
+  const auto now = in_vertebra(*level.registration, pose, guide,
+                               {guide_errors.walked_sd_m, guide_errors.unshared_sd_m});
   if (!now.uncertainty) {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
     return TouchRefusal{TouchRefusal::Kind::kEntryUnsure, kUnknown, rules_.most_entry_sd_m};
@@ -52,7 +55,9 @@ std::optional<TouchRefusal> Placing::take(const LevelState& level, std::size_t s
       -(vertebra_from_world * Direction<World>{resting.mean.direction}).v};
   const double axis_sd_rad = spin_ ? sd_of_each_rad(*spin_) : rules_.axis_sd_rad;
   const nav::SleeveErrors errors{std::hypot(axis_sd_rad, rules_.play_rad, resting.direction_sd_rad),
-                                 std::hypot(rules_.tip_sd_m, resting.tip_sd_m)};
+                                 guide_errors.unshared_sd_m
+                                     ? resting.tip_sd_m
+                                     : std::hypot(rules_.tip_sd_m, resting.tip_sd_m)};
   const nav::PlacedAxis axis =
       nav::placed_axis(level.plan.screws[screw], sleeve, *now.uncertainty, errors);
   if (const auto refusal = refusal_of(axis)) {

@@ -7,6 +7,7 @@
 #include "engine/session/axis_touch.h"
 #include "engine/session/guidance.h"
 #include "engine/session/placed_wire.h"
+#include "engine/session/tool_in_vertebra.h"
 #include "engine/session/tool_watch.h"
 #include "nav/calibration/spin.h"
 #include "nav/guidance/other_entry.h"
@@ -35,7 +36,7 @@ class Placing {
   [[nodiscard]] std::optional<TouchRefusal> take(const LevelState& level, std::size_t screw,
                                                  const nav::TrackedPose& pose,
                                                  const nav::ToolGeometry& guide,
-                                                 double max_spread_m);
+                                                 const ToolErrors& errors, double max_spread_m);
   /// The plan was changed: the wire, which was measured, is held against that one.
   void judge_again(const nav::ScrewPlan& plan);
   /// As it was measured last.

@@ -105,6 +105,7 @@ const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   tools_.track(frame);
   watch_reference(frame.time);
   watch_tool_in_use(frame.time);
+  watch_drift(frame.time);
   collect_samples();
   publish(frame, inputs.display_time);
   return guidance_;
@@ -224,6 +225,20 @@ void Session::watch_tool_in_use(Timestamp now) {
   if (const auto event = in_use_.look(tools_.watch(*tool), now, options_.stale_after)) {
     handle(*event, now);
   }
+}
+
+/// Before a drill is set the surgeon can go back and touch the landmark; once it is, the SD that is
+/// shown grows.
+void Session::watch_drift(Timestamp now) {
+  const auto& found = level().bone_found;
+  if (step_ != Step::kGuide || !found || !options_.steps.landmark ||
+      guiding_.drill().phase != nav::DrillPhase::kAway ||
+      !(found->walked_sd_m(now) > options_.landmark.most_walked_m)) {
+    return;
+  }
+  const BoneUnchecked unchecked{seconds(now - found->time), 2.0 * found->walked_sd_m(now)};
+  handle(Event::kBoneUnchecked, now);
+  messages_.say(unchecked, now);
 }
 
 void Session::collect_samples() {

@@ -83,6 +83,8 @@ class Session {
   void watch_map(const StereoFrame& frame);
   void watch_reference(Timestamp now);
   void watch_tool_in_use(Timestamp now);
+  void watch_drift(Timestamp now);
+  [[nodiscard]] ToolErrors guide_errors(Timestamp now) const;
   void collect_samples();
   void collect_guide_tip();
   void collect_sleeve();
@@ -113,6 +115,7 @@ class Session {
   void drop_check(Timestamp time);
   void accept(Timestamp time);
   void touch_landmark(Timestamp time);
+  void note_bone_found(const LandmarkTouch& touch, Timestamp time);
   [[nodiscard]] nav::PressedPlace touched_landmark() const;
   [[nodiscard]] std::optional<nav::PressedPlace> guide_tip_in_landmark(const TouchedPlace& pointer);
   void compare_tips(const nav::PressedPlace& guide_tip, Timestamp time);

@@ -115,6 +115,7 @@ void Session::record_check(Timestamp time) {
 void Session::accept(Timestamp time) {
   verifying_.join(level());
   level().accepted = true;
+  level().bone_found = BoneFound{time, 0.0, options_.map_drift_m_per_sqrt_s};
   landmarking_.begin();
   if (observer_) {
     observer_->accepted(time, level());

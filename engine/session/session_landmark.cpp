@@ -17,11 +17,23 @@ void Session::touch_landmark(Timestamp time) {
     return;
   }
   const auto& touch = std::get<LandmarkTouch>(taken);
+  note_bone_found(touch, time);
   if (observer_ && touch.missing == 0) {
     observer_->landmark_touched(time, level(), touch);
   }
   if (touch.moved()) {
     handle(Event::kLandmarkMoved, time);
+  }
+}
+
+void Session::note_bone_found(const LandmarkTouch& touch, Timestamp time) {
+  if (touch.missing > 0 || touch.moved()) {
+    return;
+  }
+  LevelState& now = level();
+  now.bone_found = found_by_landmark(*now.bone_found, touch, *now.landmark, time);
+  if (touch.first) {
+    now.landmark->bone_sd_m = now.bone_found->sd_m;
   }
 }
 

@@ -52,7 +52,8 @@ void Session::measure_wire(Timestamp time) {
     refusal = TouchRefusal{TouchRefusal::Kind::kGuideNotSeen};
   } else {
     refusal = placing_.take(level(), guiding_.screw(), guide.last_measured_pose(),
-                            tools_.geometry(tools_.guide()), options_.max_touch_spread_m);
+                            tools_.geometry(tools_.guide()), guide_errors(time),
+                            options_.max_touch_spread_m);
   }
   if (refusal) {
     return messages_.say(TouchNotRecorded{TouchNotRecorded::What::kWire, *refusal}, time);

@@ -21,6 +21,7 @@ ChecksAsked asked_by(const nav::CheckAdvice& advice) {
 ChecksAsked asked_in(const Message& message) {
   if (std::holds_alternative<LandmarkMissing>(message) ||
       std::holds_alternative<LandmarkMoved>(message) ||
+      std::holds_alternative<BoneUnchecked>(message) ||
       std::holds_alternative<ScrewRedone>(message)) {
     return ChecksAsked::kTouchMore;
   }

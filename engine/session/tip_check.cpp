@@ -5,17 +5,32 @@
 
 namespace orthonav::engine {
 
+double TipCheck::along_sight_m(double size_sd) const {
+  return rules_.distance_m * std::max(size_sd, rules_.least_size_sd);
+}
+
+double TipCheck::difference_sd_m(double size_sd) const {
+  const double tags_m = along_sight_m(size_sd) / std::sqrt(3.0);
+  const double prior_m = rules_.prior_sd_m;
+  if (!last_ || !(prior_m > 0.0)) {
+    return std::hypot(prior_m, tags_m);
+  }
+  // The posterior of two normal distributions; without consent the tip stays off by its mean.
+  const double left_m = prior_m * last_->sd_m / std::hypot(prior_m, last_->sd_m);
+  const double off_m = last_->corrected ? 0.0 : last_->by_m.norm() / std::sqrt(3.0);
+  return std::hypot(left_m, off_m, tags_m);
+}
+
 std::variant<TipDifference, TouchRefusal> TipCheck::take(
     const nav::PressedPlace& place, const Transform<World, Marker>& world_from_guide,
     const nav::PressedPlace& pointer_tip, bool anchored, double size_sd) {
-  const double along_sight_m = rules_.distance_m * std::max(size_sd, rules_.least_size_sd);
+  const double tags_m = along_sight_m(size_sd);
   const double each_m2 = landmark_.touch_variance_m2(anchored);
   TipDifference found;
   found.apart_m = world_from_guide.rotation().transposed() * (place.place - pointer_tip.place);
   // The pointer's place is that of as many touches as make one; the guide's is one.
-  found.sd_m =
-      std::sqrt(place.sd_m * place.sd_m + pointer_tip.sd_m * pointer_tip.sd_m + each_m2 +
-                each_m2 / landmark_.touches_of(anchored) + along_sight_m * along_sight_m / 3.0);
+  found.sd_m = std::sqrt(place.sd_m * place.sd_m + pointer_tip.sd_m * pointer_tip.sd_m + each_m2 +
+                         each_m2 / landmark_.touches_of(anchored) + tags_m * tags_m / 3.0);
   const double prior_m2 = rules_.prior_sd_m * rules_.prior_sd_m;
   const double known = prior_m2 / (prior_m2 + found.sd_m * found.sd_m);
   found.by_m = known * found.apart_m;

@@ -56,11 +56,16 @@ class TipCheck {
   [[nodiscard]] bool due() const { return compare_ && !last_; }
   /// A difference waits for consent to be corrected.
   [[nodiscard]] bool offers() const { return last_ && !last_->corrected && !last_->agrees(); }
+  /// SD along an axis by which the guide's tip is off where the pointer's would be, as far as is
+  /// known by now; `size_sd` as in `take`.
+  [[nodiscard]] double difference_sd_m(double size_sd) const;
   /// The surgeon consents: what is taken off the guide's tip.
   [[nodiscard]] Vec3 correct();
   [[nodiscard]] const std::optional<TipDifference>& last() const { return last_; }
 
  private:
+  [[nodiscard]] double along_sight_m(double size_sd) const;
+
   TipCheckRules rules_;
   LandmarkRules landmark_;
   bool compare_ = true;

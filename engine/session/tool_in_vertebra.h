@@ -16,8 +16,17 @@ struct ToolInVertebra {
   std::optional<nav::PoseUncertainty> uncertainty;
 };
 
+/// What makes that pose unsure beside the strokes and the tool's own pose, SDs along an axis.
+struct ToolErrors {
+  double walked_sd_m = 0.0;  ///< of World against the bone since it was last found
+  /// Of what tool and strokes do not share, in place of the registration's errors of tip and
+  /// cameras: those shift the bone and the tool alike. Absent: those count in full.
+  std::optional<double> unshared_sd_m = {};
+  double axis_sd_rad = 0.0;  ///< of its described axis, about each direction across it
+};
+
 [[nodiscard]] ToolInVertebra in_vertebra(const nav::Registration& registration,
                                          const nav::TrackedPose& pose,
-                                         const nav::ToolGeometry& tool);
+                                         const nav::ToolGeometry& tool, const ToolErrors& errors);
 
 }  // namespace orthonav::engine

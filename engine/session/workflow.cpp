@@ -27,6 +27,7 @@ constexpr std::array<std::string_view, kEventCount> kEventNames = {
     "landmark touched",
     "landmark missing",
     "landmark moved",
+    "bone unchecked",
     "wire settled",
     "wire undecided",
     "screw redone",

@@ -105,10 +105,12 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kAccepted, kReferenceMoved, kForgetMap, kDigitize},
 
     // A registration that turns out wrong while guiding can be thrown away at any screw. The screw
-    // is changed until its drill is set; one that would leave the cortex wants an "accept".
+    // is changed until its drill is set; one that would leave the cortex wants an "accept". Where the
+    // map has drifted for long, the landmark is touched again before a drill is set.
     {kGuide, kSayNext, kExpectWire, kPlaced},
     {kGuide, kSayReject, kClearLevel, kDigitize},
     {kGuide, kSayTwin, kToggleTwin, kGuide},
+    {kGuide, kBoneUnchecked, kExpectLandmark, kAccepted},
     {kGuide, kSayDrill, kBeginDrill, kGuide},
     {kGuide, kSayReplan, kReplan, kGuide},
     {kGuide, kSayAccept, kConsent, kGuide},
@@ -215,6 +217,7 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kAccepted, kPoseStale, kIgnore, kAccepted},
     {kAccepted, kTrackingRegained, kIgnore, kAccepted},
     {kGuide, kSayNext, kFinishScrew, kGuide},
+    {kGuide, kBoneUnchecked, kRefuse, kGuide},
     {kGuide, kAnotherScrew, kSelectScrew, kGuide},
     {kGuide, kAnotherLevel, kBeginLevel, kDigitize},
     {kGuide, kNoScrewLeft, kBeginRod, kRod},
@@ -230,6 +233,7 @@ inline constexpr auto kRulesTouchedOnce = std::to_array<Rule>({
 /// Where it is, though no wire is measured.
 inline constexpr auto kRulesWireUnmeasured = std::to_array<Rule>({
     {kGuide, kAnotherScrew, kExpectLandmark, kAccepted},
+    {kGuide, kBoneUnchecked, kExpectLandmark, kAccepted},
 });
 // clang-format on
 }  // namespace workflow_detail

@@ -1,6 +1,7 @@
 #include "engine/study/guide_truth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace orthonav::engine {
@@ -9,14 +10,30 @@ namespace {
 /// The measurement before a wire pierced the bone is no older than that.
 constexpr Duration kNewest = std::chrono::milliseconds(500);
 
+/// What was shown of how sure the two offsets are.
+void add_shown(const nav::ScrewNumbers& shown, Vec3 apart_m, const nav::ScrewPlan& plan,
+               GuidedError& error) {
+  error.sure = shown.tip_cranial.sure && shown.tip_medial.sure;
+  const auto directions = nav::directions_of(plan);
+  if (!directions || !shown.tip_cranial.sd_tenths || !shown.tip_medial.sd_tenths) {
+    return;
+  }
+  error.across_sds =
+      std::hypot(apart_m.dot(directions->cranial) / (*shown.tip_cranial.sd_tenths * nav::kTenth_m),
+                 apart_m.dot(directions->medial) / (*shown.tip_medial.sd_tenths * nav::kTenth_m));
+}
+
 GuidedError error_between(const nav::Axis<Vertebra>& truth, const nav::Axis<Vertebra>& tracked,
-                          const nav::ScrewPlan& plan) {
+                          const nav::ScrewPlan& plan, const std::optional<ToolGuidance>& shown) {
   GuidedError error;
   const Vec3 apart_m = tracked.point - truth.point;
   const Vec3 along = (plan.target - plan.entry).normalized();
   error.tip_m = apart_m.norm();
   error.across_m = (apart_m - apart_m.dot(along) * along).norm();
   error.angle_rad = angle_between_rad(truth.direction, tracked.direction);
+  if (shown && shown->numbers) {
+    add_shown(*shown->numbers, apart_m, plan, error);
+  }
   return error;
 }
 
@@ -61,7 +78,8 @@ void GuideTruth::look(Timestamp time, const Guidance& guidance) {
   const auto tracked =
       axis_in(level.registration->world_from_vertebra.inverse() * seen.world_from_marker.value,
               believed.tip_in_marker, believed.axis_in_marker.v);
-  sightings_.push_back({time, error_between(truth, tracked, level.plan.screws[guidance.screw])});
+  sightings_.push_back(
+      {time, error_between(truth, tracked, level.plan.screws[guidance.screw], guidance.tool)});
 }
 
 void GuideTruth::note_wires() {

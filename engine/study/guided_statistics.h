@@ -6,15 +6,19 @@
 namespace orthonav::engine {
 
 /// Of a study's runs: how far off the guide was shown when wires pierced the bone, screws guided
-/// more than `kSilent_mm` off across the plan without anybody being told, and breaches of the
-/// cortex without a warning (ScrewOutcome::warned).
+/// more than `kSilent_mm` off across the plan without anybody being told, neither by a warning
+/// (ScrewOutcome::warned) nor by offsets shown greyed as unsure, and breaches of the cortex without
+/// a warning.
 struct GuidedQuality {
   static constexpr double kSilent_mm = 2.0;
 
   std::vector<double> across_mm;
   std::vector<double> tip_mm;
   std::vector<double> angle_deg;
+  std::vector<double> across_sds;  ///< of those that were shown with SDs
   int silent = 0;
+  int unwarned = 0;  ///< as far off and without a warning, however the offsets were shown
+  int unsure = 0;    ///< shown with an offset greyed
   int executed = 0;
   int breaches = 0;
   int unwarned_breaches = 0;

@@ -107,8 +107,9 @@ void add_guided(const nlohmann::json& study, std::string& html) {
       " mm off across the plan (95 % within " +
       html_number(guided["across_mm"]["p95"].get<double>(), 2) + " mm) and " +
       html_number(guided["angle_deg"]["mean"].get<double>(), 2) +
-      "° off. More than 2 mm without a warning: " + count_of(guided["silent_failures"]) +
-      ". Breaches of the cortex: " +
+      "° off. More than 2 mm, shown as sure and without a warning: " +
+      count_of(guided["silent_failures"]) +
+      "; shown as unsure: " + count_of(guided["shown_unsure"]) + ". Breaches of the cortex: " +
       std::to_string(guided["unwarned_breaches"]["breaches"].get<int>()) +
       ", without a warning: " + count_of(guided["unwarned_breaches"]) + ".</p></section>";
 }

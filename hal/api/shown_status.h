@@ -51,6 +51,7 @@ enum class Notice : std::uint8_t {
   kTouchNotRecorded,  ///< of a check point, the landmark or a head
   kLandmarkMissing,   ///< "next", before the landmark was touched
   kLandmarkMoved,     ///< it is not where it was: the registration is verified again
+  kBoneUnchecked,     ///< for long: the landmark is to be touched again
   kTipCorrected,      ///< of the guide, by the pointer's
   kAxisCorrected,     ///< of the guide, by a wire in its sleeve
   kWireUndecided,     ///< "next", while a wire beyond a limit waits for a word

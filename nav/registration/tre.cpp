@@ -170,6 +170,25 @@ PoseUncertainty shifted_by(const PoseUncertainty& uncertainty, double variance_m
 PoseUncertainty with_common(const PoseUncertainty& own, const CommonErrors& common) {
   return shifted_by(own, common.sd_m() * common.sd_m());
 }
+PoseUncertainty with_turn(const PoseUncertainty& own, Point<Vertebra> about, Vec3 axis,
+                          double sd_rad) {
+  // w about a place p is w about the centre c and the shift w x (c - p): two columns, one for each
+  // direction across.
+  auto covariance = own.covariance();
+  const Vec3 any = std::abs(axis[0]) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 across = axis.cross(any).normalized();
+  for (const Vec3 turn : {across, axis.cross(across)}) {
+    const Vec3 shift = turn.cross(own.centre_m() - about.v);
+    const std::array<double, 6> column = {shift[0], shift[1], shift[2], turn[0], turn[1], turn[2]};
+    for (std::size_t r = 0; r < 6; ++r) {
+      for (std::size_t c = 0; c < 6; ++c) {
+        covariance[6 * r + c] += sd_rad * sd_rad * column[r] * column[c];
+      }
+    }
+  }
+  return {own.centre_m(), covariance};
+}
+
 PoseUncertainty without_common(const PoseUncertainty& all, const CommonErrors& common) {
   return shifted_by(all, -common.sd_m() * common.sd_m());
 }

@@ -57,6 +57,10 @@ struct CommonErrors {
 };
 /// An uncertainty with errors in common added, and without them again.
 [[nodiscard]] PoseUncertainty with_common(const PoseUncertainty& own, const CommonErrors& common);
+/// An uncertainty with a turn about a place added, of this SD about each direction across `axis`
+/// (unit).
+[[nodiscard]] PoseUncertainty with_turn(const PoseUncertainty& own, Point<Vertebra> about,
+                                        Vec3 axis, double sd_rad);
 [[nodiscard]] PoseUncertainty without_common(const PoseUncertainty& all,
                                              const CommonErrors& common);
 

@@ -82,6 +82,7 @@ std::vector<Message> messages() {
       Message(TouchNotRecorded{What::kLandmark, {TouchRefusal::Kind::kTooNear, 0.022, 0.03}}),
       Message(LandmarkMissing{}),
       Message(LandmarkMoved{0.0123001, 0.0123, false}),
+      Message(BoneUnchecked{1234.5, 0.0123}),
       Message(TouchNotRecorded{What::kWire, {TouchRefusal::Kind::kOffTheScrew, 0.12300001, 0.123}}),
       Message(ConfirmRedo{12}),
       Message(NoOtherEntry{}),

@@ -1,6 +1,7 @@
 #include "tests/support/scripted_operation.h"
 
 #include <map>
+#include <numbers>
 
 namespace orthonav::test {
 namespace {
@@ -268,6 +269,12 @@ const engine::Guidance& ScriptedOperation::accepts_first_by_touch() {
 const engine::Guidance& ScriptedOperation::accepts_first_level() {
   registers_first_level();
   return accepts();
+}
+
+double guide_sd_m() {
+  engine::TipCheckRules rules;
+  rules.prior_sd_m = std::numbers::sqrt2 * engine::PlacedWireRules{}.tip_sd_m;
+  return engine::TipCheck(rules, {}).difference_sd_m(0.0);
 }
 
 Transform<World, Marker> guide_at(Vec3 tip, double angle_rad) {

@@ -43,6 +43,11 @@ class ScriptedTracker : public nav::ToolTracker {
   [[nodiscard]] std::optional<nav::TagSize> tag_size(std::size_t /*tool*/) const override {
     return size;
   }
+  double size_difference_sd = 0.0;  ///< of two tools' tags, as a fraction
+  [[nodiscard]] double tag_size_difference_sd(std::size_t /*tool*/,
+                                              std::size_t /*other*/) const override {
+    return size_difference_sd;
+  }
   [[nodiscard]] const nav::Anchor* anchor() const override {
     return hangs_on_reference_ ? &reference : nullptr;
   }
@@ -116,6 +121,10 @@ class ScriptedOperation {
   ScriptedTracker* tracker_ = nullptr;
   std::unique_ptr<engine::Session> session_;
 };
+
+/// SD along an axis by which the tip of a guide that was never held against the pointer's is off
+/// where the pointer's would be, with tags of known sizes.
+double guide_sd_m();
 
 /// A guide whose tip is at `tip` and whose shaft leaves the bone at `angle_rad` from +y, about z.
 Transform<World, Marker> guide_at(Vec3 tip, double angle_rad);

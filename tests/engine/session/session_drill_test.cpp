@@ -63,7 +63,7 @@ TEST(SessionDrill, BeginsByCommandInGuideAlone) {
 TEST(SessionDrill, StopsShortOfTheTargetAndNeverBehindIt) {
   Drilling s;
   const double length_m = 0.035;
-  const double margin_m = std::max(0.001, 1.645 * kSd_m);
+  const double margin_m = std::max(0.001, 1.645 * std::hypot(kSd_m, test::guide_sd_m()));
   double stopped_at_m = 0.0;
   s.drills_to(0.030);
   for (double depth_m = 0.030; depth_m < length_m; depth_m += 0.0002) {
@@ -109,7 +109,8 @@ TEST(SessionDrill, KeepsWhereTheToolWent) {
   EXPECT_EQ(executed->pairs, 11u);
   EXPECT_NEAR(executed->axis.point.v.x, 0.015 + 0.0010 * 10 / 11, 1e-9);
   EXPECT_NEAR((executed->axis.direction - Vec3{0, -1, 0}).norm(), 0.0, 1e-9);
-  EXPECT_NEAR(std::sqrt((*executed->point_covariance_m2)[8]), kSd_m, 1e-9);
+  EXPECT_NEAR(std::sqrt((*executed->point_covariance_m2)[8]),
+              std::hypot(kSd_m, test::guide_sd_m(), 0.0300 * PlacedWireRules{}.axis_sd_rad), 1e-9);
   EXPECT_FALSE(s.session().levels()[0].executed[1].has_value());
 }
 

@@ -251,14 +251,15 @@ TEST(Landmarking, OfABoneThatDoesNotReachSoFarMayLieNearer) {
 TEST(LandmarkRules, TheLimitFollowsHowSurelyBothTouchesWereSeen) {
   LandmarkRules rules;
   rules.most_m = 0.003;
-  const double sharp_m = rules.limit_m(0.0001, 0.0001, true);
+  const double sharp_m = rules.limit_m(rules.distance_sd_m(0.0001, 0.0001, true));
   EXPECT_NEAR(sharp_m,
               rules.sds * std::sqrt(2.0 * (1e-8 + rules.dimple_sd_m * rules.dimple_sd_m +
                                            std::pow(rules.lasting_sd_anchored_m, 2))),
               kExact);
-  EXPECT_GT(rules.limit_m(0.0003, 0.0001, true), sharp_m);
-  EXPECT_GT(rules.limit_m(0.0001, 0.0001, false), sharp_m);
-  EXPECT_EQ(rules.limit_m(0.01, 0.01, false), rules.most_m) << "what matters must show";
+  EXPECT_GT(rules.limit_m(rules.distance_sd_m(0.0003, 0.0001, true)), sharp_m);
+  EXPECT_GT(rules.limit_m(rules.distance_sd_m(0.0001, 0.0001, false)), sharp_m);
+  EXPECT_EQ(rules.limit_m(rules.distance_sd_m(0.01, 0.01, false)), rules.most_m)
+      << "what matters must show";
 }
 
 TEST(LandmarkRules, NamesWhatMakesNoSense) {

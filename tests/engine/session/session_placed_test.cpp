@@ -93,7 +93,7 @@ TEST_F(PlacedSession, AWireWithinTheLimitsIsToldWithItsSds) {
   EXPECT_TRUE(wire.within());
   EXPECT_EQ(g.wire, &wire);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
-  EXPECT_THAT(detail_text(g.status), HasSubstr("placed: 0.8 ± 0.6°, 0.6 ± 0.7 mm from the plan"));
+  EXPECT_THAT(detail_text(g.status), HasSubstr("placed: 0.8 ± 0.6°, 0.6 ± 0.9 mm from the plan"));
   EXPECT_EQ(step_of(s.says("next")), "accepted L4") << "the landmark before the other screw";
   EXPECT_TRUE(level().screw_done[0]);
   ASSERT_TRUE(level().wires[0].measured);
@@ -113,7 +113,7 @@ TEST_F(PlacedSession, TheSdHoldsRegistrationPoseAndCalibration) {
   const PlacedWireRules rules;
   const PlacedWire near = *measures(0.001, 0.01, 0.0).wire;
   const PlacedWire far = *measures(0.001, 0.01, 0.04).wire;
-  const double least_m = std::hypot(kRegistration_m, rules.tip_sd_m);
+  const double least_m = std::hypot(kRegistration_m, test::guide_sd_m());
   EXPECT_GE(near.axis.entry_m.sd, least_m);
   EXPECT_LT(near.axis.entry_m.sd, 1.3 * least_m);
   EXPECT_GT(far.axis.entry_m.sd, std::hypot(least_m, 0.04 * rules.axis_sd_rad));
@@ -455,7 +455,7 @@ TEST_F(UnsureRegistration, AMeasurementThatSaysTooLittleIsRefusedWithItsSd) {
   const TouchRefusal why = touch_refusal(measures(0.0, 0.0));
   EXPECT_EQ(why.kind, Kind::kEntryUnsure);
   EXPECT_GT(why.value_m, 0.0004);
-  EXPECT_THAT(detail_text(s.pair().status), HasSubstr("place known to ± 0.7 mm, limit 0.4 mm"));
+  EXPECT_THAT(detail_text(s.pair().status), HasSubstr("place known to ± 0.9 mm, limit 0.4 mm"));
 }
 
 class UnknownRegistration : public PlacedSession {

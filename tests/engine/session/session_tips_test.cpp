@@ -23,6 +23,7 @@ constexpr double kTilt_rad = 0.3;
 class TipsSession : public ::testing::Test {
  protected:
   TipsSession() : s({"L4", "L5"}, test::three_places(), Verification::kByTouch, false, true) {
+    s.tracker().size_difference_sd = 0.0042;  // tags as printed, of sizes that nobody measured
     s.accepts_first_by_touch();
     s.touches_dimple();
     s.tracker().pointer = test::pointer_at(kDimple + Vec3{0.2, 0, 0});
@@ -93,6 +94,26 @@ TEST(TipCheck, TheBetterATouchIsTheMoreOfItIsBelieved) {
     before_m = by_m;
   }
   EXPECT_LT(before_m, 0.0002) << "two tags of unknown size tell nothing of a tip";
+}
+
+TEST(TipCheck, SaysHowFarTheGuideMayBeOffThePointer) {
+  const TipCheckRules rules;
+  TipCheck check(rules, LandmarkRules{});
+  constexpr double kSizeSd = 0.0005;
+  const double tags_m = rules.distance_m * kSizeSd / std::sqrt(3.0);
+  EXPECT_NEAR(check.difference_sd_m(kSizeSd), std::hypot(rules.prior_sd_m, tags_m), kExact)
+      << "as their calibrations leave them";
+  EXPECT_GT(check.difference_sd_m(0.004), 0.001) << "tags of unknown size";
+  const nav::PressedPlace pointer{{{0.01, 0.02, 0.0}}, 0.0001};
+  const nav::PressedPlace guide{{{0.01, 0.0215, 0.0}}, 0.0001};
+  ASSERT_TRUE(std::holds_alternative<TipDifference>(check.take(guide, {}, pointer, true, kSizeSd)));
+  const TipDifference found = *check.last();
+  const double left_m = rules.prior_sd_m * found.sd_m / std::hypot(rules.prior_sd_m, found.sd_m);
+  EXPECT_NEAR(check.difference_sd_m(kSizeSd),
+              std::hypot(left_m, found.by_m.norm() / std::sqrt(3.0), tags_m), kExact)
+      << "known, and not corrected";
+  EXPECT_EQ(check.correct(), found.by_m);
+  EXPECT_NEAR(check.difference_sd_m(kSizeSd), std::hypot(left_m, tags_m), kExact);
 }
 
 TEST_F(TipsSession, AGuideElsewhereIsNoTouchOfIt) {

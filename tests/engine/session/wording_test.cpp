@@ -334,6 +334,8 @@ TEST(Wording, SaysEveryMessage) {
             "the patient or the map moved 2.3 mm, limit 1.4 mm: check again or reject");
   EXPECT_EQ(line_with(Message(LandmarkMoved{0.00161, 0.0016, true})),
             "the reference moved 1.61 mm, limit 1.60 mm: check again or reject");
+  EXPECT_EQ(line_with(Message(BoneUnchecked{49.2, 0.0014})),
+            "bone not checked for 49 s, the map may have drifted 1.4 mm: touch the dimple");
   EXPECT_EQ(line_with(Message(NoRod{{"2 heads lie 0.4 mm apart, at least 1.0 mm"}})),
             "no rod: 2 heads lie 0.4 mm apart, at least 1.0 mm");
   EXPECT_EQ(line_with(Message(MapMoved{Step::kDigitize})),

@@ -116,8 +116,13 @@ TEST(GuidedError, IsThatOfTheNavigationAlone) {
   EXPECT_GT(mean_across_m(options), 0.0010);
 }
 
-nlohmann::ordered_json screw(double across_mm, double clearance_mm, bool warned) {
-  return {{"guided", {{"tip_mm", across_mm}, {"across_mm", across_mm}, {"angle_deg", 0.5}}},
+nlohmann::ordered_json screw(double across_mm, double clearance_mm, bool warned, bool sure = true) {
+  return {{"guided",
+           {{"tip_mm", across_mm},
+            {"across_mm", across_mm},
+            {"angle_deg", 0.5},
+            {"across_sds", across_mm},
+            {"sure", sure}}},
           {"clearance_mm", clearance_mm},
           {"warned", warned}};
 }
@@ -132,14 +137,18 @@ TEST(GuidedError, SilentIsWhatIsFarOffAndWasNotTold) {
   nlohmann::ordered_json run;
   run["levels"] = {{{"label", "L5"},
                     {"screws",
-                     {screw(2.5, 1.0, false), screw(2.5, -0.5, true), screw(1.9, -0.1, false),
-                      screw(0.5, 1.0, false)}}}};
+                     {screw(2.5, 1.0, false), screw(2.5, 1.0, false, false), screw(2.5, -0.5, true),
+                      screw(1.9, -0.1, false), screw(0.5, 1.0, false)}}}};
   const auto quality = guided_in(run);
   EXPECT_EQ(quality["silent_failures"]["n"], 1);
-  EXPECT_EQ(quality["silent_failures"]["of"], 4);
+  EXPECT_EQ(quality["silent_failures"]["of"], 5);
+  EXPECT_EQ(quality["far_off_without_warning"]["n"], 2);
+  EXPECT_EQ(quality["shown_unsure"]["n"], 1);
+  EXPECT_EQ(quality["within_shown_sds"]["in_68"], 1);
+  EXPECT_EQ(quality["within_shown_sds"]["in_95"], 2);
   EXPECT_EQ(quality["unwarned_breaches"]["breaches"], 2);
   EXPECT_EQ(quality["unwarned_breaches"]["n"], 1);
-  EXPECT_DOUBLE_EQ(quality["across_mm"]["mean"].get<double>(), 1.85);
+  EXPECT_DOUBLE_EQ(quality["across_mm"]["mean"].get<double>(), 1.98);
   run["levels"][0]["screws"] = nlohmann::ordered_json::array();
   EXPECT_TRUE(guided_in(run).is_null());
 }
