@@ -1,0 +1,186 @@
+#include "engine/io/record_log.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <tuple>
+
+namespace orthonav::engine {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMostLogBytes = 1u << 30u;
+constexpr int kMostEarlier = 1000;
+
+std::string unnamed(const std::string& path) { return path + ".new"; }
+
+/// PATH-N before the extension.
+std::string numbered(const std::string& path, int number) {
+  fs::path name = path;
+  name.replace_filename(name.stem().string() + "-" + std::to_string(number) +
+                        name.extension().string());
+  return name.string();
+}
+
+bool has(const std::vector<std::string>& names, const std::string& path) {
+  return std::binary_search(names.begin(), names.end(), fs::path(path).filename().string());
+}
+
+Status removed_if_there(Env& env, const std::string& path) {
+  Status removed = env.remove(path);
+  return !removed && removed.error().code == ErrorCode::kNotFound ? Status{} : removed;
+}
+
+/// Moves a file of that name aside; returns its new name, empty where there was none.
+Result<std::string> moved_aside(Env& env, const std::string& path) {
+  const auto names = env.list(folder_of(path));
+  if (!names) {
+    return names.error();
+  }
+  if (!has(*names, path)) {
+    return std::string();
+  }
+  for (int number = 1; number <= kMostEarlier; ++number) {
+    const std::string name = numbered(path, number);
+    if (has(*names, name)) {
+      continue;
+    }
+    if (const Status moved = env.rename(path, name); !moved) {
+      return moved.error();
+    }
+    // Durable before another file takes the name: or a crash could leave that one alone.
+    const Status durable = env.sync_folder(folder_of(path));
+    return durable ? Result<std::string>(name) : durable.error();
+  }
+  return Error{path + ": 1000 earlier ones lie beside it, move them away"};
+}
+
+Status written(AppendFile& file, std::string_view bytes) {
+  Status appended = file.append(bytes);
+  return appended ? file.sync() : appended;
+}
+
+/// What lies behind the last whole record is kept beside, then cut off.
+Status cut_off(Env& env, const std::string& path, std::string_view dropped, std::size_t whole) {
+  auto beside = env.open_append(path + ".dropped");
+  if (!beside) {
+    return beside.error();
+  }
+  if (Status kept = written(**beside, dropped); !kept) {
+    return kept;
+  }
+  if (Status named = env.sync_folder(folder_of(path)); !named) {
+    return named;
+  }
+  return env.truncate(path, whole);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RecordLog>> RecordLog::create(Env& env, const std::string& path,
+                                                     const Entry& first) {
+  if (const Status gone = removed_if_there(env, unnamed(path)); !gone) {
+    return gone.error();
+  }
+  auto file = env.open_append(unnamed(path));
+  if (!file) {
+    return file.error();
+  }
+  std::string bytes(kRecordsBegin);
+  const std::uint32_t check =
+      append_record(bytes, {1, first.type, first.version, first.payload}, kFirstCheck);
+  if (const Status durable = written(**file, bytes); !durable) {
+    std::ignore = env.remove(unnamed(path));
+    return durable.error();
+  }
+  auto earlier = moved_aside(env, path);
+  if (!earlier) {
+    return earlier.error();
+  }
+  if (const Status named = env.rename(unnamed(path), path); !named) {
+    return named.error();
+  }
+  if (const Status durable = env.sync_folder(folder_of(path)); !durable) {
+    return durable.error();
+  }
+  // Under its own name, which is what errors tell.
+  file = env.open_append(path);
+  if (!file) {
+    return file.error();
+  }
+  std::unique_ptr<RecordLog> log(new RecordLog(path, std::move(*file), 1, check));
+  log->earlier_kept_as_ = std::move(*earlier);
+  return log;
+}
+
+Result<RecordLog::Reopened> RecordLog::reopen(Env& env, const std::string& path) {
+  const auto bytes = env.read(path, kMostLogBytes);
+  if (!bytes) {
+    return bytes.error();
+  }
+  auto read = read_records(*bytes, path);
+  if (!read) {
+    return read.error();
+  }
+  if (read->records.empty()) {
+    return Error{path + ": holds no whole record"};
+  }
+  if (read->dropped_bytes > 0) {
+    const std::string_view dropped = std::string_view(*bytes).substr(read->whole_bytes);
+    if (const Status cut = cut_off(env, path, dropped, read->whole_bytes); !cut) {
+      return cut.error();
+    }
+  }
+  auto file = env.open_append(path);
+  if (!file) {
+    return file.error();
+  }
+  // What a process that was killed had written, but not made durable, is read here and will be
+  // built upon: it must be durable first.
+  if (const Status durable = (*file)->sync(); !durable) {
+    return durable.error();
+  }
+  if (const Status named = env.sync_folder(folder_of(path)); !named) {
+    return named.error();
+  }
+  std::unique_ptr<RecordLog> log(
+      new RecordLog(path, std::move(*file), read->records.size(), read->check));
+  return Reopened{std::move(log), std::move(read->records), read->dropped_bytes};
+}
+
+Status RecordLog::append(const Entry& entry) {
+  if (failure_) {
+    return *failure_;
+  }
+  std::string bytes;
+  const std::uint32_t check =
+      append_record(bytes, {durable_ + 1, entry.type, entry.version, entry.payload}, check_);
+  if (const Status durable = written(*file_, bytes); !durable) {
+    failure_ = durable.error();
+    return durable;
+  }
+  ++durable_;
+  check_ = check;
+  return {};
+}
+
+Result<std::optional<std::string>> newest_log(Env& env, const std::string& path) {
+  const auto names = env.list(folder_of(path));
+  if (!names) {
+    return names.error();
+  }
+  if (has(*names, path)) {
+    return std::optional(path);
+  }
+  std::optional<std::string> newest;
+  for (int number = 1; number <= kMostEarlier && has(*names, numbered(path, number)); ++number) {
+    newest = numbered(path, number);
+  }
+  return newest;
+}
+
+Result<RecordsRead> read_log(Env& env, const std::string& path) {
+  const auto bytes = env.read(path, kMostLogBytes);
+  return bytes ? read_records(*bytes, path) : bytes.error();
+}
+
+}  // namespace orthonav::engine

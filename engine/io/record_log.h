@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/io/env.h"
+#include "engine/io/records.h"
+
+namespace orthonav::engine {
+
+/// A file of records that only grows. One thread at a time.
+class RecordLog {
+ public:
+  /// What is to be recorded; the log gives it its number.
+  struct Entry {
+    std::uint16_t type = 0;
+    std::uint16_t version = 0;
+    std::string payload;
+  };
+  /// A new file that holds one record when it gets its name. An earlier file of that name becomes
+  /// PATH-1, PATH-2, ... before the extension, and never goes. The folder must be locked by whoever
+  /// calls this or `reopen`.
+  static Result<std::unique_ptr<RecordLog>> create(Env& env, const std::string& path,
+                                                   const Entry& first);
+
+  struct Reopened;
+  /// Goes on with a file that has at least one record. What lies behind its last whole one is put
+  /// into PATH.dropped before it is cut off. `kNotFound` where there is no such file.
+  static Result<Reopened> reopen(Env& env, const std::string& path);
+
+  /// The record is durable when this succeeds. The first Error is the last word: nothing is written
+  /// after it, and every further call returns it. A sync that failed is not tried again, since a
+  /// second one may succeed without what the first one lost.
+  Status append(const Entry& entry);
+
+  /// The number of the last record that is durable.
+  [[nodiscard]] std::uint64_t durable() const { return durable_; }
+  /// Why nothing is written any more.
+  [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
+  [[nodiscard]] const std::string& path() const { return path_; }
+  /// What an earlier file was renamed to; empty: there was none.
+  [[nodiscard]] const std::string& earlier_kept_as() const { return earlier_kept_as_; }
+
+ private:
+  RecordLog(std::string path, std::unique_ptr<AppendFile> file, std::uint64_t durable,
+            std::uint32_t check)
+      : path_(std::move(path)), file_(std::move(file)), durable_(durable), check_(check) {}
+
+  std::string path_;
+  std::unique_ptr<AppendFile> file_;
+  std::uint64_t durable_ = 0;
+  std::uint32_t check_ = kFirstCheck;  ///< of the last record
+  std::string earlier_kept_as_;
+  std::optional<Error> failure_;
+};
+
+struct RecordLog::Reopened {
+  std::unique_ptr<RecordLog> log;
+  std::vector<Record> records;
+  std::size_t dropped_bytes = 0;
+};
+
+/// The file that holds the last operation begun under this name: PATH, or the newest of PATH-1,
+/// PATH-2, ... where a crash came before the new PATH. Nothing where there is none.
+Result<std::optional<std::string>> newest_log(Env& env, const std::string& path);
+
+/// A log as it lies there, to be looked at: nothing is changed.
+Result<RecordsRead> read_log(Env& env, const std::string& path);
+
+}  // namespace orthonav::engine

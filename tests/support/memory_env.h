@@ -1,0 +1,76 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/io/env.h"
+
+namespace orthonav::test {
+
+/// Files by name. Folders are what comes before a name's last slash.
+using Files = std::map<std::string, std::string>;
+
+/// A call that changes something, as far as it got.
+struct EnvCall {
+  enum class What { kOpen, kAppend, kSync, kRename, kTruncate, kRemove, kSyncFolder };
+  What what = What::kOpen;
+  std::string path;
+  std::string to;     ///< of a rename
+  std::string bytes;  ///< that were appended
+  std::size_t size = 0;
+  bool failed = false;
+};
+
+/// A file system in memory that remembers every change, and fails where it is told to.
+class MemoryEnv : public engine::Env {
+ public:
+  MemoryEnv() : MemoryEnv(Files{}) {}
+  explicit MemoryEnv(Files files);
+
+  /// The n-th change from 0 fails like this; `from_then_on`: so do all after it. Of an append that
+  /// fails, half of the bytes are written.
+  void fail_at(std::size_t n, int error_number, bool from_then_on);
+  [[nodiscard]] const std::vector<EnvCall>& calls() const { return calls_; }
+  [[nodiscard]] Files files() const;
+
+  Result<std::unique_ptr<engine::AppendFile>> open_append(const std::string& path) override;
+  Result<std::string> read(const std::string& path, std::size_t most_bytes) override;
+  Result<std::vector<std::string>> list(const std::string& folder) override;
+  Status rename(const std::string& from, const std::string& to) override;
+  Status truncate(const std::string& path, std::size_t bytes) override;
+  Status remove(const std::string& path) override;
+  Status sync_folder(const std::string& folder) override;
+  Result<std::unique_ptr<engine::FolderLock>> lock(const std::string& folder) override;
+
+ private:
+  friend class MemoryFile;
+  using Content = std::shared_ptr<std::string>;
+
+  /// Remembers the call; the number of the error that it ends with, or 0.
+  int call(EnvCall call);
+
+  std::map<std::string, Content> files_;
+  std::vector<EnvCall> calls_;
+  std::optional<std::size_t> fail_at_;
+  int error_number_ = 0;
+  bool from_then_on_ = false;
+  std::shared_ptr<std::set<std::string>> locked_;
+};
+
+/// What was there when a process was killed after these calls: the kernel writes the rest.
+[[nodiscard]] Files after_kill(const Files& before, std::span<const EnvCall> calls);
+
+/// What may lie on the disk when power is lost after these calls. Whatever was not synced may be
+/// there or not: each name, and each block of 512 bytes of each write, in any order; a block that
+/// is missing in the middle holds zeros, or what an old block of the same file held. Every
+/// combination of few such changes; of many, those that are torn anywhere, each that lacks one or
+/// has one alone, and some at random.
+[[nodiscard]] std::vector<Files> after_power_loss(const Files& before,
+                                                  std::span<const EnvCall> calls);
+
+}  // namespace orthonav::test
