@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "base/printed.h"
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/scene_builder.h"
 #include "tests/support/scripted_operation.h"
@@ -84,6 +86,20 @@ class ShownNumbers : public ::testing::Test {
     s.pair();
     return s.pair();
   }
+  const Guidance& guided_with_cameras_off(ScriptedOperation& other, double cameras_m) {
+    other.registration = s.registration;
+    other.registration.common.cameras_m = cameras_m;
+    other.registration.uncertainty =
+        nav::with_common(*s.registration.uncertainty, other.registration.common);
+    other.accepts_first_level();
+    other.says("next");
+    other.tracker().guide = guide_at(kLeftEntry + Vec3{0.0012, 0.010, 0.0}, 0.0);
+    other.pair();
+    return other.pair();
+  }
+  static std::string lateral_with_sd(double sd_m) {
+    return printed("1.2 ± %.1f mm lateral", std::ceil(1e4 * sd_m) / 10.0);
+  }
   ScriptedOperation s;
   Vec3 entry = kLeftEntry;
 };
@@ -138,25 +154,18 @@ TEST_F(ShownNumbers, GoWithTheHead) {
 TEST_F(ShownNumbers, AreGreyedWithTheirSdsWhereTheyAreNotSure) {
   know_registration(0.00149);
   const Guidance& g = guided({0.0012, 0.010, 0.0});
-  EXPECT_THAT(told(g).texts.at(1), "1.2 ± 1.5 mm lateral");
+  EXPECT_EQ(told(g).texts.at(1), lateral_with_sd(std::hypot(0.00149, test::guide_sd_m())));
   EXPECT_THAT(drawn(scene_of(g)), ::testing::Contains("± registration only"))
       << "nobody knows what all strokes share";
 }
 
-TEST_F(ShownNumbers, KnowTheErrorThatAllStrokesShare) {
-  know_registration(0.0003);
-  ASSERT_EQ(told(guided({0.0012, 0.010, 0.0})).texts.at(1), "1.2 mm lateral");
-  ScriptedOperation shared;
-  shared.registration.common.cameras_m = 0.0014;
-  shared.registration.uncertainty =
-      nav::with_common(*s.registration.uncertainty, shared.registration.common);
-  shared.accepts_first_level();
-  shared.says("next");
-  shared.tracker().guide = guide_at(kLeftEntry + Vec3{0.0012, 0.010, 0.0}, 0.0);
-  shared.pair();
-  const Guidance& g = shared.pair();
-  EXPECT_EQ(told(g).texts.at(1), "1.2 ± 1.5 mm lateral");
-  EXPECT_THAT(drawn(scene_of(g)), ::testing::Not(::testing::Contains("± registration only")));
+TEST_F(ShownNumbers, CountOfTheCamerasErrorWhatToolAndBoneDoNotShare) {
+  ScriptedOperation few, much;
+  const Guidance& shared = guided_with_cameras_off(few, 0.0014);
+  EXPECT_EQ(told(shared).texts.at(1), "1.2 mm lateral") << "three tenths of it: still sure";
+  EXPECT_THAT(drawn(scene_of(shared)), ::testing::Not(::testing::Contains("± registration only")));
+  EXPECT_EQ(told(guided_with_cameras_off(much, 0.0070)).texts.at(1),
+            lateral_with_sd(std::hypot(0.0003, test::guide_sd_m(), 0.3 * 0.0070)));
 }
 
 TEST_F(ShownNumbers, HaveTheClearanceBelowThem) {
