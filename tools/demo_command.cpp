@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "engine/case/operation_plan.h"
-#include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/video_writer.h"
 #include "engine/session/journal.h"
@@ -12,8 +11,10 @@
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
+#include "tools/demo_arguments.h"
 #include "tools/demo_report.h"
 #include "tools/earlier_results.h"
+#include "tools/kept_operation.h"
 #include "tools/model_notes.h"
 #include "tools/operation_summary.h"
 #include "tools/out_folder.h"
@@ -29,48 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct DemoArguments {
-  std::string case_folder;
-  std::string method = "best";
-  std::uint64_t seed = 1;
-  std::string out = "orthonav-demo";
-  std::vector<std::string> levels;
-  std::string record;
-  std::string device;
-  bool realtime = false;
-  bool fast = false;
-  bool perfect = false;
-  bool reference = false;
-  bool no_video = false;
-  bool json = false;
-  int threads = 2;
-  std::optional<double> pace;
-};
-
-/// Every n-th displayed frame becomes a picture: ten minutes make a film of under a minute.
-constexpr int kDrawEvery = 15;
+/// Frames of the film in a second.
 constexpr int kVideoRate = 20;
-
-engine::OperationOptions options_of(const DemoArguments& arguments) {
-  engine::OperationOptions options;
-  options.method = arguments.method;
-  options.levels = arguments.levels;
-  options.tools = engine::built_in_tools();
-  options.use_reference = arguments.reference;
-  options.sim.seed = arguments.seed;
-  if (arguments.perfect) {
-    options.sim.error_model = sim::ErrorModel::perfect();
-  }
-  if (arguments.pace) {
-    options.sim.error_model.pace = *arguments.pace;
-  }
-  options.sim.pace = arguments.realtime ? sim::Pace::kRealtime : sim::Pace::kFast;
-  options.tracker.parallel = arguments.threads > 1;
-  options.loop.draw_every = kDrawEvery;
-  options.loop.drop_late_snapshots = arguments.realtime;
-  options.record_folder = arguments.record;
-  return options;
-}
 
 /// Everything that a demo needs besides the operation itself; made before anything is written.
 class Demo {
@@ -131,6 +92,9 @@ class Demo {
         reason += "; " + done.error().message;
       }
     }
+    if (const Status done = kept_.finish(false, reason); !done) {
+      reason += "; " + done.error().message;
+    }
     if (const Status done = journal_->finish({{}, reason}); !done) {
       reason += "; " + done.error().message;
     }
@@ -189,6 +153,9 @@ class Demo {
     engine::ModelCache models(out_->file("models"));
     hooks.models = &models;
     hooks.can_stop = [this](std::function<void()> stop) { signals_.on_stop(std::move(stop)); };
+    hooks.assembled = [&](engine::AssembledOperation& operation) {
+      return kept_.begin(operation, out_->path().string(), about_demo(arguments_, source.name));
+    };
     hooks.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
       view_->look_at(headset, options.sim.error_model);
       began_ = true;
@@ -211,6 +178,7 @@ class Demo {
     };
     note(engine::write_file(out_->file("report.json"), engine::report_json(result)));
     note(engine::write_file(out_->file("timing.json"), engine::timing_json(result.loop)));
+    note(kept_.finish(result.completed, result.why_not));
     note(journal_->finish({result.loop.last_frame, result.completed ? "" : result.why_not}));
     tell_of_earlier(*journal_);
     note(pictures_.finish());
@@ -232,6 +200,7 @@ class Demo {
   StepPictures pictures_;
   std::unique_ptr<ReadingCurves> readings_;
   std::unique_ptr<engine::Journal> journal_;
+  KeptOperation kept_;
   std::unique_ptr<engine::VideoWriter> video_;
   std::unique_ptr<VideoPictures> video_pictures_;
 };
@@ -242,36 +211,7 @@ void add_demo_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<DemoArguments>();
   auto* demo = app.add_subcommand(
       "demo", "A whole navigated operation in the simulated room, from camera frames to holograms");
-  demo->add_option("--case", arguments->case_folder,
-                   "case folder with case.json (default: the built-in phantom)")
-      ->check(some_text());
-  demo->add_option("--method", arguments->method, "best or paper (the published one)")
-      ->capture_default_str();
-  demo->add_option("--seed", arguments->seed, "seed of every random number")
-      ->check(seed_number())
-      ->capture_default_str();
-  demo->add_option("--out", arguments->out, "folder of the results")
-      ->check(some_text())
-      ->capture_default_str();
-  demo->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
-      ->delimiter(',');
-  auto* fast = demo->add_flag("--fast", arguments->fast, "as fast as the machine goes (default)");
-  demo->add_flag("--realtime", arguments->realtime, "30 frames a second")->excludes(fast);
-  demo->add_option("--record", arguments->record, "also record the session into this new folder")
-      ->check(some_text());
-  demo->add_option("--device", arguments->device, "part of the name of the Vulkan device");
-  demo->add_option("--threads", arguments->threads,
-                   "threads of the tracker; no result depends on it")
-      ->check(whole_number(1, 2))
-      ->capture_default_str();
-  demo->add_flag("--no-video", arguments->no_video, "write no operation.mp4");
-  demo->add_flag("--perfect", arguments->perfect, "every source of error at zero");
-  add_reference_flag(*demo, arguments->reference);
-  // For tests: a hasty surgeon finishes in a fraction of the frames.
-  demo->add_option("--pace", arguments->pace, "how many times as fast the surgeon works")
-      ->check(finite_number(0.5, 4))
-      ->group("");
-  demo->add_flag("--json", arguments->json, "print the report as JSON");
+  add_demo_arguments(*demo, *arguments);
   demo->callback([arguments, &action, &signals] {
     action = [arguments, &signals] { return Demo(*arguments, signals).run(); };
   });

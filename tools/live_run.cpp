@@ -12,15 +12,13 @@
 #include "engine/live/known_tools.h"
 #include "engine/live/presenter.h"
 #include "engine/report/operation_result.h"
-#include "engine/session/spoken_commands.h"
 #include "engine/study/evaluation.h"
 #include "engine/study/sim_scenario.h"
-#include "hal/open/joined_headset.h"
 #include "hal/open/open.h"
-#include "hal/open/open_parts.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
 #include "tools/connection_report.h"
+#include "tools/joined_parts.h"
 #include "tools/model_notes.h"
 #include "tools/operation_summary.h"
 #include "tools/progress.h"
@@ -144,9 +142,11 @@ class LiveRun {
     if (!opened->warning.empty()) {
       std::fprintf(stderr, "orthonav: warning: %s\n", opened->warning.c_str());
     }
-    if (const Status joined = join_parts(); !joined) {
-      return joined;
+    auto joined = join_parts(*headset_, arguments_.clicker, arguments_.voice);
+    if (!joined) {
+      return joined.error();
     }
+    joined_ = std::move(*joined);
     warn_of_sizes(*operation, sizes_);
     return start(std::move(*operation));
   }
@@ -172,23 +172,6 @@ class LiveRun {
       return sizes.error();
     }
     sizes_ = std::move(*sizes);
-    return {};
-  }
-
-  Status join_parts() {
-    OtherParts parts;
-    auto clicker = open_clicker(arguments_.clicker, headset_->clock());
-    if (!clicker) {
-      return clicker.error();
-    }
-    parts.clicker = std::move(*clicker);
-    auto voice =
-        open_voice(arguments_.voice, engine::trained_commands(), headset_->clock(), headset_.get());
-    if (!voice) {
-      return voice.error();
-    }
-    parts.voice = std::move(*voice);
-    joined_ = std::make_unique<JoinedHeadset>(*headset_, std::move(parts));
     return {};
   }
 
@@ -248,12 +231,26 @@ class LiveRun {
       header.levels.push_back(engine::planned(level.plan.label, level.plan.screws));
     }
     const Status opened = files_.open_journal(arguments_.out, header);
-    if (opened) {
-      operation_->observe(files_.journal());
-      models_.keep();
-      print_notes(models_);
+    if (!opened) {
+      return opened;
     }
-    return opened;
+    operation_->observe(files_.journal());
+    models_.keep();
+    print_notes(models_);
+    return files_.keep(*operation_, about());
+  }
+
+  [[nodiscard]] KeptOperation::About about() const {
+    KeptOperation::About about;
+    about.case_name = case_name_;
+    about.method = method_.name;
+    about.patient_reference = arguments_.reference;
+    about.common = arguments_.common.in_metres();
+    if (room_) {
+      about.room = "seed " + std::to_string(room_->options().seed);
+      about.time_stands_still = true;
+    }
+    return about;
   }
 
   Status finish(const engine::OperationResult& result) {

@@ -30,6 +30,10 @@ Status RunFiles::open_journal(const std::string& folder, const engine::JournalHe
   return {};
 }
 
+Status RunFiles::keep(engine::AssembledOperation& operation, const KeptOperation::About& about) {
+  return kept_.begin(operation, out_->path().string(), about);
+}
+
 Status RunFiles::start_recording(const std::string& folder, Headset& headset,
                                  const std::vector<nav::ToolGeometry>& tools) {
   replay::RecorderOptions options;
@@ -45,7 +49,7 @@ Status RunFiles::start_recording(const std::string& folder, Headset& headset,
 
 Status RunFiles::finish(const engine::OperationResult& result, const std::string& report,
                         bool simulated) {
-  Status first;
+  Status first = kept_.finish(result.completed, result.why_not);
   const auto note = [&first](const Status& status) {
     if (first.ok()) {
       first = status;
@@ -71,6 +75,7 @@ std::string RunFiles::close(std::string reason) {
       reason += "; " + status.error().message;
     }
   };
+  note(kept_.finish(false, reason));
   if (journal_) {
     note(journal_->finish({{}, reason}));
   }

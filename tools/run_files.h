@@ -9,6 +9,7 @@
 #include "engine/session/journal.h"
 #include "hal/replay/recorder.h"
 #include "nav/tracking/tool.h"
+#include "tools/kept_operation.h"
 #include "tools/out_folder.h"
 
 namespace orthonav::tools {
@@ -22,6 +23,8 @@ class RunFiles {
  public:
   /// Makes the folder and opens the journal in it.
   Status open_journal(const std::string& folder, const engine::JournalHeader& header);
+  /// Begins the log of the operation in that folder.
+  Status keep(engine::AssembledOperation& operation, const KeptOperation::About& about);
   /// Starts to record what goes through `headset`, which must outlive this. Last of all, since the
   /// files of a recording that was begun stay.
   Status start_recording(const std::string& folder, Headset& headset,
@@ -39,6 +42,7 @@ class RunFiles {
  private:
   std::optional<OutFolder> out_;
   std::unique_ptr<engine::Journal> journal_;
+  KeptOperation kept_;
   std::unique_ptr<replay::RecordingHeadset> recorder_;
 };
 

@@ -77,7 +77,7 @@ Status cut_off(Env& env, const std::string& path, std::string_view dropped, std:
 }  // namespace
 
 Result<std::unique_ptr<RecordLog>> RecordLog::create(Env& env, const std::string& path,
-                                                     const Entry& first) {
+                                                     const Entry& first, Earlier earlier) {
   if (const Status gone = removed_if_there(env, unnamed(path)); !gone) {
     return gone.error();
   }
@@ -92,9 +92,10 @@ Result<std::unique_ptr<RecordLog>> RecordLog::create(Env& env, const std::string
     std::ignore = env.remove(unnamed(path));
     return durable.error();
   }
-  auto earlier = moved_aside(env, path);
-  if (!earlier) {
-    return earlier.error();
+  auto aside =
+      earlier == Earlier::kKept ? moved_aside(env, path) : Result<std::string>(std::string());
+  if (!aside) {
+    return aside.error();
   }
   if (const Status named = env.rename(unnamed(path), path); !named) {
     return named.error();
@@ -108,7 +109,7 @@ Result<std::unique_ptr<RecordLog>> RecordLog::create(Env& env, const std::string
     return file.error();
   }
   std::unique_ptr<RecordLog> log(new RecordLog(path, std::move(*file), 1, check));
-  log->earlier_kept_as_ = std::move(*earlier);
+  log->earlier_kept_as_ = std::move(*aside);
   return log;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,11 +20,14 @@ class RecordLog {
     std::uint16_t version = 0;
     std::string payload;
   };
-  /// A new file that holds one record when it gets its name. An earlier file of that name becomes
-  /// PATH-1, PATH-2, ... before the extension, and never goes. The folder must be locked by whoever
+  /// What becomes of a file of the same name: it becomes PATH-1, PATH-2, ... before the extension,
+  /// or goes when the new one takes its name.
+  enum class Earlier : std::uint8_t { kKept, kReplaced };
+  /// A new file that holds one record when it gets its name. The folder must be locked by whoever
   /// calls this or `reopen`.
   static Result<std::unique_ptr<RecordLog>> create(Env& env, const std::string& path,
-                                                   const Entry& first);
+                                                   const Entry& first,
+                                                   Earlier earlier = Earlier::kKept);
 
   struct Reopened;
   /// Goes on with a file that has at least one record. What lies behind its last whole one is put

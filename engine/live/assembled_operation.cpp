@@ -48,8 +48,8 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
     if (const Status near = check_references(operation, tools); !near) {
       return near.error();
     }
-    tracker =
-        nav::create_anchored_tracker(std::move(*tracker), options.tracker.coast, options.reference);
+    tracker = nav::create_anchored_tracker(std::move(*tracker), options.tracker.coast,
+                                           options.reference, options.reference_places);
     if (!tracker) {
       return tracker.error();
     }

@@ -21,6 +21,8 @@ struct AssemblyOptions {
   /// published method has none and is refused.
   bool use_reference = false;
   nav::ReferenceLimits reference;
+  /// Where references lie in the World of an operation that is resumed.
+  std::vector<nav::ReferencePlace> reference_places;
   LoopOptions loop;
   VisibilityRules visibility;
 
@@ -42,6 +44,8 @@ class AssembledOperation {
   void observe(SessionObserver* observer) { observers_.add(observer); }
   /// Observes each pair and what is made of it, after those added before; null: nobody.
   void observe(LoopObserver* observer) { loop_.observe(observer); }
+  /// What the status line says of saving; null: nothing.
+  void show_saving(const SaveWatch* saving) { session_->show_saving(saving); }
   void draw_into(SnapshotSink* sink) { loop_.draw_into(sink); }
   /// From now on everything goes through `wrapper`, which forwards to the headset given first. For
   /// a recorder, which must start only once nothing else can fail, since the files it starts stay.

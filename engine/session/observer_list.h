@@ -29,6 +29,41 @@ class ObserverList : public SessionObserver {
       o->not_understood(phrase);
     }
   }
+  void region_saved(Timestamp time, const LevelState& level, const nav::Region& region) override {
+    for (auto* o : observers_) {
+      o->region_saved(time, level, region);
+    }
+  }
+  void region_dropped(Timestamp time, const LevelState& level) override {
+    for (auto* o : observers_) {
+      o->region_dropped(time, level);
+    }
+  }
+  void level_cleared(Timestamp time, const LevelState& level) override {
+    for (auto* o : observers_) {
+      o->level_cleared(time, level);
+    }
+  }
+  void acceptance_withdrawn(Timestamp time, const LevelState& level) override {
+    for (auto* o : observers_) {
+      o->acceptance_withdrawn(time, level);
+    }
+  }
+  void places_forgotten(Timestamp time) override {
+    for (auto* o : observers_) {
+      o->places_forgotten(time);
+    }
+  }
+  void references_placed(Timestamp time, std::span<const nav::ReferencePlace> places) override {
+    for (auto* o : observers_) {
+      o->references_placed(time, places);
+    }
+  }
+  void accepted_as_shown(Timestamp time, const LevelState& level, std::string_view shown) override {
+    for (auto* o : observers_) {
+      o->accepted_as_shown(time, level, shown);
+    }
+  }
   void registered(Timestamp time, const LevelState& level,
                   const RegistrationOutcome& outcome) override {
     for (auto* o : observers_) {

@@ -104,6 +104,7 @@ const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   answer_inputs(inputs);
   tools_.track(frame);
   watch_reference(frame.time);
+  tell_places(frame.time);
   watch_tool_in_use(frame.time);
   watch_drift(frame.time);
   collect_samples();
@@ -119,6 +120,7 @@ const Guidance& Session::expire(Timestamp display_time) {
   tools_.lose_sight();
   guidance_.status = {};
   guidance_.status.at = step_on_display();
+  guidance_.status.saved = saved(guidance_.frame_time);
   why_no_guidance_ = NoImages{};
   guidance_.status.message = &why_no_guidance_;
   return guidance_;

@@ -17,6 +17,7 @@
 #include "engine/session/placing.h"
 #include "engine/session/replanning.h"
 #include "engine/session/rod_templating.h"
+#include "engine/session/saving.h"
 #include "engine/session/session_observer.h"
 #include "engine/session/session_options.h"
 #include "engine/session/tip_check.h"
@@ -48,6 +49,9 @@ class Session {
 
   /// Hears everything from now on; null: nobody. Borrowed.
   void observe(SessionObserver* observer) { observer_ = observer; }
+
+  /// What the status line says of saving from now on; null: nothing. Borrowed.
+  void show_saving(const SaveWatch* saving) { saving_ = saving; }
 
   /// One stereo pair: events up to it are answered in order of time, tools are tracked, the step's
   /// work is done. The result is valid until the next call.
@@ -106,10 +110,9 @@ class Session {
   // session_actions.cpp: what the table asks for.
   void act(Action action, Event event, Timestamp time);
   void begin_level();
-  void drop_region(Timestamp time);
   void register_level(Timestamp time);
   void show_registration(Timestamp time);
-  void clear_level();
+  void clear_level(Timestamp time);
   void judge_checks(Timestamp time);
   void record_check(Timestamp time);
   void drop_check(Timestamp time);
@@ -127,6 +130,11 @@ class Session {
   void verify_again(Timestamp time);
   void begin_touch();
   void end_touch();
+  // session_saving.cpp
+  void save_region(Timestamp time);
+  void drop_region(Timestamp time);
+  void tell_places(Timestamp now);
+  [[nodiscard]] Saved saved(Timestamp now) const;
   // session_replan.cpp
   void replan(Timestamp time);
   void consent(Timestamp time);
@@ -159,6 +167,9 @@ class Session {
   SessionOptions options_;
   Workflow workflow_;
   SessionObserver* observer_ = nullptr;
+  const SaveWatch* saving_ = nullptr;
+  std::string shown_;                      ///< the status line, while a registration is verified
+  std::int64_t places_changed_ = 0;        ///< of the patient references, as they were told
   std::optional<std::int64_t> map_epoch_;  ///< of the newest pair
   std::int64_t reference_moves_ = 0;       ///< that were answered
   bool reference_hidden_ = true;           ///< where one is in use

@@ -18,7 +18,7 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kBeginLevel: return begin_level();
     case kStartSampling: return digitizing_.press(level(), time);
     case kStopSampling: return digitizing_.release(time);
-    case kSaveRegion: return digitizing_.save();
+    case kSaveRegion: return save_region(time);
     case kDropRegion: return drop_region(time);
     case kRegister: return register_level(time);
     case kShowRegistration: return show_registration(time);
@@ -27,7 +27,7 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kRecordCheck: return record_check(time);
     case kDropCheck: return drop_check(time);
     case kAccept: return accept(time);
-    case kClearLevel: return clear_level();
+    case kClearLevel: return clear_level(time);
     case kTouchLandmark: return touch_landmark(time);
     case kDropLandmark: return drop_landmark(time);
     case kJudgeLandmark: return judge_landmark(time);
@@ -63,13 +63,6 @@ void Session::begin_level() {
   guiding_.begin_level();
 }
 
-void Session::drop_region(Timestamp time) {
-  Message answer = digitizing_.drop_region(time);
-  if (!std::holds_alternative<std::monostate>(answer)) {
-    messages_.say(std::move(answer), time);
-  }
-}
-
 void Session::register_level(Timestamp time) {
   LevelState& now = level();
   now.tag_size.reset();
@@ -91,13 +84,16 @@ void Session::show_registration(Timestamp time) {
   verifying_ = Verifying(level(), method_.verification, options_, anchored(), time);
 }
 
-void Session::clear_level() {
+void Session::clear_level(Timestamp time) {
   level().forget_registration();
   digitizing_.clear();
   verifying_ = Verifying{};
   landmarking_.begin();
   placing_.begin();
   guiding_.forget_guidance();
+  if (observer_) {
+    observer_->level_cleared(time, level());
+  }
 }
 
 void Session::judge_checks(Timestamp time) {
@@ -118,6 +114,7 @@ void Session::accept(Timestamp time) {
   level().bone_found = BoneFound{time, 0.0, options_.map_drift_m_per_sqrt_s};
   landmarking_.begin();
   if (observer_) {
+    observer_->accepted_as_shown(time, level(), shown_);
     observer_->accepted(time, level());
   }
 }
@@ -232,6 +229,9 @@ void Session::forget_places(Event why, Timestamp time) {
   rod_templating_.forget_map();
   tools_.forget_poses();
   guidance_.head.reset();
+  if (observer_) {
+    observer_->places_forgotten(time);
+  }
   if (step_ == Step::kDigitize || step_ == Step::kRod || step_ == Step::kDone) {
     messages_.say(
         why == Event::kReferenceMoved ? Message(ReferenceMoved{step_}) : Message(MapMoved{step_}),

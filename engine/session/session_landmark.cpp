@@ -127,6 +127,9 @@ void Session::verify_again(Timestamp time) {
   level().accepted = false;
   verifying_.begin_again(level(), touch.off_m);
   guiding_.forget_guidance();
+  if (observer_) {
+    observer_->acceptance_withdrawn(time, level());
+  }
   messages_.say(LandmarkMoved{touch.off_m, touch.limit_m, anchored()}, time);
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "engine/session/calibration_in_use.h"
 #include "engine/session/guidance.h"
 #include "engine/session/registration_outcome.h"
@@ -17,6 +20,20 @@ class SessionObserver {
   virtual void happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell /*answer*/) {}
   /// A phrase that is no command here, or was not understood well enough.
   virtual void not_understood(const Phrase& /*phrase*/) {}
+  /// A region was saved: the last of the level's.
+  virtual void region_saved(Timestamp /*time*/, const LevelState& /*level*/,
+                            const nav::Region& /*region*/) {}
+  /// The last of the level's saved regions was deleted.
+  virtual void region_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
+  /// The level is stroked anew: its regions and its registration are gone.
+  virtual void level_cleared(Timestamp /*time*/, const LevelState& /*level*/) {}
+  /// Its landmark has moved: its registration is verified once more.
+  virtual void acceptance_withdrawn(Timestamp /*time*/, const LevelState& /*level*/) {}
+  /// World is another one: whatever was measured in it is gone, but for what is in the patient.
+  virtual void places_forgotten(Timestamp /*time*/) {}
+  /// Patient references lie there in World, those that count by now.
+  virtual void references_placed(Timestamp /*time*/,
+                                 std::span<const nav::ReferencePlace> /*places*/) {}
   /// A registration was asked for.
   virtual void registered(Timestamp /*time*/, const LevelState& /*level*/,
                           const RegistrationOutcome& /*outcome*/) {}
@@ -25,6 +42,9 @@ class SessionObserver {
   /// The last of them was taken back; `level` is without it.
   virtual void check_point_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The surgeon accepted the level's registration, which holds what was touched on it by now.
+  /// `shown` is the status line that they were shown before they did.
+  virtual void accepted_as_shown(Timestamp /*time*/, const LevelState& /*level*/,
+                                 std::string_view /*shown*/) {}
   virtual void accepted(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The level's landmark was touched: for the first time, or against where it was then.
   virtual void landmark_touched(Timestamp /*time*/, const LevelState& /*level*/,

@@ -2,6 +2,7 @@
 
 #include "engine/session/numbers_wording.h"
 #include "engine/session/session.h"
+#include "engine/session/wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -121,6 +122,13 @@ void Session::publish_status() {
   line.message = messages_.message();
   line.heard = messages_.heard();
   line.state = state_of_step();
+  line.saved = saved(guidance_.frame_time);
+  if (step_ == Step::kVerify) {
+    constexpr std::size_t kLongLine = 512;
+    shown_.clear();
+    shown_.reserve(kLongLine);
+    append_status(shown_, line);
+  }
 }
 
 /// What is in hand that the step has no use for, and a depth stop that is set too deep.

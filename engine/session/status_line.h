@@ -10,6 +10,7 @@
 #include "engine/session/landmark.h"
 #include "engine/session/message.h"
 #include "engine/session/placed_wire.h"
+#include "engine/session/saving.h"
 #include "engine/session/tip_check.h"
 #include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
@@ -85,6 +86,7 @@ struct StatusLine {
   const Message* message = nullptr;  ///< null: none
   StepState state;
   const HeardCommand* heard = nullptr;  ///< null: nothing lately
+  Saved saved = Saved::kNothingNew;
 };
 
 /// What is asked of a surgeon who verifies by touch: as far as the line says it.

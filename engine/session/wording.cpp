@@ -10,6 +10,7 @@
 #include "base/printed.h"
 #include "engine/session/message_wording.h"
 #include "engine/session/numbers_wording.h"
+#include "engine/session/saved_wording.h"
 #include "engine/session/wire_wording.h"
 
 namespace orthonav::engine {
@@ -224,6 +225,7 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     write_wire(text, *wire, "; ");
   }
   write_unused_tool(text, line, out.size() > begin ? "; " : "");
+  write_saved(text, line.saved, out.size() > begin ? "; " : "");
 }
 
 void append_heard(std::string& out, const HeardCommand& heard) {

@@ -85,6 +85,9 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
     return assembled.error();
   }
   AssembledOperation& live = **assembled;
+  if (const Status taken = hooks.assembled ? hooks.assembled(live) : Status(); !taken) {
+    return taken.error();
+  }
   Watchers watchers(room, live, hooks);
   auto recorder = recorder_of(room, options.record_folder, *tools);
   if (!recorder) {

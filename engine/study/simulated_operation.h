@@ -50,6 +50,8 @@ struct OperationHooks {
   std::function<void(std::function<void()>)> can_stop;
   /// May replace parts of the method once the room is open.
   std::function<void(const sim::SimHeadset&, Method&)> adapt;
+  /// Called once everything is put together, before `opened`; an Error ends the run.
+  std::function<Status(AssembledOperation&)> assembled;
   /// Called once the room is open and before the first frame; an Error ends the run.
   std::function<Status(sim::SimHeadset&, const Method&, const Session&)> opened;
 };

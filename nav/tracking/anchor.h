@@ -1,12 +1,20 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "base/time.h"
 #include "base/transform.h"
 
 namespace orthonav::nav {
+
+/// Where a patient reference lies in the anchored World.
+struct ReferencePlace {
+  std::size_t tool = 0;
+  Transform<World, Marker> anchored_from_marker;
+};
 
 /// What is known of the patient references that the poses of an anchored tracker hang on.
 ///
@@ -21,6 +29,10 @@ struct Anchor {
   /// How often references were found to have moved against each other: from then on nothing that
   /// was measured before holds.
   std::int64_t moves = 0;
+  /// Of the references that count. Whoever is given them makes the same World of the same
+  /// references.
+  std::vector<ReferencePlace> places;
+  std::int64_t places_changed = 0;  ///< so often
 
   /// None was seen for longer than `stale_after` before `at`: nothing may be shown on the patient.
   [[nodiscard]] bool stale(Timestamp at, Duration stale_after) const {

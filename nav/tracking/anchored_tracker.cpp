@@ -1,5 +1,6 @@
 #include "nav/tracking/anchored_tracker.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "nav/tracking/pose_filter.h"
@@ -26,7 +27,9 @@ class AnchoredTracker final : public ToolTracker {
         coast_(coast),
         limits_(limits),
         references_(std::move(references)),
-        filters_(tracker_->tools().size()) {}
+        filters_(tracker_->tools().size()) {
+    tell_places();
+  }
 
   std::span<const ToolState> track(const StereoFrame& frame) override {
     const std::span<const ToolState> seen = tracker_->track(frame);
@@ -75,12 +78,13 @@ class AnchoredTracker final : public ToolTracker {
         best = &reference;
       }
     }
-    if (best != nullptr || anchor_.last_seen) {
+    if (best != nullptr || !anchor_.places.empty()) {
       return best;
     }
     for (Reference& reference : references_) {
       if (seen[reference.tool].pair) {
         reference.anchored_from_marker = seen[reference.tool].world_from_marker.value;
+        tell_places();
         return &reference;
       }
     }
@@ -120,10 +124,11 @@ class AnchoredTracker final : public ToolTracker {
     }
   }
 
-  void learn(Reference& reference, const TrackedPose& here, double exposure_s) const {
+  void learn(Reference& reference, const TrackedPose& here, double exposure_s) {
     reference.learning.update(here, exposure_s);
     if (++reference.pairs_learnt >= limits_.learnt_from_pairs) {
       reference.anchored_from_marker = reference.learning.state().value;
+      tell_places();
     }
   }
 
@@ -134,6 +139,17 @@ class AnchoredTracker final : public ToolTracker {
         reference = Reference{reference.tool, std::nullopt, PoseFilter(), 0, 0};
       }
     }
+    tell_places();
+  }
+
+  void tell_places() {
+    anchor_.places.clear();
+    for (const Reference& reference : references_) {
+      if (reference.anchored_from_marker) {
+        anchor_.places.push_back({reference.tool, *reference.anchored_from_marker});
+      }
+    }
+    ++anchor_.places_changed;
   }
 
   void measure(std::span<const ToolState> seen, const Reference& best,
@@ -201,9 +217,9 @@ PoseCovariance relative_covariance(const PairPose& tool, const PairPose& referen
   return plus_carried(tool.covariance, reference.covariance, arm_m);
 }
 
-Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(std::unique_ptr<ToolTracker> tracker,
-                                                             Duration coast,
-                                                             const ReferenceLimits& limits) {
+Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(
+    std::unique_ptr<ToolTracker> tracker, Duration coast, const ReferenceLimits& limits,
+    std::span<const ReferencePlace> known) {
   if (const auto problems = limits.check(); !problems.empty()) {
     return Error{"reference: " + problems.front()};
   }
@@ -216,6 +232,15 @@ Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(std::unique_ptr<Too
   }
   if (references.empty()) {
     return Error{"tools: no reference, at least 1 needed to anchor to the patient"};
+  }
+  for (const ReferencePlace& place : known) {
+    const auto reference =
+        std::find_if(references.begin(), references.end(),
+                     [&](const Reference& each) { return each.tool == place.tool; });
+    if (reference == references.end()) {
+      return Error{"tools: tool " + std::to_string(place.tool) + " is no patient reference"};
+    }
+    reference->anchored_from_marker = place.anchored_from_marker;
   }
   return std::unique_ptr<ToolTracker>(
       std::make_unique<AnchoredTracker>(std::move(tracker), coast, limits, std::move(references)));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,13 @@ struct ReferenceLimits {
 /// Tracks by `tracker`, with poses relative to the patient references among its tools: a tool and a
 /// reference of the same pair, so that head, map and patient motion cancel. The covariances are
 /// those of the two poses, the reference's at the lever arm to the tool. Without a reference in
-/// sight the tools are predicted for `coast`, then lost. Refuses tools without a reference, and
-/// limits with problems. `tracker` must give the poses of single pairs (`ToolState::pair`).
-Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(std::unique_ptr<ToolTracker> tracker,
-                                                             Duration coast,
-                                                             const ReferenceLimits& limits = {});
+/// sight the tools are predicted for `coast`, then lost. `known`: where references lie in the World
+/// of an operation that goes on; none may define another one. Refuses tools without a reference,
+/// places of what is none, and limits with problems. `tracker` must give the poses of single pairs
+/// (`ToolState::pair`).
+Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(
+    std::unique_ptr<ToolTracker> tracker, Duration coast, const ReferenceLimits& limits = {},
+    std::span<const ReferencePlace> known = {});
 
 /// The covariance, in the reference's parent frame, of a tool's pose relative to a reference: both
 /// covariances in the frame of the pair, the reference's carried over the lever arm from its origin

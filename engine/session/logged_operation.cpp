@@ -1,0 +1,270 @@
+#include "engine/session/logged_operation.h"
+
+#include <algorithm>
+
+#include "engine/session/operation_json.h"
+
+namespace orthonav::engine {
+namespace {
+
+void forget_registration(LoggedLevel& level) {
+  level.registration.reset();
+  level.points_hash.clear();
+  level.accepted = false;
+  level.check_points = 0;
+  level.landmark.reset();
+}
+
+/// Applies one record; what is wrong with it is noted in its document.
+class Applied {
+ public:
+  Applied(LoggedOperation& operation, OperationRecord type, const JsonNode& node)
+      : operation_(operation), type_(type), node_(node) {}
+
+  void apply() {
+    using enum OperationRecord;
+    switch (type_) {
+      case kBegun:
+        return begin();
+      case kPlacesForgotten:
+        return operation_.forget_places();
+      case kReferences:
+        operation_.references.clear();
+        for (const JsonNode& place : node_.list("places")) {
+          operation_.references.push_back(place_from(place));
+        }
+        return;
+      case kGuide:
+        operation_.guide_corrected =
+            operation_.guide_corrected || node_.flag_or("corrected", false);
+        return;
+      case kResumed:
+        return operation_.go_on();
+      case kEnded:
+        operation_.done = node_.flag_or("done", false);
+        return;
+      case kHead:
+      case kHeadDropped:
+      case kRod:
+        return apply_to_rod();
+      default:
+        return apply_to_level();
+    }
+  }
+
+ private:
+  void begin() {
+    operation_.identity = identity_from(node_);
+    for (const JsonNode& planned : node_.list("plan")) {
+      LoggedLevel level;
+      level.label = planned.text("label");
+      for (const JsonNode& screw : planned.list("screws")) {
+        level.screws.emplace_back().plan = screw_from(screw);
+      }
+      operation_.levels.push_back(std::move(level));
+    }
+  }
+
+  void apply_to_rod() {
+    LoggedRod& rod = operation_.rods[node_.text("side") == name_of(Side::kRight) ? 1 : 0];
+    if (type_ == OperationRecord::kRod) {
+      rod.done = true;
+    } else if (type_ == OperationRecord::kHead) {
+      ++rod.heads;
+    } else if (rod.heads > 0) {
+      --rod.heads;
+    }
+  }
+
+  void apply_to_level() {
+    const auto index = static_cast<std::size_t>(node_.unsigned_integer("level"));
+    if (index >= operation_.levels.size()) {
+      node_.refuse("level", "must be below " + std::to_string(operation_.levels.size()));
+      return;
+    }
+    LoggedLevel& level = operation_.levels[index];
+    using enum OperationRecord;
+    switch (type_) {
+      case kRegion:
+        level.regions.push_back(region_from(node_.child("region")));
+        return;
+      case kRegionDropped:
+        return drop_region(level);
+      case kRegistration:
+        return apply_registration(level);
+      case kCheckPoint:
+        ++level.check_points;
+        return;
+      case kCheckPointDropped:
+        level.check_points -= level.check_points > 0 ? 1 : 0;
+        return;
+      case kAccepted:
+        level.registration = registration_from(node_.child("registration"));
+        level.accepted = true;
+        return;
+      case kAcceptanceWithdrawn:
+        level.accepted = false;
+        level.check_points = 0;
+        return;
+      case kLevelCleared:
+        level.regions.clear();
+        return forget_registration(level);
+      case kLandmark:
+        if (node_.flag_or("first", false)) {
+          level.landmark = landmark_from(node_.child("landmark"));
+        }
+        return;
+      case kLandmarkDropped:
+        if (!node_.flag_or("stays", false)) {
+          level.landmark.reset();
+        }
+        return;
+      case kPlan:
+        return apply_plan(level);
+      default:
+        return apply_to_screw(level);
+    }
+  }
+
+  void drop_region(LoggedLevel& level) {
+    if (level.regions.empty()) {
+      node_.refuse("level", "has no region to be deleted");
+    } else {
+      level.regions.pop_back();
+    }
+  }
+
+  void apply_registration(LoggedLevel& level) {
+    level.attempts = node_.integer("attempt");
+    if (node_.flag_or("passed", false)) {
+      forget_registration(level);
+      level.registration = registration_from(node_.child("registration"));
+      level.points_hash = node_.text("points_hash");
+    }
+  }
+
+  void apply_plan(LoggedLevel& level) {
+    const std::vector<JsonNode> screws = node_.list("screws");
+    if (screws.size() != level.screws.size()) {
+      node_.refuse("screws", "must be " + std::to_string(level.screws.size()));
+      return;
+    }
+    for (std::size_t i = 0; i < screws.size(); ++i) {
+      level.screws[i].plan = screw_from(screws[i]);
+      level.screws[i].redone = screws[i].integer("redone");
+      level.screws[i].earlier.clear();
+      for (const JsonNode& earlier : screws[i].list("earlier")) {
+        level.screws[i].earlier.push_back(screw_from(earlier));
+      }
+    }
+  }
+
+  void apply_to_screw(LoggedLevel& level) {
+    const auto index = static_cast<std::size_t>(node_.unsigned_integer("screw"));
+    if (index >= level.screws.size()) {
+      node_.refuse("screw", "must be below " + std::to_string(level.screws.size()));
+      return;
+    }
+    if (type_ == OperationRecord::kWire) {
+      return;  // what became of it is told once the screw is done
+    }
+    LoggedScrew& screw = level.screws[index];
+    screw.done = true;
+    screw.executed.reset();
+    screw.clearance.reset();
+    screw.wire.reset();
+    if (node_.has("executed")) {
+      screw.executed = executed_from(node_.child("executed"));
+    }
+    if (node_.has("clearance")) {
+      screw.clearance = clearance_from(node_.child("clearance"));
+    }
+    screw.wire_asked = node_.flag_or("wire_asked", false);
+    if (node_.has("wire")) {
+      screw.wire = wire_from(node_.child("wire"));
+    }
+  }
+
+  LoggedOperation& operation_;
+  OperationRecord type_;
+  const JsonNode& node_;
+};
+
+Status applied(LoggedOperation& operation, const Record& record, const std::string& name) {
+  const std::string where = name + ": record " + std::to_string(record.number);
+  if (record.type < static_cast<std::uint16_t>(OperationRecord::kBegun) ||
+      record.type > static_cast<std::uint16_t>(OperationRecord::kEnded) ||
+      record.version != kOperationRecordVersion) {
+    return Error{where + ": is of a sort that this program does not know (type " +
+                 std::to_string(record.type) + ", version " + std::to_string(record.version) + ")"};
+  }
+  const auto document = JsonDocument::parse(record.payload, where);
+  if (!document) {
+    return document.error();
+  }
+  const auto type = static_cast<OperationRecord>(record.type);
+  if ((type == OperationRecord::kBegun) != (record.number == 1)) {
+    return Error{where + ": an operation begins with its first record and only once"};
+  }
+  const JsonNode root = document->root();
+  Applied(operation, type, root).apply();
+  return document->status();
+}
+
+}  // namespace
+
+bool LoggedLevel::finished() const {
+  return std::all_of(screws.begin(), screws.end(),
+                     [](const LoggedScrew& screw) { return screw.done; });
+}
+
+void LoggedOperation::forget_places() {
+  for (LoggedLevel& level : levels) {
+    level.regions.clear();
+    level.map_moved = level.registration.has_value() && level.finished();
+    if (!level.map_moved) {
+      forget_registration(level);
+    }
+  }
+  for (LoggedRod& rod : rods) {
+    rod.heads = rod.done ? rod.heads : 0;
+  }
+}
+
+void LoggedOperation::go_on() {
+  ++resumed;
+  done = false;
+  guide_corrected = false;
+  if (!identity.patient_reference) {
+    forget_places();
+  }
+  for (LoggedLevel& level : levels) {
+    level.check_points = 0;
+  }
+  for (LoggedRod& rod : rods) {
+    rod.heads = rod.done ? rod.heads : 0;
+  }
+}
+
+std::vector<Point<World>> LoggedLevel::points() const {
+  std::vector<Point<World>> points;
+  for (const nav::Region& region : regions) {
+    for (const nav::Sample& sample : region.samples) {
+      points.push_back(sample.tip_in_world);
+    }
+  }
+  return points;
+}
+
+Result<LoggedOperation> LoggedOperation::from(const std::vector<Record>& records,
+                                              const std::string& name) {
+  LoggedOperation operation;
+  for (const Record& record : records) {
+    if (const Status good = applied(operation, record, name); !good) {
+      return good.error();
+    }
+  }
+  return operation;
+}
+
+}  // namespace orthonav::engine

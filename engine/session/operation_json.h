@@ -1,0 +1,44 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+
+#include "engine/io/json_document.h"
+#include "engine/session/guidance.h"
+#include "engine/session/operation_identity.h"
+
+namespace orthonav::engine {
+
+// What the log of an operation holds, as JSON: SI units, each number to the last bit. What has no
+// bound is left out, and so is what follows from the rest. The readers note what is wrong in the
+// node's document.
+
+using LogJson = nlohmann::ordered_json;
+
+/// A record of something that happened then, on the device's clock.
+[[nodiscard]] LogJson json_at(Timestamp time);
+[[nodiscard]] LogJson json_of(const OperationIdentity& identity);
+[[nodiscard]] LogJson json_of(const nav::Region& region);
+[[nodiscard]] LogJson json_of(const nav::Registration& registration);
+[[nodiscard]] LogJson json_of(const nav::ScrewPlan& screw);
+[[nodiscard]] LogJson json_of(const nav::ExecutedTrajectory& executed);
+[[nodiscard]] LogJson json_of(const nav::ScrewClearance& clearance);
+[[nodiscard]] LogJson json_of(const PlacedWire& wire);
+[[nodiscard]] LogJson json_of(const Landmark& landmark);
+[[nodiscard]] LogJson json_of(const nav::ReferencePlace& place);
+[[nodiscard]] LogJson json_of(Vec3 v);
+
+[[nodiscard]] OperationIdentity identity_from(const JsonNode& node);
+[[nodiscard]] nav::Region region_from(const JsonNode& node);
+[[nodiscard]] nav::Registration registration_from(const JsonNode& node);
+[[nodiscard]] nav::ScrewPlan screw_from(const JsonNode& node);
+[[nodiscard]] nav::ExecutedTrajectory executed_from(const JsonNode& node);
+[[nodiscard]] nav::ScrewClearance clearance_from(const JsonNode& node);
+[[nodiscard]] PlacedWire wire_from(const JsonNode& node);
+[[nodiscard]] Landmark landmark_from(const JsonNode& node);
+[[nodiscard]] nav::ReferencePlace place_from(const JsonNode& node);
+
+/// Of what a registration was made of.
+[[nodiscard]] std::string hash_of(std::span<const Point<World>> points);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,197 @@
+#include "engine/session/operation_log.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "engine/session/wording.h"
+
+namespace orthonav::engine {
+namespace {
+
+std::string log_in(const std::string& folder) {
+  return (std::filesystem::path(folder) / "operation.log").string();
+}
+
+/// Labels come from files: bytes that are no UTF-8 must not end the log.
+RecordLog::Entry entry(OperationRecord type, const LogJson& payload) {
+  return {static_cast<std::uint16_t>(type), kOperationRecordVersion,
+          payload.dump(-1, ' ', false, LogJson::error_handler_t::replace)};
+}
+
+LogJson begun(const OperationIdentity& identity, std::span<const LevelState> levels) {
+  LogJson json = json_of(identity);
+  json["plan"] = LogJson::array();
+  for (const LevelState& level : levels) {
+    LogJson screws = LogJson::array();
+    for (const nav::ScrewPlan& screw : level.preoperative) {
+      screws.push_back(json_of(screw));
+    }
+    json["plan"].push_back({{"label", level.plan.label}, {"screws", std::move(screws)}});
+  }
+  return json;
+}
+
+}  // namespace
+
+OperationLog::OperationLog(Env& env, std::unique_ptr<FolderLock> lock,
+                           std::unique_ptr<RecordLog> log, std::vector<std::string> levels,
+                           RecordWriter::Waits waits)
+    : env_(env),
+      lock_(std::move(lock)),
+      levels_(std::move(levels)),
+      writer_(std::move(log), waits) {}
+
+OperationLog::~OperationLog() {
+  if (!stays_ && told_ == 0) {
+    std::ignore = env_.remove(writer_.path());
+  }
+}
+
+Result<std::unique_ptr<OperationLog>> OperationLog::begin(Env& env, const std::string& folder,
+                                                          const OperationIdentity& identity,
+                                                          std::span<const LevelState> levels,
+                                                          RecordWriter::Waits waits,
+                                                          RecordLog::Earlier earlier) {
+  auto lock = env.lock(folder);
+  if (!lock) {
+    return lock.error();
+  }
+  auto log = RecordLog::create(env, log_in(folder),
+                               entry(OperationRecord::kBegun, begun(identity, levels)), earlier);
+  if (!log) {
+    return log.error();
+  }
+  return std::unique_ptr<OperationLog>(
+      new OperationLog(env, std::move(*lock), std::move(*log), identity.levels, waits));
+}
+
+Result<OperationLog::Found> OperationLog::find(Env& env, const std::string& folder) {
+  auto lock = env.lock(folder);
+  if (!lock) {
+    return lock.error();
+  }
+  const auto path = newest_log(env, log_in(folder));
+  if (!path) {
+    return path.error();
+  }
+  if (!*path) {
+    return Error{folder + ": holds no operation.log, there is no operation to resume",
+                 ErrorCode::kNotFound};
+  }
+  const auto read = read_log(env, **path);
+  if (!read) {
+    return read.error();
+  }
+  if (read->records.empty()) {
+    return Error{**path + ": holds no whole record, there is no operation to resume"};
+  }
+  auto operation = LoggedOperation::from(read->records, **path);
+  if (!operation) {
+    return operation.error();
+  }
+  return Found{std::move(*operation), **path, read->records.size(), read->dropped_bytes,
+               std::move(*lock)};
+}
+
+Result<std::unique_ptr<OperationLog>> OperationLog::go_on(Env& env, Found found,
+                                                          RecordWriter::Waits waits) {
+  auto reopened = RecordLog::reopen(env, found.path);
+  if (!reopened) {
+    return reopened.error();
+  }
+  std::unique_ptr<OperationLog> log(new OperationLog(env, std::move(found.lock),
+                                                     std::move(reopened->log),
+                                                     found.operation.identity.levels, waits));
+  log->stays_ = true;
+  log->writer_.add(entry(OperationRecord::kResumed, {{"dropped_bytes", found.dropped_bytes}}));
+  if (const Status durable = log->writer_.finish(); !durable) {
+    return durable.error();
+  }
+  return log;
+}
+
+Status OperationLog::finish(bool done, const std::string& reason) {
+  stays_ = true;
+  writer_.add(entry(OperationRecord::kEnded, {{"done", done}, {"reason", reason}}));
+  return writer_.finish();
+}
+
+Saved OperationLog::saved(Timestamp now, Duration lately) const {
+  if (writer_.failed()) {
+    return Saved::kNotSaved;
+  }
+  const bool something = told_ > 0 && now - told_at_ <= lately;
+  return something && writer_.durable() >= told_ ? Saved::kSaved : Saved::kNothingNew;
+}
+
+LogJson OperationLog::about(Timestamp time, const LevelState& level) const {
+  LogJson json = json_at(time);
+  const auto index = std::find(levels_.begin(), levels_.end(), level.plan.label) - levels_.begin();
+  json["level"] = index;
+  json["label"] = level.plan.label;
+  return json;
+}
+
+void OperationLog::add(OperationRecord type, Timestamp time, const LogJson& payload) {
+  told_at_ = time;
+  told_ = writer_.add(entry(type, payload));
+}
+
+void OperationLog::region_saved(Timestamp time, const LevelState& level,
+                                const nav::Region& region) {
+  LogJson json = about(time, level);
+  json["region"] = json_of(region);
+  add(OperationRecord::kRegion, time, json);
+}
+
+void OperationLog::region_dropped(Timestamp time, const LevelState& level) {
+  add(OperationRecord::kRegionDropped, time, about(time, level));
+}
+
+void OperationLog::level_cleared(Timestamp time, const LevelState& level) {
+  add(OperationRecord::kLevelCleared, time, about(time, level));
+}
+
+void OperationLog::acceptance_withdrawn(Timestamp time, const LevelState& level) {
+  add(OperationRecord::kAcceptanceWithdrawn, time, about(time, level));
+}
+
+void OperationLog::places_forgotten(Timestamp time) {
+  add(OperationRecord::kPlacesForgotten, time, json_at(time));
+}
+
+void OperationLog::references_placed(Timestamp time, std::span<const nav::ReferencePlace> places) {
+  LogJson json = json_at(time);
+  json["places"] = LogJson::array();
+  for (const nav::ReferencePlace& place : places) {
+    json["places"].push_back(json_of(place));
+  }
+  add(OperationRecord::kReferences, time, json);
+}
+
+void OperationLog::registered(Timestamp time, const LevelState& level,
+                              const RegistrationOutcome& outcome) {
+  LogJson json = about(time, level);
+  json["attempt"] = level.attempts;
+  json["passed"] = outcome.passed();
+  if (outcome.passed()) {
+    json["registration"] = json_of(*outcome.result);
+    json["points_hash"] = hash_of(level.newest->points);
+  } else {
+    json["reason"] = refusal_text(outcome);
+  }
+  add(OperationRecord::kRegistration, time, json);
+}
+
+void OperationLog::accepted_as_shown(Timestamp time, const LevelState& level,
+                                     std::string_view shown) {
+  LogJson json = about(time, level);
+  json["shown"] = shown;
+  json["registration"] = json_of(*level.registration);
+  json["check_points"] = level.check_points.size();
+  add(OperationRecord::kAccepted, time, json);
+}
+
+}  // namespace orthonav::engine

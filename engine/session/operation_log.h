@@ -1,0 +1,98 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/io/record_writer.h"
+#include "engine/session/logged_operation.h"
+#include "engine/session/operation_json.h"
+#include "engine/session/saving.h"
+#include "engine/session/session_observer.h"
+
+namespace orthonav::engine {
+
+/// The log of an operation, `operation.log` in its folder: what must outlive a crash, so that the
+/// operation can go on (docs/journal.md). The folder is locked meanwhile. No file system stalls the
+/// session, and a disk that fails does not end it.
+class OperationLog : public SessionObserver, public SaveWatch {
+ public:
+  /// A new log, of levels of which nothing is done.
+  static Result<std::unique_ptr<OperationLog>> begin(Env& env, const std::string& folder,
+                                                     const OperationIdentity& identity,
+                                                     std::span<const LevelState> levels,
+                                                     RecordWriter::Waits waits,
+                                                     RecordLog::Earlier earlier);
+
+  /// The last operation of a folder, which stays locked.
+  struct Found {
+    LoggedOperation operation;
+    std::string path;
+    std::size_t records = 0;
+    std::size_t dropped_bytes = 0;  ///< behind the last whole record
+    std::unique_ptr<FolderLock> lock;
+  };
+  /// Changes nothing in the folder. An Error in one line: there is none, or it can't be read.
+  static Result<Found> find(Env& env, const std::string& folder);
+  /// Goes on with its log.
+  static Result<std::unique_ptr<OperationLog>> go_on(Env& env, Found found,
+                                                     RecordWriter::Waits waits);
+
+  /// A log that was begun, but nothing happened and `finish` was not called, goes.
+  ~OperationLog() override;
+  OperationLog(const OperationLog&) = delete;
+  OperationLog& operator=(const OperationLog&) = delete;
+
+  /// The last record: whether the operation was done, or why it ended. An Error when not all was
+  /// saved.
+  Status finish(bool done, const std::string& reason);
+  /// What an earlier log was renamed to; empty: there was none.
+  [[nodiscard]] const std::string& earlier_kept_as() const { return writer_.earlier_kept_as(); }
+
+  [[nodiscard]] Saved saved(Timestamp now, Duration lately) const override;
+
+  void region_saved(Timestamp time, const LevelState& level, const nav::Region& region) override;
+  void region_dropped(Timestamp time, const LevelState& level) override;
+  void level_cleared(Timestamp time, const LevelState& level) override;
+  void acceptance_withdrawn(Timestamp time, const LevelState& level) override;
+  void places_forgotten(Timestamp time) override;
+  void references_placed(Timestamp time, std::span<const nav::ReferencePlace> places) override;
+  void registered(Timestamp time, const LevelState& level,
+                  const RegistrationOutcome& outcome) override;
+  void check_point_recorded(Timestamp time, const LevelState& level) override;
+  void check_point_dropped(Timestamp time, const LevelState& level) override;
+  void accepted_as_shown(Timestamp time, const LevelState& level, std::string_view shown) override;
+  void landmark_touched(Timestamp time, const LevelState& level,
+                        const LandmarkTouch& touch) override;
+  void landmark_dropped(Timestamp time, const LevelState& level) override;
+  void tips_compared(Timestamp time, const TipDifference& difference) override;
+  void axis_compared(Timestamp time, const AxisDifference& difference) override;
+  void wire_measured(Timestamp time, const LevelState& level, std::size_t screw,
+                     const PlacedWire& wire) override;
+  void screw_redone(Timestamp time, const LevelState& level, std::size_t screw,
+                    const nav::OtherEntry& entry) override;
+  void replanned(Timestamp time, const LevelState& level, const Replan& asked,
+                 const ScrewReplanned& done) override;
+  void screw_done(Timestamp time, const LevelState& level, std::size_t screw,
+                  const ToolGuidance* at_depth) override;
+  void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
+  void head_dropped(Timestamp time, nav::Side side) override;
+  void rod_done(Timestamp time, const RodState& rod) override;
+
+ private:
+  OperationLog(Env& env, std::unique_ptr<FolderLock> lock, std::unique_ptr<RecordLog> log,
+               std::vector<std::string> levels, RecordWriter::Waits waits);
+  [[nodiscard]] LogJson about(Timestamp time, const LevelState& level) const;
+  void add_plan(Timestamp time, const LevelState& level, const std::string& why);
+  void add(OperationRecord type, Timestamp time, const LogJson& payload);
+
+  Env& env_;
+  std::unique_ptr<FolderLock> lock_;  ///< let go last
+  std::vector<std::string> levels_;
+  RecordWriter writer_;
+  std::uint64_t told_ = 0;  ///< number of the newest record
+  Timestamp told_at_{};
+  bool stays_ = false;  ///< though nothing is told
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+#include "engine/session/saving.h"
+#include "engine/session/status_parts.h"
+
+namespace orthonav::engine {
+
+/// "saved", "NOT SAVED" or nothing, after `separator`.
+void write_saved(PartedText text, Saved saved, std::string_view separator);
+
+}  // namespace orthonav::engine

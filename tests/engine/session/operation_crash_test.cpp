@@ -1,0 +1,110 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "engine/session/operation_log.h"
+#include "tests/support/is_ok.h"
+#include "tests/support/logged_operation.h"
+#include "tests/support/memory_env.h"
+#include "tests/support/scripted_surgeon.h"
+
+namespace orthonav::engine::operation_crash_test {
+namespace {
+
+using test::after_kill;
+using test::after_power_loss;
+using test::Files;
+using test::is_ok;
+using test::kLogFolder;
+using test::kLogPath;
+using test::log_of;
+using test::MemoryEnv;
+using test::ScriptedOperation;
+using test::ScriptedSurgeon;
+
+/// After so many calls the surgeon had been told that so many records are saved.
+struct Told {
+  std::size_t calls = 0;
+  std::size_t records = 0;
+};
+
+/// A whole operation of two levels, and what was saved when.
+std::vector<Told> operate(MemoryEnv& env) {
+  ScriptedOperation s({"L4", "L5"}, {}, Verification::kByTouch);
+  s.registers_within(0.0003);
+  auto log = log_of(s, env);
+  std::vector<Told> told = {{env.calls().size(), 1}};
+  ScriptedSurgeon surgeon(s);
+  while (surgeon.act()) {
+    told.push_back({env.calls().size(), read_log(env, kLogPath)->records.size()});
+  }
+  EXPECT_EQ(s.session().current_step(), Step::kDone);
+  EXPECT_TRUE(is_ok(log->finish(true, "")));
+  return told;
+}
+
+std::size_t saved_by(const std::vector<Told>& told, std::size_t calls) {
+  std::size_t records = 0;
+  for (const Told& each : told) {
+    records = each.calls <= calls ? each.records : records;
+  }
+  return records;
+}
+
+/// Whatever a crash leaves, another program finds the operation as it was at some moment, with
+/// everything of which the surgeon had been told that it was saved.
+TEST(CrashOfAnOperation, LeavesWhatHadHappenedUpToSomeMoment) {
+  MemoryEnv env;
+  const std::vector<Told> told = operate(env);
+  const std::vector<Record> all = read_log(env, kLogPath)->records;
+  for (std::size_t n = 1; n <= all.size(); ++n) {
+    EXPECT_TRUE(is_ok(LoggedOperation::from({all.begin(), all.begin() + n}, "log"))) << n;
+  }
+  int tried = 0;
+  for (std::size_t n = told.front().calls; n <= env.calls().size(); ++n) {
+    const auto calls = std::span(env.calls()).first(n);
+    std::vector<Files> disks = after_power_loss({}, calls);
+    disks.push_back(after_kill({}, calls));
+    for (const Files& files : disks) {
+      MemoryEnv left(files);
+      const auto read = read_log(left, kLogPath);
+      ASSERT_TRUE(is_ok(read));
+      ASSERT_LE(read->records.size(), all.size());
+      EXPECT_GE(read->records.size(), saved_by(told, n)) << "after call " << n;
+      EXPECT_TRUE(std::equal(read->records.begin(), read->records.end(), all.begin()));
+      ++tried;
+    }
+  }
+  RecordProperty("disks", tried);
+  EXPECT_GT(tried, 200);
+}
+
+TEST(CrashOfAnOperation, TimesSayNothingOfTheOrder) {
+  // The clock of the device is set back between two programs: the numbers go on.
+  MemoryEnv env;
+  {
+    ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
+    auto log = log_of(s, env);
+    s.pairs(1000);
+    s.registers_first_level();
+  }
+  auto found = OperationLog::find(env, kLogFolder);
+  ASSERT_TRUE(is_ok(found));
+  ScriptedOperation again({"L4"}, {}, Verification::kByTouch);
+  auto log =
+      OperationLog::go_on(env, std::move(*found), RecordWriter::Waits::kUntilDurable).value();
+  again.session().observe(log.get());
+  again.registers_first_level();
+  const std::vector<Record> records = read_log(env, kLogPath)->records;
+  std::uint64_t number = 0;
+  for (const Record& record : records) {
+    EXPECT_EQ(record.number, ++number);
+  }
+  const auto recorded = LoggedOperation::from(records, kLogPath);
+  ASSERT_TRUE(is_ok(recorded));
+  EXPECT_EQ(recorded->levels[0].regions.size(), 1u) << "World was another one: stroked again";
+  EXPECT_EQ(recorded->resumed, 1);
+}
+
+}  // namespace
+}  // namespace orthonav::engine::operation_crash_test

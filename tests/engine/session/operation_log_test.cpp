@@ -1,0 +1,208 @@
+#include "engine/session/operation_log.h"
+
+#include <gmock/gmock.h>
+
+#include <cerrno>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "engine/session/wording.h"
+#include "tests/support/allocation_count.h"
+#include "tests/support/is_ok.h"
+#include "tests/support/logged_operation.h"
+#include "tests/support/memory_env.h"
+#include "tests/support/said.h"
+#include "tests/support/scripted_surgeon.h"
+
+namespace orthonav::engine::operation_log_test {
+namespace {
+
+using test::is_ok;
+using test::kLogFolder;
+using test::kLogPath;
+using test::log_of;
+using test::MemoryEnv;
+using test::ScriptedOperation;
+using test::ScriptedSurgeon;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<Record> records_in(MemoryEnv& env) { return read_log(env, kLogPath)->records; }
+
+LoggedOperation recorded_in(MemoryEnv& env) {
+  return LoggedOperation::from(records_in(env), kLogPath).value();
+}
+
+nlohmann::json last_of(MemoryEnv& env, OperationRecord type) {
+  nlohmann::json found;
+  for (const Record& record : records_in(env)) {
+    if (record.type == static_cast<std::uint16_t>(type)) {
+      found = nlohmann::json::parse(record.payload);
+    }
+  }
+  return found;
+}
+
+ScriptedOperation by_touch() { return ScriptedOperation({"L4"}, {}, Verification::kByTouch); }
+
+TEST(OperationLog, TellsAWholeOperation) {
+  MemoryEnv env;
+  ScriptedOperation s({"L4", "L5"}, {}, Verification::kByTouch);
+  s.registers_within(0.0003);
+  auto log = log_of(s, env);
+  ScriptedSurgeon(s).finish();
+  ASSERT_EQ(s.session().current_step(), Step::kDone);
+  ASSERT_TRUE(is_ok(log->finish(true, "")));
+  const LoggedOperation told = recorded_in(env);
+  EXPECT_TRUE(told.done);
+  ASSERT_EQ(told.levels.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const LevelState& level = s.session().levels()[i];
+    const LoggedLevel& recorded = told.levels[i];
+    EXPECT_EQ(recorded.label, level.plan.label);
+    EXPECT_EQ(recorded.attempts, 1);
+    EXPECT_TRUE(recorded.accepted);
+    EXPECT_EQ(recorded.registration->world_from_vertebra, level.registration->world_from_vertebra);
+    EXPECT_EQ(recorded.landmark->in_vertebra, level.landmark->in_vertebra);
+    EXPECT_EQ(recorded.regions.size(), 2u);
+    EXPECT_EQ(recorded.points_hash, hash_of(recorded.points()));
+    ASSERT_EQ(recorded.screws.size(), level.plan.screws.size());
+    for (std::size_t screw = 0; screw < recorded.screws.size(); ++screw) {
+      EXPECT_TRUE(recorded.screws[screw].done);
+      ASSERT_EQ(recorded.screws[screw].executed.has_value(), level.executed[screw].has_value());
+      ASSERT_TRUE(recorded.screws[screw].executed);
+      EXPECT_EQ(recorded.screws[screw].executed->axis.point, level.executed[screw]->axis.point);
+      EXPECT_EQ(recorded.screws[screw].executed->pairs, level.executed[screw]->pairs);
+      ASSERT_TRUE(recorded.screws[screw].wire);
+      EXPECT_EQ(recorded.screws[screw].wire->axis.angle_rad.value,
+                level.wires[screw].measured->axis.angle_rad.value);
+    }
+  }
+  EXPECT_TRUE(told.rods[0].done && told.rods[1].done);
+}
+
+TEST(OperationLog, HoldsEveryNumberToTheBit) {
+  nav::Registration r;
+  r.world_from_vertebra = {rotation_from_vector({0.1, 1.0 / 3.0, -0.7}), {1e-300, -0.0, 1.0 / 7.0}};
+  r.rmse_m = 0.1 + 0.2;
+  r.predicted_tre_m = std::numeric_limits<double>::infinity();
+  std::array<double, 36> covariance{};
+  for (std::size_t i = 0; i < 36; ++i) {
+    covariance[i] = std::sin(static_cast<double>(i)) * 1e-7;
+  }
+  r.uncertainty = nav::PoseUncertainty({1.0 / 9.0, 2, 3}, covariance);
+  r.heights = {{{{0.1, 0.2, 0.3}}, 1e-5 / 3.0}};
+  const auto document = JsonDocument::parse(json_of(r).dump(), "r").value();
+  const nav::Registration read = registration_from(document.root());
+  ASSERT_TRUE(is_ok(document.status()));
+  EXPECT_EQ(read.world_from_vertebra, r.world_from_vertebra);
+  EXPECT_TRUE(std::signbit(read.world_from_vertebra.translation().y));
+  EXPECT_EQ(read.rmse_m, r.rmse_m);
+  EXPECT_EQ(read.predicted_tre_m, r.predicted_tre_m);
+  EXPECT_EQ(read.uncertainty->covariance(), covariance);
+  EXPECT_EQ(read.uncertainty->centre_m(), r.uncertainty->centre_m());
+  EXPECT_EQ(read.heights[0].height_m, r.heights[0].height_m);
+}
+
+TEST(OperationLog, SaysSavedOnlyOnceItIs) {
+  MemoryEnv env;
+  ScriptedOperation s = by_touch();
+  auto log = log_of(s, env);
+  s.tracker().pointer = test::pointer_at({0, 0.02, 0});
+  EXPECT_THAT(detail_text(s.says("start").status), Not(HasSubstr("saved")));
+  s.strokes(5);
+  const std::size_t before = env.calls().size();
+  EXPECT_THAT(detail_text(s.says("save").status), EndsWith("; saved"));
+  ASSERT_EQ(env.calls().size(), before + 2) << "one write and one sync a click";
+  EXPECT_EQ(env.calls().back().what, test::EnvCall::What::kSync);
+  EXPECT_THAT(detail_text(s.pairs(90).status), Not(HasSubstr("saved"))) << "two seconds later";
+}
+
+TEST(OperationLog, SaysNotSavedFromThenOnAndTheOperationGoesOn) {
+  for (const int problem : {ENOSPC, EIO, EROFS}) {
+    for (const std::size_t call : {0u, 1u, 8u, 21u}) {
+      MemoryEnv env;
+      ScriptedOperation s = by_touch();
+      auto log = log_of(s, env);
+      env.fail_at(env.calls().size() + call, problem, false);
+      ScriptedSurgeon surgeon(s);
+      while (log->saved(s.now(), std::chrono::seconds(2)) != Saved::kNotSaved) {
+        ASSERT_TRUE(surgeon.act());
+      }
+      const auto saved = records_in(env).size();
+      EXPECT_THAT(detail_text(s.pair().status), EndsWith("NOT SAVED"));
+      surgeon.finish();
+      EXPECT_EQ(s.session().current_step(), Step::kDone);
+      EXPECT_THAT(detail_text(s.pair().status), EndsWith("NOT SAVED"));
+      EXPECT_EQ(records_in(env).size(), saved) << "nothing after the first failure";
+      const Status end = log->finish(true, "");
+      ASSERT_FALSE(end.ok());
+      EXPECT_THAT(end.error().message, HasSubstr("out/operation.log: cannot be written"));
+    }
+  }
+}
+
+TEST(OperationLog, HoldsWhatWasShownWhenARegistrationWasAccepted) {
+  MemoryEnv env;
+  ScriptedOperation s = by_touch();
+  auto log = log_of(s, env);
+  s.registers_first_level();
+  s.checks_by_touch();
+  s.accepts();
+  const nlohmann::json accepted = last_of(env, OperationRecord::kAccepted);
+  EXPECT_THAT(accepted["shown"].get<std::string>(), HasSubstr("verify L4 | "));
+  EXPECT_THAT(accepted["shown"].get<std::string>(), HasSubstr("checked, worst"));
+  EXPECT_EQ(accepted["check_points"], 3);
+}
+
+TEST(OperationLog, HoldsAnOverrideWithItsReason) {
+  MemoryEnv env;
+  ScriptedOperation s = by_touch();
+  s.registers_within(0.0003);
+  auto log = log_of(s, env);
+  s.accepts_first_by_touch();
+  s.touches_dimple();
+  s.says("next");
+  s.says("next");
+  s.tracker().guide = test::guide_at({0.015 + 0.004, 0.024, 0.0}, 0.0);
+  s.does({ClickerAction::kPress});
+  s.pair();
+  s.does({ClickerAction::kRelease, ClickerAction::kClick});
+  EXPECT_FALSE(last_of(env, OperationRecord::kWire)["within"]);
+  s.says("accept");
+  const nlohmann::json kept = last_of(env, OperationRecord::kWire);
+  EXPECT_TRUE(kept["wire"]["kept"]);
+  EXPECT_GT(kept["wire"]["entry_m"][0], kept["wire"]["entry_limit_m"]);
+}
+
+TEST(OperationLog, IsOneProcessAlone) {
+  MemoryEnv env;
+  ScriptedOperation s = by_touch();
+  auto log = log_of(s, env);
+  const auto second = OperationLog::find(env, kLogFolder);
+  ASSERT_FALSE(second.ok());
+  EXPECT_EQ(second.error().message, "out: is in use by another operation");
+}
+
+TEST(OperationLog, GoesAgainWhereNothingHappened) {
+  MemoryEnv env;
+  ScriptedOperation s = by_touch();
+  log_of(s, env).reset();
+  EXPECT_TRUE(env.files().empty());
+}
+
+TEST(OperationLog, AllocatesNothingInAStepWhereNothingHappens) {
+  MemoryEnv env;
+  ScriptedOperation s = by_touch();
+  auto log = log_of(s, env);
+  s.registers_first_level();
+  s.pairs(100);
+  const std::size_t before = test::allocation_count();
+  s.pairs(100);
+  EXPECT_EQ(test::allocation_count(), before);
+}
+
+}  // namespace
+}  // namespace orthonav::engine::operation_log_test

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <array>
+#include <variant>
+
+#include "tests/support/scripted_operation.h"
+
+namespace orthonav::test {
+
+/// Does the next thing that the session asks for, whatever was done before: an operation that was
+/// resumed goes on by the same rules. Registrations are verified by touch.
+class ScriptedSurgeon {
+ public:
+  explicit ScriptedSurgeon(ScriptedOperation& operation) : s_(operation) { s_.pair(); }
+
+  /// One thing; false once the operation is done.
+  bool act() {
+    switch (s_.session().current_step()) {
+      case Step::kSetup:
+        s_.tracker().pointer = pointer_at(kOnBone);
+        s_.says("start");
+        return true;
+      case Step::kDigitize:
+        return digitize();
+      case Step::kVerify:
+        return verify();
+      case Step::kAccepted:
+        return touch_landmark();
+      case Step::kGuide:
+        s_.tracker().guide = guide_at(entry() - Vec3{0, 0.030, 0}, 0.01);
+        s_.pairs(3);
+        s_.says("next");
+        return true;
+      case Step::kPlaced:
+        return measure();
+      case Step::kRod:
+        return touch_heads();
+      case Step::kDone:
+        return false;
+    }
+    return false;
+  }
+  /// To the end; how many things it took.
+  int finish() {
+    int acts = 0;
+    while (acts < kMostActs && act()) {
+      ++acts;
+    }
+    return acts;
+  }
+  static constexpr int kMostActs = 500;
+
+ private:
+  static constexpr Vec3 kOnBone{0, 0.02, 0};
+
+  [[nodiscard]] const engine::LevelState& level() { return s_.session().levels()[s_.pair().level]; }
+  [[nodiscard]] Vec3 entry() {
+    const engine::LevelState& now = level();
+    return now.plan.screws[now.open_screw().value_or(0)].entry.v;
+  }
+
+  bool digitize() {
+    std::size_t saved = 0;
+    for (const nav::Region& region : s_.pair().regions) {
+      saved += region.saved ? 1 : 0;
+    }
+    if (saved < 2) {
+      s_.tracker().pointer = pointer_at(kOnBone + Vec3{0.01 * static_cast<double>(saved), 0, 0});
+      s_.strokes(5);
+      s_.says("save");
+    } else {
+      s_.does({ClickerAction::kDoubleClick});
+    }
+    return true;
+  }
+
+  bool verify() {
+    constexpr std::array<Vec3, 3> kPlaces = {Vec3{-0.015, 0.020, -0.010},
+                                             Vec3{0.015, 0.020, -0.010}, Vec3{0.000, 0.020, 0.012}};
+    const std::size_t touched = level().check_points.size();
+    if (touched < kPlaces.size()) {
+      s_.touches(kPlaces[touched]);
+    } else {
+      s_.accepts();
+    }
+    return true;
+  }
+
+  bool touch_landmark() {
+    const auto* so_far = std::get_if<engine::LandmarkSoFar>(&s_.pair().status.state);
+    if (so_far != nullptr && (!so_far->last || so_far->last->missing > 0)) {
+      s_.touches(ScriptedOperation::kDimple);
+    } else {
+      s_.says("next");
+    }
+    return true;
+  }
+
+  bool measure() {
+    if (s_.pair().wire != nullptr) {
+      s_.says("next");
+      return true;
+    }
+    s_.tracker().guide = guide_at(entry() + Vec3{0.0004, 0.004, 0}, 0.0);
+    s_.does({ClickerAction::kPress});
+    s_.pair();
+    s_.does({ClickerAction::kRelease, ClickerAction::kClick});
+    if (s_.pair().wire == nullptr) {
+      s_.says("next");
+    }
+    return true;
+  }
+
+  bool touch_heads() {
+    const engine::RodState* open = nullptr;
+    for (const engine::RodState& rod : s_.session().rods()) {
+      open = open == nullptr && !rod.done ? &rod : open;
+    }
+    const std::size_t heads = open != nullptr ? open->heads.size() : 0;
+    if (heads < 2) {
+      s_.touches({0.02, 0.03, 0.04 * static_cast<double>(heads)});
+    } else {
+      s_.says("done");
+    }
+    return true;
+  }
+
+  ScriptedOperation& s_;
+};
+
+}  // namespace orthonav::test

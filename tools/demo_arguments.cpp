@@ -1,0 +1,77 @@
+#include "tools/demo_arguments.h"
+
+#include "engine/case/tool_file.h"
+
+namespace orthonav::tools {
+namespace {
+
+/// Every n-th displayed frame becomes a picture: ten minutes make a film of under a minute.
+constexpr int kDrawEvery = 15;
+
+}  // namespace
+
+engine::OperationOptions options_of(const DemoArguments& arguments) {
+  engine::OperationOptions options;
+  options.method = arguments.method;
+  options.levels = arguments.levels;
+  options.tools = engine::built_in_tools();
+  options.use_reference = arguments.reference;
+  options.sim.seed = arguments.seed;
+  if (arguments.perfect) {
+    options.sim.error_model = sim::ErrorModel::perfect();
+  }
+  if (arguments.pace) {
+    options.sim.error_model.pace = *arguments.pace;
+  }
+  options.sim.pace = arguments.realtime ? sim::Pace::kRealtime : sim::Pace::kFast;
+  options.tracker.parallel = arguments.threads > 1;
+  options.loop.draw_every = kDrawEvery;
+  options.loop.drop_late_snapshots = arguments.realtime;
+  options.record_folder = arguments.record;
+  return options;
+}
+
+KeptOperation::About about_demo(const DemoArguments& arguments, const std::string& case_name) {
+  KeptOperation::About about;
+  about.case_name = case_name;
+  about.method = arguments.method;
+  about.patient_reference = arguments.reference;
+  about.room = "seed " + std::to_string(arguments.seed);
+  about.time_stands_still = true;
+  about.replaces_earlier = true;
+  return about;
+}
+
+void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
+  demo.add_option("--case", arguments.case_folder,
+                  "case folder with case.json (default: the built-in phantom)")
+      ->check(some_text());
+  demo.add_option("--method", arguments.method, "best or paper (the published one)")
+      ->capture_default_str();
+  demo.add_option("--seed", arguments.seed, "seed of every random number")
+      ->check(seed_number())
+      ->capture_default_str();
+  demo.add_option("--out", arguments.out, "folder of the results")
+      ->check(some_text())
+      ->capture_default_str();
+  demo.add_option("--levels", arguments.levels, "levels to operate (default: the two lowest)")
+      ->delimiter(',');
+  auto* fast = demo.add_flag("--fast", arguments.fast, "as fast as the machine goes (default)");
+  demo.add_flag("--realtime", arguments.realtime, "30 frames a second")->excludes(fast);
+  demo.add_option("--record", arguments.record, "also record the session into this new folder")
+      ->check(some_text());
+  demo.add_option("--device", arguments.device, "part of the name of the Vulkan device");
+  demo.add_option("--threads", arguments.threads, "threads of the tracker; no result depends on it")
+      ->check(whole_number(1, 2))
+      ->capture_default_str();
+  demo.add_flag("--no-video", arguments.no_video, "write no operation.mp4");
+  demo.add_flag("--perfect", arguments.perfect, "every source of error at zero");
+  add_reference_flag(demo, arguments.reference);
+  // For tests: a hasty surgeon finishes in a fraction of the frames.
+  demo.add_option("--pace", arguments.pace, "how many times as fast the surgeon works")
+      ->check(finite_number(0.5, 4))
+      ->group("");
+  demo.add_flag("--json", arguments.json, "print the report as JSON");
+}
+
+}  // namespace orthonav::tools

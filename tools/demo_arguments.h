@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/study/simulated_operation.h"
+#include "tools/arguments.h"
+#include "tools/kept_operation.h"
+
+namespace orthonav::tools {
+
+/// The arguments of `orthonav demo`.
+struct DemoArguments {
+  std::string case_folder;
+  std::string method = "best";
+  std::uint64_t seed = 1;
+  std::string out = "orthonav-demo";
+  std::vector<std::string> levels;
+  std::string record;
+  std::string device;
+  bool realtime = false;
+  bool fast = false;
+  bool perfect = false;
+  bool reference = false;
+  bool no_video = false;
+  bool json = false;
+  int threads = 2;
+  std::optional<double> pace;
+};
+
+/// Adds the options that fill them in.
+void add_demo_arguments(CLI::App& demo, DemoArguments& arguments);
+[[nodiscard]] engine::OperationOptions options_of(const DemoArguments& arguments);
+/// For the log of the operation.
+[[nodiscard]] KeptOperation::About about_demo(const DemoArguments& arguments,
+                                              const std::string& case_name);
+
+}  // namespace orthonav::tools

@@ -1,0 +1,26 @@
+#include "tools/joined_parts.h"
+
+#include <utility>
+
+#include "engine/session/spoken_commands.h"
+#include "hal/open/open_parts.h"
+
+namespace orthonav::tools {
+
+Result<std::unique_ptr<JoinedHeadset>> join_parts(Headset& headset, const std::string& clicker,
+                                                  const std::string& voice) {
+  OtherParts parts;
+  auto clicks = open_clicker(clicker, headset.clock());
+  if (!clicks) {
+    return clicks.error();
+  }
+  parts.clicker = std::move(*clicks);
+  auto speech = open_voice(voice, engine::trained_commands(), headset.clock(), &headset);
+  if (!speech) {
+    return speech.error();
+  }
+  parts.voice = std::move(*speech);
+  return std::make_unique<JoinedHeadset>(headset, std::move(parts));
+}
+
+}  // namespace orthonav::tools
