@@ -24,6 +24,7 @@ struct DemoArguments {
   bool fast = false;
   bool perfect = false;
   bool reference = false;
+  bool resume = false;
   bool no_video = false;
   bool json = false;
   int threads = 2;

@@ -46,6 +46,11 @@ class Demo {
     if (!method) {
       return bad_input(method.error().message);
     }
+    if (arguments_.resume) {
+      if (const Status found = kept_.find(arguments_.out); !found) {
+        return bad_input(found.error().message);
+      }
+    }
     const auto source = load_checked_case(arguments_.case_folder);
     if (!source) {
       return bad_input(source.error().message);
@@ -143,7 +148,8 @@ class Demo {
   }
 
   Result<engine::OperationResult> operate(const engine::Case& source) {
-    const engine::OperationOptions options = options_of(arguments_);
+    engine::OperationOptions options = options_of(arguments_);
+    options.reference_places = kept_.reference_places();
     readings_ = std::make_unique<ReadingCurves>(view_.get());
     OperationProgress progress(readings_.get());
     engine::OperationHooks hooks;
@@ -161,7 +167,7 @@ class Demo {
       began_ = true;
       models.keep();
       print_notes(models);
-      return remove_earlier_results(out_->path());
+      return arguments_.resume ? Status() : remove_earlier_results(out_->path());
     };
     return engine::run_operation(source, options, hooks);
   }

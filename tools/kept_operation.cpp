@@ -2,6 +2,9 @@
 
 #include <cstdio>
 #include <ctime>
+#include <utility>
+
+#include "engine/session/resume_wording.h"
 
 namespace orthonav::tools {
 namespace {
@@ -29,13 +32,52 @@ engine::OperationIdentity identity_of(const engine::Session& session,
 
 }  // namespace
 
-Status KeptOperation::begin(engine::AssembledOperation& operation, const std::string& folder,
-                            const About& about) {
+Status KeptOperation::find(const std::string& folder) {
+  auto found = engine::OperationLog::find(env_, folder);
+  if (!found) {
+    return found.error();
+  }
+  if (found->operation.done) {
+    return Error{found->path + ": that operation was done, there is nothing to resume"};
+  }
+  found_ = std::move(*found);
+  return {};
+}
+
+std::vector<nav::ReferencePlace> KeptOperation::reference_places() const {
+  return found_ ? found_->operation.references : std::vector<nav::ReferencePlace>();
+}
+
+Status KeptOperation::check(const engine::Session& session, const About& about) const {
+  return found_ ? engine::check_same(found_->operation.identity, identity_of(session, about),
+                                     found_->path)
+                : Status{};
+}
+
+Status KeptOperation::resume(engine::AssembledOperation& operation,
+                             engine::RecordWriter::Waits waits) {
+  const std::vector<std::string> lines = engine::resume_lines(*found_);
+  engine::LoggedOperation logged = found_->operation;
+  logged.go_on();
+  if (const Status restored = operation.resume(logged); !restored) {
+    return Error{found_->path + ": " + restored.error().message};
+  }
+  auto log = engine::OperationLog::go_on(env_, *std::exchange(found_, std::nullopt), waits);
+  if (!log) {
+    return log.error();
+  }
+  log_ = std::move(*log);
+  for (const std::string& line : lines) {
+    std::fprintf(stderr, "orthonav: %s\n", line.c_str());
+  }
+  return {};
+}
+
+Status KeptOperation::begin_anew(const engine::Session& session, const std::string& folder,
+                                 const About& about, engine::RecordWriter::Waits waits) {
   using engine::RecordLog;
-  using engine::RecordWriter;
   auto log = engine::OperationLog::begin(
-      env_, folder, identity_of(operation.session(), about), operation.session().levels(),
-      about.time_stands_still ? RecordWriter::Waits::kUntilDurable : RecordWriter::Waits::kNot,
+      env_, folder, identity_of(session, about), session.levels(), waits,
       about.replaces_earlier ? RecordLog::Earlier::kReplaced : RecordLog::Earlier::kKept);
   if (!log) {
     return log.error();
@@ -44,6 +86,21 @@ Status KeptOperation::begin(engine::AssembledOperation& operation, const std::st
   if (!log_->earlier_kept_as().empty()) {
     std::fprintf(stderr, "orthonav: the log of an earlier operation is kept as %s\n",
                  log_->earlier_kept_as().c_str());
+  }
+  return {};
+}
+
+Status KeptOperation::begin(engine::AssembledOperation& operation, const std::string& folder,
+                            const About& about) {
+  using Waits = engine::RecordWriter::Waits;
+  const Waits waits = about.time_stands_still ? Waits::kUntilDurable : Waits::kNot;
+  if (Status same = check(operation.session(), about); !same) {
+    return same;
+  }
+  if (Status begun =
+          found_ ? resume(operation, waits) : begin_anew(operation.session(), folder, about, waits);
+      !begun) {
+    return begun;
   }
   operation.observe(log_.get());
   operation.show_saving(log_.get());

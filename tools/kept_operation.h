@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/io/posix_env.h"
 #include "engine/live/assembled_operation.h"
@@ -22,7 +24,16 @@ class KeptOperation {
     bool time_stands_still = false;  ///< while the disk writes
     bool replaces_earlier = false;   ///< logs of the same folder
   };
-  /// Begins the log. From now on the operation's status line says what is saved.
+  /// Looks for the last operation of the folder, which is then locked. An Error in one line: there
+  /// is none, it was done, or it can't be read.
+  Status find(const std::string& folder);
+  /// Where patient references lie in the World of the operation found.
+  [[nodiscard]] std::vector<nav::ReferencePlace> reference_places() const;
+  /// Refuses the operation found if it is not this one: another patient, plan, tool or method.
+  /// Nothing in the folder was changed by then.
+  [[nodiscard]] Status check(const engine::Session& session, const About& about) const;
+  /// Begins the log, or goes on with the operation found and says what is left of it. From now on
+  /// the operation's status line says what is saved.
   Status begin(engine::AssembledOperation& operation, const std::string& folder,
                const About& about);
   /// Null: none.
@@ -31,7 +42,12 @@ class KeptOperation {
   Status finish(bool done, const std::string& reason);
 
  private:
+  Status resume(engine::AssembledOperation& operation, engine::RecordWriter::Waits waits);
+  Status begin_anew(const engine::Session& session, const std::string& folder, const About& about,
+                    engine::RecordWriter::Waits waits);
+
   engine::PosixEnv env_;
+  std::optional<engine::OperationLog::Found> found_;
   std::unique_ptr<engine::OperationLog> log_;
 };
 

@@ -172,7 +172,7 @@ class LiveRun {
       return sizes.error();
     }
     sizes_ = std::move(*sizes);
-    return {};
+    return arguments_.resume ? files_.kept().find(arguments_.out) : Status{};
   }
 
   Status start(engine::Operation operation) {
@@ -183,6 +183,7 @@ class LiveRun {
     }
     engine::AssemblyOptions options;
     options.use_reference = arguments_.reference;
+    options.reference_places = files_.kept().reference_places();
     options.session.common = arguments_.common.in_metres();
     options.session.replan.sizes = sizes_;
     options.loop.max_frames = arguments_.frames;
@@ -195,6 +196,9 @@ class LiveRun {
       return assembled.error();
     }
     operation_ = std::move(*assembled);
+    if (const Status same = files_.kept().check(operation_->session(), about()); !same) {
+      return same;
+    }
     operation_->observe(&end_note_);
     if (room_) {
       operation_->observe(&ground_truth_.emplace(*room_, operation_->session()));

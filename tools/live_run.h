@@ -26,6 +26,7 @@ struct RunArguments {
   std::int64_t frames = 0;
   double for_s = 0.0;  ///< of the device's clock; 0: no limit
   bool reference = false;
+  bool resume = false;
   bool json = false;
   bool stats = false;
 };

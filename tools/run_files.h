@@ -23,7 +23,9 @@ class RunFiles {
  public:
   /// Makes the folder and opens the journal in it.
   Status open_journal(const std::string& folder, const engine::JournalHeader& header);
-  /// Begins the log of the operation in that folder.
+  /// The log of an operation to go on with; asked for first of all.
+  [[nodiscard]] KeptOperation& kept() { return kept_; }
+  /// Begins the log of the operation in that folder, or goes on with the one that was found.
   Status keep(engine::AssembledOperation& operation, const KeptOperation::About& about);
   /// Starts to record what goes through `headset`, which must outlive this. Last of all, since the
   /// files of a recording that was begun stay.

@@ -44,6 +44,8 @@ class AssembledOperation {
   void observe(SessionObserver* observer) { observers_.add(observer); }
   /// Observes each pair and what is made of it, after those added before; null: nobody.
   void observe(LoopObserver* observer) { loop_.observe(observer); }
+  /// As `Session::resume`; before `run`.
+  Status resume(const LoggedOperation& logged) { return session_->resume(logged); }
   /// What the status line says of saving; null: nothing.
   void show_saving(const SaveWatch* saving) { session_->show_saving(saving); }
   void draw_into(SnapshotSink* sink) { loop_.draw_into(sink); }

@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "engine/session/coach.h"
 #include "engine/session/guidance.h"
@@ -35,6 +37,8 @@ class Digitizing {
                                                    Timestamp time);
   /// Another level, or this one anew.
   void clear();
+  /// Of an operation that was resumed: what was saved.
+  void restore(std::vector<nav::Region> saved) { strokes_.digitizer.restore(std::move(saved)); }
   /// The map moved: nothing in it may be shown or asked for any more.
   void forget_map();
 

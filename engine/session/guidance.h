@@ -73,7 +73,10 @@ struct LevelState {
   std::optional<Landmark> landmark;
   /// Where that registration has it; gone with it.
   std::optional<BoneFound> bone_found;
-  bool accepted = false;                 ///< by the surgeon; only then anything is guided on it
+  bool accepted = false;  ///< by the surgeon; only then anything is guided on it
+  /// Restored from the log: nothing has told since that the bone still lies there. Only once the
+  /// landmark was found, or check points passed and "accept" was said, anything is guided on it.
+  bool unverified = false;
   std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration
   double digitization_s = 0.0;           ///< from the first press to the registration
   std::vector<bool> screw_done;
@@ -112,6 +115,7 @@ struct LevelState {
     landmark.reset();
     bone_found.reset();
     accepted = false;
+    unverified = false;
     first_press.reset();
   }
   /// The errors that are expected lack what all strokes share: nobody knows it.
@@ -123,7 +127,9 @@ struct LevelState {
     return bone_found ? bone_found->sd_at_m(now) : 0.0;
   }
   /// World's vertebra may be shown and guided on.
-  [[nodiscard]] bool usable() const { return accepted && registration && !map_moved; }
+  [[nodiscard]] bool usable() const {
+    return accepted && !unverified && registration && !map_moved;
+  }
 };
 
 /// One rod: the heads as they were touched, the template once there are two, and how to bend it.

@@ -149,6 +149,15 @@ bool RodTemplating::finish() {
   return another;
 }
 
+void RodTemplating::restore(const std::array<bool, 2>& done) {
+  for (std::size_t i = 0; i < rods_.size(); ++i) {
+    rods_[i].done = rods_[i].map_moved = done[i];
+  }
+  while (current_ + 1 < rods_.size() && rods_[current_].done && planned_[current_ + 1]) {
+    ++current_;
+  }
+}
+
 void RodTemplating::forget_map() {
   for (RodState& rod : rods_) {
     if (rod.done) {

@@ -33,6 +33,10 @@ class RodTemplating {
   /// The rod is done; false when no other is left to do.
   bool finish();
   void move_away() { moved_away_ = !moved_away_; }
+  /// Of an operation that was resumed: those that are done stay so, shown nowhere.
+  void restore(const std::array<bool, 2>& done);
+  /// One that is planned is not done.
+  [[nodiscard]] bool left_to_do() const { return planned_[current_] && !rods_[current_].done; }
   /// A finished rod stays in the report, shown nowhere; one under way begins anew.
   void forget_map();
 

@@ -12,6 +12,7 @@
 #include "engine/session/guidance.h"
 #include "engine/session/guiding.h"
 #include "engine/session/landmarking.h"
+#include "engine/session/logged_operation.h"
 #include "engine/session/messages.h"
 #include "engine/session/method.h"
 #include "engine/session/placing.h"
@@ -50,6 +51,10 @@ class Session {
   /// Hears everything from now on; null: nobody. Borrowed.
   void observe(SessionObserver* observer) { observer_ = observer; }
 
+  /// Goes on with an operation as its log tells it, before the first step; the tracker was given
+  /// the places of its references. Nothing restored is guided on before it was verified. Refuses
+  /// other levels or screws, and references elsewhere.
+  Status resume(const LoggedOperation& logged);
   /// What the status line says of saving from now on; null: nothing. Borrowed.
   void show_saving(const SaveWatch* saving) { saving_ = saving; }
 
@@ -109,7 +114,7 @@ class Session {
 
   // session_actions.cpp: what the table asks for.
   void act(Action action, Event event, Timestamp time);
-  void begin_level();
+  void begin_level(Timestamp time);
   void register_level(Timestamp time);
   void show_registration(Timestamp time);
   void clear_level(Timestamp time);
@@ -130,6 +135,9 @@ class Session {
   void verify_again(Timestamp time);
   void begin_touch();
   void end_touch();
+  // session_resume.cpp
+  void restore_level(LevelState& level, const LoggedLevel& logged) const;
+  void go_on(Timestamp time);
   // session_saving.cpp
   void save_region(Timestamp time);
   void drop_region(Timestamp time);
@@ -179,6 +187,8 @@ class Session {
   Step step_ = Step::kSetup;
   std::vector<LevelState> levels_;
   std::size_t level_ = 0;
+  bool resumed_ = false;
+  std::vector<std::vector<nav::Region>> restored_regions_;  ///< of each level, until it is begun
   Digitizing digitizing_;  ///< ends before the levels: a trial may be reading one
   Verifying verifying_;
   Landmarking landmarking_;

@@ -15,7 +15,7 @@ void Session::act(Action action, Event event, Timestamp time) {
   switch (action) {
     case kRefuse: return messages_.say(NotPossibleNow{event}, time);
     case kIgnore: case kCountRefusal: case kFinish: case kWarnLost: return;  // said elsewhere
-    case kBeginLevel: return begin_level();
+    case kBeginLevel: return begin_level(time);
     case kStartSampling: return digitizing_.press(level(), time);
     case kStopSampling: return digitizing_.release(time);
     case kSaveRegion: return save_region(time);
@@ -55,12 +55,15 @@ void Session::act(Action action, Event event, Timestamp time) {
 // clang-format on
 #pragma GCC diagnostic pop
 
-void Session::begin_level() {
+void Session::begin_level(Timestamp time) {
   const auto open = std::find_if(levels_.begin(), levels_.end(),
                                  [](const LevelState& level) { return !level.finished(); });
   level_ = open == levels_.end() ? 0 : static_cast<std::size_t>(open - levels_.begin());
   digitizing_.clear();
   guiding_.begin_level();
+  if (resumed_) {
+    go_on(time);
+  }
 }
 
 void Session::register_level(Timestamp time) {
@@ -111,6 +114,7 @@ void Session::record_check(Timestamp time) {
 void Session::accept(Timestamp time) {
   verifying_.join(level());
   level().accepted = true;
+  level().unverified = false;
   level().bone_found = BoneFound{time, 0.0, options_.map_drift_m_per_sqrt_s};
   landmarking_.begin();
   if (observer_) {
@@ -222,6 +226,7 @@ void Session::forget_places(Event why, Timestamp time) {
     }
   }
   digitizing_.forget_map();
+  restored_regions_.clear();
   verifying_ = Verifying{};
   landmarking_.begin();
   placing_.begin();

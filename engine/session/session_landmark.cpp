@@ -31,7 +31,11 @@ void Session::note_bone_found(const LandmarkTouch& touch, Timestamp time) {
     return;
   }
   LevelState& now = level();
-  now.bone_found = found_by_landmark(*now.bone_found, touch, *now.landmark, time);
+  // Of a registration that was restored nobody knows when the bone was found last.
+  const BoneFound before =
+      now.bone_found.value_or(BoneFound{time, 0.0, options_.map_drift_m_per_sqrt_s});
+  now.bone_found = found_by_landmark(before, touch, *now.landmark, time);
+  now.unverified = false;
   if (touch.first) {
     now.landmark->bone_sd_m = now.bone_found->sd_m;
   }

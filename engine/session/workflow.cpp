@@ -22,6 +22,8 @@ constexpr std::array<std::string_view, kEventCount> kEventNames = {
     "change of the screw",
     "registered",
     "registration refused",
+    "registration restored",
+    "acceptance restored",
     "checked",
     "not checked",
     "landmark touched",
@@ -166,7 +168,7 @@ void append_instead(std::string& out) {
   out +=
       "Where the eye alone verifies (`paper`), these answers stand instead. A study that leaves "
       "out check points,\nthe dimple or the measurement of wires has the rows of `verify`, "
-      "`accepted` or `guide`:\n\n";
+      "`accepted` or `guide`; without the\nlandmark, that of `digitize`:\n\n";
   append_rules(out, workflow_detail::kRulesByEye);
   out += "\nWhere a study leaves out that the landmark is touched again:\n\n";
   append_rules(out, workflow_detail::kRulesTouchedOnce);

@@ -30,8 +30,8 @@ using Table = std::array<std::array<Cell, kEventCount>, kStepCount>;
 
 /// Whether the eye alone does what this step has otherwise.
 constexpr bool is_by_eye(Step step, const MethodSteps& steps) {
-  return (step == kVerify && !steps.check_points) || (step == kAccepted && !steps.dimple()) ||
-         (step == kGuide && !steps.wire);
+  return (step == kDigitize && !steps.landmark) || (step == kVerify && !steps.check_points) ||
+         (step == kAccepted && !steps.dimple()) || (step == kGuide && !steps.wire);
 }
 
 /// Every cell starts as a refusal that stays where it is; the rules overwrite theirs.

@@ -28,7 +28,8 @@ inline constexpr auto kRules = std::to_array<Rule>({
     // that is not finished is digitized again. With a patient reference the map does not matter; one
     // that moved does the same. While it is hidden nothing is shown on the patient, in any step.
 
-    // Nothing is tracked for guidance before the operation starts.
+    // Nothing is tracked for guidance before the operation starts. What an operation that is resumed
+    // brings along hangs on references that may have moved meanwhile.
     {kSetup, kSayStart, kBeginLevel, kDigitize},
     {kSetup, kPress, kIgnore, kSetup},
     {kSetup, kRelease, kIgnore, kSetup},
@@ -40,10 +41,11 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kSetup, kMapMoved, kIgnore, kSetup},
     {kSetup, kReferenceHidden, kIgnore, kSetup},
     {kSetup, kReferenceSeen, kIgnore, kSetup},
-    {kSetup, kReferenceMoved, kIgnore, kSetup},
+    {kSetup, kReferenceMoved, kForgetMap, kSetup},
 
     // Samples while the button is down; a double click asks for the registration. Its two clicks
-    // come as clicks too and mean nothing of their own.
+    // come as clicks too and mean nothing of their own. An operation that was resumed goes on from
+    // here to where it stood, with nothing verified.
     {kDigitize, kPress, kStartSampling, kDigitize},
     {kDigitize, kRelease, kStopSampling, kDigitize},
     {kDigitize, kClick, kIgnore, kDigitize},
@@ -53,6 +55,10 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDigitize, kDoubleClick, kRegister, kDigitize},
     {kDigitize, kRegistered, kShowRegistration, kVerify},
     {kDigitize, kRegistrationRefused, kCountRefusal, kDigitize},
+    {kDigitize, kRegistrationRestored, kShowRegistration, kVerify},
+    {kDigitize, kAcceptanceRestored, kExpectLandmark, kAccepted},
+    {kDigitize, kNoScrewLeft, kBeginRod, kRod},
+    {kDigitize, kNoRodPlanned, kFinish, kDone},
     {kDigitize, kTrackingLost, kWarnLost, kDigitize},
     {kDigitize, kPoseStale, kHideGuidance, kDigitize},
     {kDigitize, kTrackingRegained, kShowGuidance, kDigitize},
@@ -190,6 +196,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
 
 /// What is answered instead where the surgeon's eye alone verifies.
 inline constexpr auto kRulesByEye = std::to_array<Rule>({
+    {kDigitize, kAcceptanceRestored, kRefuse, kDigitize},
     {kVerify, kSayAccept, kAccept, kAccepted},
     {kVerify, kChecked, kRefuse, kVerify},
     {kVerify, kNotChecked, kRefuse, kVerify},

@@ -120,6 +120,11 @@ std::optional<Region> Digitizer::drop_saved() {
   return dropped;
 }
 
+void Digitizer::restore(std::vector<Region> saved) {
+  clear();
+  regions_ = std::move(saved);
+}
+
 void Digitizer::clear() {
   regions_.clear();
   recording_ = false;

@@ -72,11 +72,12 @@ std::vector<nav::ScrewPlan> two_screws() {
 }
 
 engine::Operation operation_of(const std::vector<std::string>& labels) {
+  // Prepared once: nobody changes a model.
+  static const auto kBone = nav::VertebraModel::prepare(box_bone()).value();
   engine::Operation operation;
   operation.case_name = "boxes";
   for (const std::string& label : labels) {
-    operation.levels.push_back(
-        {label, nav::VertebraModel::prepare(box_bone()).value(), two_screws()});
+    operation.levels.push_back({label, kBone, two_screws()});
   }
   return operation;
 }

@@ -11,7 +11,11 @@ namespace orthonav::test {
 /// resumed goes on by the same rules. Registrations are verified by touch.
 class ScriptedSurgeon {
  public:
-  explicit ScriptedSurgeon(ScriptedOperation& operation) : s_(operation) { s_.pair(); }
+  /// Strokes take so many pairs each.
+  explicit ScriptedSurgeon(ScriptedOperation& operation, int stroke = 5)
+      : s_(operation), stroke_(stroke) {
+    s_.pair();
+  }
 
   /// One thing; false once the operation is done.
   bool act() {
@@ -66,7 +70,7 @@ class ScriptedSurgeon {
     }
     if (saved < 2) {
       s_.tracker().pointer = pointer_at(kOnBone + Vec3{0.01 * static_cast<double>(saved), 0, 0});
-      s_.strokes(5);
+      s_.strokes(stroke_);
       s_.says("save");
     } else {
       s_.does({ClickerAction::kDoubleClick});
@@ -126,6 +130,7 @@ class ScriptedSurgeon {
   }
 
   ScriptedOperation& s_;
+  int stroke_;
 };
 
 }  // namespace orthonav::test

@@ -133,6 +133,35 @@ TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
   EXPECT_FALSE(json::parse(again.out).contains("seed")) << "a recording has none";
 }
 
+TEST(RunCommand, GoesOnWithTheOperationOfAFolderAndWithNoOther) {
+  const ScratchFolder folder;
+  const std::string out = folder.file("out");
+  expect_refusal(orthonav({"run", "--resume"}), "--resume requires --out");
+  expect_refusal(orthonav({"run", "--resume", "--out", folder.file(".")}),
+                 "holds no operation.log, there is no operation to resume");
+  const std::vector<std::string> run = {"run",      "--headset", "sim:?seed=3", "--levels", "L5",
+                                        "--frames", "6",         "--out",       out};
+  ASSERT_EQ(orthonav(run).code, 0);
+  const std::string log = content_of(out + "/operation.log");
+  ASSERT_FALSE(log.empty());
+  expect_refusal(orthonav({"run", "--headset", "sim:?seed=3", "--levels", "L4", "--frames", "6",
+                           "--out", out, "--resume"}),
+                 "is of levels L5, not of L4");
+  expect_refusal(orthonav({"run", "--headset", "sim:?seed=4", "--levels", "L5", "--frames", "6",
+                           "--out", out, "--resume"}),
+                 "is of the simulated patient 'seed 3', not of 'seed 4'");
+  EXPECT_EQ(content_of(out + "/operation.log"), log) << "whoever is refused changes nothing";
+  std::vector<std::string> resume = run;
+  resume.emplace_back("--resume");
+  const Called resumed = orthonav(resume);
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("resuming " + out + "/operation.log: case 'phantom'"));
+  EXPECT_THAT(resumed.err, HasSubstr("orthonav: placed: no screw"));
+  EXPECT_EQ(content_of(out + "/operation.log").substr(0, log.size()), log) << "and goes on with it";
+  ASSERT_EQ(orthonav(run).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(out + "/operation-1.log")) << "nothing is overwritten";
+}
+
 TEST(RunCommand, RefusesBadInput) {
   const ScratchFolder folder;
   expect_refusal(orthonav({"run", "--levels", "L5", "--headset", "holo:"}), "unknown scheme");

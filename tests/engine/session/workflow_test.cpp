@@ -34,16 +34,28 @@ TEST(Workflow, IsWrittenDownAsItIs) {
 
 TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
   // Raised by the session itself, in these steps only.
-  constexpr std::pair<Step, Event> kRaised[] = {
-      {Step::kDigitize, Event::kRegistered},      {Step::kDigitize, Event::kRegistrationRefused},
-      {Step::kVerify, Event::kChecked},           {Step::kVerify, Event::kNotChecked},
-      {Step::kAccepted, Event::kLandmarkTouched}, {Step::kAccepted, Event::kLandmarkMissing},
-      {Step::kAccepted, Event::kLandmarkMoved},   {Step::kGuide, Event::kBoneUnchecked},
-      {Step::kPlaced, Event::kWireSettled},       {Step::kPlaced, Event::kWireUndecided},
-      {Step::kPlaced, Event::kScrewRedone},       {Step::kPlaced, Event::kNoOtherEntry},
-      {Step::kPlaced, Event::kAnotherScrew},      {Step::kPlaced, Event::kAnotherLevel},
-      {Step::kPlaced, Event::kNoScrewLeft},       {Step::kPlaced, Event::kNoRodPlanned},
-      {Step::kRod, Event::kAnotherSide},          {Step::kRod, Event::kNoSideLeft}};
+  constexpr std::pair<Step, Event> kRaised[] = {{Step::kDigitize, Event::kRegistered},
+                                                {Step::kDigitize, Event::kRegistrationRefused},
+                                                {Step::kDigitize, Event::kRegistrationRestored},
+                                                {Step::kDigitize, Event::kAcceptanceRestored},
+                                                {Step::kDigitize, Event::kNoScrewLeft},
+                                                {Step::kDigitize, Event::kNoRodPlanned},
+                                                {Step::kVerify, Event::kChecked},
+                                                {Step::kVerify, Event::kNotChecked},
+                                                {Step::kAccepted, Event::kLandmarkTouched},
+                                                {Step::kAccepted, Event::kLandmarkMissing},
+                                                {Step::kAccepted, Event::kLandmarkMoved},
+                                                {Step::kGuide, Event::kBoneUnchecked},
+                                                {Step::kPlaced, Event::kWireSettled},
+                                                {Step::kPlaced, Event::kWireUndecided},
+                                                {Step::kPlaced, Event::kScrewRedone},
+                                                {Step::kPlaced, Event::kNoOtherEntry},
+                                                {Step::kPlaced, Event::kAnotherScrew},
+                                                {Step::kPlaced, Event::kAnotherLevel},
+                                                {Step::kPlaced, Event::kNoScrewLeft},
+                                                {Step::kPlaced, Event::kNoRodPlanned},
+                                                {Step::kRod, Event::kAnotherSide},
+                                                {Step::kRod, Event::kNoSideLeft}};
   for (const auto& [step, event] : kRaised) {
     EXPECT_NE(answer(step, event).action, Action::kRefuse) << name_of(step) << name_of(event);
   }
@@ -109,7 +121,11 @@ TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
         const bool after_screw = by_touch && step == Step::kPlaced &&
                                  (event == Event::kAnotherScrew || event == Event::kScrewRedone);
         const bool drifted = by_touch && step == Step::kGuide && event == Event::kBoneUnchecked;
-        EXPECT_TRUE(after_screw || drifted || (step == Step::kVerify && event == accepting))
+        // Accepted by the surgeon before the program ended; the landmark tells whether it holds.
+        const bool restored =
+            by_touch && step == Step::kDigitize && event == Event::kAcceptanceRestored;
+        EXPECT_TRUE(after_screw || drifted || restored ||
+                    (step == Step::kVerify && event == accepting))
             << s << " " << e;
       }
       if (next == Step::kGuide && step != Step::kGuide) {
@@ -155,7 +171,9 @@ TEST(Workflow, VerifyingByEyeDiffersInVerifyLandmarkAndWire) {
           step == Step::kGuide && (event == Event::kSayNext || event == Event::kAnotherScrew ||
                                    event == Event::kAnotherLevel || event == Event::kNoScrewLeft ||
                                    event == Event::kNoRodPlanned || event == Event::kBoneUnchecked);
-      if (step == Step::kVerify || step == Step::kAccepted || after_screw) {
+      // No landmark that could tell.
+      const bool restored = step == Step::kDigitize && event == Event::kAcceptanceRestored;
+      if (step == Step::kVerify || step == Step::kAccepted || after_screw || restored) {
         continue;
       }
       EXPECT_EQ(answer(step, event, Verification::kByEye), answer(step, event)) << s << " " << e;

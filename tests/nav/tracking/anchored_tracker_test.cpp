@@ -59,14 +59,15 @@ class SaidTracker final : public ToolTracker {
 /// A room in which everything may move: pointer, reference, and perhaps a second reference.
 class Room {
  public:
-  explicit Room(int references, const ReferenceLimits& limits = {}) {
+  explicit Room(int references, const ReferenceLimits& limits = {},
+                std::span<const ReferencePlace> known = {}) {
     std::vector<ToolRole> roles = {ToolRole::kPointer};
     for (int i = 0; i < references; ++i) {
       roles.push_back(ToolRole::kReference);
     }
     auto said = std::make_unique<SaidTracker>(roles);
     tools = said.get();
-    tracker = create_anchored_tracker(std::move(said), kCoast, limits).value();
+    tracker = create_anchored_tracker(std::move(said), kCoast, limits, known).value();
     tools->world_from[0] = pointer;
     for (int i = 0; i < references; ++i) {
       tools->world_from[static_cast<std::size_t>(i) + 1] =
@@ -249,6 +250,47 @@ TEST(AnchoredTracker, RefusesToolsWithoutAReferenceAndLimitsWithoutSense) {
   auto with = std::make_unique<SaidTracker>(std::vector{ToolRole::kReference});
   EXPECT_THAT(create_anchored_tracker(std::move(with), kCoast, limits).error().message,
               ::testing::HasSubstr("moved_m"));
+}
+
+/// An operation that is resumed: another program, another map, the same references.
+TEST(AnchoredTracker, MakesTheSameWorldOfPlacesThatAreKnown) {
+  Room first(2);
+  const Transform<World, Marker> before = first.pairs(60).world_from_marker.value;
+  ASSERT_EQ(first.tracker->anchor()->places.size(), 2u);
+  EXPECT_EQ(first.tracker->anchor()->places_changed, 3) << "none, the first, the other learnt";
+  const std::vector<ReferencePlace> places = first.tracker->anchor()->places;
+  Room second(2, {}, places);
+  second.move_patient(kPatientMoved);
+  EXPECT_LT(apart_m(second.pairs(60).world_from_marker.value, before), kSame_m);
+  EXPECT_EQ(second.tracker->anchor()->moves, 0);
+  Room without(2);
+  without.move_patient(kPatientMoved);
+  EXPECT_GT(apart_m(without.pairs(60).world_from_marker.value, before), 0.001) << "the control";
+}
+
+TEST(AnchoredTracker, NoticesThatOneOfThoseThatAreKnownMovedMeanwhile) {
+  Room first(2);
+  first.pairs(60);
+  Room second(2, {}, first.tracker->anchor()->places);
+  second.tools->world_from[2] = Transform<World, Marker>(
+      Mat3::identity(), {0.1, 0.05, 0.0 + 2.0 * ReferenceLimits{}.moved_m});
+  second.pairs(ReferenceLimits{}.pairs);
+  EXPECT_EQ(second.tracker->anchor()->moves, 1);
+}
+
+TEST(AnchoredTracker, WaitsForOneThatIsKnownAndRefusesAPlaceOfAnotherTool) {
+  Room first(2);
+  first.pairs(60);
+  std::vector<ReferencePlace> places = {first.tracker->anchor()->places[0]};
+  Room second(2, {}, places);
+  second.tools->world_from[1].reset();
+  EXPECT_EQ(second.pairs(60).world_from_marker.status, PoseStatus::kLost)
+      << "the other reference would make another World";
+  places[0].tool = 0;
+  const auto refused = create_anchored_tracker(
+      std::make_unique<SaidTracker>(std::vector{ToolRole::kPointer, ToolRole::kReference}), kCoast,
+      {}, places);
+  EXPECT_EQ(test::error_of(refused), "tools: tool 0 is no patient reference");
 }
 
 }  // namespace

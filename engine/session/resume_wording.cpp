@@ -1,0 +1,118 @@
+#include "engine/session/resume_wording.h"
+
+#include <string_view>
+
+namespace orthonav::engine {
+namespace {
+
+std::string listed(const std::vector<std::string>& parts) {
+  std::string line;
+  for (const std::string& part : parts) {
+    line += (line.empty() ? "" : ", ") + part;
+  }
+  return line;
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string what_it_was(const OperationLog::Found& found) {
+  const OperationIdentity& identity = found.operation.identity;
+  std::string line = "resuming " + found.path + ": case '" + identity.case_name + "', levels " +
+                     listed(identity.levels) + ", begun " + identity.begun + ", " +
+                     counted(found.records, "record");
+  if (found.operation.resumed > 0) {
+    line += ", resumed before";
+  }
+  return line;
+}
+
+std::vector<std::string> placed(const LoggedOperation& operation) {
+  std::vector<std::string> screws;
+  for (const LoggedLevel& level : operation.levels) {
+    for (const LoggedScrew& screw : level.screws) {
+      if (screw.done) {
+        screws.push_back(level.label + " " + name_of(screw.plan.side));
+      }
+    }
+  }
+  return screws;
+}
+
+/// What an open level has left, and how it is verified.
+std::string to_verify(const LoggedLevel& level) {
+  if (level.finished() || !level.registration) {
+    return {};
+  }
+  const bool landmark = level.accepted && level.landmark;
+  return level.label + (landmark ? ": accepted before, not verified: touch its dimple"
+                                 : ": registered before, not verified: touch its check points");
+}
+
+/// What an open level had, and has no more.
+std::vector<std::string> lost(const LoggedLevel& before, const LoggedLevel& after) {
+  std::vector<std::string> parts;
+  if (before.finished()) {
+    return parts;
+  }
+  if (before.regions.size() > after.regions.size()) {
+    parts.push_back(counted(before.regions.size() - after.regions.size(), "region"));
+  }
+  if (before.registration && !after.registration) {
+    parts.emplace_back(before.accepted ? "its accepted registration" : "its registration");
+  }
+  if (before.landmark && !after.landmark) {
+    parts.emplace_back("its dimple");
+  }
+  if (before.check_points > 0) {
+    parts.push_back(counted(before.check_points, "check point"));
+  }
+  return parts;
+}
+
+std::vector<std::string> lost(const OperationLog::Found& found, const LoggedOperation& after) {
+  const LoggedOperation& before = found.operation;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < before.levels.size(); ++i) {
+    if (const auto parts = lost(before.levels[i], after.levels[i]); !parts.empty()) {
+      lines.push_back("lost: of " + before.levels[i].label + " " + listed(parts));
+    }
+  }
+  constexpr std::string_view kSides[] = {"left", "right"};
+  for (std::size_t i = 0; i < before.rods.size(); ++i) {
+    if (before.rods[i].heads > after.rods[i].heads) {
+      lines.push_back("lost: of the " + std::string(kSides[i]) + " rod " +
+                      counted(before.rods[i].heads, "head"));
+    }
+  }
+  if (before.guide_corrected) {
+    lines.emplace_back("lost: the correction of the guide, compare it in the dimple again");
+  }
+  if (found.dropped_bytes > 0) {
+    lines.push_back("lost: " + counted(found.dropped_bytes, "byte") +
+                    " behind the last whole record, kept in " + found.path + ".dropped");
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> resume_lines(const OperationLog::Found& found) {
+  LoggedOperation after = found.operation;
+  after.go_on();
+  std::vector<std::string> lines = {what_it_was(found)};
+  const std::vector<std::string> screws = placed(found.operation);
+  lines.push_back("placed: " + (screws.empty() ? "no screw" : listed(screws)));
+  for (const LoggedLevel& level : after.levels) {
+    if (std::string line = to_verify(level); !line.empty()) {
+      lines.push_back(std::move(line));
+    }
+  }
+  for (std::string& line : lost(found, after)) {
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace orthonav::engine

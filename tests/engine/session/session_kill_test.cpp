@@ -1,0 +1,155 @@
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <map>
+#include <set>
+
+#include "engine/io/posix_env.h"
+#include "engine/session/session.h"
+#include "tests/support/is_ok.h"
+#include "tests/support/resumed_operation.h"
+#include "tests/support/scripted_surgeon.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orthonav::engine::session_kill_test {
+namespace {
+
+using test::after_kill;
+using test::after_power_loss;
+using test::Files;
+using test::is_ok;
+using test::kLogFolder;
+using test::kLogPath;
+using test::log_of;
+using test::MemoryEnv;
+using test::ResumedOperation;
+using test::ScriptedSurgeon;
+using test::TemporaryFolder;
+using test::touched_operation;
+
+/// How often each screw was declared done, over all programs of the operation.
+std::map<std::string, int> screws_done(const std::vector<Record>& records) {
+  std::map<std::string, int> done;
+  for (const Record& record : records) {
+    if (record.type == static_cast<std::uint16_t>(OperationRecord::kScrew)) {
+      const auto document = JsonDocument::parse(record.payload, "screw").value();
+      ++done[document.root().text("label") + " " + document.root().text("side")];
+    }
+  }
+  return done;
+}
+
+const std::map<std::string, int> kEveryScrewOnce = {
+    {"L4 left", 1}, {"L4 right", 1}, {"L5 left", 1}, {"L5 right", 1}};
+
+/// Another program goes on with what was left, to the end; returns where each screw went.
+std::vector<Vec3> finished(Env& env, bool reference, const std::string& folder) {
+  ResumedOperation r(env, reference, folder);
+  EXPECT_TRUE(is_ok(r.resumed));
+  ScriptedSurgeon(*r.operation).finish();
+  EXPECT_EQ(r.operation->session().current_step(), Step::kDone);
+  EXPECT_TRUE(is_ok(r.log->finish(true, "")));
+  std::vector<Vec3> entries_m;
+  for (std::size_t i = 0; i < r.before.levels.size(); ++i) {
+    const LevelState& level = r.operation->session().levels()[i];
+    EXPECT_TRUE(level.finished());
+    for (std::size_t screw = 0; screw < level.executed.size(); ++screw) {
+      EXPECT_TRUE(level.executed[screw]);
+      entries_m.push_back(level.executed[screw] ? level.executed[screw]->axis.point.v : Vec3{});
+      const LoggedScrew& before = r.before.levels[i].screws[screw];
+      if (before.done) {
+        EXPECT_EQ(level.executed[screw]->axis.point, before.executed->axis.point) << "to the bit";
+      }
+    }
+  }
+  const auto log = read_log(env, folder + "/operation.log");
+  EXPECT_EQ(screws_done(log->records), kEveryScrewOnce);
+  return entries_m;
+}
+
+class KilledOperation : public ::testing::TestWithParam<bool> {};
+
+TEST_P(KilledOperation, AtEveryEventEndsWithTheSameScrewsAndNoneTwice) {
+  MemoryEnv env;
+  std::vector<Vec3> expected_m;
+  {
+    auto s = touched_operation(GetParam());
+    auto log = log_of(*s, env, GetParam());
+    ScriptedSurgeon(*s).finish();
+    ASSERT_EQ(s->session().current_step(), Step::kDone);
+    for (const LevelState& level : s->session().levels()) {
+      for (const auto& executed : level.executed) {
+        expected_m.push_back(executed->axis.point.v);
+      }
+    }
+  }
+  // The operation is the same whenever power goes with the same number of whole records.
+  std::set<std::size_t> tried;
+  int disks = 0;
+  for (std::size_t n = 5; n <= env.calls().size(); ++n) {
+    const auto calls = std::span(env.calls()).first(n);
+    std::vector<Files> left = after_power_loss({}, calls);
+    left.push_back(after_kill({}, calls));
+    for (const Files& files : left) {
+      MemoryEnv disk(files);
+      const auto read = read_log(disk, kLogPath);
+      ASSERT_TRUE(is_ok(read));
+      ++disks;
+      if (!tried.insert(read->records.size()).second) {
+        continue;
+      }
+      const std::vector<Vec3> entries_m = finished(disk, GetParam(), kLogFolder);
+      ASSERT_EQ(entries_m.size(), expected_m.size());
+      for (std::size_t i = 0; i < entries_m.size(); ++i) {
+        EXPECT_LT((entries_m[i] - expected_m[i]).norm(), 2e-5) << "killed after call " << n;
+      }
+    }
+  }
+  RecordProperty("kills", static_cast<int>(tried.size()));
+  RecordProperty("disks", disks);
+  EXPECT_GT(tried.size(), 30u);
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutReference, KilledOperation, ::testing::Bool());
+
+/// A child that does one thing after another, telling of each; killed after so many.
+void operate_until_killed(const std::string& folder, int acts) {
+  int pipe[2] = {};
+  ASSERT_EQ(::pipe(pipe), 0);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    PosixEnv env;
+    auto s = touched_operation(true);
+    auto log = OperationLog::begin(env, folder, test::identity_of(*s, true), s->session().levels(),
+                                   RecordWriter::Waits::kNot, RecordLog::Earlier::kKept);
+    s->session().observe(log->get());
+    ScriptedSurgeon surgeon(*s);
+    for (;;) {
+      surgeon.act();
+      std::ignore = ::write(pipe[1], "x", 1);
+    }
+  }
+  ::close(pipe[1]);
+  char byte = 0;
+  for (int i = 0; i < acts && ::read(pipe[0], &byte, 1) == 1; ++i) {
+  }
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  ::close(pipe[0]);
+}
+
+TEST(KilledProcess, IsGoneOnWithByAnother) {
+  for (const int acts : {1, 5, 10, 14, 19, 26, 40}) {
+    const TemporaryFolder folder;
+    operate_until_killed(folder.path().string(), acts);
+    PosixEnv env;
+    ASSERT_TRUE(is_ok(OperationLog::find(env, folder.path().string()))) << "the lock went with it";
+    finished(env, true, folder.path().string());
+  }
+}
+
+}  // namespace
+}  // namespace orthonav::engine::session_kill_test

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/support/logged_operation.h"
+#include "tests/support/memory_env.h"
+
+namespace orthonav::test {
+
+/// How the scripted operations that are resumed are done: two levels, verified by touch.
+inline std::unique_ptr<ScriptedOperation> touched_operation(bool reference) {
+  auto s = std::make_unique<ScriptedOperation>(std::vector<std::string>{"L4", "L5"}, three_places(),
+                                               engine::Verification::kByTouch, false, reference);
+  s->registers_within(0.0003);
+  if (reference) {
+    s->tracker().reference.places = {{2, Transform<World, Marker>(Mat3::identity(), {0, 0, 0.1})}};
+    s->tracker().reference.places_changed = 1;
+  }
+  return s;
+}
+
+/// The same operation in another program, from what a crash left of its log.
+struct ResumedOperation {
+  explicit ResumedOperation(engine::Env& env, bool reference,
+                            const std::string& folder = kLogFolder)
+      : operation(touched_operation(reference)) {
+    auto found = engine::OperationLog::find(env, folder).value();
+    engine::LoggedOperation logged = found.operation;
+    before = found.operation;
+    logged.go_on();
+    if (reference) {
+      operation->tracker().reference.places = logged.references;
+    }
+    resumed = operation->session().resume(logged);
+    log = engine::OperationLog::go_on(env, std::move(found),
+                                      engine::RecordWriter::Waits::kUntilDurable)
+              .value();
+    operation->session().observe(log.get());
+    operation->session().show_saving(log.get());
+  }
+
+  std::unique_ptr<ScriptedOperation> operation;
+  engine::LoggedOperation before;  ///< as the log had it
+  Status resumed;
+  std::unique_ptr<engine::OperationLog> log;
+};
+
+}  // namespace orthonav::test
