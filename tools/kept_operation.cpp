@@ -62,13 +62,12 @@ Status KeptOperation::resume(engine::AssembledOperation& operation,
   if (const Status restored = operation.resume(logged); !restored) {
     return Error{found_->path + ": " + restored.error().message};
   }
-  auto log = engine::OperationLog::go_on(env_, *std::exchange(found_, std::nullopt), waits);
-  if (!log) {
-    return log.error();
-  }
-  log_ = std::move(*log);
+  log_ = engine::OperationLog::go_on(env_, *std::exchange(found_, std::nullopt), waits);
   for (const std::string& line : lines) {
     std::fprintf(stderr, "orthonav: %s\n", line.c_str());
+  }
+  if (const Status written = log_->written(); !written) {
+    std::fprintf(stderr, "orthonav: NOT SAVED from here on: %s\n", written.error().message.c_str());
   }
   return {};
 }

@@ -148,6 +148,13 @@ Result<RecordLog::Reopened> RecordLog::reopen(Env& env, const std::string& path)
   return Reopened{std::move(log), std::move(read->records), read->dropped_bytes};
 }
 
+std::unique_ptr<RecordLog> RecordLog::closed(const std::string& path, std::uint64_t durable,
+                                             const Error& why) {
+  std::unique_ptr<RecordLog> log(new RecordLog(path, nullptr, durable, kFirstCheck));
+  log->failure_ = why;
+  return log;
+}
+
 Status RecordLog::append(const Entry& entry) {
   if (failure_) {
     return *failure_;

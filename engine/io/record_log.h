@@ -33,6 +33,9 @@ class RecordLog {
   /// Goes on with a file that has at least one record. What lies behind its last whole one is put
   /// into PATH.dropped before it is cut off. `kNotFound` where there is no such file.
   static Result<Reopened> reopen(Env& env, const std::string& path);
+  /// One with so many records that can't be written to, for that reason.
+  static std::unique_ptr<RecordLog> closed(const std::string& path, std::uint64_t durable,
+                                           const Error& why);
 
   /// The record is durable when this succeeds. The first Error is the last word: nothing is written
   /// after it, and every further call returns it. A sync that failed is not tried again, since a

@@ -8,8 +8,10 @@ RecordWriter::RecordWriter(std::unique_ptr<RecordLog> log, Waits waits)
     : log_(std::move(log)),
       waits_(waits),
       durable_(log_->durable()),
+      failed_(log_->failure().has_value()),
       told_(log_->durable()),
-      tried_(log_->durable()) {
+      tried_(log_->durable()),
+      failure_(log_->failure()) {
   writer_ = std::thread([this] { work(); });
 }
 

@@ -43,7 +43,7 @@ class RecordWriter {
   std::unique_ptr<RecordLog> log_;  ///< of the thread alone, but for its names
   Waits waits_;
   std::atomic<std::uint64_t> durable_;
-  std::atomic<bool> failed_ = false;
+  std::atomic<bool> failed_;
 
   Mutex mutex_;
   ConditionVariable changed_;

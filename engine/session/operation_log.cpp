@@ -95,20 +95,16 @@ Result<OperationLog::Found> OperationLog::find(Env& env, const std::string& fold
                std::move(*lock)};
 }
 
-Result<std::unique_ptr<OperationLog>> OperationLog::go_on(Env& env, Found found,
-                                                          RecordWriter::Waits waits) {
+std::unique_ptr<OperationLog> OperationLog::go_on(Env& env, Found found,
+                                                  RecordWriter::Waits waits) {
   auto reopened = RecordLog::reopen(env, found.path);
-  if (!reopened) {
-    return reopened.error();
-  }
-  std::unique_ptr<OperationLog> log(new OperationLog(env, std::move(found.lock),
-                                                     std::move(reopened->log),
+  std::unique_ptr<RecordLog> records =
+      reopened ? std::move(reopened->log)
+               : RecordLog::closed(found.path, found.records, reopened.error());
+  std::unique_ptr<OperationLog> log(new OperationLog(env, std::move(found.lock), std::move(records),
                                                      found.operation.identity.levels, waits));
   log->stays_ = true;
   log->writer_.add(entry(OperationRecord::kResumed, {{"dropped_bytes", found.dropped_bytes}}));
-  if (const Status durable = log->writer_.finish(); !durable) {
-    return durable.error();
-  }
   return log;
 }
 

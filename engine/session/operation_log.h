@@ -34,9 +34,9 @@ class OperationLog : public SessionObserver, public SaveWatch {
   };
   /// Changes nothing in the folder. An Error in one line: there is none, or it can't be read.
   static Result<Found> find(Env& env, const std::string& folder);
-  /// Goes on with its log.
-  static Result<std::unique_ptr<OperationLog>> go_on(Env& env, Found found,
-                                                     RecordWriter::Waits waits);
+  /// Goes on with its log. A disk that can't be written to any more keeps nobody from operating:
+  /// then nothing is saved, and `written` says why.
+  static std::unique_ptr<OperationLog> go_on(Env& env, Found found, RecordWriter::Waits waits);
 
   /// A log that was begun, but nothing happened and `finish` was not called, goes.
   ~OperationLog() override;
@@ -46,6 +46,8 @@ class OperationLog : public SessionObserver, public SaveWatch {
   /// The last record: whether the operation was done, or why it ended. An Error when not all was
   /// saved.
   Status finish(bool done, const std::string& reason);
+  /// Waits for the disk. Why nothing is saved; nothing where all is.
+  [[nodiscard]] Status written() { return writer_.finish(); }
   /// What an earlier log was renamed to; empty: there was none.
   [[nodiscard]] const std::string& earlier_kept_as() const { return writer_.earlier_kept_as(); }
 

@@ -1,23 +1,51 @@
 #include "engine/io/records.h"
+#include "engine/session/logged_operation.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {
+namespace {
 
-/// Logs of operations: what is read is what writing it again gives.
+/// As an operation: it may be refused, in one line; what is taken can be gone on with.
+void insist_on_operation(const std::vector<engine::Record>& records) {
+  auto operation = engine::LoggedOperation::from(records, "log");
+  if (!operation) {
+    insist(operation.error().message.find('\n') == std::string::npos);
+    return;
+  }
+  operation->go_on();
+  for (const engine::LoggedLevel& level : operation->levels) {
+    insist(!level.accepted || level.registration.has_value());
+  }
+}
+
+}  // namespace
+
+/// Logs of operations: what is read is what writing it again gives. The checks keep changed bytes
+/// from what is inside, so that the input is taken for a record of each sort as well.
 void fuzz_operation_log(std::span<const std::uint8_t> input) {
   const std::string bytes(input.begin(), input.end());
   const auto read = engine::read_records(bytes, "log");
   if (!read) {
     insist(read.error().message.find('\n') == std::string::npos);
+  } else {
+    insist(read->whole_bytes + read->dropped_bytes == bytes.size());
+    std::string again(read->whole_bytes > 0 ? engine::kRecordsBegin : std::string_view());
+    std::uint32_t check = engine::kFirstCheck;
+    for (const engine::Record& record : read->records) {
+      check = engine::append_record(again, record, check);
+    }
+    insist(check == read->check && again == bytes.substr(0, read->whole_bytes));
+    insist_on_operation(read->records);
+  }
+  const std::size_t end = bytes.find('\n');
+  if (end == std::string::npos) {
     return;
   }
-  insist(read->whole_bytes + read->dropped_bytes == bytes.size());
-  std::string again(read->whole_bytes > 0 ? engine::kRecordsBegin : std::string_view());
-  std::uint32_t check = engine::kFirstCheck;
-  for (const engine::Record& record : read->records) {
-    check = engine::append_record(again, record, check);
+  // A first line that begins an operation, then one record.
+  const engine::Record first{1, 1, 1, bytes.substr(0, end)};
+  for (std::uint16_t type = 2; type <= 22; ++type) {
+    insist_on_operation({first, {2, type, 1, bytes.substr(end + 1)}});
   }
-  insist(check == read->check && again == bytes.substr(0, read->whole_bytes));
 }
 
 }  // namespace orthonav::fuzz

@@ -35,8 +35,7 @@ struct ResumedOperation {
     }
     resumed = operation->session().resume(logged);
     log = engine::OperationLog::go_on(env, std::move(found),
-                                      engine::RecordWriter::Waits::kUntilDurable)
-              .value();
+                                      engine::RecordWriter::Waits::kUntilDurable);
     operation->session().observe(log.get());
     operation->session().show_saving(log.get());
   }

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <cerrno>
+
 #include "engine/session/resume_wording.h"
 #include "engine/session/session.h"
 #include "engine/session/wording.h"
@@ -152,6 +154,29 @@ TEST(ResumedSession, ForgetsWhatHungOnReferencesThatMovedMeanwhile) {
   s.pair();
   EXPECT_FALSE(s.session().levels()[0].registration) << "before \"start\" was said";
   EXPECT_EQ(step_of(s.says("start")), "digitize L4");
+}
+
+TEST(ResumedSession, GoesOnUnsavedWhereTheDiskTakesNothingMore) {
+  auto left = killed_in(Step::kGuide, true);
+  test::Files torn = left->files();
+  torn[test::kLogPath] += "torn";
+  for (const int problem : {ENOSPC, EIO, EROFS}) {
+    for (std::size_t call = 0; call < 8; ++call) {
+      MemoryEnv env(torn);
+      env.fail_at(call, problem, true);
+      ResumedOperation r(env, true);
+      ASSERT_TRUE(is_ok(r.resumed));
+      EXPECT_FALSE(r.log->written().ok());
+      ScriptedSurgeon surgeon(*r.operation);
+      EXPECT_THAT(detail_text(r.operation->pair().status), ::testing::EndsWith("NOT SAVED"));
+      surgeon.finish();
+      EXPECT_EQ(r.operation->session().current_step(), Step::kDone);
+      MemoryEnv after(env.files());
+      EXPECT_GE(read_log(after, test::kLogPath)->records.size(),
+                read_log(*left, test::kLogPath)->records.size())
+          << "what was saved before still is";
+    }
+  }
 }
 
 TEST(ResumedSession, IsRefusedWhereReferencesLieElsewhereAndOnceItBegan) {
