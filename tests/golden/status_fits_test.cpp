@@ -133,6 +133,7 @@ std::vector<StatusLine> lines_about(const Message& message, const Coaching& coac
         line.message = none ? nullptr : &message;
         line.state = state;
         line.heard = &heard;
+        line.saved = warning == 0 ? Saved::kSaved : Saved::kNotSaved;
         lines.push_back(line);
       }
     }
@@ -162,6 +163,12 @@ std::string all_text(const GoldenScene& golden) {
     all += item.runs.front().text + "\n";
   }
   return all;
+}
+
+/// Wherever a row ended.
+std::string in_one_row(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
 }
 
 /// Where the step, the dots and every word lie in each view, half a degree from its edges at least.
@@ -211,6 +218,9 @@ TEST(StatusLineOnDisplays, ShowsTheLongestMessageOfEveryKindWhole) {
                     ::testing::StartsWith(step_text(line.at) + "\n●\npointer\n◐\nguide\n○\n"));
         if (line.tool_lost) {
           ASSERT_THAT(text, HasSubstr("reference lost"));
+        }
+        if (line.saved == Saved::kNotSaved) {
+          ASSERT_THAT(in_one_row(text), HasSubstr("NOT SAVED"));
         }
         if (const auto* refused = std::get_if<RegistrationRefused>(&message)) {
           ASSERT_TRUE(refused->stroke_next);
