@@ -82,7 +82,10 @@ class Applied {
       node_.refuse("level", "must be below " + std::to_string(operation_.levels.size()));
       return;
     }
-    LoggedLevel& level = operation_.levels[index];
+    apply_to(operation_.levels[index]);
+  }
+
+  void apply_to(LoggedLevel& level) {
     using enum OperationRecord;
     switch (type_) {
       case kRegion:
@@ -92,12 +95,6 @@ class Applied {
         return drop_region(level);
       case kRegistration:
         return apply_registration(level);
-      case kCheckPoint:
-        ++level.check_points;
-        return;
-      case kCheckPointDropped:
-        level.check_points -= level.check_points > 0 ? 1 : 0;
-        return;
       case kAccepted:
         level.registration = registration_from(node_.child("registration"));
         level.accepted = true;
@@ -109,20 +106,26 @@ class Applied {
       case kLevelCleared:
         level.regions.clear();
         return forget_registration(level);
-      case kLandmark:
-        if (node_.flag_or("first", false)) {
-          level.landmark = landmark_from(node_.child("landmark"));
-        }
-        return;
-      case kLandmarkDropped:
-        if (!node_.flag_or("stays", false)) {
-          level.landmark.reset();
-        }
-        return;
       case kPlan:
         return apply_plan(level);
-      default:
+      case kWire:
+      case kScrew:
         return apply_to_screw(level);
+      default:
+        return apply_touch(level);
+    }
+  }
+
+  void apply_touch(LoggedLevel& level) {
+    using enum OperationRecord;
+    if (type_ == kCheckPoint) {
+      ++level.check_points;
+    } else if (type_ == kCheckPointDropped) {
+      level.check_points -= level.check_points > 0 ? 1 : 0;
+    } else if (type_ == kLandmark && node_.flag_or("first", false)) {
+      level.landmark = landmark_from(node_.child("landmark"));
+    } else if (type_ == kLandmarkDropped && !node_.flag_or("stays", false)) {
+      level.landmark.reset();
     }
   }
 

@@ -14,6 +14,7 @@
 #include "tests/support/memory_env.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_surgeon.h"
+#include "tests/support/wait_until.h"
 
 namespace orthonav::engine::operation_log_test {
 namespace {
@@ -118,6 +119,52 @@ TEST(OperationLog, SaysSavedOnlyOnceItIs) {
   ASSERT_EQ(env.calls().size(), before + 2) << "one write and one sync a click";
   EXPECT_EQ(env.calls().back().what, test::EnvCall::What::kSync);
   EXPECT_THAT(detail_text(s.pairs(90).status), Not(HasSubstr("saved"))) << "two seconds later";
+}
+
+/// A disk whose syncs take as long as `held` is locked.
+class HeldEnv : public MemoryEnv {
+ public:
+  Result<std::unique_ptr<AppendFile>> open_append(const std::string& path) override {
+    auto file = MemoryEnv::open_append(path);
+    return std::unique_ptr<AppendFile>(std::make_unique<HeldFile>(std::move(*file), held));
+  }
+  Mutex held;
+
+ private:
+  class HeldFile : public AppendFile {
+   public:
+    HeldFile(std::unique_ptr<AppendFile> file, Mutex& held) : file_(std::move(file)), held_(held) {}
+    Status append(std::string_view bytes) override { return file_->append(bytes); }
+    Status sync() override {
+      const MutexLock lock(held_);
+      return file_->sync();
+    }
+
+   private:
+    std::unique_ptr<AppendFile> file_;
+    Mutex& held_;
+  };
+};
+
+TEST(OperationLog, WaitsForNoDiskAndSaysNothingMeanwhile) {
+  HeldEnv env;
+  ScriptedOperation s = by_touch();
+  auto log = OperationLog::begin(env, kLogFolder, test::identity_of(s), s.session().levels(),
+                                 RecordWriter::Waits::kNot, RecordLog::Earlier::kKept)
+                 .value();
+  s.session().observe(log.get());
+  s.session().show_saving(log.get());
+  s.tracker().pointer = test::pointer_at({0, 0.02, 0});
+  s.says("start");
+  s.strokes(5);
+  {
+    const MutexLock lock(env.held);
+    EXPECT_THAT(detail_text(s.says("save").status), Not(HasSubstr("saved")));
+    EXPECT_THAT(detail_text(s.pairs(10).status), Not(HasSubstr("saved")));
+  }
+  EXPECT_TRUE(test::wait_until(
+      [&] { return log->saved(s.now(), std::chrono::seconds(2)) == Saved::kSaved; }));
+  EXPECT_THAT(detail_text(s.pair().status), EndsWith("; saved"));
 }
 
 TEST(OperationLog, SaysNotSavedFromThenOnAndTheOperationGoesOn) {

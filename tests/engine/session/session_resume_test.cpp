@@ -2,6 +2,7 @@
 
 #include <cerrno>
 
+#include "engine/holograms/scene_builder.h"
 #include "engine/session/resume_wording.h"
 #include "engine/session/session.h"
 #include "engine/session/wording.h"
@@ -39,6 +40,28 @@ std::unique_ptr<MemoryEnv> killed_in(Step step, bool reference) {
   while (s->session().current_step() != step && surgeon.act()) {
   }
   return std::make_unique<MemoryEnv>(env.files());
+}
+
+/// What a wearer sees of the patient.
+std::size_t shown(const Guidance& guidance) {
+  SceneBuilder builder;
+  builder.update(guidance);
+  ShownFrame frame;
+  builder.write_shown(guidance, frame);
+  return frame.holograms.size();
+}
+
+TEST(ResumedSession, ShowsNothingOnThePatientBeforeItsLandmarkIsFound) {
+  auto env = killed_in(Step::kGuide, true);
+  ResumedOperation r(*env, true);
+  ScriptedOperation& s = *r.operation;
+  EXPECT_EQ(shown(s.pair()), 0u) << "in setup";
+  s.says("start");
+  EXPECT_EQ(shown(s.pair()), 0u) << "in accepted";
+  s.touches_dimple();
+  s.tracker().guide = test::guide_at({0.015, 0.020, 0.0}, 0.0);
+  s.says("next");
+  EXPECT_GT(shown(s.pair()), 0u) << "the control";
 }
 
 TEST(ResumedSession, GuidesNothingBeforeItsLandmarkIsFound) {
