@@ -134,14 +134,6 @@ void expect_wires_within(double angle_deg, double entry_m, const std::vector<Wir
   }
 }
 
-TEST(OverTcp, RawAWholeOperationIsAsExactAsTheDirectRun) {
-  const Operated done = operate(hl2ss::VideoProfile::kRaw, {}, 6.0);
-  EXPECT_TRUE(done.result.completed);
-  ASSERT_EQ(done.wires.size(), 2u);
-  expect_wires_within(kPerfectAngle_deg, kPerfectEntry_m, done.wires);
-  EXPECT_TRUE(done.map_moves.empty());
-}
-
 TEST(OverTcp, H264AWholeOperationIsExactWithinTheCodecsNoise) {
   const Operated done = operate(hl2ss::VideoProfile::kH264Base, {}, 6.0);
   EXPECT_TRUE(done.result.completed);
@@ -151,8 +143,8 @@ TEST(OverTcp, H264AWholeOperationIsExactWithinTheCodecsNoise) {
 }
 
 /// Every fault at once, and a world that jumps while a screw is being guided: the level is
-/// registered anew, and the wires are as true as ever.
-TEST(OverTcp, SurvivesEveryFaultAndAJumpWhileGuiding) {
+/// registered anew, and the wires are as true as those of the direct run in a perfect world.
+TEST(OverTcp, RawIsAsExactAsTheDirectRunThroughEveryFaultAndAJumpWhileGuiding) {
   hl2ss::Faults faults = *hl2ss::faults_of("all");
   faults.stall = 0.002;  // a third of a second each
   faults.jump_at = {1340};
