@@ -130,7 +130,16 @@ class LiveRun {
     }
     OpenOptions open_options;
     open_options.room = engine::room_of(*source, *operation, engine::built_in_tools());
-    auto opened = open_with_room(arguments_.headset, open_options);
+    if (const Status opened = open_headset(open_options); !opened) {
+      return opened.error();
+    }
+    warn_of_sizes(*operation, sizes_);
+    return start(std::move(*operation));
+  }
+
+  /// With the clicker and the voice that are joined to it.
+  Status open_headset(const OpenOptions& options) {
+    auto opened = open_with_room(arguments_.headset, options);
     if (!opened) {
       return opened.error();
     }
@@ -147,8 +156,7 @@ class LiveRun {
       return joined.error();
     }
     joined_ = std::move(*joined);
-    warn_of_sizes(*operation, sizes_);
-    return start(std::move(*operation));
+    return {};
   }
 
   /// What can be told before the models are prepared, which takes seconds.
@@ -224,18 +232,14 @@ class LiveRun {
                                  headset_->name(),
                                  method_.name,
                                  case_name_,
-                                 0,
+                                 room_ ? room_->options().seed : 0,
                                  headset_->epoch_ticks_100ns(),
                                  {}};
     header.patient_reference = arguments_.reference;
-    if (room_) {
-      header.seed = room_->options().seed;
-    }
     for (const engine::LevelState& level : operation_->session().levels()) {
       header.levels.push_back(engine::planned(level.plan.label, level.plan.screws));
     }
-    const Status opened = files_.open_journal(arguments_.out, header);
-    if (!opened) {
+    if (const Status opened = files_.open_journal(arguments_.out, header); !opened) {
       return opened;
     }
     operation_->observe(files_.journal());
