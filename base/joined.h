@@ -5,11 +5,12 @@
 
 namespace orthonav {
 
-/// Every problem in one line, for a message: "a; b; c".
-[[nodiscard]] inline std::string joined(std::span<const std::string> problems) {
+/// Every part in one line, for a message: "a; b; c".
+[[nodiscard]] inline std::string joined(std::span<const std::string> parts,
+                                        const char* separator = "; ") {
   std::string line;
-  for (const std::string& problem : problems) {
-    line += (line.empty() ? "" : "; ") + problem;
+  for (const std::string& part : parts) {
+    line += (line.empty() ? "" : separator) + part;
   }
   return line;
 }

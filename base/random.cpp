@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include "base/fnv1a.h"
+
 namespace orthonav {
 namespace {
 
@@ -100,13 +102,7 @@ double Random::normal() {
   return normal_quantile((static_cast<double>(next() >> 11) + 0.5) * 0x1.0p-53);
 }
 
-Random Random::fork(std::string_view name) const {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
-  for (const char letter : name) {
-    hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
-  }
-  return fork(hash);
-}
+Random Random::fork(std::string_view name) const { return fork(fnv1a(name)); }
 
 Random Random::fork(std::uint64_t number) const {
   // Two rounds, so that fork(a).fork(b) and fork(b).fork(a) part.

@@ -104,7 +104,7 @@ void measure_resuming(const fs::path& folder) {
                                                 engine::RecordWriter::Waits::kUntilDurable);
     }));
   }
-  print("found, read, restored and gone on with", times_ms);
+  print("found, read, restored and continued", times_ms);
   fs::remove(folder / "operation.log");
 }
 

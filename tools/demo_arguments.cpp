@@ -65,7 +65,7 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
       ->check(whole_number(1, 2))
       ->capture_default_str();
   demo.add_flag("--resume", arguments.resume,
-                "go on with the last operation in the folder of the results (docs/journal.md)");
+                "continue the last operation in the folder of the results (docs/journal.md)");
   demo.add_flag("--no-video", arguments.no_video, "write no operation.mp4");
   demo.add_flag("--perfect", arguments.perfect, "every source of error at zero");
   add_reference_flag(demo, arguments.reference);

@@ -14,15 +14,15 @@ namespace orthonav::tools {
 /// The log of the operation that a command runs, in the folder of its results.
 class KeptOperation {
  public:
-  /// What of it the operation itself does not know.
+  /// What the operation itself does not know of it.
   struct About {
     std::string case_name;
     std::string method;
     bool patient_reference = false;
     std::string room;  ///< a simulated patient; empty: a real one
     nav::CommonErrors common;
-    bool time_stands_still = false;  ///< while the disk writes
-    bool replaces_earlier = false;   ///< logs of the same folder
+    bool time_stands_still = false;  ///< simulated time, while the disk writes
+    bool replaces_earlier = false;   ///< overwrites the folder's earlier log
   };
   /// Looks for the last operation of the folder, which is then locked. An Error in one line: there
   /// is none, it was done, or it can't be read.

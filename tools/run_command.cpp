@@ -22,7 +22,7 @@ void add_ends_and_results(CLI::App& run, RunArguments& arguments) {
   run.add_option("--out", arguments.out, "folder for report.html, report.json and session.orthonav")
       ->check(some_text());
   run.add_flag("--resume", arguments.resume,
-               "go on with the last operation in that folder (docs/journal.md)")
+               "continue the last operation in that folder (docs/journal.md)")
       ->needs("--out");
   run.add_flag("--stats", arguments.stats,
                "print frame intervals, ages from capture to photon and tracking times");

@@ -23,7 +23,7 @@ class RunFiles {
  public:
   /// Makes the folder and opens the journal in it.
   Status open_journal(const std::string& folder, const engine::JournalHeader& header);
-  /// The log of an operation to go on with; asked for first of all.
+  /// The operation to be resumed, which is looked for before anything else.
   [[nodiscard]] KeptOperation& kept() { return kept_; }
   /// Begins the log of the operation in that folder, or goes on with the one that was found.
   Status keep(engine::AssembledOperation& operation, const KeptOperation::About& about);

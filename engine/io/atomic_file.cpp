@@ -9,13 +9,11 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/io/file_names.h"
+
 namespace orthonav::engine {
 namespace fs = std::filesystem;
 namespace {
-
-Error failed(const std::string& path, const std::string& doing, int error_number) {
-  return Error{path + ": " + doing + ": " + std::generic_category().message(error_number)};
-}
 
 /// The file at the end of a chain of symbolic links; the name itself where there is no link.
 fs::path followed(fs::path path) {
@@ -32,13 +30,13 @@ std::string way_to(int file) { return "/proc/self/fd/" + std::to_string(file); }
 Status made_durable(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
-    return failed(path, "cannot be opened", errno);
+    return file_error(path, "cannot be opened", errno);
   }
   const bool synced = ::fsync(file) == 0;
   const int error_number = errno;
   ::close(file);
   if (!synced) {
-    return failed(path, "cannot be written", error_number);
+    return file_error(path, "cannot be written", error_number);
   }
   return {};
 }
@@ -81,7 +79,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, Staging staging) 
   if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
     return AtomicFile(target.string(), target.string());
   }
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const fs::path folder = folder_of(target.string());
   if (!fs::is_directory(folder, ignored)) {
     return Error{path + ": folder " + folder.string() + " does not exist"};
   }
@@ -98,7 +96,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, Staging staging) 
       return AtomicFile(beside, target.string());
     }
     if (errno != EEXIST) {
-      return failed(path, "cannot be written", errno);
+      return file_error(path, "cannot be written", errno);
     }
   }
   return too_many_beside(path);
@@ -145,7 +143,7 @@ Status AtomicFile::take_a_name() {
       return {};
     }
     if (errno != EEXIST) {
-      return failed(final_path_, "cannot be written", errno);
+      return file_error(final_path_, "cannot be written", errno);
     }
   }
   return too_many_beside(final_path_);
@@ -169,7 +167,7 @@ Status AtomicFile::commit() {
   }
   if (temporary_path_ != final_path_ &&
       ::rename(temporary_path_.c_str(), final_path_.c_str()) != 0) {
-    return failed(final_path_, "cannot be written", errno);
+    return file_error(final_path_, "cannot be written", errno);
   }
   open_ = false;
   return {};

@@ -10,16 +10,17 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/io/file_names.h"
+
 namespace orthonav::engine {
 namespace fs = std::filesystem;
 namespace {
 
 /// A disk that takes longer stalls no frame.
 constexpr auto kMostWait = std::chrono::milliseconds(1);
-constexpr int kMostEarlier = 1000;
 
 Error log_error(const std::string& path, int error_number) {
-  return Error{path + ": cannot be written: " + std::generic_category().message(error_number)};
+  return file_error(path, "cannot be written", error_number);
 }
 
 std::string unfinished(const std::string& path) { return path + ".part"; }
@@ -40,21 +41,19 @@ int renamed_to_free(const std::string& from, const std::string& to) {
   return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
-/// Moves a file to the first free one of PATH-1, PATH-2, ...; returns that name.
-Result<std::string> moved_aside(const std::string& file, const fs::path& path) {
+/// Moves a file to the first free name of earlier ones; returns that name.
+Result<std::string> moved_aside(const std::string& file, const std::string& path) {
   for (int number = 1; number <= kMostEarlier; ++number) {
-    fs::path name = path;
-    name.replace_filename(path.stem().string() + "-" + std::to_string(number) +
-                          path.extension().string());
-    const int problem = renamed_to_free(file, name.string());
+    std::string name = earlier_name(path, number);
+    const int problem = renamed_to_free(file, name);
     if (problem == 0) {
-      return name.string();
+      return name;
     }
     if (problem != EEXIST) {
       return log_error(file, problem);
     }
   }
-  return Error{path.string() + ": 1000 earlier ones lie beside it, move them away"};
+  return too_many_earlier(path);
 }
 
 /// Whoever writes a log holds a lock on it as long as it lives.

@@ -12,6 +12,8 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/io/file_names.h"
+
 namespace orthonav::engine {
 namespace fs = std::filesystem;
 namespace {
@@ -76,18 +78,8 @@ Descriptor opened_folder(const std::string& folder) {
 
 }  // namespace
 
-Error file_error(const std::string& path, const char* doing, int error_number) {
-  const ErrorCode code = error_number == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo;
-  return {path + ": " + doing + ": " + std::generic_category().message(error_number), code};
-}
-
 Error folder_in_use(const std::string& folder) {
   return {folder + ": is in use by another operation", ErrorCode::kUnavailable};
-}
-
-std::string folder_of(const std::string& path) {
-  const fs::path parent = fs::path(path).parent_path();
-  return parent.empty() ? "." : parent.string();
 }
 
 Result<std::unique_ptr<AppendFile>> PosixEnv::open_append(const std::string& path) {

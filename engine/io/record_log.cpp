@@ -4,22 +4,15 @@
 #include <filesystem>
 #include <tuple>
 
+#include "engine/io/file_names.h"
+
 namespace orthonav::engine {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostLogBytes = 1u << 30u;
-constexpr int kMostEarlier = 1000;
 
 std::string unnamed(const std::string& path) { return path + ".new"; }
-
-/// PATH-N before the extension.
-std::string numbered(const std::string& path, int number) {
-  fs::path name = path;
-  name.replace_filename(name.stem().string() + "-" + std::to_string(number) +
-                        name.extension().string());
-  return name.string();
-}
 
 bool has(const std::vector<std::string>& names, const std::string& path) {
   return std::binary_search(names.begin(), names.end(), fs::path(path).filename().string());
@@ -40,7 +33,7 @@ Result<std::string> moved_aside(Env& env, const std::string& path) {
     return std::string();
   }
   for (int number = 1; number <= kMostEarlier; ++number) {
-    const std::string name = numbered(path, number);
+    const std::string name = earlier_name(path, number);
     if (has(*names, name)) {
       continue;
     }
@@ -51,7 +44,7 @@ Result<std::string> moved_aside(Env& env, const std::string& path) {
     const Status durable = env.sync_folder(folder_of(path));
     return durable ? Result<std::string>(name) : durable.error();
   }
-  return Error{path + ": 1000 earlier ones lie beside it, move them away"};
+  return too_many_earlier(path);
 }
 
 Status written(AppendFile& file, std::string_view bytes) {
@@ -180,8 +173,9 @@ Result<std::optional<std::string>> newest_log(Env& env, const std::string& path)
     return std::optional(path);
   }
   std::optional<std::string> newest;
-  for (int number = 1; number <= kMostEarlier && has(*names, numbered(path, number)); ++number) {
-    newest = numbered(path, number);
+  for (int number = 1; number <= kMostEarlier && has(*names, earlier_name(path, number));
+       ++number) {
+    newest = earlier_name(path, number);
   }
   return newest;
 }

@@ -20,31 +20,31 @@ class RecordLog {
     std::uint16_t version = 0;
     std::string payload;
   };
-  /// What becomes of a file of the same name: it becomes PATH-1, PATH-2, ... before the extension,
-  /// or goes when the new one takes its name.
+  /// What happens to an earlier file of the same name: it is renamed to PATH-1, PATH-2, ... (before
+  /// the extension), or the new one replaces it.
   enum class Earlier : std::uint8_t { kKept, kReplaced };
-  /// A new file that holds one record when it gets its name. The folder must be locked by whoever
-  /// calls this or `reopen`.
+  /// Creates a file that holds its first record before it gets its name. Callers of this and of
+  /// `reopen` hold the folder's lock.
   static Result<std::unique_ptr<RecordLog>> create(Env& env, const std::string& path,
                                                    const Entry& first,
                                                    Earlier earlier = Earlier::kKept);
 
   struct Reopened;
-  /// Goes on with a file that has at least one record. What lies behind its last whole one is put
-  /// into PATH.dropped before it is cut off. `kNotFound` where there is no such file.
+  /// Continues a file that has at least one record. Bytes after its last whole record are put into
+  /// PATH.dropped, then cut off. `kNotFound` where there is no such file.
   static Result<Reopened> reopen(Env& env, const std::string& path);
-  /// One with so many records that can't be written to, for that reason.
+  /// A log of `durable` records that can't be written to, because of `why`.
   static std::unique_ptr<RecordLog> closed(const std::string& path, std::uint64_t durable,
                                            const Error& why);
 
-  /// The record is durable when this succeeds. The first Error is the last word: nothing is written
-  /// after it, and every further call returns it. A sync that failed is not tried again, since a
-  /// second one may succeed without what the first one lost.
+  /// The record is durable when this succeeds. The first Error is final: nothing is written after
+  /// it, and every further call returns it. A failed sync is not tried again, since a second one
+  /// may succeed without what the first one lost.
   Status append(const Entry& entry);
 
   /// The number of the last record that is durable.
   [[nodiscard]] std::uint64_t durable() const { return durable_; }
-  /// Why nothing is written any more.
+  /// Why nothing is written any more; absent while the log works.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
   [[nodiscard]] const std::string& path() const { return path_; }
   /// What an earlier file was renamed to; empty: there was none.
@@ -73,7 +73,7 @@ struct RecordLog::Reopened {
 /// PATH-2, ... where a crash came before the new PATH. Nothing where there is none.
 Result<std::optional<std::string>> newest_log(Env& env, const std::string& path);
 
-/// A log as it lies there, to be looked at: nothing is changed.
+/// Reads a log and changes nothing.
 Result<RecordsRead> read_log(Env& env, const std::string& path);
 
 }  // namespace orthonav::engine

@@ -14,11 +14,11 @@ namespace orthonav::engine {
 class RecordWriter {
  public:
   enum class Waits : std::uint8_t {
-    kNot,          ///< the disk takes its time
-    kUntilDurable  ///< where time stands still meanwhile, as in a simulation
+    kNot,          ///< `add` returns at once
+    kUntilDurable  ///< `add` waits for the disk: for simulations, whose time stands still meanwhile
   };
   RecordWriter(std::unique_ptr<RecordLog> log, Waits waits);
-  /// Writes what was added before.
+  /// Writes whatever was added.
   ~RecordWriter();
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;

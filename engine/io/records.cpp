@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/number_bytes.h"
 #include "engine/io/crc32c.h"
 
 namespace orthonav::engine {
@@ -13,23 +14,6 @@ namespace {
 constexpr std::size_t kLengthBytes = 4;
 constexpr std::size_t kCheckBytes = 4;
 constexpr std::size_t kHeadBytes = kLengthBytes + kCheckBytes + 8 + 2 + 2;
-
-template <class T>
-void put(std::string& out, T value) {
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
-    out += static_cast<char>((value >> (8 * i)) & 0xffu);
-  }
-}
-
-template <class T>
-T take(std::string_view& bytes) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
-    value |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])) << (8 * i);
-  }
-  bytes.remove_prefix(sizeof(T));
-  return static_cast<T>(value);
-}
 
 std::uint32_t check_of(std::string_view length, std::string_view rest, std::uint32_t before) {
   std::string chained;

@@ -35,8 +35,8 @@ inline constexpr std::size_t kMostPayloadBytes = 64u << 20u;
 
 /// Appends a record as it is written: length of the payload (4 bytes), check (4), number (8), type
 /// (2), version (2), all little-endian, then the payload. The check is the CRC-32C of the check of
-/// the record before, the length, and what follows the check; so no record is whole but in its
-/// place after those before it, whatever an old block of the disk holds. Returns it.
+/// the record before, the length, and what follows the check; so a record that an old block of
+/// the disk holds is never taken for one of this file. Returns the check.
 std::uint32_t append_record(std::string& out, const Record& record, std::uint32_t check_before);
 
 /// Reads to the first record that is not whole. Refuses a file that begins as no such file does;

@@ -21,7 +21,7 @@ struct AssemblyOptions {
   /// published method has none and is refused.
   bool use_reference = false;
   nav::ReferenceLimits reference;
-  /// Where references lie in the World of an operation that is resumed.
+  /// Where references lie in the World of a resumed operation.
   std::vector<nav::ReferencePlace> reference_places;
   LoopOptions loop;
   VisibilityRules visibility;

@@ -37,7 +37,7 @@ class Digitizing {
                                                    Timestamp time);
   /// Another level, or this one anew.
   void clear();
-  /// Of an operation that was resumed: what was saved.
+  /// Takes over the saved regions of a resumed operation.
   void restore(std::vector<nav::Region> saved) { strokes_.digitizer.restore(std::move(saved)); }
   /// The map moved: nothing in it may be shown or asked for any more.
   void forget_map();

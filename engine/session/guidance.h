@@ -74,8 +74,8 @@ struct LevelState {
   /// Where that registration has it; gone with it.
   std::optional<BoneFound> bone_found;
   bool accepted = false;  ///< by the surgeon; only then anything is guided on it
-  /// Restored from the log: nothing has told since that the bone still lies there. Only once the
-  /// landmark was found, or check points passed and "accept" was said, anything is guided on it.
+  /// Restored from the log and not verified since: nothing is guided on it until its landmark is
+  /// found, or check points pass and "accept" is said.
   bool unverified = false;
   std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration
   double digitization_s = 0.0;           ///< from the first press to the registration

@@ -162,7 +162,7 @@ void Journal::registered(Timestamp time, const LevelState& level,
   add_line(*log_, line, kDurable);
 }
 
-void Journal::accepted(Timestamp time, const LevelState& level) {
+void Journal::accepted(Timestamp time, const LevelState& level, std::string_view /*shown*/) {
   Json line = journal_line(file_ticks(time), time, "accepted", level);
   line["check_points"] = level.check_points.size();
   line["world_from_vertebra_mm"] = matrix_mm(level.registration->world_from_vertebra.row_major());

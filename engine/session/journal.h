@@ -61,7 +61,7 @@ class Journal : public SessionObserver {
   void not_understood(const Phrase& phrase) override;
   void registered(Timestamp time, const LevelState& level,
                   const RegistrationOutcome& outcome) override;
-  void accepted(Timestamp time, const LevelState& level) override;
+  void accepted(Timestamp time, const LevelState& level, std::string_view shown) override;
   void check_point_recorded(Timestamp time, const LevelState& level) override;
   void check_point_dropped(Timestamp time, const LevelState& level) override;
   void landmark_touched(Timestamp time, const LevelState& level,

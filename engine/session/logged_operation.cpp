@@ -66,7 +66,7 @@ class Applied {
   }
 
   void apply_to_rod() {
-    LoggedRod& rod = operation_.rods[node_.text("side") == name_of(Side::kRight) ? 1 : 0];
+    LoggedRod& rod = operation_.rods[side_from(node_) == Side::kRight ? 1 : 0];
     if (type_ == OperationRecord::kRod) {
       rod.done = true;
     } else if (type_ == OperationRecord::kHead) {
@@ -224,8 +224,7 @@ bool LoggedLevel::finished() const {
 void LoggedOperation::forget_places() {
   for (LoggedLevel& level : levels) {
     level.regions.clear();
-    level.map_moved = level.registration.has_value() && level.finished();
-    if (!level.map_moved) {
+    if (!(level.registration && level.finished())) {
       forget_registration(level);
     }
   }

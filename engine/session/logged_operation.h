@@ -11,8 +11,8 @@
 
 namespace orthonav::engine {
 
-/// What a record of the log of an operation is about. The numbers are those of the file: never
-/// give one another meaning.
+/// What a record of the log of an operation is about. The numbers stand in files: none may ever
+/// change its meaning.
 enum class OperationRecord : std::uint16_t {
   kBegun = 1,
   kRegion = 2,
@@ -55,12 +55,11 @@ struct LoggedLevel {
   std::vector<nav::Region> regions;  ///< saved
   int attempts = 0;
   std::optional<nav::Registration> registration;  ///< that passed
-  std::string points_hash;                        ///< of what it was made of
+  std::string points_hash;                        ///< of the points it was computed from
   bool accepted = false;
   std::size_t check_points = 0;
   std::optional<Landmark> landmark;
   std::vector<LoggedScrew> screws;
-  bool map_moved = false;  ///< after it was finished
 
   [[nodiscard]] bool finished() const;
   /// Of the saved regions, in their order.
@@ -72,7 +71,7 @@ struct LoggedRod {
   bool done = false;
 };
 
-/// An operation as its log tells it: each record is applied to what those before it left.
+/// An operation as its log tells it, record by record.
 struct LoggedOperation {
   OperationIdentity identity;
   std::vector<LoggedLevel> levels;
@@ -80,13 +79,13 @@ struct LoggedOperation {
   std::vector<nav::ReferencePlace> references;
   bool guide_corrected = false;
   bool done = false;  ///< to its end
-  int resumed = 0;    ///< so often
+  int resumed = 0;    ///< how many times
 
-  /// Refuses records that are not those of an operation, in one line with `name`, what stands for
-  /// the log, and the number of the record.
+  /// Refuses records that are not those of an operation, in one line with `name`, the file they
+  /// were read from, and the number of the record.
   static Result<LoggedOperation> from(const std::vector<Record>& records, const std::string& name);
-  /// Another program goes on with it: without a patient reference World is another one. Check
-  /// points and the heads of a rod that is not done are touched again.
+  /// Becomes what another program can continue: without a patient reference nothing measured in
+  /// World; no check points, and no heads of an unfinished rod, which are touched again.
   void go_on();
   void forget_places();
 };

@@ -11,7 +11,7 @@
 
 namespace orthonav::engine {
 
-/// What an operation is: enough to tell whether another program goes on with the same one.
+/// What an operation is: enough to tell whether another program continues the same one.
 struct OperationIdentity {
   std::string case_name;
   std::vector<std::string> levels;  ///< to be operated, in their order
@@ -26,14 +26,14 @@ struct OperationIdentity {
   nav::CommonErrors common;
 };
 
-/// All but `room`, `begun` and `common`, of an operation as it was planned before surgery.
+/// Fills in all but `room`, `begun` and `common`; the plan is that before surgery.
 [[nodiscard]] OperationIdentity identity_of(const std::string& case_name,
                                             std::span<const LevelState> levels,
                                             std::span<const nav::ToolGeometry> tools,
                                             const std::string& method, bool patient_reference);
 
 /// Refuses, in one line, to go on with `recorded` as `now`: another patient, plan, tool or method.
-/// `name` stands for where it is recorded.
+/// `name` is the file that `recorded` was read from.
 Status check_same(const OperationIdentity& recorded, const OperationIdentity& now,
                   const std::string& name);
 

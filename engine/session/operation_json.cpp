@@ -8,7 +8,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// Left out where it has no bound: JSON knows no infinity.
+/// Left out where it is infinite: JSON knows no infinity.
 void put_bounded(LogJson& json, const char* key, double value) {
   if (std::isfinite(value)) {
     json[key] = value;
@@ -23,7 +23,7 @@ LogJson axis_json(const nav::Axis<Vertebra>& axis) {
 
 LogJson number_json(const nav::NumberWithSd& number) { return {number.value, number.sd}; }
 
-/// What `best` says besides.
+/// The figures that `best` alone has.
 void put_best(LogJson& json, const nav::Registration& r) {
   put_bounded(json, "tre_95_m", r.tre_95_m);
   put_bounded(json, "tre_99_m", r.tre_99_m);

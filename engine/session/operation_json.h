@@ -9,8 +9,8 @@
 
 namespace orthonav::engine {
 
-// What the log of an operation holds, as JSON: SI units, each number to the last bit. What has no
-// bound is left out, and so is what follows from the rest. The readers note what is wrong in the
+// What the log of an operation holds, as JSON: SI units, each number to the last bit. Infinite
+// values are left out, and whatever follows from the rest. The readers note what is wrong in the
 // node's document.
 
 using LogJson = nlohmann::ordered_json;
@@ -31,6 +31,7 @@ using LogJson = nlohmann::ordered_json;
 [[nodiscard]] OperationIdentity identity_from(const JsonNode& node);
 [[nodiscard]] nav::Region region_from(const JsonNode& node);
 [[nodiscard]] nav::Registration registration_from(const JsonNode& node);
+[[nodiscard]] Side side_from(const JsonNode& node);
 [[nodiscard]] nav::ScrewPlan screw_from(const JsonNode& node);
 [[nodiscard]] nav::ExecutedTrajectory executed_from(const JsonNode& node);
 [[nodiscard]] nav::ScrewClearance clearance_from(const JsonNode& node);
@@ -38,7 +39,7 @@ using LogJson = nlohmann::ordered_json;
 [[nodiscard]] Landmark landmark_from(const JsonNode& node);
 [[nodiscard]] nav::ReferencePlace place_from(const JsonNode& node);
 
-/// Of what a registration was made of.
+/// Of the points that a registration was computed from.
 [[nodiscard]] std::string hash_of(std::span<const Point<World>> points);
 
 }  // namespace orthonav::engine

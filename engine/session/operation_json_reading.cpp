@@ -140,13 +140,18 @@ nav::Registration registration_from(const JsonNode& node) {
   return r;
 }
 
+Side side_from(const JsonNode& node) {
+  const std::string text = node.text("side");
+  const Side side = text == name_of(Side::kRight) ? Side::kRight : Side::kLeft;
+  if (text != name_of(side)) {
+    node.refuse("side", "must be left or right, is '" + text + "'");
+  }
+  return side;
+}
+
 nav::ScrewPlan screw_from(const JsonNode& node) {
   nav::ScrewPlan screw;
-  const std::string side = node.text("side");
-  screw.side = side == name_of(Side::kRight) ? Side::kRight : Side::kLeft;
-  if (side != name_of(screw.side)) {
-    node.refuse("side", "must be left or right, is '" + side + "'");
-  }
+  screw.side = side_from(node);
   screw.entry = {node.vec3("entry_m")};
   screw.target = {node.vec3("target_m")};
   screw.radius_m = node.number("radius_m");

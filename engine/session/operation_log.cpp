@@ -181,8 +181,7 @@ void OperationLog::registered(Timestamp time, const LevelState& level,
   add(OperationRecord::kRegistration, time, json);
 }
 
-void OperationLog::accepted_as_shown(Timestamp time, const LevelState& level,
-                                     std::string_view shown) {
+void OperationLog::accepted(Timestamp time, const LevelState& level, std::string_view shown) {
   LogJson json = about(time, level);
   json["shown"] = shown;
   json["registration"] = json_of(*level.registration);

@@ -17,7 +17,7 @@ namespace orthonav::engine {
 /// session, and a disk that fails does not end it.
 class OperationLog : public SessionObserver, public SaveWatch {
  public:
-  /// A new log, of levels of which nothing is done.
+  /// A new log, of an operation that has not begun.
   static Result<std::unique_ptr<OperationLog>> begin(Env& env, const std::string& folder,
                                                      const OperationIdentity& identity,
                                                      std::span<const LevelState> levels,
@@ -34,11 +34,11 @@ class OperationLog : public SessionObserver, public SaveWatch {
   };
   /// Changes nothing in the folder. An Error in one line: there is none, or it can't be read.
   static Result<Found> find(Env& env, const std::string& folder);
-  /// Goes on with its log. A disk that can't be written to any more keeps nobody from operating:
-  /// then nothing is saved, and `written` says why.
+  /// Continues its log. Where the disk can't be written to any more the operation goes on unsaved,
+  /// and `written` says why.
   static std::unique_ptr<OperationLog> go_on(Env& env, Found found, RecordWriter::Waits waits);
 
-  /// A log that was begun, but nothing happened and `finish` was not called, goes.
+  /// Removes a new log in which nothing was recorded, unless `finish` was called.
   ~OperationLog() override;
   OperationLog(const OperationLog&) = delete;
   OperationLog& operator=(const OperationLog&) = delete;
@@ -46,7 +46,7 @@ class OperationLog : public SessionObserver, public SaveWatch {
   /// The last record: whether the operation was done, or why it ended. An Error when not all was
   /// saved.
   Status finish(bool done, const std::string& reason);
-  /// Waits for the disk. Why nothing is saved; nothing where all is.
+  /// Waits for the disk. An Error where not everything is saved.
   [[nodiscard]] Status written() { return writer_.finish(); }
   /// What an earlier log was renamed to; empty: there was none.
   [[nodiscard]] const std::string& earlier_kept_as() const { return writer_.earlier_kept_as(); }
@@ -63,7 +63,7 @@ class OperationLog : public SessionObserver, public SaveWatch {
                   const RegistrationOutcome& outcome) override;
   void check_point_recorded(Timestamp time, const LevelState& level) override;
   void check_point_dropped(Timestamp time, const LevelState& level) override;
-  void accepted_as_shown(Timestamp time, const LevelState& level, std::string_view shown) override;
+  void accepted(Timestamp time, const LevelState& level, std::string_view shown) override;
   void landmark_touched(Timestamp time, const LevelState& level,
                         const LandmarkTouch& touch) override;
   void landmark_dropped(Timestamp time, const LevelState& level) override;
@@ -94,7 +94,7 @@ class OperationLog : public SessionObserver, public SaveWatch {
   RecordWriter writer_;
   std::uint64_t told_ = 0;  ///< number of the newest record
   Timestamp told_at_{};
-  bool stays_ = false;  ///< though nothing is told
+  bool stays_ = false;  ///< the file, even if nothing was recorded
 };
 
 }  // namespace orthonav::engine

@@ -2,16 +2,12 @@
 
 #include <string_view>
 
+#include "base/joined.h"
+
 namespace orthonav::engine {
 namespace {
 
-std::string listed(const std::vector<std::string>& parts) {
-  std::string line;
-  for (const std::string& part : parts) {
-    line += (line.empty() ? "" : ", ") + part;
-  }
-  return line;
-}
+std::string listed(const std::vector<std::string>& parts) { return joined(parts, ", "); }
 
 std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");

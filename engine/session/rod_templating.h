@@ -33,9 +33,9 @@ class RodTemplating {
   /// The rod is done; false when no other is left to do.
   bool finish();
   void move_away() { moved_away_ = !moved_away_; }
-  /// Of an operation that was resumed: those that are done stay so, shown nowhere.
+  /// Marks the rods that a resumed operation has finished; they are not shown.
   void restore(const std::array<bool, 2>& done);
-  /// One that is planned is not done.
+  /// Whether a planned rod is still to be done.
   [[nodiscard]] bool left_to_do() const { return planned_[current_] && !rods_[current_].done; }
   /// A finished rod stays in the report, shown nowhere; one under way begins anew.
   void forget_map();

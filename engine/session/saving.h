@@ -10,14 +10,14 @@ namespace orthonav::engine {
 enum class Saved : std::uint8_t {
   kNothingNew,  ///< nothing was done for a while, or it is on its way to the disk
   kSaved,       ///< it is on the disk
-  kNotSaved,    ///< and nothing will be any more: the disk failed
+  kNotSaved,    ///< the disk failed: nothing is saved any more
 };
 
 /// Asked in every step. Allocates nothing and waits for nobody.
 class SaveWatch {
  public:
   virtual ~SaveWatch() = default;
-  /// `lately`: for so long before `now`.
+  /// What happened longer than `lately` before `now` is nothing new.
   [[nodiscard]] virtual Saved saved(Timestamp now, Duration lately) const = 0;
 };
 

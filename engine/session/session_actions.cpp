@@ -118,8 +118,7 @@ void Session::accept(Timestamp time) {
   level().bone_found = BoneFound{time, 0.0, options_.map_drift_m_per_sqrt_s};
   landmarking_.begin();
   if (observer_) {
-    observer_->accepted_as_shown(time, level(), shown_);
-    observer_->accepted(time, level());
+    observer_->accepted(time, level(), shown_);
   }
 }
 

@@ -31,7 +31,7 @@ class SessionObserver {
   virtual void acceptance_withdrawn(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// World is another one: whatever was measured in it is gone, but for what is in the patient.
   virtual void places_forgotten(Timestamp /*time*/) {}
-  /// Patient references lie there in World, those that count by now.
+  /// Where the patient references in use lie in World, whenever that changes.
   virtual void references_placed(Timestamp /*time*/,
                                  std::span<const nav::ReferencePlace> /*places*/) {}
   /// A registration was asked for.
@@ -43,9 +43,8 @@ class SessionObserver {
   virtual void check_point_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The surgeon accepted the level's registration, which holds what was touched on it by now.
   /// `shown` is the status line that they were shown before they did.
-  virtual void accepted_as_shown(Timestamp /*time*/, const LevelState& /*level*/,
-                                 std::string_view /*shown*/) {}
-  virtual void accepted(Timestamp /*time*/, const LevelState& /*level*/) {}
+  virtual void accepted(Timestamp /*time*/, const LevelState& /*level*/,
+                        std::string_view /*shown*/) {}
   /// The level's landmark was touched: for the first time, or against where it was then.
   virtual void landmark_touched(Timestamp /*time*/, const LevelState& /*level*/,
                                 const LandmarkTouch& /*touch*/) {}

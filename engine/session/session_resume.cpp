@@ -22,7 +22,7 @@ Status check_levels(std::span<const LevelState> levels, const LoggedOperation& l
   return {};
 }
 
-/// What hangs on references that lie elsewhere now would be somewhere else in the patient.
+/// With references elsewhere in World, everything restored would be elsewhere in the patient.
 Status check_places(std::span<const nav::ReferencePlace> places,
                     std::span<const nav::ReferencePlace> logged) {
   const bool same =
@@ -75,7 +75,7 @@ Status Session::resume(const LoggedOperation& logged) {
   return {};
 }
 
-/// A registration needs what it was made of: to be verified, and to be told of.
+/// A registration comes with the points it was computed from, unless its level is finished.
 void Session::restore_level(LevelState& level, const LoggedLevel& logged) const {
   level.attempts = logged.attempts;
   restore_screws(level, logged);
@@ -95,8 +95,8 @@ void Session::restore_level(LevelState& level, const LoggedLevel& logged) const 
   level.unverified = true;
 }
 
-/// Once "start" was said, or a level was begun: to where the operation stood, or as near to it as
-/// can be verified from there.
+/// After "start", and when a level begins: to the step that the operation had reached, or to the
+/// one before it in which its registration can be verified.
 void Session::go_on(Timestamp time) {
   LevelState& now = level();
   if (now.finished()) {

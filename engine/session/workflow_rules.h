@@ -28,8 +28,8 @@ inline constexpr auto kRules = std::to_array<Rule>({
     // that is not finished is digitized again. With a patient reference the map does not matter; one
     // that moved does the same. While it is hidden nothing is shown on the patient, in any step.
 
-    // Nothing is tracked for guidance before the operation starts. What an operation that is resumed
-    // brings along hangs on references that may have moved meanwhile.
+    // Nothing is tracked for guidance before the operation starts. What a resumed operation
+    // restored depends on references that may have moved meanwhile.
     {kSetup, kSayStart, kBeginLevel, kDigitize},
     {kSetup, kPress, kIgnore, kSetup},
     {kSetup, kRelease, kIgnore, kSetup},
@@ -44,8 +44,8 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kSetup, kReferenceMoved, kForgetMap, kSetup},
 
     // Samples while the button is down; a double click asks for the registration. Its two clicks
-    // come as clicks too and mean nothing of their own. An operation that was resumed goes on from
-    // here to where it stood, with nothing verified.
+    // come as clicks too and mean nothing of their own. A resumed operation goes on from here to
+    // the step it had reached, with nothing verified.
     {kDigitize, kPress, kStartSampling, kDigitize},
     {kDigitize, kRelease, kStopSampling, kDigitize},
     {kDigitize, kClick, kIgnore, kDigitize},

@@ -14,7 +14,8 @@ void GroundTruthRecorder::registered(Timestamp /*time*/, const LevelState& level
   }
 }
 
-void GroundTruthRecorder::accepted(Timestamp /*time*/, const LevelState& level) {
+void GroundTruthRecorder::accepted(Timestamp /*time*/, const LevelState& level,
+                                   std::string_view /*shown*/) {
   note(level, level.registration->world_from_vertebra);
 }
 

@@ -22,7 +22,7 @@ class GroundTruthRecorder : public SessionObserver {
 
   void registered(Timestamp time, const LevelState& level,
                   const RegistrationOutcome& outcome) override;
-  void accepted(Timestamp time, const LevelState& level) override;
+  void accepted(Timestamp time, const LevelState& level, std::string_view shown) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
   void head_dropped(Timestamp time, nav::Side side) override;
 

@@ -1,13 +1,14 @@
 #include "engine/study/study_store.h"
 
-#include <fcntl.h>
 #include <sqlite3.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
+
+#include "engine/io/bit_hash.h"
+#include "engine/io/file_names.h"
+#include "engine/io/posix_env.h"
 
 namespace orthonav::engine {
 namespace {
@@ -26,16 +27,7 @@ constexpr const char* kCreate =
     " PRIMARY KEY (study, number)) STRICT;";
 
 /// A file's entry is durable once its folder is.
-Status sync_folder(const fs::path& file) {
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
-  if (descriptor < 0) {
-    return Error{folder.string() + ": cannot be opened"};
-  }
-  const bool synced = ::fsync(descriptor) == 0;
-  ::close(descriptor);
-  return synced ? Status() : Status(Error{folder.string() + ": cannot be written to disk"});
-}
+Status sync_folder_of(const std::string& file) { return PosixEnv().sync_folder(folder_of(file)); }
 
 class Statement {
  public:
@@ -124,7 +116,7 @@ struct StudyStore::Database {
     if (Status made = execute(path, "COMMIT"); !made) {
       return made;
     }
-    return sync_folder(path);
+    return sync_folder_of(path);
   }
   /// The definition of the study in it.
   [[nodiscard]] Result<std::string> definition(const std::string& path) const {
@@ -158,15 +150,7 @@ StudyStore::StudyStore(StudyStore&&) noexcept = default;
 StudyStore& StudyStore::operator=(StudyStore&&) noexcept = default;
 StudyStore::~StudyStore() = default;
 
-std::string study_hash(const std::string& definition) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : definition) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  }
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
+std::string study_hash(const std::string& definition) { return hash_text(fnv1a(definition)); }
 
 Result<StudyStore> StudyStore::open(const std::string& path, const std::string& definition) {
   std::error_code code;
@@ -285,7 +269,7 @@ Status StudyStore::finish() {
     return Error{path_ + ": " + code.message()};
   }
   growing_ = false;
-  return sync_folder(path_);
+  return sync_folder_of(path_);
 }
 
 }  // namespace orthonav::engine

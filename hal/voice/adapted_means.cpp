@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/fnv1a.h"
 #include "hal/voice/model_bytes.h"
 
 namespace orthonav::voice {
@@ -13,8 +14,8 @@ namespace {
 constexpr std::string_view kMeansFileHeader = "orthonav means change 1\n";
 
 std::uint64_t hash_of_means(const AcousticMeans& means) {
-  return hash_of(std::string_view(reinterpret_cast<const char*>(means.values.data()),
-                                  means.values.size() * sizeof(float)));
+  return fnv1a(std::string_view(reinterpret_cast<const char*>(means.values.data()),
+                                means.values.size() * sizeof(float)));
 }
 
 /// Calls `each(value's index, component)`, components counted over all streams.

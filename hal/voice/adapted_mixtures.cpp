@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/fnv1a.h"
 #include "hal/voice/model_bytes.h"
 
 namespace orthonav::voice {
@@ -80,7 +81,7 @@ std::string mixture_weights_file(const MixtureWeights& weights) {
 
 std::string mixture_weights_change(const MixtureWeights& from, const MixtureWeights& to) {
   std::string change(kMixturesFileHeader);
-  put(change, hash_of(from.values));
+  put(change, fnv1a(from.values));
   for (int senone = 0; senone < from.senones; ++senone) {
     bool same = true;
     for_each_weight(from, senone,
@@ -101,7 +102,7 @@ Status apply_change(std::string_view change, MixtureWeights& weights) {
   change.remove_prefix(kMixturesFileHeader.size());
   const Error refused = made_for_another_model();
   const std::size_t row = sizeof(std::int32_t) + weights_of_senone(weights);
-  if (take<std::uint64_t>(change) != hash_of(weights.values) || change.size() % row != 0) {
+  if (take<std::uint64_t>(change) != fnv1a(weights.values) || change.size() % row != 0) {
     return refused;
   }
   std::string changed = weights.values;

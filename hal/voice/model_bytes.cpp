@@ -36,14 +36,6 @@ std::optional<std::string_view> after_sphinx_file_start(std::string_view file) {
   return file;
 }
 
-std::uint64_t hash_of(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char byte : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-  }
-  return hash;
-}
-
 Error made_for_another_model() {
   return Error{"voice: the acoustic model is not the one that the adaptation was made for"};
 }

@@ -45,7 +45,7 @@ class Digitizer {
   std::optional<Region> drop();
   /// Drops the last saved region and returns it; nothing when there is none.
   std::optional<Region> drop_saved();
-  /// In place of everything so far: regions that were saved before.
+  /// Replaces everything by regions that were saved earlier.
   void restore(std::vector<Region> saved);
   /// Forgets everything and stops recording.
   void clear();

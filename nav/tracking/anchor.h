@@ -29,10 +29,9 @@ struct Anchor {
   /// How often references were found to have moved against each other: from then on nothing that
   /// was measured before holds.
   std::int64_t moves = 0;
-  /// Of the references that count. Whoever is given them makes the same World of the same
-  /// references.
+  /// Of the references in use. A tracker that is given them anchors to the same World.
   std::vector<ReferencePlace> places;
-  std::int64_t places_changed = 0;  ///< so often
+  std::int64_t places_changed = 0;  ///< how many times
 
   /// None was seen for longer than `stale_after` before `at`: nothing may be shown on the patient.
   [[nodiscard]] bool stale(Timestamp at, Duration stale_after) const {

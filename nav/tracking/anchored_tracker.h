@@ -27,8 +27,9 @@ struct ReferenceLimits {
 /// reference of the same pair, so that head, map and patient motion cancel. The covariances are
 /// those of the two poses, the reference's at the lever arm to the tool. Without a reference in
 /// sight the tools are predicted for `coast`, then lost. `known`: where references lie in the World
-/// of an operation that goes on; none may define another one. Refuses tools without a reference,
-/// places of what is none, and limits with problems. `tracker` must give the poses of single pairs
+/// of a resumed operation; then no reference defines a new one. Refuses tools without a reference,
+/// a place of a tool that is no reference, and limits with problems. `tracker` must give the poses
+/// of single pairs
 /// (`ToolState::pair`).
 Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(
     std::unique_ptr<ToolTracker> tracker, Duration coast, const ReferenceLimits& limits = {},

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/fnv1a.h"
 #include "render/vulkan/failure.h"
 
 namespace orthonav::render {
@@ -25,13 +26,8 @@ struct FileHead {
   std::uint64_t checksum = 0;
 };
 
-/// FNV-1a.
 std::uint64_t checksum_of(const std::vector<char>& bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325u;
-  for (const char byte : bytes) {
-    sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-  }
-  return sum;
+  return fnv1a({bytes.data(), bytes.size()});
 }
 
 /// Named after device and driver, so that several can lie side by side and a new driver starts

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <utility>
 
+#include "engine/io/file_names.h"
+
 namespace orthonav::test {
 namespace {
 

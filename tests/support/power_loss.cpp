@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "base/random.h"
+#include "engine/io/file_names.h"
 #include "tests/support/memory_env.h"
 
 namespace orthonav::test {
