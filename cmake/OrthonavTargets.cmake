@@ -77,12 +77,13 @@ function(orthonav_test_headers target)
     <string> <thread> <variant> <vector>)
 endfunction()
 
-# orthonav_test(NAME [IN folder] [SHARDS N] [COST n] libs...) makes one test program of every .cpp in
-# the folder, which is the calling one unless it is named.
+# orthonav_test(NAME [IN folder] [SHARDS N] [COST n] [COMPUTES] libs...) makes one test program of every
+# .cpp in the folder, which is the calling one unless it is named. COMPUTES: the tests themselves compute
+# so much that they are optimized; then they share no precompiled header, which is made without.
 # Each test is a process of its own; with SHARDS N all run in N processes, for tests that share what is
 # slow to make. Tests of greater COST start earlier, so that none of the long ones is left for the end.
 function(orthonav_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 test "" "IN;SHARDS;COST" "")
+  cmake_parse_arguments(PARSE_ARGV 1 test "COMPUTES" "IN;SHARDS;COST" "")
   find_package(GTest REQUIRED)
   include(GoogleTest)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${test_IN}/*.cpp")
@@ -94,9 +95,13 @@ function(orthonav_test name)
     ORTHONAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
   orthonav_warnings(test_${name})
   orthonav_unity(test_${name})
-  orthonav_test_headers(test_${name})
   # What is tested is optimized; the tests themselves are compiled in three quarters of the time so.
-  target_compile_options(test_${name} PRIVATE "$<$<CONFIG:Release>:-O0>")
+  if(test_COMPUTES)
+    orthonav_cold(test_${name})
+  else()
+    orthonav_test_headers(test_${name})
+    target_compile_options(test_${name} PRIVATE "$<$<CONFIG:Release>:-O0>")
+  endif()
   # A whole operation of 45 s takes ten minutes under ThreadSanitizer, several at a time longer.
   set(timeout 600)
   if(ORTHONAV_SANITIZE)
