@@ -126,7 +126,8 @@ void add_faults(CLI::App& serve, ServeArguments& arguments) {
       .add_option(
           "--faults", arguments.faults,
           "probabilities for each pair: gap=P, lose=P, unlocated=P, reorder=P, stall=P, "
-          "half=P, cut=P, misstamp=P, corrupt=P; jump=N: World jumps at pair N; all: 0.01 of each")
+          "half=P, cut=P, misstamp=P, corrupt=P; for each frame of the scene: scene_stall=P, "
+          "scene_refuse=P, scene_cut=P; jump=N: World jumps at pair N; all: 0.01 of each")
       ->check(some_text());
   serve.add_option("--slices", arguments.server.slices, "of each H.264 picture")
       ->check(whole_number(1))

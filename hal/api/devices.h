@@ -164,9 +164,10 @@ class Voice {
   std::optional<Timestamp> last_time_;
 };
 
-class DepthCamera;   // hal/api/depth_camera.h
-class Microphone;    // hal/api/microphone.h
-class PixelDisplay;  // hal/api/pixel_display.h
+class DepthCamera;    // hal/api/depth_camera.h
+class Microphone;     // hal/api/microphone.h
+class ObjectDisplay;  // hal/api/object_display.h
+class PixelDisplay;   // hal/api/pixel_display.h
 
 /// A headset and its parts, each of which lives as long as the headset.
 class Headset {
@@ -193,6 +194,8 @@ class Headset {
   [[nodiscard]] virtual Microphone* microphone() { return nullptr; }
   /// The display, if it takes pixels; null otherwise.
   [[nodiscard]] virtual PixelDisplay* pixels() { return nullptr; }
+  /// The display, if it draws objects on its own; null otherwise.
+  [[nodiscard]] virtual ObjectDisplay* objects() { return nullptr; }
   /// What the source of the pairs says about the tools in them.
   [[nodiscard]] virtual DescribedTools described_tools() const { return {}; }
   /// What the connection that delivers the pairs has done so far; absent where there is none.

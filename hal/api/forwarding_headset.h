@@ -24,6 +24,7 @@ class ForwardingHeadset : public Headset {
   }
   [[nodiscard]] Microphone* microphone() override { return inner_.microphone(); }
   [[nodiscard]] PixelDisplay* pixels() override { return inner_.pixels(); }
+  [[nodiscard]] ObjectDisplay* objects() override { return inner_.objects(); }
   [[nodiscard]] DescribedTools described_tools() const override { return inner_.described_tools(); }
   [[nodiscard]] std::optional<ConnectionStatistics> connection() const override {
     return inner_.connection();

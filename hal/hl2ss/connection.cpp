@@ -12,6 +12,7 @@ constexpr Duration kLongestPause = std::chrono::seconds(2);
 constexpr Duration kConnectWithin = std::chrono::seconds(3);
 /// Reads of one turn, so that one stream can't starve the others.
 constexpr int kReadsATurn = 16;
+constexpr Duration kGoodbyeWithin = std::chrono::milliseconds(100);
 constexpr std::size_t kMaxUnsent = std::size_t{1} << 20;
 
 }  // namespace
@@ -41,17 +42,41 @@ void Connection::step(short revents, HostTime now) {
   if (state_ != State::kConnected) {
     return;
   }
+  if (const Status late = protocol_.overdue(now); !late) {
+    cut_off(socket_);
+    return drop(late.error().message, now);
+  }
+  say_more(now);
+  if ((revents & (POLLIN | POLLERR | POLLHUP)) != 0) {
+    read(now);
+    if (state_ == State::kConnected) {
+      say_more(now);  // an answer may be what the next question waited for
+    }
+  }
+  if (state_ == State::kConnected && now - heard_ > options_.longest_silence) {
+    drop("silent for " + std::to_string(seconds(now - heard_)) + " s", now);
+  }
+}
+
+void Connection::say_more(HostTime now) {
   const auto more = protocol_.more(now);
   if (unsent_.size() + more.size() <= kMaxUnsent) {
     unsent_.insert(unsent_.end(), more.begin(), more.end());
   }
   write();
-  if (state_ == State::kConnected && (revents & (POLLIN | POLLERR | POLLHUP)) != 0) {
-    read(now);
+}
+
+void Connection::leave() {
+  if (state_ != State::kConnected) {
+    return;
   }
-  if (state_ == State::kConnected && now - heard_ > options_.longest_silence) {
-    drop("silent for " + std::to_string(seconds(now - heard_)) + " s", now);
+  const auto goodbye = protocol_.goodbye();
+  if (goodbye.empty()) {
+    return;
   }
+  unsent_.insert(unsent_.end(), goodbye.begin(), goodbye.end());
+  write();
+  finish_sending(socket_, HostClock::now() + kGoodbyeWithin);
 }
 
 void Connection::begin(HostTime now) {

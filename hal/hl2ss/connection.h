@@ -21,6 +21,10 @@ class Protocol {
   virtual Status received(std::size_t count, HostTime at) = 0;
   /// What is to be said now, if anything; asked whenever time has passed.
   [[nodiscard]] virtual std::vector<std::uint8_t> more(HostTime /*now*/) { return {}; }
+  /// An Error: nothing that is still on its way may arrive; the connection is cut.
+  [[nodiscard]] virtual Status overdue(HostTime /*now*/) { return {}; }
+  /// What is said last before we leave.
+  [[nodiscard]] virtual std::vector<std::uint8_t> goodbye() { return {}; }
   virtual void disconnected() = 0;
 };
 
@@ -41,6 +45,8 @@ class Connection {
   [[nodiscard]] short events() const;
   /// Does what is due; `revents` is what poll() saw.
   void step(short revents, HostTime now);
+  /// Says goodbye, if the protocol has a word for it; waits 0.1 s at most for it to arrive.
+  void leave();
   [[nodiscard]] bool is_connected() const { return state_ == State::kConnected; }
   [[nodiscard]] Duration round_trip() const { return round_trip_; }
 
@@ -51,6 +57,7 @@ class Connection {
   void finish_connecting(HostTime now);
   void read(HostTime now);
   void write();
+  void say_more(HostTime now);
   void drop(const std::string& why, HostTime now);
 
   Endpoint host_;

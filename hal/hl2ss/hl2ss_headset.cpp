@@ -163,6 +163,7 @@ class ConnectedHeadset final : public Hl2ssHeadset {
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Display& display() override { return display_; }
   [[nodiscard]] Microphone* microphone() override { return &receiver_->microphone(); }
+  [[nodiscard]] ObjectDisplay* objects() override { return receiver_->scene(); }
   [[nodiscard]] ConnectionStatistics statistics() const override { return receiver_->statistics(); }
 
  private:

@@ -1,5 +1,7 @@
 #include "hal/hl2ss/options.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <set>
 
@@ -7,7 +9,7 @@ namespace orthonav::hl2ss {
 namespace {
 
 constexpr const char* kKnownKeys =
-    "known are profile=raw|h264, stamps=late|exact, port=BASE and standin=PORT";
+    "known are profile=raw|h264, stamps=late|exact, scene=on|off, port=BASE and standin=PORT";
 constexpr int kMaxPort = 65535;
 
 Result<int> port_of(const std::string& key, std::string_view text, int largest) {
@@ -26,7 +28,9 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
   const std::string key(item.substr(0, equals));
   const bool has_value = equals != std::string_view::npos;
   const std::string_view value = has_value ? item.substr(equals + 1) : std::string_view{};
-  if (key != "profile" && key != "stamps" && key != "port" && key != "standin") {
+  constexpr std::array<std::string_view, 5> kKeys = {"profile", "stamps", "scene", "port",
+                                                     "standin"};
+  if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
     return Error{"unknown key \"" + key + "\"; " + kKnownKeys};
   }
   if (!seen.insert(key).second) {
@@ -44,6 +48,13 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
       return Error{"stamps \"" + std::string(value) + "\" must be late or exact"};
     }
     options.stamps_late = value == "late" ? kResearchModeStampsLate : Duration::zero();
+    return {};
+  }
+  if (key == "scene") {
+    if (value != "on" && value != "off") {
+      return Error{"scene \"" + std::string(value) + "\" must be on or off"};
+    }
+    options.scene = value == "on";
     return {};
   }
   const auto port = port_of(key, value, key == "port" ? kMaxPort - kLastOffset : kMaxPort);

@@ -22,13 +22,14 @@ struct Hl2ssOptions {
   /// The server is asked to stamp, and to take poses, earlier by this; zero for one that stamps as
   /// the images were.
   Duration stamps_late = kResearchModeStampsLate;
+  bool scene = true;  ///< holograms are shown by the headset's own scene
   /// Opening waits no longer for calibrations and the first image.
   Duration open_within = std::chrono::seconds(8);
 };
 
 /// What follows `hl2ss:` in a URI:
-/// `//HOST[?profile=raw|h264&stamps=late|exact&port=BASE&standin=PORT]`. An Error says what is
-/// wrong and names the known keys.
+/// `//HOST[?profile=raw|h264&stamps=late|exact&scene=on|off&port=BASE&standin=PORT]`. An Error says
+/// what is wrong and names the known keys.
 Result<Hl2ssOptions> options_of(std::string_view after_scheme);
 
 }  // namespace orthonav::hl2ss

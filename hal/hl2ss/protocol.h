@@ -16,6 +16,7 @@ enum class Service : std::uint8_t {
   kMicrophone = 11,
   kSpatialInput = 12,
   kVoice = 15,
+  kScene = 16,
 };
 [[nodiscard]] constexpr int offset_of(Service service) { return static_cast<int>(service); }
 inline constexpr int kLastOffset = 18;

@@ -106,6 +106,12 @@ Status Receiver::add_events(std::int64_t filetime_offset) {
                       return std::make_unique<StandinStream>(time_, clicks_, wake_up_);
                     });
   }
+  if (options_.scene) {
+    scene_ = &add("scene", port(Service::kScene), Duration::max() / 2, kSilence,
+                  [this](ArrivalMeter& meter) {
+                    return std::make_unique<SceneStream>(meter, time_, wake_up_);
+                  });
+  }
   return {};
 }
 
@@ -147,6 +153,10 @@ void Receiver::run() {
         time_.clock.round_trip(connection.round_trip());
       }
     }
+  }
+  const MutexLock lock(mutex_);
+  for (const Stream& stream : streams_) {
+    stream.connection->leave();
   }
 }
 

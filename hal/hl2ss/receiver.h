@@ -13,6 +13,7 @@
 #include "hal/hl2ss/map_watch.h"
 #include "hal/hl2ss/options.h"
 #include "hal/hl2ss/pair_mailbox.h"
+#include "hal/hl2ss/scene_stream.h"
 #include "hal/hl2ss/standin_stream.h"
 #include "hal/hl2ss/video_stream.h"
 
@@ -36,6 +37,8 @@ class Receiver final : private ImageSink {
   [[nodiscard]] Inbox<Phrase>& phrases() { return phrases_; }
   /// Null without a stand-in.
   [[nodiscard]] StandinStream* standin() { return standin_; }
+  /// Null where it is not wanted.
+  [[nodiscard]] ObjectDisplay* scene() { return scene_; }
   /// Begins to listen, at the first question.
   [[nodiscard]] Microphone& microphone();
   /// Whether a front camera has sent anything; the base of its stamps is known then.
@@ -81,6 +84,7 @@ class Receiver final : private ImageSink {
   std::atomic<bool> stop_ = false;
 
   StandinStream* standin_ = nullptr;  ///< made before the thread starts, the same ever after
+  SceneStream* scene_ = nullptr;      ///< likewise
   mutable Mutex mutex_;               ///< also of the stamps in `time_`, which the streams share
   std::vector<Stream> streams_ ORTHONAV_GUARDED_BY(mutex_);
   SoundStream* sound_ ORTHONAV_GUARDED_BY(mutex_) = nullptr;

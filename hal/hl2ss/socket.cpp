@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -228,6 +229,18 @@ Result<std::size_t> send_some(const Socket& socket, Bytes bytes) {
     return std::size_t{0};
   }
   return Error{reason(errno)};
+}
+
+void cut_off(const Socket& socket) {
+  const linger at_once{1, 0};
+  (void)::setsockopt(socket.fd(), SOL_SOCKET, SO_LINGER, &at_once, sizeof(at_once));
+}
+
+void finish_sending(const Socket& socket, HostTime deadline) {
+  (void)::shutdown(socket.fd(), SHUT_WR);
+  std::array<std::uint8_t, 4096> rest;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  while (receive_some(socket, rest) && wait_for(socket, POLLIN, deadline)) {
+  }
 }
 
 Status reach(const Endpoint& host, int port, HostTime deadline) {

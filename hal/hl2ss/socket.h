@@ -61,6 +61,11 @@ Result<std::size_t> receive_some(const Socket& socket, std::span<std::uint8_t> r
 /// How many bytes went at once.
 Result<std::size_t> send_some(const Socket& socket, Bytes bytes);
 
+/// Lets nothing that was not delivered yet arrive once the socket is closed.
+void cut_off(const Socket& socket);
+/// Ends our side and waits until the other has read everything and closes, or the deadline.
+void finish_sending(const Socket& socket, HostTime deadline);
+
 /// Connects and closes again. Blocks until `deadline` at most.
 Status reach(const Endpoint& host, int port, HostTime deadline);
 /// Connects, sends `request` and waits for `answer_bytes` bytes; tries again while the port is

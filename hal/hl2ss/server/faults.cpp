@@ -10,7 +10,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, double Faults::*>, 9> kProbabilities = {{
+constexpr std::array<std::pair<std::string_view, double Faults::*>, 12> kProbabilities = {{
     {"gap", &Faults::gap},
     {"lose", &Faults::lose},
     {"unlocated", &Faults::unlocated},
@@ -20,10 +20,13 @@ constexpr std::array<std::pair<std::string_view, double Faults::*>, 9> kProbabil
     {"cut", &Faults::cut},
     {"misstamp", &Faults::misstamp},
     {"corrupt", &Faults::corrupt},
+    {"scene_stall", &Faults::scene_stall},
+    {"scene_refuse", &Faults::scene_refuse},
+    {"scene_cut", &Faults::scene_cut},
 }};
 constexpr const char* kKnown =
-    "known are gap, lose, unlocated, reorder, stall, half, cut, misstamp, corrupt (probabilities), "
-    "jump=PAIR and all";
+    "known are gap, lose, unlocated, reorder, stall, half, cut, misstamp, corrupt, "
+    "scene_stall, scene_refuse, scene_cut (probabilities), jump=PAIR and all";
 /// Of each fault where all are asked for.
 constexpr double kALittle = 0.01;
 

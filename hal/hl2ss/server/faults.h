@@ -21,6 +21,10 @@ struct Faults {
   double cut = 0.0;        ///< half a packet, then the connection is closed
   double misstamp = 0.0;   ///< one of its images is stamped 0.1 s early or 1 s late
   double corrupt = 0.0;    ///< one of: NaN pose, size of 4 GiB, short image, stamp far off, noise
+  // For each frame of the headset's scene in which it has something to do.
+  double scene_stall = 0.0;   ///< it does nothing for a second
+  double scene_refuse = 0.0;  ///< a command is refused
+  double scene_cut = 0.0;     ///< its connection is closed
   /// World jumps by this much with the pairs of these numbers.
   std::vector<std::int64_t> jump_at;
   Vec3 jump_m{0.3, 0.05, -0.2};

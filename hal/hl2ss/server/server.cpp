@@ -37,6 +37,7 @@ class RunningServer final : public Server {
         right_({headset_.right_calibration(options.unmapped_edge_px), options.faults,
                 Random(options.seed).fork("right"), options.slices}),
         sides_(options.utc_offset_ticks),
+        scene_(options.faults, Random(options.seed).fork("scene")),
         sender_(options.faults, options.seed, left_, right_, sides_) {}
   ~RunningServer() override {
     stop_ = true;
@@ -76,6 +77,7 @@ class RunningServer final : public Server {
     }
     return options;
   }
+  [[nodiscard]] ScenePort& scene() override { return scene_; }
   [[nodiscard]] ServerReport report() const override {
     const MutexLock lock(report_mutex_);
     return report_;
@@ -89,7 +91,8 @@ class RunningServer final : public Server {
         {&sides_.configuration, offset_of(Service::kConfiguration)},
         {&sides_.microphone, offset_of(Service::kMicrophone)},
         {&sides_.spatial, offset_of(Service::kSpatialInput)},
-        {&sides_.voice, offset_of(Service::kVoice)}};
+        {&sides_.voice, offset_of(Service::kVoice)},
+        {&scene_.port, offset_of(Service::kScene)}};
     if (options_.standin) {
       all.emplace_back(&sides_.standin, kStandinOffset);
     }
@@ -112,13 +115,15 @@ class RunningServer final : public Server {
     while (!stop_) {
       watched.clear();
       for (const auto& [port, offset] : all) {
-        watched.push_back({port->fd(), port->events(), 0});
+        const bool waits = port == &scene_.port && !port->has_client() && !scene_.is_free();
+        watched.push_back({waits ? -1 : port->fd(), port->events(), 0});
       }
       (void)::poll(watched.data(), watched.size(), kTurnMs);
       const HostTime now = HostClock::now();
       for (std::size_t i = 0; i < all.size(); ++i) {
         all[i].first->step(watched[i].revents, now);
       }
+      scene_.run(now);
       show();
     }
   }
@@ -232,6 +237,7 @@ class RunningServer final : public Server {
   CameraPort left_;
   CameraPort right_;
   SidePorts sides_;
+  ScenePort scene_;
   PairSender sender_;
   int first_port_ = 0;
   std::atomic<bool> stop_ = false;

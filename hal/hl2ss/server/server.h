@@ -9,6 +9,7 @@
 #include "hal/hl2ss/options.h"
 #include "hal/hl2ss/protocol.h"
 #include "hal/hl2ss/server/faults.h"
+#include "hal/hl2ss/server/scene_port.h"
 
 namespace orthonav::hl2ss {
 
@@ -56,6 +57,8 @@ class Server {
   /// How a client on this machine reaches it.
   [[nodiscard]] virtual Hl2ssOptions client_options() const = 0;
   [[nodiscard]] virtual ServerReport report() const = 0;
+  /// The headset's own scene, and what goes wrong there on request.
+  [[nodiscard]] virtual ScenePort& scene() = 0;
 };
 
 inline constexpr int kStandinOffset = 19;

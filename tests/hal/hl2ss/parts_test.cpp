@@ -231,8 +231,9 @@ TEST(Uri, IsRefusedWithWhatIsKnown) {
   EXPECT_THAT(refusal("192.168.1.7"), HasSubstr("//HOST"));
   EXPECT_THAT(refusal("//"), HasSubstr("names no host"));
   EXPECT_THAT(refusal("//a/b"), HasSubstr("must be a name or an address"));
-  EXPECT_THAT(refusal("//a?prot=1"),
-              HasSubstr("profile=raw|h264, stamps=late|exact, port=BASE and standin=PORT"));
+  EXPECT_THAT(
+      refusal("//a?prot=1"),
+      HasSubstr("profile=raw|h264, stamps=late|exact, scene=on|off, port=BASE and standin=PORT"));
   EXPECT_THAT(refusal("//a?stamps=x"), HasSubstr("stamps \"x\" must be late or exact"));
   EXPECT_EQ(options_of("//a?stamps=exact")->stamps_late, Duration::zero());
   EXPECT_EQ(options_of("//a?stamps=late")->stamps_late, options_of("//a")->stamps_late);

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hal/hl2ss/scene_command.h"
+#include "hal/hl2ss/socket.h"
+
+namespace orthonav::hl2ss {
+
+/// What the headset knows of one object once it has worked off everything sent so far.
+struct RemoteObject {
+  std::uint32_t id = 0;  ///< 0: not created, or not answered yet
+  bool creating = false;
+  bool active = false;
+  bool placed = false;  ///< `told` holds its place
+  bool looks = false;   ///< `told` holds its colour and text
+  DisplayObject told;
+  int refusals = 0;             ///< in a row
+  HostTime ask_again{};         ///< refused: not created before
+  std::uint64_t wanted_in = 0;  ///< number of the last list that wanted it
+
+  /// Refused or removed: nothing of it is left.
+  void forget() {
+    id = 0;
+    creating = active = placed = looks = false;
+  }
+};
+
+/// Whether the difference can be seen: 0.05 mm, or a turn that moves 5 cm by as much.
+[[nodiscard]] bool is_moved(const DisplayObject& told, const DisplayObject& wanted);
+[[nodiscard]] bool looks_different(const DisplayObject& told, const DisplayObject& wanted);
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "hal/api/object_display.h"
+#include "hal/hl2ss/bytes.h"
+
+namespace orthonav::hl2ss {
+
+/// What the application for Unity understands at its port (docs/hl2ss.md): u32 command, u32 size,
+/// payload. Each is answered by one u32, in order.
+enum class SceneCommand : std::uint32_t {
+  kCreatePrimitive = 0,
+  kSetActive = 1,
+  kSetWorldTransform = 2,
+  kSetLocalTransform = 3,
+  kSetColour = 4,
+  kSetTexture = 5,
+  kCreateText = 6,
+  kSetText = 7,
+  kSay = 8,
+  kLoadMesh = 15,
+  kRemove = 16,
+  kRemoveAll = 17,
+  kBeginList = 18,
+  kEndList = 19,
+  kSetTargetMode = 20,
+};
+
+inline constexpr std::size_t kSceneHeaderBytes = 8;
+/// The protocol sets no limit; what is larger stalls the frame that decodes it.
+inline constexpr std::uint32_t kMaxScenePayload = std::uint32_t{1} << 20;
+inline constexpr std::size_t kMaxSceneTextBytes = 256;
+/// Of capitals at font size 1 and scale 1.
+inline constexpr double kCapHeightAtSizeOneM = 0.069;
+
+void append_create(std::vector<std::uint8_t>& bytes, ObjectShape shape);
+void append_active(std::vector<std::uint8_t>& bytes, std::uint32_t id, bool active);
+/// In Unity's axes, which are left-handed: z mirrored.
+void append_transform(std::vector<std::uint8_t>& bytes, std::uint32_t id,
+                      const DisplayObject& object);
+/// Of a text: what is written, its size and its colour, which come together.
+void append_look(std::vector<std::uint8_t>& bytes, std::uint32_t id, const DisplayObject& object);
+void append_remove(std::vector<std::uint8_t>& bytes, std::uint32_t id);
+/// One without contents: remove all, begin, end.
+void append_plain(std::vector<std::uint8_t>& bytes, SceneCommand command);
+/// Does nothing, and takes a frame outside a list: targets are named by their ids, as ever.
+void append_idle(std::vector<std::uint8_t>& bytes);
+
+/// As it can be shown: one line, in characters that the application's font has (`ok` for a tick),
+/// no
+/// `<`, which would begin a tag, no more than `kMaxSceneTextBytes` and never half a character.
+[[nodiscard]] std::string scene_text(const std::string& text);
+
+struct SceneMessage {
+  std::uint32_t command = 0;
+  Bytes payload;
+  std::size_t bytes = 0;  ///< with its header
+};
+/// Absent when more bytes are needed. An Error for a size beyond `kMaxScenePayload`.
+Result<std::optional<SceneMessage>> read_scene_message(Bytes bytes);
+
+}  // namespace orthonav::hl2ss

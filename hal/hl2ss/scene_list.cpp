@@ -1,0 +1,258 @@
+#include <algorithm>
+#include <utility>
+
+#include "hal/hl2ss/scene_client.h"
+
+// How SceneClient makes a display list of what differs.
+
+namespace orthonav::hl2ss {
+namespace {
+
+constexpr int kMostFuseFrames = 3;
+/// Beside the frames of the fuse: the one that works the list off may have begun just before, and
+/// the one that hides is on its way to the eyes.
+constexpr int kFramesBesideFuse = 2;
+constexpr Duration kNetwork = std::chrono::milliseconds(5);
+/// Guidance comes and goes; what is hidden meanwhile costs nothing to keep.
+constexpr std::uint64_t kKeptHiddenLists = 300;
+/// Of one list: what is new must not displace what moves, nor the other way round.
+constexpr std::size_t kMostCreates = 40;
+constexpr std::size_t kBytesToShow = 16;
+constexpr std::size_t kBytesToRemove = 12;
+/// The beginning and the end of the list, the fuse and what begins the next.
+constexpr std::size_t kBytesAround = 16 + kMostFuseFrames * 12;
+
+/// Where not everything has room, guidance goes first, and what moves starves nothing that is new.
+enum class Turn { kTool, kNew, kOther };
+
+Turn turn_of(const DisplayObject& wanted, const RemoteObject& remote) {
+  if (wanted.follows_tool) {
+    return Turn::kTool;
+  }
+  return remote.placed && remote.active ? Turn::kOther : Turn::kNew;
+}
+
+void put(std::vector<std::uint8_t>& to, const std::vector<std::uint8_t>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+/// How many frames what follows a tool may stay behind the next list; 0: it is too old already.
+int SceneClient::fuse_frames(const SceneMoment& now) const {
+  if (!wanted_.tool_time) {
+    return 0;
+  }
+  const auto is_idle = [](const Expected& each) { return each.kind == Expected::Kind::kIdle; };
+  const auto waiting = std::count_if(expected_.begin(), expected_.end(), is_idle);
+  const Duration left = ObjectDisplay::kLongestToolAge - (now.headset - *wanted_.tool_time) -
+                        waiting * frame_ - kNetwork;
+  const auto frames = left / frame_ - kFramesBesideFuse;
+  return static_cast<int>(std::clamp<std::int64_t>(frames, 0, kMostFuseFrames));
+}
+
+SceneClient::Draft SceneClient::draft_list(bool shows_tools, HostTime now) {
+  Draft draft;
+  draft.bytes = kBytesAround;
+  has_more_ = false;
+  statistics_.left_out = 0;
+  for (const DisplayObject& wanted : wanted_.objects) {
+    draft_presence(wanted, now, draft);
+  }
+  for (const Turn turn : {Turn::kTool, Turn::kNew, Turn::kOther}) {
+    for (const DisplayObject& wanted : wanted_.objects) {
+      const auto found = remotes_.find(wanted.key);
+      if (found == remotes_.end() || found->second.id == 0 ||
+          turn_of(wanted, found->second) != turn) {
+        continue;
+      }
+      if (draft_changes(wanted, found->second, draft)) {
+        draft_show(wanted, found->second, shows_tools, draft);
+      }
+    }
+  }
+  draft_removals(draft);
+  return draft;
+}
+
+bool SceneClient::has_room(const Draft& draft) {
+  if (draft.commands < budget_.commands_a_list &&
+      static_cast<double>(draft.bytes) < allowance_bytes_) {
+    return true;
+  }
+  has_more_ = true;
+  return false;
+}
+
+/// That it is there, with its shape.
+void SceneClient::draft_presence(const DisplayObject& wanted, HostTime now, Draft& draft) {
+  const auto found = remotes_.find(wanted.key);
+  if (found == remotes_.end() && remotes_.size() >= budget_.objects) {
+    ++statistics_.left_out;
+    return;
+  }
+  RemoteObject& remote = remotes_[wanted.key];
+  remote.wanted_in = list_number_;
+  if (remote.id != 0 && remote.told.shape != wanted.shape) {
+    draft_removal(remote, draft);
+    remote.forget();
+  }
+  if (remote.id == 0) {
+    draft_create(wanted, remote, now, draft);
+  }
+}
+
+void SceneClient::draft_removal(const RemoteObject& remote, Draft& draft) {
+  append_remove(draft.removals.bytes, remote.id);
+  draft.removals.expected.push_back({});
+  draft.bytes += kBytesToRemove;
+  ++draft.commands;
+}
+
+/// Objects start hidden, so that this alone shows nothing; the rest follows once the id is known.
+void SceneClient::draft_create(const DisplayObject& wanted, RemoteObject& remote, HostTime now,
+                               Draft& draft) {
+  if (remote.creating) {
+    return;
+  }
+  if (now < remote.ask_again) {
+    has_more_ = true;
+    return;
+  }
+  if (draft.creates.expected.size() >= kMostCreates) {
+    has_more_ = true;
+    return;
+  }
+  if (!has_room(draft)) {
+    return;
+  }
+  const std::size_t before = draft.creates.bytes.size();
+  append_create(draft.creates.bytes, wanted.shape);
+  draft.creates.expected.push_back({Expected::Kind::kCreate, wanted.key});
+  draft.bytes += draft.creates.bytes.size() - before;
+  ++draft.commands;
+  remote.creating = true;
+  remote.told.shape = wanted.shape;
+}
+
+/// False where the list had no room for all of it.
+bool SceneClient::draft_changes(const DisplayObject& wanted, RemoteObject& remote, Draft& draft) {
+  std::vector<std::uint8_t>& bytes = draft.changes.bytes;
+  const std::size_t before = bytes.size();
+  const Expected expected{Expected::Kind::kObject, wanted.key};
+  const bool moves = !remote.placed || is_moved(remote.told, wanted);
+  const bool changes = !remote.looks || looks_different(remote.told, wanted);
+  if ((moves || changes) && !has_room(draft)) {
+    return false;
+  }
+  const DisplayObject told = std::exchange(remote.told, wanted);
+  if (moves) {
+    append_transform(bytes, remote.id, wanted);
+    draft.changes.expected.push_back(expected);
+    ++draft.commands;
+  } else {
+    // Compared with what was told, not with the last that differed too little.
+    remote.told.place = told.place;
+    remote.told.position_m = told.position_m;
+    remote.told.rotation = told.rotation;
+    remote.told.scale = told.scale;
+  }
+  if (changes) {
+    append_look(bytes, remote.id, wanted);
+    draft.changes.expected.push_back(expected);
+    ++draft.commands;
+  }
+  remote.placed = remote.looks = true;
+  draft.bytes += bytes.size() - before;
+  return true;
+}
+
+void SceneClient::draft_show(const DisplayObject& wanted, RemoteObject& remote, bool shows_tools,
+                             Draft& draft) {
+  const bool shows = !wanted.follows_tool || shows_tools;
+  if (wanted.follows_tool && !shows) {
+    if (std::exchange(remote.active, false)) {
+      append_active(draft.removals.bytes, remote.id, false);
+      draft.removals.expected.push_back({Expected::Kind::kObject, wanted.key});
+      draft.bytes += kBytesToShow;
+      ++draft.commands;
+    }
+    return;
+  }
+  if (!wanted.follows_tool && remote.active) {
+    return;
+  }
+  if (!has_room(draft)) {
+    return;
+  }
+  Parts& part = wanted.follows_tool ? draft.tool_shows : draft.shows;
+  append_active(part.bytes, remote.id, true);
+  part.expected.push_back({Expected::Kind::kObject, wanted.key});
+  draft.bytes += kBytesToShow;
+  ++draft.commands;
+  remote.active = !wanted.follows_tool;
+  if (wanted.follows_tool) {  // hidden again by the fuse
+    draft.tool_ids.push_back(remote.id);
+    draft.bytes += kBytesToShow;
+  }
+}
+
+void SceneClient::draft_removals(Draft& draft) {
+  for (auto each = remotes_.begin(); each != remotes_.end();) {
+    RemoteObject& remote = each->second;
+    const bool is_wanted = remote.wanted_in == list_number_;
+    const bool is_kept = remote.told.follows_tool && !remote.active && remote.placed &&
+                         list_number_ - remote.wanted_in < kKeptHiddenLists;
+    if (is_wanted || is_kept || remote.creating) {
+      ++each;
+      continue;
+    }
+    if (remote.id != 0) {
+      draft_removal(remote, draft);
+    }
+    each = remotes_.erase(each);
+  }
+}
+
+std::vector<std::uint8_t> SceneClient::assemble(const Draft& draft, int fuse, HostTime now) {
+  std::vector<std::uint8_t> bytes;
+  const std::size_t before = expected_.size();
+  if (!std::exchange(list_is_open_, false)) {
+    append_plain(bytes, SceneCommand::kBeginList);
+    expected_.push_back({});
+  }
+  for (const Parts* part :
+       {&draft.removals, &draft.changes, &draft.creates, &draft.shows, &draft.tool_shows}) {
+    put(bytes, part->bytes);
+    expected_.insert(expected_.end(), part->expected.begin(), part->expected.end());
+  }
+  append_plain(bytes, SceneCommand::kEndList);
+  expected_.push_back({Expected::Kind::kListEnd, 0});
+  awaited_ = expected_.size();
+  if (!draft.tool_ids.empty()) {
+    append_fuse(draft, fuse, bytes);
+  }
+  ++statistics_.lists;
+  statistics_.commands += static_cast<std::int64_t>(expected_.size() - before);
+  return sent(std::move(bytes), now);
+}
+
+/// The next list is sent when the fuse has burnt down to its last frame, or the last two of three:
+/// in time to arrive, and as late as possible, since it waits for the fuse before it.
+void SceneClient::append_fuse(const Draft& draft, int fuse, std::vector<std::uint8_t>& bytes) {
+  for (int i = 0; i < fuse; ++i) {
+    append_idle(bytes);
+    expected_.push_back({Expected::Kind::kIdle, 0});
+  }
+  awaited_ += static_cast<std::size_t>(std::max(0, fuse - (fuse < kMostFuseFrames ? 1 : 2)));
+  append_plain(bytes, SceneCommand::kBeginList);
+  expected_.push_back({Expected::Kind::kFuse, 0});
+  for (const std::uint32_t id : draft.tool_ids) {
+    append_active(bytes, id, false);
+    expected_.push_back({Expected::Kind::kFuse, 0});
+  }
+  list_is_open_ = true;
+  tool_answers_due_ = expected_.size();
+}
+
+}  // namespace orthonav::hl2ss

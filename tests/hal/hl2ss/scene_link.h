@@ -1,0 +1,102 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hal/hl2ss/scene_client.h"
+#include "tests/hal/hl2ss/scene_peer.h"
+
+namespace orthonav::test {
+
+/// A client and the application at the two ends of a link whose time is counted, not waited for.
+class SceneLink {
+ public:
+  static constexpr Duration kStep = std::chrono::microseconds(1000);
+  static constexpr int kStepsAFrame = 17;  ///< a little slower than 60 Hz
+
+  explicit SceneLink(const hl2ss::SceneBudget& budget = {}) : client(budget) {
+    client.connected(now_.host);
+  }
+  [[nodiscard]] Timestamp now() const { return now_.headset; }
+  [[nodiscard]] hl2ss::HostTime host() const { return now_.host; }
+
+  /// A millisecond passes: what may be said is said, and every 17th the application does a frame.
+  void step() {
+    now_.host += kStep;
+    now_.headset += kStep;
+    const auto bytes = client.next(now_);
+    sent_bytes += bytes.size();
+    if (!bytes.empty()) {
+      last_sent = bytes;
+    }
+    if (connected) {
+      peer.hear(bytes);
+    }
+    if (++steps_ % kStepsAFrame != 0) {
+      return;
+    }
+    for (const std::uint32_t answer : peer.frame()) {
+      if (connected && status) {
+        status = client.answered(answer, now_);
+      }
+    }
+    ++frames;
+  }
+  void run(Duration time) {
+    for (Duration passed{}; passed < time; passed += kStep) {
+      step();
+    }
+  }
+  [[nodiscard]] int visible() const {
+    int count = 0;
+    for (const auto& [id, thing] : peer.things) {
+      count += thing.visible ? 1 : 0;
+    }
+    return count;
+  }
+  /// Whether the text of a tool is to be seen.
+  [[nodiscard]] bool shows(const std::string& words) const {
+    for (const auto& [id, thing] : peer.things) {
+      if (thing.visible && thing.words == words) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  hl2ss::SceneClient client;
+  ScenePeer peer;
+  Status status;
+  bool connected = true;  ///< false: nothing gets through either way
+  std::size_t sent_bytes = 0;
+  std::vector<std::uint8_t> last_sent;
+  int frames = 0;
+
+ private:
+  hl2ss::SceneMoment now_{hl2ss::HostTime(std::chrono::seconds(100)),
+                          Timestamp(std::chrono::seconds(7))};
+  int steps_ = 0;
+};
+
+inline DisplayObject ball(std::uint64_t key, Vec3 position_m) {
+  DisplayObject object;
+  object.key = key;
+  object.position_m = position_m;
+  object.rotation = {0, 0, 0, 1};
+  object.scale = {0.003, 0.003, 0.003};
+  return object;
+}
+
+inline DisplayObject readout(std::uint64_t key, const std::string& text) {
+  DisplayObject object = ball(key, {0, 0, -0.5});
+  object.shape = ObjectShape::kText;
+  object.follows_tool = true;
+  object.scale = {1, 1, 1};
+  object.text = text;
+  object.cap_height_m = 0.0069;
+  return object;
+}
+
+}  // namespace orthonav::test
