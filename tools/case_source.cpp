@@ -4,9 +4,9 @@
 
 namespace orthonav::tools {
 
-Result<engine::Case> load_checked_case(const std::string& folder) {
+Result<engine::Case> load_checked_case(const std::string& folder, engine::CaseUse use) {
   if (!folder.empty()) {
-    return engine::load_case(folder);
+    return engine::load_case(folder, use);
   }
   engine::Case spine = engine::phantom();
   if (const auto problems = spine.check(); !problems.empty()) {

@@ -49,10 +49,15 @@ const CaseLevel* Case::overlapped_by(std::size_t index) const {
   return nullptr;
 }
 
-std::vector<std::string> Case::check() const {
+std::vector<std::string> Case::check(CaseUse use) const {
   std::vector<std::string> problems;
   if (levels.empty()) {
     problems.push_back("levels is empty");
+  }
+  const bool bare = std::all_of(levels.begin(), levels.end(),
+                                [](const CaseLevel& level) { return level.screws.empty(); });
+  if (use == CaseUse::kOperation && bare && !levels.empty()) {
+    problems.push_back("no level has screws (orthonav plan auto places them)");
   }
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const CaseLevel& level = levels[i];
@@ -63,9 +68,6 @@ std::vector<std::string> Case::check() const {
     }
     if (!level.label.empty() && find(level.label) != &level) {
       problems.push_back("label " + level.label + " stands twice");
-    }
-    if (level.screws.empty()) {
-      problems.push_back(which + " has no screws");
     }
     if (const CaseLevel* other = overlapped_by(i)) {
       problems.push_back(which + " lies in " + other->label + " (see spine_from_model)");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,14 @@ struct CaseLevel {
   [[nodiscard]] Point<Spine> centre_in_spine() const;
 };
 
-/// What is operated on: the preoperative models and the plan.
+/// What a case is wanted for.
+enum class CaseUse : std::uint8_t {
+  kOperation,  ///< at least one level has screws
+  kPlanning,   ///< screws may be missing everywhere: they are yet to be planned
+};
+
+/// What is operated on: the preoperative models and the plan. A level without screws is a neighbour
+/// of those that are operated.
 struct Case {
   std::string name;
   std::string folder;  ///< empty for the built-in phantom
@@ -32,12 +40,12 @@ struct Case {
   /// The level before this one, in the order of the case, that lies in the same place; nullptr when
   /// there is none.
   [[nodiscard]] const CaseLevel* overlapped_by(std::size_t index) const;
-  /// Every problem at once, a line each: no levels, labels that are empty or repeat, levels without
-  /// screws, levels that lie in one another, and screws that tell of a plan in another frame, of
-  /// another level or with its sides swapped: an entry more than 10 mm off the bone, in front of
-  /// its target, or on the other side than its own (`OffMidline::side`); a target outside the
-  /// bone. Empty when all is well.
-  [[nodiscard]] std::vector<std::string> check() const;
+  /// Every problem at once, a line each: no levels, labels that are empty or repeat, no screws on
+  /// any level (for an operation), levels that lie in one another, and screws that tell of a plan
+  /// in another frame, of another level or with its sides swapped: an entry more than 10 mm off the
+  /// bone, in front of its target, or on the other side than its own (`OffMidline::side`); a target
+  /// outside the bone. Empty when all is well.
+  [[nodiscard]] std::vector<std::string> check(CaseUse use = CaseUse::kOperation) const;
 };
 
 }  // namespace orthonav::engine

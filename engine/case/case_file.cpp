@@ -78,12 +78,20 @@ std::optional<double> declared_metres_per_unit(const JsonNode& root) {
 struct Entry {
   std::string label;
   std::string model;
-  std::string plan;
+  std::string plan;  ///< empty: none
   JsonNode node;
 };
 
+/// A level without a plan has no screws, and a model in the case's unit.
+Result<Plan> plan_of(const Entry& entry, const std::string& folder, double metres_per_unit) {
+  if (entry.plan.empty()) {
+    return Plan{{}, {}, Axes::kLps, metres_per_unit, {}};
+  }
+  return load_plan((fs::path(folder) / entry.plan).string());
+}
+
 Result<CaseLevel> loaded(const Entry& entry, const std::string& folder, double metres_per_unit) {
-  const Result<Plan> plan = load_plan((fs::path(folder) / entry.plan).string());
+  const Result<Plan> plan = plan_of(entry, folder, metres_per_unit);
   if (!plan) {
     return plan.error();
   }
@@ -121,7 +129,7 @@ Status load_levels(const std::vector<Entry>& entries, double metres_per_unit, Ca
 
 }  // namespace
 
-Result<Case> load_case(const std::string& folder) {
+Result<Case> load_case(const std::string& folder, CaseUse use) {
   const std::string path = (fs::path(folder) / "case.json").string();
   const Result<JsonDocument> document = JsonDocument::read(path);
   if (!document) {
@@ -135,7 +143,7 @@ Result<Case> load_case(const std::string& folder) {
   std::vector<Entry> entries;
   std::size_t placed = 0;
   for (const JsonNode& node : root.list("levels")) {
-    entries.push_back({node.text("label"), node.text("model"), node.text("plan"), node});
+    entries.push_back({node.text("label"), node.text("model"), node.text_or("plan", ""), node});
     placed += node.has("spine_from_model") ? 1 : 0;
   }
   if (placed != 0 && placed != entries.size()) {
@@ -153,7 +161,7 @@ Result<Case> load_case(const std::string& folder) {
   if (placed == 0) {
     stack_if_they_overlap(subject);
   }
-  if (const auto problems = subject.check(); !problems.empty()) {
+  if (const auto problems = subject.check(use); !problems.empty()) {
     return Error{path + ": " + joined(problems)};
   }
   return subject;

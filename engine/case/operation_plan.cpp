@@ -66,8 +66,10 @@ class PreparedLevels {
 std::vector<std::string> two_lowest(const Case& source) {
   const auto levels = from_the_lowest(source);
   std::vector<std::string> labels;
-  for (std::size_t i = 0; i < std::min<std::size_t>(2, levels.size()); ++i) {
-    labels.push_back(levels[i]->label);
+  for (const CaseLevel* level : levels) {
+    if (!level->screws.empty() && labels.size() < 2) {
+      labels.push_back(level->label);
+    }
   }
   return labels;
 }
@@ -82,6 +84,9 @@ Result<std::vector<std::string>> levels_to_operate(const Case& source,
     if (!source.find(label)) {
       return Error{"case '" + source.name + "' has no level '" + label +
                    "' (it has: " + known_labels(source) + ")"};
+    }
+    if (source.find(label)->screws.empty()) {
+      return Error{"level '" + label + "' of case '" + source.name + "' has no screws"};
     }
     if (!open.insert(label).second) {
       return Error{"level '" + label + "' is named twice"};

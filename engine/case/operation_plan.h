@@ -15,9 +15,10 @@ Result<std::vector<std::string>> levels_to_operate(const Case& source,
                                                    const std::vector<std::string>& labels = {});
 
 /// Prepares levels of a case for an operation, in the order of the case. `labels` empty: the two
-/// lowest of the spine. Refuses a label that the case does not have or that is named twice, and a
-/// screw that breaks through its cortex without a reason (engine/case/screw_breach.h). `cache`
-/// may have them from an earlier time; what it hadn't, it can `keep` afterwards.
+/// lowest of the spine that have screws. Refuses a label that the case does not have, that has no
+/// screws or that is named twice, and a screw that breaks through its cortex without a reason
+/// (engine/case/screw_breach.h). `cache` may have them from an earlier time; what it hadn't, it can
+/// `keep` afterwards.
 Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels,
                                  ModelCache& cache);
 Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels = {});

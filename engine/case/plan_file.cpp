@@ -256,7 +256,8 @@ Result<std::vector<nav::ScrewPlan>> screws_on(const nav::TriangleMesh& bone, con
   std::vector<nav::ScrewPlan> screws;
   for (const StatedScrew& stated : plan.screws) {
     const std::string which = plan.path + ": " + stated.where + " ";
-    if (const auto problem = misplaced(surface, stated.entry, stated.target, stated.radius_m)) {
+    if (const auto problem =
+            misplaced(surface, stated.entry, stated.target, stated.radius_m, plan.axes)) {
       return Error{which + *problem};
     }
     const auto side = side_on(bone, stated);

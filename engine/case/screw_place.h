@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/transform.h"
+#include "engine/io/patient_axes.h"
 #include "nav/geometry/mesh.h"
 #include "nav/guidance/screw.h"
 
@@ -38,5 +39,11 @@ inline constexpr double kLeastOffMidline_m = 0.005;
 [[nodiscard]] std::optional<std::string> misplaced(const nav::SurfaceIndex& bone,
                                                    Point<Vertebra> entry, Point<Vertebra> target,
                                                    double radius_m);
+
+/// The same of a screw from a file that states these axes: says as well when the screw would fit
+/// its bone in the other ones.
+[[nodiscard]] std::optional<std::string> misplaced(const nav::SurfaceIndex& bone,
+                                                   Point<Vertebra> entry, Point<Vertebra> target,
+                                                   double radius_m, Axes stated);
 
 }  // namespace orthonav::engine

@@ -183,5 +183,24 @@ TEST(ScrewSide, OfAPlanInOtherAxesIsRefused) {
             "(posterior)");
 }
 
+TEST(ScrewsOn, SaysWhenAScrewWouldFitInTheOtherAxes) {
+  const auto refusal = [](Vec3 entry, Vec3 target, Axes axes) {
+    Plan plan{"p.json", "L4", axes, 1e-3, {}};
+    plan.screws.push_back({"screws[0]", std::nullopt, {entry}, {target}, 0.003});
+    const auto screws = screws_on(box_mesh(), plan);
+    return screws ? std::string() : screws.error().message;
+  };
+  EXPECT_EQ(refusal({0.02, -0.03, 0}, {0.01, 0.01, 0}, Axes::kLps),
+            "p.json: screws[0] entry lies 40.0 mm in front of its target, must lie behind it "
+            "(posterior) (its axes are stated as LPS; as RAS it would fit)");
+  EXPECT_EQ(refusal({0.02, -0.03, 0}, {0.01, 0.01, 0}, Axes::kRas),
+            "p.json: screws[0] entry lies 40.0 mm in front of its target, must lie behind it "
+            "(posterior) (its axes are stated as RAS; as LPS it would fit)");
+  EXPECT_EQ(refusal({0.02, 0.09, 0}, {0.01, 0.05, 0}, Axes::kLps),
+            "p.json: screws[0] entry lies 60.0 mm off the bone, limit 10.0 mm")
+      << "it fits in neither";
+  EXPECT_EQ(refusal({0.02, 0.03, 0}, {0.01, -0.01, 0}, Axes::kLps), "") << "the twin";
+}
+
 }  // namespace
 }  // namespace orthonav::engine::screw_side_test

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "base/result.h"
+#include "engine/case/case.h"
+
+namespace orthonav::engine {
+
+/// Writes a case into a folder that is there: a binary STL for each level and a plan for each level
+/// with screws, all in millimetres and LPS, then `case.json`, so that a folder with one is whole.
+/// `load_case` reads the same back, to a float's digits. Refuses a folder that has a `case.json`,
+/// and labels that can't be the name of a file.
+Status save_case(const std::string& folder, const Case& subject);
+
+/// Adds plans to a case folder: writes `LABEL.plan.json` for each level of `planned` with screws to
+/// which `case.json` names no plan, then `case.json` with their names; what else it says stays.
+/// Refuses, before anything is written, a level that has a plan already and a case that is not in
+/// millimetres (a model without a plan is read in the case's unit, with one in the plan's).
+Status add_plans(const std::string& folder, const Case& planned);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,118 @@
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/printed.h"
+#include "engine/case/plan_file.h"
+#include "engine/io/mesh_file.h"
+#include "tools/arguments.h"
+#include "tools/case_source.h"
+#include "tools/plan_command.h"
+#include "tools/plan_figures.h"
+
+namespace orthonav::tools {
+namespace {
+
+struct CheckArguments {
+  PlanArguments common;
+  std::string model;  ///< empty: a case
+  std::string plan;
+};
+
+/// The case that is judged: a folder, the phantom, or one model with its plan.
+Result<engine::Case> checked_source(const CheckArguments& arguments) {
+  if (arguments.model.empty()) {
+    return load_checked_case(arguments.common.case_folder);
+  }
+  const auto plan = engine::load_plan(arguments.plan);
+  if (!plan) {
+    return plan.error();
+  }
+  auto mesh = engine::load_mesh(arguments.model, plan->metres_per_unit, plan->axes);
+  if (!mesh) {
+    return mesh.error();
+  }
+  auto screws = engine::screws_on(*mesh, *plan);
+  if (!screws) {
+    return screws.error();
+  }
+  engine::Case subject{arguments.model, {}, {}};
+  subject.levels.push_back(
+      {plan->level.empty() ? "plan" : plan->level, std::move(*mesh), std::move(*screws), {}});
+  return subject;
+}
+
+/// Prints each screw that breaks through; whether none does.
+bool none_breaks_through(const std::vector<JudgedLevel>& levels) {
+  bool none = true;
+  for (const JudgedLevel& level : levels) {
+    for (const JudgedScrew& screw : level.screws) {
+      if (screw.breaks_through()) {
+        none = false;
+        std::fprintf(stderr, "orthonav: %s %s: breaks through the cortex: clearance %s\n",
+                     level.label.c_str(), name_of(screw.plan.side),
+                     beside_limit("%.1f mm, limit %.1f mm", screw.clearance->clearance_m * 1e3, 0.0)
+                         .c_str());
+      }
+    }
+  }
+  return none;
+}
+
+int run_check(const CheckArguments& arguments) {
+  if (arguments.model.empty() != arguments.plan.empty()) {
+    return bad_input("--model and --plan go together");
+  }
+  const auto sizes = arguments.common.sizes();
+  if (!sizes) {
+    return bad_input(sizes.error().message);
+  }
+  const auto subject = checked_source(arguments);
+  if (!subject) {
+    return bad_input(subject.error().message);
+  }
+  if (Status s = arguments.common.check_levels(*subject); !s) {
+    return bad_input(s.error().message);
+  }
+  std::vector<JudgedLevel> levels;
+  for (const engine::CaseLevel& level : subject->levels) {
+    if (!arguments.common.wants(level.label)) {
+      continue;
+    }
+    const nav::SurfaceIndex bone(level.mesh);
+    JudgedLevel out{level.label, {}, {}};
+    for (const nav::ScrewPlan& screw : level.screws) {
+      out.screws.push_back(judged(bone, screw, *sizes));
+    }
+    levels.push_back(std::move(out));
+  }
+  if (Status s = arguments.common.json.write(as_json(levels)); !s) {
+    return bad_input(s.error().message);
+  }
+  if (!arguments.common.json.on_stdout()) {
+    print(levels);
+  }
+  return none_breaks_through(levels) ? kDone : kNo;
+}
+
+}  // namespace
+
+void add_plan_check(CLI::App& plan, Action& action) {
+  auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* command =
+      plan.add_subcommand("check", "Judges planned screws: clearance to the cortex, and grade");
+  arguments->common.add_to(*command);
+  command->add_option("--model", arguments->model, "instead of --case: a vertebra, with --plan")
+      ->check(some_text())
+      ->type_name("MESH");
+  command->add_option("--plan", arguments->plan, "its screws: a plan or 3D Slicer's lines")
+      ->check(some_text())
+      ->type_name("PLAN");
+  command->footer(
+      "\nExit code 1 where a screw breaks through the cortex and the plan does not say why it "
+      "may.");
+  command->callback(
+      [arguments, &action] { action = [arguments] { return run_check(*arguments); }; });
+}
+
+}  // namespace orthonav::tools

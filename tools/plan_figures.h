@@ -1,0 +1,46 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/case/case.h"
+#include "engine/case/screw_sizes.h"
+#include "nav/planning/pedicle_screws.h"
+
+namespace orthonav::tools {
+
+/// A screw of a plan, as it is judged.
+struct JudgedScrew {
+  nav::ScrewPlan plan;
+  std::optional<nav::Clearance> clearance;  ///< none: the plan states no radius
+  bool listed = true;                       ///< its size is in the list of screws
+  /// Of a planned one: how it was found.
+  std::optional<nav::PlannedScrew> found;
+
+  /// It leaves the bone, and the plan does not say why it may.
+  [[nodiscard]] bool breaks_through() const;
+};
+
+/// A side on which no screw could be planned.
+struct RefusedSide {
+  nav::Side side = nav::Side::kLeft;
+  std::string reason;
+};
+
+struct JudgedLevel {
+  std::string label;
+  std::vector<JudgedScrew> screws;
+  std::vector<RefusedSide> refused;
+};
+
+[[nodiscard]] JudgedScrew judged(const nav::SurfaceIndex& bone, const nav::ScrewPlan& screw,
+                                 const engine::ScrewSizes& sizes);
+
+/// A line a screw on standard output, lengths in mm and angles in degrees.
+void print(const std::vector<JudgedLevel>& levels);
+
+[[nodiscard]] nlohmann::ordered_json as_json(const std::vector<JudgedLevel>& levels);
+
+}  // namespace orthonav::tools
