@@ -44,6 +44,9 @@ struct MeshData {
   std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise from outside
   /// From 0 (the item's colour) to 1 (its tint): one per vertex, or none for the colour alone.
   std::vector<float> tints;
+  /// Of a tube: what it was made along, and how thick; else empty. Not drawn.
+  std::vector<Float3> axis;
+  float axis_radius_m = 0;
 };
 
 enum class MeshStyle {

@@ -181,6 +181,8 @@ MeshData make_tube(std::span<const Float3> path, float radius_m, int slices) {
   add_cap(mesh, points.front(), -1.0f * tangent_at(points, 0), 0, columns);
   add_cap(mesh, points.back(), tangent_at(points, points.size() - 1), (points.size() - 1) * columns,
           columns);
+  mesh.axis = points;
+  mesh.axis_radius_m = radius_m;
   return mesh;
 }
 

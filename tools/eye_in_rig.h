@@ -10,4 +10,9 @@ namespace orthonav::tools {
   return {Mat3::identity(), Vec3{0.081, -0.010, 0.030}};
 }
 
+/// The point between the eyes, 63 mm apart, which lies as the eye above does.
+[[nodiscard]] inline Transform<Rig, Eye> rig_from_eyes() {
+  return {Mat3::identity(), Vec3{0.0495, -0.010, 0.030}};
+}
+
 }  // namespace orthonav::tools

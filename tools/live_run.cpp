@@ -10,7 +10,6 @@
 #include "engine/case/tool_file.h"
 #include "engine/live/assembled_operation.h"
 #include "engine/live/known_tools.h"
-#include "engine/live/presenter.h"
 #include "engine/report/operation_result.h"
 #include "engine/study/evaluation.h"
 #include "engine/study/sim_scenario.h"
@@ -21,6 +20,7 @@
 #include "tools/joined_parts.h"
 #include "tools/model_notes.h"
 #include "tools/operation_summary.h"
+#include "tools/presenting.h"
 #include "tools/progress.h"
 #include "tools/run_files.h"
 #include "tools/run_stats.h"
@@ -43,13 +43,13 @@ class LiveRun {
     }
     OperationProgress progress(nullptr);
     operation_->observe(&progress);
-    if (const Status presenting = present(); !presenting) {
+    if (const Status presenting = presenting_.begin(*headset_, *operation_); !presenting) {
       return bad_input(files_.close(presenting.error().message));
     }
     signals_.on_stop([this] { operation_->stop(); });
     auto report = operation_->run();
     signals_.on_stop(nullptr);
-    end_presenting();
+    presenting_.end(arguments_.stats);
     if (!report) {
       return bad_input(files_.close(report.error().message));
     }
@@ -78,35 +78,6 @@ class LiveRun {
   }
 
  private:
-  /// For a headset that takes pixels.
-  Status present() {
-    if (!headset_->pixels()) {
-      return {};
-    }
-    engine::PresenterOptions options;
-    options.on_over = [this] { operation_->stop(); };
-    auto presenter = engine::Presenter::start(*headset_->pixels(), options);
-    if (!presenter) {
-      return presenter.error();
-    }
-    presenter_ = std::move(*presenter);
-    operation_->draw_into(presenter_.get());
-    return {};
-  }
-
-  void end_presenting() {
-    if (!presenter_) {
-      return;
-    }
-    const engine::PresentReport report = presenter_->stop();
-    for (const std::string& problem : report.problems) {
-      std::fprintf(stderr, "%s\n", problem.c_str());
-    }
-    if (arguments_.stats) {
-      print_stats(report);
-    }
-  }
-
   Status open() {
     auto method = engine::method_named(arguments_.method);
     if (!method) {
@@ -196,8 +167,8 @@ class LiveRun {
     options.session.replan.sizes = sizes_;
     options.loop.max_frames = arguments_.frames;
     options.loop.max_time = from_seconds(arguments_.for_s);
-    options.loop.draw_every = headset_->pixels() ? 1 : 0;
-    options.loop.drop_late_snapshots = headset_->pixels() != nullptr;
+    options.loop.draw_every = Presenting::is_possible(*headset_) ? 1 : 0;
+    options.loop.drop_late_snapshots = Presenting::is_possible(*headset_);
     auto assembled =
         engine::assemble_operation(*joined_, std::move(operation), method_, *tools, options);
     if (!assembled) {
@@ -287,7 +258,7 @@ class LiveRun {
   std::optional<engine::GroundTruthRecorder> ground_truth_;
   engine::EndNote end_note_;
   std::unique_ptr<engine::AssembledOperation> operation_;
-  std::unique_ptr<engine::Presenter> presenter_;
+  Presenting presenting_;
 };
 
 }  // namespace

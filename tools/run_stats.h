@@ -2,6 +2,7 @@
 
 #include "engine/live/frame_loop.h"
 #include "engine/live/presenter.h"
+#include "hal/api/object_display.h"
 
 namespace orthonav::tools {
 
@@ -9,5 +10,6 @@ namespace orthonav::tools {
 
 void print_stats(const engine::LoopReport& loop);
 void print_stats(const engine::PresentReport& report);
+void print_stats(const ObjectDisplayStatistics& objects);
 
 }  // namespace orthonav::tools

@@ -25,11 +25,17 @@ constexpr render::Label kNumbersRow = label_of(HologramKind::kNumbers, 2);
 
 }  // namespace
 
+bool hangs_on_tool(render::Label label) {
+  const HologramKind kind = kind_of(label);
+  return kind == HologramKind::kTriangle || kind == HologramKind::kAngle ||
+         kind == HologramKind::kDepth || (kind == HologramKind::kNumbers && label != kStop) ||
+         label == kCross + 1 || label == kTwinTool;
+}
+
 void hide_tool_guidance(render::Scene& scene) {
+  // The number's place stays, with dashes.
   const auto of_tool = [](const auto& item) {
-    const HologramKind kind = kind_of(item.label);
-    return kind == HologramKind::kTriangle || kind == HologramKind::kDepth ||
-           (kind == HologramKind::kNumbers && item.label != kStop) || item.label == kTwinTool;
+    return hangs_on_tool(item.label) && kind_of(item.label) != HologramKind::kAngle;
   };
   scene.triangles.erase_if(of_tool);
   scene.lines.erase_if(of_tool);

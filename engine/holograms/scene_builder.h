@@ -68,6 +68,10 @@ class SceneBuilder {
   render::Scene parts_;  ///< of the twin
 };
 
+/// Whether what has this label came from a tool's pose, where one is shown: it is wrong once that
+/// is too old.
+[[nodiscard]] bool hangs_on_tool(render::Label label);
+
 /// Takes the deviation triangle out of a scene and the number off its readout: the pose they came
 /// from has grown too old before they were drawn.
 void hide_tool_guidance(render::Scene& scene);

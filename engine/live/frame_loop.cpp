@@ -63,6 +63,7 @@ void FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& stat
     if (options_.drop_late_snapshots && snapshot->expires &&
         next_display_time() > *snapshot->expires) {
       hide_tool_guidance(snapshot->scene);
+      snapshot->tool_time.reset();
     }
     if (status.ok()) {
       const Stopwatch watch;
@@ -245,7 +246,9 @@ void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int
   snapshot->display_time = guidance.display_time;
   snapshot->step = guidance.status.at;
   snapshot->blank = guidance.blank;
+  snapshot->map_epoch = frame_.map_epoch;
   snapshot->expires.reset();
+  snapshot->tool_time = builder_.visible().pose_time;
   if (const auto& pose_time = builder_.visible().pose_time) {
     snapshot->expires = *pose_time + guidance.stale_after;
   }

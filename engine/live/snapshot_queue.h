@@ -21,7 +21,10 @@ struct Snapshot {
   StepOnDisplay step;
   /// When shown later than this, tool guidance is too old to be seen; absent when there is none.
   std::optional<Timestamp> expires;
-  bool blank = false;   ///< the loop has ended: only the status line is shown
+  /// Mid-exposure of the pair that tool guidance in the scene is of; absent when there is none.
+  std::optional<Timestamp> tool_time;
+  std::int64_t map_epoch = 0;  ///< of the scene's World (StereoFrame::map_epoch)
+  bool blank = false;          ///< the loop has ended: only the status line is shown
   render::Scene scene;  ///< labels stand where they were built; whoever draws it lays them out
   std::vector<GlarePatch> patches;  ///< where they would not be read
 };

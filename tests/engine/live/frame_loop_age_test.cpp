@@ -193,6 +193,29 @@ TEST_F(GuidingLoop, HidesWhatGrewTooOldWhileItWasTracked) {
   }
 }
 
+/// Keeps of which pair the tool guidance was that it was given to draw.
+class PairsOfGuidance : public SnapshotSink {
+ public:
+  Status draw(const Snapshot& snapshot) override {
+    tool_times.push_back(snapshot.tool_time);
+    return {};
+  }
+  std::vector<std::optional<Timestamp>> tool_times;
+};
+
+TEST_F(GuidingLoop, TellsTheDrawerOfWhichPairGuidanceIs) {
+  fake::FakeHeadset headset(pairs(2));
+  SceneBuilder builder;
+  FrameLoop loop(headset, s.session(), builder, options);
+  PairsOfGuidance drawn;
+  loop.draw_into(&drawn);
+  ASSERT_TRUE(loop.run().ok());
+  ASSERT_EQ(drawn.tool_times.size(), 3u);
+  EXPECT_EQ(drawn.tool_times[0], test::kStart + kPair);
+  EXPECT_EQ(drawn.tool_times[1], test::kStart + 2 * kPair);
+  EXPECT_EQ(drawn.tool_times[2], std::nullopt) << "taken back at the end";
+}
+
 TEST(LoopOptions, NamesEveryProblem) {
   LoopOptions bad;
   bad.draw_every = -1;

@@ -1,0 +1,47 @@
+#include "engine/live/object_presenter.h"
+
+#include "engine/holograms/render_values.h"
+#include "render/projection.h"
+
+namespace orthonav::engine {
+namespace {
+
+/// A HoloLens 2's field of view, as tangents of half of it.
+constexpr float kTanAcross = 0.394f;
+constexpr float kTanDown = 0.2561f;
+
+}  // namespace
+
+void ObjectPresenter::locate(const Snapshot& snapshot) {
+  if (list_.map_epoch != snapshot.map_epoch) {
+    view_.reset();
+  }
+  const auto world_from_rig = head_.world_from_rig(snapshot.display_time);
+  if (world_from_rig.status == PoseStatus::kLost) {
+    return;
+  }
+  render::View view;
+  view.eye_from_world = to_matrix((world_from_rig.value * rig_from_eyes_).inverse().row_major());
+  view.tan_left = view.tan_right = kTanAcross;
+  view.tan_up = view.tan_down = kTanDown;
+  view_ = view;
+}
+
+Status ObjectPresenter::draw(const Snapshot& snapshot) {
+  locate(snapshot);
+  list_.map_epoch = snapshot.map_epoch;
+  list_.tool_time = snapshot.tool_time;
+  if (!view_) {
+    write_head_lost(snapshot.scene, scene_);
+    objects_.write(scene_, {}, snapshot.display_time, list_);
+  } else {
+    scene_ = snapshot.scene;
+    const std::vector<render::View> views = {*view_};
+    labels_.lay_out(scene_, views, snapshot.patches, snapshot.display_time);
+    objects_.write(scene_, render::head_of(views), snapshot.display_time, list_);
+  }
+  display_.show(list_);
+  return {};
+}
+
+}  // namespace orthonav::engine

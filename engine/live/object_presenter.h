@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "base/transform.h"
+#include "engine/holograms/label_layout.h"
+#include "engine/live/frame_loop.h"
+#include "engine/live/scene_objects.h"
+#include "hal/api/object_display.h"
+
+namespace orthonav::engine {
+
+/// Hands every snapshot, as objects, to a display that draws on its own. Called on the drawing
+/// thread; waits for nothing. While the head was never located, only what hangs on the head is
+/// shown.
+class ObjectPresenter : public SnapshotSink {
+ public:
+  /// Both must outlive it. `rig_from_eyes` is where the point between the wearer's eyes is.
+  ObjectPresenter(ObjectDisplay& display, const HeadTracker& head,
+                  const Transform<Rig, Eye>& rig_from_eyes, const SceneObjectOptions& options = {})
+      : display_(display), head_(head), rig_from_eyes_(rig_from_eyes), objects_(options) {}
+
+  Status draw(const Snapshot& snapshot) override;
+
+ private:
+  void locate(const Snapshot& snapshot);
+
+  ObjectDisplay& display_;
+  const HeadTracker& head_;
+  Transform<Rig, Eye> rig_from_eyes_;
+  SceneObjects objects_;
+  LabelLayout labels_;
+  std::optional<render::View> view_;  ///< of the head when it was last located in this map
+  // Reused from snapshot to snapshot.
+  render::Scene scene_;
+  ObjectList list_;
+};
+
+}  // namespace orthonav::engine

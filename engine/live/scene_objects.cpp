@@ -1,0 +1,198 @@
+#include "engine/live/scene_objects.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/holograms/hologram_label.h"
+#include "engine/holograms/hologram_shapes.h"
+#include "render/float3.h"
+#include "render/projection.h"
+
+namespace orthonav::engine {
+namespace {
+
+using render::Float3;
+
+/// What matters most comes first: what exceeds the display's limits is left out at the end.
+constexpr std::array<HologramKind, 13> kOrder = {
+    HologramKind::kTriangle,   HologramKind::kAngle,  HologramKind::kDepth,
+    HologramKind::kNumbers,    HologramKind::kStatus, HologramKind::kCross,
+    HologramKind::kTrajectory, HologramKind::kEntry,  HologramKind::kCheckPoint,
+    HologramKind::kRod,        HologramKind::kPath,   HologramKind::kVertebra,
+    HologramKind::kTwin};
+
+constexpr float kLineWithin_m = 0.00012f;
+constexpr float kPathWithin_m = 0.0007f;
+constexpr float kPathCoarser = 2.0f;
+constexpr float kCoarsestPath_m = 0.012f;
+constexpr float kTubeWithin_m = 0.0002f;
+/// More dashes of one line would tell nothing new.
+constexpr float kMostDashes = 8;
+/// Less of a dash, at a corner or the end, is left out.
+constexpr float kLeastOfDash = 0.15f;
+/// A HoloLens 2 shows nothing thinner at arm's length.
+constexpr float kThinnest_m = 0.0004f;
+constexpr float kOutline_m = 0.0005f;
+constexpr float kBoneLine_m = 0.0006f;
+constexpr float kFaintest = 0.02f;
+/// With more triangles a surface is a bone.
+constexpr std::size_t kFewTriangles = 1500;
+
+float radius_of(const render::MeshData& mesh) {
+  float radius = 0;
+  for (const Float3 p : mesh.positions) {
+    radius = std::max(radius, length(p));
+  }
+  return radius;
+}
+
+/// Cuts dashes out of a line: first a dash, then a gap as long.
+void cut_dashes(std::vector<StraightPiece>& pieces, float dash_m) {
+  float total_m = 0;
+  for (const StraightPiece& piece : pieces) {
+    total_m += length(piece[1] - piece[0]);
+  }
+  dash_m = std::max(dash_m, total_m / (2 * kMostDashes));
+  std::vector<StraightPiece> dashes;
+  float gone_m = 0;
+  for (const StraightPiece& piece : pieces) {
+    const float length_m = length(piece[1] - piece[0]);
+    const Float3 along = render::unit_or(piece[1] - piece[0], {0, 1, 0});
+    for (float at_m = 0; at_m < length_m - 1e-6f;) {
+      const float in_period_m = std::fmod(gone_m + at_m, 2 * dash_m);
+      const bool is_dash = in_period_m < dash_m;
+      const float step_m = std::max(
+          1e-5f, std::min(length_m - at_m, (is_dash ? 1.0f : 2.0f) * dash_m - in_period_m));
+      if (is_dash && step_m > kLeastOfDash * dash_m) {
+        dashes.push_back({piece[0] + at_m * along, piece[0] + (at_m + step_m) * along});
+      }
+      at_m += step_m;
+    }
+    gone_m += length_m;
+  }
+  pieces = std::move(dashes);
+}
+
+void append_pieces(const SurfaceContours::Line& line, std::vector<StraightPiece>& pieces) {
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    pieces.push_back({line[i - 1], line[i]});
+  }
+}
+
+}  // namespace
+
+/// Into `pieces_`.
+void SceneObjects::pieces_of(const render::LineItem& item, float within_m) {
+  SurfaceContours::Line line = item.points;
+  if (item.closed && !line.empty()) {
+    line.push_back(line.front());
+  }
+  pieces_.clear();
+  append_pieces(thinned(line, within_m), pieces_);
+  if (item.dash_m > 0) {
+    cut_dashes(pieces_, item.dash_m);
+  }
+}
+
+void SceneObjects::add_line(const render::LineItem& item, float within_m) {
+  if (item.colour.a < kFaintest) {
+    return;
+  }
+  pieces_of(item, within_m);
+  for (const StraightPiece& piece : pieces_) {
+    writer_.add_piece(piece, std::max(item.width_m, kThinnest_m), item.colour);
+  }
+}
+
+/// The deviation triangle has edges of its own.
+void SceneObjects::add_outline(const render::TriangleItem& item) {
+  if (kind_of(item.label) != HologramKind::kCross) {
+    return;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    writer_.add_piece({item.corners[i], item.corners[(i + 1) % 3]}, kOutline_m, item.colour);
+  }
+}
+
+void SceneObjects::add_mesh(const render::MeshItem& item, Float3 eye, Timestamp shown_at) {
+  const render::MeshData& mesh = *item.mesh;
+  const render::Matrix4& m = item.world_from_model;
+  if (mesh.axis.size() > 1) {
+    SurfaceContours::Line line;
+    for (const Float3 p : mesh.axis) {
+      line.push_back(transformed(m, p));
+    }
+    pieces_.clear();
+    append_pieces(thinned(line, kTubeWithin_m), pieces_);
+    for (const StraightPiece& piece : pieces_) {
+      writer_.add_piece(piece, 2 * mesh.axis_radius_m * scale_of(m), item.colour);
+    }
+    return;
+  }
+  if (mesh.indices.size() > 3 * kFewTriangles) {
+    const render::Colour line = {look::kBone.r, look::kBone.g, look::kBone.b, 1};
+    for (const StraightPiece& piece : bone_.pieces(item, eye, shown_at)) {
+      writer_.add_piece(piece, kBoneLine_m, line);
+    }
+    return;
+  }
+  if (item.style == render::MeshStyle::kRim || mesh.indices.empty()) {
+    return;  // a halo
+  }
+  constexpr std::size_t kOctahedron = 8;
+  const bool is_diamond = mesh.indices.size() == 3 * kOctahedron;
+  writer_.add_ball({m[12], m[13], m[14]}, radius_of(mesh) * scale_of(m), item.colour,
+                   is_diamond ? ObjectShape::kCube : ObjectShape::kSphere);
+}
+
+/// Coarser while there are too many pieces, and never finer again before the paths are gone:
+/// otherwise all of them would move to and fro.
+float SceneObjects::path_tolerance_m(const render::Scene& scene) {
+  path_within_m_ = std::max(path_within_m_, kPathWithin_m);
+  for (; path_within_m_ < kCoarsestPath_m; path_within_m_ *= kPathCoarser) {
+    std::size_t count = 0;
+    bool any = false;
+    for (const render::LineItem& item : scene.lines) {
+      if (kind_of(item.label) == HologramKind::kPath) {
+        pieces_of(item, path_within_m_);
+        count += pieces_.size();
+        any = true;
+      }
+    }
+    if (!any) {
+      path_within_m_ = kPathWithin_m;
+    }
+    if (count <= options_.path_pieces) {
+      break;
+    }
+  }
+  return path_within_m_;
+}
+
+void SceneObjects::write(const render::Scene& scene, const render::Head& head, Timestamp shown_at,
+                         ObjectList& list) {
+  list.objects.clear();
+  writer_.begin(list);
+  const float path_within_m = path_tolerance_m(scene);
+  for (const HologramKind kind : kOrder) {
+    const auto for_each = [&](const auto& items, const auto& add) {
+      for (const auto& item : items) {
+        if (kind_of(item.label) == kind) {
+          writer_.label(item.label);
+          add(item);
+        }
+      }
+    };
+    for_each(scene.texts, [&](const auto& item) { writer_.add_text(item, head); });
+    for_each(scene.lines, [&](const auto& item) {
+      add_line(item, kind == HologramKind::kPath ? path_within_m : kLineWithin_m);
+    });
+    for_each(scene.triangles, [&](const auto& item) { add_outline(item); });
+    for_each(scene.meshes, [&](const auto& item) { add_mesh(item, head.position, shown_at); });
+  }
+  bone_.forget_unused();
+  writer_.end();
+}
+
+}  // namespace orthonav::engine

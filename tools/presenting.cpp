@@ -1,0 +1,44 @@
+#include "tools/presenting.h"
+
+#include <cstdio>
+
+#include "tools/eye_in_rig.h"
+#include "tools/run_stats.h"
+
+namespace orthonav::tools {
+
+Status Presenting::begin(Headset& headset, engine::AssembledOperation& operation) {
+  if (headset.pixels() != nullptr) {
+    engine::PresenterOptions options;
+    options.on_over = [&operation] { operation.stop(); };
+    auto presenter = engine::Presenter::start(*headset.pixels(), options);
+    if (!presenter) {
+      return presenter.error();
+    }
+    presenter_ = std::move(*presenter);
+    operation.draw_into(presenter_.get());
+  } else if (headset.objects() != nullptr) {
+    display_ = headset.objects();
+    objects_ =
+        std::make_unique<engine::ObjectPresenter>(*display_, headset.head(), rig_from_eyes());
+    operation.draw_into(objects_.get());
+  }
+  return {};
+}
+
+void Presenting::end(bool stats) {
+  if (presenter_) {
+    const engine::PresentReport report = presenter_->stop();
+    for (const std::string& problem : report.problems) {
+      std::fprintf(stderr, "%s\n", problem.c_str());
+    }
+    if (stats) {
+      print_stats(report);
+    }
+  }
+  if (display_ != nullptr && stats) {
+    print_stats(display_->statistics());
+  }
+}
+
+}  // namespace orthonav::tools

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "engine/live/assembled_operation.h"
+#include "engine/live/object_presenter.h"
+#include "engine/live/presenter.h"
+
+namespace orthonav::tools {
+
+/// Shows an operation on the headset's own display, where it takes pixels or objects.
+class Presenting {
+ public:
+  /// Whether there is anything to draw for.
+  [[nodiscard]] static bool is_possible(Headset& headset) {
+    return headset.pixels() != nullptr || headset.objects() != nullptr;
+  }
+  /// Before `operation` runs; both must outlive this.
+  Status begin(Headset& headset, engine::AssembledOperation& operation);
+  /// Says what went wrong, and, if asked, what frames took, on standard error.
+  void end(bool stats);
+
+ private:
+  std::unique_ptr<engine::Presenter> presenter_;
+  std::unique_ptr<engine::ObjectPresenter> objects_;
+  ObjectDisplay* display_ = nullptr;
+};
+
+}  // namespace orthonav::tools
