@@ -23,6 +23,7 @@ int bad_input(const std::string& message);
 // they are at when they are to stop; the others end at once.
 void add_calibrate_command(CLI::App& app, Action& action);
 void add_accuracy_command(CLI::App& app, Action& action);
+void add_case_command(CLI::App& app, Action& action);
 void add_demo_command(CLI::App& app, Action& action, StopSignals& signals);
 void add_depth_command(CLI::App& app, Action& action);
 void add_detect_command(CLI::App& app, Action& action);

@@ -57,6 +57,7 @@ int run(int argc, char** argv) {
   Action action;
   add_calibrate_command(app, action);
   add_accuracy_command(app, action);
+  add_case_command(app, action);
   add_demo_command(app, action, signals);
   add_depth_command(app, action);
   add_detect_command(app, action);

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/phantom/implicit_surface.h"
+#include "nav/geometry/implicit_surface.h"
 #include "render/shapes.h"
 
 namespace orthonav::engine {
@@ -68,7 +68,7 @@ double field(Vec3 p) {
 
 std::shared_ptr<const render::MeshData> make_golden_vertebra() {
   const nav::TriangleMesh surface =
-      surface_of(field, {-0.056, -0.026, -0.034}, {0.056, 0.073, 0.028}, kStep_m);
+      nav::surface_of(field, {-0.056, -0.026, -0.034}, {0.056, 0.073, 0.028}, kStep_m);
   auto mesh = std::make_shared<render::MeshData>();
   for (const Vec3 v : surface.vertices_m) {
     mesh->positions.push_back(

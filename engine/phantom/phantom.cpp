@@ -6,7 +6,7 @@
 
 #include "base/check.h"
 #include "embedded/phantom_json.h"
-#include "engine/phantom/implicit_surface.h"
+#include "nav/geometry/implicit_surface.h"
 #include "engine/phantom/phantom_file.h"
 #include "engine/phantom/vertebra_shape.h"
 
@@ -33,7 +33,7 @@ CaseLevel made(const VertebraMorphometry& morphometry, const PhantomParameters& 
   const VertebraShape shape(morphometry);
   CaseLevel level;
   level.label = morphometry.label;
-  level.mesh = surface_of([&shape](Vec3 p) { return shape.value(p); }, shape.low_m(),
+  level.mesh = nav::surface_of([&shape](Vec3 p) { return shape.value(p); }, shape.low_m(),
                           shape.high_m(), kGridStep_m);
   const nav::SurfaceIndex bone(level.mesh);
   for (const nav::Side side : {nav::Side::kLeft, nav::Side::kRight}) {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "engine/phantom/implicit_surface.h"
+#include "nav/geometry/implicit_surface.h"
 #include "engine/phantom/phantom_file.h"
 #include "tests/support/test_meshes.h"
 
@@ -252,7 +252,7 @@ TEST(PhantomParameters, RefusesMeasuresThatAreMissingOrNotPositive) {
 TEST(ImplicitSurface, MeshesABallToItsRadius) {
   constexpr double kRadius_m = 0.020;
   constexpr double kOnTheSurface_m = 1e-7;  // three Newton steps from a grid of 1.4 mm
-  const nav::TriangleMesh ball = surface_of([](Vec3 p) { return p.norm() - kRadius_m; },
+  const nav::TriangleMesh ball = nav::surface_of([](Vec3 p) { return p.norm() - kRadius_m; },
                                             {-0.03, -0.03, -0.03}, {0.03, 0.03, 0.03}, 0.0014);
   ASSERT_GT(ball.vertices_m.size(), 1000u);
   for (const Vec3& v : ball.vertices_m) {

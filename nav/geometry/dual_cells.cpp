@@ -1,9 +1,9 @@
-#include "engine/phantom/dual_cells.h"
+#include "nav/geometry/dual_cells.h"
 
 #include <set>
 #include <utility>
 
-namespace orthonav::engine {
+namespace orthonav::nav {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
@@ -165,7 +165,7 @@ Vec3 crossing(const SampleGrid& grid, const GridCell& cell, std::size_t edge) {
 
 }  // namespace
 
-CellMap passed_cells(const SampleGrid& grid, nav::TriangleMesh& mesh) {
+CellMap passed_cells(const SampleGrid& grid, TriangleMesh& mesh) {
   CellMap map = marked_cells(grid);
   JoinedFaces joined;
   do {
@@ -191,4 +191,4 @@ CellMap passed_cells(const SampleGrid& grid, nav::TriangleMesh& mesh) {
   return map;
 }
 
-}  // namespace orthonav::engine
+}  // namespace orthonav::nav

@@ -1,4 +1,4 @@
-#include "engine/phantom/implicit_surface.h"
+#include "nav/geometry/implicit_surface.h"
 
 #include <algorithm>
 #include <array>
@@ -6,17 +6,17 @@
 #include <utility>
 #include <vector>
 
-#include "engine/phantom/dual_cells.h"
-#include "engine/phantom/sample_grid.h"
+#include "nav/geometry/dual_cells.h"
+#include "nav/geometry/sample_grid.h"
 
-namespace orthonav::engine {
+namespace orthonav::nav {
 namespace {
 
 constexpr int kEveningRounds = 4;
 constexpr int kFinalSteps = 3;
 
 /// Two triangles over the shorter diagonal, in the order given.
-void add_quad(const std::array<std::uint32_t, 4>& q, nav::TriangleMesh& mesh) {
+void add_quad(const std::array<std::uint32_t, 4>& q, TriangleMesh& mesh) {
   const auto length = [&](std::size_t a, std::size_t b) {
     return (mesh.vertices_m[q[a]] - mesh.vertices_m[q[b]]).squared_norm();
   };
@@ -30,7 +30,7 @@ void add_quad(const std::array<std::uint32_t, 4>& q, nav::TriangleMesh& mesh) {
 }
 
 /// One quad for each grid edge that the surface crosses, through the four cells around it.
-void join_vertices(const SampleGrid& grid, const CellMap& map, nav::TriangleMesh& mesh) {
+void join_vertices(const SampleGrid& grid, const CellMap& map, TriangleMesh& mesh) {
   constexpr std::array<std::pair<int, int>, 4> kAround = {{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
   for (const GridCell& cell : map.cells) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -78,7 +78,7 @@ Vec3 stepped_onto(const ImplicitFunction& function, Vec3 p, double step) {
 }
 
 /// Moves every vertex to the middle of its neighbours, then back onto the surface.
-void even_out(const ImplicitFunction& function, double step, nav::TriangleMesh& mesh) {
+void even_out(const ImplicitFunction& function, double step, TriangleMesh& mesh) {
   std::vector<Vec3> sum(mesh.vertices_m.size());
   std::vector<int> count(mesh.vertices_m.size(), 0);
   for (const auto& triangle : mesh.triangles) {
@@ -96,10 +96,10 @@ void even_out(const ImplicitFunction& function, double step, nav::TriangleMesh& 
 
 }  // namespace
 
-nav::TriangleMesh surface_of(const ImplicitFunction& inside_negative, Vec3 low_m, Vec3 high_m,
+TriangleMesh surface_of(const ImplicitFunction& inside_negative, Vec3 low_m, Vec3 high_m,
                              double step_m) {
   const SampleGrid grid(inside_negative, low_m, high_m, step_m);
-  nav::TriangleMesh mesh;
+  TriangleMesh mesh;
   join_vertices(grid, passed_cells(grid, mesh), mesh);
   for (int round = 0; round < kEveningRounds; ++round) {
     even_out(inside_negative, step_m, mesh);
@@ -112,4 +112,4 @@ nav::TriangleMesh surface_of(const ImplicitFunction& inside_negative, Vec3 low_m
   return mesh;
 }
 
-}  // namespace orthonav::engine
+}  // namespace orthonav::nav

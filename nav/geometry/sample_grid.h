@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "engine/phantom/implicit_surface.h"
+#include "nav/geometry/implicit_surface.h"
 
-namespace orthonav::engine {
+namespace orthonav::nav {
 
 /// Values at the nodes of a regular grid; a cell has the index of its lowest corner.
 class SampleGrid {
@@ -66,4 +66,4 @@ class SampleGrid {
   std::vector<double> values_;
 };
 
-}  // namespace orthonav::engine
+}  // namespace orthonav::nav

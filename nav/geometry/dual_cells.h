@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/phantom/sample_grid.h"
+#include "nav/geometry/sample_grid.h"
 #include "nav/geometry/mesh.h"
 
-namespace orthonav::engine {
+namespace orthonav::nav {
 
 /// The twelve edges of a cell: along `axis`, from the corner that lies `first` steps along the next
 /// axis and `second` steps along the one after.
@@ -41,6 +41,6 @@ struct CellMap {
 
 /// Finds every cell that the zero surface passes through, and adds one vertex per sheet to `mesh`:
 /// the mean of the places where the sheet crosses the cell's edges.
-[[nodiscard]] CellMap passed_cells(const SampleGrid& grid, nav::TriangleMesh& mesh);
+[[nodiscard]] CellMap passed_cells(const SampleGrid& grid, TriangleMesh& mesh);
 
-}  // namespace orthonav::engine
+}  // namespace orthonav::nav

@@ -1,0 +1,200 @@
+#include "engine/scan/label_convention.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/joined.h"
+#include "engine/case/line_name.h"
+#include "engine/io/text_fields.h"
+
+namespace orthonav::engine {
+namespace {
+
+/// From the head down.
+std::vector<std::string> spine_labels() {
+  std::vector<std::string> labels;
+  const auto add = [&](char region, int count) {
+    for (int i = 1; i <= count; ++i) {
+      labels.push_back(region + std::to_string(i));
+    }
+  };
+  add('C', 7);
+  add('T', 13);
+  add('L', 6);
+  labels.push_back("S1");
+  return labels;
+}
+
+/// Counted up or down from the value of L1; the rest by its place along the spine.
+std::map<int, std::string> counted(int l1, int step, int lumbar, int s1) {
+  std::map<int, std::string> out;
+  for (int i = 0; i < 7; ++i) {
+    out[l1 - step * (19 - i)] = "C" + std::to_string(i + 1);
+  }
+  for (int i = 0; i < 12; ++i) {
+    out[l1 - step * (12 - i)] = "T" + std::to_string(i + 1);
+  }
+  for (int i = 0; i < lumbar; ++i) {
+    out[l1 + step * i] = "L" + std::to_string(i + 1);
+  }
+  if (s1 != 0) {
+    out[s1] = "S1";
+  }
+  return out;
+}
+
+std::map<int, std::string> names_of(const std::string& convention) {
+  if (convention == "verse") {
+    auto names = counted(20, 1, 6, 26);
+    names[28] = "T13";
+    return names;
+  }
+  if (convention == "totalsegmentator") {
+    return counted(31, -1, 5, 26);
+  }
+  if (convention == "totalsegmentator-v1") {
+    return counted(22, -1, 5, 0);
+  }
+  return {};
+}
+
+/// The values that a layer holds; none of them is checked.
+std::set<float> values_in(const Volume& labels, std::size_t layer) {
+  std::set<float> values;
+  float last = 0.0F;
+  for (std::size_t i = layer; i < labels.values.size(); i += labels.layers) {
+    if (labels.values[i] != last) {
+      last = labels.values[i];
+      values.insert(last);
+    }
+  }
+  values.erase(0.0F);
+  return values;
+}
+
+void sort_from_the_head(std::vector<LabelledLevel>& levels) {
+  const std::vector<std::string> order = spine_labels();
+  const auto place = [&](const LabelledLevel& level) {
+    return std::find(order.begin(), order.end(), level.label) - order.begin();
+  };
+  std::stable_sort(
+      levels.begin(), levels.end(),
+      [&](const LabelledLevel& a, const LabelledLevel& b) { return place(a) < place(b); });
+}
+
+std::string field_of(const Volume& labels, const std::string& key) {
+  const auto found = labels.fields.find(key);
+  return found == labels.fields.end() ? std::string() : found->second;
+}
+
+/// The segments of a file of 3D Slicer in whose names a level stands.
+Result<std::vector<LabelledLevel>> named_levels(const Volume& labels) {
+  constexpr int kMostSegments = 1000;
+  const std::vector<std::string> known = spine_labels();
+  std::vector<std::set<float>> present;
+  for (std::size_t layer = 0; layer < labels.layers; ++layer) {
+    present.push_back(values_in(labels, layer));
+  }
+  std::vector<LabelledLevel> levels;
+  for (int i = 0; i < kMostSegments; ++i) {
+    const std::string segment = "Segment" + std::to_string(i);
+    const std::string name = field_of(labels, segment + "_Name");
+    if (name.empty()) {
+      break;
+    }
+    const std::string level = parsed_line_name(name).level;
+    if (std::find(known.begin(), known.end(), level) == known.end()) {
+      continue;
+    }
+    const double layer = number_from(field_of(labels, segment + "_Layer")).value_or(0.0);
+    const double value = number_from(field_of(labels, segment + "_LabelValue")).value_or(1.0);
+    if (!(layer >= 0.0 && layer < static_cast<double>(labels.layers))) {
+      return Error{segment + "_Layer is outside of the file's " + std::to_string(labels.layers) +
+                   " layers"};
+    }
+    const auto at = static_cast<std::size_t>(layer);
+    if (!present[at].contains(static_cast<float>(value))) {
+      continue;  // an empty segment
+    }
+    for (const LabelledLevel& other : levels) {
+      if (other.label == level) {
+        return Error{"two segments are named " + level};
+      }
+    }
+    levels.push_back({level, at, static_cast<int>(value)});
+  }
+  if (levels.empty()) {
+    return Error{"no segment is named after a vertebra, such as \"L4\""};
+  }
+  sort_from_the_head(levels);
+  return levels;
+}
+
+}  // namespace
+
+const std::vector<std::string>& label_conventions() {
+  static const std::vector<std::string> names = {"verse", "totalsegmentator",
+                                                 "totalsegmentator-v1"};
+  return names;
+}
+
+Result<std::vector<LabelledLevel>> labelled_levels(const Volume& labels,
+                                                   const std::string& convention) {
+  if (convention.empty() && labels.fields.contains("Segment0_Name")) {
+    return named_levels(labels);
+  }
+  const auto names = names_of(convention);
+  if (names.empty()) {
+    return Error{(convention.empty() ? std::string("its numbers mean nothing without a convention")
+                                     : "unknown convention \"" + convention + "\"") +
+                 "; state one with --convention: " + joined(label_conventions(), ", ")};
+  }
+  if (labels.layers != 1) {
+    return Error{"has " + std::to_string(labels.layers) + " values a voxel, a label map has 1"};
+  }
+  std::vector<LabelledLevel> levels;
+  for (const float value : values_in(labels, 0)) {
+    if (!(value > 0.0F && value <= 65535.0F && std::floor(value) == value)) {
+      return Error{"holds " + std::to_string(value) + ", labels are whole numbers from 0 to 65535"};
+    }
+    const auto found = names.find(static_cast<int>(value));
+    if (found != names.end()) {
+      levels.push_back({found->second, 0, static_cast<int>(value)});
+    }
+  }
+  if (levels.empty()) {
+    return Error{"holds no vertebra of the convention " + convention};
+  }
+  sort_from_the_head(levels);
+  return levels;
+}
+
+double usual_distance_m(const std::string& upper, const std::string& lower) {
+  const auto step_m = [](const std::string& label) {
+    const int number = std::stoi(label.substr(1));
+    switch (label[0]) {
+      case 'C':
+        return 0.017;
+      case 'T':
+        return 0.0175 + 0.0008 * number;
+      default:
+        return 0.035;
+    }
+  };
+  // Few have a T13 or an L6: one that is not there is no step.
+  std::vector<std::string> order = spine_labels();
+  std::erase_if(order, [&](const std::string& label) {
+    return (label == "T13" || label == "L6") && label != upper && label != lower;
+  });
+  const auto from = std::find(order.begin(), order.end(), upper);
+  const auto to = std::find(order.begin(), order.end(), lower);
+  double sum_m = 0.0;
+  for (auto at = from; at < to; ++at) {
+    sum_m += step_m(*at);
+  }
+  return sum_m;
+}
+
+}  // namespace orthonav::engine

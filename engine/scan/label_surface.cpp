@@ -1,0 +1,118 @@
+#include "engine/scan/label_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engine/scan/label_field.h"
+#include "nav/geometry/implicit_surface.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr double kFinestStep_m = 0.0010;
+constexpr double kCoarsestStep_m = 0.0015;
+
+/// The corner of a mesh's parts that stands for the part of `vertex`.
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t vertex) {
+  while (parent[vertex] != vertex) {
+    parent[vertex] = parent[parent[vertex]];
+    vertex = parent[vertex];
+  }
+  return vertex;
+}
+
+/// The part of a mesh with the most triangles; vertices that only others use go.
+nav::TriangleMesh largest_piece(const nav::TriangleMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.vertices_m.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  for (const auto& t : mesh.triangles) {
+    for (const std::size_t k : {1U, 2U}) {
+      parent[root_of(parent, t[k])] = root_of(parent, t[0]);
+    }
+  }
+  std::vector<std::size_t> triangles(parent.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    ++triangles[root_of(parent, t[0])];
+  }
+  const auto largest = static_cast<std::uint32_t>(
+      std::max_element(triangles.begin(), triangles.end()) - triangles.begin());
+  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(parent.size(), kUnused);
+  nav::TriangleMesh out;
+  for (auto t : mesh.triangles) {
+    if (root_of(parent, t[0]) != largest) {
+      continue;
+    }
+    for (std::uint32_t& v : t) {
+      if (number[v] == kUnused) {
+        number[v] = static_cast<std::uint32_t>(out.vertices_m.size());
+        out.vertices_m.push_back(mesh.vertices_m[v]);
+      }
+      v = number[v];
+    }
+    out.triangles.push_back(t);
+  }
+  return out;
+}
+
+/// The box around a grid, whose axes need not be those of the patient.
+nav::Bounds box_of(const VolumeGrid& grid) {
+  nav::Bounds box{grid.origin_m, grid.origin_m};
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p =
+        grid.place_m({corner & 1 ? grid.size[0] - 1.0 : 0.0, corner & 2 ? grid.size[1] - 1.0 : 0.0,
+                      corner & 4 ? grid.size[2] - 1.0 : 0.0});
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], p[axis]);
+      box.high[axis] = std::max(box.high[axis], p[axis]);
+    }
+  }
+  return box;
+}
+
+SurfaceDeviation deviation_of(const LabelPart& part, const nav::TriangleMesh& mesh) {
+  const nav::SurfaceIndex surface(mesh);
+  std::vector<double> off_m;
+  for (int k = 0; k + 1 < part.grid.size[2]; ++k) {
+    for (int j = 0; j + 1 < part.grid.size[1]; ++j) {
+      for (int i = 0; i + 1 < part.grid.size[0]; ++i) {
+        const std::uint8_t here = part.inside[part.grid.at(i, j, k)];
+        const std::array<Vec3, 3> to = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+        const std::array<std::size_t, 3> next = {
+            part.grid.at(i + 1, j, k), part.grid.at(i, j + 1, k), part.grid.at(i, j, k + 1)};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          if (part.inside[next[axis]] != here) {
+            const Vec3 index = Vec3{double(i), double(j), double(k)} + 0.5 * to[axis];
+            const auto near = surface.nearest(part.grid.place_m(index));
+            off_m.push_back(near ? near->distance_m : 1.0);
+          }
+        }
+      }
+    }
+  }
+  std::sort(off_m.begin(), off_m.end());
+  const auto at = [&](double share) {
+    return off_m[static_cast<std::size_t>(share * static_cast<double>(off_m.size() - 1))];
+  };
+  return {at(0.5), at(0.95), off_m.back()};
+}
+
+}  // namespace
+
+Result<LabelSurface> label_surface(const LabelPart& part) {
+  const LabelField field(part);
+  const nav::Bounds box = box_of(part.grid);
+  const double step_m = std::clamp(part.grid.least_spacing_m(), kFinestStep_m, kCoarsestStep_m);
+  auto mesh = nav::checked_vertebra(largest_piece(
+      nav::surface_of([&](Vec3 p) { return field.value_m(p); }, box.low, box.high, step_m)));
+  if (!mesh) {
+    return mesh.error();
+  }
+  const SurfaceDeviation deviation = deviation_of(part, *mesh);
+  return LabelSurface{std::move(*mesh), deviation};
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/vec.h"
+
+namespace orthonav::engine {
+
+/// Where the voxels of a scan lie, metres, LPS. Index 0 runs fastest in memory.
+struct VolumeGrid {
+  std::array<int, 3> size{};
+  Vec3 origin_m;                       ///< centre of the voxel (0, 0, 0)
+  Vec3 spacing_m;                      ///< along the three indices
+  Mat3 directions = Mat3::identity();  ///< its columns: unit, where the indices lead
+
+  [[nodiscard]] std::size_t voxels() const {
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+           static_cast<std::size_t>(size[2]);
+  }
+  [[nodiscard]] std::size_t at(int i, int j, int k) const {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size[1]) +
+            static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(size[0]) +
+           static_cast<std::size_t>(i);
+  }
+  /// Of an index, which may lie between voxels.
+  [[nodiscard]] Vec3 place_m(Vec3 index) const {
+    return origin_m +
+           directions * Vec3{index.x * spacing_m.x, index.y * spacing_m.y, index.z * spacing_m.z};
+  }
+  [[nodiscard]] Vec3 index_of(Vec3 place_m) const {
+    const Vec3 v = directions.transposed() * (place_m - origin_m);
+    return {v.x / spacing_m.x, v.y / spacing_m.y, v.z / spacing_m.z};
+  }
+  [[nodiscard]] double least_spacing_m() const {
+    const double xy = spacing_m.x < spacing_m.y ? spacing_m.x : spacing_m.y;
+    return xy < spacing_m.z ? xy : spacing_m.z;
+  }
+};
+
+/// Refuses spacings outside 0.05-20 mm, axes that are not at right angles or not of unit length,
+/// and an origin that is not finite.
+[[nodiscard]] Status check_grid(const VolumeGrid& grid);
+
+/// A scan (HU) or a label map, as its file holds it. Several layers lie one after another, voxel by
+/// voxel: value = values[voxel * layers + layer].
+struct Volume {
+  VolumeGrid grid;
+  std::size_t layers = 1;
+  std::vector<float> values;                  ///< whole numbers up to 2^24 exactly
+  std::map<std::string, std::string> fields;  ///< text beside the voxels (`Segment0_Name`)
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "base/result.h"
+#include "engine/scan/volume.h"
+
+namespace orthonav::engine {
+
+/// Reads a volume: NIfTI (`.nii`, `.nii.gz`), NRRD (`.nrrd`, `.seg.nrrd`), or a folder of DICOM
+/// slices of one series (`series`: its UID, where the folder holds several), in HU. DICOM slices
+/// are ordered by place (engine/scan/dicom_order.h); files that are no DICOM are passed over.
+/// Refuses in one line what can't be read, has no three dimensions, more than 2^30 voxels, axes
+/// that are not at right angles or spacings outside 0.05-20 mm. Needs the Insight Toolkit; its
+/// exceptions end here.
+Result<Volume> load_volume(const std::string& path, const std::string& series = {});
+
+}  // namespace orthonav::engine

@@ -1,0 +1,206 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/length_text.h"
+#include "engine/case/case_writer.h"
+#include "engine/scan/scan_case.h"
+#include "engine/scan/volume_file.h"
+#include "tools/arguments.h"
+#include "tools/command.h"
+#include "tools/json_output.h"
+#include "tools/out_folder.h"
+#include "tools/print_text.h"
+
+namespace orthonav::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CaseArguments {
+  std::string volume;
+  std::string series;
+  std::string labels;
+  std::string convention;
+  std::optional<double> threshold_hu;
+  std::vector<std::string> levels;
+  std::string name;
+  std::string out;
+  JsonOutput json;
+};
+
+Error in_file(const std::string& path, const Error& error) {
+  return error.message.starts_with(path) ? error : Error{path + ": " + error.message, error.code};
+}
+
+Result<engine::ScanLevels> levels_of_labels(const CaseArguments& arguments) {
+  const auto labels = engine::load_volume(arguments.labels);
+  if (!labels) {
+    return labels.error();
+  }
+  if (!arguments.volume.empty()) {
+    const auto scan = engine::load_volume(arguments.volume, arguments.series);
+    if (!scan) {
+      return scan.error();
+    }
+    if (Status s = engine::check_on_bone(*labels, *scan); !s) {
+      return in_file(arguments.labels, s.error());
+    }
+  }
+  auto made = engine::scan_levels(*labels, arguments.convention, arguments.levels);
+  return made ? std::move(made)
+              : Result<engine::ScanLevels>(in_file(arguments.labels, made.error()));
+}
+
+Result<engine::ScanLevels> levels_of_threshold(const CaseArguments& arguments) {
+  const auto scan = engine::load_volume(arguments.volume, arguments.series);
+  if (!scan) {
+    return scan.error();
+  }
+  auto made = engine::threshold_levels(*scan, *arguments.threshold_hu);
+  return made ? std::move(made)
+              : Result<engine::ScanLevels>(in_file(arguments.volume, made.error()));
+}
+
+/// What does not go together.
+Status check(const CaseArguments& arguments) {
+  const bool labels = !arguments.labels.empty();
+  if (labels == arguments.threshold_hu.has_value()) {
+    return Error{
+        "vertebrae need --labels FILE (a segmentation); --threshold HU takes connected bone from "
+        "--volume, where adjoining vertebrae hang together as one part"};
+  }
+  if (!labels && arguments.volume.empty()) {
+    return Error{"--threshold needs --volume"};
+  }
+  if (!labels && !arguments.levels.empty()) {
+    return Error{"--levels needs --labels: parts of a threshold have no names"};
+  }
+  return {};
+}
+
+nlohmann::ordered_json as_json(const engine::ScanLevels& made) {
+  nlohmann::ordered_json out = {{"levels", nlohmann::ordered_json::array()},
+                                {"left_out", made.left_out}};
+  for (const engine::ScanLevel& level : made.levels) {
+    const engine::SurfaceDeviation& d = level.surface.deviation;
+    out["levels"].push_back({{"label", level.label},
+                             {"voxels", level.voxels},
+                             {"dropped_voxels", level.dropped},
+                             {"triangles", level.surface.mesh.triangles.size()},
+                             {"deviation_median_mm", d.median_m * 1e3},
+                             {"deviation_p95_mm", d.p95_m * 1e3},
+                             {"deviation_max_mm", d.max_m * 1e3}});
+  }
+  return out;
+}
+
+void print(const engine::ScanLevels& made) {
+  for (const engine::ScanLevel& level : made.levels) {
+    const engine::SurfaceDeviation& d = level.surface.deviation;
+    print_text("%s: %zu triangles; from the label's surface %s (median), %s (95 %%), %s (most)",
+               level.label.c_str(), level.surface.mesh.triangles.size(),
+               in_mm(d.median_m, 2).c_str(), in_mm(d.p95_m, 2).c_str(), in_mm(d.max_m, 2).c_str());
+    if (level.dropped > 0) {
+      print_text("; %zu of %zu voxels dropped, they do not hang together with the rest",
+                 level.dropped, level.voxels);
+    }
+    print_text("\n");
+  }
+}
+
+int run_make(const CaseArguments& arguments) {
+  if (Status s = check(arguments); !s) {
+    return bad_input(s.error().message);
+  }
+  if (fs::exists(fs::path(arguments.out) / "case.json")) {
+    return bad_input(arguments.out + "/case.json: is there already");
+  }
+  const auto made =
+      arguments.labels.empty() ? levels_of_threshold(arguments) : levels_of_labels(arguments);
+  if (!made) {
+    return bad_input(made.error().message);
+  }
+  const auto folder = OutFolder::create("--out", arguments.out);
+  if (!folder) {
+    return bad_input(folder.error().message);
+  }
+  const std::string name = arguments.name.empty()
+                               ? fs::path(arguments.out).lexically_normal().filename().string()
+                               : arguments.name;
+  for (const Status& s : {engine::save_case(arguments.out, engine::case_of(*made, name)),
+                          arguments.json.write(as_json(*made))}) {
+    if (!s) {
+      return bad_input(s.error().message);
+    }
+  }
+  for (const std::string& line : made->left_out) {
+    std::fprintf(stderr, "orthonav: left out: %s\n", line.c_str());
+  }
+  if (arguments.labels.empty()) {
+    std::fprintf(
+        stderr,
+        "orthonav: parts of a threshold: adjoining vertebrae hang together as one part; for "
+        "single vertebrae use --labels\n");
+  }
+  if (!arguments.json.on_stdout()) {
+    print(*made);
+  }
+  return kDone;
+}
+
+void add_inputs(CLI::App& command, CaseArguments& arguments) {
+  command
+      .add_option(
+          "--volume", arguments.volume,
+          "CT: .nii, .nii.gz, .nrrd, or a folder of DICOM slices; with --labels only to check "
+          "that they lie on bone")
+      ->check(some_text())
+      ->type_name("SCAN");
+  command
+      .add_option("--series", arguments.series, "UID of the series, where a folder holds several")
+      ->check(some_text());
+  command
+      .add_option("--labels", arguments.labels,
+                  "segmentation: .seg.nrrd of 3D Slicer, or a label map (.nii, .nii.gz, .nrrd)")
+      ->check(some_text())
+      ->type_name("FILE");
+  command
+      .add_option("--convention", arguments.convention,
+                  "what the numbers of a label map mean: verse, totalsegmentator (v2), "
+                  "totalsegmentator-v1")
+      ->check(some_text());
+  command
+      .add_option("--threshold", arguments.threshold_hu,
+                  "instead of --labels: connected bone of at least so many HU")
+      ->check(finite_number(-1000, 3000));
+  command.add_option("--levels", arguments.levels, "levels (default: whole ones from T1 to L6)")
+      ->delimiter(',');
+}
+
+}  // namespace
+
+void add_case_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("case", "Case folders");
+  command->require_subcommand(1);
+  auto arguments = std::make_shared<CaseArguments>();
+  CLI::App* make =
+      command->add_subcommand("make", "Makes a case folder with vertebra meshes from a scan");
+  add_inputs(*make, *arguments);
+  make->add_option("--name", arguments->name, "name of the case (default: that of the folder)")
+      ->check(some_text());
+  make->add_option("--out", arguments->out, "the case folder, without a case.json yet")
+      ->required()
+      ->check(some_text())
+      ->type_name("DIR");
+  arguments->json.add_to(*make);
+  make->footer(
+      "\nMeshes are closed, smooth, and as they lie in the scan (mm, LPS). Next: orthonav plan "
+      "auto\n"
+      "--case DIR (docs/planning.md).");
+  make->callback([arguments, &action] { action = [arguments] { return run_make(*arguments); }; });
+}
+
+}  // namespace orthonav::tools
