@@ -34,12 +34,13 @@ void print_stats(const ObjectDisplayStatistics& objects) {
   std::fprintf(
       stderr,
       "%-28s %lld now, %lld lists, %lld commands, %lld bytes, %lld refused, %lld left out, "
-      "%lld connections, %lld given up, %lld lists too old for guidance\n",
+      "%lld connections, %lld given up, guidance in %zu acknowledged lists, too old in %lld\n",
       "objects on the headset", static_cast<long long>(objects.objects),
       static_cast<long long>(objects.lists), static_cast<long long>(objects.commands),
       static_cast<long long>(objects.bytes), static_cast<long long>(objects.refused),
       static_cast<long long>(objects.left_out), static_cast<long long>(objects.connections),
-      static_cast<long long>(objects.given_up), static_cast<long long>(objects.withheld));
+      static_cast<long long>(objects.given_up), objects.shown_age_ms.size(),
+      static_cast<long long>(objects.withheld));
   print_times("list to acknowledgement", objects.acknowledged_ms);
   print_times("pair to acknowledgement", objects.shown_age_ms);
 }

@@ -12,6 +12,7 @@
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
+#include "tools/scene_drawing.h"
 #include "tools/stop_signals.h"
 
 namespace orthonav::tools {
@@ -26,9 +27,12 @@ struct ServeArguments {
   double pace = 1.0;
   std::string faults;
   std::int64_t sessions = 0;
+  std::string draw;
 };
 
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
+/// Of these looks: a picture a second.
+constexpr int kDrawEvery = 50;
 
 /// Opens the headset for each session: the same simulated operation from its beginning.
 Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) {
@@ -63,8 +67,27 @@ void say_where(const hl2ss::Server& server, const hl2ss::ServerOptions& options)
                side.c_str());
 }
 
+/// Draws what the headset's scene shows, a picture a second while it shows anything.
+class SceneWatch {
+ public:
+  explicit SceneWatch(ScenePictures* pictures) : pictures_(pictures) {}
+  Status look(hl2ss::Server& server, const hl2ss::ServerReport& report) {
+    if (pictures_ == nullptr || looks_++ % kDrawEvery != 0 || !report.world_from_rig) {
+      return {};
+    }
+    const hl2ss::UnityObjects objects = server.scene().objects();
+    return objects.empty() ? Status{} : pictures_->draw(objects, *report.world_from_rig);
+  }
+
+ private:
+  ScenePictures* pictures_;
+  int looks_ = 0;
+};
+
 /// Reports the beginning and end of each session, until there were enough.
-int watch(const hl2ss::Server& server, std::int64_t sessions, const StopSignals& signals) {
+int watch(hl2ss::Server& server, ScenePictures* pictures, std::int64_t sessions,
+          const StopSignals& signals) {
+  SceneWatch scene(pictures);
   bool was_streaming = false;
   std::int64_t pairs_before = 0;
   std::int64_t faults_before = 0;
@@ -86,6 +109,9 @@ int watch(const hl2ss::Server& server, std::int64_t sessions, const StopSignals&
       return bad_input(report.last_trouble);
     }
     was_streaming = report.is_streaming;
+    if (const Status drawn = scene.look(server, report); !drawn) {
+      return bad_input(drawn.error().message);
+    }
     if (const auto signal = signals.caught()) {
       std::fprintf(stderr, "orthonav: stopped by %s after %lld sessions, %lld pairs\n",
                    signal->c_str(), static_cast<long long>(report.sessions),
@@ -111,13 +137,21 @@ int serve(ServeArguments arguments, StopSignals& signals) {
   if (!sessions) {
     return bad_input(sessions.error().message);
   }
+  std::unique_ptr<ScenePictures> pictures;
+  if (!arguments.draw.empty()) {
+    auto made = ScenePictures::create(arguments.draw);
+    if (!made) {
+      return bad_input(made.error().message);
+    }
+    pictures = std::move(*made);
+  }
   const auto server = hl2ss::Server::start(arguments.server, *sessions);
   if (!server) {
     return bad_input(server.error().message);
   }
   signals.let_finish();
   say_where(**server, arguments.server);
-  return watch(**server, arguments.sessions, signals);
+  return watch(**server, pictures.get(), arguments.sessions, signals);
 }
 
 /// What a real headset does wrong, and the stand-in only when asked.
@@ -171,6 +205,10 @@ void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals
                         "the next pair comes when the client is done with the last one, as fast as "
                         "it can (default: 30 pairs a second)");
   add_faults(*serve_hl2ss, *arguments);
+  serve_hl2ss
+      ->add_option("--draw", arguments->draw,
+                   "folder for pictures of what the headset's own scene shows, one a second")
+      ->check(some_text());
   serve_hl2ss
       ->add_option("--sessions", arguments->sessions, "end after so many sessions (0: no end)")
       ->check(whole_number(0))

@@ -53,6 +53,7 @@ bool is_blank(std::string_view character) { return character == " " || character
 render::TextItem trimmed(const render::TextItem& item, const render::Font& font,
                          float& front_caps) {
   render::TextItem line;
+  line.rim = item.rim;  // its letters stand farther apart
   render::TextRun& run = line.runs.emplace_back();
   for (const render::TextRun& part : item.runs) {
     run.text += part.text;
@@ -64,7 +65,8 @@ render::TextItem trimmed(const render::TextItem& item, const render::Font& font,
       break;
     }
     std::string_view blank = character;
-    front_caps += font.glyph(*render::take_code_point(blank)).advance;
+    front_caps += font.glyph(*render::take_code_point(blank)).advance +
+                  (item.rim.a > 0 ? render::kRimWidth : 0.0f);
     text = rest;
   }
   while (!text.empty() && text.back() == ' ') {

@@ -28,9 +28,9 @@ constexpr float kPathCoarser = 2.0f;
 constexpr float kCoarsestPath_m = 0.012f;
 constexpr float kTubeWithin_m = 0.0002f;
 /// More dashes of one line would tell nothing new.
-constexpr float kMostDashes = 8;
-/// Less of a dash, at a corner or the end, is left out.
-constexpr float kLeastOfDash = 0.15f;
+constexpr float kMostDashes = 24;
+/// A round end covers as much as a flat one that ends so much sooner, in widths.
+constexpr float kRoundEnd = 0.1073f;
 /// A HoloLens 2 shows nothing thinner at arm's length.
 constexpr float kThinnest_m = 0.0004f;
 constexpr float kOutline_m = 0.0005f;
@@ -47,8 +47,9 @@ float radius_of(const render::MeshData& mesh) {
   return radius;
 }
 
-/// Cuts dashes out of a line: first a dash, then a gap as long.
-void cut_dashes(std::vector<StraightPiece>& pieces, float dash_m) {
+/// Cuts dashes out of a line: first a dash, then a gap as long. What is shorter than wide is left
+/// out.
+void cut_dashes(std::vector<StraightPiece>& pieces, float dash_m, float width_m) {
   float total_m = 0;
   for (const StraightPiece& piece : pieces) {
     total_m += length(piece[1] - piece[0]);
@@ -64,14 +65,28 @@ void cut_dashes(std::vector<StraightPiece>& pieces, float dash_m) {
       const bool is_dash = in_period_m < dash_m;
       const float step_m = std::max(
           1e-5f, std::min(length_m - at_m, (is_dash ? 1.0f : 2.0f) * dash_m - in_period_m));
-      if (is_dash && step_m > kLeastOfDash * dash_m) {
-        dashes.push_back({piece[0] + at_m * along, piece[0] + (at_m + step_m) * along});
+      if (is_dash && step_m >= 0.99f * std::min(width_m, dash_m)) {
+        const float inside_m = std::min(kRoundEnd * width_m, 0.4f * step_m);
+        dashes.push_back(
+            {piece[0] + (at_m + inside_m) * along, piece[0] + (at_m + step_m - inside_m) * along});
       }
       at_m += step_m;
     }
     gone_m += length_m;
   }
   pieces = std::move(dashes);
+}
+
+/// A line's ends are round and lie beyond its points; those of a cylinder are flat.
+void lengthen(SurfaceContours::Line& line, float width_m, bool has_dashes) {
+  if (line.size() < 2) {
+    return;
+  }
+  const float by_m = (has_dashes ? 0.5f : 0.5f - kRoundEnd) * width_m;
+  Float3& first = line.front();
+  Float3& last = line.back();
+  first = first + by_m * render::unit_or(first - line[1], {});
+  last = last + by_m * render::unit_or(last - line[line.size() - 2], {});
 }
 
 void append_pieces(const SurfaceContours::Line& line, std::vector<StraightPiece>& pieces) {
@@ -87,11 +102,13 @@ void SceneObjects::pieces_of(const render::LineItem& item, float within_m) {
   SurfaceContours::Line line = item.points;
   if (item.closed && !line.empty()) {
     line.push_back(line.front());
+  } else {
+    lengthen(line, item.width_m, item.dash_m > 0);
   }
   pieces_.clear();
   append_pieces(thinned(line, within_m), pieces_);
   if (item.dash_m > 0) {
-    cut_dashes(pieces_, item.dash_m);
+    cut_dashes(pieces_, item.dash_m, item.width_m);
   }
 }
 

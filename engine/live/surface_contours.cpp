@@ -12,7 +12,6 @@ namespace {
 using render::Float3;
 using Line = SurfaceContours::Line;
 
-constexpr std::size_t kMostTriangles = 5000;
 /// A point of the contour lies on the surface: what hides it is sought from a little outside.
 constexpr float kOffSurface_m = 0.0008f;
 /// What is hidden for no longer is shown, and what is seen for no longer is not: such pieces come
@@ -100,8 +99,8 @@ class Chains {
 
 }  // namespace
 
-SurfaceContours::SurfaceContours(const render::MeshData& mesh)
-    : mesh_(render::decimated(mesh, kMostTriangles)), surface_(to_nav(mesh_)) {
+SurfaceContours::SurfaceContours(const render::MeshData& mesh, std::size_t most_triangles)
+    : mesh_(render::decimated(mesh, most_triangles)), surface_(to_nav(mesh_)) {
   for (const Float3 p : mesh_.positions) {
     middle_ = middle_ + (1.0f / static_cast<float>(mesh_.positions.size())) * p;
   }

@@ -14,6 +14,11 @@ constexpr Duration kLongestFrame = milliseconds(100);
 constexpr int kFrameSmoothing = 8;
 /// Without an answer for so long, what was sent may be shown late, by whatever holds it back.
 constexpr Duration kLongestUnanswered = milliseconds(250);
+/// Of the pair of guidance that was sent and is not acknowledged yet. What is on its way then would
+/// be shown when it arrives, however old it is by that time: TCP delivers what was lost much later.
+constexpr Duration kLongestUnshown = milliseconds(200);
+/// By so much a sample may be longer than the one before.
+constexpr Duration kRoundTripGrows = milliseconds(2);
 constexpr Duration kKeepAliveEvery = std::chrono::seconds(1);
 constexpr int kPatientRefusals = 3;
 constexpr Duration kRefusalPause = std::chrono::seconds(1);
@@ -36,6 +41,7 @@ void SceneClient::connected(HostTime now) {
   is_clear_ = list_is_open_ = has_more_ = false;
   is_fresh_ = true;
   sent_tool_time_.reset();
+  tool_due_.reset();
   sent_at_ = heard_at_ = now;
   ++statistics_.connections;
 }
@@ -48,6 +54,7 @@ void SceneClient::want(const ObjectList& list) {
 
 std::vector<std::uint8_t> SceneClient::sent(std::vector<std::uint8_t> bytes, HostTime now) {
   sent_at_ = now;
+  asks_alone_ = was_idle_;
   statistics_.bytes += static_cast<std::int64_t>(bytes.size());
   allowance_bytes_ -= static_cast<double>(bytes.size());
   return bytes;
@@ -62,6 +69,7 @@ void SceneClient::refill(HostTime now) {
 
 std::vector<std::uint8_t> SceneClient::next(const SceneMoment& now) {
   refill(now.host);
+  was_idle_ = expected_.empty();
   if (awaited_ > 0) {
     return {};
   }
@@ -81,6 +89,9 @@ std::vector<std::uint8_t> SceneClient::next(const SceneMoment& now) {
     return keep_alive(now.host);
   }
   sent_tool_time_ = draft.tool_ids.empty() ? std::nullopt : wanted_.tool_time;
+  if (sent_tool_time_) {
+    tool_due_ = now.host + (kLongestUnshown - (now.headset - *sent_tool_time_));
+  }
   return assemble(draft, fuse, now.host);
 }
 
@@ -128,6 +139,7 @@ Status SceneClient::answered(std::uint32_t answer, const SceneMoment& now) {
   tool_answers_due_ -= tool_answers_due_ > 0 ? 1 : 0;
   const auto since = std::chrono::duration_cast<Duration>(now.host - heard_at_);
   heard_at_ = now.host;
+  note_round_trip(now.host);
   if (expected.kind == Expected::Kind::kIdle) {
     frame_ = std::clamp(frame_ + (since - frame_) / kFrameSmoothing, kShortestFrame, kLongestFrame);
   }
@@ -189,7 +201,16 @@ void SceneClient::refuse(std::uint64_t key, HostTime now) {
   remote.forget();
 }
 
+/// Frames make samples longer by chance: the shortest count, and are forgotten slowly.
+void SceneClient::note_round_trip(HostTime now) {
+  if (std::exchange(asks_alone_, false)) {
+    const auto took = std::chrono::duration_cast<Duration>(now - sent_at_);
+    round_trip_ = std::min(took, round_trip_ + kRoundTripGrows);
+  }
+}
+
 void SceneClient::list_shown(const SceneMoment& now) {
+  tool_due_.reset();
   note(statistics_.acknowledged_ms, std::chrono::duration_cast<Duration>(now.host - sent_at_));
   if (sent_tool_time_) {
     note(statistics_.shown_age_ms, now.headset - *sent_tool_time_);
@@ -197,6 +218,10 @@ void SceneClient::list_shown(const SceneMoment& now) {
 }
 
 Status SceneClient::overdue(HostTime now) const {
+  if (tool_due_ && now > *tool_due_) {
+    return Error{"scene: guidance is not acknowledged " +
+                 std::to_string(kLongestUnshown / milliseconds(1)) + " ms after its pair"};
+  }
   const auto silent = std::chrono::duration_cast<Duration>(now - std::max(sent_at_, heard_at_));
   if (tool_answers_due_ == 0 || silent <= kLongestUnanswered) {
     return {};

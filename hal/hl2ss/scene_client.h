@@ -43,7 +43,8 @@ class SceneClient {
   [[nodiscard]] std::vector<std::uint8_t> next(const SceneMoment& now);
   /// The next answer. An Error when it can't be one: what follows can't be understood.
   Status answered(std::uint32_t answer, const SceneMoment& now);
-  /// An Error once tool guidance was sent and answers have stopped.
+  /// An Error once tool guidance was sent that would be shown too late if it arrived now, or
+  /// answers have stopped while it is shown.
   [[nodiscard]] Status overdue(HostTime now) const;
   [[nodiscard]] static std::vector<std::uint8_t> goodbye();
   [[nodiscard]] ObjectDisplayStatistics statistics() const;
@@ -89,6 +90,7 @@ class SceneClient {
   void refuse(std::uint64_t key, HostTime now);
   [[nodiscard]] Status take_id(std::uint64_t key, std::uint32_t answer, HostTime now);
   void list_shown(const SceneMoment& now);
+  void note_round_trip(HostTime now);
   [[nodiscard]] Status take_done(const Expected& expected, std::uint32_t answer, HostTime now);
   void refill(HostTime now);
   [[nodiscard]] std::vector<std::uint8_t> keep_alive(HostTime now);
@@ -110,6 +112,11 @@ class SceneClient {
   HostTime heard_at_{};
   HostTime allowance_at_{};
   double allowance_bytes_ = 0;
+  std::optional<HostTime> tool_due_;  ///< guidance that was sent is acknowledged by then, or late
+  bool was_idle_ = true;              ///< every answer was there when the next bytes were asked for
+  bool asks_alone_ = false;           ///< the same, when the last bytes were sent
+  /// From sending to the first answer where nothing else waited; frames of the headset included.
+  Duration round_trip_ = std::chrono::milliseconds(5);
   Duration frame_ = std::chrono::microseconds(16'667);  ///< of the headset, as its answers tell
   ObjectDisplayStatistics statistics_;
 };

@@ -12,6 +12,7 @@ constexpr int kMostFuseFrames = 3;
 /// Beside the frames of the fuse: the one that works the list off may have begun just before, and
 /// the one that hides is on its way to the eyes.
 constexpr int kFramesBesideFuse = 2;
+/// By so much a list may take longer than half of a round trip.
 constexpr Duration kNetwork = std::chrono::milliseconds(5);
 /// Guidance comes and goes; what is hidden meanwhile costs nothing to keep.
 constexpr std::uint64_t kKeptHiddenLists = 300;
@@ -45,8 +46,11 @@ int SceneClient::fuse_frames(const SceneMoment& now) const {
   }
   const auto is_idle = [](const Expected& each) { return each.kind == Expected::Kind::kIdle; };
   const auto waiting = std::count_if(expected_.begin(), expected_.end(), is_idle);
-  const Duration left = ObjectDisplay::kLongestToolAge - (now.headset - *wanted_.tool_time) -
-                        waiting * frame_ - kNetwork;
+  // It is shown when it has arrived and the fuse before it is burnt, as far as its answers tell.
+  const Duration one_way = round_trip_ / 2;
+  const Duration until_shown = std::max(one_way, waiting * frame_ - one_way) + kNetwork;
+  const Duration left =
+      ObjectDisplay::kLongestToolAge - (now.headset - *wanted_.tool_time) - until_shown;
   const auto frames = left / frame_ - kFramesBesideFuse;
   return static_cast<int>(std::clamp<std::int64_t>(frames, 0, kMostFuseFrames));
 }
@@ -237,14 +241,17 @@ std::vector<std::uint8_t> SceneClient::assemble(const Draft& draft, int fuse, Ho
   return sent(std::move(bytes), now);
 }
 
-/// The next list is sent when the fuse has burnt down to its last frame, or the last two of three:
-/// in time to arrive, and as late as possible, since it waits for the fuse before it.
+/// The next list is sent when the fuse has burnt down to its last frame, or the last two of three,
+/// and the sooner the longer the way: in time to arrive, and as late as possible, since it waits
+/// for the fuse before it.
 void SceneClient::append_fuse(const Draft& draft, int fuse, std::vector<std::uint8_t>& bytes) {
   for (int i = 0; i < fuse; ++i) {
     append_idle(bytes);
     expected_.push_back({Expected::Kind::kIdle, 0});
   }
-  awaited_ += static_cast<std::size_t>(std::max(0, fuse - (fuse < kMostFuseFrames ? 1 : 2)));
+  const auto on_the_way = static_cast<int>(round_trip_ / frame_);
+  const int early = (fuse < kMostFuseFrames ? 1 : 2) + on_the_way;
+  awaited_ += static_cast<std::size_t>(std::max(0, fuse - early));
   append_plain(bytes, SceneCommand::kBeginList);
   expected_.push_back({Expected::Kind::kFuse, 0});
   for (const std::uint32_t id : draft.tool_ids) {

@@ -221,6 +221,10 @@ class RunningServer final : public Server {
     note([&](ServerReport& report) {
       ++report.pairs;
       report.faults = sender_.faults_done();
+      report.world_from_rig.reset();
+      if (frame.world_from_rig) {
+        report.world_from_rig = sender_.world_from_jumped().inverse() * *frame.world_from_rig;
+      }
       if (!whole) {
         report.last_trouble = whole.error().message;
       }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "hal/api/devices.h"
@@ -40,6 +41,8 @@ struct ServerReport {
   std::int64_t faults = 0;  ///< done on purpose, of any kind
   bool is_streaming = false;
   std::string last_trouble;
+  /// Of the newest pair, in the client's World; absent while the head is not located.
+  std::optional<Transform<World, Rig>> world_from_rig;
 };
 
 /// Speaks hl2ss for any headset, so that developers and tests have a HoloLens 2 without one. A

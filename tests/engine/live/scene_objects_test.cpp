@@ -117,8 +117,9 @@ TEST_F(GuidedObjects, OfTheTrajectoryAreOnePieceOutsideAndDashesInside) {
     EXPECT_NEAR(piece.scale.x, 0.002, 1e-6) << "as wide as the line";
     longest_m = std::max(longest_m, 2 * piece.scale.y);
   }
-  EXPECT_NEAR(longest_m, static_cast<double>(kTrajectoryOutside_m), 1e-4);
-  EXPECT_NEAR(2 * pieces[1].scale.y, 0.004, 1e-4) << "a dash";
+  // Flat ends lie a little inside of the round ones that they stand for.
+  EXPECT_NEAR(longest_m, static_cast<double>(kTrajectoryOutside_m) + 0.0016, 1e-4);
+  EXPECT_NEAR(2 * pieces[1].scale.y, 0.004 - 0.0004, 1e-4) << "a dash";
 }
 
 TEST_F(GuidedObjects, ThatAreTextsFaceTheHeadUpright) {

@@ -137,14 +137,61 @@ TEST(SceneFuse, OfAListCutAnywhereOnlyAShortTailCanFreeze) {
 TEST(SceneFuse, SilenceWhileGuidanceIsShownGivesTheConnectionUp) {
   SceneLink link;
   run_with_pairs(link, 520);
-  ASSERT_TRUE(link.client.overdue(link.host()));
+  link.run(milliseconds(20));  // the last list is acknowledged, its fuse is not
   link.connected = false;
-  run_with_pairs(link, 200);
+  link.run(milliseconds(230));
   EXPECT_TRUE(link.client.overdue(link.host()));
-  run_with_pairs(link, 120);
+  link.run(milliseconds(60));
   const Status late = link.client.overdue(link.host());
   ASSERT_FALSE(late);
   EXPECT_THAT(late.error().message, ::testing::HasSubstr("while guidance is shown, limit 250 ms"));
+}
+
+TEST(SceneFuse, WhatArrivesTooLateIsCutOffBeforeItDoes) {
+  SceneLink link;
+  run_with_pairs(link, 520);
+  ASSERT_TRUE(link.shows("12.4"));
+  link.lose_next(milliseconds(230));  // as TCP takes to notice
+  const Timestamp lost = link.now();
+  while (link.client.overdue(link.host())) {
+    run_with_pairs(link, 1);
+    ASSERT_LE(link.now() - lost, milliseconds(200));
+  }
+  EXPECT_THAT(link.client.overdue(link.host()).error().message,
+              ::testing::HasSubstr("not acknowledged 200 ms after its pair"));
+  EXPECT_FALSE(link.shows("12.4")) << "hidden by the fuse before it";
+}
+
+TEST(SceneFuse, IsShorterOnALongWayAndGuidanceIsStillGoneInTime) {
+  for (const int one_way_ms : {0, 5, 10, 20}) {
+    SceneLink link;
+    link.delay(milliseconds(one_way_ms));
+    run_with_pairs(link, 1000);
+    ASSERT_TRUE(link.status);
+    int shown = 0;
+    Duration oldest{};
+    for (int cut = 0; cut < 60; ++cut) {
+      SceneLink stalled = link;
+      for (int i = 0; i < 1000 + cut; ++i) {
+        const Timestamp at = stalled.now();
+        // The pairs of `run_with_pairs` come at its multiples of 33 ms.
+        if (i < cut && i % kStepsAPair == 0) {
+          stalled.client.want(guidance(at));
+        }
+        stalled.connected = i < cut;
+        stalled.step();
+        if (i < cut || !stalled.shows("12.4")) {
+          continue;
+        }
+        ++shown;
+        const int newest = cut > 0 ? (cut - 1) / kStepsAPair * kStepsAPair : 0;
+        const Duration since = milliseconds(i - newest);
+        oldest = std::max(oldest, cut > 0 ? since + kAge : Duration{});
+      }
+    }
+    EXPECT_GT(shown, 0) << one_way_ms;
+    EXPECT_LE(oldest, ObjectDisplay::kLongestToolAge) << one_way_ms;
+  }
 }
 
 TEST(SceneFuse, SilenceWithoutGuidanceIsLeftToTheConnection) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hal/hl2ss/scene_client.h"
@@ -19,6 +22,10 @@ class SceneLink {
   explicit SceneLink(const hl2ss::SceneBudget& budget = {}) : client(budget) {
     client.connected(now_.host);
   }
+  /// From now on everything takes so long, each way.
+  void delay(Duration one_way) { one_way_ = one_way; }
+  /// What is said next, and all that follows it, arrives no sooner than `late` later than it would.
+  void lose_next(Duration late) { lost_for_ = late; }
   [[nodiscard]] Timestamp now() const { return now_.headset; }
   [[nodiscard]] hl2ss::HostTime host() const { return now_.host; }
 
@@ -31,18 +38,33 @@ class SceneLink {
     if (!bytes.empty()) {
       last_sent = bytes;
     }
-    if (connected) {
-      peer.hear(bytes);
+    send(bytes);
+    for (; !to_peer_.empty() && to_peer_.front().first <= now_.host; to_peer_.pop_front()) {
+      peer.hear(to_peer_.front().second);
+    }
+    for (; !to_client_.empty() && to_client_.front().first <= now_.host; to_client_.pop_front()) {
+      if (status) {
+        status = client.answered(to_client_.front().second, now_);
+      }
     }
     if (++steps_ % kStepsAFrame != 0) {
       return;
     }
     for (const std::uint32_t answer : peer.frame()) {
-      if (connected && status) {
+      if (connected && one_way_ == Duration{} && status) {
         status = client.answered(answer, now_);
+      } else if (connected) {
+        to_client_.emplace_back(now_.host + one_way_, answer);
       }
     }
     ++frames;
+  }
+  /// The client gives the connection up, which loses what is on its way, and comes back at once.
+  void reconnect() {
+    to_peer_.clear();
+    to_client_.clear();
+    peer.left();
+    client.connected(now_.host);
   }
   void run(Duration time) {
     for (Duration passed{}; passed < time; passed += kStep) {
@@ -75,6 +97,22 @@ class SceneLink {
   int frames = 0;
 
  private:
+  /// In order, as TCP delivers.
+  void send(const std::vector<std::uint8_t>& bytes) {
+    if (!connected || bytes.empty()) {
+      return;
+    }
+    hl2ss::HostTime arrives = now_.host + one_way_ + std::exchange(lost_for_, Duration{});
+    if (!to_peer_.empty()) {
+      arrives = std::max(arrives, to_peer_.back().first);
+    }
+    to_peer_.emplace_back(arrives, bytes);
+  }
+
+  Duration one_way_{};
+  Duration lost_for_{};
+  std::deque<std::pair<hl2ss::HostTime, std::vector<std::uint8_t>>> to_peer_;
+  std::deque<std::pair<hl2ss::HostTime, std::uint32_t>> to_client_;
   hl2ss::SceneMoment now_{hl2ss::HostTime(std::chrono::seconds(100)),
                           Timestamp(std::chrono::seconds(7))};
   int steps_ = 0;

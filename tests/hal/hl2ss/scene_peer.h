@@ -44,6 +44,13 @@ class ScenePeer {
     }
     return answers;
   }
+  /// The client left: what is whole is worked off, and the modes are reset.
+  void left() {
+    while (!frame().empty()) {
+    }
+    heard_.clear();
+    looping_ = newest_is_meant_ = false;
+  }
   [[nodiscard]] std::size_t waiting_bytes() const { return heard_.size(); }
 
   std::map<std::uint32_t, Thing> things;

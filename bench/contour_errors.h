@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/live/bone_lines.h"
+
+namespace orthonav {
+
+/// How far lines of a bone lie from where they belong, as the eyes see them: distances across the
+/// line of sight, at the bone's depth.
+struct ContourErrors {
+  std::vector<double> drawn_mm;   ///< from each millimetre of what is drawn to the true contour
+  std::vector<double> missed_mm;  ///< from each millimetre of the true outline to what is drawn
+};
+
+/// Of a bone drawn for the point between the eyes, seen by both of them.
+class ContourBench {
+ public:
+  /// `bone` lies about the origin, metres.
+  explicit ContourBench(std::shared_ptr<const render::MeshData> bone);
+
+  /// At rest, from many sides; `on_a_quad` as a picture in the plane through the bone's middle that
+  /// faces the head, instead of lines in space.
+  [[nodiscard]] ContourErrors at_rest(bool on_a_quad) const;
+  /// The head goes around the bone so fast, and what is drawn is as old as it comes out.
+  [[nodiscard]] ContourErrors in_motion(double turn_rad_s, bool on_a_quad) const;
+  /// Mean number of pieces from those sides.
+  [[nodiscard]] double pieces() const;
+
+ private:
+  [[nodiscard]] std::vector<engine::StraightPiece> contours(render::Float3 head) const;
+  void judge(const std::vector<engine::StraightPiece>& drawn, render::Float3 head,
+             ContourErrors& errors) const;
+
+  render::MeshItem item_;
+  engine::SurfaceContours truth_;
+};
+
+}  // namespace orthonav

@@ -1,0 +1,192 @@
+#include "tools/scene_drawing.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "base/printed.h"
+#include "base/srgb.h"
+#include "engine/holograms/render_values.h"
+#include "engine/io/image_file.h"
+#include "hal/hl2ss/scene_command.h"
+#include "render/float3.h"
+#include "render/shapes.h"
+#include "tools/eye_in_rig.h"
+
+namespace orthonav::tools {
+namespace {
+
+using render::Float3;
+
+// A HoloLens 2's picture for one eye, and half its field of view as tangents.
+constexpr int kWidth_px = 1440;
+constexpr int kHeight_px = 936;
+constexpr float kTanAcross = 0.394f;
+constexpr float kTanDown = 0.2561f;
+
+// Unity's primitives by their numbers.
+constexpr std::uint32_t kSphere = 0;
+constexpr std::uint32_t kCapsule = 1;
+constexpr std::uint32_t kCylinder = 2;
+constexpr std::uint32_t kCube = 3;
+constexpr std::uint32_t kPlane = 4;
+constexpr double kPlaneEdge = 10.0;
+
+render::Colour light_of(const ObjectColour& colour) {
+  const auto linear = [](float encoded) {
+    return static_cast<float>(linear_from_srgb(static_cast<double>(encoded)));
+  };
+  return {linear(colour.r), linear(colour.g), linear(colour.b), colour.a};
+}
+
+/// Where an object's own points lie in the world.
+class Placed {
+ public:
+  Placed(const hl2ss::UnityObject& object, const render::Head& head)
+      : object_(object), rotation_(rotation_from_quaternion(object.rotation)), head_(head) {}
+  [[nodiscard]] Float3 at(Vec3 own) const {
+    const Vec3 scaled{own.x * object_.scale.x, own.y * object_.scale.y, own.z * object_.scale.z};
+    const Float3 p = engine::to_float3(object_.position_m + rotation_ * scaled);
+    return object_.on_head ? head_.position + p.x * head_.right + p.y * head_.up + p.z * head_.back
+                           : p;
+  }
+
+ private:
+  const hl2ss::UnityObject& object_;
+  Mat3 rotation_;
+  const render::Head& head_;
+};
+
+std::shared_ptr<const render::MeshData> unit_ball() {
+  static const auto ball = std::make_shared<const render::MeshData>(render::make_sphere(0.5f));
+  return ball;
+}
+
+void add_cube(render::Scene& scene, const Placed& placed, render::Colour colour) {
+  for (const int axis : {0, 1, 2}) {
+    for (const double side : {0.5, -0.5}) {
+      std::array<Float3, 4> corners;
+      constexpr std::array<std::array<double, 2>, 4> kAround = {
+          {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
+      for (std::size_t i = 0; i < 4; ++i) {
+        std::array<double, 3> own{};
+        own[static_cast<std::size_t>(axis)] = side;
+        own[static_cast<std::size_t>((axis + 1) % 3)] = kAround[i][0];
+        own[static_cast<std::size_t>((axis + 2) % 3)] = kAround[i][1];
+        corners[i] = placed.at({own[0], own[1], own[2]});
+      }
+      scene.triangles.push_back({kRemoteLabel, {corners[0], corners[1], corners[2]}, colour});
+      scene.triangles.push_back({kRemoteLabel, {corners[0], corners[2], corners[3]}, colour});
+    }
+  }
+}
+
+void add_sheet(render::Scene& scene, const Placed& placed, Vec3 right, Vec3 up,
+               render::Colour colour) {
+  const Float3 a = placed.at(-0.5 * (right + up));
+  const Float3 b = placed.at(0.5 * (right - up));
+  const Float3 c = placed.at(0.5 * (right + up));
+  const Float3 d = placed.at(0.5 * (up - right));
+  scene.triangles.push_back({kRemoteLabel, {a, b, c}, colour});
+  scene.triangles.push_back({kRemoteLabel, {a, c, d}, colour});
+}
+
+/// Our texts face the eye from where they are anchored. One that is turned is anchored where the
+/// eye looks upon its plane at right angles, far aside as that may be.
+void add_text(render::Scene& scene, const hl2ss::UnityObject& object, Vec3 eye,
+              render::Colour colour) {
+  const Mat3 rotation = rotation_from_quaternion(object.rotation);
+  const Vec3 normal = rotation.column(2);
+  const Vec3 anchor = eye - (eye - object.position_m).dot(normal) * normal;
+  render::TextItem& item = scene.texts.emplace_back();
+  item.label = kRemoteLabel;
+  item.position = engine::to_float3(anchor);
+  item.place = object.on_head ? render::TextPlace::kView : render::TextPlace::kWorld;
+  item.height_m =
+      static_cast<float>(object.font_size * hl2ss::kCapHeightAtSizeOneM * object.scale.y);
+  const Vec3 aside = (1.0 / static_cast<double>(item.height_m)) * (object.position_m - anchor);
+  item.offset_right = static_cast<float>(aside.dot(rotation.column(0)));
+  item.offset_up = static_cast<float>(aside.dot(rotation.column(1))) - 0.5f;
+  render::TextRun& run = item.runs.emplace_back();
+  run.text = object.text;
+  run.colour = colour;
+}
+
+void add_object(render::Scene& scene, const hl2ss::UnityObject& object, const render::Head& head) {
+  const render::Colour colour = light_of(object.colour);
+  const Placed placed(object, head);
+  if (object.is_text) {
+    const Float3 eye = object.on_head ? Float3{} : head.position;
+    return add_text(scene, object, {eye.x, eye.y, eye.z}, colour);
+  }
+  switch (object.primitive) {
+    case kSphere: {
+      render::MeshItem& item = scene.meshes.emplace_back();
+      item.label = kRemoteLabel;
+      item.mesh = unit_ball();
+      item.colour = colour;
+      item.world_from_model = render::placed_at(placed.at({}), static_cast<float>(object.scale.x));
+      return;
+    }
+    case kCapsule:
+    case kCylinder: {
+      render::LineItem& line = scene.lines.emplace_back();
+      line.label = kRemoteLabel;
+      // A line's ends are round: they begin inside, so that it covers as much.
+      const double inside = std::min(0.98, std::numbers::pi / 8 * object.scale.x / object.scale.y);
+      line.points = {placed.at({0, inside - 1, 0}), placed.at({0, 1 - inside, 0})};
+      line.width_m = static_cast<float>(object.scale.x);
+      line.colour = colour;
+      return;
+    }
+    case kCube:
+      return add_cube(scene, placed, colour);
+    case kPlane:
+      return add_sheet(scene, placed, {kPlaneEdge, 0, 0}, {0, 0, kPlaneEdge}, colour);
+    default:
+      return add_sheet(scene, placed, {1, 0, 0}, {0, 1, 0}, colour);
+  }
+}
+
+}  // namespace
+
+render::Scene drawn_scene(const hl2ss::UnityObjects& objects, const render::Head& head) {
+  render::Scene scene;
+  for (const auto& [id, object] : objects) {
+    if (object.active) {
+      add_object(scene, object, head);
+    }
+  }
+  return scene;
+}
+
+Result<std::unique_ptr<ScenePictures>> ScenePictures::create(const std::string& folder) {
+  auto made = OutFolder::create("--draw", folder);
+  if (!made) {
+    return made.error();
+  }
+  render::RendererOptions options;
+  options.width_px = kWidth_px;
+  options.height_px = kHeight_px;
+  auto renderer = render::Renderer::create(options);
+  if (!renderer) {
+    return renderer.error();
+  }
+  return std::unique_ptr<ScenePictures>(new ScenePictures(std::move(*made), std::move(*renderer)));
+}
+
+Status ScenePictures::draw(const hl2ss::UnityObjects& objects,
+                           const Transform<World, Rig>& world_from_rig) {
+  render::View view;
+  view.eye_from_world = engine::to_matrix((world_from_rig * rig_from_eyes()).inverse().row_major());
+  view.tan_left = view.tan_right = kTanAcross;
+  view.tan_up = view.tan_down = kTanDown;
+  const std::vector<render::View> views = {view};
+  const render::Scene scene = drawn_scene(objects, render::head_of(views));
+  if (const Status drawn = renderer_->draw(scene, views, {}, images_); !drawn) {
+    return drawn;
+  }
+  return engine::write_png(folder_.file(printed("scene-%04d.png", ++count_)), images_[0]);
+}
+
+}  // namespace orthonav::tools
