@@ -12,7 +12,7 @@ install(TARGETS orthonav RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 foreach(folder base hal nav render engine)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}"
           DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/orthonav" FILES_MATCHING PATTERN "*.h"
-          PATTERN "font_maker" EXCLUDE PATTERN "golden" EXCLUDE PATTERN "scan" EXCLUDE)
+          PATTERN "font_maker" EXCLUDE PATTERN "golden" EXCLUDE PATTERN "scan" EXCLUDE PATTERN "igtl" EXCLUDE)
 endforeach()
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
         "${PROJECT_SOURCE_DIR}/data/tools.json"

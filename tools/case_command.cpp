@@ -130,11 +130,9 @@ int run_make(const CaseArguments& arguments) {
   const std::string name = arguments.name.empty()
                                ? fs::path(arguments.out).lexically_normal().filename().string()
                                : arguments.name;
-  for (const Status& s : {engine::save_case(arguments.out, engine::case_of(*made, name)),
-                          arguments.json.write(as_json(*made))}) {
-    if (!s) {
-      return bad_input(s.error().message);
-    }
+  const Status saved = engine::save_case(arguments.out, engine::case_of(*made, name));
+  if (const Status s = saved ? arguments.json.write(as_json(*made)) : saved; !s) {
+    return bad_input(s.error().message);
   }
   for (const std::string& line : made->left_out) {
     std::fprintf(stderr, "orthonav: left out: %s\n", line.c_str());

@@ -69,6 +69,7 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
   demo.add_flag("--no-video", arguments.no_video, "write no operation.mp4");
   demo.add_flag("--perfect", arguments.perfect, "every source of error at zero");
   add_reference_flag(demo, arguments.reference);
+  arguments.igtl.add_to(demo);
   // For tests: a hasty surgeon finishes in a fraction of the frames.
   demo.add_option("--pace", arguments.pace, "how many times as fast the surgeon works")
       ->check(finite_number(0.5, 4))

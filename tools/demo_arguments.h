@@ -7,6 +7,7 @@
 
 #include "engine/study/simulated_operation.h"
 #include "tools/arguments.h"
+#include "tools/igtl_stream.h"
 #include "tools/kept_operation.h"
 
 namespace orthonav::tools {
@@ -29,6 +30,7 @@ struct DemoArguments {
   bool json = false;
   int threads = 2;
   std::optional<double> pace;
+  IgtlArguments igtl;
 };
 
 /// Adds the options that fill them in.

@@ -59,7 +59,8 @@ class Demo {
     if (!levels) {
       return bad_input("--levels: " + levels.error().message);
     }
-    if (const Status ready = prepare(*source, *levels); !ready) {
+    const Status served = igtl_.open(arguments_.igtl);
+    if (const Status ready = served ? prepare(*source, *levels) : served; !ready) {
       return bad_input(ready.error().message);
     }
     auto result = operate(*source);
@@ -160,6 +161,7 @@ class Demo {
     hooks.models = &models;
     hooks.can_stop = [this](std::function<void()> stop) { signals_.on_stop(std::move(stop)); };
     hooks.assembled = [&](engine::AssembledOperation& operation) {
+      igtl_.watch(operation);
       return kept_.begin(operation, out_->path().string(), about_demo(arguments_, source.name));
     };
     hooks.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
@@ -169,7 +171,9 @@ class Demo {
       print_notes(models);
       return arguments_.resume ? Status() : remove_earlier_results(out_->path());
     };
-    return engine::run_operation(source, options, hooks);
+    auto result = engine::run_operation(source, options, hooks);
+    igtl_.tell();
+    return result;
   }
 
   /// Writes the measurements first, so that nothing that fails later can lose them. Returns the
@@ -207,6 +211,7 @@ class Demo {
   std::unique_ptr<ReadingCurves> readings_;
   std::unique_ptr<engine::Journal> journal_;
   KeptOperation kept_;
+  IgtlStream igtl_;
   std::unique_ptr<engine::VideoWriter> video_;
   std::unique_ptr<VideoPictures> video_pictures_;
 };

@@ -43,6 +43,7 @@ class LiveRun {
     }
     OperationProgress progress(nullptr);
     operation_->observe(&progress);
+    igtl_.watch(*operation_);
     if (const Status presenting = presenting_.begin(*headset_, *operation_); !presenting) {
       return bad_input(files_.close(presenting.error().message));
     }
@@ -50,6 +51,7 @@ class LiveRun {
     auto report = operation_->run();
     signals_.on_stop(nullptr);
     presenting_.end(arguments_.stats);
+    igtl_.tell();
     if (!report) {
       return bad_input(files_.close(report.error().message));
     }
@@ -151,6 +153,9 @@ class LiveRun {
       return sizes.error();
     }
     sizes_ = std::move(*sizes);
+    if (const Status served = igtl_.open(arguments_.igtl); !served) {
+      return served;
+    }
     return arguments_.resume ? files_.kept().find(arguments_.out) : Status{};
   }
 
@@ -257,6 +262,7 @@ class LiveRun {
   const sim::SimHeadset* room_ = nullptr;  ///< that the cameras see, where it is simulated
   std::optional<engine::GroundTruthRecorder> ground_truth_;
   engine::EndNote end_note_;
+  IgtlStream igtl_;
   std::unique_ptr<engine::AssembledOperation> operation_;
   Presenting presenting_;
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/common_error_arguments.h"
+#include "tools/igtl_stream.h"
 #include "tools/screw_arguments.h"
 #include "tools/stop_signals.h"
 
@@ -23,6 +24,7 @@ struct RunArguments {
   std::string out;
   CommonErrorArguments common;
   ScrewArguments screws;
+  IgtlArguments igtl;
   std::int64_t frames = 0;
   double for_s = 0.0;  ///< of the device's clock; 0: no limit
   bool reference = false;

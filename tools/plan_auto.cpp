@@ -127,10 +127,8 @@ int run_auto(const AutoArguments& arguments) {
     }
   }
   const Status written = any ? write_plans(arguments, *subject) : Status{};
-  for (const Status& s : {written, arguments.common.json.write(as_json(levels))}) {
-    if (!s) {
-      return bad_input(s.error().message);
-    }
+  if (const Status s = written ? arguments.common.json.write(as_json(levels)) : written; !s) {
+    return bad_input(s.error().message);
   }
   if (!arguments.common.json.on_stdout()) {
     print(levels);

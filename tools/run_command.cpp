@@ -59,6 +59,7 @@ void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
   add_reference_flag(*run, arguments->reference);
   arguments->common.add_to(*run);
   arguments->screws.add_to(*run);
+  arguments->igtl.add_to(*run);
   add_ends_and_results(*run, *arguments);
   run->callback([arguments, &action, &signals] {
     action = [arguments, &signals] { return run_live(*arguments, signals); };

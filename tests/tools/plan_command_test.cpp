@@ -22,7 +22,8 @@ using ::testing::IsEmpty;
 std::string phantom_case(const ScratchFolder& scratch, bool planned) {
   const std::string folder = scratch.file(planned ? "planned" : "bare");
   std::filesystem::create_directories(folder);
-  engine::Case spine = engine::phantom({"L4", "L5"});
+  static const engine::Case whole = engine::phantom({"L4", "L5"});
+  engine::Case spine = whole;
   for (engine::CaseLevel& level : spine.levels) {
     if (!planned) {
       level.screws.clear();
@@ -68,14 +69,16 @@ TEST(PlanCommand, PlansACaseThatHasNoneAndJudgesItAlike) {
 
 TEST(PlanCommand, WritesACaseAnewForLevelsThatAreNamed) {
   const ScratchFolder scratch;
+  const std::string folder = phantom_case(scratch, true);
   const std::string out = scratch.file("out");
-  const Called called = orthonav({"plan", "auto", "--levels", "L5", "--out", out});
+  const Called called =
+      orthonav({"plan", "auto", "--case", folder, "--levels", "L5", "--out", out});
   ASSERT_EQ(called.code, 0) << called.err;
   EXPECT_THAT(called.out, AllOf(HasSubstr("L5 left"), HasSubstr("grade A")));
   EXPECT_THAT(called.out, ::testing::Not(HasSubstr("L4")));
-  EXPECT_TRUE(std::filesystem::exists(out + "/L4.plan.json")) << "as the phantom has it";
+  EXPECT_TRUE(std::filesystem::exists(out + "/L4.plan.json")) << "as it was";
   EXPECT_EQ(orthonav({"plan", "check", "--case", out}).code, 0);
-  const Called again = orthonav({"plan", "auto", "--out", out});
+  const Called again = orthonav({"plan", "auto", "--case", folder, "--out", out});
   EXPECT_EQ(again.code, 2);
   EXPECT_THAT(again.err, HasSubstr("case.json: is there already"));
 }

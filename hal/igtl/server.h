@@ -1,0 +1,66 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/mutex.h"
+#include "base/result.h"
+
+namespace orthonav::igtl {
+
+struct ServerOptions {
+  /// Of this machine, in numbers; loopback unless another one is named.
+  std::string address = "127.0.0.1";
+  int port = 18944;  ///< 0: any free one
+  std::size_t most_clients = 8;
+  double most_hz = 60.0;  ///< frames in a second; between them the newest waits, older ones go
+  /// A client that takes nothing for so long is dropped.
+  std::chrono::milliseconds longest_block{2000};
+  /// Without a frame for so long, and as often, clients are told so.
+  std::chrono::milliseconds longest_silence{1000};
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+class ServerThread;
+
+/// Serves whoever connects with the same frames: bytes of whole messages (hal/igtl/message.h). What
+/// clients send is read by its headers and skipped, whatever their version; one that sends
+/// something else, or announces more than 16 MiB, is dropped. A client that is slow misses frames,
+/// and one that does not read at all is dropped; nobody waits for it. Its own thread reads and
+/// writes.
+class Server {
+ public:
+  /// An Error names address and port and why nobody can listen there.
+  static Result<std::unique_ptr<Server>> start(const ServerOptions& options);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  [[nodiscard]] int port() const;
+  /// From any thread; returns at once. What was published before and not sent yet goes unsent.
+  void publish(std::vector<std::uint8_t> frame);
+  /// What does not change from frame to frame: for each client when it connects, and for all now.
+  void stand(std::vector<std::uint8_t> standing);
+
+  struct Counts {
+    std::size_t clients = 0;  ///< connected now
+    std::int64_t served = 0;  ///< that ever connected
+    std::int64_t dropped = 0;
+    std::int64_t frames = 0;  ///< sent, once for all clients
+    std::string last_drop;    ///< why the last one was dropped
+  };
+  [[nodiscard]] Counts counts() const;
+
+ private:
+  explicit Server(std::unique_ptr<ServerThread> thread);
+  std::unique_ptr<ServerThread> thread_;
+};
+
+}  // namespace orthonav::igtl

@@ -1,0 +1,191 @@
+#include "hal/igtl/server_thread.h"
+
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace orthonav::igtl {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+/// So much lies between a client that does not read and the moment that it is noticed.
+constexpr int kSendBuffer = 64 << 10;
+
+}  // namespace
+
+ServerThread::ServerThread(const ServerOptions& options, int listener, int wake_up, int port)
+    : options_(options), listener_(listener), wake_up_(wake_up), port_(port) {
+  thread_ = std::thread([this] { run(); });
+}
+
+ServerThread::~ServerThread() {
+  stop_ = true;
+  wake();
+  thread_.join();
+  ::close(listener_);
+  ::close(wake_up_);
+}
+
+void ServerThread::wake() const {
+  const std::uint64_t one = 1;
+  (void)!::write(wake_up_, &one, sizeof one);
+}
+
+void ServerThread::publish(std::vector<std::uint8_t> frame) {
+  {
+    const MutexLock lock(mutex_);
+    frame_ = std::move(frame);
+  }
+  wake();
+}
+
+void ServerThread::stand(std::vector<std::uint8_t> standing) {
+  {
+    const MutexLock lock(mutex_);
+    new_standing_ = std::move(standing);
+  }
+  wake();
+}
+
+Server::Counts ServerThread::counts() const {
+  const MutexLock lock(mutex_);
+  return counts_;
+}
+
+bool ServerThread::has_frame() const {
+  const MutexLock lock(mutex_);
+  return frame_.has_value();
+}
+
+void ServerThread::run() {
+  last_frame_ = steady_clock::now();
+  while (!stop_) {
+    wait(steady_clock::now());
+    const HostTime now = steady_clock::now();
+    accept_clients(now);
+    give_out(now);
+    serve_clients(now);
+  }
+}
+
+/// Until somebody says something, may take something, or the time for a frame has come.
+void ServerThread::wait(HostTime now) {
+  std::vector<pollfd> watched = {{wake_up_, POLLIN, 0}, {listener_, POLLIN, 0}};
+  HostTime until = last_frame_ + options_.longest_silence;
+  if (has_frame()) {
+    until = std::min(until, next_frame_);
+  }
+  for (const Client& client : clients_) {
+    const auto events = static_cast<short>(client.idle() ? POLLIN : POLLIN | POLLOUT);
+    watched.push_back({client.fd(), events, 0});
+    if (!client.idle()) {
+      until = std::min(until, client.taken() + options_.longest_block);
+    }
+  }
+  const auto left = std::chrono::ceil<milliseconds>(until - now).count();
+  const int timeout = static_cast<int>(std::clamp<std::int64_t>(left, 0, 1000));
+  (void)::poll(watched.data(), watched.size(), timeout);
+  if ((watched[0].revents & POLLIN) != 0) {
+    std::uint64_t count = 0;
+    (void)!::read(wake_up_, &count, sizeof count);
+  }
+}
+
+void ServerThread::accept_clients(HostTime now) {
+  for (;;) {
+    const int fd = ::accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (fd < 0) {
+      return;
+    }
+    if (clients_.size() >= options_.most_clients) {
+      ::close(fd);
+      continue;
+    }
+    const int on = 1;
+    (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    (void)::setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
+    clients_.emplace_back(fd, now);
+    clients_.back().add(standing_, now);
+    const MutexLock lock(mutex_);
+    ++counts_.served;
+    counts_.clients = clients_.size();
+  }
+}
+
+/// The newest frame, no more often than allowed; what stands, when it changes; or that there is
+/// nothing.
+void ServerThread::give_out(HostTime now) {
+  std::optional<std::vector<std::uint8_t>> frame;
+  bool stands_anew = false;
+  {
+    const MutexLock lock(mutex_);
+    if (new_standing_) {
+      standing_ = std::move(*new_standing_);
+      new_standing_.reset();
+      stands_anew = true;
+    }
+    if (frame_ && now >= next_frame_) {
+      frame.swap(frame_);
+      ++counts_.frames;
+    }
+  }
+  if (stands_anew) {
+    for (Client& client : clients_) {
+      client.add(standing_, now);
+    }
+  }
+  if (frame) {
+    // On average no more often: a frame that comes a little early does not wait for its slot.
+    const auto period = std::chrono::duration_cast<steady_clock::duration>(
+        std::chrono::duration<double>(1.0 / options_.most_hz));
+    next_frame_ = std::max(next_frame_ + period, now + period / 2);
+    last_frame_ = now;
+    give_frame(*frame, now);
+  } else if (now - last_frame_ >= options_.longest_silence) {
+    last_frame_ = now;
+    give_frame(packed({"orthonav", 0}, StatusValues{kStatusTimeout, 0, "NO_FRAME",
+                                                    "no stereo pair for a while: poses are old"}),
+               now);
+  }
+}
+
+/// Who has not taken the last one misses this one.
+void ServerThread::give_frame(std::span<const std::uint8_t> frame, HostTime now) {
+  for (Client& client : clients_) {
+    if (client.idle()) {
+      client.add(frame, now);
+    }
+  }
+}
+
+void ServerThread::serve_clients(HostTime now) {
+  for (auto client = clients_.begin(); client != clients_.end();) {
+    const auto here = client++;
+    Status s = here->read();
+    s = s ? here->write(now) : s;
+    if (s && !here->idle() && now - here->taken() > options_.longest_block) {
+      s = Error{"does not read"};
+    }
+    if (!s) {
+      drop(here, s.error().message);
+    }
+  }
+}
+
+void ServerThread::drop(std::list<Client>::iterator client, const std::string& why) {
+  clients_.erase(client);
+  const MutexLock lock(mutex_);
+  counts_.clients = clients_.size();
+  if (why != "has left") {
+    ++counts_.dropped;
+    counts_.last_drop = why;
+  }
+}
+
+}  // namespace orthonav::igtl

@@ -1,0 +1,272 @@
+#include "hal/igtl/server.h"
+
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <igtlClientSocket.h>
+#include <igtlMessageHeader.h>
+#include <igtlStringMessage.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <thread>
+
+#include "hal/igtl/incoming.h"
+#include "hal/igtl/message.h"
+#include "tests/support/wait_until.h"
+
+namespace orthonav::igtl::server_test {
+namespace {
+
+using orthonav::test::wait_until;
+using ::testing::HasSubstr;
+using Bytes = std::vector<std::uint8_t>;
+
+/// A plain socket to the server.
+class RawClient {
+ public:
+  explicit RawClient(int port, int receive_buffer = 0) : fd_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    if (receive_buffer > 0) {
+      ::setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
+    }
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    ::inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
+    connected_ = ::connect(fd_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+  }
+  ~RawClient() { ::close(fd_); }
+  RawClient(const RawClient&) = delete;
+  RawClient& operator=(const RawClient&) = delete;
+
+  [[nodiscard]] bool connected() const { return connected_; }
+  void send(const Bytes& bytes) const {
+    (void)!::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  }
+  /// So many bytes; fewer where the server hung up.
+  [[nodiscard]] Bytes receive(std::size_t count) const {
+    Bytes out(count);
+    std::size_t have = 0;
+    while (have < count) {
+      const ssize_t got = ::recv(fd_, out.data() + have, count - have, 0);
+      if (got <= 0) {
+        break;
+      }
+      have += static_cast<std::size_t>(got);
+    }
+    out.resize(have);
+    return out;
+  }
+  /// Reads a message; its text is empty where the server hung up.
+  [[nodiscard]] std::string type_of_next() const {
+    const Bytes head = receive(kHeaderBytes);
+    if (head.size() < kHeaderBytes) {
+      return {};
+    }
+    const auto header =
+        parsed_header(std::span<const std::uint8_t, kHeaderBytes>(head.data(), kHeaderBytes));
+    EXPECT_TRUE(header.ok());
+    EXPECT_EQ(receive(header->body_bytes).size(), header->body_bytes);
+    return header->type + " " + header->device;
+  }
+
+ private:
+  int fd_;
+  bool connected_ = false;
+};
+
+std::unique_ptr<Server> started(ServerOptions options = {}) {
+  options.port = 0;
+  auto server = Server::start(options);
+  EXPECT_TRUE(server.ok()) << server.error().message;
+  return std::move(*server);
+}
+
+Bytes frame(int number) { return packed_text({"Guidance", 0}, std::to_string(number)); }
+
+/// Publishes one frame after another until `done`.
+bool publish_until(Server& server, const std::function<bool()>& done, const Bytes& bytes) {
+  return wait_until([&] {
+    server.publish(bytes);
+    return done();
+  });
+}
+
+TEST(IgtlIncoming, ReadsTheSameHoweverTheStreamIsCut) {
+  Bytes stream;
+  for (const char* text : {"", "a", "a longer text"}) {
+    const Bytes message = packed_text({"Guidance", 0}, text);
+    stream.insert(stream.end(), message.begin(), message.end());
+  }
+  for (std::size_t step = 1; step <= stream.size(); ++step) {
+    Incoming incoming;
+    for (std::size_t at = 0; at < stream.size(); at += step) {
+      ASSERT_TRUE(
+          incoming.take(std::span(stream).subspan(at, std::min(step, stream.size() - at))).ok());
+    }
+    EXPECT_EQ(incoming.messages(), 3u) << step;
+  }
+  stream[kHeaderBytes] = 7;  // a byte of a body
+  Incoming other;
+  EXPECT_TRUE(other.take(stream).ok());
+  stream[0] = 7;  // of a header
+  EXPECT_FALSE(other.take(stream).ok()) << "the control";
+}
+
+TEST(IgtlServer, ServesSeveralClientsTheSameFramesAndWhatStandsFirst) {
+  const auto server = started();
+  server->stand(packed({"L4leftScrew", 0}, std::vector<PointValues>(2)));
+  const RawClient a(server->port());
+  const RawClient b(server->port());
+  ASSERT_TRUE(a.connected() && b.connected());
+  EXPECT_EQ(a.type_of_next(), "POINT L4leftScrew");
+  EXPECT_EQ(b.type_of_next(), "POINT L4leftScrew");
+  server->publish(frame(1));
+  EXPECT_EQ(a.type_of_next(), "STRING Guidance");
+  EXPECT_EQ(b.type_of_next(), "STRING Guidance");
+  EXPECT_EQ(server->counts().clients, 2u);
+  server->stand(packed({"L5leftScrew", 0}, std::vector<PointValues>(2)));
+  EXPECT_EQ(a.type_of_next(), "POINT L5leftScrew") << "what stands has changed";
+}
+
+TEST(IgtlServer, IsReadByAClientOfDebiansLibrary) {
+  const auto server = started();
+  const auto client = ::igtl::ClientSocket::New();
+  ASSERT_EQ(client->ConnectToServer("127.0.0.1", server->port()), 0);
+  ASSERT_TRUE(publish_until(
+      *server, [&] { return server->counts().frames > 0; }, frame(42)));
+  const auto header = ::igtl::MessageHeader::New();
+  header->InitPack();
+  ASSERT_EQ(client->Receive(header->GetPackPointer(), header->GetPackSize()),
+            header->GetPackSize());
+  header->Unpack();
+  ASSERT_STREQ(header->GetDeviceType(), "STRING");
+  const auto text = ::igtl::StringMessage::New();
+  text->SetMessageHeader(header);
+  text->AllocatePack();
+  client->Receive(text->GetPackBodyPointer(), text->GetPackBodySize());
+  EXPECT_NE(text->Unpack(1) & ::igtl::MessageHeader::UNPACK_BODY, 0);
+  EXPECT_STREQ(text->GetString(), "42");
+  client->CloseSocket();
+}
+
+TEST(IgtlServer, SurvivesTheHeaderOfVersionTwoThatSlicerOpensWith) {
+  const auto server = started();
+  const RawClient slicer(server->port());
+  // A STATUS of version 2: 63 bytes of body with an extended header and metadata.
+  Bytes opening = packed({"Slicer", 0}, StatusValues{kStatusOk, 0, "", ""});
+  opening.resize(kHeaderBytes + 63);
+  opening[1] = 2;
+  opening[49] = 63;
+  slicer.send(opening);
+  slicer.send(frame(7));  // what follows is read at its place
+  server->publish(frame(1));
+  EXPECT_EQ(slicer.type_of_next(), "STRING Guidance");
+  EXPECT_EQ(server->counts().dropped, 0);
+}
+
+TEST(IgtlServer, DropsWhoSendsSomethingElseAndServesTheRest) {
+  const auto server = started();
+  const RawClient good(server->port());
+  const RawClient bad(server->port());
+  const std::string http =
+      "GET / HTTP/1.1\r\nHost: localhost\r\nUser-Agent: something long\r\n\r\n";
+  bad.send({http.begin(), http.end()});
+  ASSERT_TRUE(wait_until([&] { return server->counts().dropped == 1; }));
+  EXPECT_THAT(server->counts().last_drop, HasSubstr("no OpenIGTLink message"));
+  const RawClient greedy(server->port());
+  Bytes large = frame(1);
+  large[44] = 1;  // 2^40 bytes are to come
+  greedy.send(large);
+  ASSERT_TRUE(wait_until([&] { return server->counts().dropped == 2; }));
+  EXPECT_THAT(server->counts().last_drop, HasSubstr("limit 16777216"));
+  server->publish(frame(1));
+  EXPECT_EQ(good.type_of_next(), "STRING Guidance");
+}
+
+TEST(IgtlServer, DropsWhoNeverReadsWhileOthersGetTheirFrames) {
+  ServerOptions options;
+  options.longest_block = std::chrono::milliseconds(50);
+  options.most_hz = 1e6;
+  const auto server = started(options);
+  const RawClient deaf(server->port(), 4096);
+  std::atomic<bool> over = false;
+  std::atomic<int> read = 0;
+  std::thread reader([&] {
+    const RawClient good(server->port());
+    while (!over && !good.type_of_next().empty()) {
+      ++read;
+    }
+  });
+  const Bytes large = packed_text({"Guidance", 0}, std::string(60000, 'x'));
+  EXPECT_TRUE(publish_until(
+      *server, [&] { return server->counts().dropped == 1; }, large));
+  EXPECT_EQ(server->counts().last_drop, "does not read");
+  const int before = read;
+  EXPECT_TRUE(publish_until(
+      *server, [&] { return read > before + 3; }, large));
+  over = true;
+  EXPECT_TRUE(publish_until(
+      *server, [&] { return server->counts().clients == 0; }, large));
+  reader.join();
+}
+
+TEST(IgtlServer, SendsTheNewestFrameNoMoreOftenThanAllowed) {
+  ServerOptions options;
+  options.most_hz = 0.01;
+  options.longest_silence = std::chrono::hours(1);
+  const auto server = started(options);
+  const RawClient client(server->port());
+  ASSERT_TRUE(wait_until([&] { return server->counts().clients == 1; }));
+  server->publish(frame(1));
+  ASSERT_TRUE(wait_until([&] { return server->counts().frames == 1; }));
+  for (int i = 2; i < 50; ++i) {
+    server->publish(frame(i));
+  }
+  server->stand(frame(99));  // goes at once, so that there is something to wait for
+  EXPECT_EQ(client.type_of_next(), "STRING Guidance");
+  EXPECT_EQ(client.type_of_next(), "STRING Guidance");
+  EXPECT_EQ(server->counts().frames, 1) << "the others wait for their turn";
+}
+
+TEST(IgtlServer, TellsClientsThatNoFrameComes) {
+  ServerOptions options;
+  options.longest_silence = std::chrono::milliseconds(5);
+  const auto server = started(options);
+  const RawClient client(server->port());
+  EXPECT_EQ(client.type_of_next(), "STATUS orthonav");
+}
+
+TEST(IgtlServer, RefusesAPortThatIsTakenAndAddressesThatAreNone) {
+  const auto server = started();
+  ServerOptions options;
+  options.port = server->port();
+  const auto second = Server::start(options);
+  ASSERT_FALSE(second.ok());
+  EXPECT_THAT(second.error().message, HasSubstr("can't listen at 127.0.0.1:"));
+  options.address = "localhost";
+  options.port = 70000;
+  const auto bad = Server::start(options);
+  ASSERT_FALSE(bad.ok());
+  EXPECT_THAT(bad.error().message, HasSubstr("must be four numbers"));
+  EXPECT_THAT(bad.error().message, HasSubstr("port 70000"));
+}
+
+TEST(IgtlServer, ListensOnLoopbackAloneUnlessToldOtherwise) {
+  const auto server = started();
+  // Every address of 127.0.0.0/8 is this machine; the server took only one of them.
+  const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(server->port()));
+  ::inet_pton(AF_INET, "127.0.0.2", &address.sin_addr);
+  EXPECT_NE(::connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  ::close(fd);
+  EXPECT_TRUE(RawClient(server->port()).connected()) << "the twin";
+}
+
+}  // namespace
+}  // namespace orthonav::igtl::server_test

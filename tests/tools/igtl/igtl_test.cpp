@@ -1,0 +1,211 @@
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/support/wait_until.h"
+#include "tests/tools/command_line.h"
+#include "tools/igtl_messages.h"
+
+namespace orthonav::tools::igtl_test {
+namespace {
+
+using test::StartedCommand;
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr float kFloat_mm = 1e-3F;
+
+/// Bodies by type and device.
+using Messages = std::map<std::string, Bytes>;
+
+igtl::Header header_at(const Bytes& bytes, std::size_t at) {
+  return igtl::parsed_header(std::span<const std::uint8_t, igtl::kHeaderBytes>(bytes.data() + at,
+                                                                               igtl::kHeaderBytes))
+      .value();
+}
+
+Messages messages_in(const Bytes& bytes) {
+  Messages out;
+  for (std::size_t at = 0; at < bytes.size();) {
+    const igtl::Header header = header_at(bytes, at);
+    const auto body = bytes.begin() + static_cast<std::ptrdiff_t>(at + igtl::kHeaderBytes);
+    out[header.type + " " + header.device] = {
+        body, body + static_cast<std::ptrdiff_t>(header.body_bytes)};
+    at += igtl::kHeaderBytes + static_cast<std::size_t>(header.body_bytes);
+  }
+  return out;
+}
+
+float float_at(const Bytes& body, std::size_t at) {
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    bits = bits << 8u | body.at(at + i);
+  }
+  float value = 0.0F;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// A TRANSFORM's body applied to a point, mm.
+std::array<float, 3> moved(const Bytes& transform, std::array<float, 3> p) {
+  std::array<float, 3> out{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    out[row] = float_at(transform, 4 * (9 + row));
+    for (std::size_t column = 0; column < 3; ++column) {
+      out[row] += float_at(transform, 4 * (3 * column + row)) * p[column];
+    }
+  }
+  return out;
+}
+
+engine::LevelState level_l4() {
+  engine::LevelState level;
+  level.plan.label = "L4";
+  level.plan.screws = {{nav::Side::kLeft, {{0.02, 0.03, 0.004}}, {{0.01, -0.01, 0.005}}, 0.003}};
+  return level;
+}
+
+TEST(IgtlMessages, NamesDevicesWithinTwentyBytesAndWithOneTo) {
+  EXPECT_EQ(igtl_device("pointer", "Reference"), "PointerToReference");
+  EXPECT_EQ(igtl_device("drill guide 2", "World"), "Drillguide2ToWorld");
+  EXPECT_EQ(igtl_device("screwdriver", "Reference"), "ScrewdrivToReference");
+  EXPECT_EQ(igtl_device("ToTo", "World"), "TotoToWorld");
+}
+
+TEST(IgtlMessages, PutAModelInRasWhereTheRegistrationHasTheBone) {
+  engine::LevelState level = level_l4();
+  nav::Registration registration;
+  registration.world_from_vertebra = {rotation_from_vector({0.1, 0.5, -0.3}), {0.1, -0.2, 0.3}};
+  level.registration = registration;
+  engine::Guidance guidance;
+  guidance.levels = {&level, 1};
+  EXPECT_TRUE(igtl_models(guidance).empty()) << "not accepted";
+  level.accepted = true;
+  const Messages world = messages_in(igtl_models(guidance));
+  ASSERT_TRUE(world.contains("TRANSFORM L4ModelToWorld"));
+  // The screw's entry: LPS in the plan, RAS in the model that 3D Slicer holds.
+  const Vec3 want = 1e3 * (registration.world_from_vertebra * level.plan.screws[0].entry).v;
+  const auto got = moved(world.at("TRANSFORM L4ModelToWorld"), {-20.0F, -30.0F, 4.0F});
+  EXPECT_NEAR(got[0], want.x, kFloat_mm);
+  EXPECT_NEAR(got[1], want.y, kFloat_mm);
+  EXPECT_NEAR(got[2], want.z, kFloat_mm);
+
+  nav::Anchor anchor;
+  anchor.places = {{2, {rotation_from_vector({0, 0.2, 0}), {0.05, 0, 0}}}};
+  guidance.anchor = &anchor;
+  const Messages reference = messages_in(igtl_models(guidance));
+  ASSERT_TRUE(reference.contains("TRANSFORM L4ModelToReference"));
+  const Vec3 seen = (anchor.places[0].anchored_from_marker.inverse() * Point<World>{want * 1e-3}).v;
+  EXPECT_NEAR(moved(reference.at("TRANSFORM L4ModelToReference"), {-20.0F, -30.0F, 4.0F})[0],
+              1e3 * seen.x, kFloat_mm);
+  level.unverified = true;
+  EXPECT_TRUE(igtl_models(guidance).empty()) << "restored, and not verified since";
+}
+
+TEST(IgtlMessages, TellScrewsAsPointsAndAsACylinder) {
+  const engine::LevelState level = level_l4();
+  const Messages screws = messages_in(igtl_screws({&level, 1}, {}));
+  ASSERT_TRUE(screws.contains("POINT L4leftScrew"));
+  const Bytes& points = screws.at("POINT L4leftScrew");
+  ASSERT_EQ(points.size(), 2u * 136u);
+  EXPECT_EQ(float_at(points, 100), -20.0F);
+  EXPECT_EQ(float_at(points, 104), -30.0F);
+  EXPECT_EQ(float_at(points, 108), 4.0F);
+  EXPECT_EQ(float_at(points, 112), 3.0F) << "radius";
+  EXPECT_EQ(float_at(points, 136 + 104), 10.0F) << "the target";
+  ASSERT_TRUE(screws.contains("POLYDATA L4leftScrewModel"));
+}
+
+/// A plain socket that reads whole messages.
+class Listener {
+ public:
+  explicit Listener(int port) : fd_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    ::inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
+    (void)::connect(fd_, reinterpret_cast<sockaddr*>(&address), sizeof address);
+  }
+  ~Listener() { ::close(fd_); }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+  /// "TRANSFORM PointerToWorld"; empty once the other side hung up.
+  std::string next() {
+    const Bytes head = receive(igtl::kHeaderBytes);
+    if (head.empty()) {
+      return {};
+    }
+    const igtl::Header header = header_at(head, 0);
+    last_body_ = receive(static_cast<std::size_t>(header.body_bytes));
+    return header.type + " " + header.device;
+  }
+  [[nodiscard]] const Bytes& last_body() const { return last_body_; }
+
+ private:
+  Bytes receive(std::size_t count) const {
+    Bytes out(count);
+    const ssize_t got = count == 0 ? 0 : ::recv(fd_, out.data(), count, MSG_WAITALL);
+    out.resize(got == static_cast<ssize_t>(count) ? count : 0);
+    return out;
+  }
+
+  int fd_;
+  Bytes last_body_;
+};
+
+/// Where the command says that it serves; 0: it has not said yet.
+int port_of(const StartedCommand& command) {
+  const std::string said = command.err_so_far();
+  const std::string before = "OpenIGTLink at 127.0.0.1:";
+  const std::size_t at = said.find(before);
+  return at == std::string::npos || said.find('\n', at) == std::string::npos
+             ? 0
+             : std::stoi(said.substr(at + before.size()));
+}
+
+TEST(IgtlCommand, ServesARunUntilItEnds) {
+  StartedCommand command({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--igtl", "0"});
+  int port = 0;
+  ASSERT_TRUE(test::wait_until([&] { return (port = port_of(command)) != 0; }));
+  Listener listener(port);
+  std::set<std::string> heard;
+  const std::set<std::string> wanted = {"POINT L5leftScrew", "POLYDATA L5rightScrewModel",
+                                        "STATUS orthonav", "STRING Guidance",
+                                        "TRANSFORM PointerToWorld"};
+  for (std::string name = listener.next(); !name.empty(); name = listener.next()) {
+    heard.insert(name);
+    if (name == "STRING Guidance") {
+      const std::string text(listener.last_body().begin() + 4, listener.last_body().end());
+      EXPECT_EQ(nlohmann::json::parse(text)["guiding"], false) << "nothing is registered yet";
+    }
+    if (std::includes(heard.begin(), heard.end(), wanted.begin(), wanted.end())) {
+      break;
+    }
+  }
+  EXPECT_THAT(heard, IsSupersetOf(wanted));
+  ASSERT_TRUE(test::wait_until([&] { return command.takes_signals(); }));
+  command.send(SIGTERM);
+  EXPECT_THAT(command.wait().err, HasSubstr("OpenIGTLink: 1 client, "));
+}
+
+TEST(IgtlCommand, RefusesPlacesWhereNobodyCanListen) {
+  for (const std::string at : {"port", "70000", "localhost:18944", "1.2.3.4.5:18944"}) {
+    const test::Called called = test::orthonav({"run", "--frames", "1", "--igtl", at});
+    EXPECT_EQ(called.code, 2) << at;
+    EXPECT_THAT(called.err, HasSubstr("--igtl \"" + at + "\": "));
+    EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
+  }
+}
+
+}  // namespace
+}  // namespace orthonav::tools::igtl_test

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/session/session.h"
+#include "hal/igtl/message.h"
+
+namespace orthonav::tools {
+
+/// "PointerToReference": letters and digits of the name alone, none in upper case but the first, so
+/// that no "To" hides in it; cut so that the whole fits into 20 bytes.
+[[nodiscard]] std::string igtl_device(const std::string& from, const std::string& to);
+
+/// A pose as OpenIGTLink has it, mm.
+[[nodiscard]] igtl::TransformValues igtl_values(const Mat3& rotation, Vec3 translation_m);
+
+/// What every pair tells: a TRANSFORM for each tool that this pair measures and for each level that
+/// is registered and accepted, and the numbers of the guidance as a STRING.
+///
+/// Tools have their origin at their tip and their marker's axes. `LABELModel` is the model in RAS
+/// and millimetres, as 3D Slicer holds it. All of them lead to `Reference` where a patient
+/// reference is in use, else to `World`, the headset's map. Tools that are not measured are left
+/// out: version 1 can't say that a pose is old.
+[[nodiscard]] std::vector<std::uint8_t> igtl_frame(const engine::Session& session,
+                                                   const engine::Guidance& guidance);
+
+/// Of that, the levels.
+[[nodiscard]] std::vector<std::uint8_t> igtl_models(const engine::Guidance& guidance);
+
+/// The step, the status line, and which tools are lost.
+[[nodiscard]] std::vector<std::uint8_t> igtl_status(const engine::Session& session,
+                                                    const engine::Guidance& guidance);
+
+/// Each screw of the plan in use in its model's frame: a POINT with entry and target (radius in the
+/// field for it) and a POLYDATA of its cylinder.
+[[nodiscard]] std::vector<std::uint8_t> igtl_screws(std::span<const engine::LevelState> levels,
+                                                    Timestamp time);
+
+}  // namespace orthonav::tools

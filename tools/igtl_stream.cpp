@@ -1,0 +1,115 @@
+#include "tools/igtl_stream.h"
+
+#include <cstdio>
+
+#include "base/joined.h"
+#include "engine/io/text_fields.h"
+#include "tools/arguments.h"
+#include "tools/igtl_messages.h"
+
+namespace orthonav::tools {
+namespace {
+
+constexpr Duration kStatusEvery = std::chrono::seconds(1);
+
+bool same(const nav::ScrewPlan& a, const nav::ScrewPlan& b) {
+  return a.side == b.side && a.entry.v == b.entry.v && a.target.v == b.target.v &&
+         a.radius_m == b.radius_m;
+}
+
+std::vector<nav::ScrewPlan> screws_of(std::span<const engine::LevelState> levels) {
+  std::vector<nav::ScrewPlan> out;
+  for (const engine::LevelState& level : levels) {
+    out.insert(out.end(), level.plan.screws.begin(), level.plan.screws.end());
+  }
+  return out;
+}
+
+}  // namespace
+
+void IgtlArguments::add_to(CLI::App& command) {
+  command
+      .add_option("--igtl", at,
+                  "serve tools, registration, screws and guidance over OpenIGTLink at this port of "
+                  "this machine alone, or at ADDRESS:PORT (docs/igtl.md; usual port: 18944)")
+      ->check(some_text())
+      ->type_name("PORT");
+}
+
+Result<igtl::ServerOptions> igtl_options(const std::string& at) {
+  igtl::ServerOptions options;
+  const std::size_t colon = at.rfind(':');
+  if (colon != std::string::npos) {
+    options.address = at.substr(0, colon);
+  }
+  const auto port = engine::number_from(colon == std::string::npos ? at : at.substr(colon + 1));
+  if (!port || *port != static_cast<double>(static_cast<int>(*port))) {
+    return Error{"--igtl \"" + at + "\": must be PORT or ADDRESS:PORT"};
+  }
+  options.port = static_cast<int>(*port);
+  if (const auto problems = options.check(); !problems.empty()) {
+    return Error{"--igtl \"" + at + "\": " + joined(problems)};
+  }
+  return options;
+}
+
+Status IgtlStream::open(const IgtlArguments& arguments) {
+  if (arguments.at.empty()) {
+    return {};
+  }
+  const auto options = igtl_options(arguments.at);
+  if (!options) {
+    return options.error();
+  }
+  auto server = igtl::Server::start(*options);
+  if (!server) {
+    return server.error();
+  }
+  server_ = std::move(*server);
+  std::fprintf(stderr, "OpenIGTLink at %s:%d\n", options->address.c_str(), server_->port());
+  return {};
+}
+
+void IgtlStream::watch(engine::AssembledOperation& operation) {
+  if (server_) {
+    session_ = &operation.session();
+    operation.observe(static_cast<engine::LoopObserver*>(this));
+  }
+}
+
+void IgtlStream::stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*inputs*/,
+                         const engine::Guidance& guidance) {
+  std::vector<nav::ScrewPlan> screws = screws_of(guidance.levels);
+  if (!std::equal(screws.begin(), screws.end(), told_.begin(), told_.end(), same)) {
+    server_->stand(igtl_screws(guidance.levels, guidance.frame_time));
+    told_ = std::move(screws);
+  }
+  std::vector<std::uint8_t> frame = igtl_frame(*session_, guidance);
+  // Only the newest frame is sent: the status goes along until a frame has gone.
+  const std::int64_t sent = server_->counts().frames;
+  const bool due = !last_status_ || guidance.frame_time - *last_status_ >= kStatusEvery;
+  if (due || sent == sent_at_status_) {
+    const auto status = igtl_status(*session_, guidance);
+    frame.insert(frame.end(), status.begin(), status.end());
+    last_status_ = due ? guidance.frame_time : last_status_;
+    sent_at_status_ = sent;
+  }
+  server_->publish(std::move(frame));
+}
+
+void IgtlStream::tell() const {
+  if (!server_) {
+    return;
+  }
+  const igtl::Server::Counts counts = server_->counts();
+  std::fprintf(stderr, "OpenIGTLink: %lld client%s, %lld frames",
+               static_cast<long long>(counts.served), counts.served == 1 ? "" : "s",
+               static_cast<long long>(counts.frames));
+  if (counts.dropped > 0) {
+    std::fprintf(stderr, "; %lld dropped, the last one %s", static_cast<long long>(counts.dropped),
+                 counts.last_drop.c_str());
+  }
+  std::fprintf(stderr, "\n");
+}
+
+}  // namespace orthonav::tools

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/live/assembled_operation.h"
+#include "hal/igtl/server.h"
+
+namespace orthonav::tools {
+
+/// `--igtl`, of the commands that run an operation.
+struct IgtlArguments {
+  std::string at;  ///< "PORT" or "ADDRESS:PORT"; empty: nothing is served
+
+  void add_to(CLI::App& command);
+};
+
+/// Serves an operation over OpenIGTLink (tools/igtl_messages.h) for as long as it lives; nobody and
+/// nothing until it was opened at a place.
+class IgtlStream : public engine::LoopObserver {
+ public:
+  /// Listens where the arguments say, and says so on standard error; nowhere where they say
+  /// nothing.
+  Status open(const IgtlArguments& arguments);
+  /// From now on what happens in this operation, which must outlive the run.
+  void watch(engine::AssembledOperation& operation);
+
+  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+               const engine::Guidance& guidance) override;
+  /// Says on standard error how many clients there were, and why any was dropped.
+  void tell() const;
+
+ private:
+  std::unique_ptr<igtl::Server> server_;  ///< null: nobody is served
+  const engine::Session* session_ = nullptr;
+  std::vector<nav::ScrewPlan> told_;  ///< the screws that stand
+  std::optional<Timestamp> last_status_;
+  std::int64_t sent_at_status_ = -1;  ///< frames that had gone when the last one was made
+};
+
+/// "18944", "0.0.0.0:18944".
+Result<igtl::ServerOptions> igtl_options(const std::string& at);
+
+}  // namespace orthonav::tools
