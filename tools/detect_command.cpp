@@ -78,7 +78,7 @@ Result<std::vector<Seen>> detect_all(const DetectArguments& arguments) {
   return all;
 }
 
-std::string as_json(const std::vector<Seen>& all) {
+std::string seen_as_json(const std::vector<Seen>& all) {
   nlohmann::ordered_json out = {{"corner_coordinates", kConvention}, {"corner_order", kOrder}};
   out["images"] = nlohmann::ordered_json::array();
   for (const Seen& seen : all) {
@@ -124,7 +124,7 @@ int run_detect(const DetectArguments& arguments) {
   if (!all) {
     return bad_input(all.error().message);
   }
-  const std::string text = arguments.json ? as_json(*all) : as_text(*all);
+  const std::string text = arguments.json ? seen_as_json(*all) : as_text(*all);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return kDone;
 }

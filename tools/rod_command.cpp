@@ -20,7 +20,7 @@ struct RodArguments {
   JsonOutput json;
 };
 
-nlohmann::ordered_json in_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
+nlohmann::ordered_json vector_in_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
 
 nlohmann::ordered_json as_json(const nav::RodTemplate& rod) {
   nlohmann::ordered_json out = {{"length_mm", rod.length_m * 1e3},
@@ -29,15 +29,15 @@ nlohmann::ordered_json as_json(const nav::RodTemplate& rod) {
                                 {"bends", nlohmann::ordered_json::array()},
                                 {"path_mm", nlohmann::ordered_json::array()}};
   for (const Vec3& head : rod.heads_m) {
-    out["heads_mm"].push_back(in_mm(head));
+    out["heads_mm"].push_back(vector_in_mm(head));
   }
   for (const nav::RodBend& bend : rod.bends) {
     out["bends"].push_back({{"arc_length_mm", bend.arc_length_m * 1e3},
                             {"angle_deg", bend.angle_rad * kDegreesPerRadian},
-                            {"position_mm", in_mm(bend.position_m)}});
+                            {"position_mm", vector_in_mm(bend.position_m)}});
   }
   for (const Vec3& p : rod.path_m) {
-    out["path_mm"].push_back(in_mm(p));
+    out["path_mm"].push_back(vector_in_mm(p));
   }
   return out;
 }

@@ -13,7 +13,7 @@ extern "C" {
 namespace orthonav::hl2ss {
 namespace {
 
-std::string reason(int code) {
+std::string codec_reason(int code) {
   char text[AV_ERROR_MAX_STRING_SIZE] = {};
   av_strerror(code, text, sizeof(text));
   return text;
@@ -64,7 +64,7 @@ Result<std::unique_ptr<H264Decoder>> H264Decoder::create() {
   // A library does not print; what matters comes back as a code.
   codec->context->log_level_offset = AV_LOG_MAX_OFFSET;
   if (const int code = avcodec_open2(codec->context, h264, nullptr); code < 0) {
-    return Error{"H.264 decoder: " + reason(code)};
+    return Error{"H.264 decoder: " + codec_reason(code)};
   }
   return std::unique_ptr<H264Decoder>(new H264Decoder(std::move(codec)));
 }
@@ -84,7 +84,7 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
   }
   if (const int code = av_new_packet(codec.packet, static_cast<int>(access_unit.size()));
       code < 0) {
-    return Error{"H.264 decoder: " + reason(code)};
+    return Error{"H.264 decoder: " + codec_reason(code)};
   }
   std::copy(access_unit.begin(), access_unit.end(), codec.packet->data);
   codec.packet->pts = unit;
@@ -92,7 +92,7 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
   av_packet_unref(codec.packet);
   if (sent < 0) {
     restart();
-    return Error{"H.264 picture is damaged: " + reason(sent)};
+    return Error{"H.264 picture is damaged: " + codec_reason(sent)};
   }
   auto picture = take_picture(image);
   if (!picture) {
@@ -113,7 +113,7 @@ Result<std::optional<std::int64_t>> H264Decoder::take_picture(GreyImage& image) 
     return std::optional<std::int64_t>{};
   }
   if (code < 0) {
-    return Error{"H.264 picture is damaged: " + reason(code)};
+    return Error{"H.264 picture is damaged: " + codec_reason(code)};
   }
   if (frame->key_frame != 0) {
     codec.waits_for_key = false;

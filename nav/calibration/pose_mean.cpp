@@ -6,7 +6,7 @@
 namespace orthonav::nav {
 namespace {
 
-using Pose = Transform<Tag, Tag>;
+using TagPose = Transform<Tag, Tag>;
 
 constexpr double kRadianM = 0.05;
 // At distances below this, weights no longer grow.
@@ -25,23 +25,23 @@ struct Difference {
   }
 };
 
-Difference difference(const Pose& from, const Pose& to) {
+Difference difference(const TagPose& from, const TagPose& to) {
   return {to.translation() - from.translation(),
           vector_from_rotation(to.rotation() * from.rotation().transposed())};
 }
 
-double total_m(const Pose& centre, std::span<const Pose> poses) {
+double total_m(const TagPose& centre, std::span<const TagPose> poses) {
   double sum = 0.0;
-  for (const Pose& pose : poses) {
+  for (const TagPose& pose : poses) {
     sum += difference(centre, pose).length_m();
   }
   return sum;
 }
 
 /// The pose nearest to all the others.
-Pose middle_one(std::span<const Pose> poses) {
+TagPose middle_one(std::span<const TagPose> poses) {
   const std::size_t stride = (poses.size() + kMostCandidates - 1) / kMostCandidates;
-  Pose best;
+  TagPose best;
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < poses.size(); i += stride) {
     const double sum_m = total_m(poses[i], poses);
@@ -56,12 +56,12 @@ Pose middle_one(std::span<const Pose> poses) {
 
 }  // namespace
 
-Pose median_pose(std::span<const Pose> poses) {
-  Pose centre = middle_one(poses);
+TagPose median_pose(std::span<const TagPose> poses) {
+  TagPose centre = middle_one(poses);
   for (int step = 0; step < kSteps; ++step) {
     Difference mean;
     double total = 0.0;
-    for (const Pose& pose : poses) {
+    for (const TagPose& pose : poses) {
       const Difference off = difference(centre, pose);
       const double weight = 1.0 / std::max(off.length_m(), kNearM);
       mean.translation_m += weight * off.translation_m;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kMaxTilt_rad = 30.0 * kRadiansPerDegree;
 constexpr double kMaxShift_m = 0.030;
 /// Makes an angle a length, to weigh both: tags of a tool lie some 50 mm apart.
-constexpr double kLever_m = 0.05;
+constexpr double kMountingLever_m = 0.05;
 /// A turn of the marker must explain the places so much better than none: where all tags lie on the
 /// marker's axis it explains them as well, and their own turns are then the simpler reading.
 constexpr double kClearlyBetter = 0.5;
@@ -50,7 +50,7 @@ struct Reading {
   double tilt_rad = 0.0;
   double shift_m = 0.0;
 
-  [[nodiscard]] double misfit_m() const { return shift_m + kLever_m * tilt_rad; }
+  [[nodiscard]] double misfit_m() const { return shift_m + kMountingLever_m * tilt_rad; }
 };
 
 Reading reading_of(const Pair& pair, int marker_turns) {

@@ -10,7 +10,7 @@ namespace {
 /// As far as a screw's entry is looked for beside its plan elsewhere (nav/guidance/screw_cylinder).
 constexpr double kNewEntrySought_m = 0.025;
 /// The reachable part is cut out of the bone's own surface: a ray meets both at once.
-constexpr double kSamePlace_m = 1e-5;
+constexpr double kUnchanged_m = 1e-5;
 
 std::optional<Vec3> towards(const ScrewPlan& screw, ScrewDirection direction) {
   const auto directions = directions_of(screw);
@@ -43,7 +43,7 @@ std::optional<Point<Vertebra>> entry_on(const SurfaceIndex& bone, const SurfaceI
   const auto entry = reachable.first_hit(behind, inward);
   const auto first = bone.first_hit(behind, inward);
   if (!entry || !first || entry->distance_m > 2.0 * kNewEntrySought_m ||
-      !(entry->normal.dot(inward) < 0.0) || first->distance_m < entry->distance_m - kSamePlace_m) {
+      !(entry->normal.dot(inward) < 0.0) || first->distance_m < entry->distance_m - kUnchanged_m) {
     return std::nullopt;
   }
   return Point<Vertebra>{entry->point_m};

@@ -17,9 +17,9 @@ namespace {
 /// errors of touch of 1-2 mm each, are one that was touched twice.
 constexpr double kClosest_m = 0.005;
 /// Heads lie 15-60 mm apart; over three levels without screws (37 mm each), as far as this.
-constexpr double kFarthest_m = 0.15;
+constexpr double kFarthestHead_m = 0.15;
 /// From T1 to the pelvis a rod is half a metre long; more is a slip of the unit.
-constexpr double kLongest_m = 0.6;
+constexpr double kLongestRod_m = 0.6;
 /// Surgeons bend 5.5 mm rods by up to 30-40° at a place, over a pedicle subtraction osteotomy; 60°
 /// are the sharpest contour of the fatigue tests, where such rods break early (Tang et al. 2013,
 /// Neurosurgery 72:276). Entries of lumbar plans ask for up to 27°. Points that ask for more than
@@ -38,7 +38,7 @@ std::string outside(double length_m, double shortest_m, double longest_m) {
 
 Error apart(std::size_t i, std::size_t j, double gap_m) {
   return Error{"screw heads " + std::to_string(i + 1) + " and " + std::to_string(j + 1) + " are " +
-               outside(gap_m, kClosest_m, kFarthest_m) + " apart, limit 5-150 mm"};
+               outside(gap_m, kClosest_m, kFarthestHead_m) + " apart, limit 5-150 mm"};
 }
 
 Status check(std::span<const Vec3> heads_m, double diameter_m) {
@@ -88,7 +88,7 @@ double bend_rad(std::span<const Vec3> heads_m, std::size_t i) {
 Status check_run(std::span<const Vec3> heads_m, std::span<const std::size_t> order) {
   for (std::size_t i = 1; i < heads_m.size(); ++i) {
     const double gap_m = (heads_m[i] - heads_m[i - 1]).norm();
-    if (gap_m > kFarthest_m) {
+    if (gap_m > kFarthestHead_m) {
       return apart(std::min(order[i - 1], order[i]), std::max(order[i - 1], order[i]), gap_m);
     }
   }
@@ -131,8 +131,8 @@ Result<RodTemplate> rod_template(std::span<const Vec3> heads_m, double diameter_
     }
     rod.length_m += spline->segment_length_m(i);
   }
-  if (rod.length_m > kLongest_m) {
-    return Error{"rod is " + outside(rod.length_m, 0.0, kLongest_m) + " long, limit 600 mm"};
+  if (rod.length_m > kLongestRod_m) {
+    return Error{"rod is " + outside(rod.length_m, 0.0, kLongestRod_m) + " long, limit 600 mm"};
   }
   return rod;
 }

@@ -7,7 +7,7 @@ namespace orthonav::nav {
 namespace {
 
 /// More is no offset of a tool at a screw, and would not fit its place.
-constexpr double kMost = 9999.0;
+constexpr double kMostShown = 9999.0;
 /// 1.2 mm is 12 tenths, whatever the last bit says.
 constexpr double kLastBits = 1e-6;
 
@@ -19,7 +19,7 @@ ShownNumber shown(SteadyNumber& number, const NumberWithSd& measured, double ten
   const double sd = measured.sd / tenth;
   out.tenths = number.show(measured.value / tenth, sd);
   out.sure = measured.sd <= sure_sd;
-  if (sd <= kMost) {
+  if (sd <= kMostShown) {
     out.sd_tenths = std::max(1, rounded_up(sd));
   }
   return out;
@@ -28,7 +28,7 @@ ShownNumber shown(SteadyNumber& number, const NumberWithSd& measured, double ten
 }  // namespace
 
 int SteadyNumber::show(double tenths, double sd_tenths) {
-  const double size = std::min(std::abs(tenths), kMost);
+  const double size = std::min(std::abs(tenths), kMostShown);
   const double zero_up_to = shown_ == 0 ? kLeaveZero : kEnterZero;
   if (size <= zero_up_to && size <= sd_tenths && std::isfinite(sd_tenths)) {
     shown_ = 0;

@@ -18,7 +18,7 @@ constexpr double kGrows = 1.25;
 
 /// Two samples this close are one that was sent again or resampled. A moving hand goes farther, and
 /// a resting one scatters more by tracking noise.
-constexpr double kSamePlace_m = 0.00005;
+constexpr double kSamePoint_m = 0.00005;
 
 /// Places that were seen, in cells of which a place's surroundings meet a few only.
 class SeenPlaces {
@@ -28,8 +28,8 @@ class SeenPlaces {
   }
   /// Whether none was seen near it; then it is seen from now on.
   bool is_new(Vec3 p) {
-    const GridCell low = cell(p - Vec3{kSamePlace_m, kSamePlace_m, kSamePlace_m});
-    const GridCell high = cell(p + Vec3{kSamePlace_m, kSamePlace_m, kSamePlace_m});
+    const GridCell low = cell(p - Vec3{kSamePoint_m, kSamePoint_m, kSamePoint_m});
+    const GridCell high = cell(p + Vec3{kSamePoint_m, kSamePoint_m, kSamePoint_m});
     for (std::int64_t x = low[0]; x <= high[0]; ++x) {
       for (std::int64_t y = low[1]; y <= high[1]; ++y) {
         for (std::int64_t z = low[2]; z <= high[2]; ++z) {
@@ -49,13 +49,13 @@ class SeenPlaces {
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  static GridCell cell(Vec3 p) { return cell_of(p, 4.0 * kSamePlace_m); }
+  static GridCell cell(Vec3 p) { return cell_of(p, 4.0 * kSamePoint_m); }
   [[nodiscard]] std::size_t bucket(const GridCell& cell) const {
     return HashOfCell{}(cell) & (heads_.size() - 1);
   }
   [[nodiscard]] bool is_near_one_in(const GridCell& cell, Vec3 p) const {
     for (std::uint32_t i = heads_[bucket(cell)]; i != kNone; i = next_[i]) {
-      if ((places_m_[i] - p).squared_norm() <= kSamePlace_m * kSamePlace_m) {
+      if ((places_m_[i] - p).squared_norm() <= kSamePoint_m * kSamePoint_m) {
         return true;
       }
     }

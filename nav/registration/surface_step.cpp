@@ -12,7 +12,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// The longest step.
-constexpr double kLongest_m = 0.008;
+constexpr double kLongestStep_m = 0.008;
 constexpr double kWidest_rad = 0.3;
 /// Damping relative to the trace: keeps directions that nothing constrains from running away.
 constexpr double kDamping = 1e-4;
@@ -60,7 +60,7 @@ Vector6 damped_step(const StepSums& of) {
 
 /// Moves the pose by a step, or by as much of it as is allowed at once.
 void move_by(const Vector6& step, CentredPose& pose) {
-  const double scale = std::min({1.0, kLongest_m / std::max(step.head<3>().norm(), 1e-12),
+  const double scale = std::min({1.0, kLongestStep_m / std::max(step.head<3>().norm(), 1e-12),
                                  kWidest_rad / std::max(step.tail<3>().norm(), 1e-12)});
   const Vec3 rotation{step(3), step(4), step(5)};
   pose.rotation = orthonormalized(rotation_from_vector(scale * rotation) * pose.rotation);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectorized.h"
 #include "nav/tracking/blur_profile.h"
 
 namespace orthonav::nav {
@@ -47,6 +48,7 @@ void along(const float* __restrict place, const float* __restrict scale, int n, 
   for (int c = 0; c < kAxisColumns; ++c) {
     column[c] = out + c * stride;
   }
+  ORTHONAV_VECTORIZED
   for (int i = 0; i < n; ++i) {
     // In this order a place that is not a number becomes the low end.
     const float c = std::min(std::max(0.0F, place[i] + half), 2.0F * half - 1e-4F);
@@ -178,6 +180,7 @@ void ViewModel::spread(const RayTable& rays, int y, const Photometry& light) {
   float* __restrict down = row_.data() + kRowColumns * stride;
   float* __restrict scale = row_.data() + kScale * stride;
   const std::array<float, 9> m = plane_from_ray_;
+  ORTHONAV_VECTORIZED
   for (int i = 0; i < n; ++i) {
     const float w = m[6] * ray_x[i] + m[7] * ray_y[i] + m[8];
     const float depth = 1.0F / w;

@@ -59,7 +59,9 @@ class RegisterCase : public ::testing::TestWithParam<const char*> {
   }
   Called registered(const std::string& label, const std::vector<Point<World>>& points,
                     std::vector<std::string> more = {"--json", "-"}) const {
-    std::vector<std::string> arguments{"register", "--level", label, "--points", file_of(points)};
+    // Bones are prepared once for all of these tests; what a kept one changes, register_test asks.
+    std::vector<std::string> arguments{
+        "register", "--level", label, "--points", file_of(points), "--cache", ORTHONAV_TEST_MODELS};
     if (!folder_of_case_.empty()) {
       more.insert(more.end(), {"--case", folder_of_case_});
     }

@@ -140,7 +140,7 @@ TEST(Surgeon, GivesUpWhenNobodyListens) {
             6);
 }
 
-TEST(Surgeon, WaitsWhileTheToolIsLost) {
+TEST(Surgeon, WaitsWhileTheToolIsLostAndLooksFromFurtherAndFurtherAside) {
   const TestCase test_case = synthetic_case();
   auto headset = SimHeadset::open(test_case.room, without_pixels(6, ErrorModel::perfect()));
   ASSERT_TRUE(headset.ok());
@@ -148,7 +148,22 @@ TEST(Surgeon, WaitsWhileTheToolIsLost) {
   blind.blind_from_s = 100.0;
   blind.blind_to_s = 260.0;
   FakeEngine engine(**headset, test_case, blind);
+  Vec3 least{1, 1, 1};
+  Vec3 most{-1, -1, -1};
+  engine.on_frame = [&](const StereoFrame& frame, const std::string& step) {
+    const double time_s = seconds(frame.time.time_since_epoch()) - 100.0;
+    if (step.starts_with("guide") && time_s > 110.0 && time_s < blind.blind_to_s) {
+      const Vec3 view = (*headset)->state().room_from_rig.rotation() * Vec3{0, 0, 1};
+      for (int axis = 0; axis < 3; ++axis) {
+        least[axis] = std::min(least[axis], view[axis]);
+        most[axis] = std::max(most[axis], view[axis]);
+      }
+    }
+  };
   ASSERT_GT(engine.run(), 0);
+  // Two views at least that are more than 50 degrees apart: a hand hides a tag from 30 degrees at
+  // most.
+  EXPECT_GT((most - least).norm(), 0.9);
   EXPECT_EQ(engine.history().back(), "done");
   ASSERT_EQ((*headset)->truth().wires.size(), 4U);
   EXPECT_GT(seconds((*headset)->truth().wires[0].time.time_since_epoch()) - 100.0, blind.blind_to_s)
