@@ -41,10 +41,12 @@ bool PlanArguments::wants(const std::string& label) const {
 }
 
 void add_plan_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("plan", "Pedicle screws: plans them, or judges a plan");
+  CLI::App* command = app.add_subcommand(
+      "plan", "Pedicle screws: plans them, judges a plan, takes it to 3D Slicer");
   command->require_subcommand(1);
   add_plan_auto(*command, action);
   add_plan_check(*command, action);
+  add_plan_export(*command, action);
 }
 
 }  // namespace orthonav::tools

@@ -74,16 +74,25 @@ Result<ordered_json> with_plan_names(const std::string& path, const Case& planne
 
 }  // namespace
 
+Status check_labels(const Case& subject) {
+  for (const CaseLevel& level : subject.levels) {
+    if (Status s = check_label(level.label); !s) {
+      return s;
+    }
+  }
+  return {};
+}
+
 Status save_case(const std::string& folder, const Case& subject) {
   const std::string path = in(folder, "case.json");
   if (fs::exists(path)) {
     return Error{path + ": is there already"};
   }
+  if (Status s = check_labels(subject); !s) {
+    return s;
+  }
   ordered_json root = {{"name", subject.name}, {"units", "mm"}, {"levels", ordered_json::array()}};
   for (const CaseLevel& level : subject.levels) {
-    if (Status s = check_label(level.label); !s) {
-      return s;
-    }
     ordered_json entry = {{"label", level.label}, {"model", level.label + ".stl"}};
     if (!level.screws.empty()) {
       entry["plan"] = plan_name(level.label);
@@ -111,10 +120,10 @@ Status add_plans(const std::string& folder, const Case& planned) {
   if (!root) {
     return root.error();
   }
+  if (Status s = check_labels(planned); !s) {
+    return s;
+  }
   for (const CaseLevel& level : planned.levels) {
-    if (Status s = check_label(level.label); !s) {
-      return s;
-    }
     if (fs::exists(in(folder, plan_name(level.label))) && !level.screws.empty()) {
       return Error{in(folder, plan_name(level.label)) + ": is there already"};
     }

@@ -13,6 +13,9 @@ namespace orthonav::engine {
 /// and labels that can't be the name of a file.
 Status save_case(const std::string& folder, const Case& subject);
 
+/// Refuses a label that can't be the name of a file.
+Status check_labels(const Case& subject);
+
 /// Adds plans to a case folder: writes `LABEL.plan.json` for each level of `planned` with screws to
 /// which `case.json` names no plan, then `case.json` with their names; what else it says stays.
 /// Refuses, before anything is written, a level that has a plan already and a case that is not in

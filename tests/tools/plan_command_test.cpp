@@ -125,6 +125,30 @@ TEST(PlanCommand, JudgesAPlanBesideItsModel) {
   EXPECT_EQ(orthonav({"plan", "check", "--model", model, "--plan", wrong}).code, 0);
 }
 
+TEST(PlanCommand, TakesACaseToSlicerAndBack) {
+  const ScratchFolder scratch;
+  const std::string folder = phantom_case(scratch, true);
+  const std::string out = scratch.file("slicer");
+  const Called called = orthonav({"plan", "export", "--case", folder, "--out", out});
+  ASSERT_EQ(called.code, 0) << called.err;
+  EXPECT_THAT(called.out, HasSubstr("L4: L4.stl, L4.mrk.json"));
+  const auto clearances = [](const Called& checked) {
+    EXPECT_EQ(checked.code, 0) << checked.err;
+    const json screws = json::parse(checked.out)["levels"][0]["screws"];
+    return std::pair(screws[0]["clearance_mm"].get<double>(),
+                     screws[1]["clearance_mm"].get<double>());
+  };
+  const auto before =
+      clearances(orthonav({"plan", "check", "--case", folder, "--levels", "L4", "--json"}));
+  const auto after = clearances(orthonav(
+      {"plan", "check", "--model", out + "/L4.stl", "--plan", out + "/L4.mrk.json", "--json"}));
+  EXPECT_NEAR(before.first, after.first, 1e-3);
+  EXPECT_NEAR(before.second, after.second, 1e-3);
+  const Called again = orthonav({"plan", "export", "--case", folder, "--out", out});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.err, HasSubstr("L4.stl: is there already"));
+}
+
 TEST(PlanCommand, RefusesWhatDoesNotGoTogether) {
   EXPECT_THAT(orthonav({"plan", "check", "--model", "L4.stl"}).err,
               HasSubstr("--model and --plan go together"));
