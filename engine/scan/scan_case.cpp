@@ -126,7 +126,8 @@ Result<ScanLevels> scan_levels(const Volume& labels, const std::string& conventi
     out.levels.push_back(std::move(*level));
   }
   if (out.levels.empty()) {
-    return Error{"holds no whole vertebra from T1 to L6: " + joined(out.left_out)};
+    return Error{"holds no whole vertebra from T1 to L6" +
+                 (out.left_out.empty() ? "" : ": " + joined(out.left_out))};
   }
   return out;
 }

@@ -7,6 +7,7 @@
 #define ITK_NOEXCEPT noexcept
 #define ITK_NOEXCEPT_EXPR(X) noexcept(X)
 #endif
+#include <gdcmTrace.h>
 #include <itkGDCMImageIO.h>
 #include <itkMetaDataObject.h>
 #include <itkNiftiImageIO.h>
@@ -17,10 +18,11 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
-#include <sstream>
 
 #include "base/printed.h"
+#include "engine/scan/dicom_fields.h"
 #include "engine/scan/dicom_order.h"
+#include "engine/scan/whole_file.h"
 
 namespace orthonav::engine {
 namespace {
@@ -28,12 +30,16 @@ namespace {
 namespace fs = std::filesystem;
 using itk::IOComponentEnum;
 
+constexpr std::uint64_t kNiftiHeader = 348;
 constexpr std::size_t kMostVoxels = std::size_t{1} << 30;
 
 /// An exception of ITK as one line: its description ends with the file and line of its source.
 Error refused(const std::string& path, const itk::ExceptionObject& error) {
   std::string what = error.GetDescription();
   what = what.substr(0, what.find('\n'));
+  if (const auto object = what.find("): "); object != std::string::npos) {
+    what.erase(0, object + 3);  // "ITK ERROR: GDCMImageIO(0x...): "
+  }
   return Error{path + ": can't be read: " + (what.empty() ? "unknown format" : what)};
 }
 
@@ -152,7 +158,11 @@ Result<Volume> load_file(itk::ImageIOBase& io, const std::string& path) {
     io.ReadImageInformation();
     Volume volume;
     const auto grid = grid_of(io);
-    const Status checked = grid ? check_grid(*grid) : Status{grid.error()};
+    Status checked = grid ? check_grid(*grid) : Status{grid.error()};
+    if (checked && !path.ends_with(".nrrd")) {
+      checked =
+          check_whole(path, kNiftiHeader + static_cast<std::uint64_t>(io.GetImageSizeInBytes()));
+    }
     if (!checked) {
       return Error{path + ": " + checked.error().message};
     }
@@ -174,16 +184,6 @@ Result<Volume> load_file(itk::ImageIOBase& io, const std::string& path) {
   }
 }
 
-/// Numbers of a DICOM field, separated by backslashes.
-std::vector<double> numbers_of(const std::string& text) {
-  std::vector<double> numbers;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, '\\');) {
-    numbers.push_back(std::strtod(part.c_str(), nullptr));
-  }
-  return numbers;
-}
-
 /// What a slice says about its place; nothing of a file that is no DICOM slice with a place.
 std::optional<SliceHeader> header_of(const std::string& path) {
   const auto io = itk::GDCMImageIO::New();
@@ -197,20 +197,15 @@ std::optional<SliceHeader> header_of(const std::string& path) {
     return std::nullopt;
   }
   auto fields = fields_of(*io);
-  const auto position = numbers_of(fields["0020|0032"]);
-  const auto orientation = numbers_of(fields["0020|0037"]);
+  const auto position = dicom_numbers(fields["0020|0032"]);
+  const auto orientation = dicom_numbers(fields["0020|0037"]);
   if (position.size() != 3 || orientation.size() != 6) {
     return std::nullopt;
   }
   SliceHeader slice;
   slice.file = path;
-  const auto plain = [](std::string text) {
-    std::erase_if(text, [](unsigned char c) { return std::iscntrl(c) != 0; });
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text;
-  };
-  slice.series = plain(fields["0020|000e"]);
-  slice.description = plain(fields["0008|103e"]);
+  slice.series = dicom_text(fields["0020|000e"]);
+  slice.description = dicom_text(fields["0008|103e"]);
   slice.position_m = 1e-3 * vector_of(position);
   slice.row = {orientation[0], orientation[1], orientation[2]};
   slice.column = {orientation[3], orientation[4], orientation[5]};
@@ -236,6 +231,10 @@ Status append_slice(const SliceHeader& slice, std::vector<float>& values) {
 }
 
 Result<Volume> load_folder(const std::string& folder, const std::string& series) {
+  // What it has to say comes back as an error; the library prints nothing.
+  gdcm::Trace::DebugOff();
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
   std::vector<std::string> files;
   std::error_code code;
   for (const auto& entry : fs::directory_iterator(folder, code)) {

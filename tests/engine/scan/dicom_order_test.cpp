@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/angle.h"
+#include "engine/scan/dicom_fields.h"
 
 namespace orthonav::engine::dicom_order_test {
 namespace {
@@ -31,6 +32,13 @@ std::vector<SliceHeader> slices() {
 std::string refusal(std::vector<SliceHeader> all) {
   const auto stack = stacked(std::move(all));
   return stack ? std::string() : stack.error().message;
+}
+
+TEST(DicomFields, AreReadWithoutTheirPadding) {
+  EXPECT_EQ(dicom_numbers("-249.5\\-437.25\\-804.5 "),
+            (std::vector<double>{-249.5, -437.25, -804.5}));
+  EXPECT_EQ(dicom_text(std::string("1.2.3\0", 6)), "1.2.3");
+  EXPECT_EQ(dicom_text("Spine  1.0 "), "Spine  1.0");
 }
 
 TEST(DicomOrder, SortsByPlaceAlongTheNormal) {

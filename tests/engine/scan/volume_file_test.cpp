@@ -13,6 +13,7 @@
 namespace orthonav::engine::volume_file_test {
 namespace {
 
+namespace test = orthonav::test;
 using orthonav::test::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -59,12 +60,12 @@ TEST(VolumeFile, TurnsRasIntoLps) {
 TEST(VolumeFile, ReadsTheLayersOfASegmentation) {
   // 3D Slicer's overlapping segments: two values a voxel, the list axis first.
   const TemporaryFolder folder;
-  const auto volume = load_volume(folder.with(
-      "s.seg.nrrd",
-      "NRRD0005\ntype: unsigned char\ndimension: 4\nspace: left-posterior-superior\n"
-      "sizes: 2 3 2 2\nspace directions: none (1,0,0) (0,2,0) (0,0,3)\n"
-      "kinds: list domain domain domain\nencoding: text\nspace origin: (10,20,30)\n"
-      "Segment0_Layer:=1\n\n1 0 2 0 3 0 4 0 5 0 6 0 7 0 8 0 9 0 10 0 11 0 12 99\n"));
+  const auto volume = load_volume(
+      folder.with("s.seg.nrrd",
+                  "NRRD0005\ntype: unsigned char\ndimension: 4\nspace: left-posterior-superior\n"
+                  "sizes: 2 3 2 2\nspace directions: none (1,0,0) (0,2,0) (0,0,3)\n"
+                  "kinds: list domain domain domain\nencoding: text\nspace origin: (10,20,30)\n"
+                  "Segment0_Layer:=1\n\n1 0 2 0 3 0 4 0 5 0 6 0 7 0 8 0 9 0 10 0 11 0 12 99\n"));
   ASSERT_TRUE(volume.ok()) << volume.error().message;
   EXPECT_EQ(volume->layers, 2u);
   EXPECT_EQ(volume->grid.size, (std::array<int, 3>{3, 2, 2}));
@@ -132,6 +133,17 @@ TEST_F(SharedScan, RefusesASeriesWithAMissingSlice) {
   ASSERT_EQ(left, 19);
   EXPECT_THAT(refusal(folder.path().string()),
               HasSubstr("are 4.00 mm apart, the others 2.00 mm: slices are missing"));
+}
+
+TEST_F(SharedScan, RefusesAMapThatIsCutOff) {
+  // The reader itself takes the missing voxels for zeros: half a vertebra would look whole.
+  const TemporaryFolder folder;
+  const std::string whole = test::content_of(folder_ / "labels.nii.gz");
+  for (const std::size_t bytes : {whole.size() / 2, whole.size() - 4}) {
+    EXPECT_THAT(refusal(folder.with("cut.nii.gz", whole.substr(0, bytes))), HasSubstr("is cut off"))
+        << bytes;
+  }
+  EXPECT_TRUE(load_volume(folder.with("same.nii.gz", whole)).ok()) << "the twin";
 }
 
 TEST_F(SharedScan, MakesTheWholeVertebraeOfItsLabels) {
