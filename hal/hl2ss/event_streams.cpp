@@ -9,7 +9,7 @@ namespace orthonav::hl2ss {
 namespace {
 
 constexpr auto kAskEvery = std::chrono::milliseconds(100);
-constexpr std::size_t kMostSamples = kMicrophoneHz;
+constexpr std::size_t kMostHeardSamples = kMicrophoneHz;
 constexpr std::size_t kChannels = 2;
 /// A phrase was spoken no longer ago than this.
 constexpr Duration kSpokenWithin = std::chrono::seconds(30);
@@ -45,10 +45,10 @@ Status SoundStream::take(const Packet& packet, const Stamped& stamped) {
   }
   // The stamp is the first sample's.
   end_ = stamped.time + from_seconds(static_cast<double>(count) / kMicrophoneHz);
-  if (samples_.size() <= kMostSamples) {
+  if (samples_.size() <= kMostHeardSamples) {
     return {};
   }
-  samples_.erase(samples_.begin(), samples_.end() - static_cast<std::ptrdiff_t>(kMostSamples));
+  samples_.erase(samples_.begin(), samples_.end() - static_cast<std::ptrdiff_t>(kMostHeardSamples));
   trouble_ = Error{"microphone: not read for a second, sound was dropped"};
   return {};
 }

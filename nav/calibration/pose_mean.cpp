@@ -6,7 +6,7 @@
 namespace orthonav::nav {
 namespace {
 
-using TagPose = Transform<Tag, Tag>;
+using FromTag = Transform<Tag, Tag>;
 
 constexpr double kRadianM = 0.05;
 // At distances below this, weights no longer grow.
@@ -25,23 +25,23 @@ struct Difference {
   }
 };
 
-Difference difference(const TagPose& from, const TagPose& to) {
+Difference difference(const FromTag& from, const FromTag& to) {
   return {to.translation() - from.translation(),
           vector_from_rotation(to.rotation() * from.rotation().transposed())};
 }
 
-double total_m(const TagPose& centre, std::span<const TagPose> poses) {
+double total_m(const FromTag& centre, std::span<const FromTag> poses) {
   double sum = 0.0;
-  for (const TagPose& pose : poses) {
+  for (const FromTag& pose : poses) {
     sum += difference(centre, pose).length_m();
   }
   return sum;
 }
 
 /// The pose nearest to all the others.
-TagPose middle_one(std::span<const TagPose> poses) {
+FromTag middle_one(std::span<const FromTag> poses) {
   const std::size_t stride = (poses.size() + kMostCandidates - 1) / kMostCandidates;
-  TagPose best;
+  FromTag best;
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < poses.size(); i += stride) {
     const double sum_m = total_m(poses[i], poses);
@@ -56,12 +56,12 @@ TagPose middle_one(std::span<const TagPose> poses) {
 
 }  // namespace
 
-TagPose median_pose(std::span<const TagPose> poses) {
-  TagPose centre = middle_one(poses);
+FromTag median_pose(std::span<const FromTag> poses) {
+  FromTag centre = middle_one(poses);
   for (int step = 0; step < kSteps; ++step) {
     Difference mean;
     double total = 0.0;
-    for (const TagPose& pose : poses) {
+    for (const FromTag& pose : poses) {
       const Difference off = difference(centre, pose);
       const double weight = 1.0 / std::max(off.length_m(), kNearM);
       mean.translation_m += weight * off.translation_m;

@@ -11,14 +11,14 @@ constexpr std::uint32_t kNone = 0xffffffff;
 /// The four edges of a cell's face, and how the surface runs between them.
 class Face {
  public:
-  Face(const SampleGrid& grid, const GridCell& cell, std::size_t normal, std::size_t side)
+  Face(const SampleGrid& grid, const SurfaceCell& cell, std::size_t normal, std::size_t side)
       : u_((normal + 1) % 3), v_((normal + 2) % 3), side_(side) {
-    node_ = moved(cell.at, normal, static_cast<int>(side));
-    const std::array<int, 3> along_u = moved(node_, u_);
+    node_ = stepped(cell.at, normal, static_cast<int>(side));
+    const std::array<int, 3> along_u = stepped(node_, u_);
     near_inside_ = grid.inside(node_);
-    const bool far_inside = grid.inside(moved(along_u, v_));
+    const bool far_inside = grid.inside(stepped(along_u, v_));
     const bool u_inside = grid.inside(along_u);
-    const bool v_inside = grid.inside(moved(node_, v_));
+    const bool v_inside = grid.inside(stepped(node_, v_));
     ambiguous_ = near_inside_ == far_inside && u_inside == v_inside && near_inside_ != u_inside;
   }
   [[nodiscard]] bool ambiguous() const { return ambiguous_; }
@@ -44,18 +44,18 @@ class Face {
 /// Faces on which the inside corners are joined, by node and normal.
 using JoinedFaces = std::set<std::pair<std::array<int, 3>, std::size_t>>;
 
-void mark_crossed_edges(const SampleGrid& grid, GridCell& cell) {
+void mark_crossed_edges(const SampleGrid& grid, SurfaceCell& cell) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t corner = 0; corner < 4; ++corner) {
-      std::array<int, 3> node = moved(cell.at, (axis + 1) % 3, static_cast<int>(corner & 1));
-      node = moved(node, (axis + 2) % 3, static_cast<int>(corner >> 1));
-      cell.crossed[axis * 4 + corner] = grid.inside(node) != grid.inside(moved(node, axis));
+      std::array<int, 3> node = stepped(cell.at, (axis + 1) % 3, static_cast<int>(corner & 1));
+      node = stepped(node, (axis + 2) % 3, static_cast<int>(corner >> 1));
+      cell.crossed[axis * 4 + corner] = grid.inside(node) != grid.inside(stepped(node, axis));
     }
   }
 }
 
 /// Numbers the sheets of a cell from 0 on, in the order of their first edges; returns how many.
-std::uint32_t number_sheets(GridCell& cell) {
+std::uint32_t number_sheets(SurfaceCell& cell) {
   std::uint32_t count = 0;
   std::array<std::uint8_t, 12> number{};
   number.fill(0xff);
@@ -72,7 +72,7 @@ std::uint32_t number_sheets(GridCell& cell) {
 }
 
 /// Groups the crossed edges of a cell into sheets of the surface; returns how many.
-std::uint32_t find_sheets(const SampleGrid& grid, const JoinedFaces& joined, GridCell& cell) {
+std::uint32_t find_sheets(const SampleGrid& grid, const JoinedFaces& joined, SurfaceCell& cell) {
   for (std::uint8_t edge = 0; edge < 12; ++edge) {
     cell.sheet[edge] = edge;
   }
@@ -136,13 +136,13 @@ CellMap marked_cells(const SampleGrid& grid) {
 /// them (Wenger 2013, "Isosurfaces", manifold dual contouring).
 bool part_double_edges(const SampleGrid& grid, const CellMap& map, JoinedFaces& joined) {
   bool changed = false;
-  for (const GridCell& cell : map.cells) {
+  for (const SurfaceCell& cell : map.cells) {
     for (std::size_t normal = 0; normal < 3; ++normal) {
       const Face face(grid, cell, normal, 0);
       if (!face.ambiguous() || cell.at[normal] == 0) {
         continue;
       }
-      const GridCell& other = map.at(grid, moved(cell.at, normal, -1));
+      const SurfaceCell& other = map.at(grid, stepped(cell.at, normal, -1));
       const Face same(grid, other, normal, 1);
       const bool one_here = cell.sheet[face.along_u(0)] == cell.sheet[face.along_u(1)];
       const bool one_there = other.sheet[same.along_u(0)] == other.sheet[same.along_u(1)];
@@ -154,11 +154,11 @@ bool part_double_edges(const SampleGrid& grid, const CellMap& map, JoinedFaces& 
   return changed;
 }
 
-Vec3 crossing(const SampleGrid& grid, const GridCell& cell, std::size_t edge) {
+Vec3 crossing(const SampleGrid& grid, const SurfaceCell& cell, std::size_t edge) {
   const std::size_t axis = edge / 4;
-  std::array<int, 3> a = moved(cell.at, (axis + 1) % 3, static_cast<int>(edge & 1));
-  a = moved(a, (axis + 2) % 3, static_cast<int>(edge >> 1 & 1));
-  const std::array<int, 3> b = moved(a, axis);
+  std::array<int, 3> a = stepped(cell.at, (axis + 1) % 3, static_cast<int>(edge & 1));
+  a = stepped(a, (axis + 2) % 3, static_cast<int>(edge >> 1 & 1));
+  const std::array<int, 3> b = stepped(a, axis);
   const double va = grid.value(a);
   return grid.position(a) + va / (va - grid.value(b)) * (grid.position(b) - grid.position(a));
 }
@@ -169,11 +169,11 @@ CellMap passed_cells(const SampleGrid& grid, TriangleMesh& mesh) {
   CellMap map = marked_cells(grid);
   JoinedFaces joined;
   do {
-    for (GridCell& cell : map.cells) {
+    for (SurfaceCell& cell : map.cells) {
       find_sheets(grid, joined, cell);
     }
   } while (part_double_edges(grid, map, joined));
-  for (GridCell& cell : map.cells) {
+  for (SurfaceCell& cell : map.cells) {
     cell.first_vertex = static_cast<std::uint32_t>(mesh.vertices_m.size());
     const std::uint32_t sheets = find_sheets(grid, joined, cell);
     for (std::uint32_t sheet = 0; sheet < sheets; ++sheet) {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "nav/geometry/sample_grid.h"
 #include "nav/geometry/mesh.h"
+#include "nav/geometry/sample_grid.h"
 
 namespace orthonav::nav {
 
@@ -17,15 +17,15 @@ constexpr std::size_t edge_id(std::size_t axis, std::size_t first, std::size_t s
 
 /// A cell that the surface passes through: its sheets, each with one vertex, and which edge belongs
 /// to which sheet.
-struct GridCell {
+struct SurfaceCell {
   std::array<int, 3> at{};
   std::uint32_t first_vertex = 0;
   std::array<std::uint8_t, 12> sheet{};
   std::array<bool, 12> crossed{};
 };
 
-[[nodiscard]] inline std::array<int, 3> moved(std::array<int, 3> node, std::size_t axis,
-                                              int by = 1) {
+[[nodiscard]] inline std::array<int, 3> stepped(std::array<int, 3> node, std::size_t axis,
+                                                int by = 1) {
   node[axis] += by;
   return node;
 }
@@ -33,8 +33,9 @@ struct GridCell {
 /// Cells by grid index.
 struct CellMap {
   std::vector<std::uint32_t> cell_of;
-  std::vector<GridCell> cells;
-  [[nodiscard]] const GridCell& at(const SampleGrid& grid, const std::array<int, 3>& node) const {
+  std::vector<SurfaceCell> cells;
+  [[nodiscard]] const SurfaceCell& at(const SampleGrid& grid,
+                                      const std::array<int, 3>& node) const {
     return cells[cell_of[grid.index(node)]];
   }
 };

@@ -32,7 +32,7 @@ void add_quad(const std::array<std::uint32_t, 4>& q, TriangleMesh& mesh) {
 /// One quad for each grid edge that the surface crosses, through the four cells around it.
 void join_vertices(const SampleGrid& grid, const CellMap& map, TriangleMesh& mesh) {
   constexpr std::array<std::pair<int, int>, 4> kAround = {{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
-  for (const GridCell& cell : map.cells) {
+  for (const SurfaceCell& cell : map.cells) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       // Each edge is taken from the one cell whose lowest corner it starts at.
       if (!cell.crossed[edge_id(axis, 0, 0)]) {
@@ -46,8 +46,8 @@ void join_vertices(const SampleGrid& grid, const CellMap& map, TriangleMesh& mes
       std::array<std::uint32_t, 4> quad{};
       for (std::size_t corner = 0; corner < 4; ++corner) {
         const auto [along_first, along_second] = kAround[corner];
-        const GridCell& around =
-            map.at(grid, moved(moved(cell.at, first, along_first), second, along_second));
+        const SurfaceCell& around =
+            map.at(grid, stepped(stepped(cell.at, first, along_first), second, along_second));
         const std::size_t edge = edge_id(axis, static_cast<std::size_t>(-along_first),
                                          static_cast<std::size_t>(-along_second));
         quad[corner] = around.first_vertex + around.sheet[edge];
@@ -97,7 +97,7 @@ void even_out(const ImplicitFunction& function, double step, TriangleMesh& mesh)
 }  // namespace
 
 TriangleMesh surface_of(const ImplicitFunction& inside_negative, Vec3 low_m, Vec3 high_m,
-                             double step_m) {
+                        double step_m) {
   const SampleGrid grid(inside_negative, low_m, high_m, step_m);
   TriangleMesh mesh;
   join_vertices(grid, passed_cells(grid, mesh), mesh);
