@@ -89,6 +89,7 @@ nlohmann::ordered_json as_json(const engine::ScanLevels& made) {
     out["levels"].push_back({{"label", level.label},
                              {"voxels", level.voxels},
                              {"dropped_voxels", level.dropped},
+                             {"canal", level.canal},
                              {"triangles", level.surface.mesh.triangles.size()},
                              {"deviation_median_mm", d.median_m * 1e3},
                              {"deviation_p95_mm", d.p95_m * 1e3},
@@ -108,6 +109,20 @@ void print(const engine::ScanLevels& made) {
                  level.dropped, level.voxels);
     }
     print_text("\n");
+  }
+}
+
+void warn(const engine::ScanLevels& made) {
+  for (const std::string& line : made.left_out) {
+    std::fprintf(stderr, "orthonav: left out: %s\n", line.c_str());
+  }
+  for (const engine::ScanLevel& level : made.levels) {
+    if (!level.canal) {
+      std::fprintf(stderr,
+                   "orthonav: warning: %s: no vertebral canal found; is it half a vertebra, or are "
+                   "the axes not the patient's?\n",
+                   level.label.c_str());
+    }
   }
 }
 
@@ -134,9 +149,7 @@ int run_make(const CaseArguments& arguments) {
   if (const Status s = saved ? arguments.json.write(as_json(*made)) : saved; !s) {
     return bad_input(s.error().message);
   }
-  for (const std::string& line : made->left_out) {
-    std::fprintf(stderr, "orthonav: left out: %s\n", line.c_str());
-  }
+  warn(*made);
   if (arguments.labels.empty()) {
     std::fprintf(
         stderr,

@@ -5,6 +5,7 @@
 
 #include "base/joined.h"
 #include "base/printed.h"
+#include "nav/planning/canal.h"
 
 namespace orthonav::engine {
 namespace {
@@ -35,7 +36,8 @@ Result<ScanLevel> level_of(const Volume& labels, const LabelledLevel& labelled, 
   if (!surface) {
     return Error{labelled.label + ": " + surface.error().message};
   }
-  return ScanLevel{labelled.label, std::move(*surface), part->voxels, part->dropped};
+  const bool canal = nav::find_canal(surface->mesh, nav::SurfaceIndex(surface->mesh)).has_value();
+  return ScanLevel{labelled.label, std::move(*surface), part->voxels, part->dropped, canal};
 }
 
 Status check_wanted(const std::vector<LabelledLevel>& there,

@@ -15,6 +15,7 @@ struct ScanLevel {
   LabelSurface surface;
   std::size_t voxels = 0;   ///< of the label
   std::size_t dropped = 0;  ///< that did not hang together with the rest
+  bool canal = true;        ///< a vertebral canal was found in it: else it is half a vertebra
 };
 
 struct ScanLevels {

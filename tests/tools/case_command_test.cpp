@@ -47,6 +47,7 @@ TEST(CaseCommand, MakesACaseOfALabelMapWithAConvention) {
   EXPECT_EQ(figures["levels"][0]["label"], "L4");
   EXPECT_LE(figures["levels"][0]["deviation_p95_mm"].get<double>(), 1.0) << "half a voxel";
   EXPECT_TRUE(std::filesystem::exists(out + "/L4.stl"));
+  EXPECT_THAT(made.err, HasSubstr("warning: L4: no vertebral canal found")) << "it is a ball";
   // It has no plan, and a ball gets none.
   EXPECT_THAT(orthonav({"plan", "check", "--case", out}).err, HasSubstr("no level has screws"));
   const Called planned = orthonav({"plan", "auto", "--case", out});

@@ -143,6 +143,24 @@ TEST(ScanCase, LeavesOutWhatTheScanCutsAndRefusesItWhereItIsAskedFor) {
               HasSubstr("holds no T9 (it has: L3, L4, L5)"));
 }
 
+TEST(ScanCase, TellsHalfAVertebraFromAWholeOne) {
+  Volume half = verse_spine();
+  // Without what lies behind the bodies of L4: the origin of its frame is the body's middle.
+  const nav::TriangleMesh whole = scan_levels(half, "verse", {"L4"})->levels[0].surface.mesh;
+  const nav::Bounds box = nav::bounds_of(whole);
+  for (std::size_t i = 0; i < half.values.size(); ++i) {
+    const auto row = static_cast<std::size_t>(half.grid.size[0]);
+    const double j = double(i / row % static_cast<std::size_t>(half.grid.size[1]));
+    if (half.grid.place_m({0, j, 0}).y > box.low.y + 0.045) {
+      half.values[i] = 0.0F;
+    }
+  }
+  EXPECT_TRUE(scan_levels(verse_spine(), "verse", {"L4"})->levels[0].canal);
+  const auto made = scan_levels(half, "verse", {"L4"});
+  ASSERT_TRUE(made.ok()) << made.error().message;
+  EXPECT_FALSE(made->levels[0].canal);
+}
+
 TEST(ScanCase, ThresholdTakesConnectedPartsWithoutNames) {
   Volume scan = verse_spine();
   for (float& v : scan.values) {
