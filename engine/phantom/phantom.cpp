@@ -6,9 +6,9 @@
 
 #include "base/check.h"
 #include "embedded/phantom_json.h"
-#include "nav/geometry/implicit_surface.h"
 #include "engine/phantom/phantom_file.h"
 #include "engine/phantom/vertebra_shape.h"
+#include "nav/geometry/implicit_surface.h"
 
 namespace orthonav::engine {
 namespace {
@@ -34,7 +34,7 @@ CaseLevel made(const VertebraMorphometry& morphometry, const PhantomParameters& 
   CaseLevel level;
   level.label = morphometry.label;
   level.mesh = nav::surface_of([&shape](Vec3 p) { return shape.value(p); }, shape.low_m(),
-                          shape.high_m(), kGridStep_m);
+                               shape.high_m(), kGridStep_m);
   const nav::SurfaceIndex bone(level.mesh);
   for (const nav::Side side : {nav::Side::kLeft, nav::Side::kRight}) {
     level.screws.push_back(screw_along(shape.pedicle_axis(side), side, bone, parameters));

@@ -16,6 +16,6 @@ using ImplicitFunction = std::function<double(Vec3)>;
 /// then a few rounds of smoothing and stepping back onto the surface, so that triangles are well
 /// shaped and vertices lie on it within a micron. The box must hold the whole surface.
 [[nodiscard]] TriangleMesh surface_of(const ImplicitFunction& inside_negative, Vec3 low_m,
-                                           Vec3 high_m, double step_m);
+                                      Vec3 high_m, double step_m);
 
 }  // namespace orthonav::nav

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "nav/geometry/implicit_surface.h"
 #include "engine/phantom/phantom_file.h"
+#include "nav/geometry/implicit_surface.h"
 #include "tests/support/test_meshes.h"
 
 namespace orthonav::engine {
@@ -253,7 +253,7 @@ TEST(ImplicitSurface, MeshesABallToItsRadius) {
   constexpr double kRadius_m = 0.020;
   constexpr double kOnTheSurface_m = 1e-7;  // three Newton steps from a grid of 1.4 mm
   const nav::TriangleMesh ball = nav::surface_of([](Vec3 p) { return p.norm() - kRadius_m; },
-                                            {-0.03, -0.03, -0.03}, {0.03, 0.03, 0.03}, 0.0014);
+                                                 {-0.03, -0.03, -0.03}, {0.03, 0.03, 0.03}, 0.0014);
   ASSERT_GT(ball.vertices_m.size(), 1000u);
   for (const Vec3& v : ball.vertices_m) {
     EXPECT_NEAR(v.norm(), kRadius_m, kOnTheSurface_m);
