@@ -81,7 +81,7 @@ void IgtlStream::stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*i
                          const engine::Guidance& guidance) {
   std::vector<nav::ScrewPlan> screws = screws_of(guidance.levels);
   if (!std::equal(screws.begin(), screws.end(), told_.begin(), told_.end(), same)) {
-    server_->stand(igtl_screws(guidance.levels, guidance.frame_time));
+    server_->set_standing(igtl_screws(guidance.levels, guidance.frame_time));
     told_ = std::move(screws);
   }
   std::vector<std::uint8_t> frame = igtl_frame(*session_, guidance);

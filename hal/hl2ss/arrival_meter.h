@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "hal/api/connection_statistics.h"
-#include "hal/hl2ss/socket.h"
+#include "hal/net/socket.h"
 
 namespace orthonav::hl2ss {
 

@@ -6,7 +6,7 @@
 
 #include "base/mutex.h"
 #include "base/time.h"
-#include "hal/hl2ss/socket.h"
+#include "hal/net/socket.h"
 
 namespace orthonav::hl2ss {
 

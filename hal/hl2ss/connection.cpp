@@ -136,7 +136,7 @@ void Connection::write() {
 
 void Connection::drop(const std::string& why, HostTime now) {
   const bool was_connected = state_ == State::kConnected;
-  socket_ = Socket();
+  socket_ = net::Socket();
   state_ = State::kPausing;
   due_ = now + pause_;
   pause_ = std::min(2 * pause_, kLongestPause);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hal/hl2ss/arrival_meter.h"
-#include "hal/hl2ss/socket.h"
+#include "hal/net/socket.h"
 
 namespace orthonav::hl2ss {
 
@@ -37,7 +37,7 @@ class Connection {
     Duration longest_silence = std::chrono::seconds(3);
   };
   /// Meter and conversation are borrowed; both hear of everything that happens here.
-  Connection(const Endpoint& host, Options options, ArrivalMeter& meter, Protocol& protocol)
+  Connection(const net::Endpoint& host, Options options, ArrivalMeter& meter, Protocol& protocol)
       : host_(host), options_(options), meter_(meter), protocol_(protocol) {}
 
   /// What poll() is to watch: -1 for nothing.
@@ -60,11 +60,11 @@ class Connection {
   void say_more(HostTime now);
   void drop(const std::string& why, HostTime now);
 
-  Endpoint host_;
+  net::Endpoint host_;
   Options options_;
   ArrivalMeter& meter_;
   Protocol& protocol_;
-  Socket socket_;
+  net::Socket socket_;
   State state_ = State::kPausing;
   HostTime due_{};  ///< end of the pause, or of waiting for the connection
   HostTime heard_{};

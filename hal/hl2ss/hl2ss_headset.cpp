@@ -20,8 +20,8 @@ Error trouble_with(const std::string& host, const std::string& what) {
   return Error{"hl2ss: " + host + ": " + what};
 }
 
-Result<StereoCalibration> ask_calibration(const Endpoint& endpoint, const Hl2ssOptions& options,
-                                          HostTime deadline) {
+Result<StereoCalibration> ask_calibration(const net::Endpoint& endpoint,
+                                          const Hl2ssOptions& options, HostTime deadline) {
   const auto request = request_bytes({Mode::kCalibration});
   const auto answer = [&](Service service) {
     return ask(endpoint, options.first_port + offset_of(service), request, kCalibrationBytes,
@@ -48,7 +48,7 @@ Result<StereoCalibration> ask_calibration(const Endpoint& endpoint, const Hl2ssO
 }
 
 /// 0 where nobody tells it: stamps then count from a moment without a name.
-std::int64_t ask_utc_offset(const Endpoint& endpoint, const Hl2ssOptions& options,
+std::int64_t ask_utc_offset(const net::Endpoint& endpoint, const Hl2ssOptions& options,
                             HostTime deadline) {
   const std::uint8_t request[] = {kAskUtcOffset};
   const HostTime now = HostClock::now();
@@ -179,7 +179,7 @@ class ConnectedHeadset final : public Hl2ssHeadset {
 }  // namespace
 
 Result<std::unique_ptr<Hl2ssHeadset>> Hl2ssHeadset::open(const Hl2ssOptions& options) {
-  const auto endpoint = resolve(options.host);
+  const auto endpoint = net::resolve(options.host);
   if (!endpoint) {
     return trouble_with(options.host, endpoint.error().message);
   }

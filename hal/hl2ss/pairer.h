@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "hal/api/devices.h"
-#include "hal/hl2ss/socket.h"
+#include "hal/net/socket.h"
 
 namespace orthonav::hl2ss {
 

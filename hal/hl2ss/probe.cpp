@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "hal/hl2ss/socket.h"
+#include "hal/net/socket.h"
 
 namespace orthonav::hl2ss {
 namespace {
@@ -21,7 +21,7 @@ constexpr auto kPatience = std::chrono::seconds(1);
 }  // namespace
 
 Result<std::vector<ProbedPort>> probe(const Hl2ssOptions& options) {
-  const auto host = resolve(options.host);
+  const auto host = net::resolve(options.host);
   if (!host) {
     return host.error();
   }

@@ -21,7 +21,8 @@ constexpr int kTurnMs = 10;
 
 }  // namespace
 
-Result<std::unique_ptr<Receiver>> Receiver::start(const Endpoint& host, const Hl2ssOptions& options,
+Result<std::unique_ptr<Receiver>> Receiver::start(const net::Endpoint& host,
+                                                  const Hl2ssOptions& options,
                                                   std::int64_t filetime_offset) {
   auto receiver = std::unique_ptr<Receiver>(new Receiver(host, options));
   if (const Status added = receiver->add_all(filetime_offset); !added) {

@@ -24,7 +24,8 @@ namespace orthonav::hl2ss {
 class Receiver final : private ImageSink {
  public:
   /// `filetime_offset`: UTC in ticks of 100 ns minus the headset's stamps.
-  static Result<std::unique_ptr<Receiver>> start(const Endpoint& host, const Hl2ssOptions& options,
+  static Result<std::unique_ptr<Receiver>> start(const net::Endpoint& host,
+                                                 const Hl2ssOptions& options,
                                                  std::int64_t filetime_offset);
   ~Receiver() override;
   Receiver(const Receiver&) = delete;
@@ -59,7 +60,8 @@ class Receiver final : private ImageSink {
     std::unique_ptr<Protocol> protocol;
     std::unique_ptr<Connection> connection;
   };
-  Receiver(const Endpoint& host, const Hl2ssOptions& options) : host_(host), options_(options) {}
+  Receiver(const net::Endpoint& host, const Hl2ssOptions& options)
+      : host_(host), options_(options) {}
   Status add_all(std::int64_t filetime_offset) ORTHONAV_EXCLUDES(mutex_);
   Status add_cameras() ORTHONAV_REQUIRES(mutex_);
   Status add_events(std::int64_t filetime_offset) ORTHONAV_REQUIRES(mutex_);
@@ -72,9 +74,9 @@ class Receiver final : private ImageSink {
   void lost(Side side) override ORTHONAV_REQUIRES(mutex_);
   void publish(const Pairer::Pair& pair) ORTHONAV_REQUIRES(mutex_);
 
-  Endpoint host_;
+  net::Endpoint host_;
   Hl2ssOptions options_;
-  WakeUp wake_up_;
+  net::WakeUp wake_up_;
   HeadsetTime time_;
   PairMailbox pairs_;
   HeadTrack head_;

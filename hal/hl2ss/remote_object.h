@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "hal/hl2ss/scene_command.h"
-#include "hal/hl2ss/socket.h"
+#include "hal/net/socket.h"
 
 namespace orthonav::hl2ss {
 

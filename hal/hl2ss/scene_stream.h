@@ -15,7 +15,7 @@ namespace orthonav::hl2ss {
 /// thread; the rest is called by the thread that runs the connections.
 class SceneStream final : public Protocol, public ObjectDisplay {
  public:
-  SceneStream(ArrivalMeter& meter, const HeadsetTime& time, const WakeUp& wake_up)
+  SceneStream(ArrivalMeter& meter, const HeadsetTime& time, const net::WakeUp& wake_up)
       : meter_(meter), time_(time), wake_up_(wake_up) {}
 
   void show(const ObjectList& list) override ORTHONAV_EXCLUDES(mutex_);
@@ -34,7 +34,7 @@ class SceneStream final : public Protocol, public ObjectDisplay {
 
   ArrivalMeter& meter_;
   const HeadsetTime& time_;
-  const WakeUp& wake_up_;
+  const net::WakeUp& wake_up_;
   std::array<std::uint8_t, 4096> answers_{};
   std::size_t have_ = 0;
   mutable Mutex mutex_;

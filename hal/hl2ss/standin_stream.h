@@ -13,7 +13,7 @@ namespace orthonav::hl2ss {
 /// The client's end of the side channel to our own server. Thread-safe but for the conversation.
 class StandinStream final : public Protocol {
  public:
-  StandinStream(HeadsetTime& time, Inbox<ClickerEvent>& inbox, const WakeUp& wake_up)
+  StandinStream(HeadsetTime& time, Inbox<ClickerEvent>& inbox, const net::WakeUp& wake_up)
       : time_(time), inbox_(inbox), wake_up_(wake_up) {}
   [[nodiscard]] std::vector<std::uint8_t> opening() override { return {}; }
   std::span<std::uint8_t> room() override;
@@ -34,7 +34,7 @@ class StandinStream final : public Protocol {
 
   HeadsetTime& time_;
   Inbox<ClickerEvent>& inbox_;
-  const WakeUp& wake_up_;
+  const net::WakeUp& wake_up_;
   // Of the protocol alone:
   std::vector<std::uint8_t> buffer_;
   std::size_t have_ = 0;

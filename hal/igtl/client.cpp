@@ -1,45 +1,8 @@
 #include "hal/igtl/client.h"
 
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
-#include <system_error>
-#include <utility>
+#include <array>
 
 namespace orthonav::igtl {
-namespace {
-
-bool later(int code) { return code == EAGAIN || code == EWOULDBLOCK || code == EINTR; }
-
-Error gone(int code) {
-  return Error{"is gone: " + std::generic_category().message(code), ErrorCode::kLost};
-}
-
-}  // namespace
-
-Client::Client(Client&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)),
-      waiting_(std::move(other.waiting_)),
-      sent_(other.sent_),
-      taken_(other.taken_),
-      incoming_(other.incoming_) {}
-
-Client& Client::operator=(Client&& other) noexcept {
-  std::swap(fd_, other.fd_);
-  std::swap(waiting_, other.waiting_);
-  sent_ = other.sent_;
-  taken_ = other.taken_;
-  incoming_ = other.incoming_;
-  return *this;
-}
-
-Client::~Client() {
-  if (fd_ >= 0) {
-    ::close(fd_);
-  }
-}
 
 void Client::add(std::span<const std::uint8_t> bytes, HostTime now) {
   if (idle()) {
@@ -52,12 +15,14 @@ void Client::add(std::span<const std::uint8_t> bytes, HostTime now) {
 
 Status Client::write(HostTime now) {
   while (!idle()) {
-    const ssize_t count =
-        ::send(fd_, waiting_.data() + sent_, waiting_.size() - sent_, MSG_NOSIGNAL);
-    if (count < 0) {
-      return later(errno) ? Status{} : Status{gone(errno)};
+    const auto count = net::send_some(socket_, std::span(waiting_).subspan(sent_));
+    if (!count) {
+      return count.error();
     }
-    sent_ += static_cast<std::size_t>(count);
+    if (*count == 0) {
+      return {};
+    }
+    sent_ += *count;
     taken_ = now;
   }
   return {};
@@ -68,14 +33,14 @@ Status Client::read() {
   // What a client may send while others wait for their turn.
   constexpr int kMostReads = 16;
   for (int i = 0; i < kMostReads; ++i) {
-    const ssize_t count = ::recv(fd_, room.data(), room.size(), 0);
-    if (count == 0) {
-      return Error{"has left", ErrorCode::kLost};
+    const auto count = net::receive_some(socket_, room);
+    if (!count) {
+      return count.error();
     }
-    if (count < 0) {
-      return later(errno) ? Status{} : Status{gone(errno)};
+    if (*count == 0) {
+      return {};
     }
-    if (Status s = incoming_.take(std::span(room).first(static_cast<std::size_t>(count))); !s) {
+    if (Status s = incoming_.take(std::span(room).first(*count)); !s) {
       return s;
     }
   }

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "base/mutex.h"
 #include "base/result.h"
 
 namespace orthonav::igtl {
@@ -18,10 +15,10 @@ struct ServerOptions {
   std::string address = "127.0.0.1";
   int port = 18944;  ///< 0: any free one
   std::size_t most_clients = 8;
-  double most_hz = 60.0;  ///< frames in a second; between them the newest waits, older ones go
+  double most_hz = 60.0;  ///< frames a second; of those between, only the newest is kept
   /// A client that takes nothing for so long is dropped.
   std::chrono::milliseconds longest_block{2000};
-  /// Without a frame for so long, and as often, clients are told so.
+  /// When there was no frame for so long, clients are told, and again after each such time.
   std::chrono::milliseconds longest_silence{1000};
 
   /// Every problem at once; empty when all is well.
@@ -46,8 +43,8 @@ class Server {
   [[nodiscard]] int port() const;
   /// From any thread; returns at once. What was published before and not sent yet goes unsent.
   void publish(std::vector<std::uint8_t> frame);
-  /// What does not change from frame to frame: for each client when it connects, and for all now.
-  void stand(std::vector<std::uint8_t> standing);
+  /// What seldom changes: sent to all clients now, and to each later one when it connects.
+  void set_standing(std::vector<std::uint8_t> standing);
 
   struct Counts {
     std::size_t clients = 0;  ///< connected now

@@ -1,10 +1,6 @@
 #include "hal/igtl/server_thread.h"
 
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 
@@ -12,29 +8,21 @@ namespace orthonav::igtl {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::steady_clock;
 
-/// So much lies between a client that does not read and the moment that it is noticed.
+/// So much is sent to a client that does not read before it is noticed.
 constexpr int kSendBuffer = 64 << 10;
 
 }  // namespace
 
-ServerThread::ServerThread(const ServerOptions& options, int listener, int wake_up, int port)
-    : options_(options), listener_(listener), wake_up_(wake_up), port_(port) {
+ServerThread::ServerThread(const ServerOptions& options, net::Socket listener)
+    : options_(options), listener_(std::move(listener)) {
   thread_ = std::thread([this] { run(); });
 }
 
 ServerThread::~ServerThread() {
   stop_ = true;
-  wake();
+  wake_up_.wake();
   thread_.join();
-  ::close(listener_);
-  ::close(wake_up_);
-}
-
-void ServerThread::wake() const {
-  const std::uint64_t one = 1;
-  (void)!::write(wake_up_, &one, sizeof one);
 }
 
 void ServerThread::publish(std::vector<std::uint8_t> frame) {
@@ -42,15 +30,15 @@ void ServerThread::publish(std::vector<std::uint8_t> frame) {
     const MutexLock lock(mutex_);
     frame_ = std::move(frame);
   }
-  wake();
+  wake_up_.wake();
 }
 
-void ServerThread::stand(std::vector<std::uint8_t> standing) {
+void ServerThread::set_standing(std::vector<std::uint8_t> standing) {
   {
     const MutexLock lock(mutex_);
     new_standing_ = std::move(standing);
   }
-  wake();
+  wake_up_.wake();
 }
 
 Server::Counts ServerThread::counts() const {
@@ -64,10 +52,10 @@ bool ServerThread::has_frame() const {
 }
 
 void ServerThread::run() {
-  last_frame_ = steady_clock::now();
+  last_frame_ = HostClock::now();
   while (!stop_) {
-    wait(steady_clock::now());
-    const HostTime now = steady_clock::now();
+    wait(HostClock::now());
+    const HostTime now = HostClock::now();
     accept_clients(now);
     give_out(now);
     serve_clients(now);
@@ -76,7 +64,7 @@ void ServerThread::run() {
 
 /// Until somebody says something, may take something, or the time for a frame has come.
 void ServerThread::wait(HostTime now) {
-  std::vector<pollfd> watched = {{wake_up_, POLLIN, 0}, {listener_, POLLIN, 0}};
+  std::vector<pollfd> watched = {{wake_up_.fd(), POLLIN, 0}, {listener_.fd(), POLLIN, 0}};
   HostTime until = last_frame_ + options_.longest_silence;
   if (has_frame()) {
     until = std::min(until, next_frame_);
@@ -92,25 +80,17 @@ void ServerThread::wait(HostTime now) {
   const int timeout = static_cast<int>(std::clamp<std::int64_t>(left, 0, 1000));
   (void)::poll(watched.data(), watched.size(), timeout);
   if ((watched[0].revents & POLLIN) != 0) {
-    std::uint64_t count = 0;
-    (void)!::read(wake_up_, &count, sizeof count);
+    wake_up_.clear();
   }
 }
 
 void ServerThread::accept_clients(HostTime now) {
-  for (;;) {
-    const int fd = ::accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
-    if (fd < 0) {
-      return;
-    }
+  while (auto socket = net::accept_one(listener_)) {
     if (clients_.size() >= options_.most_clients) {
-      ::close(fd);
       continue;
     }
-    const int on = 1;
-    (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    (void)::setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
-    clients_.emplace_back(fd, now);
+    (void)::setsockopt(socket->fd(), SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
+    clients_.emplace_back(std::move(*socket), now);
     clients_.back().add(standing_, now);
     const MutexLock lock(mutex_);
     ++counts_.served;
@@ -142,7 +122,7 @@ void ServerThread::give_out(HostTime now) {
   }
   if (frame) {
     // On average no more often: a frame that comes a little early does not wait for its slot.
-    const auto period = std::chrono::duration_cast<steady_clock::duration>(
+    const auto period = std::chrono::duration_cast<HostClock::duration>(
         std::chrono::duration<double>(1.0 / options_.most_hz));
     next_frame_ = std::max(next_frame_ + period, now + period / 2);
     last_frame_ = now;
@@ -173,18 +153,18 @@ void ServerThread::serve_clients(HostTime now) {
       s = Error{"does not read"};
     }
     if (!s) {
-      drop(here, s.error().message);
+      drop(here, s.error());
     }
   }
 }
 
-void ServerThread::drop(std::list<Client>::iterator client, const std::string& why) {
+void ServerThread::drop(std::list<Client>::iterator client, const Error& why) {
   clients_.erase(client);
   const MutexLock lock(mutex_);
   counts_.clients = clients_.size();
-  if (why != "has left") {
+  if (why.code != ErrorCode::kLost) {
     ++counts_.dropped;
-    counts_.last_drop = why;
+    counts_.last_drop = why.message;
   }
 }
 

@@ -3,7 +3,9 @@
 #include <atomic>
 #include <list>
 #include <optional>
+#include <thread>
 
+#include "base/mutex.h"
 #include "hal/igtl/client.h"
 #include "hal/igtl/server.h"
 
@@ -12,32 +14,29 @@ namespace orthonav::igtl {
 /// The thread of a `Server`, and what it shares with those who publish.
 class ServerThread {
  public:
-  /// Takes both descriptors: a listening socket and an eventfd.
-  ServerThread(const ServerOptions& options, int listener, int wake_up, int port);
+  ServerThread(const ServerOptions& options, net::Socket listener);
   ~ServerThread();
   ServerThread(const ServerThread&) = delete;
   ServerThread& operator=(const ServerThread&) = delete;
 
-  [[nodiscard]] int port() const { return port_; }
+  [[nodiscard]] int port() const { return net::port_of(listener_); }
   void publish(std::vector<std::uint8_t> frame) ORTHONAV_EXCLUDES(mutex_);
-  void stand(std::vector<std::uint8_t> standing) ORTHONAV_EXCLUDES(mutex_);
+  void set_standing(std::vector<std::uint8_t> standing) ORTHONAV_EXCLUDES(mutex_);
   [[nodiscard]] Server::Counts counts() const ORTHONAV_EXCLUDES(mutex_);
 
  private:
   void run();
-  void wake() const;
   void wait(HostTime now);
   void accept_clients(HostTime now);
   void give_out(HostTime now) ORTHONAV_EXCLUDES(mutex_);
   void give_frame(std::span<const std::uint8_t> frame, HostTime now);
   void serve_clients(HostTime now);
-  void drop(std::list<Client>::iterator client, const std::string& why) ORTHONAV_EXCLUDES(mutex_);
+  void drop(std::list<Client>::iterator client, const Error& why) ORTHONAV_EXCLUDES(mutex_);
   [[nodiscard]] bool has_frame() const ORTHONAV_EXCLUDES(mutex_);
 
   const ServerOptions options_;
-  const int listener_;
-  const int wake_up_;
-  const int port_;
+  const net::Socket listener_;
+  const net::WakeUp wake_up_;
   std::atomic<bool> stop_ = false;
 
   mutable Mutex mutex_;

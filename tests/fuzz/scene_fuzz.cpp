@@ -42,8 +42,7 @@ DisplayObject object_of(std::uint8_t byte) {
 /// Anything may be answered, whatever is wanted: what the client then says is whole messages.
 void answer_client(Bytes input) {
   hl2ss::SceneClient client;
-  hl2ss::SceneMoment now{hl2ss::HostTime(std::chrono::seconds(9)),
-                         Timestamp(std::chrono::seconds(5))};
+  hl2ss::SceneMoment now{HostTime(std::chrono::seconds(9)), Timestamp(std::chrono::seconds(5))};
   client.connected(now.host);
   for (const std::uint8_t byte : input) {
     now.host += std::chrono::milliseconds(4);

@@ -37,8 +37,7 @@ constexpr double kLag_px = 4;
 hl2ss::UnityObjects told(const ObjectList& list) {
   hl2ss::SceneClient client;
   hl2ss::UnityScene scene;
-  hl2ss::SceneMoment now{hl2ss::HostTime(std::chrono::seconds(100)),
-                         Timestamp(std::chrono::seconds(7))};
+  hl2ss::SceneMoment now{HostTime(std::chrono::seconds(100)), Timestamp(std::chrono::seconds(7))};
   client.connected(now.host);
   client.want(list);
   std::vector<std::uint32_t> answers;

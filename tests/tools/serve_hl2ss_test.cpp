@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "hal/hl2ss/socket.h"
+#include "hal/net/socket.h"
 #include "tests/support/wait_until.h"
 #include "tests/tools/command_line.h"
 
@@ -65,10 +65,10 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& each) { return std::string(each.param.name); });
 
 TEST(ServeHl2ss, SaysWhichPortIsTaken) {
-  const auto host = hl2ss::resolve("127.0.0.1");
+  const auto host = net::resolve("127.0.0.1");
   ASSERT_TRUE(host.ok());
   constexpr int kPort = 47312;
-  const auto taken = hl2ss::listen_at(*host, kPort);
+  const auto taken = net::listen_at(*host, kPort);
   ASSERT_TRUE(taken.ok()) << taken.error().message;
   const Called called =
       orthonav({"serve-hl2ss", "--port", std::to_string(kPort), "--levels", "L5"});

@@ -13,7 +13,7 @@ constexpr std::size_t kMaxHeard = std::size_t{4} << 20;
 
 }  // namespace
 
-Status Port::listen(const Endpoint& host, int port) {
+Status Port::listen(const net::Endpoint& host, int port) {
   auto listener = listen_at(host, port);
   if (!listener) {
     return listener.error();
@@ -96,7 +96,7 @@ void Port::write(HostTime now) {
 }
 
 void Port::close() {
-  client_ = Socket();
+  client_ = net::Socket();
   has_client_ = false;
   heard_.clear();
   {

@@ -7,7 +7,8 @@
 
 #include "base/mutex.h"
 #include "base/time.h"
-#include "hal/hl2ss/socket.h"
+#include "hal/hl2ss/bytes.h"
+#include "hal/net/socket.h"
 
 namespace orthonav::hl2ss {
 
@@ -30,7 +31,7 @@ class Port {
     std::function<void()> left = [] {};
   };
   explicit Port(Talk talk) : talk_(std::move(talk)) {}
-  Status listen(const Endpoint& host, int port);
+  Status listen(const net::Endpoint& host, int port);
 
   [[nodiscard]] int fd() const;
   [[nodiscard]] short events() const;
@@ -47,8 +48,8 @@ class Port {
   void close() ORTHONAV_EXCLUDES(mutex_);
 
   Talk talk_;
-  Socket listener_;
-  Socket client_;
+  net::Socket listener_;
+  net::Socket client_;
   std::atomic<bool> has_client_ = false;
   std::vector<std::uint8_t> heard_;
   mutable Mutex mutex_;

@@ -49,7 +49,7 @@ class RunningServer final : public Server {
     }
   }
 
-  Status listen(const Endpoint& host) {
+  Status listen(const net::Endpoint& host) {
     for (int base = options_.first_port > 0 ? options_.first_port : kFirstFreePort;;
          base += kPortStep) {
       const Status listening = listen_from(host, base);
@@ -98,7 +98,7 @@ class RunningServer final : public Server {
     }
     return all;
   }
-  Status listen_from(const Endpoint& host, int base) {
+  Status listen_from(const net::Endpoint& host, int base) {
     for (const auto& [port, offset] : ports()) {
       if (const Status listening = port->listen(host, base + offset); !listening) {
         return listening;
@@ -261,7 +261,7 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, Open
   if (!problems.empty()) {
     return Error{"hl2ss server: " + joined(problems)};
   }
-  const auto host = resolve(options.host);
+  const auto host = net::resolve(options.host);
   if (!host) {
     return Error{"hl2ss server: " + host.error().message};
   }

@@ -42,7 +42,7 @@ class HostileServer {
     const StereoCalibration c = sim::hololens2_calibration();
     left_calibration_ = calibration_bytes(c.left, c.left_from_rig.row_major());
     right_calibration_ = calibration_bytes(c.right, c.right_from_rig.row_major());
-    const auto host = resolve("127.0.0.1");
+    const auto host = net::resolve("127.0.0.1");
     ASSERT_TRUE(host.ok());
     for (base_ = 30000; base_ < 60000; base_ += 20) {
       bool free = true;

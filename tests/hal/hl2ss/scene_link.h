@@ -27,7 +27,7 @@ class SceneLink {
   /// What is said next, and all that follows it, arrives no sooner than `late` later than it would.
   void lose_next(Duration late) { lost_for_ = late; }
   [[nodiscard]] Timestamp now() const { return now_.headset; }
-  [[nodiscard]] hl2ss::HostTime host() const { return now_.host; }
+  [[nodiscard]] HostTime host() const { return now_.host; }
 
   /// A millisecond passes: what may be said is said, and every 17th the application does a frame.
   void step() {
@@ -102,7 +102,7 @@ class SceneLink {
     if (!connected || bytes.empty()) {
       return;
     }
-    hl2ss::HostTime arrives = now_.host + one_way_ + std::exchange(lost_for_, Duration{});
+    HostTime arrives = now_.host + one_way_ + std::exchange(lost_for_, Duration{});
     if (!to_peer_.empty()) {
       arrives = std::max(arrives, to_peer_.back().first);
     }
@@ -111,10 +111,9 @@ class SceneLink {
 
   Duration one_way_{};
   Duration lost_for_{};
-  std::deque<std::pair<hl2ss::HostTime, std::vector<std::uint8_t>>> to_peer_;
-  std::deque<std::pair<hl2ss::HostTime, std::uint32_t>> to_client_;
-  hl2ss::SceneMoment now_{hl2ss::HostTime(std::chrono::seconds(100)),
-                          Timestamp(std::chrono::seconds(7))};
+  std::deque<std::pair<HostTime, std::vector<std::uint8_t>>> to_peer_;
+  std::deque<std::pair<HostTime, std::uint32_t>> to_client_;
+  hl2ss::SceneMoment now_{HostTime(std::chrono::seconds(100)), Timestamp(std::chrono::seconds(7))};
   int steps_ = 0;
 };
 

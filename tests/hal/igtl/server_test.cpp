@@ -118,7 +118,7 @@ TEST(IgtlIncoming, ReadsTheSameHoweverTheStreamIsCut) {
 
 TEST(IgtlServer, ServesSeveralClientsTheSameFramesAndWhatStandsFirst) {
   const auto server = started();
-  server->stand(packed({"L4leftScrew", 0}, std::vector<PointValues>(2)));
+  server->set_standing(packed({"L4leftScrew", 0}, std::vector<PointValues>(2)));
   const RawClient a(server->port());
   const RawClient b(server->port());
   ASSERT_TRUE(a.connected() && b.connected());
@@ -128,7 +128,7 @@ TEST(IgtlServer, ServesSeveralClientsTheSameFramesAndWhatStandsFirst) {
   EXPECT_EQ(a.type_of_next(), "STRING Guidance");
   EXPECT_EQ(b.type_of_next(), "STRING Guidance");
   EXPECT_EQ(server->counts().clients, 2u);
-  server->stand(packed({"L5leftScrew", 0}, std::vector<PointValues>(2)));
+  server->set_standing(packed({"L5leftScrew", 0}, std::vector<PointValues>(2)));
   EXPECT_EQ(a.type_of_next(), "POINT L5leftScrew") << "what stands has changed";
 }
 
@@ -226,7 +226,7 @@ TEST(IgtlServer, SendsTheNewestFrameNoMoreOftenThanAllowed) {
   for (int i = 2; i < 50; ++i) {
     server->publish(frame(i));
   }
-  server->stand(frame(99));  // goes at once, so that there is something to wait for
+  server->set_standing(frame(99));  // goes at once, so that there is something to wait for
   EXPECT_EQ(client.type_of_next(), "STRING Guidance");
   EXPECT_EQ(client.type_of_next(), "STRING Guidance");
   EXPECT_EQ(server->counts().frames, 1) << "the others wait for their turn";

@@ -1,4 +1,4 @@
-#include "hal/hl2ss/socket.h"
+#include "hal/net/socket.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -16,7 +16,7 @@
 #include <system_error>
 #include <thread>
 
-namespace orthonav::hl2ss {
+namespace orthonav::net {
 namespace {
 
 using std::chrono::milliseconds;
@@ -133,7 +133,7 @@ Result<Endpoint> resolve(const std::string& host) {
   }
   Endpoint endpoint;
   for (const addrinfo* each = found; each != nullptr; each = each->ai_next) {
-    // The headset's server listens at IPv4.
+    // Headsets listen at IPv4.
     if (endpoint.length != 0 && each->ai_family != AF_INET) {
       continue;
     }
@@ -175,7 +175,7 @@ Status connect_outcome(const Socket& socket) {
   return {};
 }
 
-Result<Socket> listen_at(Endpoint host, int port) {
+Result<Socket> listen_at(Endpoint host, int port, int waiting) {
   set_port(host, port);
   auto socket = open_socket(host);
   if (!socket) {
@@ -184,10 +184,18 @@ Result<Socket> listen_at(Endpoint host, int port) {
   const int on = 1;
   (void)::setsockopt(socket->fd(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
   const auto* address = reinterpret_cast<const sockaddr*>(&host.address);
-  if (::bind(socket->fd(), address, host.length) != 0 || ::listen(socket->fd(), 4) != 0) {
+  if (::bind(socket->fd(), address, host.length) != 0 || ::listen(socket->fd(), waiting) != 0) {
     return Error{"port " + std::to_string(port) + ": " + reason(errno)};
   }
   return socket;
+}
+
+int port_of(const Socket& listener) {
+  sockaddr_storage address{};
+  socklen_t length = sizeof(address);
+  (void)::getsockname(listener.fd(), reinterpret_cast<sockaddr*>(&address), &length);
+  return ntohs(address.ss_family == AF_INET6 ? reinterpret_cast<sockaddr_in6&>(address).sin6_port
+                                             : reinterpret_cast<sockaddr_in&>(address).sin_port);
 }
 
 std::optional<Socket> accept_one(const Socket& listener) {
@@ -209,7 +217,7 @@ Result<std::size_t> receive_some(const Socket& socket, std::span<std::uint8_t> r
     return static_cast<std::size_t>(count);
   }
   if (count == 0) {
-    return Error{"closed by the other side"};
+    return Error{"closed by the other side", ErrorCode::kLost};
   }
   if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) {
     return std::size_t{0};
@@ -283,4 +291,4 @@ void WakeUp::clear() const {
   (void)!::read(event_.fd(), &count, sizeof(count));
 }
 
-}  // namespace orthonav::hl2ss
+}  // namespace orthonav::net

@@ -11,13 +11,19 @@
 #include <vector>
 
 #include "base/result.h"
-#include "hal/hl2ss/bytes.h"
 
-namespace orthonav::hl2ss {
+namespace orthonav {
 
-/// This machine's own time: for deadlines, and to compare with the headset's clock. Never mixed.
+/// This machine's own time: for deadlines, and to compare with a headset's clock. Never mixed.
 using HostClock = std::chrono::steady_clock;
 using HostTime = HostClock::time_point;
+
+}  // namespace orthonav
+
+// TCP that never blocks, for devices at the end of a network.
+namespace orthonav::net {
+
+using Bytes = std::span<const std::uint8_t>;
 
 /// A file descriptor that is closed when it goes.
 class Socket {
@@ -51,12 +57,15 @@ Result<Endpoint> resolve(const std::string& host);
 Result<Socket> begin_connect(Endpoint host, int port);
 /// How a connection that was begun came out, once its socket can be written.
 Status connect_outcome(const Socket& socket);
-/// Listens at a port of `host`, for one client at a time. Port 0: any free one.
-Result<Socket> listen_at(Endpoint host, int port);
+/// Listens at a port of `host`; so many clients may wait to be accepted. Port 0: any free one.
+Result<Socket> listen_at(Endpoint host, int port, int waiting = 4);
+/// The port at which a socket listens.
+int port_of(const Socket& listener);
 /// The waiting client, if there is one.
 std::optional<Socket> accept_one(const Socket& listener);
 
-/// How many bytes came at once; 0: none now. An Error when the other side closed or reset.
+/// How many bytes came at once; 0: none now. An Error when the other side closed
+/// (`ErrorCode::kLost`) or reset.
 Result<std::size_t> receive_some(const Socket& socket, std::span<std::uint8_t> room);
 /// How many bytes went at once.
 Result<std::size_t> send_some(const Socket& socket, Bytes bytes);
@@ -86,4 +95,4 @@ class WakeUp {
   Socket event_;
 };
 
-}  // namespace orthonav::hl2ss
+}  // namespace orthonav::net
