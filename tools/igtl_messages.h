@@ -10,8 +10,8 @@
 
 namespace orthonav::tools {
 
-/// "PointerToReference": letters and digits of the name alone, none in upper case but the first, so
-/// that no "To" hides in it; cut so that the whole fits into 20 bytes.
+/// "PointerToReference": only the letters and digits of `from`, the first in upper case and the
+/// others in lower case, so that there is no "To" in it; cut so that the whole fits into 20 bytes.
 [[nodiscard]] std::string igtl_device(const std::string& from, const std::string& to);
 
 /// A pose as OpenIGTLink has it, mm.

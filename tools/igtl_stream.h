@@ -18,8 +18,8 @@ struct IgtlArguments {
   void add_to(CLI::App& command);
 };
 
-/// Serves an operation over OpenIGTLink (tools/igtl_messages.h) for as long as it lives; nobody and
-/// nothing until it was opened at a place.
+/// Serves an operation over OpenIGTLink (tools/igtl_messages.h) for as long as it lives, once it is
+/// open.
 class IgtlStream : public engine::LoopObserver {
  public:
   /// Listens where the arguments say, and says so on standard error; nowhere where they say

@@ -65,8 +65,8 @@ struct Header {
   std::uint64_t body_bytes = 0;
 };
 
-/// Reads it without the library, which answers version 2 by losing its place in the stream. Refuses
-/// versions other than 1 to 3 and a type that is no name: what follows is no OpenIGTLink.
+/// Reads it without the library, which loses its place in a stream of version 2. Refuses versions
+/// other than 1 to 3, and a type that is not a name: that is not OpenIGTLink.
 Result<Header> parsed_header(std::span<const std::uint8_t, kHeaderBytes> bytes);
 
 }  // namespace orthonav::igtl

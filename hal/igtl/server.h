@@ -27,11 +27,11 @@ struct ServerOptions {
 
 class ServerThread;
 
-/// Serves whoever connects with the same frames: bytes of whole messages (hal/igtl/message.h). What
-/// clients send is read by its headers and skipped, whatever their version; one that sends
-/// something else, or announces more than 16 MiB, is dropped. A client that is slow misses frames,
-/// and one that does not read at all is dropped; nobody waits for it. Its own thread reads and
-/// writes.
+/// Sends the same frames, bytes of whole messages (hal/igtl/message.h), to every client that
+/// connects. Of what clients send only the headers are read, of any version; a client that sends
+/// something else, or announces more than 16 MiB, is dropped. A slow client misses frames, and one
+/// that does not read at all is dropped; the others never wait for it. A thread of its own reads
+/// and writes.
 class Server {
  public:
   /// An Error names address and port and why nobody can listen there.
@@ -41,7 +41,7 @@ class Server {
   Server& operator=(const Server&) = delete;
 
   [[nodiscard]] int port() const;
-  /// From any thread; returns at once. What was published before and not sent yet goes unsent.
+  /// From any thread; returns at once. Replaces a frame that was not sent yet.
   void publish(std::vector<std::uint8_t> frame);
   /// What seldom changes: sent to all clients now, and to each later one when it connects.
   void set_standing(std::vector<std::uint8_t> standing);

@@ -24,7 +24,7 @@ constexpr double kStrict_s = 6.0;
 constexpr double kDoublesEvery_s = 4.0;
 /// Without a reading for this long the surgeon does something about it.
 constexpr double kLost_s = 1.0;
-/// So long they lean a little to either side.
+/// For so long they lean only a little to either side.
 constexpr double kLeans_s = 6.0;
 
 }  // namespace
@@ -96,7 +96,7 @@ bool Surgeon::regain_reading(const Aim& aim, double lost_s, double tick_s) {
 
 void Surgeon::show_tag(const Aim& aim, double since_s, double tick_s) {
   body_.posture().grip.roll_rad += tick_s * 0.7 * std::cos(2.0 * since_s);
-  // What hides a tag for so long is in the way from here: they walk further about the site.
+  // A tag that was hidden for so long stays hidden from here: they lean further aside.
   const double reach_rad = std::clamp(0.25 * (since_s - kLeans_s) / kLeans_s, 0.25, 1.0);
   const double lean = reach_rad * std::sin(0.5 * since_s);
   body_.look({aim.on_bone.point},

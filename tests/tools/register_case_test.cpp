@@ -59,7 +59,8 @@ class RegisterCase : public ::testing::TestWithParam<const char*> {
   }
   Called registered(const std::string& label, const std::vector<Point<World>>& points,
                     std::vector<std::string> more = {"--json", "-"}) const {
-    // Bones are prepared once for all of these tests; what a kept one changes, register_test asks.
+    // Prepared bones are kept for all of these tests; register_test shows that this changes
+    // nothing.
     std::vector<std::string> arguments{
         "register", "--level", label, "--points", file_of(points), "--cache", ORTHONAV_TEST_MODELS};
     if (!folder_of_case_.empty()) {
