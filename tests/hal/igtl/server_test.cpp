@@ -1,14 +1,10 @@
 #include "hal/igtl/server.h"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <igtlClientSocket.h>
 #include <igtlMessageHeader.h>
 #include <igtlStringMessage.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -16,67 +12,16 @@
 
 #include "hal/igtl/incoming.h"
 #include "hal/igtl/message.h"
+#include "tests/support/igtl_client.h"
 #include "tests/support/wait_until.h"
 
 namespace orthonav::igtl::server_test {
 namespace {
 
+using orthonav::test::IgtlClient;
 using orthonav::test::wait_until;
 using ::testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
-
-/// A plain socket to the server.
-class RawClient {
- public:
-  explicit RawClient(int port, int receive_buffer = 0) : fd_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    if (receive_buffer > 0) {
-      ::setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
-    }
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    ::inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
-    connected_ = ::connect(fd_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
-  }
-  ~RawClient() { ::close(fd_); }
-  RawClient(const RawClient&) = delete;
-  RawClient& operator=(const RawClient&) = delete;
-
-  [[nodiscard]] bool connected() const { return connected_; }
-  void send(const Bytes& bytes) const {
-    (void)!::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-  }
-  /// So many bytes; fewer where the server hung up.
-  [[nodiscard]] Bytes receive(std::size_t count) const {
-    Bytes out(count);
-    std::size_t have = 0;
-    while (have < count) {
-      const ssize_t got = ::recv(fd_, out.data() + have, count - have, 0);
-      if (got <= 0) {
-        break;
-      }
-      have += static_cast<std::size_t>(got);
-    }
-    out.resize(have);
-    return out;
-  }
-  /// Reads a message; its text is empty where the server hung up.
-  [[nodiscard]] std::string type_of_next() const {
-    const Bytes head = receive(kHeaderBytes);
-    if (head.size() < kHeaderBytes) {
-      return {};
-    }
-    const auto header =
-        parsed_header(std::span<const std::uint8_t, kHeaderBytes>(head.data(), kHeaderBytes));
-    EXPECT_TRUE(header.ok());
-    EXPECT_EQ(receive(header->body_bytes).size(), header->body_bytes);
-    return header->type + " " + header->device;
-  }
-
- private:
-  int fd_;
-  bool connected_ = false;
-};
 
 std::unique_ptr<Server> started(ServerOptions options = {}) {
   options.port = 0;
@@ -119,17 +64,17 @@ TEST(IgtlIncoming, ReadsTheSameHoweverTheStreamIsCut) {
 TEST(IgtlServer, ServesSeveralClientsTheSameFramesAndWhatStandsFirst) {
   const auto server = started();
   server->set_standing(packed({"L4leftScrew", 0}, std::vector<PointValues>(2)));
-  const RawClient a(server->port());
-  const RawClient b(server->port());
+  IgtlClient a(server->port());
+  IgtlClient b(server->port());
   ASSERT_TRUE(a.connected() && b.connected());
-  EXPECT_EQ(a.type_of_next(), "POINT L4leftScrew");
-  EXPECT_EQ(b.type_of_next(), "POINT L4leftScrew");
+  EXPECT_EQ(a.next(), "POINT L4leftScrew");
+  EXPECT_EQ(b.next(), "POINT L4leftScrew");
   server->publish(frame(1));
-  EXPECT_EQ(a.type_of_next(), "STRING Guidance");
-  EXPECT_EQ(b.type_of_next(), "STRING Guidance");
+  EXPECT_EQ(a.next(), "STRING Guidance");
+  EXPECT_EQ(b.next(), "STRING Guidance");
   EXPECT_EQ(server->counts().clients, 2u);
   server->set_standing(packed({"L5leftScrew", 0}, std::vector<PointValues>(2)));
-  EXPECT_EQ(a.type_of_next(), "POINT L5leftScrew") << "what stands has changed";
+  EXPECT_EQ(a.next(), "POINT L5leftScrew") << "what stands has changed";
 }
 
 TEST(IgtlServer, IsReadByAClientOfDebiansLibrary) {
@@ -155,7 +100,7 @@ TEST(IgtlServer, IsReadByAClientOfDebiansLibrary) {
 
 TEST(IgtlServer, SurvivesTheHeaderOfVersionTwoThatSlicerOpensWith) {
   const auto server = started();
-  const RawClient slicer(server->port());
+  IgtlClient slicer(server->port());
   // A STATUS of version 2: 63 bytes of body with an extended header and metadata.
   Bytes opening = packed({"Slicer", 0}, StatusValues{kStatusOk, 0, "", ""});
   opening.resize(kHeaderBytes + 63);
@@ -164,27 +109,27 @@ TEST(IgtlServer, SurvivesTheHeaderOfVersionTwoThatSlicerOpensWith) {
   slicer.send(opening);
   slicer.send(frame(7));  // what follows is read at its place
   server->publish(frame(1));
-  EXPECT_EQ(slicer.type_of_next(), "STRING Guidance");
+  EXPECT_EQ(slicer.next(), "STRING Guidance");
   EXPECT_EQ(server->counts().dropped, 0);
 }
 
 TEST(IgtlServer, DropsWhoSendsSomethingElseAndServesTheRest) {
   const auto server = started();
-  const RawClient good(server->port());
-  const RawClient bad(server->port());
+  IgtlClient good(server->port());
+  IgtlClient bad(server->port());
   const std::string http =
       "GET / HTTP/1.1\r\nHost: localhost\r\nUser-Agent: something long\r\n\r\n";
   bad.send({http.begin(), http.end()});
   ASSERT_TRUE(wait_until([&] { return server->counts().dropped == 1; }));
   EXPECT_THAT(server->counts().last_drop, HasSubstr("no OpenIGTLink message"));
-  const RawClient greedy(server->port());
+  IgtlClient greedy(server->port());
   Bytes large = frame(1);
   large[44] = 1;  // 2^40 bytes are to come
   greedy.send(large);
   ASSERT_TRUE(wait_until([&] { return server->counts().dropped == 2; }));
   EXPECT_THAT(server->counts().last_drop, HasSubstr("limit 16777216"));
   server->publish(frame(1));
-  EXPECT_EQ(good.type_of_next(), "STRING Guidance");
+  EXPECT_EQ(good.next(), "STRING Guidance");
 }
 
 TEST(IgtlServer, DropsWhoNeverReadsWhileOthersGetTheirFrames) {
@@ -192,12 +137,12 @@ TEST(IgtlServer, DropsWhoNeverReadsWhileOthersGetTheirFrames) {
   options.longest_block = std::chrono::milliseconds(50);
   options.most_hz = 1e6;
   const auto server = started(options);
-  const RawClient deaf(server->port(), 4096);
+  IgtlClient deaf(server->port(), 4096);
   std::atomic<bool> over = false;
   std::atomic<int> read = 0;
   std::thread reader([&] {
-    const RawClient good(server->port());
-    while (!over && !good.type_of_next().empty()) {
+    IgtlClient good(server->port());
+    while (!over && !good.next().empty()) {
       ++read;
     }
   });
@@ -219,7 +164,7 @@ TEST(IgtlServer, SendsTheNewestFrameNoMoreOftenThanAllowed) {
   options.most_hz = 0.01;
   options.longest_silence = std::chrono::hours(1);
   const auto server = started(options);
-  const RawClient client(server->port());
+  IgtlClient client(server->port());
   ASSERT_TRUE(wait_until([&] { return server->counts().clients == 1; }));
   server->publish(frame(1));
   ASSERT_TRUE(wait_until([&] { return server->counts().frames == 1; }));
@@ -227,8 +172,8 @@ TEST(IgtlServer, SendsTheNewestFrameNoMoreOftenThanAllowed) {
     server->publish(frame(i));
   }
   server->set_standing(frame(99));  // goes at once, so that there is something to wait for
-  EXPECT_EQ(client.type_of_next(), "STRING Guidance");
-  EXPECT_EQ(client.type_of_next(), "STRING Guidance");
+  EXPECT_EQ(client.next(), "STRING Guidance");
+  EXPECT_EQ(client.next(), "STRING Guidance");
   EXPECT_EQ(server->counts().frames, 1) << "the others wait for their turn";
 }
 
@@ -236,8 +181,8 @@ TEST(IgtlServer, TellsClientsThatNoFrameComes) {
   ServerOptions options;
   options.longest_silence = std::chrono::milliseconds(5);
   const auto server = started(options);
-  const RawClient client(server->port());
-  EXPECT_EQ(client.type_of_next(), "STATUS orthonav");
+  IgtlClient client(server->port());
+  EXPECT_EQ(client.next(), "STATUS orthonav");
 }
 
 TEST(IgtlServer, RefusesAPortThatIsTakenAndAddressesThatAreNone) {
@@ -265,7 +210,7 @@ TEST(IgtlServer, ListensOnLoopbackAloneUnlessToldOtherwise) {
   ::inet_pton(AF_INET, "127.0.0.2", &address.sin_addr);
   EXPECT_NE(::connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
   ::close(fd);
-  EXPECT_TRUE(RawClient(server->port()).connected()) << "the twin";
+  EXPECT_TRUE(IgtlClient(server->port()).connected()) << "the twin";
 }
 
 }  // namespace

@@ -1,9 +1,5 @@
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <cstring>
@@ -11,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/support/igtl_client.h"
 #include "tests/support/wait_until.h"
 #include "tests/tools/command_line.h"
 #include "tools/igtl_messages.h"
@@ -126,43 +123,6 @@ TEST(IgtlMessages, TellScrewsAsPointsAndAsACylinder) {
   ASSERT_TRUE(screws.contains("POLYDATA L4leftScrewModel"));
 }
 
-/// A plain socket that reads whole messages.
-class Listener {
- public:
-  explicit Listener(int port) : fd_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    ::inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
-    (void)::connect(fd_, reinterpret_cast<sockaddr*>(&address), sizeof address);
-  }
-  ~Listener() { ::close(fd_); }
-  Listener(const Listener&) = delete;
-  Listener& operator=(const Listener&) = delete;
-  /// "TRANSFORM PointerToWorld"; empty once the other side hung up.
-  std::string next() {
-    const Bytes head = receive(igtl::kHeaderBytes);
-    if (head.empty()) {
-      return {};
-    }
-    const igtl::Header header = header_at(head, 0);
-    last_body_ = receive(static_cast<std::size_t>(header.body_bytes));
-    return header.type + " " + header.device;
-  }
-  [[nodiscard]] const Bytes& last_body() const { return last_body_; }
-
- private:
-  Bytes receive(std::size_t count) const {
-    Bytes out(count);
-    const ssize_t got = count == 0 ? 0 : ::recv(fd_, out.data(), count, MSG_WAITALL);
-    out.resize(got == static_cast<ssize_t>(count) ? count : 0);
-    return out;
-  }
-
-  int fd_;
-  Bytes last_body_;
-};
-
 /// Where the command says that it serves; 0: it has not said yet.
 int port_of(const StartedCommand& command) {
   const std::string said = command.err_so_far();
@@ -177,7 +137,7 @@ TEST(IgtlCommand, ServesARunUntilItEnds) {
   StartedCommand command({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--igtl", "0"});
   int port = 0;
   ASSERT_TRUE(test::wait_until([&] { return (port = port_of(command)) != 0; }));
-  Listener listener(port);
+  test::IgtlClient listener(port);
   std::set<std::string> heard;
   const std::set<std::string> wanted = {"POINT L5leftScrew", "POLYDATA L5rightScrewModel",
                                         "STATUS orthonav", "STRING Guidance",
