@@ -36,16 +36,6 @@ constexpr float kThinnest_m = 0.0004f;
 constexpr float kOutline_m = 0.0005f;
 constexpr float kBoneLine_m = 0.0006f;
 constexpr float kFaintest = 0.02f;
-/// With more triangles a surface is a bone.
-constexpr std::size_t kFewTriangles = 1500;
-
-float radius_of(const render::MeshData& mesh) {
-  float radius = 0;
-  for (const Float3 p : mesh.positions) {
-    radius = std::max(radius, length(p));
-  }
-  return radius;
-}
 
 /// Cuts dashes out of a line: first a dash, then a gap as long. What is shorter than wide is left
 /// out.
@@ -147,20 +137,24 @@ void SceneObjects::add_mesh(const render::MeshItem& item, Float3 eye, Timestamp 
     }
     return;
   }
-  if (mesh.indices.size() > 3 * kFewTriangles) {
+  if (mesh.indices.empty()) {
+    return;
+  }
+  const HologramKind kind = kind_of(item.label);
+  if (kind == HologramKind::kVertebra || kind == HologramKind::kTwin) {
     const render::Colour line = {look::kBone.r, look::kBone.g, look::kBone.b, 1};
     for (const StraightPiece& piece : bone_.pieces(item, eye, shown_at)) {
       writer_.add_piece(piece, kBoneLine_m, line);
     }
     return;
   }
-  if (item.style == render::MeshStyle::kRim || mesh.indices.empty()) {
+  if (item.style == render::MeshStyle::kRim) {
     return;  // a halo
   }
-  constexpr std::size_t kOctahedron = 8;
-  const bool is_diamond = mesh.indices.size() == 3 * kOctahedron;
-  writer_.add_ball({m[12], m[13], m[14]}, radius_of(mesh) * scale_of(m), item.colour,
-                   is_diamond ? ObjectShape::kCube : ObjectShape::kSphere);
+  // Balls and diamonds are meshes of radius 1.
+  writer_.add_ball(
+      {m[12], m[13], m[14]}, scale_of(m), item.colour,
+      kind == HologramKind::kCheckPoint ? ObjectShape::kCube : ObjectShape::kSphere);
 }
 
 /// Coarser while there are too many pieces, and never finer again before the paths are gone:

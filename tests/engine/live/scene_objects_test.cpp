@@ -211,6 +211,28 @@ TEST_F(GuidedObjects, DrawTheBoneAndWhatIsToBeTouchedOnIt) {
   EXPECT_EQ(places.front().shape, ObjectShape::kCube) << "and no halo";
 }
 
+TEST_F(GuidedObjects, DrawABoneOfFewTrianglesByItsContoursToo) {
+  auto box = std::make_shared<render::MeshData>();
+  for (const float x : {-0.03f, 0.03f}) {
+    for (const float y : {-0.02f, 0.02f}) {
+      for (const float z : {-0.02f, 0.02f}) {
+        box->positions.push_back({x, y, z});
+      }
+    }
+  }
+  box->indices = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                  2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+  box->normals = render::smooth_normals(box->positions, box->indices);
+  render::Scene scene;
+  add_vertebra(scene, box, render::kIdentity, label_of(HologramKind::kVertebra, 1));
+  ObjectList made;
+  objects.write(scene, head_at(kEyeAbove), {}, made);
+  EXPECT_FALSE(made.objects.empty());
+  for (const DisplayObject& object : made.objects) {
+    EXPECT_EQ(object.shape, ObjectShape::kCylinder);
+  }
+}
+
 TEST_F(GuidedObjects, OfWhatHangsOnTheHeadDoNotMoveWithIt) {
   guide();
   const Guidance& g = s.pair();
