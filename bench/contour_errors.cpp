@@ -14,14 +14,15 @@ using render::Float3;
 constexpr float kAway_m = 0.5f;
 constexpr float kEyesApart_m = 0.063f;
 constexpr float kStep_m = 0.001f;
-/// From mid-exposure until it is shown, as measured on loopback.
+/// Age of what is shown: from mid-exposure until the headset shows it, assumed (78 ms measured on
+/// loopback).
 constexpr double kShownAfter_s = 0.087;
 constexpr double kFrame_s = 1.0 / 60.0;
 constexpr int kFramesAPair = 2;
 constexpr int kFrames = 120;
 
-/// Around the patient's long axis (z), from the left to the right, from above and from the head's
-/// end.
+/// A place of the head 0.5 m from the bone: turned about the patient's long axis (z), tilted
+/// towards the patient's head.
 Float3 head_at(double turn_rad, double tilt_rad = 0.3) {
   return kAway_m * Float3{static_cast<float>(std::sin(turn_rad) * std::cos(tilt_rad)),
                           static_cast<float>(std::cos(turn_rad) * std::cos(tilt_rad)),
@@ -66,12 +67,9 @@ std::vector<StraightPiece> seen(const std::vector<StraightPiece>& pieces, const 
 double distance_mm(Float3 p, const std::vector<StraightPiece>& pieces) {
   float least = 1e9f;
   for (const StraightPiece& piece : pieces) {
-    const Float3 along = piece[1] - piece[0];
-    const float squared = dot(along, along);
-    const float part = squared > 0 ? std::clamp(dot(p - piece[0], along) / squared, 0.0f, 1.0f) : 0;
-    least = std::min(least, length(p - piece[0] - part * along));
+    least = std::min(least, render::squared_distance_to_segment(p, piece[0], piece[1]));
   }
-  return 1e3 * static_cast<double>(least);
+  return 1e3 * static_cast<double>(std::sqrt(least));
 }
 
 void add_distances(const std::vector<StraightPiece>& from, const std::vector<StraightPiece>& to,
@@ -89,9 +87,7 @@ void add_distances(const std::vector<StraightPiece>& from, const std::vector<Str
 std::vector<StraightPiece> pieces_of(const std::vector<engine::SurfaceContours::Line>& lines) {
   std::vector<StraightPiece> pieces;
   for (const auto& line : lines) {
-    for (std::size_t i = 1; i < line.size(); ++i) {
-      pieces.push_back({line[i - 1], line[i]});
-    }
+    engine::append_pieces(line, pieces);
   }
   return pieces;
 }

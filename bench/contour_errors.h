@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "engine/live/bone_lines.h"
@@ -22,13 +23,13 @@ class ContourBench {
   /// At rest, from many sides; `on_a_quad` as a picture in the plane through the bone's middle that
   /// faces the head, instead of lines in space.
   [[nodiscard]] ContourErrors at_rest(bool on_a_quad) const;
-  /// The head goes around the bone so fast, and what is drawn is as old as it comes out.
+  /// The head goes around the bone at this speed; what is drawn was made for where the head was
+  /// `kShownAfter_s` ago.
   [[nodiscard]] ContourErrors in_motion(double turn_rad_s, bool on_a_quad) const;
   /// Mean number of pieces from those sides.
   [[nodiscard]] double pieces() const;
 
  private:
-  [[nodiscard]] std::vector<engine::StraightPiece> contours(render::Float3 head) const;
   void judge(const std::vector<engine::StraightPiece>& drawn, render::Float3 head,
              ContourErrors& errors) const;
 

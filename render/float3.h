@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/scene.h"
@@ -26,6 +27,16 @@ namespace orthonav::render {
 [[nodiscard]] inline Float3 unit_or(Float3 a, Float3 fallback) {
   const float norm = length(a);
   return norm > 1e-12f && std::isfinite(norm) ? (1.0f / norm) * a : fallback;
+}
+
+/// Of a point from the segment between `a` and `b`.
+[[nodiscard]] constexpr float squared_distance_to_segment(Float3 p, Float3 a, Float3 b) {
+  const Float3 along = b - a;
+  const float squared_length = dot(along, along);
+  const float part =
+      squared_length > 0 ? std::clamp(dot(p - a, along) / squared_length, 0.0f, 1.0f) : 0.0f;
+  const Float3 off = p - a - part * along;
+  return dot(off, off);
 }
 
 /// A unit vector perpendicular to the unit vector `a`, always the same for the same `a`.

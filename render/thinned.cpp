@@ -10,16 +10,7 @@ namespace {
 
 constexpr float kGentleCosine = 0.97f;  // 14 degrees; line.vert closes a gap of that size
 constexpr float kLeastSeen = 0.5f;      // of a length, when foreshortened
-constexpr std::size_t kLongestRun = 8;  // points left out in a row: bounds the work
-
-float squared_distance(Float3 p, Float3 a, Float3 b) {
-  const Float3 along = b - a;
-  const float squared_length = dot(along, along);
-  const float t =
-      squared_length > 0 ? std::clamp(dot(p - a, along) / squared_length, 0.0f, 1.0f) : 0.0f;
-  const Float3 off = p - a - t * along;
-  return dot(off, off);
-}
+constexpr std::size_t kLongestRun = 8;
 
 /// How far the line may miss a point, squared.
 float squared_slack(Float3 p, std::span<const Float3> eyes, float angle_rad) {
@@ -39,24 +30,12 @@ void thin(std::span<const Float3> points, std::span<const Float3> eyes, float an
     kept.insert(kept.end(), points.begin(), points.end());
     return;
   }
-  std::size_t anchor = 0;
-  while (anchor < points.size()) {
-    kept.push_back(points[anchor]);
-    std::size_t next = anchor + 1;
-    while (next + 1 < points.size() && next - anchor <= kLongestRun) {
-      const auto passes_by = [&](Float3 p) {
-        return squared_distance(p, points[anchor], points[next + 1]) <=
-               squared_slack(p, eyes, angle_rad);
-      };
-      const auto first = points.begin() + static_cast<std::ptrdiff_t>(anchor) + 1;
-      const auto last = points.begin() + static_cast<std::ptrdiff_t>(next) + 1;
-      if (!std::all_of(first, last, passes_by)) {
-        break;
-      }
-      ++next;
-    }
-    anchor = next;
-  }
+  append_needed(
+      points, kLongestRun,
+      [&](Float3 p, Float3 a, Float3 b) {
+        return squared_distance_to_segment(p, a, b) <= squared_slack(p, eyes, angle_rad);
+      },
+      kept);
 }
 
 bool bends_gently(Float3 a, Float3 b, Float3 c, std::span<const Float3> eyes) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/float3.h"
 #include "render/projection.h"
@@ -25,6 +26,12 @@ Float3 into_model(const render::Matrix4& m, Float3 in_world) {
 
 float scale_of(const render::Matrix4& m) { return length(Float3{m[0], m[1], m[2]}); }
 
+void append_pieces(const SurfaceContours::Line& line, std::vector<StraightPiece>& pieces) {
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    pieces.push_back({line[i - 1], line[i]});
+  }
+}
+
 BoneLines::Drawn& BoneLines::drawn_of(const render::MeshItem& item) {
   for (const auto& drawn : drawn_) {
     if (drawn->mesh == item.mesh && drawn->label == item.label) {
@@ -36,10 +43,10 @@ BoneLines::Drawn& BoneLines::drawn_of(const render::MeshItem& item) {
 
 bool BoneLines::will_do(const Drawn& drawn, const render::MeshItem& item, Float3 eye,
                         Timestamp now) const {
-  if (drawn.pieces.empty() || now < drawn.found_at) {
+  if (!drawn.found_at || now < *drawn.found_at) {
     return false;
   }
-  if (now - drawn.found_at < options_.at_most_every) {
+  if (now - *drawn.found_at < options_.at_most_every) {
     return true;
   }
   const Float3 middle = transformed(item.world_from_model, drawn.contours.middle());
@@ -56,11 +63,11 @@ void BoneLines::find(Drawn& drawn, const render::MeshItem& item, Float3 eye) con
   for (float within_m = options_.within_m; within_m < kCoarsest_m; within_m *= kCoarser) {
     drawn.pieces.clear();
     for (const SurfaceContours::Line& line : lines) {
-      const SurfaceContours::Line kept = thinned(line, within_m / scale_of(world_from_model));
-      for (std::size_t i = 1; i < kept.size(); ++i) {
-        drawn.pieces.push_back(
-            {transformed(world_from_model, kept[i - 1]), transformed(world_from_model, kept[i])});
+      SurfaceContours::Line kept = thinned(line, within_m / scale_of(world_from_model));
+      for (Float3& p : kept) {
+        p = transformed(world_from_model, p);
       }
+      append_pieces(kept, drawn.pieces);
     }
     if (drawn.pieces.size() <= options_.most_pieces) {
       return;
@@ -83,9 +90,7 @@ const std::vector<StraightPiece>& BoneLines::pieces(const render::MeshItem& item
 }
 
 void BoneLines::forget_unused() {
-  drawn_.erase(std::remove_if(drawn_.begin(), drawn_.end(),
-                              [](const auto& drawn) { return !std::exchange(drawn->used, false); }),
-               drawn_.end());
+  std::erase_if(drawn_, [](const auto& drawn) { return !std::exchange(drawn->used, false); });
 }
 
 }  // namespace orthonav::engine

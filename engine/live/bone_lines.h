@@ -1,7 +1,8 @@
 #pragma once
 
+#include <array>
 #include <memory>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "base/time.h"
@@ -14,6 +15,8 @@ namespace orthonav::engine {
 
 /// Two ends of a straight piece, metres, in the world.
 using StraightPiece = std::array<render::Float3, 2>;
+/// Those between the points of a line.
+void append_pieces(const SurfaceContours::Line& line, std::vector<StraightPiece>& pieces);
 
 /// How exactly a surface is drawn with lines, and how often anew.
 struct BoneLineOptions {
@@ -46,7 +49,7 @@ class BoneLines {
     SurfaceContours contours;
     render::Matrix4 world_from_model = render::kIdentity;
     render::Float3 eye;
-    Timestamp found_at{};
+    std::optional<Timestamp> found_at;
     std::vector<StraightPiece> pieces;
     bool used = true;
     explicit Drawn(const render::MeshItem& item)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_shapes.h"
@@ -30,8 +32,8 @@ constexpr float kTubeWithin_m = 0.0002f;
 /// More dashes of one line would tell nothing new.
 constexpr float kMostDashes = 24;
 /// A round end covers as much as a flat one that ends so much sooner, in widths.
-constexpr float kRoundEnd = 0.1073f;
-/// A HoloLens 2 shows nothing thinner at arm's length.
+constexpr float kRoundEnd = 0.5f - std::numbers::pi_v<float> / 8;
+/// 1.5 px of a HoloLens 2 at 0.5 m, the least width the renderer draws too.
 constexpr float kThinnest_m = 0.0004f;
 constexpr float kOutline_m = 0.0005f;
 constexpr float kBoneLine_m = 0.0006f;
@@ -79,40 +81,34 @@ void lengthen(SurfaceContours::Line& line, float width_m, bool has_dashes) {
   last = last + by_m * render::unit_or(last - line[line.size() - 2], {});
 }
 
-void append_pieces(const SurfaceContours::Line& line, std::vector<StraightPiece>& pieces) {
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    pieces.push_back({line[i - 1], line[i]});
-  }
-}
-
-}  // namespace
-
-/// Into `pieces_`.
-void SceneObjects::pieces_of(const render::LineItem& item, float within_m) {
+std::vector<StraightPiece> pieces_of(const render::LineItem& item, float within_m) {
   SurfaceContours::Line line = item.points;
   if (item.closed && !line.empty()) {
     line.push_back(line.front());
   } else {
     lengthen(line, item.width_m, item.dash_m > 0);
   }
-  pieces_.clear();
-  append_pieces(thinned(line, within_m), pieces_);
+  std::vector<StraightPiece> pieces;
+  append_pieces(thinned(line, within_m), pieces);
   if (item.dash_m > 0) {
-    cut_dashes(pieces_, item.dash_m, item.width_m);
+    cut_dashes(pieces, item.dash_m, item.width_m);
   }
+  return pieces;
 }
 
-void SceneObjects::add_line(const render::LineItem& item, float within_m) {
+}  // namespace
+
+void SceneObjects::add_line(const render::LineItem& item,
+                            const std::vector<StraightPiece>& pieces) {
   if (item.colour.a < kFaintest) {
     return;
   }
-  pieces_of(item, within_m);
-  for (const StraightPiece& piece : pieces_) {
+  for (const StraightPiece& piece : pieces) {
     writer_.add_piece(piece, std::max(item.width_m, kThinnest_m), item.colour);
   }
 }
 
-/// The deviation triangle has edges of its own.
+/// Only the cross's arrow: the deviation triangle's edges are lines already.
 void SceneObjects::add_outline(const render::TriangleItem& item) {
   if (kind_of(item.label) != HologramKind::kCross) {
     return;
@@ -130,9 +126,9 @@ void SceneObjects::add_mesh(const render::MeshItem& item, Float3 eye, Timestamp 
     for (const Float3 p : mesh.axis) {
       line.push_back(transformed(m, p));
     }
-    pieces_.clear();
-    append_pieces(thinned(line, kTubeWithin_m), pieces_);
-    for (const StraightPiece& piece : pieces_) {
+    std::vector<StraightPiece> pieces;
+    append_pieces(thinned(line, kTubeWithin_m), pieces);
+    for (const StraightPiece& piece : pieces) {
       writer_.add_piece(piece, 2 * mesh.axis_radius_m * scale_of(m), item.colour);
     }
     return;
@@ -152,40 +148,37 @@ void SceneObjects::add_mesh(const render::MeshItem& item, Float3 eye, Timestamp 
     return;  // a halo
   }
   // Balls and diamonds are meshes of radius 1.
-  writer_.add_ball(
-      {m[12], m[13], m[14]}, scale_of(m), item.colour,
-      kind == HologramKind::kCheckPoint ? ObjectShape::kCube : ObjectShape::kSphere);
+  writer_.add_ball({m[12], m[13], m[14]}, scale_of(m), item.colour,
+                   kind == HologramKind::kCheckPoint ? ObjectShape::kCube : ObjectShape::kSphere);
 }
 
-/// Coarser while there are too many pieces, and never finer again before the paths are gone:
-/// otherwise all of them would move to and fro.
-float SceneObjects::path_tolerance_m(const render::Scene& scene) {
+/// Doubles the tolerance while there are too many pieces and keeps it until the paths are gone:
+/// going back would move every path.
+std::vector<std::vector<StraightPiece>> SceneObjects::thinned_paths(const render::Scene& scene) {
   path_within_m_ = std::max(path_within_m_, kPathWithin_m);
-  for (; path_within_m_ < kCoarsestPath_m; path_within_m_ *= kPathCoarser) {
+  for (;; path_within_m_ *= kPathCoarser) {
     std::size_t count = 0;
-    bool any = false;
+    std::vector<std::vector<StraightPiece>> paths;
     for (const render::LineItem& item : scene.lines) {
       if (kind_of(item.label) == HologramKind::kPath) {
-        pieces_of(item, path_within_m_);
-        count += pieces_.size();
-        any = true;
+        count += paths.emplace_back(pieces_of(item, path_within_m_)).size();
       }
     }
-    if (!any) {
+    if (paths.empty()) {
       path_within_m_ = kPathWithin_m;
     }
-    if (count <= options_.path_pieces) {
-      break;
+    if (count <= options_.path_pieces || path_within_m_ >= kCoarsestPath_m) {
+      return paths;
     }
   }
-  return path_within_m_;
 }
 
 void SceneObjects::write(const render::Scene& scene, const render::Head& head, Timestamp shown_at,
                          ObjectList& list) {
   list.objects.clear();
   writer_.begin(list);
-  const float path_within_m = path_tolerance_m(scene);
+  auto paths = thinned_paths(scene);
+  auto path = paths.begin();
   for (const HologramKind kind : kOrder) {
     const auto for_each = [&](const auto& items, const auto& add) {
       for (const auto& item : items) {
@@ -197,7 +190,8 @@ void SceneObjects::write(const render::Scene& scene, const render::Head& head, T
     };
     for_each(scene.texts, [&](const auto& item) { writer_.add_text(item, head); });
     for_each(scene.lines, [&](const auto& item) {
-      add_line(item, kind == HologramKind::kPath ? path_within_m : kLineWithin_m);
+      add_line(item,
+               kind == HologramKind::kPath ? std::move(*path++) : pieces_of(item, kLineWithin_m));
     });
     for_each(scene.triangles, [&](const auto& item) { add_outline(item); });
     for_each(scene.meshes, [&](const auto& item) { add_mesh(item, head.position, shown_at); });

@@ -29,16 +29,14 @@ class SceneObjects {
 
  private:
   void add_mesh(const render::MeshItem& item, render::Float3 eye, Timestamp shown_at);
-  void add_line(const render::LineItem& item, float within_m);
+  void add_line(const render::LineItem& item, const std::vector<StraightPiece>& pieces);
   void add_outline(const render::TriangleItem& item);
-  void pieces_of(const render::LineItem& item, float within_m);
-  [[nodiscard]] float path_tolerance_m(const render::Scene& scene);
+  [[nodiscard]] std::vector<std::vector<StraightPiece>> thinned_paths(const render::Scene& scene);
 
   SceneObjectOptions options_;
   BoneLines bone_;
   ObjectWriter writer_;
   float path_within_m_ = 0;
-  std::vector<StraightPiece> pieces_;  ///< of the line being added
 };
 
 }  // namespace orthonav::engine

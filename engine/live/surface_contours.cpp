@@ -5,6 +5,7 @@
 
 #include "render/decimated.h"
 #include "render/float3.h"
+#include "render/thinned.h"
 
 namespace orthonav::engine {
 namespace {
@@ -18,8 +19,8 @@ constexpr float kOffSurface_m = 0.0008f;
 /// from the triangles, not from the bone.
 constexpr float kHiddenGap_m = 0.002f;
 constexpr float kShortest_m = 0.004f;
-/// So many points are looked at to leave them out.
-constexpr std::size_t kLongestRun = 64;
+/// At most so many points in a row are left out: bounds the work.
+constexpr std::size_t kLongestRun = 63;
 
 nav::TriangleMesh to_nav(const render::MeshData& mesh) {
   nav::TriangleMesh out;
@@ -30,13 +31,6 @@ nav::TriangleMesh to_nav(const render::MeshData& mesh) {
     out.triangles.push_back({mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});
   }
   return out;
-}
-
-float distance_to(Float3 point, Float3 from, Float3 to) {
-  const Float3 along = to - from;
-  const float squared = dot(along, along);
-  const float part = squared > 0 ? std::clamp(dot(point - from, along) / squared, 0.0f, 1.0f) : 0;
-  return length(point - from - part * along);
 }
 
 /// The parts of a line whose pieces are seen: `seen[i]` is that from point i to the next.
@@ -75,7 +69,7 @@ class Chains {
     auto& both = at_edge_.try_emplace(edge, std::array<std::size_t, 2>{kNone, kNone}).first->second;
     (both[0] == kNone ? both[0] : both[1]) = segment;
   }
-  /// The segment beyond an edge that is not in use yet, from then on it is.
+  /// Takes the segment at this edge that is not taken yet; `kNone` where there is none.
   [[nodiscard]] std::size_t take_at(std::uint64_t edge) {
     const auto found = at_edge_.find(edge);
     for (const std::size_t segment : found->second) {
@@ -176,20 +170,12 @@ std::vector<Line> SurfaceContours::seen_from(Float3 eye) const {
 
 Line thinned(const Line& line, float within_m) {
   Line kept;
-  for (std::size_t from = 0; from < line.size();) {
-    kept.push_back(line[from]);
-    std::size_t to = from + 1;
-    const auto is_near = [&](std::size_t end) {
-      return std::all_of(line.begin() + static_cast<std::ptrdiff_t>(from) + 1,
-                         line.begin() + static_cast<std::ptrdiff_t>(end), [&](Float3 point) {
-                           return distance_to(point, line[from], line[end]) <= within_m;
-                         });
-    };
-    while (to + 1 < line.size() && to - from < kLongestRun && is_near(to + 1)) {
-      ++to;
-    }
-    from = to;
-  }
+  render::append_needed(
+      line, kLongestRun,
+      [&](Float3 p, Float3 a, Float3 b) {
+        return render::squared_distance_to_segment(p, a, b) <= within_m * within_m;
+      },
+      kept);
   return kept;
 }
 
