@@ -18,11 +18,9 @@ namespace {
 
 using render::Float3;
 
-// A HoloLens 2's picture for one eye, and half its field of view as tangents.
+// A HoloLens 2's picture for one eye.
 constexpr int kWidth_px = 1440;
 constexpr int kHeight_px = 936;
-constexpr float kTanAcross = 0.394f;
-constexpr float kTanDown = 0.2561f;
 
 // Unity's primitives by their numbers.
 constexpr std::uint32_t kSphere = 0;
@@ -177,11 +175,8 @@ Result<std::unique_ptr<ScenePictures>> ScenePictures::create(const std::string& 
 
 Status ScenePictures::draw(const hl2ss::UnityObjects& objects,
                            const Transform<World, Rig>& world_from_rig) {
-  render::View view;
-  view.eye_from_world = engine::to_matrix((world_from_rig * rig_from_eyes()).inverse().row_major());
-  view.tan_left = view.tan_right = kTanAcross;
-  view.tan_up = view.tan_down = kTanDown;
-  const std::vector<render::View> views = {view};
+  const std::vector<render::View> views = {
+      engine::hololens2_view(world_from_rig * rig_from_eyes())};
   const render::Scene scene = drawn_scene(objects, render::head_of(views));
   if (const Status drawn = renderer_->draw(scene, views, {}, images_); !drawn) {
     return drawn;

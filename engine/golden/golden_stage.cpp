@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/angle.h"
+#include "engine/holograms/render_values.h"
 #include "render/float3.h"
 #include "render/projection.h"
 
@@ -20,8 +21,6 @@ constexpr Float3 kFrom = {0.19f, 0.325f, -0.20f};
 
 /// Across the planned axis, towards the patient's left and head.
 Float3 tool_side() { return render::unit_or(cross({0.3f, 0, -1}, planned_direction()), {}); }
-
-Vec3 to_vec3(Float3 v) { return {v.x, v.y, v.z}; }
 
 Float3 eye_at(float distance_m) { return kLooked + distance_m * render::unit_or(kFrom, {}); }
 

@@ -3,16 +3,20 @@
 #include <array>
 #include <memory>
 
+#include "base/transform.h"
 #include "base/vec.h"
 #include "nav/geometry/mesh.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {
 
-// What nav and hal hold in double, as the renderer takes it.
+// What nav and hal hold in double, as the renderer takes it, and back.
 
 [[nodiscard]] render::Float3 to_float3(Vec3 v);
+[[nodiscard]] Vec3 to_vec3(render::Float3 v);
 [[nodiscard]] render::Matrix4 to_matrix(const std::array<double, 16>& row_major);
+/// What an eye sees in a HoloLens 2.
+[[nodiscard]] render::View hololens2_view(const Transform<World, Eye>& world_from_eye);
 /// With smooth normals.
 [[nodiscard]] std::shared_ptr<const render::MeshData> mesh_data(const nav::TriangleMesh& mesh);
 

@@ -4,13 +4,6 @@
 #include "render/projection.h"
 
 namespace orthonav::engine {
-namespace {
-
-/// A HoloLens 2's field of view, as tangents of half of it.
-constexpr float kTanAcross = 0.394f;
-constexpr float kTanDown = 0.2561f;
-
-}  // namespace
 
 void ObjectPresenter::locate(const Snapshot& snapshot) {
   if (list_.map_epoch != snapshot.map_epoch) {
@@ -20,11 +13,7 @@ void ObjectPresenter::locate(const Snapshot& snapshot) {
   if (world_from_rig.status == PoseStatus::kLost) {
     return;
   }
-  render::View view;
-  view.eye_from_world = to_matrix((world_from_rig.value * rig_from_eyes_).inverse().row_major());
-  view.tan_left = view.tan_right = kTanAcross;
-  view.tan_up = view.tan_down = kTanDown;
-  view_ = view;
+  view_ = hololens2_view(world_from_rig.value * rig_from_eyes_);
 }
 
 Status ObjectPresenter::draw(const Snapshot& snapshot) {

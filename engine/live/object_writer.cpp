@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/srgb.h"
+#include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
 #include "render/float3.h"
 #include "render/frame_items.h"
@@ -22,9 +23,8 @@ constexpr double kTextGrown = 0.03;
 constexpr double kBarAside_caps = 0.35;
 constexpr double kBarWidth_caps = 0.12;
 
-Vec3 to_vec3(Float3 v) { return {v.x, v.y, v.z}; }
-
-/// As the display takes it. An opacity stays one: black is transparent anyway.
+/// Colours as the display takes them: encoded as sRGB. Opacity is not encoded; black is transparent
+/// anyway.
 ObjectColour shown(render::Colour colour) {
   const auto encoded = [](float linear) {
     return static_cast<float>(srgb_from_linear(static_cast<double>(linear)));
@@ -32,7 +32,7 @@ ObjectColour shown(render::Colour colour) {
   return {encoded(colour.r), encoded(colour.g), encoded(colour.b), colour.a};
 }
 
-/// That takes +y to a unit vector.
+/// The smallest rotation that takes +y to the unit vector `to`.
 Quaternion rotation_of_y_to(Vec3 to) {
   const double w = 1.0 + to.y;
   if (w < 1e-9) {
@@ -46,10 +46,8 @@ Vec3 column(const render::Matrix4& m, std::size_t c) {
   return {m[4 * c], m[4 * c + 1], m[4 * c + 2]};
 }
 
-bool is_blank(std::string_view character) { return character == " " || character == "\u2007"; }
-
-/// Without blanks at its ends, which displays treat differently; cap heights taken off the front go
-/// to `front_caps`.
+/// Without blanks in front and spaces at the end, which displays treat differently; cap heights
+/// taken off the front go to `front_caps`.
 render::TextItem trimmed(const render::TextItem& item, const render::Font& font,
                          float& front_caps) {
   render::TextItem line;
@@ -59,15 +57,11 @@ render::TextItem trimmed(const render::TextItem& item, const render::Font& font,
     run.text += part.text;
   }
   std::string_view text = run.text;
-  for (std::string_view rest = text; render::take_code_point(rest);) {
-    const std::string_view character = text.substr(0, text.size() - rest.size());
-    if (!is_blank(character)) {
+  for (std::string_view rest = text; const auto code = render::take_code_point(rest); text = rest) {
+    if (*code != U' ' && *code != U'\u2007') {
       break;
     }
-    std::string_view blank = character;
-    front_caps += font.glyph(*render::take_code_point(blank)).advance +
-                  (item.rim.a > 0 ? render::kRimWidth : 0.0f);
-    text = rest;
+    front_caps += font.glyph(*code).advance + (item.rim.a > 0 ? render::kRimWidth : 0.0f);
   }
   while (!text.empty() && text.back() == ' ') {
     text.remove_suffix(1);
