@@ -16,7 +16,6 @@ namespace orthonav::engine {
 namespace {
 
 using render::Float3;
-using test::pointer_at;
 
 HologramKind kind_of_object(const DisplayObject& object) {
   return kind_of(static_cast<render::Label>(object.key >> 32));
@@ -184,6 +183,29 @@ TEST_F(GuidedObjects, ThinAStrokedPathToItsBudget) {
   objects.write(scene, head_at(kEyeAbove), {}, paths);
   EXPECT_LE(paths.objects.size(), options.path_pieces);
   EXPECT_GT(paths.objects.size(), options.path_pieces / 4);
+}
+
+TEST_F(GuidedObjects, OfPathsAreFineAgainOnceThereWereNone) {
+  std::vector<Float3> circle;
+  render::set_ring(circle, {}, {0, 1, 0}, 0.01f, 200);
+  render::Scene one;
+  add_sampled_path(one, circle, PathState::kSaved, label_of(HologramKind::kPath, 1));
+  render::Scene many;
+  for (std::size_t k = 1; k <= 40; ++k) {
+    add_sampled_path(many, circle, PathState::kSaved, label_of(HologramKind::kPath, k));
+  }
+  SceneObjectOptions options;
+  options.path_pieces = 20;
+  SceneObjects few(options);
+  const auto pieces = [&](const render::Scene& scene) {
+    few.write(scene, head_at(kEyeAbove), {}, list);
+    return list.objects.size();
+  };
+  const std::size_t fine = pieces(one);
+  EXPECT_GT(pieces(many), options.path_pieces) << "as coarse as it gets";
+  EXPECT_LT(pieces(one), fine) << "kept while there are paths";
+  EXPECT_EQ(pieces({}), 0u);
+  EXPECT_EQ(pieces(one), fine);
 }
 
 TEST_F(GuidedObjects, MakeAChainOfARodAndBallsOfItsHeads) {
