@@ -16,18 +16,14 @@
 namespace orthonav::tools {
 namespace {
 
+using hl2ss::Primitive;
 using render::Float3;
 
 // A HoloLens 2's picture for one eye.
 constexpr int kWidth_px = 1440;
 constexpr int kHeight_px = 936;
 
-// Unity's primitives by their numbers.
-constexpr std::uint32_t kSphere = 0;
-constexpr std::uint32_t kCapsule = 1;
-constexpr std::uint32_t kCylinder = 2;
-constexpr std::uint32_t kCube = 3;
-constexpr std::uint32_t kPlane = 4;
+/// Of Unity's plane, at scale 1.
 constexpr double kPlaneEdge = 10.0;
 
 render::Colour light_of(const ObjectColour& colour) {
@@ -60,33 +56,24 @@ std::shared_ptr<const render::MeshData> unit_ball() {
   return ball;
 }
 
-void add_cube(render::Scene& scene, const Placed& placed, render::Colour colour) {
-  for (const int axis : {0, 1, 2}) {
-    for (const double side : {0.5, -0.5}) {
-      std::array<Float3, 4> corners;
-      constexpr std::array<std::array<double, 2>, 4> kAround = {
-          {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
-      for (std::size_t i = 0; i < 4; ++i) {
-        std::array<double, 3> own{};
-        own[static_cast<std::size_t>(axis)] = side;
-        own[static_cast<std::size_t>((axis + 1) % 3)] = kAround[i][0];
-        own[static_cast<std::size_t>((axis + 2) % 3)] = kAround[i][1];
-        corners[i] = placed.at({own[0], own[1], own[2]});
-      }
-      scene.triangles.push_back({kRemoteLabel, {corners[0], corners[1], corners[2]}, colour});
-      scene.triangles.push_back({kRemoteLabel, {corners[0], corners[2], corners[3]}, colour});
-    }
-  }
-}
-
-void add_sheet(render::Scene& scene, const Placed& placed, Vec3 right, Vec3 up,
+void add_sheet(render::Scene& scene, const Placed& placed, Vec3 middle, Vec3 right, Vec3 up,
                render::Colour colour) {
-  const Float3 a = placed.at(-0.5 * (right + up));
-  const Float3 b = placed.at(0.5 * (right - up));
-  const Float3 c = placed.at(0.5 * (right + up));
-  const Float3 d = placed.at(0.5 * (up - right));
+  const Float3 a = placed.at(middle - 0.5 * (right + up));
+  const Float3 b = placed.at(middle + 0.5 * (right - up));
+  const Float3 c = placed.at(middle + 0.5 * (right + up));
+  const Float3 d = placed.at(middle + 0.5 * (up - right));
   scene.triangles.push_back({kRemoteLabel, {a, b, c}, colour});
   scene.triangles.push_back({kRemoteLabel, {a, c, d}, colour});
+}
+
+void add_cube(render::Scene& scene, const Placed& placed, render::Colour colour) {
+  constexpr std::array<Vec3, 3> kAxes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double side : {0.5, -0.5}) {
+      add_sheet(scene, placed, side * kAxes[axis], kAxes[(axis + 1) % 3], kAxes[(axis + 2) % 3],
+                colour);
+    }
+  }
 }
 
 /// Our texts face the eye from where they are anchored. One that is turned is anchored where the
@@ -118,7 +105,7 @@ void add_object(render::Scene& scene, const hl2ss::UnityObject& object, const re
     return add_text(scene, object, {eye.x, eye.y, eye.z}, colour);
   }
   switch (object.primitive) {
-    case kSphere: {
+    case Primitive::kSphere: {
       render::MeshItem& item = scene.meshes.emplace_back();
       item.label = kRemoteLabel;
       item.mesh = unit_ball();
@@ -126,8 +113,8 @@ void add_object(render::Scene& scene, const hl2ss::UnityObject& object, const re
       item.world_from_model = render::placed_at(placed.at({}), static_cast<float>(object.scale.x));
       return;
     }
-    case kCapsule:
-    case kCylinder: {
+    case Primitive::kCapsule:
+    case Primitive::kCylinder: {
       render::LineItem& line = scene.lines.emplace_back();
       line.label = kRemoteLabel;
       // A line's ends are round: they begin inside, so that it covers as much.
@@ -137,12 +124,12 @@ void add_object(render::Scene& scene, const hl2ss::UnityObject& object, const re
       line.colour = colour;
       return;
     }
-    case kCube:
+    case Primitive::kCube:
       return add_cube(scene, placed, colour);
-    case kPlane:
-      return add_sheet(scene, placed, {kPlaneEdge, 0, 0}, {0, 0, kPlaneEdge}, colour);
-    default:
-      return add_sheet(scene, placed, {1, 0, 0}, {0, 1, 0}, colour);
+    case Primitive::kPlane:
+      return add_sheet(scene, placed, {}, {kPlaneEdge, 0, 0}, {0, 0, kPlaneEdge}, colour);
+    case Primitive::kQuad:
+      return add_sheet(scene, placed, {}, {1, 0, 0}, {0, 1, 0}, colour);
   }
 }
 

@@ -12,19 +12,19 @@ void append_header(std::vector<std::uint8_t>& bytes, SceneCommand command, std::
   append(bytes, static_cast<std::uint32_t>(size));
 }
 
-std::uint32_t primitive_of(ObjectShape shape) {
+Primitive primitive_of(ObjectShape shape) {
   switch (shape) {
     case ObjectShape::kSphere:
-      return 0;
+      return Primitive::kSphere;
     case ObjectShape::kCylinder:
-      return 2;
+      return Primitive::kCylinder;
     case ObjectShape::kCube:
-      return 3;
+      return Primitive::kCube;
     case ObjectShape::kQuad:
     case ObjectShape::kText:
       break;
   }
-  return 5;
+  return Primitive::kQuad;
 }
 
 void append_floats(std::vector<std::uint8_t>& bytes, std::initializer_list<double> numbers) {
@@ -67,7 +67,7 @@ void append_create(std::vector<std::uint8_t>& bytes, ObjectShape shape) {
     return append_header(bytes, SceneCommand::kCreateText, 0);
   }
   append_header(bytes, SceneCommand::kCreatePrimitive, 4);
-  append(bytes, primitive_of(shape));
+  append(bytes, static_cast<std::uint32_t>(primitive_of(shape)));
 }
 
 void append_active(std::vector<std::uint8_t>& bytes, std::uint32_t id, bool active) {

@@ -23,13 +23,15 @@ enum class SceneCommand : std::uint32_t {
   kCreateText = 6,
   kSetText = 7,
   kSay = 8,
-  kLoadMesh = 15,
   kRemove = 16,
   kRemoveAll = 17,
   kBeginList = 18,
   kEndList = 19,
   kSetTargetMode = 20,
 };
+
+/// Unity's own, by their numbers.
+enum class Primitive : std::uint32_t { kSphere, kCapsule, kCylinder, kCube, kPlane, kQuad };
 
 inline constexpr std::size_t kSceneHeaderBytes = 8;
 /// The protocol sets no limit; what is larger stalls the frame that decodes it.
@@ -48,12 +50,13 @@ void append_look(std::vector<std::uint8_t>& bytes, std::uint32_t id, const Displ
 void append_remove(std::vector<std::uint8_t>& bytes, std::uint32_t id);
 /// One without contents: remove all, begin, end.
 void append_plain(std::vector<std::uint8_t>& bytes, SceneCommand command);
-/// Does nothing, and takes a frame outside a list: targets are named by their ids, as ever.
+/// A command without effect, which takes one frame outside a list: it sets the target mode that is
+/// set already.
 void append_idle(std::vector<std::uint8_t>& bytes);
 
-/// As it can be shown: one line, in characters that the application's font has (`ok` for a tick),
-/// no
-/// `<`, which would begin a tag, no more than `kMaxSceneTextBytes` and never half a character.
+/// The text as the application can show it: one line of characters that its font has (`ok` for a
+/// tick), without `<`, which would begin a tag, at most `kMaxSceneTextBytes`, cut between
+/// characters.
 [[nodiscard]] std::string scene_text(const std::string& text);
 
 struct SceneMessage {

@@ -1,5 +1,6 @@
 #include "hal/hl2ss/server/unity_scene.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace orthonav::hl2ss {
@@ -7,7 +8,6 @@ namespace {
 
 constexpr std::uint32_t kDone = 1;
 constexpr std::uint32_t kRefused = 0;
-constexpr std::uint32_t kQuad = 5;
 
 Vec3 take_vec3(ByteReader& reader) {
   const double x = reader.take<float>();
@@ -92,11 +92,12 @@ std::uint32_t UnityScene::execute(const Waiting& message) {
   ByteReader reader(message.payload);
   switch (command) {
     case SceneCommand::kCreatePrimitive: {
-      const auto primitive = reader.take<std::uint32_t>();
-      return reader.ok() ? create(false, primitive > kQuad ? kQuad : primitive) : kRefused;
+      constexpr auto kLast = static_cast<std::uint32_t>(Primitive::kQuad);
+      const auto primitive = static_cast<Primitive>(std::min(reader.take<std::uint32_t>(), kLast));
+      return reader.ok() ? create(false, primitive) : kRefused;
     }
     case SceneCommand::kCreateText:
-      return create(true, 0);
+      return create(true, {});
     case SceneCommand::kSay:
       return kDone;
     case SceneCommand::kRemoveAll:
@@ -116,7 +117,7 @@ std::uint32_t UnityScene::execute(const Waiting& message) {
   }
 }
 
-std::uint32_t UnityScene::create(bool is_text, std::uint32_t primitive) {
+std::uint32_t UnityScene::create(bool is_text, Primitive primitive) {
   if (to_refuse_ > 0) {
     --to_refuse_;
     return kRefused;
@@ -156,7 +157,6 @@ std::uint32_t UnityScene::change(SceneCommand command, Bytes payload) {
     case SceneCommand::kSetColour:
       return paint(reader, *object) ? kDone : kRefused;
     case SceneCommand::kSetTexture:
-      object->texture_bytes = reader.left();
       return kDone;
     case SceneCommand::kSetText:
       return write(reader, *object) ? kDone : kRefused;

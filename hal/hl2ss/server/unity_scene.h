@@ -16,7 +16,7 @@ namespace orthonav::hl2ss {
 /// One object as the application has it, in our axes: right-handed, -z forward.
 struct UnityObject {
   bool is_text = false;
-  std::uint32_t primitive = 5;  ///< 0 sphere, 1 capsule, 2 cylinder, 3 cube, 4 plane, 5 quad
+  Primitive primitive = Primitive::kQuad;
   bool active = false;
   bool on_head = false;
   Vec3 position_m{};
@@ -25,7 +25,6 @@ struct UnityObject {
   ObjectColour colour;
   std::string text;
   double font_size = 0.0;
-  std::size_t texture_bytes = 0;
 };
 using UnityObjects = std::map<std::uint32_t, UnityObject>;
 
@@ -50,7 +49,7 @@ class UnityScene {
     bool leaves = false;
   };
   [[nodiscard]] std::uint32_t execute(const Waiting& message);
-  [[nodiscard]] std::uint32_t create(bool is_text, std::uint32_t primitive);
+  [[nodiscard]] std::uint32_t create(bool is_text, Primitive primitive);
   [[nodiscard]] std::uint32_t change(SceneCommand command, Bytes payload);
   [[nodiscard]] UnityObject* target(std::uint32_t id);
 
