@@ -16,7 +16,7 @@ struct RemoteObject {
   bool looks = false;   ///< `told` holds its colour and text
   DisplayObject told;
   int refusals = 0;             ///< in a row
-  HostTime ask_again{};         ///< refused: not created before
+  HostTime ask_again{};         ///< after a refusal: not created again before this
   std::uint64_t wanted_in = 0;  ///< number of the last list that wanted it
 
   /// Refused or removed: nothing of it is left.

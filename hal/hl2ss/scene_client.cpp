@@ -85,7 +85,7 @@ std::vector<std::uint8_t> SceneClient::next(const SceneMoment& now) {
   }
   const Draft draft = draft_list(fuse > 0, now.host);
   is_fresh_ = false;
-  if (draft.commands == 0) {
+  if (draft.commands() == 0) {
     return keep_alive(now.host);
   }
   sent_tool_time_ = draft.tool_ids.empty() ? std::nullopt : wanted_.tool_time;
@@ -112,7 +112,8 @@ std::vector<std::uint8_t> SceneClient::start_over(HostTime now) {
   return sent(std::move(bytes), now);
 }
 
-/// An application that is suspended answers nothing, and is not noticed otherwise.
+/// A suspended application closes no connection. Only a missing answer tells, so something is asked
+/// once a second.
 std::vector<std::uint8_t> SceneClient::keep_alive(HostTime now) {
   if (!expected_.empty() || now - sent_at_ < kKeepAliveEvery) {
     return {};

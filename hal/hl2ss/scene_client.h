@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -48,28 +49,33 @@ class SceneClient {
   [[nodiscard]] Status overdue(HostTime now) const;
   [[nodiscard]] static std::vector<std::uint8_t> goodbye();
   [[nodiscard]] ObjectDisplayStatistics statistics() const;
-  /// How often connections were given up; of whoever does.
+  /// The caller gave the connection up; counted.
   void given_up() { ++statistics_.given_up; }
 
  private:
   struct Expected {
-    enum class Kind { kCreate, kObject, kPlain, kListEnd, kIdle, kFuse } kind = Kind::kPlain;
+    enum class Kind { kCreate, kObject, kPlain, kListEnd, kIdle } kind = Kind::kPlain;
     std::uint64_t key = 0;
   };
-  /// The parts of a list in the order in which each of its beginnings is harmless.
-  struct Parts {
+  struct Part {
     std::vector<std::uint8_t> bytes;
     std::vector<Expected> expected;
   };
+  /// A list in the making. Its parts are sent in this order: wherever the list is cut off, what has
+  /// arrived is harmless.
   struct Draft {
-    Parts removals;
-    Parts changes;  ///< moves, colours, texts
-    Parts creates;
-    Parts shows;
-    Parts tool_shows;
+    Part removals;
+    Part changes;  ///< moves, colours, texts
+    Part creates;
+    Part shows;
+    Part tool_shows;
     std::vector<std::uint32_t> tool_ids;
-    std::size_t bytes = 0;  ///< of all its parts and of the fuse behind it
-    std::size_t commands = 0;
+    [[nodiscard]] std::array<const Part*, 5> parts() const {
+      return {&removals, &changes, &creates, &shows, &tool_shows};
+    }
+    /// Of all its parts and of the fuse behind it.
+    [[nodiscard]] std::size_t bytes() const;
+    [[nodiscard]] std::size_t commands() const;
   };
 
   [[nodiscard]] std::vector<std::uint8_t> start_over(HostTime now);
@@ -99,7 +105,7 @@ class SceneClient {
   ObjectList wanted_;
   std::uint64_t list_number_ = 0;
   bool is_fresh_ = false;      ///< `wanted_` was not looked at yet
-  bool is_clear_ = false;      ///< what was there before us is removed, in the order of sending
+  bool is_clear_ = false;      ///< *remove all* was sent on this connection
   bool list_is_open_ = false;  ///< the fuse began the next list
   bool has_more_ = false;      ///< the last list had no room for everything
   std::optional<std::int64_t> epoch_;
@@ -113,8 +119,10 @@ class SceneClient {
   HostTime allowance_at_{};
   double allowance_bytes_ = 0;
   std::optional<HostTime> tool_due_;  ///< guidance that was sent is acknowledged by then, or late
-  bool was_idle_ = true;              ///< every answer was there when the next bytes were asked for
-  bool asks_alone_ = false;           ///< the same, when the last bytes were sent
+  bool was_idle_ = true;              ///< nothing was unanswered when `next` was called
+  /// The bytes sent last went out while nothing was unanswered, so their first answer measures the
+  /// round trip.
+  bool asks_alone_ = false;
   /// From sending to the first answer where nothing else waited; frames of the headset included.
   Duration round_trip_ = std::chrono::milliseconds(5);
   Duration frame_ = std::chrono::microseconds(16'667);  ///< of the headset, as its answers tell

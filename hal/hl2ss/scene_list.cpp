@@ -14,12 +14,11 @@ constexpr int kMostFuseFrames = 3;
 constexpr int kFramesBesideFuse = 2;
 /// By so much a list may take longer than half of a round trip.
 constexpr Duration kNetwork = std::chrono::milliseconds(5);
-/// Guidance comes and goes; what is hidden meanwhile costs nothing to keep.
+/// Hidden guidance is kept for so many lists: it often comes back, and keeping it costs nothing.
 constexpr std::uint64_t kKeptHiddenLists = 300;
 /// Of one list: what is new must not displace what moves, nor the other way round.
 constexpr std::size_t kMostCreates = 40;
-constexpr std::size_t kBytesToShow = 16;
-constexpr std::size_t kBytesToRemove = 12;
+constexpr std::size_t kBytesToHide = 16;
 /// The beginning and the end of the list, the fuse and what begins the next.
 constexpr std::size_t kBytesAround = 16 + kMostFuseFrames * 12;
 
@@ -39,6 +38,22 @@ void put(std::vector<std::uint8_t>& to, const std::vector<std::uint8_t>& from) {
 
 }  // namespace
 
+std::size_t SceneClient::Draft::bytes() const {
+  std::size_t sum = kBytesAround + kBytesToHide * tool_ids.size();
+  for (const Part* part : parts()) {
+    sum += part->bytes.size();
+  }
+  return sum;
+}
+
+std::size_t SceneClient::Draft::commands() const {
+  std::size_t sum = 0;
+  for (const Part* part : parts()) {
+    sum += part->expected.size();
+  }
+  return sum;
+}
+
 /// How many frames what follows a tool may stay behind the next list; 0: it is too old already.
 int SceneClient::fuse_frames(const SceneMoment& now) const {
   if (!wanted_.tool_time) {
@@ -57,7 +72,6 @@ int SceneClient::fuse_frames(const SceneMoment& now) const {
 
 SceneClient::Draft SceneClient::draft_list(bool shows_tools, HostTime now) {
   Draft draft;
-  draft.bytes = kBytesAround;
   has_more_ = false;
   statistics_.left_out = 0;
   for (const DisplayObject& wanted : wanted_.objects) {
@@ -80,8 +94,8 @@ SceneClient::Draft SceneClient::draft_list(bool shows_tools, HostTime now) {
 }
 
 bool SceneClient::has_room(const Draft& draft) {
-  if (draft.commands < budget_.commands_a_list &&
-      static_cast<double>(draft.bytes) < allowance_bytes_) {
+  if (draft.commands() < budget_.commands_a_list &&
+      static_cast<double>(draft.bytes()) < allowance_bytes_) {
     return true;
   }
   has_more_ = true;
@@ -109,8 +123,6 @@ void SceneClient::draft_presence(const DisplayObject& wanted, HostTime now, Draf
 void SceneClient::draft_removal(const RemoteObject& remote, Draft& draft) {
   append_remove(draft.removals.bytes, remote.id);
   draft.removals.expected.push_back({});
-  draft.bytes += kBytesToRemove;
-  ++draft.commands;
 }
 
 /// Objects start hidden, so that this alone shows nothing; the rest follows once the id is known.
@@ -119,22 +131,15 @@ void SceneClient::draft_create(const DisplayObject& wanted, RemoteObject& remote
   if (remote.creating) {
     return;
   }
-  if (now < remote.ask_again) {
-    has_more_ = true;
-    return;
-  }
-  if (draft.creates.expected.size() >= kMostCreates) {
+  if (now < remote.ask_again || draft.creates.expected.size() >= kMostCreates) {
     has_more_ = true;
     return;
   }
   if (!has_room(draft)) {
     return;
   }
-  const std::size_t before = draft.creates.bytes.size();
   append_create(draft.creates.bytes, wanted.shape);
   draft.creates.expected.push_back({Expected::Kind::kCreate, wanted.key});
-  draft.bytes += draft.creates.bytes.size() - before;
-  ++draft.commands;
   remote.creating = true;
   remote.told.shape = wanted.shape;
 }
@@ -142,7 +147,6 @@ void SceneClient::draft_create(const DisplayObject& wanted, RemoteObject& remote
 /// False where the list had no room for all of it.
 bool SceneClient::draft_changes(const DisplayObject& wanted, RemoteObject& remote, Draft& draft) {
   std::vector<std::uint8_t>& bytes = draft.changes.bytes;
-  const std::size_t before = bytes.size();
   const Expected expected{Expected::Kind::kObject, wanted.key};
   const bool moves = !remote.placed || is_moved(remote.told, wanted);
   const bool changes = !remote.looks || looks_different(remote.told, wanted);
@@ -153,7 +157,6 @@ bool SceneClient::draft_changes(const DisplayObject& wanted, RemoteObject& remot
   if (moves) {
     append_transform(bytes, remote.id, wanted);
     draft.changes.expected.push_back(expected);
-    ++draft.commands;
   } else {
     // Compared with what was told, not with the last that differed too little.
     remote.told.place = told.place;
@@ -164,22 +167,17 @@ bool SceneClient::draft_changes(const DisplayObject& wanted, RemoteObject& remot
   if (changes) {
     append_look(bytes, remote.id, wanted);
     draft.changes.expected.push_back(expected);
-    ++draft.commands;
   }
   remote.placed = remote.looks = true;
-  draft.bytes += bytes.size() - before;
   return true;
 }
 
 void SceneClient::draft_show(const DisplayObject& wanted, RemoteObject& remote, bool shows_tools,
                              Draft& draft) {
-  const bool shows = !wanted.follows_tool || shows_tools;
-  if (wanted.follows_tool && !shows) {
+  if (wanted.follows_tool && !shows_tools) {
     if (std::exchange(remote.active, false)) {
       append_active(draft.removals.bytes, remote.id, false);
       draft.removals.expected.push_back({Expected::Kind::kObject, wanted.key});
-      draft.bytes += kBytesToShow;
-      ++draft.commands;
     }
     return;
   }
@@ -189,15 +187,12 @@ void SceneClient::draft_show(const DisplayObject& wanted, RemoteObject& remote, 
   if (!has_room(draft)) {
     return;
   }
-  Parts& part = wanted.follows_tool ? draft.tool_shows : draft.shows;
+  Part& part = wanted.follows_tool ? draft.tool_shows : draft.shows;
   append_active(part.bytes, remote.id, true);
   part.expected.push_back({Expected::Kind::kObject, wanted.key});
-  draft.bytes += kBytesToShow;
-  ++draft.commands;
   remote.active = !wanted.follows_tool;
   if (wanted.follows_tool) {  // hidden again by the fuse
     draft.tool_ids.push_back(remote.id);
-    draft.bytes += kBytesToShow;
   }
 }
 
@@ -225,8 +220,7 @@ std::vector<std::uint8_t> SceneClient::assemble(const Draft& draft, int fuse, Ho
     append_plain(bytes, SceneCommand::kBeginList);
     expected_.push_back({});
   }
-  for (const Parts* part :
-       {&draft.removals, &draft.changes, &draft.creates, &draft.shows, &draft.tool_shows}) {
+  for (const Part* part : draft.parts()) {
     put(bytes, part->bytes);
     expected_.insert(expected_.end(), part->expected.begin(), part->expected.end());
   }
@@ -241,9 +235,8 @@ std::vector<std::uint8_t> SceneClient::assemble(const Draft& draft, int fuse, Ho
   return sent(std::move(bytes), now);
 }
 
-/// The next list is sent when the fuse has burnt down to its last frame, or the last two of three,
-/// and the sooner the longer the way: in time to arrive, and as late as possible, since it waits
-/// for the fuse before it.
+/// The next list may be sent when one frame of the fuse is left (two of a fuse of three), earlier
+/// by the frames a round trip takes. It should arrive just before the fuse ends.
 void SceneClient::append_fuse(const Draft& draft, int fuse, std::vector<std::uint8_t>& bytes) {
   for (int i = 0; i < fuse; ++i) {
     append_idle(bytes);
@@ -253,10 +246,10 @@ void SceneClient::append_fuse(const Draft& draft, int fuse, std::vector<std::uin
   const int early = (fuse < kMostFuseFrames ? 1 : 2) + on_the_way;
   awaited_ += static_cast<std::size_t>(std::max(0, fuse - early));
   append_plain(bytes, SceneCommand::kBeginList);
-  expected_.push_back({Expected::Kind::kFuse, 0});
+  expected_.push_back({});
   for (const std::uint32_t id : draft.tool_ids) {
     append_active(bytes, id, false);
-    expected_.push_back({Expected::Kind::kFuse, 0});
+    expected_.push_back({});
   }
   list_is_open_ = true;
   tool_answers_due_ = expected_.size();
