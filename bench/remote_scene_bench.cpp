@@ -3,10 +3,10 @@
 // Usage: bench_remote_scene [SECONDS of the link, default 600]
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 #include "base/random.h"
 #include "bench/contour_errors.h"
@@ -60,7 +60,7 @@ void measure_contours() {
   print("head circles it, picture on a quad", bench.in_motion(kTurn_rad_s, true));
 }
 
-/// As while guiding: forty objects in place, fifteen that hang on a tool and move with each pair.
+/// As while guiding: 41 objects stay in place, 15 hang on a tool and move with each pair.
 ObjectList guidance(Timestamp tool_time, Random& random) {
   ObjectList list;
   list.tool_time = tool_time;

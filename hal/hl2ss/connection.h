@@ -21,7 +21,7 @@ class Protocol {
   virtual Status received(std::size_t count, HostTime at) = 0;
   /// What is to be said now, if anything; asked whenever time has passed.
   [[nodiscard]] virtual std::vector<std::uint8_t> more(HostTime /*now*/) { return {}; }
-  /// An Error: nothing that is still on its way may arrive; the connection is cut.
+  /// An Error: what was sent and not delivered must not arrive any more. The connection is reset.
   [[nodiscard]] virtual Status overdue(HostTime /*now*/) { return {}; }
   /// What is said last before we leave.
   [[nodiscard]] virtual std::vector<std::uint8_t> goodbye() { return {}; }

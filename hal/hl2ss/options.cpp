@@ -23,6 +23,23 @@ Result<int> port_of(const std::string& key, std::string_view text, int largest) 
   return port;
 }
 
+template <class T>
+struct Choice {
+  std::string_view name;
+  T value;
+};
+
+template <class T>
+Status choose(const std::string& key, std::string_view name, const Choice<T>& one,
+              const Choice<T>& other, T& chosen) {
+  if (name != one.name && name != other.name) {
+    return Error{key + " \"" + std::string(name) + "\" must be " + std::string(one.name) + " or " +
+                 std::string(other.name)};
+  }
+  chosen = name == one.name ? one.value : other.value;
+  return {};
+}
+
 Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& options) {
   const std::size_t equals = item.find('=');
   const std::string key(item.substr(0, equals));
@@ -37,25 +54,15 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
     return Error{"key \"" + key + "\" is given twice"};
   }
   if (key == "profile") {
-    if (value != "raw" && value != "h264") {
-      return Error{"profile \"" + std::string(value) + "\" must be raw or h264"};
-    }
-    options.profile = value == "raw" ? VideoProfile::kRaw : VideoProfile::kH264Base;
-    return {};
+    return choose(key, value, {"raw", VideoProfile::kRaw}, {"h264", VideoProfile::kH264Base},
+                  options.profile);
   }
   if (key == "stamps") {
-    if (value != "late" && value != "exact") {
-      return Error{"stamps \"" + std::string(value) + "\" must be late or exact"};
-    }
-    options.stamps_late = value == "late" ? kResearchModeStampsLate : Duration::zero();
-    return {};
+    return choose(key, value, {"late", kResearchModeStampsLate}, {"exact", Duration::zero()},
+                  options.stamps_late);
   }
   if (key == "scene") {
-    if (value != "on" && value != "off") {
-      return Error{"scene \"" + std::string(value) + "\" must be on or off"};
-    }
-    options.scene = value == "on";
-    return {};
+    return choose(key, value, {"on", true}, {"off", false}, options.scene);
   }
   const auto port = port_of(key, value, key == "port" ? kMaxPort - kLastOffset : kMaxPort);
   if (!port) {

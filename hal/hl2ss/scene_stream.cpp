@@ -19,7 +19,6 @@ ObjectDisplayStatistics SceneStream::statistics() const {
 
 std::vector<std::uint8_t> SceneStream::opening() {
   const MutexLock lock(mutex_);
-  have_ = 0;
   client_.connected(HostClock::now());
   return {};
 }

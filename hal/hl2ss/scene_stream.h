@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include "base/mutex.h"
 #include "hal/api/object_display.h"

@@ -246,7 +246,7 @@ void cut_off(const Socket& socket) {
 
 void finish_sending(const Socket& socket, HostTime deadline) {
   (void)::shutdown(socket.fd(), SHUT_WR);
-  std::array<std::uint8_t, 4096> rest;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  std::array<std::uint8_t, 4096> rest{};
   while (receive_some(socket, rest) && wait_for(socket, POLLIN, deadline)) {
   }
 }

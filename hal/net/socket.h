@@ -70,7 +70,7 @@ Result<std::size_t> receive_some(const Socket& socket, std::span<std::uint8_t> r
 /// How many bytes went at once.
 Result<std::size_t> send_some(const Socket& socket, Bytes bytes);
 
-/// Lets nothing that was not delivered yet arrive once the socket is closed.
+/// Closing the socket will discard what was not delivered; the other side sees a reset.
 void cut_off(const Socket& socket);
 /// Ends our side and waits until the other has read everything and closes, or the deadline.
 void finish_sending(const Socket& socket, HostTime deadline);

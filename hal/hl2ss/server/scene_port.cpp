@@ -21,7 +21,6 @@ Result<std::size_t> ScenePort::understand(Bytes said) {
   }
   const MutexLock lock(mutex_);
   scene_.add(**message);
-  ++commands_;
   return (*message)->bytes;
 }
 
@@ -93,11 +92,6 @@ UnityObjects ScenePort::objects() const {
 bool ScenePort::is_free() const {
   const MutexLock lock(mutex_);
   return !gone_;
-}
-
-std::int64_t ScenePort::commands() const {
-  const MutexLock lock(mutex_);
-  return commands_;
 }
 
 }  // namespace orthonav::hl2ss

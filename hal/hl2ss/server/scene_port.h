@@ -18,7 +18,6 @@ class ScenePort {
   /// Runs the frames that are due.
   void run(HostTime now) ORTHONAV_EXCLUDES(mutex_);
   [[nodiscard]] UnityObjects objects() const ORTHONAV_EXCLUDES(mutex_);
-  [[nodiscard]] std::int64_t commands() const ORTHONAV_EXCLUDES(mutex_);
   /// Whether the next client may come: the last one's queue is worked off.
   [[nodiscard]] bool is_free() const ORTHONAV_EXCLUDES(mutex_);
   // Faults asked for by name, from any thread: the application is suspended; refuses so many
@@ -43,7 +42,6 @@ class ScenePort {
   std::atomic<bool> nonsense_ = false;
   mutable Mutex mutex_;
   UnityScene scene_ ORTHONAV_GUARDED_BY(mutex_);
-  std::int64_t commands_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   bool gone_ ORTHONAV_GUARDED_BY(mutex_) = false;  ///< its last client's queue is being worked off
 
  public:

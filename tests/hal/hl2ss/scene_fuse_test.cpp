@@ -22,7 +22,7 @@ ObjectList guidance(Timestamp now) {
   return list;
 }
 
-/// Pairs come; false as soon as the tool's readout can't be seen in some frame.
+/// Runs so many steps; a new pair comes every 33.
 void run_with_pairs(SceneLink& link, int steps) {
   for (int i = 0; i < steps; ++i) {
     if (i % kStepsAPair == 0) {

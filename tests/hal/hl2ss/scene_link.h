@@ -121,7 +121,6 @@ inline DisplayObject ball(std::uint64_t key, Vec3 position_m) {
   DisplayObject object;
   object.key = key;
   object.position_m = position_m;
-  object.rotation = {0, 0, 0, 1};
   object.scale = {0.003, 0.003, 0.003};
   return object;
 }

@@ -51,7 +51,6 @@ class ScenePeer {
     heard_.clear();
     looping_ = newest_is_meant_ = false;
   }
-  [[nodiscard]] std::size_t waiting_bytes() const { return heard_.size(); }
 
   std::map<std::uint32_t, Thing> things;
   int commands = 0;
