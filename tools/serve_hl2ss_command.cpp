@@ -31,7 +31,7 @@ struct ServeArguments {
 };
 
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
-/// Of these looks: a picture a second.
+/// Every 50th look, once a second.
 constexpr int kDrawEvery = 50;
 
 /// Opens the headset for each session: the same simulated operation from its beginning.
@@ -173,6 +173,13 @@ void add_faults(CLI::App& serve, ServeArguments& arguments) {
       ->capture_default_str();
 }
 
+void add_scene(CLI::App& serve, ServeArguments& arguments) {
+  serve
+      .add_option("--draw", arguments.draw,
+                  "folder for pictures of what the headset's own scene shows, one a second")
+      ->check(some_text());
+}
+
 }  // namespace
 
 void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals) {
@@ -205,10 +212,7 @@ void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals
                         "the next pair comes when the client is done with the last one, as fast as "
                         "it can (default: 30 pairs a second)");
   add_faults(*serve_hl2ss, *arguments);
-  serve_hl2ss
-      ->add_option("--draw", arguments->draw,
-                   "folder for pictures of what the headset's own scene shows, one a second")
-      ->check(some_text());
+  add_scene(*serve_hl2ss, *arguments);
   serve_hl2ss
       ->add_option("--sessions", arguments->sessions, "end after so many sessions (0: no end)")
       ->check(whole_number(0))
