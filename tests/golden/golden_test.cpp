@@ -1,17 +1,11 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <memory>
 
-#include "engine/golden/golden_images.h"
 #include "render/projection.h"
 #include "tests/golden/expected_box.h"
-#include "tests/golden/golden_image_edit.h"
+#include "tests/golden/golden_fixture.h"
 #include "tests/golden/golden_scene_edit.h"
-#include "tests/render/silent_validation.h"
 
 namespace orthonav::engine {
 namespace {
@@ -31,127 +25,11 @@ constexpr double kEdgeTolerance_px = 0.9;
 // Far enough that no hologram still covers its points.
 constexpr PixelStep kAstray = {60, 60};
 
-class Golden : public ::testing::TestWithParam<std::string> {
- protected:
-  // One painter for all: a device and its shaders take longer than a picture.
-  static void SetUpTestSuite() {
-    validation_ = std::make_unique<render::SilentValidation>();
-    painter_ =
-        std::make_unique<GoldenPainter>(GoldenPainter::kPinnedDevice, true, validation_->sink());
-    spoiler_ = std::make_unique<GoldenPainter>(GoldenPainter::kPinnedDevice);
-  }
-  static void TearDownTestSuite() {
-    painter_.reset();
-    spoiler_.reset();
-    validation_.reset();
-  }
-  void SetUp() override {
-    static const std::vector<GoldenScene> kScenes = golden_scenes();
-    for (const GoldenScene& scene : kScenes) {
-      if (scene.name == GetParam()) {
-        golden_ = scene;
-      }
-    }
-    ASSERT_EQ(golden_.name, GetParam());
-  }
-  GoldenImages painted(const GoldenScene& scene) { return painted_by(*painter_, scene); }
-  /// Without a layer that listens: of scenes as they should be it hears all.
-  GoldenImages spoilt(const GoldenScene& scene) { return painted_by(*spoiler_, scene); }
-  static GoldenImages painted_by(GoldenPainter& painter, const GoldenScene& scene) {
-    Result<GoldenImages> images = painter.paint(scene);
-    EXPECT_TRUE(images.ok()) << images.error().message;
-    return images.ok() ? std::move(*images) : GoldenImages{};
-  }
-  /// Labels of one view out of the views side by side.
-  LabelImage view_of(const LabelImage& joined, std::size_t view) const {
-    LabelImage one{golden_.width_px, golden_.height_px, {}};
-    for (int y = 0; y < one.height_px; ++y) {
-      const auto begin = joined.labels.begin() + y * joined.width_px +
-                         static_cast<std::ptrdiff_t>(view) * one.width_px;
-      one.labels.insert(one.labels.end(), begin, begin + one.width_px);
-    }
-    return one;
-  }
-  GoldenScene golden_;
-  void TearDown() override { EXPECT_THAT(painter_->validation_messages(), IsEmpty()); }
-
-  static std::unique_ptr<render::SilentValidation> validation_;
-  static std::unique_ptr<GoldenPainter> painter_;
-  static std::unique_ptr<GoldenPainter> spoiler_;
-};
-
-std::unique_ptr<render::SilentValidation> Golden::validation_;
-std::unique_ptr<GoldenPainter> Golden::painter_;
-std::unique_ptr<GoldenPainter> Golden::spoiler_;
-
 TEST_P(Golden, LooksAsApproved) {
   const auto expected = read_goldens(kFolder, golden_.name);
   ASSERT_TRUE(expected.ok()) << expected.error().message;
   EXPECT_THAT(differences(*expected, painted(golden_)), IsEmpty())
       << "see: orthonav golden review " << golden_.name;
-}
-
-/// How many of the spoilt pictures the comparison noticed, of how many.
-struct Caught {
-  int all = 0;
-  int noticed = 0;
-  /// A picture counts when labels (where they must differ) and both kinds of colour differ.
-  void count(const GoldenImages& good, const GoldenImages& spoilt, bool labels_differ = true) {
-    ++all;
-    if (render::compare_labels(good.labels, spoilt.labels).alike() != labels_differ &&
-        !render::compare_colour(good.additive, spoilt.additive).alike() &&
-        !render::compare_colour(good.over, spoilt.over).alike()) {
-      ++noticed;
-    }
-  }
-  [[nodiscard]] std::string cell() const {
-    return all == 0 ? "-" : std::to_string(noticed) + " of " + std::to_string(all);
-  }
-};
-
-/// The table of docs/golden-images.md that says which spoilt pictures are noticed.
-std::string line_of_table(const std::string& scene) {
-  std::ifstream file(ORTHONAV_SOURCE_DIR "/docs/golden-images.md");
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("| `" + scene + "` |")) {
-      return line;
-    }
-  }
-  return {};
-}
-
-/// Scenes whose spoilt pictures are drawn too: a picture for every hologram and number of a scene.
-class GoldenControls : public Golden {};
-
-TEST_P(GoldenControls, AreNoticedAllAsTheTableSays) {
-  const GoldenImages good = painted(golden_);
-  Caught hidden;
-  Caught shifted;
-  Caught dim;
-  Caught digit;
-  Caught mirror;
-  Caught swapped;
-  for (const Label label : labels_in(golden_.scene)) {
-    hidden.count(good, spoilt(without(golden_, label)));
-    shifted.count(good, spoilt(moved(golden_, label, {1, 0})));
-    dim.count(good, spoilt(dimmed(golden_, label)), false);
-  }
-  for (const GoldenScene& other : with_one_number_changed(golden_)) {
-    digit.count(good, spoilt(other));
-  }
-  const auto views = static_cast<int>(golden_.views.size());
-  mirror.count(good, mirrored(good, views));
-  if (views == 2) {
-    swapped.count(good, eyes_swapped(good));
-  }
-  for (const Caught& caught : {hidden, shifted, dim, digit, mirror, swapped}) {
-    EXPECT_EQ(caught.noticed, caught.all);
-  }
-  std::string row = "| `" + golden_.name + "` |";
-  for (const Caught& caught : {hidden, shifted, digit, dim, mirror, swapped}) {
-    row += " " + caught.cell() + " |";
-  }
-  EXPECT_EQ(line_of_table(golden_.name), row) << "docs/golden-images.md is stale";
 }
 
 /// Whether the label lies at a point's pixel or at one beside it.
@@ -265,30 +143,7 @@ TEST_P(Golden, WritesEveryTextWhereTheLayoutSays) {
   }
 }
 
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const GoldenScene& scene : golden_scenes()) {
-    names.push_back(scene.name);
-  }
-  return names;
-}
-
 INSTANTIATE_TEST_SUITE_P(Scenes, Golden, ::testing::ValuesIn(scene_names()),
-                         [](const auto& param) { return param.param; });
-
-/// All of them, but of the same holograms from nine places (three distances, three rolls of the
-/// head) each distance and each roll once.
-std::vector<std::string> scenes_with_controls() {
-  const std::set<std::string> elsewhere = {
-      "guidance_35cm_rolled_left", "guidance_35cm_rolled_right", "guidance_50cm_rolled_left",
-      "guidance_50cm_upright",     "guidance_70cm_upright",      "guidance_70cm_rolled_right"};
-  std::vector<std::string> names = scene_names();
-  EXPECT_EQ(std::erase_if(names, [&](const auto& name) { return elsewhere.contains(name); }),
-            elsewhere.size());
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, GoldenControls, ::testing::ValuesIn(scenes_with_controls()),
                          [](const auto& param) { return param.param; });
 
 TEST(GoldenFolder, HoldsNothingThatBelongsToNoScene) {
