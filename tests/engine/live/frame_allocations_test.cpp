@@ -5,8 +5,8 @@
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/label_layout.h"
 #include "engine/holograms/scene_builder.h"
+#include "tests/engine/live/guided_scene.h"
 #include "tests/support/allocation_count.h"
-#include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine {
 namespace {
@@ -14,8 +14,6 @@ namespace {
 using test::guide_at;
 using test::pointer_at;
 using test::ScriptedOperation;
-
-constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
 
 /// The buffers of one frame, as the frame loop and its snapshots keep them.
 class Frames {
@@ -45,8 +43,7 @@ class Frames {
   render::Scene scene_;
   std::vector<GlarePatch> patches_;
   LabelLayout labels_;
-  std::vector<render::View> views_ = render::stereo_pair(
-      render::look_at({0.1f, 0.45f, -0.2f}, {0, 0.03f, 0}, {0, 0.3f, 1}, 0.39f, 0.26f));
+  std::vector<render::View> views_ = render::stereo_pair(view_from(kEyeAbove));
   Timestamp time_{};
 };
 
@@ -62,15 +59,12 @@ std::size_t allocations_of(const Work& work) {
   return test::allocation_count() - before;
 }
 
-class FrameAllocations : public ::testing::Test {
+class FrameAllocations : public ::testing::Test, public GuidedScene {
  protected:
-  void guide() {
-    s.accepts_first_level();
-    s.says("next");
-    s.tracker().guide = guide_at(kLeftEntry + Vec3{0, 0.010, 0}, 0.1);
+  void guide_with_twin() {
+    guide();
     s.says("twin");
   }
-  ScriptedOperation s;
   Frames frames;
 };
 
@@ -108,7 +102,7 @@ TEST_F(FrameAllocations, AreNoneWhileAWireIsShown) {
 }
 
 TEST_F(FrameAllocations, AreNoneWhileAToolIsGuided) {
-  guide();
+  guide_with_twin();
   // The tool is farther off in one frame than in the other: dashes, an arrow, another number.
   const Guidance near = s.pair();
   s.tracker().guide = guide_at(kLeftEntry + Vec3{0.006, 0.010, 0}, 0.25);
@@ -126,7 +120,7 @@ TEST_F(FrameAllocations, AreNoneWhileAToolIsGuided) {
 }
 
 TEST_F(FrameAllocations, AreNoneWhereGuidanceIsTakenBack) {
-  guide();
+  guide_with_twin();
   const Guidance& g = s.pair();
   EXPECT_EQ(allocations_of([&] { frames.make_too_late(g); }), 0u);
   EXPECT_FALSE(frames.shows(HologramKind::kTriangle));
@@ -142,7 +136,7 @@ TEST_F(FrameAllocations, AreNoneWhileARodIsShown) {
 }
 
 TEST_F(FrameAllocations, OfAnotherSceneAreCounted) {
-  guide();
+  guide_with_twin();
   const Guidance& g = s.pair();
   EXPECT_GT(allocations_of([&] { Frames().make(g); }), 0u);
 }

@@ -35,9 +35,10 @@ class GuidedScene {
 };
 
 /// Who looks down at it from arm's length.
-inline render::Head head_at(render::Float3 eye) {
-  return render::head_of({render::look_at(eye, {0, 0.03f, 0}, {0, 0.3f, 1}, 0.39f, 0.26f)});
+inline render::View view_from(render::Float3 eye) {
+  return render::look_at(eye, {0, 0.03f, 0}, {0, 0.3f, 1}, 0.39f, 0.26f);
 }
+inline render::Head head_at(render::Float3 eye) { return render::head_of({view_from(eye)}); }
 inline constexpr render::Float3 kEyeAbove{0.1f, 0.45f, -0.2f};
 
 }  // namespace orthonav::engine

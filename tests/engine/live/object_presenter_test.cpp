@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "engine/holograms/hologram_label.h"
 #include "tests/engine/live/guided_scene.h"
 #include "tests/hal/hl2ss/scene_link.h"
 
