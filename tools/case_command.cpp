@@ -32,7 +32,7 @@ struct CaseArguments {
 };
 
 Error in_file(const std::string& path, const Error& error) {
-  return error.message.starts_with(path) ? error : Error{path + ": " + error.message, error.code};
+  return {path + ": " + error.message, error.code};
 }
 
 Result<engine::ScanLevels> levels_of_labels(const CaseArguments& arguments) {
@@ -45,7 +45,7 @@ Result<engine::ScanLevels> levels_of_labels(const CaseArguments& arguments) {
     if (!scan) {
       return scan.error();
     }
-    if (Status s = engine::check_on_bone(*labels, *scan); !s) {
+    if (Status s = engine::check_on_bone(*labels, arguments.convention, *scan); !s) {
       return in_file(arguments.labels, s.error());
     }
   }

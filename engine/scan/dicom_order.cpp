@@ -7,13 +7,16 @@
 
 #include "base/angle.h"
 #include "base/printed.h"
+#include "nav/statistics/median.h"
 
 namespace orthonav::engine {
 namespace {
 
+/// Rounding of the header's decimal digits.
 constexpr double kSame_m = 1e-5;
 constexpr double kSameDirection = 1e-3;
 constexpr double kGapTolerance_m = 0.00002;
+
 constexpr double kGapShare = 0.02;
 constexpr double kMostTilt_deg = 0.2;
 
@@ -54,10 +57,7 @@ Result<double> even_distance_m(const std::vector<SliceHeader>& slices, Vec3 norm
   for (std::size_t i = 1; i < slices.size(); ++i) {
     gaps_m.push_back((slices[i].position_m - slices[i - 1].position_m).dot(normal));
   }
-  std::vector<double> sorted = gaps_m;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                   sorted.end());
-  const double usual_m = sorted[sorted.size() / 2];
+  const double usual_m = nav::median(gaps_m);
   for (std::size_t i = 0; i < gaps_m.size(); ++i) {
     const std::string between = name_of(slices[i]) + " and " + name_of(slices[i + 1]);
     if (gaps_m[i] < kSame_m) {
@@ -94,7 +94,7 @@ Result<std::vector<SliceHeader>> one_series(std::span<const SliceHeader> slices,
   if (by_series.empty()) {
     return Error{"no DICOM slices"};
   }
-  if (const auto found = by_series.find(wanted); found != by_series.end()) {
+  if (const auto found = by_series.find(wanted); !wanted.empty() && found != by_series.end()) {
     return found->second;
   }
   if (wanted.empty() && by_series.size() == 1) {

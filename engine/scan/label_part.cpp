@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace orthonav::engine {
 namespace {
@@ -76,22 +75,6 @@ struct Extent {
   Index high{-1, -1, -1};
 };
 
-/// Calls `visit(index, voxel)` for each voxel of the label.
-template <class Visit>
-void for_each(const Volume& labels, const LabelledLevel& level, const Visit& visit) {
-  Index at{};
-  std::size_t voxel = 0;
-  for (at[2] = 0; at[2] < labels.grid.size[2]; ++at[2]) {
-    for (at[1] = 0; at[1] < labels.grid.size[1]; ++at[1]) {
-      for (at[0] = 0; at[0] < labels.grid.size[0]; ++at[0], ++voxel) {
-        if (labels.values[voxel * labels.layers + level.layer] == static_cast<float>(level.value)) {
-          visit(at);
-        }
-      }
-    }
-  }
-}
-
 /// Bone is what the outside does not reach.
 void fill_cavities(LabelPart& part) {
   std::vector<std::uint8_t> free(part.inside.size());
@@ -109,7 +92,7 @@ void fill_cavities(LabelPart& part) {
 Result<LabelPart> label_part(const Volume& labels, const LabelledLevel& level, int margin) {
   Extent extent;
   LabelPart part;
-  for_each(labels, level, [&](const Index& at) {
+  for_each_voxel(labels, level, [&](const Index& at) {
     bool border = false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       extent.low[axis] = std::min(extent.low[axis], at[axis]);
@@ -131,7 +114,7 @@ Result<LabelPart> label_part(const Volume& labels, const LabelledLevel& level, i
   }
   part.grid.origin_m = labels.grid.place_m(first);
   part.inside.assign(part.grid.voxels(), 0);
-  for_each(labels, level, [&](const Index& at) {
+  for_each_voxel(labels, level, [&](const Index& at) {
     part.inside[part.grid.at(at[0] - extent.low[0] + margin, at[1] - extent.low[1] + margin,
                              at[2] - extent.low[2] + margin)] = 1;
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +9,22 @@
 #include "engine/scan/volume.h"
 
 namespace orthonav::engine {
+
+/// Calls `visit(index)` for each voxel of the label; `index` is a `std::array<int, 3>`.
+template <class Visit>
+void for_each_voxel(const Volume& labels, const LabelledLevel& level, const Visit& visit) {
+  std::array<int, 3> at{};
+  std::size_t voxel = 0;
+  for (at[2] = 0; at[2] < labels.grid.size[2]; ++at[2]) {
+    for (at[1] = 0; at[1] < labels.grid.size[1]; ++at[1]) {
+      for (at[0] = 0; at[0] < labels.grid.size[0]; ++at[0], ++voxel) {
+        if (labels.values[voxel * labels.layers + level.layer] == static_cast<float>(level.value)) {
+          visit(at);
+        }
+      }
+    }
+  }
+}
 
 /// One vertebra cut out of a label map, with free voxels all around.
 struct LabelPart {
@@ -19,7 +36,7 @@ struct LabelPart {
 };
 
 /// The largest connected part (faces touch) of a label, its cavities filled: a mesh has one
-/// surface. `margin` free voxels are put around it. Refuses a label of less than 100 voxels.
+/// surface. `margin` free voxels are put around it. Refuses a label of fewer than 100 voxels.
 Result<LabelPart> label_part(const Volume& labels, const LabelledLevel& level, int margin);
 
 /// Numbers the connected parts of what is at least that dense, from the largest on, as a label map

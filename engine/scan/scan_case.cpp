@@ -1,7 +1,9 @@
 #include "engine/scan/scan_case.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "base/joined.h"
 #include "base/printed.h"
@@ -15,8 +17,7 @@ constexpr double kLeastPart_m3 = 5e-6;
 constexpr double kMostOutside = 0.1;
 constexpr double kLeastBone_hu = 50.0;
 
-/// What is made where nothing is asked for: a sacrum and the upper neck are no bones to put pedicle
-/// screws into by these rules.
+/// Without `--levels` only T and L are made: these rules are not for the neck or the sacrum.
 bool made_unasked(const std::string& label) { return label[0] == 'T' || label[0] == 'L'; }
 
 enum class Cut { kRefused, kClosed };
@@ -54,31 +55,46 @@ Status check_wanted(const std::vector<LabelledLevel>& there,
   return {};
 }
 
+Vec3 vector_of(const std::array<int, 3>& index) {
+  return {double(index[0]), double(index[1]), double(index[2])};
+}
+
 /// The middle of a label, in the scan's frame.
 Vec3 middle_m(const Volume& labels, const LabelledLevel& level) {
   Vec3 sum;
   double count = 0.0;
-  for (int k = 0; k < labels.grid.size[2]; ++k) {
-    for (int j = 0; j < labels.grid.size[1]; ++j) {
-      for (int i = 0; i < labels.grid.size[0]; ++i) {
-        if (labels.values[labels.grid.at(i, j, k) * labels.layers + level.layer] ==
-            static_cast<float>(level.value)) {
-          sum += Vec3{double(i), double(j), double(k)};
-          count += 1.0;
-        }
-      }
-    }
-  }
+  for_each_voxel(labels, level, [&](const std::array<int, 3>& at) {
+    sum += vector_of(at);
+    count += 1.0;
+  });
   return labels.grid.place_m(sum / std::max(count, 1.0));
 }
 
-/// What gives away numbers that are read by another convention than they were written by: vertebrae
-/// out of their order, or nearer together or farther apart than those of these names are.
+/// Of the voxel around the place; none outside of the scan.
+std::optional<double> hu_at(const Volume& scan, Vec3 place_m) {
+  const Vec3 index = scan.grid.index_of(place_m);
+  std::array<int, 3> at{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const long nearest = std::lround(index[static_cast<int>(axis)]);
+    if (nearest < 0 || nearest >= scan.grid.size[axis]) {
+      return std::nullopt;
+    }
+    at[axis] = static_cast<int>(nearest);
+  }
+  return static_cast<double>(scan.values[scan.grid.at(at[0], at[1], at[2])]);
+}
+
+/// Signs that the numbers were read by the wrong convention: vertebrae out of order, or too near
+/// together or too far apart for their names.
 Status check_places(const Volume& labels, const std::vector<LabelledLevel>& levels) {
   constexpr double kLeastRatio = 0.72, kMostRatio = 1.35;
+  std::vector<Vec3> middles_m;
+  for (const LabelledLevel& level : levels) {
+    middles_m.push_back(middle_m(labels, level));
+  }
   double measured_m = 0.0, usual_m = 0.0;
   for (std::size_t i = 1; i < levels.size(); ++i) {
-    const Vec3 down = middle_m(labels, levels[i]) - middle_m(labels, levels[i - 1]);
+    const Vec3 down = middles_m[i] - middles_m[i - 1];
     if (!(down.z < 0.0)) {
       return Error{levels[i].label + " lies above " + levels[i - 1].label +
                    ": is it another convention?"};
@@ -106,10 +122,11 @@ Result<ScanLevels> scan_levels(const Volume& labels, const std::string& conventi
   if (!there) {
     return there.error();
   }
-  for (const Status& s : {check_places(labels, *there), check_wanted(*there, wanted)}) {
-    if (!s) {
-      return s.error();
-    }
+  if (Status s = check_wanted(*there, wanted); !s) {
+    return s.error();
+  }
+  if (Status s = check_places(labels, *there); !s) {
+    return s.error();
   }
   ScanLevels out;
   for (const LabelledLevel& labelled : *there) {
@@ -155,38 +172,36 @@ Result<ScanLevels> threshold_levels(const Volume& scan, double threshold_hu) {
   return out;
 }
 
-Status check_on_bone(const Volume& labels, const Volume& scan) {
+Status check_on_bone(const Volume& labels, const std::string& convention, const Volume& scan) {
+  if (scan.layers != 1) {
+    return Error{"the scan has " + std::to_string(scan.layers) + " values a voxel, a CT has 1"};
+  }
+  const auto levels = labelled_levels(labels, convention);
+  if (!levels) {
+    return levels.error();
+  }
   double sum_hu = 0.0;
   std::size_t inside = 0, all = 0;
-  for (int k = 0; k < labels.grid.size[2]; ++k) {
-    for (int j = 0; j < labels.grid.size[1]; ++j) {
-      for (int i = 0; i < labels.grid.size[0]; ++i) {
-        if (!(labels.values[labels.grid.at(i, j, k) * labels.layers] > 0.0F)) {
-          continue;
-        }
-        ++all;
-        const Vec3 at = scan.grid.index_of(labels.grid.place_m({double(i), double(j), double(k)}));
-        const long x = std::lround(at.x), y = std::lround(at.y), z = std::lround(at.z);
-        if (x < 0 || y < 0 || z < 0 || x >= scan.grid.size[0] || y >= scan.grid.size[1] ||
-            z >= scan.grid.size[2]) {
-          continue;
-        }
+  for (const LabelledLevel& level : *levels) {
+    for_each_voxel(labels, level, [&](const std::array<int, 3>& at) {
+      ++all;
+      if (const auto hu = hu_at(scan, labels.grid.place_m(vector_of(at)))) {
         ++inside;
-        sum_hu += static_cast<double>(scan.values[scan.grid.at(
-            static_cast<int>(x), static_cast<int>(y), static_cast<int>(z))]);
+        sum_hu += *hu;
       }
-    }
+    });
   }
-  const double outside = all > 0 ? 1.0 - static_cast<double>(inside) / static_cast<double>(all) : 1;
   constexpr const char* kHint =
       "; are their axes mixed up (LPS, RAS), or are they of another scan?";
-  if (outside > kMostOutside) {
+  const double outside =
+      1.0 - static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(all, 1));
+  if (!(outside <= kMostOutside)) {
     return Error{printed("%.0f %% of the labels lie outside of the scan, limit %.0f %%",
                          outside * 1e2, kMostOutside * 1e2) +
                  kHint};
   }
-  const double mean_hu = sum_hu / static_cast<double>(std::max<std::size_t>(inside, 1));
-  if (mean_hu < kLeastBone_hu) {
+  const double mean_hu = sum_hu / static_cast<double>(inside);
+  if (!(mean_hu >= kLeastBone_hu)) {
     return Error{
         printed("the scan has %.0f HU on average where the labels are, bone has %.0f or more",
                 mean_hu, kLeastBone_hu) +

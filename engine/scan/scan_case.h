@@ -34,9 +34,11 @@ Result<ScanLevels> scan_levels(const Volume& labels, const std::string& conventi
 /// and so on. Parts that are no vertebra by their size are left out.
 Result<ScanLevels> threshold_levels(const Volume& scan, double threshold_hu);
 
-/// Refuses labels that do not lie on the bone of the scan: more than a tenth of them outside of it,
-/// or less than 50 HU on average, which tells of mixed-up axes or of another patient.
-Status check_on_bone(const Volume& labels, const Volume& scan);
+/// Refuses vertebrae (those of `labelled_levels`; what else a map holds counts for nothing) that do
+/// not lie on the bone of the scan: more than a tenth of their voxels outside of it, or less than
+/// 50 HU on average inside, which tells of mixed-up axes or of another patient. Refuses a scan with
+/// several values a voxel, and as `labelled_levels` does.
+Status check_on_bone(const Volume& labels, const std::string& convention, const Volume& scan);
 
 /// The case: meshes as they lie in the scan, without screws.
 [[nodiscard]] Case case_of(const ScanLevels& made, const std::string& name);

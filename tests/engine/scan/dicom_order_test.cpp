@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/angle.h"
 #include "engine/scan/dicom_fields.h"
 
@@ -102,6 +104,8 @@ TEST(DicomOrder, ListsSeveralSeriesAndMixesNone) {
   EXPECT_EQ(one_series(all, "1.2.3")->size(), 8u);
   EXPECT_THAT(one_series(all, "7").error().message, HasSubstr("no series 7; there are: "));
   EXPECT_EQ(one_series(slices(), "")->size(), 10u);
+  all[0].series = all[1].series = "";
+  EXPECT_FALSE(one_series(all, "").ok()) << "a series without a UID is not picked unasked";
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "engine/phantom/phantom.h"
 #include "tests/engine/scan/voxelised.h"
 
@@ -12,9 +15,9 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// L3, L4 and L5 of the phantom in one label map of 2 mm voxels, with these numbers.
-Volume spine(float l3, float l4, float l5) {
-  static const Case bones = phantom({"L3", "L4", "L5"});
+/// L3, L4 and L5 of the phantom in one label map of 2 mm voxels, with the numbers of VerSe.
+Volume spine() {
+  const Case bones = phantom({"L3", "L4", "L5"});
   nav::TriangleMesh all;
   std::vector<nav::TriangleMesh> meshes;
   for (const CaseLevel& level : bones.levels) {
@@ -29,9 +32,9 @@ Volume spine(float l3, float l4, float l5) {
     }
     meshes.push_back(std::move(mesh));
   }
-  static const Volume joint = test::voxelised(all, {0.002, 0.002, 0.002});
+  const Volume joint = test::voxelised(all, {0.002, 0.002, 0.002});
   Volume out = joint;
-  const std::array<float, 3> values = {l3, l4, l5};
+  constexpr std::array<float, 3> kValues = {22, 23, 24};
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const nav::SurfaceIndex bone(meshes[m]);
     const nav::Bounds box = nav::bounds_of(meshes[m]);
@@ -41,7 +44,7 @@ Volume spine(float l3, float l4, float l5) {
       const Vec3 p =
           out.grid.place_m({double(i % row), double(i % slice / row), double(i / slice)});
       if (p.z >= box.low.z && p.z <= box.high.z && joint.values[i] > 0.0F && bone.contains(p)) {
-        out.values[i] = values[m];
+        out.values[i] = kValues[m];
       }
     }
   }
@@ -49,7 +52,7 @@ Volume spine(float l3, float l4, float l5) {
 }
 
 const Volume& verse_spine() {
-  static const Volume labels = spine(22, 23, 24);
+  static const Volume labels = spine();
   return labels;
 }
 
@@ -161,11 +164,17 @@ TEST(ScanCase, TellsHalfAVertebraFromAWholeOne) {
   EXPECT_FALSE(made->levels[0].canal);
 }
 
-TEST(ScanCase, ThresholdTakesConnectedPartsWithoutNames) {
+/// A scan in which the vertebrae have 400 HU.
+Volume scan_with(float other_hu) {
   Volume scan = verse_spine();
   for (float& v : scan.values) {
-    v = v > 0.0F ? 400.0F : -50.0F;
+    v = v > 0.0F ? 400.0F : other_hu;
   }
+  return scan;
+}
+
+TEST(ScanCase, ThresholdTakesConnectedPartsWithoutNames) {
+  const Volume scan = scan_with(-50.0F);
   const auto made = threshold_levels(scan, 200.0);
   ASSERT_TRUE(made.ok()) << made.error().message;
   EXPECT_EQ(made->levels[0].label, "part1");
@@ -173,20 +182,53 @@ TEST(ScanCase, ThresholdTakesConnectedPartsWithoutNames) {
 }
 
 TEST(ScanCase, RefusesLabelsBesideTheBoneOfTheScan) {
-  Volume scan = verse_spine();
-  for (float& v : scan.values) {
-    v = v > 0.0F ? 400.0F : -50.0F;
-  }
-  EXPECT_TRUE(check_on_bone(verse_spine(), scan).ok());
+  Volume scan = scan_with(-50.0F);
+  EXPECT_TRUE(check_on_bone(verse_spine(), "verse", scan).ok());
   Volume moved = verse_spine();
   moved.grid.origin_m.x += 0.5;
-  EXPECT_THAT(check_on_bone(moved, scan).error().message, HasSubstr("lie outside of the scan"));
+  EXPECT_THAT(check_on_bone(moved, "verse", scan).error().message,
+              HasSubstr("lie outside of the scan"));
   for (float& v : scan.values) {
     v = 40.0F;  // muscle
   }
   EXPECT_THAT(
-      check_on_bone(verse_spine(), scan).error().message,
+      check_on_bone(verse_spine(), "verse", scan).error().message,
       HasSubstr("has 40 HU on average where the labels are, bone has 50 or more; are their axes"));
+  scan.layers = 3;
+  EXPECT_EQ(check_on_bone(verse_spine(), "verse", scan).error().message,
+            "the scan has 3 values a voxel, a CT has 1");
+}
+
+TEST(ScanCase, JudgesTheVertebraeAloneWhereAMapHoldsMore) {
+  // All that is no vertebra is lung.
+  Volume labels = verse_spine();
+  for (float& v : labels.values) {
+    v = v > 0.0F ? v : 60.0F;
+  }
+  Volume scan = scan_with(-800.0F);
+  const Status status = check_on_bone(labels, "verse", scan);
+  EXPECT_TRUE(status.ok()) << status.error().message;
+  std::fill(scan.values.begin(), scan.values.end(), -800.0F);
+  EXPECT_FALSE(check_on_bone(labels, "verse", scan).ok()) << "the twin";
+}
+
+TEST(ScanCase, JudgesTheVertebraeOfEveryLayerOfASegmentation) {
+  Volume labels = verse_spine();
+  labels.layers = 2;
+  labels.values.clear();
+  for (const float v : verse_spine().values) {
+    labels.values.push_back(v > 0.0F ? 0.0F : 1.0F);
+    labels.values.push_back(v);
+  }
+  labels.fields = {
+      {"Segment0_Name", "lung"}, {"Segment0_LabelValue", "1"},  {"Segment0_Layer", "0"},
+      {"Segment1_Name", "L3"},   {"Segment1_LabelValue", "22"}, {"Segment1_Layer", "1"},
+      {"Segment2_Name", "L4"},   {"Segment2_LabelValue", "23"}, {"Segment2_Layer", "1"}};
+  Volume scan = scan_with(-800.0F);
+  const Status status = check_on_bone(labels, "", scan);
+  EXPECT_TRUE(status.ok()) << status.error().message;
+  std::fill(scan.values.begin(), scan.values.end(), -800.0F);
+  EXPECT_FALSE(check_on_bone(labels, "", scan).ok()) << "the twin";
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ TEST_F(SharedScan, MakesTheWholeVertebraeOfItsLabels) {
   const auto labels = load_volume((folder_ / "labels.nii.gz").string());
   const auto scan = load_volume((folder_ / "ct.nii.gz").string());
   ASSERT_TRUE(labels.ok() && scan.ok());
-  EXPECT_TRUE(check_on_bone(*labels, *scan).ok());
+  EXPECT_TRUE(check_on_bone(*labels, "totalsegmentator", *scan).ok());
   const auto made = scan_levels(*labels, "totalsegmentator", {});
   ASSERT_TRUE(made.ok()) << made.error().message;
   ASSERT_EQ(made->levels.size(), 5u);

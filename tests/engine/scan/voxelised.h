@@ -5,9 +5,9 @@
 
 namespace orthonav::test {
 
-/// A closed surface as a label map: a voxel has `value` where its middle lies inside. Four free
+/// A closed surface as a label map: a voxel has 1 where its middle lies inside. Four free
 /// voxels all around.
-inline engine::Volume voxelised(const nav::TriangleMesh& mesh, Vec3 spacing_m, float value = 1.0F) {
+inline engine::Volume voxelised(const nav::TriangleMesh& mesh, Vec3 spacing_m) {
   constexpr int kMargin = 4;
   const nav::SurfaceIndex bone(mesh);
   const nav::Bounds box = nav::bounds_of(mesh);
@@ -23,7 +23,7 @@ inline engine::Volume voxelised(const nav::TriangleMesh& mesh, Vec3 spacing_m, f
     for (int j = 0; j < out.grid.size[1]; ++j) {
       for (int i = 0; i < out.grid.size[0]; ++i) {
         const Vec3 place_m = out.grid.place_m({double(i), double(j), double(k)});
-        out.values.push_back(bone.contains(place_m) ? value : 0.0F);
+        out.values.push_back(bone.contains(place_m) ? 1.0F : 0.0F);
       }
     }
   }
