@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "engine/scan/label_field.h"
 #include "nav/geometry/implicit_surface.h"
@@ -15,47 +12,21 @@ namespace {
 constexpr double kFinestStep_m = 0.0010;
 constexpr double kCoarsestStep_m = 0.0015;
 
-/// The corner of a mesh's parts that stands for the part of `vertex`.
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t vertex) {
-  while (parent[vertex] != vertex) {
-    parent[vertex] = parent[parent[vertex]];
-    vertex = parent[vertex];
-  }
-  return vertex;
-}
-
 /// The part of a mesh with the most triangles; vertices that only others use go.
 nav::TriangleMesh largest_piece(const nav::TriangleMesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.vertices_m.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  for (const auto& t : mesh.triangles) {
-    for (const std::size_t k : {1U, 2U}) {
-      parent[root_of(parent, t[k])] = root_of(parent, t[0]);
+  const auto part = nav::parts_of(mesh, std::vector<bool>(mesh.triangles.size(), true));
+  std::vector<std::size_t> triangles(mesh.vertices_m.size(), 0);
+  for (const std::uint32_t p : part) {
+    ++triangles[p];
+  }
+  const auto largest = std::max_element(triangles.begin(), triangles.end()) - triangles.begin();
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t i = 0; i < part.size(); ++i) {
+    if (part[i] == largest) {
+      faces.push_back(i);
     }
   }
-  std::vector<std::size_t> triangles(parent.size(), 0);
-  for (const auto& t : mesh.triangles) {
-    ++triangles[root_of(parent, t[0])];
-  }
-  const auto largest = static_cast<std::uint32_t>(
-      std::max_element(triangles.begin(), triangles.end()) - triangles.begin());
-  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> number(parent.size(), kUnused);
-  nav::TriangleMesh out;
-  for (auto t : mesh.triangles) {
-    if (root_of(parent, t[0]) != largest) {
-      continue;
-    }
-    for (std::uint32_t& v : t) {
-      if (number[v] == kUnused) {
-        number[v] = static_cast<std::uint32_t>(out.vertices_m.size());
-        out.vertices_m.push_back(mesh.vertices_m[v]);
-      }
-      v = number[v];
-    }
-    out.triangles.push_back(t);
-  }
-  return out;
+  return nav::part_of(mesh, faces);
 }
 
 /// The box around a grid, whose axes need not be those of the patient.

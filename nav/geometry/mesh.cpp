@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -207,6 +208,49 @@ TriangleMesh welded(const TriangleMesh& mesh) {
     }
   }
   return result;
+}
+
+std::vector<std::uint32_t> parts_of(const TriangleMesh& mesh, const std::vector<bool>& kept) {
+  std::vector<std::uint32_t> parent(mesh.vertices_m.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) {
+      v = parent[v] = parent[parent[v]];
+    }
+    return v;
+  };
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (!kept[i]) {
+      continue;
+    }
+    const auto& t = mesh.triangles[i];
+    parent[root(t[1])] = root(t[0]);
+    parent[root(t[2])] = root(t[0]);
+  }
+  std::vector<std::uint32_t> part(kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    part[i] = root(mesh.triangles[i][0]);
+  }
+  return part;
+}
+
+TriangleMesh part_of(const TriangleMesh& mesh, std::span<const std::uint32_t> faces) {
+  constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> renamed(mesh.vertices_m.size(), kUnused);
+  TriangleMesh part;
+  part.triangles.reserve(faces.size());
+  for (const std::uint32_t face : faces) {
+    std::array<std::uint32_t, 3> t = mesh.triangles[face];
+    for (std::uint32_t& v : t) {
+      if (renamed[v] == kUnused) {
+        renamed[v] = static_cast<std::uint32_t>(part.vertices_m.size());
+        part.vertices_m.push_back(mesh.vertices_m[v]);
+      }
+      v = renamed[v];
+    }
+    part.triangles.push_back(t);
+  }
+  return part;
 }
 
 }  // namespace orthonav::nav

@@ -37,6 +37,13 @@ Result<TriangleMesh> checked_vertebra(TriangleMesh mesh);
 /// makes collapse: needed before the check above for a format without shared vertices (STL).
 TriangleMesh welded(const TriangleMesh& mesh);
 
+/// For each face the number of the connected part that it belongs to, one of its vertices; faces
+/// that share a vertex are connected. Of faces that are not `kept` the number means nothing.
+std::vector<std::uint32_t> parts_of(const TriangleMesh& mesh, const std::vector<bool>& kept);
+
+/// The mesh of these faces, which must be the given mesh's own, with the vertices that they use.
+TriangleMesh part_of(const TriangleMesh& mesh, std::span<const std::uint32_t> faces);
+
 struct SurfacePoint {
   Vec3 point_m;
   Vec3 normal;  ///< of the triangle, outward

@@ -10,8 +10,7 @@ namespace orthonav::nav {
 struct OtherEntryRules {
   double from_hole_m = 0.0032;  ///< at least so far from the middle of the hole that was made
   double within_m = 0.008;      ///< of the planned axis
-  /// The bone's surface slopes by this at most against the new axis, or the drill slips: 60°.
-  double steepest_rad = 1.047;
+  double steepest_rad = kSteepestEntry_rad;  ///< slope of the bone against the new axis
 };
 
 struct OtherEntry {

@@ -21,6 +21,10 @@ struct ScrewPlan {
   std::string accepted_breach = {};
 };
 
+/// At a screw's entry the bone's surface slopes by this at most against its axis, or the drill
+/// slips: 60°.
+inline constexpr double kSteepestEntry_rad = 1.047;
+
 /// An axis in space: `point` on it, unit `direction` into the bone.
 template <class Frame>
 struct Axis {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/angle.h"
+#include "nav/statistics/median.h"
 
 namespace orthonav::nav {
 namespace {
@@ -31,12 +32,6 @@ bool enclosed(const SurfaceIndex& surface, Vec3 place_m) {
          to_bone_m(surface, place_m, {1, 0, 0}) && to_bone_m(surface, place_m, {-1, 0, 0});
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 std::optional<Vec3> middle_of_enclosed(const TriangleMesh& mesh, const SurfaceIndex& surface) {
   const Bounds box = bounds_of(mesh);
   const double middle_x_m = box.centre().x;
@@ -53,7 +48,7 @@ std::optional<Vec3> middle_of_enclosed(const TriangleMesh& mesh, const SurfaceIn
   if (x.size() < kLeastPlaces) {
     return std::nullopt;
   }
-  return Vec3{median_of(x), median_of(y), median_of(z)};
+  return Vec3{median(x), median(y), median(z)};
 }
 
 /// A line through the canal, and how far it keeps from bone, less what its lean costs.
@@ -63,8 +58,8 @@ struct Passage {
   double free_m = 0.0;
 };
 
-/// Takes the line where it is farther from bone than the best so far, all along. A canal is wide:
-/// so much more room a degree must bring, or the line stays upright.
+/// Takes the line if all of it keeps farther from bone than the best so far. Each degree of lean
+/// must gain `kPerDegree_m`.
 void consider(const SurfaceIndex& surface, Vec3 centre_m, Vec3 up, Passage& best) {
   constexpr double kPerDegree_m = 0.00003;
   const double lost_m = kPerDegree_m * kDegreesPerRadian * angle_between_rad(up, {0, 0, 1});

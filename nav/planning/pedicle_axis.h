@@ -25,8 +25,7 @@ inline constexpr double kUsualConvergence_rad = 15.0 * kRadiansPerDegree;
 /// Where a vertebra may be drilled from behind.
 class PedicleSearch {
  public:
-  /// Both outlive it. `steepest_rad`: the bone's surface slopes by this at most against the axis,
-  /// or the drill slips.
+  /// Both outlive it. `steepest_rad`: as `kSteepestEntry_rad`.
   PedicleSearch(const SurfaceIndex& bone, const CanalFrame& canal, double steepest_rad)
       : bone_(bone), canal_(canal), steepest_rad_(steepest_rad) {}
 
@@ -43,7 +42,8 @@ class PedicleSearch {
   /// None where it enters beside the pedicle or on too steep a slope.
   [[nodiscard]] std::optional<Way> way(Side side, const PedicleAxis& axis) const;
 
-  /// How long a screw there may be: it ends 15 % of the way and 5 mm before the far cortex.
+  /// How long a screw there may be: it ends at least 5 mm, and at least 15 % of the way through the
+  /// bone, before the far cortex.
   [[nodiscard]] static double safe_length_m(const Way& way);
 
   /// The axis of a grid (1.5 mm, 5°) that stays deepest below the cortex from 6 mm past the entry

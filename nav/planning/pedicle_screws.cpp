@@ -1,8 +1,6 @@
 #include "nav/planning/pedicle_screws.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <string>
 
 #include "base/length_text.h"
@@ -11,7 +9,6 @@
 namespace orthonav::nav {
 namespace {
 
-constexpr std::array<Side, 2> kSides = {Side::kLeft, Side::kRight};
 /// A tip lies at least so far in the body.
 constexpr double kInBody_m = 0.005;
 
@@ -68,14 +65,12 @@ class Sizes {
 /// The best axis of one side for the thinnest screw.
 struct Start {
   PedicleSearch::Found found;
-  double room_m = 0.0;
   ImplantSize size;  ///< the largest that suits this side alone
 };
 
-Error too_narrow(double room_m, double thinnest_m) {
+Error too_narrow(double room_m, double diameter_m) {
   return Error{"pedicle too narrow: room for a screw of " +
-               beside_limit("%.1f mm, the thinnest in the list has %.1f mm", room_m * 1e3,
-                            thinnest_m * 1e3)};
+               beside_limit("%.1f mm, must be %.1f mm", room_m * 1e3, diameter_m * 1e3)};
 }
 
 Result<Start> start_of(const PedicleSearch& search, Side side, const Sizes& sizes,
@@ -84,10 +79,9 @@ Result<Start> start_of(const PedicleSearch& search, Side side, const Sizes& size
   if (!coarse) {
     return Error{"no way through a pedicle from behind"};
   }
-  const auto way = search.way(side, *coarse);
+  const PedicleSearch::Way way = search.way(side, *coarse).value();
   const double thinnest_m = sizes.thinnest_m();
-  const double length_m =
-      std::min(sizes.longest_m(), way ? PedicleSearch::safe_length_m(*way) : 0.0);
+  const double length_m = std::min(sizes.longest_m(), PedicleSearch::safe_length_m(way));
   const auto found = search.fine(side, {&*coarse, 1}, {0.5 * thinnest_m, length_m});
   if (!found) {
     return Error{"no way through a pedicle from behind"};
@@ -103,7 +97,7 @@ Result<Start> start_of(const PedicleSearch& search, Side side, const Sizes& size
     return Error{"no length in the list suits: " + in_mm(found->way.to_body_m + kInBody_m) +
                  " reach the body, " + in_mm(safe_m) + " end safely before the far cortex"};
   }
-  return Start{*found, room_m, size};
+  return Start{*found, size};
 }
 
 /// Both alike: the thinner and the shorter one, where it exists in that diameter.

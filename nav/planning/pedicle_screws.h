@@ -19,8 +19,8 @@ struct PlanningRules {
   /// Of the sizes that leave at least this to the cortex the thickest is taken; where none does,
   /// the thinnest, as long as it stays inside.
   double wanted_clearance_m = 0.001;
-  double thickest_m = 0.0065;   ///< no thicker screw is taken
-  double steepest_rad = 1.047;  ///< slope of the bone at the entry against the axis: 60°
+  double thickest_m = 0.0065;                ///< no thicker screw is taken
+  double steepest_rad = kSteepestEntry_rad;  ///< slope of the bone at the entry against the axis
 };
 
 /// A planned pedicle screw, with what tells how good it is.

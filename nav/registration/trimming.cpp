@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "nav/geometry/triangle.h"
@@ -121,32 +120,6 @@ class AxialView {
   std::vector<std::pair<int, int>> pending_;
 };
 
-/// The number of the connected part that each face belongs to (faces that share a vertex are
-/// connected).
-std::vector<std::uint32_t> parts_of(const TriangleMesh& mesh, const std::vector<bool>& kept) {
-  std::vector<std::uint32_t> parent(mesh.vertices_m.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) {
-      v = parent[v] = parent[parent[v]];
-    }
-    return v;
-  };
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (!kept[i]) {
-      continue;
-    }
-    const auto& t = mesh.triangles[i];
-    parent[root(t[1])] = root(t[0]);
-    parent[root(t[2])] = root(t[0]);
-  }
-  std::vector<std::uint32_t> part(kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    part[i] = root(mesh.triangles[i][0]);
-  }
-  return part;
-}
-
 void drop_islands(const TriangleMesh& mesh, std::vector<bool>& kept) {
   const std::vector<std::uint32_t> part = parts_of(mesh, kept);
   std::vector<double> area_m2(mesh.vertices_m.size(), 0.0);
@@ -167,25 +140,6 @@ void drop_islands(const TriangleMesh& mesh, std::vector<bool>& kept) {
 }
 
 }  // namespace
-
-TriangleMesh part_of(const TriangleMesh& mesh, std::span<const std::uint32_t> faces) {
-  constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> renamed(mesh.vertices_m.size(), kUnused);
-  TriangleMesh part;
-  part.triangles.reserve(faces.size());
-  for (const std::uint32_t face : faces) {
-    std::array<std::uint32_t, 3> t = mesh.triangles[face];
-    for (std::uint32_t& v : t) {
-      if (renamed[v] == kUnused) {
-        renamed[v] = static_cast<std::uint32_t>(part.vertices_m.size());
-        part.vertices_m.push_back(mesh.vertices_m[v]);
-      }
-      v = renamed[v];
-    }
-    part.triangles.push_back(t);
-  }
-  return part;
-}
 
 std::vector<std::uint32_t> faces_reachable_from_behind(const TriangleMesh& mesh,
                                                        const SurfaceIndex& surface) {

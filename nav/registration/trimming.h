@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "nav/geometry/mesh.h"
@@ -15,9 +14,6 @@ namespace orthonav::nav {
 /// are dropped. Ascending.
 std::vector<std::uint32_t> faces_reachable_from_behind(const TriangleMesh& mesh,
                                                        const SurfaceIndex& surface);
-
-/// The mesh of these faces, which must be the given mesh's own, with the vertices that they use.
-TriangleMesh part_of(const TriangleMesh& mesh, std::span<const std::uint32_t> faces);
 
 /// Both at once.
 TriangleMesh reachable_from_behind(const TriangleMesh& mesh, const SurfaceIndex& surface);
