@@ -27,7 +27,7 @@ std::vector<std::string> spine_labels() {
   return labels;
 }
 
-/// Counted up or down from the value of L1; the rest by its place along the spine.
+/// Numbers that run down the spine in steps of `step`, L1 being `l1`; `s1` 0: no S1.
 std::map<int, std::string> counted(int l1, int step, int lumbar, int s1) {
   std::map<int, std::string> out;
   for (int i = 0; i < 7; ++i) {
@@ -60,7 +60,7 @@ std::map<int, std::string> names_of(const std::string& convention) {
   return {};
 }
 
-/// The values that a layer holds; none of them is checked.
+/// The values in a layer other than 0, as they are.
 std::set<float> values_in(const Volume& labels, std::size_t layer) {
   std::set<float> values;
   float last = 0.0F;
@@ -118,10 +118,9 @@ Result<std::vector<LabelledLevel>> named_levels(const Volume& labels) {
     if (!present[at].contains(static_cast<float>(value))) {
       continue;  // an empty segment
     }
-    for (const LabelledLevel& other : levels) {
-      if (other.label == level) {
-        return Error{"two segments are named " + level};
-      }
+    if (std::any_of(levels.begin(), levels.end(),
+                    [&](const LabelledLevel& other) { return other.label == level; })) {
+      return Error{"two segments are named " + level};
     }
     levels.push_back({level, at, static_cast<int>(value)});
   }

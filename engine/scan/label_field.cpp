@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kFar_m2 = 1.0F;  // (1 m)^2
 constexpr int kSmoothings = 4;
-/// A voxel keeps so much of its spacing to its side of the surface.
+/// Least value at a voxel's middle, as a share of the spacing, so that it stays on its side.
 constexpr float kKept = 0.02F;
 
 /// Calls `line(first, stride, count)` for every line of voxels along an axis.
@@ -132,11 +132,8 @@ LabelField::LabelField(const LabelPart& part) : grid_(part.grid) {
     std::vector<float> twice = values_m_;
     smooth(grid_, twice);
     for (std::size_t i = 0; i < twice.size(); ++i) {
-      values_m_[i] = 2.0F * values_m_[i] - twice[i];
-    }
-    for (std::size_t i = 0; i < values_m_.size(); ++i) {
-      values_m_[i] =
-          part.inside[i] != 0 ? std::min(values_m_[i], -kept_m) : std::max(values_m_[i], kept_m);
+      const float value_m = 2.0F * values_m_[i] - twice[i];
+      values_m_[i] = part.inside[i] != 0 ? std::min(value_m, -kept_m) : std::max(value_m, kept_m);
     }
   }
 }

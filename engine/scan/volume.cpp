@@ -1,7 +1,5 @@
 #include "engine/scan/volume.h"
 
-#include <cmath>
-
 #include "base/printed.h"
 
 namespace orthonav::engine {
@@ -16,13 +14,9 @@ Status check_grid(const VolumeGrid& grid) {
       return Error{printed("voxels of %.3f mm, must be %.2f to %.0f mm", spacing_m * 1e3,
                            kLeastSpacing_m * 1e3, kMostSpacing_m * 1e3)};
     }
-    for (int e = 0; e < 3; ++e) {
-      const auto a = static_cast<std::size_t>(d), b = static_cast<std::size_t>(e);
-      const double product = grid.directions.column(a).dot(grid.directions.column(b));
-      if (!(std::abs(product - (d == e ? 1.0 : 0.0)) < kSquare)) {
-        return Error{"its axes are not at right angles"};
-      }
-    }
+  }
+  if (!(orthonormality_error(grid.directions.transposed()) < kSquare)) {
+    return Error{"its axes are not at right angles"};
   }
   return grid.origin_m.is_finite() ? Status{} : Status{Error{"its origin is not finite"}};
 }

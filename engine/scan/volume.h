@@ -1,8 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -39,8 +39,7 @@ struct VolumeGrid {
     return {v.x / spacing_m.x, v.y / spacing_m.y, v.z / spacing_m.z};
   }
   [[nodiscard]] double least_spacing_m() const {
-    const double xy = spacing_m.x < spacing_m.y ? spacing_m.x : spacing_m.y;
-    return xy < spacing_m.z ? xy : spacing_m.z;
+    return std::min({spacing_m.x, spacing_m.y, spacing_m.z});
   }
 };
 

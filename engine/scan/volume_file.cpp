@@ -14,12 +14,10 @@
 #include <itkNrrdImageIO.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <optional>
 
-#include "base/printed.h"
 #include "engine/scan/dicom_fields.h"
 #include "engine/scan/dicom_order.h"
 #include "engine/scan/whole_file.h"
@@ -230,11 +228,8 @@ Status append_slice(const SliceHeader& slice, std::vector<float>& values) {
   }
 }
 
-Result<Volume> load_folder(const std::string& folder, const std::string& series) {
-  // What it has to say comes back as an error; the library prints nothing.
-  gdcm::Trace::DebugOff();
-  gdcm::Trace::WarningOff();
-  gdcm::Trace::ErrorOff();
+/// Of every DICOM slice in the folder, in the order of the names.
+std::vector<SliceHeader> headers_in(const std::string& folder) {
   std::vector<std::string> files;
   std::error_code code;
   for (const auto& entry : fs::directory_iterator(folder, code)) {
@@ -249,7 +244,15 @@ Result<Volume> load_folder(const std::string& folder, const std::string& series)
       slices.push_back(std::move(*slice));
     }
   }
-  const auto members = one_series(slices, series);
+  return slices;
+}
+
+Result<Volume> load_folder(const std::string& folder, const std::string& series) {
+  // What it has to say comes back as an error; the library prints nothing.
+  gdcm::Trace::DebugOff();
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
+  const auto members = one_series(headers_in(folder), series);
   if (!members) {
     return Error{folder + ": " + members.error().message};
   }
