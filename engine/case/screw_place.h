@@ -40,8 +40,8 @@ inline constexpr double kLeastOffMidline_m = 0.005;
                                                    Point<Vertebra> entry, Point<Vertebra> target,
                                                    double radius_m);
 
-/// The same of a screw from a file that states these axes: says as well when the screw would fit
-/// its bone in the other ones.
+/// The same for a screw from a file that states its axes; the problem also says so if the screw
+/// would fit in the other axes.
 [[nodiscard]] std::optional<std::string> misplaced(const nav::SurfaceIndex& bone,
                                                    Point<Vertebra> entry, Point<Vertebra> target,
                                                    double radius_m, Axes stated);
