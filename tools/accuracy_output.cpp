@@ -7,6 +7,7 @@
 
 #include "base/angle.h"
 #include "base/printed.h"
+#include "engine/io/json_writer.h"
 
 namespace orthonav::tools {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 using nlohmann::ordered_json;
 
 double in_mm(double metres) { return metres * 1e3; }
-ordered_json in_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
 
 ordered_json json_of(const nav::AccuracyPart& part) {
   ordered_json out = {{"verdict", to_text(part.verdict())},
@@ -54,7 +54,7 @@ ordered_json turning_json(const nav::TurningPart& part) {
   ordered_json out = json_of(part);
   add_spread(part.spread, out);
   out["largest_tilt_deg"] = part.largest_tilt_rad * kDegreesPerRadian;
-  out["tip_bias_mm"] = in_mm(part.tip_bias_m);
+  out["tip_bias_mm"] = engine::vector_mm(part.tip_bias_m);
   out["tip_bias_sigma_mm"] = in_mm(part.tip_bias_sigma_m);
   out["residual_rms_mm"] = in_mm(part.residual_rms_m);
   out["by_tilt"] = ordered_json::array();
@@ -84,8 +84,8 @@ ordered_json distances_json(const nav::DistancePart& part) {
   for (const nav::TouchedPoint& point : part.points) {
     out["points"].push_back({{"time_s", point.time_s},
                              {"samples", point.samples},
-                             {"known_mm", in_mm(point.known_m)},
-                             {"residual_mm", in_mm(point.residual_m)}});
+                             {"known_mm", engine::vector_mm(point.known_m)},
+                             {"residual_mm", engine::vector_mm(point.residual_m)}});
   }
   return out;
 }

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "engine/io/json_writer.h"
 #include "nav/calibration/spin.h"
 #include "tools/calibrate.h"
 #include "tools/calibrate_movement.h"
@@ -15,7 +16,6 @@ void add_spin(const Result<nav::SpinCalibration>& found, nlohmann::ordered_json&
     return add_judgement({nav::Verdict::kFail, found.error().message}, out);
   }
   const Vec3 axis = found->axis_in_marker.v;
-  const Vec3 beside = found->tip_beside_m;
   out["inliers"] = found->inliers;
   out["axis"] = {axis.x, axis.y, axis.z};
   out["off_deg"] = degrees(found->off_rad);
@@ -23,7 +23,7 @@ void add_spin(const Result<nav::SpinCalibration>& found, nlohmann::ordered_json&
   out["leave_out_deg"] = degrees(found->leave_out_rad);
   out["wobble_deg"] = degrees(found->wobble_rad);
   out["spread"] = found->spread;
-  out["tip_beside_mm"] = {beside.x * 1e3, beside.y * 1e3, beside.z * 1e3};
+  out["tip_beside_mm"] = engine::vector_mm(found->tip_beside_m);
   add_judgement(found->judgement, out);
 }
 

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "engine/io/json_writer.h"
 #include "nav/tracking/pivot.h"
 #include "tools/arguments.h"
 #include "tools/calibrate.h"
@@ -16,14 +17,12 @@ struct PivotArguments {
   double inlier_mm = 1e3 * nav::PivotOptions{}.inlier_m;
 };
 
-nlohmann::ordered_json vector_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
-
 void add_pivot(const Result<nav::PivotCalibration>& found, nlohmann::ordered_json& out) {
   if (!found) {
     return add_judgement({nav::Verdict::kFail, found.error().message}, out);
   }
   out["inliers"] = found->inliers;
-  out["tip_mm"] = vector_mm(found->tip_in_marker.v);
+  out["tip_mm"] = engine::vector_mm(found->tip_in_marker.v);
   out["tip_sigma_mm"] = found->tip_sigma_m * 1e3;
   out["leave_out_mm"] = found->leave_out_m * 1e3;
   out["rmse_mm"] = found->rmse_m * 1e3;

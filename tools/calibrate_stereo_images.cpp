@@ -5,12 +5,12 @@
 
 #include "base/angle.h"
 #include "engine/io/grey_image_file.h"
+#include "engine/io/json_writer.h"
 #include "nav/calibration/stereo_board.h"
 #include "tools/calibrate.h"
 #include "tools/calibrate_stereo.h"
 #include "tools/count_progress.h"
 #include "tools/image_pairs.h"
-#include "tools/pose_json.h"
 #include "tools/print_text.h"
 
 namespace orthonav::tools {
@@ -128,21 +128,22 @@ nlohmann::ordered_json json_of(const Views& views, const nav::StereoBoardCalibra
 
 nlohmann::ordered_json as_json(const StereoArguments& arguments, const Views& views,
                                const nav::StereoBoardCalibration& found) {
-  nlohmann::ordered_json out = {{"format", "orthonav stereo calibration"},
-                                {"format_version", 1},
-                                {"source", "images"},
-                                {"left", json_of(found.left)},
-                                {"right", json_of(found.right)},
-                                {"right_from_left_mm", rows_mm(found.right_from_left.row_major())},
-                                {"baseline_mm", found.baseline_m() * 1e3},
-                                {"left_rms_px", found.left_rms_px},
-                                {"right_rms_px", found.right_rms_px},
-                                {"stereo_rms_px", found.stereo_rms_px},
-                                {"epipolar_rms_px", found.epipolar_rms_px},
-                                {"covered_share", found.covered_fraction},
-                                {"chessboard", arguments.chessboard},
-                                {"square_mm", arguments.square_mm},
-                                {"views_used", found.used}};
+  nlohmann::ordered_json out = {
+      {"format", "orthonav stereo calibration"},
+      {"format_version", 1},
+      {"source", "images"},
+      {"left", json_of(found.left)},
+      {"right", json_of(found.right)},
+      {"right_from_left_mm", engine::rows_mm(found.right_from_left.row_major())},
+      {"baseline_mm", found.baseline_m() * 1e3},
+      {"left_rms_px", found.left_rms_px},
+      {"right_rms_px", found.right_rms_px},
+      {"stereo_rms_px", found.stereo_rms_px},
+      {"epipolar_rms_px", found.epipolar_rms_px},
+      {"covered_share", found.covered_fraction},
+      {"chessboard", arguments.chessboard},
+      {"square_mm", arguments.square_mm},
+      {"views_used", found.used}};
   if (found.sigma) {
     out["sigma"] = {{"baseline_mm", found.sigma->baseline_m * 1e3},
                     {"rotation_deg", found.sigma->rotation_rad * kDegreesPerRadian},

@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "base/angle.h"
+#include "engine/io/json_writer.h"
 #include "engine/print/board_file.h"
 #include "nav/calibration/stereo_recording.h"
 #include "tools/calibrate.h"
 #include "tools/calibrate_stereo.h"
-#include "tools/pose_json.h"
 #include "tools/print_text.h"
 #include "tools/recorded_pairs.h"
 
@@ -58,8 +58,9 @@ nlohmann::ordered_json as_json(const StereoArguments& arguments, const RecordedS
     return out;
   }
   out["pairs_used"] = found->pairs;
-  out["right_from_left_mm"] = rows_mm(found->right_from_left.row_major());
-  out["device_right_from_left_mm"] = rows_mm(seen.calibration.right_from_left().row_major());
+  out["right_from_left_mm"] = engine::rows_mm(found->right_from_left.row_major());
+  out["device_right_from_left_mm"] =
+      engine::rows_mm(seen.calibration.right_from_left().row_major());
   out["baseline_mm"] = found->right_from_left.translation().norm() * 1e3;
   const Vec3 rotation_deg = found->rotation_rad * kDegreesPerRadian;
   const Vec3 translation_mm = found->translation_m * 1e3;

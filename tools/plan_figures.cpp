@@ -4,19 +4,18 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "engine/io/json_writer.h"
 #include "nav/guidance/changed_screw.h"
 #include "tools/print_text.h"
 
 namespace orthonav::tools {
 namespace {
 
-nlohmann::ordered_json in_mm(Point<Vertebra> p) { return {p.v.x * 1e3, p.v.y * 1e3, p.v.z * 1e3}; }
-
 nlohmann::ordered_json as_json(const JudgedScrew& screw) {
   nlohmann::ordered_json out = {{"side", name_of(screw.plan.side)},
                                 {"length_mm", nav::screw_length_m(screw.plan) * 1e3},
-                                {"entry_mm", in_mm(screw.plan.entry)},
-                                {"target_mm", in_mm(screw.plan.target)},
+                                {"entry_mm", engine::vector_mm(screw.plan.entry.v)},
+                                {"target_mm", engine::vector_mm(screw.plan.target.v)},
                                 {"listed", screw.listed}};
   if (screw.plan.radius_m > 0.0) {
     out["diameter_mm"] = 2e3 * screw.plan.radius_m;

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/case/case.h"
 #include "engine/case/screw_sizes.h"
 #include "nav/planning/pedicle_screws.h"
 

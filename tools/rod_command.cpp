@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "engine/io/json_writer.h"
 #include "nav/guidance/rod.h"
 #include "nav/guidance/rod_bends.h"
 #include "tools/command.h"
@@ -20,8 +21,6 @@ struct RodArguments {
   JsonOutput json;
 };
 
-nlohmann::ordered_json vector_in_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
-
 nlohmann::ordered_json as_json(const nav::RodTemplate& rod) {
   nlohmann::ordered_json out = {{"length_mm", rod.length_m * 1e3},
                                 {"diameter_mm", rod.diameter_m * 1e3},
@@ -29,15 +28,15 @@ nlohmann::ordered_json as_json(const nav::RodTemplate& rod) {
                                 {"bends", nlohmann::ordered_json::array()},
                                 {"path_mm", nlohmann::ordered_json::array()}};
   for (const Vec3& head : rod.heads_m) {
-    out["heads_mm"].push_back(vector_in_mm(head));
+    out["heads_mm"].push_back(engine::vector_mm(head));
   }
   for (const nav::RodBend& bend : rod.bends) {
     out["bends"].push_back({{"arc_length_mm", bend.arc_length_m * 1e3},
                             {"angle_deg", bend.angle_rad * kDegreesPerRadian},
-                            {"position_mm", vector_in_mm(bend.position_m)}});
+                            {"position_mm", engine::vector_mm(bend.position_m)}});
   }
   for (const Vec3& p : rod.path_m) {
-    out["path_mm"].push_back(vector_in_mm(p));
+    out["path_mm"].push_back(engine::vector_mm(p));
   }
   return out;
 }

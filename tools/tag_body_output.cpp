@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "engine/io/json_writer.h"
 #include "tools/calibrate.h"
-#include "tools/pose_json.h"
 #include "tools/print_text.h"
 
 namespace orthonav::tools {
@@ -23,7 +23,7 @@ nlohmann::ordered_json tag_body_json(const Result<nav::TagBody>& body, std::size
                            {"id", tag.definition.id},
                            {"size_mm", tag.definition.size_m * 1e3},
                            {"measured_size_mm", tag.definition.size_m * tag.size_ratio * 1e3},
-                           {"pose", rows_mm(tag.marker_from_tag.row_major())},
+                           {"pose", engine::rows_mm(tag.marker_from_tag.row_major())},
                            {"pairs", tag.pairs},
                            {"sigma_mm", tag.sigma_m * 1e3},
                            {"sigma_deg", tag.sigma_rad * kDegreesPerRadian}});

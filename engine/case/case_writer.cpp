@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/case/plan_file.h"
-#include "engine/io/atomic_file.h"
 #include "engine/io/json_document.h"
+#include "engine/io/json_writer.h"
 #include "engine/io/mesh_file.h"
 
 namespace orthonav::engine {
@@ -28,22 +28,21 @@ Status check_label(const std::string& label) {
                               "' can't be the name of a file: letters, digits, - and _ can"}};
 }
 
-ordered_json rows_mm(const Transform<Spine, Vertebra>& t) {
-  ordered_json rows = ordered_json::array();
-  const auto a = t.row_major();
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double scale = i < 3 ? 1e3 : 1.0;
-    rows.push_back({a[4 * i], a[4 * i + 1], a[4 * i + 2], a[4 * i + 3] * scale});
-  }
-  return rows;
-}
-
-Status write_json(const std::string& path, const ordered_json& root) {
-  return write_file(path, root.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
-}
-
 std::string in(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
+}
+
+/// Whether the value under the key is a text, or not there.
+bool may_be_text(const ordered_json& object, const char* key) {
+  return !object.contains(key) || object[key].is_string();
+}
+
+bool is_case(const ordered_json& root) {
+  return root.is_object() && may_be_text(root, "units") && root.contains("levels") &&
+         root["levels"].is_array() &&
+         std::all_of(root["levels"].begin(), root["levels"].end(), [](const ordered_json& level) {
+           return level.is_object() && may_be_text(level, "label");
+         });
 }
 
 /// What `case.json` says, with the names of the plans that are to come.
@@ -53,7 +52,7 @@ Result<ordered_json> with_plan_names(const std::string& path, const Case& planne
     return text.error();
   }
   ordered_json root = ordered_json::parse(*text, nullptr, false);
-  if (!root.is_object() || !root.contains("levels") || !root["levels"].is_array()) {
+  if (!is_case(root)) {
     return Error{path + ": is no case"};
   }
   if (root.value("units", "mm") != "mm") {
@@ -72,7 +71,21 @@ Result<ordered_json> with_plan_names(const std::string& path, const Case& planne
   return root;
 }
 
+Status save_plans(const std::string& folder, const Case& subject) {
+  for (const CaseLevel& level : subject.levels) {
+    if (level.screws.empty()) {
+      continue;
+    }
+    if (Status s = save_plan(in(folder, plan_name(level.label)), level.label, level.screws); !s) {
+      return s;
+    }
+  }
+  return {};
+}
+
 }  // namespace
+
+std::string model_name(const std::string& label) { return label + ".stl"; }
 
 Status check_labels(const Case& subject) {
   for (const CaseLevel& level : subject.levels) {
@@ -85,7 +98,8 @@ Status check_labels(const Case& subject) {
 
 Status save_case(const std::string& folder, const Case& subject) {
   const std::string path = in(folder, "case.json");
-  if (fs::exists(path)) {
+  std::error_code code;
+  if (fs::exists(path, code)) {
     return Error{path + ": is there already"};
   }
   if (Status s = check_labels(subject); !s) {
@@ -93,23 +107,20 @@ Status save_case(const std::string& folder, const Case& subject) {
   }
   ordered_json root = {{"name", subject.name}, {"units", "mm"}, {"levels", ordered_json::array()}};
   for (const CaseLevel& level : subject.levels) {
-    ordered_json entry = {{"label", level.label}, {"model", level.label + ".stl"}};
+    ordered_json entry = {{"label", level.label}, {"model", model_name(level.label)}};
     if (!level.screws.empty()) {
       entry["plan"] = plan_name(level.label);
     }
-    entry["spine_from_model"] = rows_mm(level.spine_from_vertebra);
+    entry["spine_from_model"] = rows_mm(level.spine_from_vertebra.row_major());
     root["levels"].push_back(entry);
   }
   for (const CaseLevel& level : subject.levels) {
-    if (Status s = save_stl(in(folder, level.label + ".stl"), level.mesh); !s) {
+    if (Status s = save_stl(in(folder, model_name(level.label)), level.mesh); !s) {
       return s;
     }
-    if (level.screws.empty()) {
-      continue;
-    }
-    if (Status s = save_plan(in(folder, plan_name(level.label)), level.label, level.screws); !s) {
-      return s;
-    }
+  }
+  if (Status s = save_plans(folder, subject); !s) {
+    return s;
   }
   return write_json(path, root);
 }
@@ -123,18 +134,15 @@ Status add_plans(const std::string& folder, const Case& planned) {
   if (Status s = check_labels(planned); !s) {
     return s;
   }
+  std::error_code code;
   for (const CaseLevel& level : planned.levels) {
-    if (fs::exists(in(folder, plan_name(level.label))) && !level.screws.empty()) {
-      return Error{in(folder, plan_name(level.label)) + ": is there already"};
+    const std::string plan = in(folder, plan_name(level.label));
+    if (!level.screws.empty() && fs::exists(plan, code)) {
+      return Error{plan + ": is there already"};
     }
   }
-  for (const CaseLevel& level : planned.levels) {
-    if (level.screws.empty()) {
-      continue;
-    }
-    if (Status s = save_plan(in(folder, plan_name(level.label)), level.label, level.screws); !s) {
-      return s;
-    }
+  if (Status s = save_plans(folder, planned); !s) {
+    return s;
   }
   return write_json(path, *root);
 }

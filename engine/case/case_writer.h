@@ -7,13 +7,16 @@
 
 namespace orthonav::engine {
 
+/// The file of a level's surface: "L4.stl".
+[[nodiscard]] std::string model_name(const std::string& label);
+
 /// Writes a case into a folder that is there: a binary STL for each level and a plan for each level
 /// with screws, all in millimetres and LPS, then `case.json`, so that a folder with one is whole.
 /// `load_case` reads the same back, to a float's digits. Refuses a folder that has a `case.json`,
-/// and labels that can't be the name of a file.
+/// and a case with a label that can't be the name of a file.
 Status save_case(const std::string& folder, const Case& subject);
 
-/// Refuses a label that can't be the name of a file.
+/// Refuses a case with a label that can't be the name of a file.
 Status check_labels(const Case& subject);
 
 /// Adds plans to a case folder: writes `LABEL.plan.json` for each level of `planned` with screws to

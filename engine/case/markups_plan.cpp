@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/printed.h"
-#include "engine/io/atomic_file.h"
+#include "engine/io/json_writer.h"
 #include "engine/io/slicer_markups.h"
 
 namespace orthonav::engine {
@@ -20,7 +20,7 @@ ordered_json control_point(const char* id, const char* label, Point<Vertebra> p)
   return {{"id", id},
           {"label", label},
           {"description", ""},
-          {"position", {p.v.x * 1e3, p.v.y * 1e3, p.v.z * 1e3}},
+          {"position", vector_mm(p.v)},
           {"orientation", {-1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0}},
           {"selected", true},
           {"locked", false},
@@ -59,7 +59,7 @@ Status save_markups_plan(const std::string& path, const std::string& level,
   for (const nav::ScrewPlan& screw : screws) {
     root["markups"].push_back(line(level, screw));
   }
-  return write_file(path, root.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+  return write_json(path, root);
 }
 
 }  // namespace orthonav::engine

@@ -10,8 +10,8 @@
 #include "engine/case/line_name.h"
 #include "engine/case/operation.h"
 #include "engine/case/screw_place.h"
-#include "engine/io/atomic_file.h"
 #include "engine/io/json_document.h"
+#include "engine/io/json_writer.h"
 #include "engine/io/slicer_markups.h"
 #include "engine/io/text_fields.h"
 
@@ -239,8 +239,6 @@ Result<nav::Side> side_on(const nav::TriangleMesh& bone, const StatedScrew& scre
                " of the bone's midline, " + in_mm(kLeastOffMidline_m) + " would tell the side"};
 }
 
-nlohmann::json list_mm(Point<Vertebra> p) { return {p.v.x * 1e3, p.v.y * 1e3, p.v.z * 1e3}; }
-
 }  // namespace
 
 Result<Plan> load_plan(const std::string& path) {
@@ -284,16 +282,15 @@ Status save_plan(const std::string& path, const std::string& level,
   for (const nav::ScrewPlan& screw : screws) {
     nlohmann::ordered_json entry;
     entry["side"] = name_of(screw.side);
-    entry["entry"] = list_mm(screw.entry);
-    entry["target"] = list_mm(screw.target);
+    entry["entry"] = vector_mm(screw.entry.v);
+    entry["target"] = vector_mm(screw.target.v);
     entry["radius"] = screw.radius_m * 1e3;
     if (!screw.accepted_breach.empty()) {
       entry["accept_breach"] = screw.accepted_breach;
     }
     root["screws"].push_back(entry);
   }
-  const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-  return write_file(path, root.dump(1, ' ', false, replace) + "\n");
+  return write_json(path, root);
 }
 
 }  // namespace orthonav::engine

@@ -122,5 +122,28 @@ TEST(CaseWriter, AddsNoPlanWhereThereIsOneOrTheModelWouldChange) {
   EXPECT_FALSE(std::filesystem::exists(metres.file("L4.plan.json")));
 }
 
+TEST(CaseWriter, AddsNoPlanToWhatIsNoCase) {
+  for (const char* text :
+       {R"({"units": 5, "levels": [{"label": "L4", "model": "L4.stl"}]})", R"({"levels": [5]})",
+        R"({"levels": [{"label": 4, "model": "L4.stl"}]})", R"({"levels": 5})", "[]"}) {
+    const TemporaryFolder folder;
+    std::ignore = folder.with("case.json", text);
+    const Status status = add_plans(folder.path().string(), boxes(true));
+    ASSERT_FALSE(status.ok()) << text;
+    EXPECT_THAT(status.error().message, HasSubstr("case.json: is no case"));
+    EXPECT_FALSE(std::filesystem::exists(folder.file("L4.plan.json"))) << text;
+  }
+}
+
+TEST(CaseWriter, RefusesNamesThatAreTooLong) {
+  const TemporaryFolder folder;
+  Case subject = boxes(true);
+  subject.levels[0].label = std::string(300, 'a');
+  EXPECT_FALSE(save_case(folder.path().string(), subject).ok());
+  EXPECT_FALSE(save_case(folder.file(std::string(300, 'a')), boxes(true)).ok());
+  std::ignore = folder.with("case.json", R"({"levels": []})");
+  EXPECT_FALSE(add_plans(folder.path().string(), subject).ok());
+}
+
 }  // namespace
 }  // namespace orthonav::engine::case_writer_test
