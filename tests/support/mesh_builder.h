@@ -16,6 +16,14 @@ inline nav::TriangleMesh box(Vec3 low, Vec3 high) {
   return mesh;
 }
 
+/// The mesh turned about the origin.
+inline nav::TriangleMesh turned(nav::TriangleMesh mesh, const Mat3& rotation) {
+  for (Vec3& v : mesh.vertices_m) {
+    v = rotation * v;
+  }
+  return mesh;
+}
+
 /// A closed, outward-oriented sphere of `rings` bands.
 nav::TriangleMesh sphere(Vec3 centre, double radius_m, std::uint32_t rings);
 

@@ -11,6 +11,7 @@
 #include "engine/io/mesh_file.h"
 #include "engine/phantom/phantom.h"
 #include "nav/geometry/mesh.h"
+#include "tests/support/mesh_builder.h"
 #include "tests/tools/command_line.h"
 
 namespace orthonav::test::register_test {
@@ -223,10 +224,8 @@ TEST_P(RegisterCommand, GivesTheMatrixInThePointsUnit) {
 }
 
 TEST_P(RegisterCommand, TakesAModelInRas) {
-  nav::TriangleMesh turned = mesh_;
-  for (Vec3& v : turned.vertices_m) {
-    v = {-v.x, -v.y, v.z};
-  }
+  const nav::TriangleMesh turned =
+      test::turned(mesh_, Mat3::from_columns({-1, 0, 0}, {0, -1, 0}, {0, 0, 1}));
   std::string obj;
   char row[120];
   for (const Vec3& v : turned.vertices_m) {

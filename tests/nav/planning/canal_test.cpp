@@ -12,14 +12,6 @@ namespace {
 /// The search's grid of tilts has 7.5°.
 constexpr double kGrid_deg = 7.5;
 
-TriangleMesh turned(TriangleMesh mesh, Vec3 axis, double angle_deg) {
-  const Mat3 r = rotation_from_vector(angle_deg * kRadiansPerDegree * axis);
-  for (Vec3& v : mesh.vertices_m) {
-    v = r * v;
-  }
-  return mesh;
-}
-
 const TriangleMesh& phantom_l3() {
   static const TriangleMesh mesh = engine::phantom({"L3"}).levels.front().mesh;
   return mesh;
@@ -40,11 +32,11 @@ TEST(Canal, LiesBehindTheBodyAndIsFree) {
 
 TEST(Canal, FollowsAVertebraThatIsTiltedInItsScan) {
   for (const double tilt_deg : {-30.0, 25.0}) {
-    const TriangleMesh mesh = turned(phantom_l3(), {1, 0, 0}, tilt_deg);
+    const Mat3 tilt = rotation_from_vector(tilt_deg * kRadiansPerDegree * Vec3{1, 0, 0});
+    const TriangleMesh mesh = test::turned(phantom_l3(), tilt);
     const auto canal = find_canal(mesh, SurfaceIndex(mesh));
     ASSERT_TRUE(canal) << tilt_deg;
-    const Vec3 up =
-        rotation_from_vector(tilt_deg * kRadiansPerDegree * Vec3{1, 0, 0}) * Vec3{0, 0, 1};
+    const Vec3 up = tilt * Vec3{0, 0, 1};
     EXPECT_LE(angle_between_rad(canal->up, up) * kDegreesPerRadian, 1.5 * kGrid_deg) << tilt_deg;
   }
 }

@@ -129,11 +129,8 @@ TEST(PedicleScrews, AreRefusedWhereNoLengthReachesTheBodyAndEndsSafely) {
 TEST(PedicleScrews, FollowAVertebraThatIsTiltedInItsScan) {
   constexpr double kSame_m = 0.0003;  // both searches give up a little
   const auto upright = plan_pedicle_screws(phantom_l4().mesh, phantom_l4().surface, sizes());
-  TriangleMesh mesh = phantom_l4().mesh;
-  const Mat3 r = rotation_from_vector(-30.0 * kRadiansPerDegree * Vec3{1, 0, 0});
-  for (Vec3& v : mesh.vertices_m) {
-    v = r * v;
-  }
+  const TriangleMesh mesh = test::turned(
+      phantom_l4().mesh, rotation_from_vector(-30.0 * kRadiansPerDegree * Vec3{1, 0, 0}));
   const auto tilted = plan_pedicle_screws(mesh, SurfaceIndex(mesh), sizes());
   ASSERT_TRUE(tilted.ok());
   ASSERT_TRUE(tilted->sides[0].ok()) << tilted->sides[0].error().message;
