@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/joined.h"
 #include "base/length_text.h"
 #include "engine/case/case_writer.h"
+#include "engine/scan/label_convention.h"
 #include "engine/scan/scan_case.h"
 #include "engine/scan/volume_file.h"
 #include "tools/arguments.h"
@@ -126,11 +128,25 @@ void warn(const engine::ScanLevels& made) {
   }
 }
 
+/// As `--name` says, else that of the folder, however its path is written.
+std::string case_name(const CaseArguments& arguments) {
+  if (!arguments.name.empty()) {
+    return arguments.name;
+  }
+  std::error_code code;
+  const fs::path folder = fs::absolute(arguments.out, code) / "";
+  return folder.lexically_normal().parent_path().filename().string();
+}
+
 int run_make(const CaseArguments& arguments) {
+  if (Status s = arguments.json.check(); !s) {
+    return bad_input(s.error().message);
+  }
   if (Status s = check(arguments); !s) {
     return bad_input(s.error().message);
   }
-  if (fs::exists(fs::path(arguments.out) / "case.json")) {
+  std::error_code code;
+  if (fs::exists(fs::path(arguments.out) / "case.json", code)) {
     return bad_input(arguments.out + "/case.json: is there already");
   }
   const auto made =
@@ -142,10 +158,8 @@ int run_make(const CaseArguments& arguments) {
   if (!folder) {
     return bad_input(folder.error().message);
   }
-  const std::string name = arguments.name.empty()
-                               ? fs::path(arguments.out).lexically_normal().filename().string()
-                               : arguments.name;
-  const Status saved = engine::save_case(arguments.out, engine::case_of(*made, name));
+  const Status saved =
+      engine::save_case(arguments.out, engine::case_of(*made, case_name(arguments)));
   if (const Status s = saved ? arguments.json.write(as_json(*made)) : saved; !s) {
     return bad_input(s.error().message);
   }
@@ -179,9 +193,9 @@ void add_inputs(CLI::App& command, CaseArguments& arguments) {
       ->check(some_text())
       ->type_name("FILE");
   command
-      .add_option("--convention", arguments.convention,
-                  "what the numbers of a label map mean: verse, totalsegmentator (v2), "
-                  "totalsegmentator-v1")
+      .add_option(
+          "--convention", arguments.convention,
+          "what the numbers of a label map mean: " + joined(engine::label_conventions(), ", "))
       ->check(some_text());
   command
       .add_option("--threshold", arguments.threshold_hu,

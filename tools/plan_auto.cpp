@@ -104,7 +104,10 @@ bool complete(const std::vector<JudgedLevel>& levels) {
 }
 
 int run_auto(const AutoArguments& arguments) {
-  const auto sizes = arguments.common.sizes();
+  if (Status s = arguments.common.json.check(); !s) {
+    return bad_input(s.error().message);
+  }
+  const auto sizes = arguments.common.screws.sizes();
   if (!sizes) {
     return bad_input(sizes.error().message);
   }
@@ -159,7 +162,9 @@ void add_plan_auto(CLI::App& plan, Action& action) {
   command->footer(
       "\nOn each side the screw with the largest clearance to the cortex, from 6 mm past the "
       "entry\n"
-      "on; both sides the same size, tips 15 % of the way and 5 mm before the far cortex.\n"
+      "on; both sides the same size; of the lengths in the list the longest that ends at least 5 "
+      "mm,\n"
+      "and at least 15 % of the way through the bone, before the far cortex.\n"
       "Exit code 1 where a side gets no screw, with the reason (docs/planning.md).");
   command->callback(
       [arguments, &action] { action = [arguments] { return run_auto(*arguments); }; });

@@ -4,7 +4,6 @@
 
 #include "base/printed.h"
 #include "engine/case/plan_file.h"
-#include "engine/io/mesh_file.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/plan_command.h"
@@ -28,18 +27,14 @@ Result<engine::Case> checked_source(const CheckArguments& arguments) {
   if (!plan) {
     return plan.error();
   }
-  auto mesh = engine::load_mesh(arguments.model, plan->metres_per_unit, plan->axes);
-  if (!mesh) {
-    return mesh.error();
+  auto level = engine::load_level(arguments.model, *plan);
+  if (!level) {
+    return level.error();
   }
-  auto screws = engine::screws_on(*mesh, *plan);
-  if (!screws) {
-    return screws.error();
+  if (level->label.empty()) {
+    level->label = "plan";
   }
-  engine::Case subject{arguments.model, {}, {}};
-  subject.levels.push_back(
-      {plan->level.empty() ? "plan" : plan->level, std::move(*mesh), std::move(*screws), {}});
-  return subject;
+  return engine::Case{arguments.model, {}, {std::move(*level)}};
 }
 
 /// Prints each screw that breaks through; whether none does.
@@ -60,10 +55,13 @@ bool none_breaks_through(const std::vector<JudgedLevel>& levels) {
 }
 
 int run_check(const CheckArguments& arguments) {
+  if (Status s = arguments.common.json.check(); !s) {
+    return bad_input(s.error().message);
+  }
   if (arguments.model.empty() != arguments.plan.empty()) {
     return bad_input("--model and --plan go together");
   }
-  const auto sizes = arguments.common.sizes();
+  const auto sizes = arguments.common.screws.sizes();
   if (!sizes) {
     return bad_input(sizes.error().message);
   }

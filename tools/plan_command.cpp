@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/case/screw_sizes_file.h"
+#include "engine/case/operation_plan.h"
 #include "tools/arguments.h"
 
 namespace orthonav::tools {
@@ -13,24 +13,14 @@ void PlanArguments::add_to(CLI::App& command) {
       ->check(some_text())
       ->type_name("DIR");
   command.add_option("--levels", levels, "levels (default: all)")->delimiter(',');
-  command
-      .add_option("--sizes", sizes_file,
-                  "list of screw sizes (default: 4.5 to 8.5 mm, 25 to 60 mm long; "
-                  "docs/file-formats.md)")
-      ->check(some_text())
-      ->type_name("FILE");
+  screws.add_to(command);
   json.add_to(command);
-}
-
-Result<engine::ScrewSizes> PlanArguments::sizes() const {
-  return sizes_file.empty() ? Result<engine::ScrewSizes>(engine::ScrewSizes::built_in())
-                            : engine::load_screw_sizes(sizes_file);
 }
 
 Status PlanArguments::check_levels(const engine::Case& subject) const {
   for (const std::string& label : levels) {
-    if (subject.find(label) == nullptr) {
-      return Error{"case '" + subject.name + "' has no level '" + label + "'"};
+    if (Status s = engine::check_level(subject, label); !s) {
+      return s;
     }
   }
   return {};

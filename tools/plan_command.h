@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "engine/case/case.h"
-#include "engine/case/screw_sizes.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
+#include "tools/screw_arguments.h"
 
 namespace orthonav::tools {
 
@@ -14,11 +14,10 @@ namespace orthonav::tools {
 struct PlanArguments {
   std::string case_folder;          ///< empty: the built-in phantom
   std::vector<std::string> levels;  ///< empty: all
-  std::string sizes_file;           ///< empty: the built-in list
+  ScrewArguments screws;
   JsonOutput json;
 
   void add_to(CLI::App& command);
-  [[nodiscard]] Result<engine::ScrewSizes> sizes() const;
   /// Refuses a level that the case does not have.
   [[nodiscard]] Status check_levels(const engine::Case& subject) const;
   [[nodiscard]] bool wants(const std::string& label) const;

@@ -24,15 +24,16 @@ std::string markups_name(const engine::CaseLevel& level) { return level.label + 
 
 /// Model and screws of each level, which must not be there yet.
 Status write_scene(const engine::Case& subject, const OutFolder& folder) {
+  std::error_code code;
   for (const engine::CaseLevel& level : subject.levels) {
-    for (const std::string& name : {level.label + ".stl", markups_name(level)}) {
-      if (fs::exists(folder.path() / name)) {
+    for (const std::string& name : {engine::model_name(level.label), markups_name(level)}) {
+      if (fs::exists(folder.path() / name, code)) {
         return Error{folder.file(name) + ": is there already"};
       }
     }
   }
   for (const engine::CaseLevel& level : subject.levels) {
-    if (Status s = engine::save_stl(folder.file(level.label + ".stl"), level.mesh); !s) {
+    if (Status s = engine::save_stl(folder.file(engine::model_name(level.label)), level.mesh); !s) {
       return s;
     }
     if (level.screws.empty()) {
@@ -63,7 +64,7 @@ int run_export(const ExportArguments& arguments) {
     return bad_input(s.error().message);
   }
   for (const engine::CaseLevel& level : subject->levels) {
-    print_text("%s: %s.stl%s%s\n", level.label.c_str(), level.label.c_str(),
+    print_text("%s: %s%s%s\n", level.label.c_str(), engine::model_name(level.label).c_str(),
                level.screws.empty() ? "" : ", ",
                level.screws.empty() ? "" : markups_name(level).c_str());
   }

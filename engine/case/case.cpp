@@ -51,12 +51,11 @@ const CaseLevel* Case::overlapped_by(std::size_t index) const {
 
 std::vector<std::string> Case::check(CaseUse use) const {
   std::vector<std::string> problems;
-  if (levels.empty()) {
-    problems.push_back("levels is empty");
-  }
   const bool bare = std::all_of(levels.begin(), levels.end(),
                                 [](const CaseLevel& level) { return level.screws.empty(); });
-  if (use == CaseUse::kOperation && bare && !levels.empty()) {
+  if (levels.empty()) {
+    problems.push_back("levels is empty");
+  } else if (use == CaseUse::kOperation && bare) {
     problems.push_back("no level has screws (orthonav plan auto places them)");
   }
   for (std::size_t i = 0; i < levels.size(); ++i) {

@@ -9,7 +9,6 @@
 #include "base/joined.h"
 #include "base/length_text.h"
 #include "engine/case/operation.h"
-#include "engine/case/plan_file.h"
 #include "engine/io/json_document.h"
 #include "engine/io/mesh_file.h"
 
@@ -100,17 +99,13 @@ Result<CaseLevel> loaded(const Entry& entry, const std::string& folder, double m
                  ", the case uses it for " + entry.label};
   }
   const std::string model = (fs::path(folder) / entry.model).string();
-  Result<nav::TriangleMesh> mesh = load_mesh(model, plan->metres_per_unit, plan->axes);
-  if (!mesh) {
-    return mesh.error();
+  Result<CaseLevel> level = load_level(model, *plan);
+  if (!level) {
+    return level.error();
   }
-  auto screws = screws_on(*mesh, *plan);
-  if (!screws) {
-    return screws.error();
-  }
-  CaseLevel level{entry.label, std::move(mesh).value(), std::move(screws).value(), {}};
+  level->label = entry.label;
   if (entry.node.has("spine_from_model")) {
-    level.spine_from_vertebra =
+    level->spine_from_vertebra =
         spine_from_model(entry.node, metres_per_unit, declared_axes(model).value_or(plan->axes));
   }
   return level;
@@ -128,6 +123,23 @@ Status load_levels(const std::vector<Entry>& entries, double metres_per_unit, Ca
 }
 
 }  // namespace
+
+Result<CaseLevel> load_level(const std::string& model, const Plan& plan) {
+  Result<nav::TriangleMesh> mesh = load_mesh(model, plan.metres_per_unit, plan.axes);
+  if (!mesh) {
+    return mesh.error();
+  }
+  CaseLevel level{plan.level, std::move(mesh).value(), {}, {}};
+  if (plan.screws.empty()) {
+    return level;
+  }
+  auto screws = screws_on(level.mesh, plan);
+  if (!screws) {
+    return screws.error();
+  }
+  level.screws = std::move(screws).value();
+  return level;
+}
 
 Result<Case> load_case(const std::string& folder, CaseUse use) {
   const std::string path = (fs::path(folder) / "case.json").string();

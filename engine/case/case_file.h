@@ -4,8 +4,12 @@
 
 #include "base/result.h"
 #include "engine/case/case.h"
+#include "engine/case/plan_file.h"
 
 namespace orthonav::engine {
+
+/// Reads a model in the unit and frame that its plan declares, with the plan's screws on it.
+Result<CaseLevel> load_level(const std::string& model, const Plan& plan);
 
 /// Reads a case folder: `case.json` with `{"name", "units"?, "levels": [{"label", "model", "plan"?,
 /// "spine_from_model"?}]}`, and the models and plans that it names. A model is read in the unit and

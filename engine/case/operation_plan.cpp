@@ -76,14 +76,21 @@ std::vector<std::string> two_lowest(const Case& source) {
 
 }  // namespace
 
+Status check_level(const Case& source, const std::string& label) {
+  if (source.find(label) != nullptr) {
+    return {};
+  }
+  return Error{"case '" + source.name + "' has no level '" + label +
+               "' (it has: " + known_labels(source) + ")"};
+}
+
 Result<std::vector<std::string>> levels_to_operate(const Case& source,
                                                    const std::vector<std::string>& labels) {
   const std::vector<std::string> wanted = labels.empty() ? two_lowest(source) : labels;
   std::set<std::string> open;
   for (const std::string& label : wanted) {
-    if (!source.find(label)) {
-      return Error{"case '" + source.name + "' has no level '" + label +
-                   "' (it has: " + known_labels(source) + ")"};
+    if (Status s = check_level(source, label); !s) {
+      return s.error();
     }
     if (source.find(label)->screws.empty()) {
       return Error{"level '" + label + "' of case '" + source.name + "' has no screws"};

@@ -9,6 +9,9 @@
 
 namespace orthonav::engine {
 
+/// Refuses a label that the case does not have, with those it has.
+Status check_level(const Case& source, const std::string& label);
+
 /// The labels that would be operated, in the order of the case; refuses as `plan_operation` does,
 /// without preparing anything.
 Result<std::vector<std::string>> levels_to_operate(const Case& source,

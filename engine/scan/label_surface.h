@@ -25,8 +25,8 @@ inline constexpr int kSurfaceMargin = 4;
 /// The smooth surface of a label: closed, manifold, one piece. The signed distance to the border
 /// between voxels (Felzenszwalb and Huttenlocher 2012) is smoothed as far as every voxel keeps its
 /// side (Whitaker 2000, "Reducing aliasing artifacts in iso-surfaces of binary volumes"), so that
-/// stairs go and thin bone stays, by a low pass that does not shrink (after Taubin 1995: twice the
-/// smoothed less the twice smoothed). Between voxels it is interpolated by cubic polynomials
+/// stairs go and thin bone stays, by a low pass that does not shrink (after Taubin 1995:
+/// 2 S(f) - S(S(f)), S a binomial filter). Between voxels it is interpolated by cubic polynomials
 /// (Catmull-Rom), and its zero surface is taken by dual marching cubes
 /// (nav/geometry/implicit_surface.h). Refuses what `nav::checked_vertebra` refuses.
 Result<LabelSurface> label_surface(const LabelPart& part);

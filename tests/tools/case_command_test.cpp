@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,7 +14,6 @@ namespace {
 using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 /// A ball of 20 mm radius as a label map with this number, 2 mm voxels, text NRRD.
 std::string ball(const ScratchFolder& scratch, const std::string& name, int number,
@@ -94,6 +94,35 @@ TEST(CaseCommand, RefusesInOneLineAndLeavesNothing) {
   // The labels as their own scan: 23 HU are no bone.
   EXPECT_THAT(refusal({"--labels", labels, "--convention", "verse", "--volume", labels}),
               HasSubstr("has 23 HU on average where the labels are"));
+}
+
+TEST(CaseCommand, RefusesPlacesThatCannotBeWrittenBeforeItWritesAnything) {
+  const ScratchFolder scratch;
+  const std::string labels = ball(scratch, "labels.nrrd", 23);
+  const auto refusal = [&](const std::string& out, const std::string& json_file) {
+    const Called called = orthonav({"case", "make", "--labels", labels, "--convention", "verse",
+                                    "--out", out, "--json", json_file});
+    EXPECT_EQ(called.code, 2);
+    EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
+    return called.err;
+  };
+  EXPECT_THAT(refusal(scratch.file("case"), scratch.file("none/figures.json")),
+              HasSubstr("none/figures.json"));
+  EXPECT_FALSE(std::filesystem::exists(scratch.file("case")));
+  EXPECT_THAT(refusal(scratch.file(std::string(300, 'a')), scratch.file("figures.json")),
+              HasSubstr("too long"));
+}
+
+TEST(CaseCommand, NamesACaseAfterItsFolder) {
+  const ScratchFolder scratch;
+  const std::string labels = ball(scratch, "labels.nrrd", 23);
+  for (const std::string out : {"plain", "slash/", "dots/."}) {
+    const Called made = orthonav(
+        {"case", "make", "--labels", labels, "--convention", "verse", "--out", scratch.file(out)});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json made_case = json::parse(content_of(scratch.file(out) + "/case.json"));
+    EXPECT_EQ(made_case["name"], out == "plain" ? "plain" : out == "slash/" ? "slash" : "dots");
+  }
 }
 
 TEST(CaseCommand, TakesConnectedBoneOfAScanWithAWordAboutNeighbours) {

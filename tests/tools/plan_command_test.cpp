@@ -14,7 +14,6 @@ namespace {
 
 using nlohmann::json;
 using ::testing::AllOf;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -88,11 +87,11 @@ TEST(PlanCommand, SaysWhyASideGetsNoScrew) {
   const std::string folder = phantom_case(scratch, false);
   const std::string sizes =
       scratch.with("sizes.json", R"({"screws": [{"diameter_mm": 12, "lengths_mm": [40]}]})");
-  const Called called = orthonav({"plan", "auto", "--case", folder, "--levels", "L4", "--sizes",
+  const Called called = orthonav({"plan", "auto", "--case", folder, "--levels", "L4", "--screws",
                                   sizes, "--thickest-mm", "12", "--clearance-mm", "0"});
   EXPECT_EQ(called.code, 0) << called.err;
   const Called none =
-      orthonav({"plan", "auto", "--case", folder, "--levels", "L5", "--sizes", sizes});
+      orthonav({"plan", "auto", "--case", folder, "--levels", "L5", "--screws", sizes});
   EXPECT_EQ(none.code, 1);
   EXPECT_THAT(none.err, HasSubstr("L5 left: no screw: the list of screws has none up to 6.5 mm"));
   EXPECT_FALSE(std::filesystem::exists(folder + "/L5.plan.json"));
@@ -147,6 +146,17 @@ TEST(PlanCommand, TakesACaseToSlicerAndBack) {
   const Called again = orthonav({"plan", "export", "--case", folder, "--out", out});
   EXPECT_EQ(again.code, 2);
   EXPECT_THAT(again.err, HasSubstr("L4.stl: is there already"));
+}
+
+TEST(PlanCommand, WritesNoPlanWhereItsFiguresCannotBeWritten) {
+  const ScratchFolder scratch;
+  const std::string folder = phantom_case(scratch, false);
+  const Called called =
+      orthonav({"plan", "auto", "--case", folder, "--json", scratch.file("none/figures.json")});
+  EXPECT_EQ(called.code, 2);
+  EXPECT_THAT(called.err, HasSubstr("none/figures.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder + "/L4.plan.json"));
+  EXPECT_EQ(orthonav({"plan", "auto", "--case", folder}).code, 0) << "the twin";
 }
 
 TEST(PlanCommand, RefusesWhatDoesNotGoTogether) {
