@@ -34,10 +34,18 @@ void IgtlArguments::add_to(CLI::App& command) {
                   "this machine alone, or at ADDRESS:PORT (docs/igtl.md; usual port: 18944)")
       ->check(some_text())
       ->type_name("PORT");
+  command
+      .add_option("--igtl-allow", allow,
+                  "who may connect besides this machine, as in 192.168.1.0/24,10.0.0.7; needed "
+                  "where --igtl names an address that other machines reach")
+      ->check(some_text())
+      ->type_name("NETWORKS");
 }
 
-Result<igtl::ServerOptions> igtl_options(const std::string& at) {
+Result<igtl::ServerOptions> igtl_options(const IgtlArguments& arguments) {
+  const std::string& at = arguments.at;
   igtl::ServerOptions options;
+  options.allow = arguments.allow;
   const std::size_t colon = at.rfind(':');
   if (colon != std::string::npos) {
     options.address = at.substr(0, colon);
@@ -55,15 +63,15 @@ Result<igtl::ServerOptions> igtl_options(const std::string& at) {
 
 Status IgtlStream::open(const IgtlArguments& arguments) {
   if (arguments.at.empty()) {
-    return {};
+    return arguments.allow.empty() ? Status{} : Error{"--igtl-allow: needs --igtl"};
   }
-  const auto options = igtl_options(arguments.at);
+  const auto options = igtl_options(arguments);
   if (!options) {
     return options.error();
   }
   auto server = igtl::Server::start(*options);
   if (!server) {
-    return server.error();
+    return Error{"--igtl, --igtl-allow: " + server.error().message};
   }
   server_ = std::move(*server);
   std::fprintf(stderr, "OpenIGTLink at %s:%d\n", options->address.c_str(), server_->port());
@@ -108,6 +116,9 @@ void IgtlStream::tell() const {
   if (counts.dropped > 0) {
     std::fprintf(stderr, "; %lld dropped, the last one %s", static_cast<long long>(counts.dropped),
                  counts.last_drop.c_str());
+  }
+  if (counts.refused > 0) {
+    std::fprintf(stderr, "; %lld not let in", static_cast<long long>(counts.refused));
   }
   std::fprintf(stderr, "\n");
 }

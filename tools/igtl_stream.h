@@ -13,7 +13,8 @@ namespace orthonav::tools {
 
 /// `--igtl`, of the commands that run an operation.
 struct IgtlArguments {
-  std::string at;  ///< "PORT" or "ADDRESS:PORT"; empty: nothing is served
+  std::string at;     ///< "PORT" or "ADDRESS:PORT"; empty: nothing is served
+  std::string allow;  ///< networks that may connect besides this machine
 
   void add_to(CLI::App& command);
 };
@@ -41,7 +42,7 @@ class IgtlStream : public engine::LoopObserver {
   std::int64_t sent_at_status_ = -1;  ///< frames that had gone when the last one was made
 };
 
-/// "18944", "0.0.0.0:18944".
-Result<igtl::ServerOptions> igtl_options(const std::string& at);
+/// "18944"; or "0.0.0.0:18944" with "192.168.1.0/24" allowed.
+Result<igtl::ServerOptions> igtl_options(const IgtlArguments& arguments);
 
 }  // namespace orthonav::tools

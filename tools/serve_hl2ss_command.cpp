@@ -193,9 +193,15 @@ void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals
       ->check(whole_number(1))
       ->capture_default_str();
   serve_hl2ss
-      ->add_option("--host", server.host, "address to listen at; 0.0.0.0: for other machines too")
+      ->add_option("--host,--listen", server.host,
+                   "address to listen at; 0.0.0.0: for other machines too, which --allow names")
       ->check(some_text())
       ->capture_default_str();
+  serve_hl2ss
+      ->add_option("--allow", server.allow,
+                   "who may connect besides this machine, as in 192.168.1.0/24,10.0.0.7")
+      ->check(some_text())
+      ->type_name("NETWORKS");
   serve_hl2ss
       ->add_option("--case", arguments->case_folder,
                    "case folder with case.json (default: the built-in phantom)")

@@ -5,6 +5,7 @@
 
 #include "engine/case/operation.h"
 #include "engine/case/screw_place.h"
+#include "engine/io/inside_folder.h"
 
 namespace orthonav::engine {
 namespace {
@@ -64,6 +65,10 @@ std::vector<std::string> Case::check(CaseUse use) const {
         level.label.empty() ? "levels[" + std::to_string(i) + "]" : level.label;
     if (level.label.empty()) {
       problems.push_back(which + " has no label");
+    } else if (!is_part_of_a_file_name(level.label)) {
+      // Files are written that are called by it.
+      problems.push_back("label \"" + level.label +
+                         "\" must have 64 characters at most, no / and no . in front");
     }
     if (!level.label.empty() && find(level.label) != &level) {
       problems.push_back("label " + level.label + " stands twice");

@@ -9,6 +9,7 @@
 #include "base/joined.h"
 #include "base/length_text.h"
 #include "engine/case/operation.h"
+#include "engine/io/inside_folder.h"
 #include "engine/io/json_document.h"
 #include "engine/io/mesh_file.h"
 
@@ -86,7 +87,8 @@ Result<Plan> plan_of(const Entry& entry, const std::string& folder, double metre
   if (entry.plan.empty()) {
     return Plan{{}, {}, Axes::kLps, metres_per_unit, {}};
   }
-  return load_plan((fs::path(folder) / entry.plan).string());
+  const auto path = path_inside(folder, entry.plan);
+  return path ? load_plan(*path) : path.error();
 }
 
 Result<CaseLevel> loaded(const Entry& entry, const std::string& folder, double metres_per_unit) {
@@ -98,15 +100,18 @@ Result<CaseLevel> loaded(const Entry& entry, const std::string& folder, double m
     return Error{(fs::path(folder) / entry.plan).string() + ": is the plan of " + plan->level +
                  ", the case uses it for " + entry.label};
   }
-  const std::string model = (fs::path(folder) / entry.model).string();
-  Result<CaseLevel> level = load_level(model, *plan);
+  const auto model = path_inside(folder, entry.model);
+  if (!model) {
+    return model.error();
+  }
+  Result<CaseLevel> level = load_level(*model, *plan);
   if (!level) {
     return level.error();
   }
   level->label = entry.label;
   if (entry.node.has("spine_from_model")) {
     level->spine_from_vertebra =
-        spine_from_model(entry.node, metres_per_unit, declared_axes(model).value_or(plan->axes));
+        spine_from_model(entry.node, metres_per_unit, declared_axes(*model).value_or(plan->axes));
   }
   return level;
 }
@@ -142,7 +147,11 @@ Result<CaseLevel> load_level(const std::string& model, const Plan& plan) {
 }
 
 Result<Case> load_case(const std::string& folder, CaseUse use) {
-  const std::string path = (fs::path(folder) / "case.json").string();
+  const auto file = path_inside(folder, "case.json");
+  if (!file) {
+    return file.error();
+  }
+  const std::string& path = *file;
   const Result<JsonDocument> document = JsonDocument::read(path);
   if (!document) {
     return document.error();

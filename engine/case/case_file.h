@@ -17,7 +17,7 @@ Result<CaseLevel> load_level(const std::string& model, const Plan& plan);
 /// declares its own axes. `spine_from_model`
 /// (4×4 by rows, mm unless `units` says m) is in the same axes as the model. Where no level has
 /// one, models that lie apart are taken as they are (one scan), and models that lie in one another
-/// are stacked in the order of the file, the first on top.
+/// are stacked in the order of the file, the first on top. Files outside the folder are refused.
 Result<Case> load_case(const std::string& folder, CaseUse use = CaseUse::kOperation);
 
 }  // namespace orthonav::engine

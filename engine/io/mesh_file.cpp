@@ -1,5 +1,6 @@
 #include "engine/io/mesh_file.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -66,6 +67,21 @@ void append(const aiMesh& part, nav::TriangleMesh& mesh) {
   }
 }
 
+/// Opens this one file: an OBJ may name others (mtllib), anywhere on the machine.
+class OneFile : public Assimp::DefaultIOSystem {
+ public:
+  explicit OneFile(std::string path) : path_(std::move(path)) {}
+  [[nodiscard]] bool Exists(const char* file) const override {
+    return file == path_ && DefaultIOSystem::Exists(file);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return file == path_ ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  std::string path_;
+};
+
 /// A library's message as one line.
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -75,6 +91,7 @@ std::string one_line(std::string text) {
 Result<nav::TriangleMesh> imported(const std::string& path) {
   try {
     Assimp::Importer importer;
+    importer.SetIOHandler(new OneFile(path));  // which the importer owns
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
     if (scene == nullptr) {
       return Error{path + ": cannot be read (" + one_line(importer.GetErrorString()) + ")"};

@@ -1,6 +1,7 @@
 #include "hal/igtl/client.h"
 
 #include <array>
+#include <string>
 
 namespace orthonav::igtl {
 
@@ -28,7 +29,11 @@ Status Client::write(HostTime now) {
   return {};
 }
 
-Status Client::read() {
+Status Client::read(HostTime now, std::size_t most_bytes_per_s) {
+  if (now - counted_since_ >= std::chrono::seconds(1)) {
+    counted_since_ = now;
+    counted_ = 0;
+  }
   std::array<std::uint8_t, 16384> room{};
   // What a client may send while others wait for their turn.
   constexpr int kMostReads = 16;
@@ -39,6 +44,10 @@ Status Client::read() {
     }
     if (*count == 0) {
       return {};
+    }
+    counted_ += *count;
+    if (counted_ > most_bytes_per_s) {
+      return Error{"sends more than " + std::to_string(most_bytes_per_s) + " bytes a second"};
     }
     if (Status s = incoming_.take(std::span(room).first(*count)); !s) {
       return s;

@@ -26,8 +26,8 @@ class Client {
   /// Sends what it takes now. An Error when it is gone.
   Status write(HostTime now);
   /// Reads what there is. An Error when it is gone (`ErrorCode::kLost` when it closed), or sends
-  /// what is no OpenIGTLink.
-  Status read();
+  /// what is no OpenIGTLink, or more than so many bytes within a second.
+  Status read(HostTime now, std::size_t most_bytes_per_s);
 
  private:
   net::Socket socket_;
@@ -35,6 +35,8 @@ class Client {
   std::size_t sent_ = 0;
   HostTime taken_;
   Incoming incoming_;
+  HostTime counted_since_{};
+  std::size_t counted_ = 0;  ///< bytes that came since then
 };
 
 }  // namespace orthonav::igtl

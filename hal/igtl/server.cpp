@@ -6,6 +6,7 @@
 
 #include "base/joined.h"
 #include "hal/igtl/server_thread.h"
+#include "hal/net/allowed.h"
 
 namespace orthonav::igtl {
 std::vector<std::string> ServerOptions::check() const {
@@ -23,6 +24,12 @@ std::vector<std::string> ServerOptions::check() const {
   if (most_clients == 0) {
     problems.push_back("most_clients must be greater than 0");
   }
+  if (most_calls < 1) {
+    problems.push_back("most_calls must be greater than 0");
+  }
+  if (const auto allowed = net::Allowed::of(allow); !allowed) {
+    problems.push_back("allow: " + allowed.error().message);
+  }
   return problems;
 }
 
@@ -34,6 +41,13 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options) {
   if (!host) {
     return host.error();
   }
+  const auto allowed = net::Allowed::of(options.allow);
+  if (!allowed) {
+    return allowed.error();
+  }
+  if (const Status named = net::check_who_may(options.address, *host, *allowed); !named) {
+    return Error{"OpenIGTLink: " + named.error().message};
+  }
   auto listener = net::listen_at(*host, options.port, static_cast<int>(options.most_clients));
   if (!listener) {
     return Error{
@@ -41,7 +55,7 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options) {
         ErrorCode::kUnavailable};
   }
   return std::unique_ptr<Server>(
-      new Server(std::make_unique<ServerThread>(options, std::move(*listener))));
+      new Server(std::make_unique<ServerThread>(options, *allowed, std::move(*listener))));
 }
 
 Server::Server(std::unique_ptr<ServerThread> thread) : thread_(std::move(thread)) {}

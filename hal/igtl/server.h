@@ -14,7 +14,14 @@ struct ServerOptions {
   /// Of this machine, in numbers; loopback unless another one is named.
   std::string address = "127.0.0.1";
   int port = 18944;  ///< 0: any free one
+  /// Networks whose machines may connect besides this one, as in "192.168.1.0/24,10.0.0.7"; some
+  /// must be named where the address is not loopback.
+  std::string allow;
   std::size_t most_clients = 8;
+  /// So many may call within the time beside it; who calls beyond it waits in the kernel's queue.
+  int most_calls = 20;
+  std::chrono::milliseconds calls_counted_for{1000};
+  std::size_t most_bytes_per_s = std::size_t{32} << 20;  ///< a client that sends more is dropped
   double most_hz = 60.0;  ///< frames a second; of those between, only the newest is kept
   /// A client that takes nothing for so long is dropped.
   std::chrono::milliseconds longest_block{2000};
@@ -50,8 +57,9 @@ class Server {
     std::size_t clients = 0;  ///< connected now
     std::int64_t served = 0;  ///< that ever connected
     std::int64_t dropped = 0;
-    std::int64_t frames = 0;  ///< sent, once for all clients
-    std::string last_drop;    ///< why the last one was dropped
+    std::int64_t frames = 0;   ///< sent, once for all clients
+    std::string last_drop;     ///< why the last one was dropped
+    std::int64_t refused = 0;  ///< not allowed, or one too many
   };
   [[nodiscard]] Counts counts() const;
 

@@ -14,8 +14,8 @@ constexpr int kSendBuffer = 64 << 10;
 
 }  // namespace
 
-ServerThread::ServerThread(const ServerOptions& options, net::Socket listener)
-    : options_(options), listener_(std::move(listener)) {
+ServerThread::ServerThread(const ServerOptions& options, net::Allowed allowed, net::Socket listener)
+    : options_(options), allowed_(std::move(allowed)), listener_(std::move(listener)) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -64,8 +64,13 @@ void ServerThread::run() {
 
 /// Until somebody says something, may take something, or the time for a frame has come.
 void ServerThread::wait(HostTime now) {
-  std::vector<pollfd> watched = {{wake_up_.fd(), POLLIN, 0}, {listener_.fd(), POLLIN, 0}};
+  const bool may = may_call(now);
+  std::vector<pollfd> watched = {{wake_up_.fd(), POLLIN, 0},
+                                 {may ? listener_.fd() : -1, POLLIN, 0}};
   HostTime until = last_frame_ + options_.longest_silence;
+  if (!may) {
+    until = std::min(until, calls_since_ + options_.calls_counted_for);
+  }
   if (has_frame()) {
     until = std::min(until, next_frame_);
   }
@@ -84,9 +89,24 @@ void ServerThread::wait(HostTime now) {
   }
 }
 
+bool ServerThread::may_call(HostTime now) const {
+  return calls_ < options_.most_calls || now - calls_since_ >= options_.calls_counted_for;
+}
+
 void ServerThread::accept_clients(HostTime now) {
-  while (auto socket = net::accept_one(listener_)) {
-    if (clients_.size() >= options_.most_clients) {
+  while (may_call(now)) {
+    auto socket = net::accept_one(listener_);
+    if (!socket) {
+      return;
+    }
+    if (now - calls_since_ >= options_.calls_counted_for) {
+      calls_since_ = now;
+      calls_ = 0;
+    }
+    ++calls_;
+    if (clients_.size() >= options_.most_clients || !allowed_.contains(net::peer_of(*socket))) {
+      const MutexLock lock(mutex_);
+      ++counts_.refused;
       continue;
     }
     (void)::setsockopt(socket->fd(), SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
@@ -147,7 +167,7 @@ void ServerThread::give_frame(std::span<const std::uint8_t> frame, HostTime now)
 void ServerThread::serve_clients(HostTime now) {
   for (auto client = clients_.begin(); client != clients_.end();) {
     const auto here = client++;
-    Status s = here->read();
+    Status s = here->read(now, options_.most_bytes_per_s);
     s = s ? here->write(now) : s;
     if (s && !here->idle() && now - here->taken() > options_.longest_block) {
       s = Error{"does not read"};

@@ -8,13 +8,14 @@
 #include "base/mutex.h"
 #include "hal/igtl/client.h"
 #include "hal/igtl/server.h"
+#include "hal/net/allowed.h"
 
 namespace orthonav::igtl {
 
 /// The thread of a `Server`, and what it shares with those who publish.
 class ServerThread {
  public:
-  ServerThread(const ServerOptions& options, net::Socket listener);
+  ServerThread(const ServerOptions& options, net::Allowed allowed, net::Socket listener);
   ~ServerThread();
   ServerThread(const ServerThread&) = delete;
   ServerThread& operator=(const ServerThread&) = delete;
@@ -27,7 +28,8 @@ class ServerThread {
  private:
   void run();
   void wait(HostTime now);
-  void accept_clients(HostTime now);
+  void accept_clients(HostTime now) ORTHONAV_EXCLUDES(mutex_);
+  [[nodiscard]] bool may_call(HostTime now) const;
   void give_out(HostTime now) ORTHONAV_EXCLUDES(mutex_);
   void give_frame(std::span<const std::uint8_t> frame, HostTime now);
   void serve_clients(HostTime now);
@@ -35,6 +37,7 @@ class ServerThread {
   [[nodiscard]] bool has_frame() const ORTHONAV_EXCLUDES(mutex_);
 
   const ServerOptions options_;
+  const net::Allowed allowed_;
   const net::Socket listener_;
   const net::WakeUp wake_up_;
   std::atomic<bool> stop_ = false;
@@ -46,6 +49,8 @@ class ServerThread {
 
   // The thread's own.
   std::list<Client> clients_;
+  HostTime calls_since_{};
+  int calls_ = 0;  ///< in the second since then
   std::vector<std::uint8_t> standing_;
   HostTime next_frame_{};
   HostTime last_frame_{};

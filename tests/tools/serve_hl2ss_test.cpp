@@ -22,6 +22,15 @@ TEST(ServeHl2ss, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(host.err, HasSubstr("no.such.host.invalid"));
 }
 
+TEST(ServeHl2ss, ListensBeyondThisMachineOnlyForWhomItNames) {
+  const Called open = orthonav({"serve-hl2ss", "--listen", "0.0.0.0"});
+  EXPECT_EQ(open.code, 2);
+  EXPECT_THAT(open.err, HasSubstr("hl2ss server: other machines reach 0.0.0.0"));
+  const Called everybody = orthonav({"serve-hl2ss", "--listen", "0.0.0.0", "--allow", "0.0.0.0/0"});
+  EXPECT_EQ(everybody.code, 2);
+  EXPECT_THAT(everybody.err, HasSubstr("network \"0.0.0.0/0\" must have 8 to 32 bits"));
+}
+
 /// A run through what real units do: the stand-in's options of the command line, one by one.
 struct Unit {
   const char* name;

@@ -8,6 +8,7 @@
 #include "base/mutex.h"
 #include "base/time.h"
 #include "hal/hl2ss/bytes.h"
+#include "hal/net/allowed.h"
 #include "hal/net/socket.h"
 
 namespace orthonav::hl2ss {
@@ -31,7 +32,8 @@ class Port {
     std::function<void()> left = [] {};
   };
   explicit Port(Talk talk) : talk_(std::move(talk)) {}
-  Status listen(const net::Endpoint& host, int port);
+  /// Others than `allowed` are hung up on.
+  Status listen(const net::Endpoint& host, int port, const net::Allowed& allowed);
 
   [[nodiscard]] int fd() const;
   [[nodiscard]] short events() const;
@@ -49,6 +51,7 @@ class Port {
 
   Talk talk_;
   net::Socket listener_;
+  net::Allowed allowed_;
   net::Socket client_;
   std::atomic<bool> has_client_ = false;
   std::vector<std::uint8_t> heard_;

@@ -49,10 +49,10 @@ class RunningServer final : public Server {
     }
   }
 
-  Status listen(const net::Endpoint& host) {
+  Status listen(const net::Endpoint& host, const net::Allowed& allowed) {
     for (int base = options_.first_port > 0 ? options_.first_port : kFirstFreePort;;
          base += kPortStep) {
-      const Status listening = listen_from(host, base);
+      const Status listening = listen_from(host, base, allowed);
       if (listening) {
         return {};
       }
@@ -98,9 +98,9 @@ class RunningServer final : public Server {
     }
     return all;
   }
-  Status listen_from(const net::Endpoint& host, int base) {
+  Status listen_from(const net::Endpoint& host, int base, const net::Allowed& allowed) {
     for (const auto& [port, offset] : ports()) {
-      if (const Status listening = port->listen(host, base + offset); !listening) {
+      if (const Status listening = port->listen(host, base + offset, allowed); !listening) {
         return listening;
       }
     }
@@ -265,12 +265,19 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, Open
   if (!host) {
     return Error{"hl2ss server: " + host.error().message};
   }
+  const auto allowed = net::Allowed::of(options.allow);
+  if (!allowed) {
+    return Error{"hl2ss server: " + allowed.error().message};
+  }
+  if (const Status named = net::check_who_may(options.host, *host, *allowed); !named) {
+    return Error{"hl2ss server: " + named.error().message};
+  }
   auto first = open();
   if (!first) {
     return first.error();
   }
   auto server = std::make_unique<RunningServer>(options, std::move(open), std::move(*first));
-  if (const Status listening = server->listen(*host); !listening) {
+  if (const Status listening = server->listen(*host, *allowed); !listening) {
     return Error{"hl2ss server: " + listening.error().message};
   }
   server->run();

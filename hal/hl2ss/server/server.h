@@ -16,7 +16,10 @@ namespace orthonav::hl2ss {
 
 struct ServerOptions {
   std::string host = "127.0.0.1";  ///< the address to listen at
-  int first_port = kFirstPort;     ///< 0: the first free range from 20000 on
+  /// Networks whose machines may connect besides this one, as in "192.168.1.0/24,10.0.0.7"; some
+  /// must be named where the address is not loopback.
+  std::string allow;
+  int first_port = kFirstPort;  ///< 0: the first free range from 20000 on
   /// A side channel for our own client at first_port + 19 (docs/hl2ss.md).
   bool standin = true;
   /// The next pair comes when the client is done with the last one; needs the side channel. False:

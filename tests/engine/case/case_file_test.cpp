@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
 #include <tuple>
 
 #include "engine/case/plan_file.h"
@@ -122,6 +124,58 @@ TEST_F(CaseFile, TurnsAMatrixByTheAxesThatTheModelDeclaresNotByThePlans) {
       [1,0,0,10, 0,1,0,20, 0,0,1,30, 0,0,0,1])"));
   ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   EXPECT_EQ(loaded->levels[0].spine_from_vertebra.translation(), (Vec3{0.010, 0.020, 0.030}));
+}
+
+TEST_F(CaseFile, LeavesItsFolderByNoName) {
+  const TemporaryFolder elsewhere;
+  ASSERT_TRUE(save_stl(elsewhere.file("other.stl"), box_mesh()).ok());
+  const auto with = [&](const std::string& model, const std::string& plan) {
+    return refusal(R"({"label": "L4", "model": ")" + model + R"(", "plan": ")" + plan + R"("})");
+  };
+  const std::string other = elsewhere.file("other.stl");
+  EXPECT_THAT(with(other, "L4.plan.json"), HasSubstr("leads out of"));
+  const std::string upwards = "../" + elsewhere.path().filename().string() + "/other.stl";
+  EXPECT_THAT(with(upwards, "L4.plan.json"), HasSubstr("leads out of"));
+  EXPECT_THAT(with("L4.stl", "sub/../../L4.plan.json"), HasSubstr("leads out of"));
+  std::filesystem::create_symlink(other, folder_.file("link.stl"));
+  EXPECT_THAT(with("link.stl", "L4.plan.json"), HasSubstr("is a link that leads out of"));
+  std::filesystem::create_directory_symlink(elsewhere.path(), folder_.file("sub"));
+  EXPECT_THAT(with("sub/other.stl", "L4.plan.json"), HasSubstr("is a link that leads out of"));
+  ASSERT_EQ(::mkfifo(folder_.file("pipe.stl").c_str(), 0600), 0);
+  EXPECT_THAT(with("pipe.stl", "L4.plan.json"), HasSubstr("is no plain file"));
+}
+
+TEST_F(CaseFile, FollowsALinkThatStaysInside) {
+  std::filesystem::create_directory(folder_.file("models"));
+  std::filesystem::rename(folder_.file("L4.stl"), folder_.file("models/L4.stl"));
+  std::filesystem::create_symlink("models/L4.stl", folder_.file("L4.stl"));
+  const auto loaded = load(level("L4"));
+  EXPECT_TRUE(loaded.ok()) << loaded.error().message;
+  // And the folder itself may be one.
+  const TemporaryFolder elsewhere;
+  std::filesystem::create_directory_symlink(folder_.path(), elsewhere.file("case"));
+  const auto linked = load_case(elsewhere.file("case"));
+  EXPECT_TRUE(linked.ok()) << linked.error().message;
+}
+
+TEST_F(CaseFile, IsReadFromTheFolderAloneTooWhenItsOwnFileIsALink) {
+  const TemporaryFolder elsewhere;
+  std::ignore = elsewhere.with("case.json", R"({"levels": [)" + level("L4") + "]}");
+  std::filesystem::create_symlink(elsewhere.file("case.json"), folder_.file("case.json"));
+  const auto loaded = load_case(folder_.path().string());
+  ASSERT_FALSE(loaded.ok());
+  EXPECT_THAT(loaded.error().message, HasSubstr("case.json: is a link that leads out of"));
+}
+
+TEST_F(CaseFile, RefusesLabelsThatWouldNameFilesElsewhere) {
+  const auto labelled = [&](const std::string& label) {
+    return R"({"label": ")" + label + R"(", "model": "L4.stl"})";
+  };
+  EXPECT_THAT(refusal(level("L5") + "," + labelled("../L4")), HasSubstr("no / and no . in front"));
+  EXPECT_THAT(refusal(level("L5") + "," + labelled(std::string(65, 'L'))),
+              HasSubstr("64 characters at most"));
+  const auto longest = load(labelled(std::string(64, 'L')) + "," + level("L5"));
+  EXPECT_TRUE(longest.ok()) << longest.error().message;
 }
 
 TEST_F(CaseFile, NamesWhatIsMissing) {

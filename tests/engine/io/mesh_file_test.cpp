@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
@@ -114,6 +115,16 @@ TEST(MeshFile, RefusesAxesThatItDoesNotKnow) {
   EXPECT_FALSE(load_mesh(obj("SPACE="), kMm).ok());
   EXPECT_TRUE(load_mesh(obj("SPACE=RAS;UNIT=mm"), kMm).ok());
   EXPECT_TRUE(load_mesh(obj("COLORSPACE=sRGB"), kMm).ok()) << "a word of its own";
+}
+
+/// Would wait for whoever writes into the pipe, for ever.
+TEST(MeshFile, OpensNoOtherFileThatAnObjNames) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo(folder.file("colours.mtl").c_str(), 0600), 0);
+  const std::string text = "mtllib colours.mtl\n" + as_obj(box_mesh(), 1000.0);
+  const auto mesh = load_mesh(folder.with("box.obj", text), kMm);
+  ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+  EXPECT_EQ(mesh->triangles.size(), 12u);
 }
 
 TEST(MeshFile, ReadsEveryRealVertebra) {

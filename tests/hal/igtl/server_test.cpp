@@ -12,6 +12,7 @@
 
 #include "hal/igtl/incoming.h"
 #include "hal/igtl/message.h"
+#include "hal/igtl/server_thread.h"
 #include "tests/support/igtl_client.h"
 #include "tests/support/wait_until.h"
 
@@ -211,6 +212,73 @@ TEST(IgtlServer, ListensOnLoopbackAloneUnlessToldOtherwise) {
   EXPECT_NE(::connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
   ::close(fd);
   EXPECT_TRUE(IgtlClient(server->port()).connected()) << "the twin";
+}
+
+TEST(IgtlServer, ListensBeyondThisMachineOnlyForWhomItNames) {
+  ServerOptions options;
+  options.port = 0;
+  options.address = "0.0.0.0";
+  const auto open = Server::start(options);
+  ASSERT_FALSE(open.ok());
+  EXPECT_THAT(open.error().message, HasSubstr("other machines reach 0.0.0.0"));
+  options.allow = "10.0.0.0/4";
+  EXPECT_FALSE(Server::start(options).ok());
+  options.allow = "10.99.0.0/16";
+  const auto named = Server::start(options);
+  ASSERT_TRUE(named.ok()) << named.error().message;
+  IgtlClient here((*named)->port());
+  (*named)->publish(frame(1));
+  EXPECT_EQ(here.next(), "STRING Guidance");
+}
+
+TEST(IgtlServer, HangsUpOnWhoIsNotAllowed) {
+  auto listener = net::listen_at(net::resolve("127.0.0.1").value(), 0);
+  ASSERT_TRUE(listener.ok());
+  ServerThread thread(ServerOptions{}, net::Allowed::nobody(), std::move(*listener));
+  IgtlClient stranger(thread.port());
+  EXPECT_EQ(stranger.next(), "");
+  EXPECT_EQ(thread.counts().refused, 1);
+  EXPECT_EQ(thread.counts().served, 0);
+}
+
+TEST(IgtlServer, LetsNoMoreThanSoManyIn) {
+  ServerOptions options;
+  options.most_clients = 1;
+  const auto server = started(options);
+  IgtlClient first(server->port());
+  server->publish(frame(1));
+  EXPECT_EQ(first.next(), "STRING Guidance");
+  EXPECT_EQ(IgtlClient(server->port()).next(), "");
+  EXPECT_EQ(server->counts().refused, 1);
+}
+
+TEST(IgtlServer, LetsNobodyCallMoreOftenThanSo) {
+  ServerOptions options;
+  options.most_calls = 2;
+  options.calls_counted_for = std::chrono::hours(1);
+  const auto server = started(options);
+  IgtlClient first(server->port());
+  { IgtlClient second(server->port()); }
+  ASSERT_TRUE(wait_until([&] { return server->counts().served == 2; }));
+  IgtlClient third(server->port());
+  server->publish(frame(1));
+  EXPECT_EQ(first.next(), "STRING Guidance") << "the thread has come round";
+  EXPECT_EQ(server->counts().served, 2);
+  EXPECT_EQ(server->counts().clients, 1u);
+}
+
+TEST(IgtlServer, DropsWhoSendsTooMuch) {
+  ServerOptions options;
+  options.most_bytes_per_s = 5000;
+  const auto server = started(options);
+  IgtlClient loud(server->port());
+  IgtlClient good(server->port());
+  loud.send(packed_text({"Guidance", 0}, std::string(6000, 'x')));
+  ASSERT_TRUE(wait_until([&] { return server->counts().dropped == 1; }));
+  EXPECT_THAT(server->counts().last_drop, HasSubstr("sends more than 5000 bytes a second"));
+  good.send(frame(1));
+  server->publish(frame(1));
+  EXPECT_EQ(good.next(), "STRING Guidance");
 }
 
 }  // namespace

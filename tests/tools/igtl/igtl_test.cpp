@@ -167,5 +167,14 @@ TEST(IgtlCommand, RefusesPlacesWhereNobodyCanListen) {
   }
 }
 
+TEST(IgtlCommand, SaysForWhomItListensBeyondThisMachine) {
+  const test::Called open = test::orthonav({"run", "--frames", "1", "--igtl", "0.0.0.0:0"});
+  EXPECT_EQ(open.code, 2);
+  EXPECT_THAT(open.err, HasSubstr("--igtl-allow: OpenIGTLink: other machines reach 0.0.0.0"));
+  const test::Called alone = test::orthonav({"run", "--frames", "1", "--igtl-allow", "10.0.0.7"});
+  EXPECT_EQ(alone.code, 2);
+  EXPECT_THAT(alone.err, HasSubstr("--igtl-allow: needs --igtl"));
+}
+
 }  // namespace
 }  // namespace orthonav::tools::igtl_test

@@ -1,0 +1,25 @@
+# orthonav_hardened(target): in a release build, our code ends at the first overflow that a compiler can
+# see instead of going on with it (docs/decisions/0095-a-hardened-build.md has the cost). Private: whoever
+# links our libraries chooses for themselves. Programs also get addresses that nobody can guess, and
+# tables that nobody can write once they are loaded.
+option(ORTHONAV_HARDEN "Harden release builds" ON)
+include(CheckPIESupported)
+check_pie_supported(LANGUAGES C CXX)
+
+function(orthonav_hardened target)
+  # Sanitizers and fuzzers check more, and disagree with some of these.
+  if(NOT ORTHONAV_HARDEN OR ORTHONAV_SANITIZE OR ORTHONAV_FUZZ)
+    return()
+  endif()
+  target_compile_definitions(${target} PRIVATE
+    "$<$<CONFIG:Release>:_FORTIFY_SOURCE=3;_GLIBCXX_ASSERTIONS>")
+  target_compile_options(${target} PRIVATE
+    "$<$<CONFIG:Release>:-fstack-protector-strong;-fstack-clash-protection>")
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    target_compile_options(${target} PRIVATE "$<$<CONFIG:Release>:-fcf-protection>")
+  endif()
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "EXECUTABLE")
+    target_link_options(${target} PRIVATE "$<$<CONFIG:Release>:LINKER:-z,relro,-z,now,-z,noexecstack>")
+  endif()
+endfunction()
