@@ -33,7 +33,7 @@ class Port {
   };
   explicit Port(Talk talk) : talk_(std::move(talk)) {}
   /// Others than `allowed` are hung up on.
-  Status listen(const net::Endpoint& host, int port, const net::Allowed& allowed);
+  Status listen(const net::Endpoint& host, int port, const net::Allowed& allowed = {});
 
   [[nodiscard]] int fd() const;
   [[nodiscard]] short events() const;
