@@ -28,6 +28,7 @@ void add_demo_command(CLI::App& app, Action& action, StopSignals& signals);
 void add_depth_command(CLI::App& app, Action& action);
 void add_detect_command(CLI::App& app, Action& action);
 void add_doctor_command(CLI::App& app, Action& action);
+void add_evaluate_command(CLI::App& app, Action& action);
 void add_golden_command(CLI::App& app, Action& action);
 void add_plan_command(CLI::App& app, Action& action);
 void add_preview_command(CLI::App& app, Action& action, StopSignals& signals);

@@ -62,6 +62,7 @@ int run(int argc, char** argv) {
   add_depth_command(app, action);
   add_detect_command(app, action);
   add_doctor_command(app, action);
+  add_evaluate_command(app, action);
   add_golden_command(app, action);
   add_plan_command(app, action);
   add_preview_command(app, action, signals);

@@ -1,0 +1,191 @@
+#include "engine/evaluation/bone_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace orthonav::engine {
+namespace {
+
+constexpr double kStep_m = 0.0003;
+constexpr double kHalfWidth_m = 0.00075;  ///< of the difference that tells a slope
+constexpr double kLeastFall_hu = 120.0;
+constexpr double kLeastBone_hu = 150.0;
+
+std::vector<Vec3> vertex_normals(const nav::TriangleMesh& mesh) {
+  std::vector<Vec3> out(mesh.vertices_m.size());
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices_m[t[0]];
+    const Vec3 area = (mesh.vertices_m[t[1]] - a).cross(mesh.vertices_m[t[2]] - a);
+    for (const std::uint32_t corner : t) {
+      out[corner] += area;
+    }
+  }
+  return out;
+}
+
+std::size_t in_cubes(const nav::TriangleMesh& mesh, const std::vector<Vec3>& normals, double side_m,
+                     std::vector<std::size_t>& kept) {
+  std::map<std::array<int, 3>, std::size_t> cubes;
+  for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
+    if (normals[i].squared_norm() > 0.0) {
+      const Vec3 q = mesh.vertices_m[i] / side_m;
+      cubes.try_emplace({static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)),
+                         static_cast<int>(std::floor(q.z))},
+                        i);
+    }
+  }
+  kept.clear();
+  for (const auto& [cube, vertex] : cubes) {
+    kept.push_back(vertex);
+  }
+  return kept.size();
+}
+
+/// The values along a normal, from -reach to reach; nothing where metal or the border is near.
+struct Profile {
+  std::vector<double> hu;
+  bool masked = false;
+  bool outside = false;
+};
+
+void read_profile(const ScanField& scan, const MetalMask& mask, Vec3 place_m, Vec3 normal,
+                  int reach, Profile& out) {
+  out.hu.clear();
+  out.masked = mask.covers(place_m);
+  out.outside = !scan.holds(place_m);
+  if (out.masked || out.outside) {
+    return;
+  }
+  for (int step = -reach; step <= reach; ++step) {
+    const Vec3 at_m = place_m + (step * kStep_m) * normal;
+    const double hu = mask.covers(at_m) ? std::nan("") : scan.at(at_m);
+    out.hu.push_back(hu);
+  }
+}
+
+/// The steepest fall outward, to a part of a step.
+std::optional<double> steepest_fall_m(const Profile& profile, int reach, double within_m) {
+  const int half = static_cast<int>(std::lround(kHalfWidth_m / kStep_m));
+  const auto fall = [&](int step) {
+    const auto at = static_cast<std::size_t>(step + reach);
+    const auto h = static_cast<std::size_t>(half);
+    return profile.hu[at - h] - profile.hu[at + h];
+  };
+  std::optional<int> best;
+  double best_score = 0.0;
+  const int last = reach - half - 1;
+  for (int step = -last; step <= last; ++step) {
+    const double f = fall(step);
+    const double off = step * kStep_m / within_m;
+    const double score = f * (1.0 - 0.5 * off * off);
+    // What is not a number compares false.
+    if (f >= kLeastFall_hu && score > best_score &&
+        profile.hu[static_cast<std::size_t>(step + reach - half)] >= kLeastBone_hu) {
+      best = step;
+      best_score = score;
+    }
+  }
+  if (!best || std::abs(*best) == last) {
+    return std::nullopt;
+  }
+  const double before = fall(*best - 1);
+  const double here = fall(*best);
+  const double after = fall(*best + 1);
+  const double curve = before - 2.0 * here + after;
+  const double part = curve < 0.0 ? std::clamp(0.5 * (before - after) / curve, -0.5, 0.5) : 0.0;
+  return std::isfinite(part) ? std::optional((*best + part) * kStep_m) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh, std::size_t wanted) {
+  const std::vector<Vec3> normals = vertex_normals(mesh);
+  std::vector<std::size_t> kept;
+  for (double side_m = 0.001; in_cubes(mesh, normals, side_m, kept) > wanted;) {
+    side_m *= 1.1;
+  }
+  std::vector<SurfaceSample> out;
+  for (const std::size_t vertex : kept) {
+    out.push_back({mesh.vertices_m[vertex], normals[vertex].normalized()});
+  }
+  return out;
+}
+
+MetalMask::MetalMask(const ScanField& scan, double margin_m)
+    : grid_(scan.grid()), masked_(scan.grid().voxels()) {
+  std::array<int, 3> reach{};
+  for (int a = 0; a < 3; ++a) {
+    reach[static_cast<std::size_t>(a)] = static_cast<int>(std::ceil(margin_m / grid_.spacing_m[a]));
+  }
+  // Metal is spread along one index after another: a box about each voxel.
+  for (std::size_t n = 0; n < masked_.size(); ++n) {
+    masked_[n] = scan.value(static_cast<int>(n % static_cast<std::size_t>(grid_.size[0])),
+                            static_cast<int>(n / static_cast<std::size_t>(grid_.size[0]) %
+                                             static_cast<std::size_t>(grid_.size[1])),
+                            static_cast<int>(n / static_cast<std::size_t>(grid_.size[0]) /
+                                             static_cast<std::size_t>(grid_.size[1]))) >= kMetal_hu;
+  }
+  std::size_t stride = 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto count = static_cast<std::size_t>(grid_.size[a]);
+    const auto far = static_cast<std::size_t>(reach[a]);
+    for (std::size_t start = 0; start < masked_.size(); ++start) {
+      if (start / stride % count != 0) {
+        continue;
+      }
+      std::size_t until = 0;  // places before this one are near metal
+      std::vector<bool> line(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (masked_[start + i * stride]) {
+          const std::size_t from = std::max(until, i > far ? i - far : 0);
+          until = std::min(count, i + far + 1);
+          std::fill(line.begin() + static_cast<std::ptrdiff_t>(from),
+                    line.begin() + static_cast<std::ptrdiff_t>(until), true);
+        }
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        masked_[start + i * stride] = line[i];
+      }
+    }
+    stride *= count;
+  }
+}
+
+bool MetalMask::covers(Vec3 place_m) const {
+  const Vec3 index = grid_.index_of(place_m);
+  std::array<int, 3> at{};
+  for (int a = 0; a < 3; ++a) {
+    const auto n = static_cast<std::size_t>(a);
+    if (!(index[a] > -0.5 && index[a] < grid_.size[n] - 0.5)) {
+      return false;
+    }
+    at[n] = static_cast<int>(index[a] + 0.5);
+  }
+  return masked_[grid_.at(at[0], at[1], at[2])];
+}
+
+BoneEdges bone_edges(const ScanField& scan, const MetalMask& mask,
+                     const std::vector<SurfaceSample>& samples,
+                     const Transform<Scan, Vertebra>& scan_from_vertebra, double within_m) {
+  BoneEdges out;
+  const int reach = static_cast<int>(std::ceil((within_m + kHalfWidth_m) / kStep_m)) + 1;
+  Profile profile;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Vec3 place_m = (scan_from_vertebra * Point<Vertebra>{samples[i].place_m}).v;
+    const Vec3 normal = (scan_from_vertebra * Direction<Vertebra>{samples[i].normal}).v;
+    read_profile(scan, mask, place_m, normal, reach, profile);
+    out.outside += profile.outside ? 1 : 0;
+    if (profile.outside || profile.masked) {
+      continue;
+    }
+    ++out.looked_for;
+    if (const auto edge = steepest_fall_m(profile, reach, within_m)) {
+      out.edges.push_back({i, *edge});
+    }
+  }
+  return out;
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "engine/evaluation/bone_edges.h"
+#include "nav/registration/tre.h"
+
+namespace orthonav::engine {
+
+/// A vertebra laid on its bone in the scan.
+struct BoneRegistration {
+  Transform<Scan, Vertebra> scan_from_vertebra;
+  /// By how much all edges lie outside the surface, up to 1 mm; the figures below are without it.
+  double offset_m = 0.0;
+  double residual_m = 0.0;   ///< median distance of an edge in the scan from the surface
+  double coverage = 0.0;     ///< share of the samples, clear of metal, whose edge lies within 1 mm
+  double inside_scan = 0.0;  ///< share of the samples inside the scan
+  std::size_t edges = 0;
+  nav::PoseUncertainty uncertainty;  ///< in the model's frame
+};
+
+/// A fit that does not keep these is not believed.
+struct BoneLimits {
+  double most_residual_m = 0.0008;
+  double least_coverage = 0.65;
+  double least_inside_scan = 0.60;
+  double least_edges = 150;
+};
+
+/// Lays the surface on the edges of bone in the scan from a start some millimetres and degrees off:
+/// point to plane (Chen and Medioni 1992) with Tukey's weights, the edges sought again in each
+/// round, from `within_m` along the normals down to 1.5 mm. Says nothing of whether the fit is any
+/// good: `refusal` does. Where the edges leave the pose undetermined, nothing is covered.
+[[nodiscard]] BoneRegistration laid_on_bone(const ScanField& scan, const MetalMask& mask,
+                                            const std::vector<SurfaceSample>& samples,
+                                            const Transform<Scan, Vertebra>& start,
+                                            double within_m);
+
+/// Why it is not to be believed, in one line; empty where it is.
+[[nodiscard]] std::string refusal(const BoneRegistration& found, const BoneLimits& limits = {});
+
+}  // namespace orthonav::engine

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/case/case.h"
+#include "engine/evaluation/bone_registration.h"
+#include "engine/evaluation/shaft_search.h"
+#include "nav/guidance/clearance_spread.h"
+#include "nav/guidance/screw_clearance.h"
+
+namespace orthonav::engine {
+
+/// Which definitions the figures below have, for reports (docs/evaluation.md).
+inline constexpr const char* kEvaluationDefinitions =
+    "entry: where the axis meets the bone; entry (axis): the point of the axis nearest to the "
+    "planned entry; depth: length in the bone less the planned length; clearance: least depth "
+    "below the bone's surface of side and flat tip from 6 mm past the entry on; a bent wire's "
+    "axis is its chord from entry to tip";
+
+/// What a planned screw became.
+struct ScrewInScan {
+  std::size_t shaft = 0;  ///< among those found
+  nav::ScrewCylinder
+      cylinder;            ///< as it lies: entry, axis, length in the bone, radius it is judged by
+  double angle_rad = 0.0;  ///< between planned and placed axis
+  double angle_sd_rad = 0.0;
+  double entry_m = 0.0;       ///< planned entry to where the axis meets the bone
+  double entry_axis_m = 0.0;  ///< planned entry to the nearest point of the axis
+  double entry_axis_sd_m = 0.0;
+  double target_m = 0.0;  ///< planned target to the tip
+  double depth_m = 0.0;   ///< length in the bone less the planned length
+  double measured_radius_m = 0.0;
+  bool radius_as_planned = false;  ///< measured as planned, so that it is judged by the planned one
+  double bow_m = 0.0;              ///< of a bent wire, from its chord
+  std::optional<nav::Clearance> clearance;  ///< none up to 6 mm in the bone
+  std::optional<nav::ClearanceSpread> spread;
+  /// A wire, were it the planned screw.
+  std::optional<nav::Clearance> as_planned_screw;
+};
+
+struct EvaluatedScrew {
+  nav::ScrewPlan plan;
+  std::optional<ScrewInScan> placed;  ///< none: no shaft lies there
+};
+
+struct EvaluatedLevel {
+  std::string label;
+  std::optional<BoneRegistration> registration;  ///< only one that is believed
+  std::string refusal;                           ///< why there is none
+  std::vector<EvaluatedScrew> screws;
+};
+
+/// Metal that is no planned screw.
+struct UnassignedMetal {
+  Point<Scan> place;  ///< a shaft's tip, or the middle
+  std::optional<std::size_t> shaft;
+  double volume_m3 = 0.0;  ///< of what is no shaft
+  std::string where;       ///< "in L4", "outside the vertebrae"
+};
+
+struct Evaluation {
+  std::vector<Shaft> shafts;
+  std::vector<EvaluatedLevel> levels;  ///< those with planned screws
+  std::vector<UnassignedMetal> unassigned;
+};
+
+/// Finds wires and screws in a post-operative scan, lays each vertebra with planned screws on its
+/// bone with the metal masked, and compares in the vertebra's frame. A planned screw gets the shaft
+/// within 15 mm and 30° of it that runs in that bone, at most one each; what lies farther off is
+/// reported as unassigned, and the screw as not found. Refuses what `check_scan` refuses, a case
+/// without planned screws, and a scan that the spine fits in two ways.
+Result<Evaluation> evaluate(const Case& subject, const Volume& scan);
+
+}  // namespace orthonav::engine

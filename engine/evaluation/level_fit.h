@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/case/case.h"
+#include "engine/evaluation/bone_registration.h"
+
+namespace orthonav::engine {
+
+/// One vertebra of the case to be laid on its bone.
+struct LevelSurface {
+  const CaseLevel* level = nullptr;
+  std::vector<SurfaceSample> few;   ///< for trying starts
+  std::vector<SurfaceSample> many;  ///< for the fit itself
+};
+
+/// A level on its bone, or why it is not to be believed.
+struct LaidLevel {
+  BoneRegistration bone;
+  std::string refusal;  ///< empty: it is believed
+};
+
+/// The best fit of each level, in their order: coverage decides. `starts` are those of the whole
+/// spine. A level that lies where the others say that it can't is refused. An Error where the spine
+/// fits the scan in two places nearly alike.
+Result<std::vector<LaidLevel>> laid_levels(const ScanField& scan, const MetalMask& mask,
+                                           std::span<const LevelSurface> levels,
+                                           std::span<const Transform<Scan, Spine>> starts);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,133 @@
+#include "engine/evaluation/placed_screw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+
+#include "nav/guidance/placed_axis.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr double kFarthest_m = 0.015;
+constexpr double kFarthest_rad = 0.5236;
+constexpr double kSameDiameter_m = 0.0006;
+constexpr double kWire_m = 0.0018;  ///< radius up to which a shaft is a wire
+
+bool is_wire(const Shaft& shaft) { return shaft.radius_m < kWire_m; }
+
+bool has_planned_radius(const Shaft& shaft, const nav::ScrewPlan& plan) {
+  return plan.radius_m > 0.0 && std::abs(2.0 * (shaft.radius_m - plan.radius_m)) < kSameDiameter_m;
+}
+
+/// A thickness that is seen too large is so at the tip, too.
+Vec3 tip_in_scan(const Shaft& shaft, const nav::ScrewPlan& plan) {
+  const double too_large_m =
+      has_planned_radius(shaft, plan) && !shaft.cut ? shaft.radius_m - plan.radius_m : 0.0;
+  return shaft.line.at(shaft.to_s_m - too_large_m);
+}
+
+Eigen::Matrix3d cross_matrix(Vec3 v) {
+  Eigen::Matrix3d out;
+  out << 0, -v.z, v.y, v.z, 0, -v.x, -v.y, v.x, 0;
+  return out;
+}
+
+/// What is unsure of the screw against the bone: the axis' errors in the scan, as a motion about
+/// the centre of the registration's, and those.
+nav::PoseUncertainty total_uncertainty(const Shaft& shaft, const BoneRegistration& bone) {
+  const Transform<Vertebra, Scan> vertebra_from_scan = bone.scan_from_vertebra.inverse();
+  const auto turned = [&](Vec3 v) {
+    const Vec3 r = vertebra_from_scan.rotation() * v;
+    return Eigen::Vector3d(r.x, r.y, r.z);
+  };
+  const Centreline& line = shaft.line;
+  Eigen::Matrix<double, 6, 4> motion = Eigen::Matrix<double, 6, 4>::Zero();
+  motion.block<3, 1>(0, 0) = turned(line.across);
+  motion.block<3, 1>(0, 1) = turned(line.athwart);
+  motion.block<3, 1>(3, 2) = turned(line.athwart);
+  motion.block<3, 1>(3, 3) = turned(-line.across);
+  const Vec3 middle_m = (vertebra_from_scan * Point<Scan>{line.middle_m}).v;
+  motion.topRows<3>() -=
+      cross_matrix(bone.uncertainty.centre_m() - middle_m) * motion.bottomRows<3>();
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> own(shaft.covariance.data());
+  const Eigen::Matrix<double, 6, 6> axis = motion * own * motion.transpose();
+  std::array<double, 36> sum = bone.uncertainty.covariance();
+  for (Eigen::Index i = 0; i < 36; ++i) {
+    sum[static_cast<std::size_t>(i)] += axis(i / 6, i % 6);
+  }
+  return {bone.uncertainty.centre_m(), sum};
+}
+
+}  // namespace
+
+std::optional<nav::ScrewCylinder> cylinder_in_bone(const Shaft& shaft, const nav::ScrewPlan& plan,
+                                                   const BoneInScan& bone) {
+  const Transform<Vertebra, Scan> vertebra_from_scan =
+      bone.registration.scan_from_vertebra.inverse();
+  const Point<Vertebra> tip = vertebra_from_scan * Point<Scan>{tip_in_scan(shaft, plan)};
+  nav::ScrewPlan sized = plan;
+  sized.radius_m = has_planned_radius(shaft, plan) ? plan.radius_m : shaft.radius_m;
+  Point<Vertebra> behind = vertebra_from_scan * shaft.rear();
+  std::optional<nav::ScrewCylinder> out;
+  // A bent wire's entry tells its chord, and the chord its entry.
+  for (int round = 0; round < 4; ++round) {
+    const Vec3 direction = (tip - behind).normalized();
+    out = nav::cylinder_along({tip, direction}, sized, bone.surface);
+    if (!out) {
+      return std::nullopt;
+    }
+    out->length_m = (tip - out->entry).dot(out->direction);
+    const Point<Scan> entry = bone.registration.scan_from_vertebra * out->entry;
+    behind = vertebra_from_scan * Point<Scan>{shaft.line.at(shaft.line.s_of(entry.v))};
+  }
+  constexpr double kShortest_m = 0.005;
+  const Vec3 planned = plan.target - plan.entry;
+  const Vec3 to_middle = plan.entry.v + 0.5 * planned - out->entry.v;
+  const double off_m = to_middle.cross(out->direction).norm();
+  const bool near = off_m <= kFarthest_m &&
+                    angle_between_rad(planned, out->direction) <= kFarthest_rad &&
+                    out->length_m >= kShortest_m;
+  return near ? out : std::nullopt;
+}
+
+double distance_from_plan_m(const nav::ScrewCylinder& cylinder, const nav::ScrewPlan& plan) {
+  constexpr double kOfAngle_m = 0.0115;  // 0.2 mm a degree
+  const Vec3 planned = plan.target - plan.entry;
+  const Vec3 to_middle = plan.entry.v + 0.5 * planned - cylinder.entry.v;
+  return to_middle.cross(cylinder.direction).norm() +
+         kOfAngle_m * angle_between_rad(planned, cylinder.direction);
+}
+
+ScrewInScan placed_screw(const Shaft& shaft, const nav::ScrewPlan& plan,
+                         const nav::ScrewCylinder& cylinder, const BoneInScan& bone) {
+  const nav::PoseUncertainty unsure = total_uncertainty(shaft, bone.registration);
+  const nav::PlacedAxis axis =
+      nav::placed_axis(plan, {cylinder.entry, cylinder.direction}, unsure, {});
+  const Point<Vertebra> tip = cylinder.entry + cylinder.length_m * cylinder.direction;
+  ScrewInScan out;
+  out.cylinder = cylinder;
+  out.angle_rad = axis.angle_rad.value;
+  out.angle_sd_rad = axis.angle_rad.sd;
+  out.entry_m = (cylinder.entry - plan.entry).norm();
+  out.entry_axis_m = axis.entry_m.value;
+  out.entry_axis_sd_m = axis.entry_m.sd;
+  out.target_m = (tip - plan.target).norm();
+  out.depth_m = cylinder.length_m - (plan.target - plan.entry).norm();
+  out.measured_radius_m = shaft.radius_m;
+  out.radius_as_planned = has_planned_radius(shaft, plan);
+  const double part = 0.5 * cylinder.length_m / shaft.line.half_m;
+  out.bow_m = part * part * std::hypot(shaft.line.bow_across_m, shaft.line.bow_athwart_m);
+  out.clearance = nav::least_clearance(bone.surface, cylinder);
+  if (out.clearance) {
+    out.spread = nav::clearance_spread(bone.surface, cylinder, *out.clearance, unsure);
+  }
+  if (is_wire(shaft) && plan.radius_m > 0.0) {
+    nav::ScrewCylinder thick = cylinder;
+    thick.radius_m = plan.radius_m;
+    out.as_planned_screw = nav::least_clearance(bone.surface, thick);
+  }
+  return out;
+}
+
+}  // namespace orthonav::engine

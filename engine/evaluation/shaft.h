@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "base/transform.h"
+#include "engine/evaluation/scan_field.h"
+
+namespace orthonav::engine {
+
+/// The middle of a shaft: a straight line, or a parabola where a wire is bent. `s` runs from
+/// -half_m to half_m, metres along `direction`.
+struct Centreline {
+  Vec3 middle_m;
+  Vec3 direction;  ///< unit
+  Vec3 across;     ///< unit, at right angles to the direction and to each other
+  Vec3 athwart;
+  double half_m = 0.0;
+  /// How far the line lies off its tangent at either end, towards `across` and `athwart`.
+  double bow_across_m = 0.0;
+  double bow_athwart_m = 0.0;
+
+  [[nodiscard]] static Centreline straight(Vec3 middle_m, Vec3 direction, double half_m) {
+    const Vec3 aside = std::abs(direction.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 across = direction.cross(aside).normalized();
+    return {middle_m, direction, across, direction.cross(across), half_m};
+  }
+  [[nodiscard]] Vec3 at(double s_m) const {
+    const double q = (s_m / half_m) * (s_m / half_m);
+    return middle_m + s_m * direction + (q * bow_across_m) * across + (q * bow_athwart_m) * athwart;
+  }
+  [[nodiscard]] double s_of(Vec3 place_m) const { return (place_m - middle_m).dot(direction); }
+  [[nodiscard]] double off_m(Vec3 place_m) const { return (place_m - at(s_of(place_m))).norm(); }
+};
+
+/// A straight piece of metal in a scan: a screw without its head, a wire, a piece of a rod.
+struct Shaft {
+  Centreline line;
+  double from_s_m = 0.0;  ///< where it begins, or its head ends
+  double to_s_m = 0.0;    ///< its other end: the one further to the front (LPS), taken for the tip
+  double radius_m = 0.0;
+  bool headed = false;     ///< thicker metal before `from_s_m`
+  bool cut = false;        ///< the scan ends before the tip does
+  double misfit_hu = 0.0;  ///< RMS, what the model leaves of the voxels at its border
+  /// Of the errors of its middle across and athwart (m²), then of its direction towards the same
+  /// (rad²), by rows.
+  std::array<double, 16> covariance{};
+
+  [[nodiscard]] Point<Scan> tip() const { return {line.at(to_s_m)}; }
+  [[nodiscard]] Point<Scan> rear() const { return {line.at(from_s_m)}; }
+  [[nodiscard]] double length_m() const { return to_s_m - from_s_m; }
+};
+
+}  // namespace orthonav::engine

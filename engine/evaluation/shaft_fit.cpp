@@ -1,0 +1,252 @@
+#include "engine/evaluation/shaft_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "nav/statistics/levenberg_marquardt.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr double kLow_hu = 1300.0;   ///< bone and most streaks are below
+constexpr double kClip_hu = 3071.0;  ///< of 12 bits
+constexpr double kTitanium_hu = 8000.0;
+constexpr double kAround_hu = 300.0;
+constexpr double kNoise_hu = 80.0;  ///< what a voxel misses the model by, to start with
+constexpr double kBorder_m = 0.0025;
+constexpr double kThin_m = 0.0018;  ///< radius up to which a shaft may be bent
+
+/// What is sought, in the order of the parameters; metres and radians.
+enum Parameter : std::size_t {
+  kAcross,
+  kAthwart,
+  kTurnAcross,
+  kTurnAthwart,
+  kRadius,
+  kBlur,
+  kTip,
+  kRear,
+  kBowAcross,
+  kBowAthwart,
+  kParameters
+};
+using Parameters = std::array<double, kParameters>;
+
+struct Voxel {
+  Vec3 place_m;
+  double hu = 0.0;
+};
+
+/// The shaft with its parameters changed.
+Shaft changed(const Shaft& start, std::span<const double> p) {
+  Shaft out = start;
+  Centreline& line = out.line;
+  line.middle_m += p[kAcross] * line.across + p[kAthwart] * line.athwart;
+  line.direction =
+      (line.direction + p[kTurnAcross] * line.across + p[kTurnAthwart] * line.athwart).normalized();
+  line.across = (line.across - line.across.dot(line.direction) * line.direction).normalized();
+  line.athwart = line.direction.cross(line.across);
+  out.radius_m = p[kRadius];
+  out.to_s_m += p[kTip];
+  out.from_s_m += p[kRear];
+  line.bow_across_m += p[kBowAcross];
+  line.bow_athwart_m += p[kBowAthwart];
+  return out;
+}
+
+double normal_cdf(double x) { return 0.5 * std::erfc(-x * 0.70710678118654752); }
+
+/// The share of metal that a blurred shaft has at a place.
+double share_at(const Shaft& shaft, double blur_m, Vec3 place_m) {
+  const double s = shaft.line.s_of(place_m);
+  const double off_m = (place_m - shaft.line.at(s)).norm();
+  double share = normal_cdf((shaft.radius_m - off_m) / blur_m);
+  if (!shaft.headed) {
+    share *= normal_cdf((s - shaft.from_s_m) / blur_m);
+  }
+  if (!shaft.cut) {
+    share *= normal_cdf((shaft.to_s_m - s) / blur_m);
+  }
+  // A flat border would have all of its height; a thin cylinder is blurred away from all sides.
+  const double q = shaft.radius_m / blur_m;
+  return share * (1.0 - std::exp(-0.5 * q * q)) / normal_cdf(q);
+}
+
+/// Where a voxel is looked at: more places along an index with long voxels.
+std::vector<Vec3> places_in_voxel(const VolumeGrid& grid) {
+  std::array<int, 3> parts{};
+  for (int a = 0; a < 3; ++a) {
+    parts[static_cast<std::size_t>(a)] =
+        std::clamp(static_cast<int>(std::ceil(grid.spacing_m[a] / 0.0006 - 0.2)), 1, 5);
+  }
+  std::vector<Vec3> out;
+  for (int i = 0; i < parts[0]; ++i) {
+    for (int j = 0; j < parts[1]; ++j) {
+      for (int k = 0; k < parts[2]; ++k) {
+        const Vec3 part{(i + 0.5) / parts[0] - 0.5, (j + 0.5) / parts[1] - 0.5,
+                        (k + 0.5) / parts[2] - 0.5};
+        out.push_back(grid.directions * Vec3{part.x * grid.spacing_m.x, part.y * grid.spacing_m.y,
+                                             part.z * grid.spacing_m.z});
+      }
+    }
+  }
+  return out;
+}
+
+bool belongs_to_other(std::span<const Shaft> others, Vec3 place_m, double reach_m) {
+  return std::any_of(others.begin(), others.end(), [&](const Shaft& other) {
+    const double s = other.line.s_of(place_m);
+    const double behind_m = other.headed ? 0.020 : reach_m;
+    const double wide_m = s < other.from_s_m ? 0.008 : other.radius_m;
+    return s > other.from_s_m - behind_m && s < other.to_s_m + reach_m &&
+           other.line.off_m(place_m) < wide_m + reach_m;
+  });
+}
+
+/// The voxels about the border of a shaft, at most some thousands of them.
+std::vector<Voxel> border_voxels(const ScanField& scan, const Shaft& shaft,
+                                 std::span<const Shaft> others) {
+  constexpr std::size_t kMost = 3500;
+  const double reach_m = kBorder_m + 0.5 * scan.grid().spacing_m.z;
+  Vec3 low = shaft.rear().v;
+  Vec3 high = low;
+  for (const double s : {shaft.from_s_m, 0.0, shaft.to_s_m}) {
+    for (int a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], shaft.line.at(s)[a] - shaft.radius_m - reach_m);
+      high[a] = std::max(high[a], shaft.line.at(s)[a] + shaft.radius_m + reach_m);
+    }
+  }
+  const double first_s = shaft.headed ? shaft.from_s_m + 0.002 : shaft.from_s_m - 0.004;
+  const double last_s = shaft.to_s_m + (shaft.cut ? -0.002 : 0.004);
+  std::vector<Voxel> out;
+  for_each_voxel_in(scan.grid(), low, high, [&](std::array<int, 3> at, Vec3 place_m) {
+    const double s = shaft.line.s_of(place_m);
+    if (s < first_s || s > last_s) {
+      return;
+    }
+    const double off_m = shaft.line.off_m(place_m);
+    const bool at_end = s > shaft.to_s_m - reach_m || s < shaft.from_s_m + reach_m;
+    if (off_m < shaft.radius_m + reach_m && (at_end || off_m > shaft.radius_m - reach_m) &&
+        !belongs_to_other(others, place_m, 0.0015)) {
+      out.push_back({place_m, scan.value(at[0], at[1], at[2])});
+    }
+  });
+  const std::size_t every = out.size() / kMost + 1;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < out.size(); i += every) {
+    out[kept++] = out[i];
+  }
+  out.resize(kept);
+  return out;
+}
+
+/// Misfits that are much larger than the noise count for less (Cauchy).
+double soft(double misfit) {
+  constexpr double kWidth = 3.0;
+  const double q = misfit / kWidth;
+  return std::copysign(kWidth * std::sqrt(std::log1p(q * q)), misfit);
+}
+
+/// How voxels of this shaft are drawn.
+struct Rendering {
+  double metal_hu = kTitanium_hu;
+  double highest_hu = kClip_hu;
+  std::vector<Vec3> places_m;  ///< in a voxel
+};
+
+Rendering rendering_of(const ScanField& scan, const std::vector<Voxel>& voxels,
+                       const Shaft& shaft) {
+  Rendering out;
+  out.places_m = places_in_voxel(scan.grid());
+  std::vector<double> core;
+  for (const Voxel& voxel : voxels) {
+    if (shaft.line.off_m(voxel.place_m) < 0.7 * shaft.radius_m && voxel.hu > kMetal_hu) {
+      core.push_back(voxel.hu);
+    }
+  }
+  std::sort(core.begin(), core.end());
+  // Of a scan that does not clip, the metal's own density is seen.
+  if (!core.empty() && core[core.size() / 2] > kClip_hu + 200.0) {
+    out.metal_hu = core[core.size() / 2];
+    out.highest_hu = 0.9 * out.metal_hu;
+  }
+  return out;
+}
+
+void write_misfits(const std::vector<Voxel>& voxels, const Rendering& how, const Shaft& shaft,
+                   double blur_m, std::vector<double>& out) {
+  out.clear();
+  const double parts = static_cast<double>(how.places_m.size());
+  for (const Voxel& voxel : voxels) {
+    double share = 0.0;
+    for (const Vec3& part : how.places_m) {
+      share += share_at(shaft, blur_m, voxel.place_m + part);
+    }
+    const double model_hu = kAround_hu + share / parts * (how.metal_hu - kAround_hu);
+    const double misfit_hu = std::clamp(voxel.hu, kLow_hu, how.highest_hu) -
+                             std::clamp(model_hu, kLow_hu, how.highest_hu);
+    out.push_back(soft(misfit_hu / kNoise_hu));
+  }
+}
+
+/// Of place and direction, from that of all parameters. Neighbouring voxels share their noise and
+/// their streaks: a voxel counts for a sixth of one.
+std::array<double, 16> axis_covariance(const nav::LeastSquares& found, std::size_t voxels) {
+  constexpr double kSharing = 6.0;
+  const double scale = std::max(0.1, found.sum_of_squares / static_cast<double>(voxels));
+  std::array<double, 16> out{};
+  for (std::size_t row = 0; row < 4; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      out[4 * row + column] = kSharing * scale * found.covariance[row * kParameters + column];
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& shaft,
+                                  std::span<const Shaft> others) {
+  constexpr double kFirstBlur_m = 0.0005;
+  constexpr std::size_t kFewest = 40;
+  const std::vector<Voxel> voxels = border_voxels(scan, shaft, others);
+  if (voxels.size() < kFewest) {
+    return std::nullopt;
+  }
+  const Rendering how = rendering_of(scan, voxels, shaft);
+  Parameters start{};
+  start[kRadius] = shaft.radius_m;
+  start[kBlur] = kFirstBlur_m;
+  const bool thin = shaft.radius_m < kThin_m;
+  const auto blur = [](std::span<const double> p) { return std::clamp(p[kBlur], 2e-4, 1.5e-3); };
+  const auto put = [&](std::span<const double> p) {
+    Parameters used{};
+    std::copy(p.begin(), p.end(), used.begin());
+    used[kRadius] = std::clamp(used[kRadius], 3e-4, 7e-3);
+    if (!thin) {
+      used[kBowAcross] = used[kBowAthwart] = 0.0;
+    }
+    return changed(shaft, used);
+  };
+  const auto found = nav::levenberg_marquardt(
+      start,
+      [&](std::span<const double> p, std::vector<double>& out) {
+        write_misfits(voxels, how, put(p), blur(p), out);
+      },
+      15);
+  if (!found) {
+    return std::nullopt;
+  }
+  Shaft out = put(found->parameters);
+  constexpr double kFarthest_m = 0.003;
+  if ((out.line.middle_m - shaft.line.middle_m).norm() > kFarthest_m ||
+      angle_between_rad(out.line.direction, shaft.line.direction) > 0.15) {
+    return std::nullopt;
+  }
+  out.misfit_hu = kNoise_hu * std::sqrt(found->sum_of_squares / static_cast<double>(voxels.size()));
+  out.covariance = axis_covariance(*found, voxels.size());
+  return out;
+}
+
+}  // namespace orthonav::engine

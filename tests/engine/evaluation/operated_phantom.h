@@ -1,0 +1,32 @@
+#pragma once
+
+#include "engine/case/case.h"
+#include "engine/phantom/phantom.h"
+#include "tests/support/operated_spine.h"
+#include "tests/support/voxelised_scan.h"
+
+namespace orthonav::test {
+
+inline std::vector<PlannedVertebra> planned_vertebrae(const engine::Case& subject) {
+  std::vector<PlannedVertebra> out;
+  for (const engine::CaseLevel& level : subject.levels) {
+    out.push_back(
+        {level.label,
+         level.mesh,
+         level.screws,
+         {level.spine_from_vertebra.rotation(), level.spine_from_vertebra.translation()}});
+  }
+  return out;
+}
+
+/// A coarse scan of an operation, quick to compute: 1 mm slices of voxels of 0.8 mm.
+inline engine::Volume quick_scan(const OperatedSpine& spine, double streaks = 1.0) {
+  BodySettings body;
+  body.step_m = 0.0004;
+  ScannerSettings scanner;
+  scanner.spacing_m = {0.0008, 0.0008, 0.001};
+  scanner.streaks = streaks;
+  return scanned(fine_body(spine.bones, spine.metal, body), scanner);
+}
+
+}  // namespace orthonav::test

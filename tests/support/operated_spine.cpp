@@ -1,0 +1,162 @@
+#include "tests/support/operated_spine.h"
+
+#include <cmath>
+#include <optional>
+
+namespace orthonav::test {
+namespace {
+
+Vec3 any_direction(Random& random) {
+  Vec3 v;
+  do {
+    v = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+  } while (v.norm() > 1.0 || v.norm() < 0.1);
+  return v.normalized();
+}
+
+Motion any_motion(double turn_rad, double shift_m, Vec3 about_m, Random& random) {
+  const Mat3 turn =
+      rotation_from_vector(random.uniform(0.3, 1.0) * turn_rad * any_direction(random));
+  const Vec3 shift = random.uniform(0.3, 1.0) * shift_m * any_direction(random);
+  return {turn, about_m + shift - turn * about_m};
+}
+
+Motion after(const Motion& second, const Motion& first) {
+  return {second.rotation * first.rotation, second(first.translation_m)};
+}
+
+/// Where an axis through a point meets the bone from behind, near the planned entry.
+std::optional<Vec3> entry_of(const nav::SurfaceIndex& bone, Vec3 abreast_m, Vec3 direction) {
+  constexpr double kBehind_m = 0.025;
+  const auto hit = bone.first_hit(abreast_m - kBehind_m * direction, direction);
+  if (!hit || hit->distance_m > 2.0 * kBehind_m) {
+    return std::nullopt;
+  }
+  return hit->point_m;
+}
+
+Vec3 any_across(Vec3 direction, Random& random) {
+  return direction.cross(any_direction(random)).normalized();
+}
+
+TrueScrew driven(const nav::SurfaceIndex& bone, const nav::ScrewPlan& plan,
+                 const OperationSettings& settings, Random& random) {
+  const Vec3 planned = (plan.target - plan.entry).normalized();
+  const double length_m = (plan.target - plan.entry).norm();
+  const double far = random.uniform() < settings.share_far ? 2.5 : 1.0;
+  const Vec3 across = any_across(planned, random);
+  const Vec3 off = far * settings.entry_sd_m *
+                   (random.normal() * across + random.normal() * planned.cross(across));
+  const Vec3 turn = far * settings.angle_sd_rad *
+                    (random.normal() * across + random.normal() * planned.cross(across));
+  const Vec3 direction = rotation_from_vector(turn) * planned;
+  const double depth_m = length_m + settings.depth_sd_m * random.normal();
+  TrueScrew out;
+  const auto entry = entry_of(bone, plan.entry.v + off, direction);
+  if (entry) {
+    out.entry_m = *entry;
+    out.tip_m = *entry + depth_m * direction;
+  } else {
+    out.entry_m = plan.entry.v;
+    out.tip_m = plan.target.v;
+  }
+  out.radius_m = settings.wires ? random.uniform(0.0008, 0.001) : plan.radius_m;
+  return out;
+}
+
+/// A wire from its tip to far behind the bone, on a circle through entry and tip.
+std::vector<MetalPiece> wire(const TrueScrew& screw, double bow_m, Random& random) {
+  constexpr double kBehind_m = 0.06;
+  constexpr double kStep_m = 0.002;
+  constexpr double kSteel_hu = 14000.0;
+  const Vec3 direction = (screw.tip_m - screw.entry_m).normalized();
+  const double length_m = (screw.tip_m - screw.entry_m).norm();
+  const Vec3 side = any_across(direction, random);
+  // Off the chord by bow at its middle, nothing at its ends; a parabola is a circle to a part in
+  // a hundred here.
+  const auto at = [&](double s) {
+    const double q = 2.0 * s / length_m - 1.0;
+    return screw.entry_m + s * direction + bow_m * (1.0 - q * q) * side;
+  };
+  std::vector<MetalPiece> out;
+  for (double s = -kBehind_m; s < length_m; s += kStep_m) {
+    const double end = std::min(length_m, s + kStep_m);
+    out.push_back({at(s), at(end), screw.radius_m, kSteel_hu});
+    if (bow_m != 0.0 && end < length_m) {
+      out.push_back({at(end), at(end), screw.radius_m, kSteel_hu});
+    }
+  }
+  return out;
+}
+
+constexpr double kHeadLength_m = 0.014;
+constexpr double kHeadOff_m = 0.001;
+
+std::vector<MetalPiece> headed_screw(const TrueScrew& screw) {
+  constexpr double kHeadRadius_m = 0.006;
+  const Vec3 direction = (screw.tip_m - screw.entry_m).normalized();
+  const Vec3 neck = screw.entry_m - kHeadOff_m * direction;
+  return {{neck, screw.tip_m, screw.radius_m},
+          {neck - kHeadLength_m * direction, neck, kHeadRadius_m}};
+}
+
+MetalPiece placed(MetalPiece piece, const Motion& motion) {
+  piece.from_m = motion(piece.from_m);
+  piece.to_m = motion(piece.to_m);
+  return piece;
+}
+
+/// From head to head of one side.
+void join_heads(const std::vector<PlannedVertebra>& vertebrae, OperatedSpine& spine) {
+  constexpr double kRodRadius_m = 0.00275;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    std::optional<Vec3> last;
+    for (const TrueScrew& screw : spine.screws) {
+      if (!screw.placed || vertebrae[screw.level].screws[screw.screw].side != side) {
+        continue;
+      }
+      const Vec3 direction = (screw.tip_m - screw.entry_m).normalized();
+      const Vec3 seat = spine.bones[screw.level].scanner_from_model(
+          screw.entry_m - (kHeadOff_m + 0.6 * kHeadLength_m) * direction);
+      if (last) {
+        spine.metal.push_back({*last, seat, kRodRadius_m});
+        spine.metal.push_back({seat, seat, kRodRadius_m});
+      }
+      last = seat;
+    }
+  }
+}
+
+}  // namespace
+
+OperatedSpine operated(const std::vector<PlannedVertebra>& vertebrae,
+                       const OperationSettings& settings, Random random) {
+  OperatedSpine out;
+  const Motion patient = any_motion(settings.turn_rad, settings.shift_m,
+                                    vertebrae.front().spine_from_model.translation_m, random);
+  for (std::size_t l = 0; l < vertebrae.size(); ++l) {
+    const PlannedVertebra& vertebra = vertebrae[l];
+    const nav::SurfaceIndex bone(vertebra.mesh);
+    const Motion own = any_motion(settings.level_turn_rad, settings.level_shift_m, {}, random);
+    out.bones.push_back({vertebra.mesh, after(patient, after(vertebra.spine_from_model, own))});
+    for (std::size_t s = 0; s < vertebra.screws.size(); ++s) {
+      TrueScrew screw = driven(bone, vertebra.screws[s], settings, random);
+      screw.level = l;
+      screw.screw = s;
+      screw.placed = random.uniform() >= settings.missing;
+      const auto pieces = !screw.placed    ? std::vector<MetalPiece>{}
+                          : settings.wires ? wire(screw, settings.bow_m, random)
+                                           : headed_screw(screw);
+      for (const MetalPiece& piece : pieces) {
+        out.metal.push_back(placed(piece, out.bones.back().scanner_from_model));
+      }
+      out.screws.push_back(screw);
+    }
+  }
+  if (settings.rods) {
+    join_heads(vertebrae, out);
+  }
+  return out;
+}
+
+}  // namespace orthonav::test

@@ -1,0 +1,124 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/case/case_writer.h"
+#include "tests/engine/evaluation/operated_phantom.h"
+#include "tests/tools/command_line.h"
+
+namespace orthonav::test::evaluate_command_test {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+void write_nrrd(const std::string& path, const engine::Volume& scan) {
+  std::ofstream file(path, std::ios::binary);
+  const auto& grid = scan.grid;
+  char head[512];
+  std::snprintf(head, sizeof head,
+                "NRRD0004\ntype: int16\ndimension: 3\nsizes: %d %d %d\nencoding: raw\nendian: "
+                "little\nspace: left-posterior-superior\nspace directions: (%.9f,0,0) (0,%.9f,0) "
+                "(0,0,%.9f)\nspace origin: (%.9f,%.9f,%.9f)\n\n",
+                grid.size[0], grid.size[1], grid.size[2], grid.spacing_m.x * 1e3,
+                grid.spacing_m.y * 1e3, grid.spacing_m.z * 1e3, grid.origin_m.x * 1e3,
+                grid.origin_m.y * 1e3, grid.origin_m.z * 1e3);
+  file << head;
+  const std::vector<std::int16_t> values(scan.values.begin(), scan.values.end());
+  file.write(reinterpret_cast<const char*>(values.data()),
+             static_cast<std::streamsize>(2 * values.size()));
+}
+
+/// The phantom's L4 as a case folder and its scan after the operation; the right screw is missing.
+class EvaluateCommand : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new ScratchFolder;
+    const engine::Case subject = engine::phantom({"L4"});
+    std::filesystem::create_directory(scratch_->file("case"));
+    ASSERT_TRUE(engine::save_case(scratch_->file("case"), subject).ok());
+    OperatedSpine spine = operated(planned_vertebrae(subject), {}, Random(3));
+    write_nrrd(scratch_->file("both.nrrd"), quick_scan(spine));
+    spine.metal.resize(2);
+    write_nrrd(scratch_->file("one.nrrd"), quick_scan(spine));
+    spine.metal.clear();
+    write_nrrd(scratch_->file("none.nrrd"), quick_scan(spine));
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+  static Called evaluated(const std::string& scan, std::vector<std::string> more = {}) {
+    std::vector<std::string> all = {"evaluate", "--case", scratch_->file("case"), "--volume",
+                                    scratch_->file(scan)};
+    all.insert(all.end(), more.begin(), more.end());
+    return orthonav(all);
+  }
+  static ScratchFolder* scratch_;
+};
+ScratchFolder* EvaluateCommand::scratch_ = nullptr;
+
+TEST_F(EvaluateCommand, SaysWhatBecameOfEachScrew) {
+  const std::string page = scratch_->file("page.html");
+  const std::string figures = scratch_->file("figures.json");
+  const Called called = evaluated("both.nrrd", {"--json", figures, "--report", page});
+  ASSERT_EQ(called.code, 0) << called.err << called.out;
+  EXPECT_THAT(called.out, AllOf(HasSubstr("L4   left "), HasSubstr("L4   right"),
+                                HasSubstr("a bent wire's axis is its chord"),
+                                HasSubstr("Gertzbein-Robbins, revised")));
+  const json out = json::parse(content_of(figures));
+  ASSERT_EQ(out["screws"].size(), 2u);
+  for (const json& screw : out["screws"]) {
+    EXPECT_EQ(screw["found"], true);
+    for (const char* key :
+         {"angle_error_deg", "angle_error_95_deg", "entry_error_mm", "entry_error_axis_mm",
+          "target_error_mm", "depth_error_mm", "diameter_mm", "clearance_mm", "clearance_95_mm"}) {
+      EXPECT_TRUE(screw.contains(key) && screw[key].is_number()) << key;
+    }
+    EXPECT_TRUE(screw["grade"].is_string());
+  }
+  EXPECT_TRUE(out["unassigned"].empty());
+  const std::string html = content_of(page);
+  EXPECT_THAT(html, AllOf(HasSubstr("data:image/png;base64,"), HasSubstr("class=placed"),
+                          HasSubstr("class=plan"), HasSubstr("class=bone"),
+                          HasSubstr("the point of the axis nearest to the planned entry"),
+                          Not(HasSubstr("http"))));
+}
+
+TEST_F(EvaluateCommand, AnswersNoWhereAScrewIsMissing) {
+  const Called called = evaluated("one.nrrd", {"--json", "-"});
+  EXPECT_EQ(called.code, 1) << called.err;
+  const json out = json::parse(called.out);
+  EXPECT_EQ(out["screws"][0]["found"], true);
+  EXPECT_EQ(out["screws"][1]["found"], false);
+  EXPECT_FALSE(out["screws"][1].contains("grade"));
+}
+
+TEST_F(EvaluateCommand, RefusesInOneLineAndLeavesNothing) {
+  const auto refusal = [](const Called& called) {
+    EXPECT_EQ(called.code, 2);
+    EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
+    return called.err;
+  };
+  const std::string page = scratch_->file("no.html");
+  EXPECT_THAT(refusal(evaluated("none.nrrd", {"--report", page})),
+              HasSubstr("no metal in the scan"));
+  EXPECT_FALSE(std::filesystem::exists(page));
+  EXPECT_THAT(refusal(evaluated("absent.nrrd")), HasSubstr("absent.nrrd"));
+  EXPECT_THAT(refusal(evaluated("both.nrrd", {"--json", scratch_->file("none/out.json")})),
+              HasSubstr("none/out.json"));
+  std::filesystem::create_directory(scratch_->file("bare"));
+  engine::Case bare = engine::phantom({"L4"});
+  bare.levels[0].screws.clear();
+  ASSERT_TRUE(engine::save_case(scratch_->file("bare"), bare).ok());
+  EXPECT_THAT(refusal(orthonav({"evaluate", "--case", scratch_->file("bare"), "--volume",
+                                scratch_->file("both.nrrd")})),
+              HasSubstr("no level has screws"));
+}
+
+}  // namespace
+}  // namespace orthonav::test::evaluate_command_test

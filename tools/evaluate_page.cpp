@@ -1,0 +1,222 @@
+#include "tools/evaluate_page.h"
+
+#include <array>
+
+#include "base/angle.h"
+#include "engine/report/html_text.h"
+#include "engine/report/page_style.h"
+#include "tools/evaluate_figures.h"
+#include "tools/scan_slice.h"
+
+namespace orthonav::tools {
+namespace {
+
+using engine::formatted;
+using engine::html_escaped;
+using engine::html_number;
+
+constexpr const char* kStyle =
+    ".slices{display:grid;grid-template-columns:repeat(3,1fr);gap:14px}"
+    ".slices svg{width:100%;display:block;background:#000;border-radius:6px}"
+    ".slices path,.slices circle{fill:none;stroke-width:.35}"
+    ".slices .bone{stroke:#37c26b;stroke-width:.25}"
+    ".slices .plan *{stroke:#4cc2ff;stroke-dasharray:1.4 .9}"
+    ".slices .placed *{stroke:#ffb000}"
+    ".key b{display:inline-block;width:22px;border-top:3px solid;vertical-align:middle;"
+    "margin:0 6px 0 14px}";
+
+std::string cell(const std::string& text) { return "<td>" + text + "</td>"; }
+
+std::string with_bound(double value, double sd) {
+  return html_number(value, 1) + " <small>±" + html_number(1.96 * sd, 1) + "</small>";
+}
+
+std::string grade_cell(const std::optional<nav::Clearance>& clearance) {
+  if (!clearance) {
+    return cell("–");
+  }
+  const nav::PedicleGrade grade = nav::grade_of(clearance->clearance_m);
+  return std::string(grade == nav::PedicleGrade::kA ? "<td class=good>" : "<td class=bad>") +
+         nav::name_of(grade) + "</td>";
+}
+
+std::string clearance_cells(const engine::ScrewInScan& placed, Side side) {
+  if (!placed.clearance) {
+    return "<td colspan=3>less than 6 mm in the bone</td>";
+  }
+  const double mm = placed.clearance->clearance_m * 1e3;
+  return "<td" + std::string(mm < 0.0 ? " class=bad>" : ">") + html_number(mm, 1) + " <small>" +
+         nav::direction_of(*placed.clearance, side) + "</small></td>" +
+         cell(placed.spread ? html_number(placed.spread->lower_95_m * 1e3, 1) : "–") +
+         grade_cell(placed.clearance);
+}
+
+std::string row_of(const std::string& label, const engine::EvaluatedScrew& screw) {
+  std::string row = "<tr><td>" + html_escaped(label) + " " + name_of(screw.plan.side) + "</td>";
+  if (!screw.placed) {
+    return row + "<td colspan=9 class=bad>not found: no metal lies there as planned</td></tr>";
+  }
+  const engine::ScrewInScan& placed = *screw.placed;
+  row += cell(with_bound(placed.angle_rad * kDegreesPerRadian,
+                         placed.angle_sd_rad * kDegreesPerRadian)) +
+         cell(html_number(placed.entry_m * 1e3, 1)) +
+         cell(with_bound(placed.entry_axis_m * 1e3, placed.entry_axis_sd_m * 1e3)) +
+         cell(html_number(placed.target_m * 1e3, 1)) + cell(html_number(placed.depth_m * 1e3, 1)) +
+         cell(html_number(2e3 * placed.measured_radius_m, 1)) +
+         clearance_cells(placed, screw.plan.side) + "</tr>";
+  if (placed.as_planned_screw) {
+    row += "<tr><td colspan=7><small>the same axis as a screw of " +
+           html_number(2e3 * screw.plan.radius_m, 1) + " mm</small></td>" +
+           cell(html_number(placed.as_planned_screw->clearance_m * 1e3, 1)) + "<td></td>" +
+           grade_cell(placed.as_planned_screw) + "</tr>";
+  }
+  return row;
+}
+
+std::string table_of(const engine::Evaluation& evaluation) {
+  std::string html =
+      "<section><h2>Planned and placed</h2><table><thead><tr><th>Screw<th>Angle <small>°</small>"
+      "<th>Entry <small>mm</small><th>Entry (axis) <small>mm</small><th>Target <small>mm</small>"
+      "<th>Depth <small>mm</small><th>Diameter <small>mm</small><th>Clearance <small>mm</small>"
+      "<th>95 % above <small>mm</small><th>Grade</tr></thead><tbody>";
+  for (const engine::EvaluatedLevel& level : evaluation.levels) {
+    if (!level.registration) {
+      html += "<tr><td>" + html_escaped(level.label) +
+              "</td><td colspan=9 class=bad>not evaluated: " + html_escaped(level.refusal) +
+              "</td></tr>";
+      continue;
+    }
+    for (const engine::EvaluatedScrew& screw : level.screws) {
+      html += row_of(level.label, screw);
+    }
+  }
+  return html +
+         "</tbody></table><p class=notes>± and \"95 % above\": of the errors of this "
+         "measurement alone (axis and registration to the scan). " +
+         html_escaped(engine::kEvaluationDefinitions) + ". " + html_escaped(nav::kPedicleScale) +
+         ".</p></section>";
+}
+
+Vec3 part_across(Vec3 v, Vec3 direction) { return (v - v.dot(direction) * direction).normalized(); }
+
+struct NamedPlane {
+  SlicePlane plane;
+  const char* name;
+};
+
+/// Along the screw seen from below and from the left, and across it where it is nearest to the
+/// cortex, seen from behind.
+std::array<NamedPlane, 3> planes_of(const nav::ScrewCylinder& cylinder, double arc_length_m) {
+  const Vec3 d = cylinder.direction;
+  const Vec3 left = part_across({1, 0, 0}, d);
+  const Vec3 cranial = part_across({0, 0, 1}, d);
+  const Point<Vertebra> middle = cylinder.entry + 0.45 * cylinder.length_m * d;
+  return {{{{middle, left, d}, "along the screw, from below; front is up"},
+           {{middle, -d, cranial}, "along the screw, from the side; head is up"},
+           {{cylinder.entry + arc_length_m * d, -part_across(left, cranial), cranial, 0.018},
+            "across the screw where it is nearest to the cortex, from behind"}}};
+}
+
+Result<std::string> figures_of(const engine::ScanField& scan, const nav::TriangleMesh& bone,
+                               const engine::BoneRegistration& laid,
+                               const engine::EvaluatedScrew& screw) {
+  std::vector<DrawnCylinder> drawn;
+  if (const auto plan = nav::cylinder_of(screw.plan)) {
+    drawn.push_back({*plan, "plan"});
+  }
+  double arc_length_m = 0.02;
+  if (screw.placed) {
+    drawn.push_back({screw.placed->cylinder, "placed"});
+    arc_length_m = screw.placed->clearance ? screw.placed->clearance->arc_length_m : arc_length_m;
+  }
+  std::string html = "<div class=slices>";
+  for (const NamedPlane& named : drawn.empty() ? std::array<NamedPlane, 3>{}
+                                               : planes_of(drawn.back().cylinder, arc_length_m)) {
+    if (drawn.empty()) {
+      break;
+    }
+    const auto svg = slice_svg(scan, bone, laid.scan_from_vertebra, named.plane, drawn);
+    if (!svg) {
+      return svg.error();
+    }
+    html += "<figure>" + *svg + "<figcaption>" + named.name + "</figcaption></figure>";
+  }
+  return html + "</div>";
+}
+
+Result<std::string> section_of(const engine::ScanField& scan, const nav::TriangleMesh& bone,
+                               const engine::EvaluatedLevel& level) {
+  std::string html;
+  for (const engine::EvaluatedScrew& screw : level.screws) {
+    const auto figures = figures_of(scan, bone, *level.registration, screw);
+    if (!figures) {
+      return figures.error();
+    }
+    html += "<section><h2>" + html_escaped(level.label) + " " + name_of(screw.plan.side) +
+            (screw.placed ? "" : ": <span class=bad>not found</span>") + "</h2>" + *figures +
+            "</section>";
+  }
+  return html;
+}
+
+std::string unassigned_of(const engine::Evaluation& evaluation) {
+  if (evaluation.unassigned.empty()) {
+    return "";
+  }
+  std::string html = "<section><h2>Metal that is no planned screw</h2><ul>";
+  for (const engine::UnassignedMetal& metal : evaluation.unassigned) {
+    html += "<li>" + html_escaped(text_of(metal, evaluation)) + "</li>";
+  }
+  return html + "</ul></section>";
+}
+
+std::string registrations_of(const engine::Evaluation& evaluation) {
+  std::string html =
+      "<section><h2>Vertebrae laid on the scan</h2><table><thead><tr><th>Level<th>Off the bone "
+      "<small>mm, median</small><th>Surface within 1 mm <small>%</small><th>Seen clear of metal "
+      "<small>places</small></tr></thead><tbody>";
+  for (const engine::EvaluatedLevel& level : evaluation.levels) {
+    html += "<tr><td>" + html_escaped(level.label) + "</td>";
+    if (level.registration) {
+      html += cell(html_number(level.registration->residual_m * 1e3, 2)) +
+              cell(html_number(level.registration->coverage * 1e2, 0)) +
+              cell(html_number(static_cast<double>(level.registration->edges), 0)) + "</tr>";
+    } else {
+      html += "<td colspan=3 class=bad>" + html_escaped(level.refusal) + "</td></tr>";
+    }
+  }
+  return html + "</tbody></table></section>";
+}
+
+}  // namespace
+
+Result<std::string> evaluate_page(const engine::Case& subject, const engine::Volume& scan,
+                                  const engine::Evaluation& evaluation, const std::string& source) {
+  std::string html =
+      "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: evaluation"
+      "</title><meta name=viewport content=\"width=device-width\"><style>";
+  html += engine::page_style();
+  html += std::string(kStyle) +
+          "</style></head><body><header><h1>orthonav <span>planned and placed screws</span></h1>"
+          "<p>Case <b>" +
+          html_escaped(subject.name) + "</b>, scan <b>" + html_escaped(source) +
+          "</b></p></header><main>" + table_of(evaluation) +
+          "<p class=key><b style=\"color:#4cc2ff\"></b>planned<b style=\"color:#ffb000\"></b>placed"
+          "<b style=\"color:#37c26b\"></b>surface of the case’s model, laid on the scan</p>";
+  const engine::ScanField field(scan);
+  for (const engine::EvaluatedLevel& level : evaluation.levels) {
+    const engine::CaseLevel* const source_level = subject.find(level.label);
+    if (!level.registration || source_level == nullptr) {
+      continue;
+    }
+    const auto section = section_of(field, source_level->mesh, level);
+    if (!section) {
+      return section;
+    }
+    html += *section;
+  }
+  return html + unassigned_of(evaluation) + registrations_of(evaluation) +
+         "<ul class=notes><li>Not a medical device.</li></ul></main></body></html>\n";
+}
+
+}  // namespace orthonav::tools

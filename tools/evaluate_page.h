@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "engine/evaluation/evaluation.h"
+
+namespace orthonav::tools {
+
+/// The evaluation as a page of its own that loads nothing: the table, for each screw slices along
+/// and across it with planned and placed screw and the bone as it was laid there, what was not
+/// assigned, and the definitions.
+Result<std::string> evaluate_page(const engine::Case& subject, const engine::Volume& scan,
+                                  const engine::Evaluation& evaluation, const std::string& source);
+
+}  // namespace orthonav::tools
