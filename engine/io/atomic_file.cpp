@@ -131,6 +131,14 @@ void AtomicFile::drop() noexcept {
   open_ = false;
 }
 
+bool AtomicFile::keep() {
+  if (!open_ || nameless_ >= 0) {
+    return false;
+  }
+  open_ = false;
+  return true;
+}
+
 /// A link replaces no file, a rename does: where the target exists, the file takes a name beside it
 /// for that moment.
 Status AtomicFile::take_a_name() {

@@ -30,6 +30,8 @@ class AtomicFile {
   /// Where to write until the commit: to be opened by this process alone.
   [[nodiscard]] const std::string& temporary_path() const { return temporary_path_; }
   [[nodiscard]] const std::string& final_path() const { return final_path_; }
+  /// Leaves what was written where it is; false where that has no name. No commit may follow.
+  bool keep();
   /// Makes what was written durable and gives the file its name.
   Status commit();
 

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "engine/io/atomic_file.h"
+#include "engine/io/av_error.h"
+#include "engine/io/video_remux.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -12,13 +14,14 @@ extern "C" {
 }
 
 namespace orthonav::engine {
-namespace {
 
 Error av_error(const std::string& path, const std::string& what, int code) {
   char text[AV_ERROR_MAX_STRING_SIZE] = {};
   av_strerror(code, text, sizeof(text));
   return Error{path + ": " + what + " (" + text + ")"};
 }
+
+namespace {
 
 Status check(const std::string& path, const VideoOptions& o) {
   if (o.width_px < 16 || o.height_px < 16 || o.width_px % 2 != 0 || o.height_px % 2 != 0) {
@@ -49,6 +52,7 @@ struct VideoWriter::Encoder {
   SwsContext* scaler = nullptr;
   std::int64_t frames = 0;
   bool finished = false;
+  bool kept = false;  ///< cut off, and left where it was written
 
   ~Encoder() {
     sws_freeContext(scaler);
@@ -66,6 +70,9 @@ struct VideoWriter::Encoder {
   Status write_header();
   Status open_frame();
   Status drain();
+  Status put_in_place();
+  /// What was written plays: it stays, and whoever is told of the failure is told where.
+  Error cut_off(const Error& why);
 };
 
 Status VideoWriter::Encoder::open_codec() {
@@ -129,7 +136,10 @@ Status VideoWriter::Encoder::open_file() {
 
 Status VideoWriter::Encoder::write_header() {
   AVDictionary* movie = nullptr;
-  int code = av_dict_set(&movie, "movflags", "faststart", 0);
+  // Each picture is a fragment of its own, on the disk's side once it is encoded: a film that is
+  // cut anywhere plays up to there.
+  format->flags |= AVFMT_FLAG_FLUSH_PACKETS;
+  int code = av_dict_set(&movie, "movflags", "frag_every_frame+empty_moov+default_base_moof", 0);
   if (code >= 0) {
     code = avformat_write_header(format, &movie);
   }
@@ -178,6 +188,26 @@ Status VideoWriter::Encoder::drain() {
   }
 }
 
+Error VideoWriter::Encoder::cut_off(const Error& why) {
+  if (format != nullptr && format->pb != nullptr) {
+    avio_flush(format->pb);
+  }
+  kept = kept || file.keep();
+  return kept ? Error{why.message + "; what was written plays: " + file.temporary_path(), why.code}
+              : why;
+}
+
+/// With its index in front, so that it is seen how long it is. Where there is no room for that the
+/// fragments take its place as they are.
+Status VideoWriter::Encoder::put_in_place() {
+  const bool in_place = file.temporary_path() == file.final_path();  // a pipe
+  auto whole = AtomicFile::create(path);
+  if (!in_place && whole && remux_video(file.temporary_path(), whole->temporary_path(), path)) {
+    return whole->commit();
+  }
+  return file.commit();
+}
+
 VideoWriter::VideoWriter(std::unique_ptr<Encoder> encoder) : encoder_(std::move(encoder)) {}
 VideoWriter::~VideoWriter() = default;
 
@@ -188,7 +218,7 @@ Result<std::unique_ptr<VideoWriter>> VideoWriter::create(const std::string& path
   }
   // The library must not print: what matters comes back as an Error.
   av_log_set_level(AV_LOG_QUIET);
-  auto file = AtomicFile::create(path);
+  auto file = AtomicFile::create(path, Staging::kBeside);
   if (!file) {
     return file.error();
   }
@@ -201,6 +231,9 @@ Result<std::unique_ptr<VideoWriter>> VideoWriter::create(const std::string& path
 
 Status VideoWriter::write(const RgbaImage& picture) {
   Encoder& e = *encoder_;
+  if (e.kept) {
+    return Error{e.path + ": was cut off before"};
+  }
   const auto bytes = 4 * static_cast<std::size_t>(e.options.width_px) *
                      static_cast<std::size_t>(e.options.height_px);
   if (picture.width_px != e.options.width_px || picture.height_px != e.options.height_px ||
@@ -224,7 +257,8 @@ Status VideoWriter::write(const RgbaImage& picture) {
   if (const int code = avcodec_send_frame(e.codec, e.frame); code < 0) {
     return av_error(e.path, "encoding failed", code);
   }
-  return e.drain();
+  const Status drained = e.drain();
+  return drained ? drained : Status(e.cut_off(drained.error()));
 }
 
 Status VideoWriter::finish() {
@@ -232,24 +266,24 @@ Status VideoWriter::finish() {
   if (e.finished) {
     return {};
   }
-  if (e.frames == 0) {
-    return Error{e.path + ": no picture was written"};
+  if (e.frames == 0 || e.kept) {
+    return Error{e.path + (e.kept ? ": was cut off before" : ": no picture was written")};
   }
   if (const int code = avcodec_send_frame(e.codec, nullptr); code < 0) {
     return av_error(e.path, "encoding failed", code);
   }
   if (const Status drained = e.drain(); !drained) {
-    return drained;
+    return e.cut_off(drained.error());
   }
   if (const int code = av_write_trailer(e.format); code < 0) {
-    return av_error(e.path, "cannot be completed", code);
+    return e.cut_off(av_error(e.path, "cannot be completed", code));
   }
   // Closing writes what is still buffered: a full disk shows here.
   if (const int code = avio_closep(&e.format->pb); code < 0) {
-    return av_error(e.path, "cannot be completed", code);
+    return e.cut_off(av_error(e.path, "cannot be completed", code));
   }
-  if (const Status placed = e.file.commit(); !placed) {
-    return placed;
+  if (const Status placed = e.put_in_place(); !placed) {
+    return e.cut_off(placed.error());
   }
   e.finished = true;
   return {};

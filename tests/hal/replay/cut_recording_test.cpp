@@ -6,6 +6,7 @@
 #include "hal/replay/recorder.h"
 #include "hal/replay/repair.h"
 #include "hal/replay/replay_headset.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/scripted_session.h"
 #include "tests/support/session_log.h"
 #include "tests/support/stream_recorder_folder.h"
@@ -81,6 +82,31 @@ TEST(CutRecording, OfAKilledProgramHasAllThatWasWritten) {
   EXPECT_EQ(same_pairs(recording.path(), recording.log(), &cut), std::size_t{kPairs});
   EXPECT_THAT(cut, AllOf(HasSubstr("VLC LF.tar is cut off at byte 1232896, after 4 whole images"),
                          HasSubstr("VLC RF.tar is cut off")));
+}
+
+TEST(CutRecording, OfAFullDiskIsReadToItsLastWholePairAndSaysSo) {
+  const TemporaryFolder folder;
+  auto recorder = RecordingHeadset::create(
+      std::make_unique<fake::FakeHeadset>(scripted_session(kPairs)), folder / "walk");
+  ASSERT_TRUE(recorder.ok());
+  SessionLog log;
+  {
+    const orthonav::test::FullDisk full(5 * kMemberBytes / 2);
+    log = play(**recorder);
+  }
+  EXPECT_EQ(log.moments.size(), std::size_t{kPairs}) << "the session is not disturbed";
+  EXPECT_TRUE(log.errors.empty());
+  const Status recording = (*recorder)->recording_status();
+  ASSERT_FALSE(recording.ok());
+  EXPECT_THAT(recording.error().message, HasSubstr(".tar: cannot be written: "));
+  EXPECT_FALSE((*recorder)->close().ok());
+  std::string cut;
+  EXPECT_EQ(same_pairs(folder / "walk.part", log, &cut), 2u);
+  EXPECT_THAT(cut, HasSubstr("VLC LF.tar is cut off at byte 770560, after 2 whole images"));
+  const auto repaired = repair_recording(folder / "walk.part");
+  ASSERT_TRUE(repaired.ok()) << repaired.error().message;
+  EXPECT_EQ(repaired->pairs, 2);
+  EXPECT_EQ(same_pairs(folder / "walk", log), 2u);
 }
 
 TEST(CutRecording, IsReadToItsLastWholePairWhereverItWasCut) {
