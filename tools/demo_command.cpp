@@ -15,6 +15,7 @@
 #include "tools/demo_report.h"
 #include "tools/earlier_results.h"
 #include "tools/kept_operation.h"
+#include "tools/memory_reserve.h"
 #include "tools/model_notes.h"
 #include "tools/operation_summary.h"
 #include "tools/out_folder.h"
@@ -39,6 +40,7 @@ class Demo {
   Demo(DemoArguments arguments, StopSignals& signals)
       : arguments_(std::move(arguments)), signals_(signals), pictures_(arguments_.out) {
     signals_.let_finish();
+    limit_memory();
   }
 
   int run() {

@@ -18,6 +18,7 @@
 #include "tools/command.h"
 #include "tools/connection_report.h"
 #include "tools/joined_parts.h"
+#include "tools/memory_reserve.h"
 #include "tools/model_notes.h"
 #include "tools/operation_summary.h"
 #include "tools/presenting.h"
@@ -35,6 +36,7 @@ class LiveRun {
   LiveRun(RunArguments arguments, StopSignals& signals)
       : arguments_(std::move(arguments)), signals_(signals) {
     signals_.let_finish();
+    limit_memory();
   }
 
   int run() {

@@ -1,13 +1,17 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "base/guarded.h"
 #include "tools/command.h"
+#include "tools/memory_reserve.h"
 #include "tools/stop_signals.h"
 
 namespace orthonav::tools {
@@ -51,6 +55,7 @@ int with_output_written(int code) {
 
 int run(int argc, char** argv) {
   StopSignals signals;  // before any thread
+  keep_memory_reserve();
   CLI::App app{"orthonav: standalone mixed-reality navigation for orthopaedic surgery", "orthonav"};
   app.require_subcommand(1);
   app.set_version_flag("--version", ORTHONAV_VERSION);
@@ -87,12 +92,21 @@ int run(int argc, char** argv) {
   return with_output_written(action ? action() : kBadInput);
 }
 
+/// An exception left a thread that nobody guards. Whatever was to be kept is on the disk by then.
+void end_in_one_line() {
+  bad_input(orthonav::ended_by_exception("a thread").message);
+  std::_Exit(kBadInput);
+}
+
 }  // namespace
 }  // namespace orthonav::tools
 
 int main(int argc, char** argv) {
+  std::set_terminate(orthonav::tools::end_in_one_line);
   try {
     return orthonav::tools::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return orthonav::tools::bad_input("out of memory");
   } catch (const std::exception& error) {
     return orthonav::tools::bad_input(error.what());
   }

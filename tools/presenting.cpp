@@ -10,6 +10,7 @@ namespace orthonav::tools {
 Status Presenting::begin(Headset& headset, engine::AssembledOperation& operation) {
   if (headset.pixels() != nullptr) {
     engine::PresenterOptions options;
+    options.clock = &headset.clock();
     options.on_over = [&operation] { operation.stop(); };
     auto presenter = engine::Presenter::start(*headset.pixels(), options);
     if (!presenter) {

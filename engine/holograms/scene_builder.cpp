@@ -8,7 +8,6 @@
 #include "engine/holograms/hologram_numbers.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
-#include "engine/session/wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -48,14 +47,14 @@ void hide_tool_guidance(render::Scene& scene) {
   }
 }
 
-void write_head_lost(const render::Scene& scene, render::Scene& left) {
+void write_notice_alone(const render::Scene& scene, std::string_view why, render::Scene& left) {
   left.clear();
   for (const render::TextItem& text : scene.texts) {
     if (text.place == render::TextPlace::kView && text.label != kNumbersRow) {
       left.texts.push_back(text);
     }
   }
-  add_notice(left, words::kHeadNotLocated, label_of(HologramKind::kStatus, 2));
+  add_notice(left, why, label_of(HologramKind::kStatus, 2));
 }
 
 void SceneBuilder::update(const Guidance& guidance, Timestamp display_time) {

@@ -9,6 +9,7 @@
 #include "engine/holograms/shown_frame.h"
 #include "engine/holograms/visibility.h"
 #include "engine/session/guidance.h"
+#include "engine/session/wording.h"
 #include "hal/api/display.h"
 #include "render/scene.h"
 
@@ -76,8 +77,12 @@ class SceneBuilder {
 /// from has grown too old before they were drawn.
 void hide_tool_guidance(render::Scene& scene);
 
-/// What is left of a scene while the head is not located: the status line, which hangs on the head,
-/// and above it why there is nothing else.
-void write_head_lost(const render::Scene& scene, render::Scene& left);
+/// What is left of a scene that nobody can vouch for: the status line, which hangs on the head, and
+/// above it why there is nothing else.
+void write_notice_alone(const render::Scene& scene, std::string_view why, render::Scene& left);
+/// The same while the head is not located.
+inline void write_head_lost(const render::Scene& scene, render::Scene& left) {
+  write_notice_alone(scene, words::kHeadNotLocated, left);
+}
 
 }  // namespace orthonav::engine

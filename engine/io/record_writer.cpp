@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/guarded.h"
+
 namespace orthonav::engine {
 
 RecordWriter::RecordWriter(std::unique_ptr<RecordLog> log, Waits waits)
@@ -61,7 +63,7 @@ void RecordWriter::work() {
       entry = std::move(waiting_.front());
       waiting_.pop_front();
     }
-    const Status written = log_->append(entry);
+    const Status written = guarded("operation log", [&] { return log_->append(entry); });
     {
       const MutexLock lock(mutex_);
       ++tried_;

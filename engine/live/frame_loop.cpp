@@ -4,8 +4,10 @@
 #include <chrono>
 #include <thread>
 
+#include "base/guarded.h"
 #include "base/joined.h"
 #include "base/stopwatch.h"
+#include "engine/session/part_wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -24,24 +26,16 @@ Result<LoopReport> FrameLoop::run() {
   Status tracked;
   Status drawn;
   heard_at_ = headset_->clock().now();
+  beats_.emplace(headset_->clock(), kStallAfter);
+  session_.watch_work(&*beats_);
   if (!sink_ || options_.draw_every == 0) {
     tracked = loop(nullptr, report);
   } else {
     SnapshotQueue queue(options_.drop_late_snapshots ? SnapshotQueue::WhenFull::kDropOldest
                                                      : SnapshotQueue::WhenFull::kWait);
-    LoopReport drawing;
-    std::thread drawer([&] { draw_all(queue, drawing, drawn); });
-    tracked = loop(&queue, report);
-    queue.close();
-    drawer.join();
-    report.drawn = drawing.drawn;
-    report.draw_failures = drawing.failures;
-    if (drawing.failures > 0) {
-      report.last_failure = drawing.last_failure;
-    }
-    report.draw_wall_ms = std::move(drawing.draw_wall_ms);
-    report.dropped_snapshots = queue.dropped();
+    tracked = draw_beside(queue, report, drawn);
   }
+  session_.watch_work(nullptr);
   if (!tracked) {
     return tracked.error();
   }
@@ -52,55 +46,38 @@ Result<LoopReport> FrameLoop::run() {
   return report;
 }
 
-/// Draws until the queue is closed and empty. After too many failures in a row it fails for good
-/// and stops the loop, since a surgeon who sees nothing must be told. The remaining snapshots are
-/// taken without being drawn, so that tracking never waits for a drawer that gave up.
-void FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& status) {
-  int in_a_row = 0;
-  while (Snapshot* snapshot = queue.take()) {
-    // Only in real time: where every snapshot is drawn, the pictures are for later, and the
-    // device's clock runs ahead of them.
-    if (options_.drop_late_snapshots && snapshot->expires &&
-        next_display_time() > *snapshot->expires) {
-      hide_tool_guidance(snapshot->scene);
-      snapshot->tool_time.reset();
-    }
-    if (status.ok()) {
-      const Stopwatch watch;
-      const Status drawn = sink_->draw(*snapshot);
-      drawing.draw_wall_ms.push_back(watch.elapsed_ms());
-      drawing.drawn += drawn ? 1 : 0;
-      status = tolerate(drawn, in_a_row, drawing);
-      if (!status) {
-        stop();
-      }
-    }
-    queue.release(snapshot);
+Status FrameLoop::loop(SnapshotQueue* queue, LoopReport& report) {
+  Status ended;
+  try {
+    ended = loop_until_over(queue, report);
+  } catch (...) {
+    ended = ended_by_exception(std::string(word_of(beats_->tracking().value_or(Part::kTracker))));
   }
+  // However it ended: a display that goes on showing its last frame must not go on guiding.
+  const Status taken_back = guarded("tracker", [&] {
+    if (last_display_time_ > Timestamp::min()) {
+      take_back(session_.end(next_display_time()), queue, report);
+    }
+    return Status{};
+  });
+  return ended ? taken_back : ended;
 }
 
-Status FrameLoop::loop(SnapshotQueue* queue, LoopReport& report) {
-  const auto run_all = [&]() -> Status {
-    while (!finished(report)) {
-      const auto more = next_frame(queue, report);
-      if (!more) {
-        return more.error();
-      }
-      if (!*more) {
-        return {};
-      }
-      if (const Status stepped = step(queue, report); !stepped) {
-        return stepped;
-      }
+Status FrameLoop::loop_until_over(SnapshotQueue* queue, LoopReport& report) {
+  while (!finished(report)) {
+    const auto more = next_frame(queue, report);
+    if (!more) {
+      return more.error();
     }
-    return {};
-  };
-  const Status ended = run_all();
-  // However it ended: a display that goes on showing its last frame must not go on guiding.
-  if (last_display_time_ > Timestamp::min()) {
-    take_back(session_.end(next_display_time()), queue, report);
+    if (!*more) {
+      return {};
+    }
+    const Working working(&*beats_, Part::kTracker);
+    if (const Status stepped = step(queue, report); !stepped) {
+      return stepped;
+    }
   }
-  return ended;
+  return {};
 }
 
 /// A device that fails now and then must not end an operation; one that fails for good must.
@@ -121,7 +98,10 @@ Status FrameLoop::tolerate(const Status& status, int& in_a_row, LoopReport& repo
 /// False at the end of the stream. While no pair comes, guidance on the last one is taken back.
 Result<bool> FrameLoop::next_frame(SnapshotQueue* queue, LoopReport& report) {
   while (!stop_) {
-    const auto next = headset_->cameras().next(frame_);
+    const auto next = [&] {
+      const Working working(&*beats_, Part::kCamera);
+      return headset_->cameras().next(frame_);
+    }();
     if (next && *next == Next::kFrame) {
       camera_errors_ = 0;
       return true;
@@ -186,7 +166,24 @@ Status FrameLoop::poll_commands(LoopReport& report) {
   if (const Status over = tolerate(clicked, clicker_errors_, report); !over) {
     return over;
   }
-  return tolerate(headset_->voice().poll(frame_.time, phrases_), voice_errors_, report);
+  const Working working(&*beats_, Part::kVoice);
+  const Status heard = headset_->voice().poll(frame_.time, phrases_);
+  voice_stalled_ = !heard && heard.error().code == ErrorCode::kUnavailable;
+  return voice_stalled_ ? Status{} : tolerate(heard, voice_errors_, report);
+}
+
+/// What else than this thread hangs.
+std::optional<Part> FrameLoop::stalled() const {
+  if (voice_stalled_) {
+    return Part::kVoice;
+  }
+  const bool drawing = sink_ && (beats_->drawing_stalled() || sink_->stalled());
+  return drawing ? std::optional(Part::kRenderer) : std::nullopt;
+}
+
+void FrameLoop::count_stall(std::optional<Part> now, LoopReport& report) {
+  report.stalls += now && now != stalled_ ? 1 : 0;
+  stalled_ = now;
 }
 
 Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
@@ -198,6 +195,8 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   Inputs inputs;
   inputs.clicks = clicks_;
   inputs.phrases = phrases_;
+  inputs.stalled = stalled();
+  count_stall(inputs.stalled, report);
   // Submitted from now on; the images were under way for a while.
   inputs.display_time = headset_->display().predicted_display_time(heard_at_);
   const Guidance& guidance = session_.step(frame_, inputs);
@@ -235,29 +234,6 @@ void FrameLoop::count_displayed(const Guidance& guidance, SnapshotQueue* queue,
   if (queue && frame % options_.draw_every == 0) {
     capture(*queue, guidance, frame);
   }
-}
-
-void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int64_t frame) {
-  Snapshot* snapshot = queue.acquire();
-  if (!snapshot) {
-    return;
-  }
-  snapshot->frame = frame;
-  snapshot->display_time = guidance.display_time;
-  snapshot->step = guidance.status.at;
-  snapshot->blank = guidance.blank;
-  snapshot->map_epoch = frame_.map_epoch;
-  snapshot->expires.reset();
-  snapshot->tool_time = builder_.visible().pose_time;
-  if (const auto& pose_time = builder_.visible().pose_time) {
-    snapshot->expires = *pose_time + guidance.stale_after;
-  }
-  builder_.write_scene(guidance, snapshot->scene);
-  write_patches(guidance, snapshot->patches);
-  for (LoopObserver* observer : observers_) {
-    observer->captured(*snapshot);
-  }
-  queue.publish(snapshot);
 }
 
 bool FrameLoop::finished(const LoopReport& report) {

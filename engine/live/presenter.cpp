@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "base/guarded.h"
 #include "base/stopwatch.h"
 #include "engine/holograms/scene_builder.h"
 
@@ -27,7 +28,20 @@ Result<std::unique_ptr<Presenter>> Presenter::start(PixelDisplay& display,
     return renderer.error();
   }
   presenter->renderer_ = std::move(*renderer);
-  presenter->thread_ = std::thread([raw = presenter.get()] { raw->run(); });
+  presenter->thread_ = std::thread([raw = presenter.get()] {
+    const auto alive = [](auto work) {
+      return guarded("renderer", [&] {
+        work();
+        return Status{};
+      });
+    };
+    const Status died = alive([raw] { raw->run(); });
+    {
+      const MutexLock lock(raw->mutex_);
+      raw->died_ = died;
+    }
+    static_cast<void>(alive([raw] { raw->leave(); }));
+  });
   return presenter;
 }
 
@@ -50,6 +64,9 @@ Status Presenter::draw(const Snapshot& snapshot) {
   const MutexLock lock(mutex_);
   incoming_ = snapshot;
   fresh_ = true;
+  if (!died_) {
+    return died_;
+  }
   if (untold_.empty()) {
     return {};
   }
@@ -94,10 +111,10 @@ void Presenter::run() {
       look_again();
     }
   }
-  leave();
 }
 
 void Presenter::next_frame() {
+  const Working working(beats_ ? &*beats_ : nullptr, Part::kRenderer);
   const DisplayFrame frame = display_.begin_frame();
   switch (frame.kind) {
     case DisplayFrame::Kind::kFrame:

@@ -28,6 +28,8 @@ struct PresentReport {
 
 struct PresenterOptions {
   render::RendererOptions renderer;
+  /// The device's, by which it is told that the presenting thread hangs; null: it is not told.
+  const Clock* clock = nullptr;
   /// Wall time to wait before looking again for a display that went away.
   Duration look_again_after = std::chrono::seconds(1);
   /// Called on the presenting thread once the user has ended the session.
@@ -50,12 +52,17 @@ class Presenter : public SnapshotSink {
   /// Shows it from the next frame on. An Error is the last problem since the previous call; each is
   /// told once.
   Status draw(const Snapshot& snapshot) override;
+  [[nodiscard]] bool stalled() const override { return beats_ && beats_->drawing_stalled(); }
   /// Ends the session in order; nothing is shown after that.
   PresentReport stop();
 
  private:
   Presenter(PixelDisplay& display, PresenterOptions options)
-      : display_(display), options_(std::move(options)) {}
+      : display_(display), options_(std::move(options)) {
+    if (options_.clock) {
+      beats_.emplace(*options_.clock, kStallAfter);
+    }
+  }
 
   void run();
   void next_frame();
@@ -71,6 +78,7 @@ class Presenter : public SnapshotSink {
 
   PixelDisplay& display_;
   PresenterOptions options_;
+  std::optional<Heartbeats> beats_;
   std::thread thread_;
 
   mutable Mutex mutex_;
@@ -81,6 +89,7 @@ class Presenter : public SnapshotSink {
   PresentReport report_ ORTHONAV_GUARDED_BY(mutex_);
   /// The last problem, if `draw` has not told it yet.
   std::string untold_ ORTHONAV_GUARDED_BY(mutex_);
+  Status died_ ORTHONAV_GUARDED_BY(mutex_);
 
   // Of the presenting thread.
   std::unique_ptr<DisplayRenderer> renderer_;

@@ -44,6 +44,20 @@ Snapshot* SnapshotQueue::take() {
   while (!closed_ && ready_.empty()) {
     changed_.wait(mutex_);
   }
+  return take_next();
+}
+
+SnapshotQueue::Taken SnapshotQueue::take_until(std::chrono::steady_clock::time_point until,
+                                               Snapshot*& next) {
+  const MutexLock lock(mutex_);
+  while (!closed_ && ready_.empty() && changed_.wait_until(mutex_, until)) {
+  }
+  const bool over = closed_ && ready_.empty();
+  next = take_next();
+  return next ? Taken::kSnapshot : (over ? Taken::kEnd : Taken::kNothing);
+}
+
+Snapshot* SnapshotQueue::take_next() {
   if (ready_.empty()) {
     return nullptr;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -45,12 +46,16 @@ class SnapshotQueue {
   /// The next to draw. Under kWait the oldest one waiting; under kDropOldest the newest, and those
   /// before it are dropped. Blocks until there is one. Null once closed and empty.
   Snapshot* take();
+  enum class Taken { kSnapshot, kNothing, kEnd };
+  /// The same, but waits until then at most. `next` is null where there is none.
+  Taken take_until(std::chrono::steady_clock::time_point until, Snapshot*& next);
   void release(Snapshot* drawn);
   /// No more will be published; the taker still gets what is left.
   void close();
   [[nodiscard]] std::int64_t dropped() const;
 
  private:
+  [[nodiscard]] Snapshot* take_next() ORTHONAV_REQUIRES(mutex_);
   /// Drops the oldest of those waiting to be drawn.
   void drop_oldest() ORTHONAV_REQUIRES(mutex_);
 

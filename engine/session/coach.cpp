@@ -58,7 +58,7 @@ void Coach::step(const OperatedLevel& level, std::span<const nav::Region> region
 
 void Coach::forget() {
   if (std::exchange(pairs_left_, 0) > 0) {
-    worker_.wait();
+    wait();
   }
   asked_samples_ = 0;
   newest_.reset();
@@ -77,8 +77,13 @@ void Coach::start(const OperatedLevel& level, std::span<const nav::Region> regio
 }
 
 void Coach::take_answer() {
-  worker_.wait();
+  wait();
   newest_ = std::move(answer_);
+}
+
+void Coach::wait() {
+  const Working working(watch_, Part::kCoach);
+  worker_.wait();
 }
 
 void Coach::run() {

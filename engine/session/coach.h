@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/session/method.h"
+#include "engine/session/work_watch.h"
 #include "nav/registration/digitizer.h"
 #include "nav/tracking/worker.h"
 
@@ -38,6 +39,8 @@ class Coach {
   explicit Coach(Registrar registrar, const nav::CommonErrors& common = {})
       : registrar_(std::move(registrar)), common_(common) {}
 
+  /// Is told while an answer is awaited; null: nobody. Borrowed.
+  void watch(WorkWatch* watch) { watch_ = watch; }
   /// Once for each pair of stroking, with everything stroked so far. The level must stay until
   /// `forget` or the end.
   void step(const OperatedLevel& level, std::span<const nav::Region> regions);
@@ -53,10 +56,12 @@ class Coach {
  private:
   void start(const OperatedLevel& level, std::span<const nav::Region> regions);
   void take_answer();
+  void wait();
   void run();
 
   Registrar registrar_;
   nav::CommonErrors common_;
+  WorkWatch* watch_ = nullptr;
   std::optional<Coaching> newest_;
   std::size_t asked_samples_ = 0;  ///< of the last trial
   int pairs_left_ = 0;             ///< until the answer of the trial under way; 0: none is

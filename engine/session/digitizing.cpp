@@ -43,6 +43,12 @@ void Digitizing::collect(const nav::TrackedPose& pose, const nav::ToolGeometry& 
   }
 }
 
+void Digitizing::watch_work(WorkWatch* watch) {
+  if (coach_) {
+    coach_->watch(watch);
+  }
+}
+
 void Digitizing::coach(const OperatedLevel& plan) {
   if (coach_) {
     coach_->step(plan, regions());

@@ -100,6 +100,7 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
 const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   // Nothing that was measured in another map may answer an event.
   watch_map(frame);
+  stalled_ = inputs.stalled;
   // Events first: a press before this pair makes this pair a sample, a release before it does not.
   answer_inputs(inputs);
   tools_.track(frame);

@@ -26,6 +26,7 @@
 #include "engine/session/tools_in_hand.h"
 #include "engine/session/verifying.h"
 #include "engine/session/watched_tools.h"
+#include "engine/session/work_watch.h"
 #include "engine/session/workflow.h"
 #include "hal/api/devices.h"
 #include "nav/tracking/tool_tracker.h"
@@ -37,6 +38,7 @@ struct Inputs {
   std::span<const ClickerEvent> clicks;  ///< in order of time
   std::span<const Phrase> phrases;       ///< in order of time
   Timestamp display_time{};              ///< of a frame made of this step
+  std::optional<Part> stalled;           ///< nothing is guided as long as it is
 };
 
 /// One operation from setup to done: values in, guidance out. Reads no clock and no device, so the
@@ -57,6 +59,8 @@ class Session {
   Status resume(const LoggedOperation& logged);
   /// What the status line says of saving from now on; null: nothing. Borrowed.
   void show_saving(const SaveWatch* saving) { saving_ = saving; }
+  /// Is told what the session waits for; null: nobody. Borrowed.
+  void watch_work(WorkWatch* watch) { digitizing_.watch_work(watch); }
 
   /// One stereo pair: events up to it are answered in order of time, tools are tracked, the step's
   /// work is done. The result is valid until the next call.
@@ -176,6 +180,7 @@ class Session {
   Workflow workflow_;
   SessionObserver* observer_ = nullptr;
   const SaveWatch* saving_ = nullptr;
+  std::optional<Part> stalled_;            ///< in the newest step
   std::string shown_;                      ///< the status line, while a registration is verified
   std::int64_t places_changed_ = 0;        ///< of the patient references, as they were told
   std::optional<std::int64_t> map_epoch_;  ///< of the newest pair

@@ -25,7 +25,7 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   out.level = level_;
   out.stale_after = options_.stale_after;
   out.fade = options_.fade;
-  out.blank = false;
+  out.blank = stalled_.has_value();
   out.tools = tools_.sights();
   out.anchor = tools_.tracker().anchor();
   if (frame.world_from_rig) {
@@ -44,7 +44,9 @@ void Session::publish_steps(Timestamp now, Timestamp display_time) {
   out.unstroked = {};
   out.to_check = {};
   if (step_ == Step::kVerify) {
-    verifying_.show(display_time);
+    if (!stalled_) {
+      verifying_.show(display_time);
+    }
     out.residuals_m = verifying_.residuals_m();
     out.unstroked = verifying_.unstroked();
     out.to_check = verifying_.to_check();
@@ -52,7 +54,8 @@ void Session::publish_steps(Timestamp now, Timestamp display_time) {
   out.screw = guiding_.screw();
   out.twin = guiding_.twin();
   out.tool.reset();
-  if (step_ == Step::kGuide && !in_use_.guidance_hidden()) {
+  const bool hidden = in_use_.guidance_hidden() || stalled_;
+  if (step_ == Step::kGuide && !hidden) {
     guiding_.know_errors(guide_errors(now));
     out.tool =
         guiding_.guide(level(), tools_.watch(tools_.guide()), tools_.geometry(tools_.guide()), now,
@@ -62,7 +65,7 @@ void Session::publish_steps(Timestamp now, Timestamp display_time) {
                              tools_.geometry(tools_.guide()));
     }
   }
-  if (step_ == Step::kGuide && in_use_.guidance_hidden()) {
+  if (step_ == Step::kGuide && hidden) {
     guiding_.lose_measurement();
   }
   out.wire = step_ == Step::kPlaced && placing_.wire() ? &*placing_.wire() : nullptr;
@@ -105,6 +108,7 @@ void Session::publish_status() {
   messages_.expire(guidance_.frame_time);
   StatusLine& line = guidance_.status;
   line.at = step_on_display();
+  line.stalled = stalled_;
   line.tool = {};
   line.tool_lost = false;
   line.tag_size_off.reset();

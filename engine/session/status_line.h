@@ -12,6 +12,7 @@
 #include "engine/session/placed_wire.h"
 #include "engine/session/saving.h"
 #include "engine/session/tip_check.h"
+#include "engine/session/work_watch.h"
 #include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
 
@@ -87,6 +88,7 @@ struct StatusLine {
   StepState state;
   const HeardCommand* heard = nullptr;  ///< null: nothing lately
   Saved saved = Saved::kNothingNew;
+  std::optional<Part> stalled;  ///< it hangs, so nothing is guided
 };
 
 /// What is asked of a surgeon who verifies by touch: as far as the line says it.

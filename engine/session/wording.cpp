@@ -10,6 +10,7 @@
 #include "base/printed.h"
 #include "engine/session/message_wording.h"
 #include "engine/session/numbers_wording.h"
+#include "engine/session/part_wording.h"
 #include "engine/session/saved_wording.h"
 #include "engine/session/wire_wording.h"
 
@@ -60,7 +61,7 @@ void write_tips(PartedText text, const TipCheck& tips, std::string_view separato
     out += "put the guide's tip in it too, or say next";
     return;
   }
-  if (tips.last()->corrected) {
+  if (!tips.last() || tips.last()->corrected) {
     return;
   }
   text.begin(tips.offers() ? Importance::kDanger : Importance::kMessage, separator);
@@ -193,7 +194,10 @@ void write_beside_replan(PartedText text, const StepState& state) {
 void append_detail(std::string& out, const StatusLine& line, StatusParts* parts) {
   PartedText text{out, parts};
   const std::size_t begin = out.size();
-  if (line.tool_lost) {
+  if (line.stalled) {
+    text.begin(Importance::kDanger);
+    out += stalled_text(*line.stalled);
+  } else if (line.tool_lost) {
     text.begin(Importance::kDanger);
     out.append(line.tool).append(" lost");
   } else if (line.tag_size_off) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/guarded.h"
 #include "hal/api/research_mode.h"
 
 namespace orthonav::hl2ss {
@@ -28,7 +29,15 @@ Result<std::unique_ptr<Receiver>> Receiver::start(const net::Endpoint& host,
   if (const Status added = receiver->add_all(filetime_offset); !added) {
     return added.error();
   }
-  receiver->thread_ = std::thread([self = receiver.get()] { self->run(); });
+  receiver->thread_ = std::thread([self = receiver.get()] {
+    const Status died = guarded("hl2ss", [self] {
+      self->run();
+      return Status{};
+    });
+    if (!died) {
+      self->pairs_.fail(died.error());
+    }
+  });
   return receiver;
 }
 

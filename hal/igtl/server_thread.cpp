@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/guarded.h"
+
 namespace orthonav::igtl {
 namespace {
 
@@ -16,7 +18,17 @@ constexpr int kSendBuffer = 64 << 10;
 
 ServerThread::ServerThread(const ServerOptions& options, net::Allowed allowed, net::Socket listener)
     : options_(options), allowed_(std::move(allowed)), listener_(std::move(listener)) {
-  thread_ = std::thread([this] { run(); });
+  thread_ = std::thread([this] {
+    const Status died = guarded("server", [this] {
+      run();
+      return Status{};
+    });
+    if (!died) {
+      const MutexLock lock(mutex_);
+      ++counts_.dropped;
+      counts_.last_drop = died.error().message;
+    }
+  });
 }
 
 ServerThread::~ServerThread() {

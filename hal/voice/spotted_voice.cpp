@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
+#include <optional>
 #include <thread>
 #include <utility>
 
+#include "base/guarded.h"
 #include "base/mutex.h"
 #include "base/stopwatch.h"
 #include "hal/voice/resampler.h"
@@ -13,6 +16,17 @@
 namespace orthonav::voice {
 
 namespace {
+
+/// This machine's time, from any moment on.
+class WallClock : public Clock {
+ public:
+  [[nodiscard]] Timestamp now() const override { return Timestamp(since_.elapsed()); }
+
+ private:
+  Stopwatch since_;
+};
+
+constexpr Duration kStallsAfter = std::chrono::milliseconds(400);
 
 /// From a microphone to phrases with times.
 class Listener {
@@ -23,10 +37,11 @@ class Listener {
         spotter_(std::move(spotter)),
         resampler_(std::move(resampler)) {}
 
-  /// Reads all there is and appends the phrases in it.
-  Status listen(std::vector<Phrase>& phrases) {
+  /// Reads all there is and appends the phrases in it; counts in `rounds` how often it came round.
+  Status listen(std::vector<Phrase>& phrases, std::atomic<std::uint64_t>& rounds) {
     std::array<std::int16_t, 4096> block;
     for (;;) {
+      ++rounds;
       const auto count = microphone_->read(block);
       if (!count) {
         return count.error();
@@ -84,9 +99,10 @@ class VoiceInPoll : public Voice {
  private:
   Listener listener_;
   std::vector<Phrase> heard_;
+  std::atomic<std::uint64_t> rounds_ = 0;
 
   Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
-    if (Status listened = listener_.listen(heard_); !listened) {
+    if (Status listened = listener_.listen(heard_, rounds_); !listened) {
       return listened;
     }
     return deliver(heard_, until, phrases);
@@ -95,8 +111,16 @@ class VoiceInPoll : public Voice {
 
 class VoiceOnItsOwnThread : public Voice {
  public:
-  explicit VoiceOnItsOwnThread(Listener listener) : listener_(std::move(listener)) {
-    thread_ = std::thread([this] { run(); });
+  VoiceOnItsOwnThread(Listener listener, std::unique_ptr<const Clock> wall)
+      : listener_(std::move(listener)), wall_(std::move(wall)) {
+    thread_ = std::thread([this] {
+      const Status died = guarded("voice", [this] {
+        run();
+        return Status{};
+      });
+      const MutexLock lock(mutex_);
+      died_ = died;
+    });
   }
   ~VoiceOnItsOwnThread() override {
     {
@@ -116,6 +140,12 @@ class VoiceOnItsOwnThread : public Voice {
   bool stop_ ORTHONAV_GUARDED_BY(mutex_) = false;
   std::vector<Phrase> heard_ ORTHONAV_GUARDED_BY(mutex_);
   Status trouble_ ORTHONAV_GUARDED_BY(mutex_);
+  Status died_ ORTHONAV_GUARDED_BY(mutex_);
+  std::atomic<std::uint64_t> rounds_ = 0;
+  // Of whoever polls.
+  std::unique_ptr<const Clock> wall_;
+  std::uint64_t seen_rounds_ = 0;
+  std::optional<Timestamp> alive_at_;
   std::thread thread_;  // last: it uses all of the above
 
   void run() {
@@ -123,7 +153,7 @@ class VoiceOnItsOwnThread : public Voice {
     std::vector<Phrase> phrases;
     for (;;) {
       phrases.clear();
-      const Status listened = listener_.listen(phrases);
+      const Status listened = listener_.listen(phrases, rounds_);
       const MutexLock lock(mutex_);
       heard_.insert(heard_.end(), phrases.begin(), phrases.end());
       if (!listened) {
@@ -137,8 +167,24 @@ class VoiceOnItsOwnThread : public Voice {
       }
     }
   }
+  /// Nothing was listened to for so long: the microphone hangs, or the recognizer.
+  bool stalled() {
+    const Timestamp now = wall_->now();
+    const std::uint64_t rounds = rounds_;
+    if (rounds != seen_rounds_ || !alive_at_) {
+      seen_rounds_ = rounds;
+      alive_at_ = now;
+    }
+    return now - *alive_at_ > kStallsAfter;
+  }
   Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
     const MutexLock lock(mutex_);
+    if (!died_) {
+      return died_;
+    }
+    if (stalled()) {
+      return Error{"voice: has listened to nothing for 0.4 s", ErrorCode::kUnavailable};
+    }
     if (const Status trouble = std::exchange(trouble_, Status()); !trouble) {
       return trouble;
     }
@@ -150,7 +196,8 @@ class VoiceOnItsOwnThread : public Voice {
 
 Result<std::unique_ptr<Voice>> open_spotted_voice(std::unique_ptr<Microphone> microphone,
                                                   const SpotterOptions& options,
-                                                  Listening listening) {
+                                                  Listening listening,
+                                                  std::unique_ptr<const Clock> wall) {
   auto spotter = CommandSpotter::create(options);
   if (!spotter) {
     return spotter.error();
@@ -163,7 +210,8 @@ Result<std::unique_ptr<Voice>> open_spotted_voice(std::unique_ptr<Microphone> mi
   if (listening == Listening::kInPoll) {
     return std::unique_ptr<Voice>(std::make_unique<VoiceInPoll>(std::move(listener)));
   }
-  return std::unique_ptr<Voice>(std::make_unique<VoiceOnItsOwnThread>(std::move(listener)));
+  return std::unique_ptr<Voice>(std::make_unique<VoiceOnItsOwnThread>(
+      std::move(listener), wall ? std::move(wall) : std::make_unique<WallClock>()));
 }
 
 }  // namespace orthonav::voice

@@ -1,5 +1,7 @@
 #include "nav/tracking/worker.h"
 
+#include <utility>
+
 #include "base/check.h"
 
 namespace orthonav::nav {
@@ -30,6 +32,9 @@ void Worker::wait() {
   while (task_) {
     changed_.wait(mutex_);
   }
+  if (const std::exception_ptr thrown = std::exchange(thrown_, nullptr)) {
+    std::rethrow_exception(thrown);
+  }
 }
 
 void Worker::loop() {
@@ -47,8 +52,14 @@ void Worker::loop() {
       task = task_;
       argument = argument_;
     }
-    task(argument);
+    std::exception_ptr thrown;
+    try {
+      task(argument);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
     const MutexLock lock(mutex_);
+    thrown_ = thrown;
     task_ = nullptr;
     changed_.notify_all();
   }

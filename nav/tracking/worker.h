@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <thread>
 
 #include "base/mutex.h"
@@ -15,10 +16,10 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// Runs `task(argument)` on the thread; the last task must have been waited for. The task must
-  /// not throw.
+  /// Runs `task(argument)` on the thread; the last task must have been waited for.
   void start(void (*task)(void*), void* argument);
-  /// Returns when the task has ended; what it wrote is then visible here.
+  /// Returns when the task has ended; what it wrote is then visible here. What it threw is thrown
+  /// here.
   void wait();
 
  private:
@@ -28,6 +29,7 @@ class Worker {
   ConditionVariable changed_;
   void (*task_)(void*) ORTHONAV_GUARDED_BY(mutex_) = nullptr;
   void* argument_ ORTHONAV_GUARDED_BY(mutex_) = nullptr;
+  std::exception_ptr thrown_ ORTHONAV_GUARDED_BY(mutex_);
   bool ending_ ORTHONAV_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };

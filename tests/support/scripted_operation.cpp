@@ -165,6 +165,7 @@ const engine::Guidance& ScriptedOperation::pair() {
   inputs.clicks = clicks_;
   inputs.phrases = phrases_;
   inputs.display_time = now_ + latency;
+  inputs.stalled = stalled;
   const engine::Guidance& guidance = session_->step(frame, inputs);
   clicks_.clear();
   phrases_.clear();

@@ -111,7 +111,8 @@ class ScriptedOperation {
   std::optional<std::string> unusable;         ///< or why there is none
   std::vector<std::size_t> registered_points;  ///< of each registration asked for
   Duration latency = std::chrono::milliseconds(16);
-  std::int64_t map_epoch = 0;  ///< of the next pairs
+  std::int64_t map_epoch = 0;           ///< of the next pairs
+  std::optional<engine::Part> stalled;  ///< in the next pairs
 
  private:
   const engine::Guidance& registers_level();

@@ -212,6 +212,43 @@ TEST_F(CoachTest, EndsWithATrialUnderWay) {
   EXPECT_EQ(gate.asked, 1);
 }
 
+/// Opens the gate once somebody waits for the coach.
+class OpensWhenAwaited : public WorkWatch {
+ public:
+  explicit OpensWhenAwaited(Gate& gate) : gate_(gate) {}
+  void begins(Part part) override {
+    told.push_back(part);
+    gate_.set_open(true);
+  }
+  void ends(Part part) override { told.push_back(part); }
+  std::vector<Part> told;
+
+ private:
+  Gate& gate_;
+};
+
+TEST_F(CoachTest, TellsThatItIsAwaited) {
+  OpensWhenAwaited watch(gate);
+  coach.watch(&watch);
+  gate.set_open(false);
+  stroke(200);
+  pairs(Coach::kPairsToAnswer);
+  EXPECT_TRUE(watch.told.empty()) << "nobody waits for it yet";
+  pairs(1);  // would hang here if it did not tell
+  EXPECT_EQ(watch.told, std::vector<Part>(2, Part::kCoach));
+  EXPECT_TRUE(coach.newest().has_value());
+}
+
+TEST_F(CoachTest, ATrialThatDiesDoesSoWhereItIsAwaited) {
+  Coach other(
+      [](const RegistrationRequest&) -> Result<nav::Registration> { throw std::bad_alloc(); });
+  stroke(200);
+  for (int i = 0; i < Coach::kPairsToAnswer; ++i) {
+    other.step(operation.levels[0], regions);
+  }
+  EXPECT_THROW(other.step(operation.levels[0], regions), std::bad_alloc);
+}
+
 /// The reachable side of the phantom's L4 from its left to its right, 0.3 mm noisy.
 std::vector<nav::Sample> sweep_of(const nav::VertebraModel& model, std::size_t count) {
   std::vector<Vec3> places = model.reachable().vertices_m;

@@ -32,6 +32,14 @@ std::string line_with(const StepState& state) {
   return detail_text(line);
 }
 
+TEST(Wording, SaysNothingOfTipsThatNobodyCompares) {
+  const TipCheck nobody({}, {}, false);
+  LandmarkTouch touch;
+  touch.first = true;
+  const std::string line = line_with(LandmarkSoFar{{}, true, touch, &nobody, nullptr});
+  EXPECT_THAT(line, ::testing::EndsWith("dimple recorded"));
+}
+
 TEST(Wording, NamesStepsWithWhatTheyAreAbout) {
   EXPECT_EQ(step_text({Step::kSetup, {}, {}}), "setup");
   EXPECT_EQ(step_text({Step::kVerify, "L4", {}}), "verify L4");

@@ -255,6 +255,20 @@ TEST_F(RuntimeTest, HidesGuidanceThatGrewOldWhileTrackingStalls) {
   EXPECT_EQ(presenter_->stop().hidden, 1);
 }
 
+TEST_F(RuntimeTest, APresentingThreadThatHangsIsToldUntilItGoesOn) {
+  open();
+  ASSERT_TRUE(present().ok());
+  ASSERT_TRUE(show(golden("guidance").scene).ok());
+  ASSERT_TRUE(eventually([&] { return count_drawn() > 0; }));
+  hold_ = true;
+  ASSERT_TRUE(eventually([&] { return held_.load(); }));
+  EXPECT_FALSE(presenter_->stalled());
+  watch_.advance(engine::kStallAfter + Duration(1));
+  EXPECT_TRUE(presenter_->stalled());
+  hold_ = false;
+  EXPECT_TRUE(eventually([&] { return !presenter_->stalled(); }));
+}
+
 TEST_F(RuntimeTest, TakesTheNewestSnapshot) {
   open();
   ASSERT_TRUE(present().ok());

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,7 @@ class RuntimeTest : public ::testing::Test {
  protected:
   RuntimeTest() { runtime().reset({}); }
   ~RuntimeTest() override {
+    hold_ = false;
     presenter_.reset();
     headset_.reset();
     EXPECT_THAT(runtime().violations(), ::testing::IsEmpty());
@@ -82,9 +84,16 @@ class RuntimeTest : public ::testing::Test {
     options.look_again_after = std::chrono::milliseconds(5);
     options.on_over = [this] { over_ = true; };
     options.on_drawn = [this](const render::Scene& scene, const std::vector<render::View>& views) {
-      const std::lock_guard lock(mutex_);
-      drawn_.push_back({scene, views});
+      {
+        const std::lock_guard lock(mutex_);
+        drawn_.push_back({scene, views});
+      }
+      while (hold_) {
+        held_ = true;
+        std::this_thread::yield();
+      }
     };
+    options.clock = &watch_;
     auto presenter = engine::Presenter::start(*headset_->pixels(), options);
     if (!presenter) {
       return presenter.error();
@@ -122,6 +131,10 @@ class RuntimeTest : public ::testing::Test {
   std::unique_ptr<Headset> headset_;
   std::unique_ptr<engine::Presenter> presenter_;
   std::atomic<bool> over_ = false;
+  /// Of the presenting thread: as long as it is set it hangs in the next frame.
+  std::atomic<bool> hold_ = false;
+  std::atomic<bool> held_ = false;
+  fake::ManualClock watch_;  ///< by which that is noticed
 
  private:
   mutable std::mutex mutex_;

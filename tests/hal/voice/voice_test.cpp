@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
+#include <stdexcept>
+#include <thread>
 
 #include "hal/desktop/wav_microphone.h"
 #include "hal/fake/scripted.h"
@@ -319,6 +322,76 @@ TEST(SpottedVoice, HearsTheSameOnItsOwnThread) {
   for (std::size_t i = 0; i < phrases.size(); ++i) {
     EXPECT_EQ(phrases[i].text, expected[i].text);
   }
+}
+
+/// Hangs in its driver until it is let go, or dies there.
+class HangingMicrophone : public Microphone {
+ public:
+  struct Ways {
+    std::atomic<bool> hangs = true;
+    std::atomic<bool> hung = false;
+    std::atomic<bool> dies = false;
+  };
+  explicit HangingMicrophone(Ways& ways) : ways_(ways) {}
+
+ private:
+  Ways& ways_;
+  [[nodiscard]] int do_sample_rate_hz() const override { return 16000; }
+  Result<std::size_t> do_read(std::span<std::int16_t>) override {
+    while (ways_.hangs) {
+      ways_.hung = true;
+      std::this_thread::yield();
+    }
+    if (ways_.dies) {
+      throw std::runtime_error("driver");
+    }
+    return std::size_t{0};
+  }
+  [[nodiscard]] std::optional<Timestamp> do_newest_sample_time() const override { return {}; }
+};
+
+/// A voice whose microphone hangs, and the time by which that is noticed.
+class HangingVoice : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    SpotterOptions options;
+    options.commands = kCommands;
+    auto wall = std::make_unique<fake::ManualClock>();
+    wall_ = wall.get();
+    voice_ = *open_spotted_voice(std::make_unique<HangingMicrophone>(ways_), options,
+                                 Listening::kOnItsOwnThread, std::move(wall));
+    ASSERT_TRUE(orthonav::test::wait_until([&] { return ways_.hung.load(); }));
+    EXPECT_TRUE(poll().ok());
+  }
+  void TearDown() override { ways_.hangs = false; }
+  Status poll() {
+    std::vector<Phrase> phrases;
+    return voice_->poll(Timestamp{}, phrases);
+  }
+  HangingMicrophone::Ways ways_;
+  fake::ManualClock* wall_ = nullptr;
+  std::unique_ptr<Voice> voice_;
+};
+
+TEST_F(HangingVoice, IsToldAfter400MsUntilItGoesOn) {
+  wall_->advance(std::chrono::milliseconds(400));
+  EXPECT_TRUE(poll().ok());
+  wall_->advance(Duration(1));
+  const Status stalled = poll();
+  ASSERT_FALSE(stalled.ok());
+  EXPECT_EQ(stalled.error().code, ErrorCode::kUnavailable);
+  ways_.hangs = false;
+  EXPECT_TRUE(orthonav::test::wait_until([&] { return poll().ok(); }));
+}
+
+TEST_F(HangingVoice, WhoseThreadDiesSaysOfWhatAndEndsNothingElse) {
+  ways_.dies = true;
+  ways_.hangs = false;
+  ASSERT_TRUE(orthonav::test::wait_until([&] { return !poll().ok(); }));
+  const Status died = poll();
+  ASSERT_FALSE(died.ok()) << "it stays dead";
+  EXPECT_EQ(died.error().message, "voice: ended by an exception: driver");
+  EXPECT_NE(died.error().code, ErrorCode::kUnavailable) << "and the run ends";
 }
 
 }  // namespace

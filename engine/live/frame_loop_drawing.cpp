@@ -1,0 +1,146 @@
+#include <thread>
+#include <utility>
+
+#include "base/guarded.h"
+#include "base/stopwatch.h"
+#include "engine/live/frame_loop.h"
+#include "engine/session/part_wording.h"
+
+// The drawing thread: draws what the tracking thread hands over, and watches it.
+
+namespace orthonav::engine {
+namespace {
+
+/// How often it is looked whether the tracking thread still lives, while nothing comes from it.
+constexpr auto kLookEvery = std::chrono::milliseconds(50);
+static_assert(kStallAfter + kLookEvery <= std::chrono::milliseconds(500),
+              "what stalls is named within half a second");
+
+}  // namespace
+
+/// The loop, with a thread beside it that draws.
+Status FrameLoop::draw_beside(SnapshotQueue& queue, LoopReport& report, Status& drawn) {
+  LoopReport drawing;
+  std::thread drawer([&] {
+    const Status lived = guarded("renderer", [&] {
+      draw_all(queue, drawing, drawn);
+      return Status{};
+    });
+    if (!lived) {
+      drawn = lived;
+      stop();
+      queue.close();  // tracking must not wait for a thread that is gone
+    }
+  });
+  const Status tracked = loop(&queue, report);
+  queue.close();
+  drawer.join();
+  report.drawn = drawing.drawn;
+  report.stalls += drawing.stalls;
+  report.draw_failures = drawing.failures;
+  if (drawing.failures > 0) {
+    report.last_failure = drawing.last_failure;
+  }
+  report.draw_wall_ms = std::move(drawing.draw_wall_ms);
+  report.dropped_snapshots = queue.dropped();
+  return tracked;
+}
+
+void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int64_t frame) {
+  Snapshot* snapshot = queue.acquire();
+  if (!snapshot) {
+    return;
+  }
+  snapshot->frame = frame;
+  snapshot->display_time = guidance.display_time;
+  snapshot->step = guidance.status.at;
+  snapshot->blank = guidance.blank;
+  snapshot->map_epoch = frame_.map_epoch;
+  snapshot->expires.reset();
+  snapshot->tool_time = builder_.visible().pose_time;
+  if (const auto& pose_time = builder_.visible().pose_time) {
+    snapshot->expires = *pose_time + guidance.stale_after;
+  }
+  builder_.write_scene(guidance, snapshot->scene);
+  write_patches(guidance, snapshot->patches);
+  for (LoopObserver* observer : observers_) {
+    observer->captured(*snapshot);
+  }
+  queue.publish(snapshot);
+}
+
+Status FrameLoop::draw_into_sink(const Snapshot& snapshot) {
+  const Working working(&*beats_, Part::kRenderer);
+  return sink_->draw(snapshot);
+}
+
+/// Says in place of everything else what the tracking thread hangs in, since it can't itself.
+void FrameLoop::warn_of_stall(const Snapshot* last, std::optional<Part>& warned,
+                              LoopReport& drawing) {
+  const std::optional<Part> stalled = beats_->tracking_stalled();
+  if (!stalled || stalled == warned || !last) {
+    return;
+  }
+  Snapshot warning;
+  warning.frame = last->frame;
+  warning.display_time = next_display_time();
+  warning.step = last->step;
+  warning.map_epoch = last->map_epoch;
+  warning.blank = true;
+  write_notice_alone(last->scene, stalled_text(*stalled), warning.scene);
+  warned = stalled;
+  ++drawing.stalls;
+  if (const Status drawn = draw_into_sink(warning); !drawn) {
+    drawing.last_failure = drawn.error().message;
+  }
+}
+
+/// The next snapshot; null at the end. In real time the last one stays for warnings meanwhile.
+Snapshot* FrameLoop::await_snapshot(SnapshotQueue& queue, Snapshot*& last, LoopReport& drawing) {
+  std::optional<Part> warned;
+  Snapshot* next = nullptr;
+  if (!options_.drop_late_snapshots) {
+    return queue.take();
+  }
+  while (queue.take_until(Stopwatch().after(kLookEvery), next) == SnapshotQueue::Taken::kNothing) {
+    warn_of_stall(last, warned, drawing);
+  }
+  if (last) {
+    queue.release(std::exchange(last, nullptr));
+  }
+  return next;
+}
+
+/// Draws until the queue is closed and empty. After too many failures in a row it fails for good
+/// and stops the loop, since a surgeon who sees nothing must be told. The remaining snapshots are
+/// taken without being drawn, so that tracking never waits for a drawer that gave up.
+void FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& status) {
+  int in_a_row = 0;
+  Snapshot* last = nullptr;
+  while (Snapshot* snapshot = await_snapshot(queue, last, drawing)) {
+    // Only in real time: where every snapshot is drawn, the pictures are for later, and the
+    // device's clock runs ahead of them.
+    if (options_.drop_late_snapshots && snapshot->expires &&
+        next_display_time() > *snapshot->expires) {
+      hide_tool_guidance(snapshot->scene);
+      snapshot->tool_time.reset();
+    }
+    if (status.ok()) {
+      const Stopwatch watch;
+      const Status drawn = draw_into_sink(*snapshot);
+      drawing.draw_wall_ms.push_back(watch.elapsed_ms());
+      drawing.drawn += drawn ? 1 : 0;
+      status = tolerate(drawn, in_a_row, drawing);
+      if (!status) {
+        stop();
+      }
+    }
+    if (options_.drop_late_snapshots) {
+      last = snapshot;
+    } else {
+      queue.release(snapshot);
+    }
+  }
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,338 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <stdexcept>
+
+#include "engine/live/frame_loop.h"
+#include "engine/live/heartbeats.h"
+#include "engine/session/part_wording.h"
+#include "tests/support/scripted_operation.h"
+#include "tests/support/scripted_pairs.h"
+#include "tests/support/wait_until.h"
+
+namespace orthonav::engine::watchdog_test {
+namespace {
+
+using test::kPair;
+using test::kStart;
+using test::pairs;
+using test::wait_until;
+using ::testing::HasSubstr;
+
+bool shows_triangle(const ShownFrame& frame) {
+  return std::any_of(frame.holograms.begin(), frame.holograms.end(),
+                     [](const ShownHologram& h) { return h.kind == HologramKind::kTriangle; });
+}
+
+std::string text_of(const render::Scene& scene) {
+  std::string text;
+  for (const render::TextItem& item : scene.texts) {
+    for (const render::TextRun& run : item.runs) {
+      text += run.text + " ";
+    }
+  }
+  return text;
+}
+
+TEST(Heartbeats, NameAPartOnceItIsAtOneThingForLongerThanTheLimit) {
+  fake::ManualClock clock;
+  Heartbeats beats(clock, kStallAfter);
+  clock.advance(std::chrono::hours(1));
+  EXPECT_EQ(beats.tracking_stalled(), std::nullopt) << "who rests does not hang";
+  beats.begins(Part::kCamera);
+  clock.advance(kStallAfter);
+  EXPECT_EQ(beats.tracking_stalled(), std::nullopt);
+  clock.advance(Duration(1));
+  EXPECT_EQ(beats.tracking_stalled(), Part::kCamera);
+  EXPECT_FALSE(beats.drawing_stalled());
+  beats.ends(Part::kCamera);
+  EXPECT_EQ(beats.tracking_stalled(), std::nullopt);
+  beats.begins(Part::kRenderer);
+  clock.advance(kStallAfter + Duration(1));
+  EXPECT_TRUE(beats.drawing_stalled());
+  EXPECT_EQ(beats.tracking_stalled(), std::nullopt);
+}
+
+TEST(Heartbeats, NameWhoIsWaitedForRatherThanWhoWaits) {
+  fake::ManualClock clock;
+  Heartbeats beats(clock, kStallAfter);
+  const Working tracker(&beats, Part::kTracker);
+  clock.advance(kStallAfter);
+  {
+    const Working coach(&beats, Part::kCoach);
+    clock.advance(Duration(1));
+    EXPECT_EQ(beats.tracking_stalled(), Part::kCoach);
+  }
+  EXPECT_EQ(beats.tracking_stalled(), Part::kTracker);
+}
+
+TEST(Heartbeats, KeepWhatAnExceptionLeft) {
+  fake::ManualClock clock;
+  Heartbeats beats(clock, kStallAfter);
+  try {
+    const Working tracker(&beats, Part::kTracker);
+    const Working voice(&beats, Part::kVoice);
+    throw std::runtime_error("x");
+  } catch (const std::runtime_error&) {
+  }
+  EXPECT_EQ(beats.tracking(), Part::kVoice);
+}
+
+/// What happens at a pair besides; each a double of its own kind.
+struct AtPair {
+  std::int64_t pair = 0;
+  std::function<void()> happens = [] {};
+};
+
+/// A camera that does something before it gives a certain pair.
+class EventfulCamera : public StereoCamera {
+ public:
+  EventfulCamera(StereoCamera& inner, AtPair at) : inner_(inner), at_(std::move(at)) {}
+
+ private:
+  StereoCamera& inner_;
+  AtPair at_;
+  std::int64_t pair_ = 0;
+  [[nodiscard]] const StereoCalibration& do_calibration() const override {
+    return inner_.calibration();
+  }
+  Result<Next> do_next(StereoFrame& frame) override {
+    if (pair_++ == at_.pair) {
+      at_.happens();
+    }
+    return inner_.next(frame);
+  }
+};
+
+/// Answers each poll by what it is told to.
+class ToldVoice : public Voice {
+ public:
+  explicit ToldVoice(std::function<Status(Timestamp)> answer) : answer_(std::move(answer)) {}
+
+ private:
+  std::function<Status(Timestamp)> answer_;
+  Status do_poll(Timestamp until, std::vector<Phrase>&) override { return answer_(until); }
+};
+
+class EventfulHeadset : public ForwardingHeadset {
+ public:
+  EventfulHeadset(
+      Headset& inner, AtPair camera,
+      std::function<Status(Timestamp)> voice = [](Timestamp) { return Status{}; })
+      : ForwardingHeadset(inner), cameras_(inner.cameras(), std::move(camera)), voice_(voice) {}
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] Voice& voice() override { return voice_; }
+
+ private:
+  EventfulCamera cameras_;
+  ToldVoice voice_;
+};
+
+/// Keeps what it was given to draw, and can hang or die of a snapshot.
+class WatchedSink : public SnapshotSink {
+ public:
+  Status draw(const Snapshot& snapshot) override {
+    {
+      const MutexLock lock(mutex_);
+      texts_.push_back(text_of(snapshot.scene));
+    }
+    // In real time any snapshot may be skipped.
+    if (hangs_at >= 0 && snapshot.frame >= hangs_at) {
+      hanging = true;
+      EXPECT_TRUE(wait_until([&] { return let_go.load(); }));
+    }
+    if (dies_at >= 0 && snapshot.frame >= dies_at) {
+      throw std::runtime_error("driver");
+    }
+    return {};
+  }
+  [[nodiscard]] bool stalled() const override { return hangs_by_itself; }
+  [[nodiscard]] bool drew(const std::string& text) const {
+    const MutexLock lock(mutex_);
+    return std::any_of(texts_.begin(), texts_.end(), [&](const std::string& drawn) {
+      return drawn.find(text) != std::string::npos;
+    });
+  }
+  std::int64_t hangs_at = -1;
+  std::int64_t dies_at = -1;
+  std::atomic<bool> hanging = false;
+  std::atomic<bool> let_go = false;
+  std::atomic<bool> hangs_by_itself = false;
+
+ private:
+  mutable Mutex mutex_;
+  std::vector<std::string> texts_ ORTHONAV_GUARDED_BY(mutex_);
+};
+
+/// Calls something once the guidance of a pair is known.
+class Stepped : public LoopObserver {
+ public:
+  explicit Stepped(std::function<void(const Guidance&)> then) : then_(std::move(then)) {}
+  void stepped(const StereoFrame&, const Inputs&, const Guidance& guidance) override {
+    then_(guidance);
+  }
+
+ private:
+  std::function<void(const Guidance&)> then_;
+};
+
+/// A session that guides the first screw, with the guide in sight, in real time.
+class WatchedLoop : public ::testing::Test {
+ protected:
+  WatchedLoop() {
+    options.drop_late_snapshots = true;
+    s.accepts_first_level();
+    s.says("next");
+    s.tracker().guide = test::guide_at({0.015, 0.020, 0.0}, 0.1);
+    s.pair();
+  }
+  Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr) {
+    SceneBuilder builder;
+    FrameLoop loop(headset, s.session(), builder, options);
+    loop.observe(observer);
+    loop.draw_into(&sink);
+    return loop.run();
+  }
+  test::ScriptedOperation s;
+  LoopOptions options;
+  WatchedSink sink;
+};
+
+TEST_F(WatchedLoop, ACameraThatHangsIsNamedByTheDrawer) {
+  fake::FakeHeadset inner(pairs(3));
+  EventfulHeadset headset(inner,
+                          {1, [&] {
+                             EXPECT_TRUE(wait_until([&] { return sink.drew("guide"); }));
+                             inner.manual_clock().advance(kStallAfter + Duration(1));
+                             EXPECT_TRUE(wait_until([&] { return sink.drew("camera stalled"); }));
+                           }});
+  const auto report = run(headset);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->stalls, 1);
+  EXPECT_TRUE(shows_triangle(inner.display().frames().at(2))) << "and it goes on with the next";
+}
+
+TEST_F(WatchedLoop, ATrackerThatHangsIsNamedByTheDrawer) {
+  fake::FakeHeadset inner(pairs(3));
+  std::atomic<int> steps = 0;
+  Stepped slow([&](const Guidance&) {
+    if (steps++ == 1) {
+      EXPECT_TRUE(wait_until([&] { return sink.drew("guide"); }));
+      inner.manual_clock().advance(kStallAfter + Duration(1));
+      EXPECT_TRUE(wait_until([&] { return sink.drew("tracker stalled: nothing is guided"); }));
+    }
+  });
+  const auto report = run(inner, &slow);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->stalls, 1);
+}
+
+TEST_F(WatchedLoop, AVoiceThatHangsInItsPollIsNamedByTheDrawer) {
+  fake::FakeHeadset inner(pairs(3));
+  EventfulHeadset headset(inner, {}, [&, polls = 0](Timestamp) mutable {
+    if (polls++ == 1) {
+      EXPECT_TRUE(wait_until([&] { return sink.drew("guide"); }));
+      inner.manual_clock().advance(kStallAfter + Duration(1));
+      EXPECT_TRUE(wait_until([&] { return sink.drew("voice stalled"); }));
+    }
+    return Status{};
+  });
+  ASSERT_TRUE(run(headset).ok());
+}
+
+TEST_F(WatchedLoop, AVoiceThatSaysItStalledHidesGuidanceAndEndsNothing) {
+  constexpr int kPairs = 60;
+  fake::FakeHeadset inner(pairs(kPairs));
+  // Far longer than other failures may last.
+  EventfulHeadset headset(inner, {}, [](Timestamp until) {
+    return until < kStart + 50 * kPair ? Status(Error{"voice", ErrorCode::kUnavailable}) : Status{};
+  });
+  const auto report = run(headset);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->stalls, 1);
+  const auto frames = inner.display().frames();
+  ASSERT_EQ(frames.size(), kPairs + 1u);
+  EXPECT_TRUE(frames[10].holograms.empty());
+  EXPECT_THAT(frames[10].status->text, HasSubstr("voice stalled: nothing is guided"));
+  EXPECT_TRUE(shows_triangle(frames[55]));
+  EXPECT_THAT(frames[55].status->text, ::testing::Not(HasSubstr("stalled")));
+}
+
+TEST_F(WatchedLoop, ARendererThatHangsIsNamedByTheTracker) {
+  fake::FakeHeadset headset(pairs(40));
+  sink.hangs_at = 0;
+  std::int64_t pair = 0;
+  std::int64_t named = 0;
+  // The clock goes with the pairs; from the third on the drawing thread hangs.
+  Stepped see([&](const Guidance& guidance) {
+    if (++pair == 3) {
+      EXPECT_TRUE(wait_until([&] { return sink.hanging.load(); }));
+    }
+    named += guidance.status.stalled == Part::kRenderer ? 1 : 0;
+    sink.let_go = sink.let_go || named >= 3;
+  });
+  const auto report = run(headset, &see);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  const auto frames = headset.display().frames();
+  const auto first = std::find_if(frames.begin(), frames.end(), [](const ShownFrame& frame) {
+    return frame.status && frame.status->text.find("renderer stalled") != std::string::npos;
+  });
+  ASSERT_NE(first, frames.end());
+  EXPECT_TRUE(first->holograms.empty());
+  EXPECT_GE(report->stalls, 1);
+}
+
+TEST_F(WatchedLoop, APresenterThatHangsByItselfIsNamedToo) {
+  fake::FakeHeadset headset(pairs(3));
+  sink.hangs_by_itself = true;
+  const auto report = run(headset);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_THAT(headset.display().frames().at(0).status->text, HasSubstr("renderer stalled"));
+}
+
+TEST_F(WatchedLoop, NothingIsNamedWhileAllGoWell) {
+  fake::FakeHeadset headset(pairs(40));
+  const auto report = run(headset);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->stalls, 0);
+  EXPECT_FALSE(sink.drew("stalled"));
+  EXPECT_TRUE(shows_triangle(headset.display().frames().at(39)));
+}
+
+TEST_F(WatchedLoop, WhoeverDiesOnTheTrackingThreadIsNamedAndNothingIsGuided) {
+  fake::FakeHeadset inner(pairs(9));
+  Stepped dies([steps = 0](const Guidance&) mutable {
+    if (++steps == 4) {
+      throw std::bad_alloc();
+    }
+  });
+  const auto report = run(inner, &dies);
+  ASSERT_FALSE(report.ok());
+  EXPECT_EQ(report.error().message, "tracker: out of memory");
+  const auto frames = inner.display().frames();
+  ASSERT_EQ(frames.size(), 4u) << "three pairs, and one that takes back";
+  EXPECT_TRUE(frames.back().holograms.empty());
+
+  fake::FakeHeadset other(pairs(9));
+  EventfulHeadset camera(other, {3, [] { throw std::runtime_error("driver"); }});
+  const auto of_camera = run(camera);
+  ASSERT_FALSE(of_camera.ok());
+  EXPECT_EQ(of_camera.error().message, "camera: ended by an exception: driver");
+  EXPECT_TRUE(other.display().frames().back().holograms.empty());
+}
+
+TEST_F(WatchedLoop, ARendererThatDiesEndsTheRunInOrder) {
+  for (const bool waits : {false, true}) {
+    options.drop_late_snapshots = !waits;
+    fake::FakeHeadset headset(pairs(500));
+    sink.dies_at = 0;
+    const auto report = run(headset);
+    ASSERT_FALSE(report.ok()) << waits;
+    EXPECT_EQ(report.error().message, "renderer: ended by an exception: driver");
+    EXPECT_TRUE(headset.display().frames().back().holograms.empty());
+  }
+}
+
+}  // namespace
+}  // namespace orthonav::engine::watchdog_test

@@ -1,0 +1,56 @@
+#include "tools/memory_reserve.h"
+
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <new>
+#include <string_view>
+
+namespace orthonav::tools {
+namespace {
+
+/// To close journal, recording and film with.
+constexpr std::size_t kReserveBytes = std::size_t{32} << 20U;
+
+/// A handler has no other way to what it needs.
+std::atomic<void*>& reserve() {
+  static std::atomic<void*> bytes = nullptr;
+  return bytes;
+}
+
+void ran_out() {
+  void* const kept = reserve().exchange(nullptr);
+  if (kept == nullptr) {
+    std::set_new_handler(nullptr);
+    return;
+  }
+  constexpr std::string_view kLine = "orthonav: out of memory: ending in order\n";
+  (void)!::write(STDERR_FILENO, kLine.data(), kLine.size());
+  ::munmap(kept, kReserveBytes);
+  ::kill(::getpid(), SIGTERM);
+}
+
+}  // namespace
+
+void keep_memory_reserve() {
+  void* const bytes =
+      ::mmap(nullptr, kReserveBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (bytes != MAP_FAILED) {
+    reserve() = bytes;
+    std::set_new_handler(ran_out);
+  }
+}
+
+void limit_memory() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_DATA, &limit) == 0 && limit.rlim_cur > kMemoryCeiling) {
+    limit.rlim_cur = std::min<rlim_t>(kMemoryCeiling, limit.rlim_max);
+    (void)::setrlimit(RLIMIT_DATA, &limit);
+  }
+}
+
+}  // namespace orthonav::tools
