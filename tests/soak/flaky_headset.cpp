@@ -1,0 +1,115 @@
+#include "tests/soak/flaky_headset.h"
+
+#include <algorithm>
+
+namespace orthonav::soak {
+namespace {
+
+/// Guidance may stand so long (docs/safety.md).
+constexpr Duration kStaleAfter = std::chrono::milliseconds(100);
+
+int between(Random& random, int low, int high) {
+  return static_cast<int>(random.uniform(low, high + 1));
+}
+
+bool hangs_on_tool(const ShownHologram& hologram) {
+  return hologram.kind == HologramKind::kTriangle ||
+         (hologram.kind == HologramKind::kAngle && hologram.reading.has_value());
+}
+
+}  // namespace
+
+FlakyHeadset::FlakyHeadset(Headset& inner, Random random, const Chances& chances)
+    : ForwardingHeadset(inner),
+      weather_{random, chances, {}, 0, 0, 0, 0, false, 0, {}},
+      cameras_(inner.cameras(), weather_),
+      voice_(inner.voice(), weather_),
+      display_(inner.display(), weather_) {}
+
+void FlakyHeadset::Cameras::begin_trouble() {
+  Weather& w = weather_;
+  const auto count = [&](Trouble trouble) { ++w.done[static_cast<std::size_t>(trouble)]; };
+  if (w.random.uniform() < w.chances.device_loss) {
+    count(Trouble::kDeviceLoss);
+    w.lost = true;
+  }
+  if (w.random.uniform() < w.chances.map_jump) {
+    count(Trouble::kMapJump);
+    ++w.map_epoch;
+    w.jumped_from_world =
+        Transform<World, World>{rotation_from_vector({0.0, 0.0, w.random.uniform(-0.5, 0.5)}),
+                                {w.random.uniform(-0.3, 0.3), 0.1, 0.0}} *
+        w.jumped_from_world;
+  }
+  if (w.random.uniform() >= w.chances.any) {
+    return;
+  }
+  const auto kind = static_cast<Trouble>(between(w.random, 0, 4));
+  count(kind);
+  switch (kind) {
+    case Trouble::kDrop:
+      w.silent_pairs = 1;
+      break;
+    case Trouble::kStall:
+      w.silent_pairs = between(w.random, 5, 60);
+      break;
+    case Trouble::kReconnect:
+      w.failing_pairs = between(w.random, 1, 25);
+      break;
+    case Trouble::kNoPose:
+      w.unlocated_pairs = between(w.random, 3, 45);
+      break;
+    default:
+      w.mute_polls = between(w.random, 5, 90);
+  }
+}
+
+Result<Next> FlakyHeadset::Cameras::do_next(StereoFrame& frame) {
+  begin_trouble();
+  auto next = inner_.next(frame);
+  if (!next || *next != Next::kFrame) {
+    return next;
+  }
+  Weather& w = weather_;
+  if (w.lost || w.failing_pairs > 0) {
+    w.failing_pairs -= w.failing_pairs > 0 ? 1 : 0;
+    return Error{"connection lost"};
+  }
+  if (w.silent_pairs > 0) {
+    --w.silent_pairs;
+    return Next::kNone;
+  }
+  frame.map_epoch += w.map_epoch;
+  if (w.unlocated_pairs > 0) {
+    --w.unlocated_pairs;
+    frame.world_from_rig.reset();
+  } else if (frame.world_from_rig) {
+    frame.world_from_rig = w.jumped_from_world * *frame.world_from_rig;
+  }
+  return next;
+}
+
+Status FlakyHeadset::Speech::do_poll(Timestamp until, std::vector<Phrase>& phrases) {
+  if (weather_.mute_polls > 0) {
+    --weather_.mute_polls;
+    return Error{"voice: mute", ErrorCode::kUnavailable};
+  }
+  return inner_.poll(until, phrases);
+}
+
+/// The wearer sees it where the room has it.
+Status FlakyHeadset::Glasses::do_shown(const ShownFrame& frame) {
+  ++frames;
+  const bool guides = std::any_of(frame.holograms.begin(), frame.holograms.end(), hangs_on_tool);
+  stale += guides && frame.display_time - frame.pose_time > kStaleAfter ? 1 : 0;
+  back_ = frame;
+  const auto world_from_jumped = weather_.jumped_from_world.inverse();
+  for (ShownHologram& hologram : back_.holograms) {
+    for (Point<World>& point : hologram.points_in_world) {
+      point = world_from_jumped * point;
+    }
+  }
+  return inner_.shown(back_);
+}
+
+}  // namespace orthonav::soak

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "base/random.h"
+#include "hal/api/forwarding_headset.h"
+
+namespace orthonav::soak {
+
+/// What goes wrong, pair by pair.
+enum class Trouble { kDrop, kStall, kReconnect, kNoPose, kVoiceStall, kMapJump, kDeviceLoss };
+inline constexpr std::array<std::string_view, 7> kTroubles = {
+    "drops", "stalls", "reconnects", "unlocated", "voice_stalls", "map_jumps", "device_losses"};
+using Troubles = std::array<std::int64_t, kTroubles.size()>;
+
+/// Chances, at every pair.
+struct Chances {
+  double any = 1.0 / 500.0;  ///< of a drop, a stall, a lost connection, a lost head, a mute voice
+  double map_jump = 0.0;
+  double device_loss = 0.0;
+};
+
+/// What a headset's parts share: the troubles of the moment, and the map that jumped.
+struct Weather {
+  Random random;
+  Chances chances;
+  Troubles done{};
+  int silent_pairs = 0;  ///< swallowed, with no answer
+  int failing_pairs = 0;
+  int unlocated_pairs = 0;
+  int mute_polls = 0;
+  bool lost = false;
+  std::int64_t map_epoch = 0;
+  Transform<World, World> jumped_from_world;
+};
+
+/// A simulated headset in bad weather. Whatever is lost on the way is lost as a device loses it:
+/// the room goes on meanwhile. Borrows the headset.
+class FlakyHeadset : public ForwardingHeadset {
+ public:
+  FlakyHeadset(Headset& inner, Random random, const Chances& chances);
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] Voice& voice() override { return voice_; }
+  [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] const Troubles& done() const { return weather_.done; }
+  /// Frames whose tool guidance was older than it may be when it lit up.
+  [[nodiscard]] std::int64_t stale_frames() const { return display_.stale; }
+  [[nodiscard]] std::int64_t frames() const { return display_.frames; }
+
+ private:
+  class Cameras : public StereoCamera {
+   public:
+    Cameras(StereoCamera& inner, Weather& weather) : inner_(inner), weather_(weather) {}
+
+   private:
+    [[nodiscard]] const StereoCalibration& do_calibration() const override {
+      return inner_.calibration();
+    }
+    Result<Next> do_next(StereoFrame& frame) override;
+    void begin_trouble();
+    StereoCamera& inner_;
+    Weather& weather_;
+  };
+  class Speech : public Voice {
+   public:
+    Speech(Voice& inner, Weather& weather) : inner_(inner), weather_(weather) {}
+
+   private:
+    Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override;
+    Voice& inner_;
+    Weather& weather_;
+  };
+  class Glasses : public Display {
+   public:
+    Glasses(Display& inner, Weather& weather) : inner_(inner), weather_(weather) {}
+    std::int64_t stale = 0;
+    std::int64_t frames = 0;
+
+   private:
+    [[nodiscard]] Duration do_latency() const override {
+      return inner_.predicted_display_time(Timestamp{}) - Timestamp{};
+    }
+    Status do_shown(const ShownFrame& frame) override;
+    Display& inner_;
+    Weather& weather_;
+    ShownFrame back_;
+  };
+
+  Weather weather_;
+  Cameras cameras_;
+  Speech voice_;
+  Glasses display_;
+};
+
+}  // namespace orthonav::soak
