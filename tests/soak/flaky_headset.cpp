@@ -79,7 +79,7 @@ Result<Next> FlakyHeadset::Cameras::do_next(StereoFrame& frame) {
     --w.silent_pairs;
     return Next::kNone;
   }
-  frame.map_epoch += w.map_epoch;
+  frame.map_epoch = w.map_epoch;  // that of the room never moves, and the buffer is used again
   if (w.unlocated_pairs > 0) {
     --w.unlocated_pairs;
     frame.world_from_rig.reset();

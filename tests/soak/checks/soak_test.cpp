@@ -53,6 +53,7 @@ TEST(FlakyHeadset, MovesTheMapForTheEngineAndBackForTheWearer) {
   fake::FakeHeadset inner(test::pairs(2));
   FlakyHeadset flaky(inner, Random(1), {0.0, 1.0, 0.0});
   StereoFrame frame;
+  frame.map_epoch = 7;  // of whatever was in the buffer before
   ASSERT_EQ(*flaky.cameras().next(frame), Next::kFrame);
   EXPECT_EQ(frame.map_epoch, 1);
   const auto inner_from_flaky = frame.world_from_rig->inverse();
