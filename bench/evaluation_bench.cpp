@@ -34,6 +34,7 @@ struct Arguments {
 struct Errors {
   std::vector<double> angle_deg, axis_mm, tip_mm, entry_mm, depth_mm, diameter_mm, clearance_mm;
   std::vector<double> bone_mm, bone_deg;
+  std::vector<double> angle_sds, clearance_sds;  ///< errors by the SDs that were stated
   int screws = 0, missed = 0, invented = 0, refused_levels = 0, failed_scans = 0;
   int grades = 0, right_grades = 0, lower_held = 0, angle_held = 0, unassigned = 0, not_placed = 0;
   double seconds = 0.0;
@@ -83,6 +84,13 @@ void add(const test::TrueScrew& truth, const engine::EvaluatedScrew& found,
   ++errors.screws;
   if (!found.placed) {
     ++errors.missed;
+    if (arguments.each) {
+      const Vec3 planned = found.plan.target - found.plan.entry;
+      const Vec3 way = truth.tip_m - truth.entry_m;
+      std::printf("    %zu/%zu missed: truly %.1f deg and %.1f mm off, %.1f mm deep\n", truth.level,
+                  truth.screw, angle_between_rad(planned, way) * kDegreesPerRadian,
+                  1e3 * (truth.entry_m - found.plan.entry.v).norm(), 1e3 * way.norm());
+    }
     return;
   }
   const engine::ScrewInScan& placed = *found.placed;
@@ -98,10 +106,18 @@ void add(const test::TrueScrew& truth, const engine::EvaluatedScrew& found,
   const double true_plan_angle = angle_between_rad(direction, found.plan.target - found.plan.entry);
   errors.angle_held +=
       std::abs(true_plan_angle - placed.angle_rad) <= 1.96 * placed.angle_sd_rad ? 1 : 0;
+  if (placed.angle_sd_rad > 0.0) {
+    errors.angle_sds.push_back((true_plan_angle - placed.angle_rad) / placed.angle_sd_rad);
+  }
   const auto clearance = nav::least_clearance(
       bone, {{truth.entry_m}, direction, (truth.tip_m - truth.entry_m).norm(), truth.radius_m});
   if (clearance && placed.clearance) {
     errors.clearance_mm.push_back(1e3 * (placed.clearance->clearance_m - clearance->clearance_m));
+    if (placed.spread) {
+      errors.clearance_sds.push_back(1.645 *
+                                     (clearance->clearance_m - placed.clearance->clearance_m) /
+                                     (placed.clearance->clearance_m - placed.spread->lower_95_m));
+    }
     ++errors.grades;
     errors.right_grades +=
         nav::grade_of(placed.clearance->clearance_m) == nav::grade_of(clearance->clearance_m) ? 1
@@ -146,6 +162,14 @@ void compare(const test::OperatedSpine& spine, const engine::Case& subject,
       }
     }
   }
+  for (const engine::UnassignedMetal& metal : found.unassigned) {
+    if (arguments.each) {
+      const engine::Shaft* const shaft = metal.shaft ? &found.shafts[*metal.shaft] : nullptr;
+      std::printf("  unassigned %s, %.1f mm thick, %.1f mm long, %.0f mm3\n", metal.where.c_str(),
+                  shaft != nullptr ? 2e3 * shaft->radius_m : 0.0,
+                  shaft != nullptr ? 1e3 * shaft->length_m() : 0.0, metal.volume_m3 * 1e9);
+    }
+  }
   errors.unassigned += static_cast<int>(found.unassigned.size());
 }
 
@@ -165,6 +189,8 @@ void print(const Errors& e, double slice_mm) {
   std::printf("  clearance, mm       %s\n", quantiles(e.clearance_mm).c_str());
   std::printf("  bone, mm            %s\n", quantiles(e.bone_mm).c_str());
   std::printf("  bone, deg           %s\n", quantiles(e.bone_deg).c_str());
+  std::printf("  angle, stated SDs   %s\n", quantiles(e.angle_sds).c_str());
+  std::printf("  clearance, SDs      %s\n", quantiles(e.clearance_sds).c_str());
   std::printf("  grades right        %s\n", share(e.right_grades, e.grades).c_str());
   std::printf("  above lower 95      %s\n", share(e.lower_held, e.grades).c_str());
   std::printf("  angle within 95     %s\n",

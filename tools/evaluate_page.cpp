@@ -6,6 +6,7 @@
 #include "engine/report/html_text.h"
 #include "engine/report/page_style.h"
 #include "tools/evaluate_figures.h"
+#include "tools/evaluate_spine.h"
 #include "tools/scan_slice.h"
 
 namespace orthonav::tools {
@@ -202,7 +203,8 @@ Result<std::string> evaluate_page(const engine::Case& subject, const engine::Vol
           html_escaped(subject.name) + "</b>, scan <b>" + html_escaped(source) +
           "</b></p></header><main>" + table_of(evaluation) +
           "<p class=key><b style=\"color:#4cc2ff\"></b>planned<b style=\"color:#ffb000\"></b>placed"
-          "<b style=\"color:#37c26b\"></b>surface of the case’s model, laid on the scan</p>";
+          "<b style=\"color:#37c26b\"></b>surface of the case’s model, laid on the scan</p>" +
+          turning_spine(subject, evaluation);
   const engine::ScanField field(scan);
   for (const engine::EvaluatedLevel& level : evaluation.levels) {
     const engine::CaseLevel* const source_level = subject.find(level.label);

@@ -59,6 +59,19 @@ nav::PoseUncertainty total_uncertainty(const Shaft& shaft, const BoneRegistratio
   return {bone.uncertainty.centre_m(), sum};
 }
 
+/// For the clearance, how unsure the surface of the cylinder is besides its axis: the tip along it,
+/// and a radius that was measured, not planned. As a shift of the whole, each way.
+nav::PoseUncertainty with_surface(const nav::PoseUncertainty& axis, bool radius_as_planned) {
+  constexpr double kTip_m = 8e-5;
+  constexpr double kRadius_m = 1.2e-4;
+  const double sd_m = std::hypot(kTip_m, radius_as_planned ? 0.0 : kRadius_m);
+  std::array<double, 36> sum = axis.covariance();
+  for (const std::size_t i : {0u, 7u, 14u}) {
+    sum[i] += sd_m * sd_m;
+  }
+  return {axis.centre_m(), sum};
+}
+
 }  // namespace
 
 std::optional<nav::ScrewCylinder> cylinder_in_bone(const Shaft& shaft, const nav::ScrewPlan& plan,
@@ -120,7 +133,8 @@ ScrewInScan placed_screw(const Shaft& shaft, const nav::ScrewPlan& plan,
   out.bow_m = part * part * std::hypot(shaft.line.bow_across_m, shaft.line.bow_athwart_m);
   out.clearance = nav::least_clearance(bone.surface, cylinder);
   if (out.clearance) {
-    out.spread = nav::clearance_spread(bone.surface, cylinder, *out.clearance, unsure);
+    out.spread = nav::clearance_spread(bone.surface, cylinder, *out.clearance,
+                                       with_surface(unsure, out.radius_as_planned));
   }
   if (is_wire(shaft) && plan.radius_m > 0.0) {
     nav::ScrewCylinder thick = cylinder;

@@ -29,6 +29,11 @@ struct Centreline {
     const double q = (s_m / half_m) * (s_m / half_m);
     return middle_m + s_m * direction + (q * bow_across_m) * across + (q * bow_athwart_m) * athwart;
   }
+  [[nodiscard]] Vec3 tangent(double s_m) const {
+    const double slope = 2.0 * s_m / (half_m * half_m);
+    return (direction + slope * bow_across_m * across + slope * bow_athwart_m * athwart)
+        .normalized();
+  }
   [[nodiscard]] double s_of(Vec3 place_m) const { return (place_m - middle_m).dot(direction); }
   [[nodiscard]] double off_m(Vec3 place_m) const { return (place_m - at(s_of(place_m))).norm(); }
 };
@@ -45,6 +50,9 @@ struct Shaft {
   /// Of the errors of its middle across and athwart (m²), then of its direction towards the same
   /// (rad²), by rows.
   std::array<double, 16> covariance{};
+
+  /// Whether metal goes on behind `from_s_m`, so that it is no end.
+  bool goes_on = false;
 
   [[nodiscard]] Point<Scan> tip() const { return {line.at(to_s_m)}; }
   [[nodiscard]] Point<Scan> rear() const { return {line.at(from_s_m)}; }

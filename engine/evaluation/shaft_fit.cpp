@@ -12,6 +12,7 @@ namespace {
 constexpr double kLow_hu = 1300.0;   ///< bone and most streaks are below
 constexpr double kClip_hu = 3071.0;  ///< of 12 bits
 constexpr double kTitanium_hu = 8000.0;
+constexpr double kSteel_hu = 12000.0;  ///< of wires
 constexpr double kAround_hu = 300.0;
 constexpr double kNoise_hu = 80.0;  ///< what a voxel misses the model by, to start with
 constexpr double kBorder_m = 0.0025;
@@ -62,7 +63,7 @@ double share_at(const Shaft& shaft, double blur_m, Vec3 place_m) {
   const double s = shaft.line.s_of(place_m);
   const double off_m = (place_m - shaft.line.at(s)).norm();
   double share = normal_cdf((shaft.radius_m - off_m) / blur_m);
-  if (!shaft.headed) {
+  if (!shaft.goes_on) {
     share *= normal_cdf((s - shaft.from_s_m) / blur_m);
   }
   if (!shaft.cut) {
@@ -117,7 +118,7 @@ std::vector<Voxel> border_voxels(const ScanField& scan, const Shaft& shaft,
       high[a] = std::max(high[a], shaft.line.at(s)[a] + shaft.radius_m + reach_m);
     }
   }
-  const double first_s = shaft.headed ? shaft.from_s_m + 0.002 : shaft.from_s_m - 0.004;
+  const double first_s = shaft.goes_on ? shaft.from_s_m + 0.002 : shaft.from_s_m - 0.004;
   const double last_s = shaft.to_s_m + (shaft.cut ? -0.002 : 0.004);
   std::vector<Voxel> out;
   for_each_voxel_in(scan.grid(), low, high, [&](std::array<int, 3> at, Vec3 place_m) {
@@ -159,6 +160,7 @@ Rendering rendering_of(const ScanField& scan, const std::vector<Voxel>& voxels,
                        const Shaft& shaft) {
   Rendering out;
   out.places_m = places_in_voxel(scan.grid());
+  out.metal_hu = shaft.radius_m < kThin_m ? kSteel_hu : kTitanium_hu;
   std::vector<double> core;
   for (const Voxel& voxel : voxels) {
     if (shaft.line.off_m(voxel.place_m) < 0.7 * shaft.radius_m && voxel.hu > kMetal_hu) {
@@ -190,25 +192,59 @@ void write_misfits(const std::vector<Voxel>& voxels, const Rendering& how, const
   }
 }
 
-/// Of place and direction, from that of all parameters. Neighbouring voxels share their noise and
-/// their streaks: a voxel counts for a sixth of one.
-std::array<double, 16> axis_covariance(const nav::LeastSquares& found, std::size_t voxels) {
+/// Of place and direction. Neighbouring voxels share their noise and their streaks: a voxel counts
+/// for a sixth of one; and what streaks do to a whole side no misfit shows: in computed scans they
+/// move an axis by 0.06 mm and turn it by 0.075° over 40 mm (SD, each way).
+std::array<double, 16> axis_covariance(const nav::LeastSquares& found, std::size_t voxels,
+                                       double half_m) {
   constexpr double kSharing = 6.0;
+  constexpr double kStreaks_m = 6e-5;
+  constexpr double kStreaks_rad = 0.0013;
+  constexpr double kStreaksHalf_m = 0.020;
   const double scale = std::max(0.1, found.sum_of_squares / static_cast<double>(voxels));
   std::array<double, 16> out{};
   for (std::size_t row = 0; row < 4; ++row) {
     for (std::size_t column = 0; column < 4; ++column) {
       out[4 * row + column] = kSharing * scale * found.covariance[row * kParameters + column];
     }
+    const double floor = row < 2 ? kStreaks_m : kStreaks_rad * kStreaksHalf_m / half_m;
+    out[5 * row] += floor * floor;
   }
+  return out;
+}
+
+/// What of a shaft is fitted. A wire far behind the bone may bend as it likes: its front alone.
+Shaft front_part(const Shaft& shaft) {
+  constexpr double kFront_m = 0.055;
+  Shaft out = shaft;
+  out.goes_on = shaft.headed;
+  if (shaft.radius_m >= kThin_m || shaft.length_m() <= kFront_m) {
+    return out;
+  }
+  const double middle_s = shaft.to_s_m - 0.5 * kFront_m;
+  const double part = 0.5 * kFront_m / shaft.line.half_m;
+  out.line =
+      Centreline::straight(shaft.line.at(middle_s), shaft.line.tangent(middle_s), 0.5 * kFront_m);
+  const Vec3 bow_m =
+      part * part *
+      (shaft.line.bow_across_m * shaft.line.across + shaft.line.bow_athwart_m * shaft.line.athwart);
+  out.line.bow_across_m = bow_m.dot(out.line.across);
+  out.line.bow_athwart_m = bow_m.dot(out.line.athwart);
+  out.from_s_m = -0.5 * kFront_m;
+  out.to_s_m = 0.5 * kFront_m;
+  out.goes_on = true;
   return out;
 }
 
 }  // namespace
 
-std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& shaft,
+std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& found_shaft,
                                   std::span<const Shaft> others) {
-  constexpr double kFirstBlur_m = 0.0005;
+  const Shaft shaft = front_part(found_shaft);
+  constexpr double kUsualBlur_m = 0.0005;
+  constexpr double kBlurSpread_m = 0.00015;
+  constexpr double kBlurWeight = 10.0;
+  constexpr double kFarthest_m = 0.003;  ///< from where the search put it
   constexpr std::size_t kFewest = 40;
   const std::vector<Voxel> voxels = border_voxels(scan, shaft, others);
   if (voxels.size() < kFewest) {
@@ -217,13 +253,15 @@ std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& shaft,
   const Rendering how = rendering_of(scan, voxels, shaft);
   Parameters start{};
   start[kRadius] = shaft.radius_m;
-  start[kBlur] = kFirstBlur_m;
+  start[kBlur] = kUsualBlur_m;
   const bool thin = shaft.radius_m < kThin_m;
   const auto blur = [](std::span<const double> p) { return std::clamp(p[kBlur], 2e-4, 1.5e-3); };
   const auto put = [&](std::span<const double> p) {
     Parameters used{};
     std::copy(p.begin(), p.end(), used.begin());
     used[kRadius] = std::clamp(used[kRadius], 3e-4, 7e-3);
+    used[kTip] = std::clamp(used[kTip], -kFarthest_m, kFarthest_m);
+    used[kRear] = std::clamp(used[kRear], -kFarthest_m, kFarthest_m);
     if (!thin) {
       used[kBowAcross] = used[kBowAthwart] = 0.0;
     }
@@ -233,19 +271,27 @@ std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& shaft,
       start,
       [&](std::span<const double> p, std::vector<double>& out) {
         write_misfits(voxels, how, put(p), blur(p), out);
+        // Of clipped metal, a blurred thin shaft looks much like a sharp thick one.
+        out.push_back(kBlurWeight * (p[kBlur] - kUsualBlur_m) / kBlurSpread_m);
       },
       15);
   if (!found) {
     return std::nullopt;
   }
-  Shaft out = put(found->parameters);
-  constexpr double kFarthest_m = 0.003;
+  nav::LeastSquares best = *found;
+  // An end that runs away was not seen, as where two tips touch: it stays where the search put it.
+  for (const std::size_t end : {kTip, kRear}) {
+    if (std::abs(best.parameters[end]) > 0.9 * kFarthest_m) {
+      best.parameters[end] = 0.0;
+    }
+  }
+  Shaft out = put(best.parameters);
   if ((out.line.middle_m - shaft.line.middle_m).norm() > kFarthest_m ||
       angle_between_rad(out.line.direction, shaft.line.direction) > 0.15) {
     return std::nullopt;
   }
   out.misfit_hu = kNoise_hu * std::sqrt(found->sum_of_squares / static_cast<double>(voxels.size()));
-  out.covariance = axis_covariance(*found, voxels.size());
+  out.covariance = axis_covariance(*found, voxels.size(), out.line.half_m);
   return out;
 }
 

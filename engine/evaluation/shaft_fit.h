@@ -12,9 +12,10 @@ namespace orthonav::engine {
 /// explains the voxels about its border (Levenberg-Marquardt). Both sides are cut off below, where
 /// bone and streaks are, and above, where a 12-bit scan clips: so only the flank of the metal
 /// counts, which lies the same way on all sides of an axis. The density of clipped metal is not
-/// seen; titanium is assumed, which makes steel 0.1 to 0.3 mm thicker than it is. `others` are left
-/// out of it. Nothing where the fit leaves the shaft.
-[[nodiscard]] std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& shaft,
+/// seen: of a shaft of 3.6 mm and less it is taken for steel, else for titanium; what is denser
+/// looks 0.1 to 0.3 mm thicker than it is. Of a long wire the front 55 mm are fitted. `others` are
+/// left out of it. Nothing where the fit leaves the shaft.
+[[nodiscard]] std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& found_shaft,
                                                 std::span<const Shaft> others);
 
 }  // namespace orthonav::engine

@@ -14,6 +14,7 @@ constexpr double kShortest_m = 0.012;
 constexpr double kLeastSlenderness = 2.2;
 constexpr double kThinnest_m = 0.0005;  ///< radius
 constexpr double kThickest_m = 0.005;
+constexpr double kWire_m = 0.0018;
 constexpr double kHeadReach_m = 0.009;
 constexpr double kHeadLength_m = 0.020;
 
@@ -108,9 +109,14 @@ double usual_radius_m(const MetalSections& sections) {
 
 Stretch longest_stretch(const MetalSections& sections) {
   const double usual_m = usual_radius_m(sections);
+  // Few voxels make up the section of a wire: it varies, and may fail.
+  const bool thin = usual_m < kWire_m;
+  const double most_m = thin ? 1.6 * usual_m + 0.0003 : 1.2 * usual_m + 0.0003;
+  const double least_m = (thin ? 0.3 : 0.55) * usual_m;
+  const std::size_t gap = thin ? 4 : 1;
   const auto fits = [&](std::size_t i) {
     const double r = sections.radius_m(i);
-    return r < 1.2 * usual_m + 0.0003 && r > 0.55 * usual_m;
+    return r < most_m && r > least_m;
   };
   Stretch best{0, 0, usual_m};
   std::size_t first = 0;
@@ -118,7 +124,7 @@ Stretch longest_stretch(const MetalSections& sections) {
   bool open = false;
   for (std::size_t i = 0; i < sections.slabs.size(); ++i) {
     if (!fits(i)) {
-      open = open && i - last <= 1;
+      open = open && i - last <= gap;
       continue;
     }
     first = open ? first : i;
@@ -185,24 +191,31 @@ bool has_head(const MetalSections& sections, double end_s_m, double radius_m) {
 }
 
 std::optional<Shaft> shaft_about(const MetalCloud& cloud, Centreline line) {
+  constexpr int kFewestRounds = 5;
+  constexpr int kMostRounds = 16;
   MetalSections sections;
   Stretch stretch;
   double within_m = 0.0045;
-  for (int round = 0; round < 6; ++round) {
+  double length_m = 0.0;
+  for (int round = 0; round < kMostRounds; ++round) {
     sections = sections_about(cloud, line, within_m);
     stretch = longest_stretch(sections);
     if (stretch.last <= stretch.first + 3) {
       return std::nullopt;
     }
-    // A wire may be bent; a screw is not.
-    line = refitted(line, sections, stretch, stretch.radius_m < 0.0018 && round > 1);
-    within_m = std::clamp(1.5 * stretch.radius_m + 0.0008, 0.002, 0.0065);
+    // A wire may be bent; a screw is not. The bow tells where it goes on.
+    line = refitted(line, sections, stretch, stretch.radius_m < kWire_m && round > 1);
+    within_m = std::clamp(1.5 * stretch.radius_m + 0.0008, 0.0025, 0.0065);
+    const bool same = std::abs(2.0 * line.half_m - length_m) < 0.5 * MetalSections::kStep_m;
+    length_m = 2.0 * line.half_m;
+    if (same && round + 1 >= kFewestRounds) {
+      break;
+    }
   }
   sections = sections_about(cloud, line, kHeadReach_m);
   const bool rear_head = has_head(sections, -line.half_m, stretch.radius_m);
   const bool front_head = has_head(sections, line.half_m, stretch.radius_m);
   Shaft out{line, -line.half_m, line.half_m, stretch.radius_m, rear_head || front_head};
-  const double length_m = out.length_m();
   if (length_m < kShortest_m || length_m < kLeastSlenderness * 2.0 * out.radius_m ||
       out.radius_m < kThinnest_m || out.radius_m > kThickest_m) {
     return std::nullopt;

@@ -64,7 +64,7 @@ TrueScrew driven(const nav::SurfaceIndex& bone, const nav::ScrewPlan& plan,
   return out;
 }
 
-/// A wire from its tip to far behind the bone, on a circle through entry and tip.
+/// A wire from its tip to far behind the bone.
 std::vector<MetalPiece> wire(const TrueScrew& screw, double bow_m, Random& random) {
   constexpr double kBehind_m = 0.06;
   constexpr double kStep_m = 0.002;
@@ -72,11 +72,12 @@ std::vector<MetalPiece> wire(const TrueScrew& screw, double bow_m, Random& rando
   const Vec3 direction = (screw.tip_m - screw.entry_m).normalized();
   const double length_m = (screw.tip_m - screw.entry_m).norm();
   const Vec3 side = any_across(direction, random);
-  // Off the chord by bow at its middle, nothing at its ends; a parabola is a circle to a part in
-  // a hundred here.
+  // In the bone off the chord by bow at its middle, nothing at its ends (a parabola is a circle to
+  // a part in a hundred here); behind it straight on.
   const auto at = [&](double s) {
     const double q = 2.0 * s / length_m - 1.0;
-    return screw.entry_m + s * direction + bow_m * (1.0 - q * q) * side;
+    const double off_m = s < 0.0 ? 4.0 * bow_m * s / length_m : bow_m * (1.0 - q * q);
+    return screw.entry_m + s * direction + off_m * side;
   };
   std::vector<MetalPiece> out;
   for (double s = -kBehind_m; s < length_m; s += kStep_m) {

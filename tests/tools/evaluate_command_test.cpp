@@ -87,6 +87,17 @@ TEST_F(EvaluateCommand, SaysWhatBecameOfEachScrew) {
                           HasSubstr("class=plan"), HasSubstr("class=bone"),
                           HasSubstr("the point of the axis nearest to the planned entry"),
                           Not(HasSubstr("http"))));
+  // What turns in the browser: one bone, two planned and two placed screws.
+  const std::string opening = "<script id=spine-data type=\"application/json\">";
+  const std::size_t start = html.find(opening);
+  ASSERT_NE(start, std::string::npos);
+  const json scene = json::parse(
+      html.substr(start + opening.size(), html.find("</script>", start) - start - opening.size()));
+  EXPECT_EQ(scene["bones"].size(), 1u);
+  EXPECT_EQ(scene["planned"].size(), 2u);
+  ASSERT_EQ(scene["placed"].size(), 2u);
+  EXPECT_EQ(scene["placed"][0].size(), 7u);
+  EXPECT_GT(scene["reach"], 30.0) << "millimetres";
 }
 
 TEST_F(EvaluateCommand, AnswersNoWhereAScrewIsMissing) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "engine/evaluation/evaluation.h"
+
+namespace orthonav::tools {
+
+/// A section of the page in which the spine turns with its planned and placed screws, as it lay in
+/// the scan (data/evaluation.js). Empty where no vertebra was laid on the scan.
+[[nodiscard]] std::string turning_spine(const engine::Case& subject,
+                                        const engine::Evaluation& evaluation);
+
+}  // namespace orthonav::tools
