@@ -147,12 +147,17 @@ std::string refusal(const BoneRegistration& found, const BoneLimits& limits) {
                    static_cast<double>(found.edges), limits.least_edges);
   }
   if (found.coverage < limits.least_coverage) {
-    return printed("%.0f %% of its surface lie within 1 mm of bone in the scan, limit %.0f %%",
-                   found.coverage * 1e2, limits.least_coverage * 1e2);
+    return printed(
+        "%.0f %% of its surface lie within 1 mm of bone in the scan, limit %.0f %%: another "
+        "vertebra, or "
+        "a coarse model",
+        found.coverage * 1e2, limits.least_coverage * 1e2);
   }
   if (found.residual_m > limits.most_residual_m) {
-    return printed("its surface lies %.2f mm off the bone in the scan, limit %.2f mm",
-                   found.residual_m * 1e3, limits.most_residual_m * 1e3);
+    return printed(
+        "its surface lies %.2f mm off the bone in the scan, limit %.2f mm: another vertebra, or a "
+        "coarse model",
+        found.residual_m * 1e3, limits.most_residual_m * 1e3);
   }
   return "";
 }

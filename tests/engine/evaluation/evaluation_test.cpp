@@ -125,10 +125,18 @@ TEST(Evaluation, RefusesAVertebraThatTheScanDoesNotHold) {
 }
 
 TEST(Evaluation, RefusesAnotherVertebrasBone) {
-  const auto found = evaluate(phantom({"L1"}), operated_l4().scan);
-  if (found.ok()) {
-    EXPECT_FALSE(found->levels[0].registration.has_value());
-    EXPECT_FALSE(found->levels[0].refusal.empty());
+  for (const char* label : {"L3", "L5"}) {
+    Case subject = phantom({label});
+    subject.levels[0].spine_from_vertebra = operated_l4().subject.levels[0].spine_from_vertebra;
+    const auto found = evaluate(subject, operated_l4().scan);
+    if (found.ok()) {
+      EXPECT_FALSE(found->levels[0].registration.has_value())
+          << label << " " << found->levels[0].registration->residual_m;
+      EXPECT_THAT(found->levels[0].refusal, HasSubstr("another vertebra, or a coarse model"));
+      EXPECT_FALSE(found->levels[0].screws[0].placed.has_value());
+    } else {
+      EXPECT_THAT(found.error().message, HasSubstr("in two places nearly alike"));
+    }
   }
 }
 
