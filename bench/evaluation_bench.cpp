@@ -36,7 +36,8 @@ struct Errors {
   std::vector<double> bone_mm, bone_deg;
   std::vector<double> angle_sds, clearance_sds;  ///< errors by the SDs that were stated
   int screws = 0, missed = 0, invented = 0, refused_levels = 0, failed_scans = 0;
-  int grades = 0, right_grades = 0, lower_held = 0, angle_held = 0, unassigned = 0, not_placed = 0;
+  int grades = 0, right_grades = 0, lower_held = 0, angle_held = 0, unassigned = 0, not_placed = 0,
+      touched = 0;
   double seconds = 0.0;
 };
 
@@ -94,6 +95,7 @@ void add(const test::TrueScrew& truth, const engine::EvaluatedScrew& found,
     return;
   }
   const engine::ScrewInScan& placed = *found.placed;
+  errors.touched += placed.touched ? 1 : 0;
   const Vec3 direction = (truth.tip_m - truth.entry_m).normalized();
   const double angle = angle_between_rad(direction, placed.cylinder.direction);
   errors.angle_deg.push_back(angle * kDegreesPerRadian);
@@ -128,11 +130,11 @@ void add(const test::TrueScrew& truth, const engine::EvaluatedScrew& found,
   if (arguments.each) {
     std::printf(
         "    %zu/%zu angle %.2f deg axis %.2f tip %.2f entry %.2f depth %+.2f dia %+.2f "
-        "clr %+.2f (true %+.2f)\n",
+        "clr %+.2f (true %+.2f)%s\n",
         truth.level, truth.screw, errors.angle_deg.back(), errors.axis_mm.back(),
         errors.tip_mm.back(), errors.entry_mm.back(), errors.depth_mm.back(),
         errors.diameter_mm.back(), errors.clearance_mm.empty() ? 0.0 : errors.clearance_mm.back(),
-        clearance ? 1e3 * clearance->clearance_m : 0.0);
+        clearance ? 1e3 * clearance->clearance_m : 0.0, placed.touched ? " touched" : "");
   }
 }
 
@@ -176,9 +178,10 @@ void compare(const test::OperatedSpine& spine, const engine::Case& subject,
 void print(const Errors& e, double slice_mm) {
   std::printf(
       "slices of %.1f mm: %d screws, %d not found, %d levels and %d scans refused, "
-      "%d of %d missing ones invented, %d pieces unassigned, %.2f s a scan\n",
+      "%d of %d missing ones invented, %d pieces unassigned, %d touched by others, %.2f s a "
+      "scan\n",
       slice_mm, e.screws, e.missed, e.refused_levels, e.failed_scans, e.invented, e.not_placed,
-      e.unassigned, e.seconds);
+      e.unassigned, e.touched, e.seconds);
   std::printf("                       median    95 %%    most   (n = %zu)\n", e.angle_deg.size());
   std::printf("  axis angle, deg     %s\n", quantiles(e.angle_deg).c_str());
   std::printf("  axis at entry, mm   %s\n", quantiles(e.axis_mm).c_str());

@@ -15,6 +15,9 @@ using nlohmann::ordered_json;
 
 constexpr double k95 = 1.96;  ///< SDs of a normal error to either side
 
+constexpr const char* kTouched =
+    "; touches other metal: target, depth and clearance at the tip are not reliable";
+
 const char* grade_name(const nav::Clearance& clearance) {
   return nav::name_of(nav::grade_of(clearance.clearance_m));
 }
@@ -58,6 +61,7 @@ ordered_json as_json(const std::string& level, const engine::EvaluatedScrew& scr
   out["diameter_mm"] = 2e3 * placed.measured_radius_m;
   out["judged_diameter_mm"] = 2e3 * cylinder.radius_m;
   out["bow_mm"] = placed.bow_m * 1e3;
+  out["touches_other_metal"] = placed.touched;
   put_clearance(placed, screw.plan, out);
   out["entry_mm"] = engine::vector_mm(cylinder.entry.v);
   out["tip_mm"] = engine::vector_mm((cylinder.entry + cylinder.length_m * cylinder.direction).v);
@@ -113,7 +117,7 @@ void print(const std::string& level, const engine::EvaluatedScrew& screw) {
     print_text("; as a %.1f mm screw %.1f mm, %s", 2e3 * screw.plan.radius_m,
                placed.as_planned_screw->clearance_m * 1e3, grade_name(*placed.as_planned_screw));
   }
-  print_text("\n");
+  print_text("%s\n", placed.touched ? kTouched : "");
 }
 
 }  // namespace

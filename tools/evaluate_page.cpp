@@ -65,6 +65,11 @@ std::string row_of(const std::string& label, const engine::EvaluatedScrew& screw
          cell(html_number(placed.target_m * 1e3, 1)) + cell(html_number(placed.depth_m * 1e3, 1)) +
          cell(html_number(2e3 * placed.measured_radius_m, 1)) +
          clearance_cells(placed, screw.plan.side) + "</tr>";
+  if (placed.touched) {
+    row +=
+        "<tr><td colspan=10 class=bad>touches other metal: target, depth and clearance at the "
+        "tip are not reliable</td></tr>";
+  }
   if (placed.as_planned_screw) {
     row += "<tr><td colspan=7><small>the same axis as a screw of " +
            html_number(2e3 * screw.plan.radius_m, 1) + " mm</small></td>" +

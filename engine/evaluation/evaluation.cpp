@@ -30,6 +30,11 @@ std::vector<Shaft> fitted(const ScanField& scan, const MetalPieces& metal,
       unassigned.push_back({shaft.tip(), std::nullopt, 0.0, ""});
     }
   }
+  for (Shaft& shaft : out) {
+    shaft.touched = std::any_of(out.begin(), out.end(), [&](const Shaft& other) {
+      return &other != &shaft && (tip_touches(shaft, other) || tip_touches(other, shaft));
+    });
+  }
   for (const OtherMetal& other : metal.others) {
     unassigned.push_back({other.centre, std::nullopt, other.volume_m3, ""});
   }

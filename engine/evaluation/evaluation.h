@@ -33,7 +33,10 @@ struct ScrewInScan {
   double depth_m = 0.0;   ///< length in the bone less the planned length
   double measured_radius_m = 0.0;
   bool radius_as_planned = false;  ///< measured as planned, so that it is judged by the planned one
-  double bow_m = 0.0;              ///< of a bent wire, from its chord
+  /// Its tip and another shaft touch: where it ends is not seen, so that target, depth and a
+  /// clearance at the tip are not reliable.
+  bool touched = false;
+  double bow_m = 0.0;                       ///< of a bent wire, from its chord
   std::optional<nav::Clearance> clearance;  ///< none up to 6 mm in the bone
   std::optional<nav::ClearanceSpread> spread;
   /// A wire, were it the planned screw.

@@ -129,6 +129,7 @@ ScrewInScan placed_screw(const Shaft& shaft, const nav::ScrewPlan& plan,
   out.depth_m = cylinder.length_m - (plan.target - plan.entry).norm();
   out.measured_radius_m = shaft.radius_m;
   out.radius_as_planned = has_planned_radius(shaft, plan);
+  out.touched = shaft.touched;
   const double part = 0.5 * cylinder.length_m / shaft.line.half_m;
   out.bow_m = part * part * std::hypot(shaft.line.bow_across_m, shaft.line.bow_athwart_m);
   out.clearance = nav::least_clearance(bone.surface, cylinder);

@@ -51,6 +51,8 @@ struct Shaft {
   /// (rad²), by rows.
   std::array<double, 16> covariance{};
 
+  /// Whether the tip lies at another shaft, so that where either ends is not seen.
+  bool touched = false;
   /// Whether metal goes on behind `from_s_m`, so that it is no end.
   bool goes_on = false;
 
@@ -58,5 +60,14 @@ struct Shaft {
   [[nodiscard]] Point<Scan> rear() const { return {line.at(from_s_m)}; }
   [[nodiscard]] double length_m() const { return to_s_m - from_s_m; }
 };
+
+/// Whether the tip of a shaft lies against another one, or within 2 mm of it.
+[[nodiscard]] inline bool tip_touches(const Shaft& shaft, const Shaft& other) {
+  constexpr double kNear_m = 0.002;
+  const Vec3 tip = shaft.tip().v;
+  const double s = other.line.s_of(tip);
+  return s > other.from_s_m - kNear_m && s < other.to_s_m + kNear_m &&
+         other.line.off_m(tip) < shaft.radius_m + other.radius_m + kNear_m;
+}
 
 }  // namespace orthonav::engine

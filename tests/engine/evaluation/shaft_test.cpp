@@ -89,7 +89,17 @@ TEST(Shaft, OfTwoScrewsThatTouchAreTwo) {
   const auto found = shafts_in(scan_of({{{0.014, 0.020, 0.0}, tip + Vec3{0.003, 0, 0}, 0.003},
                                         {{-0.014, 0.020, 0.0}, tip - Vec3{0.003, 0, 0}, 0.003}},
                                        0.001));
-  EXPECT_EQ(found.size(), 2u);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_TRUE(tip_touches(found[0], found[1]) || tip_touches(found[1], found[0]));
+}
+
+TEST(Shaft, OfTwoScrewsApartTouchesNone) {
+  const auto found = shafts_in(scan_of({{{0.014, 0.020, 0.0}, {0.006, -0.025, 0.0}, 0.003},
+                                        {{-0.014, 0.020, 0.0}, {-0.006, -0.025, 0.0}, 0.003}},
+                                       0.001));
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_FALSE(tip_touches(found[0], found[1]) || tip_touches(found[1], found[0]))
+      << "6 mm lie between them";
 }
 
 }  // namespace
