@@ -8,13 +8,13 @@
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/open/bad_uri.h"
 #include "hal/open/open_openxr.h"
+#include "hal/open/registered_schemes.h"
 #include "hal/replay/replay_headset.h"
 
 namespace orthonav {
 
 namespace {
 
-constexpr const char* kKnownSchemes = "known are sim:, replay:PATH, hl2ss://HOST and openxr:+URI";
 constexpr const char* kKnownSimKeys = "known are seed=N, perfect and realtime";
 
 sim::RoomTool default_pointer() {
@@ -182,7 +182,7 @@ Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const Open
 Status check_headset_uri(const std::string& uri) {
   const std::size_t colon = uri.find(':');
   if (colon == std::string::npos) {
-    return bad_uri(uri, std::string("has no scheme; ") + kKnownSchemes);
+    return bad_uri(uri, "has no scheme; " + known_schemes());
   }
   const std::string scheme = uri.substr(0, colon);
   const std::string rest = uri.substr(colon + 1);
@@ -198,9 +198,15 @@ Status check_headset_uri(const std::string& uri) {
     const auto options = hl2ss::options_of(rest);
     return options ? Status{} : Status(bad_uri(uri, options.error().message));
   }
-  return scheme == "openxr"
-             ? Status{}
-             : Status(bad_uri(uri, "unknown scheme \"" + scheme + "\"; " + kKnownSchemes));
+  if (scheme == "openxr") {
+    return {};
+  }
+  const auto registered = registered_scheme(scheme);
+  if (!registered) {
+    return bad_uri(uri, "unknown scheme \"" + scheme + "\"; " + known_schemes());
+  }
+  const Status good = registered->check ? registered->check(rest) : Status{};
+  return good ? good : Status(bad_uri(uri, good.error().message));
 }
 
 Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& options) {
@@ -218,6 +224,9 @@ Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& 
   }
   if (scheme == "hl2ss") {
     return without_room(hl2ss::Hl2ssHeadset::open(*hl2ss::options_of(rest)));
+  }
+  if (const auto registered = registered_scheme(scheme)) {
+    return without_room(registered->open(rest));
   }
   return open_openxr(uri, rest, options);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,20 @@ Result<std::unique_ptr<Headset>> open_headset(const std::string& uri,
 /// Refuses what can't be opened by its text alone (scheme, keys, values), at once and without
 /// looking at any device; what follows `openxr:` is only read when it is opened.
 Status check_headset_uri(const std::string& uri);
+
+/// A device that lives outside of this library, opened by URIs of its own scheme.
+struct HeadsetScheme {
+  std::string name;   ///< "mine" of "mine:REST": lower-case letters and digits
+  std::string usage;  ///< as refusals name it: "mine:SERIAL"
+  /// Refuses what can't be opened by its text alone, given what follows the colon. Null: nothing
+  /// is.
+  std::function<Status(const std::string& rest)> check;
+  std::function<Result<std::unique_ptr<Headset>>(const std::string& rest)> open;
+};
+
+/// Everything above knows the scheme from now on. Refuses a name that is taken or malformed, and
+/// one without `open`. Thread-safe.
+Status register_scheme(HeadsetScheme scheme);
 
 /// The same as `open_headset`, with the simulated room beside it.
 Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& options = {});

@@ -42,9 +42,24 @@ GreyImage first_image(const std::string& uri) {
 TEST(OpenHeadset, NamesWhatItKnowsWhenItKnowsNothingOfAUri) {
   for (const char* uri : {"kinect:", "sim", "", "Sim:", "http://host/"}) {
     EXPECT_THAT(refusal(uri),
-                AllOf(HasSubstr("known are sim:, replay:PATH, hl2ss://HOST and openxr:+URI"),
-                      HasSubstr(uri), Not(HasSubstr("\n"))));
+                AllOf(HasSubstr("known are sim:, replay:PATH, hl2ss://HOST"),
+                      HasSubstr("openxr:+URI"), HasSubstr(uri), Not(HasSubstr("\n"))));
   }
+}
+
+TEST(RegisteredScheme, IsOpenedCheckedAndNamedLikeTheOthers) {
+  const auto check = [](const std::string& rest) {
+    return rest == "1" ? Status{} : Status(Error{"must be 1"});
+  };
+  const auto open = [](const std::string&) { return open_headset("sim:?perfect", brief()); };
+  EXPECT_FALSE(register_scheme({"sim", "", nullptr, open}).ok()) << "is ours";
+  EXPECT_FALSE(register_scheme({"Mine", "", nullptr, open}).ok()) << "capital letter";
+  EXPECT_FALSE(register_scheme({"mine", "", nullptr, nullptr}).ok()) << "nothing opens it";
+  ASSERT_TRUE(register_scheme({"mine", "mine:N", check, open}).ok());
+  EXPECT_FALSE(register_scheme({"mine", "", nullptr, open}).ok()) << "is taken";
+  EXPECT_THAT(refusal("mine:2"), HasSubstr("headset URI \"mine:2\": must be 1"));
+  EXPECT_THAT(refusal("yours:"), HasSubstr("openxr:+URI and mine:N"));
+  EXPECT_FALSE(first_image("mine:1").pixels.empty());
 }
 
 TEST(OpenHeadset, NamesTheKnownKeys) {

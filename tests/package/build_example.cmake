@@ -22,3 +22,13 @@ step("${WORK}/build/example" 240)
 if(NOT said MATCHES "digitize L4  [1-9][0-9]* points")
   message(FATAL_ERROR "the example tracked nothing:\n${said}")
 endif()
+
+# A device from outside is opened by its own URI; an unknown scheme is told with it.
+step("${WORK}/build/device" "skeleton:30")
+if(NOT said MATCHES "skeleton: [23][0-9] frames shown")
+  message(FATAL_ERROR "the device showed nothing:\n${said}")
+endif()
+execute_process(COMMAND "${WORK}/build/device" "skeletn:30" RESULT_VARIABLE status ERROR_VARIABLE said)
+if(status EQUAL 0 OR NOT said MATCHES "openxr:\\+URI and skeleton:PAIRS")
+  message(FATAL_ERROR "an unknown scheme was not refused with the known ones:\n${said}")
+endif()
