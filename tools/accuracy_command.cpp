@@ -158,16 +158,14 @@ void add_accuracy_command(CLI::App& app, Action& action) {
       "accuracy", "The one-minute accuracy test of a pointer, in the spirit of ASTM F2554");
   command->add_option("RECORDING", arguments->recording, "Folder of a StreamRecorder recording")
       ->required();
-  command->add_option("--tools", arguments->tools_file, "Tool definitions (JSON)")->required();
+  command->add_option("-t,--tools", arguments->tools_file, "Tool definitions (JSON)")->required();
   command->add_option("--pointer", arguments->pointer, "Name of the tool; default: pointer")
       ->check(some_text());
   command
       ->add_option("--board", arguments->board_file,
                    "Description of the board that was touched; default: no distances")
       ->check(some_text());
-  command->add_option("--method", arguments->method, "Tracking")
-      ->type_name("NAME")
-      ->capture_default_str();
+  add_method_option(*command, arguments->method, "Tracking");
   const nav::AccuracyOptions defaults;
   for (LimitArgument& limit : arguments->limits) {
     const nav::AccuracyLimits& given = defaults.*limit.limits;

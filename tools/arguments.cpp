@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "base/printed.h"
@@ -51,6 +52,40 @@ CLI::Validator some_text() {
     return text.empty() ? "must not be empty" : "";
   };
   return {check, "", "text"};
+}
+
+CLI::Option* add_case_option(CLI::App& command, std::string& folder) {
+  const auto folder_of = [](std::string& path) -> std::string {
+    const std::filesystem::path given(path);
+    if (given.filename() == "case.json") {
+      path = given.has_parent_path() ? given.parent_path().string() : ".";
+    }
+    return {};
+  };
+  return command
+      .add_option("-c,--case", folder, "folder with a case.json (default: the built-in phantom)")
+      ->check(some_text())
+      ->transform(CLI::Validator(folder_of, "", "folder"))
+      ->type_name("DIR");
+}
+
+CLI::Option* add_method_option(CLI::App& command, std::string& method, const std::string& what) {
+  return command.add_option("-m,--method", method, what)
+      ->type_name("best|paper")
+      ->capture_default_str();
+}
+
+CLI::Option* add_levels_option(CLI::App& command, std::vector<std::string>& levels,
+                               const std::string& what) {
+  return command.add_option("-l,--levels", levels, what)->delimiter(',')->type_name("L4,L5");
+}
+
+CLI::Option* add_tools_option(CLI::App& command, std::string& file) {
+  return command
+      .add_option("-t,--tools", file,
+                  "tool definitions (default: the headset's own, else the built-in)")
+      ->check(some_text())
+      ->type_name("FILE");
 }
 
 void add_reference_flag(CLI::App& command, bool& reference) {

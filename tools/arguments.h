@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace orthonav::tools {
 
@@ -22,6 +23,19 @@ namespace orthonav::tools {
 /// Any text but an empty one: an unset variable in a script must not mean a default.
 [[nodiscard]] CLI::Validator some_text();
 
+// Options that mean the same wherever they are.
+
+/// `-c,--case`: a case folder, or the case.json in it.
+CLI::Option* add_case_option(CLI::App& command, std::string& folder);
+/// `-m,--method`: best or paper. `what` says of what.
+CLI::Option* add_method_option(CLI::App& command, std::string& method,
+                               const std::string& what = "best, or paper: the published one");
+/// `-l,--levels`: labels between commas; `what` says what they are for.
+CLI::Option* add_levels_option(
+    CLI::App& command, std::vector<std::string>& levels,
+    const std::string& what = "levels to operate (default: the two lowest)");
+/// `-t,--tools` of commands that can do without.
+CLI::Option* add_tools_option(CLI::App& command, std::string& file);
 /// `--reference`, of every command that runs operations.
 void add_reference_flag(CLI::App& command, bool& reference);
 

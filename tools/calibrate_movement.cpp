@@ -10,13 +10,13 @@ namespace orthonav::tools {
 
 void MovementArguments::add_to(CLI::App& command, const std::string& changed) {
   command.add_option("RECORDING", recording, "Folder of a recording")->required();
-  command.add_option("--tools", tools_file, "Tool definitions (JSON)")
+  command.add_option("-t,--tools", tools_file, "Tool definitions (JSON)")
       ->required()
       ->type_name("FILE");
   command.add_option("--tool", tool, "Name of the tool")->required()->type_name("NAME");
-  command.add_option("--method", method, "Tracking")->type_name("NAME")->capture_default_str();
+  add_method_option(command, method, "Tracking");
   command
-      .add_option("--out", out,
+      .add_option("-o,--out", out,
                   "Writes the tools with " + changed + " there; may be the file of --tools")
       ->check(some_text())
       ->type_name("FILE");

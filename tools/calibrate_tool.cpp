@@ -262,12 +262,12 @@ void add_calibrate_tool(CLI::App& calibrate, Action& action) {
                    "Outer edge of the black borders: one for all, or one each: 40,30,30")
       ->required()
       ->type_name("LIST");
-  command->add_option("--out", arguments->out, "Where the tools file goes")
+  command->add_option("-o,--out", arguments->out, "Where the tools file goes")
       ->required()
       ->check(some_text())
       ->type_name("FILE");
   command
-      ->add_option("--tools", arguments->tools_file,
+      ->add_option("-t,--tools", arguments->tools_file,
                    "Tools of which the one named gets these tags; may be the file of --out")
       ->type_name("FILE");
   command->add_option("--tool", arguments->tool, "Name of the tool")

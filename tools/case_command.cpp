@@ -201,8 +201,7 @@ void add_inputs(CLI::App& command, CaseArguments& arguments) {
       .add_option("--threshold", arguments.threshold_hu,
                   "instead of --labels: connected bone of at least so many HU")
       ->check(finite_number(-1000, 3000));
-  command.add_option("--levels", arguments.levels, "levels (default: whole ones from T1 to L6)")
-      ->delimiter(',');
+  add_levels_option(command, arguments.levels, "levels (default: whole ones from T1 to L6)");
 }
 
 }  // namespace
@@ -216,7 +215,7 @@ void add_case_command(CLI::App& app, Action& action) {
   add_inputs(*make, *arguments);
   make->add_option("--name", arguments->name, "name of the case (default: that of the folder)")
       ->check(some_text());
-  make->add_option("--out", arguments->out, "the case folder, without a case.json yet")
+  make->add_option("-o,--out", arguments->out, "the case folder, without a case.json yet")
       ->required()
       ->check(some_text())
       ->type_name("DIR");

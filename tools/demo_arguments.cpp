@@ -2,6 +2,8 @@
 
 #include "engine/case/tool_file.h"
 
+#include "tools/config_file.h"
+
 namespace orthonav::tools {
 namespace {
 
@@ -24,6 +26,7 @@ engine::OperationOptions options_of(const DemoArguments& arguments) {
     options.sim.error_model.pace = *arguments.pace;
   }
   options.sim.pace = arguments.realtime ? sim::Pace::kRealtime : sim::Pace::kFast;
+  arguments.limits.set_in(options);
   options.tracker.parallel = arguments.threads > 1;
   options.loop.draw_every = kDrawEvery;
   options.loop.drop_late_snapshots = arguments.realtime;
@@ -43,19 +46,15 @@ KeptOperation::About about_demo(const DemoArguments& arguments, const std::strin
 }
 
 void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
-  demo.add_option("--case", arguments.case_folder,
-                  "case folder with case.json (default: the built-in phantom)")
-      ->check(some_text());
-  demo.add_option("--method", arguments.method, "best or paper (the published one)")
-      ->capture_default_str();
-  demo.add_option("--seed", arguments.seed, "seed of every random number")
+  add_case_option(demo, arguments.case_folder);
+  add_method_option(demo, arguments.method);
+  demo.add_option("-s,--seed", arguments.seed, "seed of every random number")
       ->check(seed_number())
       ->capture_default_str();
-  demo.add_option("--out", arguments.out, "folder of the results")
+  demo.add_option("-o,--out", arguments.out, "folder of the results")
       ->check(some_text())
       ->capture_default_str();
-  demo.add_option("--levels", arguments.levels, "levels to operate (default: the two lowest)")
-      ->delimiter(',');
+  add_levels_option(demo, arguments.levels);
   auto* fast = demo.add_flag("--fast", arguments.fast, "as fast as the machine goes (default)");
   demo.add_flag("--realtime", arguments.realtime, "30 frames a second")->excludes(fast);
   demo.add_option("--record", arguments.record, "also record the session into this new folder")
@@ -70,6 +69,11 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
   demo.add_flag("--perfect", arguments.perfect, "every source of error at zero");
   add_reference_flag(demo, arguments.reference);
   arguments.igtl.add_to(demo);
+  arguments.calibration.add_to(demo);
+  arguments.limits.add_to(demo);
+  arguments.log.add_to(demo);
+  arguments.web.add_to(demo);
+  add_config_option(demo);
   // For tests: a hasty surgeon finishes in a fraction of the frames.
   demo.add_option("--pace", arguments.pace, "how many times as fast the surgeon works")
       ->check(finite_number(0.5, 4))

@@ -7,8 +7,12 @@
 
 #include "engine/study/simulated_operation.h"
 #include "tools/arguments.h"
+#include "tools/calibration_argument.h"
+#include "tools/dashboard.h"
+#include "tools/event_log.h"
 #include "tools/igtl_stream.h"
 #include "tools/kept_operation.h"
+#include "tools/limit_arguments.h"
 
 namespace orthonav::tools {
 
@@ -31,6 +35,10 @@ struct DemoArguments {
   int threads = 2;
   std::optional<double> pace;
   IgtlArguments igtl;
+  CalibrationArgument calibration;
+  LimitArguments limits;
+  EventLogArguments log;
+  DashboardArguments web;
 };
 
 /// Adds the options that fill them in.

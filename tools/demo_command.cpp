@@ -61,7 +61,9 @@ class Demo {
     if (!levels) {
       return bad_input("--levels: " + levels.error().message);
     }
-    const Status served = igtl_.open(arguments_.igtl);
+    const Status logged = log_.open(arguments_.log);
+    const Status shown = logged ? web_.open(arguments_.web) : logged;
+    const Status served = shown ? igtl_.open(arguments_.igtl) : shown;
     if (const Status ready = served ? prepare(*source, *levels) : served; !ready) {
       return bad_input(ready.error().message);
     }
@@ -162,7 +164,10 @@ class Demo {
     engine::ModelCache models(out_->file("models"));
     hooks.models = &models;
     hooks.can_stop = [this](std::function<void()> stop) { signals_.on_stop(std::move(stop)); };
+    hooks.seen_through = [this](Headset& room) { return arguments_.calibration.on(room); };
     hooks.assembled = [&](engine::AssembledOperation& operation) {
+      operation.observe(&log_);
+      web_.watch(operation);
       igtl_.watch(operation);
       return kept_.begin(operation, out_->path().string(), about_demo(arguments_, source.name));
     };
@@ -174,6 +179,9 @@ class Demo {
       return arguments_.resume ? Status() : remove_earlier_results(out_->path());
     };
     auto result = engine::run_operation(source, options, hooks);
+    if (result) {
+      log_.ended(result->loop);
+    }
     igtl_.tell();
     return result;
   }
@@ -214,6 +222,8 @@ class Demo {
   std::unique_ptr<engine::Journal> journal_;
   KeptOperation kept_;
   IgtlStream igtl_;
+  EventLog log_;
+  Dashboard web_;
   std::unique_ptr<engine::VideoWriter> video_;
   std::unique_ptr<VideoPictures> video_pictures_;
 };

@@ -239,7 +239,7 @@ void add_depth_command(CLI::App& app, Action& action) {
       ->add_option("RECORDING", arguments->recording,
                    "Folder of a recording; it needs no stereo pairs")
       ->required();
-  command->add_option("--out", arguments->out, "PLY or PNG to write")->check(some_text());
+  command->add_option("-o,--out", arguments->out, "PLY or PNG to write")->check(some_text());
   command
       ->add_option("--stream", arguments->stream,
                    "ahat, long-throw or short-throw (default: the only one)")

@@ -28,6 +28,11 @@ const char* word_for(Finding finding) {
   return "";
 }
 
+bool all_found(const std::vector<Offer>& offers) {
+  return std::none_of(offers.begin(), offers.end(),
+                      [](const Offer& offer) { return offer.finding == Finding::kMissing; });
+}
+
 std::string as_json(const std::vector<Offer>& offers, bool ready) {
   nlohmann::ordered_json out = {{"version", ORTHONAV_VERSION}, {"demo_can_run", ready}};
   out["offers"] = nlohmann::ordered_json::array();
@@ -60,19 +65,22 @@ std::string as_text(const std::vector<Offer>& offers, bool ready) {
 
 int run_doctor(const DoctorArguments& arguments) {
   std::vector<Offer> offers = offers_of_machine(arguments.root);
+  const bool ready = all_found(offers);
+  bool answers = true;
   if (!arguments.headset.empty()) {
     const auto ports = offers_of_headset(arguments.headset);
     if (!ports) {
       return bad_input(ports.error().message);
     }
+    answers = all_found(*ports);
     offers.insert(offers.end(), ports->begin(), ports->end());
   }
-  const bool ready = std::none_of(offers.begin(), offers.end(), [](const Offer& offer) {
-    return offer.finding == Finding::kMissing;
-  });
   const std::string text = arguments.json ? as_json(offers, ready) : as_text(offers, ready);
   std::fwrite(text.data(), 1, text.size(), stdout);
-  return ready ? kDone : kNo;
+  if (!answers) {
+    std::fprintf(stderr, "orthonav: the headset's cameras do not answer\n");
+  }
+  return ready && answers ? kDone : kNo;
 }
 
 }  // namespace
@@ -82,7 +90,7 @@ void add_doctor_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "doctor",
       "What this machine offers, what is missing and how to get it (exit 1: the demo "
-      "can't run)");
+      "can't run, or the headset's cameras do not answer)");
   command->add_flag("--json", arguments->json, "Everything as JSON");
   command->add_option("--headset", arguments->headset,
                       "hl2ss://HOST: which of the headset's ports answer; replay:PATH: what the "

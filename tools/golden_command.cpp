@@ -185,7 +185,7 @@ void add_golden_command(CLI::App& app, Action& action) {
 
   CLI::App* draw = golden->add_subcommand("render", "Draw scenes as they are now");
   draw->add_option("scenes", options->scenes, "Scenes; all when none is named");
-  draw->add_option("--out", options->out, "Folder to write to")->required();
+  draw->add_option("-o,--out", options->out, "Folder to write to")->required();
   draw->add_option("--device", options->device, "Part of the Vulkan device's name")
       ->capture_default_str();
   draw->callback([&action, options] { action = [options] { return render_scenes(*options); }; });
@@ -193,7 +193,8 @@ void add_golden_command(CLI::App& app, Action& action) {
   CLI::App* page = golden->add_subcommand(
       "review", "Write one HTML with expected, actual and difference; exit 1 if any differs");
   page->add_option("scenes", options->scenes, "Scenes; all when none is named");
-  page->add_option("--out", options->out, "HTML file to write")->default_str("golden-review.html");
+  page->add_option("-o,--out", options->out, "HTML file to write")
+      ->default_str("golden-review.html");
   add_common(page);
   page->callback([&action, options] {
     if (options->out.empty()) {

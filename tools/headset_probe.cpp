@@ -30,7 +30,10 @@ Result<std::vector<Offer>> offers_of_ports(std::string_view address) {
     if (port.trouble.empty()) {
       offers.push_back({"HoloLens 2: " + port.name, Finding::kFound, where, ""});
     } else {
-      offers.push_back({"HoloLens 2: " + port.name, Finding::kOptional, where + ": " + port.trouble,
+      // Without its cameras there is nothing to run on.
+      const bool needed = port.name.find("camera") != std::string::npos;
+      offers.push_back({"HoloLens 2: " + port.name, needed ? Finding::kMissing : Finding::kOptional,
+                        where + ": " + port.trouble,
                         "start hl2ss on the headset (docs/headsets.md)"});
     }
   }

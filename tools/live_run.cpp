@@ -45,6 +45,8 @@ class LiveRun {
     }
     OperationProgress progress(nullptr);
     operation_->observe(&progress);
+    operation_->observe(&log_);
+    web_.watch(*operation_);
     igtl_.watch(*operation_);
     if (const Status presenting = presenting_.begin(*headset_, *operation_); !presenting) {
       return bad_input(files_.close(presenting.error().message));
@@ -52,6 +54,9 @@ class LiveRun {
     signals_.on_stop([this] { operation_->stop(); });
     auto report = operation_->run();
     signals_.on_stop(nullptr);
+    if (report) {
+      log_.ended(*report);
+    }
     presenting_.end(arguments_.stats);
     igtl_.tell();
     if (!report) {
@@ -123,10 +128,16 @@ class LiveRun {
     if (arguments_.headset == "openxr:") {
       std::fprintf(stderr, "openxr: no cameras are named, so the simulated room's: openxr:+sim:\n");
     }
+    log_.say("headset " + headset_->name() + ", case " + case_name_);
     if (!opened->warning.empty()) {
+      log_.warn(opened->warning);
       std::fprintf(stderr, "orthonav: warning: %s\n", opened->warning.c_str());
     }
-    auto joined = join_parts(*headset_, arguments_.clicker, arguments_.voice);
+    const auto calibrated = arguments_.calibration.on(*headset_);
+    if (!calibrated) {
+      return calibrated.error();
+    }
+    auto joined = join_parts(**calibrated, arguments_.clicker, arguments_.voice);
     if (!joined) {
       return joined.error();
     }
@@ -155,6 +166,11 @@ class LiveRun {
       return sizes.error();
     }
     sizes_ = std::move(*sizes);
+    for (const Status& opened : {log_.open(arguments_.log), web_.open(arguments_.web)}) {
+      if (!opened) {
+        return opened;
+      }
+    }
     if (const Status served = igtl_.open(arguments_.igtl); !served) {
       return served;
     }
@@ -172,6 +188,7 @@ class LiveRun {
     options.reference_places = files_.kept().reference_places();
     options.session.common = arguments_.common.in_metres();
     options.session.replan.sizes = sizes_;
+    arguments_.limits.set_in(options);
     options.loop.max_frames = arguments_.frames;
     options.loop.max_time = from_seconds(arguments_.for_s);
     options.loop.draw_every = Presenting::is_possible(*headset_) ? 1 : 0;
@@ -265,6 +282,8 @@ class LiveRun {
   std::optional<engine::GroundTruthRecorder> ground_truth_;
   engine::EndNote end_note_;
   IgtlStream igtl_;
+  EventLog log_;
+  Dashboard web_;
   std::unique_ptr<engine::AssembledOperation> operation_;
   Presenting presenting_;
 };

@@ -4,8 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "tools/calibration_argument.h"
 #include "tools/common_error_arguments.h"
+#include "tools/dashboard.h"
+#include "tools/event_log.h"
 #include "tools/igtl_stream.h"
+#include "tools/limit_arguments.h"
 #include "tools/screw_arguments.h"
 #include "tools/stop_signals.h"
 
@@ -25,6 +29,10 @@ struct RunArguments {
   CommonErrorArguments common;
   ScrewArguments screws;
   IgtlArguments igtl;
+  CalibrationArgument calibration;
+  LimitArguments limits;
+  EventLogArguments log;
+  DashboardArguments web;
   std::int64_t frames = 0;
   double for_s = 0.0;  ///< of the device's clock; 0: no limit
   bool reference = false;

@@ -11,6 +11,8 @@
 
 #include "base/guarded.h"
 #include "tools/command.h"
+#include "tools/did_you_mean.h"
+#include "tools/help_text.h"
 #include "tools/memory_reserve.h"
 #include "tools/stop_signals.h"
 
@@ -25,21 +27,63 @@ int bad_input(const std::string& message) {
 
 namespace {
 
-/// Prints the library's message about the command line in one line.
-int bad_command_line(const CLI::App& app, const CLI::ParseError& error) {
-  const CLI::App* asked = &app;
-  while (!asked->get_subcommands().empty()) {
-    asked = asked->get_subcommands().front();
-  }
+/// The command that was asked for, as far as it is known, and the words that lead to it.
+struct Asked {
+  const CLI::App* command;
   std::string way;
-  for (const CLI::App* part = asked; part != nullptr; part = part->get_parent()) {
-    way = part->get_name() + (way.empty() ? "" : " " + way);
+};
+
+Asked asked_of(const CLI::App& app) {
+  Asked asked{&app, app.get_name()};
+  while (!asked.command->get_subcommands().empty()) {
+    asked.command = asked.command->get_subcommands().front();
+    asked.way += " " + asked.command->get_name();
   }
+  return asked;
+}
+
+/// What may stand after these words: commands, or options where the word is to be one.
+std::vector<std::string> possible(const CLI::App& command, bool option) {
+  std::vector<std::string> names;
+  if (!option) {
+    for (const CLI::App* below : command.get_subcommands({})) {
+      names.push_back(below->get_name());
+    }
+    return names;
+  }
+  for (const CLI::Option* known : command.get_options()) {
+    for (const std::string& name : known->get_lnames()) {
+      names.push_back("--" + name);
+    }
+  }
+  return names;
+}
+
+/// Names the word that nobody expected, and what was probably meant.
+std::string about_word(const std::string& word, const Asked& asked) {
+  const bool option = word.size() > 1 && word.front() == '-';
+  const bool command = !option && !asked.command->get_subcommands({}).empty();
+  const std::string meant = closest(word, possible(*asked.command, option));
+  return (option    ? "unknown option: "
+          : command ? "unknown command: "
+                    : "one word too many: ") +
+         word + (meant.empty() ? "" : "; did you mean " + meant + "?");
+}
+
+/// Says in one line what is wrong with the command line.
+int bad_command_line(const CLI::App& app, const CLI::ParseError& error) {
+  const Asked asked = asked_of(app);
+  std::string message = error.what();
   // Without a known command the library reports a missing one; what was written instead says more.
   const std::vector<std::string> unknown = app.remaining(true);
-  const bool no_command = asked->get_require_subcommand_min() > 0 && !unknown.empty();
-  return bad_input((no_command ? "unknown command: " + unknown.front() : error.what()) + " (see " +
-                   way + " --help)");
+  const auto option = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {
+    return !word.empty() && word.front() == '-';
+  });
+  const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  if (!unknown.empty() && (extra || asked.command->get_require_subcommand_min() > 0)) {
+    message = about_word(extra && option != unknown.end() ? *option : unknown.front(), asked);
+  }
+  return bad_input(message + " (see " + asked.way + " --help)");
 }
 
 /// A full disk behind standard output shows only when it is flushed.
@@ -63,12 +107,15 @@ int run(int argc, char** argv) {
   add_calibrate_command(app, action);
   add_accuracy_command(app, action);
   add_case_command(app, action);
+  add_completion_command(app, action);
+  add_config_command(app, action);
   add_demo_command(app, action, signals);
   add_depth_command(app, action);
   add_detect_command(app, action);
   add_doctor_command(app, action);
   add_evaluate_command(app, action);
   add_golden_command(app, action);
+  add_manual_command(app, action);
   add_plan_command(app, action);
   add_preview_command(app, action, signals);
   add_print_command(app, action);
@@ -81,6 +128,7 @@ int run(int argc, char** argv) {
   add_serve_hl2ss_command(app, action, signals);
   add_study_command(app, action, signals);
   add_track_command(app, action);
+  use_help_text(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

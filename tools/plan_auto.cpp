@@ -146,7 +146,7 @@ void add_plan_auto(CLI::App& plan, Action& action) {
   CLI::App* command = plan.add_subcommand("auto", "Plans pedicle screws from the meshes alone");
   arguments->common.add_to(*command);
   command
-      ->add_option("--out", arguments->out,
+      ->add_option("-o,--out", arguments->out,
                    "write the whole case, with the plans, into a new folder (default: plans beside "
                    "the models of a case that has none)")
       ->check(some_text())

@@ -8,11 +8,8 @@
 namespace orthonav::tools {
 
 void PlanArguments::add_to(CLI::App& command) {
-  command
-      .add_option("--case", case_folder, "folder with case.json (default: the built-in phantom)")
-      ->check(some_text())
-      ->type_name("DIR");
-  command.add_option("--levels", levels, "levels (default: all)")->delimiter(',');
+  add_case_option(command, case_folder);
+  add_levels_option(command, levels, "levels (default: all)");
   screws.add_to(command);
   json.add_to(command);
 }

@@ -77,12 +77,8 @@ void add_plan_export(CLI::App& plan, Action& action) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command =
       plan.add_subcommand("export", "Models and screws as 3D Slicer opens them by drag and drop");
-  command
-      ->add_option("--case", arguments->case_folder,
-                   "folder with case.json (default: the built-in phantom)")
-      ->check(some_text())
-      ->type_name("DIR");
-  command->add_option("--out", arguments->out, "folder for LABEL.stl and LABEL.mrk.json")
+  add_case_option(*command, arguments->case_folder);
+  command->add_option("-o,--out", arguments->out, "folder for LABEL.stl and LABEL.mrk.json")
       ->required()
       ->check(some_text())
       ->type_name("DIR");

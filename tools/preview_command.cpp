@@ -7,6 +7,7 @@
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
+#include "tools/config_file.h"
 #include "tools/model_notes.h"
 #include "tools/preview/preview_app.h"
 #include "tools/screw_arguments.h"
@@ -162,7 +163,7 @@ void add_window_options(CLI::App& preview, const std::shared_ptr<PreviewArgument
           },
           "of the picture in pixels (default: 1120x720)")
       ->check(CLI::Validator(check_size, "WIDTHxHEIGHT"));
-  preview.add_option("--out", arguments->options.out, "folder for screenshots and videos")
+  preview.add_option("-o,--out", arguments->options.out, "folder for screenshots and videos")
       ->check(some_text())
       ->capture_default_str();
   preview
@@ -180,7 +181,7 @@ void add_window_options(CLI::App& preview, const std::shared_ptr<PreviewArgument
 /// What the room is like, and whose hands work in it.
 void add_room_options(CLI::App& preview, PreviewArguments& arguments) {
   auto* seed =
-      preview.add_option("--seed", arguments.options.room.seed, "seed of every random number");
+      preview.add_option("-s,--seed", arguments.options.room.seed, "seed of every random number");
   seed->check(seed_number())->capture_default_str();
   preview
       .add_option("--replay", arguments.options.room.seed,
@@ -207,23 +208,16 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   preview->add_option("--headset", arguments->headset, "URI: sim:, replay:PATH")
       ->check(some_text())
       ->capture_default_str();
-  preview
-      ->add_option("--case", arguments->case_folder,
-                   "case folder with case.json (default: the built-in phantom)")
-      ->check(some_text());
+  add_case_option(*preview, arguments->case_folder);
   add_room_options(*preview, *arguments);
-  preview->add_option("--method", arguments->method, "best or paper (the published one)")
-      ->capture_default_str();
-  preview->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
-      ->delimiter(',');
-  preview
-      ->add_option("--tools", arguments->tools_file,
-                   "tool definitions (default: the headset's own, else the built-in)")
-      ->check(some_text());
+  add_method_option(*preview, arguments->method);
+  add_levels_option(*preview, arguments->levels);
+  add_tools_option(*preview, arguments->tools_file);
   arguments->screws.add_to(*preview);
   preview->add_option("--models", arguments->models, "folder that keeps the prepared models")
       ->check(some_text());
   add_window_options(*preview, arguments);
+  add_config_option(*preview);
   preview->callback([arguments, &action, &signals] {
     action = [arguments, &signals] { return preview_window(*arguments, signals); };
   });

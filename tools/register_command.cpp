@@ -163,7 +163,7 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
   command.add_option("--plan", arguments.plan, "Planned screws, for the error to expect there")
       ->type_name("PLAN");
   command
-      .add_option("--case", arguments.case_folder,
+      .add_option("-c,--case", arguments.case_folder,
                   "Instead of --model and --plan: folder with case.json [the built-in phantom]")
       ->check(some_text())
       ->type_name("DIR");
@@ -179,8 +179,7 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
       .add_option("--cache", arguments.cache,
                   "Folder that keeps prepared models for the next time [nothing is kept]")
       ->type_name("DIR");
-  command.add_option("--method", arguments.method, "registration: best or paper")
-      ->capture_default_str();
+  add_method_option(command, arguments.method, "registration: best or paper");
 }
 
 }  // namespace

@@ -174,7 +174,8 @@ void add_render_command(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("render", "Draw the holograms of a scene file into a picture");
   command->add_option("scene", arguments->scene, "Scene file (docs/scene-files.md)")->required();
-  command->add_option("--out", arguments->out, "PNG to write; both eyes side by side")->required();
+  command->add_option("-o,--out", arguments->out, "PNG to write; both eyes side by side")
+      ->required();
   command->add_option("--eye", arguments->eye, "left, right or both")
       ->check(CLI::IsMember({"left", "right", "both"}))
       ->capture_default_str();

@@ -77,7 +77,7 @@ void add_report_command(CLI::App& app, Action& action) {
                    "session.orthonav, session.orthonav.part, or the folder that holds it")
       ->required()
       ->check(some_text());
-  command->add_option("--out", arguments->out, "Where the HTML page goes")
+  command->add_option("-o,--out", arguments->out, "Where the HTML page goes")
       ->required()
       ->check(some_text());
   arguments->json.add_to(*command);

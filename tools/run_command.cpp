@@ -4,6 +4,7 @@
 
 #include "tools/arguments.h"
 #include "tools/command.h"
+#include "tools/config_file.h"
 #include "tools/live_run.h"
 
 namespace orthonav::tools {
@@ -19,7 +20,8 @@ void add_ends_and_results(CLI::App& run, RunArguments& arguments) {
       ->check(finite_number(0.1, 86400.0));
   run.add_option("--record", arguments.record, "record the session into this new folder")
       ->check(some_text());
-  run.add_option("--out", arguments.out, "folder for report.html, report.json and session.orthonav")
+  run.add_option("-o,--out", arguments.out,
+                 "folder for report.html, report.json and session.orthonav")
       ->check(some_text());
   run.add_flag("--resume", arguments.resume,
                "continue the last operation in that folder (docs/journal.md)")
@@ -46,21 +48,20 @@ void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
                   "headset, none, mic:[NAME], headset-mic: or wav:FILE (docs/voice.md)")
       ->check(some_text())
       ->capture_default_str();
-  run->add_option("--case", arguments->case_folder,
-                  "case folder with case.json (default: the built-in phantom)")
-      ->check(some_text());
-  run->add_option("--method", arguments->method, "best or paper (the published one)")
-      ->capture_default_str();
-  run->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
-      ->delimiter(',');
-  run->add_option("--tools", arguments->tools_file,
-                  "tool definitions (default: the headset's own, else the built-in)")
-      ->check(some_text());
+  add_case_option(*run, arguments->case_folder);
+  add_method_option(*run, arguments->method);
+  add_levels_option(*run, arguments->levels);
+  add_tools_option(*run, arguments->tools_file);
   add_reference_flag(*run, arguments->reference);
   arguments->common.add_to(*run);
   arguments->screws.add_to(*run);
   arguments->igtl.add_to(*run);
+  arguments->calibration.add_to(*run);
+  arguments->limits.add_to(*run);
+  arguments->log.add_to(*run);
+  arguments->web.add_to(*run);
   add_ends_and_results(*run, *arguments);
+  add_config_option(*run);
   run->callback([arguments, &action, &signals] {
     action = [arguments, &signals] { return run_live(*arguments, signals); };
   });

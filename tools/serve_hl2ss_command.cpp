@@ -202,14 +202,9 @@ void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals
                    "who may connect besides this machine, as in 192.168.1.0/24,10.0.0.7")
       ->check(some_text())
       ->type_name("NETWORKS");
-  serve_hl2ss
-      ->add_option("--case", arguments->case_folder,
-                   "case folder with case.json (default: the built-in phantom)")
-      ->check(some_text());
-  serve_hl2ss
-      ->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
-      ->delimiter(',');
-  serve_hl2ss->add_option("--seed", arguments->seed, "of the simulation and the faults")
+  add_case_option(*serve_hl2ss, arguments->case_folder);
+  add_levels_option(*serve_hl2ss, arguments->levels);
+  serve_hl2ss->add_option("-s,--seed", arguments->seed, "of the simulation and the faults")
       ->capture_default_str();
   serve_hl2ss->add_flag("--perfect", arguments->perfect, "a room without noise or error");
   serve_hl2ss->add_option("--pace", arguments->pace, "of the surgeon, 1: as most people work")

@@ -224,15 +224,15 @@ std::vector<std::string> guidance_names() {
 
 /// How many, and where.
 void add_cohort_options(CLI::App& study, StudyArguments& arguments) {
-  study.add_option("--runs", arguments.runs, "operations a case")
+  study.add_option("-n,--runs", arguments.runs, "operations a case")
       ->check(whole_number(1, 1'000'000))
       ->capture_default_str();
-  study.add_option("--seed", arguments.first_seed, "seed of the first run, then one more each")
+  study.add_option("-s,--seed", arguments.first_seed, "seed of the first run, then one more each")
       ->check(seed_number())
       ->capture_default_str();
   study.add_option("--shard", arguments.shard, "I/N: every N-th run from the I-th on")
       ->capture_default_str();
-  study.add_option("--jobs", arguments.jobs, "operations at once (0: as many as cores)")
+  study.add_option("-j,--jobs", arguments.jobs, "operations at once (0: as many as cores)")
       ->check(whole_number(0, 1024))
       ->capture_default_str();
   study
@@ -262,8 +262,7 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
       .add_option("--cases", arguments.cases,
                   "case folder or a folder of them (default: the built-in phantom)")
       ->check(some_text());
-  study.add_option("--method", arguments.method, "best or paper (the published one)")
-      ->capture_default_str();
+  add_method_option(study, arguments.method);
   study
       .add_option("--profile", arguments.profile,
                   "a published system, by its name or as a file (data/systems.json)")
@@ -273,8 +272,7 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
                   "pixels, or model: what pixels would tell, drawn")
       ->check(CLI::IsMember({"pixels", "model"}))
       ->capture_default_str();
-  study.add_option("--levels", arguments.levels, "levels to operate (default: the two lowest)")
-      ->delimiter(',');
+  add_levels_option(study, arguments.levels);
   add_reference_flag(study, arguments.reference);
   study
       .add_option(
@@ -290,7 +288,7 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
       .add_option("--instrument", arguments.instrument,
                   "wire, cannula, \"sleeved drill\", screw or \"robot arm\"")
       ->check(some_text());
-  study.add_option("--tools", arguments.tools, "tools file (default: the built-in ones)")
+  study.add_option("-t,--tools", arguments.tools, "tools file (default: the built-in ones)")
       ->check(some_text());
   add_cohort_options(study, arguments);
 }

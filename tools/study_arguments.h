@@ -21,6 +21,7 @@ struct StudyArguments {
   std::string store;
   std::vector<std::string> levels;
   int runs = 20;
+  bool runs_given = false;  ///< on the command line
   std::uint64_t first_seed = 1;
   std::string shard = "1/1";
   int jobs = 0;

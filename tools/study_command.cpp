@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -65,6 +67,17 @@ int run_on(const StudyArguments& arguments, const engine::StudyOptions& options,
   return study->failure ? bad_input(study->failure->message) : kDone;
 }
 
+/// Somebody at a terminal who did not say how many operations they want may not know what it takes.
+bool wants_so_many(const StudyArguments& arguments) {
+  if (arguments.runs_given || ::isatty(STDIN_FILENO) == 0 || ::isatty(STDERR_FILENO) == 0) {
+    return true;
+  }
+  std::fprintf(stderr, "%d operations a case, about a minute each on two cores: go on? [y/N] ",
+               arguments.runs);
+  const int answer = std::getchar();
+  return answer == 'y' || answer == 'Y';
+}
+
 int run_study(const StudyArguments& arguments, StopSignals& signals) {
   const auto method = engine::method_named(arguments.method);
   if (!method) {
@@ -76,6 +89,9 @@ int run_study(const StudyArguments& arguments, StopSignals& signals) {
   }
   if (const Status place = arguments.json.check(); !place) {
     return bad_input(place.error().message);
+  }
+  if (!wants_so_many(arguments)) {
+    return bad_input("study: nothing was made (--runs N says how many operations)");
   }
   return run_on(arguments, *options, signals);
 }
@@ -134,6 +150,7 @@ void add_study_command(CLI::App& app, Action& action, StopSignals& signals) {
     if (!merging && !study->get_subcommands().empty()) {
       return;
     }
+    arguments->runs_given = study->get_option("--runs")->count() > 0;
     action = [arguments, &signals, merging] {
       return merging ? merge(*arguments) : run_study(*arguments, signals);
     };

@@ -67,7 +67,7 @@ void add_rods_command(CLI::App& study, Action& action) {
   rods->add_option("--rods", arguments->rods, "rods in each arm")
       ->check(whole_number(3, 1'000'000))
       ->capture_default_str();
-  rods->add_option("--seed", arguments->seed, "of everything")
+  rods->add_option("-s,--seed", arguments->seed, "of everything")
       ->check(seed_number())
       ->capture_default_str();
   rods->callback([arguments, &action] { action = [arguments] { return run_rods(*arguments); }; });

@@ -72,13 +72,14 @@ void add_sensitivity_command(CLI::App& study, Action& action) {
       ->check(whole_number(1, 1000))
       ->capture_default_str();
   command
-      ->add_option("--runs", arguments->options.runs, "operations at each point of Morris's method")
+      ->add_option("-n,--runs", arguments->options.runs,
+                   "operations at each point of Morris's method")
       ->check(whole_number(1, 10'000))
       ->capture_default_str();
-  command->add_option("--seed", arguments->options.seed, "of everything")
+  command->add_option("-s,--seed", arguments->options.seed, "of everything")
       ->check(seed_number())
       ->capture_default_str();
-  command->add_option("--jobs", arguments->jobs, "operations at once (0: as many as cores)")
+  command->add_option("-j,--jobs", arguments->jobs, "operations at once (0: as many as cores)")
       ->check(whole_number(0, 1024))
       ->capture_default_str();
   command->add_option("--report", arguments->report, "HTML page to write")->check(some_text());

@@ -74,13 +74,14 @@ void add_systems_command(CLI::App& study, Action& action) {
   auto* systems = study.add_subcommand(
       "systems", "What the simulated room predicts of published systems, beside what they reached");
   systems->add_option("names", arguments->names, "systems, or files of one (default: all)");
-  systems->add_option("--runs", arguments->runs, "operations a system")
+  systems->add_option("-n,--runs", arguments->runs, "operations a system")
       ->check(whole_number(2, 1'000'000))
       ->capture_default_str();
-  systems->add_option("--seed", arguments->first_seed, "seed of the first run, then one more each")
+  systems
+      ->add_option("-s,--seed", arguments->first_seed, "seed of the first run, then one more each")
       ->check(seed_number())
       ->capture_default_str();
-  systems->add_option("--jobs", arguments->jobs, "operations at once (0: as many as cores)")
+  systems->add_option("-j,--jobs", arguments->jobs, "operations at once (0: as many as cores)")
       ->check(whole_number(0, 1024))
       ->capture_default_str();
   systems->add_option("--db", arguments->folder, "folder that keeps the operations")

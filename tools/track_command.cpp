@@ -10,6 +10,7 @@
 #include "engine/session/method.h"
 #include "hal/replay/replay_headset.h"
 #include "tools/arguments.h"
+#include "tools/calibration_argument.h"
 #include "tools/command.h"
 #include "tools/print_text.h"
 #include "tools/recorded_pairs.h"
@@ -25,6 +26,7 @@ struct TrackArguments {
   int full_search_every = 1;
   bool exact_stamps = false;
   bool json = false;
+  CalibrationArgument calibration;
 };
 
 struct TrackSummary {
@@ -179,14 +181,25 @@ int run_track(const TrackArguments& arguments) {
   if (!headset) {
     return bad_input(headset.error().message);
   }
+  const bool to_stdout = arguments.csv == "-";
+  if (to_stdout && arguments.json) {
+    return bad_input("--csv -: standard output has the poses, so --json has no place there");
+  }
   // Before the work, so that an unwritable place is known at once.
-  if (auto place = engine::AtomicFile::create(arguments.csv); !place) {
-    return bad_input(place.error().message);
+  if (!to_stdout) {
+    if (auto place = engine::AtomicFile::create(arguments.csv); !place) {
+      return bad_input(place.error().message);
+    }
   }
   nav::TrackerOptions options;
   options.full_search_interval = arguments.full_search_every;
+  CalibrationArgument calibration = arguments.calibration;
+  const auto calibrated = calibration.on(**headset);
+  if (!calibrated) {
+    return bad_input(calibrated.error().message);
+  }
   auto tracker =
-      method->create_tracker((*headset)->cameras().calibration(), std::move(*tools), options);
+      method->create_tracker((*calibrated)->cameras().calibration(), std::move(*tools), options);
   if (!tracker) {
     return bad_input(tracker.error().message);
   }
@@ -195,6 +208,11 @@ int run_track(const TrackArguments& arguments) {
   const auto summary = track_all(**headset, **tracker, csv);
   if (!summary) {
     return bad_input(summary.error().message);
+  }
+  if (to_stdout) {
+    std::fwrite(csv.data(), 1, csv.size(), stdout);
+    warn_of_sizes(**tracker);
+    return kDone;
   }
   if (Status status = engine::write_file(arguments.csv, csv); !status) {
     return bad_input(status.error().message);
@@ -221,10 +239,10 @@ void add_track_command(CLI::App& app, Action& action) {
       app.add_subcommand("track", "Poses of every tool in every stereo pair of a recording");
   command->add_option("RECORDING", arguments->recording, "Folder of a StreamRecorder recording")
       ->required();
-  command->add_option("--tools", arguments->tools_file, "Tool definitions (JSON)")->required();
-  command->add_option("--method", arguments->method, "tracking: best or paper")
-      ->capture_default_str();
-  command->add_option("--csv", arguments->csv, "Where the poses go")->required();
+  command->add_option("-t,--tools", arguments->tools_file, "Tool definitions (JSON)")->required();
+  add_method_option(*command, arguments->method, "tracking: best or paper");
+  command->add_option("--csv", arguments->csv, "Where the poses go; -: standard output")
+      ->required();
   command
       ->add_option("--full-search-every", arguments->full_search_every,
                    "1: search whole images; N: only around predictions, and everywhere in every "
@@ -235,6 +253,7 @@ void add_track_command(CLI::App& app, Action& action) {
                     "StreamRecorder's stamps were corrected already (default: they are 12.5 ms "
                     "late)");
   command->add_flag("--json", arguments->json, "The summary as JSON");
+  arguments->calibration.add_to(*command);
   command->footer(kTrackFooter);
   command->callback(
       [arguments, &action] { action = [arguments] { return run_track(*arguments); }; });

@@ -71,6 +71,22 @@ Result<LoopReport> run_until_done(const OperationHooks& hooks, AssembledOperatio
   return report;
 }
 
+/// The room's headset as the engine gets it, put together with everything else.
+Result<std::unique_ptr<AssembledOperation>> assembled_in(
+    sim::SimHeadset& room, const Method& method, Operation operation,
+    const std::vector<nav::ToolGeometry>& tools, const OperationOptions& options,
+    const OperationHooks& hooks) {
+  const auto headset = hooks.seen_through ? hooks.seen_through(room) : Result<Headset*>(&room);
+  if (!headset) {
+    return headset.error();
+  }
+  AssemblyOptions assembly = options;
+  tell_common_errors(options.sim.error_model, assembly.session);
+  auto live = assemble_operation(**headset, std::move(operation), method, tools, assembly);
+  const Status taken = live && hooks.assembled ? hooks.assembled(**live) : Status();
+  return taken ? std::move(live) : taken.error();
+}
+
 Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Operation operation,
                                 const OperationOptions& options, const OperationHooks& hooks) {
   // The engine gets the tools as a planning file describes them, not as they really are.
@@ -78,16 +94,11 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   if (!tools) {
     return tools.error();
   }
-  AssemblyOptions assembly = options;
-  tell_common_errors(options.sim.error_model, assembly.session);
-  auto assembled = assemble_operation(room, std::move(operation), method, *tools, assembly);
+  auto assembled = assembled_in(room, method, std::move(operation), *tools, options, hooks);
   if (!assembled) {
     return assembled.error();
   }
   AssembledOperation& live = **assembled;
-  if (const Status taken = hooks.assembled ? hooks.assembled(live) : Status(); !taken) {
-    return taken.error();
-  }
   Watchers watchers(room, live, hooks);
   auto recorder = recorder_of(room, options.record_folder, *tools);
   if (!recorder) {

@@ -50,6 +50,9 @@ struct OperationHooks {
   std::function<void(std::function<void()>)> can_stop;
   /// May replace parts of the method once the room is open.
   std::function<void(const sim::SimHeadset&, Method&)> adapt;
+  /// The headset that the engine gets in place of the room's, which it forwards to; its owner is
+  /// whoever answers. Null: the room's own.
+  std::function<Result<Headset*>(Headset&)> seen_through;
   /// Called once everything is put together, before `opened`; an Error ends the run.
   std::function<Status(AssembledOperation&)> assembled;
   /// Called once the room is open and before the first frame; an Error ends the run.

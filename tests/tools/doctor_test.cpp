@@ -101,6 +101,13 @@ TEST(Doctor, SaysHowToGetWhatIsAbsent) {
   EXPECT_EQ(called.code, 0) << "none of these is needed by the demo";
 }
 
+TEST(Doctor, AnswersNoWhereTheHeadsetsCamerasDoNotAnswer) {
+  const Called called = orthonav({"doctor", "--headset", "hl2ss://127.0.0.1?port=1"});
+  EXPECT_EQ(called.code, 1);
+  EXPECT_THAT(called.out, HasSubstr("missing  HoloLens 2: left camera"));
+  EXPECT_THAT(called.err, HasSubstr("cameras do not answer"));
+}
+
 TEST(Doctor, RefusesArgumentsItDoesNotKnow) { EXPECT_EQ(orthonav({"doctor", "--fix"}).code, 2); }
 
 }  // namespace

@@ -1,0 +1,113 @@
+#include "engine/live/calibrated_headset.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <vector>
+
+#include "base/units.h"
+#include "engine/io/json_document.h"
+
+namespace orthonav::engine {
+namespace {
+
+BrownConrady lens_from(const JsonNode& node) {
+  return {node.integer("width_px"), node.integer("height_px"), node.number("fx_px"),
+          node.number("fy_px"),     node.number("cx_px"),      node.number("cy_px"),
+          node.number("k1"),        node.number("k2"),         node.number("p1"),
+          node.number("p2"),        node.number("k3")};
+}
+
+/// Millimetres by rows; what is rounded to four digits is still rigid.
+Transform<RightCamera, LeftCamera> pose_from(const JsonNode& root, const char* key) {
+  constexpr double kMaxShear = 1e-3;
+  const std::vector<double> numbers = root.numbers(key, 16);
+  std::array<double, 16> rows{};
+  std::copy(numbers.begin(), numbers.end(), rows.begin());
+  for (const std::size_t i : {3u, 7u, 11u}) {
+    rows[i] *= kMetresPerMm;
+  }
+  auto pose = Transform<RightCamera, LeftCamera>::from_row_major(rows, kMaxShear);
+  if (!pose) {
+    root.refuse(key, pose.error().message);
+    return {};
+  }
+  return *pose;
+}
+
+Result<CameraModel> model_from(const BrownConrady& lens, const std::string& where) {
+  auto model = CameraModel::from_brown_conrady(lens);
+  if (!model) {
+    return Error{where + ": " + model.error().message};
+  }
+  return model;
+}
+
+std::string size_text(const CameraModel& camera) {
+  return std::to_string(camera.width_px()) + " x " + std::to_string(camera.height_px());
+}
+
+Status check_size(const std::string& where, const CameraModel& own, const CameraModel& device) {
+  if (own.width_px() == device.width_px() && own.height_px() == device.height_px()) {
+    return {};
+  }
+  return Error{where + ": is of images of " + size_text(own) + " px, the headset's have " +
+               size_text(device)};
+}
+
+}  // namespace
+
+Result<CalibrationFile> load_calibration(const std::string& path) {
+  const auto document = JsonDocument::read(path);
+  if (!document) {
+    return document.error();
+  }
+  const JsonNode root = document->root();
+  if (root.text("format") != "orthonav stereo calibration") {
+    root.refuse("format", "must be \"orthonav stereo calibration\", of orthonav calibrate stereo");
+  }
+  if (root.text("verdict") == "fail") {
+    root.refuse("verdict", "is fail: " + root.text_or("reason", "no reason") + "; calibrate again");
+  }
+  const bool has_lenses = root.has("left") || root.has("right");
+  BrownConrady left;
+  BrownConrady right;
+  if (has_lenses) {
+    left = lens_from(root.child("left"));
+    right = lens_from(root.child("right"));
+  }
+  CalibrationFile file{path, {}, {}, pose_from(root, "right_from_left_mm")};
+  if (const Status read = document->status(); !read) {
+    return read.error();
+  }
+  if (has_lenses) {
+    auto left_model = model_from(left, path + ": left");
+    auto right_model = left_model ? model_from(right, path + ": right") : left_model;
+    if (!right_model) {
+      return right_model.error();
+    }
+    file.left = std::move(*left_model);
+    file.right = std::move(*right_model);
+  }
+  return file;
+}
+
+Result<std::unique_ptr<CalibratedHeadset>> CalibratedHeadset::create(Headset& headset,
+                                                                     const CalibrationFile& file) {
+  StereoCalibration calibration = headset.cameras().calibration();
+  if (file.left && file.right) {
+    for (const auto& [side, own, device] :
+         {std::tuple{"left", &*file.left, &calibration.left},
+          std::tuple{"right", &*file.right, &calibration.right}}) {
+      if (const Status same = check_size(file.name + ": " + side, *own, *device); !same) {
+        return same.error();
+      }
+    }
+    calibration.left = *file.left;
+    calibration.right = *file.right;
+  }
+  calibration.right_from_rig = file.right_from_left * calibration.left_from_rig;
+  return std::unique_ptr<CalibratedHeadset>(new CalibratedHeadset(headset, std::move(calibration)));
+}
+
+}  // namespace orthonav::engine

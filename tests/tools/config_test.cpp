@@ -1,0 +1,67 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/tools/command_line.h"
+
+namespace orthonav::test::config_test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// Refused before anything is prepared, in one line.
+void expect_refusal(const std::string& content, const std::string& reason,
+                    const std::vector<std::string>& more = {}) {
+  const ScratchFolder folder;
+  std::vector<std::string> words = {"run", "--case", "/none", "--config",
+                                    folder.with("theatre.toml", content)};
+  words.insert(words.end(), more.begin(), more.end());
+  const Called called = orthonav(words);
+  EXPECT_EQ(called.code, 2);
+  EXPECT_THAT(called.out, IsEmpty());
+  EXPECT_THAT(called.err, HasSubstr(reason));
+  EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
+}
+
+TEST(Config, RefusesWhatItDoesNotKnowByNameAndLine) {
+  expect_refusal("[tools]\nfile = \"t.json\"\nfiel = \"t.json\"\n",
+                 "theatre.toml:3: unknown key of [tools] \"fiel\"; did you mean file?");
+  expect_refusal("\n[tolls]\n", "theatre.toml:2: unknown section \"tolls\"; did you mean tools?");
+  expect_refusal("headset = \"sim:\"\n", "theatre.toml:1: unknown section \"headset\"");
+  expect_refusal("[limits]\nwire_mm = [1, 2]\n",
+                 "theatre.toml:2: limits.wire_mm must be a text, a number, true or false");
+  expect_refusal("[rig\n", "theatre.toml:1: ");
+  expect_refusal("[limits]\nwire_mm = 40\n",
+                 "theatre.toml:2: limits.wire_mm (--wire-mm: \"40\" must");
+}
+
+TEST(Config, NamesFilesFromWhereItLiesAndAFlagWins) {
+  // The case that is not there is refused once the settings were taken.
+  expect_refusal("[tools]\nfile = \"absent.json\"\n", "/absent.json");
+  expect_refusal("[rig]\nheadset = \"holo:\"\n", "unknown scheme");
+  expect_refusal("[rig]\nheadset = \"holo:\"\n", "/none", {"--headset", "sim:"});
+  const Called absent = orthonav({"run", "--config", "/none.toml"});
+  EXPECT_EQ(absent.code, 2);
+  EXPECT_THAT(absent.err, HasSubstr("/none.toml"));
+}
+
+TEST(Config, IsShownAsAFileThatIsReadBackToTheSame) {
+  const ScratchFolder folder;
+  const std::string mine = folder.with(
+      "mine.toml",
+      "[limits]\nwire_mm = 1.5\n[voice]\ndevice = \"mic:a\\\"b\"\n[tools]\nreference = true\n");
+  const Called shown = orthonav({"config", "show", "--config", mine});
+  ASSERT_EQ(shown.code, 0) << shown.err;
+  EXPECT_THAT(shown.out, AllOf(HasSubstr("\nwire_mm = 1.5\n"), HasSubstr("\nreference = true\n"),
+                               HasSubstr("\ndevice = \"mic:a\\\"b\"\n"),
+                               HasSubstr("\n#good_deg = 2\n"), HasSubstr("(--tools of ")));
+  const std::string again = folder.with("again.toml", shown.out);
+  EXPECT_EQ(orthonav({"config", "show", "--config", again}).out, shown.out);
+  EXPECT_EQ(orthonav({"config", "show"}).out.find("\nwire_mm"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace orthonav::test::config_test

@@ -1,0 +1,100 @@
+#include "tools/dashboard.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/scripted_operation.h"
+#include "tools/dashboard_state.h"
+
+namespace orthonav::tools::dashboard_test {
+namespace {
+
+using nlohmann::json;
+using test::guide_at;
+using ::testing::HasSubstr;
+
+constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
+
+json state_of(test::ScriptedOperation& s, const engine::Guidance& g) {
+  return json::parse(dashboard_state(s.session(), g, 1.5, {"a", "b"}));
+}
+
+TEST(DashboardState, SaysStepToolsAndLevelsAndNoNumberWhileNothingIsGuided) {
+  test::ScriptedOperation s;
+  const json state = state_of(s, s.pair());
+  EXPECT_EQ(state["step"], "setup");
+  EXPECT_EQ(state["time_s"], 1.5);
+  EXPECT_EQ(state["frame_of_reference"], "headset's map");
+  EXPECT_TRUE(state["guidance"].is_null());
+  ASSERT_EQ(state["levels"].size(), 2u);
+  EXPECT_EQ(state["levels"][0]["label"], "L4");
+  EXPECT_EQ(state["levels"][0]["registered"], false);
+  EXPECT_EQ(state["tools"][1]["status"], "lost");
+  EXPECT_EQ(state["messages"][1], "b");
+}
+
+TEST(DashboardState, HasTheNumbersAsTheSurgeonReadsThemAndOnlyWhileTheToolIsMeasured) {
+  test::ScriptedOperation s;
+  s.accepts_first_level();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0, 0.010, 0}, 0.1);
+  const json state = state_of(s, s.pair());
+  ASSERT_TRUE(state["guidance"].is_object()) << state;
+  EXPECT_EQ(state["guidance"]["level"], "L4");
+  EXPECT_EQ(state["guidance"]["angle"], "5.7°");
+  EXPECT_NEAR(state["guidance"]["to_entry_mm"].get<double>(), 10.0, 0.1);
+  EXPECT_EQ(state["levels"][0]["accepted"], true);
+  EXPECT_EQ(state["tools"][1]["status"], "measured");
+  s.tracker().guide_origin = PoseStatus::kPredicted;
+  const json predicted = state_of(s, s.pair());
+  EXPECT_TRUE(predicted["guidance"].is_null());
+  EXPECT_EQ(predicted["tools"][1]["status"], "predicted");
+}
+
+class DashboardPage : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const Status opened = dashboard_.open({0});
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    browser_ = std::make_unique<httplib::Client>("127.0.0.1", dashboard_.port());
+  }
+  Dashboard dashboard_;
+  std::unique_ptr<httplib::Client> browser_;
+};
+
+TEST_F(DashboardPage, IsOnePageThatLoadsNothingFromElsewhere) {
+  const auto page = browser_->Get("/");
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->status, 200);
+  EXPECT_THAT(page->body, HasSubstr("<title>orthonav</title>"));
+  EXPECT_EQ(page->body.find("http"), std::string::npos) << "no other address is named";
+  EXPECT_THAT(page->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'self'"));
+}
+
+TEST_F(DashboardPage, SaysThatNothingCameYet) {
+  const auto state = browser_->Get("/state");
+  ASSERT_TRUE(state);
+  EXPECT_TRUE(json::parse(state->body)["now"].is_null());
+  EXPECT_EQ(browser_->Get("/left.png")->status, 404);
+  EXPECT_EQ(browser_->Get("/else")->status, 404);
+}
+
+TEST_F(DashboardPage, AnswersThisMachinesPageAloneAndIsReadOnly) {
+  EXPECT_EQ(browser_->Get("/state", {{"Host", "hospital.example"}})->status, 403);
+  EXPECT_EQ(browser_->Get("/state", {{"Host", "localhost:80"}})->status, 200);
+  EXPECT_EQ(browser_->Post("/state", "{}", "application/json")->status, 403);
+  EXPECT_EQ(browser_->Delete("/state")->status, 403);
+}
+
+TEST_F(DashboardPage, IsRefusedAtAPortThatIsTaken) {
+  Dashboard second;
+  const Status opened = second.open({dashboard_.port()});
+  ASSERT_FALSE(opened.ok());
+  EXPECT_THAT(opened.error().message, HasSubstr("the port cannot be had"));
+}
+
+}  // namespace
+}  // namespace orthonav::tools::dashboard_test

@@ -1,0 +1,31 @@
+#include "tools/calibration_argument.h"
+
+#include "tools/arguments.h"
+
+namespace orthonav::tools {
+
+void CalibrationArgument::add_to(CLI::App& command) {
+  command
+      .add_option("--calibration", file_,
+                  "cameras as orthonav calibrate stereo found them (default: as the device says)")
+      ->check(some_text())
+      ->type_name("FILE");
+}
+
+Result<Headset*> CalibrationArgument::on(Headset& headset) {
+  if (file_.empty()) {
+    return &headset;
+  }
+  const auto file = engine::load_calibration(file_);
+  if (!file) {
+    return file.error();
+  }
+  auto calibrated = engine::CalibratedHeadset::create(headset, *file);
+  if (!calibrated) {
+    return calibrated.error();
+  }
+  headset_ = std::move(*calibrated);
+  return headset_.get();
+}
+
+}  // namespace orthonav::tools

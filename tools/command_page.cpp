@@ -1,0 +1,143 @@
+#include "tools/command_page.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace orthonav::tools {
+namespace {
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string out;
+  for (const std::string& word : words) {
+    out += (out.empty() ? "" : between) + word;
+  }
+  return out;
+}
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, at);) {
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+/// The library's "TEXT:{a,b}" and our own "a|b" are choices; its words for numbers are not ours.
+void read_value(const CLI::Option& option, OptionRow& row) {
+  if (option.get_type_size() == 0) {
+    return;
+  }
+  row.value = option.get_type_name();
+  const std::size_t brace = row.value.find('{');
+  if (brace != std::string::npos && row.value.back() == '}') {
+    row.choices = split(row.value.substr(brace + 1, row.value.size() - brace - 2), ',');
+    row.value = joined(row.choices, "|");
+  } else if (row.value.find('|') != std::string::npos) {
+    row.choices = split(row.value, '|');
+  } else if (const std::size_t colon = row.value.find(':'); colon != std::string::npos) {
+    row.value = row.value.substr(colon + 1);  // "TEXT:WIDTHxHEIGHT"
+  }
+  if (row.value == "INT" || row.value == "UINT") {
+    row.value = "N";
+  } else if (row.value == "FLOAT") {
+    row.value = "NUMBER";
+  }
+}
+
+std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options) {
+    names.push_back(option->get_name());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+OptionRow row_of(const CLI::Option& option) {
+  OptionRow row;
+  if (option.get_positional()) {
+    row.names = {option.get_name(true, false)};
+  } else {
+    for (const std::string& name : option.get_snames()) {
+      row.names.push_back("-" + name);
+    }
+    for (const std::string& name : option.get_lnames()) {
+      row.names.push_back("--" + name);
+    }
+  }
+  read_value(option, row);
+  row.text = option.get_description();
+  row.default_value = option.get_default_str();
+  row.excludes = names_of(option.get_excludes());
+  row.needs = names_of(option.get_needs());
+  row.required = option.get_required();
+  row.repeats = option.get_expected_max() >= CLI::detail::expected_max_vector_size;
+  return row;
+}
+
+}  // namespace
+
+CommandPage page_of(const CLI::App& command, const std::string& way) {
+  CommandPage page;
+  page.way = way + (way.empty() ? "" : " ") + command.get_name();
+  page.text = command.get_description();
+  page.notes = command.get_footer();
+  page.needs_command = command.get_require_subcommand_min() > 0;
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_group().empty()) {
+      (option->get_positional() ? page.arguments : page.options).push_back(row_of(*option));
+    }
+  }
+  for (const CLI::App* below : command.get_subcommands({})) {
+    page.commands.push_back(page_of(*below, page.way));
+  }
+  return page;
+}
+
+std::string CommandPage::usage() const {
+  std::string line = way;
+  for (const OptionRow& option : options) {
+    if (option.required) {
+      line += " " + option.names.back() + " " + option.value;
+    }
+  }
+  line += " [OPTIONS]";
+  for (const OptionRow& argument : arguments) {
+    const std::string name = argument.names.front() + (argument.repeats ? "..." : "");
+    line += argument.required ? " " + name : " [" + name + "]";
+  }
+  if (!commands.empty()) {
+    line += needs_command ? " COMMAND" : " [COMMAND]";
+  }
+  return line;
+}
+
+std::string heading(const OptionRow& row) {
+  std::string out = joined(row.names, ", ");
+  const bool is_argument = !out.empty() && out.front() != '-';
+  if (!row.value.empty() && !is_argument) {
+    out += " " + row.value;
+  }
+  return out + (row.repeats ? "..." : "");
+}
+
+std::string explained(const OptionRow& row) {
+  std::string out = row.text;
+  std::vector<std::string> more;
+  if (!row.default_value.empty() && row.text.find("(default") == std::string::npos) {
+    more.push_back("default: " + row.default_value);
+  }
+  if (row.required && row.names.front().front() == '-') {
+    more.push_back("required");
+  }
+  if (!row.excludes.empty()) {
+    more.push_back("not with " + joined(row.excludes, ", "));
+  }
+  if (!row.needs.empty()) {
+    more.push_back("with " + joined(row.needs, ", "));
+  }
+  return more.empty() ? out : out + (out.empty() ? "(" : " (") + joined(more, "; ") + ")";
+}
+
+}  // namespace orthonav::tools

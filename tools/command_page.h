@@ -1,0 +1,43 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+namespace orthonav::tools {
+
+/// One option or argument of a command, as it is told to people.
+struct OptionRow {
+  std::vector<std::string> names;  ///< "-o", "--out"; of an argument "RECORDING"
+  std::string value;               ///< what follows it: "FILE", "best|paper"; empty: a flag
+  std::vector<std::string> choices;
+  std::string text;
+  std::string default_value;  ///< empty: none, or the text says it
+  std::vector<std::string> excludes;
+  std::vector<std::string> needs;
+  bool required = false;
+  bool repeats = false;  ///< takes several values
+};
+
+/// The table of a command, from which its help, its manual page and what shells complete are made.
+struct CommandPage {
+  std::string way;  ///< "orthonav case make"
+  std::string text;
+  std::string notes;  ///< paragraphs under the options
+  std::vector<OptionRow> arguments;
+  std::vector<OptionRow> options;
+  std::vector<CommandPage> commands;
+  bool needs_command = false;
+
+  [[nodiscard]] std::string usage() const;
+};
+
+/// Of a command and all below it; `way` is that of what it belongs to.
+[[nodiscard]] CommandPage page_of(const CLI::App& command, const std::string& way = "");
+
+/// Those names of a row and its value: "-o, --out FILE".
+[[nodiscard]] std::string heading(const OptionRow& row);
+/// Its text with what else must be known: default, what it excludes, what it needs.
+[[nodiscard]] std::string explained(const OptionRow& row);
+
+}  // namespace orthonav::tools

@@ -1,0 +1,185 @@
+#include "tools/config_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+
+#include <toml++/toml.h>
+
+#include "engine/io/json_document.h"
+#include "tools/did_you_mean.h"
+
+namespace orthonav::tools {
+namespace {
+
+/// Files are named from where the configuration lies.
+constexpr bool is_file(const ConfigKey& key) {
+  const std::string_view name = key.key;
+  return name == "file" || name == "screws" || name == "calibration";
+}
+
+std::string at(const std::string& path, const toml::source_region& where) {
+  return path + ":" + std::to_string(where.begin.line) + ": ";
+}
+
+Error unknown(const std::string& place, const std::string& what, const std::string& name,
+              const std::vector<std::string>& known) {
+  const std::string meant = closest(name, known);
+  return Error{place + "unknown " + what + " \"" + name + "\"" +
+               (meant.empty() ? "" : "; did you mean " + meant + "?") +
+               " (see orthonav config show)"};
+}
+
+std::vector<std::string> known_names(const std::string& section) {
+  std::vector<std::string> names;
+  for (const ConfigKey& key : config_keys()) {
+    const std::string name = section.empty() ? key.section : key.key;
+    if ((section.empty() || section == key.section) &&
+        std::find(names.begin(), names.end(), name) == names.end()) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+const ConfigKey* key_named(const std::string& section, const std::string& name) {
+  const auto& keys = config_keys();
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const ConfigKey& key) {
+    return section == key.section && name == key.key;
+  });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+std::string number_text(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value);
+  return {text, end.ptr};
+}
+
+/// As it would be typed; empty: it is none of them.
+std::string text_of(const toml::node& node) {
+  if (const auto* text = node.as_string()) {
+    return text->get();
+  }
+  if (const auto* flag = node.as_boolean()) {
+    return flag->get() ? "true" : "false";
+  }
+  if (const auto* whole = node.as_integer()) {
+    return std::to_string(whole->get());
+  }
+  if (const auto* number = node.as_floating_point()) {
+    return number_text(number->get());
+  }
+  return {};
+}
+
+Result<ConfigFile::Value> value_of(const std::string& path, const std::string& section,
+                                   const std::string& name, const toml::node& node) {
+  const std::string place = at(path, node.source());
+  const ConfigKey* key = key_named(section, name);
+  if (key == nullptr) {
+    return unknown(place, "key of [" + section + "]", name, known_names(section));
+  }
+  std::string text = text_of(node);
+  if (text.empty()) {
+    return Error{place + section + "." + name + " must be a text, a number, true or false"};
+  }
+  if (is_file(*key)) {
+    text = (std::filesystem::path(path).parent_path() / text).string();
+  }
+  return ConfigFile::Value{key, std::move(text), static_cast<int>(node.source().begin.line)};
+}
+
+}  // namespace
+
+const std::vector<ConfigKey>& config_keys() {
+  static const std::vector<ConfigKey> keys = {
+      {"tools", "file", "--tools", "tool definitions"},
+      {"tools", "screws", "--screws", "list of screw sizes"},
+      {"tools", "reference", "--reference", "everything hangs on the patient reference"},
+      {"rig", "headset", "--headset", "URI of the headset"},
+      {"rig", "calibration", "--calibration", "of orthonav calibrate stereo"},
+      {"clicker", "device", "--clicker", "headset, none, evdev:... or keyboard:..."},
+      {"voice", "device", "--voice", "headset, none, mic:..., headset-mic: or wav:FILE"},
+      {"limits", "good_deg", "--good-deg", "angle below which the triangle is green"},
+      {"limits", "poor_deg", "--poor-deg", "angle above which it is red and dashed"},
+      {"limits", "wire_deg", "--wire-deg", "angle beyond which a placed wire is questioned"},
+      {"limits", "wire_mm", "--wire-mm", "entry error beyond which it is"},
+      {"limits", "tip_sd_mm", "--tip-sd-mm", "SD of the pointer's tip along an axis"},
+      {"limits", "cameras_sd_mm", "--cameras-sd-mm", "SD that the cameras' calibration leaves"},
+      {"limits", "map_sd_mm", "--map-sd-mm", "SD of the map's drift"},
+      {"display", "device", "--device", "part of the name of the Vulkan device"},
+      {"display", "size", "--size", "WIDTHxHEIGHT of the preview's picture in pixels"},
+      {"log", "file", "--log", "what happened, line by line"},
+      {"log", "verbose", "--verbose", "each tool that is lost and found as well"},
+  };
+  return keys;
+}
+
+Result<ConfigFile> ConfigFile::load(const std::string& path) {
+  constexpr std::size_t kMostBytes = 1u << 20u;
+  const auto text = engine::read_text(path, kMostBytes);
+  if (!text) {
+    return text.error();
+  }
+  toml::table sections;
+  try {
+    sections = toml::parse(std::string_view(*text), path);
+  } catch (const toml::parse_error& error) {
+    return Error{at(path, error.source()) + std::string(error.description())};
+  }
+  ConfigFile file;
+  file.path_ = path;
+  for (const auto& [section, content] : sections) {
+    const std::string name(section.str());
+    const toml::table* keys = content.as_table();
+    const auto known = known_names("");
+    if (keys == nullptr || std::find(known.begin(), known.end(), name) == known.end()) {
+      return unknown(at(path, content.source()), "section", name, known);
+    }
+    for (const auto& [key, node] : *keys) {
+      auto value = value_of(path, name, std::string(key.str()), node);
+      if (!value) {
+        return value.error();
+      }
+      file.values_.push_back(std::move(*value));
+    }
+  }
+  return file;
+}
+
+Status ConfigFile::apply_to(CLI::App& command) const {
+  for (const Value& value : values_) {
+    CLI::Option* option = command.get_option_no_throw(value.key->option);
+    if (option == nullptr || option->count() > 0) {
+      continue;
+    }
+    try {
+      option->add_result(value.text);
+      option->run_callback();
+    } catch (const CLI::ParseError& error) {
+      return Error{path_ + ":" + std::to_string(value.line) + ": " + value.key->section + "." +
+                   value.key->key + " (" + error.what() + ")"};
+    }
+  }
+  return {};
+}
+
+void add_config_option(CLI::App& command) {
+  auto path = std::make_shared<std::string>();
+  command.add_option("--config", *path, "settings (TOML); a flag wins over the file")
+      ->type_name("FILE");
+  command.parse_complete_callback([path, &command] {
+    if (command.get_option("--config")->count() == 0) {
+      return;
+    }
+    const auto file = ConfigFile::load(*path);
+    const Status applied = file ? file->apply_to(command) : Status(file.error());
+    if (!applied) {
+      throw CLI::ValidationError("--config", applied.error().message);
+    }
+  });
+}
+
+}  // namespace orthonav::tools

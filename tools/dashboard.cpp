@@ -1,0 +1,205 @@
+#include "tools/dashboard.h"
+
+#include <httplib.h>
+#include <sys/socket.h>
+
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include "base/mutex.h"
+#include "base/printed.h"
+#include "embedded/dashboard_html.h"
+#include "engine/io/image_file.h"
+#include "engine/session/wording.h"
+#include "tools/arguments.h"
+#include "tools/dashboard_state.h"
+
+namespace orthonav::tools {
+namespace {
+
+constexpr const char* kHost = "127.0.0.1";
+constexpr std::size_t kMostMessages = 50;
+/// Browsers ask five times a second.
+constexpr Duration kTellEvery = std::chrono::milliseconds(100);
+
+RgbaImage picture_of(const GreyImage& grey) {
+  RgbaImage picture;
+  picture.width_px = grey.width_px;
+  picture.height_px = grey.height_px;
+  picture.pixels.reserve(4 * grey.pixels.size());
+  for (const std::uint8_t value : grey.pixels) {
+    picture.pixels.insert(picture.pixels.end(), {value, value, value, 255});
+  }
+  return picture;
+}
+
+/// Only the page itself may ask: a page of another site whose name leads here may not.
+bool asks_this_machine(const httplib::Request& request) {
+  const std::string host = request.get_header_value("Host");
+  const std::string name = host.substr(0, host.rfind(':'));
+  return name == kHost || name == "localhost";
+}
+
+}  // namespace
+
+/// Answers on a thread of its own from what it was told last.
+class Dashboard::Server {
+ public:
+  ~Server() {
+    server_.stop();
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+
+  Status start(int port) {
+    // The library would share its port with whoever asks for it as well.
+    server_.set_socket_options([](int socket) {
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
+    server_.set_payload_max_length(1024);
+    server_.set_keep_alive_max_count(1000);
+    server_.new_task_queue = [] { return new httplib::ThreadPool(2); };
+    server_.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& answer) {
+      answer.set_header(
+          "Content-Security-Policy",
+          "default-src 'self'; style-src 'unsafe-inline'; script-src 'unsafe-inline'");
+      answer.set_header("Cache-Control", "no-store");
+      if (request.method == "GET" && asks_this_machine(request)) {
+        return httplib::Server::HandlerResponse::Unhandled;
+      }
+      answer.status = 403;
+      return httplib::Server::HandlerResponse::Handled;
+    });
+    server_.Get("/", [](const httplib::Request&, httplib::Response& answer) {
+      answer.set_content(std::string(embedded::dashboard_html()), "text/html; charset=utf-8");
+    });
+    server_.Get("/state", [this](const httplib::Request&, httplib::Response& answer) {
+      answer.set_content(state(), "application/json");
+    });
+    server_.Get("/left.png",
+                [this](const httplib::Request&, httplib::Response& answer) { show_left(answer); });
+    port_ = port == 0                           ? server_.bind_to_any_port(kHost)
+            : server_.bind_to_port(kHost, port) ? port
+                                                : -1;
+    if (port_ < 0) {
+      return Error{"--web " + std::to_string(port) + ": the port cannot be had at " + kHost};
+    }
+    thread_ = std::thread([this] { server_.listen_after_bind(); });
+    return {};
+  }
+
+  void tell(std::string state, const GreyImage& left) {
+    const MutexLock lock(mutex_);
+    state_ = std::move(state);
+    left_ = left;
+    told_ = std::chrono::steady_clock::now();
+  }
+  [[nodiscard]] int port() const { return port_; }
+
+ private:
+  /// With its age: what is old must not pass for new.
+  std::string state() {
+    const MutexLock lock(mutex_);
+    const auto age = std::chrono::steady_clock::now() - told_;
+    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(age).count();
+    return "{\"age_ms\":" + std::to_string(ms) + ",\"now\":" + (state_.empty() ? "null" : state_) +
+           "}";
+  }
+
+  void show_left(httplib::Response& answer) {
+    GreyImage left;
+    {
+      const MutexLock lock(mutex_);
+      left = left_;
+    }
+    const auto png = left.pixels.empty() ? Result<std::string>(Error{"no picture yet"})
+                                         : engine::png_bytes(picture_of(left));
+    if (png) {
+      answer.set_content(*png, "image/png");
+    } else {
+      answer.status = 404;
+    }
+  }
+
+  Mutex mutex_;
+  std::string state_ ORTHONAV_GUARDED_BY(mutex_);
+  GreyImage left_ ORTHONAV_GUARDED_BY(mutex_);
+  std::chrono::steady_clock::time_point told_ ORTHONAV_GUARDED_BY(mutex_);
+  httplib::Server server_;
+  int port_ = -1;
+  std::thread thread_;
+};
+
+void DashboardArguments::add_to(CLI::App& command) {
+  constexpr int kMostPort = 65535;
+  command
+      .add_option("--web", port,
+                  "shows the operation in a browser of this machine, at this port (0: any)")
+      ->check(whole_number(0, kMostPort))
+      ->type_name("PORT");
+}
+
+Dashboard::Dashboard() = default;
+Dashboard::~Dashboard() = default;
+
+Status Dashboard::open(const DashboardArguments& arguments) {
+  if (!arguments.port) {
+    return {};
+  }
+  auto server = std::make_unique<Server>();
+  if (const Status started = server->start(*arguments.port); !started) {
+    return started;
+  }
+  server_ = std::move(server);
+  std::fprintf(stderr, "dashboard at http://%s:%d/\n", kHost, port());
+  return {};
+}
+
+int Dashboard::port() const { return server_ ? server_->port() : -1; }
+
+void Dashboard::watch(engine::AssembledOperation& operation) {
+  if (server_) {
+    session_ = &operation.session();
+    operation.observe(static_cast<engine::LoopObserver*>(this));
+  }
+}
+
+void Dashboard::note_message(const engine::StatusLine& status, double time_s) {
+  std::string line;
+  if (step_ != status.at) {
+    step_ = status.at;
+    line = engine::step_text(*step_);
+  }
+  std::string message;
+  if (status.message != nullptr) {
+    engine::append(message, *status.message);
+  }
+  if (message != message_) {
+    message_ = message;
+    line += (line.empty() || message.empty() ? "" : ": ") + message;
+  }
+  if (line.empty()) {
+    return;
+  }
+  messages_.push_front(printed("%.1f s  ", time_s) + line);
+  if (messages_.size() > kMostMessages) {
+    messages_.pop_back();
+  }
+}
+
+void Dashboard::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*/,
+                        const engine::Guidance& guidance) {
+  first_ = first_.value_or(frame.time);
+  const double time_s = seconds(frame.time - *first_);
+  note_message(guidance.status, time_s);
+  if (told_at_ && frame.time - *told_at_ < kTellEvery) {
+    return;
+  }
+  told_at_ = frame.time;
+  server_->tell(dashboard_state(*session_, guidance, time_s, messages_), frame.left);
+}
+
+}  // namespace orthonav::tools

@@ -1,0 +1,113 @@
+#include "tools/dashboard_state.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/angle.h"
+#include "base/printed.h"
+#include "engine/holograms/hologram_shapes.h"
+#include "engine/session/numbers_wording.h"
+#include "engine/session/wording.h"
+
+namespace orthonav::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const nav::ScrewNumbers& numbers, engine::NumberRow row, const char* name) {
+  std::string text;
+  engine::append_number(text, numbers, row);
+  return {{"name", name}, {"text", text}, {"sure", engine::number_of(numbers, row).sure}};
+}
+
+const char* status_name(PoseStatus status) {
+  switch (status) {
+    case PoseStatus::kMeasured:
+      return "measured";
+    case PoseStatus::kPredicted:
+      return "predicted";
+    case PoseStatus::kLost:
+      break;
+  }
+  return "lost";
+}
+
+/// Null where the surgeon is shown no number.
+Json guidance_of(const engine::Guidance& g) {
+  if (g.blank || !g.tool || !g.tool->measured || g.level >= g.levels.size()) {
+    return nullptr;
+  }
+  const engine::LevelState& level = g.levels[g.level];
+  Json out = {{"level", level.plan.label},
+              {"side", name_of(level.plan.screws[g.screw].side)},
+              {"angle", engine::angle_text(g.tool->measured->angle_rad)},
+              {"angle_deg", g.tool->measured->angle_rad * kDegreesPerRadian},
+              {"to_entry_mm", g.tool->measured->tip_to_entry_m * 1e3},
+              {"to_target_mm", g.tool->measured->to_target_m * 1e3},
+              {"registration_only", level.registration_only()},
+              {"numbers", Json::array()}};
+  if (g.tool->numbers) {
+    const nav::ScrewNumbers& numbers = *g.tool->numbers;
+    using enum engine::NumberRow;
+    out["numbers"] = {number(numbers, kTipCranial, "tip"), number(numbers, kTipMedial, "tip"),
+                      number(numbers, kAimCranial, "aims"), number(numbers, kAimMedial, "aims")};
+  }
+  if (g.tool->shown_clearance) {
+    std::string text;
+    engine::append_clearance(text, g.tool->shown_clearance->least_tenths);
+    out["clearance"] = text;
+  }
+  return out;
+}
+
+Json level_of(const engine::LevelState& level) {
+  Json out = {{"label", level.plan.label},
+              {"registered", level.registration.has_value()},
+              {"accepted", level.usable()},
+              {"screws", Json::array()}};
+  if (level.registration) {
+    out["rmse_mm"] = level.registration->rmse_m * 1e3;
+    out["expected_error_mm"] = nav::worst_m(level.predicted) * 1e3;
+    out["registration_only"] = level.registration_only();
+  }
+  for (std::size_t i = 0; i < level.plan.screws.size(); ++i) {
+    Json screw = {{"side", name_of(level.plan.screws[i].side)},
+                  {"done", i < level.screw_done.size() && level.screw_done[i]}};
+    if (i < level.wires.size() && level.wires[i].measured) {
+      const engine::PlacedWire& wire = *level.wires[i].measured;
+      screw["wire_angle_deg"] = wire.axis.angle_rad.value * kDegreesPerRadian;
+      screw["wire_entry_mm"] = wire.axis.entry_m.value * 1e3;
+      screw["wire_within"] = wire.within();
+    }
+    out["screws"].push_back(std::move(screw));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string dashboard_state(const engine::Session& session, const engine::Guidance& guidance,
+                            double time_s, const std::deque<std::string>& messages) {
+  std::string status;
+  engine::append_detail(status, guidance.status);
+  Json out = {
+      {"time_s", time_s},
+      {"step", engine::step_text(guidance.status.at)},
+      {"status", status},
+      {"frame_of_reference", guidance.anchor != nullptr ? "patient reference" : "headset's map"},
+      {"guidance", guidance_of(guidance)},
+      {"levels", Json::array()},
+      {"tools", Json::array()},
+      {"messages", messages}};
+  for (const engine::LevelState& level : guidance.levels) {
+    out["levels"].push_back(level_of(level));
+  }
+  const auto tools = session.tracker().tools();
+  for (const nav::ToolState& state : session.tool_states()) {
+    out["tools"].push_back({{"name", tools[state.tool].name},
+                            {"role", nav::name_of(tools[state.tool].role)},
+                            {"status", status_name(state.world_from_marker.status)}});
+  }
+  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace orthonav::tools

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "engine/live/assembled_operation.h"
+
+namespace orthonav::tools {
+
+/// Where a deviation is called good, poor or too much.
+struct LimitArguments {
+  double good_deg = 2.0;
+  double poor_deg = 5.0;
+  double wire_deg = 2.0;
+  double wire_mm = 2.0;
+
+  void add_to(CLI::App& command);
+  /// Warns on standard error of limits that are wider than the usual ones.
+  void set_in(engine::AssemblyOptions& options) const;
+};
+
+}  // namespace orthonav::tools
