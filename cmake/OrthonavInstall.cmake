@@ -5,19 +5,24 @@ include(CMakePackageConfigHelpers)
 get_property(orthonav_libraries GLOBAL PROPERTY ORTHONAV_LIBRARIES)
 set(orthonav_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/orthonav")
 
+# Whoever builds the command alone can install everything.
+add_dependencies(orthonav ${orthonav_libraries})
 install(TARGETS ${orthonav_libraries} EXPORT orthonavTargets
-        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-install(EXPORT orthonavTargets NAMESPACE orthonav:: DESTINATION "${orthonav_package_folder}")
-install(TARGETS orthonav RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
+install(EXPORT orthonavTargets NAMESPACE orthonav:: DESTINATION "${orthonav_package_folder}" COMPONENT dev)
+install(TARGETS orthonav RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime)
 foreach(folder base hal nav render engine)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}"
-          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/orthonav" FILES_MATCHING PATTERN "*.h"
+          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/orthonav" COMPONENT dev FILES_MATCHING PATTERN "*.h"
           PATTERN "font_maker" EXCLUDE PATTERN "golden" EXCLUDE PATTERN "scan" EXCLUDE PATTERN "igtl" EXCLUDE)
 endforeach()
+install(FILES "${PROJECT_SOURCE_DIR}/data/tools.json" DESTINATION "${CMAKE_INSTALL_DATADIR}/orthonav"
+        COMPONENT runtime)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
-        "${PROJECT_SOURCE_DIR}/data/tools.json"
-        DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/tools/example" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/orthonav-doc" COMPONENT doc)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" "${PROJECT_SOURCE_DIR}/tools/example"
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/orthonav-doc" COMPONENT doc)
+include(OrthonavManual)
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/orthonavConfig.cmake.in"
                               "${PROJECT_BINARY_DIR}/orthonavConfig.cmake"
@@ -28,4 +33,5 @@ install(FILES "${PROJECT_BINARY_DIR}/orthonavConfig.cmake"
               "${PROJECT_BINARY_DIR}/orthonavConfigVersion.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindOpenCVCalib3d.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindPocketSphinx.cmake"
-        DESTINATION "${orthonav_package_folder}")
+        DESTINATION "${orthonav_package_folder}" COMPONENT dev)
+include(OrthonavPackages)
