@@ -37,7 +37,7 @@ void add_horizontal_ruler(Sheet& sheet, const SheetRect& at) {
       {at.x_mm - kTickWidthMm / 2, at.y_mm, kRulerMm + kTickWidthMm, kTickWidthMm});
   sheet.shapes.push_back(std::move(ticks));
   sheet.texts.push_back(
-      {at.x_mm + kRulerMm + 5, at.y_mm + 2.8, kTextMm, kCheck + std::string(" (and upright)")});
+      {at.x_mm + kRulerMm + 5, at.y_mm + 2.8, kTextMm, "measure 100 mm, both rulers"});
   sheet.texts.push_back({at.x_mm + kRulerMm + 5, at.y_mm + 2.8 + 1.4 * kTextMm, kTextMm,
                          "Print at 100 %, never \"fit to page\"."});
 }

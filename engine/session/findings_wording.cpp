@@ -165,8 +165,8 @@ void write_coaching(PartedText text, const Coaching& coaching, std::string_view 
     out += "ambiguous";
   } else {
     text.begin(Importance::kFigures, separator);
+    out += kExpectedError;
     append_mm(out, coaching.expected_m, 1);
-    out += " expected";
     out += coaching.registration_only ? kRegistrationOnly : "";
   }
   if (coaching.enough) {

@@ -10,6 +10,8 @@
 
 namespace orthonav::engine {
 
+/// Before the error that is expected.
+inline constexpr std::string_view kExpectedError = "expected error ";
 /// Beside an error to expect that lacks what all strokes share.
 inline constexpr std::string_view kRegistrationOnly = " (registration only)";
 
@@ -31,7 +33,7 @@ void append(std::string& out, std::span<const nav::RefusalReason> reasons);
 /// What is wrong with the check points, and what to do; nothing when nothing is.
 void append(std::string& out, const nav::CheckAdvice& advice);
 
-/// "0.6 mm expected, stroke the left lamina".
+/// "expected error 0.6 mm, stroke the left lamina".
 void append(std::string& out, const Coaching& coaching);
 /// The same in parts; the separator comes before the first.
 void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator);

@@ -30,14 +30,13 @@ void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view s
   std::string& out = text.out;
   if (checks.last_m) {
     text.begin(Importance::kMessage, separator);
-    append_printed(out, "check point %zu: ", checks.count);
+    append_printed(out, "check %zu: ", checks.count);
     append_mm(out, *checks.last_m, 1);
-    out += " off";
     separator = "; ";
   }
   text.begin(Importance::kNext, separator);
   if (checks.verdict->passed) {
-    out += "checked, worst ";
+    out += "passed, worst ";
     append_mm(out, checks.verdict->worst_m, 1);
   } else {
     append(out, checks.verdict->advice);
@@ -137,8 +136,9 @@ struct StateWriter {
     out += "RMSE ";
     append_mm(out, figures.rmse_m, 2);
     text.begin(Importance::kFigures, ", ");
+    out += kExpectedError;
     append_mm(out, figures.expected_m, 1);
-    out += figures.of_one_screw ? " expected" : " expected at the screws";
+    out += figures.of_one_screw ? "" : " at the screws";
     out += figures.registration_only ? kRegistrationOnly : "";
     if (figures.replanned) {
       text.begin(Importance::kMessage, "; ");
@@ -147,8 +147,8 @@ struct StateWriter {
   }
   void operator()(const ChecksSoFar& checks) {
     text.begin(Importance::kFigures);
+    out += kExpectedError;
     append_mm(out, checks.expected_m, 1);
-    out += " expected";
     out += checks.registration_only ? kRegistrationOnly : "";
     write_moved(text, checks, "; ");
     write_checks(text, checks, "; ");

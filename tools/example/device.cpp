@@ -2,15 +2,60 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
 #include "engine/live/assembled_operation.h"
 #include "engine/phantom/phantom.h"
+#include "hal/api/devices.h"
 #include "hal/open/open.h"
-#include "skeleton_device.h"
 
 using namespace orthonav;
+
+/// The least that a headset must do. It shows an empty room at 30 pairs a second for as many pairs
+/// as its URI says: "skeleton:90".
+class SkeletonDevice : public Headset, Clock, StereoCamera, HeadTracker, Clicker, Voice, Display {
+ public:
+  SkeletonDevice(StereoCalibration calibration, int pairs)
+      : calibration_(std::move(calibration)), pairs_(pairs) {}
+  [[nodiscard]] std::string name() const override { return "skeleton"; }
+  [[nodiscard]] const Clock& clock() const override { return *this; }
+  [[nodiscard]] StereoCamera& cameras() override { return *this; }
+  [[nodiscard]] HeadTracker& head() override { return *this; }
+  [[nodiscard]] Clicker& clicker() override { return *this; }
+  [[nodiscard]] Voice& voice() override { return *this; }
+  [[nodiscard]] Display& display() override { return *this; }
+
+ private:
+  [[nodiscard]] Timestamp now() const override {
+    return Timestamp{} + next_ * std::chrono::microseconds(33333);
+  }
+  [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
+  Result<Next> do_next(StereoFrame& frame) override {
+    if (next_ == pairs_) {
+      return Next::kEnd;
+    }
+    frame.sequence = next_++;
+    frame.time = now();
+    frame.left = {calibration_.left.width_px(), calibration_.left.height_px()};
+    frame.right = {calibration_.right.width_px(), calibration_.right.height_px()};
+    frame.world_from_rig = Transform<World, Rig>{};
+    return Next::kFrame;
+  }
+  [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
+    return {{}, at, at <= now() ? PoseStatus::kMeasured : PoseStatus::kPredicted};
+  }
+  Status do_poll(Timestamp, std::vector<ClickerEvent>&) override { return {}; }
+  Status do_poll(Timestamp, std::vector<Phrase>&) override { return {}; }
+  [[nodiscard]] Duration do_latency() const override { return std::chrono::milliseconds(16); }
+  Status do_shown(const ShownFrame&) override { return {}; }
+
+  StereoCalibration calibration_;
+  int pairs_;
+  int next_ = 0;
+};
 
 /// A camera without distortion; a real device reads its own.
 Result<StereoCalibration> calibration() {

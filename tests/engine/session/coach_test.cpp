@@ -41,10 +41,10 @@ nav::Registration promising() {
 TEST(Coaching, SaysWhatToExpectAndWhereToStroke) {
   nav::Registration r = promising();
   EXPECT_EQ(text_of(coaching_from(r)),
-            "2.4 mm expected (registration only), stroke the left lamina");
+            "expected error 2.4 mm (registration only), stroke the left lamina");
   r.predicted_tre_m = std::numeric_limits<double>::infinity();
   EXPECT_EQ(text_of(coaching_from(r)),
-            "-- mm expected (registration only), stroke the left lamina");
+            "expected error -- mm (registration only), stroke the left lamina");
 }
 
 TEST(Coaching, SaysWhenItIsEnough) {
@@ -52,7 +52,8 @@ TEST(Coaching, SaysWhenItIsEnough) {
   r.accepted = true;
   r.reasons.clear();
   r.predicted_tre_m = 0.0006;
-  EXPECT_EQ(text_of(coaching_from(r)), "0.6 mm expected (registration only), enough to register");
+  EXPECT_EQ(text_of(coaching_from(r)),
+            "expected error 0.6 mm (registration only), enough to register");
 }
 
 TEST(Coaching, SendsWhoStrokesOverTissueToTheBone) {
@@ -60,18 +61,20 @@ TEST(Coaching, SendsWhoStrokesOverTissueToTheBone) {
   r.provisional = true;
   EXPECT_FALSE(coaching_from(r).enough) << "more strokes would help";
   r.reasons.push_back({nav::RefusalReason::Kind::kSoftTissue, 0.001, 0.0003});
-  EXPECT_EQ(text_of(coaching_from(r)),
-            "2.4 mm expected (registration only), soft tissue: register, then touch the bone, or "
-            "first scrape the left lamina");
+  EXPECT_EQ(
+      text_of(coaching_from(r)),
+      "expected error 2.4 mm (registration only), soft tissue: register, then touch the bone, or "
+      "first scrape the left lamina");
   r.stroke_next.reset();
-  EXPECT_EQ(text_of(coaching_from(r)),
-            "2.4 mm expected (registration only), soft tissue: register, then touch the bone");
+  EXPECT_EQ(
+      text_of(coaching_from(r)),
+      "expected error 2.4 mm (registration only), soft tissue: register, then touch the bone");
 }
 
 TEST(Coaching, AddsWhatAllStrokesShare) {
   nav::Registration r = promising();
   r.common.tip_m = 0.001;
-  EXPECT_EQ(text_of(coaching_from(r)), "3.0 mm expected, stroke the left lamina");
+  EXPECT_EQ(text_of(coaching_from(r)), "expected error 3.0 mm, stroke the left lamina");
 }
 
 TEST(Coaching, PromisesNoErrorOfAPoseThatMayBeTheWrongOne) {
@@ -85,9 +88,10 @@ TEST(Coaching, SaysWhatElseStandsAgainstASmallError) {
   nav::Registration r = promising();
   r.predicted_tre_m = 0.0006;
   r.reasons = {{nav::RefusalReason::Kind::kNoise, 0.0019, 0.0016, {}, {}}};
-  EXPECT_EQ(text_of(coaching_from(r)),
-            "0.6 mm expected (registration only), the points scatter 1.9 mm about the surface, "
-            "limit 1.6 mm");
+  EXPECT_EQ(
+      text_of(coaching_from(r)),
+      "expected error 0.6 mm (registration only), the points scatter 1.9 mm about the surface, "
+      "limit 1.6 mm");
 }
 
 /// A registrar that answers when it is let, and counts.

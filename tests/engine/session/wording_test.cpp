@@ -176,16 +176,16 @@ TEST(Wording, SaysWhatStrokesAreWorth) {
   coaching.unique = true;
   coaching.expected_m = 0.0024;
   coaching.stroke_next = kLeftLamina;
-  EXPECT_EQ(text_of(coaching), "2.4 mm expected, stroke the left lamina");
+  EXPECT_EQ(text_of(coaching), "expected error 2.4 mm, stroke the left lamina");
   EXPECT_EQ(line_with(StrokesSoFar{120, &coaching}),
-            "120 points | 2.4 mm expected, stroke the left lamina");
+            "120 points | expected error 2.4 mm, stroke the left lamina");
   coaching.against = nav::RefusalReason{Reason::kNoise, 0.0019, 0.0016, {}, {}};
   EXPECT_EQ(text_of(coaching),
-            "2.4 mm expected, the points scatter 1.9 mm about the surface, limit 1.6 mm");
+            "expected error 2.4 mm, the points scatter 1.9 mm about the surface, limit 1.6 mm");
   coaching.enough = true;
-  EXPECT_EQ(text_of(coaching), "2.4 mm expected, enough to register");
+  EXPECT_EQ(text_of(coaching), "expected error 2.4 mm, enough to register");
   coaching.expected_m = kInfinite;
-  EXPECT_EQ(text_of(coaching), "-- mm expected, enough to register");
+  EXPECT_EQ(text_of(coaching), "expected error -- mm, enough to register");
   coaching.unique = coaching.enough = false;
   coaching.against.reset();
   EXPECT_EQ(text_of(coaching), "ambiguous, stroke the left lamina")
@@ -195,37 +195,40 @@ TEST(Wording, SaysWhatStrokesAreWorth) {
 TEST(Wording, SaysHowAStepStands) {
   EXPECT_EQ(line_with(StepState{}), "");
   EXPECT_EQ(line_with(RegistrationFigures{0.0006, 0.0012, false}),
-            "RMSE 0.60 mm, 1.2 mm expected at the screws");
-  EXPECT_EQ(line_with(RegistrationFigures{kInfinite, 0.0012, true}), "RMSE -- mm, 1.2 mm expected");
+            "RMSE 0.60 mm, expected error 1.2 mm at the screws");
+  EXPECT_EQ(line_with(RegistrationFigures{kInfinite, 0.0012, true}),
+            "RMSE -- mm, expected error 1.2 mm");
   EXPECT_EQ(line_with(RegistrationFigures{0.0006, 0.0012, false, true}),
-            "RMSE 0.60 mm, 1.2 mm expected at the screws (registration only)");
+            "RMSE 0.60 mm, expected error 1.2 mm at the screws (registration only)");
   EXPECT_EQ(line_with(HeadsSoFar{2}), "2 heads");
   EXPECT_EQ(line_with(HeadsSoFar{4, 0.15236, 3}), "4 heads, cut to 152.4 mm, 3 bends");
   EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1}), "3 heads, cut to 90.0 mm, 1 bend");
   nav::CheckVerdict verdict;
   verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};
   EXPECT_EQ(line_with(ChecksSoFar{0.0008, 1, -0.0007, &verdict}),
-            "0.8 mm expected; check point 1: -0.7 mm off; touch 2 more places, 15 mm from the "
+            "expected error 0.8 mm; check 1: -0.7 mm; touch 2 more places, 15 mm from the "
             "others");
   verdict = {true, 0.0013, {}};
   EXPECT_EQ(line_with(ChecksSoFar{0.0008, 3, std::nullopt, &verdict}),
-            "0.8 mm expected; checked, worst 1.3 mm");
+            "expected error 0.8 mm; passed, worst 1.3 mm");
   EXPECT_EQ(line_with(ChecksSoFar{0.0008, 3, std::nullopt, &verdict, false, 0.0023}),
-            "0.8 mm expected; moved 2.3 mm; checked, worst 1.3 mm");
+            "expected error 0.8 mm; moved 2.3 mm; passed, worst 1.3 mm");
 }
 
 TEST(Wording, AsksForTheLandmarkAndTellsHowItWasFound) {
   const RegistrationFigures figures{0.00062, 0.0011, false};
-  EXPECT_EQ(line_with(LandmarkSoFar{figures, false, {}}),
-            "RMSE 0.62 mm, 1.1 mm expected at the screws; make a dimple in this bone and touch it");
+  EXPECT_EQ(
+      line_with(LandmarkSoFar{figures, false, {}}),
+      "RMSE 0.62 mm, expected error 1.1 mm at the screws; make a dimple in this bone and touch it");
   EXPECT_EQ(line_with(LandmarkSoFar{figures, true, LandmarkTouch{true, 0, 0.0, 0.0015}}),
-            "RMSE 0.62 mm, 1.1 mm expected at the screws; dimple recorded");
+            "RMSE 0.62 mm, expected error 1.1 mm at the screws; dimple recorded");
   EXPECT_EQ(line_with(LandmarkSoFar{figures, true, {}}),
-            "RMSE 0.62 mm, 1.1 mm expected at the screws; touch the dimple");
+            "RMSE 0.62 mm, expected error 1.1 mm at the screws; touch the dimple");
   EXPECT_EQ(line_with(LandmarkSoFar{figures, true, LandmarkTouch{false, 0, 0.0004, 0.0015}}),
-            "RMSE 0.62 mm, 1.1 mm expected at the screws; dimple found, 0.4 mm off");
-  EXPECT_EQ(line_with(LandmarkSoFar{figures, true, LandmarkTouch{false, 1, 0.0, 0.0015}}),
-            "RMSE 0.62 mm, 1.1 mm expected at the screws; lift the tip and touch the dimple again");
+            "RMSE 0.62 mm, expected error 1.1 mm at the screws; dimple found, 0.4 mm off");
+  EXPECT_EQ(
+      line_with(LandmarkSoFar{figures, true, LandmarkTouch{false, 1, 0.0, 0.0015}}),
+      "RMSE 0.62 mm, expected error 1.1 mm at the screws; lift the tip and touch the dimple again");
   StatusLine warned;
   warned.tool = "pointer";
   warned.tag_size_off = 0.02;
