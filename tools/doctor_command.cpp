@@ -28,12 +28,12 @@ const char* word_for(Finding finding) {
   return "";
 }
 
-bool all_found(const std::vector<Offer>& offers) {
+bool nothing_missing(const std::vector<Offer>& offers) {
   return std::none_of(offers.begin(), offers.end(),
                       [](const Offer& offer) { return offer.finding == Finding::kMissing; });
 }
 
-std::string as_json(const std::vector<Offer>& offers, bool ready) {
+std::string offers_json(const std::vector<Offer>& offers, bool ready) {
   nlohmann::ordered_json out = {{"version", ORTHONAV_VERSION}, {"demo_can_run", ready}};
   out["offers"] = nlohmann::ordered_json::array();
   for (const Offer& offer : offers) {
@@ -47,7 +47,7 @@ std::string as_json(const std::vector<Offer>& offers, bool ready) {
   return out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string as_text(const std::vector<Offer>& offers, bool ready) {
+std::string offers_text(const std::vector<Offer>& offers, bool ready) {
   std::string text = "orthonav " ORTHONAV_VERSION "\n";
   for (const Offer& offer : offers) {
     std::string left = std::string("  ") + word_for(offer.finding);
@@ -65,17 +65,17 @@ std::string as_text(const std::vector<Offer>& offers, bool ready) {
 
 int run_doctor(const DoctorArguments& arguments) {
   std::vector<Offer> offers = offers_of_machine(arguments.root);
-  const bool ready = all_found(offers);
+  const bool ready = nothing_missing(offers);
   bool answers = true;
   if (!arguments.headset.empty()) {
     const auto ports = offers_of_headset(arguments.headset);
     if (!ports) {
       return bad_input(ports.error().message);
     }
-    answers = all_found(*ports);
+    answers = nothing_missing(*ports);
     offers.insert(offers.end(), ports->begin(), ports->end());
   }
-  const std::string text = arguments.json ? as_json(offers, ready) : as_text(offers, ready);
+  const std::string text = arguments.json ? offers_json(offers, ready) : offers_text(offers, ready);
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (!answers) {
     std::fprintf(stderr, "orthonav: the headset's cameras do not answer\n");

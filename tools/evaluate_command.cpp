@@ -79,11 +79,7 @@ void add_evaluate_command(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* command = app.add_subcommand(
       "evaluate", "Planned against placed screws and wires, from a post-operative CT");
-  command
-      ->add_option("--case", arguments->case_folder,
-                   "the case as it was planned (default: the built-in phantom)")
-      ->check(some_text())
-      ->type_name("DIR");
+  add_case_option(*command, arguments->case_folder);
   command
       ->add_option("--volume", arguments->volume,
                    "the scan, HU: NIfTI, NRRD, or a folder of DICOM slices")
