@@ -160,8 +160,9 @@ Status Dashboard::open(const DashboardArguments& arguments) {
 
 int Dashboard::port() const { return server_ ? server_->port() : -1; }
 
-void Dashboard::watch(engine::AssembledOperation& operation) {
+void Dashboard::watch(engine::AssembledOperation& operation, const engine::GradeLimits& limits) {
   if (server_) {
+    limits_ = limits;
     session_ = &operation.session();
     operation.observe(static_cast<engine::LoopObserver*>(this));
   }
@@ -199,7 +200,7 @@ void Dashboard::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs
     return;
   }
   told_at_ = frame.time;
-  server_->tell(dashboard_state(*session_, guidance, time_s, messages_), frame.left);
+  server_->tell(dashboard_state(*session_, guidance, limits_, time_s, messages_), frame.left);
 }
 
 }  // namespace orthonav::tools

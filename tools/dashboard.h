@@ -26,7 +26,7 @@ class Dashboard : public engine::LoopObserver {
   /// Serves at the port from now on, and says where on standard error.
   Status open(const DashboardArguments& arguments);
   /// From now on what happens in this operation, which must outlive the run.
-  void watch(engine::AssembledOperation& operation);
+  void watch(engine::AssembledOperation& operation, const engine::GradeLimits& limits);
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   [[nodiscard]] int port() const;
@@ -38,6 +38,7 @@ class Dashboard : public engine::LoopObserver {
 
   std::unique_ptr<Server> server_;  ///< null: nobody looks on
   const engine::Session* session_ = nullptr;
+  engine::GradeLimits limits_;
   std::optional<Timestamp> first_;
   std::optional<Timestamp> told_at_;
   std::optional<StepOnDisplay> step_;

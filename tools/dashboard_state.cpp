@@ -4,7 +4,6 @@
 
 #include "base/angle.h"
 #include "base/printed.h"
-#include "engine/holograms/hologram_shapes.h"
 #include "engine/session/numbers_wording.h"
 #include "engine/session/wording.h"
 
@@ -31,8 +30,20 @@ const char* status_name(PoseStatus status) {
   return "lost";
 }
 
+const char* grade_name(engine::Grade grade) {
+  switch (grade) {
+    case engine::Grade::kGood:
+      return "good";
+    case engine::Grade::kFair:
+      return "fair";
+    case engine::Grade::kPoor:
+      break;
+  }
+  return "poor";
+}
+
 /// Null where the surgeon is shown no number.
-Json guidance_of(const engine::Guidance& g) {
+Json guidance_of(const engine::Guidance& g, const engine::GradeLimits& limits) {
   if (g.blank || !g.tool || !g.tool->measured || g.level >= g.levels.size()) {
     return nullptr;
   }
@@ -41,6 +52,7 @@ Json guidance_of(const engine::Guidance& g) {
               {"side", name_of(level.plan.screws[g.screw].side)},
               {"angle", engine::angle_text(g.tool->measured->angle_rad)},
               {"angle_deg", g.tool->measured->angle_rad * kDegreesPerRadian},
+              {"grade", grade_name(engine::grade_of(g.tool->measured->angle_rad, limits))},
               {"to_entry_mm", g.tool->measured->tip_to_entry_m * 1e3},
               {"to_target_mm", g.tool->measured->to_target_m * 1e3},
               {"registration_only", level.registration_only()},
@@ -86,7 +98,8 @@ Json level_of(const engine::LevelState& level) {
 }  // namespace
 
 std::string dashboard_state(const engine::Session& session, const engine::Guidance& guidance,
-                            double time_s, const std::deque<std::string>& messages) {
+                            const engine::GradeLimits& limits, double time_s,
+                            const std::deque<std::string>& messages) {
   std::string status;
   engine::append_detail(status, guidance.status);
   Json out = {
@@ -94,7 +107,7 @@ std::string dashboard_state(const engine::Session& session, const engine::Guidan
       {"step", engine::step_text(guidance.status.at)},
       {"status", status},
       {"frame_of_reference", guidance.anchor != nullptr ? "patient reference" : "headset's map"},
-      {"guidance", guidance_of(guidance)},
+      {"guidance", guidance_of(guidance, limits)},
       {"levels", Json::array()},
       {"tools", Json::array()},
       {"messages", messages}};

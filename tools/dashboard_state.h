@@ -3,6 +3,7 @@
 #include <deque>
 #include <string>
 
+#include "engine/holograms/hologram_shapes.h"
 #include "engine/session/session.h"
 
 namespace orthonav::tools {
@@ -11,7 +12,8 @@ namespace orthonav::tools {
 /// surgeon reads them, how sure they are, levels with their screws, tools, and the newest messages.
 /// Numbers are there only where the surgeon is shown them.
 [[nodiscard]] std::string dashboard_state(const engine::Session& session,
-                                          const engine::Guidance& guidance, double time_s,
+                                          const engine::Guidance& guidance,
+                                          const engine::GradeLimits& limits, double time_s,
                                           const std::deque<std::string>& messages);
 
 }  // namespace orthonav::tools

@@ -167,7 +167,7 @@ class Demo {
     hooks.seen_through = [this](Headset& room) { return arguments_.calibration.on(room); };
     hooks.assembled = [&](engine::AssembledOperation& operation) {
       operation.observe(&log_);
-      web_.watch(operation);
+      web_.watch(operation, arguments_.limits.grades());
       igtl_.watch(operation);
       return kept_.begin(operation, out_->path().string(), about_demo(arguments_, source.name));
     };

@@ -33,6 +33,10 @@ void LimitArguments::add_to(CLI::App& command) {
   }
 }
 
+engine::GradeLimits LimitArguments::grades() const {
+  return {good_deg * kRadiansPerDegree, poor_deg * kRadiansPerDegree};
+}
+
 void LimitArguments::set_in(engine::AssemblyOptions& options) const {
   const LimitArguments usual;
   for (const Limit& limit : kLimits) {
@@ -41,7 +45,7 @@ void LimitArguments::set_in(engine::AssemblyOptions& options) const {
                    this->*limit.value, usual.*limit.value);
     }
   }
-  options.visibility.grades = {good_deg * kRadiansPerDegree, poor_deg * kRadiansPerDegree};
+  options.visibility.grades = grades();
   options.session.placed.angle_limit_rad = wire_deg * kRadiansPerDegree;
   options.session.placed.entry_limit_m = wire_mm * 1e-3;
 }

@@ -14,6 +14,7 @@ struct LimitArguments {
   double wire_mm = 2.0;
 
   void add_to(CLI::App& command);
+  [[nodiscard]] engine::GradeLimits grades() const;
   /// Warns on standard error of limits that are wider than the usual ones.
   void set_in(engine::AssemblyOptions& options) const;
 };

@@ -46,7 +46,7 @@ class LiveRun {
     OperationProgress progress(nullptr);
     operation_->observe(&progress);
     operation_->observe(&log_);
-    web_.watch(*operation_);
+    web_.watch(*operation_, arguments_.limits.grades());
     igtl_.watch(*operation_);
     if (const Status presenting = presenting_.begin(*headset_, *operation_); !presenting) {
       return bad_input(files_.close(presenting.error().message));

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
 
 json state_of(test::ScriptedOperation& s, const engine::Guidance& g) {
-  return json::parse(dashboard_state(s.session(), g, 1.5, {"a", "b"}));
+  return json::parse(dashboard_state(s.session(), g, {0.05, 0.09}, 1.5, {"a", "b"}));
 }
 
 TEST(DashboardState, SaysStepToolsAndLevelsAndNoNumberWhileNothingIsGuided) {
@@ -45,6 +45,7 @@ TEST(DashboardState, HasTheNumbersAsTheSurgeonReadsThemAndOnlyWhileTheToolIsMeas
   ASSERT_TRUE(state["guidance"].is_object()) << state;
   EXPECT_EQ(state["guidance"]["level"], "L4");
   EXPECT_EQ(state["guidance"]["angle"], "5.7°");
+  EXPECT_EQ(state["guidance"]["grade"], "poor") << "5.7 degrees, limit 5.2";
   EXPECT_NEAR(state["guidance"]["to_entry_mm"].get<double>(), 10.0, 0.1);
   EXPECT_EQ(state["levels"][0]["accepted"], true);
   EXPECT_EQ(state["tools"][1]["status"], "measured");
