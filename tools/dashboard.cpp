@@ -3,6 +3,7 @@
 #include <httplib.h>
 #include <sys/socket.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <thread>
@@ -87,7 +88,14 @@ class Dashboard::Server {
     if (port_ < 0) {
       return Error{"--web " + std::to_string(port) + ": the port cannot be had at " + kHost};
     }
-    thread_ = std::thread([this] { server_.listen_after_bind(); });
+    thread_ = std::thread([this] {
+      server_.listen_after_bind();
+      ended_ = true;
+    });
+    // Before it listens nobody could stop it.
+    while (!server_.is_running() && !ended_) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     return {};
   }
 
@@ -130,6 +138,7 @@ class Dashboard::Server {
   std::chrono::steady_clock::time_point told_ ORTHONAV_GUARDED_BY(mutex_);
   httplib::Server server_;
   int port_ = -1;
+  std::atomic<bool> ended_ = false;
   std::thread thread_;
 };
 
