@@ -98,6 +98,24 @@ std::optional<double> steepest_fall_m(const Profile& profile, int reach, double 
   return std::isfinite(part) ? std::optional((*best + part) * kStep_m) : std::nullopt;
 }
 
+/// Widens what is masked along one line of voxels.
+void spread(std::size_t start, std::size_t stride, std::size_t count, std::size_t far,
+            std::vector<bool>& masked) {
+  std::vector<bool> line(count);
+  std::size_t until = 0;  // places before this one are near metal
+  for (std::size_t i = 0; i < count; ++i) {
+    if (masked[start + i * stride]) {
+      const std::size_t from = std::max(until, i > far ? i - far : 0);
+      until = std::min(count, i + far + 1);
+      std::fill(line.begin() + static_cast<std::ptrdiff_t>(from),
+                line.begin() + static_cast<std::ptrdiff_t>(until), true);
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    masked[start + i * stride] = line[i];
+  }
+}
+
 }  // namespace
 
 std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh, std::size_t wanted) {
@@ -130,23 +148,9 @@ MetalMask::MetalMask(const ScanField& scan, double margin_m)
   std::size_t stride = 1;
   for (std::size_t a = 0; a < 3; ++a) {
     const auto count = static_cast<std::size_t>(grid_.size[a]);
-    const auto far = static_cast<std::size_t>(reach[a]);
     for (std::size_t start = 0; start < masked_.size(); ++start) {
-      if (start / stride % count != 0) {
-        continue;
-      }
-      std::size_t until = 0;  // places before this one are near metal
-      std::vector<bool> line(count);
-      for (std::size_t i = 0; i < count; ++i) {
-        if (masked_[start + i * stride]) {
-          const std::size_t from = std::max(until, i > far ? i - far : 0);
-          until = std::min(count, i + far + 1);
-          std::fill(line.begin() + static_cast<std::ptrdiff_t>(from),
-                    line.begin() + static_cast<std::ptrdiff_t>(until), true);
-        }
-      }
-      for (std::size_t i = 0; i < count; ++i) {
-        masked_[start + i * stride] = line[i];
+      if (start / stride % count == 0) {
+        spread(start, stride, count, static_cast<std::size_t>(reach[a]), masked_);
       }
     }
     stride *= count;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/evaluation/border_voxels.h"
 #include "nav/statistics/levenberg_marquardt.h"
 
 namespace orthonav::engine {
@@ -15,8 +16,9 @@ constexpr double kTitanium_hu = 8000.0;
 constexpr double kSteel_hu = 12000.0;  ///< of wires
 constexpr double kAround_hu = 300.0;
 constexpr double kNoise_hu = 80.0;  ///< what a voxel misses the model by, to start with
-constexpr double kBorder_m = 0.0025;
-constexpr double kThin_m = 0.0018;  ///< radius up to which a shaft may be bent
+constexpr double kUsualBlur_m = 0.0005;
+constexpr double kFarthest_m = 0.003;  ///< from where the search put it
+constexpr double kThin_m = 0.0018;     ///< radius up to which a shaft may be bent
 
 /// What is sought, in the order of the parameters; metres and radians.
 enum Parameter : std::size_t {
@@ -33,11 +35,6 @@ enum Parameter : std::size_t {
   kParameters
 };
 using Parameters = std::array<double, kParameters>;
-
-struct Voxel {
-  Vec3 place_m;
-  double hu = 0.0;
-};
 
 /// The shaft with its parameters changed.
 Shaft changed(const Shaft& start, std::span<const double> p) {
@@ -95,53 +92,6 @@ std::vector<Vec3> places_in_voxel(const VolumeGrid& grid) {
   return out;
 }
 
-bool belongs_to_other(std::span<const Shaft> others, Vec3 place_m, double reach_m) {
-  return std::any_of(others.begin(), others.end(), [&](const Shaft& other) {
-    const double s = other.line.s_of(place_m);
-    const double behind_m = other.headed ? 0.020 : reach_m;
-    const double wide_m = s < other.from_s_m ? 0.008 : other.radius_m;
-    return s > other.from_s_m - behind_m && s < other.to_s_m + reach_m &&
-           other.line.off_m(place_m) < wide_m + reach_m;
-  });
-}
-
-/// The voxels about the border of a shaft, at most some thousands of them.
-std::vector<Voxel> border_voxels(const ScanField& scan, const Shaft& shaft,
-                                 std::span<const Shaft> others) {
-  constexpr std::size_t kMost = 3500;
-  const double reach_m = kBorder_m + 0.5 * scan.grid().spacing_m.z;
-  Vec3 low = shaft.rear().v;
-  Vec3 high = low;
-  for (const double s : {shaft.from_s_m, 0.0, shaft.to_s_m}) {
-    for (int a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], shaft.line.at(s)[a] - shaft.radius_m - reach_m);
-      high[a] = std::max(high[a], shaft.line.at(s)[a] + shaft.radius_m + reach_m);
-    }
-  }
-  const double first_s = shaft.goes_on ? shaft.from_s_m + 0.002 : shaft.from_s_m - 0.004;
-  const double last_s = shaft.to_s_m + (shaft.cut ? -0.002 : 0.004);
-  std::vector<Voxel> out;
-  for_each_voxel_in(scan.grid(), low, high, [&](std::array<int, 3> at, Vec3 place_m) {
-    const double s = shaft.line.s_of(place_m);
-    if (s < first_s || s > last_s) {
-      return;
-    }
-    const double off_m = shaft.line.off_m(place_m);
-    const bool at_end = s > shaft.to_s_m - reach_m || s < shaft.from_s_m + reach_m;
-    if (off_m < shaft.radius_m + reach_m && (at_end || off_m > shaft.radius_m - reach_m) &&
-        !belongs_to_other(others, place_m, 0.0015)) {
-      out.push_back({place_m, scan.value(at[0], at[1], at[2])});
-    }
-  });
-  const std::size_t every = out.size() / kMost + 1;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < out.size(); i += every) {
-    out[kept++] = out[i];
-  }
-  out.resize(kept);
-  return out;
-}
-
 /// Misfits that are much larger than the noise count for less (Cauchy).
 double soft(double misfit) {
   constexpr double kWidth = 3.0;
@@ -156,13 +106,13 @@ struct Rendering {
   std::vector<Vec3> places_m;  ///< in a voxel
 };
 
-Rendering rendering_of(const ScanField& scan, const std::vector<Voxel>& voxels,
+Rendering rendering_of(const ScanField& scan, const std::vector<BorderVoxel>& voxels,
                        const Shaft& shaft) {
   Rendering out;
   out.places_m = places_in_voxel(scan.grid());
   out.metal_hu = shaft.radius_m < kThin_m ? kSteel_hu : kTitanium_hu;
   std::vector<double> core;
-  for (const Voxel& voxel : voxels) {
+  for (const BorderVoxel& voxel : voxels) {
     if (shaft.line.off_m(voxel.place_m) < 0.7 * shaft.radius_m && voxel.hu > kMetal_hu) {
       core.push_back(voxel.hu);
     }
@@ -176,11 +126,11 @@ Rendering rendering_of(const ScanField& scan, const std::vector<Voxel>& voxels,
   return out;
 }
 
-void write_misfits(const std::vector<Voxel>& voxels, const Rendering& how, const Shaft& shaft,
+void write_misfits(const std::vector<BorderVoxel>& voxels, const Rendering& how, const Shaft& shaft,
                    double blur_m, std::vector<double>& out) {
   out.clear();
   const double parts = static_cast<double>(how.places_m.size());
-  for (const Voxel& voxel : voxels) {
+  for (const BorderVoxel& voxel : voxels) {
     double share = 0.0;
     for (const Vec3& part : how.places_m) {
       share += share_at(shaft, blur_m, voxel.place_m + part);
@@ -236,62 +186,66 @@ Shaft front_part(const Shaft& shaft) {
   return out;
 }
 
+/// The shaft with these parameters, in their limits.
+Shaft limited(const Shaft& shaft, std::span<const double> p) {
+  Parameters used{};
+  std::copy(p.begin(), p.end(), used.begin());
+  used[kRadius] = std::clamp(used[kRadius], 3e-4, 7e-3);
+  used[kTip] = std::clamp(used[kTip], -kFarthest_m, kFarthest_m);
+  used[kRear] = std::clamp(used[kRear], -kFarthest_m, kFarthest_m);
+  if (shaft.radius_m >= kThin_m) {
+    used[kBowAcross] = used[kBowAthwart] = 0.0;
+  }
+  return changed(shaft, used);
+}
+
+Result<nav::LeastSquares> best_parameters(const Shaft& shaft, const Rendering& how,
+                                          const std::vector<BorderVoxel>& voxels) {
+  constexpr double kBlurSpread_m = 0.00015;
+  constexpr double kBlurWeight = 10.0;
+  constexpr int kRounds = 15;
+  Parameters start{};
+  start[kRadius] = shaft.radius_m;
+  start[kBlur] = kUsualBlur_m;
+  return nav::levenberg_marquardt(
+      start,
+      [&](std::span<const double> p, std::vector<double>& out) {
+        write_misfits(voxels, how, limited(shaft, p), std::clamp(p[kBlur], 2e-4, 1.5e-3), out);
+        // Of clipped metal, a blurred thin shaft looks much like a sharp thick one.
+        out.push_back(kBlurWeight * (p[kBlur] - kUsualBlur_m) / kBlurSpread_m);
+      },
+      kRounds);
+}
+
 }  // namespace
 
 std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& found_shaft,
                                   std::span<const Shaft> others) {
-  const Shaft shaft = front_part(found_shaft);
-  constexpr double kUsualBlur_m = 0.0005;
-  constexpr double kBlurSpread_m = 0.00015;
-  constexpr double kBlurWeight = 10.0;
-  constexpr double kFarthest_m = 0.003;  ///< from where the search put it
   constexpr std::size_t kFewest = 40;
-  const std::vector<Voxel> voxels = border_voxels(scan, shaft, others);
+  constexpr double kMostTurned_rad = 0.15;
+  const Shaft shaft = front_part(found_shaft);
+  const std::vector<BorderVoxel> voxels = border_voxels(scan, shaft, others);
   if (voxels.size() < kFewest) {
     return std::nullopt;
   }
-  const Rendering how = rendering_of(scan, voxels, shaft);
-  Parameters start{};
-  start[kRadius] = shaft.radius_m;
-  start[kBlur] = kUsualBlur_m;
-  const bool thin = shaft.radius_m < kThin_m;
-  const auto blur = [](std::span<const double> p) { return std::clamp(p[kBlur], 2e-4, 1.5e-3); };
-  const auto put = [&](std::span<const double> p) {
-    Parameters used{};
-    std::copy(p.begin(), p.end(), used.begin());
-    used[kRadius] = std::clamp(used[kRadius], 3e-4, 7e-3);
-    used[kTip] = std::clamp(used[kTip], -kFarthest_m, kFarthest_m);
-    used[kRear] = std::clamp(used[kRear], -kFarthest_m, kFarthest_m);
-    if (!thin) {
-      used[kBowAcross] = used[kBowAthwart] = 0.0;
-    }
-    return changed(shaft, used);
-  };
-  const auto found = nav::levenberg_marquardt(
-      start,
-      [&](std::span<const double> p, std::vector<double>& out) {
-        write_misfits(voxels, how, put(p), blur(p), out);
-        // Of clipped metal, a blurred thin shaft looks much like a sharp thick one.
-        out.push_back(kBlurWeight * (p[kBlur] - kUsualBlur_m) / kBlurSpread_m);
-      },
-      15);
-  if (!found) {
+  auto best = best_parameters(shaft, rendering_of(scan, voxels, shaft), voxels);
+  if (!best) {
     return std::nullopt;
   }
-  nav::LeastSquares best = *found;
   // An end that runs away was not seen, as where two tips touch: it stays where the search put it.
   for (const std::size_t end : {kTip, kRear}) {
-    if (std::abs(best.parameters[end]) > 0.9 * kFarthest_m) {
-      best.parameters[end] = 0.0;
+    if (std::abs(best->parameters[end]) > 0.9 * kFarthest_m) {
+      best->parameters[end] = 0.0;
     }
   }
-  Shaft out = put(best.parameters);
+  Shaft out = limited(shaft, best->parameters);
   if ((out.line.middle_m - shaft.line.middle_m).norm() > kFarthest_m ||
-      angle_between_rad(out.line.direction, shaft.line.direction) > 0.15) {
+      angle_between_rad(out.line.direction, shaft.line.direction) > kMostTurned_rad) {
     return std::nullopt;
   }
-  out.misfit_hu = kNoise_hu * std::sqrt(found->sum_of_squares / static_cast<double>(voxels.size()));
-  out.covariance = axis_covariance(*found, voxels.size(), out.line.half_m);
+  const auto count = static_cast<double>(voxels.size());
+  out.misfit_hu = kNoise_hu * std::sqrt(best->sum_of_squares / count);
+  out.covariance = axis_covariance(*best, voxels.size(), out.line.half_m);
   return out;
 }
 

@@ -190,43 +190,47 @@ bool has_head(const MetalSections& sections, double end_s_m, double radius_m) {
   return thick >= 3;
 }
 
-std::optional<Shaft> shaft_about(const MetalCloud& cloud, Centreline line) {
+/// Sections and line in turn until the line stays as long; its radius, 0 where it leads nowhere.
+double settle(const MetalCloud& cloud, Centreline& line) {
   constexpr int kFewestRounds = 5;
   constexpr int kMostRounds = 16;
-  MetalSections sections;
-  Stretch stretch;
   double within_m = 0.0045;
-  double length_m = 0.0;
+  double radius_m = 0.0;
   for (int round = 0; round < kMostRounds; ++round) {
-    sections = sections_about(cloud, line, within_m);
-    stretch = longest_stretch(sections);
+    const MetalSections sections = sections_about(cloud, line, within_m);
+    const Stretch stretch = longest_stretch(sections);
     if (stretch.last <= stretch.first + 3) {
-      return std::nullopt;
+      return 0.0;
     }
     // A wire may be bent; a screw is not. The bow tells where it goes on.
-    line = refitted(line, sections, stretch, stretch.radius_m < kWire_m && round > 1);
-    within_m = std::clamp(1.5 * stretch.radius_m + 0.0008, 0.0025, 0.0065);
-    const bool same = std::abs(2.0 * line.half_m - length_m) < 0.5 * MetalSections::kStep_m;
-    length_m = 2.0 * line.half_m;
-    if (same && round + 1 >= kFewestRounds) {
+    const double last_half_m = line.half_m;
+    radius_m = stretch.radius_m;
+    line = refitted(line, sections, stretch, radius_m < kWire_m && round > 1);
+    within_m = std::clamp(1.5 * radius_m + 0.0008, 0.0025, 0.0065);
+    if (round + 1 >= kFewestRounds &&
+        std::abs(line.half_m - last_half_m) < 0.25 * MetalSections::kStep_m) {
       break;
     }
   }
-  sections = sections_about(cloud, line, kHeadReach_m);
-  const bool rear_head = has_head(sections, -line.half_m, stretch.radius_m);
-  const bool front_head = has_head(sections, line.half_m, stretch.radius_m);
-  Shaft out{line, -line.half_m, line.half_m, stretch.radius_m, rear_head || front_head};
-  if (length_m < kShortest_m || length_m < kLeastSlenderness * 2.0 * out.radius_m ||
-      out.radius_m < kThinnest_m || out.radius_m > kThickest_m) {
+  return radius_m;
+}
+
+std::optional<Shaft> shaft_about(const MetalCloud& cloud, Centreline line) {
+  const double radius_m = settle(cloud, line);
+  const double length_m = 2.0 * line.half_m;
+  if (radius_m < kThinnest_m || radius_m > kThickest_m || length_m < kShortest_m ||
+      length_m < kLeastSlenderness * 2.0 * radius_m) {
     return std::nullopt;
   }
-  const bool turn = front_head != rear_head ? front_head : line.direction.y > 0.0;
-  if (turn) {
+  const MetalSections sections = sections_about(cloud, line, kHeadReach_m);
+  const bool rear_head = has_head(sections, -line.half_m, radius_m);
+  const bool front_head = has_head(sections, line.half_m, radius_m);
+  Shaft out{line, -line.half_m, line.half_m, radius_m, front_head != rear_head};
+  if (out.headed ? front_head : line.direction.y > 0.0) {
     out.line.direction = -line.direction;
     out.line.across = -line.across;
     out.line.bow_across_m = -line.bow_across_m;
   }
-  out.headed = front_head != rear_head;
   return out;
 }
 
