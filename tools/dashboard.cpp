@@ -55,33 +55,8 @@ class Dashboard::Server {
   }
 
   Status start(int port) {
-    // The library would share its port with whoever asks for it as well.
-    server_.set_socket_options([](int socket) {
-      const int yes = 1;
-      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    });
-    server_.set_payload_max_length(1024);
-    server_.set_keep_alive_max_count(1000);
-    server_.new_task_queue = [] { return new httplib::ThreadPool(2); };
-    server_.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& answer) {
-      answer.set_header(
-          "Content-Security-Policy",
-          "default-src 'self'; style-src 'unsafe-inline'; script-src 'unsafe-inline'");
-      answer.set_header("Cache-Control", "no-store");
-      if (request.method == "GET" && asks_this_machine(request)) {
-        return httplib::Server::HandlerResponse::Unhandled;
-      }
-      answer.status = 403;
-      return httplib::Server::HandlerResponse::Handled;
-    });
-    server_.Get("/", [](const httplib::Request&, httplib::Response& answer) {
-      answer.set_content(std::string(embedded::dashboard_html()), "text/html; charset=utf-8");
-    });
-    server_.Get("/state", [this](const httplib::Request&, httplib::Response& answer) {
-      answer.set_content(state(), "application/json");
-    });
-    server_.Get("/left.png",
-                [this](const httplib::Request&, httplib::Response& answer) { show_left(answer); });
+    limit_what_is_taken();
+    add_answers();
     port_ = port == 0                           ? server_.bind_to_any_port(kHost)
             : server_.bind_to_port(kHost, port) ? port
                                                 : -1;
@@ -108,6 +83,39 @@ class Dashboard::Server {
   [[nodiscard]] int port() const { return port_; }
 
  private:
+  void limit_what_is_taken() {
+    // The library would share its port with whoever asks for it as well.
+    server_.set_socket_options([](int socket) {
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
+    server_.set_payload_max_length(1024);
+    server_.set_keep_alive_max_count(1000);
+    server_.new_task_queue = [] { return new httplib::ThreadPool(2); };
+    server_.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& answer) {
+      answer.set_header(
+          "Content-Security-Policy",
+          "default-src 'self'; style-src 'unsafe-inline'; script-src 'unsafe-inline'");
+      answer.set_header("Cache-Control", "no-store");
+      if (request.method == "GET" && asks_this_machine(request)) {
+        return httplib::Server::HandlerResponse::Unhandled;
+      }
+      answer.status = 403;
+      return httplib::Server::HandlerResponse::Handled;
+    });
+  }
+
+  void add_answers() {
+    server_.Get("/", [](const httplib::Request&, httplib::Response& answer) {
+      answer.set_content(std::string(embedded::dashboard_html()), "text/html; charset=utf-8");
+    });
+    server_.Get("/state", [this](const httplib::Request&, httplib::Response& answer) {
+      answer.set_content(state(), "application/json");
+    });
+    server_.Get("/left.png",
+                [this](const httplib::Request&, httplib::Response& answer) { show_left(answer); });
+  }
+
   /// With its age: what is old must not pass for new.
   std::string state() {
     const MutexLock lock(mutex_);
