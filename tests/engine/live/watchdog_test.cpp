@@ -7,6 +7,7 @@
 #include "engine/live/frame_loop.h"
 #include "engine/live/heartbeats.h"
 #include "engine/session/part_wording.h"
+#include "hal/api/forwarding_headset.h"
 #include "tests/support/scripted_operation.h"
 #include "tests/support/scripted_pairs.h"
 #include "tests/support/wait_until.h"
