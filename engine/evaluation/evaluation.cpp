@@ -25,7 +25,7 @@ std::vector<Shaft> fitted(const ScanField& scan, const MetalPieces& metal,
     Shaft shaft = metal.shafts[i];
     shaft.cut = !scan.holds(shaft.line.at(shaft.to_s_m + 0.0015));
     if (auto exact = fitted_shaft(scan, shaft, others)) {
-      out.push_back(std::move(*exact));
+      out.push_back(*exact);
     } else {
       unassigned.push_back({shaft.tip(), std::nullopt, 0.0, ""});
     }
