@@ -54,39 +54,40 @@ class LiveRun {
     signals_.on_stop([this] { operation_->stop(); });
     auto report = operation_->run();
     signals_.on_stop(nullptr);
-    if (report) {
-      log_.ended(*report);
-    }
     presenting_.end(arguments_.stats);
     igtl_.tell();
     if (!report) {
       return bad_input(files_.close(report.error().message));
     }
-    const engine::Session& session = operation_->session();
+    log_.ended(*report);
+    const engine::OperationResult result = result_of(std::move(*report));
+    if (const Status finished = finish(result); !finished) {
+      return bad_input(finished.error().message);
+    }
+    tell_what_is_kept(signals_, {arguments_.out, arguments_.record});
+    const bool enough = arguments_.frames > 0 && result.loop.displayed >= arguments_.frames;
+    const bool limited = (arguments_.for_s > 0.0 || enough) && !signals_.caught();
+    return result.completed || limited ? kDone : kNo;
+  }
+
+ private:
+  engine::OperationResult result_of(engine::LoopReport report) {
+    const auto& session = operation_->session();
     engine::OperationResult result =
-        engine::outcome_of(session.levels(), session.rods(), std::move(*report));
+        engine::outcome_of(session.levels(), session.rods(), std::move(report));
     result.method = method_.name;
     result.case_name = case_name_;
     result.patient_reference = arguments_.reference;
     result.calibration = engine::calibration_in_use(session.tracker());
-    if (room_) {
-      result.seed = room_->options().seed;
-    }
+    result.seed = room_ ? std::optional(room_->options().seed) : std::nullopt;
     if (ground_truth_) {
       ground_truth_->evaluate(session.levels(), result);
     }
     end_note_.explain(result);
     explain_stop(signals_, result);
-    if (const Status finished = finish(result); !finished) {
-      return bad_input(finished.error().message);
-    }
-    tell_what_is_kept(signals_, {arguments_.out, arguments_.record});
-    const bool limited = arguments_.for_s > 0.0 ||
-                         (arguments_.frames > 0 && result.loop.displayed >= arguments_.frames);
-    return result.completed || (limited && !signals_.caught()) ? kDone : kNo;
+    return result;
   }
 
- private:
   Status open() {
     auto method = engine::method_named(arguments_.method);
     if (!method) {

@@ -164,6 +164,19 @@ void print(const TrackArguments& arguments, const TrackSummary& summary,
   }
 }
 
+bool is_stdout(const TrackArguments& arguments) { return arguments.csv == "-"; }
+
+/// Before the work, so that an unwritable place is known at once.
+Status check_place(const TrackArguments& arguments) {
+  if (!is_stdout(arguments)) {
+    const auto place = engine::AtomicFile::create(arguments.csv);
+    return place ? Status{} : place.error();
+  }
+  return arguments.json
+             ? Error{"--csv -: standard output has the poses, so --json has no place there"}
+             : Status{};
+}
+
 int run_track(const TrackArguments& arguments) {
   const auto method = engine::method_named(arguments.method);
   if (!method) {
@@ -181,15 +194,8 @@ int run_track(const TrackArguments& arguments) {
   if (!headset) {
     return bad_input(headset.error().message);
   }
-  const bool to_stdout = arguments.csv == "-";
-  if (to_stdout && arguments.json) {
-    return bad_input("--csv -: standard output has the poses, so --json has no place there");
-  }
-  // Before the work, so that an unwritable place is known at once.
-  if (!to_stdout) {
-    if (auto place = engine::AtomicFile::create(arguments.csv); !place) {
-      return bad_input(place.error().message);
-    }
+  if (const Status place = check_place(arguments); !place) {
+    return bad_input(place.error().message);
   }
   nav::TrackerOptions options;
   options.full_search_interval = arguments.full_search_every;
@@ -209,15 +215,13 @@ int run_track(const TrackArguments& arguments) {
   if (!summary) {
     return bad_input(summary.error().message);
   }
-  if (to_stdout) {
+  if (is_stdout(arguments)) {
     std::fwrite(csv.data(), 1, csv.size(), stdout);
-    warn_of_sizes(**tracker);
-    return kDone;
-  }
-  if (Status status = engine::write_file(arguments.csv, csv); !status) {
+  } else if (Status status = engine::write_file(arguments.csv, csv); !status) {
     return bad_input(status.error().message);
+  } else {
+    print(arguments, *summary, (*headset)->summary(), **tracker);
   }
-  print(arguments, *summary, (*headset)->summary(), **tracker);
   warn_of_sizes(**tracker);
   return kDone;
 }
