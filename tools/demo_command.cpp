@@ -61,10 +61,8 @@ class Demo {
     if (!levels) {
       return bad_input("--levels: " + levels.error().message);
     }
-    const Status logged = log_.open(arguments_.log);
-    const Status shown = logged ? web_.open(arguments_.web) : logged;
-    const Status served = shown ? igtl_.open(arguments_.igtl) : shown;
-    if (const Status ready = served ? prepare(*source, *levels) : served; !ready) {
+    const Status told = open_for_others();
+    if (const Status ready = told ? prepare(*source, *levels) : told; !ready) {
       return bad_input(ready.error().message);
     }
     auto result = operate(*source);
@@ -79,15 +77,26 @@ class Demo {
     if (!written) {
       return bad_input(written.error().message);
     }
-    if (signals_.caught()) {
-      tell_what_is_kept(signals_, {arguments_.out, arguments_.record});
-    } else if (!result->completed) {
-      std::fprintf(stderr, "orthonav: operation incomplete\n");
-    }
+    tell_how_it_ended(result->completed);
     return result->completed ? kDone : kNo;
   }
 
  private:
+  /// The log, the dashboard and OpenIGTLink.
+  Status open_for_others() {
+    const Status logged = log_.open(arguments_.log);
+    const Status shown = logged ? web_.open(arguments_.web) : logged;
+    return shown ? igtl_.open(arguments_.igtl) : shown;
+  }
+
+  void tell_how_it_ended(bool completed) {
+    if (signals_.caught()) {
+      tell_what_is_kept(signals_, {arguments_.out, arguments_.record});
+    } else if (!completed) {
+      std::fprintf(stderr, "orthonav: operation incomplete\n");
+    }
+  }
+
   /// What was written until then stays: the journal says how it ended. What never began leaves
   /// nothing.
   int ended(std::string reason) {
