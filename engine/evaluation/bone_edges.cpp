@@ -5,6 +5,9 @@
 #include <map>
 #include <optional>
 
+#include "base/vertex_normals.h"
+#include "engine/scan/grid_lines.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -13,34 +16,23 @@ constexpr double kHalfWidth_m = 0.00075;  ///< of the difference that tells a sl
 constexpr double kLeastFall_hu = 120.0;
 constexpr double kLeastBone_hu = 150.0;
 
-std::vector<Vec3> vertex_normals(const nav::TriangleMesh& mesh) {
-  std::vector<Vec3> out(mesh.vertices_m.size());
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices_m[t[0]];
-    const Vec3 area = (mesh.vertices_m[t[1]] - a).cross(mesh.vertices_m[t[2]] - a);
-    for (const std::uint32_t corner : t) {
-      out[corner] += area;
-    }
-  }
-  return out;
-}
-
-std::size_t in_cubes(const nav::TriangleMesh& mesh, const std::vector<Vec3>& normals, double side_m,
-                     std::vector<std::size_t>& kept) {
+/// One vertex of each cube that has one with a normal.
+std::vector<std::size_t> one_in_each_cube(const nav::TriangleMesh& mesh,
+                                          const std::vector<Vec3>& areas_m2, double side_m) {
   std::map<std::array<int, 3>, std::size_t> cubes;
   for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
-    if (normals[i].squared_norm() > 0.0) {
+    if (areas_m2[i].squared_norm() > 0.0) {
       const Vec3 q = mesh.vertices_m[i] / side_m;
       cubes.try_emplace({static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)),
                          static_cast<int>(std::floor(q.z))},
                         i);
     }
   }
-  kept.clear();
+  std::vector<std::size_t> out;
   for (const auto& [cube, vertex] : cubes) {
-    kept.push_back(vertex);
+    out.push_back(vertex);
   }
-  return kept.size();
+  return out;
 }
 
 /// The values along a normal, from -reach to reach; nothing where metal or the border is near.
@@ -60,8 +52,7 @@ void read_profile(const ScanField& scan, const MetalMask& mask, Vec3 place_m, Ve
   }
   for (int step = -reach; step <= reach; ++step) {
     const Vec3 at_m = place_m + (step * kStep_m) * normal;
-    const double hu = mask.covers(at_m) ? std::nan("") : scan.at(at_m);
-    out.hu.push_back(hu);
+    out.hu.push_back(mask.covers(at_m) ? std::nan("") : scan.at(at_m));
   }
 }
 
@@ -98,7 +89,7 @@ std::optional<double> steepest_fall_m(const Profile& profile, int reach, double 
   return std::isfinite(part) ? std::optional((*best + part) * kStep_m) : std::nullopt;
 }
 
-/// Widens what is masked along one line of voxels.
+/// Widens what is masked along one line of voxels by `far` to either side.
 void spread(std::size_t start, std::size_t stride, std::size_t count, std::size_t far,
             std::vector<bool>& masked) {
   std::vector<bool> line(count);
@@ -119,55 +110,38 @@ void spread(std::size_t start, std::size_t stride, std::size_t count, std::size_
 }  // namespace
 
 std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh, std::size_t wanted) {
-  const std::vector<Vec3> normals = vertex_normals(mesh);
-  std::vector<std::size_t> kept;
-  for (double side_m = 0.001; in_cubes(mesh, normals, side_m, kept) > wanted;) {
+  const std::vector<Vec3> areas_m2 = vertex_areas_m2(mesh.vertices_m, mesh.triangles);
+  double side_m = 0.001;
+  std::vector<std::size_t> kept = one_in_each_cube(mesh, areas_m2, side_m);
+  while (kept.size() > wanted) {
     side_m *= 1.1;
+    kept = one_in_each_cube(mesh, areas_m2, side_m);
   }
   std::vector<SurfaceSample> out;
   for (const std::size_t vertex : kept) {
-    out.push_back({mesh.vertices_m[vertex], normals[vertex].normalized()});
+    out.push_back({mesh.vertices_m[vertex], areas_m2[vertex].normalized()});
   }
   return out;
 }
 
 MetalMask::MetalMask(const ScanField& scan, double margin_m)
     : grid_(scan.grid()), masked_(scan.grid().voxels()) {
-  std::array<int, 3> reach{};
-  for (int a = 0; a < 3; ++a) {
-    reach[static_cast<std::size_t>(a)] = static_cast<int>(std::ceil(margin_m / grid_.spacing_m[a]));
+  for (std::size_t voxel = 0; voxel < masked_.size(); ++voxel) {
+    masked_[voxel] = scan.value(voxel) >= kMetal_hu;
   }
-  // Metal is spread along one index after another: a box about each voxel.
-  for (std::size_t n = 0; n < masked_.size(); ++n) {
-    masked_[n] = scan.value(static_cast<int>(n % static_cast<std::size_t>(grid_.size[0])),
-                            static_cast<int>(n / static_cast<std::size_t>(grid_.size[0]) %
-                                             static_cast<std::size_t>(grid_.size[1])),
-                            static_cast<int>(n / static_cast<std::size_t>(grid_.size[0]) /
-                                             static_cast<std::size_t>(grid_.size[1]))) >= kMetal_hu;
-  }
-  std::size_t stride = 1;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto count = static_cast<std::size_t>(grid_.size[a]);
-    for (std::size_t start = 0; start < masked_.size(); ++start) {
-      if (start / stride % count == 0) {
-        spread(start, stride, count, static_cast<std::size_t>(reach[a]), masked_);
-      }
-    }
-    stride *= count;
+  // Spread along one index after another, a voxel becomes a box.
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto far =
+        static_cast<std::size_t>(std::ceil(margin_m / grid_.spacing_m[static_cast<int>(axis)]));
+    for_each_line(grid_, axis, [&](std::size_t first, std::size_t stride, std::size_t count) {
+      spread(first, stride, count, far, masked_);
+    });
   }
 }
 
 bool MetalMask::covers(Vec3 place_m) const {
-  const Vec3 index = grid_.index_of(place_m);
-  std::array<int, 3> at{};
-  for (int a = 0; a < 3; ++a) {
-    const auto n = static_cast<std::size_t>(a);
-    if (!(index[a] > -0.5 && index[a] < grid_.size[n] - 0.5)) {
-      return false;
-    }
-    at[n] = static_cast<int>(index[a] + 0.5);
-  }
-  return masked_[grid_.at(at[0], at[1], at[2])];
+  const auto voxel = grid_.voxel_around(place_m);
+  return voxel && masked_[*voxel];
 }
 
 BoneEdges bone_edges(const ScanField& scan, const MetalMask& mask,

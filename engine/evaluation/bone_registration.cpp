@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Dense>
-#include <optional>
 #include <string>
 
 #include "base/printed.h"
@@ -149,8 +148,7 @@ std::string refusal(const BoneRegistration& found, const BoneLimits& limits) {
   if (found.coverage < limits.least_coverage) {
     return printed(
         "%.0f %% of its surface lie within 1 mm of bone in the scan, limit %.0f %%: another "
-        "vertebra, or "
-        "a coarse model",
+        "vertebra, or a coarse model",
         found.coverage * 1e2, limits.least_coverage * 1e2);
   }
   if (found.residual_m > limits.most_residual_m) {

@@ -8,7 +8,7 @@ namespace orthonav::engine {
 namespace {
 
 constexpr int kFarthest = 150;  ///< slabs to either side
-constexpr int kGap = 3;         ///< slabs without metal that end it
+constexpr int kGap = 3;         ///< slabs without metal that do not end it yet
 
 /// A voxel counts in each slab by how much of it lies there: voxels are not much smaller than
 /// slabs.
@@ -40,7 +40,7 @@ MetalCloud::MetalCloud(const ScanField& scan) {
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
-        if (scan.value(i, j, k) >= kMetal_hu) {
+        if (scan.value(grid.at(i, j, k)) >= kMetal_hu) {
           places_m_.push_back(grid.place_m({double(i), double(j), double(k)}));
         }
       }

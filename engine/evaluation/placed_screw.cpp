@@ -12,44 +12,50 @@ namespace {
 constexpr double kFarthest_m = 0.015;
 constexpr double kFarthest_rad = 0.5236;
 constexpr double kSameDiameter_m = 0.0006;
-constexpr double kWire_m = 0.0018;  ///< radius up to which a shaft is a wire
-
-bool is_wire(const Shaft& shaft) { return shaft.radius_m < kWire_m; }
+constexpr double kShortest_m = 0.005;  ///< in the bone
 
 bool has_planned_radius(const Shaft& shaft, const nav::ScrewPlan& plan) {
   return plan.radius_m > 0.0 && std::abs(2.0 * (shaft.radius_m - plan.radius_m)) < kSameDiameter_m;
 }
 
-/// A thickness that is seen too large is so at the tip, too.
+/// Metal that looks too thick reaches too far at the tip by as much.
 Vec3 tip_in_scan(const Shaft& shaft, const nav::ScrewPlan& plan) {
   const double too_large_m =
       has_planned_radius(shaft, plan) && !shaft.cut ? shaft.radius_m - plan.radius_m : 0.0;
   return shaft.line.at(shaft.to_s_m - too_large_m);
 }
 
-Eigen::Matrix3d cross_matrix(Vec3 v) {
-  Eigen::Matrix3d out;
-  out << 0, -v.z, v.y, v.z, 0, -v.x, -v.y, v.x, 0;
-  return out;
+/// How far a cylinder lies from a plan.
+struct OffPlan {
+  double middle_m = 0.0;  ///< its axis, from the middle of the planned screw
+  double angle_rad = 0.0;
+};
+
+OffPlan off_plan(const nav::ScrewCylinder& cylinder, const nav::ScrewPlan& plan) {
+  const Vec3 planned = plan.target - plan.entry;
+  const Vec3 to_middle = plan.entry.v + 0.5 * planned - cylinder.entry.v;
+  return {to_middle.cross(cylinder.direction).norm(),
+          angle_between_rad(planned, cylinder.direction)};
 }
 
-/// What is unsure of the screw against the bone: the axis' errors in the scan, as a motion about
-/// the centre of the registration's, and those.
+/// The uncertainty of the screw against the bone: that of the registration, plus that of the axis
+/// in the scan as a motion about the registration's centre.
 nav::PoseUncertainty total_uncertainty(const Shaft& shaft, const BoneRegistration& bone) {
   const Transform<Vertebra, Scan> vertebra_from_scan = bone.scan_from_vertebra.inverse();
-  const auto turned = [&](Vec3 v) {
-    const Vec3 r = vertebra_from_scan.rotation() * v;
-    return Eigen::Vector3d(r.x, r.y, r.z);
-  };
-  const Centreline& line = shaft.line;
-  Eigen::Matrix<double, 6, 4> motion = Eigen::Matrix<double, 6, 4>::Zero();
-  motion.block<3, 1>(0, 0) = turned(line.across);
-  motion.block<3, 1>(0, 1) = turned(line.athwart);
-  motion.block<3, 1>(3, 2) = turned(line.athwart);
-  motion.block<3, 1>(3, 3) = turned(-line.across);
-  const Vec3 middle_m = (vertebra_from_scan * Point<Scan>{line.middle_m}).v;
-  motion.topRows<3>() -=
-      cross_matrix(bone.uncertainty.centre_m() - middle_m) * motion.bottomRows<3>();
+  const Vec3 across = vertebra_from_scan.rotation() * shaft.line.across;
+  const Vec3 athwart = vertebra_from_scan.rotation() * shaft.line.athwart;
+  const Vec3 middle_m = (vertebra_from_scan * Point<Scan>{shaft.line.middle_m}).v;
+  const Vec3 arm_m = bone.uncertainty.centre_m() - middle_m;
+  // A turn about the middle of the shaft is one about the centre, and a shift.
+  const std::array<std::array<Vec3, 2>, 4> motions = {{{across, {}},
+                                                       {athwart, {}},
+                                                       {athwart.cross(arm_m), athwart},
+                                                       {(-across).cross(arm_m), -across}}};
+  Eigen::Matrix<double, 6, 4> motion;
+  for (Eigen::Index c = 0; c < 4; ++c) {
+    const auto& [shift, turn] = motions[static_cast<std::size_t>(c)];
+    motion.col(c) << shift.x, shift.y, shift.z, turn.x, turn.y, turn.z;
+  }
   const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> own(shaft.covariance.data());
   const Eigen::Matrix<double, 6, 6> axis = motion * own * motion.transpose();
   std::array<double, 36> sum = bone.uncertainty.covariance();
@@ -59,8 +65,8 @@ nav::PoseUncertainty total_uncertainty(const Shaft& shaft, const BoneRegistratio
   return {bone.uncertainty.centre_m(), sum};
 }
 
-/// For the clearance, how unsure the surface of the cylinder is besides its axis: the tip along it,
-/// and a radius that was measured, not planned. As a shift of the whole, each way.
+/// For the clearance: adds the uncertainty of the tip along the axis, and of the radius where it
+/// was measured, as a shift of the whole cylinder along each direction.
 nav::PoseUncertainty with_surface(const nav::PoseUncertainty& axis, bool radius_as_planned) {
   constexpr double kTip_m = 8e-5;
   constexpr double kRadius_m = 1.2e-4;
@@ -83,7 +89,7 @@ std::optional<nav::ScrewCylinder> cylinder_in_bone(const Shaft& shaft, const nav
   sized.radius_m = has_planned_radius(shaft, plan) ? plan.radius_m : shaft.radius_m;
   Point<Vertebra> behind = vertebra_from_scan * shaft.rear();
   std::optional<nav::ScrewCylinder> out;
-  // A bent wire's entry tells its chord, and the chord its entry.
+  // A bent wire's chord depends on its entry, and the entry on the chord.
   for (int round = 0; round < 4; ++round) {
     const Vec3 direction = (tip - behind).normalized();
     out = nav::cylinder_along({tip, direction}, sized, bone.surface);
@@ -94,22 +100,16 @@ std::optional<nav::ScrewCylinder> cylinder_in_bone(const Shaft& shaft, const nav
     const Point<Scan> entry = bone.registration.scan_from_vertebra * out->entry;
     behind = vertebra_from_scan * Point<Scan>{shaft.line.at(shaft.line.s_of(entry.v))};
   }
-  constexpr double kShortest_m = 0.005;
-  const Vec3 planned = plan.target - plan.entry;
-  const Vec3 to_middle = plan.entry.v + 0.5 * planned - out->entry.v;
-  const double off_m = to_middle.cross(out->direction).norm();
-  const bool near = off_m <= kFarthest_m &&
-                    angle_between_rad(planned, out->direction) <= kFarthest_rad &&
-                    out->length_m >= kShortest_m;
+  const OffPlan off = off_plan(*out, plan);
+  const bool near =
+      off.middle_m <= kFarthest_m && off.angle_rad <= kFarthest_rad && out->length_m >= kShortest_m;
   return near ? out : std::nullopt;
 }
 
 double distance_from_plan_m(const nav::ScrewCylinder& cylinder, const nav::ScrewPlan& plan) {
   constexpr double kOfAngle_m = 0.0115;  // 0.2 mm a degree
-  const Vec3 planned = plan.target - plan.entry;
-  const Vec3 to_middle = plan.entry.v + 0.5 * planned - cylinder.entry.v;
-  return to_middle.cross(cylinder.direction).norm() +
-         kOfAngle_m * angle_between_rad(planned, cylinder.direction);
+  const OffPlan off = off_plan(cylinder, plan);
+  return off.middle_m + kOfAngle_m * off.angle_rad;
 }
 
 ScrewInScan placed_screw(const Shaft& shaft, const nav::ScrewPlan& plan,
@@ -137,7 +137,7 @@ ScrewInScan placed_screw(const Shaft& shaft, const nav::ScrewPlan& plan,
     out.spread = nav::clearance_spread(bone.surface, cylinder, *out.clearance,
                                        with_surface(unsure, out.radius_as_planned));
   }
-  if (is_wire(shaft) && plan.radius_m > 0.0) {
+  if (shaft.is_wire() && plan.radius_m > 0.0) {
     nav::ScrewCylinder thick = cylinder;
     thick.radius_m = plan.radius_m;
     out.as_planned_screw = nav::least_clearance(bone.surface, thick);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "base/printed.h"
@@ -10,7 +11,17 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr double kRounding = 1e-6;  ///< of a voxel, at the border
+/// Whether an index lies between voxels of the grid.
+bool is_inside(const VolumeGrid& grid, Vec3 index) {
+  constexpr double kRounding = 1e-6;  // of a voxel, at the border
+  for (int a = 0; a < 3; ++a) {
+    const int last = grid.size[static_cast<std::size_t>(a)] - 1;
+    if (!(index[a] >= -kRounding && index[a] <= last + kRounding)) {
+      return false;
+    }
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -47,26 +58,17 @@ Status check_scan(const Volume& scan) {
   return {};
 }
 
-bool ScanField::holds(Vec3 place_m) const {
-  const Vec3 index = grid().index_of(place_m);
-  for (int a = 0; a < 3; ++a) {
-    const int last = grid().size[static_cast<std::size_t>(a)] - 1;
-    if (!(index[a] >= -kRounding && index[a] <= last + kRounding)) {
-      return false;
-    }
-  }
-  return true;
-}
+bool ScanField::holds(Vec3 place_m) const { return is_inside(grid(), grid().index_of(place_m)); }
 
 double ScanField::at(Vec3 place_m) const {
   const Vec3 index = grid().index_of(place_m);
+  if (!is_inside(grid(), index)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   std::array<int, 3> low{};
   Vec3 part;
   for (int a = 0; a < 3; ++a) {
     const int last = grid().size[static_cast<std::size_t>(a)] - 1;
-    if (!(index[a] >= -kRounding && index[a] <= last + kRounding)) {
-      return std::numeric_limits<double>::quiet_NaN();
-    }
     const int whole = std::clamp(static_cast<int>(index[a]), 0, std::max(0, last - 1));
     low[static_cast<std::size_t>(a)] = whole;
     part[a] = std::clamp(index[a] - whole, 0.0, 1.0);
@@ -81,7 +83,7 @@ double ScanField::at(Vec3 place_m) const {
       at[static_cast<std::size_t>(a)] += up ? 1 : 0;
     }
     if (weight > 0.0) {
-      sum += weight * value(at[0], at[1], at[2]);
+      sum += weight * value(grid().at(at[0], at[1], at[2]));
     }
   }
   return sum;

@@ -38,6 +38,9 @@ struct Centreline {
   [[nodiscard]] double off_m(Vec3 place_m) const { return (place_m - at(s_of(place_m))).norm(); }
 };
 
+/// Radius below which a shaft is taken for a wire, which may be bent.
+inline constexpr double kWire_m = 0.0018;
+
 /// A straight piece of metal in a scan: a screw without its head, a wire, a piece of a rod.
 struct Shaft {
   Centreline line;
@@ -59,6 +62,7 @@ struct Shaft {
   [[nodiscard]] Point<Scan> tip() const { return {line.at(to_s_m)}; }
   [[nodiscard]] Point<Scan> rear() const { return {line.at(from_s_m)}; }
   [[nodiscard]] double length_m() const { return to_s_m - from_s_m; }
+  [[nodiscard]] bool is_wire() const { return radius_m < kWire_m; }
 };
 
 /// Whether the tip of a shaft lies against another one, or within 2 mm of it.

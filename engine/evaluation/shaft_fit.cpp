@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "engine/evaluation/border_voxels.h"
 #include "nav/statistics/levenberg_marquardt.h"
+#include "nav/statistics/median.h"
 
 namespace orthonav::engine {
 namespace {
@@ -15,10 +17,9 @@ constexpr double kClip_hu = 3071.0;  ///< of 12 bits
 constexpr double kTitanium_hu = 8000.0;
 constexpr double kSteel_hu = 12000.0;  ///< of wires
 constexpr double kAround_hu = 300.0;
-constexpr double kNoise_hu = 80.0;  ///< what a voxel misses the model by, to start with
+constexpr double kNoise_hu = 80.0;  ///< SD of a voxel's misfit, as assumed
 constexpr double kUsualBlur_m = 0.0005;
 constexpr double kFarthest_m = 0.003;  ///< from where the search put it
-constexpr double kThin_m = 0.0018;     ///< radius up to which a shaft may be bent
 
 /// What is sought, in the order of the parameters; metres and radians.
 enum Parameter : std::size_t {
@@ -71,7 +72,7 @@ double share_at(const Shaft& shaft, double blur_m, Vec3 place_m) {
   return share * (1.0 - std::exp(-0.5 * q * q)) / normal_cdf(q);
 }
 
-/// Where a voxel is looked at: more places along an index with long voxels.
+/// Where the model is sampled in a voxel, from its middle: more places along its longer sides.
 std::vector<Vec3> places_in_voxel(const VolumeGrid& grid) {
   std::array<int, 3> parts{};
   for (int a = 0; a < 3; ++a) {
@@ -99,7 +100,7 @@ double soft(double misfit) {
   return std::copysign(kWidth * std::sqrt(std::log1p(q * q)), misfit);
 }
 
-/// How voxels of this shaft are drawn.
+/// How the model's voxels are computed.
 struct Rendering {
   double metal_hu = kTitanium_hu;
   double highest_hu = kClip_hu;
@@ -110,17 +111,17 @@ Rendering rendering_of(const ScanField& scan, const std::vector<BorderVoxel>& vo
                        const Shaft& shaft) {
   Rendering out;
   out.places_m = places_in_voxel(scan.grid());
-  out.metal_hu = shaft.radius_m < kThin_m ? kSteel_hu : kTitanium_hu;
+  out.metal_hu = shaft.is_wire() ? kSteel_hu : kTitanium_hu;
   std::vector<double> core;
   for (const BorderVoxel& voxel : voxels) {
     if (shaft.line.off_m(voxel.place_m) < 0.7 * shaft.radius_m && voxel.hu > kMetal_hu) {
       core.push_back(voxel.hu);
     }
   }
-  std::sort(core.begin(), core.end());
-  // Of a scan that does not clip, the metal's own density is seen.
-  if (!core.empty() && core[core.size() / 2] > kClip_hu + 200.0) {
-    out.metal_hu = core[core.size() / 2];
+  const double core_hu = core.empty() ? 0.0 : nav::median(std::move(core));
+  // A scan that does not clip shows the metal's own density.
+  if (core_hu > kClip_hu + 200.0) {
+    out.metal_hu = core_hu;
     out.highest_hu = 0.9 * out.metal_hu;
   }
   return out;
@@ -163,12 +164,13 @@ std::array<double, 16> axis_covariance(const nav::LeastSquares& found, std::size
   return out;
 }
 
-/// What of a shaft is fitted. A wire far behind the bone may bend as it likes: its front alone.
+/// The part of a shaft that is fitted: of a long wire its front, since behind the bone it may bend
+/// anyhow.
 Shaft front_part(const Shaft& shaft) {
   constexpr double kFront_m = 0.055;
   Shaft out = shaft;
   out.goes_on = shaft.headed;
-  if (shaft.radius_m >= kThin_m || shaft.length_m() <= kFront_m) {
+  if (!shaft.is_wire() || shaft.length_m() <= kFront_m) {
     return out;
   }
   const double middle_s = shaft.to_s_m - 0.5 * kFront_m;
@@ -193,7 +195,7 @@ Shaft limited(const Shaft& shaft, std::span<const double> p) {
   used[kRadius] = std::clamp(used[kRadius], 3e-4, 7e-3);
   used[kTip] = std::clamp(used[kTip], -kFarthest_m, kFarthest_m);
   used[kRear] = std::clamp(used[kRear], -kFarthest_m, kFarthest_m);
-  if (shaft.radius_m >= kThin_m) {
+  if (!shaft.is_wire()) {
     used[kBowAcross] = used[kBowAthwart] = 0.0;
   }
   return changed(shaft, used);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "base/random.h"
 #include "engine/evaluation/metal_cloud.h"
+#include "nav/registration/every_nth.h"
 
 namespace orthonav::engine {
 namespace {
@@ -14,19 +16,13 @@ constexpr double kShortest_m = 0.012;
 constexpr double kLeastSlenderness = 2.2;
 constexpr double kThinnest_m = 0.0005;  ///< radius
 constexpr double kThickest_m = 0.005;
-constexpr double kWire_m = 0.0018;
 constexpr double kHeadReach_m = 0.009;
 constexpr double kHeadLength_m = 0.020;
 
 /// Some of the metal, for the search; the fits take all of it.
-std::vector<Vec3> thinned(const std::vector<Vec3>& all) {
+std::vector<Vec3> thinned(std::span<const Vec3> all) {
   constexpr std::size_t kMost = 9000;
-  const std::size_t every = all.size() / kMost + 1;
-  std::vector<Vec3> out;
-  for (std::size_t i = 0; i < all.size(); i += every) {
-    out.push_back(all[i]);
-  }
-  return out;
+  return nav::every_nth(all, all.size() / kMost + 1);
 }
 
 /// How long the metal about a line through `middle_m` is unbroken, and where its middle is.
@@ -248,7 +244,7 @@ void take_out(const Shaft& shaft, MetalCloud& cloud) {
   });
 }
 
-/// What is left, put together by nearness.
+/// What is left, grouped by nearness.
 std::vector<OtherMetal> others_of(const MetalCloud& cloud) {
   constexpr double kNear_m = 0.010;
   constexpr double kLeast_m3 = 20e-9;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/scan/grid_lines.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -11,19 +13,6 @@ constexpr float kFar_m2 = 1.0F;  // (1 m)^2
 constexpr int kSmoothings = 4;
 /// Least value at a voxel's middle, as a share of the spacing, so that it stays on its side.
 constexpr float kKept = 0.02F;
-
-/// Calls `line(first, stride, count)` for every line of voxels along an axis.
-template <class Line>
-void for_each_line(const VolumeGrid& grid, std::size_t axis, const Line& line) {
-  const std::array<std::size_t, 3> stride = {grid.at(1, 0, 0), grid.at(0, 1, 0), grid.at(0, 0, 1)};
-  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-  for (int b = 0; b < grid.size[v]; ++b) {
-    for (int a = 0; a < grid.size[u]; ++a) {
-      line(static_cast<std::size_t>(a) * stride[u] + static_cast<std::size_t>(b) * stride[v],
-           stride[axis], static_cast<std::size_t>(grid.size[axis]));
-    }
-  }
-}
 
 /// The lower envelope of parabolas along one line: squared distances become those with one more
 /// dimension.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "base/joined.h"
 #include "base/printed.h"
@@ -68,20 +67,6 @@ Vec3 middle_m(const Volume& labels, const LabelledLevel& level) {
     count += 1.0;
   });
   return labels.grid.place_m(sum / std::max(count, 1.0));
-}
-
-/// Of the voxel around the place; none outside of the scan.
-std::optional<double> hu_at(const Volume& scan, Vec3 place_m) {
-  const Vec3 index = scan.grid.index_of(place_m);
-  std::array<int, 3> at{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const long nearest = std::lround(index[static_cast<int>(axis)]);
-    if (nearest < 0 || nearest >= scan.grid.size[axis]) {
-      return std::nullopt;
-    }
-    at[axis] = static_cast<int>(nearest);
-  }
-  return static_cast<double>(scan.values[scan.grid.at(at[0], at[1], at[2])]);
 }
 
 /// Signs that the numbers were read by the wrong convention: vertebrae out of order, or too near
@@ -185,9 +170,9 @@ Status check_on_bone(const Volume& labels, const std::string& convention, const 
   for (const LabelledLevel& level : *levels) {
     for_each_voxel(labels, level, [&](const std::array<int, 3>& at) {
       ++all;
-      if (const auto hu = hu_at(scan, labels.grid.place_m(vector_of(at)))) {
+      if (const auto voxel = scan.grid.voxel_around(labels.grid.place_m(vector_of(at)))) {
         ++inside;
-        sum_hu += *hu;
+        sum_hu += static_cast<double>(scan.values[*voxel]);
       }
     });
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,19 @@ struct VolumeGrid {
   [[nodiscard]] Vec3 index_of(Vec3 place_m) const {
     const Vec3 v = directions.transposed() * (place_m - origin_m);
     return {v.x / spacing_m.x, v.y / spacing_m.y, v.z / spacing_m.z};
+  }
+  /// The voxel around a place; none outside the scan.
+  [[nodiscard]] std::optional<std::size_t> voxel_around(Vec3 place_m) const {
+    const Vec3 index = index_of(place_m);
+    std::array<int, 3> nearest{};
+    for (int a = 0; a < 3; ++a) {
+      const auto n = static_cast<std::size_t>(a);
+      if (!(index[a] > -0.5 && index[a] < size[n] - 0.5)) {
+        return std::nullopt;
+      }
+      nearest[n] = static_cast<int>(index[a] + 0.5);
+    }
+    return at(nearest[0], nearest[1], nearest[2]);
   }
   [[nodiscard]] double least_spacing_m() const {
     return std::min({spacing_m.x, spacing_m.y, spacing_m.z});
