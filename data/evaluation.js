@@ -6,7 +6,7 @@
   const note = document.getElementById("spine-note");
   const gl = canvas.getContext("webgl", {alpha: false, antialias: true, preserveDrawingBuffer: true});
   if (!gl) {
-    note.textContent = "This browser shows no WebGL: the slices below hold the same.";
+    note.textContent = "This browser has no WebGL: the slices below show the same.";
     return;
   }
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
@@ -72,9 +72,9 @@
   };
   const program = gl.createProgram();
   gl.attachShader(program, shader(gl.VERTEX_SHADER, `
-    attribute vec3 place, normal; uniform mat3 turn; uniform vec3 middle; uniform vec2 scale;
+    attribute vec3 place, normal; uniform mat3 turn; uniform vec2 scale;
     varying vec3 n;
-    void main() { vec3 v = turn * (place - middle); n = turn * normal;
+    void main() { vec3 v = turn * place; n = turn * normal;
       gl_Position = vec4(v.xy * scale, -v.z / 400.0, 1.0); }`));
   gl.attachShader(program, shader(gl.FRAGMENT_SHADER, `
     precision mediump float; varying vec3 n; uniform vec4 colour;
@@ -125,7 +125,6 @@
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.uniformMatrix3fv(uniform("turn"), false, turn());
-    gl.uniform3fv(uniform("middle"), scene.middle);
     const reach = scene.reach / view.zoom;
     gl.uniform2f(uniform("scale"), canvas.height / canvas.width / reach, 1 / reach);
     gl.disable(gl.BLEND);

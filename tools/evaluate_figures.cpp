@@ -13,11 +13,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double k95 = 1.96;  ///< SDs of a normal error to either side
-
-constexpr const char* kTouched =
-    "; touches other metal: target, depth and clearance at the tip are not reliable";
-
 const char* grade_name(const nav::Clearance& clearance) {
   return nav::name_of(nav::grade_of(clearance.clearance_m));
 }
@@ -97,7 +92,7 @@ ordered_json as_json(const engine::UnassignedMetal& metal, const engine::Evaluat
 void print(const std::string& level, const engine::EvaluatedScrew& screw) {
   print_text("%-4s %-5s  ", level.c_str(), name_of(screw.plan.side));
   if (!screw.placed) {
-    print_text("not found: no metal lies there as planned\n");
+    print_text("%s\n", kNotFound);
     return;
   }
   const engine::ScrewInScan& placed = *screw.placed;
@@ -111,13 +106,16 @@ void print(const std::string& level, const engine::EvaluatedScrew& screw) {
         placed.spread ? placed.spread->lower_95_m * 1e3 : placed.clearance->clearance_m * 1e3,
         grade_name(*placed.clearance), nav::direction_of(*placed.clearance, screw.plan.side));
   } else {
-    print_text("less than 6 mm in the bone");
+    print_text("%s", kBarelyIn);
   }
   if (placed.as_planned_screw) {
     print_text("; as a %.1f mm screw %.1f mm, %s", 2e3 * screw.plan.radius_m,
                placed.as_planned_screw->clearance_m * 1e3, grade_name(*placed.as_planned_screw));
   }
-  print_text("%s\n", placed.touched ? kTouched : "");
+  if (placed.touched) {
+    print_text("; %s", kTouched);
+  }
+  print_text("\n");
 }
 
 }  // namespace

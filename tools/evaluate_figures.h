@@ -7,6 +7,15 @@
 
 namespace orthonav::tools {
 
+/// SDs of a normal error to either side that hold 95 % of them.
+inline constexpr double k95 = 1.96;
+
+/// Words that the table and the page have in common.
+inline constexpr const char* kNotFound = "not found: no metal lies there as planned";
+inline constexpr const char* kBarelyIn = "less than 6 mm in the bone";
+inline constexpr const char* kTouched =
+    "touches other metal: target, depth and clearance at the tip are not reliable";
+
 /// A table on standard output.
 void print(const engine::Evaluation& evaluation);
 
@@ -18,7 +27,7 @@ void print(const engine::Evaluation& evaluation);
 [[nodiscard]] std::string text_of(const engine::UnassignedMetal& metal,
                                   const engine::Evaluation& evaluation);
 
-/// Planned screws that were not found and vertebrae that were not laid on bone.
+/// Whether every vertebra was laid on its bone and every planned screw found.
 [[nodiscard]] bool is_complete(const engine::Evaluation& evaluation);
 
 }  // namespace orthonav::tools

@@ -29,7 +29,7 @@ constexpr const char* kStyle =
 std::string cell(const std::string& text) { return "<td>" + text + "</td>"; }
 
 std::string with_bound(double value, double sd) {
-  return html_number(value, 1) + " <small>±" + html_number(1.96 * sd, 1) + "</small>";
+  return html_number(value, 1) + " <small>±" + html_number(k95 * sd, 1) + "</small>";
 }
 
 std::string grade_cell(const std::optional<nav::Clearance>& clearance) {
@@ -43,7 +43,7 @@ std::string grade_cell(const std::optional<nav::Clearance>& clearance) {
 
 std::string clearance_cells(const engine::ScrewInScan& placed, Side side) {
   if (!placed.clearance) {
-    return "<td colspan=3>less than 6 mm in the bone</td>";
+    return std::string("<td colspan=3>") + kBarelyIn + "</td>";
   }
   const double mm = placed.clearance->clearance_m * 1e3;
   return "<td" + std::string(mm < 0.0 ? " class=bad>" : ">") + html_number(mm, 1) + " <small>" +
@@ -53,9 +53,9 @@ std::string clearance_cells(const engine::ScrewInScan& placed, Side side) {
 }
 
 std::string row_of(const std::string& label, const engine::EvaluatedScrew& screw) {
-  std::string row = "<tr><td>" + html_escaped(label) + " " + name_of(screw.plan.side) + "</td>";
+  std::string row = "<tr>" + cell(html_escaped(label) + " " + name_of(screw.plan.side));
   if (!screw.placed) {
-    return row + "<td colspan=9 class=bad>not found: no metal lies there as planned</td></tr>";
+    return row + "<td colspan=9 class=bad>" + kNotFound + "</td></tr>";
   }
   const engine::ScrewInScan& placed = *screw.placed;
   row += cell(with_bound(placed.angle_rad * kDegreesPerRadian,
@@ -66,9 +66,7 @@ std::string row_of(const std::string& label, const engine::EvaluatedScrew& screw
          cell(html_number(2e3 * placed.measured_radius_m, 1)) +
          clearance_cells(placed, screw.plan.side) + "</tr>";
   if (placed.touched) {
-    row +=
-        "<tr><td colspan=10 class=bad>touches other metal: target, depth and clearance at the "
-        "tip are not reliable</td></tr>";
+    row += std::string("<tr><td colspan=10 class=bad>") + kTouched + "</td></tr>";
   }
   if (placed.as_planned_screw) {
     row += "<tr><td colspan=7><small>the same axis as a screw of " +
@@ -87,8 +85,8 @@ std::string table_of(const engine::Evaluation& evaluation) {
       "<th>95 % above <small>mm</small><th>Grade</tr></thead><tbody>";
   for (const engine::EvaluatedLevel& level : evaluation.levels) {
     if (!level.registration) {
-      html += "<tr><td>" + html_escaped(level.label) +
-              "</td><td colspan=9 class=bad>not evaluated: " + html_escaped(level.refusal) +
+      html += "<tr>" + cell(html_escaped(level.label)) +
+              "<td colspan=9 class=bad>not evaluated: " + html_escaped(level.refusal) +
               "</td></tr>";
       continue;
     }
@@ -136,11 +134,10 @@ Result<std::string> figures_of(const engine::ScanField& scan, const nav::Triangl
     arc_length_m = screw.placed->clearance ? screw.placed->clearance->arc_length_m : arc_length_m;
   }
   std::string html = "<div class=slices>";
-  for (const NamedPlane& named : drawn.empty() ? std::array<NamedPlane, 3>{}
-                                               : planes_of(drawn.back().cylinder, arc_length_m)) {
-    if (drawn.empty()) {
-      break;
-    }
+  if (drawn.empty()) {
+    return html + "</div>";
+  }
+  for (const NamedPlane& named : planes_of(drawn.back().cylinder, arc_length_m)) {
     const auto svg = slice_svg(scan, bone, laid.scan_from_vertebra, named.plane, drawn);
     if (!svg) {
       return svg.error();
@@ -182,7 +179,7 @@ std::string registrations_of(const engine::Evaluation& evaluation) {
       "<small>mm, median</small><th>Surface within 1 mm <small>%</small><th>Seen clear of metal "
       "<small>places</small></tr></thead><tbody>";
   for (const engine::EvaluatedLevel& level : evaluation.levels) {
-    html += "<tr><td>" + html_escaped(level.label) + "</td>";
+    html += "<tr>" + cell(html_escaped(level.label));
     if (level.registration) {
       html += cell(html_number(level.registration->residual_m * 1e3, 2)) +
               cell(html_number(level.registration->coverage * 1e2, 0)) +

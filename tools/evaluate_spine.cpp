@@ -72,7 +72,6 @@ json scene_of(const engine::Case& subject, const engine::Evaluation& evaluation)
   json scene = {{"bones", json::array()},
                 {"planned", json::array()},
                 {"placed", json::array()},
-                {"middle", {0, 0, 0}},
                 {"reach", 0.0}};
   double reach_mm = 0.0;
   for (const engine::EvaluatedLevel& level : evaluation.levels) {
@@ -108,7 +107,7 @@ std::string turning_spine(const engine::Case& subject, const engine::Evaluation&
   return "<section><h2>As it lies in the scan</h2><canvas id=spine "
          "style=\"width:100%;height:480px;display:block;border-radius:6px;touch-action:none\">"
          "</canvas><p id=spine-note class=notes style=\"margin-top:10px\">Drag to turn, wheel to "
-         "come nearer. "
+         "zoom. "
          "<button data-turn=behind>from behind</button> <button data-turn=left>from the left"
          "</button> <button data-turn=above>from above</button> <label>bone <input id=spine-bone "
          "type=range min=0 max=1 step=0.05 value=0.35></label></p><script id=spine-data "

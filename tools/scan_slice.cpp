@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "engine/io/image_file.h"
@@ -70,14 +71,13 @@ std::string outline_of(const nav::TriangleMesh& bone, const SlicePlane& plane) {
 std::string shape_of(const nav::ScrewCylinder& cylinder, const SlicePlane& plane) {
   const double radius_mm = cylinder.radius_m * 1e3;
   const double across = cylinder.direction.dot(plane.toward());
-  const Point<Vertebra> tip = cylinder.entry + cylinder.length_m * cylinder.direction;
   if (std::abs(across) > 0.8) {
     const double s = (plane.centre - cylinder.entry).dot(plane.toward()) / across;
     const Vec2 c = on_page_mm(plane, cylinder.entry + s * cylinder.direction);
     return engine::formatted("<circle cx=%.2f cy=%.2f r=%.2f />", c.x, c.y, radius_mm);
   }
   const Vec2 from = on_page_mm(plane, cylinder.entry);
-  const Vec2 to = on_page_mm(plane, tip);
+  const Vec2 to = on_page_mm(plane, cylinder.entry + cylinder.length_m * cylinder.direction);
   const Vec2 way = to - from;
   const Vec2 side = (radius_mm / std::max(way.norm(), 1e-9)) * Vec2{-way.y, way.x};
   const Vec2 a = from + side;
@@ -98,14 +98,15 @@ Result<std::string> slice_svg(const engine::ScanField& scan, const nav::Triangle
   if (!png) {
     return png.error();
   }
-  const std::vector<std::uint8_t> bytes(png->begin(), png->end());
   const double half_mm = plane.half_m * 1e3;
-  std::string svg = engine::formatted("<svg viewBox=\"%.1f %.1f %.1f %.1f\">", -half_mm, -half_mm,
-                                      2.0 * half_mm, 2.0 * half_mm) +
-                    engine::formatted("<image x=%.1f y=%.1f width=%.1f height=%.1f ", -half_mm,
-                                      -half_mm, 2.0 * half_mm, 2.0 * half_mm) +
-                    "href=\"data:image/png;base64," + engine::base64(bytes) + "\"/>" +
-                    outline_of(bone, plane);
+  std::string svg =
+      engine::formatted("<svg viewBox=\"%.1f %.1f %.1f %.1f\">", -half_mm, -half_mm, 2.0 * half_mm,
+                        2.0 * half_mm) +
+      engine::formatted("<image x=%.1f y=%.1f width=%.1f height=%.1f ", -half_mm, -half_mm,
+                        2.0 * half_mm, 2.0 * half_mm) +
+      "href=\"data:image/png;base64," +
+      engine::base64({reinterpret_cast<const std::uint8_t*>(png->data()), png->size()}) + "\"/>" +
+      outline_of(bone, plane);
   for (const DrawnCylinder& drawn : cylinders) {
     svg += "<g class=" + std::string(drawn.kind) + ">" + shape_of(drawn.cylinder, plane) + "</g>";
   }
