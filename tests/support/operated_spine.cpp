@@ -1,5 +1,6 @@
 #include "tests/support/operated_spine.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -108,12 +109,12 @@ MetalPiece placed(MetalPiece piece, const Motion& motion) {
 }
 
 /// From head to head of one side.
-void join_heads(const std::vector<PlannedVertebra>& vertebrae, OperatedSpine& spine) {
+void join_heads(const engine::Case& subject, OperatedSpine& spine) {
   constexpr double kRodRadius_m = 0.00275;
   for (const Side side : {Side::kLeft, Side::kRight}) {
     std::optional<Vec3> last;
     for (const TrueScrew& screw : spine.screws) {
-      if (!screw.placed || vertebrae[screw.level].screws[screw.screw].side != side) {
+      if (!screw.placed || subject.levels[screw.level].screws[screw.screw].side != side) {
         continue;
       }
       const Vec3 direction = (screw.tip_m - screw.entry_m).normalized();
@@ -130,18 +131,21 @@ void join_heads(const std::vector<PlannedVertebra>& vertebrae, OperatedSpine& sp
 
 }  // namespace
 
-OperatedSpine operated(const std::vector<PlannedVertebra>& vertebrae,
-                       const OperationSettings& settings, Random random) {
+OperatedSpine operated(const engine::Case& subject, const OperationSettings& settings,
+                       Random random) {
   OperatedSpine out;
-  const Motion patient = any_motion(settings.turn_rad, settings.shift_m,
-                                    vertebrae.front().spine_from_model.translation_m, random);
-  for (std::size_t l = 0; l < vertebrae.size(); ++l) {
-    const PlannedVertebra& vertebra = vertebrae[l];
-    const nav::SurfaceIndex bone(vertebra.mesh);
+  const Motion patient =
+      any_motion(settings.turn_rad, settings.shift_m,
+                 subject.levels.front().spine_from_vertebra.translation(), random);
+  for (std::size_t l = 0; l < subject.levels.size(); ++l) {
+    const engine::CaseLevel& level = subject.levels[l];
+    const nav::SurfaceIndex bone(level.mesh);
     const Motion own = any_motion(settings.level_turn_rad, settings.level_shift_m, {}, random);
-    out.bones.push_back({vertebra.mesh, after(patient, after(vertebra.spine_from_model, own))});
-    for (std::size_t s = 0; s < vertebra.screws.size(); ++s) {
-      TrueScrew screw = driven(bone, vertebra.screws[s], settings, random);
+    const Motion before{level.spine_from_vertebra.rotation(),
+                        level.spine_from_vertebra.translation()};
+    out.bones.push_back({level.mesh, after(patient, after(before, own))});
+    for (std::size_t s = 0; s < level.screws.size(); ++s) {
+      TrueScrew screw = driven(bone, level.screws[s], settings, random);
       screw.level = l;
       screw.screw = s;
       screw.placed = random.uniform() >= settings.missing;
@@ -155,7 +159,7 @@ OperatedSpine operated(const std::vector<PlannedVertebra>& vertebrae,
     }
   }
   if (settings.rods) {
-    join_heads(vertebrae, out);
+    join_heads(subject, out);
   }
   return out;
 }

@@ -1,21 +1,12 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "base/random.h"
-#include "nav/guidance/screw.h"
+#include "engine/case/case.h"
 #include "tests/support/voxelised_body.h"
 
 namespace orthonav::test {
-
-/// A vertebra with its plan, and where it lies in the spine before the operation.
-struct PlannedVertebra {
-  std::string label;
-  nav::TriangleMesh mesh;
-  std::vector<nav::ScrewPlan> screws;
-  Motion spine_from_model;
-};
 
 /// How an operation goes.
 struct OperationSettings {
@@ -49,8 +40,9 @@ struct OperatedSpine {
   std::vector<TrueScrew> screws;
 };
 
-/// An operation with this seed. A screw that would miss the bone is placed as planned.
-[[nodiscard]] OperatedSpine operated(const std::vector<PlannedVertebra>& vertebrae,
-                                     const OperationSettings& settings, Random random);
+/// An operation on all levels with this seed. A screw that would miss the bone is placed as
+/// planned.
+[[nodiscard]] OperatedSpine operated(const engine::Case& subject, const OperationSettings& settings,
+                                     Random random);
 
 }  // namespace orthonav::test

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -30,15 +31,32 @@ struct BodyBone {
   Motion scanner_from_model;
 };
 
+/// Cells in three directions, the first fastest in memory.
+struct Cells {
+  std::array<int, 3> size{};
+
+  [[nodiscard]] std::size_t count() const {
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+           static_cast<std::size_t>(size[2]);
+  }
+  [[nodiscard]] bool holds(int i, int j, int k) const {
+    return i >= 0 && j >= 0 && k >= 0 && i < size[0] && j < size[1] && k < size[2];
+  }
+  [[nodiscard]] std::size_t at(int i, int j, int k) const {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size[1]) +
+            static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(size[0]) +
+           static_cast<std::size_t>(i);
+  }
+};
+
 /// What lies in the scanner, on a fine grid of `step_m`: bone with a cortex over cancellous bone,
-/// soft tissue with some texture, metal by its share of each cell. Nothing here is used by what
-/// finds metal in scans (engine/evaluation), nor the other way round: bones are filled between the
-/// crossings of columns with the surface, cortex is told by a chamfer distance, and metal is
-/// analytic.
-struct FineBody {
+/// soft tissue with some texture, metal by its share of each cell. Shares no method with what finds
+/// metal in scans (engine/evaluation): bones are filled between the crossings of columns with the
+/// surface, the cortex comes from a chamfer distance, and metal is analytic.
+struct FineBody : Cells {
   double step_m = 0.0;
   Vec3 origin_m;  ///< middle of the first cell
-  std::array<int, 3> size{};
   std::vector<float> hu;
   struct MetalCell {
     std::size_t cell = 0;
@@ -46,11 +64,8 @@ struct FineBody {
   };
   std::vector<MetalCell> metal;
 
-  [[nodiscard]] std::size_t at(int i, int j, int k) const {
-    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size[1]) +
-            static_cast<std::size_t>(j)) *
-               static_cast<std::size_t>(size[0]) +
-           static_cast<std::size_t>(i);
+  [[nodiscard]] Vec3 place_m(int i, int j, int k) const {
+    return origin_m + step_m * Vec3{double(i), double(j), double(k)};
   }
 };
 

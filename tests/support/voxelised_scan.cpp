@@ -9,8 +9,8 @@
 namespace orthonav::test {
 namespace {
 
-/// Along one axis, values beyond the ends as at the ends.
-void blur_along(int axis, double sigma_steps, FineBody& body) {
+/// To 3 SDs on either side; its sum is 1.
+std::vector<float> gaussian(double sigma_steps) {
   const int reach = static_cast<int>(std::ceil(3.0 * sigma_steps));
   std::vector<float> kernel;
   float sum = 0.0F;
@@ -21,6 +21,12 @@ void blur_along(int axis, double sigma_steps, FineBody& body) {
   for (float& k : kernel) {
     k /= sum;
   }
+  return kernel;
+}
+
+/// Along one axis, values beyond the ends as at the ends.
+void blur_along(int axis, const std::vector<float>& kernel, FineBody& body) {
+  const int reach = static_cast<int>(kernel.size() / 2);
   const auto a = static_cast<std::size_t>(axis);
   const int length = body.size[a];
   const std::size_t stride =
@@ -105,52 +111,74 @@ class Streaks {
   }
 
  private:
+  /// Parallel rays at an angle, by its cosine and sine.
+  struct Rays {
+    double c;
+    double s;
+  };
+
+  [[nodiscard]] double bin(const Rays& rays, int i, int j) const {
+    return (i - 0.5 * size_[0]) * rays.c + (j - 0.5 * size_[1]) * rays.s + 0.5 * bins_;
+  }
+
   std::vector<double> projected_back(const std::vector<double>& metal) {
     constexpr int kAngles = 120;
     std::vector<double> out(metal.size(), 0.0);
-    std::vector<double> ray(static_cast<std::size_t>(bins_));
-    std::vector<double> filtered(ray.size());
     for (int angle = 0; angle < kAngles; ++angle) {
-      const double c = std::cos(angle * std::numbers::pi / kAngles);
-      const double s = std::sin(angle * std::numbers::pi / kAngles);
-      const auto bin = [&](int i, int j) {
-        return (i - 0.5 * size_[0]) * c + (j - 0.5 * size_[1]) * s + 0.5 * bins_;
-      };
-      std::fill(ray.begin(), ray.end(), 0.0);
-      for (int j = 0; j < size_[1]; ++j) {
-        for (int i = 0; i < size_[0]; ++i) {
-          const double mm2 = metal[static_cast<std::size_t>(j * size_[0] + i)];
-          if (mm2 > 0.0) {
-            const double b = bin(i, j);
-            const auto whole = static_cast<std::size_t>(b);
-            ray[whole] += mm2 * (1.0 - (b - static_cast<double>(whole)));
-            ray[whole + 1] += mm2 * (b - static_cast<double>(whole));
-          }
-        }
-      }
-      for (double& mm : ray) {
+      const Rays rays{std::cos(angle * std::numbers::pi / kAngles),
+                      std::sin(angle * std::numbers::pi / kAngles)};
+      std::vector<double> error = projected(metal, rays);
+      for (double& mm : error) {
         mm = mm > 0.0 ? error_of(mm) : 0.0;
       }
-      // Ramachandran and Lakshminarayanan's filter.
-      for (int n = 0; n < bins_; ++n) {
-        double sum = 0.25 * ray[static_cast<std::size_t>(n)];
-        for (int m = (n + 1) % 2; m < bins_; m += 2) {
-          const double d = n - m;
-          sum -= ray[static_cast<std::size_t>(m)] / (std::numbers::pi * std::numbers::pi * d * d);
-        }
-        filtered[static_cast<std::size_t>(n)] = sum;
-      }
-      for (int j = 0; j < size_[1]; ++j) {
-        for (int i = 0; i < size_[0]; ++i) {
-          const double b = bin(i, j);
+      add_back(filtered(error), rays, std::numbers::pi / kAngles, out);
+    }
+    return out;
+  }
+
+  /// How much metal each ray meets, mm.
+  [[nodiscard]] std::vector<double> projected(const std::vector<double>& metal,
+                                              const Rays& rays) const {
+    std::vector<double> out(static_cast<std::size_t>(bins_), 0.0);
+    for (int j = 0; j < size_[1]; ++j) {
+      for (int i = 0; i < size_[0]; ++i) {
+        const double mm2 = metal[static_cast<std::size_t>(j * size_[0] + i)];
+        if (mm2 > 0.0) {
+          const double b = bin(rays, i, j);
           const auto whole = static_cast<std::size_t>(b);
-          const double u = b - static_cast<double>(whole);
-          out[static_cast<std::size_t>(j * size_[0] + i)] +=
-              std::numbers::pi / kAngles * ((1.0 - u) * filtered[whole] + u * filtered[whole + 1]);
+          out[whole] += mm2 * (1.0 - (b - static_cast<double>(whole)));
+          out[whole + 1] += mm2 * (b - static_cast<double>(whole));
         }
       }
     }
     return out;
+  }
+
+  /// By Ramachandran and Lakshminarayanan's filter.
+  [[nodiscard]] std::vector<double> filtered(const std::vector<double>& ray) const {
+    std::vector<double> out;
+    for (int n = 0; n < bins_; ++n) {
+      double sum = 0.25 * ray[static_cast<std::size_t>(n)];
+      for (int m = (n + 1) % 2; m < bins_; m += 2) {
+        const double d = n - m;
+        sum -= ray[static_cast<std::size_t>(m)] / (std::numbers::pi * std::numbers::pi * d * d);
+      }
+      out.push_back(sum);
+    }
+    return out;
+  }
+
+  void add_back(const std::vector<double>& ray, const Rays& rays, double weight,
+                std::vector<double>& out) const {
+    for (int j = 0; j < size_[1]; ++j) {
+      for (int i = 0; i < size_[0]; ++i) {
+        const double b = bin(rays, i, j);
+        const auto whole = static_cast<std::size_t>(b);
+        const double u = b - static_cast<double>(whole);
+        out[static_cast<std::size_t>(j * size_[0] + i)] +=
+            weight * ((1.0 - u) * ray[whole] + u * ray[whole + 1]);
+      }
+    }
   }
 
   /// What is measured too little of a ray through so much metal, HU mm, and its noise.
@@ -190,24 +218,31 @@ double mean_at(const FineBody& body, double x, double y, double low, double high
   return sum / weights;
 }
 
+/// Voxels that start a random part of one inside the body.
+engine::VolumeGrid grid_in(const FineBody& body, Vec3 spacing_m, Random& random) {
+  engine::VolumeGrid grid;
+  grid.spacing_m = spacing_m;
+  for (int a = 0; a < 3; ++a) {
+    const auto n = static_cast<std::size_t>(a);
+    const double start_m = spacing_m[a] * (0.5 + random.uniform());
+    grid.origin_m[a] = body.origin_m[a] + start_m;
+    grid.size[n] = static_cast<int>((body.size[n] * body.step_m - 2.0 * start_m) / spacing_m[a]);
+  }
+  return grid;
+}
+
 }  // namespace
 
 engine::Volume scanned(const FineBody& body, const ScannerSettings& settings) {
   FineBody blurred = body;
+  const std::vector<float> kernel = gaussian(settings.blur_m / body.step_m);
   for (int axis = 0; axis < 3; ++axis) {
-    blur_along(axis, settings.blur_m / body.step_m, blurred);
+    blur_along(axis, kernel, blurred);
   }
   Random random(settings.seed);
   engine::Volume out;
-  out.grid.spacing_m = settings.spacing_m;
+  out.grid = grid_in(body, settings.spacing_m, random);
   const double slice_m = settings.slice_m > 0.0 ? settings.slice_m : settings.spacing_m.z;
-  for (int a = 0; a < 3; ++a) {
-    const auto n = static_cast<std::size_t>(a);
-    const double start_m = settings.spacing_m[a] * (0.5 + random.uniform());
-    out.grid.origin_m[a] = body.origin_m[a] + start_m;
-    out.grid.size[n] =
-        static_cast<int>((body.size[n] * body.step_m - 2.0 * start_m) / settings.spacing_m[a]);
-  }
   Streaks streaks(body, settings.streaks, random.next());
   out.values.reserve(out.grid.voxels());
   for (int k = 0; k < out.grid.size[2]; ++k) {

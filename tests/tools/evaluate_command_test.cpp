@@ -9,6 +9,7 @@
 
 #include "engine/case/case_writer.h"
 #include "tests/engine/evaluation/operated_phantom.h"
+#include "tests/support/nrrd_scan.h"
 #include "tests/tools/command_line.h"
 
 namespace orthonav::test::evaluate_command_test {
@@ -19,23 +20,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-void write_nrrd(const std::string& path, const engine::Volume& scan) {
-  std::ofstream file(path, std::ios::binary);
-  const auto& grid = scan.grid;
-  char head[512];
-  std::snprintf(head, sizeof head,
-                "NRRD0004\ntype: int16\ndimension: 3\nsizes: %d %d %d\nencoding: raw\nendian: "
-                "little\nspace: left-posterior-superior\nspace directions: (%.9f,0,0) (0,%.9f,0) "
-                "(0,0,%.9f)\nspace origin: (%.9f,%.9f,%.9f)\n\n",
-                grid.size[0], grid.size[1], grid.size[2], grid.spacing_m.x * 1e3,
-                grid.spacing_m.y * 1e3, grid.spacing_m.z * 1e3, grid.origin_m.x * 1e3,
-                grid.origin_m.y * 1e3, grid.origin_m.z * 1e3);
-  file << head;
-  const std::vector<std::int16_t> values(scan.values.begin(), scan.values.end());
-  file.write(reinterpret_cast<const char*>(values.data()),
-             static_cast<std::streamsize>(2 * values.size()));
-}
-
 /// The phantom's L4 as a case folder and its scan after the operation; the right screw is missing.
 class EvaluateCommand : public ::testing::Test {
  protected:
@@ -44,12 +28,12 @@ class EvaluateCommand : public ::testing::Test {
     const engine::Case subject = engine::phantom({"L4"});
     std::filesystem::create_directory(scratch_->file("case"));
     ASSERT_TRUE(engine::save_case(scratch_->file("case"), subject).ok());
-    OperatedSpine spine = operated(planned_vertebrae(subject), {}, Random(3));
-    write_nrrd(scratch_->file("both.nrrd"), quick_scan(spine));
+    OperatedSpine spine = operated(subject, {}, Random(3));
+    ASSERT_TRUE(write_nrrd(scratch_->file("both.nrrd"), quick_scan(spine)));
     spine.metal.resize(2);
-    write_nrrd(scratch_->file("one.nrrd"), quick_scan(spine));
+    ASSERT_TRUE(write_nrrd(scratch_->file("one.nrrd"), quick_scan(spine)));
     spine.metal.clear();
-    write_nrrd(scratch_->file("none.nrrd"), quick_scan(spine));
+    ASSERT_TRUE(write_nrrd(scratch_->file("none.nrrd"), quick_scan(spine)));
   }
   static void TearDownTestSuite() { delete scratch_; }
   static Called evaluated(const std::string& scan, std::vector<std::string> more = {}) {

@@ -27,7 +27,7 @@ struct Operated {
 const Operated& operated_l4() {
   static const Operated operated = [] {
     Operated out;
-    out.spine = test::operated(test::planned_vertebrae(out.subject), {}, Random(11));
+    out.spine = test::operated(out.subject, {}, Random(11));
     out.scan = test::quick_scan(out.spine);
     return out;
   }();

@@ -1,23 +1,10 @@
 #pragma once
 
-#include "engine/case/case.h"
 #include "engine/phantom/phantom.h"
 #include "tests/support/operated_spine.h"
 #include "tests/support/voxelised_scan.h"
 
 namespace orthonav::test {
-
-inline std::vector<PlannedVertebra> planned_vertebrae(const engine::Case& subject) {
-  std::vector<PlannedVertebra> out;
-  for (const engine::CaseLevel& level : subject.levels) {
-    out.push_back(
-        {level.label,
-         level.mesh,
-         level.screws,
-         {level.spine_from_vertebra.rotation(), level.spine_from_vertebra.translation()}});
-  }
-  return out;
-}
 
 /// A coarse scan of an operation, quick to compute: 1 mm slices of voxels of 0.8 mm.
 inline engine::Volume quick_scan(const OperatedSpine& spine, double streaks = 1.0) {
