@@ -13,15 +13,15 @@ struct SurfaceSample {
   Vec3 normal;
 };
 
-/// Places spread over a surface: of each cube of a grid with bone in it one vertex, so many that
-/// about `wanted` are given.
+/// At most `wanted` vertices spread evenly over a surface: one for each cube of a grid that holds
+/// any.
 [[nodiscard]] std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh,
                                                          std::size_t wanted);
 
 /// The neighbourhood of metal, where no edge of bone is looked for.
 class MetalMask {
  public:
-  /// What is nearer than `margin_m` to metal.
+  /// A box about each voxel of metal that reaches at least `margin_m` to every side.
   MetalMask(const ScanField& scan, double margin_m);
   [[nodiscard]] bool covers(Vec3 place_m) const;
 
@@ -30,7 +30,7 @@ class MetalMask {
   std::vector<bool> masked_;
 };
 
-/// What is seen of a surface at a pose.
+/// The edges of bone in the scan that are seen from a surface at a pose.
 struct BoneEdges {
   struct Edge {
     std::size_t sample = 0;

@@ -8,7 +8,8 @@ namespace orthonav::engine {
 /// A vertebra laid on its bone in the scan.
 struct BoneRegistration {
   Transform<Scan, Vertebra> scan_from_vertebra;
-  /// By how much all edges lie outside the surface, up to 1 mm; the figures below are without it.
+  /// How far the edges lie outside the surface as a whole, at most 1 mm; taken off them before the
+  /// figures below are computed.
   double offset_m = 0.0;
   double residual_m = 0.0;   ///< median distance of an edge in the scan from the surface
   double coverage = 0.0;     ///< share of the samples, clear of metal, whose edge lies within 1 mm
@@ -17,7 +18,7 @@ struct BoneRegistration {
   nav::PoseUncertainty uncertainty;  ///< in the model's frame
 };
 
-/// A fit that does not keep these is not believed. Another vertebra of the same spine fits with
+/// Beyond these a fit is refused. Another vertebra of the same spine fits with
 /// 0.37 mm and more, and with a coverage of 0.90 at most; the right one with 0.06 to 0.14 mm and
 /// 0.93 or more.
 struct BoneLimits {
@@ -28,15 +29,15 @@ struct BoneLimits {
 };
 
 /// Lays the surface on the edges of bone in the scan from a start some millimetres and degrees off:
-/// point to plane (Chen and Medioni 1992) with Tukey's weights, the edges sought again in each
-/// round, from `within_m` along the normals down to 1.5 mm. Says nothing of whether the fit is any
-/// good: `refusal` does. Where the edges leave the pose undetermined, nothing is covered.
+/// point to plane (Chen and Medioni 1992) with Tukey's weights. Each round searches the edges anew,
+/// within a distance along the normals that shrinks from `within_m` to 1.5 mm. Does not judge the
+/// fit: `refusal` does. Where the edges do not determine the pose, the coverage is 0.
 [[nodiscard]] BoneRegistration laid_on_bone(const ScanField& scan, const MetalMask& mask,
                                             const std::vector<SurfaceSample>& samples,
                                             const Transform<Scan, Vertebra>& start,
                                             double within_m);
 
-/// Why it is not to be believed, in one line; empty where it is.
+/// Why the fit is refused, in one line; empty where it is accepted.
 [[nodiscard]] std::string refusal(const BoneRegistration& found, const BoneLimits& limits = {});
 
 }  // namespace orthonav::engine

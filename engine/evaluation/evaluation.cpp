@@ -15,7 +15,7 @@ constexpr std::size_t kManySamples = 2500;
 constexpr std::size_t kMostStarts = 7;
 constexpr double kMaskMargin_m = 0.002;
 
-/// Each shaft to a fraction of a voxel; what the fit does not hold is no shaft.
+/// Each shaft to a fraction of a voxel; one whose fit fails becomes unassigned metal.
 std::vector<Shaft> fitted(const ScanField& scan, const MetalPieces& metal,
                           std::vector<UnassignedMetal>& unassigned) {
   std::vector<Shaft> out;
@@ -114,7 +114,7 @@ std::string where_is(Point<Scan> place, const Evaluation& found, const Bones& bo
   return all ? "outside the planned vertebrae" : "where is not known";
 }
 
-/// The levels as the case has them, with those registrations that are believed.
+/// The levels in the order of the case, with the registrations that were accepted.
 std::vector<EvaluatedLevel> levels_of(const std::vector<LevelSurface>& surfaces,
                                       const std::vector<LaidLevel>& laid) {
   std::vector<EvaluatedLevel> out;

@@ -19,7 +19,7 @@ inline constexpr const char* kEvaluationDefinitions =
     "below the bone's surface of side and flat tip from 6 mm past the entry on; a bent wire's "
     "axis is its chord from entry to tip";
 
-/// What a planned screw became.
+/// A planned screw as it lies in the scan.
 struct ScrewInScan {
   std::size_t shaft = 0;  ///< among those found
   nav::ScrewCylinder
@@ -37,9 +37,9 @@ struct ScrewInScan {
   /// clearance at the tip are not reliable.
   bool touched = false;
   double bow_m = 0.0;                       ///< of a bent wire, from its chord
-  std::optional<nav::Clearance> clearance;  ///< none up to 6 mm in the bone
+  std::optional<nav::Clearance> clearance;  ///< none where 6 mm or less lie in the bone
   std::optional<nav::ClearanceSpread> spread;
-  /// A wire, were it the planned screw.
+  /// Of a wire: what the planned screw would have along its axis.
   std::optional<nav::Clearance> as_planned_screw;
 };
 
@@ -50,7 +50,7 @@ struct EvaluatedScrew {
 
 struct EvaluatedLevel {
   std::string label;
-  std::optional<BoneRegistration> registration;  ///< only one that is believed
+  std::optional<BoneRegistration> registration;  ///< only if accepted
   std::string refusal;                           ///< why there is none
   std::vector<EvaluatedScrew> screws;
 };
@@ -59,7 +59,7 @@ struct EvaluatedLevel {
 struct UnassignedMetal {
   Point<Scan> place;  ///< a shaft's tip, or the middle
   std::optional<std::size_t> shaft;
-  double volume_m3 = 0.0;  ///< of what is no shaft
+  double volume_m3 = 0.0;  ///< 0 for a shaft
   std::string where;       ///< "in L4", "outside the vertebrae"
 };
 

@@ -37,8 +37,8 @@ Hypothesis tried(const ScanField& scan, const MetalMask& mask, std::span<const L
 bool same_place(const Hypothesis& a, const Hypothesis& b, std::span<const LevelSurface> levels) {
   constexpr double kSame_m = 0.008;
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const Point<Vertebra> middle{levels[i].few.front().place_m};
-    if ((a.poses[i] * middle - b.poses[i] * middle).norm() < kSame_m) {
+    const Point<Vertebra> place{levels[i].few.front().place_m};
+    if ((a.poses[i] * place - b.poses[i] * place).norm() < kSame_m) {
       return true;
     }
   }
@@ -69,7 +69,7 @@ Result<Hypothesis> best_start(const ScanField& scan, const MetalMask& mask,
   return *best;
 }
 
-/// Where another level says that this one lies, if nothing had moved between them.
+/// Where this level would lie if nothing had moved between it and the other one.
 Transform<Scan, Vertebra> seen_from(const LevelSurface& other,
                                     const Transform<Scan, Vertebra>& pose_of_other,
                                     const LevelSurface& level) {
@@ -88,7 +88,7 @@ void keep_better(const ScanField& scan, const MetalMask& mask, const LevelSurfac
   }
 }
 
-/// A level that the scan does not hold can't be laid on it, wherever the search ended.
+/// A refused level that an accepted one puts outside the scan is refused for that reason.
 void say_what_lies_outside(const ScanField& scan, std::span<const LevelSurface> levels,
                            std::vector<LaidLevel>& laid) {
   for (std::size_t i = 0; i < laid.size(); ++i) {
@@ -111,7 +111,7 @@ void say_what_lies_outside(const ScanField& scan, std::span<const LevelSurface> 
   }
 }
 
-/// How far a level lies from where another one says, per level between them.
+/// How far a level lies from where another one puts it, per level between them.
 struct Step {
   double shift_m = 0.0;
   double turn_rad = 0.0;
@@ -127,8 +127,8 @@ Step step_between(std::span<const LevelSurface> levels, const std::vector<LaidLe
           rotation_angle_rad(expected.rotation(), found.rotation()) / steps};
 }
 
-/// A vertebra on another one's bone fits it badly, and lies where it can't be: of two levels that
-/// contradict each other the one that fits worse is refused.
+/// A vertebra laid on another one's bone fits badly and contradicts its neighbours: of two levels
+/// that contradict each other the one that fits worse is refused.
 void refuse_displaced(std::span<const LevelSurface> levels, std::vector<LaidLevel>& laid) {
   constexpr double kMostShift_m = 0.012;
   constexpr double kMostTurn_rad = 0.35;

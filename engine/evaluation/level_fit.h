@@ -16,15 +16,15 @@ struct LevelSurface {
   std::vector<SurfaceSample> many;  ///< for the fit itself
 };
 
-/// A level on its bone, or why it is not to be believed.
+/// A level on its bone, or why the fit is refused.
 struct LaidLevel {
   BoneRegistration bone;
-  std::string refusal;  ///< empty: it is believed
+  std::string refusal;  ///< empty: accepted
 };
 
 /// The best fit of each level, in their order: coverage decides. `starts` are those of the whole
-/// spine. A level that lies where the others say that it can't is refused. An Error where the spine
-/// fits the scan in two places nearly alike.
+/// spine. A level whose place contradicts the others is refused. An Error where the spine fits the
+/// scan in two places nearly alike.
 Result<std::vector<LaidLevel>> laid_levels(const ScanField& scan, const MetalMask& mask,
                                            std::span<const LevelSurface> levels,
                                            std::span<const Transform<Scan, Spine>> starts);

@@ -32,7 +32,8 @@ struct MetalSection {
   Vec2 middle_m;  ///< across and athwart
 };
 
-/// The cross sections about a line from end to end of the metal that is unbroken about its middle.
+/// The cross sections about a line, from its middle to either side as far as the metal goes on
+/// without a gap of more than 3 mm.
 struct MetalSections {
   static constexpr double kStep_m = 0.001;
   double first_s_m = 0.0;  ///< middle of the first slab

@@ -12,9 +12,10 @@ struct BoneInScan {
   const BoneRegistration& registration;
 };
 
-/// The axis of a shaft in the bone, from entry to tip (of a bent wire, the chord), of the planned
-/// screw's or its own radius; none where it does not enter that bone as that screw would, within 15
-/// mm and 30° of the plan.
+/// The part of a shaft in the bone, from entry to tip (of a bent wire, the chord). It has the
+/// planned radius if the measured one agrees with it. None where it does not enter the bone from
+/// behind near the planned entry, lies more than 15 mm or 30° off the plan, or ends within 5 mm of
+/// its entry.
 [[nodiscard]] std::optional<nav::ScrewCylinder> cylinder_in_bone(const Shaft& shaft,
                                                                  const nav::ScrewPlan& plan,
                                                                  const BoneInScan& bone);

@@ -164,8 +164,8 @@ std::array<double, 16> axis_covariance(const nav::LeastSquares& found, std::size
   return out;
 }
 
-/// The part of a shaft that is fitted: of a long wire its front, since behind the bone it may bend
-/// anyhow.
+/// The part of a shaft that is fitted: of a long wire its front, since it may bend in any way
+/// behind the bone.
 Shaft front_part(const Shaft& shaft) {
   constexpr double kFront_m = 0.055;
   Shaft out = shaft;

@@ -22,7 +22,7 @@ struct MetalPieces {
 /// of the cross sections about it, as far as those are of one size; what is thicker at one end is a
 /// head. A shaft that was found is taken out, with its head, and the next one is sought. Shafts are
 /// 12 mm long or more, at least 2.2 times as long as thick, and 1 to 10 mm thick. What is left is
-/// put together by nearness; less than 20 mm³ is left out.
+/// grouped by nearness; groups of less than 20 mm³ are dropped.
 [[nodiscard]] MetalPieces straight_metal(const ScanField& scan);
 
 }  // namespace orthonav::engine

@@ -9,10 +9,11 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr double kNear_m = 0.015;    ///< of a shaft's tip from a planned target
-constexpr double kNear_rad = 0.45;   ///< of its direction from the planned one
-constexpr double kPairs_m = 0.014;   ///< by how much distances within two pairs may differ
-constexpr double kMisfit_m = 0.006;  ///< RMS of two screws on two shafts
+constexpr double kNear_m = 0.015;           ///< of a shaft's tip from a planned target
+constexpr double kNear_rad = 0.45;          ///< of its direction from the planned one
+constexpr double kPairs_m = 0.014;          ///< by how much distances within two pairs may differ
+constexpr double kMisfit_m = 0.006;         ///< RMS of two screws on two shafts
+constexpr double kMostTurned_rad = 0.7854;  ///< patient against case
 
 /// A planned screw or a shaft as two places: its tip, and one as far behind as screws are long.
 struct Line {
