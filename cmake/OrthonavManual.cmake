@@ -15,6 +15,6 @@ add_custom_command(
   VERBATIM)
 add_custom_target(manual ALL DEPENDS "${manual}/orthonav")
 # Where only the command was built there is no manual to install.
-install(DIRECTORY "${manual}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}" COMPONENT runtime)
+install(DIRECTORY "${manual}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}" COMPONENT runtime OPTIONAL)
 install(FILES "${manual}/orthonav" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
         COMPONENT runtime OPTIONAL)

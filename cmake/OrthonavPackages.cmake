@@ -46,8 +46,7 @@ set(CPACK_COMPONENT_DOC_DESCRIPTION
     "How it works, how accurate it is and how that is measured, file formats,
 headsets, decisions, and two example programs.")
 
-# Each package says whose it is and what changed.
-find_program(GZIP_PROGRAM gzip)
+# Each package says whose it is and what changed (gzip was looked for with the manual).
 if(GZIP_PROGRAM)
   set(papers "${PROJECT_BINARY_DIR}/papers")
   file(WRITE "${papers}/copyright" "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/

@@ -95,11 +95,17 @@ CommandPage page_of(const CLI::App& command, const std::string& way) {
   return page;
 }
 
+const std::string& OptionRow::name() const {
+  const auto is_long = [](const std::string& name) { return name.starts_with("--"); };
+  const auto found = std::find_if(names.begin(), names.end(), is_long);
+  return found == names.end() ? names.front() : *found;
+}
+
 std::string CommandPage::usage() const {
   std::string line = way;
   for (const OptionRow& option : options) {
     if (option.required) {
-      line += " " + option.names.back() + " " + option.value;
+      line += " " + option.name() + " " + option.value;
     }
   }
   line += " [OPTIONS]";

@@ -17,6 +17,10 @@ struct OptionRow {
   std::vector<std::string> needs;
   bool required = false;
   bool repeats = false;  ///< takes several values
+
+  /// The name that explains itself: its first long one.
+  [[nodiscard]] const std::string& name() const;
+  [[nodiscard]] bool is_flag() const { return value.empty(); }
 };
 
 /// The table of a command, from which its help, its manual page and what shells complete are made.

@@ -12,9 +12,9 @@ void CommonErrorArguments::add_to(CLI::App& command) {
         ->capture_default_str();
   };
   add("--tip-sd-mm", tip_sd_mm,
-      "What all strokes share, SD along an axis: error of the pointer's tip");
-  add("--cameras-sd-mm", cameras_sd_mm, "of the cameras' calibration");
-  add("--map-sd-mm", map_sd_mm, "of the map's drift since the bone was stroked");
+      "SD along an axis of what all strokes share: the error of the pointer's tip");
+  add("--cameras-sd-mm", cameras_sd_mm, "the same of the cameras' calibration");
+  add("--map-sd-mm", map_sd_mm, "the same of the map's drift since the bone was stroked");
 }
 
 }  // namespace orthonav::tools

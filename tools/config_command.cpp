@@ -11,26 +11,27 @@
 namespace orthonav::tools {
 namespace {
 
-/// The commands that have an option, and what it is where nothing is said.
-struct Users {
+/// An option of the commands that take settings from a file.
+struct Setting {
   std::string commands;
+  std::string text;
   std::string default_value;
 };
 
-void find_users(const CommandPage& page, std::map<std::string, Users>& users) {
-  const bool configured = std::any_of(page.options.begin(), page.options.end(),
-                                      [](const auto& o) { return o.names.back() == "--config"; });
-  for (const OptionRow& option : page.options) {
-    if (configured && option.names.back() != "--config") {
-      Users& found = users[option.names.back()];
-      const std::string command = page.way.substr(page.way.find(' ') + 1);
+void find_settings(const CommandPage& page, std::map<std::string, Setting>& settings) {
+  constexpr const char* kConfig = "--config";
+  const auto takes_file = [](const OptionRow& option) { return option.name() == kConfig; };
+  if (std::any_of(page.options.begin(), page.options.end(), takes_file)) {
+    const std::string command = page.way.substr(page.way.find(' ') + 1);
+    for (const OptionRow& option : page.options) {
+      Setting& found = settings[option.name()];
       found.commands += (found.commands.empty() ? "" : ", ") + command;
-      const bool is_flag = option.value.empty();
-      found.default_value = is_flag ? "false" : option.default_value;
+      found.text = option.text;
+      found.default_value = option.is_flag() ? "false" : option.default_value;
     }
   }
   for (const CommandPage& command : page.commands) {
-    find_users(command, users);
+    find_settings(command, settings);
   }
 }
 
@@ -57,23 +58,23 @@ int show(const CLI::App& app, const std::string& path) {
     }
     file = std::move(*loaded);
   }
-  std::map<std::string, Users> users;
-  find_users(page_of(app), users);
+  std::map<std::string, Setting> settings;
+  find_settings(page_of(app), settings);
   std::string section;
   for (const ConfigKey& key : config_keys()) {
     if (section != key.section) {
       std::printf("%s[%s]\n", section.empty() ? "" : "\n", key.section);
       section = key.section;
     }
-    const Users& used = users[key.option];
-    std::printf("# %s (%s of %s)\n", key.text, key.option, used.commands.c_str());
+    const Setting& setting = settings[key.option];
+    std::printf("# %s (%s of %s)\n", setting.text.c_str(), key.option, setting.commands.c_str());
     const auto& values = file.values();
     const auto value = std::find_if(values.begin(), values.end(),
                                     [&](const ConfigFile::Value& v) { return v.key == &key; });
     if (value != values.end()) {
       std::printf("%s = %s\n", key.key, value_text(value->text).c_str());
     } else {
-      std::printf("#%s = %s\n", key.key, value_text(used.default_value).c_str());
+      std::printf("#%s = %s\n", key.key, value_text(setting.default_value).c_str());
     }
   }
   return kDone;
@@ -89,8 +90,9 @@ void add_config_command(CLI::App& app, Action& action) {
       "show", "Prints every setting: what a file says, and the defaults as comments");
   shown->add_option("--config", *path, "settings (TOML)")->type_name("FILE");
   shown->footer(
-      "What it prints is a file itself: orthonav config show > theatre.toml, then run --config\n"
-      "theatre.toml. Files named in it are looked for from where it lies. A flag wins over it.");
+      "What it prints can be used as it is: orthonav config show > theatre.toml, edit it, then\n"
+      "orthonav run --config theatre.toml. Relative file names start from the folder of the TOML\n"
+      "file. A flag wins over it.");
   shown->callback([path, &app, &action] { action = [path, &app] { return show(app, *path); }; });
 }
 

@@ -13,12 +13,6 @@
 namespace orthonav::tools {
 namespace {
 
-/// Files are named from where the configuration lies.
-constexpr bool is_file(const ConfigKey& key) {
-  const std::string_view name = key.key;
-  return name == "file" || name == "screws" || name == "calibration";
-}
-
 std::string at(const std::string& path, const toml::source_region& where) {
   return path + ":" + std::to_string(where.begin.line) + ": ";
 }
@@ -31,13 +25,21 @@ Error unknown(const std::string& place, const std::string& what, const std::stri
                " (see orthonav config show)"};
 }
 
-std::vector<std::string> known_names(const std::string& section) {
+std::vector<std::string> known_sections() {
   std::vector<std::string> names;
   for (const ConfigKey& key : config_keys()) {
-    const std::string name = section.empty() ? key.section : key.key;
-    if ((section.empty() || section == key.section) &&
-        std::find(names.begin(), names.end(), name) == names.end()) {
-      names.push_back(name);
+    if (names.empty() || names.back() != key.section) {
+      names.emplace_back(key.section);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> known_keys(const std::string& section) {
+  std::vector<std::string> names;
+  for (const ConfigKey& key : config_keys()) {
+    if (section == key.section) {
+      names.emplace_back(key.key);
     }
   }
   return names;
@@ -79,13 +81,13 @@ Result<ConfigFile::Value> value_of(const std::string& path, const std::string& s
   const std::string place = at(path, node.source());
   const ConfigKey* key = key_named(section, name);
   if (key == nullptr) {
-    return unknown(place, "key of [" + section + "]", name, known_names(section));
+    return unknown(place, "key of [" + section + "]", name, known_keys(section));
   }
   std::string text = text_of(node);
   if (text.empty()) {
     return Error{place + section + "." + name + " must be a text, a number, true or false"};
   }
-  if (is_file(*key)) {
+  if (key->is_file) {
     text = (std::filesystem::path(path).parent_path() / text).string();
   }
   return ConfigFile::Value{key, std::move(text), static_cast<int>(node.source().begin.line)};
@@ -95,24 +97,24 @@ Result<ConfigFile::Value> value_of(const std::string& path, const std::string& s
 
 const std::vector<ConfigKey>& config_keys() {
   static const std::vector<ConfigKey> keys = {
-      {"tools", "file", "--tools", "tool definitions"},
-      {"tools", "screws", "--screws", "list of screw sizes"},
-      {"tools", "reference", "--reference", "everything hangs on the patient reference"},
-      {"rig", "headset", "--headset", "URI of the headset"},
-      {"rig", "calibration", "--calibration", "of orthonav calibrate stereo"},
-      {"clicker", "device", "--clicker", "headset, none, evdev:... or keyboard:..."},
-      {"voice", "device", "--voice", "headset, none, mic:..., headset-mic: or wav:FILE"},
-      {"limits", "good_deg", "--good-deg", "angle below which the triangle is green"},
-      {"limits", "poor_deg", "--poor-deg", "angle above which it is red and dashed"},
-      {"limits", "wire_deg", "--wire-deg", "angle beyond which a placed wire is questioned"},
-      {"limits", "wire_mm", "--wire-mm", "entry error beyond which it is"},
-      {"limits", "tip_sd_mm", "--tip-sd-mm", "SD of the pointer's tip along an axis"},
-      {"limits", "cameras_sd_mm", "--cameras-sd-mm", "SD that the cameras' calibration leaves"},
-      {"limits", "map_sd_mm", "--map-sd-mm", "SD of the map's drift"},
-      {"display", "device", "--device", "part of the name of the Vulkan device"},
-      {"display", "size", "--size", "WIDTHxHEIGHT of the preview's picture in pixels"},
-      {"log", "file", "--log", "what happened, line by line"},
-      {"log", "verbose", "--verbose", "each tool that is lost and found as well"},
+      {"tools", "file", "--tools", true},
+      {"tools", "screws", "--screws", true},
+      {"tools", "reference", "--reference"},
+      {"rig", "headset", "--headset"},
+      {"rig", "calibration", "--calibration", true},
+      {"clicker", "device", "--clicker"},
+      {"voice", "device", "--voice"},
+      {"limits", "good_deg", "--good-deg"},
+      {"limits", "poor_deg", "--poor-deg"},
+      {"limits", "wire_deg", "--wire-deg"},
+      {"limits", "wire_mm", "--wire-mm"},
+      {"limits", "tip_sd_mm", "--tip-sd-mm"},
+      {"limits", "cameras_sd_mm", "--cameras-sd-mm"},
+      {"limits", "map_sd_mm", "--map-sd-mm"},
+      {"display", "device", "--device"},
+      {"display", "size", "--size"},
+      {"log", "file", "--log", true},
+      {"log", "verbose", "--verbose"},
   };
   return keys;
 }
@@ -131,10 +133,10 @@ Result<ConfigFile> ConfigFile::load(const std::string& path) {
   }
   ConfigFile file;
   file.path_ = path;
+  const std::vector<std::string> known = known_sections();
   for (const auto& [section, content] : sections) {
     const std::string name(section.str());
     const toml::table* keys = content.as_table();
-    const auto known = known_names("");
     if (keys == nullptr || std::find(known.begin(), known.end(), name) == known.end()) {
       return unknown(at(path, content.source()), "section", name, known);
     }

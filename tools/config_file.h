@@ -8,12 +8,12 @@
 
 namespace orthonav::tools {
 
-/// Where a key of the configuration goes: the option of the commands that have it.
+/// A key of the configuration: the option of those commands that have it.
 struct ConfigKey {
   const char* section;
   const char* key;
   const char* option;
-  const char* text;
+  bool is_file = false;  ///< relative names start from the folder of the configuration
 };
 
 /// Every key there is, by section.

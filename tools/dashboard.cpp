@@ -12,7 +12,6 @@
 #include "base/printed.h"
 #include "embedded/dashboard_html.h"
 #include "engine/io/image_file.h"
-#include "engine/session/wording.h"
 #include "tools/arguments.h"
 #include "tools/dashboard_state.h"
 
@@ -185,24 +184,14 @@ void Dashboard::watch(engine::AssembledOperation& operation, const engine::Grade
   }
 }
 
-void Dashboard::note_message(const engine::StatusLine& status, double time_s) {
-  std::string line;
-  if (step_ != status.at) {
-    step_ = status.at;
-    line = engine::step_text(*step_);
-  }
-  std::string message;
-  if (status.message != nullptr) {
-    engine::append(message, *status.message);
-  }
-  if (message != message_) {
-    message_ = message;
-    line += (line.empty() || message.empty() ? "" : ": ") + message;
-  }
-  if (line.empty()) {
+void Dashboard::note_changes() {
+  const std::string& step = changes_.new_step();
+  const std::string& message = changes_.new_message();
+  if (step.empty() && message.empty()) {
     return;
   }
-  messages_.push_front(printed("%.1f s  ", time_s) + line);
+  const char* between = step.empty() || message.empty() ? "" : ": ";
+  messages_.push_front(printed("%.1f s  ", changes_.time_s()) + step + between + message);
   if (messages_.size() > kMostMessages) {
     messages_.pop_back();
   }
@@ -210,14 +199,14 @@ void Dashboard::note_message(const engine::StatusLine& status, double time_s) {
 
 void Dashboard::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*/,
                         const engine::Guidance& guidance) {
-  first_ = first_.value_or(frame.time);
-  const double time_s = seconds(frame.time - *first_);
-  note_message(guidance.status, time_s);
+  changes_.look(frame.time, guidance.status);
+  note_changes();
   if (told_at_ && frame.time - *told_at_ < kTellEvery) {
     return;
   }
   told_at_ = frame.time;
-  server_->tell(dashboard_state(*session_, guidance, limits_, time_s, messages_), frame.left);
+  server_->tell(dashboard_state(*session_, guidance, limits_, changes_.time_s(), messages_),
+                frame.left);
 }
 
 }  // namespace orthonav::tools

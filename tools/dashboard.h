@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/live/assembled_operation.h"
+#include "tools/status_changes.h"
 
 namespace orthonav::tools {
 
@@ -17,8 +18,8 @@ struct DashboardArguments {
 };
 
 /// A page in a browser that shows an operation while it runs: step, numbers, levels, tools,
-/// messages and what the left camera sees. Of this machine alone, and read only: nothing that a
-/// browser sends reaches the operation.
+/// messages and what the left camera sees. Served on this machine only, and read only: nothing that
+/// a browser sends reaches the operation.
 class Dashboard : public engine::LoopObserver {
  public:
   Dashboard();
@@ -34,15 +35,13 @@ class Dashboard : public engine::LoopObserver {
  private:
   class Server;
 
-  void note_message(const engine::StatusLine& status, double time_s);
+  void note_changes();
 
   std::unique_ptr<Server> server_;  ///< null: nobody looks on
   const engine::Session* session_ = nullptr;
   engine::GradeLimits limits_;
-  std::optional<Timestamp> first_;
   std::optional<Timestamp> told_at_;
-  std::optional<StepOnDisplay> step_;
-  std::string message_;
+  StatusChanges changes_;
   std::deque<std::string> messages_;  ///< the newest first
 };
 

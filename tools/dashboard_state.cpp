@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
-#include "base/printed.h"
 #include "engine/session/numbers_wording.h"
 #include "engine/session/wording.h"
 

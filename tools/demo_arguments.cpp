@@ -1,7 +1,6 @@
 #include "tools/demo_arguments.h"
 
 #include "engine/case/tool_file.h"
-
 #include "tools/config_file.h"
 
 namespace orthonav::tools {
@@ -68,11 +67,9 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
   demo.add_flag("--no-video", arguments.no_video, "write no operation.mp4");
   demo.add_flag("--perfect", arguments.perfect, "every source of error at zero");
   add_reference_flag(demo, arguments.reference);
-  arguments.igtl.add_to(demo);
+  arguments.onlookers.add_to(demo);
   arguments.calibration.add_to(demo);
   arguments.limits.add_to(demo);
-  arguments.log.add_to(demo);
-  arguments.web.add_to(demo);
   add_config_option(demo);
   // For tests: a hasty surgeon finishes in a fraction of the frames.
   demo.add_option("--pace", arguments.pace, "how many times as fast the surgeon works")

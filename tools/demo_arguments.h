@@ -8,11 +8,9 @@
 #include "engine/study/simulated_operation.h"
 #include "tools/arguments.h"
 #include "tools/calibration_argument.h"
-#include "tools/dashboard.h"
-#include "tools/event_log.h"
-#include "tools/igtl_stream.h"
 #include "tools/kept_operation.h"
 #include "tools/limit_arguments.h"
+#include "tools/onlookers.h"
 
 namespace orthonav::tools {
 
@@ -34,11 +32,9 @@ struct DemoArguments {
   bool json = false;
   int threads = 2;
   std::optional<double> pace;
-  IgtlArguments igtl;
   CalibrationArgument calibration;
   LimitArguments limits;
-  EventLogArguments log;
-  DashboardArguments web;
+  OnlookerArguments onlookers;
 };
 
 /// Adds the options that fill them in.

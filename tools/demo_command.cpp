@@ -61,8 +61,8 @@ class Demo {
     if (!levels) {
       return bad_input("--levels: " + levels.error().message);
     }
-    const Status told = open_for_others();
-    if (const Status ready = told ? prepare(*source, *levels) : told; !ready) {
+    const Status opened = onlookers_.open(arguments_.onlookers);
+    if (const Status ready = opened ? prepare(*source, *levels) : opened; !ready) {
       return bad_input(ready.error().message);
     }
     auto result = operate(*source);
@@ -82,13 +82,6 @@ class Demo {
   }
 
  private:
-  /// The log, the dashboard and OpenIGTLink.
-  Status open_for_others() {
-    const Status logged = log_.open(arguments_.log);
-    const Status shown = logged ? web_.open(arguments_.web) : logged;
-    return shown ? igtl_.open(arguments_.igtl) : shown;
-  }
-
   void tell_how_it_ended(bool completed) {
     if (signals_.caught()) {
       tell_what_is_kept(signals_, {arguments_.out, arguments_.record});
@@ -175,9 +168,7 @@ class Demo {
     hooks.can_stop = [this](std::function<void()> stop) { signals_.on_stop(std::move(stop)); };
     hooks.seen_through = [this](Headset& room) { return arguments_.calibration.on(room); };
     hooks.assembled = [&](engine::AssembledOperation& operation) {
-      operation.observe(&log_);
-      web_.watch(operation, arguments_.limits.grades());
-      igtl_.watch(operation);
+      onlookers_.watch(operation, arguments_.limits.grades());
       return kept_.begin(operation, out_->path().string(), about_demo(arguments_, source.name));
     };
     hooks.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
@@ -188,10 +179,7 @@ class Demo {
       return arguments_.resume ? Status() : remove_earlier_results(out_->path());
     };
     auto result = engine::run_operation(source, options, hooks);
-    if (result) {
-      log_.ended(result->loop);
-    }
-    igtl_.tell();
+    onlookers_.ended(result ? &result->loop : nullptr);
     return result;
   }
 
@@ -230,9 +218,7 @@ class Demo {
   std::unique_ptr<ReadingCurves> readings_;
   std::unique_ptr<engine::Journal> journal_;
   KeptOperation kept_;
-  IgtlStream igtl_;
-  EventLog log_;
-  Dashboard web_;
+  Onlookers onlookers_;
   std::unique_ptr<engine::VideoWriter> video_;
   std::unique_ptr<VideoPictures> video_pictures_;
 };

@@ -6,8 +6,6 @@
 
 #include <vector>
 
-#include "engine/session/wording.h"
-
 namespace orthonav::tools {
 
 void EventLogArguments::add_to(CLI::App& command) {
@@ -54,33 +52,20 @@ void EventLog::warn(const std::string& line) {
   }
 }
 
-void EventLog::note_message(const engine::Message* message, double time_s) {
-  now_.clear();
-  if (message != nullptr) {
-    engine::append(now_, *message);
-  }
-  if (now_ == message_) {
-    return;
-  }
-  std::swap(message_, now_);
-  if (!message_.empty()) {
-    log_->info("{:.2f} s: message: {}", time_s, message_);
-  }
-}
-
 void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*/,
                        const engine::Guidance& guidance) {
   if (!log_) {
     return;
   }
-  first_ = first_.value_or(frame.time);
-  const double time_s = seconds(frame.time - *first_);
   const engine::StatusLine& status = guidance.status;
-  if (step_ != status.at) {
-    step_ = status.at;
-    log_->info("{:.2f} s: step: {}", time_s, engine::step_text(*step_));
+  changes_.look(frame.time, status);
+  const double time_s = changes_.time_s();
+  if (!changes_.new_step().empty()) {
+    log_->info("{:.2f} s: step: {}", time_s, changes_.new_step());
   }
-  note_message(status.message, time_s);
+  if (!changes_.new_message().empty()) {
+    log_->info("{:.2f} s: message: {}", time_s, changes_.new_message());
+  }
   if (status.tool_lost != lost_) {
     lost_ = status.tool_lost;
     log_->debug("{:.2f} s: {} {}", time_s, status.tool, lost_ ? "lost" : "found");

@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "engine/live/frame_loop.h"
+#include "tools/status_changes.h"
 
 namespace spdlog {
 class logger;
@@ -36,14 +37,9 @@ class EventLog : public engine::LoopObserver {
   void ended(const engine::LoopReport& report);
 
  private:
-  void note_message(const engine::Message* message, double time_s);
-
   std::shared_ptr<spdlog::logger> log_;  ///< null: nobody reads it
-  std::optional<Timestamp> first_;
-  std::optional<StepOnDisplay> step_;
-  std::string message_;
+  StatusChanges changes_;
   std::string heard_;
-  std::string now_;  ///< kept for its room
   bool lost_ = false;
 };
 

@@ -31,7 +31,8 @@ Result<std::vector<Offer>> offers_of_ports(std::string_view address) {
       offers.push_back({"HoloLens 2: " + port.name, Finding::kFound, where, ""});
     } else {
       // Without its cameras there is nothing to run on.
-      const bool needed = port.name.find("camera") != std::string::npos;
+      const bool needed =
+          port.service == hl2ss::Service::kLeftFront || port.service == hl2ss::Service::kRightFront;
       offers.push_back({"HoloLens 2: " + port.name, needed ? Finding::kMissing : Finding::kOptional,
                         where + ": " + port.trouble,
                         "start hl2ss on the headset (docs/headsets.md)"});

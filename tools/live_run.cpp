@@ -45,9 +45,7 @@ class LiveRun {
     }
     OperationProgress progress(nullptr);
     operation_->observe(&progress);
-    operation_->observe(&log_);
-    web_.watch(*operation_, arguments_.limits.grades());
-    igtl_.watch(*operation_);
+    onlookers_.watch(*operation_, arguments_.limits.grades());
     if (const Status presenting = presenting_.begin(*headset_, *operation_); !presenting) {
       return bad_input(files_.close(presenting.error().message));
     }
@@ -55,11 +53,10 @@ class LiveRun {
     auto report = operation_->run();
     signals_.on_stop(nullptr);
     presenting_.end(arguments_.stats);
-    igtl_.tell();
+    onlookers_.ended(report ? &*report : nullptr);
     if (!report) {
       return bad_input(files_.close(report.error().message));
     }
-    log_.ended(*report);
     const engine::OperationResult result = result_of(std::move(*report));
     if (const Status finished = finish(result); !finished) {
       return bad_input(finished.error().message);
@@ -129,9 +126,9 @@ class LiveRun {
     if (arguments_.headset == "openxr:") {
       std::fprintf(stderr, "openxr: no cameras are named, so the simulated room's: openxr:+sim:\n");
     }
-    log_.say("headset " + headset_->name() + ", case " + case_name_);
+    onlookers_.log().say("headset " + headset_->name() + ", case " + case_name_);
     if (!opened->warning.empty()) {
-      log_.warn(opened->warning);
+      onlookers_.log().warn(opened->warning);
       std::fprintf(stderr, "orthonav: warning: %s\n", opened->warning.c_str());
     }
     const auto calibrated = arguments_.calibration.on(*headset_);
@@ -167,13 +164,8 @@ class LiveRun {
       return sizes.error();
     }
     sizes_ = std::move(*sizes);
-    for (const Status& opened : {log_.open(arguments_.log), web_.open(arguments_.web)}) {
-      if (!opened) {
-        return opened;
-      }
-    }
-    if (const Status served = igtl_.open(arguments_.igtl); !served) {
-      return served;
+    if (const Status opened = onlookers_.open(arguments_.onlookers); !opened) {
+      return opened;
     }
     return arguments_.resume ? files_.kept().find(arguments_.out) : Status{};
   }
@@ -282,9 +274,7 @@ class LiveRun {
   const sim::SimHeadset* room_ = nullptr;  ///< that the cameras see, where it is simulated
   std::optional<engine::GroundTruthRecorder> ground_truth_;
   engine::EndNote end_note_;
-  IgtlStream igtl_;
-  EventLog log_;
-  Dashboard web_;
+  Onlookers onlookers_;
   std::unique_ptr<engine::AssembledOperation> operation_;
   Presenting presenting_;
 };

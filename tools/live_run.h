@@ -6,10 +6,8 @@
 
 #include "tools/calibration_argument.h"
 #include "tools/common_error_arguments.h"
-#include "tools/dashboard.h"
-#include "tools/event_log.h"
-#include "tools/igtl_stream.h"
 #include "tools/limit_arguments.h"
+#include "tools/onlookers.h"
 #include "tools/screw_arguments.h"
 #include "tools/stop_signals.h"
 
@@ -28,11 +26,9 @@ struct RunArguments {
   std::string out;
   CommonErrorArguments common;
   ScrewArguments screws;
-  IgtlArguments igtl;
   CalibrationArgument calibration;
   LimitArguments limits;
-  EventLogArguments log;
-  DashboardArguments web;
+  OnlookerArguments onlookers;
   std::int64_t frames = 0;
   double for_s = 0.0;  ///< of the device's clock; 0: no limit
   bool reference = false;

@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -38,24 +37,6 @@ void add_manual_command(CLI::App& app, Action& action) {
   manual->footer("To read one: man ./orthonav-run.1. Packages install them.");
   manual->callback(
       [out, &app, &action] { action = [out, &app] { return write_manual(app, *out); }; });
-}
-
-void add_completion_command(CLI::App& app, Action& action) {
-  auto shell = std::make_shared<std::string>();
-  auto* completion = app.add_subcommand("completion", "Prints what a shell completes");
-  completion->add_option("SHELL", *shell, "bash or zsh")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh"}));
-  completion->footer(
-      "bash: source <(orthonav completion bash). zsh: autoload -U +X bashcompinit && "
-      "bashcompinit,\n"
-      "then the same with zsh.");
-  completion->callback([&app, &action] {
-    action = [&app] {
-      std::fputs(bash_completion(page_of(app)).c_str(), stdout);
-      return kDone;
-    };
-  });
 }
 
 }  // namespace orthonav::tools

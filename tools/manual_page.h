@@ -17,7 +17,4 @@ struct ManualPage {
 [[nodiscard]] std::vector<ManualPage> manual_pages(const CommandPage& page,
                                                    const std::string& release);
 
-/// What bash completes; zsh reads the same with `bashcompinit`.
-[[nodiscard]] std::string bash_completion(const CommandPage& page);
-
 }  // namespace orthonav::tools

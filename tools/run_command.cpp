@@ -55,11 +55,9 @@ void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
   add_reference_flag(*run, arguments->reference);
   arguments->common.add_to(*run);
   arguments->screws.add_to(*run);
-  arguments->igtl.add_to(*run);
+  arguments->onlookers.add_to(*run);
   arguments->calibration.add_to(*run);
   arguments->limits.add_to(*run);
-  arguments->log.add_to(*run);
-  arguments->web.add_to(*run);
   add_ends_and_results(*run, *arguments);
   add_config_option(*run);
   run->callback([arguments, &action, &signals] {

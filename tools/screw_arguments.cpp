@@ -10,7 +10,7 @@ namespace orthonav::tools {
 
 void ScrewArguments::add_to(CLI::App& command) {
   command
-      .add_option("--screws", file,
+      .add_option("--screws,--sizes", file,
                   "list of screw sizes (default: 4.5 to 8.5 mm, 25 to 60 mm long; "
                   "docs/file-formats.md)")
       ->check(some_text());

@@ -11,6 +11,7 @@
 #include "engine/case/operation.h"
 #include "engine/io/inside_folder.h"
 #include "engine/io/json_document.h"
+#include "engine/io/json_pose.h"
 #include "engine/io/mesh_file.h"
 
 namespace orthonav::engine {
@@ -39,29 +40,14 @@ void stack_if_they_overlap(Case& subject) {
 /// The matrix of one level in metres and LPS; the node notes what is wrong with it.
 Transform<Spine, Vertebra> spine_from_model(const JsonNode& node, double metres_per_unit,
                                             Axes axes) {
-  constexpr double kMaxShear = 1e-3;
-  const std::vector<double> numbers = node.numbers("spine_from_model", 16);
-  std::array<double, 16> a{};
-  std::copy(numbers.begin(), numbers.end(), a.begin());
-  for (const std::size_t i : {3u, 7u, 11u}) {
-    a[i] *= metres_per_unit;
-  }
+  std::array<double, 16> rows = pose_rows(node, "spine_from_model", metres_per_unit);
   if (axes == Axes::kRas) {
     // Both sides turn half round z: F·M·F with F = diag(-1, -1, 1).
     for (const std::size_t i : {2u, 3u, 6u, 7u, 8u, 9u}) {
-      a[i] = -a[i];
+      rows[i] = -rows[i];
     }
   }
-  const bool affine = a[12] == 0 && a[13] == 0 && a[14] == 0 && a[15] == 1;
-  if (!affine) {
-    node.refuse("spine_from_model", "must end with the row 0 0 0 1");
-  }
-  const auto transform = Transform<Spine, Vertebra>::from_row_major(a, kMaxShear);
-  if (transform) {
-    return *transform;
-  }
-  node.refuse("spine_from_model", transform.error().message);
-  return {};
+  return rigid_pose<Spine, Vertebra>(node, "spine_from_model", rows);
 }
 
 /// Of the case's own numbers; the node notes what is wrong with them.

@@ -11,6 +11,7 @@
 #include "embedded/tools_json.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/json_document.h"
+#include "engine/io/json_pose.h"
 
 namespace orthonav::engine {
 
@@ -44,23 +45,8 @@ nav::MarkerDefinition marker_from(const JsonNode& node) {
 }
 
 nav::AttachedMarker attached_from(const JsonNode& node) {
-  // The file's numbers are meant to be rigid; what is rounded to four digits still is.
-  constexpr double kMaxShear = 1e-3;
-  const std::vector<double> numbers = node.numbers("pose", 16);
-  std::array<double, 16> a{};
-  std::copy(numbers.begin(), numbers.end(), a.begin());
-  for (const std::size_t i : {3u, 7u, 11u}) {
-    a[i] *= kMetresPerMm;
-  }
-  const bool affine = a[12] == 0 && a[13] == 0 && a[14] == 0 && a[15] == 1;
-  if (!affine) {
-    node.refuse("pose", "must end with the row 0 0 0 1");
-  }
-  const auto pose = Transform<Marker, Tag>::from_row_major(a, kMaxShear);
-  if (!pose) {
-    node.refuse("pose", pose.error().message);
-  }
-  return {marker_from(node), pose ? *pose : Transform<Marker, Tag>{}};
+  const auto rows = pose_rows(node, "pose", kMetresPerMm);
+  return {marker_from(node), rigid_pose<Marker, Tag>(node, "pose", rows)};
 }
 
 nav::ToolGeometry tool_from(const JsonNode& node) {

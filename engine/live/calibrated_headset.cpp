@@ -1,12 +1,8 @@
 #include "engine/live/calibrated_headset.h"
 
-#include <algorithm>
-#include <array>
-#include <tuple>
-#include <vector>
-
 #include "base/units.h"
 #include "engine/io/json_document.h"
+#include "engine/io/json_pose.h"
 
 namespace orthonav::engine {
 namespace {
@@ -16,23 +12,6 @@ BrownConrady lens_from(const JsonNode& node) {
           node.number("fy_px"),     node.number("cx_px"),      node.number("cy_px"),
           node.number("k1"),        node.number("k2"),         node.number("p1"),
           node.number("p2"),        node.number("k3")};
-}
-
-/// Millimetres by rows; what is rounded to four digits is still rigid.
-Transform<RightCamera, LeftCamera> pose_from(const JsonNode& root, const char* key) {
-  constexpr double kMaxShear = 1e-3;
-  const std::vector<double> numbers = root.numbers(key, 16);
-  std::array<double, 16> rows{};
-  std::copy(numbers.begin(), numbers.end(), rows.begin());
-  for (const std::size_t i : {3u, 7u, 11u}) {
-    rows[i] *= kMetresPerMm;
-  }
-  auto pose = Transform<RightCamera, LeftCamera>::from_row_major(rows, kMaxShear);
-  if (!pose) {
-    root.refuse(key, pose.error().message);
-    return {};
-  }
-  return *pose;
 }
 
 Result<CameraModel> model_from(const BrownConrady& lens, const std::string& where) {
@@ -76,7 +55,9 @@ Result<CalibrationFile> load_calibration(const std::string& path) {
     left = lens_from(root.child("left"));
     right = lens_from(root.child("right"));
   }
-  CalibrationFile file{path, {}, {}, pose_from(root, "right_from_left_mm")};
+  constexpr const char* kPose = "right_from_left_mm";
+  const auto rows = pose_rows(root, kPose, kMetresPerMm);
+  CalibrationFile file{path, {}, rigid_pose<RightCamera, LeftCamera>(root, kPose, rows)};
   if (const Status read = document->status(); !read) {
     return read.error();
   }
@@ -86,8 +67,7 @@ Result<CalibrationFile> load_calibration(const std::string& path) {
     if (!right_model) {
       return right_model.error();
     }
-    file.left = std::move(*left_model);
-    file.right = std::move(*right_model);
+    file.lenses = {std::move(*left_model), std::move(*right_model)};
   }
   return file;
 }
@@ -95,16 +75,15 @@ Result<CalibrationFile> load_calibration(const std::string& path) {
 Result<std::unique_ptr<CalibratedHeadset>> CalibratedHeadset::create(Headset& headset,
                                                                      const CalibrationFile& file) {
   StereoCalibration calibration = headset.cameras().calibration();
-  if (file.left && file.right) {
-    for (const auto& [side, own, device] :
-         {std::tuple{"left", &*file.left, &calibration.left},
-          std::tuple{"right", &*file.right, &calibration.right}}) {
-      if (const Status same = check_size(file.name + ": " + side, *own, *device); !same) {
-        return same.error();
-      }
+  if (file.lenses) {
+    const Status left = check_size(file.name + ": left", file.lenses->left, calibration.left);
+    const Status both =
+        left ? check_size(file.name + ": right", file.lenses->right, calibration.right) : left;
+    if (!both) {
+      return both.error();
     }
-    calibration.left = *file.left;
-    calibration.right = *file.right;
+    calibration.left = file.lenses->left;
+    calibration.right = file.lenses->right;
   }
   calibration.right_from_rig = file.right_from_left * calibration.left_from_rig;
   return std::unique_ptr<CalibratedHeadset>(new CalibratedHeadset(headset, std::move(calibration)));

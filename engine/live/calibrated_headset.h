@@ -9,21 +9,24 @@
 
 namespace orthonav::engine {
 
-/// What `orthonav calibrate stereo` found: the lenses where images told them, and how the cameras
-/// lie to each other.
+/// What `orthonav calibrate stereo` found.
 struct CalibrationFile {
-  std::string name;  ///< of the file
-  std::optional<CameraModel> left;
-  std::optional<CameraModel> right;
+  struct Lenses {
+    CameraModel left;
+    CameraModel right;
+  };
+  std::string name;              ///< of the file
+  std::optional<Lenses> lenses;  ///< absent: as the device has them, a recording does not tell
   Transform<RightCamera, LeftCamera> right_from_left;
 };
 
-/// Reads its JSON. Refuses, naming file and field, what is missing or of the wrong type, a pose
-/// that is no rigid motion, lenses that fold over, and a calibration whose verdict was fail.
+/// Reads the JSON of `calibrate stereo`. Refuses, naming file and field, what is missing or of the
+/// wrong type, a pose that is not rigid, lenses that fold over, and a calibration whose verdict was
+/// fail.
 Result<CalibrationFile> load_calibration(const std::string& path);
 
-/// A headset whose cameras are as a calibration says instead of as the device does. The left camera
-/// keeps its place in the rig, the right one lies to it as calibrated. Borrows the headset.
+/// A headset with its cameras as calibrated, not as the device describes them. The left camera keeps
+/// its place in the rig; the right one is placed relative to it. Borrows the headset.
 class CalibratedHeadset : public ForwardingHeadset {
  public:
   /// Refuses lenses of images of another size than the device's.

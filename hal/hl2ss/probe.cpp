@@ -29,6 +29,7 @@ Result<std::vector<ProbedPort>> probe(const Hl2ssOptions& options) {
   for (const auto& [name, service] : kServices) {
     ProbedPort& each = ports.emplace_back();
     each.name = name;
+    each.service = service;
     each.port = options.first_port + offset_of(service);
     if (const Status reached = reach(*host, each.port, HostClock::now() + kPatience); !reached) {
       each.trouble = reached.error().message;

@@ -10,6 +10,7 @@ namespace orthonav::hl2ss {
 /// Whether one port of a headset lets us in.
 struct ProbedPort {
   std::string name;  ///< "left camera"
+  Service service = Service::kLeftFront;
   int port = 0;
   std::string trouble;  ///< empty: it does
 };

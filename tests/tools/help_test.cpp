@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -131,31 +131,19 @@ TEST(Manual, HasAPageOfEveryCommandThatHelpNames) {
   EXPECT_EQ(names.count("orthonav-plan-auto.1"), 1u);
 }
 
-/// What bash offers after these words, the last of which is not complete.
+/// What bash offers after these words, the last of which is not complete, in the folder /usr.
 std::string completed(const std::vector<std::string>& words) {
-  std::string line =
-      "source <(" + std::string(ORTHONAV_COMMAND) + " completion bash); COMP_WORDS=(";
+  const ScratchFolder folder;
+  std::string script =
+      "source <(" + std::string(ORTHONAV_COMMAND) + " completion bash)\nCOMP_WORDS=(";
   for (const std::string& word : words) {
-    line += "'" + word + "' ";
+    script += "'" + word + "' ";
   }
-  line +=
-      "); COMP_CWD=" + std::to_string(words.size() - 1) + "; _orthonav; echo \"${COMPREPLY[*]}\"";
-  const std::string command = "cd /usr && bash -c \"" + [&line] {
-    std::string quoted;
-    for (const char c : line) {
-      quoted += c == '"' || c == '$' ? std::string{'\\', c} : std::string{c};
-    }
-    return quoted;
-  }() + "\"";
-  FILE* pipe = ::popen(command.c_str(), "r");
-  std::string out;
-  for (int c = pipe != nullptr ? std::fgetc(pipe) : EOF; c != EOF; c = std::fgetc(pipe)) {
-    out += static_cast<char>(c);
-  }
-  if (pipe != nullptr) {
-    ::pclose(pipe);
-  }
-  return out.substr(0, out.find('\n'));
+  script += ")\nCOMP_CWD=" + std::to_string(words.size() - 1) +
+            "\ncd /usr && _orthonav && echo \"${COMPREPLY[*]}\" >" + folder.file("offered") + "\n";
+  EXPECT_EQ(std::system(("bash " + folder.with("complete", script)).c_str()), 0);
+  const std::string offered = content_of(folder.file("offered"));
+  return offered.substr(0, offered.find('\n'));
 }
 
 TEST(Completion, OffersCommandsOptionsChoicesAndFiles) {

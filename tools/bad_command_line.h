@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace orthonav::tools {
+
+/// Says in one line what is wrong with the command line, and what was probably meant; the exit code
+/// for bad input.
+int bad_command_line(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace orthonav::tools
