@@ -3,12 +3,13 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <type_traits>
 
 #include "base/result.h"
 
 namespace orthonav {
 
-/// In a catch block: an Error that names who died of what.
+/// For a catch block: an Error that says what `who` was ended by.
 [[nodiscard]] inline Error ended_by_exception(const std::string& who) {
   try {
     throw;
@@ -21,12 +22,17 @@ namespace orthonav {
   }
 }
 
-/// What `work` answers; where an exception leaves it, an Error, for those who end things in order.
-/// Around the work of a thread, which would take the whole program with it.
+/// Calls `work`, which answers a Status or nothing; an exception becomes an Error. For the body of a
+/// thread: an exception that leaves a thread ends the whole program.
 template <class Work>
 Status guarded(const char* who, Work&& work) {
   try {
-    return work();
+    if constexpr (std::is_void_v<std::invoke_result_t<Work>>) {
+      work();
+      return {};
+    } else {
+      return work();
+    }
   } catch (...) {
     return ended_by_exception(who);
   }

@@ -58,7 +58,6 @@ Status FrameLoop::loop(SnapshotQueue* queue, LoopReport& report) {
     if (last_display_time_ > Timestamp::min()) {
       take_back(session_.end(next_display_time()), queue, report);
     }
-    return Status{};
   });
   return ended ? taken_back : ended;
 }

@@ -22,10 +22,7 @@ static_assert(kStallAfter + kLookEvery <= std::chrono::milliseconds(500),
 Status FrameLoop::draw_beside(SnapshotQueue& queue, LoopReport& report, Status& drawn) {
   LoopReport drawing;
   std::thread drawer([&] {
-    const Status lived = guarded("renderer", [&] {
-      draw_all(queue, drawing, drawn);
-      return Status{};
-    });
+    const Status lived = guarded("renderer", [&] { draw_all(queue, drawing, drawn); });
     if (!lived) {
       drawn = lived;
       stop();

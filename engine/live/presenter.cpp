@@ -29,18 +29,12 @@ Result<std::unique_ptr<Presenter>> Presenter::start(PixelDisplay& display,
   }
   presenter->renderer_ = std::move(*renderer);
   presenter->thread_ = std::thread([raw = presenter.get()] {
-    const auto alive = [](auto work) {
-      return guarded("renderer", [&] {
-        work();
-        return Status{};
-      });
-    };
-    const Status died = alive([raw] { raw->run(); });
+    const Status died = guarded("renderer", [raw] { raw->run(); });
     {
       const MutexLock lock(raw->mutex_);
       raw->died_ = died;
     }
-    static_cast<void>(alive([raw] { raw->leave(); }));
+    static_cast<void>(guarded("renderer", [raw] { raw->leave(); }));
   });
   return presenter;
 }

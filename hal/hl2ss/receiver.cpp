@@ -30,10 +30,7 @@ Result<std::unique_ptr<Receiver>> Receiver::start(const net::Endpoint& host,
     return added.error();
   }
   receiver->thread_ = std::thread([self = receiver.get()] {
-    const Status died = guarded("hl2ss", [self] {
-      self->run();
-      return Status{};
-    });
+    const Status died = guarded("hl2ss", [self] { self->run(); });
     if (!died) {
       self->pairs_.fail(died.error());
     }

@@ -19,10 +19,7 @@ constexpr int kSendBuffer = 64 << 10;
 ServerThread::ServerThread(const ServerOptions& options, net::Allowed allowed, net::Socket listener)
     : options_(options), allowed_(std::move(allowed)), listener_(std::move(listener)) {
   thread_ = std::thread([this] {
-    const Status died = guarded("server", [this] {
-      run();
-      return Status{};
-    });
+    const Status died = guarded("server", [this] { run(); });
     if (!died) {
       const MutexLock lock(mutex_);
       ++counts_.dropped;

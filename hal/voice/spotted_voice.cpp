@@ -114,10 +114,7 @@ class VoiceOnItsOwnThread : public Voice {
   VoiceOnItsOwnThread(Listener listener, std::unique_ptr<const Clock> wall)
       : listener_(std::move(listener)), wall_(std::move(wall)) {
     thread_ = std::thread([this] {
-      const Status died = guarded("voice", [this] {
-        run();
-        return Status{};
-      });
+      const Status died = guarded("voice", [this] { run(); });
       const MutexLock lock(mutex_);
       died_ = died;
     });
