@@ -22,8 +22,8 @@ namespace orthonav {
   }
 }
 
-/// Calls `work`, which answers a Status or nothing; an exception becomes an Error. For the body of a
-/// thread: an exception that leaves a thread ends the whole program.
+/// Calls `work`, which answers a Status or nothing; an exception becomes an Error. For the body of
+/// a thread: an exception that leaves a thread ends the whole program.
 template <class Work>
 Status guarded(const char* who, Work&& work) {
   try {

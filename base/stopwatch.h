@@ -5,7 +5,7 @@
 namespace orthonav {
 
 /// Wall time since it was made, for measuring how long work takes and for ending waits. Besides
-/// devices, only this class reads a clock; no result may depend on it.
+/// devices, only this class and `WallClock` read a clock; no result may depend on them.
 class Stopwatch {
  public:
   using WallTime = std::chrono::steady_clock::time_point;

@@ -1,13 +1,12 @@
-# orthonav_hardened(target): in a release build, our code ends at the first overflow that a compiler can
-# see instead of going on with it (docs/decisions/0095-a-hardened-build.md has the cost). Private: whoever
-# links our libraries chooses for themselves. Programs also get addresses that nobody can guess, and
-# tables that nobody can write once they are loaded.
+# orthonav_hardened(target): in a release build our code ends at the first overflow that these checks catch
+# (docs/decisions/0095-a-hardened-build.md has the cost). Private: whoever links our libraries chooses for
+# themselves. Programs are also position independent, and their relocation tables read-only once loaded.
 option(ORTHONAV_HARDEN "Harden release builds" ON)
 include(CheckPIESupported)
 check_pie_supported(LANGUAGES C CXX)
 
 function(orthonav_hardened target)
-  # Sanitizers and fuzzers check more, and disagree with some of these.
+  # Sanitizers and fuzzers check more, and conflict with some of these.
   if(NOT ORTHONAV_HARDEN OR ORTHONAV_SANITIZE OR ORTHONAV_FUZZ)
     return()
   endif()

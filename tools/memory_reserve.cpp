@@ -13,10 +13,10 @@
 namespace orthonav::tools {
 namespace {
 
-/// To close journal, recording and film with.
+/// Enough to close journal, recording and film.
 constexpr std::size_t kReserveBytes = std::size_t{32} << 20U;
 
-/// A handler has no other way to what it needs.
+/// Global: a new-handler gets no arguments.
 std::atomic<void*>& reserve() {
   static std::atomic<void*> bytes = nullptr;
   return bytes;

@@ -33,7 +33,7 @@ Result<std::string> path_inside(const std::string& folder, const std::string& na
   std::error_code problem;
   const fs::path home = fs::canonical(folder.empty() ? "." : folder, problem);
   if (problem) {
-    return path.string();  // whoever opens it says that it is not there
+    return path.string();  // does not exist: opening the file will say so
   }
   const fs::path real = fs::weakly_canonical(path, problem);
   if (problem) {

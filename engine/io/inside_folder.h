@@ -6,14 +6,14 @@
 
 namespace orthonav::engine {
 
-/// The path of the file that `name` means in `folder`, for names that a file of somebody else
-/// states. Refuses names that lead out of the folder (absolute, with `..`, through a symbolic link)
-/// and what is there but is no plain file: a device or a pipe has no end. A link that stays inside
-/// is followed. Whoever may write to the folder meanwhile can still change what the path means.
+/// The path of the file `name` in `folder`, for names that come from files made elsewhere. Refuses
+/// names that lead out of the folder (absolute, with `..`, through a symbolic link) and whatever is
+/// there but is not a regular file: a device or a pipe has no end. A link that stays inside is
+/// followed. No defence against somebody who changes the folder between this check and the opening.
 Result<std::string> path_inside(const std::string& folder, const std::string& name);
 
-/// `text` serves as part of a file's name: one to 64 characters, no '/', no control character, no
-/// '.' in front.
+/// Whether `text` can be part of a file's name: 1 to 64 bytes, no '/', no control character, no '.'
+/// in front.
 [[nodiscard]] bool is_part_of_a_file_name(const std::string& text);
 
 }  // namespace orthonav::engine

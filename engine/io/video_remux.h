@@ -6,9 +6,9 @@
 
 namespace orthonav::engine {
 
-/// Writes the pictures of one MP4 into another as they are, its index in front, from time zero on.
-/// For a film in fragments, which plays wherever it is cut but whose length nobody knows before it
-/// is read to its end. An Error names `name`.
+/// Copies the pictures of one MP4 into another without encoding them anew, from time zero on and
+/// with the index in front. For a film in fragments, whose length players know only once they have
+/// read all of it. An Error names the film as `name`.
 Status remux_video(const std::string& from, const std::string& to, const std::string& name);
 
 }  // namespace orthonav::engine

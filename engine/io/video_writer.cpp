@@ -52,7 +52,7 @@ struct VideoWriter::Encoder {
   SwsContext* scaler = nullptr;
   std::int64_t frames = 0;
   bool finished = false;
-  bool kept = false;  ///< cut off, and left where it was written
+  bool kept = false;  ///< cut off, and left in its temporary place
 
   ~Encoder() {
     sws_freeContext(scaler);
@@ -71,7 +71,7 @@ struct VideoWriter::Encoder {
   Status open_frame();
   Status drain();
   Status put_in_place();
-  /// What was written plays: it stays, and whoever is told of the failure is told where.
+  /// Leaves what was written, which plays, where it is; the Error says where.
   Error cut_off(const Error& why);
 };
 
@@ -136,8 +136,8 @@ Status VideoWriter::Encoder::open_file() {
 
 Status VideoWriter::Encoder::write_header() {
   AVDictionary* movie = nullptr;
-  // Each picture is a fragment of its own, on the disk's side once it is encoded: a film that is
-  // cut anywhere plays up to there.
+  // Each picture is a fragment of its own, handed to the system once it is encoded: a film that is
+  // cut off anywhere plays up to there.
   format->flags |= AVFMT_FLAG_FLUSH_PACKETS;
   int code = av_dict_set(&movie, "movflags", "frag_every_frame+empty_moov+default_base_moof", 0);
   if (code >= 0) {
@@ -197,12 +197,14 @@ Error VideoWriter::Encoder::cut_off(const Error& why) {
               : why;
 }
 
-/// With its index in front, so that it is seen how long it is. Where there is no room for that the
-/// fragments take its place as they are.
+/// Copies the film once more with its index in front, which tells players its length. Where there
+/// is no room for a copy, the film in fragments becomes the file as it is.
 Status VideoWriter::Encoder::put_in_place() {
-  const bool in_place = file.temporary_path() == file.final_path();  // a pipe
+  if (file.temporary_path() == file.final_path()) {  // a pipe
+    return file.commit();
+  }
   auto whole = AtomicFile::create(path);
-  if (!in_place && whole && remux_video(file.temporary_path(), whole->temporary_path(), path)) {
+  if (whole && remux_video(file.temporary_path(), whole->temporary_path(), path)) {
     return whole->commit();
   }
   return file.commit();
@@ -266,8 +268,11 @@ Status VideoWriter::finish() {
   if (e.finished) {
     return {};
   }
-  if (e.frames == 0 || e.kept) {
-    return Error{e.path + (e.kept ? ": was cut off before" : ": no picture was written")};
+  if (e.kept) {
+    return Error{e.path + ": was cut off before"};
+  }
+  if (e.frames == 0) {
+    return Error{e.path + ": no picture was written"};
   }
   if (const int code = avcodec_send_frame(e.codec, nullptr); code < 0) {
     return av_error(e.path, "encoding failed", code);

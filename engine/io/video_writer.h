@@ -16,10 +16,10 @@ struct VideoOptions {
   int threads = 1;
 };
 
-/// H.264 in an MP4 that browsers play, by libavcodec. It gets its name from `finish`; until then it
-/// lies beside it, as STEM.part-PROCESS-N.mp4, and plays up to wherever it is cut: by a full disk,
-/// of which the Error says where it lies, or by the end of the process. A writer that is merely
-/// dropped leaves nothing behind.
+/// H.264 in an MP4 that browsers play, by libavcodec. `finish` gives the file its name; until then
+/// it lies in the same folder as STEM.part-PROCESS-N.mp4. That file stays and plays up to its end
+/// where the disk is full (the Error names it) or the process is killed. A writer that is dropped
+/// without either leaves nothing behind.
 class VideoWriter {
  public:
   static Result<std::unique_ptr<VideoWriter>> create(const std::string& path,

@@ -23,24 +23,14 @@ Result<LoopReport> FrameLoop::run() {
     return Error{"loop: " + joined(problems)};
   }
   LoopReport report;
-  Status tracked;
-  Status drawn;
   heard_at_ = headset_->clock().now();
   beats_.emplace(headset_->clock(), kStallAfter);
   session_.watch_work(&*beats_);
-  if (!sink_ || options_.draw_every == 0) {
-    tracked = loop(nullptr, report);
-  } else {
-    SnapshotQueue queue(options_.drop_late_snapshots ? SnapshotQueue::WhenFull::kDropOldest
-                                                     : SnapshotQueue::WhenFull::kWait);
-    tracked = draw_beside(queue, report, drawn);
-  }
+  const bool draws = sink_ && options_.draw_every > 0;
+  const Status ended = draws ? loop_and_draw(report) : loop(nullptr, report);
   session_.watch_work(nullptr);
-  if (!tracked) {
-    return tracked.error();
-  }
-  if (!drawn) {
-    return drawn.error();
+  if (!ended) {
+    return ended.error();
   }
   report.done = session_.current_step() == Step::kDone;
   return report;
@@ -171,7 +161,7 @@ Status FrameLoop::poll_commands(LoopReport& report) {
   return voice_stalled_ ? Status{} : tolerate(heard, voice_errors_, report);
 }
 
-/// What else than this thread hangs.
+/// The part outside of this thread that hangs.
 std::optional<Part> FrameLoop::stalled() const {
   if (voice_stalled_) {
     return Part::kVoice;

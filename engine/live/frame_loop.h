@@ -29,11 +29,11 @@ class SnapshotSink {
  public:
   virtual ~SnapshotSink() = default;
   virtual Status draw(const Snapshot& snapshot) = 0;
-  /// It draws on a thread of its own, and that hangs. From any thread.
+  /// Whether it draws on a thread of its own that hangs. From any thread.
   [[nodiscard]] virtual bool stalled() const { return false; }
 };
 
-/// What is at one thing for so long has stalled, and is named before half a second is over.
+/// A part that is at one thing for longer has stalled; it is named within half a second.
 inline constexpr Duration kStallAfter = std::chrono::milliseconds(400);
 
 struct LoopOptions {
@@ -62,7 +62,7 @@ struct LoopReport {
   std::int64_t failures = 0;  ///< of any device, with the reason of the last
   std::string last_failure;
   std::int64_t blanked = 0;  ///< times that guidance was taken back because pairs stopped
-  std::int64_t stalls = 0;   ///< times that a part stalled, and guidance was hidden for it
+  std::int64_t stalls = 0;   ///< times that guidance was hidden because a part stalled
   std::int64_t drawn = 0;
   std::int64_t draw_failures = 0;  ///< of the sink; each with its reason in `last_failure`
   std::int64_t dropped_snapshots = 0;
@@ -78,9 +78,9 @@ struct LoopReport {
 };
 
 /// From stereo pairs to what is shown: tracking on the calling thread, drawing on a thread of its
-/// own. Drawing takes snapshots and gives nothing back, so it can't influence a result; but that it
-/// has stalled is told, by the device's clock, and then nothing is guided. An exception that ends
-/// either thread ends the run in order, with an Error that names the part.
+/// own. Drawing takes snapshots and gives nothing back, so it can't influence a result; only when
+/// it stalls, by the device's clock, is guidance hidden. An exception in either thread ends the run
+/// in order, with an Error that names the part.
 class FrameLoop {
  public:
   FrameLoop(Headset& headset, Session& session, SceneBuilder& builder, const LoopOptions& options)
@@ -106,7 +106,6 @@ class FrameLoop {
  private:
   Status loop(SnapshotQueue* queue, LoopReport& report);
   Status loop_until_over(SnapshotQueue* queue, LoopReport& report);
-  Status draw_beside(SnapshotQueue& queue, LoopReport& report, Status& drawn);
   [[nodiscard]] std::optional<Part> stalled() const;
   void count_stall(std::optional<Part> now, LoopReport& report);
   Result<bool> next_frame(SnapshotQueue* queue, LoopReport& report);
@@ -114,10 +113,11 @@ class FrameLoop {
   void take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
   [[nodiscard]] Timestamp next_display_time() const;
   // frame_loop_drawing.cpp
-  void draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& status);
+  Status loop_and_draw(LoopReport& report);
+  Status draw_all(SnapshotQueue& queue, LoopReport& drawing);
   Status draw_into_sink(const Snapshot& snapshot);
   void warn_of_stall(const Snapshot* last, std::optional<Part>& warned, LoopReport& drawing);
-  Snapshot* await_snapshot(SnapshotQueue& queue, Snapshot*& last, LoopReport& drawing);
+  Snapshot* await_snapshot(SnapshotQueue& queue, Snapshot* last, LoopReport& drawing);
   Status poll_commands(LoopReport& report);
   Status step(SnapshotQueue* queue, LoopReport& report);
   Status tolerate(const Status& status, int& in_a_row, LoopReport& report);
@@ -134,7 +134,7 @@ class FrameLoop {
   std::atomic<bool> stop_ = false;
 
   std::optional<Heartbeats> beats_;  ///< while it runs
-  std::optional<Part> stalled_;      ///< in the last pair
+  std::optional<Part> stalled_;      ///< at the last pair
   bool voice_stalled_ = false;
 
   // Reused from pair to pair.

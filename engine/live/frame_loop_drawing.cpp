@@ -11,20 +11,22 @@
 namespace orthonav::engine {
 namespace {
 
-/// How often it is looked whether the tracking thread still lives, while nothing comes from it.
+/// While no snapshot comes, the drawing thread looks this often whether the tracking thread hangs.
 constexpr auto kLookEvery = std::chrono::milliseconds(50);
 static_assert(kStallAfter + kLookEvery <= std::chrono::milliseconds(500),
               "what stalls is named within half a second");
 
 }  // namespace
 
-/// The loop, with a thread beside it that draws.
-Status FrameLoop::draw_beside(SnapshotQueue& queue, LoopReport& report, Status& drawn) {
+/// The loop, with a thread beside it that draws. Where both fail, the loop's Error counts.
+Status FrameLoop::loop_and_draw(LoopReport& report) {
+  SnapshotQueue queue(options_.drop_late_snapshots ? SnapshotQueue::WhenFull::kDropOldest
+                                                   : SnapshotQueue::WhenFull::kWait);
   LoopReport drawing;
+  Status drawn;
   std::thread drawer([&] {
-    const Status lived = guarded("renderer", [&] { draw_all(queue, drawing, drawn); });
-    if (!lived) {
-      drawn = lived;
+    drawn = guarded("renderer", [&] { return draw_all(queue, drawing); });
+    if (!drawn) {
       stop();
       queue.close();  // tracking must not wait for a thread that is gone
     }
@@ -40,7 +42,7 @@ Status FrameLoop::draw_beside(SnapshotQueue& queue, LoopReport& report, Status& 
   }
   report.draw_wall_ms = std::move(drawing.draw_wall_ms);
   report.dropped_snapshots = queue.dropped();
-  return tracked;
+  return tracked ? drawn : tracked;
 }
 
 void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int64_t frame) {
@@ -71,7 +73,7 @@ Status FrameLoop::draw_into_sink(const Snapshot& snapshot) {
   return sink_->draw(snapshot);
 }
 
-/// Says in place of everything else what the tracking thread hangs in, since it can't itself.
+/// Draws a notice in place of everything else: the part that the tracking thread hangs in.
 void FrameLoop::warn_of_stall(const Snapshot* last, std::optional<Part>& warned,
                               LoopReport& drawing) {
   const std::optional<Part> stalled = beats_->tracking_stalled();
@@ -88,37 +90,37 @@ void FrameLoop::warn_of_stall(const Snapshot* last, std::optional<Part>& warned,
   warned = stalled;
   ++drawing.stalls;
   if (const Status drawn = draw_into_sink(warning); !drawn) {
+    ++drawing.failures;
     drawing.last_failure = drawn.error().message;
   }
 }
 
-/// The next snapshot; null at the end. In real time the last one stays for warnings meanwhile.
-Snapshot* FrameLoop::await_snapshot(SnapshotQueue& queue, Snapshot*& last, LoopReport& drawing) {
+/// The next snapshot in place of the last one, which warnings are made of meanwhile; null at the
+/// end.
+Snapshot* FrameLoop::await_snapshot(SnapshotQueue& queue, Snapshot* last, LoopReport& drawing) {
   std::optional<Part> warned;
-  Snapshot* next = nullptr;
-  if (!options_.drop_late_snapshots) {
-    return queue.take();
-  }
-  while (queue.take_until(Stopwatch().after(kLookEvery), next) == SnapshotQueue::Taken::kNothing) {
+  std::optional<Snapshot*> next;
+  while (!(next = queue.take_until(Stopwatch().after(kLookEvery)))) {
     warn_of_stall(last, warned, drawing);
   }
   if (last) {
-    queue.release(std::exchange(last, nullptr));
+    queue.release(last);
   }
-  return next;
+  return *next;
 }
 
 /// Draws until the queue is closed and empty. After too many failures in a row it fails for good
 /// and stops the loop, since a surgeon who sees nothing must be told. The remaining snapshots are
 /// taken without being drawn, so that tracking never waits for a drawer that gave up.
-void FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& status) {
+Status FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing) {
+  Status status;
   int in_a_row = 0;
   Snapshot* last = nullptr;
-  while (Snapshot* snapshot = await_snapshot(queue, last, drawing)) {
-    // Only in real time: where every snapshot is drawn, the pictures are for later, and the
-    // device's clock runs ahead of them.
-    if (options_.drop_late_snapshots && snapshot->expires &&
-        next_display_time() > *snapshot->expires) {
+  // Where every snapshot is drawn, the pictures are for later, and the device's clock runs ahead of
+  // them: it tells neither what is too old nor what hangs.
+  const bool real_time = options_.drop_late_snapshots;
+  while (Snapshot* snapshot = real_time ? await_snapshot(queue, last, drawing) : queue.take()) {
+    if (real_time && snapshot->expires && next_display_time() > *snapshot->expires) {
       hide_tool_guidance(snapshot->scene);
       snapshot->tool_time.reset();
     }
@@ -132,12 +134,13 @@ void FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& stat
         stop();
       }
     }
-    if (options_.drop_late_snapshots) {
+    if (real_time) {
       last = snapshot;
     } else {
       queue.release(snapshot);
     }
   }
+  return status;
 }
 
 }  // namespace orthonav::engine

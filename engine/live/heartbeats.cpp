@@ -7,7 +7,7 @@ namespace orthonav::engine {
 namespace {
 
 constexpr std::int64_t kRests = std::numeric_limits<std::int64_t>::max();
-/// Of the tracking thread, whoever is waited for before whoever waits.
+/// The parts on the tracking thread, innermost first.
 constexpr std::array kOfTracking = {Part::kCoach, Part::kVoice, Part::kCamera, Part::kTracker};
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace orthonav::engine {
 
-/// Since when each part has been at one thing, by the device's clock. The tracking thread and the
-/// drawing thread watch each other by it (docs/watchdogs.md). From any thread; waits for nobody.
+/// When each part began what it is at, by the device's clock. The tracking thread and the drawing
+/// thread watch each other by it (docs/watchdogs.md). From any thread; never waits.
 class Heartbeats : public WorkWatch {
  public:
   /// A part that is at one thing for longer than `limit` has stalled.
@@ -18,10 +18,11 @@ class Heartbeats : public WorkWatch {
   void begins(Part part) override;
   void ends(Part part) override;
 
-  /// What the tracking thread hangs in: the part that it waits for, where that is another.
+  /// The part that the tracking thread hangs in: the innermost one at work. Absent while it does
+  /// not hang.
   [[nodiscard]] std::optional<Part> tracking_stalled() const;
   [[nodiscard]] bool drawing_stalled() const { return stalled(Part::kRenderer, clock_.now()); }
-  /// What the tracking thread is at, however long.
+  /// The innermost part at work on the tracking thread, however long it has been.
   [[nodiscard]] std::optional<Part> tracking() const;
 
  private:
@@ -32,7 +33,7 @@ class Heartbeats : public WorkWatch {
 
   const Clock& clock_;
   Duration limit_;
-  std::array<std::atomic<std::int64_t>, kPartCount> since_ns_;  ///< kRests: at nothing
+  std::array<std::atomic<std::int64_t>, kPartCount> since_ns_;  ///< kRests: at no work
 };
 
 }  // namespace orthonav::engine

@@ -28,7 +28,7 @@ struct PresentReport {
 
 struct PresenterOptions {
   render::RendererOptions renderer;
-  /// The device's, by which it is told that the presenting thread hangs; null: it is not told.
+  /// The device's: `stalled` tells by it that the presenting thread hangs. Null: it never does.
   const Clock* clock = nullptr;
   /// Wall time to wait before looking again for a display that went away.
   Duration look_again_after = std::chrono::seconds(1);

@@ -47,14 +47,11 @@ Snapshot* SnapshotQueue::take() {
   return take_next();
 }
 
-SnapshotQueue::Taken SnapshotQueue::take_until(std::chrono::steady_clock::time_point until,
-                                               Snapshot*& next) {
+std::optional<Snapshot*> SnapshotQueue::take_until(std::chrono::steady_clock::time_point until) {
   const MutexLock lock(mutex_);
   while (!closed_ && ready_.empty() && changed_.wait_until(mutex_, until)) {
   }
-  const bool over = closed_ && ready_.empty();
-  next = take_next();
-  return next ? Taken::kSnapshot : (over ? Taken::kEnd : Taken::kNothing);
+  return closed_ || !ready_.empty() ? std::optional(take_next()) : std::nullopt;
 }
 
 Snapshot* SnapshotQueue::take_next() {

@@ -46,9 +46,8 @@ class SnapshotQueue {
   /// The next to draw. Under kWait the oldest one waiting; under kDropOldest the newest, and those
   /// before it are dropped. Blocks until there is one. Null once closed and empty.
   Snapshot* take();
-  enum class Taken { kSnapshot, kNothing, kEnd };
-  /// The same, but waits until then at most. `next` is null where there is none.
-  Taken take_until(std::chrono::steady_clock::time_point until, Snapshot*& next);
+  /// The same, but blocks no longer than `until`; absent where there was none by then.
+  std::optional<Snapshot*> take_until(std::chrono::steady_clock::time_point until);
   void release(Snapshot* drawn);
   /// No more will be published; the taker still gets what is left.
   void close();

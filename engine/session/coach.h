@@ -39,7 +39,7 @@ class Coach {
   explicit Coach(Registrar registrar, const nav::CommonErrors& common = {})
       : registrar_(std::move(registrar)), common_(common) {}
 
-  /// Is told while an answer is awaited; null: nobody. Borrowed.
+  /// Is told while this waits for an answer; null: nobody. Borrowed.
   void watch(WorkWatch* watch) { watch_ = watch; }
   /// Once for each pair of stroking, with everything stroked so far. The level must stay until
   /// `forget` or the end.

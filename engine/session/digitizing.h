@@ -26,7 +26,7 @@ class Digitizing {
   void press(LevelState& level, Timestamp time);
   void release(Timestamp time) { strokes_.digitizer.release(time); }
   void collect(const nav::TrackedPose& pose, const nav::ToolGeometry& pointer);
-  /// Is told while the coach is awaited; null: nobody. Borrowed.
+  /// Is told while this waits for the coach; null: nobody. Borrowed.
   void watch_work(WorkWatch* watch);
   /// Once for each pair of the step.
   void coach(const OperatedLevel& plan);

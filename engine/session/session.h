@@ -38,7 +38,7 @@ struct Inputs {
   std::span<const ClickerEvent> clicks;  ///< in order of time
   std::span<const Phrase> phrases;       ///< in order of time
   Timestamp display_time{};              ///< of a frame made of this step
-  std::optional<Part> stalled;           ///< nothing is guided as long as it is
+  std::optional<Part> stalled;           ///< hides all guidance
 };
 
 /// One operation from setup to done: values in, guidance out. Reads no clock and no device, so the

@@ -6,11 +6,11 @@
 
 namespace orthonav::engine {
 
-/// What an operation needs to go on; each may hang by itself.
+/// The parts of an operation that can hang, each by itself.
 enum class Part : std::uint8_t { kCamera, kTracker, kRenderer, kCoach, kVoice };
 inline constexpr std::size_t kPartCount = 5;
 
-/// Is told what works. Allocates nothing and waits for nobody; from any thread.
+/// Is told when a part begins and ends its work. From any thread; allocates nothing, never waits.
 class WorkWatch {
  public:
   virtual ~WorkWatch() = default;
@@ -18,8 +18,8 @@ class WorkWatch {
   virtual void ends(Part part) = 0;
 };
 
-/// A part works as long as this lives; null: nobody watches. One that an exception leaves stays at
-/// what it was at, so that it can be named.
+/// A part is at work as long as this lives; null: nobody watches. Where an exception ends the
+/// scope, the part stays marked as at work, so that whoever catches it can name the part.
 class [[nodiscard]] Working {
  public:
   Working(WorkWatch* watch, Part part) : watch_(watch), part_(part) {

@@ -50,8 +50,8 @@ struct OperationHooks {
   std::function<void(std::function<void()>)> can_stop;
   /// May replace parts of the method once the room is open.
   std::function<void(const sim::SimHeadset&, Method&)> adapt;
-  /// The headset that the engine gets in place of the room's, which it forwards to; its owner is
-  /// whoever answers. Null: the room's own.
+  /// The headset that the engine gets: one that forwards to the room's and is owned by whoever set
+  /// this hook. Null: the room's own.
   std::function<Result<Headset*>(Headset&)> seen_through;
   /// Called once everything is put together, before `opened`; an Error ends the run.
   std::function<Status(AssembledOperation&)> assembled;

@@ -14,11 +14,11 @@ struct ServerOptions {
   /// Of this machine, in numbers; loopback unless another one is named.
   std::string address = "127.0.0.1";
   int port = 18944;  ///< 0: any free one
-  /// Networks whose machines may connect besides this one, as in "192.168.1.0/24,10.0.0.7"; some
-  /// must be named where the address is not loopback.
+  /// Networks whose machines may connect besides this one, as in "192.168.1.0/24,10.0.0.7". Must
+  /// not be empty unless the address is loopback.
   std::string allow;
   std::size_t most_clients = 8;
-  /// So many may call within the time beside it; who calls beyond it waits in the kernel's queue.
+  /// Connections accepted in each `calls_counted_for`; further ones wait in the kernel's queue.
   int most_calls = 20;
   std::chrono::milliseconds calls_counted_for{1000};
   std::size_t most_bytes_per_s = std::size_t{32} << 20;  ///< a client that sends more is dropped

@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// So much is sent to a client that does not read before it is noticed.
+/// Bytes that the kernel takes for a client before it is noticed that the client does not read.
 constexpr int kSendBuffer = 64 << 10;
 
 }  // namespace

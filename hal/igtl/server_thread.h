@@ -50,7 +50,7 @@ class ServerThread {
   // The thread's own.
   std::list<Client> clients_;
   HostTime calls_since_{};
-  int calls_ = 0;  ///< in the second since then
+  int calls_ = 0;  ///< since then
   std::vector<std::uint8_t> standing_;
   HostTime next_frame_{};
   HostTime last_frame_{};

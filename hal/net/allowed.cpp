@@ -10,10 +10,10 @@
 namespace orthonav::net {
 namespace {
 
-constexpr int kMappedBits = 96;  ///< before an IPv4 address that is written as IPv6
+constexpr int kMappedBits = 96;  ///< in front of an IPv4 address mapped into IPv6
 constexpr int kFewestBits = 8;
 
-/// All of it; absent where it is no whole number.
+/// Absent where the text is anything but a whole number.
 std::optional<int> whole_number(std::string_view text) {
   int value = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -127,18 +127,6 @@ Endpoint peer_of(const Socket& socket) {
     return {};
   }
   return peer;
-}
-
-std::string text_of(const Endpoint& endpoint) {
-  char text[INET6_ADDRSTRLEN] = "?";
-  if (endpoint.address.ss_family == AF_INET) {
-    (void)::inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in&>(endpoint.address).sin_addr,
-                      text, sizeof text);
-  } else if (endpoint.address.ss_family == AF_INET6) {
-    (void)::inet_ntop(AF_INET6, &reinterpret_cast<const sockaddr_in6&>(endpoint.address).sin6_addr,
-                      text, sizeof text);
-  }
-  return text;
 }
 
 }  // namespace orthonav::net

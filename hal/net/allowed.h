@@ -10,14 +10,14 @@
 
 namespace orthonav::net {
 
-/// Who may connect to a port that speaks a protocol without passwords: this machine, and the
-/// networks named. An address is no proof of who somebody is; it keeps strangers out, not forgers.
+/// Who may connect to a port whose protocol has no passwords: this machine and the networks named.
+/// Addresses can be forged: this keeps out strangers, not attackers.
 class Allowed {
  public:
   /// This machine alone.
   Allowed() = default;
-  /// Of "192.168.1.0/24,10.0.0.7"; empty: this machine alone. An Error names what is no network,
-  /// and one of fewer than 8 bits, which would be everybody.
+  /// From "192.168.1.0/24,10.0.0.7"; empty: this machine alone. An Error names what is not a
+  /// network or has fewer than 8 bits, which would let in everybody.
   static Result<Allowed> of(const std::string& networks);
 
   /// Not even this machine.
@@ -27,7 +27,7 @@ class Allowed {
   [[nodiscard]] bool contains(const Endpoint& peer) const;
 
  private:
-  /// As IPv6 has it; IPv4 mapped into it.
+  /// An IPv6 address, or an IPv4 address mapped into IPv6.
   using Address = std::array<std::uint8_t, 16>;
   struct Network {
     Address address{};
@@ -43,11 +43,10 @@ class Allowed {
 };
 
 [[nodiscard]] bool is_loopback(const Endpoint& endpoint);
-/// A port that other machines can reach must say which of them may.
+/// Refuses a port that other machines can reach where none of them is named.
 [[nodiscard]] Status check_who_may(const std::string& host, const Endpoint& address,
                                    const Allowed& allowed);
-/// The other side of a connection; its address as it is written, without the port.
+/// The other side of a connection; of no family where it is gone already.
 [[nodiscard]] Endpoint peer_of(const Socket& socket);
-[[nodiscard]] std::string text_of(const Endpoint& endpoint);
 
 }  // namespace orthonav::net

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 
+#include "base/wall_clock.h"
 #include "hal/replay/replay_headset.h"
 
 namespace orthonav::replay {
@@ -23,19 +23,12 @@ struct Progress {
   }
 };
 
-class SteadyClock : public Clock {
- public:
-  [[nodiscard]] Timestamp now() const override {
-    return Timestamp(std::chrono::steady_clock::now().time_since_epoch());
-  }
-};
-
 /// The wall's clock from the recording's start on in real time, else where the cameras are.
 class ReplayClock : public Clock {
  public:
   ReplayClock(const Progress& progress, const ReplayOptions& options, Timestamp start)
       : progress_(progress),
-        wall_(options.wall ? *options.wall : steady_),
+        wall_(options.wall ? *options.wall : this_machine_),
         realtime_(options.pace == ReplayPace::kRealtime),
         start_(start),
         opened_(wall_.now()) {}
@@ -45,7 +38,7 @@ class ReplayClock : public Clock {
 
  private:
   const Progress& progress_;
-  SteadyClock steady_;
+  WallClock this_machine_;
   const Clock& wall_;
   bool realtime_;
   Timestamp start_;

@@ -11,20 +11,12 @@
 #include "base/guarded.h"
 #include "base/mutex.h"
 #include "base/stopwatch.h"
+#include "base/wall_clock.h"
 #include "hal/voice/resampler.h"
 
 namespace orthonav::voice {
 
 namespace {
-
-/// This machine's time, from any moment on.
-class WallClock : public Clock {
- public:
-  [[nodiscard]] Timestamp now() const override { return Timestamp(since_.elapsed()); }
-
- private:
-  Stopwatch since_;
-};
 
 constexpr Duration kStallsAfter = std::chrono::milliseconds(400);
 
@@ -37,29 +29,27 @@ class Listener {
         spotter_(std::move(spotter)),
         resampler_(std::move(resampler)) {}
 
-  /// Reads all there is and appends the phrases in it; counts in `rounds` how often it came round.
-  Status listen(std::vector<Phrase>& phrases, std::atomic<std::uint64_t>& rounds) {
+  /// Reads a block of sound and appends the phrases in it; false where no sound has come.
+  Result<bool> listen(std::vector<Phrase>& phrases) {
     std::array<std::int16_t, 4096> block;
-    for (;;) {
-      ++rounds;
-      const auto count = microphone_->read(block);
-      if (!count) {
-        return count.error();
-      }
-      if (*count == 0) {
-        return {};
-      }
-      sound_.clear();
-      if (Status s = resampler_.push(std::span(block).first(*count), sound_); !s) {
-        return s;
-      }
-      taken_ += static_cast<std::int64_t>(sound_.size());
-      commands_.clear();
-      spotter_->push(sound_, commands_);
-      for (SpokenCommand& command : commands_) {
-        phrases.push_back({std::move(command.text), command.confidence, time_of(command.begin)});
-      }
+    const auto count = microphone_->read(block);
+    if (!count) {
+      return count.error();
     }
+    if (*count == 0) {
+      return false;
+    }
+    sound_.clear();
+    if (const Status s = resampler_.push(std::span(block).first(*count), sound_); !s) {
+      return s.error();
+    }
+    taken_ += static_cast<std::int64_t>(sound_.size());
+    commands_.clear();
+    spotter_->push(sound_, commands_);
+    for (SpokenCommand& command : commands_) {
+      phrases.push_back({std::move(command.text), command.confidence, time_of(command.begin)});
+    }
+    return true;
   }
 
  private:
@@ -99,13 +89,13 @@ class VoiceInPoll : public Voice {
  private:
   Listener listener_;
   std::vector<Phrase> heard_;
-  std::atomic<std::uint64_t> rounds_ = 0;
 
   Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
-    if (Status listened = listener_.listen(heard_, rounds_); !listened) {
-      return listened;
+    Result<bool> more = true;
+    while (more && *more) {
+      more = listener_.listen(heard_);
     }
-    return deliver(heard_, until, phrases);
+    return more ? deliver(heard_, until, phrases) : Status(more.error());
   }
 };
 
@@ -138,10 +128,10 @@ class VoiceOnItsOwnThread : public Voice {
   std::vector<Phrase> heard_ ORTHONAV_GUARDED_BY(mutex_);
   Status trouble_ ORTHONAV_GUARDED_BY(mutex_);
   Status died_ ORTHONAV_GUARDED_BY(mutex_);
-  std::atomic<std::uint64_t> rounds_ = 0;
+  std::atomic<std::uint64_t> blocks_ = 0;  ///< that its thread listened to, empty ones too
   // Of whoever polls.
   std::unique_ptr<const Clock> wall_;
-  std::uint64_t seen_rounds_ = 0;
+  std::uint64_t seen_blocks_ = 0;
   std::optional<Timestamp> alive_at_;
   std::thread thread_;  // last: it uses all of the above
 
@@ -150,11 +140,15 @@ class VoiceOnItsOwnThread : public Voice {
     std::vector<Phrase> phrases;
     for (;;) {
       phrases.clear();
-      const Status listened = listener_.listen(phrases, rounds_);
+      Result<bool> more = true;
+      while (more && *more) {
+        more = listener_.listen(phrases);
+        ++blocks_;
+      }
       const MutexLock lock(mutex_);
       heard_.insert(heard_.end(), phrases.begin(), phrases.end());
-      if (!listened) {
-        trouble_ = listened;
+      if (!more) {
+        trouble_ = more.error();
       }
       const Stopwatch since_read;
       while (!stop_ && wake_.wait_until(mutex_, since_read.after(kBetweenReads))) {
@@ -164,12 +158,12 @@ class VoiceOnItsOwnThread : public Voice {
       }
     }
   }
-  /// Nothing was listened to for so long: the microphone hangs, or the recognizer.
+  /// Its thread has done nothing for `kStallsAfter`: the microphone hangs, or the recognizer.
   bool stalled() {
     const Timestamp now = wall_->now();
-    const std::uint64_t rounds = rounds_;
-    if (rounds != seen_rounds_ || !alive_at_) {
-      seen_rounds_ = rounds;
+    const std::uint64_t blocks = blocks_;
+    if (blocks != seen_blocks_ || !alive_at_) {
+      seen_blocks_ = blocks;
       alive_at_ = now;
     }
     return now - *alive_at_ > kStallsAfter;

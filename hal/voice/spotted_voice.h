@@ -15,8 +15,8 @@ enum class Listening {
 };
 
 /// Commands that a microphone hears. A phrase's time is when it began to be spoken; it arrives
-/// about 0.3 s after its end. A thread of its own that has come to nothing for 0.4 s of `wall`
-/// (null: this machine's time) makes `poll` fail with `ErrorCode::kUnavailable` until it goes on.
+/// about 0.3 s after its end. While a thread of its own has hung for more than 0.4 s of `wall`
+/// (null: this machine's time), `poll` fails with `ErrorCode::kUnavailable`.
 [[nodiscard]] Result<std::unique_ptr<Voice>> open_spotted_voice(
     std::unique_ptr<Microphone> microphone, const SpotterOptions& options, Listening listening,
     std::unique_ptr<const Clock> wall = nullptr);

@@ -12,7 +12,7 @@
 
 namespace orthonav::engine {
 
-/// Of one golden scene, by its name.
+/// Tests of one golden scene, which the parameter names.
 class Golden : public ::testing::TestWithParam<std::string> {
  protected:
   // One painter for all: a device and its shaders take longer than a picture.
@@ -37,7 +37,7 @@ class Golden : public ::testing::TestWithParam<std::string> {
     ASSERT_EQ(golden_.name, GetParam());
   }
   GoldenImages painted(const GoldenScene& scene) { return painted_by(*painter_, scene); }
-  /// Without a layer that listens: of scenes as they should be it hears all.
+  /// Without validation: `painted` validates every scene as it should be.
   GoldenImages spoilt(const GoldenScene& scene) { return painted_by(*spoiler_, scene); }
   static GoldenImages painted_by(GoldenPainter& painter, const GoldenScene& scene) {
     Result<GoldenImages> images = painter.paint(scene);

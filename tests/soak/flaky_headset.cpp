@@ -5,7 +5,7 @@
 namespace orthonav::soak {
 namespace {
 
-/// Guidance may stand so long (docs/safety.md).
+/// The oldest pose that guidance may show (docs/safety.md).
 constexpr Duration kStaleAfter = std::chrono::milliseconds(100);
 
 int between(Random& random, int low, int high) {
@@ -21,7 +21,7 @@ bool hangs_on_tool(const ShownHologram& hologram) {
 
 FlakyHeadset::FlakyHeadset(Headset& inner, Random random, const Chances& chances)
     : ForwardingHeadset(inner),
-      weather_{random, chances, {}, 0, 0, 0, 0, false, 0, {}},
+      weather_{.random = random, .chances = chances},
       cameras_(inner.cameras(), weather_),
       voice_(inner.voice(), weather_),
       display_(inner.display(), weather_) {}
@@ -79,7 +79,7 @@ Result<Next> FlakyHeadset::Cameras::do_next(StereoFrame& frame) {
     --w.silent_pairs;
     return Next::kNone;
   }
-  frame.map_epoch = w.map_epoch;  // that of the room never moves, and the buffer is used again
+  frame.map_epoch = w.map_epoch;  // the room's never changes
   if (w.unlocated_pairs > 0) {
     --w.unlocated_pairs;
     frame.world_from_rig.reset();
@@ -97,7 +97,7 @@ Status FlakyHeadset::Speech::do_poll(Timestamp until, std::vector<Phrase>& phras
   return inner_.poll(until, phrases);
 }
 
-/// The wearer sees it where the room has it.
+/// The wearer sees the holograms in the room's map, which did not jump.
 Status FlakyHeadset::Glasses::do_shown(const ShownFrame& frame) {
   ++frames;
   const bool guides = std::any_of(frame.holograms.begin(), frame.holograms.end(), hangs_on_tool);

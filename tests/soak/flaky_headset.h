@@ -15,6 +15,10 @@ inline constexpr std::array<std::string_view, 7> kTroubles = {
     "drops", "stalls", "reconnects", "unlocated", "voice_stalls", "map_jumps", "device_losses"};
 using Troubles = std::array<std::int64_t, kTroubles.size()>;
 
+inline std::int64_t device_losses(const Troubles& troubles) {
+  return troubles[static_cast<std::size_t>(Trouble::kDeviceLoss)];
+}
+
 /// Chances, at every pair.
 struct Chances {
   double any = 1.0 / 500.0;  ///< of a drop, a stall, a lost connection, a lost head, a mute voice
@@ -27,17 +31,17 @@ struct Weather {
   Random random;
   Chances chances;
   Troubles done{};
-  int silent_pairs = 0;  ///< swallowed, with no answer
+  int silent_pairs = 0;  ///< swallowed: as if none had come
   int failing_pairs = 0;
   int unlocated_pairs = 0;
   int mute_polls = 0;
   bool lost = false;
   std::int64_t map_epoch = 0;
-  Transform<World, World> jumped_from_world;
+  Transform<World, World> jumped_from_world{};
 };
 
-/// A simulated headset in bad weather. Whatever is lost on the way is lost as a device loses it:
-/// the room goes on meanwhile. Borrows the headset.
+/// A simulated headset in bad weather. As with a real device, the room goes on while pairs are
+/// lost. Borrows the headset.
 class FlakyHeadset : public ForwardingHeadset {
  public:
   FlakyHeadset(Headset& inner, Random random, const Chances& chances);

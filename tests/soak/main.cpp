@@ -18,11 +18,11 @@
 namespace orthonav::soak {
 namespace {
 
-/// Caches and the heap have taken their shape by then.
+/// Operations until caches and the heap have their final size.
 constexpr std::size_t kWarmUp = 8;
-/// Of memory, an operation: eight hours of them would add less than 10 MiB.
+/// Of memory, per operation: in eight hours of operations less than 10 MiB.
 constexpr double kMostGrowth_kib = 64.0;
-/// Of one operation in this room, several times what was measured.
+/// Several times what was measured.
 constexpr std::int64_t kMostResident_kib = std::int64_t{1} << 20;
 
 struct Arguments {
@@ -87,7 +87,7 @@ void add(Totals& totals, const SoakRow& row) {
   }
 }
 
-/// One line; 1 where anything is not as it must be.
+/// Prints it in one line; 1 where anything is not as it must be.
 int verdict(const Totals& totals) {
   const std::vector<double>& all = totals.resident_kib;
   const std::vector<double> warm(
@@ -131,7 +131,7 @@ int soak(const Arguments& arguments) {
   write_head(csv);
   Totals totals;
   const Stopwatch watch;
-  // On a slow machine longer: fewer operations tell nothing of growth.
+  // At least so many operations, however slow the machine: fewer tell nothing of growth.
   for (std::size_t i = 0; i < 2 * kWarmUp || watch.elapsed_ms() < arguments.minutes * 60e3; ++i) {
     const Stopwatch one;
     const std::string folder =
@@ -154,6 +154,7 @@ int soak(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   orthonav::soak::Arguments arguments;
+  bool known = argc % 2 == 1;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string name = argv[i];
     if (name == "--minutes") {
@@ -162,9 +163,11 @@ int main(int argc, char** argv) {
       arguments.seed = std::strtoull(argv[i + 1], nullptr, 10);
     } else if (name == "--csv") {
       arguments.csv = argv[i + 1];
+    } else {
+      known = false;
     }
   }
-  if (argc % 2 == 0 || arguments.csv.empty() || !(arguments.minutes > 0.0)) {
+  if (!known || arguments.csv.empty() || !(arguments.minutes > 0.0)) {
     std::fputs("usage: orthonav_soak --minutes N --csv FILE [--seed S]\n", stderr);
     return 2;
   }

@@ -18,7 +18,7 @@ using engine::OperationLog;
 using engine::RecordLog;
 using engine::RecordWriter;
 
-/// Of one attempt; a surgeon who gets nowhere is not waited for.
+/// For one attempt: a simulated surgeon who gets nowhere would go on for ever.
 constexpr Duration kLongest = std::chrono::minutes(45);
 constexpr int kMostResumes = 4;
 
@@ -39,24 +39,27 @@ std::int64_t screws_done(const engine::LoggedOperation& logged) {
   return done;
 }
 
-/// Draws nothing, as fast as it can, on the drawing thread.
+/// Draws nothing: the drawing thread takes its snapshots all the same.
 class Nobody : public engine::SnapshotSink {
  public:
   Status draw(const engine::Snapshot&) override { return {}; }
 };
 
-/// Makes the disk full for a while, counted in pairs.
-class DiskWatch : public engine::LoopObserver {
+/// Fills the disk for a while, counted in pairs, and keeps what was known at the last pair.
+class PairWatch : public engine::LoopObserver {
  public:
-  DiskWatch(FlakyEnv& env, std::int64_t begin, std::int64_t pairs)
+  PairWatch(FlakyEnv& env, std::int64_t begin, std::int64_t pairs)
       : env_(env), begin_(begin), end_(begin + pairs) {}
-  void stepped(const StereoFrame& frame, const engine::Inputs&, const engine::Guidance&) override {
+  void stepped(const StereoFrame& frame, const engine::Inputs&,
+               const engine::Guidance& guidance) override {
     env_.set_full(pair_ >= begin_ && pair_ < end_);
     ++pair_;
     first_ = first_ ? first_ : frame.time;
     last_ = frame.time;
+    screws_ = screws_done(guidance.levels);
   }
   [[nodiscard]] double span_s() const { return first_ ? seconds(last_ - *first_) : 0.0; }
+  [[nodiscard]] std::int64_t screws() const { return screws_; }
 
  private:
   FlakyEnv& env_;
@@ -65,9 +68,10 @@ class DiskWatch : public engine::LoopObserver {
   std::int64_t pair_ = 0;
   std::optional<Timestamp> first_;
   Timestamp last_{};
+  std::int64_t screws_ = 0;
 };
 
-/// One attempt: a program's life between two losses of the device.
+/// One run of the program: until the operation ends or the device is lost.
 class Attempt {
  public:
   Attempt(const engine::Case& source, const engine::Operation& planned, SoakRow& row,
@@ -77,8 +81,8 @@ class Attempt {
         row_(row),
         folder_(std::move(folder)),
         random_(Random(row.seed).fork("attempt").fork(static_cast<std::uint64_t>(row.resumed))),
-        disk_(env_, row.full_disk ? static_cast<std::int64_t>(random_.uniform(200, 6000)) : 0,
-              row.full_disk ? 300 : 0) {}
+        pairs_(env_, row.full_disk ? static_cast<std::int64_t>(random_.uniform(200, 6000)) : 0,
+               row.full_disk ? 300 : 0) {}
 
   /// Whether the operation reached its end.
   bool run() {
@@ -90,29 +94,21 @@ class Attempt {
     }
     engine::OperationHooks hooks;
     hooks.session = {journal->get()};
-    hooks.loop = &disk_;
+    hooks.loop = &pairs_;
     hooks.sink = &nobody_;
-    hooks.assembled = [&](engine::AssembledOperation& live) { return keep(live); };
-    hooks.opened = [&](sim::SimHeadset& room, const engine::Method&, const engine::Session& s) {
-      session_ = &s;
+    hooks.seen_through = [&](Headset& room) -> Result<Headset*> {
       flaky_ = std::make_unique<FlakyHeadset>(room, random_.fork("weather"), chances());
-      live_->go_through(*flaky_);
-      return Status{};
+      return flaky_.get();
     };
-    hooks.can_stop = [&](const std::function<void()>& stop) {
-      if (!stop) {
-        look();  // before the session goes
-      }
-    };
+    hooks.assembled = [&](engine::AssembledOperation& live) { return keep(live); };
     const auto result = engine::run_operation(source_, planned_, options(), hooks);
     const bool done = result && result->completed;
     row_.why_not = result ? result->why_not : result.error().message;
-    if (!flaky_) {
+    if (!log_) {
       return fail("operation", result.error());
     }
     row_.stalls += result ? result->loop.stalls : 0;
-    const bool device_lost = !result && flaky_->done().back() > 0;
-    if (!result && !device_lost) {
+    if (!result && device_losses(flaky_->done()) == 0) {
       fail("operation", result.error());
     }
     if (const Status closed = (*journal)->finish({}); !closed) {
@@ -121,6 +117,7 @@ class Attempt {
     if (const auto read = engine::read_journal(journal_path); !read) {
       fail("journal", read.error());
     }
+    add_weather();
     check_log(done);
     return done;
   }
@@ -146,7 +143,6 @@ class Attempt {
     return options;
   }
   Status keep(engine::AssembledOperation& live) {
-    live_ = &live;
     const engine::Session& session = live.session();
     const auto waits = RecordWriter::Waits::kUntilDurable;
     if (row_.resumed == 0 || !row_.recorded) {
@@ -175,17 +171,17 @@ class Attempt {
     live.show_saving(log_.get());
     return {};
   }
-  /// What the session ended with.
-  void look() { screws_ = screws_done(session_->levels()); }
-
-  void check_log(bool done) {
+  void add_weather() {
     for (std::size_t i = 0; i < row_.troubles.size(); ++i) {
       row_.troubles[i] += flaky_->done()[i];
     }
     row_.frames += flaky_->frames();
     row_.stale += flaky_->stale_frames();
-    row_.simulated_s += disk_.span_s();
+    row_.simulated_s += pairs_.span_s();
+  }
+  void check_log(bool done) {
     env_.set_full(false);
+    const std::int64_t screws = pairs_.screws();
     const Status saved = log_->written();
     const bool said = log_->saved(Timestamp::max(), {}) == engine::Saved::kNotSaved;
     row_.not_saved = row_.not_saved || !saved;
@@ -198,7 +194,7 @@ class Attempt {
     log_.reset();
     const auto found = OperationLog::find(env_, folder_);
     // A log in which nothing was recorded goes away with its program.
-    if (!found && found.error().code == ErrorCode::kNotFound && !row_.recorded && screws_ == 0) {
+    if (!found && found.error().code == ErrorCode::kNotFound && !row_.recorded && screws == 0) {
       return;
     }
     if (!found) {
@@ -207,9 +203,9 @@ class Attempt {
     }
     row_.recorded = true;
     const std::int64_t kept = screws_done(found->operation);
-    // Once it was said that nothing is saved, what came after may be gone.
-    row_.lost += saved ? std::max<std::int64_t>(screws_ - kept, 0) : 0;
-    row_.screws = std::max(kept, screws_);
+    // What came after NOT SAVED was shown may be gone.
+    row_.lost += saved ? std::max<std::int64_t>(screws - kept, 0) : 0;
+    row_.screws = std::max(kept, screws);
   }
 
   const engine::Case& source_;
@@ -218,13 +214,10 @@ class Attempt {
   std::string folder_;
   Random random_;
   FlakyEnv env_;
-  DiskWatch disk_;
+  PairWatch pairs_;
   Nobody nobody_;
   std::unique_ptr<FlakyHeadset> flaky_;
   std::unique_ptr<OperationLog> log_;
-  engine::AssembledOperation* live_ = nullptr;
-  const engine::Session* session_ = nullptr;
-  std::int64_t screws_ = 0;
 };
 
 }  // namespace
@@ -235,9 +228,9 @@ SoakRow soak_operation(const engine::Case& source, const engine::Operation& plan
   row.seed = seed;
   row.full_disk = Random(seed).fork("disk").uniform() < 0.2;
   for (;;) {
-    const std::int64_t losses = row.troubles.back();
+    const std::int64_t losses = device_losses(row.troubles);
     row.completed = Attempt(source, planned, row, folder).run();
-    const bool lost_device = row.troubles.back() > losses;
+    const bool lost_device = device_losses(row.troubles) > losses;
     if (row.completed || !lost_device || !row.trouble.empty() || row.resumed >= kMostResumes) {
       return row;
     }

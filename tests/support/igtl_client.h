@@ -14,7 +14,7 @@
 
 namespace orthonav::test {
 
-/// A client of OpenIGTLink on a plain socket, which blocks.
+/// A client of OpenIGTLink on a plain, blocking socket.
 class IgtlClient {
  public:
   explicit IgtlClient(int port, int receive_buffer = 0) : fd_(::socket(AF_INET, SOCK_STREAM, 0)) {

@@ -15,7 +15,7 @@
 namespace orthonav::tools::memory_test {
 namespace {
 
-/// Of this process's memory that may be written, as RLIMIT_DATA counts it.
+/// This process's memory as RLIMIT_DATA counts it.
 rlim_t data_bytes() {
   std::ifstream status("/proc/self/status");
   std::string word;
@@ -26,7 +26,7 @@ rlim_t data_bytes() {
   return kilobytes << 10U;
 }
 
-/// Ends with 0 where the command was asked to end, and had memory left to do so.
+/// Ends with 0 where the command is asked to end and has memory left to do so.
 [[noreturn]] void use_up(bool reserve) {
   StopSignals signals;
   if (reserve) {
@@ -46,7 +46,7 @@ rlim_t data_bytes() {
     const std::vector<char> to_end_with(std::size_t{1} << 20U);
     std::_Exit(0);
   } catch (const std::bad_alloc&) {
-    // What was taken while nobody had asked yet is no loss, where it is asked in the end.
+    // The signal may still be on its way: what is freed here is enough to wait for it.
     all.clear();
     std::_Exit(reserve && test::wait_until([&] { return asked.load(); }) ? 0 : 3);
   }

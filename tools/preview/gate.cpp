@@ -11,11 +11,6 @@ constexpr Duration kMostLag = std::chrono::milliseconds(200);
 
 }  // namespace
 
-Timestamp WallClock::now() const {
-  return Timestamp(
-      std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
-}
-
 void Gate::pause(bool paused) {
   const MutexLock lock(mutex_);
   paused_ = paused;

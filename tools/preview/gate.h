@@ -61,10 +61,4 @@ class Gate {
   std::optional<Anchor> anchor_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
-/// Wall time, for pacing what people watch.
-class WallClock : public Clock {
- public:
-  [[nodiscard]] Timestamp now() const override;
-};
-
 }  // namespace orthonav::preview

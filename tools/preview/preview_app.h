@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "base/wall_clock.h"
 #include "engine/io/video_writer.h"
 #include "tools/preview/live_operation.h"
 #include "tools/preview/model.h"

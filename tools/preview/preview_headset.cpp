@@ -1,5 +1,7 @@
 #include "tools/preview/preview_headset.h"
 
+#include "base/wall_clock.h"
+
 namespace orthonav::preview {
 
 Result<Next> PreviewHeadset::GatedCameras::do_next(StereoFrame& frame) {

@@ -32,7 +32,7 @@ class Port {
     std::function<void()> left = [] {};
   };
   explicit Port(Talk talk) : talk_(std::move(talk)) {}
-  /// Others than `allowed` are hung up on.
+  /// Hangs up on whoever is not `allowed`.
   Status listen(const net::Endpoint& host, int port, const net::Allowed& allowed = {});
 
   [[nodiscard]] int fd() const;

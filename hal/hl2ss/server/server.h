@@ -16,8 +16,8 @@ namespace orthonav::hl2ss {
 
 struct ServerOptions {
   std::string host = "127.0.0.1";  ///< the address to listen at
-  /// Networks whose machines may connect besides this one, as in "192.168.1.0/24,10.0.0.7"; some
-  /// must be named where the address is not loopback.
+  /// Networks whose machines may connect besides this one, as in "192.168.1.0/24,10.0.0.7". Must
+  /// not be empty unless the address is loopback.
   std::string allow;
   int first_port = kFirstPort;  ///< 0: the first free range from 20000 on
   /// A side channel for our own client at first_port + 19 (docs/hl2ss.md).

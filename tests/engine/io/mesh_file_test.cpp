@@ -117,7 +117,7 @@ TEST(MeshFile, RefusesAxesThatItDoesNotKnow) {
   EXPECT_TRUE(load_mesh(obj("COLORSPACE=sRGB"), kMm).ok()) << "a word of its own";
 }
 
-/// Would wait for whoever writes into the pipe, for ever.
+/// Opening the pipe would block for ever.
 TEST(MeshFile, OpensNoOtherFileThatAnObjNames) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo(folder.file("colours.mtl").c_str(), 0600), 0);

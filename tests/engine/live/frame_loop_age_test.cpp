@@ -3,10 +3,9 @@
 #include <algorithm>
 
 #include "engine/case/tool_file.h"
-#include "engine/live/frame_loop.h"
 #include "engine/study/simulated_operation.h"
 #include "hal/fake/failing.h"
-#include "tests/support/scripted_operation.h"
+#include "tests/engine/live/guiding_loop.h"
 #include "tests/support/scripted_pairs.h"
 
 namespace orthonav::engine {
@@ -16,21 +15,11 @@ using test::kPair;
 using test::kStart;
 using test::pairs;
 
-const ShownHologram* find(const ShownFrame& frame, HologramKind kind) {
-  for (const ShownHologram& hologram : frame.holograms) {
-    if (hologram.kind == kind) {
-      return &hologram;
-    }
-  }
-  return nullptr;
-}
-
-bool shows_triangle(const ShownFrame& frame) { return find(frame, HologramKind::kTriangle); }
-
 /// The angle readout is there, without a number.
 bool shows_dashes(const ShownFrame& frame) {
-  const ShownHologram* angle = find(frame, HologramKind::kAngle);
-  return angle && !angle->reading;
+  return std::any_of(frame.holograms.begin(), frame.holograms.end(), [](const ShownHologram& h) {
+    return h.kind == HologramKind::kAngle && !h.reading;
+  });
 }
 
 Notice notice_of(const ShownFrame& frame) {
@@ -64,25 +53,6 @@ class WaitingHeadset : public ForwardingHeadset {
 
  private:
   WaitingCamera cameras_;
-};
-
-/// A session that guides the first screw, with the guide in sight.
-class GuidingLoop : public ::testing::Test {
- protected:
-  GuidingLoop() {
-    s.accepts_first_level();
-    s.says("next");
-    s.tracker().guide = test::guide_at({0.015, 0.020, 0.0}, 0.1);
-    s.pair();
-  }
-  Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr) {
-    SceneBuilder builder;
-    FrameLoop loop(headset, s.session(), builder, options);
-    loop.observe(observer);
-    return loop.run();
-  }
-  test::ScriptedOperation s;
-  LoopOptions options;
 };
 
 TEST_F(GuidingLoop, TakesGuidanceBackWhilePairsFail) {
@@ -205,11 +175,8 @@ class PairsOfGuidance : public SnapshotSink {
 
 TEST_F(GuidingLoop, TellsTheDrawerOfWhichPairGuidanceIs) {
   fake::FakeHeadset headset(pairs(2));
-  SceneBuilder builder;
-  FrameLoop loop(headset, s.session(), builder, options);
   PairsOfGuidance drawn;
-  loop.draw_into(&drawn);
-  ASSERT_TRUE(loop.run().ok());
+  ASSERT_TRUE(run(headset, nullptr, &drawn).ok());
   ASSERT_EQ(drawn.tool_times.size(), 3u);
   EXPECT_EQ(drawn.tool_times[0], test::kStart + kPair);
   EXPECT_EQ(drawn.tool_times[1], test::kStart + 2 * kPair);

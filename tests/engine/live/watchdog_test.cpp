@@ -4,11 +4,8 @@
 #include <atomic>
 #include <stdexcept>
 
-#include "engine/live/frame_loop.h"
-#include "engine/live/heartbeats.h"
-#include "engine/session/part_wording.h"
 #include "hal/api/forwarding_headset.h"
-#include "tests/support/scripted_operation.h"
+#include "tests/engine/live/guiding_loop.h"
 #include "tests/support/scripted_pairs.h"
 #include "tests/support/wait_until.h"
 
@@ -21,11 +18,6 @@ using test::pairs;
 using test::wait_until;
 using ::testing::HasSubstr;
 
-bool shows_triangle(const ShownFrame& frame) {
-  return std::any_of(frame.holograms.begin(), frame.holograms.end(),
-                     [](const ShownHologram& h) { return h.kind == HologramKind::kTriangle; });
-}
-
 std::string text_of(const render::Scene& scene) {
   std::string text;
   for (const render::TextItem& item : scene.texts) {
@@ -36,57 +28,12 @@ std::string text_of(const render::Scene& scene) {
   return text;
 }
 
-TEST(Heartbeats, NameAPartOnceItIsAtOneThingForLongerThanTheLimit) {
-  fake::ManualClock clock;
-  Heartbeats beats(clock, kStallAfter);
-  clock.advance(std::chrono::hours(1));
-  EXPECT_EQ(beats.tracking_stalled(), std::nullopt) << "who rests does not hang";
-  beats.begins(Part::kCamera);
-  clock.advance(kStallAfter);
-  EXPECT_EQ(beats.tracking_stalled(), std::nullopt);
-  clock.advance(Duration(1));
-  EXPECT_EQ(beats.tracking_stalled(), Part::kCamera);
-  EXPECT_FALSE(beats.drawing_stalled());
-  beats.ends(Part::kCamera);
-  EXPECT_EQ(beats.tracking_stalled(), std::nullopt);
-  beats.begins(Part::kRenderer);
-  clock.advance(kStallAfter + Duration(1));
-  EXPECT_TRUE(beats.drawing_stalled());
-  EXPECT_EQ(beats.tracking_stalled(), std::nullopt);
-}
-
-TEST(Heartbeats, NameWhoIsWaitedForRatherThanWhoWaits) {
-  fake::ManualClock clock;
-  Heartbeats beats(clock, kStallAfter);
-  const Working tracker(&beats, Part::kTracker);
-  clock.advance(kStallAfter);
-  {
-    const Working coach(&beats, Part::kCoach);
-    clock.advance(Duration(1));
-    EXPECT_EQ(beats.tracking_stalled(), Part::kCoach);
-  }
-  EXPECT_EQ(beats.tracking_stalled(), Part::kTracker);
-}
-
-TEST(Heartbeats, KeepWhatAnExceptionLeft) {
-  fake::ManualClock clock;
-  Heartbeats beats(clock, kStallAfter);
-  try {
-    const Working tracker(&beats, Part::kTracker);
-    const Working voice(&beats, Part::kVoice);
-    throw std::runtime_error("x");
-  } catch (const std::runtime_error&) {
-  }
-  EXPECT_EQ(beats.tracking(), Part::kVoice);
-}
-
-/// What happens at a pair besides; each a double of its own kind.
+/// What happens just before a certain pair comes; by default nothing.
 struct AtPair {
   std::int64_t pair = 0;
   std::function<void()> happens = [] {};
 };
 
-/// A camera that does something before it gives a certain pair.
 class EventfulCamera : public StereoCamera {
  public:
   EventfulCamera(StereoCamera& inner, AtPair at) : inner_(inner), at_(std::move(at)) {}
@@ -106,7 +53,7 @@ class EventfulCamera : public StereoCamera {
   }
 };
 
-/// Answers each poll by what it is told to.
+/// Hears nothing; a function decides how each poll ends.
 class ToldVoice : public Voice {
  public:
   explicit ToldVoice(std::function<Status(Timestamp)> answer) : answer_(std::move(answer)) {}
@@ -130,13 +77,16 @@ class EventfulHeadset : public ForwardingHeadset {
   ToldVoice voice_;
 };
 
-/// Keeps what it was given to draw, and can hang or die of a snapshot.
+/// Keeps the texts that it was given to draw, and can hang or throw from a snapshot on.
 class WatchedSink : public SnapshotSink {
  public:
   Status draw(const Snapshot& snapshot) override {
     {
       const MutexLock lock(mutex_);
       texts_.push_back(text_of(snapshot.scene));
+    }
+    if (text_of(snapshot.scene).find("stalled") != std::string::npos && !warns) {
+      return Error{"no warnings"};
     }
     // In real time any snapshot may be skipped.
     if (hangs_at >= 0 && snapshot.frame >= hangs_at) {
@@ -155,6 +105,7 @@ class WatchedSink : public SnapshotSink {
       return drawn.find(text) != std::string::npos;
     });
   }
+  bool warns = true;  ///< false: a notice of a stall can't be drawn
   std::int64_t hangs_at = -1;
   std::int64_t dies_at = -1;
   std::atomic<bool> hanging = false;
@@ -178,25 +129,13 @@ class Stepped : public LoopObserver {
   std::function<void(const Guidance&)> then_;
 };
 
-/// A session that guides the first screw, with the guide in sight, in real time.
-class WatchedLoop : public ::testing::Test {
+/// Guidance in real time, drawn into a sink that is watched.
+class WatchedLoop : public GuidingLoop {
  protected:
-  WatchedLoop() {
-    options.drop_late_snapshots = true;
-    s.accepts_first_level();
-    s.says("next");
-    s.tracker().guide = test::guide_at({0.015, 0.020, 0.0}, 0.1);
-    s.pair();
-  }
+  WatchedLoop() { options.drop_late_snapshots = true; }
   Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr) {
-    SceneBuilder builder;
-    FrameLoop loop(headset, s.session(), builder, options);
-    loop.observe(observer);
-    loop.draw_into(&sink);
-    return loop.run();
+    return GuidingLoop::run(headset, observer, &sink);
   }
-  test::ScriptedOperation s;
-  LoopOptions options;
   WatchedSink sink;
 };
 
@@ -212,6 +151,21 @@ TEST_F(WatchedLoop, ACameraThatHangsIsNamedByTheDrawer) {
   ASSERT_TRUE(report.ok()) << report.error().message;
   EXPECT_EQ(report->stalls, 1);
   EXPECT_TRUE(shows_triangle(inner.display().frames().at(2))) << "and it goes on with the next";
+}
+
+TEST_F(WatchedLoop, AWarningThatCannotBeDrawnIsCounted) {
+  fake::FakeHeadset inner(pairs(3));
+  sink.warns = false;
+  EventfulHeadset headset(inner,
+                          {1, [&] {
+                             EXPECT_TRUE(wait_until([&] { return sink.drew("guide"); }));
+                             inner.manual_clock().advance(kStallAfter + Duration(1));
+                             EXPECT_TRUE(wait_until([&] { return sink.drew("camera stalled"); }));
+                           }});
+  const auto report = run(headset);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->draw_failures, 1);
+  EXPECT_EQ(report->last_failure, "no warnings");
 }
 
 TEST_F(WatchedLoop, ATrackerThatHangsIsNamedByTheDrawer) {

@@ -131,7 +131,7 @@ class RuntimeTest : public ::testing::Test {
   std::unique_ptr<Headset> headset_;
   std::unique_ptr<engine::Presenter> presenter_;
   std::atomic<bool> over_ = false;
-  /// Of the presenting thread: as long as it is set it hangs in the next frame.
+  /// While this is set, the presenting thread hangs in its next frame.
   std::atomic<bool> hold_ = false;
   std::atomic<bool> held_ = false;
   fake::ManualClock watch_;  ///< by which that is noticed

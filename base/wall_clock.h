@@ -1,0 +1,19 @@
+#pragma once
+
+#include <chrono>
+
+#include "base/time.h"
+
+namespace orthonav {
+
+/// This machine's time, counted from any moment: for pacing what people watch, and for devices
+/// without a clock of their own.
+class WallClock : public Clock {
+ public:
+  [[nodiscard]] Timestamp now() const override {
+    return Timestamp(
+        std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
+  }
+};
+
+}  // namespace orthonav
