@@ -25,8 +25,8 @@ struct CalibrationFile {
 /// fail.
 Result<CalibrationFile> load_calibration(const std::string& path);
 
-/// A headset with its cameras as calibrated, not as the device describes them. The left camera keeps
-/// its place in the rig; the right one is placed relative to it. Borrows the headset.
+/// A headset with its cameras as calibrated, not as the device describes them. The left camera
+/// keeps its place in the rig; the right one is placed relative to it. Borrows the headset.
 class CalibratedHeadset : public ForwardingHeadset {
  public:
   /// Refuses lenses of images of another size than the device's.
