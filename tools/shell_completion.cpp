@@ -66,8 +66,8 @@ std::string bash_completion(const CommandPage& page) {
   return R"(# Completes orthonav in bash: source this, or put it into ~/.local/share/bash-completion/completions/orthonav.
 # In zsh: autoload -U +X bashcompinit && bashcompinit first.
 _orthonav() {
-  local word=${COMP_WORDS[COMP_CWD]} before=${COMP_WORDS[COMP_CWD-1]} way=orthonav words="" i
-  for ((i = 1; i < COMP_CWD; ++i)); do
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} way=orthonav words="" i
+  for ((i = 1; i < COMP_CWORD; ++i)); do
     case "$way ${COMP_WORDS[i]}" in
       )" +
          ways + R"() way="$way ${COMP_WORDS[i]}" ;;

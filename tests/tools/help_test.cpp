@@ -139,8 +139,8 @@ std::string completed(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     script += "'" + word + "' ";
   }
-  script += ")\nCOMP_CWD=" + std::to_string(words.size() - 1) +
-            "\ncd /usr && _orthonav && echo \"${COMPREPLY[*]}\" >" + folder.file("offered") + "\n";
+  script += ")\nCOMP_CWORD=" + std::to_string(words.size() - 1) +
+            "\ncd /usr && _orthonav; echo \"${COMPREPLY[*]}\" >" + folder.file("offered") + "\n";
   EXPECT_EQ(std::system(("bash " + folder.with("complete", script)).c_str()), 0);
   const std::string offered = content_of(folder.file("offered"));
   return offered.substr(0, offered.find('\n'));
