@@ -177,6 +177,29 @@ Status check_place(const TrackArguments& arguments) {
              : Status{};
 }
 
+auto open_recording(const TrackArguments& arguments) {
+  replay::ReplayOptions options;
+  if (arguments.exact_stamps) {
+    options.stamps = replay::RecordedStamps::kExact;
+  }
+  return replay::ReplayHeadset::open(arguments.recording, options);
+}
+
+nav::TrackerOptions options_of(const TrackArguments& arguments) {
+  nav::TrackerOptions options;
+  options.full_search_interval = arguments.full_search_every;
+  return options;
+}
+
+/// The poses, as the arguments say; on standard output they stand alone.
+Status write_poses(const TrackArguments& arguments, const std::string& csv) {
+  if (is_stdout(arguments)) {
+    std::fwrite(csv.data(), 1, csv.size(), stdout);
+    return {};
+  }
+  return engine::write_file(arguments.csv, csv);
+}
+
 int run_track(const TrackArguments& arguments) {
   const auto method = engine::method_named(arguments.method);
   if (!method) {
@@ -186,40 +209,32 @@ int run_track(const TrackArguments& arguments) {
   if (!tools) {
     return bad_input(tools.error().message);
   }
-  replay::ReplayOptions replay;
-  if (arguments.exact_stamps) {
-    replay.stamps = replay::RecordedStamps::kExact;
-  }
-  auto headset = replay::ReplayHeadset::open(arguments.recording, replay);
+  const auto headset = open_recording(arguments);
   if (!headset) {
     return bad_input(headset.error().message);
   }
   if (const Status place = check_place(arguments); !place) {
     return bad_input(place.error().message);
   }
-  nav::TrackerOptions options;
-  options.full_search_interval = arguments.full_search_every;
   CalibrationArgument calibration = arguments.calibration;
   const auto calibrated = calibration.on(**headset);
   if (!calibrated) {
     return bad_input(calibrated.error().message);
   }
-  auto tracker =
-      method->create_tracker((*calibrated)->cameras().calibration(), std::move(*tools), options);
+  const auto tracker = method->create_tracker((*calibrated)->cameras().calibration(),
+                                              std::move(*tools), options_of(arguments));
   if (!tracker) {
     return bad_input(tracker.error().message);
   }
-
   std::string csv = kHeader;
   const auto summary = track_all(**headset, **tracker, csv);
   if (!summary) {
     return bad_input(summary.error().message);
   }
-  if (is_stdout(arguments)) {
-    std::fwrite(csv.data(), 1, csv.size(), stdout);
-  } else if (Status status = engine::write_file(arguments.csv, csv); !status) {
-    return bad_input(status.error().message);
-  } else {
+  if (const Status written = write_poses(arguments, csv); !written) {
+    return bad_input(written.error().message);
+  }
+  if (!is_stdout(arguments)) {
     print(arguments, *summary, (*headset)->summary(), **tracker);
   }
   warn_of_sizes(**tracker);
