@@ -200,9 +200,10 @@ class Demo {
     tell_of_earlier(*journal_);
     note(pictures_.finish());
     const bool film = video_ && note(video_->finish());
-    const DemoReport report{.perfect = arguments_.perfect,
+    const DemoReport report{.date = kept_.begun(),
+                            .perfect = arguments_.perfect,
                             .video = film,
-                            .plots = readings_->plots(),
+                            .plots = readings_->plots(arguments_.limits.grades()),
                             .pictures = pictures_.written()};
     note(write_demo_report(out_->path(), result, report));
     note(result.recording);

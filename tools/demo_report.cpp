@@ -1,5 +1,6 @@
 #include "tools/demo_report.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -44,10 +45,19 @@ std::vector<std::string> notes_of(const DemoReport& report) {
   notes.push_back(
       "Tracking, registration and guidance saw camera images, head poses, clicker and voice alone; "
       "errors were computed afterwards against what really happened.");
-  notes.push_back(
-      "The published figures come from a phantom study; one run holds too "
-      "few screws to compare spreads. Not a medical device.");
+  notes.push_back("Not a medical device.");
   return notes;
+}
+
+/// A picture in which a screw is guided says best what the film is of; the last one else.
+std::vector<std::uint8_t> poster_of(const engine::ReportContent& content) {
+  if (content.video.empty() || content.pictures.empty()) {
+    return {};
+  }
+  const auto guided = std::find_if(
+      content.pictures.begin(), content.pictures.end(),
+      [](const engine::ReportPicture& picture) { return picture.title.starts_with("guide"); });
+  return guided != content.pictures.end() ? guided->png : content.pictures.back().png;
 }
 
 }  // namespace
@@ -59,6 +69,7 @@ Status write_demo_report(const std::filesystem::path& folder, const engine::Oper
   if (report.video) {
     content.video = "operation.mp4";
   }
+  content.date = report.date;
   content.plots = report.plots;
   content.notes = notes_of(report);
   content.timings = {{"tracking and update", result.loop.step_wall_ms}};
@@ -78,6 +89,7 @@ Status write_demo_report(const std::filesystem::path& folder, const engine::Oper
     }
     content.pictures.push_back({picture.step, caption_of(picture.step), std::move(*png)});
   }
+  content.poster = poster_of(content);
   const auto page = engine::report_html(content);
   if (!page) {
     return page.error();

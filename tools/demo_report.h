@@ -11,6 +11,7 @@
 namespace orthonav::tools {
 
 struct DemoReport {
+  std::string date;  ///< when the operation began, for people
   bool simulated = true;
   bool perfect = false;  ///< every source of error was at zero, in the simulated room
   bool video = false;    ///< operation.mp4 lies beside the page

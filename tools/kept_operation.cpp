@@ -59,6 +59,7 @@ Status KeptOperation::resume(engine::AssembledOperation& operation,
   const std::vector<std::string> lines = engine::resume_lines(*found_);
   engine::LoggedOperation logged = found_->operation;
   logged.go_on();
+  begun_ = logged.identity.begun;
   if (const Status restored = operation.resume(logged); !restored) {
     return Error{found_->path + ": " + restored.error().message};
   }
@@ -75,8 +76,10 @@ Status KeptOperation::resume(engine::AssembledOperation& operation,
 Status KeptOperation::begin_anew(const engine::Session& session, const std::string& folder,
                                  const About& about, engine::RecordWriter::Waits waits) {
   using engine::RecordLog;
+  const engine::OperationIdentity identity = identity_of(session, about);
+  begun_ = identity.begun;
   auto log = engine::OperationLog::begin(
-      env_, folder, identity_of(session, about), session.levels(), waits,
+      env_, folder, identity, session.levels(), waits,
       about.replaces_earlier ? RecordLog::Earlier::kReplaced : RecordLog::Earlier::kKept);
   if (!log) {
     return log.error();

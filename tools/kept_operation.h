@@ -38,6 +38,9 @@ class KeptOperation {
                const About& about);
   /// Null: none.
   [[nodiscard]] engine::OperationLog* log() const { return log_.get(); }
+  /// When the operation began, for people, by this machine's clock: of one that was resumed, when
+  /// it began first. Empty before `begin`.
+  [[nodiscard]] const std::string& begun() const { return begun_; }
   /// Closes it; an Error when not all was saved.
   Status finish(bool done, const std::string& reason);
 
@@ -49,6 +52,7 @@ class KeptOperation {
   engine::PosixEnv env_;
   std::optional<engine::OperationLog::Found> found_;
   std::unique_ptr<engine::OperationLog> log_;
+  std::string begun_;
 };
 
 }  // namespace orthonav::tools

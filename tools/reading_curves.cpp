@@ -1,5 +1,7 @@
 #include "tools/reading_curves.h"
 
+#include <algorithm>
+
 #include "base/angle.h"
 
 namespace orthonav::tools {
@@ -28,17 +30,21 @@ void ReadingCurves::captured(const engine::Snapshot& snapshot) {
   }
 }
 
-std::vector<engine::ReportPlot> ReadingCurves::plots() const {
+std::vector<engine::ReportPlot> ReadingCurves::plots(const engine::GradeLimits& limits) const {
+  // Where the values are that matter; a tool on its way to the bone reads 90°.
+  constexpr double kAxis_deg = 6.0;
+  const double good_deg = degrees(limits.good_rad);
+  const double poor_deg = degrees(limits.poor_rad);
+  const char* const time = "time since the tool was seen [s]";
   engine::ReportPlot angle{"Angle between tool and plan, as displayed",
-                           "time since the tool was seen [s]",
+                           time,
                            "\u00b0",
                            {},
-                           0.0};
-  engine::ReportPlot distance{"Distance of the tool's tip from the planned entry, as tracked",
-                              "time since the tool was seen [s]",
-                              "mm",
-                              {},
-                              0.0};
+                           {{good_deg, "green below " + engine::angle_text(limits.good_rad)},
+                            {poor_deg, "red above " + engine::angle_text(limits.poor_rad)}},
+                           std::max(kAxis_deg, 1.2 * poor_deg)};
+  engine::ReportPlot distance{
+      "Distance of the tool's tip from the planned entry, as tracked", time, "mm", {}};
   for (const Screw& screw : screws_) {
     // "guide L4 left": the step's first word says nothing here.
     const std::string name = screw.name.substr(screw.name.find(' ') + 1);

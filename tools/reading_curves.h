@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/holograms/hologram_shapes.h"
 #include "engine/live/frame_loop.h"
 #include "engine/report/report_html.h"
 
@@ -18,8 +19,9 @@ class ReadingCurves : public engine::LoopObserver {
                const engine::Guidance& guidance) override;
   void captured(const engine::Snapshot& snapshot) override;
 
-  /// The plots of the report: angle and distance over the time since the tool was first seen.
-  [[nodiscard]] std::vector<engine::ReportPlot> plots() const;
+  /// The plots of the report: angle and distance over the time since the tool was first seen, with
+  /// the angles at which the display changes its colour.
+  [[nodiscard]] std::vector<engine::ReportPlot> plots(const engine::GradeLimits& limits) const;
 
  private:
   struct Screw {

@@ -57,7 +57,7 @@ Status RunFiles::finish(const engine::OperationResult& result, const std::string
   };
   if (out_) {
     note(engine::write_file(out_->file("report.json"), report));
-    note(write_demo_report(out_->path(), result, {.simulated = simulated}));
+    note(write_demo_report(out_->path(), result, {.date = kept_.begun(), .simulated = simulated}));
   }
   if (journal_) {
     note(journal_->finish({result.loop.last_frame, result.completed ? "" : result.why_not}));

@@ -34,6 +34,10 @@ void put_clearance(nlohmann::ordered_json& screw_json, const ScrewOutcome& screw
       screw_json["planned"]["profile_mm"].push_back(least_m * 1e3);
     }
   }
+  if (screw.size) {
+    screw_json["planned"]["diameter_mm"] = 2e3 * screw.size->radius_m;
+    screw_json["planned"]["length_mm"] = screw.size->length_m * 1e3;
+  }
   if (!screw.accepted_breach.empty()) {
     screw_json["planned"]["accepted_breach"] = screw.accepted_breach;
   }

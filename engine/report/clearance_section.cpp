@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/report_values.h"
 #include "nav/guidance/screw_clearance.h"
@@ -24,21 +25,21 @@ std::string word_of(const json& object, const char* key) {
 }
 
 /// `beside`: what stands behind the number, where there is one.
-std::string millimetre_cell(const json& object, const char* key, const char* beside = "") {
+void millimetre_cell(HtmlTable& table, const json& object, const char* key,
+                     const char* beside = "") {
   const auto value = value_of(object, key);
-  const char* const open = value && *value < 0.0 ? "<td class=bad>" : "<td>";
-  return open + (value ? html_number(*value, 2) + beside : std::string(kAbsent)) + "</td>";
+  table.cell(value ? html_number(*value, 2) + beside : std::string(kAbsent),
+             value && *value < 0.0 ? "bad" : "");
 }
 
 /// "medial, 18 mm".
-std::string where_cell(const json& object) {
+std::string where_text(const json& object) {
   const auto arc_mm = value_of(object, "arc_mm");
-  return "<td>" + word_of(object, "towards") +
-         (arc_mm ? ", " + html_number(*arc_mm, 0) + " mm" : "") + "</td>";
+  return word_of(object, "towards") + (arc_mm ? ", " + html_number(*arc_mm, 0) + " mm" : "");
 }
 
 /// "A 97 %, B 3 %"; what is less likely than half a percent is left out.
-std::string grades_cell(const json& object) {
+std::string grades_text(const json& object) {
   const json grades = part_of(object, "grade_probability");
   std::string text;
   for (const auto& [grade, probability] : grades.items()) {
@@ -47,56 +48,58 @@ std::string grades_cell(const json& object) {
               html_number(100.0 * probability.get<double>(), 0) + " %";
     }
   }
-  return "<td>" + (text.empty() ? std::string(kAbsent) : text) + "</td>";
+  return text.empty() ? std::string(kAbsent) : text;
 }
 
 /// The bound, and that it lacks what all strokes share.
-std::string bound_cell(const json& object, bool registration_only) {
-  return millimetre_cell(object, "clearance_95_mm", registration_only ? kRegistrationOnlyHtml : "");
+void bound_cell(HtmlTable& table, const json& object, bool registration_only) {
+  millimetre_cell(table, object, "clearance_95_mm", registration_only ? kRegistrationOnlyHtml : "");
 }
 
-void row_of(const std::string& name, const json& screw, bool registration_only, std::string& html) {
+void put_row(HtmlTable& table, const std::string& name, const json& screw, bool registration_only) {
   const json planned = part_of(screw, "planned");
   const json tracked = part_of(screw, "tracked");
-  html += "<tr><th scope=row>" + html_escaped(name) + "</th>" +
-          millimetre_cell(planned, "clearance_mm") + where_cell(planned) +
-          bound_cell(planned, registration_only) + grades_cell(planned) +
-          millimetre_cell(tracked, "clearance_mm") + bound_cell(tracked, registration_only) +
-          grades_cell(tracked) + millimetre_cell(screw, "clearance_mm") + "<td>" +
-          word_of(screw, "grade") + "</td></tr>";
-  if (const json in_surgery = part_of(screw, "planned_in_surgery"); !in_surgery.empty()) {
-    html += "<tr><td></td><td colspan=9>planned in surgery: " + word_of(in_surgery, "text") +
-            "</td></tr>";
-  }
+  table.row(html_escaped(name));
+  millimetre_cell(table, planned, "clearance_mm");
+  table.cell(where_text(planned));
+  bound_cell(table, planned, registration_only);
+  table.cell(grades_text(planned));
+  millimetre_cell(table, tracked, "clearance_mm");
+  bound_cell(table, tracked, registration_only);
+  table.cell(grades_text(tracked));
+  millimetre_cell(table, screw, "clearance_mm");
+  table.cell(word_of(screw, "grade"));
   if (planned.contains("accepted_breach")) {
-    html += "<tr><td></td><td colspan=9 class=bad>planned to leave the cortex: " +
-            word_of(planned, "accepted_breach") + "</td></tr>";
+    table.below("planned to leave the cortex: " + word_of(planned, "accepted_breach"), "bad");
   }
 }
 
 }  // namespace
 
 std::string clearance_section(const json& report) {
-  std::string rows;
+  HtmlTable table({{"screw"},
+                   {"planned", "mm"},
+                   {"where it is least"},
+                   {"planned, 95 % above", "mm"},
+                   {"grade expected as planned"},
+                   {"tracked", "mm"},
+                   {"tracked, 95 % above", "mm"},
+                   {"grade expected as tracked"},
+                   {"truth", "mm"},
+                   {"true grade"}});
   for (const json& level : report["levels"]) {
     for (const json& screw : level.value("screws", json::array())) {
-      if (screw.contains("planned") || screw.contains("clearance_mm") ||
-          screw.contains("planned_in_surgery")) {
-        row_of(level.value("label", "") + " " + screw.value("side", ""), screw,
-               level.value("registration_only", false), rows);
+      if (screw.contains("planned") || screw.contains("clearance_mm")) {
+        put_row(table, level.value("label", "") + " " + screw.value("side", ""), screw,
+                level.value("registration_only", false));
       }
     }
   }
-  if (rows.empty()) {
+  if (table.empty()) {
     return {};
   }
-  return "<section id=clearance><h2>Clearance to the cortex</h2><table><thead><tr><th></th>"
-         "<th>planned <small>mm</small></th><th>where it is least</th>"
-         "<th>95 % above <small>mm</small></th><th>grade expected</th>"
-         "<th>tracked <small>mm</small></th><th>95 % above <small>mm</small></th>"
-         "<th>grade expected</th><th>truth "
-         "<small>mm</small></th><th>grade</th></tr></thead><tbody>" +
-         rows + "</tbody></table><ul class=notes><li>The least depth of the screw's side and tip " +
+  return "<section id=clearance><h2>Clearance to the cortex</h2>" + table.html() +
+         "<ul class=notes><li>The least depth of the screw's side and tip " +
          "below the bone's surface, from 6 mm past the entry on; negative is a breach. Grades: " +
          html_escaped(nav::kPedicleScale) +
          ". \u201cTracked\u201d is the planned screw along the tool as measured at depth; what the "

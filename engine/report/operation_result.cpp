@@ -43,6 +43,7 @@ ScrewOutcome outcome_of_screw(const LevelState& state, std::size_t index) {
     screw.planned_in_surgery = nav::difference_of(state.preoperative[index], plan);
   }
   const auto cylinder = nav::cylinder_of(plan);
+  screw.size = cylinder;
   if (cylinder && state.plan.model) {
     constexpr double kStep_m = 0.002;
     const double side_m = cylinder->length_m - nav::CylinderSurface::kFrom_m;

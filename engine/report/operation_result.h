@@ -12,6 +12,7 @@
 #include "engine/session/guidance.h"
 #include "engine/session/session_observer.h"
 #include "nav/guidance/changed_screw.h"
+#include "nav/guidance/screw_cylinder.h"
 
 namespace orthonav::engine {
 
@@ -52,6 +53,7 @@ struct ScrewOutcome {
   /// Of a screw that was planned anew in surgery, against the plan before surgery.
   std::optional<double> preoperative_angle_error_rad = {};
   std::optional<double> preoperative_entry_error_m = {};
+  std::optional<nav::ScrewCylinder> size = {};  ///< as planned; absent: the plan states no radius
   /// Whether the surgeon was warned of this screw: its wire was measured beyond a limit, its
   /// clearance's 95 % bound is below 0, or its planned breach was accepted.
   [[nodiscard]] bool warned() const;

@@ -15,14 +15,15 @@ struct PaperRow {
   double mean = 0.0;
   double sd = 0.0;
   int decimals = 2;
+  bool input = false;  ///< in a simulation: chosen with the scripted surgeon, not found out
 };
 
 inline constexpr std::array<PaperRow, 5> kPaperTable = {{
     {"Trajectory error", "\u00b0", "angle_error_deg", true, 3.38, 1.73, 2},
     {"Entry point error", "mm", "entry_error_mm", true, 2.77, 1.46, 2},
     {"Registration RMSE", "mm", "rmse_mm", false, 1.62, 0.26, 2},
-    {"Digitization time", "s", "digitization_s", false, 125.0, 27.0, 0},
-    {"Digitized points", "", "points", false, 1983.0, 404.0, 0},
+    {"Digitization time", "s", "digitization_s", false, 125.0, 27.0, 0, true},
+    {"Digitized points", "", "points", false, 1983.0, 404.0, 0, true},
 }};
 
 }  // namespace orthonav::engine

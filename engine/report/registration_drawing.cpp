@@ -184,12 +184,21 @@ std::string margins_svg(const RegistrationView& view, const PageArea& area) {
 }  // namespace
 
 std::array<RegistrationView, 3> registration_views() {
+  constexpr const char* kUnlikeAnAxialSlice =
+      ", from the head: the patient\u2019s left is on the left. An axial CT slice is seen from the "
+      "feet, with the patient\u2019s right on the left: this is its mirror image.";
   const Vec3 left{1, 0, 0};
   const Vec3 back{0, 1, 0};
   const Vec3 head{0, 0, 1};
   return {{{"from behind", {-left, head, back}, "left", "right", "head", "feet"},
            {"from the left", {back, head, left}, "front", "back", "head", "feet"},
-           {"from above", {-left, -back, head}, "left", "right", "front", "back"}}};
+           {"from above",
+            {-left, -back, head},
+            "left",
+            "right",
+            "front",
+            "back",
+            kUnlikeAnAxialSlice}}};
 }
 
 std::string hex(Rgb c) {
@@ -280,7 +289,7 @@ std::string registration_legend(const RegisteredLevel& level, const Registration
     out += "<span><i class=oval></i><em>95 % error ellipsoid at entry and target" +
            (scene.magnified > 1.0 ? " (drawn <b>" + html_number(scene.magnified, 0) + "\u00d7</b>)"
                                   : std::string(", true size")) +
-           "</em></span>";
+           (scene.one_scale ? "; at one scale in this report" : "") + "</em></span>";
   }
   return out + "</div>";
 }

@@ -15,6 +15,7 @@ struct RegistrationView {
   const char* right;
   const char* top;
   const char* bottom;
+  const char* remark = "";  ///< behind the name in the caption
 };
 
 /// From behind, as the surgeon stands; from the patient's left; from above, with the back below.

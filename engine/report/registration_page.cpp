@@ -1,13 +1,14 @@
 #include "engine/report/registration_page.h"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "embedded/report_css.h"
-#include "engine/case/operation.h"
-#include "engine/report/figure_row.h"
 #include "engine/report/html_text.h"
 #include "engine/report/registration_drawing.h"
+#include "engine/report/registration_tables.h"
 #include "engine/report/tissue_drawing.h"
 #include "engine/session/findings_wording.h"
 
@@ -41,185 +42,6 @@ std::string in_words(const RegisteredLevel& level) {
          sentence(ambiguity_of(level)) + ".</p>";
 }
 
-/// No limit is set on it.
-JudgedFigure plain(double value, int decimals) { return {value, decimals, Bound::kNone, 0.0, 0}; }
-JudgedFigure at_most(double value, int decimals, double limit, int limit_decimals) {
-  return {value, decimals, Bound::kAtMost, limit, limit_decimals};
-}
-JudgedFigure at_least(double value, int decimals, double limit, int limit_decimals) {
-  return {value, decimals, Bound::kAtLeast, limit, limit_decimals};
-}
-
-std::string margin_row(const nav::Registration& r, double least) {
-  const std::string name = "Margin of the next best pose";
-  const std::string meaning = "how much worse it explains the points (log-likelihood ratio)";
-  const JudgedFigure margin = at_least(r.log_likelihood_ratio, 1, least, 0);
-  return std::isfinite(r.log_likelihood_ratio)
-             ? figure_row(name, margin, meaning)
-             : figure_row(name, judged_cell("none near", margin.bound, margin.keeps_limit()),
-                          limit_text(margin), meaning);
-}
-
-std::string rows_of_hypotheses(const nav::Registration& r,
-                               const nav::PoseSearchRegistrationOptions& limits) {
-  const std::string levels =
-      !r.fits_better.empty()   ? "the points fit " + html_escaped(r.fits_better) + " as well"
-      : r.levels_compared == 0 ? "none is known: the level could not be checked"
-                               : "each explains the points clearly worse";
-  const double mirror = std::max(-999.0, r.mirror_log_likelihood);
-  return figure_row("Size of the bone", plain(r.size, 3),
-                    "as the points say, the model’s is 1; SD " + html_number(r.size_sd, 3)) +
-         figure_row("Margin of the mirror image",
-                    at_most(mirror, 1, limits.max_mirror_log_likelihood, 0),
-                    "how much better it explains the points (log-likelihood ratio)") +
-         figure_row("Other levels compared", plain(static_cast<double>(r.levels_compared), 0),
-                    levels);
-}
-
-std::string rows_of_best(const RegisteredLevel& level) {
-  const nav::Registration& r = level.registration;
-  const nav::PoseSearchRegistrationOptions limits;
-  return figure_row("RMSE <small>mm</small>", plain(r.rmse_m * 1e3, 2),
-                    "of all points to the surface; a poor indicator of the error at the screws") +
-         figure_row("Points on the bone <small>%</small>",
-                    at_least(r.inlier_fraction * 1e2, 0, limits.min_inlier_fraction * 1e2, 0),
-                    "the rest lie farther off than the scatter explains and are ignored") +
-         figure_row("Scatter <small>mm</small>",
-                    at_most(r.noise_m * 1e3, 2, limits.max_noise_m * 1e3, 1),
-                    "standard deviation of the points on the bone about its surface") +
-         figure_row("Estimated offset of the tip above the bone <small>mm</small>",
-                    plain(r.standoff_m * 1e3, 2), "mean over the strokes; corrected") +
-         figure_row("Effective sample size", plain(r.effective_points, 0),
-                    "effective points: neighbours share the tracker’s error") +
-         figure_row("Surface stroked <small>%</small>",
-                    at_least(r.coverage_fraction * 1e2, 0, limits.min_coverage_fraction * 1e2, 0),
-                    "of what a pointer reaches from behind") +
-         figure_row("Pointer through bone <small>% of the points</small>",
-                    at_most(r.shaft_collision_fraction * 1e2, 0,
-                            limits.max_shaft_collision_fraction * 1e2, 0),
-                    "where its shaft would have been, were this pose right") +
-         margin_row(r, limits.min_log_likelihood_ratio) + rows_of_hypotheses(r, limits);
-}
-
-/// `paper` judges by the residuals and by the error to expect at the model's centre.
-std::string rows_of_paper(const RegisteredLevel& level) {
-  const nav::Registration& r = level.registration;
-  const nav::RegistrationOptions limits;
-  return figure_row("RMSE <small>mm</small>",
-                    at_most(r.rmse_m * 1e3, 2, limits.max_rmse_m * 1e3, 1),
-                    "of all points to the surface; a poor indicator of the error at the screws") +
-         figure_row(
-             "RMSE of the next best pose <small>mm</small>",
-             at_least(r.runner_up_rmse_m * 1e3, 2, limits.min_runner_up_ratio * r.rmse_m * 1e3, 2),
-             "so much worse that it can’t be meant") +
-         figure_row("Error at the model’s centre <small>mm</small>",
-                    at_most(r.predicted_tre_m * 1e3, 2, limits.max_predicted_tre_m * 1e3, 1),
-                    "root mean square to expect");
-}
-
-/// `paper` sets no limit at the screws.
-JudgedFigure rms_figure(double rms_m, bool best) {
-  const double limit_m = nav::PoseSearchRegistrationOptions{}.max_predicted_tre_m;
-  return best ? at_most(rms_m * 1e3, 2, limit_m * 1e3, 1) : plain(rms_m * 1e3, 2);
-}
-JudgedFigure within_99_figure(double within_m) {
-  return at_most(within_m * 1e3, 2, nav::PoseSearchRegistrationOptions{}.max_tre_99_m * 1e3, 1);
-}
-
-bool is_best(const RegisteredLevel& level) { return level.registration.noise_m > 0.0; }
-
-/// Whether errors to expect hold more than the registration's own, which the limits are about.
-bool holds_common(const RegisteredLevel& level) { return level.registration.common.sd_m() > 0.0; }
-
-std::string rows_of_error(const RegisteredLevel& level) {
-  const bool best = is_best(level);
-  const double own_m =
-      holds_common(level) ? level.registration.predicted_tre_m : worst_rms_m(level);
-  std::string out =
-      figure_row(level.screws.empty() ? "Error where screws usually go <small>mm</small>"
-                                      : "Error at the worst screw <small>mm</small>",
-                 rms_figure(own_m, best), "root mean square to expect of the registration alone");
-  if (best) {
-    out += figure_row("99 of 100 errors below <small>mm</small>",
-                      within_99_figure(level.registration.tre_99_m), "likewise");
-  }
-  if (holds_common(level)) {
-    out += figure_row("With what all strokes share <small>mm</small>",
-                      plain(worst_rms_m(level) * 1e3, 2), sources_of(level.registration.common));
-  }
-  if (const auto within = worst_within_95_m(level)) {
-    out += figure_row("95 of 100 errors below <small>mm</small>", plain(*within * 1e3, 2),
-                      "at the same place");
-  }
-  return out;
-}
-
-std::string row_of_checks(const RegisteredLevel& level) {
-  if (level.check_points.empty()) {
-    return "";
-  }
-  const double limit_mm = nav::CheckPointRules{}.within_m * 1e3;
-  std::string distances;
-  bool all_within = true;
-  for (const nav::CheckPoint& check : level.check_points) {
-    distances += (distances.empty() ? "" : ", ") + html_number(check.distance_m * 1e3, 1) +
-                 (check.within ? "" : " ✗");
-    all_within = all_within && check.within;
-  }
-  return figure_row(
-      "Check points <small>mm</small>", judged_cell(distances, Bound::kAtMost, all_within),
-      limit_text(at_most(0.0, 1, limit_mm, 1)),
-      "distances of places touched afterwards, which \"accept\" takes into the registration");
-}
-
-std::string figures(const RegisteredLevel& level) {
-  const nav::Registration& r = level.registration;
-  std::string out =
-      "<table><thead><tr><th></th><th></th><th>limit</th><th class=why>meaning</th></tr></thead>"
-      "<tbody>" +
-      figure_row("Points", plain(static_cast<double>(r.points), 0), "digitized and registered") +
-      (is_best(level) ? rows_of_best(level) : rows_of_paper(level));
-  if (is_best(level) || !level.screws.empty()) {
-    out += rows_of_error(level);
-  }
-  out += row_of_checks(level);
-  return out + "</tbody></table>";
-}
-
-std::string place_row(const std::string& name, const PlaceError& e, bool judged) {
-  std::string out = "<tr><th scope=row>" + name + "</th>" +
-                    narrow_judged_cell(rms_figure(e.rms_m, judged)) +
-                    narrow_judged_cell(plain(e.within_95_m * 1e3, 2));
-  for (const std::size_t axis : {0U, 1U, 2U}) {
-    out += "<td>" +
-           (e.covariance_m2
-                ? html_number(1e3 * std::sqrt(std::max(0.0, (*e.covariance_m2)[4 * axis])), 2)
-                : "–") +
-           "</td>";
-  }
-  return out + "</tr>";
-}
-
-std::string screws(const RegisteredLevel& level) {
-  if (level.screws.empty()) {
-    return "";
-  }
-  const bool judged = is_best(level) && !holds_common(level);
-  const auto head = [&](const std::string& name, const JudgedFigure& of) {
-    return "<th>" + name + (judged ? " <small>" + limit_text(of) + "</small>" : "") + "</th>";
-  };
-  std::string out = "<table><thead><tr><th>errors to expect <small>mm</small></th>" +
-                    head("RMS", rms_figure(0.0, judged)) + "<th>95 of 100 below</th>" +
-                    "<th>SD sideways</th><th>SD front to back</th><th>SD along the spine</th></tr>"
-                    "</thead><tbody>";
-  for (const ScrewErrors& e : errors_at_screws(level)) {
-    const std::string side = name_of(e.side);
-    out +=
-        place_row(side + " entry", e.entry, judged) + place_row(side + " target", e.target, judged);
-  }
-  return out + "</tbody></table>";
-}
-
 std::string caption(const RegisteredLevel& level, const RegistrationScene& scene) {
   std::string out = "<p class=notes>";
   if (scene.points.size() < level.points.size()) {
@@ -232,41 +54,90 @@ std::string caption(const RegisteredLevel& level, const RegistrationScene& scene
          sources_of(level.registration.common) + "</p>";
 }
 
-/// As in a technical drawing: from behind; beside it from the left; below it from above; all to one
-/// scale. The legend and the screws take the remaining corner.
-Result<std::string> views(const RegisteredLevel& level, const RegistrationScene& scene) {
-  std::string figures;
-  std::string columns;
+/// A level with all that is drawn of it.
+struct DrawnLevel {
+  const RegisteredLevel& level;
+  RegistrationScene scene;
+  std::vector<RegistrationDrawing> drawings;  ///< in the order of the views
+  /// Of the two views side by side, from behind and from the left.
+  [[nodiscard]] double width_mm() const { return drawings[0].size_mm.x + drawings[1].size_mm.x; }
+};
+
+Result<DrawnLevel> drawn(const RegisteredLevel& level, std::optional<double> magnified) {
+  DrawnLevel out{level, registration_scene(level), {}};
+  if (magnified) {
+    out.scene.magnified = *magnified;
+    out.scene.one_scale = true;
+  }
   for (const RegistrationView& view : registration_views()) {
-    const auto drawing = registration_drawing(level, scene, view);
+    auto drawing = registration_drawing(level, out.scene, view);
     if (!drawing) {
       return drawing.error();
     }
-    columns += html_number(drawing->size_mm.x, 2) + "fr ";
-    figures += "<figure>" + drawing->svg + "<figcaption>" + view.name + "</figcaption></figure>";
+    out.drawings.push_back(std::move(*drawing));
+  }
+  return out;
+}
+
+/// As in a technical drawing: from behind; beside it from the left; below it from above; all to one
+/// scale. The legend and the screws take the remaining corner. `widest_mm` of all levels fills the
+/// page, so that levels too are to one scale.
+std::string views(const DrawnLevel& drawn, double widest_mm) {
+  std::string figures;
+  for (std::size_t i = 0; i < drawn.drawings.size(); ++i) {
+    const RegistrationView view = registration_views()[i];
+    figures += "<figure>" + drawn.drawings[i].svg + "<figcaption>" + view.name + view.remark +
+               "</figcaption></figure>";
   }
   // The third view is as wide as the first: both run from left to right.
-  columns.erase(columns.find(' ', columns.find(' ') + 1));
-  return "<div class=views style=\"grid-template-columns:" + columns + "\">" + figures + "<div>" +
-         registration_legend(level, scene) + screws(level) + caption(level, scene) + "</div></div>";
+  return "<div class=views style=\"grid-template-columns:" +
+         html_number(drawn.drawings[0].size_mm.x, 2) + "fr " +
+         html_number(drawn.drawings[1].size_mm.x, 2) +
+         "fr;width:" + html_number(100.0 * drawn.width_mm() / widest_mm, 1) + "%\">" + figures +
+         "<div>" + registration_legend(drawn.level, drawn.scene) + screws_table(drawn.level) +
+         caption(drawn.level, drawn.scene) + "</div></div>";
+}
+
+Result<std::string> section_of(const DrawnLevel& drawn, double widest_mm) {
+  const auto tissue = tissue_figure(drawn.level, drawn.scene);
+  if (!tissue) {
+    return tissue;
+  }
+  return "<section class=registration><h2>" + title_of(drawn.level) + ": " +
+         (drawn.level.registration.accepted ? "<span class=good>passed the numeric checks</span>"
+                                            : "<span class=bad>refused</span>") +
+         "</h2>" + in_words(drawn.level) + views(drawn, widest_mm) + *tissue +
+         figures_table(drawn.level) + "</section>";
 }
 
 }  // namespace
 
+Result<std::string> registration_sections(std::span<const RegisteredLevel> levels) {
+  const auto magnified =
+      levels.size() > 1 ? std::optional(common_magnification(levels)) : std::nullopt;
+  std::vector<DrawnLevel> all;
+  double widest_mm = 0.0;
+  for (const RegisteredLevel& level : levels) {
+    auto one = drawn(level, magnified);
+    if (!one) {
+      return one.error();
+    }
+    widest_mm = std::max(widest_mm, one->width_mm());
+    all.push_back(std::move(*one));
+  }
+  std::string html;
+  for (const DrawnLevel& one : all) {
+    const auto section = section_of(one, widest_mm);
+    if (!section) {
+      return section;
+    }
+    html += *section;
+  }
+  return html;
+}
+
 Result<std::string> registration_section(const RegisteredLevel& level) {
-  const RegistrationScene scene = registration_scene(level);
-  const auto drawn = views(level, scene);
-  if (!drawn) {
-    return drawn;
-  }
-  const auto tissue = tissue_figure(level, scene);
-  if (!tissue) {
-    return tissue;
-  }
-  return "<section class=registration><h2>" + title_of(level) + ": " +
-         (level.registration.accepted ? "<span class=good>passed the numeric checks</span>"
-                                      : "<span class=bad>refused</span>") +
-         "</h2>" + in_words(level) + *drawn + *tissue + figures(level) + "</section>";
+  return registration_sections({&level, 1});
 }
 
 Result<std::string> registration_page(const RegisteredLevel& level, const std::string& source) {
@@ -276,7 +147,7 @@ Result<std::string> registration_page(const RegisteredLevel& level, const std::s
   }
   std::string html =
       "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: registration"
-      "</title><meta name=viewport content=\"width=device-width\"><style>";
+      "</title><meta name=viewport content=\"width=device-width, initial-scale=1\"><style>";
   html += embedded::report_css();
   html += "</style></head><body><header><h1>orthonav <span>registration report</span></h1><p>";
   if (!level.label.empty()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "engine/report/registration_figures.h"
@@ -10,6 +11,9 @@ namespace orthonav::engine {
 /// plain words, every figure with its limit and meaning, and every screw. The style is
 /// data/report.css. The same registration gives the same bytes.
 Result<std::string> registration_section(const RegisteredLevel& level);
+
+/// One section for each level, with all drawings and all error ellipsoids at one scale.
+Result<std::string> registration_sections(std::span<const RegisteredLevel> levels);
 
 /// That section as a page of its own; loads nothing from outside. `source` says what was
 /// registered: "points.csv".

@@ -119,27 +119,31 @@ std::vector<double> tissue_over(const nav::TriangleMesh& mesh,
   return out;
 }
 
-/// A whole number that makes errors readable and never larger than the bone's details.
-double magnification(const RegisteredLevel& level) {
+}  // namespace
+
+double ellipsoid_scale() {
+  // Root of the 95 % quantile of the chi-square distribution with three degrees of freedom.
+  return std::sqrt(7.814727903251179);
+}
+
+double common_magnification(std::span<const RegisteredLevel> levels) {
   double largest_m = 0.0;
-  for (const ScrewErrors& screw : errors_at_screws(level)) {
-    for (const PlaceError* error : {&screw.entry, &screw.target}) {
-      largest_m = std::max(largest_m, ellipsoid_scale() * error->rms_m);
+  for (const RegisteredLevel& level : levels) {
+    for (const ScrewErrors& screw : errors_at_screws(level)) {
+      for (const PlaceError* error : {&screw.entry, &screw.target}) {
+        // What is not known is not drawn either, and must not shrink what is.
+        const double drawn_m = std::isfinite(error->rms_m) ? ellipsoid_scale() * error->rms_m : 0.0;
+        largest_m = std::max(largest_m, drawn_m);
+      }
     }
   }
+  // A whole number that makes errors readable and never larger than the bone's details.
   for (const double times : {20.0, 10.0, 5.0, 2.0}) {
     if (times * largest_m <= kLargestDrawn_m) {
       return times;
     }
   }
   return 1.0;
-}
-
-}  // namespace
-
-double ellipsoid_scale() {
-  // Root of the 95 % quantile of the chi-square distribution with three degrees of freedom.
-  return std::sqrt(7.814727903251179);
 }
 
 RegistrationScene registration_scene(const RegisteredLevel& level) {
@@ -162,7 +166,7 @@ RegistrationScene registration_scene(const RegisteredLevel& level) {
   }
   // A scale of readable numbers: rounded up to the next half millimetre.
   scene.full_colour_m = std::max(kLeastFullColour_m, std::ceil(3.0 * scatter / 0.0005) * 0.0005);
-  scene.magnified = magnification(level);
+  scene.magnified = common_magnification({&level, 1});
   return scene;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/report/registration_figures.h"
@@ -31,12 +32,16 @@ struct RegistrationScene {
   double full_colour_m = 0.0;    ///< the residual that gets the last colour
   /// By how much the predicted errors are magnified when drawn.
   double magnified = 1.0;
+  bool one_scale = false;  ///< all levels of the report are magnified alike
 };
 
 /// What is no farther from a stroke counts as stroked.
 inline constexpr double kStroked_m = 0.005;
 
 [[nodiscard]] RegistrationScene registration_scene(const RegisteredLevel& level);
+
+/// The magnification that suits each of these levels, so that their ellipsoids can be compared.
+[[nodiscard]] double common_magnification(std::span<const RegisteredLevel> levels);
 
 /// Half the longest axis of the ellipsoid that holds 95 of 100 errors (normal distribution in
 /// space), as a multiple of the standard deviation along it.

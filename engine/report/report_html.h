@@ -23,13 +23,22 @@ struct ReportCurve {
   std::vector<double> y;
 };
 
-/// One plot with its axes' names and units; `limit` draws a dashed line when it is positive.
+/// A dashed line across a plot.
+struct ReportLine {
+  double y = 0.0;
+  std::string name;  ///< "poor above 5°"
+};
+
+/// One plot with its axes' names and units.
 struct ReportPlot {
   std::string title;
   std::string x_axis;  ///< "time since the tool was placed [s]"
   std::string y_axis;
   std::vector<ReportCurve> curves;
-  double limit = 0.0;
+  std::vector<ReportLine> lines = {};
+  /// The axis ends here where that is positive: what lies above is drawn at its edge and marked, so
+  /// that a tool on its way through the room does not flatten what matters.
+  double y_max = 0.0;
 };
 
 /// Wall-clock cost of one kind of work, in milliseconds per frame.
@@ -40,7 +49,11 @@ struct ReportTiming {
 
 struct ReportContent {
   std::string report_json;  ///< the text of report.json: the page shows exactly those figures
-  std::string video;        ///< file name beside the page; empty: none
+  /// When the operation began, for people: "2026-11-25 10:04 UTC"; empty: not known. Told by the
+  /// command, since a report reads no clock.
+  std::string date;
+  std::string video;                 ///< file name beside the page; empty: none
+  std::vector<std::uint8_t> poster;  ///< a PNG to show while the film is not played; empty: none
   std::vector<RegisteredLevel> registrations;  ///< drawn, one section each
   std::vector<ReportPicture> pictures;
   std::vector<ReportPlot> plots;
@@ -48,8 +61,10 @@ struct ReportContent {
   std::vector<std::string> notes;  ///< sentences under the table: what was simulated, limits
 };
 
-/// The report as one self-contained HTML page: the paper's table beside this run, errors of every
-/// screw, plots, pictures, frame times. Fails only on a report_json that is not what `demo` writes.
+/// The report as one self-contained HTML page, what a surgeon asks first: verdict and screws, then
+/// registrations, rods, film and pictures, the paper's table beside this run, plots, frame times.
+/// The same content gives the same bytes. Fails only on a report_json that is not what `demo`
+/// writes.
 Result<std::string> report_html(const ReportContent& content);
 
 }  // namespace orthonav::engine

@@ -65,7 +65,7 @@ void put_guided(Json& out, const ScrewOutcome& screw) {
 }
 
 Json screw_json(const ScrewOutcome& screw) {
-  Json out{{"side", name_of(screw.side)}};
+  Json out{{"side", name_of(screw.side)}, {"done", screw.done}};
   if (screw.angle_error_rad) {
     out["angle_error_deg"] = degrees(*screw.angle_error_rad);
   }

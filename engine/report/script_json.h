@@ -5,7 +5,8 @@
 
 namespace orthonav::engine {
 
-/// JSON as the text of a script element: "</script>" inside a name must not end it.
+/// JSON as the text of a script element. A name must not end that element ("</script>"), nor keep
+/// it from ending ("<!--<script>"): every "<" is written as an escape.
 [[nodiscard]] std::string script_json(const nlohmann::json& value);
 
 }  // namespace orthonav::engine

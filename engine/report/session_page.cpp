@@ -5,16 +5,16 @@
 
 #include "base/angle.h"
 #include "embedded/report_css.h"
+#include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/session_notes.h"
 #include "engine/report/session_report.h"
+#include "engine/report/session_rods.h"
 #include "engine/report/tracked_section.h"
 #include "engine/session/replan_wording.h"
 
 namespace orthonav::engine {
 namespace {
-
-constexpr const char* kNotRecorded = "<small>not recorded</small>";
 
 /// "02:45.57" of the headset's clock.
 std::string clock_text(Timestamp time) {
@@ -27,13 +27,11 @@ std::string recorded(const std::optional<double>& value, double scale, int decim
   return value ? html_number(*value * scale, decimals) : kNotRecorded;
 }
 
-std::string cell(const std::string& content) { return "<td>" + content + "</td>"; }
-
-std::string table_head(const std::string& title, const char* columns) {
-  return "<section><h2>" + title + "</h2><table><thead><tr>" + columns + "</tr></thead><tbody>";
+/// `remark` is HTML below the table.
+void put_table(const std::string& title, const HtmlTable& table, std::string& html,
+               const std::string& remark = "") {
+  html += "<section><h2>" + title + "</h2>" + table.html() + remark + "</section>";
 }
-
-constexpr const char* kTableEnd = "</tbody></table></section>";
 
 void put_nothing(const std::string& title, std::string& html) {
   html += "<section><h2>" + title + "</h2><p>None recorded.</p></section>";
@@ -87,141 +85,132 @@ bool registration_only(const SessionRecord& session, const RecordedLevel& level)
          session.registrations[*level.registration].registration_only.value_or(false);
 }
 
+void put_registration_in_force(HtmlTable& table, const SessionRecord& session,
+                               const RecordedLevel& level) {
+  if (!level.registration) {
+    for (int i = 0; i < 4; ++i) {
+      table.cell("\u2013");
+    }
+    return;
+  }
+  const RecordedRegistration& in_force = session.registrations[*level.registration];
+  table.cell(recorded(in_force.rmse_m, 1e3, 2));
+  table.cell(bound_text(in_force.predicted_tre_m, in_force.registration_only.value_or(false)));
+  table.cell(in_force.points ? std::to_string(*in_force.points) : kNotRecorded);
+  table.cell(recorded(level.digitization_s, 1.0, 1));
+}
+
 void put_levels(const SessionRecord& session, std::string& html) {
   if (session.levels.empty()) {
     return put_nothing("Levels", html);
   }
-  html += table_head("Levels",
-                     "<th>level</th><th>registration</th><th>attempts</th><th>RMSE "
-                     "<small>mm</small></th><th>predicted TRE <small>mm</small></th><th>points</th>"
-                     "<th>time <small>s</small></th><th>check points <small>mm</small></th>"
-                     "<th>dimple <small>mm off</small></th><th>screws done</th>");
+  HtmlTable table({{"level"},
+                   {"registration"},
+                   {"attempts"},
+                   {"RMSE", "mm"},
+                   {"predicted TRE", "mm"},
+                   {"points"},
+                   {"time", "s"},
+                   {"check points", "mm"},
+                   {"dimple", "mm off"},
+                   {"screws done"}});
   for (const RecordedLevel& level : session.levels) {
-    html += "<tr>" + cell(html_escaped(level.label)) + cell(verdict(level)) +
-            cell(std::to_string(level.attempts));
-    if (level.registration) {
-      const RecordedRegistration& in_force = session.registrations[*level.registration];
-      html +=
-          cell(recorded(in_force.rmse_m, 1e3, 2)) +
-          cell(bound_text(in_force.predicted_tre_m, in_force.registration_only.value_or(false))) +
-          cell(in_force.points ? std::to_string(*in_force.points) : kNotRecorded) +
-          cell(recorded(level.digitization_s, 1.0, 1));
-    } else {
-      html += "<td>\u2013</td><td>\u2013</td><td>\u2013</td><td>\u2013</td>";
-    }
+    table.row(html_escaped(level.label));
+    table.cell(verdict(level));
+    table.cell(std::to_string(level.attempts));
+    put_registration_in_force(table, session, level);
     std::string checks;
     for (const RecordedCheck& check : level.checks) {
       checks += (checks.empty() ? "" : ", ") + html_number(check.distance_m * 1e3, 1);
     }
-    html += cell(checks.empty() ? "\u2013" : checks) + cell(touches_of_landmark(level)) +
-            cell(screws_done(level, session.has_plan)) + "</tr>";
+    table.cell(checks.empty() ? "\u2013" : checks);
+    table.cell(touches_of_landmark(level));
+    table.cell(screws_done(level, session.has_plan));
   }
-  html += kTableEnd;
-  if (!session.has_plan) {
-    html +=
-        "<ul class=notes><li>The plan was not recorded: levels that were not reached are "
-        "missing here.</li></ul>";
+  put_table("Levels", table, html,
+            session.has_plan ? ""
+                             : "<ul class=notes><li>The plan was not recorded: levels that were "
+                               "not reached are missing here.</li></ul>");
+}
+
+void put_pose_at_depth(HtmlTable& table, const SessionRecord& session, const RecordedLevel& level,
+                       const RecordedScrew& screw) {
+  if (!screw.at_depth) {
+    for (int i = 0; i < 6; ++i) {
+      table.cell(screw.done ? kNotRecorded : "\u2013");
+    }
+    return;
   }
+  const RecordedPose& pose = *screw.at_depth;
+  table.cell(html_number(degrees(pose.angle_rad), 2));
+  table.cell(html_number(pose.tip_off_axis_m * 1e3, 2));
+  table.cell(html_number(pose.tip_to_entry_m * 1e3, 2));
+  table.cell(html_number(pose.depth_m * 1e3, 2));
+  table.cell(recorded(pose.clearance_m, 1e3, 2));
+  table.cell(bound_text(pose.clearance_95_m, registration_only(session, level)));
 }
 
 void put_screws(const SessionRecord& session, std::string& html) {
-  const bool any = std::any_of(session.levels.begin(), session.levels.end(),
-                               [](const RecordedLevel& level) { return !level.screws.empty(); });
-  if (!any) {
-    return put_nothing("Screws", html);
-  }
-  html += table_head(
-      "Screws, as measured at depth",
-      "<th>screw</th><th>done at</th><th>angle to the plan <small>\u00b0</small></th>"
-      "<th>tip off the axis <small>mm</small></th><th>tip to entry "
-      "<small>mm</small></th><th>depth <small>mm</small></th><th>clearance "
-      "<small>mm</small></th><th>95 % above <small>mm</small></th><th>wire as placed</th>");
+  HtmlTable table({{"screw"},
+                   {"done at"},
+                   {"angle to the plan", "\u00b0"},
+                   {"tip off the axis", "mm"},
+                   {"tip to entry", "mm"},
+                   {"depth", "mm"},
+                   {"clearance", "mm"},
+                   {"95 % above", "mm"},
+                   {"wire as placed"}});
   for (const RecordedLevel& level : session.levels) {
     for (const RecordedScrew& screw : level.screws) {
-      html += "<tr>" + cell(html_escaped(level.label) + " " + name_of(screw.side)) +
-              cell(screw.time ? clock_text(*screw.time) : "not done");
-      if (const auto& pose = screw.at_depth) {
-        html += cell(html_number(degrees(pose->angle_rad), 2)) +
-                cell(html_number(pose->tip_off_axis_m * 1e3, 2)) +
-                cell(html_number(pose->tip_to_entry_m * 1e3, 2)) +
-                cell(html_number(pose->depth_m * 1e3, 2)) +
-                cell(recorded(pose->clearance_m, 1e3, 2)) +
-                cell(bound_text(pose->clearance_95_m, registration_only(session, level))) +
-                cell(wire_text(screw)) + "</tr>";
-      } else {
-        const std::string none = cell(screw.done ? kNotRecorded : "\u2013");
-        html += none + none + none + none + none + none + cell(wire_text(screw)) + "</tr>";
-      }
+      table.row(html_escaped(level.label) + " " + name_of(screw.side));
+      table.cell(screw.time ? clock_text(*screw.time) : "not done");
+      put_pose_at_depth(table, session, level, screw);
+      table.cell(wire_text(screw));
       if (screw.planned_in_surgery) {
-        html += "<tr><td></td><td colspan=8>planned in surgery: " +
-                html_escaped(text_of(*screw.planned_in_surgery)) + "</td></tr>";
+        table.below("planned in surgery: " + html_escaped(text_of(*screw.planned_in_surgery)));
       }
     }
   }
-  html += kTableEnd;
-}
-
-std::string instructed(const RecordedRod& rod) {
-  std::string text;
-  for (const RecordedInstruction& bend : rod.instructions) {
-    text += (text.empty() ? "" : "; ") + html_number(bend.arc_length_m * 1e3, 1) + ": " +
-            html_number(degrees(bend.roll_rad), 0) + ", " + html_number(degrees(bend.set_rad), 1);
-  }
-  return text.empty() ? "\u2013" : text;
-}
-
-void put_rods(const SessionRecord& session, std::string& html) {
-  if (session.rods.empty()) {
-    return;
-  }
-  html += table_head("Rods",
-                     "<th>side</th><th>heads</th><th>template</th><th>length <small>mm</small></th>"
-                     "<th>bends <small>mm: \u00b0</small></th><th>cut to <small>mm</small></th>"
-                     "<th>instructions <small>mm: roll \u00b0, set \u00b0</small></th>");
-  for (const RecordedRod& rod : session.rods) {
-    std::string bends;
-    for (const RecordedBend& bend : rod.bends) {
-      bends += (bends.empty() ? "" : ", ") + html_number(bend.arc_length_m * 1e3, 0) + ": " +
-               html_number(degrees(bend.angle_rad), 1);
-    }
-    html += "<tr>" + cell(name_of(rod.side)) + cell(std::to_string(rod.heads)) +
-            cell(rod.done ? "taken" : "not taken") +
-            cell(rod.done ? recorded(rod.length_m, 1e3, 1) : "\u2013") +
-            cell(bends.empty() ? "\u2013" : bends) + cell(recorded(rod.cut_length_m, 1e3, 1)) +
-            cell(instructed(rod)) + "</tr>";
-  }
-  html += kTableEnd;
+  return table.empty() ? put_nothing("Screws", html)
+                       : put_table("Screws, as measured at depth", table, html);
 }
 
 void put_registrations(const SessionRecord& session, std::string& html) {
   if (session.registrations.empty()) {
     return put_nothing("Registrations", html);
   }
-  html += table_head("Registrations",
-                     "<th>time</th><th>level</th><th>attempt</th><th>numeric checks</th>"
-                     "<th>RMSE <small>mm</small></th><th>next best <small>mm</small></th>"
-                     "<th>95 % of errors below <small>mm</small></th><th>points</th>");
+  HtmlTable table({{"time"},
+                   {"level"},
+                   {"attempt"},
+                   {"numeric checks"},
+                   {"RMSE", "mm"},
+                   {"next best", "mm"},
+                   {"95 % of errors below", "mm"},
+                   {"points"}});
   for (const RecordedRegistration& each : session.registrations) {
-    html += "<tr>" + cell(clock_text(each.time)) + cell(html_escaped(each.level)) +
-            cell(std::to_string(each.attempt)) +
-            cell(each.passed ? "<span class=good>passed</span>"
-                             : "<span class=bad>refused</span> " + html_escaped(each.reason)) +
-            cell(recorded(each.rmse_m, 1e3, 2)) + cell(recorded(each.runner_up_rmse_m, 1e3, 2)) +
-            cell(bound_text(each.tre_95_m, each.registration_only.value_or(false))) +
-            cell(each.points ? std::to_string(*each.points) : kNotRecorded) + "</tr>";
+    table.row(clock_text(each.time));
+    table.cell(html_escaped(each.level));
+    table.cell(std::to_string(each.attempt));
+    table.cell(each.passed ? "<span class=good>passed</span>"
+                           : "<span class=bad>refused</span> " + html_escaped(each.reason));
+    table.cell(recorded(each.rmse_m, 1e3, 2));
+    table.cell(recorded(each.runner_up_rmse_m, 1e3, 2));
+    table.cell(bound_text(each.tre_95_m, each.registration_only.value_or(false)));
+    table.cell(each.points ? std::to_string(*each.points) : kNotRecorded);
     if (!each.warning.empty()) {
-      html += "<tr><td></td><td colspan=7 class=bad>" + html_escaped(each.warning) + "</td></tr>";
+      table.below(html_escaped(each.warning), "bad");
     }
   }
-  html += kTableEnd;
+  put_table("Registrations", table, html);
 }
 
 void put_steps(const SessionRecord& session, std::string& html) {
-  html += table_head("Course", "<th>time</th><th>step</th>");
+  HtmlTable table({{"time"}, {"step"}});
   for (const RecordedStep& step : session.steps) {
-    html += "<tr>" + cell(clock_text(step.time)) + cell(std::string(name_of(step.step))) + "</tr>";
+    table.row(clock_text(step.time));
+    table.cell(std::string(name_of(step.step)));
   }
-  html += kTableEnd;
+  put_table("Course", table, html);
 }
 
 }  // namespace
@@ -247,7 +236,7 @@ std::string ending_of(const SessionRecord& session) {
 std::string session_page(const SessionRecord& session, const std::string& source) {
   std::string html =
       "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: session</title>"
-      "<meta name=viewport content=\"width=device-width\"><style>";
+      "<meta name=viewport content=\"width=device-width, initial-scale=1\"><style>";
   html += embedded::report_css();
   html +=
       "</style></head><body><header><h1>orthonav <span>report of a journal</span></h1><p>Case <b>" +
@@ -259,11 +248,11 @@ std::string session_page(const SessionRecord& session, const std::string& source
            : "a frame that is not recorded") +
       "</b></p></header><main>";
   put_ending(session, html);
-  put_levels(session, html);
   put_screws(session, html);
-  html += tracked_section(nlohmann::json::parse(session_json(session)));
-  put_rods(session, html);
+  put_levels(session, html);
+  html += session_rods(session);
   put_registrations(session, html);
+  html += tracked_section(nlohmann::json::parse(session_json(session)));
   put_steps(session, html);
   html += guide_notes(session);
   return html +

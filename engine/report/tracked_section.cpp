@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/report_values.h"
 
@@ -15,8 +16,6 @@ using nlohmann::json;
 
 constexpr const char* kNoMeasurement = "not measured";
 constexpr const char* kNoRecord = "not recorded";
-
-std::string tracked_cell(const std::string& content) { return "<td>" + content + "</td>"; }
 
 std::string text_under(const json& object, const char* key) {
   const auto found = object.find(key);
@@ -65,21 +64,21 @@ std::string number_under(const json& object, const char* key, int decimals) {
   return value ? html_number(*value, decimals) : "–";
 }
 
-void put_tracked_way(const json& screw, std::string& html) {
+void put_tracked_way(HtmlTable& table, const json& screw) {
   const auto found = screw.find("executed");
   if (found == screw.end() || !found->is_object()) {
-    const std::string none = tracked_cell(why_none(screw, "executed"));
-    html += none + none + none + none;
+    for (int i = 0; i < 4; ++i) {
+      table.cell(why_none(screw, "executed"));
+    }
     return;
   }
   const auto direction_sd = axis_sd_of(*found, "direction_covariance_rad2", 2.0);
-  html += tracked_cell(plus_minus(numbers_under(*found, "entry_mm", 1),
-                                  axis_sd_of(*found, "entry_covariance_mm2", 3.0), 2)) +
-          tracked_cell(
-              plus_minus(numbers_under(*found, "direction", 3),
-                         direction_sd ? std::optional(degrees(*direction_sd)) : std::nullopt, 2)) +
-          tracked_cell(number_under(*found, "depth_mm", 1)) +
-          tracked_cell(number_under(*found, "pairs", 0));
+  table.cell(plus_minus(numbers_under(*found, "entry_mm", 1),
+                        axis_sd_of(*found, "entry_covariance_mm2", 3.0), 2));
+  table.cell(plus_minus(numbers_under(*found, "direction", 3),
+                        direction_sd ? std::optional(degrees(*direction_sd)) : std::nullopt, 2));
+  table.cell(number_under(*found, "depth_mm", 1));
+  table.cell(number_under(*found, "pairs", 0));
 }
 
 /// "A 97 %, B 3 %": those that are likely at all.
@@ -104,41 +103,37 @@ std::string likely_grades(const json& screw) {
 }
 
 std::string table_of_tools(const json& report) {
-  std::string rows;
+  HtmlTable table({{"screw"},
+                   {"entry in the vertebra", "mm, LPS, \u00b1 SD of an axis"},
+                   {"direction into the bone", "\u00b1 SD \u00b0"},
+                   {"depth", "mm"},
+                   {"pairs"},
+                   {"grade, probability"}});
   for (const json& level : report.value("levels", json::array())) {
     for (const json& screw : level.value("screws", json::array())) {
       const bool done = screw.value("done", json(true)) != json(false);
       if (done && (screw.contains("executed") || screw.contains("not_measured"))) {
-        rows += "<tr>" + tracked_cell(html_escaped(text_under(level, "label") + " " +
-                                                   text_under(screw, "side")));
-        put_tracked_way(screw, rows);
-        rows += tracked_cell(likely_grades(screw)) + "</tr>";
+        table.row(html_escaped(text_under(level, "label") + " " + text_under(screw, "side")));
+        put_tracked_way(table, screw);
+        table.cell(likely_grades(screw));
       }
     }
   }
-  if (rows.empty()) {
-    return "<p>Where the tools went: not recorded.</p>";
-  }
-  return "<table><thead><tr><th>screw</th><th>entry in the vertebra <small>mm, LPS, ± SD of an "
-         "axis</small></th><th>direction into the bone <small>± SD °</small></th><th>depth "
-         "<small>mm</small></th><th>pairs</th><th>grade, probability</th></tr></thead><tbody>" +
-         rows + "</tbody></table>";
+  return table.empty() ? "<p>Where the tools went: not recorded.</p>" : table.html();
 }
 
 std::string table_of_tags(const json& found) {
   if (!found.contains("tags")) {
     return "<p>Sizes of the tags: not measured.</p>";
   }
-  std::string html =
-      "<table><thead><tr><th>tags of</th><th>larger than stated, as seen "
-      "<small>%</small></th><th>taken into account <small>%</small></th></tr></thead><tbody>";
+  HtmlTable table({{"tags of"}, {"larger than stated, as seen", "%"}, {"taken into account", "%"}});
   for (const json& size : found["tags"]) {
-    html += "<tr>" + tracked_cell(html_escaped(text_under(size, "tool"))) +
-            tracked_cell(plus_minus(number_under(size, "measured_percent", 2),
-                                    value_of(size, "sd_percent"), 2)) +
-            tracked_cell(number_under(size, "applied_percent", 2)) + "</tr>";
+    table.row(html_escaped(text_under(size, "tool")));
+    table.cell(
+        plus_minus(number_under(size, "measured_percent", 2), value_of(size, "sd_percent"), 2));
+    table.cell(number_under(size, "applied_percent", 2));
   }
-  return html + "</tbody></table>";
+  return table.html();
 }
 
 std::string cameras_text(const json& found) {

@@ -25,6 +25,7 @@ OperationResult with_clearances() {
   spread.grade_probability = {0.93, 0.07, 0, 0, 0};
   left.planned = nav::ScrewClearance{planned, spread};
   left.planned_profile_m = {0.004, 0.0015};
+  left.size = nav::ScrewCylinder{{}, {0, -1, 0}, 0.040, 0.00325};
   left.accepted_breach = "narrow <pedicle>";
   left.tracked = nav::ScrewClearance{{0.0009, 0.018, {-1, 0, 0}, false, {}}, std::nullopt};
   left.executed = nav::Clearance{-0.0023, 0.020, {0, 0, 1}, false, {}};
@@ -38,6 +39,9 @@ TEST(ClearanceReport, HasWhatWasPlannedTrackedAndTrue) {
   const auto& screw = json["levels"][0]["screws"][0];
   EXPECT_NEAR(screw["planned"]["clearance_mm"].get<double>(), 1.5, 1e-9);
   EXPECT_EQ(screw["planned"]["grade"], "A");
+  EXPECT_NEAR(screw["planned"]["diameter_mm"].get<double>(), 6.5, 1e-9);
+  EXPECT_NEAR(screw["planned"]["length_mm"].get<double>(), 40.0, 1e-9);
+  EXPECT_EQ(screw["done"], true);
   EXPECT_EQ(screw["planned"]["towards"], "medial");
   EXPECT_NEAR(screw["planned"]["arc_mm"].get<double>(), 18.0, 1e-9);
   EXPECT_NEAR(screw["planned"]["clearance_95_mm"].get<double>(), -0.2, 1e-9);
@@ -59,7 +63,8 @@ TEST(ClearanceReport, ShowsThemOnThePage) {
   const std::string html = clearance_section(json);
   EXPECT_THAT(html, HasSubstr("medial, 18 mm"));
   EXPECT_THAT(html, HasSubstr("A 93 %, B 7 %"));
-  EXPECT_THAT(html, HasSubstr("<td class=bad>\u22122.30</td><td>C</td>"));
+  EXPECT_THAT(html, HasSubstr("<td class=bad data-label=\"truth [mm]\">\u22122.30</td><td "
+                              "data-label=\"true grade\">C</td>"));
   EXPECT_THAT(html, HasSubstr("narrow &lt;pedicle&gt;"));
   EXPECT_THAT(html, Not(HasSubstr("L4 right")));
   EXPECT_EQ(clearance_section({{"levels", {{{"label", "L4"}}}}}), "");

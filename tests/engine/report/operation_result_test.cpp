@@ -7,7 +7,7 @@
 
 #include "engine/case/operation_plan.h"
 #include "engine/phantom/phantom.h"
-#include "engine/report/clearance_section.h"
+#include "engine/report/screws_section.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine {
@@ -73,7 +73,7 @@ TEST(ReportJson, HoldsWhatWasPlannedInSurgery) {
   EXPECT_NEAR(screws[0]["planned_in_surgery"]["entry_cranial_mm"].get<double>(), 2.0, 1e-9);
   EXPECT_EQ(screws[0]["planned_in_surgery"]["text"], "entry moved 2.0 mm cranial");
   EXPECT_FALSE(screws[1].contains("planned_in_surgery"));
-  EXPECT_THAT(clearance_section(json),
+  EXPECT_THAT(screws_section(json),
               ::testing::HasSubstr("planned in surgery: entry moved 2.0 mm cranial"));
 }
 

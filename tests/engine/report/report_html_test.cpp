@@ -3,11 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "engine/report/base64.h"
 
 namespace orthonav::engine {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -44,10 +49,10 @@ TEST(ReportHtml, TellsHowEveryWireWasMeasured) {
   constexpr const char* kWire =
       R"("wire":{"angle_deg":2.86,"angle_sd_deg":0.91,"entry_mm":1.1,"entry_sd_mm":0.6,"kept":)";
   EXPECT_THAT(page(std::string(",") + kWire + R"(true},"redone":1)"),
-              HasSubstr("<td>2.9 ± 0.9°, 1.1 ± 0.6 mm, kept; redone</td>"));
+              HasSubstr(">2.9 ± 0.9°, 1.1 ± 0.6 mm, kept; redone</td>"));
   EXPECT_THAT(page(std::string(",") + kWire + R"(false},"redone":0)"),
-              HasSubstr("<td>2.9 ± 0.9°, 1.1 ± 0.6 mm</td>"));
-  EXPECT_THAT(page(R"(,"wire":"not measured")"), HasSubstr("<td>not measured</td>"));
+              HasSubstr(">2.9 ± 0.9°, 1.1 ± 0.6 mm</td>"));
+  EXPECT_THAT(page(R"(,"wire":"not measured")"), HasSubstr(">not measured</td>"));
   EXPECT_THAT(page(""), Not(HasSubstr("not measured")));
 }
 
@@ -64,12 +69,118 @@ TEST(ReportHtml, TellsALevelThatWasRefusedFromOneThatWasNeverReached) {
 TEST(ReportHtml, LoadsNothingFromOutside) {
   ReportContent content{.report_json = kReport, .video = "operation.mp4"};
   content.pictures.push_back({"step", "what", {1, 2, 3}});
-  content.plots.push_back({"</script><b>", "x", "y", {{"c", {0, 1}, {1, 2}}}, 1.0});
+  content.plots.push_back({"</script><b>", "x", "y", {{"c", {0, 1}, {1, 2}}}, {{1.0, "l"}}});
   const auto html = report_html(content);
   ASSERT_TRUE(html.ok());
   EXPECT_THAT(*html, Not(HasSubstr("src=\"http")));
   EXPECT_THAT(*html, Not(HasSubstr("</script><b>")));
   EXPECT_THAT(*html, HasSubstr("data:image/png;base64,AQID"));
+}
+
+/// Where the sections begin, in the order of `ids`.
+std::vector<std::size_t> places_of(const std::string& html, const std::vector<std::string>& ids) {
+  std::vector<std::size_t> places;
+  for (const std::string& id : ids) {
+    places.push_back(html.find(id));
+  }
+  return places;
+}
+
+ReportContent whole_content() {
+  ReportContent content{.report_json = kReport, .date = "2026-11-25 10:04 UTC"};
+  content.video = "operation.mp4";
+  content.poster = {'p', 'o', 's'};
+  content.pictures.push_back({"guide L4 left", "what", {1, 2, 3}});
+  content.plots.push_back({"angle",
+                           "s",
+                           "°",
+                           {{"L4 left", {0, 1, 2, 3}, {71.3, 6.5, 6.0, 1.0}}},
+                           {{2.0, "green below 2.0°"}, {5.0, "red above 5.0°"}},
+                           6.0});
+  content.timings.push_back({"tracking", {1.0, 2.0}});
+  content.notes = {"a note"};
+  return content;
+}
+
+TEST(ReportHtml, BeginsWithWhatASurgeonAsksAndEndsWithTiming) {
+  const std::string html = report_html(whole_content()).value();
+  const auto places =
+      places_of(html, {"2026-11-25 10:04 UTC", "id=verdict", "id=screws", "id=levels", "id=rods",
+                       "id=film", "id=steps", "id=paper", "id=plots", "id=timing", "id=notes"});
+  EXPECT_THAT(places, Not(Contains(std::string::npos)));
+  EXPECT_TRUE(std::is_sorted(places.begin(), places.end())) << ::testing::PrintToString(places);
+}
+
+TEST(ReportHtml, HasTheDateThatItIsToldAndReadsNoClock) {
+  ReportContent content = whole_content();
+  const std::string html = report_html(content).value();
+  EXPECT_TRUE(report_html(content).value() == html) << "the same content, the same bytes";
+  content.date.clear();
+  EXPECT_THAT(report_html(content).value(),
+              AllOf(HasSubstr("date <b>not recorded</b>"), Not(HasSubstr("2026"))));
+}
+
+TEST(ReportHtml, ShowsAPosterWhereThereIsAFilm) {
+  ReportContent content = whole_content();
+  EXPECT_THAT(report_html(content).value(),
+              HasSubstr("src=\"operation.mp4\" poster=\"data:image/png;base64,cG9z\""));
+  content.poster.clear();
+  EXPECT_THAT(report_html(content).value(),
+              AllOf(HasSubstr("src=\"operation.mp4\"></video>"), Not(HasSubstr("poster="))));
+  content.video.clear();
+  EXPECT_THAT(report_html(content).value(), Not(HasSubstr("<video")));
+}
+
+TEST(ReportHtml, MarksWhatLiesAboveThePlotsAxisAndKeepsWhatItWas) {
+  const std::string html = report_html(whole_content()).value();
+  EXPECT_THAT(html, HasSubstr(R"({"was":71.3,"x":0.0,"y":6.0},{"was":6.5,"x":1.0,"y":6.0},)"
+                              R"({"x":2.0,"y":6.0},{"x":3.0,"y":1.0})"));
+  EXPECT_THAT(html,
+              HasSubstr("angle: above the axis (triangles at its edge) L4 left up to 71.3°."));
+  EXPECT_THAT(html, AllOf(HasSubstr(R"({"name":"green below 2.0\u00b0","y":2.0})"),
+                          HasSubstr(R"({"name":"red above 5.0\u00b0","y":5.0})")));
+  ReportContent open = whole_content();
+  open.plots[0].y_max = 0.0;
+  EXPECT_THAT(report_html(open).value(),
+              AllOf(Not(HasSubstr("\"was\"")), Not(HasSubstr("above the axis (")),
+                    HasSubstr(R"({"x":0.0,"y":71.3})")));
+}
+
+TEST(ReportHtml, EscapesEveryTextThatItIsTold) {
+  constexpr const char* kHostile = "</script><img src=x onerror=alert(1)>\"'&";
+  const std::string in_json = nlohmann::json(kHostile).dump();
+  ReportContent content = whole_content();
+  content.report_json = R"({"seed":1,"case":)" + in_json + R"(,"method":)" + in_json +
+                        R"(,"completed":false,"why_not":)" + in_json + R"(,"levels":[{"label":)" +
+                        in_json + R"(,"attempts":1,"screws":[{"side":)" + in_json +
+                        R"(,"angle_error_deg":9.0,"clearance_mm":-1.0,"grade":)" + in_json +
+                        R"(,"planned":{"accepted_breach":)" + in_json + R"(,"grade":)" + in_json +
+                        R"(},"planned_in_surgery":{"text":)" + in_json + R"(},"wire":)" + in_json +
+                        R"(}]}],"rod":{"sides":[{"side":)" + in_json + "}]}}";
+  content.date = content.video = kHostile;
+  content.pictures[0].title = content.pictures[0].caption = kHostile;
+  content.plots[0].title = content.plots[0].curves[0].name = content.plots[0].y_axis = kHostile;
+  content.plots[0].lines[0].name = content.timings[0].name = content.notes[0] = kHostile;
+  const auto html = report_html(content);
+  ASSERT_TRUE(html.ok()) << html.error().message;
+  EXPECT_THAT(*html, Not(HasSubstr("<img src=x")));
+  EXPECT_THAT(*html, HasSubstr("&lt;img src=x onerror=alert(1)&gt;&quot;"));
+}
+
+TEST(ReportHtml, NamesTheColumnInEveryCellForNarrowScreens) {
+  const std::string html = report_html({.report_json = kReport}).value();
+  EXPECT_THAT(html, HasSubstr("<td data-label=\"angle error [°]\">2.5</td>"));
+  EXPECT_THAT(html, HasSubstr("<td class=bad data-label=\"entry error [mm]\">3.0</td>"));
+}
+
+TEST(ReportHtml, SaysWhatWasAnInputAndHowManyWereMeasured) {
+  const std::string html = report_html({.report_json = kReport}).value();
+  EXPECT_THAT(html, HasSubstr(">2 screws</td>"));
+  EXPECT_THAT(html, HasSubstr(">1 level</td>"));
+  EXPECT_THAT(html, HasSubstr(">an input: how the scripted surgeon strokes</td>"));
+  // A real headset has no seed, and nobody put in how its surgeon strokes.
+  EXPECT_THAT(report_html({.report_json = R"({"levels":[{"label":"L4","points":9}]})"}).value(),
+              Not(HasSubstr("an input")));
 }
 
 TEST(ReportHtml, RefusesFiguresThatAreNoReport) {

@@ -32,8 +32,9 @@ TEST(ReportValues, AreOfLevelsOrOfScrews) {
   EXPECT_THAT(values_of(nlohmann::json("no report"), "rmse_mm", false), IsEmpty());
 }
 
-TEST(ScriptJson, DoesNotEndItsElement) {
-  EXPECT_EQ(script_json({{"name", "</script>"}}), R"({"name":"<\/script>"})");
+TEST(ScriptJson, NeitherEndsItsElementNorKeepsItFromEnding) {
+  EXPECT_EQ(script_json({{"name", "</script>"}}), R"({"name":"\u003c/script>"})");
+  EXPECT_EQ(script_json({{"name", "<!--<script>"}}), R"({"name":"\u003c!--\u003cscript>"})");
 }
 
 }  // namespace

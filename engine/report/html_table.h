@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace orthonav::engine {
+
+/// What a column is called, and the unit of its figures; plain text.
+struct TableColumn {
+  std::string name;
+  std::string unit = {};
+};
+
+/// A table of a page. Each cell carries the name of its column, so that a narrow screen can show
+/// each row as a card (data/report.css) instead of a table that runs off the screen.
+class HtmlTable {
+ public:
+  explicit HtmlTable(std::vector<TableColumn> columns);
+  /// Begins a row with its first cell. Contents are HTML, `kind` is a class of the style.
+  void row(const std::string& name);
+  void cell(const std::string& content, const char* kind = "");
+  /// A line of its own below the row.
+  void below(const std::string& content, const char* kind = "");
+  [[nodiscard]] bool empty() const { return rows_.empty(); }
+  /// The whole element. The last row is complete: anything else is a bug.
+  [[nodiscard]] std::string html() const;
+
+ private:
+  std::vector<TableColumn> columns_;
+  std::size_t next_ = 0;  ///< the column of the next cell
+  std::string rows_;
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,53 @@
+#include "engine/report/paper_section.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/report/html_table.h"
+#include "engine/report/html_text.h"
+#include "engine/report/paper_table.h"
+#include "engine/report/report_values.h"
+#include "nav/evaluation/errors.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr const char* kNone = "\u2013";
+
+void put_row(HtmlTable& table, const nlohmann::json& report, const PaperRow& row, bool simulated) {
+  const nav::Summary s = nav::summarize(values_of(report, row.key, row.per_screw));
+  const auto number = [&row](double value) { return html_number(value, row.decimals); };
+  table.row(std::string(row.name) + " <small>" + std::string(row.unit) + "</small>");
+  table.cell(number(row.mean) + " \u00b1 " + number(row.sd));
+  if (s.count == 0) {
+    table.cell(kNone);
+    table.cell(kNone);
+  } else {
+    table.cell(number(s.mean) + (s.count > 1 ? " \u00b1 " + number(s.sd) : ""), "ours");
+    table.cell(s.count > 1 ? number(s.min) + "\u2013" + number(s.max) : kNone);
+  }
+  table.cell(std::to_string(s.count) + (row.per_screw ? " screw" : " level") +
+             (s.count == 1 ? "" : "s"));
+  table.cell(simulated && row.input ? "an input: how the scripted surgeon strokes" : "measured");
+}
+
+}  // namespace
+
+std::string paper_section(const nlohmann::json& report) {
+  // Only a simulated room has a seed.
+  const bool simulated = report.contains("seed");
+  HtmlTable table({{"mean \u00b1 SD"},
+                   {"Liebmann et al. 2019"},
+                   {"this run"},
+                   {"min\u2013max"},
+                   {"n"},
+                   {"this run\u2019s figure is"}});
+  for (const PaperRow& row : kPaperTable) {
+    put_row(table, report, row, simulated);
+  }
+  return "<section id=paper><h2>Against the published system</h2>" + table.html() +
+         "<p class=notes>The published figures come from a phantom study" +
+         (simulated ? ", this run\u2019s from a simulation whose errors were put in" : "") +
+         "; one run holds too few screws to compare means or spreads.</p></section>";
+}
+
+}  // namespace orthonav::engine

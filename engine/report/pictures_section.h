@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "engine/report/report_html.h"
+
+namespace orthonav::engine {
+
+/// The film with its poster, and the pictures step by step; empty where there are none.
+[[nodiscard]] std::string pictures_section(const ReportContent& content);
+
+}  // namespace orthonav::engine

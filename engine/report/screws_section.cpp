@@ -1,0 +1,104 @@
+#include "engine/report/screws_section.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/angle.h"
+#include "engine/report/html_table.h"
+#include "engine/report/html_text.h"
+#include "engine/report/report_limits.h"
+#include "engine/report/report_values.h"
+#include "engine/report/verdict.h"
+#include "engine/report/wire_section.h"
+
+namespace orthonav::engine {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kNone = "\u2013";
+
+json object_in(const json& object, const char* key) {
+  return object.contains(key) && object[key].is_object() ? object[key] : json::object();
+}
+
+std::string text_in(const json& object, const char* key) {
+  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
+}
+
+/// "6.5 × 40".
+std::string size_of(const json& screw) {
+  const json planned = object_in(screw, "planned");
+  const auto diameter = value_of(planned, "diameter_mm");
+  const auto length = value_of(planned, "length_mm");
+  return diameter && length ? html_number(*diameter, 1) + " \u00d7 " + html_number(*length, 0)
+                            : "not stated";
+}
+
+/// Of an error against the truth, with its limit.
+void error_cell(HtmlTable& table, const std::optional<double>& value, double limit) {
+  table.cell(value ? html_number(*value, 1) : kNone, value && *value > limit ? "bad" : "");
+}
+
+/// Against the truth where one is known, else as tracked: "2.9 A", "2.0 A 93 % as tracked".
+void clearance_cell(HtmlTable& table, const json& screw) {
+  const json tracked = object_in(screw, "tracked");
+  const bool known = value_of(screw, "clearance_mm").has_value();
+  const json& from = known ? screw : tracked;
+  const auto clearance = value_of(from, "clearance_mm");
+  if (!clearance) {
+    table.cell(kNone);
+    return;
+  }
+  table.cell(html_number(*clearance, 1) + " " + html_escaped(text_in(from, "grade")) +
+                 (known ? "" : " <small>as tracked</small>"),
+             *clearance < 0.0 ? "bad" : "");
+}
+
+void put_screw(HtmlTable& table, const std::string& name, const json& screw) {
+  const bool placed = is_placed(screw);
+  table.row(html_escaped(name) + (placed ? "" : " <small>not placed</small>"));
+  table.cell(size_of(screw));
+  error_cell(table, value_of(screw, "angle_error_deg"), degrees(kOnTarget_rad));
+  error_cell(table, value_of(screw, "entry_error_mm"), kOnTarget_m * 1e3);
+  const auto depth = value_of(object_in(screw, "executed"), "depth_mm");
+  table.cell(depth ? html_number(*depth, 1) : kNone);
+  clearance_cell(table, screw);
+  table.cell(wire_as_placed(screw));
+  if (const json change = object_in(screw, "planned_in_surgery"); !change.empty()) {
+    table.below("planned in surgery: " + html_escaped(text_in(change, "text")));
+  }
+}
+
+}  // namespace
+
+std::string screws_section(const json& report) {
+  HtmlTable table({{"screw"},
+                   {"planned", "diameter \u00d7 length, mm"},
+                   {"angle error", "\u00b0"},
+                   {"entry error", "mm"},
+                   {"depth as tracked", "mm"},
+                   {"clearance, grade", "mm"},
+                   {"wire as measured in place"}});
+  bool truth = false;
+  for (const json& level : report["levels"]) {
+    for (const json& screw : level.value("screws", json::array())) {
+      put_screw(table, text_in(level, "label") + " " + text_in(screw, "side"), screw);
+      truth = truth || has_truth(screw);
+    }
+  }
+  if (table.empty()) {
+    return "<section id=screws><h2>Screws</h2><p>None planned.</p></section>";
+  }
+  const std::string errors =
+      truth ? "Errors, clearance and grade are against the simulation\u2019s truth; red: beyond " +
+                  html_number(degrees(kOnTarget_rad), 0) + "\u00b0 or " +
+                  html_number(kOnTarget_m * 1e3, 0) + " mm, or a breach. "
+            : "Errors against the truth are not known here. ";
+  return "<section id=screws><h2>Screws</h2>" + table.html() + "<p class=notes>" + errors +
+         "Depth: of the tool\u2019s tip past the planned entry when it was last tracked, not of "
+         "the "
+         "screw. Clearance: least depth of the planned screw below the bone\u2019s surface along "
+         "the way taken.</p></section>";
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "engine/session/session_record.h"
+
+namespace orthonav::engine {
+
+/// What stands where a journal holds no figure.
+inline constexpr const char* kNotRecorded = "<small>not recorded</small>";
+
+/// The rods of a journal as a section of its page; empty where there are none.
+[[nodiscard]] std::string session_rods(const SessionRecord& session);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,205 @@
+#include "engine/report/verdict.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/angle.h"
+#include "engine/report/html_text.h"
+#include "engine/report/report_limits.h"
+#include "engine/report/report_values.h"
+
+namespace orthonav::engine {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kAgainstTruth = ", against the simulation\u2019s truth";
+
+std::string words_in(const json& object, const char* key) {
+  return object.is_object() && object.contains(key) && object[key].is_string()
+             ? object[key].get<std::string>()
+             : "";
+}
+
+const json& part_in(const json& object, const char* key) {
+  static const json kNone = json::object();
+  const auto found = object.find(key);
+  return found != object.end() && found->is_object() ? *found : kNone;
+}
+
+bool is_true(const json& object, const char* key) {
+  return object.contains(key) && object[key].is_boolean() && object[key].get<bool>();
+}
+
+std::string of(std::size_t some, std::size_t all) {
+  return std::to_string(some) + " of " + std::to_string(all);
+}
+
+std::string limits_in_words() {
+  return html_number(kOnTarget_m * 1e3, 0) + " mm and " + html_number(degrees(kOnTarget_rad), 0) +
+         "\u00b0";
+}
+
+struct Counts {
+  std::size_t screws = 0;
+  std::size_t placed = 0;
+  std::size_t known = 0;  ///< with a truth
+  std::size_t on_target = 0;
+  std::size_t wires = 0;  ///< measured where they stood
+  std::size_t wires_within = 0;
+};
+
+/// Calls `take(name, screw)` for every screw: "L4 left".
+template <class Take>
+void for_each_screw(const json& report, const Take& take) {
+  for (const json& level : report["levels"]) {
+    for (const json& screw : level.value("screws", json::array())) {
+      take(words_in(level, "label") + " " + words_in(screw, "side"), screw);
+    }
+  }
+}
+
+Counts counts_of(const json& report) {
+  Counts n;
+  for_each_screw(report, [&n](const std::string&, const json& screw) {
+    const json& wire = part_in(screw, "wire");
+    ++n.screws;
+    n.placed += is_placed(screw) ? 1 : 0;
+    n.known += has_truth(screw) ? 1 : 0;
+    n.on_target += is_on_target(screw) ? 1 : 0;
+    n.wires += wire.empty() ? 0 : 1;
+    n.wires_within += is_true(wire, "within") ? 1 : 0;
+  });
+  return n;
+}
+
+/// How far the screws are from the plan, as far as anybody knows.
+std::string accuracy_text(const Counts& n) {
+  if (n.placed == 0) {
+    return "";
+  }
+  if (n.known > 0) {
+    const std::string where = n.known == n.placed ? "" : " measured";
+    return "; " + of(n.on_target, n.known) + where + " within " + limits_in_words() +
+           " of the plan" + kAgainstTruth;
+  }
+  const std::string unknown = "; their true distance from the plan is not known";
+  return n.wires == 0 ? unknown
+                      : unknown + ", " + of(n.wires_within, n.wires) + " measured wire" +
+                            (n.wires == 1 ? "" : "s") + " within the limits";
+}
+
+/// What the truth says of a screw that is not as it should be; empty: all well, or no truth.
+std::string missed_text(const json& screw) {
+  const auto clearance = value_of(screw, "clearance_mm");
+  const auto angle = value_of(screw, "angle_error_deg");
+  const auto entry = value_of(screw, "entry_error_mm");
+  std::string text;
+  if (clearance && *clearance < 0.0) {
+    text = "breached the cortex by " + html_number(-*clearance, 1) + " mm (grade " +
+           words_in(screw, "grade") + ")";
+  }
+  if (has_truth(screw) && !is_on_target(screw)) {
+    text += std::string(text.empty() ? "" : "; ") +
+            (entry ? html_number(*angle, 1) + "\u00b0 and " + html_number(*entry, 1) +
+                         " mm from the plan"
+                   : "the wire missed the bone");
+  }
+  return text.empty() ? "" : text + kAgainstTruth;
+}
+
+std::string wire_warning(const json& screw) {
+  if (words_in(screw, "wire") == "not measured") {
+    return is_placed(screw) ? "the wire was not measured" : "";
+  }
+  const json& wire = part_in(screw, "wire");
+  const auto angle = value_of(wire, "angle_deg");
+  const auto entry = value_of(wire, "entry_mm");
+  if (wire.empty() || is_true(wire, "within") || !angle || !entry) {
+    return "";
+  }
+  return "the wire was measured " + html_number(*angle, 1) + "\u00b0 and " +
+         html_number(*entry, 1) + " mm from the plan, beyond a limit" +
+         (is_true(wire, "kept") ? ", and kept" : "");
+}
+
+std::string bound_warning(const json& screw) {
+  const auto bound = value_of(part_in(screw, "tracked"), "clearance_95_mm");
+  return bound && *bound < 0.0
+             ? "as tracked, a breach of the cortex cannot be ruled out (95 % bound " +
+                   html_number(*bound, 1) + " mm)"
+             : "";
+}
+
+std::string planned_warning(const json& screw) {
+  const std::string reason = words_in(part_in(screw, "planned"), "accepted_breach");
+  return reason.empty() ? "" : "planned to leave the cortex: " + reason;
+}
+
+/// By gravity: what the truth says, then what was measured, then what was planned.
+std::vector<std::string> warnings_of(const json& report) {
+  std::vector<std::string> out;
+  for (const auto& warning : {missed_text, wire_warning, bound_warning, planned_warning}) {
+    for_each_screw(report, [&](const std::string& name, const json& screw) {
+      if (const std::string text = warning(screw); !text.empty()) {
+        out.push_back(name + ": " + text);
+      }
+    });
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_placed(const json& screw) {
+  return screw.contains("done") ? is_true(screw, "done") : has_truth(screw);
+}
+
+bool has_truth(const json& screw) { return value_of(screw, "angle_error_deg").has_value(); }
+
+bool is_on_target(const json& screw) {
+  const auto angle = value_of(screw, "angle_error_deg");
+  const auto entry = value_of(screw, "entry_error_mm");
+  return angle && entry && *angle <= degrees(kOnTarget_rad) && *entry <= kOnTarget_m * 1e3;
+}
+
+Verdict verdict_of(const json& report) {
+  Verdict out;
+  out.warnings = warnings_of(report);
+  const bool completed = is_true(report, "completed");
+  const std::string why = words_in(report, "why_not");
+  out.kind = !completed             ? Verdict::Kind::kIncomplete
+             : out.warnings.empty() ? Verdict::Kind::kDone
+                                    : Verdict::Kind::kDoneWithWarnings;
+  out.line = completed ? "Operation completed" : "Operation incomplete";
+  if (!out.warnings.empty()) {
+    out.line += " with " + std::to_string(out.warnings.size()) + " warning" +
+                (out.warnings.size() == 1 ? "" : "s");
+  }
+  const Counts n = counts_of(report);
+  if (!completed && !why.empty()) {
+    out.line += " (" + why + ")";
+  }
+  out.line += ": " + of(n.placed, n.screws) + " screw" + (n.screws == 1 ? "" : "s") + " placed" +
+              accuracy_text(n) + ".";
+  return out;
+}
+
+std::string verdict_section(const json& report) {
+  const Verdict verdict = verdict_of(report);
+  const char* const kind = verdict.kind == Verdict::Kind::kDone         ? "done"
+                           : verdict.kind == Verdict::Kind::kIncomplete ? "incomplete"
+                                                                        : "warned";
+  std::string html = "<section id=verdict class=" + std::string(kind) + "><h2>" +
+                     html_escaped(verdict.line) + "</h2>";
+  if (!verdict.warnings.empty()) {
+    html += "<ul>";
+    for (const std::string& warning : verdict.warnings) {
+      html += "<li>" + html_escaped(warning) + "</li>";
+    }
+    html += "</ul>";
+  }
+  return html + "</section>";
+}
+
+}  // namespace orthonav::engine
