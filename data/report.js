@@ -50,7 +50,7 @@
     const from = xs.reduce((a, b) => Math.min(a, b), Infinity), to = xs.reduce((a, b) => Math.max(a, b), -Infinity);
     if (xs.length) {
       plot.lines.forEach((line, i) => sets.push({
-        label: line.name, showLine: true, pointRadius: 0, pointStyle: 'line', borderDash: [6, 4], borderWidth: 1.2,
+        label: line.name, showLine: true, pointRadius: 0, borderDash: [6, 4], borderWidth: 1.2,
         borderColor: lineColours[i % lineColours.length], data: [{x: from, y: line.y}, {x: to, y: line.y}]
       }));
     }
@@ -58,7 +58,7 @@
     new Chart(canvas(plot.place), {
       type: 'scatter', data: {datasets: sets},
       options: {
-        plugins: {title: {display: true, text: plot.title}, legend: {labels: {usePointStyle: true}},
+        plugins: {title: {display: true, text: plot.title},
                   tooltip: {callbacks: {label: real}}},
         scales: {x: axis(plot.x, {min: xs.length ? from : 0, max: xs.length ? to : 1}),
                  y: axis(plot.y, plot.y_max > 0 ? {min: 0, max: plot.y_max} : {beginAtZero: true})}

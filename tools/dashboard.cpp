@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "base/mutex.h"
@@ -22,6 +23,10 @@ constexpr const char* kHost = "127.0.0.1";
 constexpr std::size_t kMostMessages = 50;
 /// Browsers ask five times a second.
 constexpr Duration kTellEvery = std::chrono::milliseconds(100);
+/// What is older is not shown any more: the camera is.
+constexpr auto kViewLasts = std::chrono::seconds(2);
+/// Browsers ask for the view twice a second.
+constexpr auto kLookLasts = std::chrono::seconds(2);
 
 RgbaImage picture_of(const GreyImage& grey) {
   RgbaImage picture;
@@ -77,11 +82,22 @@ class Dashboard::Server {
     const MutexLock lock(mutex_);
     state_ = std::move(state);
     left_ = left;
-    told_ = std::chrono::steady_clock::now();
+    told_ = Steady::now();
+  }
+  void show(const RgbaImage& picture, const std::string& what) {
+    const MutexLock lock(mutex_);
+    view_ = picture;
+    what_ = what;
+    shown_ = Steady::now();
+  }
+  [[nodiscard]] bool looked_at() const {
+    return Steady::now().time_since_epoch().count() < looked_until_.load();
   }
   [[nodiscard]] int port() const { return port_; }
 
  private:
+  using Steady = std::chrono::steady_clock;
+
   void limit_what_is_taken() {
     // The library would share its port with whoever asks for it as well.
     server_.set_socket_options([](int socket) {
@@ -111,27 +127,42 @@ class Dashboard::Server {
     server_.Get("/state", [this](const httplib::Request&, httplib::Response& answer) {
       answer.set_content(state(), "application/json");
     });
-    server_.Get("/left.png",
-                [this](const httplib::Request&, httplib::Response& answer) { show_left(answer); });
+    server_.Get("/view.png", [this](const httplib::Request&, httplib::Response& answer) {
+      looked_until_ = (Steady::now() + kLookLasts).time_since_epoch().count();
+      answer_view(answer);
+    });
   }
 
   /// With its age: what is old must not pass for new.
   std::string state() {
     const MutexLock lock(mutex_);
-    const auto age = std::chrono::steady_clock::now() - told_;
+    const auto age = Steady::now() - told_;
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(age).count();
-    return "{\"age_ms\":" + std::to_string(ms) + ",\"now\":" + (state_.empty() ? "null" : state_) +
-           "}";
+    return "{\"age_ms\":" + std::to_string(ms) +
+           ",\"view\":" + nlohmann::json(has_view() ? what_ : "left camera").dump() +
+           ",\"now\":" + (state_.empty() ? "null" : state_) + "}";
   }
 
-  void show_left(httplib::Response& answer) {
+  [[nodiscard]] bool has_view() const ORTHONAV_REQUIRES(mutex_) {
+    return !view_.pixels.empty() && Steady::now() - shown_ < kViewLasts;
+  }
+
+  void answer_view(httplib::Response& answer) {
+    RgbaImage view;
     GreyImage left;
     {
       const MutexLock lock(mutex_);
-      left = left_;
+      if (has_view()) {
+        view = view_;
+      } else {
+        left = left_;
+      }
     }
-    const auto png = left.pixels.empty() ? Result<std::string>(Error{"no picture yet"})
-                                         : engine::png_bytes(picture_of(left));
+    if (view.pixels.empty()) {
+      view = picture_of(left);
+    }
+    const auto png = view.pixels.empty() ? Result<std::string>(Error{"no picture yet"})
+                                         : engine::png_bytes(view);
     if (png) {
       answer.set_content(*png, "image/png");
     } else {
@@ -142,7 +173,11 @@ class Dashboard::Server {
   Mutex mutex_;
   std::string state_ ORTHONAV_GUARDED_BY(mutex_);
   GreyImage left_ ORTHONAV_GUARDED_BY(mutex_);
-  std::chrono::steady_clock::time_point told_ ORTHONAV_GUARDED_BY(mutex_);
+  RgbaImage view_ ORTHONAV_GUARDED_BY(mutex_);
+  std::string what_ ORTHONAV_GUARDED_BY(mutex_);
+  Steady::time_point told_ ORTHONAV_GUARDED_BY(mutex_);
+  Steady::time_point shown_ ORTHONAV_GUARDED_BY(mutex_);
+  std::atomic<Steady::rep> looked_until_ = 0;
   httplib::Server server_;
   int port_ = -1;
   std::atomic<bool> ended_ = false;
@@ -178,9 +213,21 @@ int Dashboard::port() const { return server_ ? server_->port() : -1; }
 
 void Dashboard::watch(engine::AssembledOperation& operation, const engine::GradeLimits& limits) {
   if (server_) {
-    limits_ = limits;
-    session_ = &operation.session();
+    watch(operation.session(), limits);
     operation.observe(static_cast<engine::LoopObserver*>(this));
+  }
+}
+
+void Dashboard::watch(const engine::Session& session, const engine::GradeLimits& limits) {
+  limits_ = limits;
+  session_ = &session;
+}
+
+bool Dashboard::looked_at() const { return server_ && server_->looked_at(); }
+
+void Dashboard::show(const RgbaImage& picture, const std::string& what) {
+  if (server_) {
+    server_->show(picture, what);
   }
 }
 

@@ -18,8 +18,8 @@ struct DashboardArguments {
 };
 
 /// A page in a browser that shows an operation while it runs: step, numbers, levels, tools,
-/// messages and what the left camera sees. Served on this machine only, and read only: nothing that
-/// a browser sends reaches the operation.
+/// messages and the view: what `show` was given lately, or else what the left camera sees. Served
+/// on this machine only, and read only: nothing that a browser sends reaches the operation.
 class Dashboard : public engine::LoopObserver {
  public:
   Dashboard();
@@ -28,6 +28,12 @@ class Dashboard : public engine::LoopObserver {
   Status open(const DashboardArguments& arguments);
   /// From now on what happens in this operation, which must outlive the run.
   void watch(engine::AssembledOperation& operation, const engine::GradeLimits& limits);
+  void watch(const engine::Session& session, const engine::GradeLimits& limits);
+  /// Whether anybody is served, and whether somebody looks at the view now. From any thread.
+  [[nodiscard]] bool is_open() const { return server_ != nullptr; }
+  [[nodiscard]] bool looked_at() const;
+  /// A picture with the holograms, shown until it is old. `what` says what it is. From any thread.
+  void show(const RgbaImage& picture, const std::string& what);
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   [[nodiscard]] int port() const;

@@ -151,6 +151,7 @@ class Demo {
       view_->send_to(video_pictures_.get());
     }
     view_->send_to(&pictures_);
+    view_->send_to(onlookers_.pictures());
     return {};
   }
 

@@ -49,6 +49,7 @@ class LiveRun {
     if (const Status presenting = presenting_.begin(*headset_, *operation_); !presenting) {
       return bad_input(files_.close(presenting.error().message));
     }
+    onlookers_.draw_over_camera(*operation_, joined_->cameras().calibration(), presenting_.sink());
     signals_.on_stop([this] { operation_->stop(); });
     auto report = operation_->run();
     signals_.on_stop(nullptr);
@@ -184,8 +185,12 @@ class LiveRun {
     arguments_.limits.set_in(options);
     options.loop.max_frames = arguments_.frames;
     options.loop.max_time = from_seconds(arguments_.for_s);
-    options.loop.draw_every = Presenting::is_possible(*headset_) ? 1 : 0;
-    options.loop.drop_late_snapshots = Presenting::is_possible(*headset_);
+    // The dashboard looks twice a second.
+    constexpr int kForDashboard = 5;
+    options.loop.draw_every = Presenting::is_possible(*headset_) ? 1
+                              : onlookers_.draw()                ? kForDashboard
+                                                                 : 0;
+    options.loop.drop_late_snapshots = options.loop.draw_every > 0;
     auto assembled =
         engine::assemble_operation(*joined_, std::move(operation), method_, *tools, options);
     if (!assembled) {

@@ -1,5 +1,7 @@
 #include "tools/onlookers.h"
 
+#include <cstdio>
+
 namespace orthonav::tools {
 
 void OnlookerArguments::add_to(CLI::App& command) {
@@ -24,9 +26,35 @@ void Onlookers::watch(engine::AssembledOperation& operation, const engine::Grade
   igtl_.watch(operation);
 }
 
+void Onlookers::draw_over_camera(engine::AssembledOperation& operation,
+                                 const StereoCalibration& cameras, engine::SnapshotSink* display) {
+  if (!web_.is_open()) {
+    return;
+  }
+  view_ = std::make_unique<CameraView>(
+      cameras, display,
+      CameraView::Onlooker{[this] { return web_.looked_at(); },
+                           [this](const RgbaImage& picture) {
+                             web_.show(picture, "left camera with the holograms");
+                           }});
+  operation.observe(static_cast<engine::LoopObserver*>(view_.get()));
+  operation.draw_into(view_.get());
+}
+
+Status Onlookers::Pictures::picture(const RgbaImage& image, const engine::Snapshot& /*snapshot*/) {
+  if (web_.looked_at()) {
+    web_.show(image, "what the surgeon sees");
+  }
+  return {};
+}
+
 void Onlookers::ended(const engine::LoopReport* report) {
   if (report != nullptr) {
     log_.ended(*report);
+  }
+  if (view_ && !view_->problem().empty()) {
+    std::fprintf(stderr, "orthonav: the dashboard showed the left camera alone: %s\n",
+                 view_->problem().c_str());
   }
   igtl_.tell();
 }

@@ -17,13 +17,14 @@ Status Presenting::begin(Headset& headset, engine::AssembledOperation& operation
       return presenter.error();
     }
     presenter_ = std::move(*presenter);
-    operation.draw_into(presenter_.get());
+    sink_ = presenter_.get();
   } else if (headset.objects() != nullptr) {
     display_ = headset.objects();
     objects_ =
         std::make_unique<engine::ObjectPresenter>(*display_, headset.head(), rig_from_eyes());
-    operation.draw_into(objects_.get());
+    sink_ = objects_.get();
   }
+  operation.draw_into(sink_);
   return {};
 }
 

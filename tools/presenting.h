@@ -17,12 +17,15 @@ class Presenting {
   }
   /// Before `operation` runs; both must outlive this.
   Status begin(Headset& headset, engine::AssembledOperation& operation);
+  /// Where the operation draws; null: nowhere.
+  [[nodiscard]] engine::SnapshotSink* sink() const { return sink_; }
   /// Says what went wrong, and, if asked, what frames took, on standard error.
   void end(bool stats);
 
  private:
   std::unique_ptr<engine::Presenter> presenter_;
   std::unique_ptr<engine::ObjectPresenter> objects_;
+  engine::SnapshotSink* sink_ = nullptr;
   ObjectDisplay* display_ = nullptr;
 };
 

@@ -24,8 +24,11 @@ namespace {
 /// With the decimals that tell it from the limit.
 std::string text_of_figure(const JudgedFigure& figure) {
   const bool beside = figure.bound != Bound::kNone && std::isfinite(figure.value);
-  return beside ? value_beside(figure.value, figure.limit, figure.decimals)
-                : html_number(figure.value, figure.decimals);
+  if (!beside) {
+    return html_number(figure.value, figure.decimals);
+  }
+  const std::string text = value_beside(figure.value, figure.limit, figure.decimals);
+  return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
 }
 
 }  // namespace

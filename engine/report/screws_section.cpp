@@ -30,8 +30,9 @@ std::string size_of(const json& screw) {
   const json planned = object_in(screw, "planned");
   const auto diameter = value_of(planned, "diameter_mm");
   const auto length = value_of(planned, "length_mm");
-  return diameter && length ? html_number(*diameter, 1) + " \u00d7 " + html_number(*length, 0)
-                            : "not stated";
+  return diameter && length
+             ? html_number(*diameter, 1) + "\u00a0\u00d7\u00a0" + html_number(*length, 0)
+             : "not stated";
 }
 
 /// Of an error against the truth, with its limit.
@@ -73,7 +74,7 @@ void put_screw(HtmlTable& table, const std::string& name, const json& screw) {
 
 std::string screws_section(const json& report) {
   HtmlTable table({{"screw"},
-                   {"planned", "diameter \u00d7 length, mm"},
+                   {"planned size", "mm"},
                    {"angle error", "\u00b0"},
                    {"entry error", "mm"},
                    {"depth as tracked", "mm"},

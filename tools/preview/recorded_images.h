@@ -2,12 +2,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <vector>
 
 #include "base/image.h"
 #include "base/result.h"
 #include "base/vec.h"
-#include "hal/api/camera_model.h"
 #include "render/renderer.h"
 
 namespace orthonav::preview {
@@ -32,14 +30,10 @@ class RecordedImages {
  private:
   struct Source;
   explicit RecordedImages(std::unique_ptr<Source> source);
-  void make_map(const render::View& view, const RgbaImage& picture);
 
   std::unique_ptr<Source> source_;
   std::int64_t read_ = -1;  ///< sequence number of `image_`
   GreyImage image_;
-  /// For each pixel of the picture the camera's pixel; x < 0: none.
-  std::vector<Vec2> map_;
-  float map_tan_ = 0.0f;
 };
 
 }  // namespace orthonav::preview

@@ -135,8 +135,8 @@ TEST(ScrewsSection, HasThePlannedSizeAndWhatBecameOfEachScrew) {
   right["grade"] = "B";
   right["planned"].erase("diameter_mm");
   const std::string html = screws_section(report_of(good_screw("left"), right));
-  EXPECT_THAT(html, HasSubstr("<th scope=row>L5 left</th><td data-label=\"planned [diameter × "
-                              "length, mm]\">6.5 × 40</td>"));
+  EXPECT_THAT(html, HasSubstr("<th scope=row>L5 left</th><td data-label=\"planned size "
+                              "[mm]\">6.5\u00a0×\u00a040</td>"));
   EXPECT_THAT(html, HasSubstr(">11.2</td>"));
   EXPECT_THAT(html, HasSubstr(">2.9 A</td>"));
   EXPECT_THAT(html, HasSubstr(">1.2 ± 0.5°, 0.9 ± 0.6 mm</td>"));

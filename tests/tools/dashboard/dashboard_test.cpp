@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
+#include <array>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "engine/io/image_file.h"
 #include "tests/support/scripted_operation.h"
+#include "tests/support/temporary_folder.h"
 #include "tools/dashboard_state.h"
 
 namespace orthonav::tools::dashboard_test {
@@ -79,8 +83,30 @@ TEST_F(DashboardPage, SaysThatNothingCameYet) {
   const auto state = browser_->Get("/state");
   ASSERT_TRUE(state);
   EXPECT_TRUE(json::parse(state->body)["now"].is_null());
-  EXPECT_EQ(browser_->Get("/left.png")->status, 404);
+  EXPECT_EQ(browser_->Get("/view.png")->status, 404);
   EXPECT_EQ(browser_->Get("/else")->status, 404);
+}
+
+RgbaImage red_picture() {
+  RgbaImage picture;
+  picture.width_px = 4;
+  picture.height_px = 2;
+  for (int i = 0; i < 8; ++i) {
+    picture.pixels.insert(picture.pixels.end(), {255, 0, 0, 255});
+  }
+  return picture;
+}
+
+TEST_F(DashboardPage, ShowsThePictureThatItIsGivenAndSaysWhatItIs) {
+  const auto view = [this] { return json::parse(browser_->Get("/state")->body)["view"]; };
+  EXPECT_EQ(view(), "left camera");
+  EXPECT_FALSE(dashboard_.looked_at()) << "nobody asked for it yet";
+  dashboard_.show(red_picture(), "what the \"surgeon\" sees");
+  EXPECT_EQ(view(), "what the \"surgeon\" sees");
+  const auto picture = browser_->Get("/view.png");
+  ASSERT_EQ(picture->status, 200);
+  EXPECT_EQ(picture->body, engine::png_bytes(red_picture()).value());
+  EXPECT_TRUE(dashboard_.looked_at());
 }
 
 TEST_F(DashboardPage, AnswersThisMachinesPageAloneAndIsReadOnly) {
@@ -95,6 +121,60 @@ TEST_F(DashboardPage, IsRefusedAtAPortThatIsTaken) {
   const Status opened = second.open({dashboard_.port()});
   ASSERT_FALSE(opened.ok());
   EXPECT_THAT(opened.error().message, HasSubstr("the port cannot be had"));
+}
+
+/// What a program says on its standard output; empty where it can't be run.
+std::string said_by(const std::string& command) {
+  std::string said;
+  std::FILE* pipe = ::popen((command + " 2>/dev/null").c_str(), "r");
+  if (pipe == nullptr) {
+    return said;
+  }
+  std::array<char, 4096> part{};
+  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) {
+    said.append(part.data(), n);
+  }
+  ::pclose(pipe);
+  return said;
+}
+
+/// In a real browser, where there is one: the page's script is what is tested.
+TEST_F(DashboardPage, ShowsTheOperationInABrowser) {
+  if (said_by("command -v chromium").empty()) {
+    GTEST_SKIP() << "chromium is not installed: the page's script is not tested";
+  }
+  test::ScriptedOperation s;
+  s.accepts_first_level();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0, 0.010, 0}, 0.1);
+  const engine::Guidance& guidance = s.pair();
+  StereoFrame frame;
+  frame.time = s.now();
+  frame.left.width_px = 4;
+  frame.left.height_px = 2;
+  frame.left.pixels.assign(8, 128);
+  dashboard_.watch(s.session(), {0.05, 0.09});
+  dashboard_.stepped(frame, {}, guidance);
+  dashboard_.show(red_picture(), "what the surgeon sees");
+  const test::TemporaryFolder folder;
+  const std::string page = said_by(
+      "chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage "
+      "--user-data-dir=" +
+      folder.path().string() + " --virtual-time-budget=900 --dump-dom http://127.0.0.1:" +
+      std::to_string(dashboard_.port()) + "/");
+  ASSERT_THAT(page, HasSubstr("<h1 id=\"step\">guide L4 left</h1>")) << "the script ran";
+  EXPECT_THAT(page, HasSubstr("<h2 id=\"screw\">Guidance L4 left</h2>"));
+  EXPECT_THAT(page, HasSubstr("<div id=\"angle\" class=\"poor\">5.7°</div>"));
+  EXPECT_THAT(page, HasSubstr("<h2 id=\"what\">what the surgeon sees</h2>"));
+  EXPECT_THAT(page, HasSubstr("src=\"http://127.0.0.1:")) << "the view was loaded";
+  EXPECT_THAT(page, HasSubstr("class=\"chip measured\""));
+  EXPECT_THAT(page, HasSubstr("<td>not known (registration only)</td>"))
+      << "an error that has no bound is no number";
+  // The browser takes a while to start, so that the pair may be old by then; nothing else is wrong.
+  EXPECT_EQ(page.find("role=\"alert\">the program"), std::string::npos);
+  EXPECT_EQ(page.find("role=\"alert\">this page cannot"), std::string::npos);
+  EXPECT_THAT(page, HasSubstr("<li>"));
+  EXPECT_EQ(page.find("<button"), std::string::npos) << "there is nothing to press";
 }
 
 }  // namespace

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/mutex.h"
+#include "engine/live/frame_loop.h"
+
+namespace orthonav::tools {
+
+/// What the left camera sees with the holograms over it, for somebody who looks on. It stands
+/// between the loop and the surgeon's display, which comes first and is never waited for; it draws
+/// on a thread and a device of its own, at most twice a second, and only while somebody looks.
+class CameraView : public engine::LoopObserver, public engine::SnapshotSink {
+ public:
+  struct Onlooker {
+    std::function<bool()> looks;                  ///< now; from any thread
+    std::function<void(const RgbaImage&)> shown;  ///< on the drawing thread
+  };
+  /// `display` draws for the surgeon, borrowed; null: nothing does.
+  CameraView(const StereoCalibration& cameras, engine::SnapshotSink* display, Onlooker onlooker);
+  ~CameraView() override;
+
+  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+               const engine::Guidance& guidance) override;
+  void captured(const engine::Snapshot& snapshot) override;
+  Status draw(const engine::Snapshot& snapshot) override;
+  [[nodiscard]] bool stalled() const override { return display_ != nullptr && display_->stalled(); }
+  /// Why nothing is drawn, once that is known: no Vulkan device. Otherwise empty.
+  [[nodiscard]] std::string problem() const;
+
+ private:
+  /// What is behind the holograms of a snapshot.
+  struct Behind {
+    bool wanted = false;
+    GreyImage left;
+    std::optional<Transform<World, Rig>> world_from_rig;
+  };
+  /// Handed to the drawing thread.
+  struct Moment {
+    Behind behind;
+    render::Scene scene;
+    std::vector<engine::GlarePatch> patches;
+    Timestamp display_time{};
+  };
+  class Drawing;
+
+  [[nodiscard]] bool take_next(Moment& moment);
+  Status draw_what_comes();
+
+  Onlooker onlooker_;
+  engine::SnapshotSink* display_;
+  StereoCalibration cameras_;
+  // On the tracking thread.
+  const StereoFrame* frame_ = nullptr;  ///< the newest, valid until the next
+  std::optional<Timestamp> taken_at_;
+  /// Parallel to the loop's snapshots, slot by slot: written before a snapshot is handed over, read
+  /// before it is given back.
+  std::array<Behind, engine::SnapshotQueue::kSlots> behind_;
+
+  mutable Mutex mutex_;
+  ConditionVariable changed_;
+  Moment next_ ORTHONAV_GUARDED_BY(mutex_);
+  bool has_next_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  bool over_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  std::string problem_ ORTHONAV_GUARDED_BY(mutex_);
+  std::thread thread_;
+};
+
+}  // namespace orthonav::tools
