@@ -6,7 +6,6 @@
 
 #include "base/guarded.h"
 #include "engine/holograms/label_layout.h"
-#include "engine/holograms/optical_model.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
 #include "engine/live/rectified_camera.h"
@@ -20,7 +19,8 @@ constexpr Duration kTakeEvery = std::chrono::milliseconds(500);
 /// Behind the holograms where the camera sees nothing.
 constexpr std::array<std::uint8_t, 4> kEmpty = {34, 37, 42, 255};
 
-/// As wide and high as the camera's image is at its middle, upright in the headset's axes.
+/// As wide as the camera's image is at its middle, no higher than wide, upright in the headset's
+/// axes.
 render::View view_of(const StereoCalibration& cameras) {
   const double width = cameras.left.width_px();
   const double height = cameras.left.height_px();
@@ -43,6 +43,9 @@ render::View view_of(const StereoCalibration& cameras) {
       view.tan_down = std::max(view.tan_down, -up);
     }
   }
+  // A headset's cameras look far up and down; the site lies near the middle.
+  view.tan_up = std::min(view.tan_up, view.tan_left);
+  view.tan_down = std::min(view.tan_down, view.tan_right);
   return view;
 }
 
@@ -78,7 +81,6 @@ class CameraView::Drawing {
       std::copy(kEmpty.begin(), kEmpty.end(), background_.pixels.begin() + static_cast<long>(i));
     }
     camera_.draw(moment.behind.left, views_[0], background_);
-    combiner_.dim(background_);
     if (moment.behind.world_from_rig) {
       const auto eye_from_world =
           (*moment.behind.world_from_rig * camera_.rig_from_eye()).inverse();
@@ -108,7 +110,6 @@ class CameraView::Drawing {
   engine::RectifiedCamera camera_;
   std::unique_ptr<render::Renderer> renderer_;
   std::vector<render::View> views_;
-  engine::WorldBehindCombiner combiner_;
   engine::LabelLayout labels_;
   render::Scene scene_;
   RgbaImage background_;

@@ -8,8 +8,13 @@
 namespace orthonav::engine {
 namespace {
 
-std::string class_of(const char* kind) {
-  return *kind == '\0' ? "" : " class=" + std::string(kind);
+std::string class_of(const std::string& kind) { return kind.empty() ? "" : " class=" + kind; }
+
+std::string class_of(const std::string& kind, const TableColumn& column) {
+  if (!column.is_text) {
+    return class_of(kind);
+  }
+  return class_of(kind.empty() ? "text" : "\"text " + kind + "\"");
 }
 
 std::string title_of(const TableColumn& column) {
@@ -34,8 +39,8 @@ void HtmlTable::row(const std::string& name) {
 
 void HtmlTable::cell(const std::string& content, const char* kind) {
   ORTHONAV_CHECK(next_ < columns_.size());
-  rows_ += "<td" + class_of(kind) + " data-label=\"" + label_of(columns_[next_]) + "\">" + content +
-           "</td>";
+  rows_ += "<td" + class_of(kind, columns_[next_]) + " data-label=\"" + label_of(columns_[next_]) +
+           "\">" + content + "</td>";
   ++next_;
 }
 
@@ -45,11 +50,12 @@ void HtmlTable::below(const std::string& content, const char* kind) {
            ">" + content + "</td>";
 }
 
-std::string HtmlTable::html() const {
+std::string HtmlTable::html(const char* kind) const {
   ORTHONAV_CHECK(next_ == columns_.size());
-  std::string out = "<table class=cards><thead><tr>";
+  std::string out =
+      "<table class=\"cards" + std::string(*kind == '\0' ? "" : " ") + kind + "\"><thead><tr>";
   for (const TableColumn& column : columns_) {
-    out += "<th scope=col>" + title_of(column) + "</th>";
+    out += "<th scope=col" + class_of("", column) + ">" + title_of(column) + "</th>";
   }
   return out + "</tr></thead><tbody>" + rows_ + (rows_.empty() ? "" : "</tr>") + "</tbody></table>";
 }

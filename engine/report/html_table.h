@@ -9,6 +9,7 @@ namespace orthonav::engine {
 struct TableColumn {
   std::string name;
   std::string unit = {};
+  bool is_text = false;  ///< reads from the left, unlike figures
 };
 
 /// A table of a page. Each cell carries the name of its column, so that a narrow screen can show
@@ -23,7 +24,8 @@ class HtmlTable {
   void below(const std::string& content, const char* kind = "");
   [[nodiscard]] bool empty() const { return rows_.empty(); }
   /// The whole element. The last row is complete: anything else is a bug.
-  [[nodiscard]] std::string html() const;
+  /// `kind` is a further class of it.
+  [[nodiscard]] std::string html(const char* kind = "") const;
 
  private:
   std::vector<TableColumn> columns_;

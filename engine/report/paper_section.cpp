@@ -40,7 +40,7 @@ std::string paper_section(const nlohmann::json& report) {
                    {"this run"},
                    {"min\u2013max"},
                    {"n"},
-                   {"this run\u2019s figure is"}});
+                   {"this run\u2019s figure is", "", true}});
   for (const PaperRow& row : kPaperTable) {
     put_row(table, report, row, simulated);
   }

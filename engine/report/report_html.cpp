@@ -71,7 +71,8 @@ std::string cut_off_text(const std::vector<ReportPlot>& plots) {
 /// Wall time over the run: at most a thousand points per curve, each the slowest frame of its bin,
 /// so that no hitch is hidden.
 ReportPlot timing_plot(const std::vector<ReportTiming>& timings) {
-  ReportPlot plot{"Cost of each frame on this machine", "frame", "ms of wall time", {}};
+  ReportPlot plot{
+      "Cost of each frame on this machine", "frame, counted for each kind", "ms of wall time", {}};
   for (const ReportTiming& timing : timings) {
     ReportCurve curve{timing.name, {}, {}};
     const std::size_t bin = std::max<std::size_t>(1, timing.ms.size() / 1000);

@@ -11,6 +11,7 @@
 #include "engine/report/session_report.h"
 #include "engine/report/session_rods.h"
 #include "engine/report/tracked_section.h"
+#include "engine/report/verdict.h"
 #include "engine/session/replan_wording.h"
 
 namespace orthonav::engine {
@@ -39,10 +40,13 @@ void put_nothing(const std::string& title, std::string& html) {
 
 void put_ending(const SessionRecord& session, std::string& html) {
   const bool good = session.completed();
-  html += "<section class=ending><h2 class=" + std::string(good ? "good" : "bad") + ">" +
+  const Verdict verdict = verdict_of(nlohmann::json::parse(session_json(session)));
+  const char* const kind = !good ? "incomplete" : verdict.warnings.empty() ? "done" : "warned";
+  html += "<section id=verdict class=" + std::string(kind) + "><h2>" +
           (session.cut ? "This session was cut off"
                        : (good ? "The operation is done" : "Operation incomplete")) +
-          "</h2><p>" + html_escaped(ending_of(session)) + "</p></section>";
+          ": " + html_escaped(verdict.counts) + "</h2><p>" + html_escaped(ending_of(session)) +
+          "</p>" + warnings_list(verdict) + "</section>";
 }
 
 std::string verdict(const RecordedLevel& level) {
@@ -182,7 +186,7 @@ void put_registrations(const SessionRecord& session, std::string& html) {
   HtmlTable table({{"time"},
                    {"level"},
                    {"attempt"},
-                   {"numeric checks"},
+                   {"numeric checks", "", true},
                    {"RMSE", "mm"},
                    {"next best", "mm"},
                    {"95 % of errors below", "mm"},
@@ -205,12 +209,12 @@ void put_registrations(const SessionRecord& session, std::string& html) {
 }
 
 void put_steps(const SessionRecord& session, std::string& html) {
-  HtmlTable table({{"time"}, {"step"}});
+  HtmlTable table({{"time"}, {"step", "", true}});
   for (const RecordedStep& step : session.steps) {
     table.row(clock_text(step.time));
     table.cell(std::string(name_of(step.step)));
   }
-  put_table("Course", table, html);
+  html += "<section><h2>Course</h2>" + table.html("narrow") + "</section>";
 }
 
 }  // namespace
@@ -256,7 +260,8 @@ std::string session_page(const SessionRecord& session, const std::string& source
   put_steps(session, html);
   html += guide_notes(session);
   return html +
-         "<ul class=notes><li>From the journal alone: digitized points, images, frame times and "
+         "<ul class=notes><li>From the journal alone: the date, digitized points, images, frame "
+         "times and "
          "errors against the truth are not recorded in it.</li><li>Times are of the headset's "
          "clock, minutes and seconds.</li><li>Written by orthonav " +
          html_escaped(session.orthonav) +

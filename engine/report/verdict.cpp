@@ -124,7 +124,9 @@ std::string wire_warning(const json& screw) {
 }
 
 std::string bound_warning(const json& screw) {
-  const auto bound = value_of(part_in(screw, "tracked"), "clearance_95_mm");
+  // A journal calls it otherwise.
+  const json& tracked = part_in(screw, screw.contains("tracked") ? "tracked" : "at_depth");
+  const auto bound = value_of(tracked, "clearance_95_mm");
   return bound && *bound < 0.0
              ? "as tracked, a breach of the cortex cannot be ruled out (95 % bound " +
                    html_number(*bound, 1) + " mm)"
@@ -180,9 +182,22 @@ Verdict verdict_of(const json& report) {
   if (!completed && !why.empty()) {
     out.line += " (" + why + ")";
   }
-  out.line += ": " + of(n.placed, n.screws) + " screw" + (n.screws == 1 ? "" : "s") + " placed" +
-              accuracy_text(n) + ".";
+  // A journal without its plan does not tell how many there were to be.
+  const json& session = part_in(report, "session");
+  const bool planned = !session.contains("plan_recorded") || is_true(session, "plan_recorded");
+  const std::size_t all = planned ? n.screws : n.placed;
+  out.counts = (planned ? of(n.placed, all) : std::to_string(n.placed)) + " screw" +
+               (all == 1 ? "" : "s") + " placed" + accuracy_text(n) + ".";
+  out.line += ": " + out.counts;
   return out;
+}
+
+std::string warnings_list(const Verdict& verdict) {
+  std::string items;
+  for (const std::string& warning : verdict.warnings) {
+    items += "<li>" + html_escaped(warning) + "</li>";
+  }
+  return items.empty() ? "" : "<ul>" + items + "</ul>";
 }
 
 std::string verdict_section(const json& report) {
@@ -190,16 +205,8 @@ std::string verdict_section(const json& report) {
   const char* const kind = verdict.kind == Verdict::Kind::kDone         ? "done"
                            : verdict.kind == Verdict::Kind::kIncomplete ? "incomplete"
                                                                         : "warned";
-  std::string html = "<section id=verdict class=" + std::string(kind) + "><h2>" +
-                     html_escaped(verdict.line) + "</h2>";
-  if (!verdict.warnings.empty()) {
-    html += "<ul>";
-    for (const std::string& warning : verdict.warnings) {
-      html += "<li>" + html_escaped(warning) + "</li>";
-    }
-    html += "</ul>";
-  }
-  return html + "</section>";
+  return "<section id=verdict class=" + std::string(kind) + "><h2>" + html_escaped(verdict.line) +
+         "</h2>" + warnings_list(verdict) + "</section>";
 }
 
 }  // namespace orthonav::engine

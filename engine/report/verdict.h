@@ -11,12 +11,15 @@ struct Verdict {
   enum class Kind { kDone, kDoneWithWarnings, kIncomplete };
   Kind kind = Kind::kIncomplete;
   std::string line;                   ///< "Operation completed with 1 warning: 2 of 2 screws ..."
+  std::string counts;                 ///< the line's end: "2 of 2 screws placed; ..."
   std::vector<std::string> warnings;  ///< the gravest first: "L5 left: ..."
 };
 
-/// Of a report.json. Says no more than was measured: where a truth is known, it says against which;
-/// where none is, it counts the wires that were measured.
+/// Of a report.json or a session's JSON. Says no more than was measured: where a truth is known, it
+/// says against which; where none is, it counts the wires that were measured.
 [[nodiscard]] Verdict verdict_of(const nlohmann::json& report);
+/// The warnings as HTML; empty where there are none.
+[[nodiscard]] std::string warnings_list(const Verdict& verdict);
 /// The same as the first section of the page.
 [[nodiscard]] std::string verdict_section(const nlohmann::json& report);
 

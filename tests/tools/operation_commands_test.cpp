@@ -14,6 +14,7 @@ namespace orthonav::test::operation_commands_test {
 namespace {
 
 using nlohmann::json;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -101,6 +102,14 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   const std::string page = content_of(out + "/report.html");
   EXPECT_THAT(page, HasSubstr("Registration of L5"));
   EXPECT_THAT(page, HasSubstr("aria-label=\"from above\""));
+  EXPECT_THAT(page, HasSubstr("src=\"operation.mp4\" poster=\"data:image/png;base64,"));
+  EXPECT_THAT(page, ContainsRegex("date <b>20[0-9][0-9]-[0-9][0-9]-[0-9][0-9] "));
+  EXPECT_THAT(page, HasSubstr("Operation completed"));
+  EXPECT_THAT(page, ContainsRegex("\"name\":\"green below 2.0[^\"]*\",\"y\":2.0"));
+  EXPECT_THAT(demo.out, Not(HasSubstr("date"))) << "report.json is the same from day to day";
+  EXPECT_EQ(report["levels"][0]["screws"][0]["done"], true);
+  EXPECT_GT(report["levels"][0]["screws"][0]["planned"]["diameter_mm"].get<double>(), 3.0);
+  EXPECT_GT(report["levels"][0]["screws"][0]["planned"]["length_mm"].get<double>(), 20.0);
   std::istringstream journal(content_of(out + "/session.orthonav"));
   int lines = 0;
   for (std::string line; std::getline(journal, line); ++lines) {

@@ -229,6 +229,24 @@ TEST(SessionReport, IsMadeOfAJournalThatWasCutAnywhere) {
   }
 }
 
+TEST(SessionReport, BeginsWithWhatWasPlacedAndItsWarnings) {
+  SessionRecord session = cut_session();
+  RecordedScrew& left = session.levels[0].screws[0];
+  left.wire_asked = true;
+  left.wire = RecordedWire{0.05, 0.01, 0.0011, 0.0006, false, true};
+  left.at_depth->clearance_m = 0.0004;
+  left.at_depth->clearance_95_m = -0.0012;
+  const std::string page = session_page(session, "j");
+  EXPECT_THAT(page, HasSubstr("This session was cut off: 1 of 2 screws placed; their true distance "
+                              "from the plan is not known, 0 of 1 measured wire within the "
+                              "limits.</h2>"));
+  EXPECT_THAT(page, HasSubstr("<li>L4 left: the wire was measured 2.9° and 1.1 mm from the plan, "
+                              "beyond a limit, and kept</li><li>L4 left: as tracked, a breach of "
+                              "the cortex cannot be ruled out (95 % bound −1.2 mm)</li>"));
+  session.has_plan = false;
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("cut off: 1 screw placed;"));
+}
+
 TEST(SessionReport, TellsOfASessionThatEnded) {
   SessionRecord session = cut_session();
   session.cut = session.last_line_torn = false;
