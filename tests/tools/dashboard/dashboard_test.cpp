@@ -4,13 +4,11 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
-#include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "engine/io/image_file.h"
+#include "tests/support/browser.h"
 #include "tests/support/scripted_operation.h"
-#include "tests/support/temporary_folder.h"
 #include "tools/dashboard_state.h"
 
 namespace orthonav::tools::dashboard_test {
@@ -123,25 +121,10 @@ TEST_F(DashboardPage, IsRefusedAtAPortThatIsTaken) {
   EXPECT_THAT(opened.error().message, HasSubstr("the port cannot be had"));
 }
 
-/// What a program says on its standard output; empty where it can't be run.
-std::string said_by(const std::string& command) {
-  std::string said;
-  std::FILE* pipe = ::popen((command + " 2>/dev/null").c_str(), "r");
-  if (pipe == nullptr) {
-    return said;
-  }
-  std::array<char, 4096> part{};
-  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) {
-    said.append(part.data(), n);
-  }
-  ::pclose(pipe);
-  return said;
-}
-
 /// In a real browser, where there is one: the page's script is what is tested.
 TEST_F(DashboardPage, ShowsTheOperationInABrowser) {
-  if (said_by("command -v chromium").empty()) {
-    GTEST_SKIP() << "chromium is not installed: the page's script is not tested";
+  if (!test::has_browser()) {
+    GTEST_SKIP() << test::kNoBrowser;
   }
   test::ScriptedOperation s;
   s.accepts_first_level();
@@ -156,12 +139,8 @@ TEST_F(DashboardPage, ShowsTheOperationInABrowser) {
   dashboard_.watch(s.session(), {0.05, 0.09});
   dashboard_.stepped(frame, {}, guidance);
   dashboard_.show(red_picture(), "what the surgeon sees");
-  const test::TemporaryFolder folder;
-  const std::string page = said_by(
-      "chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage "
-      "--user-data-dir=" +
-      folder.path().string() + " --virtual-time-budget=900 --dump-dom http://127.0.0.1:" +
-      std::to_string(dashboard_.port()) + "/");
+  const std::string page =
+      test::page_in_browser("http://127.0.0.1:" + std::to_string(dashboard_.port()) + "/", 900);
   ASSERT_THAT(page, HasSubstr("<h1 id=\"step\">guide L4 left</h1>")) << "the script ran";
   EXPECT_THAT(page, HasSubstr("<h2 id=\"screw\">Guidance L4 left</h2>"));
   EXPECT_THAT(page, HasSubstr("<div id=\"angle\" class=\"poor\">5.7°</div>"));

@@ -1,0 +1,121 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "engine/case/operation_plan.h"
+#include "engine/phantom/phantom.h"
+#include "engine/report/report_html.h"
+#include "engine/report/session_report.h"
+#include "engine/session/journal_reader.h"
+#include "tests/support/browser.h"
+
+namespace orthonav::engine::report_layout_test {
+namespace {
+
+/// A page of everything, its texts as long as they come.
+ReportContent full_content() {
+  nlohmann::json screw = nlohmann::json::parse(R"({"side":"right","done":true,
+    "angle_error_deg":7.5,"entry_error_mm":2.5,"clearance_mm":-1.25,"grade":"B","arc_mm":18.0,
+    "towards":"medial","planned":{"diameter_mm":6.5,"length_mm":45.0,"clearance_mm":3.5,
+    "clearance_95_mm":1.5,"grade_probability":{"A":0.5,"B":0.2,"C":0.2,"D":0.1},"grade":"A",
+    "arc_mm":6.0,"towards":"posterior"},
+    "planned_in_surgery":{"text":"entry moved 2.0 mm cranial, 6.0 x 40 mm instead of 5.5 x 40 mm"},
+    "tracked":{"clearance_mm":-1.5,"clearance_95_mm":-4.0,
+    "grade_probability":{"A":0.1,"B":0.5,"C":0.3,"D":0.1}},
+    "executed":{"entry_mm":[-31.7,-34.6,-16.9],"direction":[-0.447,-0.890,-0.080],"depth_mm":9.1,
+    "pairs":21},"wire":{"angle_deg":4.2,"angle_sd_deg":0.8,"entry_mm":2.4,"entry_sd_mm":1.1,
+    "within":false,"kept":true},"redone":1})");
+  ReportContent content;
+  content.report_json =
+      nlohmann::json{{"seed", 18446744073709551615ULL},
+                     {"case", "a case of a long name"},
+                     {"method", "best"},
+                     {"completed", true},
+                     {"levels",
+                      {{{"label", "L4"},
+                        {"accepted", true},
+                        {"attempts", 2},
+                        {"predicted_tre_mm", 2.0},
+                        {"registration_only", true},
+                        {"screws", {screw, screw}}}}},
+                     {"rod", {{"length_mm", 40.0}, {"sides", {{{"side", "left"}, {"heads", 2}}}}}},
+                     {"calibration", {{"tags", {{{"tool", "reference"}}}}}}}
+          .dump();
+  content.plots.push_back(
+      {"angle", "time [s]", "°", {{"L4 left", {0, 1}, {70, 1}}}, {{5.0, "red"}}, 6.0});
+  content.timings.push_back({"draw the surgeon's view (room and holograms)", {1.0, 2.0}});
+  const OperatedLevel level = plan_operation(phantom(), {"L4"}).value().levels.front();
+  RegisteredLevel registered;
+  registered.label = "L4";
+  registered.method = "best";
+  registered.model = level.model;
+  registered.screws = level.screws;
+  registered.registration.noise_m = 0.001;
+  registered.registration.uncertainty =
+      nav::PoseUncertainty{{}, std::array<double, 36>{1e-6, 0, 0, 0, 0, 0, 0, 1e-6}};
+  for (int i = 0; i < 12; ++i) {
+    const Point<World> place{level.model->reachable().vertices_m[static_cast<std::size_t>(i)]};
+    registered.points.push_back(place);
+    registered.check_points.push_back({place, -0.0004, true});
+  }
+  content.registrations.push_back(registered);
+  return content;
+}
+
+constexpr int kPhone_px = 390;
+
+/// How wide a page becomes on a phone, in pixels, as a browser lays it out; -1: it was not opened.
+int width_on_a_phone(const std::string& page) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.file("page.html")) << page;
+  std::ofstream(folder.file("phone.html"))
+      << "<body><iframe id=f style='width:" << kPhone_px
+      << "px;height:800px;border:0' src=page.html></iframe><script>f.onload=()=>{"
+         "document.title='width '+f.contentDocument.documentElement.scrollWidth}</script>";
+  const std::string seen = test::page_in_browser("file://" + folder.file("phone.html"), 3000);
+  const std::size_t at = seen.find("<title>width ");
+  return at == std::string::npos ? -1 : std::stoi(seen.substr(at + 13));
+}
+
+TEST(ReportLayout, FitsAPhone) {
+  if (!test::has_browser()) {
+    GTEST_SKIP() << test::kNoBrowser;
+  }
+  const auto report = report_html(full_content());
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  const int report_px = width_on_a_phone(*report);
+  EXPECT_GT(report_px, 0);
+  EXPECT_LE(report_px, kPhone_px);
+  const auto session = read_journal(ORTHONAV_SOURCE_DIR "/tests/data/session.orthonav");
+  ASSERT_TRUE(session.ok());
+  const int session_px = width_on_a_phone(session_page(*session, "session.orthonav"));
+  EXPECT_GT(session_px, 0);
+  EXPECT_LE(session_px, kPhone_px);
+  EXPECT_GT(width_on_a_phone("<!doctype html><p style='width:600px'>wide"), kPhone_px)
+      << "a page that does not fit is seen";
+}
+
+/// Every table of both pages: a row that is no card runs off the screen or needs a second finger.
+TEST(ReportLayout, HasNoTableThatAPhoneHasToScroll) {
+  if (!test::has_browser()) {
+    GTEST_SKIP() << test::kNoBrowser;
+  }
+  const auto report = report_html(full_content());
+  ASSERT_TRUE(report.ok());
+  std::string page = *report;
+  // The script stands at the end, and writes down what is wider than its section.
+  page.insert(page.rfind("</body>"),
+              "<script>let wide='';for(const t of document.querySelectorAll('table,svg,canvas'))"
+              "if(t.getBoundingClientRect().right>document.documentElement.clientWidth)"
+              "wide+=' '+t.className;parent.document.title='width '+(wide?1:0)+wide</script>");
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.file("page.html")) << page;
+  std::ofstream(folder.file("phone.html"))
+      << "<body><iframe style='width:390px;height:800px;border:0' src=page.html></iframe>";
+  const std::string seen = test::page_in_browser("file://" + folder.file("phone.html"), 3000);
+  EXPECT_THAT(seen, ::testing::HasSubstr("<title>width 0</title>"));
+}
+
+}  // namespace
+}  // namespace orthonav::engine::report_layout_test
