@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/angle.h"
+#include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/page_style.h"
 #include "tools/evaluate_figures.h"
@@ -32,71 +33,91 @@ std::string with_bound(double value, double sd) {
   return html_number(value, 1) + " <small>±" + html_number(k95 * sd, 1) + "</small>";
 }
 
-std::string grade_cell(const std::optional<nav::Clearance>& clearance) {
+void put_grade(engine::HtmlTable& table, const std::optional<nav::Clearance>& clearance) {
   if (!clearance) {
-    return cell("–");
+    table.cell("–");
+    return;
   }
   const nav::PedicleGrade grade = nav::grade_of(clearance->clearance_m);
-  return std::string(grade == nav::PedicleGrade::kA ? "<td class=good>" : "<td class=bad>") +
-         nav::name_of(grade) + "</td>";
+  table.cell(nav::name_of(grade), grade == nav::PedicleGrade::kA ? "good" : "bad");
 }
 
-std::string clearance_cells(const engine::ScrewInScan& placed, Side side) {
+void put_clearance(engine::HtmlTable& table, const engine::ScrewInScan& placed, Side side) {
   if (!placed.clearance) {
-    return std::string("<td colspan=3>") + kBarelyIn + "</td>";
+    table.cell(kBarelyIn);
+    table.cell("–");
+    table.cell("–");
+    return;
   }
   const double mm = placed.clearance->clearance_m * 1e3;
-  return "<td" + std::string(mm < 0.0 ? " class=bad>" : ">") + html_number(mm, 1) + " <small>" +
-         nav::direction_of(*placed.clearance, side) + "</small></td>" +
-         cell(placed.spread ? html_number(placed.spread->lower_95_m * 1e3, 1) : "–") +
-         grade_cell(placed.clearance);
+  table.cell(
+      html_number(mm, 1) + " <small>" + nav::direction_of(*placed.clearance, side) + "</small>",
+      mm < 0.0 ? "bad" : "");
+  table.cell(placed.spread ? html_number(placed.spread->lower_95_m * 1e3, 1) : "–");
+  put_grade(table, placed.clearance);
 }
 
-std::string row_of(const std::string& label, const engine::EvaluatedScrew& screw) {
-  std::string row = "<tr>" + cell(html_escaped(label) + " " + name_of(screw.plan.side));
+void put_empty_row(engine::HtmlTable& table, const std::string& name, const std::string& why) {
+  table.row(name);
+  for (int i = 0; i < 9; ++i) {
+    table.cell("–");
+  }
+  table.below(why, "bad");
+}
+
+void put_row(engine::HtmlTable& table, const std::string& label,
+             const engine::EvaluatedScrew& screw) {
+  const std::string name = html_escaped(label) + " " + name_of(screw.plan.side);
   if (!screw.placed) {
-    return row + "<td colspan=9 class=bad>" + kNotFound + "</td></tr>";
+    put_empty_row(table, name, kNotFound);
+    return;
   }
   const engine::ScrewInScan& placed = *screw.placed;
-  row += cell(with_bound(placed.angle_rad * kDegreesPerRadian,
-                         placed.angle_sd_rad * kDegreesPerRadian)) +
-         cell(html_number(placed.entry_m * 1e3, 1)) +
-         cell(with_bound(placed.entry_axis_m * 1e3, placed.entry_axis_sd_m * 1e3)) +
-         cell(html_number(placed.target_m * 1e3, 1)) + cell(html_number(placed.depth_m * 1e3, 1)) +
-         cell(html_number(2e3 * placed.measured_radius_m, 1)) +
-         clearance_cells(placed, screw.plan.side) + "</tr>";
+  table.row(name);
+  table.cell(
+      with_bound(placed.angle_rad * kDegreesPerRadian, placed.angle_sd_rad * kDegreesPerRadian));
+  table.cell(html_number(placed.entry_m * 1e3, 1));
+  table.cell(with_bound(placed.entry_axis_m * 1e3, placed.entry_axis_sd_m * 1e3));
+  table.cell(html_number(placed.target_m * 1e3, 1));
+  table.cell(html_number(placed.depth_m * 1e3, 1));
+  table.cell(html_number(2e3 * placed.measured_radius_m, 1));
+  put_clearance(table, placed, screw.plan.side);
   if (placed.touched) {
-    row += std::string("<tr><td colspan=10 class=bad>") + kTouched + "</td></tr>";
+    table.below(kTouched, "bad");
   }
   if (placed.as_planned_screw) {
-    row += "<tr><td colspan=7><small>the same axis as a screw of " +
-           html_number(2e3 * screw.plan.radius_m, 1) + " mm</small></td>" +
-           cell(html_number(placed.as_planned_screw->clearance_m * 1e3, 1)) + "<td></td>" +
-           grade_cell(placed.as_planned_screw) + "</tr>";
+    const nav::PedicleGrade grade = nav::grade_of(placed.as_planned_screw->clearance_m);
+    table.below("the same axis as a screw of " + html_number(2e3 * screw.plan.radius_m, 1) +
+                    " mm: clearance " + html_number(placed.as_planned_screw->clearance_m * 1e3, 1) +
+                    " mm, grade " + nav::name_of(grade),
+                grade == nav::PedicleGrade::kA ? "" : "bad");
   }
-  return row;
 }
 
 std::string table_of(const engine::Evaluation& evaluation) {
-  std::string html =
-      "<section><h2>Planned and placed</h2><table><thead><tr><th>Screw<th>Angle <small>°</small>"
-      "<th>Entry <small>mm</small><th>Entry (axis) <small>mm</small><th>Target <small>mm</small>"
-      "<th>Depth <small>mm</small><th>Diameter <small>mm</small><th>Clearance <small>mm</small>"
-      "<th>95 % above <small>mm</small><th>Grade</tr></thead><tbody>";
+  engine::HtmlTable table({{"Screw"},
+                           {"Angle", "°"},
+                           {"Entry", "mm"},
+                           {"Entry (axis)", "mm"},
+                           {"Target", "mm"},
+                           {"Depth", "mm"},
+                           {"Diameter", "mm"},
+                           {"Clearance", "mm"},
+                           {"95 % above", "mm"},
+                           {"Grade"}});
   for (const engine::EvaluatedLevel& level : evaluation.levels) {
     if (!level.registration) {
-      html += "<tr>" + cell(html_escaped(level.label)) +
-              "<td colspan=9 class=bad>not evaluated: " + html_escaped(level.refusal) +
-              "</td></tr>";
+      put_empty_row(table, html_escaped(level.label),
+                    "not evaluated: " + html_escaped(level.refusal));
       continue;
     }
     for (const engine::EvaluatedScrew& screw : level.screws) {
-      html += row_of(level.label, screw);
+      put_row(table, level.label, screw);
     }
   }
-  return html +
-         "</tbody></table><p class=notes>± and \"95 % above\": of the errors of this "
-         "measurement alone (axis and registration to the scan). " +
+  return "<section><h2>Planned and placed</h2>" + table.html() +
+         "<p class=notes>± and \"95 % above\": of the errors of this measurement alone (axis and "
+         "registration to the scan). " +
          html_escaped(engine::kEvaluationDefinitions) + ". " + html_escaped(nav::kPedicleScale) +
          ".</p></section>";
 }
@@ -197,7 +218,7 @@ Result<std::string> evaluate_page(const engine::Case& subject, const engine::Vol
                                   const engine::Evaluation& evaluation, const std::string& source) {
   std::string html =
       "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: evaluation"
-      "</title><meta name=viewport content=\"width=device-width\"><style>";
+      "</title><meta name=viewport content=\"width=device-width, initial-scale=1\"><style>";
   html += engine::page_style();
   html += std::string(kStyle) +
           "</style></head><body><header><h1>orthonav <span>planned and placed screws</span></h1>"

@@ -14,7 +14,7 @@ std::string framed(const StudyPage& page, const nlohmann::json& charts) {
   const std::string title = html_escaped(page.title);
   std::string html =
       "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: " + title +
-      "</title><meta name=viewport content=\"width=device-width\"><style>" +
+      "</title><meta name=viewport content=\"width=device-width, initial-scale=1\"><style>" +
       std::string(embedded::report_css()) + "</style></head><body><header><h1>orthonav <span>" +
       title + "</span></h1><p>" + page.intro + "</p></header><main>" + page.body +
       "</main><script type=\"application/json\" id=study-data>" + script_json(charts) +
