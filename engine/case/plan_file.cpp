@@ -18,11 +18,6 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr double kMinScrewLength_m = 0.010;
-constexpr double kMaxScrewLength_m = 0.120;
-constexpr double kMinRadius_m = 0.001;
-constexpr double kMaxRadius_m = 0.006;
-
 std::optional<nav::Side> side_from(const std::string& text) {
   if (text == "left") {
     return nav::Side::kLeft;
@@ -33,29 +28,13 @@ std::optional<nav::Side> side_from(const std::string& text) {
   return std::nullopt;
 }
 
-/// What is wrong with one screw; empty when nothing is. A radius of 0 means none was stated.
-std::string problem_of(const StatedScrew& screw) {
-  const double length_m = (screw.target - screw.entry).norm();
-  if (!(length_m >= kMinScrewLength_m && length_m <= kMaxScrewLength_m)) {
-    return "is " + in_mm_outside(length_m, kMinScrewLength_m, kMaxScrewLength_m) +
-           " from entry to target, must be " + in_mm(kMinScrewLength_m) + " to " +
-           in_mm(kMaxScrewLength_m);
-  }
-  if (screw.radius_m != 0.0 &&
-      !(screw.radius_m >= kMinRadius_m && screw.radius_m <= kMaxRadius_m)) {
-    return "has radius " + in_mm_outside(screw.radius_m, kMinRadius_m, kMaxRadius_m) +
-           ", must be " + in_mm(kMinRadius_m) + " to " + in_mm(kMaxRadius_m);
-  }
-  return {};
-}
-
 Result<Plan> checked(Plan plan) {
   if (plan.screws.empty()) {
     return Error{plan.path + ": has no screws"};
   }
   for (const StatedScrew& screw : plan.screws) {
-    if (const std::string problem = problem_of(screw); !problem.empty()) {
-      return Error{plan.path + ": " + screw.where + " " + problem};
+    if (const auto problem = ill_sized(screw.entry, screw.target, screw.radius_m)) {
+      return Error{plan.path + ": " + screw.where + " " + *problem};
     }
   }
   return plan;

@@ -12,6 +12,10 @@ namespace {
 constexpr double kMaxEntryOffBone_m = 0.010;
 /// A tip may stand out of the front by its radius, or by this where the plan states less.
 constexpr double kMinTargetOutside_m = 0.003;
+constexpr double kMinScrewLength_m = 0.010;
+constexpr double kMaxScrewLength_m = 0.120;
+constexpr double kMinRadius_m = 0.001;
+constexpr double kMaxRadius_m = 0.006;
 
 }  // namespace
 
@@ -34,6 +38,21 @@ OffMidline off_midline(const nav::TriangleMesh& bone, Point<Vertebra> entry,
 
 std::string to_the_side(double left_m) {
   return in_mm(std::abs(left_m)) + " to the " + name_of(left_m > 0.0 ? Side::kLeft : Side::kRight);
+}
+
+std::optional<std::string> ill_sized(Point<Vertebra> entry, Point<Vertebra> target,
+                                     double radius_m) {
+  const double length_m = (target - entry).norm();
+  if (!(length_m >= kMinScrewLength_m && length_m <= kMaxScrewLength_m)) {
+    return "is " + in_mm_outside(length_m, kMinScrewLength_m, kMaxScrewLength_m) +
+           " from entry to target, must be " + in_mm(kMinScrewLength_m) + " to " +
+           in_mm(kMaxScrewLength_m);
+  }
+  if (radius_m != 0.0 && !(radius_m >= kMinRadius_m && radius_m <= kMaxRadius_m)) {
+    return "has radius " + in_mm_outside(radius_m, kMinRadius_m, kMaxRadius_m) + ", must be " +
+           in_mm(kMinRadius_m) + " to " + in_mm(kMaxRadius_m);
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> misplaced(const nav::SurfaceIndex& bone, Point<Vertebra> entry,

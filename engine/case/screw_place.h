@@ -34,6 +34,11 @@ inline constexpr double kLeastOffMidline_m = 0.005;
 /// "20.9 mm to the left".
 [[nodiscard]] std::string to_the_side(double left_m);
 
+/// What no pedicle screw is, such as "has radius 8.0 mm, must be 1.0 mm to 6.0 mm"; none when it
+/// may be. A radius of 0: none is stated.
+[[nodiscard]] std::optional<std::string> ill_sized(Point<Vertebra> entry, Point<Vertebra> target,
+                                                   double radius_m);
+
 /// What tells that a screw is not of this bone, or is written in other axes (+y is posterior), such
 /// as "entry lies 15.0 mm off the bone, limit 10.0 mm"; none when it may be.
 [[nodiscard]] std::optional<std::string> misplaced(const nav::SurfaceIndex& bone,

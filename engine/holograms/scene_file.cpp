@@ -51,14 +51,8 @@ void read_view(const JsonNode& view, SceneFile& file) {
                                   static_cast<float>(apart_mm * 1e-3));
 }
 
-}  // namespace
-
-Result<SceneFile> load_scene(const std::string& path) {
-  const auto document = JsonDocument::read(path);
-  if (!document) {
-    return document.error();
-  }
-  const JsonNode root = document->root();
+Result<SceneFile> scene_of(const JsonDocument& document, const std::string& folder) {
+  const JsonNode root = document.root();
   if (root.text("format") != "orthonav-scene") {
     root.refuse("format", "must be \"orthonav-scene\"");
   }
@@ -67,7 +61,6 @@ Result<SceneFile> load_scene(const std::string& path) {
   }
   SceneFile file;
   read_view(root.child("view"), file);
-  const std::string folder = std::filesystem::path(path).parent_path().string();
   const std::vector<JsonNode> holograms = root.list("holograms");
   if (holograms.size() > kMostHolograms) {
     root.refuse("holograms", "holds " + std::to_string(holograms.size()) + ", at most " +
@@ -75,15 +68,31 @@ Result<SceneFile> load_scene(const std::string& path) {
   }
   std::map<std::string, std::size_t> count;
   for (const JsonNode& node : holograms) {
-    if (!document->status()) {
+    if (!document.status()) {
       break;
     }
     add_hologram(node, folder, ++count[node.text("type")], file.scene);
   }
-  if (const Status status = document->status(); !status) {
+  if (const Status status = document.status(); !status) {
     return status.error();
   }
   return file;
+}
+
+}  // namespace
+
+Result<SceneFile> load_scene(const std::string& path) {
+  const auto document = JsonDocument::read(path);
+  if (!document) {
+    return document.error();
+  }
+  return scene_of(*document, std::filesystem::path(path).parent_path().string());
+}
+
+Result<SceneFile> parse_scene(const std::string& text, const std::string& name,
+                              const std::string& folder) {
+  const auto document = JsonDocument::parse(text, name);
+  return document ? scene_of(*document, folder) : Result<SceneFile>(document.error());
 }
 
 }  // namespace orthonav::engine

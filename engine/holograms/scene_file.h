@@ -19,5 +19,9 @@ struct SceneFile {
 /// Reads a scene file and the meshes that it names. Refuses what it can't draw by file, place,
 /// value and limit: unknown holograms, numbers that are not finite, widths that are not positive.
 Result<SceneFile> load_scene(const std::string& path);
+/// The same of a file's text; `name` stands for the file in messages, `folder` is where its meshes
+/// lie.
+Result<SceneFile> parse_scene(const std::string& text, const std::string& name,
+                              const std::string& folder);
 
 }  // namespace orthonav::engine

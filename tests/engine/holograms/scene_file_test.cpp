@@ -52,6 +52,17 @@ TEST_F(SceneFiles, TheExampleOfTheDocsIsDrawn) {
   EXPECT_THAT(file->scene.texts[1].runs[0].text, HasSubstr("3.4°"));
 }
 
+TEST_F(SceneFiles, TextIsReadAsAFileIs) {
+  const auto file = loaded(example());
+  const auto text = parse_scene(example().dump(), "text", folder_.path().string());
+  ASSERT_TRUE(text.ok()) << text.error().message;
+  EXPECT_EQ(text->scene.texts.size(), file->scene.texts.size());
+  EXPECT_EQ(text->eyes.front().tan_up, file->eyes.front().tan_up);
+  const auto refused = parse_scene("{}", "text", "");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().message, HasSubstr("text: format"));
+}
+
 TEST_F(SceneFiles, EveryKindIsInTheSchemaAndIsKnown) {
   const json schema = json::parse(content_of(ORTHONAV_SOURCE_DIR "/docs/scene.schema.json"));
   std::set<render::Label> numbers;
