@@ -11,10 +11,26 @@ install(TARGETS ${orthonav_libraries} EXPORT orthonavTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
 install(EXPORT orthonavTargets NAMESPACE orthonav:: DESTINATION "${orthonav_package_folder}" COMPONENT dev)
 install(TARGETS orthonav RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime)
+# Headers of what is not installed, which no program includes.
+set(ORTHONAV_NOT_INSTALLED "^(render/font_maker|engine/(golden|scan|evaluation)|hal/igtl)/")
 foreach(folder base hal nav render engine)
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}"
-          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/orthonav" COMPONENT dev FILES_MATCHING PATTERN "*.h"
-          PATTERN "font_maker" EXCLUDE PATTERN "golden" EXCLUDE PATTERN "scan" EXCLUDE PATTERN "igtl" EXCLUDE)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${folder}/*.h")
+  list(FILTER headers EXCLUDE REGEX "${ORTHONAV_NOT_INSTALLED}")
+  foreach(header IN LISTS headers)
+    get_filename_component(room "${header}" DIRECTORY)
+    install(FILES "${PROJECT_SOURCE_DIR}/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/orthonav/${room}"
+            COMPONENT dev)
+  endforeach()
+endforeach()
+# What devices are tested by, for those who write one elsewhere.
+set(orthonav_contract_folder "${CMAKE_INSTALL_DATADIR}/orthonav/contract")
+install(FILES "${PROJECT_SOURCE_DIR}/tests/contract/contract_test.cpp"
+              "${PROJECT_SOURCE_DIR}/tests/contract/depth_contract_test.cpp"
+        DESTINATION "${orthonav_contract_folder}" COMPONENT dev)
+foreach(header contract/device_cases support/session_log)
+  get_filename_component(folder "${header}" DIRECTORY)
+  install(FILES "${PROJECT_SOURCE_DIR}/tests/${header}.h"
+          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/orthonav/tests/${folder}" COMPONENT dev)
 endforeach()
 install(FILES "${PROJECT_SOURCE_DIR}/data/tools.json" DESTINATION "${CMAKE_INSTALL_DATADIR}/orthonav"
         COMPONENT runtime)
@@ -23,10 +39,12 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" "${PROJECT_SOURCE_DIR}/tools/example"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/orthonav-doc" COMPONENT doc)
 include(OrthonavManual)
+include(OrthonavApi)
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/orthonavConfig.cmake.in"
                               "${PROJECT_BINARY_DIR}/orthonavConfig.cmake"
-                              INSTALL_DESTINATION "${orthonav_package_folder}")
+                              INSTALL_DESTINATION "${orthonav_package_folder}"
+                              PATH_VARS orthonav_contract_folder)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/orthonavConfigVersion.cmake"
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/orthonavConfig.cmake"

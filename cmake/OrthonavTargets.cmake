@@ -1,3 +1,6 @@
+# Users write <orthonav/nav/...>; the headers themselves name each other as here, "nav/...", for which the
+# folder orthonav is on the path as well.
+#
 # orthonav_library(NAME [NOT_INSTALLED] [COLD] [SOURCES_IN folders... | FILES files...] [EXCEPT files...])
 # makes the static library orthonav_NAME, alias orthonav::NAME, of every .cpp directly in the calling
 # folder, in the folders SOURCES_IN, or of FILES; without the files named after EXCEPT. COLD: what it
@@ -19,7 +22,7 @@ function(orthonav_library name)
   add_library(orthonav::${name} ALIAS orthonav_${name})
   target_include_directories(orthonav_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/orthonav>)
+    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR};${CMAKE_INSTALL_INCLUDEDIR}/orthonav>")
   target_compile_features(orthonav_${name} PUBLIC cxx_std_20)
   set_target_properties(orthonav_${name} PROPERTIES EXPORT_NAME ${name})
   orthonav_warnings(orthonav_${name})

@@ -9,13 +9,16 @@
 
 namespace orthonav::engine {
 
-/// Reads tool definitions: `{"tools": [{"name", "role": "pointer"|"guide"|"reference"|"awl"|...,
-/// "marker":
-/// {"family", "id", "size_mm"}, "tip_mm": [x,y,z], "axis": [x,y,z], "markers": [...], "level":
-/// "L4"}]}`. The axis may have any length but zero and is +y where absent; a reference needs no tip
-/// and may say the level that it is clamped to. `markers` lists further tags of the body, each as
-/// `marker` with a `pose`: marker_from_tag, 4×4 by rows, mm. A guide may have `sleeve_length_mm`
-/// and `stop_mm` (nav/tracking/tool.h). Refuses, naming file and field, whatever is missing, of the
+/// Reads tool definitions:
+/// ```
+/// {"tools": [{"name", "role": "pointer"|"guide"|"reference"|"awl"|...,
+///   "marker": {"family", "id", "size_mm"}, "tip_mm": [x,y,z], "axis": [x,y,z],
+///   "markers": [...], "level": "L4"}]}
+/// ```
+/// The axis may have any length but zero and is +y where absent; a reference needs no tip and may
+/// say the level that it is clamped to. `markers` lists further tags of the body, each as `marker`
+/// with a `pose`: marker_from_tag, 4×4 by rows, mm. A guide may have `sleeve_length_mm` and
+/// `stop_mm` (nav/tracking/tool.h). Refuses, naming file and field, whatever is missing, of the
 /// wrong type, no rigid pose, or a problem in the sense of `nav::problems_of`.
 Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path);
 

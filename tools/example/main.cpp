@@ -1,15 +1,13 @@
 // Opens the simulated operating room, navigates one level and prints what the surgeon is told.
-#include <cstdio>
-#include <cstdlib>
-#include <utility>
+#include <orthonav/engine/case/operation_plan.h>
+#include <orthonav/engine/case/tool_file.h>
+#include <orthonav/engine/live/assembled_operation.h>
+#include <orthonav/engine/phantom/phantom.h>
+#include <orthonav/engine/session/wording.h>
+#include <orthonav/engine/study/sim_scenario.h>
+#include <orthonav/hal/sim/sim_headset.h>
 
-#include "engine/case/operation_plan.h"
-#include "engine/case/tool_file.h"
-#include "engine/live/assembled_operation.h"
-#include "engine/phantom/phantom.h"
-#include "engine/session/wording.h"
-#include "engine/study/sim_scenario.h"
-#include "hal/open/open.h"
+#include "must.h"
 
 using namespace orthonav;
 using namespace orthonav::engine;
@@ -30,21 +28,13 @@ struct Printer : LoopObserver {
   }
 };
 
-/// Returns the value, or prints the reason and ends the program.
-template <class T>
-T must(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "example: %s\n", result.error().message.c_str());
-    std::exit(2);
-  }
-  return std::move(result).value();
-}
-
 int main(int argc, char** argv) {
   const Case spine = phantom();
   Operation operation = must(plan_operation(spine, {"L4"}));
-  auto headset =
-      must(open_headset("sim:?seed=3", {room_of(spine, operation, built_in_tools()), {}}));
+  sim::SimOptions sim;
+  sim.seed = 3;
+  const auto headset =
+      must(sim::SimHeadset::open(room_of(spine, operation, built_in_tools()), sim));
   AssemblyOptions options;
   options.loop.max_frames = argc > 1 ? std::atoi(argv[1]) : 0;
   auto assembled = must(assemble_operation(*headset, std::move(operation),

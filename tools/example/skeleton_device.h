@@ -1,0 +1,86 @@
+#pragma once
+
+#include <orthonav/hal/api/devices.h>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mine {
+
+using namespace orthonav;
+
+/// The least that a headset must do. It shows an empty room at 30 pairs a second for as many pairs
+/// as its URI says: "skeleton:90".
+class SkeletonDevice : public Headset, Clock, StereoCamera, HeadTracker, Clicker, Voice, Display {
+ public:
+  SkeletonDevice(StereoCalibration calibration, int pairs)
+      : calibration_(std::move(calibration)), pairs_(pairs) {}
+  [[nodiscard]] std::string name() const override { return "skeleton"; }
+  [[nodiscard]] const Clock& clock() const override { return *this; }
+  [[nodiscard]] StereoCamera& cameras() override { return *this; }
+  [[nodiscard]] HeadTracker& head() override { return *this; }
+  [[nodiscard]] Clicker& clicker() override { return *this; }
+  [[nodiscard]] Voice& voice() override { return *this; }
+  [[nodiscard]] Display& display() override { return *this; }
+
+ private:
+  /// Into the buffer that the frame has already.
+  static void fill(GreyImage& image, const CameraModel& camera) {
+    image.width_px = camera.width_px();
+    image.height_px = camera.height_px();
+    image.pixels.assign(static_cast<std::size_t>(image.width_px) * image.height_px, 0);
+  }
+  [[nodiscard]] Timestamp now() const override {
+    return Timestamp{} + next_ * std::chrono::microseconds(33333);
+  }
+  [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
+  Result<Next> do_next(StereoFrame& frame) override {
+    if (next_ == pairs_) {
+      return Next::kEnd;
+    }
+    frame.sequence = next_++;
+    frame.time = now();
+    fill(frame.left, calibration_.left);
+    fill(frame.right, calibration_.right);
+    frame.world_from_rig = Transform<World, Rig>{};
+    return Next::kFrame;
+  }
+  [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
+    return {{}, at, at <= now() ? PoseStatus::kMeasured : PoseStatus::kPredicted};
+  }
+  /// Past it a pose is predicted, for a short time; then the head is lost.
+  [[nodiscard]] std::optional<Timestamp> do_newest_measurement() const override { return now(); }
+  Status do_poll(Timestamp, std::vector<ClickerEvent>&) override { return {}; }
+  Status do_poll(Timestamp, std::vector<Phrase>&) override { return {}; }
+  [[nodiscard]] Duration do_latency() const override { return std::chrono::milliseconds(16); }
+  Status do_shown(const ShownFrame&) override { return {}; }
+
+  StereoCalibration calibration_;
+  int pairs_;
+  int next_ = 0;
+};
+
+/// A camera without distortion; a real device reads its own.
+inline Result<StereoCalibration> calibration() {
+  const auto camera = CameraModel::from_brown_conrady({640, 480, 450, 450, 320, 240});
+  if (!camera) {
+    return camera.error();
+  }
+  StereoCalibration both{*camera, *camera, {}, {}};
+  both.right_from_rig = Transform<RightCamera, Rig>(Mat3::identity(), {-0.1, 0, 0});
+  return both;
+}
+
+inline Result<std::unique_ptr<Headset>> open_skeleton(const std::string& pairs) {
+  auto cameras = calibration();
+  if (!cameras) {
+    return cameras.error();
+  }
+  return std::unique_ptr<Headset>(
+      std::make_unique<SkeletonDevice>(std::move(*cameras), std::atoi(pairs.c_str())));
+}
+
+}  // namespace mine
