@@ -1,5 +1,5 @@
-# `cpack --config build/release/CPackConfig.cmake` makes three Debian packages: orthonav (the command),
-# liborthonav-dev (what programs are built with) and orthonav-doc.
+# `cpack --config build/release/CPackConfig.cmake` makes Debian packages: orthonav (the command),
+# liborthonav-dev (what programs are built with), python3-orthonav where the module is built, and orthonav-doc.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME orthonav)
 set(CPACK_PACKAGE_VERSION "${PROJECT_VERSION}")
@@ -10,6 +10,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
     GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL runtime dev doc)
+set(packages "runtime orthonav" "dev liborthonav-dev" "doc orthonav-doc")
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The orthonav developers <maintainers@orthonav.org>")
@@ -34,7 +35,7 @@ string(REPLACE "\n" ", " libraries "${libraries}")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME liborthonav-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${libraries}")
-set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "orthonav-doc")
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "orthonav-doc, libgtest-dev")
 set(CPACK_COMPONENT_DEV_DESCRIPTION
     "Static libraries, headers and the CMake package: a program calls
 find_package(orthonav) and links orthonav::engine or a part of it.")
@@ -44,7 +45,25 @@ set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 set(CPACK_COMPONENT_DOC_DESCRIPTION
     "How it works, how accurate it is and how that is measured, file formats,
-headsets, decisions, and two example programs.")
+headsets, decisions, pages of the headers, and examples in C++ and Python.")
+
+if(ORTHONAV_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  list(APPEND packages "python python3-orthonav")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-orthonav)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  # The module is for this version of Python; with the next one it has to be built anew.
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "mesa-vulkan-drivers")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "orthonav, orthonav-doc")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+      "The Python module orthonav: tracks tools in pairs of images, registers points
+to vertebrae, guides tools to planned screws and draws scenes, with NumPy
+arrays. Not certified for use on patients.")
+endif()
 
 # Each package says whose it is and what changed (gzip was looked for with the manual).
 if(GZIP_PROGRAM)
@@ -66,7 +85,7 @@ License: Apache-2.0
 ")
   execute_process(COMMAND "${GZIP_PROGRAM}" -9nf "${papers}/changelog" "${papers}/changelog.Debian"
                   COMMAND_ERROR_IS_FATAL ANY)
-  foreach(part "runtime orthonav" "dev liborthonav-dev" "doc orthonav-doc")
+  foreach(part IN LISTS packages)
     separate_arguments(part)
     list(GET part 0 component)
     list(GET part 1 package)
