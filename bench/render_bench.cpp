@@ -63,18 +63,18 @@ struct Row {
   double memory_mib = 0;
 };
 
-void print_row(const std::string& name, int samples, const Row& row) {
-  std::printf("| %s | %d | %s | %s | %s | %s | %s | %.0f |\n", name.c_str(), samples,
+void print_row(const std::string& name, const std::string& edges, const Row& row) {
+  std::printf("| %s | %s | %s | %s | %s | %s | %s | %.0f |\n", name.c_str(), edges.c_str(),
               row.record.text().c_str(), row.submit.text().c_str(), row.gpu.text().c_str(),
               row.read.text().c_str(), row.total.text().c_str(), row.memory_mib);
 }
 
-std::unique_ptr<render::Renderer> make_renderer(const Options& options, int samples,
+std::unique_ptr<render::Renderer> make_renderer(const Options& options, render::Edges edges,
                                                 float surface_error_m) {
   render::RendererOptions wanted;
   wanted.width_px = options.width_px;
   wanted.height_px = options.height_px;
-  wanted.samples = samples;
+  wanted.edges = edges;
   wanted.device = "llvmpipe";
   wanted.surface_error_m = surface_error_m;
   auto renderer = render::Renderer::create(wanted);
@@ -87,9 +87,9 @@ std::unique_ptr<render::Renderer> make_renderer(const Options& options, int samp
 
 class Ours {
  public:
-  Ours(const Options& options, int samples, float surface_error_m, const FullScene& full)
+  Ours(const Options& options, render::Edges edges, float surface_error_m, const FullScene& full)
       : before_mib_(resident_mib()),
-        renderer_(make_renderer(options, samples, surface_error_m)),
+        renderer_(make_renderer(options, edges, surface_error_m)),
         full_(full) {}
 
   void draw(int frame, Row* row) {
@@ -130,15 +130,21 @@ void draw_peer(VtkWindow& window, const FullScene& full, int frame, Row* row) {
 }
 
 /// Memory is what each renderer adds to the process with its first frames.
-void compare(const Options& options, int samples, const FullScene& full) {
+struct Comparison {
+  const char* name;
+  render::Edges edges;
+  int samples;  ///< VTK's
+};
+
+void compare(const Options& options, const Comparison& way, const FullScene& full) {
   constexpr int kWarmUp = 5;
   Row ours, all_triangles, peers;
-  Ours renderer(options, samples, render::RendererOptions{}.surface_error_m, full);
+  Ours renderer(options, way.edges, render::RendererOptions{}.surface_error_m, full);
   for (int i = 0; i < kWarmUp; ++i) {
     renderer.draw(i, nullptr);
   }
   ours.memory_mib = resident_mib() - renderer.before_mib();
-  Ours whole(options, samples, 0, full);
+  Ours whole(options, way.edges, 0, full);
   for (int i = 0; i < kWarmUp; ++i) {
     whole.draw(i, nullptr);
   }
@@ -147,7 +153,7 @@ void compare(const Options& options, int samples, const FullScene& full) {
   std::unique_ptr<VtkWindow> window;
   if (std::getenv("DISPLAY") != nullptr) {
     window = VtkWindow::create(full.scene, full.views.size(), options.width_px, options.height_px,
-                               samples);
+                               way.samples);
   }
   for (int i = 0; window && i < kWarmUp; ++i) {
     draw_peer(*window, full, i, nullptr);
@@ -160,17 +166,17 @@ void compare(const Options& options, int samples, const FullScene& full) {
       draw_peer(*window, full, i, &peers);
     }
   }
-  print_row("orthonav, " + renderer.name(), samples, ours);
-  print_row("orthonav, every triangle", samples, all_triangles);
+  print_row("orthonav, " + renderer.name(), way.name, ours);
+  print_row("orthonav, every triangle", way.name, all_triangles);
   if (!window) {
     return;
   }
-  print_row("VTK " + window->name(), samples, peers);
-  std::printf("\nRatio of the medians with %d samples: %.3f, with every triangle %.3f\n\n", samples,
-              ours.total.quantile(0.5) / peers.total.quantile(0.5),
+  print_row("VTK " + window->name(), std::to_string(way.samples) + " samples", peers);
+  std::printf("\nRatio of the medians, %s to VTK's %d samples: %.3f, with every triangle %.3f\n\n",
+              way.name, way.samples, ours.total.quantile(0.5) / peers.total.quantile(0.5),
               all_triangles.total.quantile(0.5) / peers.total.quantile(0.5));
   if (options.save) {
-    window->save("vtk_" + std::to_string(samples) + ".png");
+    window->save("vtk_" + std::to_string(way.samples) + ".png");
   }
 }
 
@@ -185,10 +191,12 @@ void run(const Options& options) {
               full.scene.triangles.size(), full.scene.texts.size(), full.views.size());
   std::printf("%dx%d px; %d frames; ms as median / p99\n\n", options.width_px, options.height_px,
               options.frames);
-  std::printf("| renderer | samples | record | submit | GPU side | read | total | memory, MiB |\n");
+  std::printf("| renderer | edges | record | submit | GPU side | read | total | memory, MiB |\n");
   std::printf("|---|---|---|---|---|---|---|---|\n");
-  for (const int samples : {4, 1}) {
-    compare(options, samples, full);
+  for (const Comparison& way : {Comparison{"coverage", render::Edges::kCoverage, 4},
+                                {"4 samples", render::Edges::kSamples, 4},
+                                {"1 sample", render::Edges::kHard, 1}}) {
+    compare(options, way, full);
   }
 }
 

@@ -37,7 +37,7 @@ class VulkanHost {
 /// Renderer.
 class HostedRenderer {
  public:
-  /// Of the options, only blend, samples, validation, messages, eyes_a_pass, surface_error_m and
+  /// Of the options, only blend, edges, validation, messages, eyes_a_pass, surface_error_m and
   /// cache_folder are used. The host is asked during this call only; its errors are passed on
   /// unchanged.
   static Result<std::unique_ptr<HostedRenderer>> create(const RendererOptions& options,
@@ -53,7 +53,8 @@ class HostedRenderer {
   /// Whether the device draws both eyes in one pass, into an image of two layers. If not, each eye
   /// gets a chain of its own: llvmpipe of Mesa 22.3 loses parts of the second layer.
   [[nodiscard]] virtual bool takes_layers() const = 0;
-  /// The images to draw into from now on, which stay until the next call or `finish`.
+  /// The images to draw into from now on, which stay until the next call or `finish`. Where
+  /// coverage is computed they are copied from, too.
   virtual Status use(const EyeImages& images) = 0;
   /// Does what takes time before the views need to be known: waits for the oldest frame in flight,
   /// checks the scene, uploads new meshes. `draw` of the same scene follows.

@@ -23,11 +23,19 @@ enum class EyesAPass {
   kTwo  ///< without asking: a driver that fails loses parts of the right eye, and nothing tells
 };
 
+/// What happens to pixels that an edge cuts.
+enum class Edges {
+  kCoverage,  ///< how much of a pixel is covered is computed; one sample
+  kSamples,   ///< four samples
+  kHard       ///< covered where its centre is: what the others are measured against
+};
+
 struct RendererOptions {
   int width_px = 1268;  ///< of one eye, 16 to 8192
   int height_px = 720;
-  int samples = 4;  ///< 1 or 4
   Blend blend = Blend::kAdditive;
+  /// Blend::kPremultiplied takes four samples in place of coverage, which is kept in alpha.
+  Edges edges = Edges::kCoverage;
   std::string
       device;  ///< part of a device's name ("llvmpipe"); empty: the best GPU, or else lavapipe
   bool validation = false;

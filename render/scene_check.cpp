@@ -264,9 +264,6 @@ Status check_options(const RendererOptions& options) {
       return Error{"renderer: image side " + std::to_string(side_px) + " px, expected 16 to 8192"};
     }
   }
-  if (options.samples != 1 && options.samples != 4) {
-    return Error{"renderer: " + std::to_string(options.samples) + " samples, expected 1 or 4"};
-  }
   return {};
 }
 

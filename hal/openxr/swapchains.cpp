@@ -94,8 +94,9 @@ Status Swapchains::add_chain(XrSession session, Content content) {
   const bool depth = content == Content::kDepth;
   XrSwapchainCreateInfo info = {XR_TYPE_SWAPCHAIN_CREATE_INFO};
   info.usageFlags =
-      XR_SWAPCHAIN_USAGE_SAMPLED_BIT | (depth ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-                                              : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT);
+      XR_SWAPCHAIN_USAGE_SAMPLED_BIT |
+      (depth ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+             : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_TRANSFER_SRC_BIT);
   info.format = depth ? images_.depth_format : images_.format;
   info.sampleCount = 1;  // multisampled images are resolved into it
   info.width = static_cast<std::uint32_t>(images_.width_px);

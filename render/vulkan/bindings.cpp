@@ -9,9 +9,10 @@ namespace orthonav::render {
 namespace {
 
 constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-constexpr std::array<VkDescriptorType, 4> kTypes = {
+constexpr std::array<VkDescriptorType, 5> kTypes = {
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 Sampler make_sampler(VkDevice device, VkFilter filter) {
   VkSamplerCreateInfo info = {};
@@ -58,7 +59,7 @@ PipelineLayout make_layout(VkDevice device, const VkDescriptorSetLayout& set_lay
 
 DescriptorPool make_pool(VkDevice device) {
   const std::array<VkDescriptorPoolSize, 3> sizes = {
-      {{kTypes[0], 1}, {kTypes[1], 1}, {kTypes[2], 2}}};
+      {{kTypes[0], 1}, {kTypes[1], 1}, {kTypes[2], 3}}};
   VkDescriptorPoolCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   info.maxSets = 1;
@@ -95,6 +96,9 @@ void Bindings::bind_atlas(const DeviceImage& atlas) const {
 }
 void Bindings::bind_background(const DeviceImage& background) const {
   bind_image(3, background.view(), nearest_.get());
+}
+void Bindings::bind_drawn(const DeviceImage& drawn) const {
+  bind_image(4, drawn.view(), nearest_.get());
 }
 
 void Bindings::bind_buffer(std::uint32_t binding, VkBuffer buffer, VkDeviceSize range) const {

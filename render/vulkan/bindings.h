@@ -15,6 +15,8 @@ class Bindings {
   void bind_data(const Buffer& data) const;
   void bind_atlas(const DeviceImage& atlas) const;
   void bind_background(const DeviceImage& background) const;
+  /// What was drawn so far, where surfaces' edges are smoothed.
+  void bind_drawn(const DeviceImage& drawn) const;
   [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
   [[nodiscard]] const VkDescriptorSet& set() const { return set_; }
 

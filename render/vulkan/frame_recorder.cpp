@@ -1,7 +1,9 @@
 #include "render/vulkan/frame_recorder.h"
 
+#include <algorithm>
 #include <array>
 
+#include "render/vulkan/commands.h"
 #include "render/vulkan/gpu_types.h"
 
 namespace orthonav::render {
@@ -36,7 +38,7 @@ class Recording {
   Recording(VkCommandBuffer commands, const FrameSources& sources, const PixelRect& region)
       : commands_(commands), sources_(sources), region_(region) {}
 
-  void begin() const {
+  void begin(PassPart part) const {
     std::array<VkClearValue, 3> clear = {};
     // Colour is cleared to black, opaque or fully transparent; a label to 0 everywhere.
     if (sources_.pass.targets.spec().kind == PassKind::kColour) {
@@ -45,11 +47,13 @@ class Recording {
     clear[draws_depth() ? 0 : 1].depthStencil = {1.0f, 0};
     VkRenderPassBeginInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-    info.renderPass = sources_.pass.targets.pass();
+    info.renderPass = sources_.pass.targets.pass(part);
     info.framebuffer = sources_.pass.targets.framebuffer(sources_.outer);
     info.renderArea = rect_of(region_);
-    info.clearValueCount = draws_depth() ? 1 : 2;
-    info.pClearValues = clear.data();
+    if (part != PassPart::kClosing) {
+      info.clearValueCount = draws_depth() ? 1 : 2;
+      info.pClearValues = clear.data();
+    }
     vkCmdBeginRenderPass(commands_, &info, VK_SUBPASS_CONTENTS_INLINE);
     vkCmdSetScissor(commands_, 0, 1, &info.renderArea);
     vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, sources_.bindings.layout(),
@@ -95,6 +99,9 @@ class Recording {
   }
 
   void lines() const {
+    if (covers()) {
+      return covered_lines();
+    }
     bool bound = false;
     bool first = true;
     std::uint32_t stencil = 0;
@@ -112,8 +119,7 @@ class Recording {
       }
       first = false;
       item = draw.item;
-      const std::uint32_t rounded = draw.rounded ? 1 : 0;
-      push({kIdentity, draw.colour, {draw.width_m}, {draw.label, draw.first, 0, rounded}});
+      push_line(draw);
       if (draw.rounded) {
         vkCmdDrawIndexed(commands_, draw.count * kIndicesPerSegment, 1, 0, 0, 0);
       } else {
@@ -136,9 +142,16 @@ class Recording {
   }
 
   void everything() const {
-    begin();
+    const PixelRect smoothed = edges_within();
+    begin(smoothed.empty() ? PassPart::kWhole : PassPart::kOpening);
     background();
     meshes();
+    if (!smoothed.empty()) {
+      vkCmdEndRenderPass(commands_);
+      copy_drawn(smoothed);
+      begin(PassPart::kClosing);
+      edges();
+    }
     triangles();
     lines();
     texts();
@@ -192,6 +205,86 @@ class Recording {
     vkCmdPushConstants(commands_, sources_.bindings.layout(),
                        VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(item),
                        &item);
+  }
+
+  void push_line(const SpanDraw& draw) const {
+    const std::uint32_t rounded = draw.rounded ? 1 : 0;
+    push({kIdentity, draw.colour, {draw.width_m}, {draw.label, draw.first, 0, rounded}});
+  }
+
+  [[nodiscard]] bool covers() const { return sources_.pass.targets.spec().covers(); }
+
+  /// All of one line into alpha, which then says how much of its colour is added; the stencil is
+  /// not needed.
+  void covered_lines() const {
+    const std::vector<SpanDraw>& draws = sources_.items.lines();
+    bool indexed = false;
+    for (std::size_t i = 0; i < draws.size();) {
+      const std::size_t first = i;
+      while (i < draws.size() && draws[i].item == draws[first].item) {
+        ++i;
+      }
+      for (const Stage stage : {Stage::kLineCover, Stage::kLineColour}) {
+        bool bound = false;
+        for (std::size_t k = first; k < i; ++k) {
+          if (!shows(draws[k].bounds, stage, bound)) {
+            continue;
+          }
+          if (!indexed) {
+            vkCmdBindIndexBuffer(commands_, sources_.line_indices.get(), 0, VK_INDEX_TYPE_UINT32);
+            indexed = true;
+          }
+          push_line(draws[k]);
+          vkCmdDrawIndexed(
+              commands_, draws[k].count * kIndicesPerQuad, 1,
+              (kIndicesPerSegment + kIndicesPerQuad) * line_capacity(sources_.line_indices), 0, 0);
+        }
+      }
+    }
+  }
+
+  /// The part of the region whose pixels edges of meshes may cut; empty where there are none.
+  [[nodiscard]] PixelRect edges_within() const {
+    PixelRect rect;
+    if (!covers() || (sources_.edges[0].count == 0 && sources_.edges[1].count == 0)) {
+      return rect;
+    }
+    for (const auto* meshes : {&sources_.items.translucent_meshes(), &sources_.items.solids()}) {
+      for (const MeshDraw& draw : *meshes) {
+        if (touch(draw.bounds, region_)) {
+          rect = joined(rect, draw.bounds);
+        }
+      }
+    }
+    return rect;
+  }
+
+  void edges() const {
+    const auto& [left, right] = sources_.edges;
+    const bool both = sources_.pass.targets.spec().views == 2;
+    bool bound = false;
+    if (shows(region_, Stage::kEdge, bound)) {
+      push({kIdentity, {}, {}, {left.first, right.first, left.count, right.count}});
+      vkCmdDraw(commands_, 6 * (both ? std::max(left.count, right.count) : left.count), 1, 0, 0);
+    }
+  }
+
+  void copy_drawn(const PixelRect& part) const {
+    const TargetSpec& spec = sources_.pass.targets.spec();
+    change_layout(commands_, {sources_.drawn, kMostViews, VK_IMAGE_LAYOUT_UNDEFINED,
+                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL});
+    VkImageCopy copy = {};
+    copy.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, spec.views};
+    copy.dstSubresource = copy.srcSubresource;
+    copy.srcOffset = {part.left, part.top, 0};
+    copy.dstOffset = copy.srcOffset;
+    const VkRect2D rect = rect_of(part);
+    copy.extent = {rect.extent.width, rect.extent.height, 1};
+    vkCmdCopyImage(commands_, sources_.pass.targets.drawn(sources_.outer),
+                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, sources_.drawn,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    change_layout(commands_, {sources_.drawn, kMostViews, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
   }
 
   /// Clears depth or stencil of every view, as at the frame's beginning.

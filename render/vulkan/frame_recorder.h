@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "render/frame_items.h"
 #include "render/vulkan/bindings.h"
 #include "render/vulkan/mesh_cache.h"
@@ -26,10 +28,22 @@ inline constexpr std::uint32_t kIndicesPerSegment = 36;
 /// Indices of a segment without discs at its ends. In the buffer of indices these come after all
 /// the others.
 inline constexpr std::uint32_t kIndicesPerQuad = 6;
+/// After these, as many indices of the rectangles that line_cover.vert makes.
+inline constexpr std::uint32_t kLineIndexBytes = 4 * (kIndicesPerSegment + 2 * kIndicesPerQuad);
 /// How many segments a buffer of indices serves.
 [[nodiscard]] inline std::uint32_t line_capacity(const Buffer& indices) {
-  return static_cast<std::uint32_t>(indices.size() / (4 * (kIndicesPerSegment + kIndicesPerQuad)));
+  return static_cast<std::uint32_t>(indices.size() / kLineIndexBytes);
 }
+
+inline constexpr std::uint32_t kMostViews = 2;
+
+/// Edges of meshes in one view: where they begin in the data, and how many there are.
+struct EdgeRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+/// By view of a pass.
+using EdgeRanges = std::array<EdgeRange, kMostViews>;
 
 /// What the commands of one frame are made from; nothing here is owned.
 struct FrameSources {
@@ -43,6 +57,8 @@ struct FrameSources {
   std::uint32_t frame_offset = 0;  ///< of the pass's GpuFrame in the bound buffer
   bool has_background = false;
   std::size_t outer = 0;  ///< which of the targets' outer images
+  EdgeRanges edges = {};
+  VkImage drawn = VK_NULL_HANDLE;  ///< where what is drawn is copied before edges are smoothed
 };
 
 /// Records drawing the regions that hold holograms, and the copy of each into its place in the

@@ -160,6 +160,7 @@ void HostedVulkanRenderer::upload_blank_background() {
   fill_image(commands.begin(), {black, background_, {1, 1}, 4, kMostViews, kMostViews}, {&all, 1});
   commands.run();
   drawing_.bind_background(background_);
+  drawing_.bind_drawn(background_);
 }
 
 /// No exception leaves it.
@@ -200,7 +201,7 @@ void HostedVulkanRenderer::make_passes() {
   TargetSpec spec;
   spec.width = static_cast<std::uint32_t>(images_.width_px);
   spec.height = static_cast<std::uint32_t>(images_.height_px);
-  spec.samples = options_.samples == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+  spec.edges = drawn_edges(options_);
   spec.colour = static_cast<VkFormat>(images_.format);
   spec.views = images_.layers;
   spec.outer = outer_images(images_.chains);
@@ -212,6 +213,16 @@ void HostedVulkanRenderer::make_passes() {
     spec.outer = outer_images(images_.depth_chains);
     depth_pass_ = std::make_unique<FramePass>(device_, drawing_.cache(), drawing_.layout(), spec,
                                               options_.blend);
+  }
+  if (spec.edges == Edges::kCoverage) {
+    ImageSpec copied;
+    copied.format = spec.colour;
+    copied.width = spec.width;
+    copied.height = spec.height;
+    copied.layers = kMostViews;
+    copied.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    drawn_so_far_ = DeviceImage(device_, copied);
+    drawing_.bind_drawn(drawn_so_far_);
   }
   pass_ = std::move(pass);
 }
@@ -252,7 +263,8 @@ void HostedVulkanRenderer::record(const std::vector<View>& views,
     const auto frame = static_cast<std::uint32_t>(first * kFrameStride);
     const auto draw = [&](const FramePass& pass, std::size_t outer) {
       record_outer_frame(batch, {pass, slot.bindings, drawing_.meshes(), drawing_.items(),
-                                 slot.line_indices, nobody_reads, 0, frame, false, outer});
+                                 slot.line_indices, nobody_reads, 0, frame, false, outer,
+                                 drawing_.edges(first), drawn_so_far_.get()});
     };
     draw(*pass_, first * images_.chains.front().size() + indices[first]);
     if (depth_pass_) {
@@ -272,7 +284,8 @@ Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& v
     if (!pass_ || views.size() != kMostViews || !holds(images_, indices)) {
       return Error{"renderer: no such images of the host's"};
     }
-    drawing_.build(scene, views, {images_.width_px, images_.height_px});
+    drawing_.build(scene, views, {images_.width_px, images_.height_px},
+                   drawn_edges(options_) == Edges::kCoverage);
     record(views, indices);
     timing_.record_ms = watch.elapsed_ms();
     drawing_.slot().commands.submit();

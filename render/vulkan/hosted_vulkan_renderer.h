@@ -55,7 +55,8 @@ class HostedVulkanRenderer final : public HostedRenderer {
   DeviceInfo info_;
   Device device_;
   SceneDrawing drawing_;
-  DeviceImage background_;  ///< of one pixel: shaders want one bound
+  DeviceImage background_;    ///< of one pixel: shaders want one bound
+  DeviceImage drawn_so_far_;  ///< where coverage is computed
   EyeImages images_;
   std::unique_ptr<FramePass> pass_;
   std::unique_ptr<FramePass> depth_pass_;  ///< where the host wants depth

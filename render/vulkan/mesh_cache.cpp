@@ -38,7 +38,7 @@ Buffer uploaded(const Device& device, Commands& commands, const void* bytes, std
   return buffer;
 }
 
-GpuMesh copy_of(const Device& device, Commands& commands, const MeshData& mesh) {
+GpuMesh copy_of(const Device& device, Commands& commands, const MeshData& mesh, bool edges) {
   GpuMesh copy;
   copy.index_count = static_cast<std::uint32_t>(mesh.indices.size());
   copy.box = box_of(mesh);
@@ -46,6 +46,9 @@ GpuMesh copy_of(const Device& device, Commands& commands, const MeshData& mesh) 
     return copy;
   }
   const std::vector<GpuVertex> vertices = vertices_of(mesh);
+  if (edges) {
+    copy.edges = SurfaceEdges(mesh);
+  }
   copy.vertices = uploaded(device, commands, vertices.data(), vertices.size() * sizeof(GpuVertex),
                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
   copy.indices =
@@ -86,9 +89,10 @@ Status MeshCache::add(const Device& device, Commands& commands,
   if (mesh->indices.size() > 3 * detail.enough_triangles) {
     entry.copy = copy_of(
         device, commands,
-        decimated(simplified(*mesh, detail.enough_triangles, detail.error), detail.most_triangles));
+        decimated(simplified(*mesh, detail.enough_triangles, detail.error), detail.most_triangles),
+        detail.edges);
   } else {
-    entry.copy = copy_of(device, commands, *mesh);
+    entry.copy = copy_of(device, commands, *mesh, detail.edges);
   }
   entries_.push_back(std::move(entry));
   return {};

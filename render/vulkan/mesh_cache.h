@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "render/renderer.h"
 #include "render/screen_bounds.h"
+#include "render/surface_edges.h"
 #include "render/vulkan/commands.h"
 #include "render/vulkan/memory.h"
 
@@ -16,6 +17,7 @@ struct MeshDetail {
   float error = 0;                        ///< allowed for leaving triangles out; 0: all stay
   std::size_t enough_triangles = 14'000;  ///< with fewer, simplifying does not pay
   std::size_t most_triangles = 250'000;   ///< whatever the error
+  bool edges = false;                     ///< whether they are wanted
 };
 
 /// The copy of a mesh on the device.
@@ -24,6 +26,7 @@ struct GpuMesh {
   Buffer indices;
   std::uint32_t index_count = 0;  ///< 0: an empty mesh draws nothing
   Box box;
+  SurfaceEdges edges;  ///< of what is drawn, where they are wanted
 };
 
 /// Device copies of meshes, keyed by pointer. A copy is dropped when nobody else holds the mesh any

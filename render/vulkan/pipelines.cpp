@@ -4,102 +4,11 @@
 #include <string_view>
 #include <vector>
 
-#include "embedded/background_frag.h"
-#include "embedded/background_vert.h"
-#include "embedded/flat_frag.h"
-#include "embedded/label_frag.h"
-#include "embedded/line_vert.h"
-#include "embedded/mesh_solid_frag.h"
-#include "embedded/mesh_veil_frag.h"
-#include "embedded/mesh_vert.h"
-#include "embedded/text_depth_frag.h"
-#include "embedded/text_frag.h"
-#include "embedded/text_label_frag.h"
-#include "embedded/text_vert.h"
-#include "embedded/triangle_vert.h"
 #include "render/vulkan/failure.h"
 #include "render/vulkan/gpu_types.h"
 
 namespace orthonav::render {
 namespace {
-
-/// How a stage differs from the others.
-struct Recipe {
-  std::string_view vertex;
-  std::string_view fragment;  ///< empty: depth alone
-  bool mesh = false;          ///< reads vertices
-  bool blends = false;
-  bool depth_test = false;
-  bool depth_write = false;
-  VkCompareOp depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
-  bool stencil = false;
-};
-
-/// For the three stages that draw meshes.
-Recipe mesh_recipe(std::string_view fragment, bool blends, bool depth_write,
-                   VkCompareOp depth_compare) {
-  Recipe recipe;
-  recipe.vertex = embedded::mesh_vert();
-  recipe.fragment = fragment;
-  recipe.mesh = recipe.depth_test = true;
-  recipe.blends = blends;
-  recipe.depth_write = depth_write;
-  recipe.depth_compare = depth_compare;
-  return recipe;
-}
-
-/// For what is drawn over the meshes without hiding anything.
-Recipe overlay_recipe(std::string_view vertex, std::string_view fragment, bool depth_test) {
-  Recipe recipe;
-  recipe.vertex = vertex;
-  recipe.fragment = fragment;
-  recipe.blends = true;
-  recipe.depth_test = depth_test;
-  return recipe;
-}
-
-Recipe recipe_of(Stage stage, PassKind kind) {
-  const bool labels = kind == PassKind::kLabels;
-  const std::string_view flat = labels ? embedded::label_frag() : embedded::flat_frag();
-  switch (stage) {
-    case Stage::kBackground: {
-      Recipe recipe;
-      recipe.vertex = embedded::background_vert();
-      recipe.fragment = embedded::background_frag();
-      return recipe;
-    }
-    case Stage::kDepth:
-      return mesh_recipe({}, false, true, VK_COMPARE_OP_LESS);
-    case Stage::kTranslucent:
-      return mesh_recipe(labels ? flat : embedded::mesh_veil_frag(), false, true,
-                         VK_COMPARE_OP_LESS);
-    case Stage::kSolid:
-      return mesh_recipe(labels ? flat : embedded::mesh_solid_frag(), true, false,
-                         VK_COMPARE_OP_EQUAL);
-    case Stage::kTriangle:
-      return overlay_recipe(embedded::triangle_vert(), flat, true);
-    case Stage::kLine: {
-      Recipe recipe = overlay_recipe(embedded::line_vert(), flat, true);
-      recipe.stencil = true;
-      return recipe;
-    }
-    case Stage::kText:
-    case Stage::kCount:
-      break;
-  }
-  return overlay_recipe(embedded::text_vert(),
-                        labels ? embedded::text_label_frag() : embedded::text_frag(), false);
-}
-
-/// The stage as it is drawn, but for its depth alone; text stands in front of everything.
-Recipe depth_recipe_of(Stage stage) {
-  Recipe recipe = recipe_of(stage, PassKind::kLabels);
-  recipe.fragment = stage == Stage::kText ? embedded::text_depth_frag() : std::string_view{};
-  recipe.stencil = false;
-  recipe.depth_test = recipe.depth_write = true;
-  recipe.depth_compare = stage == Stage::kText ? VK_COMPARE_OP_ALWAYS : VK_COMPARE_OP_LESS;
-  return recipe;
-}
 
 ShaderModule make_module(VkDevice device, std::string_view spirv) {
   // Embedded bytes have no alignment; SPIR-V consists of words.
@@ -126,7 +35,7 @@ VkPipelineColorBlendAttachmentState blend_state(const Recipe& recipe, PassKind k
   if (recipe.fragment.empty()) {
     state.colorWriteMask = 0;
   }
-  state.blendEnable = recipe.blends && kind == PassKind::kColour;
+  state.blendEnable = recipe.mix != Mix::kReplace && kind == PassKind::kColour;
   state.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
   state.dstColorBlendFactor =
       blend == Blend::kAdditive ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
@@ -134,6 +43,17 @@ VkPipelineColorBlendAttachmentState blend_state(const Recipe& recipe, PassKind k
   state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
   state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   state.alphaBlendOp = VK_BLEND_OP_ADD;
+  if (recipe.mix == Mix::kCoverAlpha) {
+    state.colorWriteMask = VK_COLOR_COMPONENT_A_BIT;
+    state.alphaBlendOp = VK_BLEND_OP_MIN;
+  }
+  if (recipe.mix == Mix::kByAlpha) {
+    state.colorWriteMask |= VK_COLOR_COMPONENT_A_BIT;
+    state.srcColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_DST_ALPHA;
+    state.dstColorBlendFactor =
+        blend == Blend::kAdditive ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_DST_ALPHA;
+    state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+  }
   return state;
 }
 
@@ -197,7 +117,7 @@ struct States {
     raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.lineWidth = 1;
     multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-    multisample.rasterizationSamples = target.samples;
+    multisample.rasterizationSamples = target.samples();
     depth = depth_state(recipe);
     attachment = blend_state(recipe, target.kind, mode);
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
@@ -254,13 +174,10 @@ Pipelines::Pipelines(const Device& device, VkPipelineCache cache, VkPipelineLayo
                      const Targets& targets, Blend blend) {
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    const PassKind kind = targets.spec().kind;
-    if (stage == Stage::kBackground && kind != PassKind::kColour) {
-      continue;
+    if (has_stage(stage, targets.spec())) {
+      pipelines_[i] =
+          make_pipeline(device, cache, layout, targets, recipe_of(stage, targets.spec()), blend);
     }
-    const Recipe recipe =
-        kind == PassKind::kDepth ? depth_recipe_of(stage) : recipe_of(stage, kind);
-    pipelines_[i] = make_pipeline(device, cache, layout, targets, recipe, blend);
   }
 }
 

@@ -2,21 +2,9 @@
 
 #include <array>
 
-#include "render/vulkan/targets.h"
+#include "render/vulkan/recipes.h"
 
 namespace orthonav::render {
-
-/// What a frame is drawn with, in this order.
-enum class Stage {
-  kBackground,   ///< the image behind everything; colour only
-  kDepth,        ///< solids into the depth alone
-  kTranslucent,  ///< see-through meshes: the nearest surface replaces what is there
-  kSolid,        ///< the nearest solid surface, blended
-  kTriangle,
-  kLine,  ///< the stencil lets each item touch a sample once
-  kText,  ///< in front of everything: a number is never hidden
-  kCount
-};
 
 /// One pipeline per stage, for one kind of target.
 class Pipelines {

@@ -37,6 +37,12 @@ void write_line_indices(const Buffer& buffer) {
       *out++ = segment * kCornersPerSegment + corner;
     }
   }
+  for (std::uint32_t segment = 0; segment < segments; ++segment) {
+    constexpr std::array<std::uint32_t, kIndicesPerQuad> kHalves = {0, 1, 2, 2, 1, 3};
+    for (const std::uint32_t corner : kHalves) {
+      *out++ = segment * 4 + corner;
+    }
+  }
 }
 
 /// How far a line may be off unnoticed: kUnseen_px where pixels are smallest.
@@ -99,6 +105,12 @@ void SceneDrawing::bind_background(const DeviceImage& background) {
   }
 }
 
+void SceneDrawing::bind_drawn(const DeviceImage& drawn) {
+  for (const auto& slot : slots_) {
+    slot->bindings.bind_drawn(drawn);
+  }
+}
+
 void SceneDrawing::choose_views_a_pass() {
   if (options_.eyes_a_pass != EyesAPass::kProbe) {
     views_a_pass_ = options_.eyes_a_pass == EyesAPass::kTwo ? 2 : 1;
@@ -135,6 +147,7 @@ Status SceneDrawing::add_mesh(const MeshItem& item, const std::string& name) {
   const Matrix4& place = item.world_from_model;
   MeshDetail detail;
   detail.error = options_.surface_error_m / length({place[0], place[1], place[2]});
+  detail.edges = drawn_edges(options_) == Edges::kCoverage;
   if (const Status added = meshes_.add(device_, slot().commands, item.mesh, detail); !added) {
     return Error{name + ": " + added.error().message, added.error().code};
   }
@@ -187,22 +200,46 @@ Status SceneDrawing::take(const Scene& scene) {
   return {};
 }
 
-void SceneDrawing::build(const Scene& scene, const std::vector<View>& views, PixelSize size) {
+void SceneDrawing::build(const Scene& scene, const std::vector<View>& views, PixelSize size,
+                         bool covers) {
   items_.build(scene, views, font_, unseen_rad(views, size));
+  edges_.clear();
+  edges_of_view_ = {};
+  if (covers) {
+    find_edges(views, size);
+  }
   prepare_data();
+}
+
+void SceneDrawing::find_edges(const std::vector<View>& views, PixelSize size) {
+  const auto number = [](std::size_t count) { return static_cast<std::uint32_t>(count); };
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::uint32_t first = number(edges_.size());
+    for (const auto* meshes : {&items_.translucent_meshes(), &items_.solids()}) {
+      for (const MeshDraw& draw : *meshes) {
+        if (const GpuMesh* copy = meshes_.find(draw.item->mesh)) {
+          copy->edges.seen_by(views[i], size, draw.item->world_from_model, faces_, edges_);
+        }
+      }
+    }
+    edges_of_view_[i] = {number(items_.data().size()) + first, number(edges_.size()) - first};
+  }
 }
 
 void SceneDrawing::prepare_data() {
   FrameSlot& slot = this->slot();
-  const std::size_t bytes = items_.data().size() * sizeof(Float4);
+  const std::size_t item_bytes = items_.data().size() * sizeof(Float4);
+  const std::size_t bytes = item_bytes + edges_.size() * sizeof(Float4);
   if (slot.data.size() < bytes || slot.data.size() == 0) {
     slot.data =
         Buffer(device_, grown(bytes), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::kUpload);
     slot.bindings.bind_data(slot.data);
   }
-  slot.data.write(items_.data().data(), bytes);
-  const std::size_t index_bytes =
-      4ul * (kIndicesPerSegment + kIndicesPerQuad) * items_.most_segments();
+  slot.data.write(items_.data().data(), item_bytes);
+  if (!edges_.empty()) {
+    slot.data.write(edges_.data(), bytes - item_bytes, item_bytes);
+  }
+  const std::size_t index_bytes = std::size_t{kLineIndexBytes} * items_.most_segments();
   if (slot.line_indices.size() < index_bytes || slot.line_indices.size() == 0) {
     slot.line_indices =
         Buffer(device_, grown(index_bytes), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, BufferPlace::kUpload);

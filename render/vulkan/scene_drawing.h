@@ -18,8 +18,6 @@
 
 namespace orthonav::render {
 
-inline constexpr std::uint32_t kMostViews = 2;
-
 /// What belongs to a frame until the device has drawn it.
 struct FrameSlot {
   explicit FrameSlot(const Device& device);
@@ -41,6 +39,8 @@ class SceneDrawing {
 
   /// What is behind the holograms, for all slots; before the first frame.
   void bind_background(const DeviceImage& background);
+  /// Where what is drawn is copied for the smoothing of surfaces' edges, for all slots.
+  void bind_drawn(const DeviceImage& drawn);
   /// How many views a pass draws, according to the options or to a test of the device; needs a
   /// background.
   void choose_views_a_pass();
@@ -54,8 +54,13 @@ class SceneDrawing {
 
   /// Checks the scene and uploads its meshes.
   [[nodiscard]] Status take(const Scene& scene);
-  /// Lays the scene out for these views in images of this size, into the current slot.
-  void build(const Scene& scene, const std::vector<View>& views, PixelSize size);
+  /// Lays the scene out for these views in images of this size, into the current slot; surfaces'
+  /// edges too where coverage is computed.
+  void build(const Scene& scene, const std::vector<View>& views, PixelSize size, bool covers);
+  /// The edges of the pass whose first view is `first`.
+  [[nodiscard]] EdgeRanges edges(std::size_t first) const {
+    return {edges_of_view_[first], edges_of_view_[(first + 1) % kMostViews]};
+  }
   /// For the pass whose first view is `first`: places its items and passes its views to the
   /// shaders.
   void place(std::span<const View> views, std::size_t first, PixelSize size, bool has_background);
@@ -71,6 +76,7 @@ class SceneDrawing {
 
  private:
   void upload_atlas();
+  void find_edges(const std::vector<View>& views, PixelSize size);
   void prepare_data();
   Status add_mesh(const MeshItem& item, const std::string& name);
   void note(std::string line);
@@ -83,6 +89,9 @@ class SceneDrawing {
   std::size_t now_ = 0;
   Font font_;
   FrameItems items_;
+  std::vector<Float4> edges_;  ///< of meshes in each view, as in SurfaceEdges
+  EdgeRanges edges_of_view_;
+  std::vector<std::uint8_t> faces_;
   MeshCache meshes_;
   DeviceImage atlas_;
   std::vector<std::string> notes_;

@@ -92,9 +92,6 @@ ImageView view_of(const Device& device, const TargetSpec& spec, VkImage outer) {
 }  // namespace
 
 Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
-  if (spec.kind != PassKind::kColour) {
-    spec_.samples = VK_SAMPLE_COUNT_1_BIT;
-  }
   if (spec.kind == PassKind::kLabels) {
     spec_.colour = kLabelFormat;
   }
@@ -105,7 +102,11 @@ Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
     make_depth_pass(device);
   } else {
     make_images(device);
-    make_pass(device);
+    make_pass(device, PassPart::kWhole);
+    if (spec_.covers()) {
+      make_pass(device, PassPart::kOpening);
+      make_pass(device, PassPart::kClosing);
+    }
   }
   make_framebuffers(device);
 }
@@ -116,7 +117,7 @@ void Targets::make_images(const Device& device) {
   image.width = spec_.width;
   image.height = spec_.height;
   image.layers = spec_.views;
-  image.samples = spec_.samples;
+  image.samples = spec_.samples();
   image.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   if (!resolves()) {
     image.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
@@ -168,20 +169,34 @@ Framebuffer Targets::framebuffer_of(const Device& device, VkImageView result) co
 }
 
 /// Colour, depth and, where samples are resolved, the result.
-std::array<VkAttachmentDescription, 3> Targets::attachments(VkFormat colour, VkFormat depth) const {
+std::array<VkAttachmentDescription, 3> Targets::attachments(VkFormat depth, PassPart part) const {
   constexpr auto kDrop = VK_ATTACHMENT_STORE_OP_DONT_CARE;
   constexpr auto kKeep = VK_ATTACHMENT_STORE_OP_STORE;
   const VkImageLayout read = spec_.outer.empty() ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
                                                  : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-  return {attachment(colour, spec_.samples, VK_ATTACHMENT_LOAD_OP_CLEAR, resolves() ? kDrop : kKeep,
-                     resolves() ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : read),
-          attachment(depth, spec_.samples, VK_ATTACHMENT_LOAD_OP_CLEAR, kDrop,
-                     VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
-          attachment(colour, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_DONT_CARE, kKeep, read)};
+  std::array<VkAttachmentDescription, 3> described = {
+      attachment(spec_.colour, spec_.samples(), VK_ATTACHMENT_LOAD_OP_CLEAR,
+                 resolves() ? kDrop : kKeep,
+                 resolves() ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : read),
+      attachment(depth, spec_.samples(), VK_ATTACHMENT_LOAD_OP_CLEAR, kDrop,
+                 VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
+      attachment(spec_.colour, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_DONT_CARE, kKeep,
+                 read)};
+  if (part == PassPart::kOpening) {
+    described[0].finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    described[1].storeOp = kKeep;
+  }
+  if (part == PassPart::kClosing) {
+    described[0].initialLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    described[1].initialLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    described[0].loadOp = described[1].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    described[1].stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+  }
+  return described;
 }
 
-void Targets::make_pass(const Device& device) {
-  const auto described = attachments(spec_.colour, device.depth_format());
+void Targets::make_pass(const Device& device, PassPart part) {
+  const auto described = attachments(device.depth_format(), part);
   const VkAttachmentReference colour = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
   const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
   const VkAttachmentReference result = {2, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
@@ -202,7 +217,7 @@ void Targets::make_pass(const Device& device) {
   info.pSubpasses = &subpass;
   info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
   info.pDependencies = dependencies.data();
-  set_pass(device, info);
+  set_pass(device, info, part);
 }
 
 void Targets::make_depth_pass(const Device& device) {
@@ -228,14 +243,14 @@ void Targets::make_depth_pass(const Device& device) {
 }
 
 /// All views at once.
-void Targets::set_pass(const Device& device, VkRenderPassCreateInfo info) {
+void Targets::set_pass(const Device& device, VkRenderPassCreateInfo info, PassPart part) {
   const std::uint32_t view_mask = (1u << spec_.views) - 1;
   const VkRenderPassMultiviewCreateInfo multiview = all_at_once(view_mask);
   info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
   info.pNext = &multiview;
   VkRenderPass pass = VK_NULL_HANDLE;
   check(vkCreateRenderPass(device.get(), &info, nullptr, &pass), "render pass");
-  pass_ = RenderPass(device.get(), pass);
+  passes_[static_cast<std::size_t>(part)] = RenderPass(device.get(), pass);
 }
 
 }  // namespace orthonav::render

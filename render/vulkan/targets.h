@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "render/renderer.h"
 #include "render/vulkan/memory.h"
 
 namespace orthonav::render {
@@ -13,17 +14,40 @@ enum class PassKind {
   kDepth  ///< of everything that shows, for somebody else to know how far it is
 };
 
+/// How edges are drawn, whatever was asked for: alpha can't hold both the coverage of lines and
+/// what somebody else is to see of the world.
+[[nodiscard]] inline Edges drawn_edges(const RendererOptions& options) {
+  const bool full = options.blend == Blend::kPremultiplied && options.edges == Edges::kCoverage;
+  return full ? Edges::kSamples : options.edges;
+}
+
 struct TargetSpec {
   PassKind kind = PassKind::kColour;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint32_t views = 1;
-  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  ///< one but for colour, whatever is asked
+  Edges edges = Edges::kHard;  ///< of colour; all else is as hard as it comes
   VkFormat colour = kColourFormat;
   VkFormat depth = VK_FORMAT_UNDEFINED;  ///< of the outer images, where depth alone is drawn
   /// Someone else's images with as many layers as there are views, one of which receives the result
   /// at a time; empty: the targets have an image of their own.
   std::vector<VkImage> outer;
+
+  /// Whether the coverage of pixels is computed.
+  [[nodiscard]] bool covers() const {
+    return kind == PassKind::kColour && edges == Edges::kCoverage;
+  }
+  [[nodiscard]] VkSampleCountFlagBits samples() const {
+    const bool several = kind == PassKind::kColour && edges == Edges::kSamples;
+    return several ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+  }
+};
+
+/// A part of a frame between a begin and an end.
+enum class PassPart {
+  kWhole,
+  kOpening,  ///< what is drawn can be copied, and
+  kClosing   ///< drawn on
 };
 
 /// The images of one kind of frame, one layer a view, and the pass that draws into all layers at
@@ -32,22 +56,30 @@ class Targets {
  public:
   Targets(const Device& device, const TargetSpec& spec);
   [[nodiscard]] const TargetSpec& spec() const { return spec_; }
-  [[nodiscard]] VkRenderPass pass() const { return pass_.get(); }
+  /// Parts other than the whole are of colour with computed coverage alone.
+  [[nodiscard]] VkRenderPass pass(PassPart part = PassPart::kWhole) const {
+    return passes_[static_cast<std::size_t>(part)].get();
+  }
   /// `outer`: an index into the outer images, where there are some.
   [[nodiscard]] VkFramebuffer framebuffer(std::size_t outer = 0) const {
     return framebuffers_[outer].get();
   }
   /// The single-sample image to read, where it is the targets' own.
   [[nodiscard]] VkImage result() const { return resolves() ? result_.get() : colour_.get(); }
-  [[nodiscard]] bool resolves() const { return spec_.samples != VK_SAMPLE_COUNT_1_BIT; }
+  /// The image that is drawn into, where nothing is resolved.
+  [[nodiscard]] VkImage drawn(std::size_t outer) const {
+    return spec_.outer.empty() ? colour_.get() : spec_.outer[outer];
+  }
+  [[nodiscard]] bool resolves() const { return spec_.samples() != VK_SAMPLE_COUNT_1_BIT; }
 
  private:
-  [[nodiscard]] std::array<VkAttachmentDescription, 3> attachments(VkFormat colour,
-                                                                   VkFormat depth) const;
+  [[nodiscard]] std::array<VkAttachmentDescription, 3> attachments(VkFormat depth,
+                                                                   PassPart part) const;
   void make_images(const Device& device);
-  void make_pass(const Device& device);
+  void make_pass(const Device& device, PassPart part);
   void make_depth_pass(const Device& device);
-  void set_pass(const Device& device, VkRenderPassCreateInfo info);
+  void set_pass(const Device& device, VkRenderPassCreateInfo info,
+                PassPart part = PassPart::kWhole);
   void make_framebuffers(const Device& device);
   Framebuffer framebuffer_of(const Device& device, VkImageView result) const;
 
@@ -56,7 +88,7 @@ class Targets {
   DeviceImage depth_;
   DeviceImage result_;  ///< of the resolve; empty with one sample
   std::vector<ImageView> outer_;
-  RenderPass pass_;
+  std::array<RenderPass, 3> passes_;  ///< by part
   std::vector<Framebuffer> framebuffers_;
 };
 

@@ -71,6 +71,10 @@ void VulkanRenderer::upload_blank_background() {
       {&all, 1});
   commands.run();
   drawing_.bind_background(background_);
+  if (drawn_edges(options_) == Edges::kCoverage) {
+    drawn_so_far_ = DeviceImage(device_, spec);
+  }
+  drawing_.bind_drawn(drawn_edges(options_) == Edges::kCoverage ? drawn_so_far_ : background_);
 }
 
 const FramePass& VulkanRenderer::pass_for(PassKind kind, std::size_t views) {
@@ -81,7 +85,7 @@ const FramePass& VulkanRenderer::pass_for(PassKind kind, std::size_t views) {
     spec.width = static_cast<std::uint32_t>(options_.width_px);
     spec.height = static_cast<std::uint32_t>(options_.height_px);
     spec.views = static_cast<std::uint32_t>(views);
-    spec.samples = options_.samples == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+    spec.edges = drawn_edges(options_);
     pass = std::make_unique<FramePass>(device_, drawing_.cache(), drawing_.layout(), spec,
                                        options_.blend);
   }

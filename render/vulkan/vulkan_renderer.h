@@ -58,6 +58,7 @@ class VulkanRenderer final : public Renderer {
   Device device_;
   SceneDrawing drawing_;
   DeviceImage background_;
+  DeviceImage drawn_so_far_;  ///< where coverage is computed
   Buffer background_staging_;
   Buffer readback_;
   std::array<std::unique_ptr<FramePass>, 4> passes_;  ///< by kind and number of views

@@ -41,7 +41,8 @@ void VulkanRenderer::record_pass(VkCommandBuffer batch, PassKind kind, std::span
   const FrameSlot& slot = drawing_.slot();
   record_frame(batch, {pass_for(kind, views.size()), slot.bindings, drawing_.meshes(), items,
                        slot.line_indices, readback_, first * image_bytes(),
-                       static_cast<std::uint32_t>(first * kFrameStride), !backgrounds.empty()});
+                       static_cast<std::uint32_t>(first * kFrameStride), !backgrounds.empty(), 0,
+                       drawing_.edges(first), drawn_so_far_.get()});
 }
 
 Status VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
@@ -50,7 +51,8 @@ Status VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::v
   if (const Status taken = take_input(scene, views, backgrounds); !taken) {
     return taken;
   }
-  drawing_.build(scene, views, size());
+  const bool covers = kind == PassKind::kColour && drawn_edges(options_) == Edges::kCoverage;
+  drawing_.build(scene, views, size(), covers);
   const std::size_t at_once = std::min(views.size(), drawing_.views_a_pass());
   Commands& commands = drawing_.slot().commands;
   const VkCommandBuffer batch = commands.begin();

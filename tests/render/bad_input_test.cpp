@@ -193,8 +193,6 @@ TEST(BadOptions, AreOneLineEach) {
   EXPECT_EQ(test::error_of(Renderer::create(options)),
             "renderer: image side 0 px, expected 16 to 8192");
   options = {};
-  options.samples = 3;
-  EXPECT_EQ(test::error_of(Renderer::create(options)), "renderer: 3 samples, expected 1 or 4");
 }
 
 TEST(BadOptions, UnknownDeviceListsWhatThereIs) {

@@ -47,8 +47,8 @@ TEST(Eyes, InOnePassSeeWhatTheySeeInTurn) {
   const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
   const Scene scene = meshes_and_texts();
   for (const Blend blend : {Blend::kAdditive, Blend::kOver}) {
-    TestRenderer together(200, 120, blend, 4, EyesAPass::kTwo);
-    TestRenderer in_turn(200, 120, blend, 4, EyesAPass::kOne);
+    TestRenderer together(200, 120, blend, Edges::kSamples, EyesAPass::kTwo);
+    TestRenderer in_turn(200, 120, blend, Edges::kSamples, EyesAPass::kOne);
     std::vector<RgbaImage> expected;
     std::vector<RgbaImage> actual;
     ASSERT_TRUE(test::is_ok(in_turn->draw(scene, eyes, {}, expected)));
@@ -63,8 +63,8 @@ TEST(Eyes, InOnePassSeeWhatTheySeeInTurn) {
 
 TEST(Eyes, InOnePassHaveTheLabelsThatTheyHaveInTurn) {
   const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
-  TestRenderer together(200, 120, Blend::kAdditive, 4, EyesAPass::kTwo);
-  TestRenderer in_turn(200, 120, Blend::kAdditive, 4, EyesAPass::kOne);
+  TestRenderer together(200, 120, Blend::kAdditive, Edges::kSamples, EyesAPass::kTwo);
+  TestRenderer in_turn(200, 120, Blend::kAdditive, Edges::kSamples, EyesAPass::kOne);
   std::vector<LabelImage> expected;
   std::vector<LabelImage> actual;
   ASSERT_TRUE(test::is_ok(in_turn->draw_labels(meshes_and_texts(), eyes, expected)));
@@ -94,7 +94,7 @@ TEST(Eyes, OfUnevenAnglesEachHaveTheirOwnScale) {
   eyes[1].tan_left = eyes[1].tan_right = 1.0f;
   const Scene scene = line_scene(0.06f, {-0.1f, 0, -1}, {0.1f, 0, -1});
   for (const EyesAPass passes : {EyesAPass::kTwo, EyesAPass::kOne}) {
-    TestRenderer renderer(200, 120, Blend::kAdditive, 4, passes);
+    TestRenderer renderer(200, 120, Blend::kAdditive, Edges::kSamples, passes);
     std::vector<LabelImage> layers;
     ASSERT_TRUE(test::is_ok(renderer->draw_labels(scene, eyes, layers)));
     const LabelImage labels = joined(layers);

@@ -38,7 +38,7 @@ TEST(Frames, RepeatToTheBit) {
 }
 
 TEST(Frames, OfOneSampleShowTheSameThings) {
-  TestRenderer renderer(200, 120, Blend::kAdditive, 1);
+  TestRenderer renderer(200, 120, Blend::kAdditive, Edges::kHard);
   const RgbaImage image = renderer.draw(line_scene(0.03f, {-0.4f, 0, -1}, {0.4f, 0, -1}),
                                         TestRenderer::straight_ahead());
   EXPECT_THAT(pixel(image, 100, 60), ElementsAre(255, 255, 255));

@@ -15,11 +15,11 @@ constexpr int kHeight_px = 120;
 
 /// A renderer on a host's device with the validation layer listening until it is gone.
 struct Hosted {
-  explicit Hosted(Blend blend = Blend::kAdditive, int samples = 4,
+  explicit Hosted(Blend blend = Blend::kAdditive, Edges edges = Edges::kCoverage,
                   EyesAPass eyes = EyesAPass::kProbe) {
     RendererOptions options;
     options.blend = blend;
-    options.samples = samples;
+    options.edges = edges;
     options.validation = true;
     options.messages = validation.sink();
     options.eyes_a_pass = eyes;
@@ -42,8 +42,8 @@ void draw(HostedRenderer& renderer, const Scene& scene, const std::vector<View>&
 }
 
 std::vector<RgbaImage> as_drawn_into_images(const Scene& scene, const std::vector<View>& views,
-                                            Blend blend, int samples) {
-  TestRenderer plain(kWidth_px, kHeight_px, blend, samples);
+                                            Blend blend, Edges edges) {
+  TestRenderer plain(kWidth_px, kHeight_px, blend, edges);
   std::vector<RgbaImage> images;
   EXPECT_TRUE(test::is_ok(plain->draw(scene, views, {}, images)));
   return images;
@@ -56,7 +56,7 @@ std::vector<std::vector<std::uint8_t>> both(TestImages& images, std::size_t inde
 struct Way {
   const char* name;
   std::uint32_t layers;
-  int samples;
+  Edges edges;
   EyesAPass eyes;
 };
 void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
@@ -66,8 +66,8 @@ class HostedRendererInEveryWay : public ::testing::TestWithParam<Way> {};
 TEST_P(HostedRendererInEveryWay, DrawsTheSameBitsAsIntoImages) {
   const Way way = GetParam();
   const Scene scene = crowded_scene();
-  const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, way.samples);
-  Hosted hosted(Blend::kAdditive, way.samples, way.eyes);
+  const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, way.edges);
+  Hosted hosted(Blend::kAdditive, way.edges, way.eyes);
   TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px,
                     way.layers);
   ASSERT_TRUE(test::is_ok(hosted.renderer->use(images.targets())));
@@ -79,17 +79,17 @@ TEST_P(HostedRendererInEveryWay, DrawsTheSameBitsAsIntoImages) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Hosts, HostedRendererInEveryWay,
-                         ::testing::Values(Way{"chains", 1, 4, EyesAPass::kProbe},
-                                           Way{"single_sample", 1, 1, EyesAPass::kProbe},
-                                           Way{"told_one", 1, 4, EyesAPass::kOne}),
+                         ::testing::Values(Way{"chains", 1, Edges::kSamples, EyesAPass::kProbe},
+                                           Way{"hard", 1, Edges::kHard, EyesAPass::kProbe},
+                                           Way{"told_one", 1, Edges::kSamples, EyesAPass::kOne}),
                          [](const auto& way) { return std::string(way.param.name); });
 
 /// llvmpipe resolves into the first layer alone and puts lines and triangles there, but a surface
 /// in single samples it draws whole.
 TEST(HostedRenderer, DrawsBothLayersInOnePass) {
   const Scene scene = sphere_scene(MeshStyle::kRim, {0.2f, 0.8f, 1, 1}, {0, 0, -1}, 301);
-  const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, 1);
-  Hosted hosted(Blend::kAdditive, 1, EyesAPass::kTwo);
+  const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, Edges::kHard);
+  Hosted hosted(Blend::kAdditive, Edges::kHard, EyesAPass::kTwo);
   TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 2);
   ASSERT_TRUE(test::is_ok(hosted.renderer->use(images.targets())));
   draw(*hosted.renderer, scene, eyes(), {1});
@@ -113,8 +113,10 @@ TEST(HostedRenderer, KeepsTwoFramesInFlightApart) {
   draw(*hosted.renderer, second, eyes(), {1, 1});
   const auto red = both(images, 0);
   const auto green = both(images, 1);
-  const auto expected_red = as_drawn_into_images(copy_of_first, eyes(), Blend::kAdditive, 4);
-  const auto expected_green = as_drawn_into_images(second, eyes(), Blend::kAdditive, 4);
+  const auto expected_red =
+      as_drawn_into_images(copy_of_first, eyes(), Blend::kAdditive, Edges::kCoverage);
+  const auto expected_green =
+      as_drawn_into_images(second, eyes(), Blend::kAdditive, Edges::kCoverage);
   EXPECT_TRUE(red[0] == expected_red[0].pixels);
   EXPECT_TRUE(green[1] == expected_green[1].pixels);
   EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
@@ -122,7 +124,7 @@ TEST(HostedRenderer, KeepsTwoFramesInFlightApart) {
 
 TEST(HostedRenderer, TakesSwappedAndLinearFormats) {
   const Scene scene = crowded_scene();
-  const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, 4);
+  const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, Edges::kCoverage);
   Hosted hosted;
   TestImages swapped(hosted.renderer->objects(), VK_FORMAT_B8G8R8A8_SRGB, kWidth_px, kHeight_px, 1);
   ASSERT_TRUE(test::is_ok(hosted.renderer->use(swapped.targets())));
@@ -144,7 +146,7 @@ TEST(HostedRenderer, WritesOpacityAsAlphaForACompositor) {
   Scene scene = sphere_scene(MeshStyle::kSolid, {1, 1, 1, 1}, {0, 0, -1}, 301);
   scene.triangles.push_back(
       {501, {Float3{-0.3f, -0.1f, -1}, {-0.1f, -0.1f, -1}, {-0.2f, 0.1f, -1}}, {1, 0, 0, 0.5f}});
-  const auto over_black = as_drawn_into_images(scene, eyes(), Blend::kOver, 4);
+  const auto over_black = as_drawn_into_images(scene, eyes(), Blend::kOver, Edges::kSamples);
   Hosted hosted(Blend::kPremultiplied);
   TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 1);
   ASSERT_TRUE(test::is_ok(hosted.renderer->use(images.targets())));

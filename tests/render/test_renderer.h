@@ -18,12 +18,12 @@ namespace orthonav::render {
 class TestRenderer {
  public:
   explicit TestRenderer(int width_px = 200, int height_px = 120, Blend blend = Blend::kAdditive,
-                        int samples = 4, EyesAPass eyes_a_pass = EyesAPass::kProbe) {
+                        Edges edges = Edges::kCoverage, EyesAPass eyes_a_pass = EyesAPass::kProbe) {
     RendererOptions options;
     options.width_px = width_px;
     options.height_px = height_px;
     options.blend = blend;
-    options.samples = samples;
+    options.edges = edges;
     options.device = "llvmpipe";
     options.validation = true;
     options.messages = validation_.sink();

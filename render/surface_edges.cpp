@@ -1,0 +1,150 @@
+#include "render/surface_edges.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "render/float3.h"
+
+namespace orthonav::render {
+namespace {
+
+/// A side of a triangle, from its lower end to its higher one.
+struct Side {
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  std::uint32_t triangle = 0;
+  std::array<std::uint32_t, 2> corners{};  ///< in the mesh as given, at low and high
+};
+
+auto key(Float3 p) { return std::tuple(p.x, p.y, p.z); }
+
+/// For each vertex, which of `positions` it lies at.
+std::vector<std::uint32_t> welded(const MeshData& mesh, std::vector<Float3>& positions) {
+  std::vector<std::uint32_t> order(mesh.positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return key(mesh.positions[a]) < key(mesh.positions[b]);
+  });
+  std::vector<std::uint32_t> place(order.size());
+  for (const std::uint32_t vertex : order) {
+    if (positions.empty() || !(positions.back() == mesh.positions[vertex])) {
+      positions.push_back(mesh.positions[vertex]);
+    }
+    place[vertex] = static_cast<std::uint32_t>(positions.size() - 1);
+  }
+  return place;
+}
+
+std::vector<Side> sides_of(const MeshData& mesh, const std::vector<std::uint32_t>& place) {
+  std::vector<Side> sides;
+  sides.reserve(mesh.indices.size());
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    const auto triangle = static_cast<std::uint32_t>(i / 3);
+    const std::uint32_t a = mesh.indices[i];
+    const std::uint32_t b = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
+    if (place[a] == place[b]) {
+      continue;
+    }
+    if (place[a] < place[b]) {
+      sides.push_back({place[a], place[b], triangle, {a, b}});
+    } else {
+      sides.push_back({place[b], place[a], triangle, {b, a}});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+  });
+  return sides;
+}
+
+/// Whether the two sides of an edge are lit differently along all of it.
+bool is_crease(const MeshData& mesh, const Side& a, const Side& b) {
+  constexpr float kAlike = 0.99f;  // cosine of 8 degrees
+  return dot(mesh.normals[a.corners[0]], mesh.normals[b.corners[0]]) < kAlike &&
+         dot(mesh.normals[a.corners[1]], mesh.normals[b.corners[1]]) < kAlike;
+}
+
+/// A point of clip space as it lies in the image.
+struct OnScreen {
+  float x_px = 0;
+  float y_px = 0;
+  bool in_front = false;
+};
+
+OnScreen on_screen(const Matrix4& clip_from_model, PixelSize size, Float3 p) {
+  const Matrix4& m = clip_from_model;
+  const float depth = m[3] * p.x + m[7] * p.y + m[11] * p.z + m[15];
+  if (!(depth > kNearPlane_m)) {
+    return {};
+  }
+  const float x = m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12];
+  const float y = m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13];
+  return {(0.5f * x / depth + 0.5f) * static_cast<float>(size.width_px),
+          (0.5f * y / depth + 0.5f) * static_cast<float>(size.height_px), true};
+}
+
+/// The origin of the eye's frame. The rows of the matrix are those of a rotation times the scale:
+/// its inverse is the transpose over the scale squared.
+Float3 eye_in_model(const Matrix4& eye_from_model) {
+  const Matrix4& m = eye_from_model;
+  const Float3 x = {m[0], m[4], m[8]};
+  const Float3 y = {m[1], m[5], m[9]};
+  const Float3 z = {m[2], m[6], m[10]};
+  return (-1.0f / dot(x, x)) * (m[12] * x + m[13] * y + m[14] * z);
+}
+
+/// Whether each triangle faces the eye.
+void find_faces(const std::vector<Float4>& planes, Float3 eye, std::vector<std::uint8_t>& faces) {
+  faces.resize(planes.size());
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Float4& plane = planes[i];
+    const float height = plane.x * eye.x + plane.y * eye.y + plane.z * eye.z + plane.w;
+    faces[i] = height > 0 ? 1 : 0;
+  }
+}
+
+}  // namespace
+
+SurfaceEdges::SurfaceEdges(const MeshData& mesh) {
+  const std::vector<std::uint32_t> place = welded(mesh, positions_);
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Float3 a = mesh.positions[mesh.indices[i]];
+    const Float3 normal =
+        cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a);
+    planes_.push_back({normal.x, normal.y, normal.z, -dot(normal, a)});
+  }
+  const std::vector<Side> sides = sides_of(mesh, place);
+  for (std::size_t i = 0; i < sides.size();) {
+    const Side& a = sides[i];
+    std::size_t alike = 1;
+    while (i + alike < sides.size() && sides[i + alike].low == a.low &&
+           sides[i + alike].high == a.high) {
+      ++alike;
+    }
+    // Where more than two triangles meet, the first two stand for all.
+    const Side& b = sides[alike > 1 ? i + 1 : i];
+    edges_.push_back({{a.low, a.high}, {a.triangle, b.triangle}, is_crease(mesh, a, b)});
+    i += alike;
+  }
+}
+
+void SurfaceEdges::seen_by(const View& view, PixelSize size, const Matrix4& world_from_model,
+                           std::vector<std::uint8_t>& faces, std::vector<Float4>& edges) const {
+  const Matrix4 clip_from_model = multiplied(clip_from_world(view), world_from_model);
+  find_faces(planes_, eye_in_model(multiplied(view.eye_from_world, world_from_model)), faces);
+  for (const Edge& edge : edges_) {
+    const unsigned facing = faces[edge.triangles[0]] + faces[edge.triangles[1]];
+    const bool border = edge.triangles[0] == edge.triangles[1];
+    if (facing == 0 || (facing == 2 && !edge.crease && !border)) {
+      continue;
+    }
+    const OnScreen a = on_screen(clip_from_model, size, positions_[edge.ends[0]]);
+    const OnScreen b = on_screen(clip_from_model, size, positions_[edge.ends[1]]);
+    if (a.in_front && b.in_front && (a.x_px != b.x_px || a.y_px != b.y_px)) {
+      edges.push_back({a.x_px, a.y_px, b.x_px, b.y_px});
+    }
+  }
+}
+
+}  // namespace orthonav::render

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string_view>
+
+#include "render/vulkan/targets.h"
+
+namespace orthonav::render {
+
+/// What a frame is drawn with, in this order.
+enum class Stage {
+  kBackground,   ///< the image behind everything; colour only
+  kDepth,        ///< solids into the depth alone
+  kTranslucent,  ///< see-through meshes: the nearest surface replaces what is there
+  kSolid,        ///< the nearest solid surface, blended
+  kEdge,  ///< of meshes, where coverage is computed: pixels that they cut get their neighbours'
+          ///< share
+  kTriangle,
+  kLine,        ///< the stencil lets each item touch a sample once
+  kLineCover,   ///< where coverage is computed, in place of kLine: into alpha; and
+  kLineColour,  ///< by what is left in alpha
+  kText,        ///< in front of everything: a number is never hidden
+  kCount
+};
+
+/// How a stage's colour meets what is there.
+enum class Mix {
+  kReplace,
+  kBlend,       ///< as the frame's Blend says
+  kCoverAlpha,  ///< the least alpha stays, colour is left alone
+  kByAlpha      ///< by what is missing in alpha, which becomes full
+};
+
+/// How a stage differs from the others.
+struct Recipe {
+  std::string_view vertex;
+  std::string_view fragment;  ///< empty: depth alone
+  bool mesh = false;          ///< reads vertices
+  Mix mix = Mix::kReplace;
+  bool depth_test = false;
+  bool depth_write = false;
+  VkCompareOp depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
+  bool stencil = false;
+};
+
+/// Whether frames of this kind have the stage.
+[[nodiscard]] bool has_stage(Stage stage, const TargetSpec& spec);
+[[nodiscard]] Recipe recipe_of(Stage stage, const TargetSpec& spec);
+
+}  // namespace orthonav::render
