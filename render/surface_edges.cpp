@@ -1,6 +1,7 @@
 #include "render/surface_edges.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -14,6 +15,7 @@ struct Side {
   std::uint32_t low = 0;
   std::uint32_t high = 0;
   std::uint32_t triangle = 0;
+  bool forward = true;                     ///< as the triangle goes round
   std::array<std::uint32_t, 2> corners{};  ///< in the mesh as given, at low and high
 };
 
@@ -47,9 +49,9 @@ std::vector<Side> sides_of(const MeshData& mesh, const std::vector<std::uint32_t
       continue;
     }
     if (place[a] < place[b]) {
-      sides.push_back({place[a], place[b], triangle, {a, b}});
+      sides.push_back({place[a], place[b], triangle, true, {a, b}});
     } else {
-      sides.push_back({place[b], place[a], triangle, {b, a}});
+      sides.push_back({place[b], place[a], triangle, false, {b, a}});
     }
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
@@ -63,6 +65,20 @@ bool is_crease(const MeshData& mesh, const Side& a, const Side& b) {
   constexpr float kAlike = 0.99f;  // cosine of 8 degrees
   return dot(mesh.normals[a.corners[0]], mesh.normals[b.corners[0]]) < kAlike &&
          dot(mesh.normals[a.corners[1]], mesh.normals[b.corners[1]]) < kAlike;
+}
+
+/// Whether a triangle reaches above the plane of its neighbour.
+bool is_hollow(const MeshData& mesh, const Float4& plane, const Side& neighbour) {
+  float highest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Float3 p = mesh.positions[mesh.indices[3 * neighbour.triangle + i]];
+    highest = std::max(highest, plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.w);
+  }
+  // Rounding is not to hide an edge between triangles of one plane.
+  constexpr float kFlat = 1e-3f;
+  return highest >
+         kFlat * (std::abs(plane.x) + std::abs(plane.y) + std::abs(plane.z)) *
+             length(mesh.positions[neighbour.corners[1]] - mesh.positions[neighbour.corners[0]]);
 }
 
 /// A point of clip space as it lies in the image.
@@ -82,6 +98,25 @@ OnScreen on_screen(const Matrix4& clip_from_model, PixelSize size, Float3 p) {
   const float y = m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13];
   return {(0.5f * x / depth + 0.5f) * static_cast<float>(size.width_px),
           (0.5f * y / depth + 0.5f) * static_cast<float>(size.height_px), true};
+}
+
+constexpr std::uint8_t kBothAxes = 3;
+
+/// 1: it is drawn row by row; 2: column by column.
+std::uint8_t axis_of(const Float4& edge) {
+  return std::abs(edge.z - edge.x) < std::abs(edge.w - edge.y) ? 1 : 2;
+}
+
+/// Where an edge that is drawn row by row meets one that is drawn column by column, pixels lie
+/// beyond the ends of both.
+Float4 lengthened(const Float4& edge, bool at_begin, bool at_end) {
+  constexpr float kBeyond_px = 0.7f;
+  const float x = edge.z - edge.x;
+  const float y = edge.w - edge.y;
+  const float part = kBeyond_px / std::max(std::abs(x), std::abs(y));
+  const float before = at_begin ? part : 0;
+  const float after = at_end ? part : 0;
+  return {edge.x - before * x, edge.y - before * y, edge.z + after * x, edge.w + after * y};
 }
 
 /// The origin of the eye's frame. The rows of the matrix are those of a rotation times the scale:
@@ -124,26 +159,43 @@ SurfaceEdges::SurfaceEdges(const MeshData& mesh) {
     }
     // Where more than two triangles meet, the first two stand for all.
     const Side& b = sides[alike > 1 ? i + 1 : i];
-    edges_.push_back({{a.low, a.high}, {a.triangle, b.triangle}, is_crease(mesh, a, b)});
+    const std::array<std::uint32_t, 2> ends = {a.low, a.high};
+    edges_.push_back({a.forward ? ends : std::array{a.high, a.low},
+                      {a.triangle, b.triangle},
+                      is_crease(mesh, a, b),
+                      is_hollow(mesh, planes_[a.triangle], b)});
     i += alike;
   }
 }
 
 void SurfaceEdges::seen_by(const View& view, PixelSize size, const Matrix4& world_from_model,
-                           std::vector<std::uint8_t>& faces, std::vector<Float4>& edges) const {
+                           EdgeScratch& scratch, std::vector<Float4>& edges) const {
   const Matrix4 clip_from_model = multiplied(clip_from_world(view), world_from_model);
-  find_faces(planes_, eye_in_model(multiplied(view.eye_from_world, world_from_model)), faces);
+  const std::vector<std::uint8_t>& faces = scratch.faces;
+  find_faces(planes_, eye_in_model(multiplied(view.eye_from_world, world_from_model)),
+             scratch.faces);
+  scratch.shown.clear();
+  scratch.axes.assign(positions_.size(), 0);
   for (const Edge& edge : edges_) {
     const unsigned facing = faces[edge.triangles[0]] + faces[edge.triangles[1]];
     const bool border = edge.triangles[0] == edge.triangles[1];
-    if (facing == 0 || (facing == 2 && !edge.crease && !border)) {
+    if (facing == 0 || (facing == 1 && edge.hollow) || (facing == 2 && !edge.crease && !border)) {
       continue;
     }
-    const OnScreen a = on_screen(clip_from_model, size, positions_[edge.ends[0]]);
-    const OnScreen b = on_screen(clip_from_model, size, positions_[edge.ends[1]]);
-    if (a.in_front && b.in_front && (a.x_px != b.x_px || a.y_px != b.y_px)) {
-      edges.push_back({a.x_px, a.y_px, b.x_px, b.y_px});
+    const std::size_t begin = faces[edge.triangles[0]] == 1 ? 0 : 1;
+    const std::array<std::uint32_t, 2> ends = {edge.ends[begin], edge.ends[1 - begin]};
+    const OnScreen a = on_screen(clip_from_model, size, positions_[ends[0]]);
+    const OnScreen b = on_screen(clip_from_model, size, positions_[ends[1]]);
+    if (!a.in_front || !b.in_front || (a.x_px == b.x_px && a.y_px == b.y_px)) {
+      continue;
     }
+    scratch.shown.push_back({ends, {a.x_px, a.y_px, b.x_px, b.y_px}});
+    scratch.axes[ends[0]] |= axis_of(scratch.shown.back().at_px);
+    scratch.axes[ends[1]] |= axis_of(scratch.shown.back().at_px);
+  }
+  for (const EdgeScratch::Shown& edge : scratch.shown) {
+    edges.push_back(lengthened(edge.at_px, scratch.axes[edge.ends[0]] == kBothAxes,
+                               scratch.axes[edge.ends[1]] == kBothAxes));
   }
 }
 

@@ -10,6 +10,18 @@
 
 namespace orthonav::render {
 
+/// What SurfaceEdges needs room for; kept from frame to frame.
+struct EdgeScratch {
+  /// An edge that shows: its ends among the surface's positions, and in the image.
+  struct Shown {
+    std::array<std::uint32_t, 2> ends{};
+    Float4 at_px;
+  };
+  std::vector<std::uint8_t> faces;  ///< by triangle
+  std::vector<std::uint8_t> axes;   ///< by position
+  std::vector<Shown> shown;
+};
+
 /// The edges of a surface at which its picture may end or jump: between a triangle that faces the
 /// eye and one that does not, along a border, and along creases, where the normals of the two sides
 /// differ.
@@ -19,17 +31,19 @@ class SurfaceEdges {
   explicit SurfaceEdges(const MeshData& mesh);
 
   /// Appends the edges that show from the view, as they lie in its image: x and y of one end, then
-  /// of the other, in pixels. An edge that reaches behind the near plane is left out.
-  /// `faces`: room for one number a triangle.
+  /// of the other, in pixels; as one goes along it, a triangle that faces the eye is on the left.
+  /// Edges that lead round a corner are a little too long, so that they leave no pixel out. One
+  /// that reaches behind the near plane is left out.
   void seen_by(const View& view, PixelSize size, const Matrix4& world_from_model,
-               std::vector<std::uint8_t>& faces, std::vector<Float4>& edges) const;
+               EdgeScratch& scratch, std::vector<Float4>& edges) const;
 
  private:
   /// Between two triangles, or twice the same at a border.
   struct Edge {
     std::array<std::uint32_t, 2> ends{};
-    std::array<std::uint32_t, 2> triangles{};
+    std::array<std::uint32_t, 2> triangles{};  ///< on the left and on the right of it, from outside
     bool crease = false;
+    bool hollow = false;  ///< its triangles hide it wherever only one of them faces the eye
   };
 
   std::vector<Float3> positions_;  ///< no two alike

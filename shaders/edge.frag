@@ -12,6 +12,18 @@ vec3 drawn_at(ivec2 pixel) {
   return texelFetch(drawn, ivec3(clamp(pixel, ivec2(0), textureSize(drawn, 0).xy - 1), view), 0).rgb;
 }
 
+const float kRounding = 0.02;
+const float kLeast = 0.5 / 255.0;
+
+float difference(vec3 a, vec3 b) {
+  vec3 off = abs(a - b);
+  return max(max(off.r, off.g), off.b);
+}
+
+vec3 continued(vec3 near, vec3 far, float by) {
+  return clamp(near + by * (near - far), 0.5 * near, min(2.0 * near, 1.0));
+}
+
 // A pixel that a surface's edge cuts shows both what lies on its own side and, by the part that the
 // edge cuts off, what lies on the other: the colour of its neighbour there. After E. Persson,
 // "Geometric post-process anti-aliasing", 2011.
@@ -25,5 +37,24 @@ void main() {
   if (!(other > 0.0)) discard;
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   ivec2 beside = (upright ? ivec2(1, 0) : ivec2(0, 1)) * (off < 0.0 ? -1 : 1);
-  colour = vec4(mix(drawn_at(pixel), drawn_at(pixel + beside), other), 1);
+  vec3 own = drawn_at(pixel);
+  vec3 next = drawn_at(pixel + beside);
+  // Of one that goes through the centre, rounding decides on which side the device saw it.
+  if (abs(off) < kRounding) {
+    vec3 back = drawn_at(pixel - beside);
+    if (difference(own, back) > difference(own, next)) {
+      beside = -beside;
+      next = back;
+    }
+  }
+  // An edge that nobody sees must not undo what another did.
+  if (other * difference(own, next) < kLeast) discard;
+  // A surface's light changes most at its edge: it is continued from its two nearest pixels to the
+  // middle of what they leave of this one. It lies to the left of its edge.
+  bool outside = along.y * float(beside.x) > along.x * float(beside.y);
+  vec3 inner = drawn_at(outside ? pixel + 2 * beside : pixel - beside);
+  float by = (outside ? 0.75 : 0.25) - 0.5 * abs(off);
+  colour = vec4(outside ? mix(own, continued(next, inner, by), other)
+                        : mix(continued(own, inner, by), next, other),
+                1);
 }

@@ -7,9 +7,6 @@ layout(set = 0, binding = 1) readonly buffer Data { vec4 data[]; };
 layout(location = 0) flat out vec4 edge;  // from, to; in pixels
 layout(location = 1) flat out int view;
 
-// Of pixels that an edge cuts, centres lie no farther from it, along the axis that it crosses.
-const float kAcross_px = 1.0;
-
 // A surface's edge as a strip of pixels: ids are the first edges of both views, then how many.
 void main() {
   const uint corners[6] = uint[](0u, 1u, 2u, 2u, 1u, 3u);
@@ -23,7 +20,10 @@ void main() {
   }
   edge = data[item.ids[gl_ViewIndex] + number];
   vec2 along = edge.zw - edge.xy;
-  vec2 across = abs(along.x) < abs(along.y) ? vec2(kAcross_px, 0) : vec2(0, kAcross_px);
+  // Of pixels that it cuts, centres lie no farther from it along the axis that it crosses.
+  float steep = max(abs(along.x), abs(along.y));
+  float reach = 0.5 + 0.5 * min(abs(along.x), abs(along.y)) / steep;
+  vec2 across = abs(along.x) < abs(along.y) ? vec2(reach, 0) : vec2(0, reach);
   vec2 at = ((corner & 2u) == 0u ? edge.xy : edge.zw) + ((corner & 1u) == 0u ? across : -across);
   gl_Position = vec4(2.0 * at / frame.target.xy - 1.0, 0, 1);
 }

@@ -22,5 +22,6 @@ void main() {
   vec2 offset = (first ? 1.0 : -1.0) * (cos(turn) * across - sin(turn) * ends.along);
   // Without discs, a little longer: it closes the gap where the line bends gently.
   if (item.ids.w == 0u) offset += (first ? -0.13 : 0.13) * ends.along;
-  gl_Position = to_clip(end.xy + radius * offset, end);
+  vec2 at = end.xy + radius * offset;
+  gl_Position = vec4((2.0 * at / frame.target.xy - 1.0) * end.w, end.z, end.w);
 }

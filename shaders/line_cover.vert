@@ -8,6 +8,9 @@
 layout(location = 0) flat out vec4 axis;
 layout(location = 1) flat out vec2 radii;
 
+// Its two passes must agree to the bit where something hides it.
+invariant gl_Position;
+
 // A segment is drawn as a rectangle around it, whose corners are numbered as in a Z.
 void main() {
   uint corner = uint(gl_VertexIndex) % 4u;
@@ -22,8 +25,18 @@ void main() {
   radii = vec2(ends.radius_a, ends.radius_b);
   bool first = corner < 2u;
   vec2 across = vec2(-ends.along.y, ends.along.x);
-  vec2 offset = ((corner & 1u) == 0u ? across : -across) + (first ? -ends.along : ends.along);
-  vec4 end = first ? ends.a : ends.b;
+  // One that follows on others smoothly needs no discs at its ends: a little more than its length.
+  float ahead = item.ids.w == 0u ? 0.2 : 1.0;
+  vec2 offset =
+      ((corner & 1u) == 0u ? across : -across) + ahead * (first ? -ends.along : ends.along);
   float reach = (first ? ends.radius_a : ends.radius_b) + kReach_px;
-  gl_Position = to_clip(end.xy + reach * offset, end);
+  // Its depth changes along it as that of the pill in line.vert: which reaches that of the second end
+  // there at its sides, and at the end of the disc in the middle.
+  float span = distance(ends.a.xy, ends.b.xy);
+  float depth_a = ends.a.z / ends.a.w;
+  float depth_b = ends.b.z / ends.b.w;
+  float at = (first ? -ahead * reach : span + ahead * reach) / (span + 0.4 * ends.radius_b);
+  float depth = span > 0.0 ? clamp(mix(depth_a, depth_b, at), 0.0, 1.0) : depth_a;
+  vec2 at_px = (first ? ends.a.xy : ends.b.xy) + reach * offset;
+  gl_Position = vec4(2.0 * at_px / frame.target.xy - 1.0, depth, 1);
 }

@@ -53,6 +53,3 @@ Ends ends_of(uint segment) {
   return ends;
 }
 
-vec4 to_clip(vec2 at_px, vec4 end) {
-  return vec4((2.0 * at_px / frame.target.xy - 1.0) * end.w, end.z, end.w);
-}

@@ -146,14 +146,14 @@ class Recording {
     begin(smoothed.empty() ? PassPart::kWhole : PassPart::kOpening);
     background();
     meshes();
+    triangles();
+    lines();
     if (!smoothed.empty()) {
       vkCmdEndRenderPass(commands_);
       copy_drawn(smoothed);
       begin(PassPart::kClosing);
       edges();
     }
-    triangles();
-    lines();
     texts();
     vkCmdEndRenderPass(commands_);
   }
@@ -207,12 +207,19 @@ class Recording {
                        &item);
   }
 
+  [[nodiscard]] bool covers() const { return sources_.pass.targets.spec().covers(); }
+
   void push_line(const SpanDraw& draw) const {
     const std::uint32_t rounded = draw.rounded ? 1 : 0;
     push({kIdentity, draw.colour, {draw.width_m}, {draw.label, draw.first, 0, rounded}});
   }
 
-  [[nodiscard]] bool covers() const { return sources_.pass.targets.spec().covers(); }
+  void cover_line(const SpanDraw& draw) const {
+    push_line(draw);
+    vkCmdDrawIndexed(commands_, draw.count * kIndicesPerQuad, 1,
+                     (kIndicesPerSegment + kIndicesPerQuad) * line_capacity(sources_.line_indices),
+                     0, 0);
+  }
 
   /// All of one line into alpha, which then says how much of its colour is added; the stencil is
   /// not needed.
@@ -234,10 +241,7 @@ class Recording {
             vkCmdBindIndexBuffer(commands_, sources_.line_indices.get(), 0, VK_INDEX_TYPE_UINT32);
             indexed = true;
           }
-          push_line(draws[k]);
-          vkCmdDrawIndexed(
-              commands_, draws[k].count * kIndicesPerQuad, 1,
-              (kIndicesPerSegment + kIndicesPerQuad) * line_capacity(sources_.line_indices), 0, 0);
+          cover_line(draws[k]);
         }
       }
     }

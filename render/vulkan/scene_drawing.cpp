@@ -38,9 +38,8 @@ void write_line_indices(const Buffer& buffer) {
     }
   }
   for (std::uint32_t segment = 0; segment < segments; ++segment) {
-    constexpr std::array<std::uint32_t, kIndicesPerQuad> kHalves = {0, 1, 2, 2, 1, 3};
-    for (const std::uint32_t corner : kHalves) {
-      *out++ = segment * 4 + corner;
+    for (const std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) {
+      *out++ = 4 * segment + corner;
     }
   }
 }
@@ -218,7 +217,7 @@ void SceneDrawing::find_edges(const std::vector<View>& views, PixelSize size) {
     for (const auto* meshes : {&items_.translucent_meshes(), &items_.solids()}) {
       for (const MeshDraw& draw : *meshes) {
         if (const GpuMesh* copy = meshes_.find(draw.item->mesh)) {
-          copy->edges.seen_by(views[i], size, draw.item->world_from_model, faces_, edges_);
+          copy->edges.seen_by(views[i], size, draw.item->world_from_model, edge_scratch_, edges_);
         }
       }
     }

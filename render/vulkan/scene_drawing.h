@@ -91,7 +91,7 @@ class SceneDrawing {
   FrameItems items_;
   std::vector<Float4> edges_;  ///< of meshes in each view, as in SurfaceEdges
   EdgeRanges edges_of_view_;
-  std::vector<std::uint8_t> faces_;
+  EdgeScratch edge_scratch_;
   MeshCache meshes_;
   DeviceImage atlas_;
   std::vector<std::string> notes_;

@@ -6,9 +6,23 @@
 namespace orthonav::render {
 namespace {
 
-TEST(Eyes, TogetherSeeWhatEachSeesAlone) {
-  TestRenderer renderer(200, 120, Blend::kOver);
+/// With computed coverage, meshes whose edges cross have an order too.
+Scene crowded_scene_for(Edges edges) {
   Scene scene = crowded_scene();
+  if (edges == Edges::kCoverage) {
+    const MeshItem first = scene.meshes[0];
+    scene.meshes.clear();
+    scene.meshes.push_back(first);
+  }
+  return scene;
+}
+
+class EyesWithEdges : public ::testing::TestWithParam<Edges> {};
+INSTANTIATE_TEST_SUITE_P(Eyes, EyesWithEdges, ::testing::Values(Edges::kCoverage, Edges::kSamples));
+
+TEST_P(EyesWithEdges, TogetherSeeWhatEachSeesAlone) {
+  TestRenderer renderer(200, 120, Blend::kOver, GetParam());
+  Scene scene = crowded_scene_for(GetParam());
   // Text turns to the point between the eyes, and what lies farther is told from there; one of a
   // kind has no order.
   scene.texts.clear();
