@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
-#include <cmath>
-
+#include "base/srgb.h"
 #include "tests/render/test_renderer.h"
 #include "tests/render/test_scenes.h"
 
@@ -14,8 +13,7 @@ using ::testing::ElementsAre;
 double light_in_column(const RgbaImage& image, int x_px) {
   double light = 0;
   for (int y = 0; y < image.height_px; ++y) {
-    const double value = pixel(image, x_px, y)[1] / 255.0;
-    light += value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+    light += linear_from_srgb(pixel(image, x_px, y)[1] / 255.0);
   }
   return light;
 }
@@ -25,7 +23,7 @@ TEST(Line, IsAsWideAsTheWorldSays) {
   // 5 mm a pixel at 1 m: 30 mm are 6 px.
   const RgbaImage image = renderer.draw(line_scene(0.030f, {-0.4f, 0, -1}, {0.4f, 0, -1}),
                                         TestRenderer::straight_ahead());
-  EXPECT_NEAR(light_in_column(image, 100), 6.0, 0.26);  // a quarter sample row on either side
+  EXPECT_NEAR(light_in_column(image, 100), 6.0, 0.02);
 }
 
 TEST(Line, IsNeverThinnerThanOneAndAHalfPixels) {
@@ -34,7 +32,7 @@ TEST(Line, IsNeverThinnerThanOneAndAHalfPixels) {
     const RgbaImage image =
         renderer.draw(line_scene(width_m, {-0.4f, 0.003f, -1}, {0.4f, 0.003f, -1}),
                       TestRenderer::straight_ahead());
-    EXPECT_NEAR(light_in_column(image, 100), 1.5, 0.26) << width_m;
+    EXPECT_NEAR(light_in_column(image, 100), 1.5, 0.02) << width_m;
   }
   const RgbaImage thicker = renderer.draw(line_scene(0.012f, {-0.4f, 0, -1}, {0.4f, 0, -1}),
                                           TestRenderer::straight_ahead());

@@ -4,28 +4,22 @@
 #include <array>
 #include <cmath>
 
+#include "base/srgb.h"
+
 namespace orthonav::render {
 namespace {
 
 constexpr double kEdgeLevels = 2;
 
-float linear_of(std::uint8_t level) {
+float linear_of_level(std::uint8_t level) {
   static const std::array<float, 256> kLinear = [] {
     std::array<float, 256> linear{};
-    for (int i = 0; i < 256; ++i) {
-      const double value = i / 255.0;
-      linear[static_cast<std::size_t>(i)] = static_cast<float>(
-          value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+    for (std::size_t i = 0; i < linear.size(); ++i) {
+      linear[i] = static_cast<float>(linear_from_srgb(static_cast<double>(i) / 255.0));
     }
     return linear;
   }();
   return kLinear[level];
-}
-
-double level_of(double linear) {
-  const double value =
-      linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-  return 255 * std::clamp(value, 0.0, 1.0);
 }
 
 /// Seen so many pixels to the right and down of where it was.
@@ -65,7 +59,7 @@ Result<std::vector<LinearImage>> many_samples(Renderer& hard, const Scene& scene
     }
     for (std::size_t view = 0; view < sum.size(); ++view) {
       for (std::size_t i = 0; i < sum[view].light.size(); ++i) {
-        sum[view].light[i] += part * linear_of(frame[view].pixels[4 * (i / 3) + i % 3]);
+        sum[view].light[i] += part * linear_of_level(frame[view].pixels[4 * (i / 3) + i % 3]);
       }
     }
   }
@@ -80,7 +74,7 @@ void add_error(const LinearImage& reference, const RgbaImage& hard, const RgbaIm
                EdgeError& error) {
   for (std::size_t i = 0; i < reference.light.size(); ++i) {
     const std::size_t at = 4 * (i / 3) + i % 3;
-    const double expected = level_of(reference.light[i]);
+    const double expected = 255 * std::clamp(srgb_from_linear(reference.light[i]), 0.0, 1.0);
     if (std::abs(expected - hard.pixels[at]) <= kEdgeLevels) {
       continue;
     }
