@@ -15,7 +15,7 @@ namespace {
 struct CheckArguments {
   PlanArguments common;
   std::string model;  ///< empty: a case
-  std::string plan;
+  std::vector<std::string> plans;
 };
 
 /// The case that is judged: a folder, the phantom, or one model with its plan.
@@ -23,7 +23,7 @@ Result<engine::Case> checked_source(const CheckArguments& arguments) {
   if (arguments.model.empty()) {
     return load_checked_case(arguments.common.case_folder);
   }
-  const auto plan = engine::load_plan(arguments.plan);
+  const auto plan = engine::load_plan(arguments.plans);
   if (!plan) {
     return plan.error();
   }
@@ -58,7 +58,7 @@ int run_check(const CheckArguments& arguments) {
   if (Status s = arguments.common.json.check(); !s) {
     return bad_input(s.error().message);
   }
-  if (arguments.model.empty() != arguments.plan.empty()) {
+  if (arguments.model.empty() != arguments.plans.empty()) {
     return bad_input("--model and --plan go together");
   }
   const auto sizes = arguments.common.screws.sizes();
@@ -103,7 +103,9 @@ void add_plan_check(CLI::App& plan, Action& action) {
   command->add_option("--model", arguments->model, "instead of --case: a vertebra, with --plan")
       ->check(some_text())
       ->type_name("MESH");
-  command->add_option("--plan", arguments->plan, "its screws: a plan or 3D Slicer's lines")
+  command
+      ->add_option("--plan", arguments->plans,
+                   "its screws: a plan or 3D Slicer's lines; several files are one plan")
       ->check(some_text())
       ->type_name("PLAN");
   command->footer(

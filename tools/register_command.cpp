@@ -160,7 +160,9 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
       .add_option("--frame", arguments.frame,
                   "Axes of a model whose file declares none [the plan's, else LPS]")
       ->check(CLI::IsMember({"LPS", "RAS"}));
-  command.add_option("--plan", arguments.plan, "Planned screws, for the error to expect there")
+  command
+      .add_option("--plan", arguments.plans,
+                  "Planned screws, for the error to expect there; several files are one plan")
       ->type_name("PLAN");
   command
       .add_option("-c,--case", arguments.case_folder,

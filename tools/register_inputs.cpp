@@ -49,8 +49,8 @@ Status load_points(const RegisterArguments& arguments, RegisterInputs& inputs) {
 Status load_single_level(const RegisterArguments& arguments, engine::ModelCache& models,
                          RegisterInputs& inputs) {
   std::optional<engine::Plan> plan;
-  if (!arguments.plan.empty()) {
-    auto file = engine::load_plan(arguments.plan);
+  if (!arguments.plans.empty()) {
+    auto file = engine::load_plan(arguments.plans);
     if (!file) {
       return file.error();
     }

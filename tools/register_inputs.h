@@ -16,7 +16,7 @@ struct RegisterArguments {
   std::string points;
   std::string units;  ///< empty: what the files say, else mm
   std::string frame;  ///< empty: what the files say, else LPS
-  std::string plan;
+  std::vector<std::string> plans;
   std::string case_folder;
   std::string level;  ///< of the case; with neither a folder nor a model, of the built-in phantom
   std::string method = "best";

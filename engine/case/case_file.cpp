@@ -64,17 +64,24 @@ std::optional<double> declared_metres_per_unit(const JsonNode& root) {
 struct Entry {
   std::string label;
   std::string model;
-  std::string plan;  ///< empty: none
+  std::vector<std::string> plans;  ///< files that make one plan; none: no plan
   JsonNode node;
 };
 
 /// A level without a plan has no screws, and a model in the case's unit.
 Result<Plan> plan_of(const Entry& entry, const std::string& folder, double metres_per_unit) {
-  if (entry.plan.empty()) {
-    return Plan{{}, {}, Axes::kLps, metres_per_unit, {}};
+  if (entry.plans.empty()) {
+    return Plan{{}, Axes::kLps, metres_per_unit, {}};
   }
-  const auto path = path_inside(folder, entry.plan);
-  return path ? load_plan(*path) : path.error();
+  std::vector<std::string> paths;
+  for (const std::string& plan : entry.plans) {
+    const auto path = path_inside(folder, plan);
+    if (!path) {
+      return path.error();
+    }
+    paths.push_back(*path);
+  }
+  return load_plan(paths);
 }
 
 Result<CaseLevel> loaded(const Entry& entry, const std::string& folder, double metres_per_unit) {
@@ -83,8 +90,8 @@ Result<CaseLevel> loaded(const Entry& entry, const std::string& folder, double m
     return plan.error();
   }
   if (!plan->level.empty() && plan->level != entry.label) {
-    return Error{(fs::path(folder) / entry.plan).string() + ": is the plan of " + plan->level +
-                 ", the case uses it for " + entry.label};
+    return Error{(fs::path(folder) / entry.plans.front()).string() + ": is the plan of " +
+                 plan->level + ", the case uses it for " + entry.label};
   }
   const auto model = path_inside(folder, entry.model);
   if (!model) {
@@ -150,7 +157,9 @@ Result<Case> load_case(const std::string& folder, CaseUse use) {
   std::vector<Entry> entries;
   std::size_t placed = 0;
   for (const JsonNode& node : root.list("levels")) {
-    entries.push_back({node.text("label"), node.text("model"), node.text_or("plan", ""), node});
+    entries.push_back({node.text("label"), node.text("model"),
+                       node.has("plan") ? node.text_or_texts("plan") : std::vector<std::string>(),
+                       node});
     placed += node.has("spine_from_model") ? 1 : 0;
   }
   if (placed != 0 && placed != entries.size()) {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/result.h"
-#include "nav/guidance/screw.h"
+#include "engine/case/plan_file.h"
 
 namespace orthonav::engine {
 
@@ -14,5 +14,8 @@ namespace orthonav::engine {
 /// same screws back. Refuses a path that is no `.mrk.json`.
 Status save_markups_plan(const std::string& path, const std::string& level,
                          std::span<const nav::ScrewPlan> screws);
+
+/// What a markups file plans, not yet checked; see load_plan.
+Result<Plan> plan_from_markups(const std::string& path);
 
 }  // namespace orthonav::engine

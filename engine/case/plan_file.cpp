@@ -7,12 +7,11 @@
 #include <string_view>
 
 #include "base/length_text.h"
-#include "engine/case/line_name.h"
+#include "engine/case/markups_plan.h"
 #include "engine/case/operation.h"
 #include "engine/case/screw_place.h"
 #include "engine/io/json_document.h"
 #include "engine/io/json_writer.h"
-#include "engine/io/slicer_markups.h"
 #include "engine/io/text_fields.h"
 
 namespace orthonav::engine {
@@ -28,16 +27,28 @@ std::optional<nav::Side> side_from(const std::string& text) {
   return std::nullopt;
 }
 
-Result<Plan> checked(Plan plan) {
+Result<Plan> checked(const std::string& path, Plan plan) {
   if (plan.screws.empty()) {
-    return Error{plan.path + ": has no screws"};
+    return Error{path + ": has no screws"};
   }
-  for (const StatedScrew& screw : plan.screws) {
+  for (StatedScrew& screw : plan.screws) {
+    screw.where = path + ": " + screw.where;
     if (const auto problem = ill_sized(screw.entry, screw.target, screw.radius_m)) {
-      return Error{plan.path + ": " + screw.where + " " + *problem};
+      return Error{screw.where + " " + *problem};
     }
   }
   return plan;
+}
+
+/// Why two files can't be one plan, up to the other's name; nothing where they can.
+std::optional<std::string> unlike(const Plan& one, const Plan& other) {
+  if (!one.level.empty() && !other.level.empty() && one.level != other.level) {
+    return "plans " + other.level + ", must be " + one.level + " as in";
+  }
+  if (one.axes != other.axes || one.metres_per_unit != other.metres_per_unit) {
+    return "must have the frame and the unit of";
+  }
+  return std::nullopt;
 }
 
 void read_frame(const JsonNode& root, Plan& plan) {
@@ -84,7 +95,6 @@ Result<Plan> plan_from_json(const std::string& path) {
   }
   const JsonNode root = document->root();
   Plan plan;
-  plan.path = path;
   read_frame(root, plan);
   plan.level = root.text_or("level", "");
   const auto point = [&plan](const JsonNode& node, const char* key) {
@@ -107,94 +117,7 @@ Result<Plan> plan_from_json(const std::string& path) {
   if (Status status = document->status(); !status) {
     return status.error();
   }
-  return checked(std::move(plan));
-}
-
-/// The radius that `diameter=5.5` states, in the file's unit; 0 where it does not.
-double stated_radius(const Markup& markup) {
-  for (const std::string& text : {lower_case(markup.description), lower_case(markup.name)}) {
-    std::size_t at = text.find("diameter");
-    if (at == std::string::npos) {
-      continue;
-    }
-    at = text.find_first_not_of(" \t", at + std::string("diameter").size());
-    if (at == std::string::npos || text[at] != '=') {
-      continue;
-    }
-    at = text.find_first_not_of(" \t", at + 1);
-    if (at == std::string::npos) {
-      continue;
-    }
-    const std::size_t end = std::min(text.find_first_not_of("0123456789.", at), text.size());
-    return number_from(text.substr(at, end - at)).value_or(0.0) / 2.0;
-  }
-  return 0.0;
-}
-
-/// What `accept_breach=` in the description says, up to the end of the line.
-std::string accepted_breach(const Markup& markup) {
-  constexpr std::string_view kKey = "accept_breach=";
-  const std::size_t key = markup.description.find(kKey);
-  if (key == std::string::npos) {
-    return {};
-  }
-  std::string reason = markup.description.substr(key + kKey.size());
-  reason.resize(std::min(reason.find_first_of("\r\n"), reason.size()));
-  return reason;
-}
-
-/// A name may be of any length and hold anything; a message is one line.
-std::string quoted(const std::string& name) {
-  constexpr std::size_t kMost = 60;
-  std::string shown = name.size() <= kMost ? name : name.substr(0, kMost) + "...";
-  std::replace_if(
-      shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-  return "\"" + shown + "\"";
-}
-
-std::optional<nav::Side> side_of(const LineName& name) {
-  if (name.left == name.right) {
-    return std::nullopt;
-  }
-  return name.left ? nav::Side::kLeft : nav::Side::kRight;
-}
-
-Result<Plan> plan_from_markups(const std::string& path) {
-  const Result<MarkupsFile> file = load_markups(path);
-  if (!file) {
-    return file.error();
-  }
-  Plan plan;
-  plan.path = path;
-  plan.axes = file->axes;
-  plan.metres_per_unit = file->metres_per_unit;
-  for (const Markup& markup : file->markups) {
-    if (markup.type != "Line") {
-      continue;
-    }
-    const std::string where = "line " + quoted(markup.name);
-    if (markup.points.size() != 2) {
-      return Error{path + ": " + where + " has " + std::to_string(markup.points.size()) +
-                   " defined points, must be 2"};
-    }
-    const LineName name = parsed_line_name(markup.name);
-    if (name.left && name.right) {
-      return Error{path + ": " + where + " says both left and right"};
-    }
-    if (!plan.level.empty() && !name.level.empty() && name.level != plan.level) {
-      return Error{path + ": holds screws of " + plan.level + " and " + name.level +
-                   ", must be one level a file"};
-    }
-    if (!name.level.empty()) {
-      plan.level = name.level;
-    }
-    const auto point = [&](std::size_t i) {
-      return Point<Vertebra>{to_lps(markup.points[i].position, plan.axes) * plan.metres_per_unit};
-    };
-    plan.screws.push_back({where, side_of(name), point(0), point(1),
-                           stated_radius(markup) * plan.metres_per_unit, accepted_breach(markup)});
-  }
-  return checked(std::move(plan));
+  return plan;
 }
 
 /// The place tells the side; what the file says may only confirm it, unless the place leaves it
@@ -225,14 +148,35 @@ Result<Plan> load_plan(const std::string& path) {
   if (lower_case(path).ends_with(".fcsv")) {
     return Error{path + ": an .fcsv file holds no lines; save the screws as .mrk.json lines"};
   }
-  return is_markups_name(path) ? plan_from_markups(path) : plan_from_json(path);
+  auto plan = is_markups_name(path) ? plan_from_markups(path) : plan_from_json(path);
+  return plan ? checked(path, std::move(*plan)) : plan;
+}
+
+Result<Plan> load_plan(std::span<const std::string> paths) {
+  Plan all;
+  for (const std::string& path : paths) {
+    Result<Plan> plan = load_plan(path);
+    if (!plan) {
+      return plan;
+    }
+    if (&path == &paths.front()) {
+      all = std::move(*plan);
+      continue;
+    }
+    if (const auto problem = unlike(all, *plan)) {
+      return Error{path + ": " + *problem + " " + paths.front()};
+    }
+    all.level = all.level.empty() ? plan->level : all.level;
+    all.screws.insert(all.screws.end(), plan->screws.begin(), plan->screws.end());
+  }
+  return all;
 }
 
 Result<std::vector<nav::ScrewPlan>> screws_on(const nav::TriangleMesh& bone, const Plan& plan) {
   const nav::SurfaceIndex surface(bone);
   std::vector<nav::ScrewPlan> screws;
   for (const StatedScrew& stated : plan.screws) {
-    const std::string which = plan.path + ": " + stated.where + " ";
+    const std::string which = stated.where + " ";
     if (const auto problem =
             misplaced(surface, stated.entry, stated.target, stated.radius_m, plan.axes)) {
       return Error{which + *problem};

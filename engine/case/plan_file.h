@@ -14,7 +14,7 @@ namespace orthonav::engine {
 
 /// A screw as its file states it. On which side it lies is for the bone to say (`screws_on`).
 struct StatedScrew {
-  std::string where;              ///< in the file: `screws[1]`, `line "L4 left"`
+  std::string where;              ///< file and place in it: `L4.json: screws[1]`
   std::optional<nav::Side> side;  ///< as the file or the line's name says; none: it says nothing
   Point<Vertebra> entry;
   Point<Vertebra> target;
@@ -25,7 +25,6 @@ struct StatedScrew {
 /// What a file plans for one level, in metres and LPS; `axes` and `metres_per_unit` are what the
 /// file used, and what the model beside it uses.
 struct Plan {
-  std::string path;
   std::string level;  ///< "L4" where the file says so, else empty
   Axes axes = Axes::kLps;
   double metres_per_unit = 1e-3;
@@ -35,11 +34,15 @@ struct Plan {
 /// Reads a plan: `{"units": "mm"|"m", "frame": "LPS"|"RAS", "level"?, "screws": [{"side": "left"|
 /// "right", "entry", "target", "radius", "accept_breach"?}]}`, or the lines of a 3D Slicer markups
 /// file (`.mrk.json`: point 0 entry, point 1 target, side and level from the name (`line_name.h`),
-/// `diameter=5.5` in name or description, `accept_breach=` and the reason up to the end of its line
-/// in the description). Refuses plans without unit or frame, without screws, names that say both
-/// sides, screws shorter than 10 mm or longer than 120 mm, radii outside 1-6 mm, and the legacy
+/// or of a file without lines the points of its lists in pairs, side and level from the names of
+/// list and entry; `diameter=5.5` in name or description, `accept_breach=` and the reason up to the
+/// end of its line in the description). Refuses plans without unit or frame, without screws, names
+/// that say both sides, screws shorter than 10 mm or longer than 120 mm, radii outside 1-6 mm, and
+/// the legacy
 /// `.fcsv`, which knows no lines.
 Result<Plan> load_plan(const std::string& path);
+/// Several files as one plan: of one level, in one frame and unit.
+Result<Plan> load_plan(std::span<const std::string> paths);
 
 /// The screws with the side on which each lies on its bone (`OffMidline::side`). What the file says
 /// only confirms it, and decides where the place leaves it open. Refuses, with file and screw, a

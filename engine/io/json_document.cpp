@@ -273,6 +273,12 @@ std::vector<JsonNode> JsonNode::list(const char* key) const {
   return nodes;
 }
 
+std::vector<std::string> JsonNode::text_or_texts(const char* key) const {
+  const json* found = value_->find(key);
+  return found != nullptr && found->is_string() ? std::vector{found->get<std::string>()}
+                                                : texts(key);
+}
+
 std::string JsonNode::first_text(const char* key) const {
   const json* found = value_->find(key);
   if (found != nullptr && found->is_array() && !found->empty() && found->front().is_string()) {

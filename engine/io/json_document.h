@@ -33,6 +33,8 @@ class JsonNode {
   [[nodiscard]] std::uint64_t unsigned_integer(const char* key) const;
   /// A list of texts.
   [[nodiscard]] std::vector<std::string> texts(const char* key) const;
+  /// The same, or a text that stands alone.
+  [[nodiscard]] std::vector<std::string> text_or_texts(const char* key) const;
   /// Exactly `count` finite numbers; nested lists (a matrix by rows) are flattened.
   [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count) const;
   /// At most so many finite numbers, one after another.

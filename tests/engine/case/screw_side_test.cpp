@@ -84,7 +84,7 @@ constexpr double kBoneAt_mm = 130.0;  // as a scanner has it: its midline is not
 StatedScrew screw(const std::string& name, Place place) {
   const LineName said = parsed_line_name(name);
   StatedScrew stated;
-  stated.where = "line \"" + name + "\"";
+  stated.where = "L4.mrk.json: line \"" + name + "\"";
   if (said.left || said.right) {
     stated.side = said.left ? kLeft : kRight;
   }
@@ -99,7 +99,6 @@ Result<std::vector<nav::ScrewPlan>> on_the_box(const std::vector<StatedScrew>& s
     v.x += kBoneAt_mm * 1e-3;
   }
   Plan plan;
-  plan.path = "L4.mrk.json";
   plan.screws = screws;
   return screws_on(bone, plan);
 }
