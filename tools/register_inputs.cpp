@@ -103,7 +103,7 @@ Status check_together(const RegisterArguments& a) {
   if (!a.model.empty() && !(a.level.empty() && a.case_folder.empty())) {
     return Error{"register: --model excludes --case and --level"};
   }
-  if (a.model.empty() && !a.plan.empty()) {
+  if (a.model.empty() && !a.plans.empty()) {
     return Error{"register: --plan needs --model"};
   }
   if (a.model.empty() && !a.frame.empty()) {

@@ -61,7 +61,7 @@ TEST(PlanFile, ReadsMillimetresAndLps) {
   ASSERT_TRUE(read.ok()) << read.error().message;
   ASSERT_EQ(read->screws.size(), 2u);
   EXPECT_EQ(read->screws[1].side, nav::Side::kRight);
-  EXPECT_EQ(read->screws[1].where, "screws[1]");
+  EXPECT_THAT(read->screws[1].where, HasSubstr("L4.plan.json: screws[1]"));
   EXPECT_LT((read->screws[0].entry.v - Vec3{0.020, 0.030, 0.001}).norm(), kRounding_m);
   EXPECT_LT((read->screws[0].target.v - Vec3{0.010, -0.014, 0.002}).norm(), kRounding_m);
   EXPECT_DOUBLE_EQ(read->screws[0].radius_m, 0.003);

@@ -10,6 +10,7 @@
 namespace orthonav::engine {
 namespace {
 
+using orthonav::test::TemporaryFolder;
 using ::testing::HasSubstr;
 
 std::string file_of(const std::string& markup) {

@@ -184,8 +184,8 @@ TEST(ScrewSide, OfAPlanInOtherAxesIsRefused) {
 
 TEST(ScrewsOn, SaysWhenAScrewWouldFitInTheOtherAxes) {
   const auto refusal = [](Vec3 entry, Vec3 target, Axes axes) {
-    Plan plan{"p.json", "L4", axes, 1e-3, {}};
-    plan.screws.push_back({"screws[0]", std::nullopt, {entry}, {target}, 0.003});
+    Plan plan{"L4", axes, 1e-3, {}};
+    plan.screws.push_back({"p.json: screws[0]", std::nullopt, {entry}, {target}, 0.003});
     const auto screws = screws_on(box_mesh(), plan);
     return screws ? std::string() : screws.error().message;
   };

@@ -15,11 +15,13 @@ namespace orthonav::test {
 /// views; no picture needs to be kept.
 class FrameComparison {
  public:
-  FrameComparison(int width_px, int height_px, render::Blend blend) {
+  FrameComparison(int width_px, int height_px, render::Blend blend,
+                  render::Edges edges = render::Edges::kCoverage) {
     render::RendererOptions options;
     options.width_px = width_px;
     options.height_px = height_px;
     options.blend = blend;
+    options.edges = edges;
     options.device = "llvmpipe";
     options.cache_folder = "";
     auto renderer = render::Renderer::create(options);
