@@ -107,7 +107,8 @@ void add_plan_check(CLI::App& plan, Action& action) {
       ->add_option("--plan", arguments->plans,
                    "its screws: a plan or 3D Slicer's lines; several files are one plan")
       ->check(some_text())
-      ->type_name("PLAN");
+      ->type_name("PLAN")
+      ->allow_extra_args(false);
   command->footer(
       "\nExit code 1 where a screw breaks through the cortex and the plan does not say why it "
       "may.");

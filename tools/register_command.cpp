@@ -163,7 +163,8 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
   command
       .add_option("--plan", arguments.plans,
                   "Planned screws, for the error to expect there; several files are one plan")
-      ->type_name("PLAN");
+      ->type_name("PLAN")
+      ->allow_extra_args(false);
   command
       .add_option("-c,--case", arguments.case_folder,
                   "Instead of --model and --plan: folder with case.json [the built-in phantom]")
