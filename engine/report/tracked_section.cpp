@@ -158,7 +158,8 @@ std::string cameras_text(const json& found) {
 }  // namespace
 
 std::string tracked_section(const json& report) {
-  std::string html = "<section id=tracked><h2>As tracked, without a truth</h2>" + table_of_tools(report);
+  std::string html =
+      "<section id=tracked><h2>As tracked, without a truth</h2>" + table_of_tools(report);
   const auto found = report.find("calibration");
   if (found == report.end() || !found->is_object()) {
     return html + "<p>Tags and cameras in use: not recorded.</p></section>";
