@@ -1,6 +1,6 @@
 #include "tools/help_text.h"
+#include "tools/terminal_width.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -108,12 +108,7 @@ std::string help_text(const CommandPage& page, std::size_t width) {
 std::size_t output_width() {
   constexpr std::size_t kNarrowest = 60;
   constexpr std::size_t kWidest = 120;
-  winsize size{};
-  if (::isatty(STDOUT_FILENO) == 0 || ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 ||
-      size.ws_col == 0) {
-    return 100;
-  }
-  return std::clamp<std::size_t>(size.ws_col, kNarrowest, kWidest);
+  return std::clamp(terminal_columns(STDOUT_FILENO).value_or(100), kNarrowest, kWidest);
 }
 
 void use_help_text(CLI::App& app) { use_formatter(app, std::make_shared<HelpFormatter>()); }

@@ -1,36 +1,10 @@
 #include "tools/progress.h"
-#include "engine/session/wording.h"
 
-#include <algorithm>
 #include <cstdio>
 
+#include "engine/session/wording.h"
+
 namespace orthonav::tools {
-namespace {
-
-// Approximate simulated time of each part, in units of a screw.
-constexpr double kDigitize = 3.0;
-constexpr double kScrew = 1.0;
-constexpr double kRod = 1.0;
-
-}  // namespace
-
-double fraction_done(const engine::Guidance& g) {
-  double all = 2.0 * kRod;
-  double done = 0.0;
-  for (const engine::LevelState& level : g.levels) {
-    all += kDigitize + kScrew * static_cast<double>(level.screw_done.size());
-    if (level.registration) {
-      done += kDigitize;
-    }
-    for (const bool screw : level.screw_done) {
-      done += screw ? kScrew : 0.0;
-    }
-  }
-  if (g.step == engine::Step::kDone) {
-    done += 2.0 * kRod;
-  }
-  return std::clamp(done / all, 0.0, 1.0);
-}
 
 void OperationProgress::stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                                 const engine::Guidance& guidance) {
@@ -44,7 +18,7 @@ void OperationProgress::stepped(const StereoFrame& frame, const engine::Inputs& 
   if (another) {
     step_ = guidance.status.at;
   }
-  const double fraction = fraction_done(guidance);
+  const double fraction = estimate_.fraction(frame.time, guidance);
   if (bar_.on_terminal()) {
     bar_.draw(fraction, engine::step_text(*step_), another);
   } else if (another) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "engine/live/frame_loop.h"
+#include "tools/operation_estimate.h"
 #include "tools/progress_bar.h"
 
 namespace orthonav::tools {
@@ -20,11 +21,9 @@ class OperationProgress : public engine::LoopObserver {
  private:
   engine::LoopObserver* next_;
   ProgressBar bar_;
+  OperationEstimate estimate_;
   std::optional<StepOnDisplay> step_;
   Timestamp first_{};
 };
-
-/// Progress of an operation, in [0, 1]: digitizing makes up much of a level, a screw a part.
-[[nodiscard]] double fraction_done(const engine::Guidance& guidance);
 
 }  // namespace orthonav::tools

@@ -27,4 +27,8 @@ class ProgressBar {
   std::optional<Stopwatch> since_drawn_;  ///< absent until the first time
 };
 
+/// What is drawn: a bar, per cent and text, within the columns; of a narrow terminal the text
+/// alone, cut off.
+[[nodiscard]] std::string bar_text(double fraction, const std::string& what, std::size_t columns);
+
 }  // namespace orthonav::tools
