@@ -53,6 +53,7 @@ class LiveRun {
     signals_.on_stop([this] { operation_->stop(); });
     auto report = operation_->run();
     signals_.on_stop(nullptr);
+    progress.end();
     presenting_.end(arguments_.stats);
     onlookers_.ended(report ? &*report : nullptr);
     if (!report) {

@@ -17,6 +17,8 @@ class OperationProgress : public engine::LoopObserver {
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   void captured(const engine::Snapshot& snapshot) override;
+  /// The operation has ended: its line is cleared.
+  void end() { bar_.clear(); }
 
  private:
   engine::LoopObserver* next_;

@@ -28,9 +28,12 @@ std::string left_text(double left_s) {
 
 ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}
 
-ProgressBar::~ProgressBar() {
+ProgressBar::~ProgressBar() { clear(); }
+
+void ProgressBar::clear() {
   if (since_drawn_) {
     std::fputs("\r\033[K", stderr);
+    since_drawn_.reset();
   }
 }
 

@@ -19,6 +19,8 @@ class ProgressBar {
   [[nodiscard]] bool on_terminal() const { return terminal_; }
   /// Draws, unless it did so a moment ago; `now` draws regardless. `fraction` is in [0, 1].
   void draw(double fraction, const std::string& what, bool now = false);
+  /// Leaves the line to what is printed next.
+  void clear();
   [[nodiscard]] double elapsed_s() const;
 
  private:
