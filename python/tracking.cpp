@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/pose_status_name.h"
 #include "engine/session/method.h"
 #include "hal/replay/replay_headset.h"
 #include "python/arrays.h"
@@ -104,18 +105,6 @@ class Recording {
   std::unique_ptr<replay::ReplayHeadset> headset_;
 };
 
-const char* status_of(const TrackedTool& tool) {
-  switch (tool.pose().status) {
-    case PoseStatus::kMeasured:
-      return "measured";
-    case PoseStatus::kPredicted:
-      return "predicted";
-    case PoseStatus::kLost:
-      break;
-  }
-  return "lost";
-}
-
 /// None where the tool is lost: what it was is not what it is.
 template <class Read>
 auto unless_lost(Read read) {
@@ -179,7 +168,9 @@ void bind_pairs(py::module_& module) {
 void bind_tracker(py::module_& module) {
   py::class_<TrackedTool>(module, "TrackedTool", "A tool after one pair.")
       .def_readonly("tool", &TrackedTool::tool)
-      .def_property_readonly("status", &status_of, "\"measured\", \"predicted\" or \"lost\"")
+      .def_property_readonly(
+          "status", [](const TrackedTool& tool) { return name_of(tool.pose().status); },
+          "\"measured\", \"predicted\" or \"lost\"")
       .def_property_readonly("world_from_marker", unless_lost([](const TrackedTool& t) {
                                return array_of(t.pose().value);
                              }),

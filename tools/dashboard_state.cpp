@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "base/pose_status_name.h"
 #include "engine/session/numbers_wording.h"
 #include "engine/session/wording.h"
 
@@ -15,18 +16,6 @@ Json number(const nav::ScrewNumbers& numbers, engine::NumberRow row, const char*
   std::string text;
   engine::append_number(text, numbers, row);
   return {{"name", name}, {"text", text}, {"sure", engine::number_of(numbers, row).sure}};
-}
-
-const char* status_name(PoseStatus status) {
-  switch (status) {
-    case PoseStatus::kMeasured:
-      return "measured";
-    case PoseStatus::kPredicted:
-      return "predicted";
-    case PoseStatus::kLost:
-      break;
-  }
-  return "lost";
 }
 
 const char* grade_name(engine::Grade grade) {
@@ -117,7 +106,7 @@ std::string dashboard_state(const engine::Session& session, const engine::Guidan
   for (const nav::ToolState& state : session.tool_states()) {
     out["tools"].push_back({{"name", tools[state.tool].name},
                             {"role", nav::name_of(tools[state.tool].role)},
-                            {"status", status_name(state.world_from_marker.status)}});
+                            {"status", name_of(state.world_from_marker.status)}});
   }
   return out.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
