@@ -172,12 +172,7 @@ class LiveRun {
     return arguments_.resume ? files_.kept().find(arguments_.out) : Status{};
   }
 
-  Status start(engine::Operation operation) {
-    const auto tools = tools_ ? Result<std::vector<nav::ToolGeometry>>(*tools_)
-                              : engine::tools_known_to(*headset_);
-    if (!tools) {
-      return tools.error();
-    }
+  engine::AssemblyOptions assembly_options() {
     engine::AssemblyOptions options;
     options.use_reference = arguments_.reference;
     options.reference_places = files_.kept().reference_places();
@@ -192,8 +187,17 @@ class LiveRun {
                               : onlookers_.draw()                ? kForDashboard
                                                                  : 0;
     options.loop.drop_late_snapshots = options.loop.draw_every > 0;
-    auto assembled =
-        engine::assemble_operation(*joined_, std::move(operation), method_, *tools, options);
+    return options;
+  }
+
+  Status start(engine::Operation operation) {
+    const auto tools = tools_ ? Result<std::vector<nav::ToolGeometry>>(*tools_)
+                              : engine::tools_known_to(*headset_);
+    if (!tools) {
+      return tools.error();
+    }
+    auto assembled = engine::assemble_operation(*joined_, std::move(operation), method_, *tools,
+                                                assembly_options());
     if (!assembled) {
       return assembled.error();
     }

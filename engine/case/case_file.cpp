@@ -68,6 +68,16 @@ struct Entry {
   JsonNode node;
 };
 
+std::vector<Entry> entries_of(const JsonNode& root) {
+  std::vector<Entry> entries;
+  for (const JsonNode& node : root.list("levels")) {
+    entries.push_back({node.text("label"), node.text("model"),
+                       node.has("plan") ? node.text_or_texts("plan") : std::vector<std::string>(),
+                       node});
+  }
+  return entries;
+}
+
 /// A level without a plan has no screws, and a model in the case's unit.
 Result<Plan> plan_of(const Entry& entry, const std::string& folder, double metres_per_unit) {
   if (entry.plans.empty()) {
@@ -154,14 +164,10 @@ Result<Case> load_case(const std::string& folder, CaseUse use) {
   subject.folder = folder;
   subject.name = root.text_or("name", fs::path(folder).filename().string());
   const auto metres_per_unit = declared_metres_per_unit(root);
-  std::vector<Entry> entries;
-  std::size_t placed = 0;
-  for (const JsonNode& node : root.list("levels")) {
-    entries.push_back({node.text("label"), node.text("model"),
-                       node.has("plan") ? node.text_or_texts("plan") : std::vector<std::string>(),
-                       node});
-    placed += node.has("spine_from_model") ? 1 : 0;
-  }
+  const std::vector<Entry> entries = entries_of(root);
+  const auto placed = static_cast<std::size_t>(
+      std::count_if(entries.begin(), entries.end(),
+                    [](const Entry& entry) { return entry.node.has("spine_from_model"); }));
   if (placed != 0 && placed != entries.size()) {
     root.refuse("levels", "must have spine_from_model in all levels or in none");
   }
