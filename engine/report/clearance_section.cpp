@@ -14,14 +14,9 @@ using nlohmann::json;
 
 constexpr const char* kAbsent = "\u2013";
 
-json part_of(const json& object, const char* key) {
-  return object.contains(key) && object[key].is_object() ? object[key] : json::object();
-}
-
 std::string word_of(const json& object, const char* key) {
-  return object.contains(key) && object[key].is_string()
-             ? html_escaped(object[key].get<std::string>())
-             : kAbsent;
+  const std::string text = text_in(object, key);
+  return text.empty() ? kAbsent : html_escaped(text);
 }
 
 /// `beside`: what stands behind the number, where there is one.
@@ -38,17 +33,9 @@ std::string where_text(const json& object) {
   return word_of(object, "towards") + (arc_mm ? ", " + html_number(*arc_mm, 0) + " mm" : "");
 }
 
-/// "A 97 %, B 3 %"; what is less likely than half a percent is left out.
 std::string grades_text(const json& object) {
-  const json grades = part_of(object, "grade_probability");
-  std::string text;
-  for (const auto& [grade, probability] : grades.items()) {
-    if (probability.is_number() && probability.get<double>() >= 0.005) {
-      text += (text.empty() ? "" : ", ") + html_escaped(grade) + " " +
-              html_number(100.0 * probability.get<double>(), 0) + " %";
-    }
-  }
-  return text.empty() ? std::string(kAbsent) : text;
+  const std::string text = likely_grades(object_in(object, "grade_probability"));
+  return text.empty() ? kAbsent : text;
 }
 
 /// The bound, and that it lacks what all strokes share.
@@ -57,8 +44,8 @@ void bound_cell(HtmlTable& table, const json& object, bool registration_only) {
 }
 
 void put_row(HtmlTable& table, const std::string& name, const json& screw, bool registration_only) {
-  const json planned = part_of(screw, "planned");
-  const json tracked = part_of(screw, "tracked");
+  const json& planned = object_in(screw, "planned");
+  const json& tracked = object_in(screw, "tracked");
   table.row(html_escaped(name));
   millimetre_cell(table, planned, "clearance_mm");
   table.cell(where_text(planned));
@@ -87,14 +74,11 @@ std::string clearance_section(const json& report) {
                    {"grade expected as tracked"},
                    {"truth", "mm"},
                    {"true grade"}});
-  for (const json& level : report["levels"]) {
-    for (const json& screw : level.value("screws", json::array())) {
-      if (screw.contains("planned") || screw.contains("clearance_mm")) {
-        put_row(table, level.value("label", "") + " " + screw.value("side", ""), screw,
-                level.value("registration_only", false));
-      }
+  for_each_screw(report, [&](const json& level, const std::string& name, const json& screw) {
+    if (screw.contains("planned") || screw.contains("clearance_mm")) {
+      put_row(table, name, screw, is_true(level, "registration_only"));
     }
-  }
+  });
   if (table.empty()) {
     return {};
   }

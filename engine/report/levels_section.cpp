@@ -11,23 +11,13 @@ namespace {
 
 using nlohmann::json;
 
-/// A figure of the report, or a dash where it is absent (no truth, not reached).
-std::string figure(const json& object, const char* key, int decimals) {
-  const auto value = value_of(object, key);
-  return value ? html_number(*value, decimals) : "\u2013";
-}
-
-std::string text_in(const json& object, const char* key) {
-  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
-}
-
 /// Accepted, not accepted after a number of attempts, or never tried.
 std::string verdict_on(const json& level) {
   if (value_of(level, "attempts").value_or(0.0) <= 0.0) {
     return "<span>not reached</span>";
   }
-  return std::string(level.value("accepted", json()) == true ? "<span class=good>accepted</span>"
-                                                             : "<span class=bad>refused</span>") +
+  return std::string(is_true(level, "accepted") ? "<span class=good>accepted</span>"
+                                                : "<span class=bad>refused</span>") +
          " <small>attempt " + figure(level, "attempts", 0) + "</small>";
 }
 
@@ -46,7 +36,7 @@ std::string levels_section(const json& report) {
     table.cell(verdict_on(level));
     table.cell(figure(level, "rmse_mm", 2));
     table.cell(figure(level, "predicted_tre_mm", 2) +
-               (level.value("registration_only", false) ? kRegistrationOnlyHtml : ""));
+               (is_true(level, "registration_only") ? kRegistrationOnlyHtml : ""));
     table.cell(figure(level, "tre_mm", 2));
     table.cell(figure(level, "points", 0));
     table.cell(figure(level, "digitization_s", 1));
@@ -60,8 +50,8 @@ std::string levels_section(const json& report) {
 }
 
 std::string rods_section(const json& report) {
-  const json rod = report.value("rod", json::object());
-  if (!rod.is_object() || rod.empty()) {
+  const json& rod = object_in(report, "rod");
+  if (rod.empty()) {
     return "<section id=rods><h2>Rod template</h2><p>No rod was templated.</p></section>";
   }
   std::string html = "<section id=rods><h2>Rod template</h2><p>Length <b>" +

@@ -28,10 +28,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string text_of(const json& object, const char* key) {
-  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
-}
-
 /// What lies above the axis is put at its edge, and what it was is kept.
 json curve_json(const ReportCurve& curve, double y_max) {
   json points = json::array();
@@ -88,13 +84,8 @@ ReportPlot timing_plot(const std::vector<ReportTiming>& timings) {
   return plot;
 }
 
-std::string figure(const json& object, const char* key, int decimals) {
-  const auto value = value_of(object, key);
-  return value ? html_number(*value, decimals) : "\u2013";
-}
-
 std::string timing_section(const json& report, const std::vector<ReportTiming>& timings) {
-  const json frames = report.value("frames", json::object());
+  const json& frames = object_in(report, "frames");
   std::string html =
       "<section id=timing><h2>Frame timing</h2><p>" + figure(frames, "displayed", 0) +
       " frames displayed, " + figure(frames, "median_ms", 1) + " ms apart (median), " +
@@ -157,15 +148,12 @@ json error_bars(const json& report) {
     }
   }
   json screws = json::array();
-  for (const json& level : report["levels"]) {
-    for (json screw : level.value("screws", json::array())) {
-      if (!screw.contains("angle_error_deg")) {
-        continue;
-      }
-      screw["name"] = text_of(level, "label") + " " + text_of(screw, "side");
-      screws.push_back(std::move(screw));
+  for_each_screw(report, [&](const json&, const std::string& name, const json& screw) {
+    if (has_truth(screw)) {
+      screws.push_back(screw);
+      screws.back()["name"] = name;
     }
-  }
+  });
   return {{"rows", std::move(rows)}, {"screws", std::move(screws)}};
 }
 
@@ -174,7 +162,7 @@ std::string head(const json& report, const std::string& date) {
   const auto fact = [](const char* name, const std::string& value) {
     return "<span>" + std::string(name) + " <b>" + html_escaped(value) + "</b></span> ";
   };
-  const bool patient = report.value("patient_reference", json()) == true;
+  const bool patient = is_true(report, "patient_reference");
   return "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: operation "
          "report</title><meta name=viewport content=\"width=device-width, "
          "initial-scale=1\"><style>" +
@@ -182,7 +170,7 @@ std::string head(const json& report, const std::string& date) {
          "</style></head><body><header><h1>orthonav <span>operation report</span></h1><p "
          "class=facts>" +
          fact("date", date.empty() ? "not recorded" : date) +
-         fact("case", text_of(report, "case")) + fact("method", text_of(report, "method")) +
+         fact("case", text_in(report, "case")) + fact("method", text_in(report, "method")) +
          (report.contains("seed") ? fact("simulated, seed", figure(report, "seed", 0)) : "") +
          fact("relative to", patient ? "the patient reference" : "the headset\u2019s map") +
          "</p></header><main>";

@@ -1,17 +1,70 @@
 #include "engine/report/report_values.h"
 
 #include <nlohmann/json.hpp>
-#include <string>
+
+#include "engine/report/html_text.h"
 
 namespace orthonav::engine {
 
-std::optional<double> value_of(const nlohmann::json& object, std::string_view key) {
+namespace {
+
+/// Null where the key is absent, or the object none.
+const nlohmann::json* find_in(const nlohmann::json& object, std::string_view key) {
   if (!object.is_object()) {
-    return std::nullopt;
+    return nullptr;
   }
   const auto found = object.find(std::string(key));
-  return found != object.end() && found->is_number() ? std::optional(found->get<double>())
-                                                     : std::nullopt;
+  return found != object.end() ? &*found : nullptr;
+}
+
+}  // namespace
+
+std::optional<double> value_of(const nlohmann::json& object, std::string_view key) {
+  const nlohmann::json* const found = find_in(object, key);
+  return found != nullptr && found->is_number() ? std::optional(found->get<double>())
+                                                : std::nullopt;
+}
+
+std::string figure(const nlohmann::json& object, std::string_view key, int decimals) {
+  const auto value = value_of(object, key);
+  return value ? html_number(*value, decimals) : "\u2013";
+}
+
+std::string text_in(const nlohmann::json& object, std::string_view key) {
+  const nlohmann::json* const found = find_in(object, key);
+  return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+const nlohmann::json& object_in(const nlohmann::json& object, std::string_view key) {
+  static const nlohmann::json kNone = nlohmann::json::object();
+  const nlohmann::json* const found = find_in(object, key);
+  return found != nullptr && found->is_object() ? *found : kNone;
+}
+
+bool is_true(const nlohmann::json& object, std::string_view key) {
+  const nlohmann::json* const found = find_in(object, key);
+  return found != nullptr && found->is_boolean() && found->get<bool>();
+}
+
+void for_each_screw(const nlohmann::json& report,
+                    const std::function<void(const nlohmann::json& level, const std::string& name,
+                                             const nlohmann::json& screw)>& take) {
+  for (const nlohmann::json& level : report.value("levels", nlohmann::json::array())) {
+    for (const nlohmann::json& screw : level.value("screws", nlohmann::json::array())) {
+      take(level, text_in(level, "label") + " " + text_in(screw, "side"), screw);
+    }
+  }
+}
+
+std::string likely_grades(const nlohmann::json& probabilities) {
+  std::string out;
+  for (const auto& [grade, probability] : probabilities.items()) {
+    const double percent = probability.is_number() ? 100.0 * probability.get<double>() : 0.0;
+    if (percent >= 0.5) {
+      out += (out.empty() ? "" : ", ") + html_escaped(grade) + " " + html_number(percent, 0) + " %";
+    }
+  }
+  return out;
 }
 
 std::vector<double> values_of(const nlohmann::json& report, std::string_view key, bool per_screw) {

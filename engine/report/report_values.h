@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +19,22 @@ struct ReportQuantity {
 
 /// A number of an object; nothing where it is absent or of another type.
 [[nodiscard]] std::optional<double> value_of(const nlohmann::json& object, std::string_view key);
+/// The same as a person reads it; a dash where it is absent.
+[[nodiscard]] std::string figure(const nlohmann::json& object, std::string_view key, int decimals);
+/// A text of an object; empty where it is absent or of another type.
+[[nodiscard]] std::string text_in(const nlohmann::json& object, std::string_view key);
+/// An object in an object; an empty one where it is absent or of another type.
+[[nodiscard]] const nlohmann::json& object_in(const nlohmann::json& object, std::string_view key);
+/// Whether it is there and true.
+[[nodiscard]] bool is_true(const nlohmann::json& object, std::string_view key);
+
+/// Calls `take(level, name, screw)` for every screw of a report, where the name is "L4 left".
+void for_each_screw(const nlohmann::json& report,
+                    const std::function<void(const nlohmann::json& level, const std::string& name,
+                                             const nlohmann::json& screw)>& take);
+/// Probabilities by grade as HTML, "A 97 %, B 3 %"; what is less likely than half a percent is left
+/// out.
+[[nodiscard]] std::string likely_grades(const nlohmann::json& probabilities);
 
 /// `key` of every screw, or of every level, in a report; absent ones are left out.
 [[nodiscard]] std::vector<double> values_of(const nlohmann::json& report, std::string_view key,

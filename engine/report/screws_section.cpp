@@ -17,17 +17,9 @@ using nlohmann::json;
 
 constexpr const char* kNone = "\u2013";
 
-json object_in(const json& object, const char* key) {
-  return object.contains(key) && object[key].is_object() ? object[key] : json::object();
-}
-
-std::string text_in(const json& object, const char* key) {
-  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
-}
-
 /// "6.5 × 40".
 std::string size_of(const json& screw) {
-  const json planned = object_in(screw, "planned");
+  const json& planned = object_in(screw, "planned");
   const auto diameter = value_of(planned, "diameter_mm");
   const auto length = value_of(planned, "length_mm");
   return diameter && length
@@ -42,7 +34,7 @@ void error_cell(HtmlTable& table, const std::optional<double>& value, double lim
 
 /// Against the truth where one is known, else as tracked: "2.9 A", "2.0 A 93 % as tracked".
 void clearance_cell(HtmlTable& table, const json& screw) {
-  const json tracked = object_in(screw, "tracked");
+  const json& tracked = object_in(screw, "tracked");
   const bool known = value_of(screw, "clearance_mm").has_value();
   const json& from = known ? screw : tracked;
   const auto clearance = value_of(from, "clearance_mm");
@@ -61,11 +53,10 @@ void put_screw(HtmlTable& table, const std::string& name, const json& screw) {
   table.cell(size_of(screw));
   error_cell(table, value_of(screw, "angle_error_deg"), degrees(kOnTarget_rad));
   error_cell(table, value_of(screw, "entry_error_mm"), kOnTarget_m * 1e3);
-  const auto depth = value_of(object_in(screw, "executed"), "depth_mm");
-  table.cell(depth ? html_number(*depth, 1) : kNone);
+  table.cell(figure(object_in(screw, "executed"), "depth_mm", 1));
   clearance_cell(table, screw);
   table.cell(wire_as_placed(screw));
-  if (const json change = object_in(screw, "planned_in_surgery"); !change.empty()) {
+  if (const json& change = object_in(screw, "planned_in_surgery"); !change.empty()) {
     table.below("planned in surgery: " + html_escaped(text_in(change, "text")));
   }
 }
@@ -81,12 +72,10 @@ std::string screws_section(const json& report) {
                    {"clearance, grade", "mm"},
                    {"wire as measured in place"}});
   bool truth = false;
-  for (const json& level : report["levels"]) {
-    for (const json& screw : level.value("screws", json::array())) {
-      put_screw(table, text_in(level, "label") + " " + text_in(screw, "side"), screw);
-      truth = truth || has_truth(screw);
-    }
-  }
+  for_each_screw(report, [&](const json&, const std::string& name, const json& screw) {
+    put_screw(table, name, screw);
+    truth = truth || has_truth(screw);
+  });
   if (table.empty()) {
     return "<section id=screws><h2>Screws</h2><p>None planned.</p></section>";
   }
@@ -97,9 +86,8 @@ std::string screws_section(const json& report) {
             : "Errors against the truth are not known here. ";
   return "<section id=screws><h2>Screws</h2>" + table.html() + "<p class=notes>" + errors +
          "Depth: of the tool\u2019s tip past the planned entry when it was last tracked, not of "
-         "the "
-         "screw. Clearance: least depth of the planned screw below the bone\u2019s surface along "
-         "the way taken.</p></section>";
+         "the screw. Clearance: least depth of the planned screw below the bone\u2019s surface "
+         "along the way taken.</p></section>";
 }
 
 }  // namespace orthonav::engine

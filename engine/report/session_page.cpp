@@ -38,13 +38,10 @@ void put_nothing(const std::string& title, std::string& html) {
   html += "<section><h2>" + title + "</h2><p>None recorded.</p></section>";
 }
 
-void put_ending(const SessionRecord& session, std::string& html) {
-  const bool good = session.completed();
-  const Verdict verdict = verdict_of(nlohmann::json::parse(session_json(session)));
-  const char* const kind = !good ? "incomplete" : verdict.warnings.empty() ? "done" : "warned";
-  html += "<section id=verdict class=" + std::string(kind) + "><h2>" +
+void put_ending(const SessionRecord& session, const Verdict& verdict, std::string& html) {
+  html += "<section id=verdict class=" + std::string(style_of(verdict)) + "><h2>" +
           (session.cut ? "This session was cut off"
-                       : (good ? "The operation is done" : "Operation incomplete")) +
+                       : (session.completed() ? "The operation is done" : "Operation incomplete")) +
           ": " + html_escaped(verdict.counts) + "</h2><p>" + html_escaped(ending_of(session)) +
           "</p>" + warnings_list(verdict) + "</section>";
 }
@@ -251,18 +248,19 @@ std::string session_page(const SessionRecord& session, const std::string& source
            ? (*session.patient_reference ? "the patient reference" : "the headset\u2019s map")
            : "a frame that is not recorded") +
       "</b></p></header><main>";
-  put_ending(session, html);
+  const nlohmann::json figures = nlohmann::json::parse(session_json(session));
+  put_ending(session, verdict_of(figures), html);
   put_screws(session, html);
   put_levels(session, html);
   html += session_rods(session);
   put_registrations(session, html);
-  html += tracked_section(nlohmann::json::parse(session_json(session)));
+  html += tracked_section(figures);
   put_steps(session, html);
   html += guide_notes(session);
   return html +
          "<ul class=notes><li>From the journal alone: the date, digitized points, images, frame "
-         "times and "
-         "errors against the truth are not recorded in it.</li><li>Times are of the headset's "
+         "times and errors against the truth are not recorded in it.</li><li>Times are of the "
+         "headset's "
          "clock, minutes and seconds.</li><li>Written by orthonav " +
          html_escaped(session.orthonav) +
          ". Not a medical device.</li></ul></main></body></html>\n";

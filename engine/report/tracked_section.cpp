@@ -17,11 +17,6 @@ using nlohmann::json;
 constexpr const char* kNoMeasurement = "not measured";
 constexpr const char* kNoRecord = "not recorded";
 
-std::string text_under(const json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
 /// Why there is no such figure.
 const char* why_none(const json& screw, const char* what) {
   const auto names = screw.find("not_measured");
@@ -59,11 +54,6 @@ std::string plus_minus(const std::string& value, std::optional<double> sd, int d
   return value + " ± " + (sd ? html_number(*sd, decimals) : "not known");
 }
 
-std::string number_under(const json& object, const char* key, int decimals) {
-  const auto value = value_of(object, key);
-  return value ? html_number(*value, decimals) : "–";
-}
-
 void put_tracked_way(HtmlTable& table, const json& screw) {
   const auto found = screw.find("executed");
   if (found == screw.end() || !found->is_object()) {
@@ -77,26 +67,16 @@ void put_tracked_way(HtmlTable& table, const json& screw) {
                         axis_sd_of(*found, "entry_covariance_mm2", 3.0), 2));
   table.cell(plus_minus(numbers_under(*found, "direction", 3),
                         direction_sd ? std::optional(degrees(*direction_sd)) : std::nullopt, 2));
-  table.cell(number_under(*found, "depth_mm", 1));
-  table.cell(number_under(*found, "pairs", 0));
+  table.cell(figure(*found, "depth_mm", 1));
+  table.cell(figure(*found, "pairs", 0));
 }
 
-/// "A 97 %, B 3 %": those that are likely at all.
-std::string likely_grades(const json& screw) {
+std::string grades_at_depth(const json& screw) {
   for (const char* where : {"at_depth", "tracked"}) {
-    const auto pose = screw.find(where);
-    if (pose == screw.end() || !pose->is_object() || !pose->contains("grade_probability")) {
-      continue;
+    const json& pose = object_in(screw, where);
+    if (pose.contains("grade_probability")) {
+      return likely_grades(pose["grade_probability"]);
     }
-    std::string out;
-    for (const auto& [grade, probability] : (*pose)["grade_probability"].items()) {
-      const double percent = probability.is_number() ? 100.0 * probability.get<double>() : 0.0;
-      if (percent >= 0.5) {
-        out +=
-            (out.empty() ? "" : ", ") + html_escaped(grade) + " " + html_number(percent, 0) + " %";
-      }
-    }
-    return out;
   }
   const char* why = why_none(screw, "grade_probability");
   return why == kNoMeasurement ? why : why_none(screw, "clearance");
@@ -109,16 +89,14 @@ std::string table_of_tools(const json& report) {
                    {"depth", "mm"},
                    {"pairs"},
                    {"grade, probability"}});
-  for (const json& level : report.value("levels", json::array())) {
-    for (const json& screw : level.value("screws", json::array())) {
-      const bool done = screw.value("done", json(true)) != json(false);
-      if (done && (screw.contains("executed") || screw.contains("not_measured"))) {
-        table.row(html_escaped(text_under(level, "label") + " " + text_under(screw, "side")));
-        put_tracked_way(table, screw);
-        table.cell(likely_grades(screw));
-      }
+  for_each_screw(report, [&](const json&, const std::string& name, const json& screw) {
+    const bool done = screw.value("done", json(true)) != json(false);
+    if (done && (screw.contains("executed") || screw.contains("not_measured"))) {
+      table.row(html_escaped(name));
+      put_tracked_way(table, screw);
+      table.cell(grades_at_depth(screw));
     }
-  }
+  });
   return table.empty() ? "<p>Where the tools went: not recorded.</p>" : table.html();
 }
 
@@ -128,10 +106,9 @@ std::string table_of_tags(const json& found) {
   }
   HtmlTable table({{"tags of"}, {"larger than stated, as seen", "%"}, {"taken into account", "%"}});
   for (const json& size : found["tags"]) {
-    table.row(html_escaped(text_under(size, "tool")));
-    table.cell(
-        plus_minus(number_under(size, "measured_percent", 2), value_of(size, "sd_percent"), 2));
-    table.cell(number_under(size, "applied_percent", 2));
+    table.row(html_escaped(text_in(size, "tool")));
+    table.cell(plus_minus(figure(size, "measured_percent", 2), value_of(size, "sd_percent"), 2));
+    table.cell(figure(size, "applied_percent", 2));
   }
   return table.html();
 }
@@ -141,16 +118,14 @@ std::string cameras_text(const json& found) {
     return "<p>Cameras against their calibration: not measured.</p>";
   }
   const json& cameras = found["cameras"];
-  return "<p>Cameras against their calibration, from " + number_under(cameras, "pairs", 0) +
-         " sightings: turned by " + number_under(cameras, "rotation_deg", 3) + "°" +
-         (cameras.value("rotation_applied", json(false)) == json(true)
-              ? ", taken into account"
-              : ", not taken into account") +
+  return "<p>Cameras against their calibration, from " + figure(cameras, "pairs", 0) +
+         " sightings: turned by " + figure(cameras, "rotation_deg", 3) + "°" +
+         (is_true(cameras, "rotation_applied") ? ", taken into account"
+                                               : ", not taken into account") +
          "; focal lengths differ by " +
-         plus_minus(number_under(cameras, "focal_percent", 2),
-                    value_of(cameras, "focal_sd_percent"), 2) +
+         plus_minus(figure(cameras, "focal_percent", 2), value_of(cameras, "focal_sd_percent"), 2) +
          " %, baseline by " +
-         plus_minus(number_under(cameras, "baseline_percent", 2),
+         plus_minus(figure(cameras, "baseline_percent", 2),
                     value_of(cameras, "baseline_sd_percent"), 2) +
          " %, neither taken into account.</p>";
 }

@@ -15,22 +15,6 @@ using nlohmann::json;
 
 constexpr const char* kAgainstTruth = ", against the simulation\u2019s truth";
 
-std::string words_in(const json& object, const char* key) {
-  return object.is_object() && object.contains(key) && object[key].is_string()
-             ? object[key].get<std::string>()
-             : "";
-}
-
-const json& part_in(const json& object, const char* key) {
-  static const json kNone = json::object();
-  const auto found = object.find(key);
-  return found != object.end() && found->is_object() ? *found : kNone;
-}
-
-bool is_true(const json& object, const char* key) {
-  return object.contains(key) && object[key].is_boolean() && object[key].get<bool>();
-}
-
 std::string of(std::size_t some, std::size_t all) {
   return std::to_string(some) + " of " + std::to_string(all);
 }
@@ -49,20 +33,10 @@ struct Counts {
   std::size_t wires_within = 0;
 };
 
-/// Calls `take(name, screw)` for every screw: "L4 left".
-template <class Take>
-void for_each_screw(const json& report, const Take& take) {
-  for (const json& level : report["levels"]) {
-    for (const json& screw : level.value("screws", json::array())) {
-      take(words_in(level, "label") + " " + words_in(screw, "side"), screw);
-    }
-  }
-}
-
 Counts counts_of(const json& report) {
   Counts n;
-  for_each_screw(report, [&n](const std::string&, const json& screw) {
-    const json& wire = part_in(screw, "wire");
+  for_each_screw(report, [&n](const json&, const std::string&, const json& screw) {
+    const json& wire = object_in(screw, "wire");
     ++n.screws;
     n.placed += is_placed(screw) ? 1 : 0;
     n.known += has_truth(screw) ? 1 : 0;
@@ -97,7 +71,7 @@ std::string missed_text(const json& screw) {
   std::string text;
   if (clearance && *clearance < 0.0) {
     text = "breached the cortex by " + html_number(-*clearance, 1) + " mm (grade " +
-           words_in(screw, "grade") + ")";
+           text_in(screw, "grade") + ")";
   }
   if (has_truth(screw) && !is_on_target(screw)) {
     text += std::string(text.empty() ? "" : "; ") +
@@ -109,10 +83,10 @@ std::string missed_text(const json& screw) {
 }
 
 std::string wire_warning(const json& screw) {
-  if (words_in(screw, "wire") == "not measured") {
+  if (text_in(screw, "wire") == "not measured") {
     return is_placed(screw) ? "the wire was not measured" : "";
   }
-  const json& wire = part_in(screw, "wire");
+  const json& wire = object_in(screw, "wire");
   const auto angle = value_of(wire, "angle_deg");
   const auto entry = value_of(wire, "entry_mm");
   if (wire.empty() || is_true(wire, "within") || !angle || !entry) {
@@ -124,8 +98,8 @@ std::string wire_warning(const json& screw) {
 }
 
 std::string bound_warning(const json& screw) {
-  // A journal calls it otherwise.
-  const json& tracked = part_in(screw, screw.contains("tracked") ? "tracked" : "at_depth");
+  // A journal has it as `at_depth`.
+  const json& tracked = object_in(screw, screw.contains("tracked") ? "tracked" : "at_depth");
   const auto bound = value_of(tracked, "clearance_95_mm");
   return bound && *bound < 0.0
              ? "as tracked, a breach of the cortex cannot be ruled out (95 % bound " +
@@ -134,7 +108,7 @@ std::string bound_warning(const json& screw) {
 }
 
 std::string planned_warning(const json& screw) {
-  const std::string reason = words_in(part_in(screw, "planned"), "accepted_breach");
+  const std::string reason = text_in(object_in(screw, "planned"), "accepted_breach");
   return reason.empty() ? "" : "planned to leave the cortex: " + reason;
 }
 
@@ -142,7 +116,7 @@ std::string planned_warning(const json& screw) {
 std::vector<std::string> warnings_of(const json& report) {
   std::vector<std::string> out;
   for (const auto& warning : {missed_text, wire_warning, bound_warning, planned_warning}) {
-    for_each_screw(report, [&](const std::string& name, const json& screw) {
+    for_each_screw(report, [&](const json&, const std::string& name, const json& screw) {
       if (const std::string text = warning(screw); !text.empty()) {
         out.push_back(name + ": " + text);
       }
@@ -169,7 +143,7 @@ Verdict verdict_of(const json& report) {
   Verdict out;
   out.warnings = warnings_of(report);
   const bool completed = is_true(report, "completed");
-  const std::string why = words_in(report, "why_not");
+  const std::string why = text_in(report, "why_not");
   out.kind = !completed             ? Verdict::Kind::kIncomplete
              : out.warnings.empty() ? Verdict::Kind::kDone
                                     : Verdict::Kind::kDoneWithWarnings;
@@ -183,13 +157,25 @@ Verdict verdict_of(const json& report) {
     out.line += " (" + why + ")";
   }
   // A journal without its plan does not tell how many there were to be.
-  const json& session = part_in(report, "session");
+  const json& session = object_in(report, "session");
   const bool planned = !session.contains("plan_recorded") || is_true(session, "plan_recorded");
   const std::size_t all = planned ? n.screws : n.placed;
   out.counts = (planned ? of(n.placed, all) : std::to_string(n.placed)) + " screw" +
                (all == 1 ? "" : "s") + " placed" + accuracy_text(n) + ".";
   out.line += ": " + out.counts;
   return out;
+}
+
+const char* style_of(const Verdict& verdict) {
+  switch (verdict.kind) {
+    case Verdict::Kind::kDone:
+      return "done";
+    case Verdict::Kind::kDoneWithWarnings:
+      return "warned";
+    case Verdict::Kind::kIncomplete:
+      break;
+  }
+  return "incomplete";
 }
 
 std::string warnings_list(const Verdict& verdict) {
@@ -202,11 +188,8 @@ std::string warnings_list(const Verdict& verdict) {
 
 std::string verdict_section(const json& report) {
   const Verdict verdict = verdict_of(report);
-  const char* const kind = verdict.kind == Verdict::Kind::kDone         ? "done"
-                           : verdict.kind == Verdict::Kind::kIncomplete ? "incomplete"
-                                                                        : "warned";
-  return "<section id=verdict class=" + std::string(kind) + "><h2>" + html_escaped(verdict.line) +
-         "</h2>" + warnings_list(verdict) + "</section>";
+  return "<section id=verdict class=" + std::string(style_of(verdict)) + "><h2>" +
+         html_escaped(verdict.line) + "</h2>" + warnings_list(verdict) + "</section>";
 }
 
 }  // namespace orthonav::engine

@@ -18,6 +18,8 @@ struct Verdict {
 /// Of a report.json or a session's JSON. Says no more than was measured: where a truth is known, it
 /// says against which; where none is, it counts the wires that were measured.
 [[nodiscard]] Verdict verdict_of(const nlohmann::json& report);
+/// Its class in the style of the page: "done", "warned" or "incomplete".
+[[nodiscard]] const char* style_of(const Verdict& verdict);
 /// The warnings as HTML; empty where there are none.
 [[nodiscard]] std::string warnings_list(const Verdict& verdict);
 /// The same as the first section of the page.
