@@ -157,7 +157,7 @@ void HostedVulkanRenderer::make_passes() {
     depth_pass_ = std::make_unique<FramePass>(device_, drawing_.cache(), drawing_.layout(), spec,
                                               options_.blend);
   }
-  if (spec.edges == Edges::kCoverage) {
+  if (drawing_.covers()) {
     ImageSpec copied;
     copied.format = spec.colour;
     copied.width = spec.width;
@@ -227,8 +227,7 @@ Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& v
     if (!pass_ || views.size() != kMostViews || !holds(images_, indices)) {
       return Error{"renderer: no such images of the host's"};
     }
-    drawing_.build(scene, views, {images_.width_px, images_.height_px},
-                   drawn_edges(options_) == Edges::kCoverage);
+    drawing_.build(scene, views, {images_.width_px, images_.height_px}, PassKind::kColour);
     record(views, indices);
     timing_.record_ms = watch.elapsed_ms();
     drawing_.slot().commands.submit();

@@ -47,39 +47,27 @@ Recipe overlay_recipe(std::string_view vertex, std::string_view fragment, bool d
   return recipe;
 }
 
-/// The stages that only frames with computed coverage have, and kTriangle of these.
-Recipe cover_recipe_of(Stage stage) {
-  switch (stage) {
-    case Stage::kEdge: {
-      Recipe recipe;
-      recipe.vertex = embedded::edge_vert();
-      recipe.fragment = embedded::edge_frag();
-      return recipe;
-    }
-    case Stage::kLineCover:
-    case Stage::kLineColour: {
-      const bool cover = stage == Stage::kLineCover;
-      Recipe recipe =
-          overlay_recipe(embedded::line_cover_vert(),
-                         cover ? embedded::line_cover_frag() : embedded::line_colour_frag(), true);
-      recipe.mix = cover ? Mix::kCoverAlpha : Mix::kByAlpha;
-      return recipe;
-    }
-    default:
-      return overlay_recipe(embedded::triangle_cover_vert(), embedded::triangle_cover_frag(), true);
-  }
+/// For what covers pixels whatever their depth.
+Recipe plain_recipe(std::string_view vertex, std::string_view fragment) {
+  Recipe recipe;
+  recipe.vertex = vertex;
+  recipe.fragment = fragment;
+  return recipe;
 }
 
-Recipe recipe_of(Stage stage, PassKind kind) {
-  const bool labels = kind == PassKind::kLabels;
+/// A line in parts of one and the same shape.
+Recipe covered_line_recipe(std::string_view fragment, Mix mix) {
+  Recipe recipe = overlay_recipe(embedded::line_cover_vert(), fragment, true);
+  recipe.mix = mix;
+  return recipe;
+}
+
+/// `covers`: whether the coverage of pixels is computed.
+Recipe recipe_of(Stage stage, bool labels, bool covers) {
   const std::string_view flat = labels ? embedded::label_frag() : embedded::flat_frag();
   switch (stage) {
-    case Stage::kBackground: {
-      Recipe recipe;
-      recipe.vertex = embedded::background_vert();
-      recipe.fragment = embedded::background_frag();
-      return recipe;
-    }
+    case Stage::kBackground:
+      return plain_recipe(embedded::background_vert(), embedded::background_frag());
     case Stage::kDepth:
       return mesh_recipe({}, Mix::kReplace, true, VK_COMPARE_OP_LESS);
     case Stage::kTranslucent:
@@ -89,15 +77,20 @@ Recipe recipe_of(Stage stage, PassKind kind) {
       return mesh_recipe(labels ? flat : embedded::mesh_solid_frag(), Mix::kBlend, false,
                          VK_COMPARE_OP_EQUAL);
     case Stage::kTriangle:
-      return overlay_recipe(embedded::triangle_vert(), flat, true);
+      return covers ? overlay_recipe(embedded::triangle_cover_vert(),
+                                     embedded::triangle_cover_frag(), true)
+                    : overlay_recipe(embedded::triangle_vert(), flat, true);
     case Stage::kLine: {
       Recipe recipe = overlay_recipe(embedded::line_vert(), flat, true);
       recipe.stencil = true;
       return recipe;
     }
-    case Stage::kEdge:
     case Stage::kLineCover:
+      return covered_line_recipe(embedded::line_cover_frag(), Mix::kCoverAlpha);
     case Stage::kLineColour:
+      return covered_line_recipe(embedded::line_colour_frag(), Mix::kByAlpha);
+    case Stage::kEdge:
+      return plain_recipe(embedded::edge_vert(), embedded::edge_frag());
     case Stage::kText:
     case Stage::kCount:
       break;
@@ -108,7 +101,7 @@ Recipe recipe_of(Stage stage, PassKind kind) {
 
 /// The stage as it is drawn, but for its depth alone; text stands in front of everything.
 Recipe depth_recipe_of(Stage stage) {
-  Recipe recipe = recipe_of(stage, PassKind::kLabels);
+  Recipe recipe = recipe_of(stage, true, false);
   recipe.fragment = stage == Stage::kText ? embedded::text_depth_frag() : std::string_view{};
   recipe.stencil = false;
   recipe.depth_test = recipe.depth_write = true;
@@ -119,16 +112,15 @@ Recipe depth_recipe_of(Stage stage) {
 }  // namespace
 
 bool has_stage(Stage stage, const TargetSpec& spec) {
-  const bool covers = spec.covers();
   switch (stage) {
     case Stage::kBackground:
       return spec.kind == PassKind::kColour;
-    case Stage::kEdge:
     case Stage::kLineCover:
     case Stage::kLineColour:
-      return covers;
+    case Stage::kEdge:
+      return spec.covers();
     case Stage::kLine:
-      return !covers;
+      return !spec.covers();
     default:
       return true;
   }
@@ -138,9 +130,7 @@ Recipe recipe_of(Stage stage, const TargetSpec& spec) {
   if (spec.kind == PassKind::kDepth) {
     return depth_recipe_of(stage);
   }
-  const bool covered = stage == Stage::kTriangle || stage == Stage::kEdge ||
-                       stage == Stage::kLineCover || stage == Stage::kLineColour;
-  return spec.covers() && covered ? cover_recipe_of(stage) : recipe_of(stage, spec.kind);
+  return recipe_of(stage, spec.kind == PassKind::kLabels, spec.covers());
 }
 
 }  // namespace orthonav::render

@@ -12,12 +12,11 @@ enum class Stage {
   kDepth,        ///< solids into the depth alone
   kTranslucent,  ///< see-through meshes: the nearest surface replaces what is there
   kSolid,        ///< the nearest solid surface, blended
-  kEdge,  ///< of meshes, where coverage is computed: pixels that they cut get their neighbours'
-          ///< share
   kTriangle,
   kLine,        ///< the stencil lets each item touch a sample once
-  kLineCover,   ///< where coverage is computed, in place of kLine: into alpha; and
-  kLineColour,  ///< by what is left in alpha
+  kLineCover,   ///< in place of kLine where coverage is computed: a line into alpha, then
+  kLineColour,  ///< its colour by what alpha lacks
+  kEdge,        ///< of meshes, where coverage is computed: pixels get their neighbours' share
   kText,        ///< in front of everything: a number is never hidden
   kCount
 };

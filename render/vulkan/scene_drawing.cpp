@@ -146,7 +146,7 @@ Status SceneDrawing::add_mesh(const MeshItem& item, const std::string& name) {
   const Matrix4& place = item.world_from_model;
   MeshDetail detail;
   detail.error = options_.surface_error_m / length({place[0], place[1], place[2]});
-  detail.edges = drawn_edges(options_) == Edges::kCoverage;
+  detail.edges = covers();
   if (const Status added = meshes_.add(device_, slot().commands, item.mesh, detail); !added) {
     return Error{name + ": " + added.error().message, added.error().code};
   }
@@ -200,11 +200,11 @@ Status SceneDrawing::take(const Scene& scene) {
 }
 
 void SceneDrawing::build(const Scene& scene, const std::vector<View>& views, PixelSize size,
-                         bool covers) {
+                         PassKind kind) {
   items_.build(scene, views, font_, unseen_rad(views, size));
   edges_.clear();
   edges_of_view_ = {};
-  if (covers) {
+  if (kind == PassKind::kColour && covers()) {
     find_edges(views, size);
   }
   prepare_data();

@@ -54,9 +54,11 @@ class SceneDrawing {
 
   /// Checks the scene and uploads its meshes.
   [[nodiscard]] Status take(const Scene& scene);
-  /// Lays the scene out for these views in images of this size, into the current slot; surfaces'
-  /// edges too where coverage is computed.
-  void build(const Scene& scene, const std::vector<View>& views, PixelSize size, bool covers);
+  /// Whether colour is drawn with computed coverage.
+  [[nodiscard]] bool covers() const { return drawn_edges(options_) == Edges::kCoverage; }
+  /// Lays the scene out for a pass over these views in images of this size, into the current slot;
+  /// the edges of its meshes too, where the pass smooths them.
+  void build(const Scene& scene, const std::vector<View>& views, PixelSize size, PassKind kind);
   /// The edges of the pass whose first view is `first`.
   [[nodiscard]] EdgeRanges edges(std::size_t first) const {
     return {edges_of_view_[first], edges_of_view_[(first + 1) % kMostViews]};

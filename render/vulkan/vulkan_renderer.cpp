@@ -71,10 +71,10 @@ void VulkanRenderer::upload_blank_background() {
       {&all, 1});
   commands.run();
   drawing_.bind_background(background_);
-  if (drawn_edges(options_) == Edges::kCoverage) {
+  if (drawing_.covers()) {
     drawn_so_far_ = DeviceImage(device_, spec);
   }
-  drawing_.bind_drawn(drawn_edges(options_) == Edges::kCoverage ? drawn_so_far_ : background_);
+  drawing_.bind_drawn(drawing_.covers() ? drawn_so_far_ : background_);
 }
 
 const FramePass& VulkanRenderer::pass_for(PassKind kind, std::size_t views) {

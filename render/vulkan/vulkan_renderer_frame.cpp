@@ -51,8 +51,7 @@ Status VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::v
   if (const Status taken = take_input(scene, views, backgrounds); !taken) {
     return taken;
   }
-  const bool covers = kind == PassKind::kColour && drawn_edges(options_) == Edges::kCoverage;
-  drawing_.build(scene, views, size(), covers);
+  drawing_.build(scene, views, size(), kind);
   const std::size_t at_once = std::min(views.size(), drawing_.views_a_pass());
   Commands& commands = drawing_.slot().commands;
   const VkCommandBuffer batch = commands.begin();
