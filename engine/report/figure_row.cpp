@@ -1,8 +1,5 @@
 #include "engine/report/figure_row.h"
 
-#include <cmath>
-
-#include "base/printed.h"
 #include "engine/report/html_text.h"
 
 namespace orthonav::engine {
@@ -23,12 +20,9 @@ namespace {
 
 /// With the decimals that tell it from the limit.
 std::string text_of_figure(const JudgedFigure& figure) {
-  const bool beside = figure.bound != Bound::kNone && std::isfinite(figure.value);
-  if (!beside) {
-    return html_number(figure.value, figure.decimals);
-  }
-  const std::string text = value_beside(figure.value, figure.limit, figure.decimals);
-  return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
+  return figure.bound == Bound::kNone
+             ? html_number(figure.value, figure.decimals)
+             : html_number_beside(figure.value, figure.limit, figure.decimals);
 }
 
 }  // namespace

@@ -5,6 +5,13 @@
 #include "base/printed.h"
 
 namespace orthonav::engine {
+namespace {
+
+std::string with_true_minus(const std::string& number) {
+  return number.starts_with('-') ? "\u2212" + number.substr(1) : number;
+}
+
+}  // namespace
 
 std::string html_escaped(const std::string& text) {
   std::string out;
@@ -30,14 +37,11 @@ std::string html_escaped(const std::string& text) {
 }
 
 std::string html_number(double value, int decimals) {
-  if (!std::isfinite(value)) {
-    return "\u2013";
-  }
-  std::string out = printed("%.*f", decimals, value);
-  if (!out.empty() && out[0] == '-') {
-    out = "\u2212" + out.substr(1);
-  }
-  return out;
+  return std::isfinite(value) ? with_true_minus(printed("%.*f", decimals, value)) : "\u2013";
+}
+
+std::string html_number_beside(double value, double limit, int decimals) {
+  return std::isfinite(value) ? with_true_minus(value_beside(value, limit, decimals)) : "\u2013";
 }
 
 std::string formatted(const char* format, double a, double b, double c, double d) {

@@ -14,5 +14,7 @@ inline constexpr const char* kRegistrationOnlyHtml = " <small>registration only<
                                     double d = 0.0);
 /// A number as a person reads it, with a true minus sign; a dash where it is not finite.
 [[nodiscard]] std::string html_number(double value, int decimals);
+/// The same beside its limit: with the decimals that tell one from the other.
+[[nodiscard]] std::string html_number_beside(double value, double limit, int decimals);
 
 }  // namespace orthonav::engine

@@ -29,7 +29,8 @@ std::string size_of(const json& screw) {
 
 /// Of an error against the truth, with its limit.
 void error_cell(HtmlTable& table, const std::optional<double>& value, double limit) {
-  table.cell(value ? html_number(*value, 1) : kNone, value && *value > limit ? "bad" : "");
+  table.cell(value ? html_number_beside(*value, limit, 1) : kNone,
+             value && *value > limit ? "bad" : "");
 }
 
 /// Against the truth where one is known, else as tracked: "2.9 A", "2.0 A 93 % as tracked".

@@ -75,8 +75,8 @@ std::string missed_text(const json& screw) {
   }
   if (has_truth(screw) && !is_on_target(screw)) {
     text += std::string(text.empty() ? "" : "; ") +
-            (entry ? html_number(*angle, 1) + "\u00b0 and " + html_number(*entry, 1) +
-                         " mm from the plan"
+            (entry ? html_number_beside(*angle, degrees(kOnTarget_rad), 1) + "\u00b0 and " +
+                         html_number_beside(*entry, kOnTarget_m * 1e3, 1) + " mm from the plan"
                    : "the wire missed the bone");
   }
   return text.empty() ? "" : text + kAgainstTruth;

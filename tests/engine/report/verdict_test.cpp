@@ -54,6 +54,14 @@ TEST(Verdict, CountsAScrewOnTargetUpToTheLimitsAndNoFarther) {
   }
 }
 
+TEST(Verdict, TellsAnErrorFromTheLimitThatItRoundsTo) {
+  json left = good_screw("left");
+  left["entry_error_mm"] = 2.01;
+  const json report = report_of(left, good_screw("right"));
+  EXPECT_THAT(verdict_of(report).warnings, ElementsAre(HasSubstr("1.5° and 2.01 mm from")));
+  EXPECT_THAT(screws_section(report), HasSubstr(">2.01</td>"));
+}
+
 TEST(Verdict, PutsTheGravestWarningFirst) {
   json left = good_screw("left");
   left["wire"]["within"] = false;
