@@ -136,17 +136,18 @@ class WatchedLoop : public GuidingLoop {
   Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr) {
     return GuidingLoop::run(headset, observer, &sink);
   }
+  /// For whoever is to hang: waits until guidance is drawn, and then, too long, until this is.
+  void hang_until_drawn(fake::FakeHeadset& headset, const char* text) {
+    EXPECT_TRUE(wait_until([&] { return sink.drew("guide"); }));
+    headset.manual_clock().advance(kStallAfter + Duration(1));
+    EXPECT_TRUE(wait_until([&] { return sink.drew(text); }));
+  }
   WatchedSink sink;
 };
 
 TEST_F(WatchedLoop, ACameraThatHangsIsNamedByTheDrawer) {
   fake::FakeHeadset inner(pairs(3));
-  EventfulHeadset headset(inner,
-                          {1, [&] {
-                             EXPECT_TRUE(wait_until([&] { return sink.drew("guide"); }));
-                             inner.manual_clock().advance(kStallAfter + Duration(1));
-                             EXPECT_TRUE(wait_until([&] { return sink.drew("camera stalled"); }));
-                           }});
+  EventfulHeadset headset(inner, {1, [&] { hang_until_drawn(inner, "camera stalled"); }});
   const auto report = run(headset);
   ASSERT_TRUE(report.ok()) << report.error().message;
   EXPECT_EQ(report->stalls, 1);
@@ -156,12 +157,7 @@ TEST_F(WatchedLoop, ACameraThatHangsIsNamedByTheDrawer) {
 TEST_F(WatchedLoop, AWarningThatCannotBeDrawnIsCounted) {
   fake::FakeHeadset inner(pairs(3));
   sink.warns = false;
-  EventfulHeadset headset(inner,
-                          {1, [&] {
-                             EXPECT_TRUE(wait_until([&] { return sink.drew("guide"); }));
-                             inner.manual_clock().advance(kStallAfter + Duration(1));
-                             EXPECT_TRUE(wait_until([&] { return sink.drew("camera stalled"); }));
-                           }});
+  EventfulHeadset headset(inner, {1, [&] { hang_until_drawn(inner, "camera stalled"); }});
   const auto report = run(headset);
   ASSERT_TRUE(report.ok()) << report.error().message;
   EXPECT_EQ(report->draw_failures, 1);
@@ -173,9 +169,7 @@ TEST_F(WatchedLoop, ATrackerThatHangsIsNamedByTheDrawer) {
   std::atomic<int> steps = 0;
   Stepped slow([&](const Guidance&) {
     if (steps++ == 1) {
-      EXPECT_TRUE(wait_until([&] { return sink.drew("guide"); }));
-      inner.manual_clock().advance(kStallAfter + Duration(1));
-      EXPECT_TRUE(wait_until([&] { return sink.drew("tracker stalled: nothing is guided"); }));
+      hang_until_drawn(inner, "tracker stalled: nothing is guided");
     }
   });
   const auto report = run(inner, &slow);
@@ -187,9 +181,7 @@ TEST_F(WatchedLoop, AVoiceThatHangsInItsPollIsNamedByTheDrawer) {
   fake::FakeHeadset inner(pairs(3));
   EventfulHeadset headset(inner, {}, [&, polls = 0](Timestamp) mutable {
     if (polls++ == 1) {
-      EXPECT_TRUE(wait_until([&] { return sink.drew("guide"); }));
-      inner.manual_clock().advance(kStallAfter + Duration(1));
-      EXPECT_TRUE(wait_until([&] { return sink.drew("voice stalled"); }));
+      hang_until_drawn(inner, "voice stalled");
     }
     return Status{};
   });
