@@ -9,6 +9,7 @@
 
 #include "base/result.h"
 #include "base/transform.h"
+#include "nav/geometry/box_tree.h"
 
 namespace orthonav::nav {
 
@@ -71,17 +72,8 @@ class SurfaceIndex {
   [[nodiscard]] bool contains(Vec3 query_m) const;
 
  private:
-  struct Node {
-    Vec3 low;
-    Vec3 high;
-    std::uint32_t first = 0;  ///< first triangle of a leaf, or the left child
-    std::uint32_t count = 0;  ///< 0 for an inner node (children at first and first + 1)
-  };
-  void split(std::size_t node, std::size_t begin, std::size_t end,
-             const std::vector<Vec3>& centres_m, std::vector<std::array<Vec3, 3>>& unordered);
-
-  std::vector<Node> nodes_;
-  std::vector<std::array<Vec3, 3>> corners_;  ///< in the order of the leaves
+  BoxTree boxes_;
+  std::vector<std::array<Vec3, 3>> corners_;  ///< in the order of the boxes
   std::vector<std::uint32_t> original_;
 };
 

@@ -16,6 +16,10 @@ inline nav::TriangleMesh box(Vec3 low, Vec3 high) {
   return mesh;
 }
 
+inline nav::TriangleMesh vertebra_sized_box() {
+  return box({-0.04, -0.03, -0.02}, {0.04, 0.05, 0.02});
+}
+
 /// The mesh turned about the origin.
 inline nav::TriangleMesh turned(nav::TriangleMesh mesh, const Mat3& rotation) {
   for (Vec3& v : mesh.vertices_m) {
