@@ -7,30 +7,14 @@
 #include <system_error>
 
 #include "engine/io/atomic_file.h"
-#include "engine/io/image_file.h"
-#include "engine/io/ply_points.h"
-#include "engine/io/range_picture.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
-#include "tools/depth_cloud.h"
 #include "tools/depth_listing.h"
-#include "tools/json_output.h"
+#include "tools/depth_live.h"
+#include "tools/depth_output.h"
 
 namespace orthonav::tools {
 namespace {
-
-constexpr int kMaxRangeMm = 65535;
-
-struct DepthArguments {
-  std::string recording;
-  std::string stream;
-  std::string out;
-  std::optional<std::int64_t> frame;
-  bool all = false;
-  std::optional<double> cell_mm;
-  int max_mm = kMaxRangeMm;
-  JsonOutput json;
-};
 
 std::string names_of(const std::vector<replay::RecordedDepth>& streams) {
   std::string names;
@@ -105,7 +89,7 @@ Result<std::size_t> frame_index(const DepthArguments& arguments, const replay::R
   return static_cast<std::size_t>(index);
 }
 
-int write_picture(const DepthArguments& arguments, replay::RecordedDepth& depth) {
+int write_recorded_picture(const DepthArguments& arguments, replay::RecordedDepth& depth) {
   const auto index = frame_index(arguments, depth, false);
   if (!index) {
     return bad_input(index.error().message);
@@ -114,23 +98,8 @@ int write_picture(const DepthArguments& arguments, replay::RecordedDepth& depth)
   if (const Status s = depth.read(depth.frames[*index], frame); !s) {
     return bad_input(s.error().message);
   }
-  const engine::RangePicture picture = engine::picture_of_ranges(frame.range_mm);
-  if (const Status s = engine::write_png(arguments.out, picture.image); !s) {
-    return bad_input(s.error().message);
-  }
-  const nlohmann::ordered_json out = {{"stream", name_of(depth.summary.stream)},
-                                      {"frame", *index},
-                                      {"white_mm", picture.white_mm},
-                                      {"dark_mm", picture.dark_mm}};
-  if (const Status s = arguments.json.write(out); !s) {
-    return bad_input(s.error().message);
-  }
-  if (!arguments.json.on_stdout()) {
-    std::printf("%s: frame %zu of %s, white %u mm, dark %u mm, black not measured\n",
-                arguments.out.c_str(), *index, name_of(depth.summary.stream), picture.white_mm,
-                picture.dark_mm);
-  }
-  return kDone;
+  return write_picture(arguments, depth.summary.stream, static_cast<std::int64_t>(*index),
+                       frame.range_mm);
 }
 
 Result<CloudReport> collect(const DepthArguments& arguments, replay::RecordedDepth& depth,
@@ -151,74 +120,57 @@ Result<CloudReport> collect(const DepthArguments& arguments, replay::RecordedDep
   return CloudReport{.frames_used = 1};
 }
 
-int write_cloud(const DepthArguments& arguments, replay::RecordedDepth& depth) {
-  constexpr double kDefaultCellMm = 5.0;
-  const double cell_mm = arguments.cell_mm.value_or(arguments.all ? kDefaultCellMm : 0.0);
-  engine::PointCloud cloud(1e-3 * cell_mm);
+int write_recorded_cloud(const DepthArguments& arguments, replay::RecordedDepth& depth) {
+  engine::PointCloud cloud(1e-3 * arguments.cell_or_default_mm());
   const auto report = collect(arguments, depth, cloud);
   if (!report) {
     return bad_input(report.error().message);
   }
-  const std::size_t points = cloud.points_m().size();
-  if (const Status s = engine::write_file(
-          arguments.out,
-          engine::ply_text(cloud.points_m(), "world, +y up, metres; orthonav depth"));
-      !s) {
-    return bad_input(s.error().message);
-  }
-  const nlohmann::ordered_json out = {{"stream", name_of(depth.summary.stream)},
-                                      {"points", points},
-                                      {"cell_mm", cell_mm},
-                                      {"frames_used", report->frames_used},
-                                      {"frames_without_pose", report->frames_without_pose},
-                                      {"frames_in_other_maps", report->frames_in_other_maps}};
-  if (const Status s = arguments.json.write(out); !s) {
-    return bad_input(s.error().message);
-  }
-  if (!arguments.json.on_stdout()) {
-    std::printf(
-        "%s: %zu points of %s; frames: %lld used, %lld without a pose, %lld in other maps\n",
-        arguments.out.c_str(), points, name_of(depth.summary.stream),
-        static_cast<long long>(report->frames_used),
-        static_cast<long long>(report->frames_without_pose),
-        static_cast<long long>(report->frames_in_other_maps));
-  }
-  return points > 0 ? kDone : kNo;
+  return write_cloud(arguments, depth.summary.stream, cloud, *report);
 }
 
-int run_depth(const DepthArguments& arguments) {
-  const bool picture = arguments.out.ends_with(".png");
-  if (!arguments.out.empty() && !picture && !arguments.out.ends_with(".ply")) {
-    return bad_input("--out: \"" + arguments.out + "\" must end in .ply or .png");
-  }
-  if (picture && arguments.all) {
-    return bad_input("--all: a picture shows one frame; name it with --frame");
-  }
+int of_recording(const DepthArguments& arguments) {
   std::error_code code;
-  if (!std::filesystem::is_directory(arguments.recording, code)) {
-    return bad_input(arguments.recording + ": no such folder");
+  if (!std::filesystem::is_directory(arguments.source, code)) {
+    return bad_input(arguments.source + ": no such folder");
   }
-  replay::RecordedDepths depths = replay::read_depths(arguments.recording);
+  if (arguments.frames) {
+    return bad_input("--frames: is for a headset; --all takes all frames of a recording");
+  }
+  replay::RecordedDepths depths = replay::read_depths(arguments.source);
   if (depths.streams.empty() && depths.unreadable.empty()) {
-    return bad_input(arguments.recording +
+    return bad_input(arguments.source +
                      ": holds no depth stream (\"Depth AHaT.tar\", \"Depth Long Throw.tar\", "
                      "\"short_throw_depth.tar\" or \"long_throw_depth.tar\")");
   }
-  if (const Status s = arguments.json.check(); !s) {
-    return bad_input(s.error().message);
-  }
   if (arguments.out.empty()) {
     return list(arguments, depths);
-  }
-  // Checked before the work, so that an unwritable place is known at once.
-  if (const auto place = engine::AtomicFile::create(arguments.out); !place) {
-    return bad_input(place.error().message);
   }
   const auto depth = chosen(arguments, depths);
   if (!depth) {
     return bad_input(depth.error().message);
   }
-  return picture ? write_picture(arguments, **depth) : write_cloud(arguments, **depth);
+  return arguments.wants_picture() ? write_recorded_picture(arguments, **depth)
+                                   : write_recorded_cloud(arguments, **depth);
+}
+
+int run_depth(const DepthArguments& arguments) {
+  if (!arguments.out.empty() && !arguments.wants_picture() && !arguments.out.ends_with(".ply")) {
+    return bad_input("--out: \"" + arguments.out + "\" must end in .ply or .png");
+  }
+  if (arguments.wants_picture() && arguments.all) {
+    return bad_input("--all: a picture shows one frame; name it with --frame");
+  }
+  if (const Status s = arguments.json.check(); !s) {
+    return bad_input(s.error().message);
+  }
+  // Checked before the work, so that an unwritable place is known at once.
+  if (!arguments.out.empty()) {
+    if (const auto place = engine::AtomicFile::create(arguments.out); !place) {
+      return bad_input(place.error().message);
+    }
+  }
+  return names_headset(arguments.source) ? depth_of_headset(arguments) : of_recording(arguments);
 }
 
 constexpr const char* kDepthFooter =
@@ -227,22 +179,27 @@ constexpr const char* kDepthFooter =
     "and\n"
     "counted. A PNG shows one frame: white near, dark far, black not measured. AHaT wraps: what "
     "is\n"
-    "past about 1 m appears near (docs/recordings.md). Exit 1: not one point.";
+    "past about 1 m appears near (docs/recordings.md). A headset is asked for the stream that "
+    "--stream\n"
+    "names, raw; hl2ss://HOST?depth=ahat-h264 or long-throw-png asks for it coded. Exit 1: not one "
+    "point.";
 
 }  // namespace
 
 void add_depth_command(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<DepthArguments>();
   CLI::App* command = app.add_subcommand(
-      "depth", "Depth streams of a recording: list them, points (PLY), pictures (PNG)");
+      "depth",
+      "Depth streams of a recording or a headset: list them, points (PLY), pictures (PNG)");
   command
-      ->add_option("RECORDING", arguments->recording,
-                   "Folder of a recording; it needs no stereo pairs")
+      ->add_option("SOURCE", arguments->source,
+                   "Folder of a recording, which needs no stereo pairs; or a headset, as in "
+                   "hl2ss://HOST")
       ->required();
   command->add_option("-o,--out", arguments->out, "PLY or PNG to write")->check(some_text());
   command
       ->add_option("--stream", arguments->stream,
-                   "ahat, long-throw or short-throw (default: the only one)")
+                   "ahat, long-throw or short-throw (default: the only one; ahat of hl2ss://HOST)")
       ->check(CLI::IsMember({"ahat", "long-throw", "short-throw"}));
   CLI::Option* frame =
       command
@@ -250,6 +207,12 @@ void add_depth_command(CLI::App& app, Action& action) {
                        "Which frame, from 0 (default: the first; for a PLY the first with a pose)")
           ->check(whole_number(0));
   command->add_flag("--all", arguments->all, "The points of all frames")->excludes(frame);
+  command
+      ->add_option(
+          "--frames", arguments->frames,
+          "Of a headset: how many frames to take (default: 30 with --all or without --out, "
+          "else what --frame needs)")
+      ->check(whole_number(1, kMostLiveFrames));
   constexpr double kMaxCellMm = 1000.0;
   command
       ->add_option("--cell-mm", arguments->cell_mm,

@@ -50,8 +50,10 @@ Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) 
   options.seed = arguments.seed;
   if (arguments.perfect) {
     options.error_model = sim::ErrorModel::perfect();
+    options.depth_errors = sim::DepthErrors::none();
   }
   options.error_model.pace = arguments.pace;
+  options.depth = {DepthStream::kAhat, DepthStream::kLongThrow};
   options.pace = arguments.server.paced ? sim::Pace::kFast : sim::Pace::kRealtime;
   return hl2ss::Server::OpenHeadset(
       [room, options] { return as_headset(sim::SimHeadset::open(room, options)); });

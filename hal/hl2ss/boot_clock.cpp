@@ -60,6 +60,18 @@ std::optional<Timestamp> StampReader::time_of(std::uint64_t ticks, HostTime at) 
   return from_ticks_100ns(time_ticks);
 }
 
+std::optional<Timestamp> StampReader::told(std::uint64_t ticks, HostTime at) const {
+  if (!last_ || ticks > static_cast<std::uint64_t>(kUnixEpochTicks + kMaxTicks)) {
+    return std::nullopt;
+  }
+  const Heard now{static_cast<std::int64_t>(ticks), at};
+  const std::int64_t time_ticks = now.ticks - base_ticks_ + shift_ticks_;
+  if (!follows(*last_, now) || time_ticks < -kMaxTicks || time_ticks > kMaxTicks) {
+    return std::nullopt;
+  }
+  return from_ticks_100ns(time_ticks);
+}
+
 std::optional<std::int64_t> BootClock::best_offset_ns() const {
   std::optional<std::int64_t> best;
   for (const Second& second : seconds_) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "hal/hl2ss/protocol.h"
-
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavutil/log.h>
@@ -24,6 +22,18 @@ bool has_plain_luma(int format) {
          format == AV_PIX_FMT_NV12 || format == AV_PIX_FMT_GRAY8;
 }
 
+bool has_plain_chroma(int format) {
+  return format == AV_PIX_FMT_YUV420P || format == AV_PIX_FMT_YUVJ420P;
+}
+
+void append_plane(const std::uint8_t* rows, std::ptrdiff_t stride, int width, int height,
+                  std::vector<std::uint8_t>& bytes) {
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* row = rows + y * stride;
+    bytes.insert(bytes.end(), row, row + width);
+  }
+}
+
 }  // namespace
 
 struct H264Decoder::Codec {
@@ -39,10 +49,11 @@ struct H264Decoder::Codec {
   }
 };
 
-H264Decoder::H264Decoder(std::unique_ptr<Codec> codec) : codec_(std::move(codec)) {}
+H264Decoder::H264Decoder(std::unique_ptr<Codec> codec, int width_px, int height_px)
+    : codec_(std::move(codec)), width_px_(width_px), height_px_(height_px) {}
 H264Decoder::~H264Decoder() = default;
 
-Result<std::unique_ptr<H264Decoder>> H264Decoder::create() {
+Result<std::unique_ptr<H264Decoder>> H264Decoder::create(int width_px, int height_px) {
   const AVCodec* h264 = avcodec_find_decoder(AV_CODEC_ID_H264);
   if (h264 == nullptr) {
     return Error{"libavcodec has no H.264 decoder"};
@@ -66,7 +77,7 @@ Result<std::unique_ptr<H264Decoder>> H264Decoder::create() {
   if (const int code = avcodec_open2(codec->context, h264, nullptr); code < 0) {
     return Error{"H.264 decoder: " + codec_reason(code)};
   }
-  return std::unique_ptr<H264Decoder>(new H264Decoder(std::move(codec)));
+  return std::unique_ptr<H264Decoder>(new H264Decoder(std::move(codec), width_px, height_px));
 }
 
 void H264Decoder::restart() {
@@ -76,7 +87,8 @@ void H264Decoder::restart() {
 }
 
 Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::int64_t unit,
-                                                        GreyImage& image) {
+                                                        GreyImage& image,
+                                                        std::vector<std::uint8_t>* chroma) {
   Codec& codec = *codec_;
   Status whole = order_.follow(access_unit);
   if (!whole) {
@@ -94,7 +106,7 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
     restart();
     return Error{"H.264 picture is damaged: " + codec_reason(sent)};
   }
-  auto picture = take_picture(image);
+  auto picture = take_picture(image, chroma);
   if (!picture) {
     restart();
   }
@@ -105,7 +117,22 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
   return picture;
 }
 
-Result<std::optional<std::int64_t>> H264Decoder::take_picture(GreyImage& image) {
+Status H264Decoder::check_picture(bool with_chroma) const {
+  const AVFrame& frame = *codec_->frame;
+  if (frame.width != width_px_ || frame.height != height_px_) {
+    return Error{"H.264 picture is " + std::to_string(frame.width) + "x" +
+                 std::to_string(frame.height) + " px, must be " + std::to_string(width_px_) + "x" +
+                 std::to_string(height_px_)};
+  }
+  if (with_chroma ? !has_plain_chroma(frame.format) : !has_plain_luma(frame.format)) {
+    return Error{"H.264 picture has pixel format " + std::to_string(frame.format) +
+                 ", must be 8-bit 4:2:0"};
+  }
+  return {};
+}
+
+Result<std::optional<std::int64_t>> H264Decoder::take_picture(GreyImage& image,
+                                                              std::vector<std::uint8_t>* chroma) {
   Codec& codec = *codec_;
   AVFrame* frame = codec.frame;
   const int code = avcodec_receive_frame(codec.context, frame);
@@ -124,20 +151,19 @@ Result<std::optional<std::int64_t>> H264Decoder::take_picture(GreyImage& image) 
   if (codec.waits_for_key) {
     return std::optional<std::int64_t>{};
   }
-  if (frame->width != kImageWidthPx || frame->height != kImageHeightPx) {
-    return Error{"H.264 picture is " + std::to_string(frame->width) + "x" +
-                 std::to_string(frame->height) + " px, must be 640x480"};
+  if (Status fits = check_picture(chroma != nullptr); !fits) {
+    return fits.error();
   }
-  if (!has_plain_luma(frame->format)) {
-    return Error{"H.264 picture has pixel format " + std::to_string(frame->format) +
-                 ", must be 8-bit 4:2:0"};
-  }
-  image.width_px = kImageWidthPx;
-  image.height_px = kImageHeightPx;
-  image.pixels.resize(kImageBytes);
-  for (int y = 0; y < kImageHeightPx; ++y) {
-    std::copy_n(frame->data[0] + std::ptrdiff_t{y} * frame->linesize[0], kImageWidthPx,
-                image.pixels.begin() + std::ptrdiff_t{y} * kImageWidthPx);
+  image.width_px = width_px_;
+  image.height_px = height_px_;
+  image.pixels.clear();
+  append_plane(frame->data[0], frame->linesize[0], width_px_, height_px_, image.pixels);
+  if (chroma) {
+    chroma->clear();
+    for (const int plane : {1, 2}) {
+      append_plane(frame->data[plane], frame->linesize[plane], width_px_ / 2, height_px_ / 2,
+                   *chroma);
+    }
   }
   return std::optional<std::int64_t>{frame->pts};
 }

@@ -1,10 +1,12 @@
 #include "hal/hl2ss/hl2ss_headset.h"
 
 #include <algorithm>
+#include <future>
 #include <thread>
 #include <utility>
 
 #include "hal/hl2ss/calibration.h"
+#include "hal/hl2ss/depth_receiver.h"
 #include "hal/hl2ss/receiver.h"
 
 namespace orthonav::hl2ss {
@@ -45,6 +47,30 @@ Result<StereoCalibration> ask_calibration(const net::Endpoint& endpoint,
   }
   return StereoCalibration{std::move(left->camera), std::move(right->camera), left->camera_from_rig,
                            right->camera_from_rig};
+}
+
+/// Absent: no depth was asked for. Waits while the cameras are opened.
+using AskedDepth = std::future<Result<DepthDescription>>;
+std::optional<AskedDepth> begin_asking_depth(const net::Endpoint& endpoint,
+                                             const Hl2ssOptions& options, HostTime deadline) {
+  if (!options.depth) {
+    return std::nullopt;
+  }
+  const HostTime within =
+      std::min(deadline, HostClock::now() +
+                             std::chrono::duration_cast<HostClock::duration>(options.depth_within));
+  const DepthStream stream = options.depth->stream;
+  const int port = options.first_port + offset_of(format_of(stream).service);
+  return std::async(std::launch::async, [=]() -> Result<DepthDescription> {
+    const std::uint8_t request[] = {static_cast<std::uint8_t>(Mode::kCalibration)};
+    const auto answer = ask(endpoint, port, request, depth_calibration_bytes(stream), within);
+    if (!answer) {
+      return answer.error();
+    }
+    auto described = read_depth_calibration(stream, *answer);
+    return described ? std::move(described)
+                     : Error{"port " + std::to_string(port) + ": " + described.error().message};
+  });
 }
 
 /// 0 where nobody tells it: stamps then count from a moment without a name.
@@ -164,7 +190,30 @@ class ConnectedHeadset final : public Hl2ssHeadset {
   [[nodiscard]] Display& display() override { return display_; }
   [[nodiscard]] Microphone* microphone() override { return &receiver_->microphone(); }
   [[nodiscard]] ObjectDisplay* objects() override { return receiver_->scene(); }
-  [[nodiscard]] ConnectionStatistics statistics() const override { return receiver_->statistics(); }
+  [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override {
+    return depth_ ? std::vector{&depth_->camera()} : std::vector<DepthCamera*>();
+  }
+  [[nodiscard]] const std::string& depth_trouble() const override { return depth_trouble_; }
+  [[nodiscard]] ConnectionStatistics statistics() const override {
+    ConnectionStatistics all = receiver_->statistics();
+    if (depth_) {
+      all.streams.push_back(depth_->statistics());
+    }
+    return all;
+  }
+  /// Before anybody asks for it.
+  void add_depth(const net::Endpoint& endpoint, const Hl2ssOptions& options,
+                 Result<DepthDescription> described) {
+    auto depth = described
+                     ? DepthReceiver::start(endpoint, options, std::move(*described), *receiver_)
+                     : described.error();
+    if (depth) {
+      depth_ = std::move(*depth);
+    } else {
+      depth_trouble_ = std::string("no depth camera ") + name_of(options.depth->stream) + ": " +
+                       depth.error().message;
+    }
+  }
 
  private:
   std::string host_;
@@ -174,7 +223,22 @@ class ConnectedHeadset final : public Hl2ssHeadset {
   InboxClicker clicker_;
   InboxVoice voice_;
   RemoteDisplay display_;
+  std::unique_ptr<DepthReceiver> depth_;
+  std::string depth_trouble_;
 };
+
+Status wait_for_image(const Receiver& receiver, const Hl2ssOptions& options, HostTime deadline,
+                      const StandinStream* standin) {
+  while (!receiver.has_heard() || (standin && !standin->display_latency())) {
+    if (HostClock::now() >= deadline) {
+      const std::string why = receiver.troubles();
+      return Error{"no image within " + std::to_string(seconds(options.open_within)) + " s" +
+                   (why.empty() ? "" : "; " + why)};
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -184,6 +248,7 @@ Result<std::unique_ptr<Hl2ssHeadset>> Hl2ssHeadset::open(const Hl2ssOptions& opt
     return trouble_with(options.host, endpoint.error().message);
   }
   const HostTime deadline = HostClock::now() + options.open_within;
+  auto asked_depth = begin_asking_depth(*endpoint, options, deadline);
   auto calibration = ask_calibration(*endpoint, options, deadline);
   if (!calibration) {
     return trouble_with(options.host, calibration.error().message);
@@ -193,21 +258,19 @@ Result<std::unique_ptr<Hl2ssHeadset>> Hl2ssHeadset::open(const Hl2ssOptions& opt
   if (!receiver) {
     return trouble_with(options.host, receiver.error().message);
   }
-  while (!(*receiver)->has_heard() ||
-         ((*receiver)->standin() && !(*receiver)->standin()->display_latency())) {
-    if (HostClock::now() >= deadline) {
-      const std::string why = (*receiver)->troubles();
-      return trouble_with(options.host, "no image within " +
-                                            std::to_string(seconds(options.open_within)) + " s" +
-                                            (why.empty() ? "" : "; " + why));
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  if (const Status came = wait_for_image(**receiver, options, deadline, (*receiver)->standin());
+      !came) {
+    return trouble_with(options.host, came.error().message);
   }
   const std::int64_t base = (*receiver)->base_ticks();
   // Stamps that are FILETIME already need no offset.
   const std::int64_t epoch = base != 0 ? base : utc_offset;
-  return std::unique_ptr<Hl2ssHeadset>(std::make_unique<ConnectedHeadset>(
-      options.host, std::move(*receiver), std::move(*calibration), epoch));
+  auto headset = std::make_unique<ConnectedHeadset>(options.host, std::move(*receiver),
+                                                    std::move(*calibration), epoch);
+  if (asked_depth) {
+    headset->add_depth(*endpoint, options, asked_depth->get());
+  }
+  return std::unique_ptr<Hl2ssHeadset>(std::move(headset));
 }
 
 }  // namespace orthonav::hl2ss

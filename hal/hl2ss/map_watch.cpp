@@ -19,6 +19,9 @@ constexpr Duration kSpeedWithin = std::chrono::milliseconds(110);
 constexpr double kMaxUnseenS = 0.25;
 /// After so long without a pose nobody can vouch for the map.
 constexpr Duration kVouchedFor = std::chrono::seconds(10);
+/// Two streams agree on the head to millimetres; ahead of the newest pose it is predicted.
+constexpr double kSameMapM = 0.05;
+constexpr double kSameMapRad = 0.13;
 
 }  // namespace
 
@@ -83,6 +86,18 @@ void HeadTrack::add(Timestamp time, const Transform<World, Rig>& world_from_rig,
 void HeadTrack::lose() {
   const MutexLock lock(mutex_);
   samples_.clear();
+}
+
+std::int64_t HeadTrack::place(Timestamp at,
+                              std::optional<Transform<World, Rig>>& world_from_rig) const {
+  const MutexLock lock(mutex_);
+  const auto head = head_among(samples_.begin(), samples_.end(), at);
+  if (!world_from_rig || head.status == PoseStatus::kLost ||
+      (world_from_rig->translation() - head.value.translation()).norm() > kSameMapM ||
+      rotation_angle_rad(world_from_rig->rotation(), head.value.rotation()) > kSameMapRad) {
+    world_from_rig.reset();
+  }
+  return map_epoch_;
 }
 
 std::optional<Timestamp> HeadTrack::do_newest_measurement() const {

@@ -36,6 +36,9 @@ class MapWatch {
 class HeadTrack final : public HeadTracker {
  public:
   void add(Timestamp time, const Transform<World, Rig>& world_from_rig, std::int64_t map_epoch);
+  /// The map that the newest pose lies in. Takes `world_from_rig` away where it is not where the
+  /// head was at that time in this map: whoever says so may speak of another.
+  std::int64_t place(Timestamp at, std::optional<Transform<World, Rig>>& world_from_rig) const;
   /// Nothing is known any more: the connection is gone.
   void lose();
 

@@ -9,7 +9,10 @@ namespace orthonav::hl2ss {
 namespace {
 
 constexpr const char* kKnownKeys =
-    "known are profile=raw|h264, stamps=late|exact, scene=on|off, port=BASE and standin=PORT";
+    "known are profile=raw|h264, stamps=late|exact, scene=on|off, depth=STREAM, port=BASE and "
+    "standin=PORT";
+constexpr const char* kKnownDepth =
+    "must be ahat, ahat-h264, long-throw or long-throw-png (research mode runs one of the two)";
 constexpr int kMaxPort = 65535;
 
 Result<int> port_of(const std::string& key, std::string_view text, int largest) {
@@ -40,13 +43,29 @@ Status choose(const std::string& key, std::string_view name, const Choice<T>& on
   return {};
 }
 
+Status choose_depth(std::string_view name, Hl2ssOptions& options) {
+  constexpr std::array<Choice<DepthWish>, 4> kWishes = {{
+      {"ahat", {DepthStream::kAhat, false}},
+      {"ahat-h264", {DepthStream::kAhat, true}},
+      {"long-throw", {DepthStream::kLongThrow, false}},
+      {"long-throw-png", {DepthStream::kLongThrow, true}},
+  }};
+  for (const auto& wish : kWishes) {
+    if (wish.name == name) {
+      options.depth = wish.value;
+      return {};
+    }
+  }
+  return Error{"depth \"" + std::string(name) + "\" " + kKnownDepth};
+}
+
 Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& options) {
   const std::size_t equals = item.find('=');
   const std::string key(item.substr(0, equals));
   const bool has_value = equals != std::string_view::npos;
   const std::string_view value = has_value ? item.substr(equals + 1) : std::string_view{};
-  constexpr std::array<std::string_view, 5> kKeys = {"profile", "stamps", "scene", "port",
-                                                     "standin"};
+  constexpr std::array<std::string_view, 6> kKeys = {"profile", "stamps", "scene",
+                                                     "depth",   "port",   "standin"};
   if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
     return Error{"unknown key \"" + key + "\"; " + kKnownKeys};
   }
@@ -63,6 +82,9 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
   }
   if (key == "scene") {
     return choose(key, value, {"on", true}, {"off", false}, options.scene);
+  }
+  if (key == "depth") {
+    return choose_depth(value, options);
   }
   const auto port = port_of(key, value, key == "port" ? kMaxPort - kLastOffset : kMaxPort);
   if (!port) {

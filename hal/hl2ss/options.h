@@ -1,16 +1,24 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/result.h"
 #include "base/time.h"
+#include "hal/api/depth_camera.h"
 #include "hal/api/research_mode.h"
 #include "hal/hl2ss/protocol.h"
 #include "hal/hl2ss/voice.h"
 
 namespace orthonav::hl2ss {
+
+/// A depth stream that is asked for: raw, or AHaT as H.264 and long throw as PNG.
+struct DepthWish {
+  DepthStream stream = DepthStream::kAhat;  ///< kAhat or kLongThrow
+  bool coded = false;
+};
 
 struct Hl2ssOptions {
   std::string host;
@@ -23,13 +31,18 @@ struct Hl2ssOptions {
   /// the images were.
   Duration stamps_late = kResearchModeStampsLate;
   bool scene = true;  ///< holograms are shown by the headset's own scene
+  /// Research mode runs AHaT or long throw, not both; absent: neither is asked for.
+  std::optional<DepthWish> depth;
   /// Opening waits no longer for calibrations and the first image.
   Duration open_within = std::chrono::seconds(8);
+  /// So much of it for the calibration of a depth camera; without one it goes on. 4 MB come in a
+  /// fifth of a second where the images come at all.
+  Duration depth_within = std::chrono::seconds(2);
 };
 
 /// What follows `hl2ss:` in a URI:
-/// `//HOST[?profile=raw|h264&stamps=late|exact&scene=on|off&port=BASE&standin=PORT]`. An Error says
-/// what is wrong and names the known keys.
+/// `//HOST[?profile=raw|h264&stamps=late|exact&scene=on|off&depth=ahat|ahat-h264|long-throw|`
+/// `long-throw-png&port=BASE&standin=PORT]`. An Error says what is wrong and names the known keys.
 Result<Hl2ssOptions> options_of(std::string_view after_scheme);
 
 }  // namespace orthonav::hl2ss

@@ -12,6 +12,8 @@ inline constexpr int kFirstPort = 3800;
 enum class Service : std::uint8_t {
   kLeftFront = 0,
   kRightFront = 2,
+  kAhat = 4,
+  kLongThrow = 5,
   kConfiguration = 9,
   kMicrophone = 11,
   kSpatialInput = 12,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/findings.h"
 #include "base/guarded.h"
 #include "hal/api/research_mode.h"
 
@@ -17,6 +18,8 @@ constexpr std::uint64_t kGopSize = 30;
 constexpr Duration kSilence = std::chrono::seconds(3);
 /// A stand-in that waits for its client is silent for as long as that thinks.
 constexpr Duration kPacedSilence = std::chrono::minutes(2);
+/// A clock that is known from transits runs late by milliseconds.
+constexpr Duration kMostAhead = std::chrono::milliseconds(100);
 /// What is due by time is looked at this often.
 constexpr int kTurnMs = 10;
 
@@ -74,7 +77,7 @@ Status Receiver::add_cameras() {
   for (const Side side : {Side::kLeft, Side::kRight}) {
     std::unique_ptr<H264Decoder> decoder;
     if (options_.profile != VideoProfile::kRaw) {
-      auto made = H264Decoder::create();
+      auto made = H264Decoder::create(kImageWidthPx, kImageHeightPx);
       if (!made) {
         return made.error();
       }
@@ -208,6 +211,23 @@ void Receiver::lost(Side /*side*/) {
   pairs_.clear();
   head_.lose();
   pairs_.fail(Error{"hl2ss: " + options_.host + ": connection lost"});
+}
+
+Result<Timestamp> Receiver::time_of(std::uint64_t ticks, HostTime at) const {
+  std::optional<Timestamp> time;
+  {
+    const MutexLock lock(mutex_);
+    time = time_.stamps.told(ticks, at);
+  }
+  if (!time) {
+    return Error{"stamp " + std::to_string(ticks) + " is more than 10 s from the cameras'"};
+  }
+  const double ahead_s = seconds(*time - clock().now());
+  if (ahead_s > seconds(kMostAhead)) {
+    return refused("stamp %.1f ms ahead of the headset's clock, limit %.1f ms", ahead_s * 1e3,
+                   seconds(kMostAhead) * 1e3);
+  }
+  return *time;
 }
 
 std::int64_t Receiver::base_ticks() const {

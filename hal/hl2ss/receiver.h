@@ -34,6 +34,14 @@ class Receiver final : private ImageSink {
   [[nodiscard]] PairMailbox& pairs() { return pairs_; }
   [[nodiscard]] HeadTrack& head() { return head_; }
   [[nodiscard]] const BootClock& clock() const { return time_.clock; }
+  /// For a stream that must not change what the others know: the time of a stamp, and the map that
+  /// the head is in (`HeadTrack::place`).
+  [[nodiscard]] Result<Timestamp> time_of(std::uint64_t ticks, HostTime at) const;
+  std::int64_t place(Timestamp at, std::optional<Transform<World, Rig>>& world_from_rig) const {
+    return head_.place(at, world_from_rig);
+  }
+  /// A stand-in said that nothing comes any more.
+  [[nodiscard]] bool has_ended() const { return standin_ && standin_->has_ended(); }
   [[nodiscard]] Inbox<ClickerEvent>& clicks() { return clicks_; }
   [[nodiscard]] Inbox<Phrase>& phrases() { return phrases_; }
   /// Null without a stand-in.

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "base/guarded.h"
-#include "hal/igtl/message.h"
 
 namespace orthonav::igtl {
 namespace {

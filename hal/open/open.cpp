@@ -15,7 +15,7 @@ namespace orthonav {
 
 namespace {
 
-constexpr const char* kKnownSimKeys = "known are seed=N, perfect and realtime";
+constexpr const char* kKnownSimKeys = "known are seed=N, perfect, realtime and depth";
 
 sim::RoomTool default_pointer() {
   sim::RoomTool pointer;
@@ -33,7 +33,7 @@ Status apply_sim_key(const std::string& uri, std::string_view item, std::set<std
   const std::string key(item.substr(0, equals));
   const bool has_value = equals != std::string_view::npos;
   const std::string_view value = has_value ? item.substr(equals + 1) : std::string_view{};
-  if (key != "seed" && key != "perfect" && key != "realtime") {
+  if (key != "seed" && key != "perfect" && key != "realtime" && key != "depth") {
     return bad_uri(uri, "unknown key \"" + key + "\"; " + kKnownSimKeys);
   }
   if (!seen.insert(key).second) {
@@ -53,9 +53,13 @@ Status apply_sim_key(const std::string& uri, std::string_view item, std::set<std
   }
   if (key == "perfect") {
     options.error_model = sim::ErrorModel::perfect();
+    options.depth_errors = sim::DepthErrors::none();
   }
   if (key == "realtime") {
     options.pace = sim::Pace::kRealtime;
+  }
+  if (key == "depth") {
+    options.depth = {DepthStream::kAhat, DepthStream::kLongThrow};
   }
   return {};
 }
@@ -169,6 +173,16 @@ Result<OpenedHeadset> open_replay(const std::string& uri, const std::string& res
   return headset;
 }
 
+Result<OpenedHeadset> open_hl2ss(const std::string& rest) {
+  auto opened = hl2ss::Hl2ssHeadset::open(*hl2ss::options_of(rest));
+  std::string warning = opened ? (*opened)->depth_trouble() : "";
+  auto headset = without_room(std::move(opened));
+  if (headset) {
+    headset->warning = std::move(warning);
+  }
+  return headset;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const OpenOptions& options) {
@@ -223,7 +237,7 @@ Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& 
     return open_replay(uri, rest);
   }
   if (scheme == "hl2ss") {
-    return without_room(hl2ss::Hl2ssHeadset::open(*hl2ss::options_of(rest)));
+    return open_hl2ss(rest);
   }
   if (const auto registered = registered_scheme(scheme)) {
     return without_room(registered->open(rest));

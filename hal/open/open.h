@@ -25,11 +25,11 @@ struct OpenedHeadset {
   std::string warning;
 };
 
-/// Opens a headset by URI: `sim:` (the simulated operating room; `sim:?seed=3&perfect&realtime`),
-/// `replay:PATH` (a recording; `replay:PATH?pace=fast`, `realtime` or `step`; `?stamps=exact`),
-/// `hl2ss://HOST` (a HoloLens 2 over the network; `hl2ss://HOST?profile=h264`, docs/hl2ss.md),
-/// `openxr:+URI` (an OpenXR headset that takes the cameras of another one). An unknown scheme or
-/// key is refused with the known ones named.
+/// Opens a headset by URI: `sim:` (the simulated operating room;
+/// `sim:?seed=3&perfect&realtime&depth`), `replay:PATH` (a recording; `replay:PATH?pace=fast`,
+/// `realtime` or `step`; `?stamps=exact`), `hl2ss://HOST` (a HoloLens 2 over the network;
+/// `hl2ss://HOST?profile=h264`, docs/hl2ss.md), `openxr:+URI` (an OpenXR headset that takes the
+/// cameras of another one). An unknown scheme or key is refused with the known ones named.
 Result<std::unique_ptr<Headset>> open_headset(const std::string& uri,
                                               const OpenOptions& options = {});
 

@@ -235,5 +235,7 @@ template void BoneImage::draw(const ShownBones&, const Ground&, const Transform<
                               const CameraLens&, double);
 template void BoneImage::draw(const ShownBones&, const Ground&, const Transform<LeftCamera, Spine>&,
                               const PinholeLens&, double);
+template void BoneImage::draw(const ShownBones&, const Ground&, const Transform<LeftCamera, Spine>&,
+                              const DepthLens&, double);
 
 }  // namespace orthonav::sim

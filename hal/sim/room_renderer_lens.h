@@ -71,4 +71,17 @@ class PinholeLens final : public Lens {
   Vec2 centre_;
 };
 
+/// A depth camera's lens, as the bones' renderer asks for it.
+struct DepthLens {
+  const BrownConrady& lens;
+  [[nodiscard]] Vec2 rough_pixel(Vec3 in_camera_m) const {
+    const Vec2 at{in_camera_m.x / in_camera_m.z, in_camera_m.y / in_camera_m.z};
+    // Far outside the image the polynomial folds back into it.
+    constexpr double kTrusted = 1.8;
+    return at.norm() < kTrusted
+               ? lens.distort(at)
+               : Vec2{lens.cx_px + lens.fx_px * at.x, lens.cy_px + lens.fy_px * at.y};
+  }
+};
+
 }  // namespace orthonav::sim

@@ -62,6 +62,7 @@ Result<Next> SimCameras::do_next(StereoFrame& frame) {
     const auto finished = room_.simulation.finished_at();
     if (seconds(time - kSimStart) > options_.limit_s ||
         (finished && time > *finished + kAfterDone)) {
+      room_.ended = true;
       return Next::kEnd;
     }
     expose(time, frame);

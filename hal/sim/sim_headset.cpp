@@ -8,6 +8,7 @@
 #include "hal/sim/hololens2.h"
 #include "hal/sim/imperfect.h"
 #include "hal/sim/sim_cameras.h"
+#include "hal/sim/sim_depth.h"
 #include "hal/sim/sim_room.h"
 #include "hal/sim/surface_field.h"
 #include "hal/sim/tag_flaws.h"
@@ -99,7 +100,13 @@ class SimulatedHeadset final : public SimHeadset {
         head_(room_),
         clicker_(room_),
         voice_(room_),
-        display_(room_) {}
+        display_(room_) {
+    for (const DepthStream stream : options.depth) {
+      depth_.push_back(std::make_unique<SimDepth>(
+          room_, options,
+          stream == DepthStream::kAhat ? hololens2_ahat() : hololens2_long_throw()));
+    }
+  }
 
   [[nodiscard]] std::string name() const override { return "simulated operating room"; }
   [[nodiscard]] const Clock& clock() const override { return room_.clock; }
@@ -108,6 +115,7 @@ class SimulatedHeadset final : public SimHeadset {
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(depth_); }
 
   // Only the thread that takes the pairs adds to the truth, and only that thread asks for it.
   [[nodiscard]] const Truth& truth() const override ORTHONAV_NO_THREAD_SAFETY_ANALYSIS {
@@ -127,10 +135,7 @@ class SimulatedHeadset final : public SimHeadset {
     return described(room().tools, options_.error_model,
                      Random(options_.seed).fork("tool descriptions"));
   }
-  // The same from the first moment on.
-  [[nodiscard]] const RoomDescription& room() const override ORTHONAV_NO_THREAD_SAFETY_ANALYSIS {
-    return room_.simulation.room();
-  }
+  [[nodiscard]] const RoomDescription& room() const override { return room_.described(); }
   [[nodiscard]] const StereoCalibration& actual_calibration() const override { return actual_; }
   [[nodiscard]] const SimOptions& options() const override { return options_; }
 
@@ -148,6 +153,7 @@ class SimulatedHeadset final : public SimHeadset {
   SimClicker clicker_;
   SimVoice voice_;
   SimDisplay display_;
+  std::vector<std::unique_ptr<SimDepth>> depth_;
 };
 
 }  // namespace

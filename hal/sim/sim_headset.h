@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "hal/api/devices.h"
+#include "hal/sim/depth_model.h"
 #include "hal/sim/error_model.h"
 #include "hal/sim/guidance_profile.h"
 #include "hal/sim/room.h"
@@ -43,6 +45,9 @@ struct SimOptions {
   double limit_s = 3600.0;  ///< the stream ends at the latest then (simulated time)
   /// False leaves the images black and costs nothing: for callers that need no pixels.
   bool render = true;
+  /// The depth cameras that it has, each once: kAhat, kLongThrow. None: nobody asked for depth.
+  std::vector<DepthStream> depth = {};
+  DepthErrors depth_errors;
 
   /// Refuses values that make no sense; names every problem of the error model.
   [[nodiscard]] Status check() const;

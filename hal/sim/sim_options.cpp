@@ -1,3 +1,6 @@
+#include <set>
+#include <string>
+
 #include "base/joined.h"
 #include "base/printed.h"
 #include "hal/sim/room_layout.h"
@@ -30,6 +33,13 @@ Status SimOptions::check() const {
     if (!(shift_m >= 0.0 && shift_m <= kFarthestShift_m)) {
       return Error{"simulated shift of the reference or the patient is " + printed("%f", shift_m) +
                    " m, must lie in [0, 0.05]"};
+    }
+  }
+  std::set<DepthStream> once;
+  for (const DepthStream stream : depth) {
+    if (stream == DepthStream::kShortThrow || !once.insert(stream).second) {
+      return Error{std::string("simulated depth camera ") + name_of(stream) +
+                   ": must be ahat or long-throw, and named once"};
     }
   }
   if (!(limit_s > 0.0 && limit_s <= kLongest_s)) {

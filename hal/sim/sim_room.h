@@ -41,11 +41,16 @@ struct SimRoom {
   RoomSimulation simulation ORTHONAV_GUARDED_BY(mutex);
   HeadTrack head ORTHONAV_GUARDED_BY(mutex);
   Timestamp last_frame ORTHONAV_GUARDED_BY(mutex) = kSimStart;
+  bool ended ORTHONAV_GUARDED_BY(mutex) = false;  ///< no pair comes any more
 
   SimRoom(RoomDescription room, const SimOptions& options, Vec3 eyes_in_rig)
       : clock(options.pace),
         simulation(std::move(room), options, eyes_in_rig, kSimStart),
         head(Random(options.seed).fork("head tracker"), options.error_model) {}
+  /// What stands in it: the same from the first moment on.
+  [[nodiscard]] const RoomDescription& described() const ORTHONAV_NO_THREAD_SAFETY_ANALYSIS {
+    return simulation.room();
+  }
 };
 
 }  // namespace orthonav::sim

@@ -64,7 +64,7 @@ TEST(RegisteredScheme, IsOpenedCheckedAndNamedLikeTheOthers) {
 
 TEST(OpenHeadset, NamesTheKnownKeys) {
   EXPECT_THAT(refusal("sim:?sead=3"),
-              AllOf(HasSubstr("\"sead\""), HasSubstr("seed=N, perfect and realtime")));
+              AllOf(HasSubstr("\"sead\""), HasSubstr("seed=N, perfect, realtime and depth")));
   EXPECT_THAT(refusal("sim:seed=3"), HasSubstr("?key=value"));
   EXPECT_THAT(refusal("sim:?perfect=1"), HasSubstr("takes no value"));
   EXPECT_THAT(refusal("sim:?seed=1&seed=2"), HasSubstr("twice"));

@@ -4,8 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "hal/hl2ss/protocol.h"
-
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavutil/opt.h>
@@ -25,8 +23,8 @@ Error failed(const char* what, int code) {
 
 /// At once, a picture at a time, as the headset's own encoder does.
 void describe_stream(const H264Encoder::Options& options, AVCodecContext& context) {
-  context.width = kImageWidthPx;
-  context.height = kImageHeightPx;
+  context.width = options.width_px;
+  context.height = options.height_px;
   context.time_base = {1, kFramesPerSecond};
   context.framerate = {kFramesPerSecond, 1};
   context.pix_fmt = AV_PIX_FMT_YUV420P;
@@ -37,6 +35,12 @@ void describe_stream(const H264Encoder::Options& options, AVCodecContext& contex
   context.thread_count = 1;
   context.bit_rate = std::int64_t{options.bitrate};
   context.log_level_offset = 64;  // a library does not print
+}
+
+void fill_plane(const std::uint8_t* from, int width, int height, AVFrame& frame, int plane) {
+  for (std::ptrdiff_t y = 0; y < height; ++y) {
+    std::copy_n(from + y * width, width, frame.data[plane] + y * frame.linesize[plane]);
+  }
 }
 
 }  // namespace
@@ -78,8 +82,8 @@ Status H264Encoder::Codec::open(const Options& options) {
     return failed("refused the settings", code);
   }
   frame->format = context->pix_fmt;
-  frame->width = kImageWidthPx;
-  frame->height = kImageHeightPx;
+  frame->width = options.width_px;
+  frame->height = options.height_px;
   frame->color_range = AVCOL_RANGE_JPEG;
   if (const int code = av_frame_get_buffer(frame, 0); code < 0) {
     return failed("no frame", code);
@@ -98,21 +102,29 @@ Result<std::unique_ptr<H264Encoder>> H264Encoder::create(const Options& options)
   return std::unique_ptr<H264Encoder>(new H264Encoder(std::move(codec)));
 }
 
-Result<std::vector<std::uint8_t>> H264Encoder::encode(const GreyImage& image) {
+Result<std::vector<std::uint8_t>> H264Encoder::encode(const GreyImage& luma,
+                                                      const std::vector<std::uint8_t>* chroma) {
   Codec& codec = *codec_;
-  if (image.width_px != kImageWidthPx || image.height_px != kImageHeightPx) {
-    return Error{"H.264 encoder: image must be 640x480"};
+  const int width = codec.frame->width;
+  const int height = codec.frame->height;
+  const std::size_t quarter = luma.pixels.size() / 4;
+  if (luma.width_px != width || luma.height_px != height ||
+      (chroma && chroma->size() != 2 * quarter)) {
+    return Error{"H.264 encoder: picture must be " + std::to_string(width) + "x" +
+                 std::to_string(height)};
   }
   if (const int code = av_frame_make_writable(codec.frame); code < 0) {
     return failed("no frame", code);
   }
-  for (int y = 0; y < kImageHeightPx; ++y) {
-    std::copy_n(image.pixels.begin() + std::ptrdiff_t{y} * kImageWidthPx, kImageWidthPx,
-                codec.frame->data[0] + std::ptrdiff_t{y} * codec.frame->linesize[0]);
-  }
-  for (int plane = 1; plane < 3; ++plane) {
-    std::fill_n(codec.frame->data[plane],
-                std::ptrdiff_t{codec.frame->linesize[plane]} * (kImageHeightPx / 2), kNoColour);
+  fill_plane(luma.pixels.data(), width, height, *codec.frame, 0);
+  for (const int plane : {1, 2}) {
+    if (chroma) {
+      fill_plane(chroma->data() + (plane == 1 ? 0 : quarter), width / 2, height / 2, *codec.frame,
+                 plane);
+    } else {
+      std::fill_n(codec.frame->data[plane],
+                  std::ptrdiff_t{codec.frame->linesize[plane]} * (height / 2), kNoColour);
+    }
   }
   codec.frame->pts = codec.frames++;
   if (const int code = avcodec_send_frame(codec.context, codec.frame); code < 0) {

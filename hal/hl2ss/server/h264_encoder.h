@@ -9,18 +9,22 @@
 
 namespace orthonav::hl2ss {
 
-/// Grey pictures of 640×480 to H.264 access units in Annex B, one in, one out, by libx264: the luma
-/// is the picture. The same pictures give the same bytes.
+/// Pictures to H.264 access units in Annex B, one in, one out, by libx264. The same pictures give
+/// the same bytes.
 class H264Encoder {
  public:
   struct Options {
     std::uint32_t bitrate = 12'000'000;
     int gop_size = 30;  ///< pictures from one key frame to the next
     int slices = 1;     ///< of each picture
+    int width_px = 640;
+    int height_px = 480;
   };
   static Result<std::unique_ptr<H264Encoder>> create(const Options& options);
   ~H264Encoder();
-  Result<std::vector<std::uint8_t>> encode(const GreyImage& image);
+  /// `chroma`: the two other planes one after the other, half as wide and high each; none: grey.
+  Result<std::vector<std::uint8_t>> encode(const GreyImage& luma,
+                                           const std::vector<std::uint8_t>* chroma = nullptr);
 
  private:
   struct Codec;

@@ -3,8 +3,15 @@
 #include <utility>
 
 #include "hal/hl2ss/calibration.h"
+#include "hal/hl2ss/server/depth_bytes.h"
 
 namespace orthonav::hl2ss {
+namespace {
+
+/// Where the phase of a HoloLens 2's AHaT wraps, about.
+constexpr double kAhatWrapsAtM = 1.055;
+
+}  // namespace
 
 std::vector<std::uint8_t> ServedHeadset::left_calibration(int unmapped_edge_px) const {
   const MutexLock lock(mutex_);
@@ -20,6 +27,16 @@ std::vector<std::uint8_t> ServedHeadset::right_calibration(int unmapped_edge_px)
   auto bytes = calibration_bytes(cameras.right, cameras.right_from_rig.row_major());
   unmap_edges(bytes, unmapped_edge_px);
   return bytes;
+}
+
+std::vector<std::uint8_t> ServedHeadset::depth_calibration(DepthStream stream) const {
+  const MutexLock lock(mutex_);
+  for (const DepthCamera* camera : headset_->depth_cameras()) {
+    if (camera->calibration().stream == stream) {
+      return depth_answer_bytes(camera->calibration(), kAhatWrapsAtM);
+    }
+  }
+  return {};
 }
 
 Result<Headset*> ServedHeadset::begin_session(const std::function<void(Headset&)>& prepare) {

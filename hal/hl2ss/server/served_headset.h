@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/mutex.h"
+#include "hal/api/depth_camera.h"
 #include "hal/hl2ss/server/server.h"
 
 namespace orthonav::hl2ss {
@@ -22,6 +23,8 @@ class ServedHeadset {
   /// before the first session ends.
   [[nodiscard]] std::vector<std::uint8_t> left_calibration(int unmapped_edge_px) const;
   [[nodiscard]] std::vector<std::uint8_t> right_calibration(int unmapped_edge_px) const;
+  /// A depth camera's; empty where it has none of this kind.
+  [[nodiscard]] std::vector<std::uint8_t> depth_calibration(DepthStream stream) const;
 
   /// Opens it where there is none; it stays until the session ends. `prepare` is done before
   /// anything is shown.

@@ -12,6 +12,7 @@
 #include "base/joined.h"
 #include "base/mutex.h"
 #include "hal/hl2ss/server/camera_port.h"
+#include "hal/hl2ss/server/depth_sender.h"
 #include "hal/hl2ss/server/pair_sender.h"
 #include "hal/hl2ss/server/served_headset.h"
 #include "hal/hl2ss/server/side_ports.h"
@@ -38,7 +39,9 @@ class RunningServer final : public Server {
                 Random(options.seed).fork("right"), options.slices}),
         sides_(options.utc_offset_ticks),
         scene_(options.faults, Random(options.seed).fork("scene")),
-        sender_(options.faults, options.seed, left_, right_, sides_) {}
+        sender_(options.faults, options.seed, left_, right_, sides_),
+        depth_(headset_.depth_calibration(DepthStream::kAhat),
+               headset_.depth_calibration(DepthStream::kLongThrow)) {}
   ~RunningServer() override {
     stop_ = true;
     if (producer_.joinable()) {
@@ -64,6 +67,7 @@ class RunningServer final : public Server {
   }
   void run() {
     network_ = std::thread([this] { serve(); });
+    depth_.start([this] { return sender_.world_from_jumped().inverse(); }, options_.paced);
     producer_ = std::thread([this] { produce(); });
   }
   [[nodiscard]] int first_port() const override { return first_port_; }
@@ -88,6 +92,8 @@ class RunningServer final : public Server {
     std::vector<std::pair<Port*, int>> all = {
         {&left_.port(), offset_of(Service::kLeftFront)},
         {&right_.port(), offset_of(Service::kRightFront)},
+        {&depth_.ahat().port(), offset_of(Service::kAhat)},
+        {&depth_.long_throw().port(), offset_of(Service::kLongThrow)},
         {&sides_.configuration, offset_of(Service::kConfiguration)},
         {&sides_.microphone, offset_of(Service::kMicrophone)},
         {&sides_.spatial, offset_of(Service::kSpatialInput)},
@@ -165,8 +171,10 @@ class RunningServer final : public Server {
     const Timestamp now = headset.clock().now();
     const Duration latency = headset.display().predicted_display_time(now) - now;
     sides_.greet({options_.paced, latency, now});
+    depth_.begin(headset);
   }
   void end_session() {
+    depth_.end();
     headset_.end_session();
     note([](ServerReport& report) { report.is_streaming = false; });
     sides_.end();
@@ -197,6 +205,7 @@ class RunningServer final : public Server {
       if (!options_.paced) {
         continue;
       }
+      depth_.send_newest();
       wait_for_client(whole ? std::optional(frame.time) : std::nullopt);
     }
   }
@@ -243,6 +252,7 @@ class RunningServer final : public Server {
   SidePorts sides_;
   ScenePort scene_;
   PairSender sender_;
+  DepthSender depth_;
   int first_port_ = 0;
   std::atomic<bool> stop_ = false;
 

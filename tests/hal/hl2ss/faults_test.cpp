@@ -211,7 +211,7 @@ TEST(Probing, TellsWhichPortsAnswer) {
   Hl2ssOptions options = room.client_options();
   const auto ports = probe(options);
   ASSERT_TRUE(ports.ok());
-  ASSERT_EQ(ports->size(), 6u);
+  ASSERT_EQ(ports->size(), 8u);
   for (const ProbedPort& port : *ports) {
     EXPECT_EQ(port.trouble, "") << port.name;
   }

@@ -59,7 +59,7 @@ struct Decoded {
 };
 
 Decoded decode(const std::vector<std::pair<int, std::vector<std::uint8_t>>>& units) {
-  auto decoder = H264Decoder::create();
+  auto decoder = H264Decoder::create(kImageWidthPx, kImageHeightPx);
   EXPECT_TRUE(decoder.ok());
   Decoded decoded;
   GreyImage image;
@@ -191,7 +191,7 @@ TEST(H264, ADamagedSliceIsNotPassedOn) {
 }
 
 TEST(H264, RefusesGarbage) {
-  auto decoder = H264Decoder::create();
+  auto decoder = H264Decoder::create(kImageWidthPx, kImageHeightPx);
   ASSERT_TRUE(decoder.ok());
   GreyImage image;
   std::vector<std::uint8_t> garbage(5000);

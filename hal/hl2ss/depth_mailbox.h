@@ -1,0 +1,54 @@
+#pragma once
+
+#include <deque>
+#include <utility>
+
+#include "base/mutex.h"
+#include "hal/api/depth_camera.h"
+
+namespace orthonav::hl2ss {
+
+/// The newest pictures of a depth camera until somebody takes them; who is slow misses the oldest.
+/// Thread-safe; buffers go round.
+class DepthMailbox {
+ public:
+  /// Swaps `picture` in. It must be later than the one before it.
+  void put(DepthFrame& picture) {
+    const MutexLock lock(mutex_);
+    if (waiting_.size() == kMost) {
+      spare_.push_back(std::move(waiting_.front()));
+      waiting_.pop_front();
+    }
+    DepthFrame place;
+    if (!spare_.empty()) {
+      place = std::move(spare_.front());
+      spare_.pop_front();
+    }
+    std::swap(place, picture);
+    place.sequence = next_sequence_++;
+    waiting_.push_back(std::move(place));
+  }
+  /// Swaps the oldest one into `picture`, if its time has come.
+  bool take(Timestamp now, DepthFrame& picture) {
+    const MutexLock lock(mutex_);
+    if (waiting_.empty() || waiting_.front().time > now) {
+      return false;
+    }
+    std::swap(picture, waiting_.front());
+    if (spare_.size() < kMost) {
+      spare_.push_back(std::move(waiting_.front()));
+    }
+    waiting_.pop_front();
+    return true;
+  }
+
+ private:
+  /// A recorder asks 30 times a second for the pictures of 45.
+  static constexpr std::size_t kMost = 4;
+  Mutex mutex_;
+  std::deque<DepthFrame> waiting_ ORTHONAV_GUARDED_BY(mutex_);
+  std::deque<DepthFrame> spare_ ORTHONAV_GUARDED_BY(mutex_);
+  std::int64_t next_sequence_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+};
+
+}  // namespace orthonav::hl2ss

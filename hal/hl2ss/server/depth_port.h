@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/mutex.h"
+#include "hal/api/depth_camera.h"
+#include "hal/hl2ss/server/depth_request.h"
+#include "hal/hl2ss/server/h264_encoder.h"
+#include "hal/hl2ss/server/port.h"
+
+namespace orthonav::hl2ss {
+
+/// A depth camera's port: answers with the calibration, or streams what it is given. Without a
+/// calibration it hangs up on whoever asks: this headset has no such camera.
+class DepthPort {
+ public:
+  /// `calibration`: the whole answer in mode 2.
+  DepthPort(DepthStream stream, std::vector<std::uint8_t> calibration)
+      : stream_(stream), calibration_(std::move(calibration)) {}
+  [[nodiscard]] Port& port() { return port_; }
+  [[nodiscard]] DepthStream stream() const { return stream_; }
+  [[nodiscard]] bool is_streaming() const;
+  /// Sends a picture; its pose is the client's.
+  Status send(const DepthFrame& frame);
+
+ private:
+  Result<std::size_t> understand(Bytes said);
+  Result<std::vector<std::uint8_t>> pictured(const DepthAsked& asked, std::int64_t stream,
+                                             const DepthFrame& frame);
+
+  DepthStream stream_;
+  std::vector<std::uint8_t> calibration_;
+  mutable Mutex mutex_;
+  std::optional<DepthAsked> asked_ ORTHONAV_GUARDED_BY(mutex_);
+  std::int64_t requests_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::int64_t encoded_request_ = -1;
+  std::int64_t pictures_ = 0;
+  std::unique_ptr<H264Encoder> encoder_;
+  Port port_{{[this](Bytes said) { return understand(said); }, [] {},
+              [this] {
+                const MutexLock lock(mutex_);
+                asked_.reset();
+              }}};
+};
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/result.h"
+#include "hal/api/depth_camera.h"
+#include "hal/hl2ss/bytes.h"
+
+namespace orthonav::hl2ss {
+
+/// What a client wants of a depth port, as the server understands it: written from the protocol's
+/// description, not from what our own client sends.
+struct DepthAsked {
+  enum class What : std::uint8_t { kPictures, kPicturesWithPoses, kCalibration };
+  What what = What::kPicturesWithPoses;
+  int every = 1;       ///< so-manieth picture
+  bool coded = false;  ///< H.264 or PNG
+  std::uint32_t bitrate = 1;
+  int gop_size = 45;
+  std::size_t bytes = 0;  ///< of the request
+};
+
+/// Nothing while bytes are missing; an Error for what is no request, and for HEVC and Zdepth, which
+/// this server can't encode.
+Result<std::optional<DepthAsked>> understand_depth_request(DepthStream stream, Bytes said);
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,69 @@
+#include "hal/hl2ss/server/depth_sender.h"
+
+#include <utility>
+
+namespace orthonav::hl2ss {
+namespace {
+
+constexpr auto kDepthIdle = std::chrono::milliseconds(2);
+
+}  // namespace
+
+DepthSender::~DepthSender() {
+  stop_ = true;
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+void DepthSender::start(ClientFromWorld client_from_world, bool follows_pairs) {
+  client_from_world_ = std::move(client_from_world);
+  if (!follows_pairs) {
+    thread_ = std::thread([this] { run(); });
+  }
+}
+
+void DepthSender::begin(Headset& headset) {
+  const MutexLock lock(mutex_);
+  headset_ = &headset;
+}
+
+void DepthSender::end() {
+  const MutexLock lock(mutex_);
+  headset_ = nullptr;
+}
+
+void DepthSender::run() {
+  while (!stop_) {
+    send_newest();
+    // Also where the next picture is due at once: a session may wait for its end.
+    std::this_thread::sleep_for(kDepthIdle);
+  }
+}
+
+void DepthSender::send_newest() {
+  const MutexLock lock(mutex_);
+  send_newest(ahat_);
+  send_newest(long_throw_);
+}
+
+void DepthSender::send_newest(DepthPort& port) {
+  if (headset_ == nullptr || !port.is_streaming()) {
+    return;
+  }
+  for (DepthCamera* camera : headset_->depth_cameras()) {
+    if (camera->calibration().stream != port.stream()) {
+      continue;
+    }
+    const auto next = camera->next(frame_);
+    if (!next || *next != Next::kFrame) {
+      continue;
+    }
+    if (frame_.world_from_rig) {
+      frame_.world_from_rig = client_from_world_() * *frame_.world_from_rig;
+    }
+    (void)port.send(frame_);
+  }
+}
+
+}  // namespace orthonav::hl2ss

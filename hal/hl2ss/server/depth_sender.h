@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "base/mutex.h"
+#include "hal/api/devices.h"
+#include "hal/hl2ss/server/depth_port.h"
+
+namespace orthonav::hl2ss {
+
+/// The depth cameras of the headset that is served, each through its port. What nobody asks for is
+/// not taken.
+class DepthSender {
+ public:
+  /// `calibrations`: the answers in mode 2, empty where there is no such camera.
+  DepthSender(std::vector<std::uint8_t> ahat, std::vector<std::uint8_t> long_throw)
+      : ahat_(DepthStream::kAhat, std::move(ahat)),
+        long_throw_(DepthStream::kLongThrow, std::move(long_throw)) {}
+  ~DepthSender();
+  DepthSender(const DepthSender&) = delete;
+  DepthSender& operator=(const DepthSender&) = delete;
+
+  [[nodiscard]] DepthPort& ahat() { return ahat_; }
+  [[nodiscard]] DepthPort& long_throw() { return long_throw_; }
+  /// Poses become the client's by this.
+  using ClientFromWorld = std::function<Transform<World, World>()>;
+  /// `follows_pairs`: pictures are taken when `send_newest` is called; else on a thread of its own,
+  /// since a picture of a simulated room takes a while.
+  void start(ClientFromWorld client_from_world, bool follows_pairs);
+  /// A session with this headset begins; it must live until it ends.
+  void begin(Headset& headset);
+  void end();
+  /// What there is to send now.
+  void send_newest();
+
+ private:
+  void run();
+  void send_newest(DepthPort& port) ORTHONAV_REQUIRES(mutex_);
+
+  DepthPort ahat_;
+  DepthPort long_throw_;
+  ClientFromWorld client_from_world_;
+  std::atomic<bool> stop_ = false;
+  Mutex mutex_;  ///< held while a picture is taken: a session ends after it
+  Headset* headset_ ORTHONAV_GUARDED_BY(mutex_) = nullptr;
+  DepthFrame frame_ ORTHONAV_GUARDED_BY(mutex_);
+  std::thread thread_;
+};
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hal/sim/depth_sensor.h"
+#include "hal/sim/sim_room.h"
+
+namespace orthonav::sim {
+
+/// A depth camera of the simulated headset: the newest picture that the pairs have come to. What
+/// nobody asks for costs nothing. May be asked from a thread of its own.
+class SimDepth final : public DepthCamera {
+ public:
+  /// The room must outlive it.
+  SimDepth(SimRoom& room, const SimOptions& options, const DepthModel& model);
+
+ private:
+  [[nodiscard]] const DepthCalibration& do_calibration() const override {
+    return renderer_.calibration();
+  }
+  Result<Next> do_next(DepthFrame& frame) override;
+  [[nodiscard]] Timestamp time_of(std::int64_t number) const;
+
+  SimRoom& room_;
+  double rate_hz_;
+  Random random_;
+  DepthRenderer renderer_;
+  DepthSensorErrors sensor_;
+  std::int64_t last_ = 0;  ///< number of the last picture
+  RoomState state_;
+  std::vector<DepthSight> sights_;
+};
+
+}  // namespace orthonav::sim
