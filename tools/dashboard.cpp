@@ -139,12 +139,16 @@ class Dashboard::Server {
     const auto age = Steady::now() - told_;
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(age).count();
     return "{\"age_ms\":" + std::to_string(ms) +
-           ",\"view\":" + nlohmann::json(has_view() ? what_ : "left camera").dump() +
+           ",\"view\":" + nlohmann::json(what_is_seen()).dump() +
            ",\"now\":" + (state_.empty() ? "null" : state_) + "}";
   }
 
   [[nodiscard]] bool has_view() const ORTHONAV_REQUIRES(mutex_) {
     return !view_.pixels.empty() && Steady::now() - shown_ < kViewLasts;
+  }
+
+  [[nodiscard]] std::string what_is_seen() const ORTHONAV_REQUIRES(mutex_) {
+    return has_view() ? what_ : left_.pixels.empty() ? "no picture" : "left camera";
   }
 
   void answer_view(httplib::Response& answer) {

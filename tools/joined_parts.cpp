@@ -1,5 +1,6 @@
 #include "tools/joined_parts.h"
 
+#include <cstdio>
 #include <utility>
 
 #include "engine/session/spoken_commands.h"
@@ -9,6 +10,11 @@ namespace orthonav::tools {
 
 Result<std::unique_ptr<JoinedHeadset>> join_parts(Headset& headset, const std::string& clicker,
                                                   const std::string& voice) {
+  // A device that tracks tools is no headset that is worn.
+  if (clicker == "headset" && !headset.cameras().measured_tools().empty()) {
+    std::fprintf(stderr, "orthonav: warning: %s has no button: --clicker names one\n",
+                 headset.name().c_str());
+  }
   OtherParts parts;
   auto clicks = open_clicker(clicker, headset.clock());
   if (!clicks) {

@@ -155,7 +155,7 @@ class LiveRun {
                    "\": nobody steps here; known paces are fast and realtime"};
     }
     if (!arguments_.tools_file.empty()) {
-      auto tools = engine::load_tools(arguments_.tools_file);
+      auto tools = engine::load_tools(arguments_.tools_file, engine::ToolTags::kOptional);
       if (!tools) {
         return tools.error();
       }

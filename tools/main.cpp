@@ -13,6 +13,7 @@
 #include "tools/bad_command_line.h"
 #include "tools/command.h"
 #include "tools/help_text.h"
+#include "tools/igtl_tracker.h"
 #include "tools/memory_reserve.h"
 #include "tools/stop_signals.h"
 
@@ -41,6 +42,7 @@ int with_output_written(int code) {
 int run(int argc, char** argv) {
   StopSignals signals;  // before any thread
   keep_memory_reserve();
+  register_igtl_tracker();
   CLI::App app{"orthonav: standalone mixed-reality navigation for orthopaedic surgery", "orthonav"};
   app.require_subcommand(1);
   app.set_version_flag("--version", ORTHONAV_VERSION);

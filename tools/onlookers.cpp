@@ -28,7 +28,7 @@ void Onlookers::watch(engine::AssembledOperation& operation, const engine::Grade
 
 void Onlookers::draw_over_camera(engine::AssembledOperation& operation,
                                  const StereoCalibration& cameras, engine::SnapshotSink* display) {
-  if (!web_.is_open()) {
+  if (!web_.is_open() || !cameras.has_images()) {
     return;
   }
   view_ = std::make_unique<CameraView>(

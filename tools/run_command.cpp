@@ -37,7 +37,7 @@ void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<RunArguments>();
   auto* run = app.add_subcommand("run", "An operation with a headset, simulated or recorded");
   run->add_option("--headset", arguments->headset,
-                  "URI: sim:, replay:PATH, hl2ss://HOST, openxr:+URI")
+                  "URI: sim:, replay:PATH, hl2ss://HOST, openxr:+URI, igtl://HOST")
       ->check(some_text())
       ->capture_default_str();
   run->add_option("--clicker", arguments->clicker,

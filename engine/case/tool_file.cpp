@@ -49,7 +49,7 @@ nav::AttachedMarker attached_from(const JsonNode& node) {
   return {marker_from(node), rigid_pose<Marker, Tag>(node, "pose", rows)};
 }
 
-nav::ToolGeometry tool_from(const JsonNode& node) {
+nav::ToolGeometry tool_from(const JsonNode& node, ToolTags tags) {
   nav::ToolGeometry tool;
   tool.name = node.text("name");
   const std::string role = node.text("role");
@@ -58,7 +58,11 @@ nav::ToolGeometry tool_from(const JsonNode& node) {
   } else {
     node.refuse("role", "is \"" + role + "\", must be " + known_roles());
   }
-  tool.marker = marker_from(node.child("marker"));
+  if (tags == ToolTags::kOptional && !node.has("marker") && !node.has("markers")) {
+    tool.marker.family.clear();
+  } else {
+    tool.marker = marker_from(node.child("marker"));
+  }
   if (node.has("markers")) {
     for (const JsonNode& more : node.list("markers")) {
       tool.more_markers.push_back(attached_from(more));
@@ -86,10 +90,11 @@ nav::ToolGeometry tool_from(const JsonNode& node) {
 }
 
 Result<std::vector<nav::ToolGeometry>> tools_from(const JsonDocument& document,
-                                                  const std::string& name) {
+                                                  const std::string& name,
+                                                  ToolTags tags = ToolTags::kNeeded) {
   std::vector<nav::ToolGeometry> tools;
   for (const JsonNode& node : document.root().list("tools")) {
-    tools.push_back(tool_from(node));
+    tools.push_back(tool_from(node, tags));
   }
   if (Status status = document.status(); !status) {
     return status.error();
@@ -126,12 +131,12 @@ nlohmann::ordered_json json_of(const nav::AttachedMarker& more) {
 
 std::string to_text(nav::ToolRole role) { return name_of(role); }
 
-Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path) {
+Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path, ToolTags tags) {
   const Result<JsonDocument> document = JsonDocument::read(path);
   if (!document) {
     return document.error();
   }
-  return tools_from(*document, path);
+  return tools_from(*document, path, tags);
 }
 
 Result<nav::ToolGeometry> load_tool(const std::string& path, const std::string& name) {
@@ -152,7 +157,9 @@ std::string tools_text(const std::vector<nav::ToolGeometry>& tools) {
     nlohmann::ordered_json entry;
     entry["name"] = tool.name;
     entry["role"] = to_text(tool.role);
-    entry["marker"] = json_of(tool.marker);
+    if (tool.has_tag()) {
+      entry["marker"] = json_of(tool.marker);
+    }
     for (const nav::AttachedMarker& more : tool.more_markers) {
       entry["markers"].push_back(json_of(more));
     }

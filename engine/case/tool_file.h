@@ -9,6 +9,9 @@
 
 namespace orthonav::engine {
 
+/// Whether each tool needs a tag, as cameras do to find it.
+enum class ToolTags { kNeeded, kOptional };
+
 /// Reads tool definitions:
 /// ```
 /// {"tools": [{"name", "role": "pointer"|"guide"|"reference"|"awl"|...,
@@ -19,8 +22,10 @@ namespace orthonav::engine {
 /// say the level that it is clamped to. `markers` lists further tags of the body, each as `marker`
 /// with a `pose`: marker_from_tag, 4×4 by rows, mm. A guide may have `sleeve_length_mm` and
 /// `stop_mm` (nav/tracking/tool.h). Refuses, naming file and field, whatever is missing, of the
-/// wrong type, no rigid pose, or a problem in the sense of `nav::problems_of`.
-Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path);
+/// wrong type, no rigid pose, or a problem in the sense of `nav::problems_of`. A tool without
+/// `marker`, where that may be, is one that the headset measures itself.
+Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path,
+                                                  ToolTags tags = ToolTags::kNeeded);
 
 /// One tool of such a file, by its name.
 Result<nav::ToolGeometry> load_tool(const std::string& path, const std::string& name);

@@ -4,8 +4,22 @@
 
 #include "base/joined.h"
 #include "engine/case/reference_levels.h"
+#include "nav/tracking/tools_measured_elsewhere.h"
 
 namespace orthonav::engine {
+
+namespace {
+
+/// Tools are found in the headset's images by the method, or measured by the headset itself.
+Result<std::unique_ptr<nav::ToolTracker>> tracker_for(Headset& headset, const Method& method,
+                                                      const std::vector<nav::ToolGeometry>& tools,
+                                                      const nav::TrackerOptions& options) {
+  const auto measured = headset.cameras().measured_tools();
+  return measured.empty() ? method.create_tracker(headset.cameras().calibration(), tools, options)
+                          : nav::create_tracker_of_poses(measured, tools);
+}
+
+}  // namespace
 
 std::vector<std::string> AssemblyOptions::check() const {
   std::vector<std::string> problems;
@@ -34,7 +48,7 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
   if (const auto problems = options.check(); !problems.empty()) {
     return Error{joined(problems)};
   }
-  auto tracker = method.create_tracker(headset.cameras().calibration(), tools, options.tracker);
+  auto tracker = tracker_for(headset, method, tools, options.tracker);
   if (!tracker) {
     return tracker.error();
   }

@@ -68,8 +68,9 @@ class AssembledOperation {
   FrameLoop loop_;
 };
 
-/// The only way to put an operation together: the method's tracker for the headset's cameras, a
-/// session with it, and a loop between the two. `tools` are as described, which differs a little
+/// The only way to put an operation together: the method's tracker for the headset's cameras (or
+/// the poses of tools that the headset measures itself), a session with it, and a loop between the
+/// two. `tools` are as described, which differs a little
 /// from the real ones. An Error names what is wrong with the options, the tools or the operation.
 Result<std::unique_ptr<AssembledOperation>> assemble_operation(
     Headset& headset, Operation operation, const Method& method,

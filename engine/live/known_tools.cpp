@@ -17,12 +17,16 @@ nav::ToolRole role_of(ToolKind kind) {
 
 }  // namespace
 
-Result<std::vector<nav::ToolGeometry>> tools_known_to(const Headset& headset) {
+Result<std::vector<nav::ToolGeometry>> tools_known_to(Headset& headset) {
   const DescribedTools known = headset.described_tools();
   if (const auto* file = std::get_if<ToolsFile>(&known)) {
     return parse_tools(file->text, file->name);
   }
   const auto* described = std::get_if<std::vector<DescribedTool>>(&known);
+  if (!described && !headset.cameras().measured_tools().empty()) {
+    return Error{headset.name() +
+                 " measures tools itself: a file of tools must say where their tips lie (--tools)"};
+  }
   if (!described) {
     return built_in_tools();
   }

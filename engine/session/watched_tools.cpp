@@ -40,7 +40,7 @@ std::array<Point<World>, 4> paper_of(const Transform<World, Frame>& world_from_t
 
 void note_papers(const nav::TrackedPose& pose, const nav::ToolGeometry& tool, ToolSight& sight) {
   sight.papers.clear();
-  if (pose.status == PoseStatus::kLost) {
+  if (pose.status == PoseStatus::kLost || !tool.has_tag()) {
     return;
   }
   sight.papers.push_back(paper_of(pose.value, tool.marker.size_m));

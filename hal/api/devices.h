@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,11 @@
 #include "hal/api/described_tools.h"
 #include "hal/api/display.h"
 #include "hal/api/frame_order.h"
+#include "hal/api/measured_tool.h"
 
 namespace orthonav {
 
-/// The two front cameras as the device reports them.
+/// The two front cameras as the device reports them; without pixels where it has none.
 struct StereoCalibration {
   CameraModel left;
   CameraModel right;
@@ -29,6 +31,7 @@ struct StereoCalibration {
   [[nodiscard]] Transform<RightCamera, LeftCamera> right_from_left() const {
     return right_from_rig * left_from_rig.inverse();
   }
+  [[nodiscard]] bool has_images() const { return left.width_px() > 0 && right.width_px() > 0; }
 };
 
 /// Two images taken at the same moment. The buffers are reused from frame to frame.
@@ -45,6 +48,9 @@ struct StereoFrame {
   /// How far that may be off, drift of the map apart, where the device says so: of (translation m,
   /// rotation vector rad about the rig's origin), in World. Absent: it is not stated.
   std::optional<PoseCovariance> head_covariance;
+  /// Tools that the device itself measured at `time`, each at most once; those that it did not see
+  /// are not among them. Empty for a device that leaves tracking to us.
+  std::vector<MeasuredTool> tools;
 
   /// Empties it and keeps the buffers, so that the next frame allocates nothing.
   void clear();
@@ -55,15 +61,22 @@ struct StereoFrame {
 /// epoch never decreases, a pose is a rigid motion; after kEnd there is only kEnd. A frame that
 /// breaks it is answered with an Error and not passed on (`frame` comes back empty); the stream
 /// continues with the next good frame.
+///
+/// A device that measures tools itself names them; its frames carry their poses, and where it has
+/// no cameras its calibration and its images are empty.
 class StereoCamera {
  public:
   virtual ~StereoCamera() = default;
   [[nodiscard]] const StereoCalibration& calibration() const { return do_calibration(); }
+  /// Names of the tools that the device itself measures; the same at every call. Empty: tools are
+  /// found in its images.
+  [[nodiscard]] std::span<const std::string> measured_tools() const { return do_measured_tools(); }
   /// Fills `frame` with the next pair, never the same one twice. Does not block.
   Result<Next> next(StereoFrame& frame);
 
  private:
   [[nodiscard]] virtual const StereoCalibration& do_calibration() const = 0;
+  [[nodiscard]] virtual std::span<const std::string> do_measured_tools() const { return {}; }
   virtual Result<Next> do_next(StereoFrame& frame) = 0;
 
   FrameOrder order_;

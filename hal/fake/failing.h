@@ -57,6 +57,9 @@ class FailingCamera : public StereoCamera {
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return inner_.calibration();
   }
+  [[nodiscard]] std::span<const std::string> do_measured_tools() const override {
+    return inner_.measured_tools();
+  }
   Result<Next> do_next(StereoFrame& frame) override;
   Result<Next> spoiled(CameraFault fault, StereoFrame& frame);
 };

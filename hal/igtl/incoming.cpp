@@ -10,34 +10,61 @@ constexpr std::uint64_t kLargestBody = 16u << 20u;
 
 }  // namespace
 
+Bytes Incoming::cut_off(Bytes& bytes, std::uint64_t most) {
+  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, bytes.size()));
+  const Bytes part = bytes.first(count);
+  bytes = bytes.subspan(count);
+  return part;
+}
+
 Status Incoming::take(std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
-    if (to_skip_ > 0) {
-      const std::uint64_t skipped = std::min<std::uint64_t>(to_skip_, bytes.size());
-      to_skip_ -= skipped;
-      bytes = bytes.subspan(static_cast<std::size_t>(skipped));
+    if (to_come_ > 0) {
+      const Bytes part = cut_off(bytes, to_come_);
+      if (keeps_) {
+        body_.insert(body_.end(), part.begin(), part.end());
+      }
+      to_come_ -= part.size();
+    } else {
+      const Bytes part = cut_off(bytes, kHeaderBytes - header_has_);
+      std::copy(part.begin(), part.end(),
+                header_bytes_.begin() + static_cast<std::ptrdiff_t>(header_has_));
+      header_has_ += part.size();
+      if (header_has_ < kHeaderBytes) {
+        continue;
+      }
+      if (const Status begun = begin_body(); !begun) {
+        return begun;
+      }
+    }
+    if (to_come_ > 0) {
       continue;
     }
-    const std::size_t part = std::min(kHeaderBytes - header_bytes_, bytes.size());
-    std::copy_n(bytes.begin(), part, header_.begin() + static_cast<std::ptrdiff_t>(header_bytes_));
-    header_bytes_ += part;
-    bytes = bytes.subspan(part);
-    if (header_bytes_ < kHeaderBytes) {
-      continue;
+    if (const Status ended = end_body(); !ended) {
+      return ended;
     }
-    header_bytes_ = 0;
-    const auto header = parsed_header(std::span<const std::uint8_t, kHeaderBytes>(header_));
-    if (!header) {
-      return header.error();
-    }
-    if (header->body_bytes > kLargestBody) {
-      return Error{"announces " + header->type + " of " + std::to_string(header->body_bytes) +
-                   " bytes, limit " + std::to_string(kLargestBody)};
-    }
-    to_skip_ = header->body_bytes;
-    ++messages_;
   }
   return {};
 }
+
+Status Incoming::begin_body() {
+  header_has_ = 0;
+  auto header = parsed_header(std::span<const std::uint8_t, kHeaderBytes>(header_bytes_));
+  if (!header) {
+    return header.error();
+  }
+  header_ = std::move(*header);
+  if (header_.body_bytes > kLargestBody) {
+    return Error{"announces " + header_.type + " of " + std::to_string(header_.body_bytes) +
+                 " bytes, limit " + std::to_string(kLargestBody)};
+  }
+  to_come_ = header_.body_bytes;
+  keeps_ = reader_ != nullptr && to_come_ <= kLargestKept && reader_->wants(header_);
+  body_.clear();
+  ++messages_;
+  return {};
+}
+
+Status Incoming::end_body() { return keeps_ ? reader_->read(header_, body_) : Status{}; }
 
 }  // namespace orthonav::igtl

@@ -12,7 +12,6 @@
 namespace orthonav::igtl {
 namespace {
 
-constexpr std::size_t kNameBytes = 20;
 constexpr std::size_t kPointNameBytes = 64;
 constexpr std::size_t kPointGroupBytes = 32;
 constexpr std::size_t kMostText = 65535;
@@ -27,20 +26,6 @@ std::vector<std::uint8_t> bytes_of(::igtl::MessageBase& message, const Label& la
   message.Pack();
   const auto* first = static_cast<const std::uint8_t*>(message.GetPackPointer());
   return {first, first + message.GetPackSize()};
-}
-
-/// A name in a field of fixed length; of what is no name, nothing.
-std::string field(std::span<const std::uint8_t> bytes) {
-  const auto end = std::find(bytes.begin(), bytes.end(), 0);
-  return {bytes.begin(), end};
-}
-
-std::uint64_t number(std::span<const std::uint8_t> bytes) {
-  std::uint64_t value = 0;
-  for (const std::uint8_t byte : bytes) {
-    value = value << 8u | byte;
-  }
-  return value;
 }
 
 }  // namespace
@@ -103,24 +88,6 @@ std::vector<std::uint8_t> packed_text(const Label& label, const std::string& tex
   std::string most = cut(text, kMostText);
   message->SetString(most);
   return bytes_of(*message, label);
-}
-
-Result<Header> parsed_header(std::span<const std::uint8_t, kHeaderBytes> bytes) {
-  // Version (2 bytes), type (12), device (20), time (8), length of the body (8), checksum (8).
-  constexpr int kNewest = 3;
-  Header header;
-  header.version = static_cast<int>(number(bytes.first(2)));
-  header.type = field(bytes.subspan(2, 12));
-  header.device = field(bytes.subspan(14, 20));
-  header.body_bytes = number(bytes.subspan(42, 8));
-  const bool named = !header.type.empty() &&
-                     std::all_of(header.type.begin(), header.type.end(), [](unsigned char c) {
-                       return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-                     });
-  if (header.version < 1 || header.version > kNewest || !named) {
-    return Error{"sends what is no OpenIGTLink message"};
-  }
-  return header;
 }
 
 }  // namespace orthonav::igtl

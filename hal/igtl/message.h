@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
+#include "hal/igtl/header.h"
 
 // Messages of OpenIGTLink (protocol version 1) as bytes. Lengths are in millimetres, as on the
 // wire.
@@ -54,19 +54,5 @@ using Triangle = std::array<std::uint32_t, 3>;
                                                std::span<const Triangle> triangles);
 /// Text in ASCII or UTF-8; what is beyond 65,535 bytes is cut, as the length has 16 bits.
 [[nodiscard]] std::vector<std::uint8_t> packed_text(const Label& label, const std::string& text);
-
-inline constexpr std::size_t kHeaderBytes = 58;
-
-/// What the first bytes of a message from outside say.
-struct Header {
-  int version = 0;
-  std::string type;
-  std::string device;
-  std::uint64_t body_bytes = 0;
-};
-
-/// Reads it without the library, which loses its place in a stream of version 2. Refuses versions
-/// other than 1 to 3, and a type that is not a name: that is not OpenIGTLink.
-Result<Header> parsed_header(std::span<const std::uint8_t, kHeaderBytes> bytes);
 
 }  // namespace orthonav::igtl

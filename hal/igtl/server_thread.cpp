@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/guarded.h"
+#include "hal/igtl/message.h"
 
 namespace orthonav::igtl {
 namespace {

@@ -126,6 +126,10 @@ Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
   if (!cameras) {
     return cameras.error();
   }
+  if (!cameras->headset->cameras().calibration().has_images()) {
+    return bad_uri(uri, cameras->headset->name() +
+                            " has no cameras, and where it lies in the display's map is not known");
+  }
   return OpenedHeadset{openxr::OpenxrHeadset::around(std::move(cameras->headset), rig),
                        cameras->room};
 }

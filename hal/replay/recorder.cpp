@@ -223,6 +223,10 @@ class Recorder : public RecordingHeadset {
 Result<std::unique_ptr<RecordingHeadset>> make(Headset& inner, std::unique_ptr<Headset> owned,
                                                const std::filesystem::path& folder,
                                                const RecorderOptions& options) {
+  if (!inner.cameras().calibration().has_images()) {
+    return Error{folder.string() + ": " + inner.name() +
+                 " has no cameras, and what is recorded is their images"};
+  }
   RecordedDevice device;
   device.epoch_ticks_100ns = inner.epoch_ticks_100ns();
   device.display_latency = inner.display().predicted_display_time(Timestamp{}) - Timestamp{};

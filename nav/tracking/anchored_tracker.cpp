@@ -63,6 +63,7 @@ class AnchoredTracker final : public ToolTracker {
   [[nodiscard]] double tag_size_difference_sd(std::size_t tool, std::size_t other) const override {
     return tracker_->tag_size_difference_sd(tool, other);
   }
+  [[nodiscard]] bool follows_tools() const override { return tracker_->follows_tools(); }
   [[nodiscard]] const Anchor* anchor() const override { return &anchor_; }
 
  private:
@@ -166,7 +167,7 @@ class AnchoredTracker final : public ToolTracker {
       const TrackedPose measured{anchored_from_rig * pair->rig_from_marker, frame.time,
                                  PoseStatus::kMeasured,
                                  turned(in_rig, anchored_from_rig.rotation())};
-      if (is_anchor) {
+      if (is_anchor || !tracker_->follows_tools()) {
         states_[i].world_from_marker = measured;
         continue;
       }

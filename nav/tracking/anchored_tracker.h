@@ -26,10 +26,10 @@ struct ReferenceLimits {
 /// Tracks by `tracker`, with poses relative to the patient references among its tools: a tool and a
 /// reference of the same pair, so that head, map and patient motion cancel. The covariances are
 /// those of the two poses, the reference's at the lever arm to the tool. Without a reference in
-/// sight the tools are predicted for `coast`, then lost. `known`: where references lie in the World
-/// of a resumed operation; then no reference defines a new one. Refuses tools without a reference,
-/// a place of a tool that is no reference, and limits with problems. `tracker` must give the poses
-/// of single pairs
+/// sight the tools are predicted for `coast`, then lost; where `tracker` follows no tools, nothing
+/// is filtered or predicted. `known`: where references lie in the World of a resumed operation;
+/// then no reference defines a new one. Refuses tools without a reference, a place of a tool that
+/// is no reference, and limits with problems. `tracker` must give the poses of single pairs
 /// (`ToolState::pair`).
 Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(
     std::unique_ptr<ToolTracker> tracker, Duration coast, const ReferenceLimits& limits = {},

@@ -108,7 +108,10 @@ std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools) {
     if (tool.name.empty()) {
       problems.push_back(name + ": name is empty");
     }
-    check_marker(tool.marker, name, problems);
+    if (tool.has_tag()) {
+      check_marker(tool.marker, name, problems);
+      check_given_once(tool.marker, name, tags, problems);
+    }
     check_geometry(tool, name, problems);
     check_guide(tool, name, problems);
     for (std::size_t j = 0; j < i; ++j) {
@@ -116,7 +119,6 @@ std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools) {
         problems.push_back(name + ": the name is given twice");
       }
     }
-    check_given_once(tool.marker, name, tags, problems);
     for (const AttachedMarker& more : tool.more_markers) {
       check_given_once(more.definition, name, tags, problems);
     }

@@ -25,7 +25,7 @@ inline constexpr std::size_t kToolRoles = 8;
 [[nodiscard]] const char* name_of(ToolRole role);
 
 struct MarkerDefinition {
-  std::string family = "tag36h11";
+  std::string family = "tag36h11";  ///< empty: no tag; the tool is measured by the device itself
   int id = 0;
   double size_m = 0.0;  ///< outer edge of the black border
 };
@@ -36,7 +36,8 @@ struct AttachedMarker {
   Transform<Marker, Tag> marker_from_tag;
 };
 
-/// A rigid tool: where its tip and axis lie relative to its marker.
+/// A rigid tool: where its tip and axis lie relative to its marker. Of a tool without a tag, Marker
+/// is the frame that the device measures.
 struct ToolGeometry {
   std::string name;
   ToolRole role = ToolRole::kPointer;
@@ -53,6 +54,8 @@ struct ToolGeometry {
   /// Of a guide with a depth stop: how far the drill gets past where the tip was set on the bone,
   /// until the stop is met. Absent: it has none, or nobody knows.
   std::optional<double> stop_m = {};
+
+  [[nodiscard]] bool has_tag() const { return !marker.family.empty(); }
 };
 
 /// Every problem at once: empty names, unknown families, duplicate names, a tag given twice on any

@@ -11,6 +11,12 @@ Status check(const StereoCalibration& calibration, const std::vector<ToolGeometr
   if (const auto problems = problems_of(tools); !problems.empty()) {
     return Error{"tools: " + joined(problems)};
   }
+  for (const ToolGeometry& tool : tools) {
+    if (!tool.has_tag()) {
+      return Error{"tools: tool '" + tool.name +
+                   "' has no tag, and cameras find a tool by its tag alone"};
+    }
+  }
   if (calibration.left.width_px() <= 0 || calibration.right.width_px() <= 0) {
     return Error{"tracker: the stereo calibration has no camera model"};
   }

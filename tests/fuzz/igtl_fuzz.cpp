@@ -3,16 +3,55 @@
 #include <span>
 
 #include "hal/igtl/incoming.h"
+#include "hal/igtl/pose_frames.h"
+#include "hal/igtl/pose_message.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {
+namespace {
 
-/// What a stranger sends to the OpenIGTLink port. However the network cuts it, the same comes of
-/// it.
+/// Reads what may be read.
+class Reader : public igtl::MessageReader {
+ public:
+  std::size_t poses = 0;
+  std::size_t refused = 0;
+
+ private:
+  [[nodiscard]] bool wants(const igtl::Header& header) const override {
+    return igtl::holds_poses(header.type);
+  }
+  Status read(const igtl::Header& header, igtl::Bytes body) override {
+    const auto found = igtl::poses_in(header, body);
+    refused += found ? 0 : 1;
+    for (std::size_t i = 0; found && i < found->size(); ++i) {
+      now_ += std::chrono::milliseconds(1);
+      frames_.take((*found)[i], now_, now_);
+      if (const auto frame = frames_.next(now_)) {
+        insist(frame->tools.size() <= 2);
+        insist(!last_ || frame->time > *last_);
+        last_ = frame->time;
+      }
+      ++poses;
+    }
+    return {};
+  }
+  igtl::PoseFrames frames_{{{{"pointer", "ProbeToTracker"}, {"reference", "ReferenceToTracker"}},
+                            {},
+                            std::chrono::seconds(1)}};
+  Timestamp now_{};
+  std::optional<Timestamp> last_;
+};
+
+}  // namespace
+
+/// What a stranger sends to the OpenIGTLink port, or a tracker to us. However the network cuts it,
+/// the same comes of it.
 void fuzz_igtl(std::span<const std::uint8_t> input) {
-  igtl::Incoming whole;
+  Reader all;
+  igtl::Incoming whole(&all);
   const Status at_once = whole.take(input);
-  igtl::Incoming parts;
+  Reader some;
+  igtl::Incoming parts(&some);
   Status piecemeal;
   const std::size_t step = input.empty() ? 1 : 1 + input[0] % 97;
   for (std::size_t at = 0; at < input.size() && piecemeal; at += step) {
@@ -20,6 +59,7 @@ void fuzz_igtl(std::span<const std::uint8_t> input) {
   }
   insist(at_once.ok() == piecemeal.ok());
   insist(whole.messages() == parts.messages());
+  insist(all.poses == some.poses && all.refused == some.refused);
 }
 
 }  // namespace orthonav::fuzz

@@ -81,8 +81,9 @@ LiveOperation::~LiveOperation() {
 }
 
 Status LiveOperation::prepare(const OperationSource& source) {
-  const auto tools = source.tools_file.empty() ? engine::tools_known_to(*headset_)
-                                               : engine::load_tools(source.tools_file);
+  const auto tools = source.tools_file.empty()
+                         ? engine::tools_known_to(*headset_)
+                         : engine::load_tools(source.tools_file, engine::ToolTags::kOptional);
   if (!tools) {
     return tools.error();
   }

@@ -36,6 +36,9 @@ class PreviewHeadset : public ForwardingHeadset {
     [[nodiscard]] const StereoCalibration& do_calibration() const override {
       return inner_.calibration();
     }
+    [[nodiscard]] std::span<const std::string> do_measured_tools() const override {
+      return inner_.measured_tools();
+    }
     Result<Next> do_next(StereoFrame& frame) override;
 
     StereoCamera& inner_;

@@ -69,6 +69,22 @@ TEST(ToolFile, HasAPointerAGuideAndAReferenceBuiltIn) {
   EXPECT_TRUE(nav::problems_of(tools).empty());
 }
 
+TEST(ToolFile, ReadsAToolWithoutATagOnlyWhereThatMayBe) {
+  const TemporaryFolder folder;
+  const std::string text = tool(R"("tip_mm": [1, -150, 2])");
+  const auto tools = load_tools(folder.with("tools.json", text), ToolTags::kOptional);
+  ASSERT_TRUE(tools.ok()) << tools.error().message;
+  EXPECT_FALSE(tools->front().has_tag());
+  EXPECT_EQ(tools->front().tip_in_marker.v, (Vec3{0.001, -0.150, 0.002}));
+  EXPECT_THAT(tools_text(*tools), Not(HasSubstr("\"marker\"")));
+  EXPECT_THAT(refusal(text), HasSubstr("tools[0].marker is missing"));
+  const auto tagged =
+      load_tools(folder.with("tagged.json", tool(kMarker + R"(, "tip_mm": [1, -150, 2])")),
+                 ToolTags::kOptional);
+  ASSERT_TRUE(tagged.ok());
+  EXPECT_TRUE(tagged->front().has_tag());
+}
+
 TEST(ToolFile, RefusesMissingAndMistypedFieldsByName) {
   const std::string tip = R"(, "tip_mm": [0, -150, 0])";
   EXPECT_THAT(refusal(R"({})"), HasSubstr("tools is missing"));

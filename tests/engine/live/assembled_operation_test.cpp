@@ -147,7 +147,8 @@ class TalkativeHeadset : public fake::FakeHeadset {
 };
 
 TEST(ToolsKnownTo, AHeadsetThatTellsNothingAreTheBuiltInOnes) {
-  const auto tools = tools_known_to(TalkativeHeadset(DescribedTools()));
+  TalkativeHeadset headset{DescribedTools()};
+  const auto tools = tools_known_to(headset);
   ASSERT_TRUE(tools.ok());
   EXPECT_EQ(tools_text(*tools), tools_text(built_in_tools()));
 }
@@ -155,7 +156,8 @@ TEST(ToolsKnownTo, AHeadsetThatTellsNothingAreTheBuiltInOnes) {
 TEST(ToolsKnownTo, AHeadsetAreTheValuesThatItTells) {
   DescribedTool guide{"sleeve", ToolKind::kGuide, "tag36h11", 8, 0.06, {{0.0, -0.1, 0.0}}, {}};
   guide.axis_in_marker = {0.0, 0.0, 1.0};
-  const auto tools = tools_known_to(TalkativeHeadset(std::vector{guide}));
+  TalkativeHeadset headset(std::vector{guide});
+  const auto tools = tools_known_to(headset);
   ASSERT_TRUE(tools.ok());
   ASSERT_EQ(tools->size(), 1u);
   const nav::ToolGeometry& tool = tools->front();
@@ -167,12 +169,35 @@ TEST(ToolsKnownTo, AHeadsetAreTheValuesThatItTells) {
   EXPECT_EQ(tool.axis_in_marker.v, (Vec3{0.0, 0.0, 1.0}));
 }
 
+/// Measures a pointer itself, and says nothing of it.
+class MeasuringHeadset : public fake::FakeHeadset, private StereoCamera {
+ public:
+  MeasuringHeadset() : FakeHeadset(test::pairs(1)) {}
+  [[nodiscard]] StereoCamera& cameras() override { return *this; }
+
+ private:
+  [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
+  [[nodiscard]] std::span<const std::string> do_measured_tools() const override { return names_; }
+  Result<Next> do_next(StereoFrame& /*frame*/) override { return Next::kEnd; }
+  StereoCalibration calibration_;
+  std::vector<std::string> names_ = {"pointer"};
+};
+
+TEST(ToolsKnownTo, AHeadsetThatMeasuresToolsItselfAreNotGuessed) {
+  MeasuringHeadset headset;
+  const auto tools = tools_known_to(headset);
+  ASSERT_FALSE(tools.ok());
+  EXPECT_THAT(tools.error().message, HasSubstr("--tools"));
+}
+
 TEST(ToolsKnownTo, AHeadsetWithAFileAreReadAndRefusedByItsName) {
   const auto text = tools_text(built_in_tools());
-  const auto tools = tools_known_to(TalkativeHeadset(ToolsFile{"its file", text}));
+  TalkativeHeadset headset(ToolsFile{"its file", text});
+  const auto tools = tools_known_to(headset);
   ASSERT_TRUE(tools.ok()) << tools.error().message;
   EXPECT_EQ(tools_text(*tools), text);
-  const auto refused = tools_known_to(TalkativeHeadset(ToolsFile{"its file", "{"}));
+  TalkativeHeadset bad(ToolsFile{"its file", "{"});
+  const auto refused = tools_known_to(bad);
   ASSERT_FALSE(refused.ok());
   EXPECT_THAT(refused.error().message, HasSubstr("its file"));
 }

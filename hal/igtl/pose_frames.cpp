@@ -1,0 +1,113 @@
+#include "hal/igtl/pose_frames.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orthonav::igtl {
+namespace {
+
+constexpr std::size_t kMostOthers = 16;
+
+}  // namespace
+
+PoseFrames::PoseFrames(PoseFramesOptions options)
+    : options_(std::move(options)), told_(options_.tools.size()) {}
+
+std::optional<std::size_t> PoseFrames::tool_of(const std::string& transform) {
+  for (std::size_t i = 0; i < options_.tools.size(); ++i) {
+    if (options_.tools[i].transform.substr(0, kNameBytes) == transform) {
+      return i;
+    }
+  }
+  const bool known = std::find(others_.begin(), others_.end(), transform) != others_.end();
+  if (!known && others_.size() < kMostOthers) {
+    others_.push_back(transform);
+  }
+  return std::nullopt;
+}
+
+void PoseFrames::take(const SentPose& pose, Timestamp time, Timestamp now) {
+  const auto tool = tool_of(pose.name);
+  if (!tool) {
+    return;
+  }
+  heard_at_ = now;
+  const bool of_open = open_ && time >= *open_ - kOneMoment && time <= *open_ + kOneMoment;
+  if (open_ && (!of_open || told_[*tool].now) && time > *open_) {
+    close();
+  }
+  if (!open_) {
+    if (last_ && time <= *last_) {
+      ++out_of_order_;
+      return;
+    }
+    open_ = time;
+    opened_at_ = now;
+  } else if (!of_open || told_[*tool].now) {
+    ++out_of_order_;
+    return;
+  }
+  note(*tool, pose, time);
+  if (std::all_of(told_.begin(), told_.end(), [](const Told& each) { return each.now; })) {
+    close();
+  }
+}
+
+void PoseFrames::note(std::size_t tool, const SentPose& pose, Timestamp time) {
+  Told& told = told_[tool];
+  if (!told.ever || told.pose != pose.rig_from_marker) {
+    told.since = time;
+  }
+  told.ever = true;
+  told.now = true;
+  told.pose = pose.rig_from_marker;
+}
+
+void PoseFrames::close() {
+  PoseFrame frame{*open_, {}};
+  for (std::size_t i = 0; i < told_.size(); ++i) {
+    Told& told = told_[i];
+    const bool frozen =
+        options_.frozen_after > Duration::zero() && frame.time - told.since > options_.frozen_after;
+    if (std::exchange(told.now, false) && told.pose && !frozen) {
+      frame.tools.push_back({i, *told.pose, options_.covariance});
+    }
+  }
+  open_.reset();
+  last_ = frame.time;
+  replaced_ += done_ ? 1 : 0;
+  done_ = std::move(frame);
+}
+
+std::optional<PoseFrame> PoseFrames::next(Timestamp now) {
+  if (open_ && now - opened_at_ >= kWaitForRest) {
+    close();
+  }
+  if (!done_ && !open_ && now - heard_at_ > kNobodyInSight) {
+    // What is stamped later than this and still under way may come.
+    const Timestamp then = now - kNobodyInSight;
+    heard_at_ = now;
+    if (!last_ || then > *last_) {
+      last_ = then;
+      return PoseFrame{then, {}};
+    }
+  }
+  return std::exchange(done_, std::nullopt);
+}
+
+void PoseFrames::forget() {
+  open_.reset();
+  done_.reset();
+  for (Told& told : told_) {
+    told.now = false;
+    told.pose.reset();
+    told.ever = false;
+  }
+}
+
+std::size_t PoseFrames::heard() const {
+  return static_cast<std::size_t>(
+      std::count_if(told_.begin(), told_.end(), [](const Told& each) { return each.ever; }));
+}
+
+}  // namespace orthonav::igtl

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "base/mutex.h"
+#include "hal/api/devices.h"
+#include "hal/igtl/incoming.h"
+#include "hal/igtl/link.h"
+#include "hal/igtl/pose_frames.h"
+#include "hal/igtl/sender_clock.h"
+#include "hal/igtl/tracker_options.h"
+
+namespace orthonav::igtl {
+
+/// This machine's steady clock, from zero.
+class SteadyClock : public Clock {
+ public:
+  [[nodiscard]] Timestamp now() const override {
+    return Timestamp(std::chrono::duration_cast<Duration>(HostClock::now() - zero_));
+  }
+
+ private:
+  HostTime zero_ = HostClock::now();
+};
+
+/// The thread that connects to a program that tracks, reads the poses that it sends, and keeps the
+/// newest frame of them. It always reads on, whoever takes frames or not, so that nothing queues
+/// on the network; what is no OpenIGTLink, or more than 32 MiB a second, ends a connection.
+class PoseReceiver final : private MessageReader {
+ public:
+  PoseReceiver(const net::Endpoint& host, const TrackerOptions& options);
+  ~PoseReceiver() override;
+  PoseReceiver(const PoseReceiver&) = delete;
+  PoseReceiver& operator=(const PoseReceiver&) = delete;
+
+  [[nodiscard]] const Clock& clock() const { return clock_; }
+  /// As StereoCamera::do_next. An Error once for each connection that was lost.
+  Result<Next> next(StereoFrame& frame) ORTHONAV_EXCLUDES(mutex_);
+  /// Of the newest frame.
+  [[nodiscard]] std::optional<Timestamp> newest() const ORTHONAV_EXCLUDES(mutex_);
+  /// Whether a pose of any tool came.
+  [[nodiscard]] bool has_heard() const ORTHONAV_EXCLUDES(mutex_);
+  /// What keeps it from hearing of any tool.
+  [[nodiscard]] std::string trouble() const ORTHONAV_EXCLUDES(mutex_);
+  [[nodiscard]] ConnectionStatistics statistics() const ORTHONAV_EXCLUDES(mutex_);
+
+ private:
+  void run();
+  void turn(short revents, HostTime now);
+  void read_all(HostTime now);
+  Status count_bytes(std::size_t count, HostTime now);
+  Status watch_lateness(Timestamp now);
+  void lose(const std::string& why, HostTime now) ORTHONAV_EXCLUDES(mutex_);
+  void publish(const PoseFrame& frame) ORTHONAV_EXCLUDES(mutex_);
+  void tell() ORTHONAV_EXCLUDES(mutex_);
+  [[nodiscard]] bool wants(const Header& header) const override { return holds_poses(header.type); }
+  Status read(const Header& header, Bytes body) override ORTHONAV_EXCLUDES(mutex_);
+
+  const TrackerOptions options_;
+  const SteadyClock clock_;
+  const net::WakeUp wake_up_;
+  std::atomic<bool> stop_ = false;
+
+  // Of the thread.
+  Link link_;
+  Incoming incoming_{this};
+  SenderClock sender_;
+  PoseFrames frames_;
+  Timestamp arrived_{};  ///< what is being read
+  std::optional<Timestamp> late_since_;
+  bool was_connected_ = false;  ///< ever
+  HostTime counted_since_{};
+  std::size_t counted_ = 0;  ///< bytes since then
+
+  mutable Mutex mutex_;
+  std::optional<PoseFrame> waiting_ ORTHONAV_GUARDED_BY(mutex_);
+  std::optional<Timestamp> newest_ ORTHONAV_GUARDED_BY(mutex_);
+  std::optional<std::string> lost_ ORTHONAV_GUARDED_BY(mutex_);
+  std::int64_t map_epoch_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::int64_t sequence_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::int64_t dropped_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::int64_t frames_out_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  StreamStatistics stream_ ORTHONAV_GUARDED_BY(mutex_);
+  bool heard_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  std::string others_ ORTHONAV_GUARDED_BY(mutex_);  ///< transforms that are no tool's
+  std::thread thread_;
+};
+
+}  // namespace orthonav::igtl

@@ -1,0 +1,123 @@
+#include "hal/igtl/tracker_headset.h"
+
+#include <thread>
+#include <utility>
+
+#include "base/joined.h"
+#include "hal/igtl/pose_receiver.h"
+
+namespace orthonav::igtl {
+namespace {
+
+/// A usual monitor's, where somebody looks on; nothing of ours is displayed by it.
+constexpr Duration kDisplayLatency = std::chrono::milliseconds(16);
+
+class Poses final : public StereoCamera {
+ public:
+  Poses(PoseReceiver& receiver, const std::vector<NamedTransform>& tools) : receiver_(receiver) {
+    for (const NamedTransform& each : tools) {
+      tools_.push_back(each.tool);
+    }
+  }
+
+ private:
+  [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
+  [[nodiscard]] std::span<const std::string> do_measured_tools() const override { return tools_; }
+  Result<Next> do_next(StereoFrame& frame) override { return receiver_.next(frame); }
+
+  PoseReceiver& receiver_;
+  StereoCalibration calibration_;  ///< of no cameras
+  std::vector<std::string> tools_;
+};
+
+/// Where the tracker stands: where its poses are measured from.
+class StandingHead final : public HeadTracker {
+ public:
+  explicit StandingHead(const PoseReceiver& receiver) : receiver_(receiver) {}
+
+ private:
+  [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
+    Tracked<Transform<World, Rig>> answer;
+    answer.time = at;
+    if (const auto newest = receiver_.newest()) {
+      answer.status = at <= *newest ? PoseStatus::kMeasured : PoseStatus::kPredicted;
+    }
+    return answer;
+  }
+  [[nodiscard]] std::optional<Timestamp> do_newest_measurement() const override {
+    return receiver_.newest();
+  }
+
+  const PoseReceiver& receiver_;
+};
+
+class NoButton final : public Clicker {
+  Status do_poll(Timestamp /*until*/, std::vector<ClickerEvent>& /*events*/) override { return {}; }
+};
+
+class NobodySpeaks final : public Voice {
+  Status do_poll(Timestamp /*until*/, std::vector<Phrase>& /*phrases*/) override { return {}; }
+};
+
+class NoDisplay final : public Display {
+  [[nodiscard]] Duration do_latency() const override { return kDisplayLatency; }
+  Status do_shown(const ShownFrame& /*frame*/) override { return {}; }
+};
+
+class TrackerHeadset final : public Headset {
+ public:
+  TrackerHeadset(std::string name, std::unique_ptr<PoseReceiver> receiver,
+                 const std::vector<NamedTransform>& tools)
+      : name_(std::move(name)),
+        receiver_(std::move(receiver)),
+        poses_(*receiver_, tools),
+        head_(*receiver_) {}
+  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] const Clock& clock() const override { return receiver_->clock(); }
+  [[nodiscard]] StereoCamera& cameras() override { return poses_; }
+  [[nodiscard]] HeadTracker& head() override { return head_; }
+  [[nodiscard]] Clicker& clicker() override { return button_; }
+  [[nodiscard]] Voice& voice() override { return voice_; }
+  [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] std::optional<ConnectionStatistics> connection() const override {
+    return receiver_->statistics();
+  }
+
+ private:
+  std::string name_;
+  std::unique_ptr<PoseReceiver> receiver_;
+  Poses poses_;
+  StandingHead head_;
+  NoButton button_;
+  NobodySpeaks voice_;
+  NoDisplay display_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Headset>> open_tracker(const TrackerOptions& options) {
+  const std::string name = "igtl://" + options.host + ":" + std::to_string(options.port);
+  const auto endpoint = net::resolve(options.host);
+  if (!endpoint) {
+    return Error{name + ": " + endpoint.error().message};
+  }
+  auto receiver = std::make_unique<PoseReceiver>(*endpoint, options);
+  const HostTime deadline = HostClock::now() + options.open_within;
+  while (!receiver->has_heard()) {
+    if (HostClock::now() >= deadline) {
+      std::vector<std::string> asked;
+      for (const NamedTransform& each : options.tools) {
+        asked.push_back(each.transform);
+      }
+      return Error{name + ": no pose of " + joined(asked, ", ") + " within " +
+                       std::to_string(options.open_within / std::chrono::seconds(1)) +
+                       " s: " + receiver->trouble(),
+                   ErrorCode::kUnavailable};
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return std::unique_ptr<Headset>(
+      std::make_unique<TrackerHeadset>(name, std::move(receiver), options.tools));
+}
+
+}  // namespace orthonav::igtl

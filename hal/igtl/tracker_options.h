@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/angle.h"
+#include "base/result.h"
+#include "base/time.h"
+#include "hal/igtl/pose_frames.h"
+
+namespace orthonav::igtl {
+
+inline constexpr int kUsualPort = 18944;
+
+/// A program that tracks tools and sends their poses.
+struct TrackerOptions {
+  std::string host;
+  int port = kUsualPort;
+  std::vector<NamedTransform> tools;
+  /// How far its poses are off (RMS, in 3-D), as whoever sets it up states it: the protocol has no
+  /// word for it. The default is more than optical trackers have.
+  double rms_m = 0.0005;
+  double rms_rad = 0.5 * kRadiansPerDegree;
+  Duration frozen_after = PoseFramesOptions{}.frozen_after;
+  /// Opening waits no longer for the first pose.
+  Duration open_within = std::chrono::seconds(8);
+
+  /// Of a pose: the same along (about) each axis.
+  [[nodiscard]] PoseCovariance covariance() const;
+};
+
+/// What follows `igtl:` in a URI:
+/// `//HOST[:PORT]?TOOL=TRANSFORM&...[&rms_mm=N&rms_deg=N&frozen_ms=N]`. An Error says what is wrong
+/// with it.
+Result<TrackerOptions> tracker_options_of(std::string_view after_scheme);
+
+}  // namespace orthonav::igtl

@@ -1,0 +1,199 @@
+// A whole operation whose tools another program tracks: their poses come as messages over TCP, and
+// no image is looked at.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "engine/case/operation_plan.h"
+#include "engine/case/tool_file.h"
+#include "engine/live/assembled_operation.h"
+#include "engine/live/known_tools.h"
+#include "engine/phantom/phantom.h"
+#include "engine/study/evaluation.h"
+#include "engine/study/sim_scenario.h"
+#include "hal/api/forwarding_headset.h"
+#include "hal/igtl/tracker_headset.h"
+#include "tests/support/pose_server.h"
+
+namespace orthonav::engine::igtl_operation_test {
+namespace {
+
+/// What the tracker's noise leaves of a perfect world; the surgeon's hands are perfect.
+constexpr double kEntry_m = 0.0010;
+constexpr double kAngle_rad = 0.0175;  // 1 degree
+/// SD of the tracker's noise along (about) each axis.
+constexpr double kNoise_m = 0.0001;
+constexpr double kNoise_rad = 0.001;
+/// The tracker's own frame, as it stands in the room.
+const Transform<World, Rig> kStand(rotation_from_vector({0.3, -1.2, 0.4}), {0.7, 1.1, -0.9});
+
+/// The simulated room, of which an optical tracker sees the tools and nobody the images.
+class TrackedRoom : public ForwardingHeadset, private StereoCamera {
+ public:
+  TrackedRoom(sim::SimHeadset& room, const std::vector<nav::ToolGeometry>& tools)
+      : ForwardingHeadset(room), room_(room) {
+    std::string keys = "rms_mm=0.18&rms_deg=0.1";
+    for (const nav::ToolGeometry& tool : tools) {
+      names_.push_back(tool.name);
+      keys += "&" + tool.name + "=" + tool.name + "ToTracker";
+    }
+    const auto options = igtl::tracker_options_of(server_.uri(keys)).value();
+    std::thread first([this] {
+      if (server_.wait_for_client()) {
+        send();
+      }
+    });
+    tracker_ = igtl::open_tracker(options).value();
+    first.join();
+  }
+  [[nodiscard]] StereoCamera& cameras() override { return *this; }
+  /// Tools that the tracker does not see from now on.
+  void hide(bool hidden) { hidden_ = hidden; }
+
+ private:
+  [[nodiscard]] const StereoCalibration& do_calibration() const override {
+    return tracker_->cameras().calibration();
+  }
+  [[nodiscard]] std::span<const std::string> do_measured_tools() const override {
+    return tracker_->cameras().measured_tools();
+  }
+  /// One frame of the room; its tools come back from the tracker, on the room's clock.
+  Result<Next> do_next(StereoFrame& frame) override {
+    auto answer = room_.cameras().next(pair_);
+    if (!answer || *answer != Next::kFrame) {
+      return answer;
+    }
+    const std::size_t sent = send();
+    const bool came = test::wait_until([&] {
+      const auto next = tracker_->cameras().next(frame);
+      return next && *next == Next::kFrame && frame.tools.size() == sent;
+    });
+    if (!came) {
+      return Error{"no poses came"};
+    }
+    frame.time = pair_.time;
+    frame.sequence = pair_.sequence;
+    frame.world_from_rig = kStand;
+    return Next::kFrame;
+  }
+
+  /// How many tools are seen. Of the others an identity is sent, as PlusServer does.
+  std::size_t send() {
+    const sim::RoomState state = room_.state();
+    stamp_s_ += 0.033;
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      Transform<Rig, Marker> pose;
+      if (state.tool_present[i] && !hidden_) {
+        pose = kStand.inverse() * room_.world_from_room() * state.room_from_marker[i];
+        const auto noise = [this](double sd) {
+          return Vec3{random_.normal(0, sd), random_.normal(0, sd), random_.normal(0, sd)};
+        };
+        pose = Transform<Rig, Marker>(rotation_from_vector(noise(kNoise_rad)) * pose.rotation(),
+                                      pose.translation() + noise(kNoise_m));
+        ++seen;
+      }
+      server_.add(names_[i] + "ToTracker", pose, stamp_s_);
+    }
+    server_.send();
+    return seen;
+  }
+
+  sim::SimHeadset& room_;
+  test::PoseServer server_;
+  std::unique_ptr<Headset> tracker_;
+  std::vector<std::string> names_;
+  StereoFrame pair_;
+  Random random_{7};
+  double stamp_s_ = 1.7e9;
+  bool hidden_ = false;
+};
+
+struct Operated {
+  OperationResult result;
+  std::vector<Event> events;
+};
+
+/// Hides the tools for a second as soon as a screw is guided.
+class Hider : public SessionObserver, public LoopObserver {
+ public:
+  Hider(TrackedRoom& room, std::vector<Event>& events) : room_(room), events_(events) {}
+  void happened(Timestamp time, Step /*from*/, Event event, Cell answer) override {
+    events_.push_back(event);
+    if (answer.next == Step::kGuide && !until_) {
+      until_ = time + std::chrono::seconds(1);
+    }
+  }
+  void stepped(const StereoFrame& frame, const Inputs& /*inputs*/,
+               const Guidance& guidance) override {
+    room_.hide(until_ && frame.time < *until_);
+    if (frame.tools.empty()) {
+      EXPECT_FALSE(guidance.tool.has_value()) << "guidance on a tool that was not measured";
+    }
+  }
+
+ private:
+  TrackedRoom& room_;
+  std::vector<Event>& events_;
+  std::optional<Timestamp> until_;
+};
+
+Operated operate(bool reference) {
+  Operated out;
+  const Case source = phantom({"L4"});
+  Operation operation = plan_operation(source, {"L4"}).value();
+  sim::SimOptions sim;
+  sim.error_model = sim::ErrorModel::perfect();
+  sim.error_model.pace = 4.0;
+  sim.render = false;
+  const auto room =
+      sim::SimHeadset::open(room_of(source, operation, built_in_tools()), sim).value();
+  auto tools = tools_known_to(*room).value();
+  for (nav::ToolGeometry& tool : tools) {
+    tool.marker = {"", 0, 0.0};
+  }
+  TrackedRoom headset(*room, tools);
+  AssemblyOptions options;
+  options.use_reference = reference;
+  const auto live = assemble_operation(headset, std::move(operation), method_named("best").value(),
+                                       tools, options);
+  EXPECT_TRUE(live.ok()) << live.error().message;
+  if (!live) {
+    return out;
+  }
+  GroundTruthRecorder truth(*room, (*live)->session());
+  EndNote end;
+  Hider hider(headset, out.events);
+  (*live)->observe(&truth);
+  (*live)->observe(&end);
+  (*live)->observe(static_cast<SessionObserver*>(&hider));
+  (*live)->observe(static_cast<LoopObserver*>(&hider));
+  const auto report = (*live)->run();
+  EXPECT_TRUE(report.ok()) << report.error().message;
+  if (!report) {
+    return out;
+  }
+  out.result = outcome_of((*live)->session().levels(), (*live)->session().rods(), *report);
+  end.explain(out.result);
+  truth.evaluate((*live)->session().levels(), out.result);
+  return out;
+}
+
+void expect_done(const Operated& done) {
+  ASSERT_TRUE(done.result.loop.done) << done.result.why_not;
+  EXPECT_THAT(done.events, ::testing::Contains(Event::kTrackingLost)) << "it was hidden";
+  const auto& screws = done.result.levels.at(0).screws;
+  ASSERT_EQ(screws.size(), 2u);
+  for (const ScrewOutcome& screw : screws) {
+    ASSERT_TRUE(screw.entry_error_m && screw.angle_error_rad);
+    EXPECT_LT(*screw.entry_error_m, kEntry_m) << name_of(screw.side);
+    EXPECT_LT(*screw.angle_error_rad, kAngle_rad) << name_of(screw.side);
+  }
+}
+
+TEST(TrackedElsewhere, AWholeOperationNeedsNoImages) { expect_done(operate(false)); }
+
+TEST(TrackedElsewhere, AWholeOperationHangsOnAPatientReference) { expect_done(operate(true)); }
+
+}  // namespace
+}  // namespace orthonav::engine::igtl_operation_test
