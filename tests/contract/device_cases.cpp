@@ -157,6 +157,15 @@ std::unique_ptr<Headset> open_sim() {
   return checked(open_headset("sim:?seed=11", options));
 }
 
+/// With both depth cameras, for as long as it takes to have two pictures of the slower one.
+std::unique_ptr<Headset> open_sim_with_depth() {
+  OpenOptions options;
+  options.room = bare_room();
+  options.sim.surgeon = false;
+  options.sim.limit_s = 0.45;
+  return checked(open_headset("sim:?seed=11&depth", options));
+}
+
 /// Waits for the next frame: one that comes over a network comes in its own time.
 class Waiting : public ForwardingHeadset {
  public:
@@ -237,9 +246,9 @@ std::unique_ptr<Headset> open_joined() {
 /// The scripted headset has two, and so has whatever stands before it; StreamRecorder's folder two
 /// of its own.
 std::size_t depth_cameras_of(const std::string& name) {
-  const std::set<std::string> with_depth = {"fake",     "faultless",      "allowed_faults",
-                                            "recorder", "joined",         "openxr",
-                                            "replay",   "stream_recorder"};
+  const std::set<std::string> with_depth = {"fake",     "faultless",       "allowed_faults",
+                                            "recorder", "joined",          "openxr",
+                                            "replay",   "stream_recorder", "sim_depth"};
   return with_depth.count(name) == 0 ? 0 : 2;
 }
 
@@ -269,6 +278,7 @@ std::vector<DeviceCase> device_cases() {
       {"replay", [] { return open_replayed(open_fake()); }},
       {"stream_recorder", open_stream_recorder, false},
       {"sim", open_sim, false},
+      {"sim_depth", open_sim_with_depth, false},
       {"replayed_sim", [] { return open_replayed(open_sim()); }, false},
       {"hl2ss_raw", [] { return open_served_sim("raw"); }, false},
       {"hl2ss_h264", [] { return open_served_sim("h264"); }, false},
