@@ -22,9 +22,7 @@ void append(Bytes& out, const Bytes& message) {
 }
 
 igtl::Label label_of(const std::string& device, Timestamp time) {
-  const auto ns = static_cast<std::uint64_t>(time.time_since_epoch().count());
-  constexpr std::uint64_t kSecond = 1000000000;
-  return {device, (ns / kSecond) << 32u | ((ns % kSecond) << 32u) / kSecond};
+  return {device, igtl_stamp(time)};
 }
 
 std::array<float, 3> in_mm(Vec3 v_m) {
@@ -125,6 +123,12 @@ std::string igtl_device(const std::string& from, const std::string& to) {
   const std::string end = "To" + to;
   name.resize(std::min(name.size(), kDeviceBytes - std::min(kDeviceBytes, end.size())));
   return name + end;
+}
+
+std::uint64_t igtl_stamp(Timestamp time) {
+  const auto ns = static_cast<std::uint64_t>(time.time_since_epoch().count());
+  constexpr std::uint64_t kSecond = 1000000000;
+  return (ns / kSecond) << 32u | ((ns % kSecond) << 32u) / kSecond;
 }
 
 igtl::TransformValues igtl_values(const Mat3& rotation, Vec3 translation_m) {

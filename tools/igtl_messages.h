@@ -14,6 +14,9 @@ namespace orthonav::tools {
 /// others in lower case, so that there is no "To" in it; cut so that the whole fits into 20 bytes.
 [[nodiscard]] std::string igtl_device(const std::string& from, const std::string& to);
 
+/// A time as OpenIGTLink stamps it.
+[[nodiscard]] std::uint64_t igtl_stamp(Timestamp time);
+
 /// A pose as OpenIGTLink has it, mm.
 [[nodiscard]] igtl::TransformValues igtl_values(const Mat3& rotation, Vec3 translation_m);
 

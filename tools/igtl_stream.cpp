@@ -4,6 +4,7 @@
 
 #include "base/joined.h"
 #include "engine/io/text_fields.h"
+#include "engine/session/wording.h"
 #include "tools/arguments.h"
 #include "tools/igtl_messages.h"
 
@@ -40,6 +41,9 @@ void IgtlArguments::add_to(CLI::App& command) {
                   "where --igtl names an address that other machines reach")
       ->check(some_text())
       ->type_name("NETWORKS");
+  command.add_flag("--igtl-commands", commands,
+                   "clients of --igtl may say commands and change the planned screw in work; "
+                   "whoever may connect then steers the operation (docs/igtl.md)");
 }
 
 Result<igtl::ServerOptions> igtl_options(const IgtlArguments& arguments) {
@@ -63,25 +67,35 @@ Result<igtl::ServerOptions> igtl_options(const IgtlArguments& arguments) {
 
 Status IgtlStream::open(const IgtlArguments& arguments) {
   if (arguments.at.empty()) {
+    if (arguments.commands) {
+      return Error{"--igtl-commands: needs --igtl"};
+    }
     return arguments.allow.empty() ? Status{} : Error{"--igtl-allow: needs --igtl"};
   }
   const auto options = igtl_options(arguments);
   if (!options) {
     return options.error();
   }
-  auto server = igtl::Server::start(*options);
+  hears_ = arguments.commands;
+  auto server = igtl::Server::start(*options, hears_ ? &commands_ : nullptr);
   if (!server) {
     return Error{"--igtl, --igtl-allow: " + server.error().message};
   }
   server_ = std::move(*server);
-  std::fprintf(stderr, "OpenIGTLink at %s:%d\n", options->address.c_str(), server_->port());
+  std::fprintf(stderr, "OpenIGTLink at %s:%d%s\n", options->address.c_str(), server_->port(),
+               hears_ ? "; its clients may command" : "");
   return {};
 }
 
 void IgtlStream::watch(engine::AssembledOperation& operation) {
   if (server_) {
     session_ = &operation.session();
+    told_.clear();
+    last_status_.reset();
     operation.observe(static_cast<engine::LoopObserver*>(this));
+    if (hears_) {
+      commands_.watch(operation);
+    }
   }
 }
 
@@ -103,6 +117,11 @@ void IgtlStream::stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*i
     sent_at_status_ = sent;
   }
   server_->publish(std::move(frame));
+  if (hears_) {
+    std::string status;
+    engine::append_without_heard(status, guidance.status);
+    server_->tell(commands_.answers(status, igtl_stamp(guidance.frame_time)));
+  }
 }
 
 void IgtlStream::tell() const {

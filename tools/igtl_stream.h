@@ -8,13 +8,15 @@
 
 #include "engine/live/assembled_operation.h"
 #include "hal/igtl/server.h"
+#include "tools/igtl_commands.h"
 
 namespace orthonav::tools {
 
 /// `--igtl`, of the commands that run an operation.
 struct IgtlArguments {
-  std::string at;     ///< "PORT" or "ADDRESS:PORT"; empty: nothing is served
-  std::string allow;  ///< networks that may connect besides this machine
+  std::string at;         ///< "PORT" or "ADDRESS:PORT"; empty: nothing is served
+  std::string allow;      ///< networks that may connect besides this machine
+  bool commands = false;  ///< clients may command and plan
 
   void add_to(CLI::App& command);
 };
@@ -23,10 +25,13 @@ struct IgtlArguments {
 /// open.
 class IgtlStream : public engine::LoopObserver {
  public:
+  /// What clients ask and what becomes of it is told to `log`, which is borrowed.
+  explicit IgtlStream(EventLog& log) : commands_(log) {}
   /// Listens where the arguments say, and says so on standard error; nowhere where they say
   /// nothing.
   Status open(const IgtlArguments& arguments);
-  /// From now on what happens in this operation, which must outlive the run.
+  /// From now on what happens in this operation, which must outlive its run; it takes the place of
+  /// an earlier one, which has ended.
   void watch(engine::AssembledOperation& operation);
 
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
@@ -35,6 +40,8 @@ class IgtlStream : public engine::LoopObserver {
   void tell() const;
 
  private:
+  IgtlCommands commands_;
+  bool hears_ = false;                    ///< clients may command and plan
   std::unique_ptr<igtl::Server> server_;  ///< null: nobody is served
   const engine::Session* session_ = nullptr;
   std::vector<nav::ScrewPlan> told_;  ///< the screws that stand

@@ -54,7 +54,7 @@ class Onlookers {
   Dashboard web_;
   Pictures pictures_{web_};
   std::unique_ptr<CameraView> view_;
-  IgtlStream igtl_;
+  IgtlStream igtl_{log_};
 };
 
 }  // namespace orthonav::tools

@@ -8,6 +8,7 @@
 #include "tools/case_source.h"
 #include "tools/command.h"
 #include "tools/config_file.h"
+#include "tools/igtl_stream.h"
 #include "tools/model_notes.h"
 #include "tools/preview/preview_app.h"
 #include "tools/screw_arguments.h"
@@ -28,6 +29,7 @@ struct PreviewArguments {
   std::string profile;
   bool perfect = false;
   std::optional<double> pace;
+  IgtlArguments igtl;
   preview::PreviewOptions options;
 };
 
@@ -94,6 +96,21 @@ int run_until_closed(preview::PreviewApp& app, const std::string& out, StopSigna
   return done ? kDone : bad_input(done.error().message);
 }
 
+/// Prepares the models, which takes a while, and begins.
+Status open_operation(preview::PreviewApp& app, const PreviewArguments& arguments,
+                      preview::OperationSource source) {
+  engine::ModelCache models(arguments.models);
+  auto operation = engine::plan_operation(source.source, arguments.levels, models);
+  if (!operation) {
+    return operation.error();
+  }
+  source.operation = std::move(*operation);
+  warn_of_sizes(source.operation, source.screw_sizes);
+  models.keep();
+  print_notes(models);
+  return app.open_operation(std::move(source));
+}
+
 int preview_window(PreviewArguments arguments, StopSignals& signals) {
   if (const Status taken = take_profile(arguments); !taken) {
     return bad_input(taken.error().message);
@@ -117,23 +134,22 @@ int preview_window(PreviewArguments arguments, StopSignals& signals) {
     arguments.options.room.error_model.pace = *arguments.pace;
   }
 
+  EventLog nowhere;
+  IgtlStream igtl(nowhere);
+  if (const Status opened = igtl.open(arguments.igtl); !opened) {
+    return bad_input(opened.error().message);
+  }
+  source->assembled = [&igtl](engine::AssembledOperation& operation) { igtl.watch(operation); };
   preview::PreviewApp app(arguments.options, std::move(script));
   if (const Status opened = app.open_window(); !opened) {
     return bad_input(opened.error().message);
   }
-  engine::ModelCache models(arguments.models);
-  auto operation = engine::plan_operation(source->source, arguments.levels, models);
-  if (!operation) {
-    return bad_input(operation.error().message);
-  }
-  source->operation = std::move(*operation);
-  warn_of_sizes(source->operation, source->screw_sizes);
-  models.keep();
-  print_notes(models);
-  if (const Status opened = app.open_operation(std::move(*source)); !opened) {
+  if (const Status opened = open_operation(app, arguments, std::move(*source)); !opened) {
     return bad_input(opened.error().message);
   }
-  return run_until_closed(app, arguments.options.out, signals);
+  const int code = run_until_closed(app, arguments.options.out, signals);
+  igtl.tell();
+  return code;
 }
 
 /// `WIDTHxHEIGHT` in pixels, both even, since videos need that.
@@ -205,7 +221,7 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<PreviewArguments>();
   auto* preview = app.add_subcommand(
       "preview", "A window with the holograms over the simulated room or a recording");
-  preview->add_option("--headset", arguments->headset, "URI: sim:, replay:PATH")
+  preview->add_option("--headset", arguments->headset, "URI: sim:, replay:PATH, igtl://HOST")
       ->check(some_text())
       ->capture_default_str();
   add_case_option(*preview, arguments->case_folder);
@@ -214,6 +230,7 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   add_levels_option(*preview, arguments->levels);
   add_tools_option(*preview, arguments->tools_file);
   arguments->screws.add_to(*preview);
+  arguments->igtl.add_to(*preview);
   preview->add_option("--models", arguments->models, "folder that keeps the prepared models")
       ->check(some_text());
   add_window_options(*preview, arguments);

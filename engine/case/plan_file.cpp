@@ -88,8 +88,7 @@ std::string accepted_breach(const JsonNode& screw) {
   return reason;
 }
 
-Result<Plan> plan_from_json(const std::string& path) {
-  const Result<JsonDocument> document = JsonDocument::read(path);
+Result<Plan> plan_from_json(const Result<JsonDocument>& document) {
   if (!document) {
     return document.error();
   }
@@ -148,8 +147,14 @@ Result<Plan> load_plan(const std::string& path) {
   if (lower_case(path).ends_with(".fcsv")) {
     return Error{path + ": an .fcsv file holds no lines; save the screws as .mrk.json lines"};
   }
-  auto plan = is_markups_name(path) ? plan_from_markups(path) : plan_from_json(path);
+  auto plan =
+      is_markups_name(path) ? plan_from_markups(path) : plan_from_json(JsonDocument::read(path));
   return plan ? checked(path, std::move(*plan)) : plan;
+}
+
+Result<Plan> parse_plan(const std::string& text, const std::string& name) {
+  auto plan = plan_from_json(JsonDocument::parse(text, name));
+  return plan ? checked(name, std::move(*plan)) : plan;
 }
 
 Result<Plan> load_plan(std::span<const std::string> paths) {

@@ -49,6 +49,8 @@ class AssembledOperation {
   /// What the status line says of saving; null: nothing.
   void show_saving(const SaveWatch* saving) { session_->show_saving(saving); }
   void draw_into(SnapshotSink* sink) { loop_.draw_into(sink); }
+  /// What other programs ask, besides clicker and voice; null: nothing. Borrowed.
+  void hear(Requests* requests) { loop_.hear(requests); }
   /// From now on everything goes through `wrapper`, which forwards to the headset given first. For
   /// a recorder, which must start only once nothing else can fail, since the files it starts stay.
   /// Call it before `run`.

@@ -151,6 +151,10 @@ void FrameLoop::take_back(const Guidance& guidance, SnapshotQueue* queue, LoopRe
 Status FrameLoop::poll_commands(LoopReport& report) {
   clicks_.clear();
   phrases_.clear();
+  asked_.clear();
+  if (requests_ != nullptr) {
+    requests_->take(frame_.time, asked_);
+  }
   const Status clicked = headset_->clicker().poll(frame_.time, clicks_);
   if (const Status over = tolerate(clicked, clicker_errors_, report); !over) {
     return over;
@@ -184,6 +188,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   Inputs inputs;
   inputs.clicks = clicks_;
   inputs.phrases = phrases_;
+  inputs.requests = asked_;
   inputs.stalled = stalled();
   count_stall(inputs.stalled, report);
   // Submitted from now on; the images were under way for a while.

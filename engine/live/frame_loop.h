@@ -95,6 +95,8 @@ class FrameLoop {
     }
   }
   void draw_into(SnapshotSink* sink) { sink_ = sink; }
+  /// What other programs ask, besides clicker and voice; null: nothing. Borrowed.
+  void hear(Requests* requests) { requests_ = requests; }
   /// Ends the run early, from any thread.
   void stop() { stop_ = true; }
 
@@ -131,6 +133,7 @@ class FrameLoop {
   LoopOptions options_;
   std::vector<LoopObserver*> observers_;
   SnapshotSink* sink_ = nullptr;
+  Requests* requests_ = nullptr;
   std::atomic<bool> stop_ = false;
 
   std::optional<Heartbeats> beats_;  ///< while it runs
@@ -141,6 +144,7 @@ class FrameLoop {
   StereoFrame frame_;
   std::vector<ClickerEvent> clicks_;
   std::vector<Phrase> phrases_;
+  std::vector<Request> asked_;
   ShownFrame shown_;
   std::optional<Timestamp> last_display_;           ///< of a pair's frame, for the intervals
   Timestamp last_display_time_ = Timestamp::min();  ///< of any frame

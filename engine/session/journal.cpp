@@ -122,6 +122,13 @@ void Journal::happened(Timestamp time, Step from, Event event, Cell answer) {
   add_line(*log_, line, answer.action == Action::kAccept ? kDurable : LineLog::Keep::kWritten);
 }
 
+void Journal::asked_from_outside(const Request& request) {
+  Json line = journal_line(file_ticks(request.time), request.time, "asked from outside");
+  line["from"] = request.from;
+  line["asked"] = request.text;
+  add_line(*log_, line);
+}
+
 void Journal::not_understood(const Phrase& phrase) {
   Json line = journal_line(file_ticks(phrase.time), phrase.time, "not understood");
   line["phrase"] = phrase.text;

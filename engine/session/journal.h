@@ -58,6 +58,7 @@ class Journal : public SessionObserver {
   [[nodiscard]] const std::string& earlier_kept_as() const { return log_->earlier_kept_as(); }
 
   void happened(Timestamp time, Step from, Event event, Cell answer) override;
+  void asked_from_outside(const Request& request) override;
   void not_understood(const Phrase& phrase) override;
   void registered(Timestamp time, const LevelState& level,
                   const RegistrationOutcome& outcome) override;

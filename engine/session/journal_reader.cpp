@@ -215,7 +215,7 @@ class Reading {
     } else if (what == "ended") {
       record_.reason = line.text_or("reason", "");
       ended_ = true;
-    } else if (what != "not understood") {
+    } else if (what != "not understood" && what != "asked from outside") {
       line.refuse("what", "\"" + what.substr(0, 40) + "\" is unknown");
     }
   }

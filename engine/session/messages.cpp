@@ -9,8 +9,8 @@ void Messages::say(Message message, Timestamp time) {
   message_until_ = time + message_for_;
 }
 
-void Messages::echo(const Phrase& phrase, bool sure) {
-  heard_ = HeardCommand{phrase.text, sure};
+void Messages::echo(const Phrase& phrase, bool sure, const std::string& from) {
+  heard_ = HeardCommand{phrase.text, sure, from};
   heard_until_ = phrase.time + heard_for_;
 }
 

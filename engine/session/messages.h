@@ -16,7 +16,8 @@ class Messages {
 
   void say(Message message, Timestamp time);
   /// A surgeon who was misheard must see it at once, and one who was heard need not ask.
-  void echo(const Phrase& phrase, bool sure);
+  /// `from`: who asked, where nobody in the room said it.
+  void echo(const Phrase& phrase, bool sure, const std::string& from = {});
   /// Something was taken: what was said before is answered.
   void clear() { message_ = {}; }
   void expire(Timestamp now);

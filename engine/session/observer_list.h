@@ -23,6 +23,9 @@ class ObserverList : public SessionObserver {
   void happened(Timestamp time, Step from, Event event, Cell answer) override {
     tell(&SessionObserver::happened, time, from, event, answer);
   }
+  void asked_from_outside(const Request& request) override {
+    tell(&SessionObserver::asked_from_outside, request);
+  }
   void not_understood(const Phrase& phrase) override {
     tell(&SessionObserver::not_understood, phrase);
   }

@@ -42,7 +42,18 @@ struct UndoChange {
   friend bool operator==(const UndoChange&, const UndoChange&) = default;
 };
 
-using Replan = std::variant<SetScrewSize, NextScrewSize, MoveScrew, TiltScrew, UndoChange>;
+/// A screw as another program planned it; nobody says that.
+struct PlaceScrew {
+  std::string level;
+  nav::Side side = nav::Side::kLeft;
+  Point<Vertebra> entry;
+  Point<Vertebra> target;
+  double radius_m = 0.0;  ///< 0: as it is
+  friend bool operator==(const PlaceScrew&, const PlaceScrew&) = default;
+};
+
+using Replan =
+    std::variant<SetScrewSize, NextScrewSize, MoveScrew, TiltScrew, UndoChange, PlaceScrew>;
 
 /// Why a screw is not changed.
 struct ReplanRefusal {
@@ -51,12 +62,14 @@ struct ReplanRefusal {
     kDrilling,       ///< the drill is in the bone
     kWireIn,         ///< its wire is in, and none that was measured waits for a word
     kNoScrewLeft,    ///< every screw of the level is done
+    kOtherScrew,     ///< another one than that in work was asked for
     kNothingToUndo,  ///< this screw was not changed
     kNoSuchSize,     ///< `diameter_m` × `length_m` is not in the list
     kLastSize,       ///< there is no further one that way
     kNoDiameter,     ///< the plan states none, so there is no next one
     kNoDirections,   ///< its directions have no names
     kOffTheBone,     ///< its axis would not meet the bone where a pointer reaches it
+    kIllSized,       ///< shorter, longer, thinner or thicker than any screw is
     kEntryTooFar,    ///< `value` metres from the preoperative plan in all, above `limit`
     kTiltTooFar,     ///< `value` radians
     /// It would leave the cortex: a clearance of `value` metres, below `limit`. "accept" takes it

@@ -83,6 +83,9 @@ struct RequestText {
            printed(" %.1f\u00b0", degrees(tilt.by_rad));
   }
   std::string operator()(const UndoChange& /*undo*/) const { return "undo"; }
+  std::string operator()(const PlaceScrew& place) const {
+    return "plan " + place.level + " " + orthonav::name_of(place.side);
+  }
 };
 
 void write_size_refusal(std::string& out, const ReplanRefusal& refusal) {
@@ -119,6 +122,10 @@ std::string_view plain_reason(ReplanRefusal::Kind kind) {
       return "it runs too far off the usual directions";
     case kOffTheBone:
       return "its axis misses the bone that a pointer reaches";
+    case kOtherScrew:
+      return "another screw is in work";
+    case kIllSized:
+      return "no pedicle screw is so short, long, thin or thick";
     default:
       return {};
   }

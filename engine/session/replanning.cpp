@@ -1,8 +1,10 @@
 #include "engine/session/replanning.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "engine/case/screw_place.h"
 #include "nav/guidance/anatomical_deviation.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/guidance/screw_clearance.h"
@@ -18,6 +20,8 @@ constexpr const char* kConsented = "accepted in surgery";
 constexpr double kLastBits = 1e-9;
 /// Of the search for the least clearance: a screw that is no worse may look so much worse.
 constexpr double kNoWorse_m = 0.00005;
+/// Two radii that differ by less are one, read from a file.
+constexpr double kSameRadius_m = 1e-6;
 
 std::optional<nav::Clearance> clearance_of(const nav::VertebraModel& bone,
                                            const nav::ScrewPlan& screw) {
@@ -78,6 +82,26 @@ struct Changer {
   ChangedOrNot operator()(const TiltScrew& tilt) const {
     const auto tilted = nav::tilted_screw(now, tilt.direction, tilt.by_rad);
     return tilted ? ChangedOrNot(*tilted) : ReplanRefusal{Kind::kNoDirections};
+  }
+  /// Where and how long it is to be is free within the limits; its diameter must be one of the
+  /// list, or as it was.
+  ChangedOrNot operator()(const PlaceScrew& place) const {
+    nav::ScrewPlan placed = now;
+    placed.entry = place.entry;
+    placed.target = place.target;
+    if (place.radius_m > 0.0 && std::abs(place.radius_m - now.radius_m) > kSameRadius_m) {
+      if (sizes.of_diameter(2.0 * place.radius_m) == nullptr) {
+        return no_size(Kind::kNoSuchSize, 2.0 * place.radius_m, 0.0);
+      }
+      placed.radius_m = place.radius_m;
+    }
+    if (ill_sized(placed.entry, placed.target, placed.radius_m)) {
+      return ReplanRefusal{Kind::kIllSized};
+    }
+    if (misplaced(bone.surface(), placed.entry, placed.target, placed.radius_m)) {
+      return ReplanRefusal{Kind::kOffTheBone};
+    }
+    return placed;
   }
   /// That is no change of the screw's own.
   ChangedOrNot operator()(const UndoChange& /*undo*/) const { return now; }
@@ -179,6 +203,10 @@ Replanning::Outcome Replanning::change(LevelState& level, std::size_t screw) {
     return undo(level, screw);
   }
   const nav::ScrewPlan& now = level.plan.screws[screw];
+  if (const auto* place = std::get_if<PlaceScrew>(&asked_);
+      place != nullptr && (place->level != level.plan.label || place->side != now.side)) {
+    return ReplanRefusal{Kind::kOtherScrew};
+  }
   const ChangedOrNot made =
       changed(asked_, now, level.preoperative[screw], *level.plan.model, limits_);
   if (const auto* refusal = std::get_if<ReplanRefusal>(&made)) {

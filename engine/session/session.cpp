@@ -4,8 +4,6 @@
 #include <utility>
 
 #include "base/joined.h"
-#include "engine/session/spoken_commands.h"
-#include "engine/session/spoken_replan.h"
 
 namespace orthonav::engine {
 namespace {
@@ -137,44 +135,23 @@ const Guidance& Session::end(Timestamp display_time) {
 void Session::answer_inputs(const Inputs& inputs) {
   std::size_t c = 0;
   std::size_t p = 0;
-  while (c < inputs.clicks.size() || p < inputs.phrases.size()) {
+  std::size_t r = 0;
+  const auto next_of = [](const auto& events, std::size_t i) {
+    return i < events.size() ? events[i].time : Timestamp::max();
+  };
+  while (c < inputs.clicks.size() || p < inputs.phrases.size() || r < inputs.requests.size()) {
+    const Timestamp clicked = next_of(inputs.clicks, c);
+    const Timestamp said = next_of(inputs.phrases, p);
+    const Timestamp asked = next_of(inputs.requests, r);
     // The clicker goes first at equal times: what is said refers to what was done.
-    const bool clicker_next =
-        p == inputs.phrases.size() ||
-        (c < inputs.clicks.size() && inputs.clicks[c].time <= inputs.phrases[p].time);
-    if (clicker_next) {
+    if (clicked <= said && clicked <= asked) {
       const ClickerEvent& click = inputs.clicks[c++];
       handle(event_of(click.action), click.time);
-    } else {
+    } else if (said <= asked) {
       hear(inputs.phrases[p++]);
+    } else {
+      hear(inputs.requests[r++]);
     }
-  }
-}
-
-void Session::hear(const Phrase& phrase) {
-  const auto event = command_event(phrase.text);
-  if (const auto replan = event ? std::nullopt : replan_from(phrase.text)) {
-    return hear_replan(phrase, *replan);
-  }
-  const bool sure = phrase.confidence >= options_.min_voice_confidence;
-  if (event) {
-    messages_.echo(phrase, sure);
-  }
-  if (!event || !sure) {
-    if (!sure) {
-      messages_.say(NotUnderstood{}, phrase.time);
-    }
-    if (observer_) {
-      observer_->not_understood(phrase);
-    }
-  } else if (step_ == Step::kVerify && *event == Event::kSayAccept &&
-             !verifying_.shown_before(phrase.time)) {
-    if (observer_) {
-      observer_->happened(phrase.time, step_, *event, Cell{step_, Action::kRefuse});
-    }
-    messages_.say(SaidBeforeShown{}, phrase.time);
-  } else {
-    handle(*event, phrase.time);
   }
 }
 

@@ -17,6 +17,7 @@
 #include "engine/session/method.h"
 #include "engine/session/placing.h"
 #include "engine/session/replanning.h"
+#include "engine/session/request.h"
 #include "engine/session/rod_templating.h"
 #include "engine/session/saving.h"
 #include "engine/session/session_observer.h"
@@ -39,6 +40,7 @@ struct Inputs {
   std::span<const Phrase> phrases;       ///< in order of time
   Timestamp display_time{};              ///< of a frame made of this step
   std::optional<Part> stalled;           ///< hides all guidance
+  std::span<const Request> requests{};   ///< of other programs, in order of time
 };
 
 /// One operation from setup to done: values in, guidance out. Reads no clock and no device, so the
@@ -90,8 +92,6 @@ class Session {
 
   // session.cpp: the order of one step.
   void answer_inputs(const Inputs& inputs);
-  void hear(const Phrase& phrase);
-  void hear_replan(const Phrase& phrase, const Result<Replan>& replan);
   void handle(Event event, Timestamp time);
   void watch_map(const StereoFrame& frame);
   void watch_reference(Timestamp now);
@@ -106,6 +106,11 @@ class Session {
   [[nodiscard]] bool anchored() const { return tools_.tracker().anchor() != nullptr; }
   [[nodiscard]] bool by_touch(Step step) const;
   [[nodiscard]] bool is_touched_in() const;
+
+  // session_hearing.cpp: what is said, and what other programs ask.
+  void hear(const Phrase& phrase, const std::string& from = {});
+  void hear(const Request& request);
+  void hear_replan(const Phrase& phrase, const Result<Replan>& replan, const std::string& from);
 
   // session_publication.cpp: what the surgeon is shown after it.
   void publish(const StereoFrame& frame, Timestamp display_time);

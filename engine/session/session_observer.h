@@ -6,6 +6,7 @@
 #include "engine/session/calibration_in_use.h"
 #include "engine/session/guidance.h"
 #include "engine/session/registration_outcome.h"
+#include "engine/session/request.h"
 #include "hal/api/devices.h"
 #include "nav/guidance/other_entry.h"
 
@@ -18,6 +19,8 @@ class SessionObserver {
   virtual ~SessionObserver() = default;
   /// Every event with the table's answer to it.
   virtual void happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell /*answer*/) {}
+  /// Another program asks; what it leads to is heard next.
+  virtual void asked_from_outside(const Request& /*request*/) {}
   /// A phrase that is no command here, or was not understood well enough.
   virtual void not_understood(const Phrase& /*phrase*/) {}
   /// A region was saved: the last of the level's.

@@ -5,20 +5,6 @@ namespace orthonav::engine {
 // The screw in work is changed: the next one in `accepted`, the selected one in `guide`, and in
 // `placed` one whose wire waits for a word.
 
-void Session::hear_replan(const Phrase& phrase, const Result<Replan>& replan) {
-  const bool sure = phrase.confidence >= options_.min_voice_confidence;
-  messages_.echo(phrase, sure);
-  if (sure && replan) {
-    replanning_.ask(*replan);
-    return handle(Event::kSayReplan, phrase.time);
-  }
-  messages_.say(sure ? Message(ReplanUnclear{replan.error()}) : Message(NotUnderstood{}),
-                phrase.time);
-  if (observer_) {
-    observer_->not_understood(phrase);
-  }
-}
-
 std::variant<std::size_t, ReplanRefusal> Session::screw_to_replan() const {
   using Kind = ReplanRefusal::Kind;
   if (step_ == Step::kGuide) {

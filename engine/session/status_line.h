@@ -71,7 +71,8 @@ using StepState = std::variant<std::monostate, StrokesSoFar, RegistrationFigures
 /// heard need not ask.
 struct HeardCommand {
   std::string phrase;
-  bool sure = false;  ///< confident enough to be acted on
+  bool sure = false;      ///< confident enough to be acted on
+  std::string from = {};  ///< who asked, where nobody in the room said it
 };
 
 /// Everything that the status line says, as data; engine/session/wording.h makes the text. The

@@ -233,7 +233,8 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
 }
 
 void append_heard(std::string& out, const HeardCommand& heard) {
-  out.append("heard: ").append(heard.phrase).append(heard.sure ? "" : "? not sure");
+  out.append(heard.from).append(heard.from.empty() ? "heard: " : " asks: ");
+  out.append(heard.phrase).append(heard.sure ? "" : "? not sure");
 }
 
 void append_beside_step(std::string& out, const StatusLine& line, StatusParts* parts) {

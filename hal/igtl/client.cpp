@@ -3,7 +3,38 @@
 #include <array>
 #include <string>
 
+#include "hal/net/allowed.h"
+
 namespace orthonav::igtl {
+
+bool TextReader::wants(const Header& header) const {
+  return header.type == "STRING" && (header.device == "Command" || header.device == "Plan");
+}
+
+Status TextReader::read(const Header& header, Bytes body) {
+  const HostTime now = HostClock::now();
+  if (now - counted_since_ >= std::chrono::seconds(1)) {
+    counted_since_ = now;
+    counted_ = 0;
+  }
+  if (++counted_ > kMostASecond) {
+    return Error{"says more than " + std::to_string(kMostASecond) + " things a second"};
+  }
+  const auto text = text_in(header, body);
+  if (!text) {
+    return text.error();
+  }
+  listener_.said(client_, header.device, *text);
+  return {};
+}
+
+Client::Client(net::Socket socket, HostTime now, TextListener* listener)
+    : socket_(std::move(socket)),
+      taken_(now),
+      reader_(listener == nullptr
+                  ? nullptr
+                  : std::make_unique<TextReader>(net::text_of(net::peer_of(socket_)), *listener)),
+      incoming_(reader_.get()) {}
 
 void Client::add(std::span<const std::uint8_t> bytes, HostTime now) {
   if (idle()) {

@@ -1,19 +1,43 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "hal/igtl/incoming.h"
+#include "hal/igtl/text_message.h"
 #include "hal/net/socket.h"
 
 namespace orthonav::igtl {
 
-/// One connected client: what it sends is skipped; what it is sent waits until it takes it.
+/// Hands what a client says on to who listens: STRING of the devices `Command` and `Plan`.
+class TextReader : public MessageReader {
+ public:
+  /// A client that says more within a second is dropped.
+  static constexpr int kMostASecond = 20;
+
+  TextReader(std::string client, TextListener& listener)
+      : client_(std::move(client)), listener_(listener) {}
+
+ private:
+  [[nodiscard]] bool wants(const Header& header) const override;
+  Status read(const Header& header, Bytes body) override;
+
+  std::string client_;
+  TextListener& listener_;
+  HostTime counted_since_{};
+  int counted_ = 0;
+};
+
+/// One connected client: what it sends is skipped, unless somebody listens; what it is sent waits
+/// until it takes it.
 class Client {
  public:
-  Client(net::Socket socket, HostTime now) : socket_(std::move(socket)), taken_(now) {}
+  /// `listener` is borrowed; null: nobody listens.
+  Client(net::Socket socket, HostTime now, TextListener* listener = nullptr);
 
   [[nodiscard]] int fd() const { return socket_.fd(); }
   /// Nothing waits to be taken.
@@ -34,6 +58,7 @@ class Client {
   std::vector<std::uint8_t> waiting_;
   std::size_t sent_ = 0;
   HostTime taken_;
+  std::unique_ptr<TextReader> reader_;  ///< null: nobody listens
   Incoming incoming_;
   HostTime counted_since_{};
   std::size_t counted_ = 0;  ///< bytes that came since then

@@ -33,7 +33,8 @@ std::vector<std::string> ServerOptions::check() const {
   return problems;
 }
 
-Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options) {
+Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options,
+                                              TextListener* listener) {
   if (const auto problems = options.check(); !problems.empty()) {
     return Error{"OpenIGTLink: " + joined(problems)};
   }
@@ -48,14 +49,13 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options) {
   if (const Status named = net::check_who_may(options.address, *host, *allowed); !named) {
     return Error{"OpenIGTLink: " + named.error().message};
   }
-  auto listener = net::listen_at(*host, options.port, static_cast<int>(options.most_clients));
-  if (!listener) {
-    return Error{
-        "OpenIGTLink: can't listen at " + options.address + ": " + listener.error().message,
-        ErrorCode::kUnavailable};
+  auto socket = net::listen_at(*host, options.port, static_cast<int>(options.most_clients));
+  if (!socket) {
+    return Error{"OpenIGTLink: can't listen at " + options.address + ": " + socket.error().message,
+                 ErrorCode::kUnavailable};
   }
   return std::unique_ptr<Server>(
-      new Server(std::make_unique<ServerThread>(options, *allowed, std::move(*listener))));
+      new Server(std::make_unique<ServerThread>(options, *allowed, std::move(*socket), listener)));
 }
 
 Server::Server(std::unique_ptr<ServerThread> thread) : thread_(std::move(thread)) {}
@@ -66,6 +66,7 @@ void Server::publish(std::vector<std::uint8_t> frame) { thread_->publish(std::mo
 void Server::set_standing(std::vector<std::uint8_t> standing) {
   thread_->set_standing(std::move(standing));
 }
+void Server::tell(std::vector<std::uint8_t> bytes) { thread_->tell(bytes); }
 Server::Counts Server::counts() const { return thread_->counts(); }
 
 }  // namespace orthonav::igtl

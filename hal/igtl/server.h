@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "hal/igtl/text_message.h"
 
 namespace orthonav::igtl {
 
@@ -35,14 +36,16 @@ struct ServerOptions {
 class ServerThread;
 
 /// Sends the same frames, bytes of whole messages (hal/igtl/message.h), to every client that
-/// connects. Of what clients send only the headers are read, of any version; a client that sends
-/// something else, or announces more than 16 MiB, is dropped. A slow client misses frames, and one
-/// that does not read at all is dropped; the others never wait for it. A thread of its own reads
-/// and writes.
+/// connects. Of what clients send only the headers are read, of any version, unless somebody
+/// listens to what they say (`TextReader`); a client that sends something else, or announces more
+/// than 16 MiB, is dropped. A slow client misses frames, and one that does not read at all is
+/// dropped; the others never wait for it. A thread of its own reads and writes.
 class Server {
  public:
   /// An Error names address and port and why nobody can listen there.
-  static Result<std::unique_ptr<Server>> start(const ServerOptions& options);
+  /// `listener` must outlive it; null: nobody listens.
+  static Result<std::unique_ptr<Server>> start(const ServerOptions& options,
+                                               TextListener* listener = nullptr);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
@@ -50,6 +53,8 @@ class Server {
   [[nodiscard]] int port() const;
   /// From any thread; returns at once. Replaces a frame that was not sent yet.
   void publish(std::vector<std::uint8_t> frame);
+  /// Sent once to all clients that are connected by then, whatever they have taken of the frames.
+  void tell(std::vector<std::uint8_t> bytes);
   /// What seldom changes: sent to all clients now, and to each later one when it connects.
   void set_standing(std::vector<std::uint8_t> standing);
 

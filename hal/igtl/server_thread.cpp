@@ -17,8 +17,12 @@ constexpr int kSendBuffer = 64 << 10;
 
 }  // namespace
 
-ServerThread::ServerThread(const ServerOptions& options, net::Allowed allowed, net::Socket listener)
-    : options_(options), allowed_(std::move(allowed)), listener_(std::move(listener)) {
+ServerThread::ServerThread(const ServerOptions& options, net::Allowed allowed, net::Socket socket,
+                           TextListener* listener)
+    : options_(options),
+      allowed_(std::move(allowed)),
+      listener_(std::move(socket)),
+      hears_(listener) {
   thread_ = std::thread([this] {
     const Status died = guarded("server", [this] { run(); });
     if (!died) {
@@ -47,6 +51,17 @@ void ServerThread::set_standing(std::vector<std::uint8_t> standing) {
   {
     const MutexLock lock(mutex_);
     new_standing_ = std::move(standing);
+  }
+  wake_up_.wake();
+}
+
+void ServerThread::tell(std::span<const std::uint8_t> bytes) {
+  if (bytes.empty()) {
+    return;
+  }
+  {
+    const MutexLock lock(mutex_);
+    to_tell_.insert(to_tell_.end(), bytes.begin(), bytes.end());
   }
   wake_up_.wake();
 }
@@ -120,7 +135,7 @@ void ServerThread::accept_clients(HostTime now) {
       continue;
     }
     (void)::setsockopt(socket->fd(), SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
-    clients_.emplace_back(std::move(*socket), now);
+    clients_.emplace_back(std::move(*socket), now, hears_);
     clients_.back().add(standing_, now);
     const MutexLock lock(mutex_);
     ++counts_.served;
@@ -133,8 +148,10 @@ void ServerThread::accept_clients(HostTime now) {
 void ServerThread::give_out(HostTime now) {
   std::optional<std::vector<std::uint8_t>> frame;
   bool stands_anew = false;
+  std::vector<std::uint8_t> to_tell;
   {
     const MutexLock lock(mutex_);
+    to_tell.swap(to_tell_);
     if (new_standing_) {
       standing_ = std::move(*new_standing_);
       new_standing_.reset();
@@ -145,9 +162,12 @@ void ServerThread::give_out(HostTime now) {
       ++counts_.frames;
     }
   }
-  if (stands_anew) {
-    for (Client& client : clients_) {
+  for (Client& client : clients_) {
+    if (stands_anew) {
       client.add(standing_, now);
+    }
+    if (!to_tell.empty()) {
+      client.add(to_tell, now);
     }
   }
   if (frame) {

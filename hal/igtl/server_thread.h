@@ -15,7 +15,8 @@ namespace orthonav::igtl {
 /// The thread of a `Server`, and what it shares with those who publish.
 class ServerThread {
  public:
-  ServerThread(const ServerOptions& options, net::Allowed allowed, net::Socket listener);
+  ServerThread(const ServerOptions& options, net::Allowed allowed, net::Socket socket,
+               TextListener* listener = nullptr);
   ~ServerThread();
   ServerThread(const ServerThread&) = delete;
   ServerThread& operator=(const ServerThread&) = delete;
@@ -23,6 +24,7 @@ class ServerThread {
   [[nodiscard]] int port() const { return net::port_of(listener_); }
   void publish(std::vector<std::uint8_t> frame) ORTHONAV_EXCLUDES(mutex_);
   void set_standing(std::vector<std::uint8_t> standing) ORTHONAV_EXCLUDES(mutex_);
+  void tell(std::span<const std::uint8_t> bytes) ORTHONAV_EXCLUDES(mutex_);
   [[nodiscard]] Server::Counts counts() const ORTHONAV_EXCLUDES(mutex_);
 
  private:
@@ -39,12 +41,14 @@ class ServerThread {
   const ServerOptions options_;
   const net::Allowed allowed_;
   const net::Socket listener_;
+  TextListener* const hears_;  ///< what clients say; null: nobody does
   const net::WakeUp wake_up_;
   std::atomic<bool> stop_ = false;
 
   mutable Mutex mutex_;
   std::optional<std::vector<std::uint8_t>> frame_ ORTHONAV_GUARDED_BY(mutex_);
   std::optional<std::vector<std::uint8_t>> new_standing_ ORTHONAV_GUARDED_BY(mutex_);
+  std::vector<std::uint8_t> to_tell_ ORTHONAV_GUARDED_BY(mutex_);
   Server::Counts counts_ ORTHONAV_GUARDED_BY(mutex_);
 
   // The thread's own.

@@ -1,6 +1,7 @@
 #include "hal/net/allowed.h"
 
 #include <arpa/inet.h>
+#include <netdb.h>
 #include <netinet/in.h>
 
 #include <algorithm>
@@ -118,6 +119,14 @@ Status check_who_may(const std::string& host, const Endpoint& address, const All
   return Error{
       "other machines reach " + host +
       ", and this protocol knows no passwords: name who may connect, as in 192.168.1.0/24"};
+}
+
+std::string text_of(const Endpoint& endpoint) {
+  std::array<char, NI_MAXHOST> text{};
+  const int failed =
+      ::getnameinfo(reinterpret_cast<const sockaddr*>(&endpoint.address), endpoint.length,
+                    text.data(), text.size(), nullptr, 0, NI_NUMERICHOST);
+  return failed == 0 ? std::string(text.data()) : "?";
 }
 
 Endpoint peer_of(const Socket& socket) {

@@ -46,6 +46,8 @@ class Allowed {
 /// Refuses a port that other machines can reach where none of them is named.
 [[nodiscard]] Status check_who_may(const std::string& host, const Endpoint& address,
                                    const Allowed& allowed);
+/// In numbers: "192.168.1.20"; "?" where it is none.
+[[nodiscard]] std::string text_of(const Endpoint& endpoint);
 /// The other side of a connection; of no family where it is gone already.
 [[nodiscard]] Endpoint peer_of(const Socket& socket);
 

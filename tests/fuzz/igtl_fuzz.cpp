@@ -5,6 +5,7 @@
 #include "hal/igtl/incoming.h"
 #include "hal/igtl/pose_frames.h"
 #include "hal/igtl/pose_message.h"
+#include "hal/igtl/text_message.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {
@@ -18,9 +19,15 @@ class Reader : public igtl::MessageReader {
 
  private:
   [[nodiscard]] bool wants(const igtl::Header& header) const override {
-    return igtl::holds_poses(header.type);
+    return igtl::holds_poses(header.type) || header.type == "STRING";
   }
   Status read(const igtl::Header& header, igtl::Bytes body) override {
+    if (header.type == "STRING") {
+      const auto text = igtl::text_in(header, body);
+      insist(!text || text->size() <= body.size());
+      refused += text ? 0 : 1;
+      return {};
+    }
     const auto found = igtl::poses_in(header, body);
     refused += found ? 0 : 1;
     for (std::size_t i = 0; found && i < found->size(); ++i) {

@@ -164,11 +164,13 @@ const engine::Guidance& ScriptedOperation::pair() {
   engine::Inputs inputs;
   inputs.clicks = clicks_;
   inputs.phrases = phrases_;
+  inputs.requests = requests_;
   inputs.display_time = now_ + latency;
   inputs.stalled = stalled;
   const engine::Guidance& guidance = session_->step(frame, inputs);
   clicks_.clear();
   phrases_.clear();
+  requests_.clear();
   return guidance;
 }
 
@@ -181,6 +183,12 @@ const engine::Guidance& ScriptedOperation::pairs(int n) {
 
 const engine::Guidance& ScriptedOperation::says(const std::string& phrase, double confidence) {
   phrases_.push_back({phrase, confidence, now_ + std::chrono::milliseconds(1)});
+  return pair();
+}
+
+const engine::Guidance& ScriptedOperation::asks(engine::Request request) {
+  request.time = now_ + std::chrono::milliseconds(1);
+  requests_.push_back(std::move(request));
   return pair();
 }
 

@@ -78,6 +78,8 @@ class ScriptedOperation {
   const engine::Guidance& pairs(int n);
   const engine::Guidance& says(const std::string& phrase, double confidence = 1.0);
   const engine::Guidance& does(std::vector<ClickerAction> actions);
+  /// Another program asks; the time is the next pair's.
+  const engine::Guidance& asks(engine::Request request);
   /// Comes with the next pair, beside what is said or done then.
   void hears_at(Timestamp time, const std::string& phrase, double confidence = 1.0);
   /// Presses, holds over `n` pairs, releases.
@@ -119,6 +121,7 @@ class ScriptedOperation {
   Timestamp now_ = from_ticks_100ns(10'000'000);
   std::vector<ClickerEvent> clicks_;
   std::vector<Phrase> phrases_;
+  std::vector<engine::Request> requests_;
   ScriptedTracker* tracker_ = nullptr;
   std::unique_ptr<engine::Session> session_;
 };

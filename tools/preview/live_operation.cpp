@@ -97,6 +97,9 @@ Status LiveOperation::prepare(const OperationSource& source) {
   operation_ = std::move(*assembled);
   operation_->observe(this);
   operation_->draw_into(this);
+  if (source.assembled) {
+    source.assembled(*operation_);
+  }
   return {};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -22,6 +23,8 @@ struct OperationSource {
   engine::Operation operation;  ///< its models are shared by all starts
   engine::ScrewSizes screw_sizes = engine::ScrewSizes::built_in();
   std::string tools_file;  ///< empty: what the headset itself knows of its tools
+  /// Called with the operation of every start, before it runs; null: nobody looks on.
+  std::function<void(engine::AssembledOperation&)> assembled;
 };
 
 /// An operation that runs in a thread of its own: pairs come through the gate, moments go into the

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "engine/session/journal_reader.h"
 #include "tests/support/scripted_operation.h"
 #include "tests/support/wait_until.h"
 
@@ -75,6 +76,21 @@ TEST_F(JournalTest, TellsEveryChangeOfAScrewAndItsUndoing) {
   EXPECT_EQ(changes[2]["undone"], true);
   EXPECT_EQ(changes[2]["to"], changes[0]["to"]);
   EXPECT_EQ(changes[2]["from"], changes[1]["to"]);
+}
+
+TEST_F(JournalTest, TellsWhoAskedFromOutsideBeforeWhatCameOfIt) {
+  auto journal = Journal::create(path_, {"0.1.0", "fake", "paper", "boxes", 7, kEpoch}).value();
+  test::ScriptedOperation s({"L4"});
+  s.session().observe(journal.get());
+  s.asks({"start", "10.0.0.7", {}, {}});
+  ASSERT_TRUE(journal->finish().ok());
+  const auto all = lines();
+  ASSERT_GE(all.size(), 3u);
+  EXPECT_EQ(all[1]["what"], "asked from outside");
+  EXPECT_EQ(all[1]["from"], "10.0.0.7");
+  EXPECT_EQ(all[1]["asked"], "start");
+  EXPECT_EQ(all[2]["event"], "\"start\"");
+  EXPECT_TRUE(read_journal(path_).ok()) << "and a report reads it";
 }
 
 TEST_F(JournalTest, TellsTheWholeOperation) {

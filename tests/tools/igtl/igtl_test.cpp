@@ -11,6 +11,7 @@
 #include "tests/support/wait_until.h"
 #include "tests/tools/command_line.h"
 #include "tools/igtl_messages.h"
+#include "tools/igtl_requests.h"
 
 namespace orthonav::tools::igtl_test {
 namespace {
@@ -158,6 +159,93 @@ TEST(IgtlCommand, ServesARunUntilItEnds) {
   EXPECT_THAT(command.wait().err, HasSubstr("OpenIGTLink: 1 client, "));
 }
 
+/// What such a text is refused with; empty: it asks for something.
+std::string refusal(const std::string& device, const std::string& text) {
+  const auto request = request_of(device, text);
+  return request ? "" : request.error().message;
+}
+
+constexpr const char* kScrew =
+    R"({"units": "mm", "frame": "RAS", "level": "L4", "screws": [{"side": "left",
+        "entry": [-15, -20, 4], "target": [-15, 15, 4], "radius": 3}]})";
+
+TEST(IgtlRequests, AreTheWordsThatOneWouldSay) {
+  for (const char* said :
+       {"start", "next", "move rod", "move cranial one", "screw six forty five"}) {
+    const auto request = request_of("Command", said);
+    ASSERT_TRUE(request.ok()) << request.error().message;
+    EXPECT_EQ(request->text, said);
+    EXPECT_FALSE(request->change);
+  }
+  EXPECT_THAT(refusal("Command", "begin"), HasSubstr("\"begin\" is no command"));
+  EXPECT_THAT(refusal("Command", ""), HasSubstr("is no command"));
+  EXPECT_THAT(refusal("Command", "next\n"), HasSubstr("one line"));
+  EXPECT_THAT(refusal("Command", std::string(81, 'a')), HasSubstr("at most 80"));
+  EXPECT_THAT(refusal("Command", "move up one"), HasSubstr("say cranial"));
+}
+
+TEST(IgtlRequests, AreAPlanOfTheScrewInWork) {
+  const auto request = request_of("Plan", kScrew);
+  ASSERT_TRUE(request.ok()) << request.error().message;
+  EXPECT_EQ(request->text, "plan L4 left");
+  ASSERT_TRUE(request->change);
+  const auto& place = std::get<engine::PlaceScrew>(*request->change);
+  EXPECT_EQ(place.level, "L4");
+  EXPECT_EQ(place.side, nav::Side::kLeft);
+  EXPECT_LT((place.entry.v - Vec3{0.015, 0.020, 0.004}).norm(), 1e-12) << "LPS, metres";
+  EXPECT_LT((place.target.v - Vec3{0.015, -0.015, 0.004}).norm(), 1e-12);
+  EXPECT_DOUBLE_EQ(place.radius_m, 0.003);
+}
+
+TEST(IgtlRequests, RefuseAPlanThatAFileMayNotBeAndMoreThanOneScrew) {
+  const std::string plan = kScrew;
+  const auto with = [&plan](const std::string& from, const std::string& to) {
+    std::string changed = plan;
+    return changed.replace(changed.find(from), from.size(), to);
+  };
+  EXPECT_THAT(refusal("Plan", "no JSON"), HasSubstr("Plan: "));
+  EXPECT_THAT(refusal("Plan", with("\"mm\"", "\"inch\"")), HasSubstr("must be mm or m"));
+  EXPECT_THAT(refusal("Plan", with(R"("level": "L4", )", "")), HasSubstr("must name its level"));
+  EXPECT_THAT(refusal("Plan", with("\"radius\": 3", "\"radius\": 9")), HasSubstr("radius"));
+  EXPECT_THAT(refusal("Plan", with("\"radius\": 3", R"("radius": 3, "accept_breach": "mine")")),
+              HasSubstr("accept_breach is not taken from outside"));
+  const std::string second =
+      R"(}, {"side": "right", "entry": [15, -20, 4], "target": [15, 15, 4], "radius": 3}]})";
+  EXPECT_THAT(refusal("Plan", with("}]}", second)), HasSubstr("holds 2 screws, must be 1"));
+}
+
+TEST(IgtlCommand, AnswersWhatItsClientsAskWhereTheyMay) {
+  StartedCommand command(
+      {"run", "--headset", "sim:?seed=3", "--levels", "L5", "--igtl", "0", "--igtl-commands"});
+  int port = 0;
+  ASSERT_TRUE(test::wait_until([&] { return (port = port_of(command)) != 0; }));
+  test::IgtlClient client(port);
+  // Once it runs.
+  while (client.next() != "STRING Guidance") {
+  }
+  client.send(igtl::packed_text({"Command", 0}, "begin"));
+  client.send(igtl::packed_text({"Plan", 0}, kScrew));
+  std::vector<nlohmann::json> answers;
+  for (std::string name = client.next(); !name.empty() && answers.size() < 2;
+       name = client.next()) {
+    if (name == "STRING CommandAnswer") {
+      answers.push_back(
+          nlohmann::json::parse(client.last_body().begin() + 4, client.last_body().end()));
+    }
+  }
+  ASSERT_EQ(answers.size(), 2u);
+  std::sort(answers.begin(), answers.end(),
+            [](const auto& a, const auto& b) { return a.contains("why") && !b.contains("why"); });
+  EXPECT_EQ(answers[0]["taken"], false);
+  EXPECT_EQ(answers[0]["why"], "\"begin\" is no command");
+  EXPECT_EQ(answers[1]["asked"], "plan L4 left");
+  EXPECT_EQ(answers[1]["client"], "127.0.0.1");
+  EXPECT_EQ(answers[1]["taken"], false) << "no level is accepted yet";
+  ASSERT_TRUE(test::wait_until([&] { return command.takes_signals(); }));
+  command.send(SIGTERM);
+  EXPECT_THAT(command.wait().err, HasSubstr("its clients may command"));
+}
+
 TEST(IgtlCommand, RefusesPlacesWhereNobodyCanListen) {
   for (const std::string at : {"port", "70000", "localhost:18944", "1.2.3.4.5:18944"}) {
     const test::Called called = test::orthonav({"run", "--frames", "1", "--igtl", at});
@@ -174,6 +262,9 @@ TEST(IgtlCommand, SaysForWhomItListensBeyondThisMachine) {
   const test::Called alone = test::orthonav({"run", "--frames", "1", "--igtl-allow", "10.0.0.7"});
   EXPECT_EQ(alone.code, 2);
   EXPECT_THAT(alone.err, HasSubstr("--igtl-allow: needs --igtl"));
+  const test::Called commands = test::orthonav({"run", "--frames", "1", "--igtl-commands"});
+  EXPECT_EQ(commands.code, 2);
+  EXPECT_THAT(commands.err, HasSubstr("--igtl-commands: needs --igtl"));
 }
 
 }  // namespace
