@@ -7,6 +7,7 @@
 #include <system_error>
 #include <thread>
 
+#include "base/printed.h"
 #include "hal/open/open.h"
 #include "tools/command.h"
 #include "tools/depth_listing.h"
@@ -160,8 +161,13 @@ class LiveDepth {
     summary_.frames = taken_;
     nlohmann::ordered_json out = {{"streams", nlohmann::ordered_json::array()}};
     out["streams"].push_back(as_json(summary_));
+    const double wraps_at_m = camera_.calibration().wraps_at_m;
+    if (wraps_at_m > 0.0) {
+      out["streams"][0]["wraps_at_m"] = wraps_at_m;
+    }
     if (!arguments_.json.on_stdout()) {
-      std::printf("%s: %s\n", name_of(summary_.stream), in_words(summary_).c_str());
+      std::printf("%s: %s%s\n", name_of(summary_.stream), in_words(summary_).c_str(),
+                  wraps_at_m > 0.0 ? printed(", wraps at %.3f m", wraps_at_m).c_str() : "");
     }
     if (const Status s = arguments_.json.write(out); !s) {
       return bad_input(s.error().message);

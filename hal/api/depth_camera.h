@@ -36,6 +36,9 @@ struct DepthCalibration {
   int height_px = 0;
   std::vector<Ray> rays;  ///< for each pixel's centre, row-major
   Transform<DepthSensor, Rig> sensor_from_rig;
+  /// What lies so much farther measures the same, as the device says; 0: it says nothing, as in
+  /// recordings, or nothing does.
+  double wraps_at_m = 0.0;
 
   /// Where a pixel's measurement lies; nothing without a measurement (0) or without a ray. The
   /// pixel must lie in the image.

@@ -15,9 +15,6 @@ namespace {
 /// Steps from 10 mm down to 0.01 mm; a headset's are 1 mm.
 constexpr double kLeastUnits = 1e2;
 constexpr double kMostUnits = 1e5;
-/// About 1 m on a headset.
-constexpr double kNearestWrapM = 0.2;
-constexpr double kFarthestWrapM = 10.0;
 /// From here on AHaT says that it measured nothing.
 constexpr std::size_t kAhatNothing = 4090;
 
@@ -29,11 +26,10 @@ Status check_scale(double units_per_m) {
   return {};
 }
 
-Status check_alias(double alias, double units_per_m) {
-  const double wraps_at_m = alias / units_per_m;
-  if (!(wraps_at_m >= kNearestWrapM && wraps_at_m <= kFarthestWrapM)) {
-    return Error{"calibration: alias " + printed("%g", alias) + " at scale " +
-                 printed("%g", units_per_m) + ", must lie in [0.2, 10] m"};
+/// Ranges don't depend on it, so that it need only be a length.
+Status check_alias(double alias) {
+  if (!(alias > 0.0 && std::isfinite(alias))) {
+    return Error{"calibration: alias " + printed("%g", alias) + ", must be positive"};
   }
   return {};
 }
@@ -64,18 +60,16 @@ Result<DepthDescription> read_depth_calibration(DepthStream stream, Bytes answer
   if (const Status s = check_scale(described.units_per_m); !s) {
     return s.error();
   }
-  if (format.wraps) {
-    const auto alias = static_cast<double>(rest.take<float>());
-    if (const Status s = check_alias(alias, described.units_per_m); !s) {
-      return s.error();
-    }
-    described.wraps_at_m = alias / described.units_per_m;
+  const double alias = format.wraps ? static_cast<double>(rest.take<float>()) : 0.0;
+  if (const Status s = format.wraps ? check_alias(alias) : Status(); !s) {
+    return s.error();
   }
   const UnitPlaneTable centres = shifted(
       read_unit_plane(format.width_px, format.height_px, answer, answer.subspan(table_bytes)),
       kHalfPixel);
   DepthCalibration& camera = described.camera;
-  camera = {stream, format.width_px, format.height_px, {}, *sensor_from_rig};
+  camera = {stream, format.width_px,  format.height_px,
+            {},     *sensor_from_rig, alias / described.units_per_m};
   std::transform(centres.entries.begin(), centres.entries.end(), std::back_inserter(camera.rays),
                  DepthCalibration::ray_through);
   if (std::all_of(camera.rays.begin(), camera.rays.end(),

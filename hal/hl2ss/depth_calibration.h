@@ -10,7 +10,6 @@ namespace orthonav::hl2ss {
 struct DepthDescription {
   DepthCalibration camera;
   double units_per_m = 0.0;  ///< of the numbers in its raw pictures
-  double wraps_at_m = 0.0;   ///< what is so much farther measures the same; 0: nothing is
 };
 
 /// How many bytes it answers with.

@@ -48,6 +48,7 @@ DepthCalibration calibration_of(const DepthModel& model) {
   calibration.width_px = model.lens.width_px;
   calibration.height_px = model.lens.height_px;
   calibration.sensor_from_rig = model.sensor_from_rig;
+  calibration.wraps_at_m = model.wraps_at_m;
   const double rim = rim_of(model.lens);
   for (int y = 0; y < calibration.height_px; ++y) {
     for (int x = 0; x < calibration.width_px; ++x) {

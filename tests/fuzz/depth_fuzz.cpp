@@ -61,7 +61,7 @@ void decode_h264(Bytes input) {
 /// A good calibration with numbers written over it: 4 bytes of place, 4 of number, again and again.
 void read_calibration(Bytes input) {
   static const auto kGood =
-      hl2ss::depth_answer_bytes(sim::calibration_of(sim::hololens2_long_throw()), 0.0);
+      hl2ss::depth_answer_bytes(sim::calibration_of(sim::hololens2_long_throw()));
   auto answer = kGood;
   for (; input.size() >= 8; input = input.subspan(8)) {
     const auto place = hl2ss::number_at<std::uint32_t>(input, 0);

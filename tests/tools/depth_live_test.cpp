@@ -40,6 +40,9 @@ TEST(DepthLive, OfAStandInBecomesPointsAndPictures) {
                                    "long-throw", "--out", out.file("site.png")});
   EXPECT_EQ(picture.code, 0) << picture.err;
   EXPECT_THAT(picture.out, HasSubstr("frame 0 of long-throw, white "));
+  const Called listing = orthonav({"depth", "hl2ss://127.0.0.1?port=47540", "--frames", "2"});
+  EXPECT_THAT(listing.out, HasSubstr("ahat: 512x512 px, 2 frames in 0."));
+  EXPECT_THAT(listing.out, HasSubstr(", wraps at 1.055 m\n"));
 }
 
 void expect_refused(const std::vector<std::string>& arguments, const std::string& says) {

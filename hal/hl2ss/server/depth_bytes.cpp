@@ -83,7 +83,7 @@ struct PngEncoder {
 
 }  // namespace
 
-std::vector<std::uint8_t> depth_answer_bytes(const DepthCalibration& camera, double wraps_at_m) {
+std::vector<std::uint8_t> depth_answer_bytes(const DepthCalibration& camera) {
   std::vector<std::uint8_t> bytes;
   const Corners corners(camera);
   for (const int axis : {0, 1}) {
@@ -100,7 +100,7 @@ std::vector<std::uint8_t> depth_answer_bytes(const DepthCalibration& camera, dou
   }
   append(bytes, kUnitsAMetre);
   if (camera.stream == DepthStream::kAhat) {
-    append(bytes, static_cast<float>(wraps_at_m) * kUnitsAMetre);
+    append(bytes, static_cast<float>(camera.wraps_at_m) * kUnitsAMetre);
   }
   // Maps and focal lengths of an undistorted image that nobody asks this server for.
   bytes.resize(bytes.size() + sizeof(float) * (2 * camera.rays.size() + 4));

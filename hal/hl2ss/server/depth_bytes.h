@@ -10,9 +10,9 @@
 namespace orthonav::hl2ss {
 
 /// A depth camera's answer in mode 2, written from the protocol's description: directions at the
-/// pixels' corners, (0, 0) where it has none, millimetres as its unit. `wraps_at_m`: told for AHaT.
-[[nodiscard]] std::vector<std::uint8_t> depth_answer_bytes(const DepthCalibration& camera,
-                                                           double wraps_at_m);
+/// pixels' corners, (0, 0) where it has none, millimetres as its unit; for AHaT also where it
+/// wraps.
+[[nodiscard]] std::vector<std::uint8_t> depth_answer_bytes(const DepthCalibration& camera);
 
 /// A picture as the device holds it: nothing measured is 4095 for AHaT, 0 for long throw. Depth,
 /// then brightness.

@@ -6,13 +6,6 @@
 #include "hal/hl2ss/server/depth_bytes.h"
 
 namespace orthonav::hl2ss {
-namespace {
-
-/// Where the phase of a HoloLens 2's AHaT wraps, about.
-constexpr double kAhatWrapsAtM = 1.055;
-
-}  // namespace
-
 std::vector<std::uint8_t> ServedHeadset::left_calibration(int unmapped_edge_px) const {
   const MutexLock lock(mutex_);
   const StereoCalibration& cameras = headset_->cameras().calibration();
@@ -33,7 +26,7 @@ std::vector<std::uint8_t> ServedHeadset::depth_calibration(DepthStream stream) c
   const MutexLock lock(mutex_);
   for (const DepthCamera* camera : headset_->depth_cameras()) {
     if (camera->calibration().stream == stream) {
-      return depth_answer_bytes(camera->calibration(), kAhatWrapsAtM);
+      return depth_answer_bytes(camera->calibration());
     }
   }
   return {};

@@ -104,6 +104,7 @@ void expect_same_camera(const DepthCalibration& told, const DepthCalibration& ac
   ASSERT_EQ(told.width_px, actual.width_px);
   ASSERT_EQ(told.height_px, actual.height_px);
   EXPECT_EQ(told.stream, actual.stream);
+  EXPECT_NEAR(told.wraps_at_m, actual.wraps_at_m, 1e-6);
   EXPECT_LT((told.sensor_from_rig.translation() - actual.sensor_from_rig.translation()).norm(),
             1e-6);
   EXPECT_LT(rotation_angle_rad(told.sensor_from_rig.rotation(), actual.sensor_from_rig.rotation()),
