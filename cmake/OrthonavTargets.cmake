@@ -54,6 +54,10 @@ function(orthonav_warnings target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
+  # Without optimisation, or beside sanitizers, a loop may stay as it is.
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    target_compile_options(${target} PRIVATE -Wno-pass-failed)
+  endif()
 endfunction()
 
 # orthonav_uses_regex(FILES...): under AddressSanitizer GCC 12 sees <regex> use what it has not set, and

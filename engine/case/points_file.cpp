@@ -3,7 +3,7 @@
 #include <array>
 
 #include "engine/io/json_document.h"
-#include "engine/io/ply_points.h"
+#include "engine/io/ply_file.h"
 #include "engine/io/slicer_markups.h"
 #include "engine/io/text_fields.h"
 

@@ -1,7 +1,6 @@
 #include "engine/io/mesh_file.h"
 
 #include <assimp/DefaultIOSystem.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -12,8 +11,13 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <span>
+#include <utility>
 
 #include "engine/io/atomic_file.h"
+#include "engine/io/json_document.h"
+#include "engine/io/ply_file.h"
+#include "engine/io/polygon.h"
 
 namespace orthonav::engine {
 namespace {
@@ -51,20 +55,21 @@ Status readable(const std::string& path) {
   return {};
 }
 
-/// Appends one of assimp's meshes, without merging corners.
-void append(const aiMesh& part, nav::TriangleMesh& mesh) {
-  const auto base = static_cast<std::uint32_t>(mesh.vertices_m.size());
+/// Appends one of assimp's meshes, without merging corners. assimp's own way of making triangles
+/// of faces ends the program where corners lie in one another or in a line.
+Status append(const aiMesh& part, nav::TriangleMesh& mesh) {
+  const std::size_t first = mesh.vertices_m.size();
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D& v = part.mVertices[i];
     mesh.vertices_m.push_back({v.x, v.y, v.z});
   }
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
-    if (face.mNumIndices == 3) {
-      mesh.triangles.push_back(
-          {base + face.mIndices[0], base + face.mIndices[1], base + face.mIndices[2]});
+    if (const Status added = add_face({face.mIndices, face.mNumIndices}, first, mesh); !added) {
+      return added;
     }
   }
+  return {};
 }
 
 /// Opens this one file: an OBJ may name others (mtllib), anywhere on the machine.
@@ -92,18 +97,42 @@ Result<nav::TriangleMesh> imported(const std::string& path) {
   try {
     Assimp::Importer importer;
     importer.SetIOHandler(new OneFile(path));  // which the importer owns
-    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+    const aiScene* scene = importer.ReadFile(path, 0);
     if (scene == nullptr) {
       return Error{path + ": cannot be read (" + one_line(importer.GetErrorString()) + ")"};
     }
     nav::TriangleMesh mesh;
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
-      append(*scene->mMeshes[i], mesh);
+      if (const Status appended = append(*scene->mMeshes[i], mesh); !appended) {
+        return Error{path + ": " + appended.error().message};
+      }
     }
     return mesh;
   } catch (const std::exception& error) {
     return Error{path + ": cannot be read (" + one_line(error.what()) + ")"};
   }
+}
+
+/// Not by assimp, which crashes or never returns where a PLY file is damaged.
+Result<nav::TriangleMesh> from_ply(const std::string& path) {
+  const auto text = read_text(path, kMaxFileBytes);
+  if (!text) {
+    return text.error();
+  }
+  auto file = read_ply(*text, path);
+  if (!file) {
+    return file.error();
+  }
+  nav::TriangleMesh mesh;
+  mesh.vertices_m = std::move(file->vertices);
+  std::span<const std::uint32_t> corners = file->corners;
+  for (const std::uint32_t count : file->corner_counts) {
+    if (const Status added = add_face(corners.first(count), 0, mesh); !added) {
+      return Error{path + ": " + added.error().message};
+    }
+    corners = corners.subspan(count);
+  }
+  return mesh;
 }
 
 /// The word after `SPACE=` near the file's beginning.
@@ -151,7 +180,7 @@ Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_u
   if (const auto space = declared_space(path); space && !axes_from(*space)) {
     return Error{path + ": SPACE is \"" + *space + "\", must be LPS or RAS"};
   }
-  Result<nav::TriangleMesh> apart = imported(path);
+  Result<nav::TriangleMesh> apart = extension_of(path) == ".ply" ? from_ply(path) : imported(path);
   if (!apart) {
     return apart;
   }

@@ -31,6 +31,11 @@ class InputFile {
   int file_;
 };
 
+/// Of a file that a reader finds by its name.
+inline std::string text_of(std::span<const std::uint8_t> input) {
+  return {input.begin(), input.end()};
+}
+
 /// What a reader let through must hold, or its word is worth nothing.
 inline void insist(bool holds) {
   if (!holds) {

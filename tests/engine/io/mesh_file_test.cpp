@@ -29,6 +29,22 @@ std::string refusal(const std::string& path, double metres_per_unit = kMm) {
   return message;
 }
 
+/// The box in ascii, millimetres; `vertices` is the number that its header states.
+std::string ply_box(const std::string& vertices) {
+  std::string ply = "ply\nformat ascii 1.0\nelement vertex " + vertices +
+                    "\nproperty float x\nproperty float y\nproperty float z\n"
+                    "element face 12\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vec3& v : box_mesh().vertices_m) {
+    ply += std::to_string(v.x / kMm) + " " + std::to_string(v.y / kMm) + " " +
+           std::to_string(v.z / kMm) + "\n";
+  }
+  for (const auto& t : box_mesh().triangles) {
+    ply += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) +
+           "\n";
+  }
+  return ply;
+}
+
 TEST(MeshFile, WeldsTheCornersOfAnStl) {
   const TemporaryFolder folder;
   ASSERT_TRUE(save_stl(folder.file("box.stl"), box_mesh()).ok());
@@ -46,19 +62,7 @@ TEST(MeshFile, ReadsObjAndPlyInTheUnitGiven) {
   ASSERT_TRUE(in_metres.ok()) << in_metres.error().message;
   EXPECT_NEAR(volume_m3(*in_metres), 0.08 * 0.06 * 0.04, 1e-9);
 
-  std::string ply =
-      "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
-      "property float z\nelement face 12\nproperty list uchar int vertex_indices\n"
-      "end_header\n";
-  for (const Vec3& v : box_mesh().vertices_m) {
-    ply += std::to_string(v.x / kMm) + " " + std::to_string(v.y / kMm) + " " +
-           std::to_string(v.z / kMm) + "\n";
-  }
-  for (const auto& t : box_mesh().triangles) {
-    ply += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) +
-           "\n";
-  }
-  const auto from_ply = load_mesh(folder.with("box.PLY", ply), kMm);
+  const auto from_ply = load_mesh(folder.with("box.PLY", ply_box("8")), kMm);
   ASSERT_TRUE(from_ply.ok()) << from_ply.error().message;
   EXPECT_NEAR(volume_m3(*from_ply), 0.08 * 0.06 * 0.04, 1e-9);
 }
@@ -167,6 +171,26 @@ TEST(MeshFile, RefusesWhatIsNoMesh) {
   refusal(folder.with("noise.ply", std::string(500, 'x')));
   refusal(folder.with("no_faces.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"));
   refusal(folder.with("bad_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"));
+}
+
+/// A library that was used before never returned from half of these, and crashed over others.
+TEST(MeshFile, RefusesEveryTruncationOfAPly) {
+  const TemporaryFolder folder;
+  const std::string whole = ply_box("8");
+  for (std::size_t size = 0; size + 2 < whole.size(); size += 3) {
+    refusal(folder.with("cut.ply", whole.substr(0, size)));
+  }
+}
+
+TEST(MeshFile, RefusesAPlyWhoseFacesAreNotOfItsVertices) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(refusal(folder.with("few.ply", ply_box("7"))), HasSubstr("face 0"));
+  std::string ply = ply_box("8");
+  const std::size_t last = ply.rfind(' ');
+  EXPECT_THAT(refusal(folder.with("no_vertex.ply", ply.replace(last, std::string::npos, " 8\n"))),
+              HasSubstr("face 11 names a vertex that is not there"));
+  EXPECT_THAT(refusal(folder.with("negative.ply", ply.replace(last, std::string::npos, " -1\n"))),
+              HasSubstr("face 11 names a vertex that is not there"));
 }
 
 TEST(MeshFile, RefusesEveryTruncationOfAnStl) {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/io/ply_points.h"
+#include "engine/io/ply_file.h"
 #include "engine/io/range_picture.h"
 
 namespace orthonav::engine {
