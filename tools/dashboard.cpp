@@ -15,11 +15,11 @@
 #include "engine/io/image_file.h"
 #include "tools/arguments.h"
 #include "tools/dashboard_state.h"
+#include "tools/web_access.h"
 
 namespace orthonav::tools {
 namespace {
 
-constexpr const char* kHost = "127.0.0.1";
 constexpr std::size_t kMostMessages = 50;
 /// Browsers ask five times a second.
 constexpr Duration kTellEvery = std::chrono::milliseconds(100);
@@ -39,18 +39,12 @@ RgbaImage picture_of(const GreyImage& grey) {
   return picture;
 }
 
-/// Only the page itself may ask: a page of another site whose name leads here may not.
-bool asks_this_machine(const httplib::Request& request) {
-  const std::string host = request.get_header_value("Host");
-  const std::string name = host.substr(0, host.rfind(':'));
-  return name == kHost || name == "localhost";
-}
-
 }  // namespace
 
 /// Answers on a thread of its own from what it was told last.
 class Dashboard::Server {
  public:
+  explicit Server(WebAccess access) : access_(std::move(access)) {}
   ~Server() {
     server_.stop();
     if (thread_.joinable()) {
@@ -58,14 +52,16 @@ class Dashboard::Server {
     }
   }
 
-  Status start(int port) {
+  Status start() {
     limit_what_is_taken();
     add_answers();
-    port_ = port == 0                           ? server_.bind_to_any_port(kHost)
-            : server_.bind_to_port(kHost, port) ? port
-                                                : -1;
+    const std::string& host = access_.host();
+    port_ = access_.port() == 0                          ? server_.bind_to_any_port(host)
+            : server_.bind_to_port(host, access_.port()) ? access_.port()
+                                                         : -1;
     if (port_ < 0) {
-      return Error{"--web " + std::to_string(port) + ": the port cannot be had at " + kHost};
+      return Error{"--web " + std::to_string(access_.port()) + ": the port cannot be had at " +
+                   host};
     }
     thread_ = std::thread([this] {
       server_.listen_after_bind();
@@ -107,17 +103,34 @@ class Dashboard::Server {
     server_.set_payload_max_length(1024);
     server_.set_keep_alive_max_count(1000);
     server_.new_task_queue = [] { return new httplib::ThreadPool(2); };
-    server_.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& answer) {
+    server_.set_pre_routing_handler([this](const httplib::Request& request,
+                                           httplib::Response& answer) {
       answer.set_header(
           "Content-Security-Policy",
           "default-src 'self'; style-src 'unsafe-inline'; script-src 'unsafe-inline'");
       answer.set_header("Cache-Control", "no-store");
-      if (request.method == "GET" && asks_this_machine(request)) {
+      if (request.method == "GET" &&
+          access_.lets_in(request.get_header_value("Host"), request.get_header_value("Cookie"))) {
         return httplib::Server::HandlerResponse::Unhandled;
       }
-      answer.status = 403;
+      answer_stranger(request, answer);
       return httplib::Server::HandlerResponse::Handled;
     });
+  }
+
+  /// Whoever brings the token gets a cookie instead, and an address without it.
+  void answer_stranger(const httplib::Request& request, httplib::Response& answer) const {
+    answer.set_header("Referrer-Policy", "no-referrer");
+    if (request.method == "GET" && access_.is_token(request.get_param_value("token"))) {
+      answer.set_header("Set-Cookie", access_.cookie());
+      answer.set_redirect("/", 303);
+      return;
+    }
+    answer.status = 403;
+    if (access_.asks_for_a_token()) {
+      answer.set_content("This page asks for a token: use the address that orthonav printed.\n",
+                         "text/plain; charset=utf-8");
+    }
   }
 
   void add_answers() {
@@ -182,6 +195,7 @@ class Dashboard::Server {
   Steady::time_point told_ ORTHONAV_GUARDED_BY(mutex_);
   Steady::time_point shown_ ORTHONAV_GUARDED_BY(mutex_);
   std::atomic<Steady::rep> looked_until_ = 0;
+  WebAccess access_;
   httplib::Server server_;
   int port_ = -1;
   std::atomic<bool> ended_ = false;
@@ -189,27 +203,37 @@ class Dashboard::Server {
 };
 
 void DashboardArguments::add_to(CLI::App& command) {
-  constexpr int kMostPort = 65535;
   command
-      .add_option("--web", port,
-                  "shows the operation in a browser of this machine, at this port (0: any)")
-      ->check(whole_number(0, kMostPort))
+      .add_option("--web", at,
+                  "shows the operation in a browser of this machine, at this port (0: any), or of "
+                  "others at ADDRESS:PORT")
+      ->check(some_text())
       ->type_name("PORT");
+  command
+      .add_option("--token", token_file,
+                  "file with the token that a browser must bring to --web, made where there is "
+                  "none; needed where other machines reach the address")
+      ->check(some_text())
+      ->type_name("FILE");
 }
 
 Dashboard::Dashboard() = default;
 Dashboard::~Dashboard() = default;
 
 Status Dashboard::open(const DashboardArguments& arguments) {
-  if (!arguments.port) {
-    return {};
+  if (arguments.at.empty()) {
+    return arguments.token_file.empty() ? Status{} : Error{"--token: needs --web"};
   }
-  auto server = std::make_unique<Server>();
-  if (const Status started = server->start(*arguments.port); !started) {
+  auto access = WebAccess::of(arguments.at, arguments.token_file);
+  if (!access) {
+    return access.error();
+  }
+  auto server = std::make_unique<Server>(*access);
+  if (const Status started = server->start(); !started) {
     return started;
   }
   server_ = std::move(server);
-  std::fprintf(stderr, "dashboard at http://%s:%d/\n", kHost, port());
+  std::fprintf(stderr, "dashboard at %s\n", access->url(port()).c_str());
   return {};
 }
 

@@ -12,14 +12,16 @@
 namespace orthonav::tools {
 
 struct DashboardArguments {
-  std::optional<int> port;  ///< none: nothing is served; 0: any that is free
+  std::string at;          ///< "PORT" or "ADDRESS:PORT", port 0: any; empty: nothing is served
+  std::string token_file;  ///< with the token that a browser must bring; empty: none
 
   void add_to(CLI::App& command);
 };
 
 /// A page in a browser that shows an operation while it runs: step, numbers, levels, tools,
 /// messages and the view: what `show` was given lately, or else what the left camera sees. Served
-/// on this machine only, and read only: nothing that a browser sends reaches the operation.
+/// on this machine, or elsewhere to those who bring a token (`WebAccess`), and read only: nothing
+/// that a browser sends reaches the operation.
 class Dashboard : public engine::LoopObserver {
  public:
   Dashboard();

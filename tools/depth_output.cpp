@@ -5,7 +5,7 @@
 
 #include "engine/io/atomic_file.h"
 #include "engine/io/image_file.h"
-#include "engine/io/ply_points.h"
+#include "engine/io/ply_file.h"
 #include "engine/io/range_picture.h"
 #include "tools/command.h"
 

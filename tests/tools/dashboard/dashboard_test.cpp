@@ -9,6 +9,7 @@
 #include "engine/io/image_file.h"
 #include "tests/support/browser.h"
 #include "tests/support/scripted_operation.h"
+#include "tests/support/temporary_folder.h"
 #include "tools/dashboard_state.h"
 
 namespace orthonav::tools::dashboard_test {
@@ -60,7 +61,7 @@ TEST(DashboardState, HasTheNumbersAsTheSurgeonReadsThemAndOnlyWhileTheToolIsMeas
 class DashboardPage : public ::testing::Test {
  protected:
   void SetUp() override {
-    const Status opened = dashboard_.open({0});
+    const Status opened = dashboard_.open({.at = "0"});
     ASSERT_TRUE(opened.ok()) << opened.error().message;
     browser_ = std::make_unique<httplib::Client>("127.0.0.1", dashboard_.port());
   }
@@ -97,7 +98,7 @@ RgbaImage red_picture() {
 
 TEST_F(DashboardPage, ShowsThePictureThatItIsGivenAndSaysWhatItIs) {
   const auto view = [this] { return json::parse(browser_->Get("/state")->body)["view"]; };
-  EXPECT_EQ(view(), "left camera");
+  EXPECT_EQ(view(), "no picture");
   EXPECT_FALSE(dashboard_.looked_at()) << "nobody asked for it yet";
   dashboard_.show(red_picture(), "what the \"surgeon\" sees");
   EXPECT_EQ(view(), "what the \"surgeon\" sees");
@@ -116,9 +117,33 @@ TEST_F(DashboardPage, AnswersThisMachinesPageAloneAndIsReadOnly) {
 
 TEST_F(DashboardPage, IsRefusedAtAPortThatIsTaken) {
   Dashboard second;
-  const Status opened = second.open({dashboard_.port()});
+  const Status opened = second.open({.at = std::to_string(dashboard_.port())});
   ASSERT_FALSE(opened.ok());
   EXPECT_THAT(opened.error().message, HasSubstr("the port cannot be had"));
+}
+
+TEST(DashboardToken, LetsInWhoBringsItAndNobodyElse) {
+  const test::TemporaryFolder folder;
+  Dashboard dashboard;
+  const Status opened = dashboard.open({.at = "0", .token_file = folder.file("token")});
+  ASSERT_TRUE(opened.ok()) << opened.error().message;
+  httplib::Client browser("127.0.0.1", dashboard.port());
+  for (const char* address : {"/", "/state", "/view.png", "/?token=", "/?token=0123456789abcdef"}) {
+    const auto refused = browser.Get(address);
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->status, 403) << address;
+    EXPECT_FALSE(refused->has_header("Set-Cookie")) << address;
+  }
+  const std::string token = test::content_of(folder.file("token")).substr(0, 32);
+  const auto first = browser.Get("/?token=" + token);
+  ASSERT_EQ(first->status, 303);
+  EXPECT_EQ(first->get_header_value("Location"), "/") << "the token leaves the address";
+  const std::string cookie = first->get_header_value("Set-Cookie");
+  EXPECT_THAT(cookie, HasSubstr("; HttpOnly; SameSite=Strict"));
+  const httplib::Headers with_cookie = {{"Cookie", "a=b; " + cookie.substr(0, cookie.find(';'))}};
+  EXPECT_EQ(browser.Get("/state", with_cookie)->status, 200);
+  EXPECT_EQ(browser.Post("/state", with_cookie, "{}", "application/json")->status, 403);
+  EXPECT_EQ(browser.Get("/state", {{"Cookie", "orthonav_token=" + token + "0"}})->status, 403);
 }
 
 /// In a real browser, where there is one: the page's script is what is tested.
