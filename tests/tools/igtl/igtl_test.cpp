@@ -1,13 +1,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <thread>
 
 #include "tests/support/igtl_client.h"
+#include "tests/support/pose_server.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/wait_until.h"
 #include "tests/tools/command_line.h"
 #include "tools/igtl_messages.h"
@@ -244,6 +248,41 @@ TEST(IgtlCommand, AnswersWhatItsClientsAskWhereTheyMay) {
   ASSERT_TRUE(test::wait_until([&] { return command.takes_signals(); }));
   command.send(SIGTERM);
   EXPECT_THAT(command.wait().err, HasSubstr("its clients may command"));
+}
+
+/// A tracker that goes on sending one pose after another.
+class Sender {
+ public:
+  ~Sender() {
+    over_ = true;
+    thread_.join();
+  }
+  [[nodiscard]] std::string uri() const { return "igtl:" + server_.uri("pointer=ProbeToTracker"); }
+
+ private:
+  void run() {
+    for (int i = 0; !over_; ++i) {
+      server_.add("ProbeToTracker", {Mat3::identity(), {1e-5 * i, 0.0, -1.0}}, 1.7e9 + 0.005 * i);
+      server_.send();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+  test::PoseServer server_;
+  std::atomic<bool> over_ = false;
+  std::thread thread_{[this] { run(); }};
+};
+
+TEST(IgtlCommand, RunsOnToolsThatAnotherProgramTracks) {
+  const Sender sender;
+  const test::TemporaryFolder folder;
+  const std::string tools = folder.with("tools.json", R"({"tools": [
+      {"name": "pointer", "role": "pointer", "tip_mm": [0, 0, 0]},
+      {"name": "guide", "role": "guide", "tip_mm": [0, -150, 0]}]})");
+  const test::Called ran = test::orthonav(
+      {"run", "--headset", sender.uri(), "--tools", tools, "--levels", "L5", "--frames", "20"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("20 frames displayed"));
+  EXPECT_THAT(ran.err, HasSubstr("has no button: --clicker names one"));
 }
 
 TEST(IgtlCommand, RefusesPlacesWhereNobodyCanListen) {

@@ -216,6 +216,21 @@ TEST_F(WindowTest, NeedsADisplay) {
   EXPECT_THAT(content("out"), HasSubstr("orthonav: window: "));
 }
 
+TEST_F(WindowTest, ServesOpenIgtLinkAsARunDoes) {
+  write("script", "pairs 60\n");
+  const std::string commands = R"($preview --speed 0 --igtl 0 --script script & pid=$!
+until port=$(sed -n 's/^OpenIGTLink at 127.0.0.1:\([0-9]*\)$/\1/p' out) && [ -n "$port" ]; do
+  sleep 0.1
+done
+# Behind the version a message says its type.
+bash -c "exec 5<>/dev/tcp/127.0.0.1/$port; dd bs=1 skip=2 count=5 <&5 2>/dev/null" >type
+wait $pid
+)";
+  EXPECT_EQ(shell(commands), 0) << content("out");
+  EXPECT_THAT(content("type"), ::testing::AnyOf("POINT", "TRANS", "STRIN", "STATU"));
+  EXPECT_THAT(content("out"), HasSubstr("OpenIGTLink: 1 client, "));
+}
+
 TEST_F(WindowTest, ScrubsThroughARecording) {
   write("script", R"(key tab
 scrub 20
