@@ -9,6 +9,7 @@
 #include "tools/command.h"
 #include "tools/config_file.h"
 #include "tools/igtl_stream.h"
+#include "tools/kept_previews.h"
 #include "tools/model_notes.h"
 #include "tools/preview/preview_app.h"
 #include "tools/screw_arguments.h"
@@ -30,6 +31,7 @@ struct PreviewArguments {
   bool perfect = false;
   std::optional<double> pace;
   IgtlArguments igtl;
+  KeepArguments keep;
   preview::PreviewOptions options;
 };
 
@@ -111,6 +113,27 @@ Status open_operation(preview::PreviewApp& app, const PreviewArguments& argument
   return app.open_operation(std::move(source));
 }
 
+Result<std::optional<preview::Script>> script_of(const PreviewArguments& arguments) {
+  if (arguments.script.empty()) {
+    return std::optional<preview::Script>();
+  }
+  auto parsed = preview::Script::load(arguments.script);
+  if (!parsed) {
+    return parsed.error();
+  }
+  return std::optional(std::move(*parsed));
+}
+
+void set_room(PreviewArguments& arguments) {
+  sim::ErrorModel& errors = arguments.options.room.error_model;
+  if (arguments.perfect) {
+    errors = sim::ErrorModel::perfect();
+  }
+  if (arguments.pace) {
+    errors.pace = *arguments.pace;
+  }
+}
+
 int preview_window(PreviewArguments arguments, StopSignals& signals) {
   if (const Status taken = take_profile(arguments); !taken) {
     return bad_input(taken.error().message);
@@ -119,28 +142,28 @@ int preview_window(PreviewArguments arguments, StopSignals& signals) {
   if (!source) {
     return bad_input(source.error().message);
   }
-  std::optional<preview::Script> script;
-  if (!arguments.script.empty()) {
-    auto parsed = preview::Script::load(arguments.script);
-    if (!parsed) {
-      return bad_input(parsed.error().message);
-    }
-    script = std::move(*parsed);
+  auto script = script_of(arguments);
+  if (!script) {
+    return bad_input(script.error().message);
   }
-  if (arguments.perfect) {
-    arguments.options.room.error_model = sim::ErrorModel::perfect();
-  }
-  if (arguments.pace) {
-    arguments.options.room.error_model.pace = *arguments.pace;
-  }
+  set_room(arguments);
 
   EventLog nowhere;
   IgtlStream igtl(nowhere);
   if (const Status opened = igtl.open(arguments.igtl); !opened) {
     return bad_input(opened.error().message);
   }
-  source->assembled = [&igtl](engine::AssembledOperation& operation) { igtl.watch(operation); };
-  preview::PreviewApp app(arguments.options, std::move(script));
+  KeptPreviews kept;
+  if (const Status opened = kept.open(arguments.keep); !opened) {
+    return bad_input(opened.error().message);
+  }
+  source->assembled = [&igtl, &kept, name = source->source.name, method = arguments.method](
+                          engine::AssembledOperation& operation, const sim::SimHeadset* room) {
+    igtl.watch(operation);
+    return kept.begin(operation, name, method, room);
+  };
+  source->ended = [&kept](const Result<engine::LoopReport>& report) { kept.ended(report); };
+  preview::PreviewApp app(arguments.options, std::move(*script));
   if (const Status opened = app.open_window(); !opened) {
     return bad_input(opened.error().message);
   }
@@ -231,6 +254,7 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   add_tools_option(*preview, arguments->tools_file);
   arguments->screws.add_to(*preview);
   arguments->igtl.add_to(*preview);
+  arguments->keep.add_to(*preview);
   preview->add_option("--models", arguments->models, "folder that keeps the prepared models")
       ->check(some_text());
   add_window_options(*preview, arguments);

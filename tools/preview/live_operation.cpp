@@ -97,10 +97,8 @@ Status LiveOperation::prepare(const OperationSource& source) {
   operation_ = std::move(*assembled);
   operation_->observe(this);
   operation_->draw_into(this);
-  if (source.assembled) {
-    source.assembled(*operation_);
-  }
-  return {};
+  tell_end_ = source.ended;
+  return source.assembled ? source.assembled(*operation_, room_) : Status{};
 }
 
 void LiveOperation::start() {
@@ -108,8 +106,12 @@ void LiveOperation::start() {
 }
 
 void LiveOperation::run() {
-  if (const auto report = operation_->run(); !report) {
+  const auto report = operation_->run();
+  if (!report) {
     outcome_ = report.error();
+  }
+  if (tell_end_) {
+    tell_end_(report);
   }
   ended_ = true;
 }

@@ -23,8 +23,11 @@ struct OperationSource {
   engine::Operation operation;  ///< its models are shared by all starts
   engine::ScrewSizes screw_sizes = engine::ScrewSizes::built_in();
   std::string tools_file;  ///< empty: what the headset itself knows of its tools
-  /// Called with the operation of every start, before it runs; null: nobody looks on.
-  std::function<void(engine::AssembledOperation&)> assembled;
+  /// Called with the operation of every start before it runs, and with the simulated room, if there
+  /// is one; an Error refuses the start. Null: nobody looks on.
+  std::function<Status(engine::AssembledOperation&, const sim::SimHeadset*)> assembled;
+  /// Called with how each of them ended, on its thread, while the operation is still there.
+  std::function<void(const Result<engine::LoopReport>&)> ended;
 };
 
 /// An operation that runs in a thread of its own: pairs come through the gate, moments go into the
@@ -68,6 +71,7 @@ class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink
   /// Here and not where pictures are drawn: moments are looked at in any order.
   engine::LabelLayout labels_;
   std::vector<render::View> eye_;
+  std::function<void(const Result<engine::LoopReport>&)> tell_end_;
   std::atomic<bool> ended_ = false;
   Status outcome_;
   std::thread thread_;

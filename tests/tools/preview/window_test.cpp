@@ -144,6 +144,20 @@ screenshot help.png
   EXPECT_GT(different(picture("panel.png"), picture("help.png")), 2000u);
 }
 
+TEST_F(WindowTest, KeepsAnOperationAndGoesOnWithIt) {
+  write("begun", "until digitize L5\npairs 10\n");
+  write("ten-pairs", "pairs 10\n");
+  ASSERT_EQ(shell("$preview --speed 0 --keep kept --script begun &&"
+                  "$preview --speed 0 --resume kept --script ten-pairs"),
+            0)
+      << content("out");
+  EXPECT_THAT(content("out"), HasSubstr("resuming kept/operation.log: case 'phantom', levels L5"));
+  EXPECT_NE(shell("$preview --speed 0 --seed 2 --resume kept --script ten-pairs"), 0);
+  EXPECT_THAT(content("out"), HasSubstr("is of the simulated patient 'seed 1', not of 'seed 2'"));
+  EXPECT_NE(shell("$preview --speed 0 --resume other --script ten-pairs"), 0);
+  EXPECT_THAT(content("out"), HasSubstr("--resume: other: cannot be opened"));
+}
+
 TEST_F(WindowTest, HearsWhatIsTypedInsteadOfTheSurgeon) {
   // He says "start" within a second; unheard, nothing begins.
   write("script", "key u\npairs 150\nuntil setup\nkey s\nuntil digitize L5\n");
