@@ -47,9 +47,12 @@ Result<engine::Request> plan_of(const std::string& text) {
   if (!screw.accepted_breach.empty()) {
     return Error{"Plan: accept_breach is not taken from outside: the surgeon is asked"};
   }
+  if (!screw.side) {
+    return Error{"Plan: must say left or right"};
+  }
   engine::Request request;
-  request.change = engine::PlaceScrew{plan->level, screw.side.value_or(nav::Side::kLeft),
-                                      screw.entry, screw.target, screw.radius_m};
+  request.change =
+      engine::PlaceScrew{plan->level, *screw.side, screw.entry, screw.target, screw.radius_m};
   request.text = engine::text_of(*request.change);
   return request;
 }
