@@ -39,14 +39,7 @@ int with_output_written(int code) {
   return bad_input(std::string("standard output: cannot be written: ") + why);
 }
 
-int run(int argc, char** argv) {
-  StopSignals signals;  // before any thread
-  keep_memory_reserve();
-  register_igtl_tracker();
-  CLI::App app{"orthonav: standalone mixed-reality navigation for orthopaedic surgery", "orthonav"};
-  app.require_subcommand(1);
-  app.set_version_flag("--version", ORTHONAV_VERSION);
-  Action action;
+void add_commands(CLI::App& app, Action& action, StopSignals& signals) {
   add_calibrate_command(app, action);
   add_accuracy_command(app, action);
   add_case_command(app, action);
@@ -71,6 +64,17 @@ int run(int argc, char** argv) {
   add_serve_hl2ss_command(app, action, signals);
   add_study_command(app, action, signals);
   add_track_command(app, action);
+}
+
+int run(int argc, char** argv) {
+  StopSignals signals;  // before any thread
+  keep_memory_reserve();
+  register_igtl_tracker();
+  CLI::App app{"orthonav: standalone mixed-reality navigation for orthopaedic surgery", "orthonav"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", ORTHONAV_VERSION);
+  Action action;
+  add_commands(app, action, signals);
   use_help_text(app);
   try {
     app.parse(argc, argv);

@@ -10,8 +10,8 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
+#include <system_error>
 
 #include "hal/net/allowed.h"
 
@@ -47,7 +47,7 @@ Result<std::string> token_at_random() {
 Status write_for_owner_alone(const std::string& path, const std::string& text) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
   if (file < 0) {
-    return Error{path + ": cannot be made (" + std::strerror(errno) + ")"};
+    return Error{path + ": cannot be made (" + std::generic_category().message(errno) + ")"};
   }
   const bool written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   if (::close(file) != 0 || !written) {

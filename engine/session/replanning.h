@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -22,7 +23,7 @@ class Replanning {
   explicit Replanning(ReplanLimits limits = {}) : limits_(std::move(limits)) {}
 
   /// What is to be changed with the next `change`.
-  void ask(Replan replan) { asked_ = replan; }
+  void ask(Replan replan) { asked_ = std::move(replan); }
   /// Does it to a screw of a level that has a registration, or says why not. A screw that would
   /// leave the cortex waits for consent.
   [[nodiscard]] Outcome change(LevelState& level, std::size_t screw);
