@@ -29,47 +29,51 @@ bool StampReader::follows(const Heard& last, const Heard& next) {
          next.ticks <= last.ticks + passed + kMaxAstrayTicks;
 }
 
-std::optional<Timestamp> StampReader::time_of(std::uint64_t ticks, HostTime at) {
+std::optional<StampReader::Heard> StampReader::heard_at(std::uint64_t ticks, HostTime at) {
   if (ticks > static_cast<std::uint64_t>(kUnixEpochTicks + kMaxTicks)) {
     return std::nullopt;
   }
-  const Heard now{static_cast<std::int64_t>(ticks), at};
-  if (!last_) {
-    base_ticks_ = now.ticks >= kMaxTicks ? kUnixEpochTicks : 0;
-  }
-  const bool is_astray = last_ && !follows(*last_, now);
-  if (is_astray) {
-    doubted_in_a_row_ = doubted_ && follows(*doubted_, now) ? doubted_in_a_row_ + 1 : 1;
-    doubted_ = now;
-    if (doubted_in_a_row_ < kRestartAfter) {
-      return std::nullopt;
-    }
-    const std::int64_t passed = duration_cast<Duration>(at - last_->at).count() / 100;
-    shift_ticks_ += last_->ticks + passed - now.ticks;
-    ++restarts_;
-  }
-  doubted_in_a_row_ = 0;
-  doubted_.reset();
-  if (!last_ || is_astray || now.ticks > last_->ticks) {
-    last_ = now;
-  }
-  const std::int64_t time_ticks = now.ticks - base_ticks_ + shift_ticks_;
+  return Heard{static_cast<std::int64_t>(ticks), at};
+}
+
+std::optional<Timestamp> StampReader::time_of(const Heard& heard) const {
+  const std::int64_t time_ticks = heard.ticks - base_ticks_ + shift_ticks_;
   if (time_ticks < -kMaxTicks || time_ticks > kMaxTicks) {
     return std::nullopt;
   }
   return from_ticks_100ns(time_ticks);
 }
 
+std::optional<Timestamp> StampReader::time_of(std::uint64_t ticks, HostTime at) {
+  const auto now = heard_at(ticks, at);
+  if (!now) {
+    return std::nullopt;
+  }
+  if (!last_) {
+    base_ticks_ = now->ticks >= kMaxTicks ? kUnixEpochTicks : 0;
+  }
+  const bool is_astray = last_ && !follows(*last_, *now);
+  if (is_astray) {
+    doubted_in_a_row_ = doubted_ && follows(*doubted_, *now) ? doubted_in_a_row_ + 1 : 1;
+    doubted_ = now;
+    if (doubted_in_a_row_ < kRestartAfter) {
+      return std::nullopt;
+    }
+    const std::int64_t passed = duration_cast<Duration>(at - last_->at).count() / 100;
+    shift_ticks_ += last_->ticks + passed - now->ticks;
+    ++restarts_;
+  }
+  doubted_in_a_row_ = 0;
+  doubted_.reset();
+  if (!last_ || is_astray || now->ticks > last_->ticks) {
+    last_ = now;
+  }
+  return time_of(*now);
+}
+
 std::optional<Timestamp> StampReader::told(std::uint64_t ticks, HostTime at) const {
-  if (!last_ || ticks > static_cast<std::uint64_t>(kUnixEpochTicks + kMaxTicks)) {
-    return std::nullopt;
-  }
-  const Heard now{static_cast<std::int64_t>(ticks), at};
-  const std::int64_t time_ticks = now.ticks - base_ticks_ + shift_ticks_;
-  if (!follows(*last_, now) || time_ticks < -kMaxTicks || time_ticks > kMaxTicks) {
-    return std::nullopt;
-  }
-  return from_ticks_100ns(time_ticks);
+  const auto now = heard_at(ticks, at);
+  return last_ && now && follows(*last_, *now) ? time_of(*now) : std::nullopt;
 }
 
 std::optional<std::int64_t> BootClock::best_offset_ns() const {

@@ -29,6 +29,10 @@ class StampReader {
     HostTime at{};
   };
   [[nodiscard]] static bool follows(const Heard& last, const Heard& next);
+  /// Nothing for what is no stamp.
+  [[nodiscard]] static std::optional<Heard> heard_at(std::uint64_t ticks, HostTime at);
+  /// Nothing where the device's times end.
+  [[nodiscard]] std::optional<Timestamp> time_of(const Heard& heard) const;
 
   std::int64_t base_ticks_ = 0;
   std::int64_t shift_ticks_ = 0;

@@ -2,14 +2,9 @@
 
 #include <poll.h>
 
-#include <algorithm>
-#include <utility>
-
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr Duration kLongestPause = std::chrono::seconds(2);
-constexpr Duration kConnectWithin = std::chrono::seconds(3);
 /// Reads of one turn, so that one stream can't starve the others.
 constexpr int kReadsATurn = 16;
 constexpr Duration kGoodbyeWithin = std::chrono::milliseconds(100);
@@ -18,42 +13,34 @@ constexpr std::size_t kMaxUnsent = std::size_t{1} << 20;
 }  // namespace
 
 short Connection::events() const {
-  if (state_ == State::kConnecting) {
-    return POLLOUT;
-  }
-  if (state_ == State::kPausing) {
-    return 0;
-  }
-  return static_cast<short>(unsent_.empty() ? POLLIN : POLLIN | POLLOUT);
+  const short wanted = link_.events();
+  return static_cast<short>(is_connected() && !unsent_.empty() ? wanted | POLLOUT : wanted);
 }
 
 void Connection::step(short revents, HostTime now) {
-  if (state_ == State::kPausing && now >= due_) {
-    begin(now);
+  switch (link_.step(revents, now)) {
+    case net::Link::Step::kConnected:
+      return connected(now);
+    case net::Link::Step::kFailed:
+      return tell_trouble();
+    case net::Link::Step::kNothing:
+      break;
   }
-  if (state_ == State::kConnecting) {
-    if ((revents & (POLLOUT | POLLERR | POLLHUP)) != 0) {
-      return finish_connecting(now);
-    }
-    if (now >= due_) {
-      return drop("does not answer", now);
-    }
-  }
-  if (state_ != State::kConnected) {
+  if (!is_connected()) {
     return;
   }
   if (const Status late = protocol_.overdue(now); !late) {
-    cut_off(socket_);
+    cut_off(link_.socket());
     return drop(late.error().message, now);
   }
   say_more(now);
   if ((revents & (POLLIN | POLLERR | POLLHUP)) != 0) {
     read(now);
-    if (state_ == State::kConnected) {
+    if (is_connected()) {
       say_more(now);  // an answer may be what the next question waited for
     }
   }
-  if (state_ == State::kConnected && now - heard_ > options_.longest_silence) {
+  if (is_connected() && now - heard_ > options_.longest_silence) {
     drop("silent for " + std::to_string(seconds(now - heard_)) + " s", now);
   }
 }
@@ -67,7 +54,7 @@ void Connection::say_more(HostTime now) {
 }
 
 void Connection::leave() {
-  if (state_ != State::kConnected) {
+  if (!is_connected()) {
     return;
   }
   const auto goodbye = protocol_.goodbye();
@@ -76,26 +63,10 @@ void Connection::leave() {
   }
   unsent_.insert(unsent_.end(), goodbye.begin(), goodbye.end());
   write();
-  finish_sending(socket_, HostClock::now() + kGoodbyeWithin);
+  finish_sending(link_.socket(), HostClock::now() + kGoodbyeWithin);
 }
 
-void Connection::begin(HostTime now) {
-  auto socket = begin_connect(host_, options_.port);
-  if (!socket) {
-    return drop(socket.error().message, now);
-  }
-  socket_ = std::move(*socket);
-  state_ = State::kConnecting;
-  due_ = now + kConnectWithin;
-  heard_ = now;
-}
-
-void Connection::finish_connecting(HostTime now) {
-  if (const Status connected = connect_outcome(socket_); !connected) {
-    return drop(connected.error().message, now);
-  }
-  round_trip_ = std::chrono::duration_cast<Duration>(HostClock::now() - heard_);
-  state_ = State::kConnected;
+void Connection::connected(HostTime now) {
   heard_ = now;
   meter_.connected();
   unsent_ = protocol_.opening();
@@ -105,7 +76,7 @@ void Connection::finish_connecting(HostTime now) {
 void Connection::read(HostTime now) {
   for (int i = 0; i < kReadsATurn; ++i) {
     const auto room = protocol_.room();
-    const auto count = receive_some(socket_, room);
+    const auto count = link_.receive(room);
     if (!count) {
       return drop(count.error().message, now);
     }
@@ -114,7 +85,6 @@ void Connection::read(HostTime now) {
     }
     const HostTime at = HostClock::now();
     heard_ = at;
-    pause_ = kFirstPause;
     meter_.received(*count);
     if (const Status understood = protocol_.received(*count, at); !understood) {
       meter_.damaged(understood.error().message);
@@ -127,7 +97,7 @@ void Connection::write() {
   if (unsent_.empty()) {
     return;
   }
-  const auto count = send_some(socket_, unsent_);
+  const auto count = send_some(link_.socket(), unsent_);
   if (!count) {
     return;  // reading tells the same, with whatever came before it
   }
@@ -135,16 +105,14 @@ void Connection::write() {
 }
 
 void Connection::drop(const std::string& why, HostTime now) {
-  const bool was_connected = state_ == State::kConnected;
-  socket_ = net::Socket();
-  state_ = State::kPausing;
-  due_ = now + pause_;
-  pause_ = std::min(2 * pause_, kLongestPause);
+  link_.drop(why, now);
   unsent_.clear();
-  meter_.trouble("port " + std::to_string(options_.port) + ": " + why);
-  if (was_connected) {
-    protocol_.disconnected();
-  }
+  tell_trouble();
+  protocol_.disconnected();
+}
+
+void Connection::tell_trouble() {
+  meter_.trouble("port " + std::to_string(options_.port) + ": " + link_.trouble());
 }
 
 }  // namespace orthonav::hl2ss

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hal/hl2ss/arrival_meter.h"
-#include "hal/net/socket.h"
+#include "hal/net/link.h"
 
 namespace orthonav::hl2ss {
 
@@ -28,8 +28,8 @@ class Protocol {
   virtual void disconnected() = 0;
 };
 
-/// One port of the headset: connects, reconnects after a pause that doubles up to two seconds,
-/// gives up a connection that is silent for too long. Nothing here waits.
+/// One port of the headset: a link that understands a protocol, and gives up a connection that is
+/// silent for too long. Nothing here waits.
 class Connection {
  public:
   struct Options {
@@ -38,38 +38,33 @@ class Connection {
   };
   /// Meter and conversation are borrowed; both hear of everything that happens here.
   Connection(const net::Endpoint& host, Options options, ArrivalMeter& meter, Protocol& protocol)
-      : host_(host), options_(options), meter_(meter), protocol_(protocol) {}
+      : options_(options), meter_(meter), protocol_(protocol), link_(host, options.port) {}
 
   /// What poll() is to watch: -1 for nothing.
-  [[nodiscard]] int fd() const { return socket_.fd(); }
+  [[nodiscard]] int fd() const { return link_.fd(); }
   [[nodiscard]] short events() const;
   /// Does what is due; `revents` is what poll() saw.
   void step(short revents, HostTime now);
   /// Says goodbye, if the protocol has a word for it; waits 0.1 s at most for it to arrive.
   void leave();
-  [[nodiscard]] bool is_connected() const { return state_ == State::kConnected; }
-  [[nodiscard]] Duration round_trip() const { return round_trip_; }
+  [[nodiscard]] bool is_connected() const { return link_.is_connected(); }
+  [[nodiscard]] Duration round_trip() const {
+    return std::chrono::duration_cast<Duration>(link_.round_trip());
+  }
 
  private:
-  static constexpr Duration kFirstPause = std::chrono::milliseconds(50);
-  enum class State { kPausing, kConnecting, kConnected };
-  void begin(HostTime now);
-  void finish_connecting(HostTime now);
+  void connected(HostTime now);
   void read(HostTime now);
   void write();
   void say_more(HostTime now);
   void drop(const std::string& why, HostTime now);
+  void tell_trouble();
 
-  net::Endpoint host_;
   Options options_;
   ArrivalMeter& meter_;
   Protocol& protocol_;
-  net::Socket socket_;
-  State state_ = State::kPausing;
-  HostTime due_{};  ///< end of the pause, or of waiting for the connection
+  net::Link link_;
   HostTime heard_{};
-  Duration pause_ = kFirstPause;
-  Duration round_trip_{};
   std::vector<std::uint8_t> unsent_;
 };
 

@@ -1,6 +1,5 @@
 #include "hal/hl2ss/depth_reader.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -9,9 +8,6 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// A decoder without delay holds none; more are the past of a damaged stream.
-constexpr std::size_t kMostUnitsHeld = 8;
-
 std::string title_of(DepthStream stream) { return std::string("depth ") + name_of(stream); }
 
 }  // namespace
@@ -19,14 +15,14 @@ std::string title_of(DepthStream stream) { return std::string("depth ") + name_o
 DepthReader::DepthReader(const DepthWish& wish, std::uint32_t bitrate,
                          const DepthDescription& camera, const StampTeller& stamps,
                          ArrivalMeter& meter, DepthMailbox& pictures)
-    : wish_(wish),
+    : PacketPort(title_of(wish.stream), {format_of(wish.stream).max_payload(), true}),
+      wish_(wish),
       format_(format_of(wish.stream)),
       bitrate_(bitrate),
       millimetres_(millimetres_of(camera)),
       stamps_(stamps),
       meter_(meter),
-      pictures_(pictures),
-      assembler_(title_of(wish.stream), {format_.max_payload(), true}) {}
+      pictures_(pictures) {}
 
 Result<std::unique_ptr<DepthReader>> DepthReader::create(
     const DepthWish& wish, std::uint32_t bitrate, const DepthDescription& camera,
@@ -58,25 +54,14 @@ std::vector<std::uint8_t> DepthReader::opening() {
   return request_bytes(wish_, bitrate_);
 }
 
-Status DepthReader::received(std::size_t count, HostTime at) {
-  assembler_.received(count);
-  for (;;) {
-    const auto packet = assembler_.next();
-    if (!packet) {
-      return packet.error();
-    }
-    if (!*packet) {
-      return {};
-    }
-    const auto time = stamps_.told((*packet)->ticks, at);
-    if (!time) {
-      meter_.refused(time.error().message);
-      continue;
-    }
-    meter_.heard(*time, at);
-    if (const Status taken = take(**packet, *time); !taken) {
-      meter_.damaged(taken.error().message);
-    }
+void DepthReader::heard(const Packet& packet, HostTime at) {
+  const auto time = stamps_.told(packet.ticks, at);
+  if (!time) {
+    return meter_.refused(time.error().message);
+  }
+  meter_.heard(*time, at);
+  if (const Status taken = take(packet, *time); !taken) {
+    meter_.damaged(taken.error().message);
   }
 }
 
@@ -131,23 +116,17 @@ Status DepthReader::take_png(Bytes picture) {
 }
 
 Result<bool> DepthReader::take_h264(Bytes picture) {
-  if (underway_.size() == kMostUnitsHeld) {
-    underway_.pop_front();
+  const std::int64_t unit = underway_.add({picture_.time, picture_.world_from_rig});
+  const auto decoded = h264_->decode(picture, unit, luma_, &bytes_);
+  if (!decoded) {
+    return decoded.error();
   }
-  underway_.push_back({units_++, picture_.time, picture_.world_from_rig});
-  const auto unit = h264_->decode(picture, underway_.back().unit, luma_, &bytes_);
-  if (!unit) {
-    return unit.error();
-  }
-  const auto known = std::find_if(underway_.begin(), underway_.end(), [&](const Underway& each) {
-    return *unit && each.unit == **unit;
-  });
-  if (known == underway_.end()) {
+  const auto known = *decoded ? underway_.take(**decoded) : std::nullopt;
+  if (!known) {
     return false;
   }
   picture_.time = known->time;
   picture_.world_from_rig = known->world_from_rig;
-  underway_.erase(underway_.begin(), known + 1);
   read_coded_ahat(luma_, bytes_, picture_.range_mm, picture_.brightness);
   return true;
 }

@@ -1,17 +1,16 @@
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "hal/hl2ss/connection.h"
 #include "hal/hl2ss/depth_calibration.h"
 #include "hal/hl2ss/depth_format.h"
 #include "hal/hl2ss/depth_mailbox.h"
 #include "hal/hl2ss/h264_decoder.h"
-#include "hal/hl2ss/packet.h"
+#include "hal/hl2ss/packet_port.h"
 #include "hal/hl2ss/png_decoder.h"
+#include "hal/hl2ss/units_underway.h"
 
 namespace orthonav::hl2ss {
 
@@ -25,26 +24,23 @@ class StampTeller {
 };
 
 /// A port that sends pictures of a depth camera, with poses.
-class DepthReader final : public Protocol {
+class DepthReader final : public PacketPort {
  public:
   static Result<std::unique_ptr<DepthReader>> create(const DepthWish& wish, std::uint32_t bitrate,
                                                      const DepthDescription& camera,
                                                      const StampTeller& stamps, ArrivalMeter& meter,
                                                      DepthMailbox& pictures);
   [[nodiscard]] std::vector<std::uint8_t> opening() override;
-  std::span<std::uint8_t> room() override { return assembler_.room(); }
-  Status received(std::size_t count, HostTime at) override;
-  void disconnected() override { assembler_.restart(); }
 
  private:
   /// What is known of an access unit that the decoder has not given back yet.
   struct Underway {
-    std::int64_t unit = 0;
     Timestamp time{};
     std::optional<Transform<World, Rig>> world_from_rig;
   };
   DepthReader(const DepthWish& wish, std::uint32_t bitrate, const DepthDescription& camera,
               const StampTeller& stamps, ArrivalMeter& meter, DepthMailbox& pictures);
+  void heard(const Packet& packet, HostTime at) override;
   /// An Error says what was wrong with this packet; the stream goes on.
   Status take(const Packet& packet, Timestamp time);
   Status take_picture(Bytes picture);
@@ -61,15 +57,13 @@ class DepthReader final : public Protocol {
   const StampTeller& stamps_;
   ArrivalMeter& meter_;
   DepthMailbox& pictures_;
-  PacketAssembler assembler_;
   std::unique_ptr<H264Decoder> h264_;
   std::unique_ptr<PngDecoder> png_;
 
   DepthFrame picture_;
   GreyImage luma_;
   std::vector<std::uint8_t> bytes_;
-  std::deque<Underway> underway_;
-  std::int64_t units_ = 0;
+  UnitsUnderway<Underway> underway_;
   std::optional<Timestamp> published_;
 };
 

@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <string>
 
+#include "hal/hl2ss/libav_codec.h"
+
 extern "C" {
-#include <libavcodec/avcodec.h>
 #include <libavutil/log.h>
 }
 
 namespace orthonav::hl2ss {
 namespace {
-
-std::string codec_reason(int code) {
-  char text[AV_ERROR_MAX_STRING_SIZE] = {};
-  av_strerror(code, text, sizeof(text));
-  return text;
-}
 
 bool has_plain_luma(int format) {
   return format == AV_PIX_FMT_YUV420P || format == AV_PIX_FMT_YUVJ420P ||
@@ -36,17 +31,8 @@ void append_plane(const std::uint8_t* rows, std::ptrdiff_t stride, int width, in
 
 }  // namespace
 
-struct H264Decoder::Codec {
-  AVCodecContext* context = nullptr;
-  AVFrame* frame = nullptr;
-  AVPacket* packet = nullptr;
+struct H264Decoder::Codec : LibavCodec {
   bool waits_for_key = true;
-
-  ~Codec() {
-    av_packet_free(&packet);
-    av_frame_free(&frame);
-    avcodec_free_context(&context);
-  }
 };
 
 H264Decoder::H264Decoder(std::unique_ptr<Codec> codec, int width_px, int height_px)
@@ -59,10 +45,7 @@ Result<std::unique_ptr<H264Decoder>> H264Decoder::create(int width_px, int heigh
     return Error{"libavcodec has no H.264 decoder"};
   }
   auto codec = std::make_unique<Codec>();
-  codec->context = avcodec_alloc_context3(h264);
-  codec->frame = av_frame_alloc();
-  codec->packet = av_packet_alloc();
-  if (codec->context == nullptr || codec->frame == nullptr || codec->packet == nullptr) {
+  if (!codec->allocate(h264)) {
     return Error{"out of memory for the H.264 decoder"};
   }
   // Threads would hold pictures back; damage is to be told, never painted over.
@@ -75,7 +58,7 @@ Result<std::unique_ptr<H264Decoder>> H264Decoder::create(int width_px, int heigh
   // A library does not print; what matters comes back as a code.
   codec->context->log_level_offset = AV_LOG_MAX_OFFSET;
   if (const int code = avcodec_open2(codec->context, h264, nullptr); code < 0) {
-    return Error{"H.264 decoder: " + codec_reason(code)};
+    return Error{"H.264 decoder: " + libav_reason(code)};
   }
   return std::unique_ptr<H264Decoder>(new H264Decoder(std::move(codec), width_px, height_px));
 }
@@ -96,7 +79,7 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
   }
   if (const int code = av_new_packet(codec.packet, static_cast<int>(access_unit.size()));
       code < 0) {
-    return Error{"H.264 decoder: " + codec_reason(code)};
+    return Error{"H.264 decoder: " + libav_reason(code)};
   }
   std::copy(access_unit.begin(), access_unit.end(), codec.packet->data);
   codec.packet->pts = unit;
@@ -104,7 +87,7 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
   av_packet_unref(codec.packet);
   if (sent < 0) {
     restart();
-    return Error{"H.264 picture is damaged: " + codec_reason(sent)};
+    return Error{"H.264 picture is damaged: " + libav_reason(sent)};
   }
   auto picture = take_picture(image, chroma);
   if (!picture) {
@@ -140,7 +123,7 @@ Result<std::optional<std::int64_t>> H264Decoder::take_picture(GreyImage& image,
     return std::optional<std::int64_t>{};
   }
   if (code < 0) {
-    return Error{"H.264 picture is damaged: " + codec_reason(code)};
+    return Error{"H.264 picture is damaged: " + libav_reason(code)};
   }
   if (frame->key_frame != 0) {
     codec.waits_for_key = false;

@@ -2,33 +2,23 @@
 
 namespace orthonav::hl2ss {
 
-Status PacketStream::received(std::size_t count, HostTime at) {
-  assembler_.received(count);
-  for (;;) {
-    const auto packet = assembler_.next();
-    if (!packet) {
-      return packet.error();
-    }
-    if (!*packet) {
-      return {};
-    }
-    const auto time = time_.stamps.time_of((*packet)->ticks, at);
-    if (!time) {
-      meter_.refused("stamp " + std::to_string((*packet)->ticks) +
-                     " is none, or more than 10 s from the one before");
-      continue;
-    }
-    Stamped stamped{*time, at};
-    if (const Status right = check_stamp(**packet, *time); right) {
-      time_.clock.heard(*time, at);
-      stamped.in_order = meter_.heard(*time, at);
-    } else {
-      stamped.is_trusted = false;
-      meter_.refused(right.error().message);
-    }
-    if (const Status taken = take(**packet, stamped); !taken) {
-      meter_.damaged(taken.error().message);
-    }
+void PacketStream::heard(const Packet& packet, HostTime at) {
+  const auto time = time_.stamps.time_of(packet.ticks, at);
+  if (!time) {
+    meter_.refused("stamp " + std::to_string(packet.ticks) +
+                   " is none, or more than 10 s from the one before");
+    return;
+  }
+  Stamped stamped{*time, at};
+  if (const Status right = check_stamp(packet, *time); right) {
+    time_.clock.heard(*time, at);
+    stamped.in_order = meter_.heard(*time, at);
+  } else {
+    stamped.is_trusted = false;
+    meter_.refused(right.error().message);
+  }
+  if (const Status taken = take(packet, stamped); !taken) {
+    meter_.damaged(taken.error().message);
   }
 }
 

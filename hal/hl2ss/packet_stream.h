@@ -2,8 +2,7 @@
 
 #include "hal/hl2ss/arrival_meter.h"
 #include "hal/hl2ss/boot_clock.h"
-#include "hal/hl2ss/connection.h"
-#include "hal/hl2ss/packet.h"
+#include "hal/hl2ss/packet_port.h"
 
 namespace orthonav::hl2ss {
 
@@ -13,15 +12,12 @@ struct HeadsetTime {
   BootClock clock;
 };
 
-/// A port that sends packets: cuts them out, tells their times, counts what is wrong with them.
-class PacketStream : public Protocol {
+/// A port that sends packets: tells their times, counts what is wrong with them.
+class PacketStream : public PacketPort {
  public:
   PacketStream(const std::string& name, const PacketFormat& format, ArrivalMeter& meter,
                HeadsetTime& time)
-      : meter_(meter), assembler_(name, format), time_(time) {}
-  std::span<std::uint8_t> room() final { return assembler_.room(); }
-  Status received(std::size_t count, HostTime at) final;
-  void disconnected() override { assembler_.restart(); }
+      : PacketPort(name, format), meter_(meter), time_(time) {}
 
  protected:
   struct Stamped {
@@ -37,7 +33,8 @@ class PacketStream : public Protocol {
   ArrivalMeter& meter_;
 
  private:
-  PacketAssembler assembler_;
+  void heard(const Packet& packet, HostTime at) final;
+
   HeadsetTime& time_;
 };
 

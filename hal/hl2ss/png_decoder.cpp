@@ -4,32 +4,11 @@
 #include <string>
 #include <utility>
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-}
+#include "hal/hl2ss/libav_codec.h"
 
 namespace orthonav::hl2ss {
-namespace {
 
-std::string png_reason(int code) {
-  char text[AV_ERROR_MAX_STRING_SIZE] = {};
-  av_strerror(code, text, sizeof(text));
-  return text;
-}
-
-}  // namespace
-
-struct PngDecoder::Codec {
-  AVCodecContext* context = nullptr;
-  AVFrame* frame = nullptr;
-  AVPacket* packet = nullptr;
-
-  ~Codec() {
-    av_packet_free(&packet);
-    av_frame_free(&frame);
-    avcodec_free_context(&context);
-  }
-};
+struct PngDecoder::Codec : LibavCodec {};
 
 PngDecoder::PngDecoder(std::unique_ptr<Codec> codec, int width_px, int height_px)
     : codec_(std::move(codec)), width_px_(width_px), height_px_(height_px) {}
@@ -41,10 +20,7 @@ Result<std::unique_ptr<PngDecoder>> PngDecoder::create(int width_px, int height_
     return Error{"libavcodec has no PNG decoder"};
   }
   auto codec = std::make_unique<Codec>();
-  codec->context = avcodec_alloc_context3(png);
-  codec->frame = av_frame_alloc();
-  codec->packet = av_packet_alloc();
-  if (codec->context == nullptr || codec->frame == nullptr || codec->packet == nullptr) {
+  if (!codec->allocate(png)) {
     return Error{"out of memory for the PNG decoder"};
   }
   codec->context->thread_count = 1;
@@ -53,7 +29,7 @@ Result<std::unique_ptr<PngDecoder>> PngDecoder::create(int width_px, int height_
   codec->context->max_pixels = std::int64_t{width_px} * height_px;
   codec->context->log_level_offset = 64;  // a library does not print
   if (const int code = avcodec_open2(codec->context, png, nullptr); code < 0) {
-    return Error{"PNG decoder: " + png_reason(code)};
+    return Error{"PNG decoder: " + libav_reason(code)};
   }
   return std::unique_ptr<PngDecoder>(new PngDecoder(std::move(codec), width_px, height_px));
 }
@@ -62,7 +38,7 @@ Status PngDecoder::decode(Bytes png, std::vector<std::uint8_t>& bgra) {
   Codec& codec = *codec_;
   avcodec_flush_buffers(codec.context);
   if (const int code = av_new_packet(codec.packet, static_cast<int>(png.size())); code < 0) {
-    return Error{"PNG decoder: " + png_reason(code)};
+    return Error{"PNG decoder: " + libav_reason(code)};
   }
   std::copy(png.begin(), png.end(), codec.packet->data);
   // Without this libavcodec adds the picture to the one before it.
@@ -73,7 +49,7 @@ Status PngDecoder::decode(Bytes png, std::vector<std::uint8_t>& bgra) {
     code = avcodec_receive_frame(codec.context, codec.frame);
   }
   if (code < 0) {
-    return Error{"PNG is damaged: " + png_reason(code)};
+    return Error{"PNG is damaged: " + libav_reason(code)};
   }
   const AVFrame& frame = *codec.frame;
   if (frame.width != width_px_ || frame.height != height_px_ || frame.format != AV_PIX_FMT_RGBA) {

@@ -1,14 +1,6 @@
 #include "hal/hl2ss/video_stream.h"
 
-#include <algorithm>
-
 namespace orthonav::hl2ss {
-namespace {
-
-/// A decoder without delay holds none; more are the past of a damaged stream.
-constexpr std::size_t kMostUnderway = 8;
-
-}  // namespace
 
 std::vector<std::uint8_t> VideoStream::opening() {
   if (decoder_) {
@@ -55,12 +47,9 @@ Status VideoStream::take(const Packet& packet, const Stamped& stamped) {
     sink_.take(side_, image_);
     return damage;
   }
-  if (underway_.size() == kMostUnderway) {
-    underway_.pop_front();
-  }
-  underway_.push_back(
-      {units_++, payload->trailer.sensor_ticks, stamped.time, world_from_rig, stamped.is_trusted});
-  const auto decoded = take_h264(payload->image, stamped.in_order);
+  const std::int64_t unit = underway_.add(
+      {payload->trailer.sensor_ticks, stamped.time, world_from_rig, stamped.is_trusted});
+  const auto decoded = take_h264(payload->image, unit, stamped.in_order);
   if (!decoded) {
     return decoded.error();
   }
@@ -81,31 +70,25 @@ Status VideoStream::take_raw(Bytes picture) {
   return {};
 }
 
-Result<bool> VideoStream::take_h264(Bytes access_unit, bool in_order) {
+Result<bool> VideoStream::take_h264(Bytes access_unit, std::int64_t unit, bool in_order) {
   if (!in_order) {
     // What came between is missing, and every picture after it stands on it.
     decoder_->restart();
     return Error{"H.264 pictures out of order"};
   }
-  const auto unit = decoder_->decode(access_unit, underway_.back().unit, image_.image);
-  if (!unit) {
-    return unit.error();
+  const auto decoded = decoder_->decode(access_unit, unit, image_.image);
+  if (!decoded) {
+    return decoded.error();
   }
-  if (!*unit) {
-    return false;
-  }
-  const auto known = std::find_if(underway_.begin(), underway_.end(),
-                                  [&](const Underway& each) { return each.unit == **unit; });
-  if (known == underway_.end()) {
+  const auto known = *decoded ? underway_.take(**decoded) : std::nullopt;
+  if (!known) {
     return false;
   }
   image_.sensor_ticks = known->sensor_ticks;
   image_.time = known->time;
   image_.world_from_rig = known->world_from_rig;
   // A picture with a wrong stamp is decoded, since those after it stand on it, and goes nowhere.
-  const bool is_trusted = known->is_trusted;
-  underway_.erase(underway_.begin(), known + 1);
-  return is_trusted;
+  return known->is_trusted;
 }
 
 }  // namespace orthonav::hl2ss

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <deque>
 #include <memory>
 
 #include "hal/hl2ss/h264_decoder.h"
 #include "hal/hl2ss/packet_stream.h"
 #include "hal/hl2ss/pairer.h"
 #include "hal/hl2ss/stamp_check.h"
+#include "hal/hl2ss/units_underway.h"
 #include "hal/hl2ss/video.h"
 
 namespace orthonav::hl2ss {
@@ -38,7 +38,6 @@ class VideoStream final : public PacketStream {
  private:
   /// What is known of an access unit that the decoder has not given back yet.
   struct Underway {
-    std::int64_t unit = 0;
     std::uint64_t sensor_ticks = 0;
     Timestamp time{};
     std::optional<Transform<World, Rig>> world_from_rig;
@@ -47,7 +46,7 @@ class VideoStream final : public PacketStream {
   Status check_stamp(const Packet& packet, Timestamp stamp) override;
   Status take(const Packet& packet, const Stamped& stamped) override;
   Status take_raw(Bytes picture);
-  Result<bool> take_h264(Bytes access_unit, bool in_order);
+  Result<bool> take_h264(Bytes access_unit, std::int64_t unit, bool in_order);
 
   Side side_;
   VideoRequest request_;
@@ -55,8 +54,7 @@ class VideoStream final : public PacketStream {
   ImageSink& sink_;
   StampCheck stamps_;
   CameraImage image_;
-  std::deque<Underway> underway_;
-  std::int64_t units_ = 0;
+  UnitsUnderway<Underway> underway_;
 };
 
 }  // namespace orthonav::hl2ss

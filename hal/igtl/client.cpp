@@ -12,12 +12,7 @@ bool TextReader::wants(const Header& header) const {
 }
 
 Status TextReader::read(const Header& header, Bytes body) {
-  const HostTime now = HostClock::now();
-  if (now - counted_since_ >= std::chrono::seconds(1)) {
-    counted_since_ = now;
-    counted_ = 0;
-  }
-  if (++counted_ > kMostASecond) {
+  if (!said_.allows(1, kMostASecond, HostClock::now())) {
     return Error{"says more than " + std::to_string(kMostASecond) + " things a second"};
   }
   const auto text = text_in(header, body);
@@ -61,10 +56,6 @@ Status Client::write(HostTime now) {
 }
 
 Status Client::read(HostTime now, std::size_t most_bytes_per_s) {
-  if (now - counted_since_ >= std::chrono::seconds(1)) {
-    counted_since_ = now;
-    counted_ = 0;
-  }
   std::array<std::uint8_t, 16384> room{};
   // What a client may send while others wait for their turn.
   constexpr int kMostReads = 16;
@@ -76,8 +67,7 @@ Status Client::read(HostTime now, std::size_t most_bytes_per_s) {
     if (*count == 0) {
       return {};
     }
-    counted_ += *count;
-    if (counted_ > most_bytes_per_s) {
+    if (!came_.allows(*count, most_bytes_per_s, now)) {
       return Error{"sends more than " + std::to_string(most_bytes_per_s) + " bytes a second"};
     }
     if (Status s = incoming_.take(std::span(room).first(*count)); !s) {

@@ -9,6 +9,7 @@
 #include "base/result.h"
 #include "hal/igtl/incoming.h"
 #include "hal/igtl/text_message.h"
+#include "hal/net/rate_limit.h"
 #include "hal/net/socket.h"
 
 namespace orthonav::igtl {
@@ -28,8 +29,7 @@ class TextReader : public MessageReader {
 
   std::string client_;
   TextListener& listener_;
-  HostTime counted_since_{};
-  int counted_ = 0;
+  net::RateLimit said_;
 };
 
 /// One connected client: what it sends is skipped, unless somebody listens; what it is sent waits
@@ -60,8 +60,7 @@ class Client {
   HostTime taken_;
   std::unique_ptr<TextReader> reader_;  ///< null: nobody listens
   Incoming incoming_;
-  HostTime counted_since_{};
-  std::size_t counted_ = 0;  ///< bytes that came since then
+  net::RateLimit came_;
 };
 
 }  // namespace orthonav::igtl

@@ -1,7 +1,8 @@
 #include "hal/igtl/header.h"
 
+#include <igtl_util.h>
+
 #include <algorithm>
-#include <array>
 
 namespace orthonav::igtl {
 namespace {
@@ -11,19 +12,6 @@ namespace {
 constexpr std::size_t kExtendedHeaderBytes = 12;
 constexpr std::size_t kEntryBytes = 8;  ///< of the metadata's index: key, encoding, value
 constexpr const char* kStatusKey = "TransformStatus";
-
-constexpr std::array<std::uint64_t, 256> checksum_table() {
-  constexpr std::uint64_t kPolynomial = 0x42f0e1eba9ea3693;
-  std::array<std::uint64_t, 256> table{};
-  for (std::uint64_t i = 0; i < table.size(); ++i) {
-    std::uint64_t rest = i << 56u;
-    for (int bit = 0; bit < 8; ++bit) {
-      rest = (rest >> 63u) != 0 ? rest << 1u ^ kPolynomial : rest << 1u;
-    }
-    table[i] = rest;
-  }
-  return table;
-}
 
 std::uint16_t u16(Bytes bytes, std::size_t at) {
   return static_cast<std::uint16_t>(number_in(bytes.subspan(at, 2)));
@@ -72,12 +60,8 @@ std::string name_in(Bytes field) {
 }
 
 std::uint64_t checksum_of(Bytes body) {
-  static constexpr auto kTable = checksum_table();
-  std::uint64_t sum = 0;
-  for (const std::uint8_t byte : body) {
-    sum = kTable[(sum >> 56u ^ byte) & 0xffu] ^ sum << 8u;
-  }
-  return sum;
+  // The library reads what it is given, and asks for it as if it wrote.
+  return crc64(const_cast<std::uint8_t*>(body.data()), body.size(), 0);
 }
 
 Result<Header> parsed_header(std::span<const std::uint8_t, kHeaderBytes> bytes) {

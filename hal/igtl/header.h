@@ -6,8 +6,8 @@
 
 #include "base/result.h"
 
-// What comes in over OpenIGTLink is read here, without the library: it loses its place in a stream
-// of version 2.
+// What comes in over OpenIGTLink is read here, and not by the library (but for the checksum): that
+// loses its place in a stream of version 2.
 namespace orthonav::igtl {
 
 using Bytes = std::span<const std::uint8_t>;

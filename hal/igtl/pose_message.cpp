@@ -61,14 +61,7 @@ Result<SentPose> from_quaternion(const std::string& name, Bytes values) {
   if (!(std::abs(length - 1.0) <= kMostSkew)) {
     return Error{name + ": quaternion has length " + std::to_string(length) + ", must be 1"};
   }
-  const double x = v.x / length;
-  const double y = v.y / length;
-  const double z = v.z / length;
-  const double r = w / length;
-  const Mat3 rotation = {{{{1 - 2 * (y * y + z * z), 2 * (x * y - z * r), 2 * (x * z + y * r)},
-                           {2 * (x * y + z * r), 1 - 2 * (x * x + z * z), 2 * (y * z - x * r)},
-                           {2 * (x * z - y * r), 2 * (y * z + x * r), 1 - 2 * (x * x + y * y)}}}};
-  return checked_pose(name, rotation, vector_in(values, 0));
+  return checked_pose(name, rotation_from_quaternion({v.x, v.y, v.z, w}), vector_in(values, 0));
 }
 
 Error wrong_length(const Header& header, std::size_t bytes) {

@@ -53,8 +53,11 @@ void PoseReceiver::run() {
 }
 
 void PoseReceiver::turn(short revents, HostTime now) {
-  const bool is_new = link_.step(revents, now);
+  const bool is_new = link_.step(revents, now) == net::Link::Step::kConnected;
   if (is_new) {
+    // A tracker whose tools are all out of sight says nothing for as long as that lasts: silence
+    // alone is no loss.
+    net::keep_alive(link_.socket());
     incoming_ = Incoming(this);
     sender_.forget();
     frames_.forget();
@@ -100,14 +103,9 @@ void PoseReceiver::read_all(HostTime now) {
 }
 
 Status PoseReceiver::count_bytes(std::size_t count, HostTime now) {
-  if (now - counted_since_ >= std::chrono::seconds(1)) {
-    counted_since_ = now;
-    counted_ = 0;
-  }
-  counted_ += count;
   const MutexLock lock(mutex_);
   stream_.bytes += static_cast<std::int64_t>(count);
-  if (counted_ <= kMostBytesPerSecond) {
+  if (bytes_.allows(count, kMostBytesPerSecond, now)) {
     return {};
   }
   return Error{"sends more than " + std::to_string(kMostBytesPerSecond) + " bytes a second"};

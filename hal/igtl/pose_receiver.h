@@ -9,10 +9,11 @@
 #include "base/mutex.h"
 #include "hal/api/devices.h"
 #include "hal/igtl/incoming.h"
-#include "hal/igtl/link.h"
 #include "hal/igtl/pose_frames.h"
 #include "hal/igtl/sender_clock.h"
 #include "hal/igtl/tracker_options.h"
+#include "hal/net/link.h"
+#include "hal/net/rate_limit.h"
 
 namespace orthonav::igtl {
 
@@ -66,15 +67,14 @@ class PoseReceiver final : private MessageReader {
   std::atomic<bool> stop_ = false;
 
   // Of the thread.
-  Link link_;
+  net::Link link_;
   Incoming incoming_{this};
   SenderClock sender_;
   PoseFrames frames_;
   Timestamp arrived_{};  ///< what is being read
   std::optional<Timestamp> late_since_;
   bool was_connected_ = false;  ///< ever
-  HostTime counted_since_{};
-  std::size_t counted_ = 0;  ///< bytes since then
+  net::RateLimit bytes_;
 
   mutable Mutex mutex_;
   std::optional<PoseFrame> waiting_ ORTHONAV_GUARDED_BY(mutex_);

@@ -6,10 +6,7 @@
 #include <utility>
 
 #include "hal/hl2ss/bytes.h"
-
-extern "C" {
-#include <libavcodec/avcodec.h>
-}
+#include "hal/hl2ss/libav_codec.h"
 
 namespace orthonav::hl2ss {
 namespace {
@@ -51,21 +48,10 @@ class Corners {
   const DepthCalibration& camera_;
 };
 
-struct PngEncoder {
-  AVCodecContext* context = nullptr;
-  AVFrame* frame = nullptr;
-  AVPacket* packet = nullptr;
-  ~PngEncoder() {
-    av_packet_free(&packet);
-    av_frame_free(&frame);
-    avcodec_free_context(&context);
-  }
+struct PngEncoder : LibavCodec {
   Status open(int width, int height) {
     const AVCodec* png = avcodec_find_encoder(AV_CODEC_ID_PNG);
-    context = png == nullptr ? nullptr : avcodec_alloc_context3(png);
-    frame = av_frame_alloc();
-    packet = av_packet_alloc();
-    if (context == nullptr || frame == nullptr || packet == nullptr) {
+    if (!allocate(png)) {
       return Error{"PNG encoder: libavcodec has none, or memory is short"};
     }
     context->width = frame->width = width;

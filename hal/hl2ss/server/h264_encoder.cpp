@@ -4,8 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "hal/hl2ss/libav_codec.h"
+
 extern "C" {
-#include <libavcodec/avcodec.h>
 #include <libavutil/opt.h>
 }
 
@@ -16,9 +17,7 @@ constexpr int kFramesPerSecond = 30;
 constexpr std::uint8_t kNoColour = 128;
 
 Error failed(const char* what, int code) {
-  char text[AV_ERROR_MAX_STRING_SIZE] = {};
-  av_strerror(code, text, sizeof(text));
-  return Error{std::string("H.264 encoder ") + what + ": " + text};
+  return Error{std::string("H.264 encoder ") + what + ": " + libav_reason(code)};
 }
 
 /// At once, a picture at a time, as the headset's own encoder does.
@@ -45,17 +44,9 @@ void fill_plane(const std::uint8_t* from, int width, int height, AVFrame& frame,
 
 }  // namespace
 
-struct H264Encoder::Codec {
-  AVCodecContext* context = nullptr;
-  AVFrame* frame = nullptr;
-  AVPacket* packet = nullptr;
+struct H264Encoder::Codec : LibavCodec {
   std::int64_t frames = 0;
 
-  ~Codec() {
-    av_packet_free(&packet);
-    av_frame_free(&frame);
-    avcodec_free_context(&context);
-  }
   Status open(const Options& options);
 };
 
@@ -64,10 +55,7 @@ Status H264Encoder::Codec::open(const Options& options) {
   if (h264 == nullptr) {
     return Error{"libavcodec has no H.264 encoder (libx264)"};
   }
-  context = avcodec_alloc_context3(h264);
-  frame = av_frame_alloc();
-  packet = av_packet_alloc();
-  if (context == nullptr || frame == nullptr || packet == nullptr) {
+  if (!allocate(h264)) {
     return Error{"out of memory for the H.264 encoder"};
   }
   describe_stream(options, *context);

@@ -1,4 +1,4 @@
-#include "hal/igtl/link.h"
+#include "hal/net/link.h"
 
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -7,23 +7,11 @@
 #include <algorithm>
 #include <utility>
 
-namespace orthonav::igtl {
+namespace orthonav::net {
 namespace {
 
 constexpr std::chrono::milliseconds kLongestPause{2000};
 constexpr auto kConnectWithin = std::chrono::seconds(3);
-
-/// A tracker whose tools are all out of sight says nothing for as long as that lasts, so silence
-/// alone is no loss. A machine that is gone is found within ten seconds.
-void keep_alive(int fd) {
-  const auto set = [fd](int level, int option, int value) {
-    (void)::setsockopt(fd, level, option, &value, sizeof value);
-  };
-  set(SOL_SOCKET, SO_KEEPALIVE, 1);
-  set(IPPROTO_TCP, TCP_KEEPIDLE, 4);
-  set(IPPROTO_TCP, TCP_KEEPINTVL, 2);
-  set(IPPROTO_TCP, TCP_KEEPCNT, 3);
-}
 
 }  // namespace
 
@@ -31,40 +19,46 @@ short Link::events() const {
   return state_ == State::kConnecting ? POLLOUT : state_ == State::kConnected ? POLLIN : 0;
 }
 
-bool Link::step(short revents, HostTime now) {
+Link::Step Link::step(short revents, HostTime now) {
   if (state_ == State::kPausing && now >= due_) {
-    begin(now);
+    if (const Status begun = begin(now); !begun) {
+      drop(begun.error().message, now);
+      return Step::kFailed;
+    }
   }
   if (state_ != State::kConnecting) {
-    return false;
+    return Step::kNothing;
   }
   if ((revents & (POLLOUT | POLLERR | POLLHUP)) != 0) {
     if (const Status connected = connect_outcome(socket_); !connected) {
       drop(connected.error().message, now);
-      return false;
+      return Step::kFailed;
     }
-    keep_alive(socket_.fd());
+    round_trip_ = HostClock::now() - begun_;
     state_ = State::kConnected;
-    return true;
+    return Step::kConnected;
   }
   if (now >= due_) {
     drop("does not answer", now);
+    return Step::kFailed;
   }
-  return false;
+  return Step::kNothing;
 }
 
-void Link::begin(HostTime now) {
-  auto socket = net::begin_connect(host_, port_);
+Status Link::begin(HostTime now) {
+  auto socket = begin_connect(host_, port_);
   if (!socket) {
-    return drop(socket.error().message, now);
+    return socket.error();
   }
   socket_ = std::move(*socket);
   state_ = State::kConnecting;
+  begun_ = now;
   due_ = now + kConnectWithin;
+  return {};
 }
 
 Result<std::size_t> Link::receive(std::span<std::uint8_t> room) {
-  auto count = net::receive_some(socket_, room);
+  auto count = receive_some(socket_, room);
   if (count && *count > 0) {
     pause_ = kFirstPause;
   }
@@ -72,11 +66,21 @@ Result<std::size_t> Link::receive(std::span<std::uint8_t> room) {
 }
 
 void Link::drop(const std::string& why, HostTime now) {
-  socket_ = net::Socket();
+  socket_ = Socket();
   state_ = State::kPausing;
   due_ = now + pause_;
   pause_ = std::min(2 * pause_, kLongestPause);
   trouble_ = why;
 }
 
-}  // namespace orthonav::igtl
+void keep_alive(const Socket& socket) {
+  const auto set = [&socket](int level, int option, int value) {
+    (void)::setsockopt(socket.fd(), level, option, &value, sizeof value);
+  };
+  set(SOL_SOCKET, SO_KEEPALIVE, 1);
+  set(IPPROTO_TCP, TCP_KEEPIDLE, 4);
+  set(IPPROTO_TCP, TCP_KEEPINTVL, 2);
+  set(IPPROTO_TCP, TCP_KEEPCNT, 3);
+}
+
+}  // namespace orthonav::net

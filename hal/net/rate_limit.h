@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+
+#include "hal/net/socket.h"
+
+namespace orthonav::net {
+
+/// How much may come within a second, counted from the first of each second.
+class RateLimit {
+ public:
+  /// Counts `amount` more; whether it is still within `most`.
+  [[nodiscard]] bool allows(std::size_t amount, std::size_t most, HostTime now) {
+    if (now - since_ >= std::chrono::seconds(1)) {
+      since_ = now;
+      counted_ = 0;
+    }
+    counted_ += amount;
+    return counted_ <= most;
+  }
+
+ private:
+  HostTime since_{};
+  std::size_t counted_ = 0;
+};
+
+}  // namespace orthonav::net
