@@ -38,8 +38,7 @@ KeptOperation::About about_demo(const DemoArguments& arguments, const std::strin
   about.case_name = case_name;
   about.method = arguments.method;
   about.patient_reference = arguments.reference;
-  about.room = "seed " + std::to_string(arguments.seed);
-  about.time_stands_still = true;
+  about.simulate(arguments.seed);
   about.replaces_earlier = true;
   return about;
 }

@@ -87,6 +87,11 @@ void IgtlCommands::finish() {
   }
 }
 
+bool IgtlCommands::owe_answers() const {
+  const MutexLock lock(mutex_);
+  return asking_ || !heard_.empty() || !refused_.empty();
+}
+
 std::vector<std::uint8_t> IgtlCommands::answers(const std::string& status, std::uint64_t stamp) {
   finish();
   std::vector<Outcome> all = std::exchange(heard_, {});

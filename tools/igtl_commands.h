@@ -30,7 +30,10 @@ class IgtlCommands : public igtl::TextListener,
   /// From now on they are asked of this operation, which must outlive its run. Those that came
   /// before were not meant for it.
   void watch(engine::AssembledOperation& operation) ORTHONAV_EXCLUDES(mutex_);
-  /// After each pair, on the tracking thread: answers to what was asked since, as whole messages.
+  /// Whether something was asked that was not answered yet. After each pair, on the tracking
+  /// thread.
+  [[nodiscard]] bool owe_answers() const ORTHONAV_EXCLUDES(mutex_);
+  /// Answers to what was asked since, as whole messages; on the same thread.
   /// `status` is what the surgeon is told by now.
   [[nodiscard]] std::vector<std::uint8_t> answers(const std::string& status, std::uint64_t stamp)
       ORTHONAV_EXCLUDES(mutex_);

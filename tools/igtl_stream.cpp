@@ -3,10 +3,10 @@
 #include <cstdio>
 
 #include "base/joined.h"
-#include "engine/io/text_fields.h"
 #include "engine/session/wording.h"
 #include "tools/arguments.h"
 #include "tools/igtl_messages.h"
+#include "tools/listening_place.h"
 
 namespace orthonav::tools {
 namespace {
@@ -50,15 +50,12 @@ Result<igtl::ServerOptions> igtl_options(const IgtlArguments& arguments) {
   const std::string& at = arguments.at;
   igtl::ServerOptions options;
   options.allow = arguments.allow;
-  const std::size_t colon = at.rfind(':');
-  if (colon != std::string::npos) {
-    options.address = at.substr(0, colon);
+  const auto place = listening_place("--igtl", at);
+  if (!place) {
+    return place.error();
   }
-  const auto port = engine::number_from(colon == std::string::npos ? at : at.substr(colon + 1));
-  if (!port || *port != static_cast<double>(static_cast<int>(*port))) {
-    return Error{"--igtl \"" + at + "\": must be PORT or ADDRESS:PORT"};
-  }
-  options.port = static_cast<int>(*port);
+  options.address = place->host;
+  options.port = place->port;
   if (const auto problems = options.check(); !problems.empty()) {
     return Error{"--igtl \"" + at + "\": " + joined(problems)};
   }
@@ -117,7 +114,7 @@ void IgtlStream::stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*i
     sent_at_status_ = sent;
   }
   server_->publish(std::move(frame));
-  if (hears_) {
+  if (hears_ && commands_.owe_answers()) {
     std::string status;
     engine::append_without_heard(status, guidance.status);
     server_->tell(commands_.answers(status, igtl_stamp(guidance.frame_time)));

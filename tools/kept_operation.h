@@ -23,6 +23,12 @@ class KeptOperation {
     nav::CommonErrors common;
     bool time_stands_still = false;  ///< simulated time, while the disk writes
     bool replaces_earlier = false;   ///< overwrites the folder's earlier log
+
+    /// The patient is the simulated one of this seed.
+    void simulate(std::uint64_t seed) {
+      room = "seed " + std::to_string(seed);
+      time_stands_still = true;
+    }
   };
   /// Looks for the last operation of the folder, which is then locked. An Error in one line: there
   /// is none, it was done, or it can't be read.

@@ -50,8 +50,7 @@ Status KeptPreviews::begin(engine::AssembledOperation& operation, const std::str
   about.case_name = case_name;
   about.method = method;
   if (room != nullptr) {
-    about.room = "seed " + std::to_string(room->options().seed);
-    about.time_stands_still = true;
+    about.simulate(room->options().seed);
   }
   return kept_->begin(operation, folder_->path().string(), about);
 }

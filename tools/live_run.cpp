@@ -253,8 +253,7 @@ class LiveRun {
     about.patient_reference = arguments_.reference;
     about.common = arguments_.common.in_metres();
     if (room_) {
-      about.room = "seed " + std::to_string(room_->options().seed);
-      about.time_stands_still = true;
+      about.simulate(room_->options().seed);
     }
     return about;
   }

@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstdint>
 #include <fstream>
 #include <system_error>
 
 #include "hal/net/allowed.h"
+#include "tools/listening_place.h"
 
 namespace orthonav::tools {
 namespace {
@@ -21,7 +21,6 @@ namespace {
 constexpr std::string_view kCookie = "orthonav_token=";
 constexpr std::size_t kShortestToken = 16;
 constexpr std::size_t kLongestToken = 128;
-constexpr int kMostPort = 65535;
 
 bool may_be_in_a_token(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
@@ -93,16 +92,12 @@ Result<std::string> token_of(const std::string& path) {
 
 Result<WebAccess> WebAccess::of(const std::string& at, const std::string& token_file) {
   WebAccess access;
-  const std::size_t colon = at.rfind(':');
-  if (colon != std::string::npos) {
-    access.host_ = at.substr(0, colon);
+  const auto place = listening_place("--web", at);
+  if (!place) {
+    return place.error();
   }
-  const std::string port = colon == std::string::npos ? at : at.substr(colon + 1);
-  const auto [end, problem] = std::from_chars(port.data(), port.data() + port.size(), access.port_);
-  if (problem != std::errc() || end != port.data() + port.size() || access.port_ < 0 ||
-      access.port_ > kMostPort || access.host_.empty()) {
-    return Error{"--web \"" + at + "\": must be PORT or ADDRESS:PORT, with a port from 0 to 65535"};
-  }
+  access.host_ = place->host;
+  access.port_ = place->port;
   const auto address = net::resolve(access.host_);
   if (!address) {
     return Error{"--web \"" + at + "\": " + address.error().message};

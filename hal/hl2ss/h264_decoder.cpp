@@ -6,6 +6,7 @@
 #include "hal/hl2ss/libav_codec.h"
 
 extern "C" {
+#include <libavcodec/avcodec.h>
 #include <libavutil/log.h>
 }
 

@@ -1,5 +1,9 @@
 #include "hal/hl2ss/libav_codec.h"
 
+extern "C" {
+#include <libavcodec/avcodec.h>
+}
+
 namespace orthonav::hl2ss {
 
 LibavCodec::~LibavCodec() {

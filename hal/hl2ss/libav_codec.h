@@ -2,9 +2,10 @@
 
 #include <string>
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-}
+struct AVCodec;
+struct AVCodecContext;
+struct AVFrame;
+struct AVPacket;
 
 namespace orthonav::hl2ss {
 

@@ -6,6 +6,10 @@
 
 #include "hal/hl2ss/libav_codec.h"
 
+extern "C" {
+#include <libavcodec/avcodec.h>
+}
+
 namespace orthonav::hl2ss {
 
 struct PngDecoder::Codec : LibavCodec {};

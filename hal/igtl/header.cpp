@@ -1,7 +1,5 @@
 #include "hal/igtl/header.h"
 
-#include <igtl_util.h>
-
 #include <algorithm>
 
 namespace orthonav::igtl {
@@ -57,11 +55,6 @@ std::uint64_t number_in(Bytes bytes) {
 std::string name_in(Bytes field) {
   const auto end = std::find(field.begin(), field.end(), 0);
   return {field.begin(), end};
-}
-
-std::uint64_t checksum_of(Bytes body) {
-  // The library reads what it is given, and asks for it as if it wrote.
-  return crc64(const_cast<std::uint8_t*>(body.data()), body.size(), 0);
 }
 
 Result<Header> parsed_header(std::span<const std::uint8_t, kHeaderBytes> bytes) {

@@ -1,5 +1,6 @@
 #include "hal/igtl/message.h"
 
+#include <igtl_util.h>
 #include <igtlPointMessage.h>
 #include <igtlPolyDataMessage.h>
 #include <igtlStatusMessage.h>
@@ -88,6 +89,11 @@ std::vector<std::uint8_t> packed_text(const Label& label, const std::string& tex
   std::string most = cut(text, kMostText);
   message->SetString(most);
   return bytes_of(*message, label);
+}
+
+std::uint64_t checksum_of(Bytes body) {
+  // The library reads what it is given, and asks for it as if it wrote.
+  return crc64(const_cast<std::uint8_t*>(body.data()), body.size(), 0);
 }
 
 }  // namespace orthonav::igtl

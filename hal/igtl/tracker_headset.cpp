@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/joined.h"
+#include "hal/api/absent_devices.h"
 #include "hal/igtl/pose_receiver.h"
 
 namespace orthonav::igtl {
@@ -51,14 +52,6 @@ class StandingHead final : public HeadTracker {
   const PoseReceiver& receiver_;
 };
 
-class NoButton final : public Clicker {
-  Status do_poll(Timestamp /*until*/, std::vector<ClickerEvent>& /*events*/) override { return {}; }
-};
-
-class NobodySpeaks final : public Voice {
-  Status do_poll(Timestamp /*until*/, std::vector<Phrase>& /*phrases*/) override { return {}; }
-};
-
 class NoDisplay final : public Display {
   [[nodiscard]] Duration do_latency() const override { return kDisplayLatency; }
   Status do_shown(const ShownFrame& /*frame*/) override { return {}; }
@@ -88,8 +81,8 @@ class TrackerHeadset final : public Headset {
   std::unique_ptr<PoseReceiver> receiver_;
   Poses poses_;
   StandingHead head_;
-  NoButton button_;
-  NobodySpeaks voice_;
+  AbsentClicker button_;
+  AbsentVoice voice_;
   NoDisplay display_;
 };
 

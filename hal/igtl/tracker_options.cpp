@@ -1,11 +1,11 @@
 #include "hal/igtl/tracker_options.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "base/units.h"
+#include "hal/api/uri_query.h"
 
 namespace orthonav::igtl {
 namespace {
@@ -123,20 +123,15 @@ Result<TrackerOptions> tracker_options_of(std::string_view after_scheme) {
   if (const Status taken = take_address(after_scheme.substr(0, question), options); !taken) {
     return taken.error();
   }
-  std::string_view rest = question == after_scheme.npos ? "" : after_scheme.substr(question + 1);
-  std::vector<std::string> seen;
-  while (!rest.empty()) {
-    const std::string_view item = rest.substr(0, rest.find('&'));
-    rest.remove_prefix(std::min(item.size() + 1, rest.size()));
-    const std::size_t equals = item.find('=');
-    const std::string key(item.substr(0, equals));
-    const std::string_view value = equals == item.npos ? "" : item.substr(equals + 1);
-    if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
-      return Error{"key \"" + key + "\" is given twice"};
+  const auto items = question == after_scheme.npos ? std::vector<UriItem>()
+                                                   : uri_items(after_scheme.substr(question + 1));
+  for (const UriItem& item : items) {
+    if (item.again) {
+      return Error{"key \"" + item.key + "\" is given twice"};
     }
-    seen.push_back(key);
-    const Status taken =
-        is_number_key(key) ? take_number(key, value, options) : take_tool(key, value, options);
+    const std::string value = item.value.value_or("");
+    const Status taken = is_number_key(item.key) ? take_number(item.key, value, options)
+                                                 : take_tool(item.key, value, options);
     if (!taken) {
       return taken.error();
     }

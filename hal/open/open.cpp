@@ -1,10 +1,10 @@
 #include "hal/open/open.h"
 
 #include <charconv>
-#include <set>
 #include <string_view>
 #include <utility>
 
+#include "hal/api/uri_query.h"
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/open/bad_uri.h"
 #include "hal/open/open_openxr.h"
@@ -26,29 +26,25 @@ sim::RoomTool default_pointer() {
   return pointer;
 }
 
-/// One `key` or `key=value` of the query.
-Status apply_sim_key(const std::string& uri, std::string_view item, std::set<std::string>& seen,
-                     sim::SimOptions& options) {
-  const std::size_t equals = item.find('=');
-  const std::string key(item.substr(0, equals));
-  const bool has_value = equals != std::string_view::npos;
-  const std::string_view value = has_value ? item.substr(equals + 1) : std::string_view{};
+Status apply_sim_key(const std::string& uri, const UriItem& item, sim::SimOptions& options) {
+  const std::string& key = item.key;
   if (key != "seed" && key != "perfect" && key != "realtime" && key != "depth") {
     return bad_uri(uri, "unknown key \"" + key + "\"; " + kKnownSimKeys);
   }
-  if (!seen.insert(key).second) {
+  if (item.again) {
     return bad_uri(uri, "key \"" + key + "\" is given twice");
   }
   if (key == "seed") {
+    const std::string value = item.value.value_or("");
     const char* end = value.data() + value.size();
     const auto [rest, code] = std::from_chars(value.data(), end, options.seed);
     if (value.empty() || code != std::errc{} || rest != end) {
-      return bad_uri(uri, "seed \"" + std::string(value) +
-                              "\" is not a whole number from 0 to 18446744073709551615");
+      return bad_uri(uri,
+                     "seed \"" + value + "\" is not a whole number from 0 to 18446744073709551615");
     }
     return {};
   }
-  if (has_value) {
+  if (item.value) {
     return bad_uri(uri, "key \"" + key + "\" takes no value");
   }
   if (key == "perfect") {
@@ -73,14 +69,10 @@ Result<sim::SimOptions> sim_options(const std::string& uri, std::string_view res
     return bad_uri(
         uri, "sim: is followed by nothing or by ?key=value&...; " + std::string(kKnownSimKeys));
   }
-  rest.remove_prefix(1);
-  std::set<std::string> seen;
-  while (!rest.empty()) {
-    const std::size_t end = rest.find('&');
-    if (Status status = apply_sim_key(uri, rest.substr(0, end), seen, options); !status) {
+  for (const UriItem& item : uri_items(rest.substr(1))) {
+    if (Status status = apply_sim_key(uri, item, options); !status) {
       return status.error();
     }
-    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
   }
   return options;
 }

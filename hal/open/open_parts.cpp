@@ -2,10 +2,11 @@
 
 #include <charconv>
 #include <optional>
-#include <set>
 #include <string_view>
 #include <utility>
 
+#include "hal/api/absent_devices.h"
+#include "hal/api/uri_query.h"
 #include "hal/desktop/evdev_clicker.h"
 #include "hal/desktop/portaudio_microphone.h"
 #include "hal/desktop/wav_microphone.h"
@@ -20,14 +21,6 @@ constexpr const char* kVoices = "known are headset, none, mic:[NAME], headset-mi
 constexpr const char* kClickerKeys =
     "known are keys=NAME,..., double_ms=N, hold_ms=N, debounce_ms=N and share";
 constexpr const char* kVoiceKeys = "known is wake=always, wake=noise or wake=never";
-
-class NoClicker : public Clicker {
-  Status do_poll(Timestamp, std::vector<ClickerEvent>&) override { return {}; }
-};
-
-class NoVoice : public Voice {
-  Status do_poll(Timestamp, std::vector<Phrase>&) override { return {}; }
-};
 
 /// "scheme:rest?key=value&key", cut up.
 struct PartUri {
@@ -49,21 +42,14 @@ Result<PartUri> cut_up(const char* part, const std::string& uri) {
   }
   const std::size_t question = uri.find('?', colon);
   cut.rest = uri.substr(colon + 1, question == std::string::npos ? question : question - colon - 1);
-  std::string_view query = question == std::string::npos
-                               ? std::string_view()
-                               : std::string_view(uri).substr(question + 1);
-  std::set<std::string> seen;
-  while (!query.empty()) {
-    const std::string item(query.substr(0, query.find('&')));
-    query = query.size() > item.size() ? query.substr(item.size() + 1) : std::string_view();
-    const std::size_t equals = item.find('=');
-    const std::string key = item.substr(0, equals);
-    if (!seen.insert(key).second) {
-      return bad_part(part, uri, "key \"" + key + "\" is given twice");
+  if (question == std::string::npos) {
+    return cut;
+  }
+  for (const UriItem& item : uri_items(std::string_view(uri).substr(question + 1))) {
+    if (item.again) {
+      return bad_part(part, uri, "key \"" + item.key + "\" is given twice");
     }
-    cut.items.emplace_back(key, equals == std::string::npos
-                                    ? std::nullopt
-                                    : std::optional<std::string>(item.substr(equals + 1)));
+    cut.items.emplace_back(item.key, item.value);
   }
   return cut;
 }
@@ -157,7 +143,7 @@ Result<std::unique_ptr<Clicker>> open_clicker(const std::string& uri, const Cloc
     return std::unique_ptr<Clicker>();
   }
   if (uri == "none") {
-    return std::unique_ptr<Clicker>(std::make_unique<NoClicker>());
+    return std::unique_ptr<Clicker>(std::make_unique<AbsentClicker>());
   }
   const auto cut = cut_up("clicker", uri);
   if (!cut) {
@@ -211,7 +197,7 @@ Result<std::unique_ptr<Voice>> open_voice(const std::string& uri,
     return std::unique_ptr<Voice>();
   }
   if (uri == "none") {
-    return std::unique_ptr<Voice>(std::make_unique<NoVoice>());
+    return std::unique_ptr<Voice>(std::make_unique<AbsentVoice>());
   }
   const auto cut = cut_up("voice", uri);
   if (!cut) {

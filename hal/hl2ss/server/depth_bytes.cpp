@@ -8,6 +8,10 @@
 #include "hal/hl2ss/bytes.h"
 #include "hal/hl2ss/libav_codec.h"
 
+extern "C" {
+#include <libavcodec/avcodec.h>
+}
+
 namespace orthonav::hl2ss {
 namespace {
 

@@ -11,6 +11,7 @@ namespace {
 
 using orthonav::test::bare_room;
 using orthonav::test::next_pair;
+using orthonav::test::paced;
 using orthonav::test::ServedRoom;
 using orthonav::test::wait_until;
 using ::testing::SizeIs;
@@ -25,12 +26,6 @@ sim::SimOptions depth_session(double limit_s) {
   sim.depth = {DepthStream::kAhat, DepthStream::kLongThrow};
   sim.render = false;
   return sim;
-}
-
-ServerOptions paced_depth() {
-  ServerOptions options;
-  options.paced = true;
-  return options;
 }
 
 std::unique_ptr<Hl2ssHeadset> connect(const ServedRoom& room, const DepthWish& wish,
@@ -74,7 +69,7 @@ struct Served {
 /// All that the stand-in sends of a depth stream while the pairs are taken.
 Served served_depth(const sim::SimOptions& sim, const DepthWish& wish, std::size_t enough) {
   Served all;
-  ServedRoom room(sim, paced_depth());
+  ServedRoom room(sim, paced());
   const auto headset = connect(room, wish);
   if (!headset) {
     return all;
@@ -203,7 +198,7 @@ TEST(Depth, OfAhatAsH264ComesWithinItsSteps) {
 TEST(Depth, ChangesNothingOfThePairs) {
   sim::SimOptions sim = depth_session(0.31);
   sim.render = true;
-  ServedRoom room(sim, paced_depth());
+  ServedRoom room(sim, paced());
   const auto headset = connect(room, {DepthStream::kAhat, false});
   ASSERT_NE(headset, nullptr);
   auto direct = sim::SimHeadset::open(bare_room(), sim);
@@ -223,7 +218,7 @@ TEST(Depth, ChangesNothingOfThePairs) {
 }
 
 TEST(Depth, IsNotThereWhereNobodyAsksForIt) {
-  ServedRoom room(depth_session(0.5), paced_depth());
+  ServedRoom room(depth_session(0.5), paced());
   const auto headset = room.connect();
   ASSERT_NE(headset, nullptr);
   EXPECT_THAT(headset->depth_cameras(), SizeIs(0));
@@ -234,7 +229,7 @@ TEST(Depth, IsNotThereWhereNobodyAsksForIt) {
 TEST(Depth, ThatIsRefusedLeavesTheRest) {
   sim::SimOptions sim = depth_session(0.5);
   sim.depth = {DepthStream::kLongThrow};
-  ServedRoom room(sim, paced_depth());
+  ServedRoom room(sim, paced());
   const auto headset = connect(room, {DepthStream::kAhat, false}, std::chrono::milliseconds(200));
   ASSERT_NE(headset, nullptr);
   EXPECT_THAT(headset->depth_cameras(), SizeIs(0));

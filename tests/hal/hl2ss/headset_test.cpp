@@ -8,6 +8,7 @@ namespace orthonav::hl2ss {
 namespace {
 
 using orthonav::test::next_pair;
+using orthonav::test::paced;
 using orthonav::test::ServedRoom;
 
 sim::SimOptions short_session(double limit_s) {
@@ -16,12 +17,6 @@ sim::SimOptions short_session(double limit_s) {
   sim.surgeon = false;
   sim.limit_s = limit_s;
   return sim;
-}
-
-ServerOptions paced() {
-  ServerOptions options;
-  options.paced = true;
-  return options;
 }
 
 /// Every pair of a direct run comes over the wire with the same pixels, times and poses.

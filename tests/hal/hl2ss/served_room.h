@@ -28,6 +28,13 @@ class ServedRoom {
   std::unique_ptr<hl2ss::Server> server_;
 };
 
+/// Waits for its client.
+inline hl2ss::ServerOptions paced() {
+  hl2ss::ServerOptions options;
+  options.paced = true;
+  return options;
+}
+
 /// Asks until a pair or the end comes; kNone only after `kLongestWait`. Errors are counted and
 /// passed over.
 Next next_pair(Headset& headset, StereoFrame& frame, int* errors = nullptr);
