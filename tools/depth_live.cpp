@@ -20,7 +20,7 @@ constexpr std::int64_t kDefaultFrames = 30;
 constexpr auto kNoFrameFor = std::chrono::seconds(10);
 constexpr auto kPause = std::chrono::milliseconds(2);
 
-/// The URI, which asks for a depth stream where it did not yet.
+/// The URI, with a depth stream asked for.
 std::string asking_for_depth(const DepthArguments& arguments) {
   const std::string& uri = arguments.source;
   const std::string joint = uri.find('?') == std::string::npos ? "?" : "&";
@@ -88,7 +88,8 @@ class LiveDepth {
         take();
         continue;
       }
-      // The pairs move the clock of a headset that waits for us, and know the map.
+      // Taking the pairs advances the clock of a headset that waits for its client, and tells the
+      // map.
       const auto pair = headset_.cameras().next(pair_);
       if (std::chrono::steady_clock::now() - last > kNoFrameFor) {
         return Error{arguments_.source + ": no frame of " + name_of(camera_.calibration().stream) +

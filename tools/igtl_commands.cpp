@@ -42,8 +42,8 @@ void IgtlCommands::said(const std::string& client, const std::string& device,
 void IgtlCommands::take(Timestamp until, std::vector<engine::Request>& requests) {
   const MutexLock lock(mutex_);
   for (Waiting& each : waiting_) {
-    // Pairs are under way for a while, so it was asked no earlier than that; and not before the
-    // last pair, with which it would have come.
+    // Dated back by its age, since pairs are under way for a while; but not to before the last
+    // pair, with which it would have been taken.
     const auto age = std::chrono::duration_cast<Duration>(each.since.elapsed());
     each.request.time = std::max(until - age, taken_until_.value_or(until - age));
     requests.push_back(std::move(each.request));

@@ -22,7 +22,7 @@ class WebAccess {
   [[nodiscard]] bool asks_for_a_token() const { return !token_.empty(); }
   /// Where a browser goes first, with the token.
   [[nodiscard]] std::string url(int port) const;
-  /// Takes the same time for every wrong token of this length.
+  /// In constant time for every text of the right length.
   [[nodiscard]] bool is_token(std::string_view text) const;
   /// Whether a request with these headers may read: it has the token as a cookie, or, where none is
   /// asked for, it comes from a page of this machine itself, and of no site whose name leads here.

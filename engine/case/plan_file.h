@@ -41,7 +41,7 @@ struct Plan {
 /// the legacy
 /// `.fcsv`, which knows no lines.
 Result<Plan> load_plan(const std::string& path);
-/// The same of a plan's own JSON, without a file; `name` stands for it in messages.
+/// The same from a plan's JSON; `name` stands for the file in messages.
 Result<Plan> parse_plan(const std::string& text, const std::string& name);
 /// Several files as one plan: of one level, in one frame and unit.
 Result<Plan> load_plan(std::span<const std::string> paths);

@@ -94,7 +94,7 @@ bool read_row(const Element& element, std::size_t wanted_list, Values& values, R
   return true;
 }
 
-/// Which property bears this name; as many as there are: none.
+/// The index of the property with this name; the number of properties where there is none.
 std::size_t property_named(const Element& element, std::string_view name) {
   const auto found = std::find_if(element.properties.begin(), element.properties.end(),
                                   [&](const Property& p) { return p.name == name; });

@@ -42,7 +42,7 @@ struct UndoChange {
   friend bool operator==(const UndoChange&, const UndoChange&) = default;
 };
 
-/// A screw as another program planned it; nobody says that.
+/// A screw as another program planned it; it has no spoken form.
 struct PlaceScrew {
   std::string level;
   nav::Side side = nav::Side::kLeft;

@@ -36,8 +36,8 @@ struct DepthCalibration {
   int height_px = 0;
   std::vector<Ray> rays;  ///< for each pixel's centre, row-major
   Transform<DepthSensor, Rig> sensor_from_rig;
-  /// What lies so much farther measures the same, as the device says; 0: it says nothing, as in
-  /// recordings, or nothing does.
+  /// Metres after which the phase wraps, as the device states it: a point that much farther away
+  /// measures the same. 0: not stated, as in recordings, or the camera does not wrap.
   double wraps_at_m = 0.0;
 
   /// Where a pixel's measurement lies; nothing without a measurement (0) or without a ray. The

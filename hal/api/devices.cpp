@@ -87,7 +87,7 @@ Status check_covariance(const char* what, const StereoFrame& frame) {
                kUnsound};
 }
 
-/// Tools that the device measures are those that it names, each at most once.
+/// A frame holds only tools that the device names, each at most once.
 Status check_tools(const char* what, const StereoFrame& frame, std::span<const std::string> names) {
   for (std::size_t i = 0; i < frame.tools.size(); ++i) {
     const MeasuredTool& tool = frame.tools[i];

@@ -17,7 +17,7 @@ class StampReader {
  public:
   /// The device's time of a stamp in ticks of 100 ns that came at `at`; nothing for damage.
   [[nodiscard]] std::optional<Timestamp> time_of(std::uint64_t ticks, HostTime at);
-  /// The same without learning anything from it, and only for a stamp near those that were heard.
+  /// The same without updating anything; nothing for a stamp far from those heard so far.
   [[nodiscard]] std::optional<Timestamp> told(std::uint64_t ticks, HostTime at) const;
   /// What time zero of the device's times is called in stamps; known from the first on.
   [[nodiscard]] std::int64_t base_ticks() const { return base_ticks_; }

@@ -26,7 +26,7 @@ Status check_scale(double units_per_m) {
   return {};
 }
 
-/// Ranges don't depend on it, so that it need only be a length.
+/// Ranges are computed without it, so any positive number will do.
 Status check_alias(double alias) {
   if (!(alias > 0.0 && std::isfinite(alias))) {
     return Error{"calibration: alias " + printed("%g", alias) + ", must be positive"};

@@ -15,10 +15,10 @@ struct DepthDescription {
 /// How many bytes it answers with.
 [[nodiscard]] std::size_t depth_calibration_bytes(DepthStream stream);
 
-/// From the answer in mode 2: tables as those of the front cameras, sensor_from_rig for row
-/// vectors, units for a metre, for AHaT the alias in such units; the undistorted image's maps and
-/// focal lengths behind them are not needed. Refuses a wrong size, what is no rigid motion, scales
-/// that no sensor has, and a camera of which no pixel has a direction.
+/// From the answer in mode 2: tables of directions as for the front cameras, sensor_from_rig for
+/// row vectors, raw units per metre, and for AHaT the alias in raw units. The maps and focal
+/// lengths of the undistorted image behind them are skipped. Refuses a wrong size, what is no rigid
+/// motion, scales that no sensor has, and a camera of which no pixel has a direction.
 Result<DepthDescription> read_depth_calibration(DepthStream stream, Bytes answer);
 
 /// Millimetres for each number that a raw picture may hold; 0: nothing was measured.

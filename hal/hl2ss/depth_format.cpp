@@ -91,7 +91,8 @@ void read_coded_ahat(const GreyImage& luma, const std::vector<std::uint8_t>& chr
     image->height_px = luma.height_px;
     image->pixels.resize(count);
   }
-  // A row of either plane, taken as it lies, is a quarter of one of brightness.
+  // Each number of a plane is for two pixels: of the first plane for columns 0 and 1 of every four,
+  // of the second for columns 2 and 3.
   const std::size_t plane = chroma.size() / 2;
   for (std::size_t i = 0; i < count; ++i) {
     const int value = kQuarter * luma.pixels[i];

@@ -43,10 +43,10 @@ Result<std::optional<Bytes>> split_depth(DepthStream stream, Bytes payload);
 void read_raw_depth(const DepthFormat& format, Bytes raw, DepthImage& depth,
                     DepthImage& brightness);
 
-/// The same out of a picture of AHaT: `luma` is a quarter of the depth, its low 8 bits; `chroma`,
-/// both planes after each other, is the root of the brightness of every other pair of pixels.
-/// Depth is the middle of what a number of 8 bits may have been, 0 below 64: past 1,023 it begins
-/// anew at 0, and nothing so near is measured.
+/// The same from a coded picture of AHaT. `luma` is a quarter of the depth, its low 8 bits;
+/// `chroma`, one plane behind the other, holds square roots of brightness, each of two pixels. The
+/// depth becomes the middle of the four values that a luma stands for, and 0 (not measured) below
+/// 64: past 1,023 the luma starts again at 0, and nothing nearer than 64 is measured.
 void read_coded_ahat(const GreyImage& luma, const std::vector<std::uint8_t>& chroma,
                      DepthImage& depth, DepthImage& brightness);
 

@@ -8,8 +8,8 @@
 
 namespace orthonav::hl2ss {
 
-/// The newest pictures of a depth camera until somebody takes them; who is slow misses the oldest.
-/// Thread-safe; buffers go round.
+/// The newest pictures of a depth camera until they are taken; a slow reader misses the oldest.
+/// Thread-safe; buffers are used again.
 class DepthMailbox {
  public:
   /// Swaps `picture` in. It must be later than the one before it.
@@ -43,7 +43,7 @@ class DepthMailbox {
   }
 
  private:
-  /// A recorder asks 30 times a second for the pictures of 45.
+  /// A recorder takes pictures 30 times a second; the camera sends 45.
   static constexpr std::size_t kMost = 4;
   Mutex mutex_;
   std::deque<DepthFrame> waiting_ ORTHONAV_GUARDED_BY(mutex_);

@@ -14,8 +14,8 @@
 
 namespace orthonav::hl2ss {
 
-/// What a stamp means, told by the streams that the headset's time is known from. A depth stream
-/// itself never teaches anybody the time: nothing that it sends may change an operation.
+/// Converts stamps to times by the clock that the other streams established. Stamps of depth never
+/// change that clock: nothing that a depth stream sends may change an operation.
 class StampTeller {
  public:
   virtual ~StampTeller() = default;

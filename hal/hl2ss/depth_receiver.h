@@ -11,8 +11,7 @@ namespace orthonav::hl2ss {
 
 class Receiver;
 
-/// A headset's depth stream, on a thread of its own, so that whatever it sends or leaves out costs
-/// the cameras nothing.
+/// A headset's depth stream, on a thread of its own, so that it can never delay the cameras.
 class DepthReceiver final : private StampTeller {
  public:
   /// `cameras` must outlive it: it knows the time and the map.

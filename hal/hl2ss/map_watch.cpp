@@ -19,7 +19,8 @@ constexpr Duration kSpeedWithin = std::chrono::milliseconds(110);
 constexpr double kMaxUnseenS = 0.25;
 /// After so long without a pose nobody can vouch for the map.
 constexpr Duration kVouchedFor = std::chrono::seconds(10);
-/// Two streams agree on the head to millimetres; ahead of the newest pose it is predicted.
+/// Two streams' poses of the head agree to millimetres; the rest is for predictions past the newest
+/// one.
 constexpr double kSameMapM = 0.05;
 constexpr double kSameMapRad = 0.13;
 

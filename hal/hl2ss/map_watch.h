@@ -36,8 +36,8 @@ class MapWatch {
 class HeadTrack final : public HeadTracker {
  public:
   void add(Timestamp time, const Transform<World, Rig>& world_from_rig, std::int64_t map_epoch);
-  /// The map that the newest pose lies in. Takes `world_from_rig` away where it is not where the
-  /// head was at that time in this map: whoever says so may speak of another.
+  /// The epoch of the newest pose's map. Resets `world_from_rig` where it disagrees with where the
+  /// head was at that time in this map: it may be of another one.
   std::int64_t place(Timestamp at, std::optional<Transform<World, Rig>>& world_from_rig) const;
   /// Nothing is known any more: the connection is gone.
   void lose();

@@ -35,8 +35,8 @@ struct Hl2ssOptions {
   std::optional<DepthWish> depth;
   /// Opening waits no longer for calibrations and the first image.
   Duration open_within = std::chrono::seconds(8);
-  /// So much of it for the calibration of a depth camera; without one it goes on. 4 MB come in a
-  /// fifth of a second where the images come at all.
+  /// At most so much of `open_within` is spent waiting for the depth camera's calibration (4 MB, a
+  /// fifth of a second at the images' data rate); without it the headset opens without depth.
   Duration depth_within = std::chrono::seconds(2);
 };
 

@@ -18,7 +18,7 @@ constexpr std::uint64_t kGopSize = 30;
 constexpr Duration kSilence = std::chrono::seconds(3);
 /// A stand-in that waits for its client is silent for as long as that thinks.
 constexpr Duration kPacedSilence = std::chrono::minutes(2);
-/// A clock that is known from transits runs late by milliseconds.
+/// The clock is estimated from transit times and is late by some milliseconds.
 constexpr Duration kMostAhead = std::chrono::milliseconds(100);
 /// What is due by time is looked at this often.
 constexpr int kTurnMs = 10;

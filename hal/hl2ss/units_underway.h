@@ -20,8 +20,8 @@ class UnitsUnderway {
     units_.emplace_back(next_, std::move(known));
     return next_++;
   }
-  /// What is known of a unit that came back; those before it are forgotten. Nothing where it came
-  /// too late.
+  /// What is known of a unit that came back; it and those before it are forgotten. Nothing where it
+  /// was forgotten already.
   std::optional<Known> take(std::int64_t unit) {
     const auto found = std::find_if(units_.begin(), units_.end(),
                                     [unit](const auto& each) { return each.first == unit; });

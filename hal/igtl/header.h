@@ -44,8 +44,9 @@ struct Content {
   std::string transform_status;
 };
 
-/// Takes off what versions 2 and 3 put around it, and reads the one piece of metadata that has a
-/// meaning here. An Error where the body does not hold what it announces, or the checksum differs.
+/// Strips what versions 2 and 3 put around the content, and reads TransformStatus, the only
+/// metadata that is used. An Error where the body does not hold what it announces, or the checksum
+/// differs.
 Result<Content> content_of(const Header& header, Bytes body);
 
 }  // namespace orthonav::igtl

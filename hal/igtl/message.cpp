@@ -92,7 +92,7 @@ std::vector<std::uint8_t> packed_text(const Label& label, const std::string& tex
 }
 
 std::uint64_t checksum_of(Bytes body) {
-  // The library reads what it is given, and asks for it as if it wrote.
+  // crc64 takes a pointer to non-const data but only reads.
   return crc64(const_cast<std::uint8_t*>(body.data()), body.size(), 0);
 }
 

@@ -27,19 +27,19 @@ struct PoseFrame {
 struct PoseFramesOptions {
   std::vector<NamedTransform> tools;
   PoseCovariance covariance{};  ///< as stated for every tool
-  /// A pose that is the same to the last bit for longer is one that nobody measures any more.
-  /// Zero: not looked for.
+  /// A pose that stays the same to the last bit for longer counts as lost: nobody measures it any
+  /// more. Zero: not checked.
   Duration frozen_after = std::chrono::seconds(1);
 };
 
-/// Puts poses that come one by one together to frames: those stamped at one moment.
+/// Groups poses that come one by one into frames, each of one moment.
 class PoseFrames {
  public:
-  /// Stamped no further apart, poses are of one moment: at 250 mm/s half a millimetre.
+  /// Poses that are stamped no further apart are of one moment: at 250 mm/s half a millimetre.
   static constexpr Duration kOneMoment = std::chrono::milliseconds(2);
-  /// A frame waits so long for tools that may not be in sight.
+  /// How long a frame waits for tools, which may be out of sight.
   static constexpr Duration kWaitForRest = std::chrono::milliseconds(10);
-  /// Where nothing was sent for so long, no tool was in sight: frames without any say so.
+  /// After so long without a pose no tool is in sight: frames without tools say so.
   static constexpr Duration kNobodyInSight = std::chrono::milliseconds(100);
 
   explicit PoseFrames(PoseFramesOptions options);

@@ -16,7 +16,7 @@ class SenderClock {
  public:
   /// Never past `arrived`, which never goes back. A stamp of zero says nothing: it is `arrived`.
   [[nodiscard]] Timestamp time_of(std::uint64_t stamp, Timestamp arrived);
-  /// How much longer than the fastest the last message was under way.
+  /// How much longer the last message was under way than the fastest one.
   [[nodiscard]] Duration late() const { return late_; }
   /// Another sender, or the same one anew.
   void forget() { *this = {}; }

@@ -53,7 +53,8 @@ class Server {
   [[nodiscard]] int port() const;
   /// From any thread; returns at once. Replaces a frame that was not sent yet.
   void publish(std::vector<std::uint8_t> frame);
-  /// Sent once to all clients that are connected by then, whatever they have taken of the frames.
+  /// Sent once to every client that is connected then, in addition to the frames and never dropped
+  /// like them.
   void tell(std::vector<std::uint8_t> bytes);
   /// What seldom changes: sent to all clients now, and to each later one when it connects.
   void set_standing(std::vector<std::uint8_t> standing);

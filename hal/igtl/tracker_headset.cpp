@@ -10,7 +10,7 @@
 namespace orthonav::igtl {
 namespace {
 
-/// A usual monitor's, where somebody looks on; nothing of ours is displayed by it.
+/// That of an ordinary monitor on which the operation is watched; a tracker displays nothing.
 constexpr Duration kDisplayLatency = std::chrono::milliseconds(16);
 
 class Poses final : public StereoCamera {
@@ -31,7 +31,7 @@ class Poses final : public StereoCamera {
   std::vector<std::string> tools_;
 };
 
-/// Where the tracker stands: where its poses are measured from.
+/// The tracker stands still: its frame is Rig and World alike.
 class StandingHead final : public HeadTracker {
  public:
   explicit StandingHead(const PoseReceiver& receiver) : receiver_(receiver) {}

@@ -18,8 +18,8 @@ struct TrackerOptions {
   std::string host;
   int port = kUsualPort;
   std::vector<NamedTransform> tools;
-  /// How far its poses are off (RMS, in 3-D), as whoever sets it up states it: the protocol has no
-  /// word for it. The default is more than optical trackers have.
+  /// RMS error of its poses in 3-D, as whoever sets it up states it: the protocol can't. The
+  /// defaults are larger than an optical tracker's.
   double rms_m = 0.0005;
   double rms_rad = 0.5 * kRadiansPerDegree;
   Duration frozen_after = PoseFramesOptions{}.frozen_after;

@@ -6,7 +6,7 @@
 
 namespace orthonav::net {
 
-/// How much may come within a second, counted from the first of each second.
+/// How much may come within a second, which begins with the first to come after the last one ended.
 class RateLimit {
  public:
   /// Counts `amount` more; whether it is still within `most`.

@@ -29,7 +29,8 @@ struct DepthModel {
 
 /// What a time-of-flight camera gets wrong; docs/recordings.md says where the figures are from.
 struct DepthErrors {
-  /// Of each material's bias, which grows with 1/cos of incidence: 1 as documented, 0 none.
+  /// Scale of each material's bias, which grows with 1/cos of the angle of incidence: 1 as
+  /// documented, 0 none.
   double bias = 1.0;
   double sd_bright_m = 0.001;  ///< of the noise where much light comes back
   double sd_dim_m = 0.003;     ///< and where hardly any does

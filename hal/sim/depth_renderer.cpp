@@ -130,7 +130,7 @@ void DepthRenderer::see_bones(const Transform<LeftCamera, Spine>& camera_from_sp
 }
 
 DepthRenderer::Window DepthRenderer::window_around(Vec3 centre, double radius_m) const {
-  // A lens's circle is at most so much wider off its middle than in it.
+  // A sphere's image is at most so much larger off the axis than on it.
   constexpr double kWider = 2.0;
   const int width = calibration_.width_px;
   const int height = calibration_.height_px;

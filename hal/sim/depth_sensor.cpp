@@ -34,7 +34,7 @@ constexpr double kReferenceM = 0.5;
 constexpr double kMostOblique = 3.0;
 /// Less than this is no measurement.
 constexpr double kDarkest = 0.004;
-/// The noise is between its two ends from here on down to nothing.
+/// From this much light down to none, the noise grows from its bright to its dim SD.
 constexpr double kBright = 0.5;
 /// A step of this much between neighbours is an edge.
 constexpr double kEdgeM = 0.015;

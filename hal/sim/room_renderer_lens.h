@@ -71,7 +71,7 @@ class PinholeLens final : public Lens {
   Vec2 centre_;
 };
 
-/// A depth camera's lens, as the bones' renderer asks for it.
+/// A depth camera's lens, with what the bones' renderer calls.
 struct DepthLens {
   const BrownConrady& lens;
   [[nodiscard]] Vec2 rough_pixel(Vec3 in_camera_m) const {

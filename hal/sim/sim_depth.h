@@ -8,8 +8,8 @@
 
 namespace orthonav::sim {
 
-/// A depth camera of the simulated headset: the newest picture that the pairs have come to. What
-/// nobody asks for costs nothing. May be asked from a thread of its own.
+/// A depth camera of the simulated headset: renders the newest picture that is no later than the
+/// last pair, and only when asked for it. May be asked from a thread of its own.
 class SimDepth final : public DepthCamera {
  public:
   /// The room must outlive it.

@@ -63,7 +63,7 @@ class Builder {
     }
   }
 
-  /// The node at the end of `nodes` and all below it; what surrounds it.
+  /// Appends the node of this range and all below it; returns the box around it.
   Box add(Range range) {
     const std::size_t here = nodes.size();
     nodes.emplace_back();
@@ -85,7 +85,7 @@ class Builder {
   std::vector<BoxTree::Node> nodes;
 
  private:
-  /// As few parts as need no more levels below than these triangles need.
+  /// As few parts as keep the tree as shallow as this many triangles allow.
   std::vector<Range> parts_of(Range range) {
     std::size_t largest = 1;
     while (largest * BoxTree::kWide < range.size()) {

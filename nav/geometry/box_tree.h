@@ -10,15 +10,15 @@
 
 namespace orthonav::nav {
 
-/// A hierarchy of boxes around triangles, eight beside each other: as many as a few vector
+/// A bounding volume hierarchy of triangles with eight children a node, as many as a few vector
 /// instructions test at once (Wald, Benthin & Boulos 2008, "Getting rid of packets"). Boxes are
-/// rounded outwards to single precision, so that what is left out by them is left out rightly.
+/// rounded outwards to single precision, so that a search by them misses no triangle.
 class BoxTree {
  public:
   static constexpr std::size_t kWide = 8;
   /// Marks the child that is a triangle.
   static constexpr std::uint32_t kTriangle = 0x8000'0000U;
-  /// Eight times fewer at each level, down from 2^31 triangles; each level leaves seven behind.
+  /// Of boxes put aside: seven at each of the eleven levels that 2^31 triangles need at most.
   static constexpr std::size_t kDeepest = 88;
 
   using Lanes = std::array<float, kWide>;
@@ -56,8 +56,8 @@ template <class Key>
   return bits & ((1U << node.count) - 1U);
 }
 
-/// Takes in the triangles whose boxes are wanted, those of the nearest boxes first. `keys` says how
-/// far the boxes of a node are; what is beyond `limit`, which may shrink meanwhile, is left out.
+/// Calls `take_in` for the triangles whose boxes are no farther than `limit`, which it may lower,
+/// those of the nearest boxes first. `keys` computes how far the boxes of a node are.
 template <class Key, class Keys, class TakeIn>
 void search_boxes(std::span<const BoxTree::Node> nodes, const Keys& keys, const Key& limit,
                   const TakeIn& take_in) {

@@ -28,13 +28,13 @@ class PlaceToBoxes {
     rounding_m_ = largest_m < kBeyond_m ? kRounding * largest_m : kFar;
   }
 
-  /// The limit of the keys: no box that is `within_m` lies beyond it, however keys are rounded.
+  /// The largest key that a box within `within_m` can have, however keys are rounded.
   [[nodiscard]] float limit_key(double within_m) const {
     const double m = (within_m + rounding_m_) * (1.0 + kRounding);
     return m < kBeyond_m ? static_cast<float>(4.0 * m * m) : std::numeric_limits<float>::infinity();
   }
 
-  /// Four times the squares.
+  /// Keys are four times the squared distances.
   void operator()(const BoxTree::Node& node, Lanes& keys_m2) const {
     const auto [x, y, z] = place_m_;
     // No maximum: GCC makes branches of it, and no vector instructions.
@@ -52,7 +52,7 @@ class PlaceToBoxes {
   }
 
  private:
-  /// Several times what rounding to single precision, thrice, can be.
+  /// Several times the error of three roundings to single precision.
   static constexpr double kRounding = 1e-6;
   /// The square of what is less is a single-precision number.
   static constexpr double kBeyond_m = 1e15;

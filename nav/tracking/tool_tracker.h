@@ -82,8 +82,8 @@ class ToolTracker {
     constexpr double kOfTwoPrints = 0.0042;
     return kOfTwoPrints;
   }
-  /// Whether it follows tools through pairs: filters them, and predicts those that one pair misses.
-  /// If not, its poses are somebody else's, and nobody makes others of them.
+  /// Whether it filters poses over pairs and predicts those that a pair misses. If not, they come
+  /// from another program and are passed on as they are.
   [[nodiscard]] virtual bool follows_tools() const { return true; }
   /// The patient reference that its poses hang on (nav/tracking/anchor.h); null: they are
   /// in the headset's map.

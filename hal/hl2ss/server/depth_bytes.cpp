@@ -19,14 +19,14 @@ constexpr float kUnitsAMetre = 1000.0F;
 constexpr std::uint16_t kAhatSaysNothing = 4095;
 constexpr std::uint16_t kAhatNothingFrom = 4090;
 
-/// On the unit plane at a pixel's top-left corner, from the centres around it; absent where one of
-/// them has none.
+/// Directions on the unit plane at the pixels' top-left corners, from those at the centres around
+/// them; (0, 0) where one of these has none.
 class Corners {
  public:
   explicit Corners(const DepthCalibration& camera) : camera_(camera) {}
   [[nodiscard]] Vec2 at(int x, int y) const {
     Vec2 sum{};
-    // Along the first row and column there is no pixel on the far side: carried on from within.
+    // The first row and column have no pixel on the far side: they are extrapolated.
     for (const auto& [column, across] : beside(x)) {
       for (const auto& [row, down] : beside(y)) {
         const auto& ray =
@@ -92,7 +92,7 @@ std::vector<std::uint8_t> depth_answer_bytes(const DepthCalibration& camera) {
   if (camera.stream == DepthStream::kAhat) {
     append(bytes, static_cast<float>(camera.wraps_at_m) * kUnitsAMetre);
   }
-  // Maps and focal lengths of an undistorted image that nobody asks this server for.
+  // Maps and focal lengths of the undistorted image: zeros, which no client of ours reads.
   bytes.resize(bytes.size() + sizeof(float) * (2 * camera.rays.size() + 4));
   return bytes;
 }

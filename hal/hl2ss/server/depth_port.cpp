@@ -8,7 +8,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// A depth camera's sensor ticks are cycles of a clock of 24 MHz, which nobody is told.
+/// A depth camera's sensor ticks are cycles of 24 MHz here; no client reads them.
 constexpr std::int64_t kCyclesAMicrosecond = 24;
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace orthonav::hl2ss {
 struct DepthAsked {
   enum class What : std::uint8_t { kPictures, kPicturesWithPoses, kCalibration };
   What what = What::kPicturesWithPoses;
-  int every = 1;       ///< so-manieth picture
+  int every = 1;       ///< every how many pictures one is sent
   bool coded = false;  ///< H.264 or PNG
   std::uint32_t bitrate = 1;
   int gop_size = 45;

@@ -36,7 +36,7 @@ void DepthSender::end() {
 void DepthSender::run() {
   while (!stop_) {
     send_newest();
-    // Also where the next picture is due at once: a session may wait for its end.
+    // Even when the next picture is due: `end` may be waiting for the mutex.
     std::this_thread::sleep_for(kDepthIdle);
   }
 }

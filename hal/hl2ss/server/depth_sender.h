@@ -11,8 +11,8 @@
 
 namespace orthonav::hl2ss {
 
-/// The depth cameras of the headset that is served, each through its port. What nobody asks for is
-/// not taken.
+/// The depth cameras of the headset that is served, each through its port. Pictures that no client
+/// asks for are not taken.
 class DepthSender {
  public:
   /// `calibrations`: the answers in mode 2, empty where there is no such camera.
@@ -25,7 +25,7 @@ class DepthSender {
 
   [[nodiscard]] DepthPort& ahat() { return ahat_; }
   [[nodiscard]] DepthPort& long_throw() { return long_throw_; }
-  /// Poses become the client's by this.
+  /// Converts poses from the headset's world to the client's, which may have jumped.
   using ClientFromWorld = std::function<Transform<World, World>()>;
   /// `follows_pairs`: pictures are taken when `send_newest` is called; else on a thread of its own,
   /// since a picture of a simulated room takes a while.
@@ -33,7 +33,7 @@ class DepthSender {
   /// A session with this headset begins; it must live until it ends.
   void begin(Headset& headset);
   void end();
-  /// What there is to send now.
+  /// Sends each stream its newest picture, where a client wants it.
   void send_newest();
 
  private:

@@ -173,7 +173,7 @@ TEST(MeshFile, RefusesWhatIsNoMesh) {
   refusal(folder.with("bad_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"));
 }
 
-/// A library that was used before never returned from half of these, and crashed over others.
+/// assimp's reader never returned from half of these and crashed over others.
 TEST(MeshFile, RefusesEveryTruncationOfAPly) {
   const TemporaryFolder folder;
   const std::string whole = ply_box("8");
