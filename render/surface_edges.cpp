@@ -19,14 +19,14 @@ struct Side {
   std::array<std::uint32_t, 2> corners{};  ///< in the mesh as given, at low and high
 };
 
-auto key(Float3 p) { return std::tuple(p.x, p.y, p.z); }
+auto coordinates(Float3 p) { return std::tuple(p.x, p.y, p.z); }
 
 /// For each vertex, which of `positions` it lies at.
 std::vector<std::uint32_t> welded(const MeshData& mesh, std::vector<Float3>& positions) {
   std::vector<std::uint32_t> order(mesh.positions.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return key(mesh.positions[a]) < key(mesh.positions[b]);
+    return coordinates(mesh.positions[a]) < coordinates(mesh.positions[b]);
   });
   std::vector<std::uint32_t> place(order.size());
   for (const std::uint32_t vertex : order) {

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-double in_mm(double metres) { return metres * 1e3; }
+double millimetres(double metres) { return metres * 1e3; }
 
 ordered_json json_of(const nav::AccuracyPart& part) {
   ordered_json out = {{"verdict", to_text(part.verdict())},
@@ -23,9 +23,9 @@ ordered_json json_of(const nav::AccuracyPart& part) {
                       {"limits", ordered_json::array()}};
   for (const nav::Judged& figure : part.judged) {
     out["limits"].push_back({{"what", figure.what},
-                             {"value_mm", in_mm(figure.value_m)},
-                             {"pass_to_mm", in_mm(figure.limits.pass_m)},
-                             {"note_to_mm", in_mm(figure.limits.note_m)},
+                             {"value_mm", millimetres(figure.value_m)},
+                             {"pass_to_mm", millimetres(figure.limits.pass_m)},
+                             {"note_to_mm", millimetres(figure.limits.note_m)},
                              {"verdict", to_text(figure.verdict)}});
   }
   if (!part.failure.empty()) {
@@ -36,16 +36,16 @@ ordered_json json_of(const nav::AccuracyPart& part) {
 
 void add_spread(const nav::TipSpread& spread, ordered_json& out) {
   out["samples"] = spread.samples;
-  out["rms_mm"] = in_mm(spread.rms_m);
-  out["p95_mm"] = in_mm(spread.p95_m);
-  out["max_mm"] = in_mm(spread.max_m);
+  out["rms_mm"] = millimetres(spread.rms_m);
+  out["p95_mm"] = millimetres(spread.p95_m);
+  out["max_mm"] = millimetres(spread.max_m);
 }
 
 ordered_json single_point_json(const nav::SinglePointPart& part) {
   ordered_json out = json_of(part);
   add_spread(part.spread, out);
   if (part.predicted_rms_m) {
-    out["predicted_rms_mm"] = in_mm(*part.predicted_rms_m);
+    out["predicted_rms_mm"] = millimetres(*part.predicted_rms_m);
   }
   return out;
 }
@@ -55,16 +55,16 @@ ordered_json turning_json(const nav::TurningPart& part) {
   add_spread(part.spread, out);
   out["largest_tilt_deg"] = part.largest_tilt_rad * kDegreesPerRadian;
   out["tip_bias_mm"] = engine::vector_mm(part.tip_bias_m);
-  out["tip_bias_sigma_mm"] = in_mm(part.tip_bias_sigma_m);
-  out["residual_rms_mm"] = in_mm(part.residual_rms_m);
+  out["tip_bias_sigma_mm"] = millimetres(part.tip_bias_sigma_m);
+  out["residual_rms_mm"] = millimetres(part.residual_rms_m);
   out["by_tilt"] = ordered_json::array();
   for (const nav::TiltBin& bin : part.bins) {
     ordered_json entry = {{"from_deg", bin.from_rad * kDegreesPerRadian},
                           {"to_deg", bin.to_rad * kDegreesPerRadian},
                           {"samples", bin.samples}};
     if (bin.samples > 0) {
-      entry["rms_mm"] = in_mm(bin.rms_m);
-      entry["max_mm"] = in_mm(bin.max_m);
+      entry["rms_mm"] = millimetres(bin.rms_m);
+      entry["max_mm"] = millimetres(bin.max_m);
     }
     out["by_tilt"].push_back(std::move(entry));
   }
@@ -74,11 +74,11 @@ ordered_json turning_json(const nav::TurningPart& part) {
 ordered_json distances_json(const nav::DistancePart& part) {
   ordered_json out = json_of(part);
   out["distances"] = part.distances;
-  out["mean_error_mm"] = in_mm(part.mean_error_m);
-  out["sd_mm"] = in_mm(part.sd_m);
-  out["rms_mm"] = in_mm(part.rms_m);
-  out["max_error_mm"] = in_mm(part.max_error_m);
-  out["fit_rmse_mm"] = in_mm(part.fit_rmse_m);
+  out["mean_error_mm"] = millimetres(part.mean_error_m);
+  out["sd_mm"] = millimetres(part.sd_m);
+  out["rms_mm"] = millimetres(part.rms_m);
+  out["max_error_mm"] = millimetres(part.max_error_m);
+  out["fit_rmse_mm"] = millimetres(part.fit_rmse_m);
   out["stray_rests"] = part.stray_rests;
   out["points"] = ordered_json::array();
   for (const nav::TouchedPoint& point : part.points) {
@@ -92,9 +92,9 @@ ordered_json distances_json(const nav::DistancePart& part) {
 
 /// With as many digits as tell the figure from the limits that it lies between.
 void append_judged(const nav::Judged& figure, std::string& text) {
-  const double value = in_mm(figure.value_m);
-  const double pass = in_mm(figure.limits.pass_m);
-  const double note = in_mm(figure.limits.note_m);
+  const double value = millimetres(figure.value_m);
+  const double pass = millimetres(figure.limits.pass_m);
+  const double note = millimetres(figure.limits.note_m);
   const double nearest = std::abs(value - pass) < std::abs(value - note) ? pass : note;
   append_printed(text, "  %s %s mm: %s (pass to %.2f, note to %.2f)\n", figure.what.c_str(),
                  value_beside(value, nearest, 2).c_str(),
@@ -113,8 +113,8 @@ void append_part(const char* name, const nav::AccuracyPart& part, std::string& t
 }
 
 void append_spread(const nav::TipSpread& spread, std::string& text) {
-  append_printed(text, "  RMS %.2f mm, max %.2f mm, %zu poses\n", in_mm(spread.rms_m),
-                 in_mm(spread.max_m), spread.samples);
+  append_printed(text, "  RMS %.2f mm, max %.2f mm, %zu poses\n", millimetres(spread.rms_m),
+                 millimetres(spread.max_m), spread.samples);
 }
 
 void append_turning(const nav::TurningPart& part, std::string& text) {
@@ -124,13 +124,13 @@ void append_turning(const nav::TurningPart& part, std::string& text) {
   append_printed(text,
                  "  tip bias %+.2f %+.2f %+.2f mm in the marker's axes (SD %.2f mm), %.2f mm RMS "
                  "without it\n",
-                 in_mm(bias.x), in_mm(bias.y), in_mm(bias.z), in_mm(part.tip_bias_sigma_m),
-                 in_mm(part.residual_rms_m));
+                 millimetres(bias.x), millimetres(bias.y), millimetres(bias.z), millimetres(part.tip_bias_sigma_m),
+                 millimetres(part.residual_rms_m));
   for (const nav::TiltBin& bin : part.bins) {
     if (bin.samples > 0) {
       append_printed(text, "  tilt %2.0f-%2.0f°: RMS %.2f mm, max %.2f mm, %zu poses\n",
                      bin.from_rad * kDegreesPerRadian, bin.to_rad * kDegreesPerRadian,
-                     in_mm(bin.rms_m), in_mm(bin.max_m), bin.samples);
+                     millimetres(bin.rms_m), millimetres(bin.max_m), bin.samples);
     }
   }
 }
@@ -139,8 +139,8 @@ void append_distances(const nav::DistancePart& part, std::string& text) {
   append_part("distances", part, text);
   append_printed(text,
                  "  %zu distances of %zu points: mean error %+.2f mm, SD %.2f mm, RMS %.2f mm\n",
-                 part.distances, part.points.size(), in_mm(part.mean_error_m), in_mm(part.sd_m),
-                 in_mm(part.rms_m));
+                 part.distances, part.points.size(), millimetres(part.mean_error_m), millimetres(part.sd_m),
+                 millimetres(part.rms_m));
   if (part.stray_rests > 0) {
     append_printed(text, "  %zu rests that touched no point left out\n", part.stray_rests);
   }
@@ -168,7 +168,7 @@ std::string accuracy_text(const AccuracySubject& subject, const nav::AccuracyRep
   append_part("single-point repeatability", report.single_point, text);
   append_spread(report.single_point.spread, text);
   if (report.single_point.predicted_rms_m) {
-    append_printed(text, "  predicted RMS %.2f mm\n", in_mm(*report.single_point.predicted_rms_m));
+    append_printed(text, "  predicted RMS %.2f mm\n", millimetres(*report.single_point.predicted_rms_m));
   }
   append_turning(report.turning, text);
   if (report.distances) {

@@ -32,7 +32,7 @@ struct ServeArguments {
 
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
 /// Every 50th look, once a second.
-constexpr int kDrawEvery = 50;
+constexpr int kPictureEvery = 50;
 
 /// Opens the headset for each session: the same simulated operation from its beginning.
 Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) {
@@ -74,7 +74,7 @@ class SceneWatch {
  public:
   explicit SceneWatch(ScenePictures* pictures) : pictures_(pictures) {}
   Status look(hl2ss::Server& server, const hl2ss::ServerReport& report) {
-    if (pictures_ == nullptr || looks_++ % kDrawEvery != 0 || !report.world_from_rig) {
+    if (pictures_ == nullptr || looks_++ % kPictureEvery != 0 || !report.world_from_rig) {
       return {};
     }
     const hl2ss::UnityObjects objects = server.scene().objects();

@@ -12,6 +12,7 @@
 #include "engine/case/screw_place.h"
 #include "engine/io/json_document.h"
 #include "engine/io/json_writer.h"
+#include "engine/io/slicer_markups.h"
 #include "engine/io/text_fields.h"
 
 namespace orthonav::engine {

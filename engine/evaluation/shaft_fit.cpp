@@ -19,7 +19,7 @@ constexpr double kSteel_hu = 12000.0;  ///< of wires
 constexpr double kAround_hu = 300.0;
 constexpr double kNoise_hu = 80.0;  ///< SD of a voxel's misfit, as assumed
 constexpr double kUsualBlur_m = 0.0005;
-constexpr double kFarthest_m = 0.003;  ///< from where the search put it
+constexpr double kMostMoved_m = 0.003;  ///< from where the search put it
 
 /// What is sought, in the order of the parameters; metres and radians.
 enum Parameter : std::size_t {
@@ -193,8 +193,8 @@ Shaft limited(const Shaft& shaft, std::span<const double> p) {
   Parameters used{};
   std::copy(p.begin(), p.end(), used.begin());
   used[kRadius] = std::clamp(used[kRadius], 3e-4, 7e-3);
-  used[kTip] = std::clamp(used[kTip], -kFarthest_m, kFarthest_m);
-  used[kRear] = std::clamp(used[kRear], -kFarthest_m, kFarthest_m);
+  used[kTip] = std::clamp(used[kTip], -kMostMoved_m, kMostMoved_m);
+  used[kRear] = std::clamp(used[kRear], -kMostMoved_m, kMostMoved_m);
   if (!shaft.is_wire()) {
     used[kBowAcross] = used[kBowAthwart] = 0.0;
   }
@@ -236,12 +236,12 @@ std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& found_shaf
   }
   // An end that runs away was not seen, as where two tips touch: it stays where the search put it.
   for (const std::size_t end : {kTip, kRear}) {
-    if (std::abs(best->parameters[end]) > 0.9 * kFarthest_m) {
+    if (std::abs(best->parameters[end]) > 0.9 * kMostMoved_m) {
       best->parameters[end] = 0.0;
     }
   }
   Shaft out = limited(shaft, best->parameters);
-  if ((out.line.middle_m - shaft.line.middle_m).norm() > kFarthest_m ||
+  if ((out.line.middle_m - shaft.line.middle_m).norm() > kMostMoved_m ||
       angle_between_rad(out.line.direction, shaft.line.direction) > kMostTurned_rad) {
     return std::nullopt;
   }

@@ -12,7 +12,7 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr double kShortest_m = 0.012;
+constexpr double kShortestRun_m = 0.012;
 constexpr double kLeastSlenderness = 2.2;
 constexpr double kThinnest_m = 0.0005;  ///< radius
 constexpr double kThickest_m = 0.005;
@@ -74,7 +74,7 @@ std::optional<Centreline> longest_line(const std::vector<Vec3>& places_m, Random
     }
     const Vec3 direction = way.normalized();
     const Run run = unbroken(places_m, from, direction);
-    if (run.length_m >= kShortest_m && (!best || run.length_m > 2.0 * best->half_m)) {
+    if (run.length_m >= kShortestRun_m && (!best || run.length_m > 2.0 * best->half_m)) {
       best = Centreline::straight(from + run.middle_s_m * direction, direction, 0.5 * run.length_m);
     }
   }
@@ -214,7 +214,7 @@ double settle(const MetalCloud& cloud, Centreline& line) {
 std::optional<Shaft> shaft_about(const MetalCloud& cloud, Centreline line) {
   const double radius_m = settle(cloud, line);
   const double length_m = 2.0 * line.half_m;
-  if (radius_m < kThinnest_m || radius_m > kThickest_m || length_m < kShortest_m ||
+  if (radius_m < kThinnest_m || radius_m > kThickest_m || length_m < kShortestRun_m ||
       length_m < kLeastSlenderness * 2.0 * radius_m) {
     return std::nullopt;
   }

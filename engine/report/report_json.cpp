@@ -163,7 +163,7 @@ Json series(const std::vector<double>& values) {
   return out;
 }
 
-std::string text_of(const Json& document) {
+std::string dumped(const Json& document) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -195,11 +195,11 @@ std::string report_json(const OperationResult& result) {
   put_quantile(out["frames"], "p99_ms", result.loop.intervals_ms, 0.99);
   put_quantile(out["frames"], "capture_to_photon_median_ms", result.loop.photon_ages_ms, 0.5);
   put_quantile(out["frames"], "capture_to_photon_p99_ms", result.loop.photon_ages_ms, 0.99);
-  return text_of(out);
+  return dumped(out);
 }
 
 std::string timing_json(const LoopReport& loop) {
-  return text_of(Json{{"step_wall", series(loop.step_wall_ms)},
+  return dumped(Json{{"step_wall", series(loop.step_wall_ms)},
                       {"draw_wall", series(loop.draw_wall_ms)},
                       {"drawn", loop.drawn},
                       {"dropped_snapshots", loop.dropped_snapshots}});

@@ -34,7 +34,7 @@ Pairer::Slot& Pairer::free_slot(Slots& slots) {
   });
 }
 
-std::optional<Pairer::Pair> Pairer::add(Side side, CameraImage& image) {
+std::optional<Pairer::Pair> Pairer::add(CameraSide side, CameraImage& image) {
   const auto mine = static_cast<std::size_t>(side);
   if (last_ticks_ && image.sensor_ticks <= *last_ticks_) {
     ++unpaired_;
@@ -66,8 +66,8 @@ std::optional<Pairer::Pair> Pairer::add(Side side, CameraImage& image) {
       }
     }
   }
-  CameraImage& left = side == Side::kLeft ? slot.image : nearest->image;
-  CameraImage& right = side == Side::kLeft ? nearest->image : slot.image;
+  CameraImage& left = side == CameraSide::kLeft ? slot.image : nearest->image;
+  CameraImage& right = side == CameraSide::kLeft ? nearest->image : slot.image;
   return Pair{left, right};
 }
 

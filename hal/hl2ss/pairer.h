@@ -18,7 +18,7 @@ struct CameraImage {
   GreyImage image;
 };
 
-enum class Side : std::uint8_t { kLeft, kRight };
+enum class CameraSide : std::uint8_t { kLeft, kRight };
 
 /// Brings left and right images of one moment together, by sensor ticks, in whatever order the two
 /// streams bring them; their times must agree too, to a third of a frame. Holds the last few images
@@ -32,7 +32,7 @@ class Pairer {
   };
   /// Swaps `image` in, and answers with the pair that it completes, valid until the next call.
   /// What is older than a pair delivered before makes none.
-  std::optional<Pair> add(Side side, CameraImage& image);
+  std::optional<Pair> add(CameraSide side, CameraImage& image);
   /// Images that found no partner so far.
   [[nodiscard]] std::int64_t unpaired() const { return unpaired_; }
   /// A connection is new: what waits finds no partner any more.

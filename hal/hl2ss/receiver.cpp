@@ -74,7 +74,7 @@ Status Receiver::add_all(std::int64_t filetime_offset) {
 Status Receiver::add_cameras() {
   const Duration silence = options_.standin_port > 0 ? kPacedSilence : kSilence;
   ImageSink& sink = *this;
-  for (const Side side : {Side::kLeft, Side::kRight}) {
+  for (const CameraSide side : {CameraSide::kLeft, CameraSide::kRight}) {
     std::unique_ptr<H264Decoder> decoder;
     if (options_.profile != VideoProfile::kRaw) {
       auto made = H264Decoder::create(kImageWidthPx, kImageHeightPx);
@@ -86,8 +86,8 @@ Status Receiver::add_cameras() {
     const VideoRequest request{
         Mode::kVideoAndPose, 1, options_.profile, options_.bitrate,
         VideoOptions{kGopSize, 0.0, -(options_.stamps_late / Duration(100))}};
-    const Service service = side == Side::kLeft ? Service::kLeftFront : Service::kRightFront;
-    add(side == Side::kLeft ? "left camera" : "right camera",
+    const Service service = side == CameraSide::kLeft ? Service::kLeftFront : Service::kRightFront;
+    add(side == CameraSide::kLeft ? "left camera" : "right camera",
         options_.first_port + offset_of(service), kGreyCameraInterval, silence,
         [&](ArrivalMeter& meter) {
           return std::make_unique<VideoStream>(side, request, std::move(decoder), meter, time_,
@@ -170,7 +170,7 @@ void Receiver::run() {
   }
 }
 
-void Receiver::take(Side side, CameraImage& image) {
+void Receiver::take(CameraSide side, CameraImage& image) {
   heard_ = true;
   if (time_.stamps.restarts() != restarts_) {
     restarts_ = time_.stamps.restarts();
@@ -205,7 +205,7 @@ void Receiver::publish(const Pairer::Pair& pair) {
   pairs_.put(pair, map_epoch_);
 }
 
-void Receiver::lost(Side /*side*/) {
+void Receiver::lost(CameraSide /*side*/) {
   was_lost_ = true;
   pairer_.forget();
   pairs_.clear();

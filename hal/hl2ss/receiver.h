@@ -78,8 +78,8 @@ class Receiver final : private ImageSink {
             Make make) ORTHONAV_REQUIRES(mutex_);
   void run() ORTHONAV_EXCLUDES(mutex_);
   // Called by the streams, which `run` lets go on under the mutex.
-  void take(Side side, CameraImage& image) override ORTHONAV_REQUIRES(mutex_);
-  void lost(Side side) override ORTHONAV_REQUIRES(mutex_);
+  void take(CameraSide side, CameraImage& image) override ORTHONAV_REQUIRES(mutex_);
+  void lost(CameraSide side) override ORTHONAV_REQUIRES(mutex_);
   void publish(const Pairer::Pair& pair) ORTHONAV_REQUIRES(mutex_);
 
   net::Endpoint host_;

@@ -16,17 +16,17 @@ class ImageSink {
  public:
   virtual ~ImageSink() = default;
   /// May swap the image's buffers for others.
-  virtual void take(Side side, CameraImage& image) = 0;
-  virtual void lost(Side side) = 0;
+  virtual void take(CameraSide side, CameraImage& image) = 0;
+  virtual void lost(CameraSide side) = 0;
 };
 
 /// One front camera with poses, raw or decoded.
 class VideoStream final : public PacketStream {
  public:
   /// `decoder` is null for raw images.
-  VideoStream(Side side, const VideoRequest& request, std::unique_ptr<H264Decoder> decoder,
+  VideoStream(CameraSide side, const VideoRequest& request, std::unique_ptr<H264Decoder> decoder,
               ArrivalMeter& meter, HeadsetTime& time, ImageSink& sink)
-      : PacketStream(side == Side::kLeft ? "left camera" : "right camera", {kMaxImagePayload, true},
+      : PacketStream(side == CameraSide::kLeft ? "left camera" : "right camera", {kMaxImagePayload, true},
                      meter, time),
         side_(side),
         request_(request),
@@ -48,7 +48,7 @@ class VideoStream final : public PacketStream {
   Status take_raw(Bytes picture);
   Result<bool> take_h264(Bytes access_unit, std::int64_t unit, bool in_order);
 
-  Side side_;
+  CameraSide side_;
   VideoRequest request_;
   std::unique_ptr<H264Decoder> decoder_;
   ImageSink& sink_;

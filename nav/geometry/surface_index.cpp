@@ -12,7 +12,7 @@ namespace orthonav::nav {
 namespace {
 
 using Lanes = BoxTree::Lanes;
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kInfinitelyFar = std::numeric_limits<double>::infinity();
 
 /// How far the boxes of a node are from a place, in single precision.
 class PlaceToBoxes {
@@ -25,7 +25,7 @@ class PlaceToBoxes {
       place_m_[static_cast<std::size_t>(axis)] =
           static_cast<float>(std::clamp(place_m[axis], -kBeyond_m, kBeyond_m));
     }
-    rounding_m_ = largest_m < kBeyond_m ? kRounding * largest_m : kFar;
+    rounding_m_ = largest_m < kBeyond_m ? kRounding * largest_m : kInfinitelyFar;
   }
 
   /// The largest key that a box within `within_m` can have, however keys are rounded.
@@ -82,7 +82,7 @@ class RayToBoxes {
       const Span z = within(node, 2, i);
       const double entry = std::max(std::max(x.entry, y.entry), std::max(z.entry, whole.entry));
       const double exit = std::min(std::min(x.exit, y.exit), std::min(z.exit, whole.exit));
-      entries[i] = entry <= exit ? entry : kFar;
+      entries[i] = entry <= exit ? entry : kInfinitelyFar;
     }
   }
 
@@ -156,7 +156,7 @@ std::optional<RayHit> SurfaceIndex::first_hit(Vec3 origin_m, Vec3 direction) con
     return std::nullopt;
   }
   const Vec3 unit = direction / length;
-  double best = kFar;
+  double best = kInfinitelyFar;
   std::size_t hit = corners_.size();
   // What is out of the ray's way has an infinite key.
   double limit = std::numeric_limits<double>::max();
