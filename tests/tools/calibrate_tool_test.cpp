@@ -140,7 +140,7 @@ TEST(CalibrateTool, RefusesATagThatIsMountedTurnedAndSaysWhichWay) {
   for (const Case& c : cases) {
     const std::string recording = folder.file("recording");
     std::filesystem::remove_all(recording);
-    record_prism(recording, 30, 99, c.turned);
+    record_prism(recording, 20, 99, c.turned);
     const Called called = calibrated_against(own, recording, out);
     EXPECT_EQ(called.code, 1) << c.expected;
     EXPECT_THAT(called.err, HasSubstr("refused: tool calibration: " + c.expected +
@@ -150,7 +150,7 @@ TEST(CalibrateTool, RefusesATagThatIsMountedTurnedAndSaysWhichWay) {
   }
   // As described: the poses are measured, and the file says so.
   const std::string recording = folder.file("upright");
-  record_prism(recording);
+  record_prism(recording, 20);
   const Called upright = calibrated_against(own, recording, out);
   ASSERT_EQ(upright.code, 0) << upright.err;
   expect_prism(engine::load_tools(out)->front());
