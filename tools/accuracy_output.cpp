@@ -124,8 +124,8 @@ void append_turning(const nav::TurningPart& part, std::string& text) {
   append_printed(text,
                  "  tip bias %+.2f %+.2f %+.2f mm in the marker's axes (SD %.2f mm), %.2f mm RMS "
                  "without it\n",
-                 millimetres(bias.x), millimetres(bias.y), millimetres(bias.z), millimetres(part.tip_bias_sigma_m),
-                 millimetres(part.residual_rms_m));
+                 millimetres(bias.x), millimetres(bias.y), millimetres(bias.z),
+                 millimetres(part.tip_bias_sigma_m), millimetres(part.residual_rms_m));
   for (const nav::TiltBin& bin : part.bins) {
     if (bin.samples > 0) {
       append_printed(text, "  tilt %2.0f-%2.0f°: RMS %.2f mm, max %.2f mm, %zu poses\n",
@@ -139,8 +139,8 @@ void append_distances(const nav::DistancePart& part, std::string& text) {
   append_part("distances", part, text);
   append_printed(text,
                  "  %zu distances of %zu points: mean error %+.2f mm, SD %.2f mm, RMS %.2f mm\n",
-                 part.distances, part.points.size(), millimetres(part.mean_error_m), millimetres(part.sd_m),
-                 millimetres(part.rms_m));
+                 part.distances, part.points.size(), millimetres(part.mean_error_m),
+                 millimetres(part.sd_m), millimetres(part.rms_m));
   if (part.stray_rests > 0) {
     append_printed(text, "  %zu rests that touched no point left out\n", part.stray_rests);
   }
@@ -168,7 +168,8 @@ std::string accuracy_text(const AccuracySubject& subject, const nav::AccuracyRep
   append_part("single-point repeatability", report.single_point, text);
   append_spread(report.single_point.spread, text);
   if (report.single_point.predicted_rms_m) {
-    append_printed(text, "  predicted RMS %.2f mm\n", millimetres(*report.single_point.predicted_rms_m));
+    append_printed(text, "  predicted RMS %.2f mm\n",
+                   millimetres(*report.single_point.predicted_rms_m));
   }
   append_turning(report.turning, text);
   if (report.distances) {

@@ -200,9 +200,9 @@ std::string report_json(const OperationResult& result) {
 
 std::string timing_json(const LoopReport& loop) {
   return dumped(Json{{"step_wall", series(loop.step_wall_ms)},
-                      {"draw_wall", series(loop.draw_wall_ms)},
-                      {"drawn", loop.drawn},
-                      {"dropped_snapshots", loop.dropped_snapshots}});
+                     {"draw_wall", series(loop.draw_wall_ms)},
+                     {"drawn", loop.drawn},
+                     {"dropped_snapshots", loop.dropped_snapshots}});
 }
 
 }  // namespace orthonav::engine

@@ -26,8 +26,8 @@ class VideoStream final : public PacketStream {
   /// `decoder` is null for raw images.
   VideoStream(CameraSide side, const VideoRequest& request, std::unique_ptr<H264Decoder> decoder,
               ArrivalMeter& meter, HeadsetTime& time, ImageSink& sink)
-      : PacketStream(side == CameraSide::kLeft ? "left camera" : "right camera", {kMaxImagePayload, true},
-                     meter, time),
+      : PacketStream(side == CameraSide::kLeft ? "left camera" : "right camera",
+                     {kMaxImagePayload, true}, meter, time),
         side_(side),
         request_(request),
         decoder_(std::move(decoder)),
