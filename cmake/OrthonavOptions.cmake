@@ -1,5 +1,6 @@
 option(ORTHONAV_BUILD_TESTS "Build the tests" ON)
 option(ORTHONAV_BUILD_BENCH "Build the benchmarks" OFF)
+option(ORTHONAV_HEADSET "Only what runs on a headset: no window, no voice, no video, no command" OFF)
 option(ORTHONAV_PYTHON "Build the Python module" OFF)
 set(ORTHONAV_SANITIZE "" CACHE STRING "Sanitizers for every target: address,undefined or thread")
 option(ORTHONAV_FUZZ "Build the fuzzers of tests/fuzz (clang)" OFF)

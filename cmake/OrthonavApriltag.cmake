@@ -1,0 +1,9 @@
+# AprilTag for another processor, as the target apriltag::apriltag. Debian's package of its headers is for one architecture
+# at a time, and names the library of that one; the headers are the same for all.
+if(CMAKE_CROSSCOMPILING AND NOT TARGET apriltag::apriltag)
+  find_library(APRILTAG_LIBRARY NAMES apriltag libapriltag.so.3 REQUIRED)
+  find_path(APRILTAG_INCLUDE_DIR apriltag.h PATH_SUFFIXES apriltag REQUIRED)
+  add_library(apriltag::apriltag SHARED IMPORTED GLOBAL)
+  set_target_properties(apriltag::apriltag PROPERTIES
+    IMPORTED_LOCATION "${APRILTAG_LIBRARY}" INTERFACE_INCLUDE_DIRECTORIES "${APRILTAG_INCLUDE_DIR}")
+endif()
