@@ -176,12 +176,16 @@ std::string screws_table(const RegisteredLevel& level) {
   if (level.screws.empty()) {
     return "";
   }
-  const bool judged = is_best(level) && !holds_common(level);
+  // A small error of a pose that is refused is no good news.
+  const bool accepted = level.registration.accepted;
+  const bool judged = is_best(level) && !holds_common(level) && accepted;
   const auto head = [&](const std::string& name, const JudgedFigure& of) {
     return "<th>" + name + (judged ? " <small>" + limit_text(of) + "</small>" : "") + "</th>";
   };
-  std::string out = "<table class=compact><thead><tr><th>errors to expect <small>mm</small></th>" +
-                    head("RMS", rms_figure(0.0, judged)) + "<th>95 of 100 below</th>" +
+  std::string out = "<table class=compact><thead><tr><th>" +
+                    std::string(accepted ? "errors to expect" : "errors, were this pose right") +
+                    " <small>mm</small></th>" + head("RMS", rms_figure(0.0, judged)) +
+                    "<th>95 of 100 below</th>" +
                     "<th>SD sideways</th><th>SD front to back</th><th>SD along the spine</th></tr>"
                     "</thead><tbody>";
   for (const ScrewErrors& e : errors_at_screws(level)) {

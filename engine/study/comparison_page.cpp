@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/study/study_page_frame.h"
 
@@ -11,44 +12,46 @@ namespace {
 
 std::string signed_number(double value) { return (value > 0.0 ? "+" : "") + html_number(value, 2); }
 
-std::string interval_cell(const MeanInterval& interval) {
+std::string interval_text(const MeanInterval& interval) {
   return std::isfinite(interval.low)
              ? signed_number(interval.low) + " to " + signed_number(interval.high)
              : "<small>too few operations</small>";
 }
 
 void add_compared(const StudyComparison& comparison, std::string& html) {
-  const std::string first = html_escaped(comparison.first);
-  const std::string second = html_escaped(comparison.second);
-  html += "<section><h2>Means, pair by pair</h2><table><thead><tr><th></th><th>" + first +
-          "</th><th>" + second + "</th><th>" + first + " less " + second +
-          "</th><th>95 % interval</th><th>operations</th><th>pairs</th></tr></thead><tbody>";
+  HtmlTable table({{""},
+                   {comparison.first},
+                   {comparison.second},
+                   {comparison.first + " less " + comparison.second},
+                   {"95 % interval"},
+                   {"operations"},
+                   {"pairs"}});
   for (const ComparedQuantity& q : comparison.quantities) {
-    html += "<tr><th scope=row>" + std::string(q.quantity.name) + " <small>" +
-            std::string(q.quantity.unit) + "</small></th><td>" + html_number(q.first_mean, 2) +
-            "</td><td>" + html_number(q.second_mean, 2) + "</td><td><b>" +
-            signed_number(q.difference.mean) + "</b></td><td>" + interval_cell(q.difference) +
-            "</td><td>" + std::to_string(q.operations.size()) + "</td><td>" +
-            std::to_string(q.pairs) + (q.quantity.per_screw ? " screws" : " levels") + "</td></tr>";
+    table.row(std::string(q.quantity.name) + " <small>" + std::string(q.quantity.unit) +
+              "</small>");
+    table.cell(html_number(q.first_mean, 2));
+    table.cell(html_number(q.second_mean, 2));
+    table.cell("<b>" + signed_number(q.difference.mean) + "</b>");
+    table.cell(interval_text(q.difference));
+    table.cell(std::to_string(q.operations.size()));
+    table.cell(std::to_string(q.pairs) + (q.quantity.per_screw ? " screws" : " levels"));
   }
-  html +=
-      "</tbody></table><p class=notes>Each operation counts once, with the mean over the screws or "
-      "levels that have a value in both studies. Intervals by Student's t over the "
-      "operations.</p></section>";
+  html += "<section><h2>Means, pair by pair</h2>" + table.html() +
+          "<p class=notes>Each operation counts once, with the mean over the screws or "
+          "levels that have a value in both studies. Intervals by Student's t over the "
+          "operations.</p></section>";
 }
 
 void add_completed(const StudyComparison& comparison, std::string& html) {
+  HtmlTable table({{""}, {"completed, of those in both"}, {"in this study alone"}});
   const auto row = [&](const std::string& name, std::size_t completed, std::size_t alone) {
-    html += "<tr><th scope=row>" + html_escaped(name) + "</th><td>" + std::to_string(completed) +
-            " of " + std::to_string(comparison.operations) + "</td><td>" + std::to_string(alone) +
-            "</td></tr>";
+    table.row(html_escaped(name));
+    table.cell(std::to_string(completed) + " of " + std::to_string(comparison.operations));
+    table.cell(std::to_string(alone));
   };
-  html +=
-      "<section><h2>Operations</h2><table><thead><tr><th></th><th>completed, of those in both</th>"
-      "<th>in this study alone</th></tr></thead><tbody>";
   row(comparison.first, comparison.completed_first, comparison.only_first);
   row(comparison.second, comparison.completed_second, comparison.only_second);
-  html += "</tbody></table></section>";
+  html += "<section><h2>Operations</h2>" + table.html() + "</section>";
 }
 
 nlohmann::json charts_of(const StudyComparison& comparison) {

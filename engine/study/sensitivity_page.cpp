@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/study/study_page_frame.h"
 
@@ -12,16 +13,14 @@ namespace {
 constexpr std::size_t kMostBars = 20;
 
 void add_effects(const std::vector<Sensitivity>& found, std::string& html) {
-  html +=
-      "<section><h2>All of them</h2><table><thead><tr><th>magnitude</th><th>range</th><th>entry, "
-      "mm</th><th>angle, °</th></tr></thead><tbody>";
+  HtmlTable table({{"magnitude"}, {"range"}, {"entry", "mm"}, {"angle", "°"}});
   for (const Sensitivity& s : found) {
-    html += "<tr><th scope=row><code>" + html_escaped(s.magnitude) + "</code></th><td>" +
-            formatted("%g to %g ", s.low, s.high) + html_escaped(s.unit) + "</td><td>" +
-            html_number(s.entry_mm, 2) + " ± " + html_number(s.entry_spread_mm, 2) + "</td><td>" +
-            html_number(s.angle_deg, 2) + " ± " + html_number(s.angle_spread_deg, 2) + "</td></tr>";
+    table.row("<code>" + html_escaped(s.magnitude) + "</code>");
+    table.cell(formatted("%g to %g ", s.low, s.high) + html_escaped(s.unit));
+    table.cell(html_number(s.entry_mm, 2) + " ± " + html_number(s.entry_spread_mm, 2));
+    table.cell(html_number(s.angle_deg, 2) + " ± " + html_number(s.angle_spread_deg, 2));
   }
-  html += "</tbody></table></section>";
+  html += "<section><h2>All of them</h2>" + table.html() + "</section>";
 }
 
 nlohmann::json bars_of(const std::vector<Sensitivity>& found, const char* title, const char* axis,

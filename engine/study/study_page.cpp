@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/report_values.h"
 #include "engine/study/study_page_frame.h"
@@ -52,24 +53,23 @@ std::vector<WorstScrew> screws_of(const nlohmann::json& study) {
 }
 
 void add_means(const nlohmann::json& study, std::string& html) {
-  html +=
-      "<section><h2>Means</h2><table><thead><tr><th></th><th>mean ± SD</th>"
-      "<th>95 % interval of the mean</th><th>n</th><th>operations</th></tr></thead><tbody>";
+  HtmlTable table({{""}, {"mean ± SD"}, {"95 % interval of the mean"}, {"n"}, {"operations"}});
   for (const ReportQuantity& shown : kShown) {
     const auto mean = mean_over(study, shown.key, shown.per_screw);
     if (!mean) {
       continue;
     }
     const double half = kIn95 * mean->standard_error;
-    html += "<tr><th scope=row>" + std::string(shown.name) + " <small>" + std::string(shown.unit) +
-            "</small></th><td>" + html_number(mean->mean, 2) + " ± " + html_number(mean->sd, 2) +
-            "</td><td>" + html_number(mean->mean - half, 2) + "–" +
-            html_number(mean->mean + half, 2) + "</td><td>" + std::to_string(mean->values) +
-            "</td><td>" + std::to_string(mean->operations) + "</td></tr>";
+    table.row(std::string(shown.name) + " <small>" + std::string(shown.unit) + "</small>");
+    table.cell(html_number(mean->mean, 2) + " ± " + html_number(mean->sd, 2));
+    table.cell(html_number(mean->mean - half, 2) + "–" + html_number(mean->mean + half, 2));
+    table.cell(std::to_string(mean->values));
+    table.cell(std::to_string(mean->operations));
   }
   html +=
-      "</tbody></table><p class=notes>The screws of one operation share errors: intervals are from "
-      "the means of operations.</p></section>";
+      "<section><h2>Means</h2>" + table.html() +
+      "<p class=notes>The screws of one operation share errors: intervals are from the means of "
+      "operations.</p></section>";
 }
 
 void add_registrations(const nlohmann::json& study, std::string& html) {
@@ -114,16 +114,18 @@ void add_guided(const nlohmann::json& study, std::string& html) {
       ", without a warning: " + count_of(guided["unwarned_breaches"]) + ".</p></section>";
 }
 
+TableColumn to_repeat() { return {"to repeat it", "", true}; }
+
 /// A command that is broken before its options only, so that it reads well and is copied whole.
-std::string command_cell(const std::string& command) {
-  std::string html = "<td class=again><code>";
+std::string command_html(const std::string& command) {
+  std::string html = "<code>";
   std::size_t from = 0;
   for (std::size_t next = 0; next != std::string::npos; from = next + 1) {
     next = command.find(" --", from);
     html += "<span>" + html_escaped(command.substr(from, next - from)) +
             (next == std::string::npos ? "</span>" : "</span> ");
   }
-  return html + "</code></td>";
+  return html + "</code>";
 }
 
 /// In the preview, on the phantom.
@@ -139,40 +141,36 @@ void add_worst(std::vector<WorstScrew> screws, const ReplayCommand& replay, std:
     return a.angle_deg > b.angle_deg;
   });
   screws.resize(std::min(screws.size(), kWorst));
-  html +=
-      "<section><h2>The worst screws</h2><table><thead><tr><th></th><th>seed</th><th>angle, "
-      "°</th><th>entry, mm</th><th class=again>to repeat it</th></tr></thead><tbody>";
+  HtmlTable table({{""}, {"seed"}, {"angle", "°"}, {"entry", "mm"}, to_repeat()});
   for (const WorstScrew& screw : screws) {
-    html += "<tr><th scope=row>" + html_escaped(screw.case_name + ", " + screw.place) +
-            "</th><td>" + std::to_string(screw.seed) + "</td><td>" +
-            html_number(screw.angle_deg, 2) + "</td><td>" +
-            (screw.entry_mm ? html_number(*screw.entry_mm, 2) : "–") + "</td>" +
-            command_cell(replay(screw.case_name, screw.seed)) + "</tr>";
+    table.row(html_escaped(screw.case_name + ", " + screw.place));
+    table.cell(std::to_string(screw.seed));
+    table.cell(html_number(screw.angle_deg, 2));
+    table.cell(screw.entry_mm ? html_number(*screw.entry_mm, 2) : "–");
+    table.cell(command_html(replay(screw.case_name, screw.seed)), "again");
   }
-  html += "</tbody></table></section>";
+  html += "<section><h2>The worst screws</h2>" + table.html() + "</section>";
 }
 
 void add_not_completed(const nlohmann::json& study, const ReplayCommand& replay,
                        std::string& html) {
   std::size_t count = 0;
-  std::string rows;
+  HtmlTable table({{""}, {"seed"}, {"why", "", true}, to_repeat()});
   for (const auto& run : study["runs"]) {
     if (run.value("completed", true) || ++count > kWorst) {
       continue;
     }
     const std::string name = run.value("case", "");
     const auto seed = run.value("seed", std::uint64_t{0});
-    rows += "<tr><th scope=row>" + html_escaped(name) + "</th><td>" + std::to_string(seed) +
-            "</td><td>" + html_escaped(run.value("why_not", "")) + "</td>" +
-            command_cell(replay(name, seed)) + "</tr>";
+    table.row(html_escaped(name));
+    table.cell(std::to_string(seed));
+    table.cell(html_escaped(run.value("why_not", "")));
+    table.cell(command_html(replay(name, seed)), "again");
   }
   if (count == 0) {
     return;
   }
-  html +=
-      "<section><h2>Not completed</h2><table><thead><tr><th></th><th>seed</th><th>why</th>"
-      "<th class=again>to repeat it</th></tr></thead><tbody>" +
-      rows + "</tbody></table>";
+  html += "<section><h2>Not completed</h2>" + table.html();
   if (count > kWorst) {
     html += "<p class=notes>The first " + std::to_string(kWorst) + " of " + std::to_string(count) +
             ".</p>";

@@ -1,7 +1,7 @@
-// orthonav_replayed RECORDING POSES: runs a recorded operation on the lowest level of the built-in phantom again, with
-// nothing drawn. Writes report.json to standard output, and into the file POSES a line for each tool of each pair: the
-// pair's time, the step, how the pose is known, and world_from_marker by rows, in metres. Ends with 1 and a line where
-// it cannot.
+// orthonav_replayed RECORDING POSES: runs a recorded operation on the lowest level of the built-in
+// phantom again, with nothing drawn. Writes report.json to standard output, and into the file POSES
+// a line for each tool of each pair: the pair's time, the step, how the pose is known, and
+// world_from_marker by rows, in metres. Ends with 1 and a line where it cannot.
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
@@ -70,8 +70,8 @@ Result<std::string> replayed(const char* recording, std::ostream& poses) {
   if (!report) {
     return report.error();
   }
-  return report_json(
-      outcome_of((*operation)->session().levels(), (*operation)->session().rods(), *std::move(report)));
+  return report_json(outcome_of((*operation)->session().levels(), (*operation)->session().rods(),
+                                *std::move(report)));
 }
 
 }  // namespace
@@ -85,7 +85,8 @@ int main(int argc, char** argv) {
   std::ofstream poses(argv[2]);
   const auto report = orthonav::engine::replayed(argv[1], poses);
   if (!report || !poses.flush()) {
-    std::fprintf(stderr, "%s\n", report ? "the file of poses cannot be written" : report.error().message.c_str());
+    std::fprintf(stderr, "%s\n",
+                 report ? "the file of poses cannot be written" : report.error().message.c_str());
     return 1;
   }
   std::fputs(report->c_str(), stdout);

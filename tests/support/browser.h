@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+#include <fstream>
 #include <string>
 
 #include "tests/support/temporary_folder.h"
@@ -36,6 +37,23 @@ inline std::string page_in_browser(const std::string& address, int script_ms) {
       "--allow-file-access-from-files --user-data-dir=" +
       profile.path().string() + " --virtual-time-budget=" + std::to_string(script_ms) +
       " --dump-dom '" + address + "'");
+}
+
+/// Tables, drawings and charts of a page that run off a phone's screen, by their classes; empty
+/// where all fit, "?" where the browser failed. The page must end with </body>.
+inline std::string too_wide_for_a_phone(std::string page) {
+  // The script stands at the end, when all is laid out.
+  page.insert(page.rfind("</body>"),
+              "<script>let wide='';for(const t of document.querySelectorAll('table,svg,canvas'))"
+              "if(t.getBoundingClientRect().right>document.documentElement.clientWidth)"
+              "wide+=' '+(t.className||t.tagName);parent.document.title='wide:'+wide+';'</script>");
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("page.html")) << page;
+  std::ofstream(folder.file("phone.html"))
+      << "<body><iframe style='width:390px;height:800px;border:0' src=page.html></iframe>";
+  const std::string seen = page_in_browser("file://" + folder.file("phone.html"), 3000);
+  const std::size_t from = seen.find("<title>wide:");
+  return from == std::string::npos ? "?" : seen.substr(from + 12, seen.find(';', from) - from - 12);
 }
 
 }  // namespace orthonav::test

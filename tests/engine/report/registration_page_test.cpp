@@ -124,6 +124,19 @@ TEST(RegistrationPage, SaysWhatAllStrokesShareBesideTheLimit) {
               HasSubstr("tip 0.50, cameras 0.30 mm"));
 }
 
+TEST(RegistrationPage, PraisesNoErrorOfAPoseThatIsRefused) {
+  RegisteredLevel level = exact();
+  level.registration.accepted = true;
+  const std::string taken = registration_section(level).value();
+  EXPECT_THAT(taken.substr(taken.find("class=compact")),
+              AllOf(HasSubstr("errors to expect"), HasSubstr("✓")));
+  level.registration.accepted = false;
+  const std::string page = registration_section(level).value();
+  const std::string table = page.substr(page.find("class=compact"));
+  EXPECT_THAT(table.substr(0, table.find("</table>")),
+              AllOf(HasSubstr("errors, were this pose right"), Not(HasSubstr("✓"))));
+}
+
 TEST(RegistrationPage, TellsAFigureFromTheLimitThatItBreaks) {
   RegisteredLevel level = exact();
   level.registration.noise_m = 0.001604;
