@@ -176,9 +176,8 @@ std::string screws_table(const RegisteredLevel& level) {
   if (level.screws.empty()) {
     return "";
   }
-  // A small error of a pose that is refused is no good news.
   const bool accepted = level.registration.accepted;
-  const bool judged = is_best(level) && !holds_common(level) && accepted;
+  const bool judged = is_best(level) && !holds_common(level);
   const auto head = [&](const std::string& name, const JudgedFigure& of) {
     return "<th>" + name + (judged ? " <small>" + limit_text(of) + "</small>" : "") + "</th>";
   };
@@ -190,8 +189,12 @@ std::string screws_table(const RegisteredLevel& level) {
                     "</thead><tbody>";
   for (const ScrewErrors& e : errors_at_screws(level)) {
     const std::string side = name_of(e.side);
-    out +=
-        place_row(side + " entry", e.entry, judged) + place_row(side + " target", e.target, judged);
+    // A small error of a pose that is refused is no good news.
+    const auto row = [&](const char* end, const PlaceError& error) {
+      const bool tells = accepted || !rms_figure(error.rms_m, judged).keeps_limit();
+      return place_row(side + end, error, judged && tells);
+    };
+    out += row(" entry", e.entry) + row(" target", e.target);
   }
   return out + "</tbody></table>";
 }

@@ -26,7 +26,7 @@ class PoseWriter : public LoopObserver {
   }
   void stepped(const StereoFrame& frame, const Inputs&, const Guidance& guidance) override {
     for (const nav::ToolState& tool : session_.tool_states()) {
-      out_ << frame.time.count() << ',' << name_of(guidance.status.at) << ','
+      out_ << frame.time.time_since_epoch().count() << ',' << name_of(guidance.status.at) << ','
            << name_of(tool.world_from_marker.status);
       for (const double value : tool.world_from_marker.value.row_major()) {
         out_ << ',' << value;
