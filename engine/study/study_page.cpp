@@ -9,6 +9,7 @@
 #include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/report_values.h"
+#include "engine/study/mean_interval.h"
 #include "engine/study/study_page_frame.h"
 #include "engine/study/system_table.h"
 
@@ -22,7 +23,7 @@ constexpr std::array<ReportQuantity, 5> kShown = {{
     {"The same, predicted", "mm", "predicted_tre_mm", false},
     {"Registration RMSE", "mm", "rmse_mm", false},
 }};
-constexpr double kIn95 = 1.96;
+constexpr std::size_t kLeastOperations = 3;  ///< for an interval, as in mean_interval
 constexpr std::size_t kWorst = 10;
 
 /// One screw of an operation, for the list of the worst.
@@ -52,6 +53,15 @@ std::vector<WorstScrew> screws_of(const nlohmann::json& study) {
   return screws;
 }
 
+std::string interval_text(const ClusteredMean& mean) {
+  if (mean.operations < kLeastOperations) {
+    return "<small>too few operations</small>";
+  }
+  const double half =
+      student_t_975(static_cast<double>(mean.operations) - 1.0) * mean.standard_error;
+  return html_number(mean.mean - half, 2) + " to " + html_number(mean.mean + half, 2);
+}
+
 void add_means(const nlohmann::json& study, std::string& html) {
   HtmlTable table({{""}, {"mean ± SD"}, {"95 % interval of the mean"}, {"n"}, {"operations"}});
   for (const ReportQuantity& shown : kShown) {
@@ -59,17 +69,16 @@ void add_means(const nlohmann::json& study, std::string& html) {
     if (!mean) {
       continue;
     }
-    const double half = kIn95 * mean->standard_error;
     table.row(std::string(shown.name) + " <small>" + std::string(shown.unit) + "</small>");
     table.cell(html_number(mean->mean, 2) + " ± " + html_number(mean->sd, 2));
-    table.cell(html_number(mean->mean - half, 2) + "–" + html_number(mean->mean + half, 2));
+    table.cell(interval_text(*mean));
     table.cell(std::to_string(mean->values));
     table.cell(std::to_string(mean->operations));
   }
   html +=
       "<section><h2>Means</h2>" + table.html() +
       "<p class=notes>The screws of one operation share errors: intervals are from the means of "
-      "operations.</p></section>";
+      "operations, by Student's t.</p></section>";
 }
 
 void add_registrations(const nlohmann::json& study, std::string& html) {

@@ -56,6 +56,23 @@ TEST(StudyPage, RepeatsAnOperationByTheCommandOfItsStudy) {
   EXPECT_THAT(page, Not(HasSubstr("orthonav preview")));
 }
 
+TEST(StudyPage, GivesNoIntervalOfTooFewOperations) {
+  EXPECT_THAT(study_html(small_study("phantom")), HasSubstr("too few operations"));
+  nlohmann::json study = nlohmann::json::parse(small_study("phantom"));
+  const nlohmann::json run = study["runs"][0];
+  study["runs"] = {run, run, run};
+  for (const int i : {0, 1, 2}) {
+    auto& screws = study["runs"][static_cast<std::size_t>(i)]["levels"][0]["screws"];
+    screws.erase(1);
+    screws[0]["angle_error_deg"] = 1.0 + i;
+    screws[0].erase("entry_error_mm");
+  }
+  // Mean 2, standard error 1/sqrt(3), two degrees of freedom: 2 ± 4.303 / sqrt(3).
+  const std::string page = study_html(study.dump());
+  EXPECT_THAT(page, HasSubstr("−0.48 to 4.48"));
+  EXPECT_THAT(page, Not(HasSubstr("too few operations")));
+}
+
 TEST(StudyPage, DrawsEveryValueItHas) {
   const std::string page = study_html(small_study("phantom"));
   EXPECT_THAT(page, HasSubstr("\"values\":[1.25,6.5]"));
