@@ -44,6 +44,7 @@ struct Variant {
   render::Blend blend = render::Blend::kAdditive;
   XrEnvironmentBlendMode mode = XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
   int tolerance = 0;
+  std::size_t most_beyond = 0;  ///< of the colours, by more than the tolerance
 };
 void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name; }
 
@@ -77,9 +78,12 @@ std::vector<Variant> runtimes() {
       {"turns_only", srgb([](RuntimeTraits& t) { t.position_known = false; })},
       {"young_vulkan", srgb([](RuntimeTraits& t) { t.least_vulkan = XR_MAKE_VERSION(1, 2, 0); })}};
   // Eight bits of linear light: both images round at each of a few blends, sRGB's steps in the
-  // light being up to 2.2 of 255.
+  // light being up to 2.2 of 255. Measured: 0 to 2 of 115,200 colours beyond 4. Where faint lines
+  // lie over each other by the dozen, a colour may be farther off: 4 of 14 runs had one, by up to
+  // 25. A wrong transfer function moves thousands.
   all.push_back({"linear", with([](RuntimeTraits& t) { t.formats = {126, 37}; })});
   all.back().tolerance = 5;
+  all.back().most_beyond = 10;
   all.push_back(
       {"opaque", srgb([](RuntimeTraits& t) { t.blends = {XR_ENVIRONMENT_BLEND_MODE_OPAQUE}; })});
   all.back().mode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
@@ -115,7 +119,8 @@ TEST_P(EveryRuntime, GetsTheFramesThatTheRendererDraws) {
   ASSERT_GE(pairs.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     const auto difference = comparison.compare(pairs[i].first, pairs[i].second);
-    EXPECT_LE(difference.most, variant.tolerance);
+    EXPECT_LE(difference.colours_beyond(variant.tolerance), variant.most_beyond)
+        << "by " << difference.most << " at most";
     EXPECT_GT(difference.lit_px, 100u) << "nothing was there to be compared";
     EXPECT_EQ(pairs[i].second.blend, variant.mode);
     EXPECT_EQ(pairs[i].second.format, variant.traits.formats.back());
