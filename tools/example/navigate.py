@@ -25,9 +25,10 @@ tracked = [(pair.time_s, tracker.track(pair.left, pair.right, pair.time_s, pair.
 for k, tool in enumerate(tools):
     measured = [states[k] for _, states in tracked if states[k].status == "measured"]
     print(f"{tool.name}: measured in {len(measured)} of {len(tracked)} pairs")
-    if measured:
-        sd_m = np.sqrt(np.trace(measured[-1].covariance[:3, :3]))
-        print(f"  last at {measured[-1].world_from_marker[:3, 3].round(3)}, SD {1e3 * sd_m:.2f} mm")
+    last = measured[-1] if measured else None
+    if last is not None and last.covariance is not None and last.world_from_marker is not None:
+        sd_m = np.sqrt(np.trace(last.covariance[:3, :3]))
+        print(f"  last at {last.world_from_marker[:3, 3].round(3)}, SD {1e3 * sd_m:.2f} mm")
 
 # %% Register: points on the bone, here drawn from the model itself with the noise of a pointer
 model = orthonav.VertebraModel(level.vertices, level.triangles)
@@ -77,8 +78,9 @@ def world_from_marker(tip_in_vertebra, axis_in_vertebra):
 
 told = orthonav.guide(model, left_screw, registration, guide, world_from_marker(tip, axis))
 print(f"{np.degrees(told.angle_rad):.1f} deg off, tip {1e3 * told.tip_off_axis_m:.1f} mm beside the axis, "
-      f"{1e3 * told.depth_m:.1f} mm past the entry, clearance {1e3 * told.clearance_m:.1f} mm "
-      f"(95 %: {1e3 * told.clearance_95_m:.1f} mm), grade {told.grade}")
+      f"{1e3 * told.depth_m:.1f} mm past the entry")
+if told.clearance_m is not None and told.clearance_95_m is not None:
+    print(f"clearance {1e3 * told.clearance_m:.1f} mm (95 %: {1e3 * told.clearance_95_m:.1f} mm), grade {told.grade}")
 on_plan = orthonav.guide(model, left_screw, registration, guide,
                          world_from_marker(left_screw.entry, outward))
 
