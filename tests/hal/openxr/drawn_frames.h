@@ -1,9 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -31,16 +29,10 @@ class FrameComparison {
     renderer_ = std::move(*renderer);
   }
 
-  /// The largest difference of any colour of both eyes, of 255; how many colours differ by how
-  /// much; and how many pixels are lit.
+  /// The largest difference of any colour of both eyes, of 255; and how many pixels are lit.
   struct Difference {
     int most = 0;
-    std::array<std::size_t, 256> colours{};
     std::size_t lit_px = 0;
-
-    [[nodiscard]] std::size_t colours_beyond(int tolerance) const {
-      return std::accumulate(colours.begin() + tolerance + 1, colours.end(), std::size_t{0});
-    }
   };
   Difference compare(const DrawnScene& drawn, const SubmittedFrame& frame) {
     std::vector<RgbaImage> images;
@@ -71,9 +63,7 @@ class FrameComparison {
       if (is_linear(format)) {
         wanted = static_cast<int>(std::lround(255.0 * linear_from_srgb(wanted / 255.0)));
       }
-      const int apart = std::abs(wanted - got[from]);
-      difference.most = std::max(difference.most, apart);
-      ++difference.colours[static_cast<std::size_t>(apart)];
+      difference.most = std::max(difference.most, std::abs(wanted - got[from]));
       if (i % 4 == 0 && (got[i] | got[i + 1] | got[i + 2]) != 0) {
         ++difference.lit_px;
       }

@@ -44,7 +44,7 @@ struct Variant {
   render::Blend blend = render::Blend::kAdditive;
   XrEnvironmentBlendMode mode = XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
   int tolerance = 0;
-  std::size_t most_beyond = 0;  ///< of the colours, by more than the tolerance
+  bool head_still = false;
 };
 void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name; }
 
@@ -78,12 +78,13 @@ std::vector<Variant> runtimes() {
       {"turns_only", srgb([](RuntimeTraits& t) { t.position_known = false; })},
       {"young_vulkan", srgb([](RuntimeTraits& t) { t.least_vulkan = XR_MAKE_VERSION(1, 2, 0); })}};
   // Eight bits of linear light: both images round at each of a few blends, sRGB's steps in the
-  // light being up to 2.2 of 255. Measured: 0 to 2 of 115,200 colours beyond 4. Where faint lines
-  // lie over each other by the dozen, a colour may be farther off: 4 of 14 runs had one, by up to
-  // 25. A wrong transfer function moves thousands.
+  // light being up to 2.2 of 255.
   all.push_back({"linear", with([](RuntimeTraits& t) { t.formats = {126, 37}; })});
   all.back().tolerance = 5;
-  all.back().most_beyond = 10;
+  // Where a surface's edge passes through a pixel's centre, shaders/edge.frag decides by the
+  // colours around it on which side the pixel lies. Colours that are rounded otherwise may decide
+  // otherwise, and the pixel is another one, in a few of the views that a swaying head has.
+  all.back().head_still = true;
   all.push_back(
       {"opaque", srgb([](RuntimeTraits& t) { t.blends = {XR_ENVIRONMENT_BLEND_MODE_OPAQUE}; })});
   all.back().mode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
@@ -104,6 +105,9 @@ class EveryRuntime : public RuntimeTest, public ::testing::WithParamInterface<Va
 TEST_P(EveryRuntime, GetsTheFramesThatTheRendererDraws) {
   const Variant& variant = GetParam();
   runtime().reset(variant.traits);
+  if (variant.head_still) {
+    runtime().set_head([](XrTime) { return XrPosef{{0, 0, 0, 1}, {0, 0, 0}}; });
+  }
   const engine::GoldenScene& scene = golden("guidance");
   open(head_of(scene));
   ASSERT_TRUE(present().ok());
@@ -119,8 +123,7 @@ TEST_P(EveryRuntime, GetsTheFramesThatTheRendererDraws) {
   ASSERT_GE(pairs.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     const auto difference = comparison.compare(pairs[i].first, pairs[i].second);
-    EXPECT_LE(difference.colours_beyond(variant.tolerance), variant.most_beyond)
-        << "by " << difference.most << " at most";
+    EXPECT_LE(difference.most, variant.tolerance);
     EXPECT_GT(difference.lit_px, 100u) << "nothing was there to be compared";
     EXPECT_EQ(pairs[i].second.blend, variant.mode);
     EXPECT_EQ(pairs[i].second.format, variant.traits.formats.back());
