@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "base/stopwatch.h"
 #include "hal/api/depth_camera.h"
 #include "hal/replay/recorder.h"
 #include "hal/replay/replay_headset.h"
@@ -12,17 +13,26 @@ namespace {
 using orthonav::test::next_pair;
 using orthonav::test::ServedRoom;
 using orthonav::test::TemporaryFolder;
+using orthonav::test::wait_until;
 
-/// What the headset's one depth camera shows while its pairs are taken.
+constexpr std::size_t kEnough = 2;
+
+/// What the headset's one depth camera shows while its pairs are taken. Each pair waits a moment
+/// for the first pictures: a connection that is slower than the pairs would bring none.
 std::vector<DepthFrame> depth_of_session(Headset& headset) {
+  constexpr auto kMoment = std::chrono::milliseconds(40);
   std::vector<DepthFrame> frames;
   StereoFrame pair;
   DepthFrame frame;
   while (next_pair(headset, pair) == Next::kFrame) {
-    for (auto next = headset.depth_cameras().front()->next(frame); next && *next == Next::kFrame;
-         next = headset.depth_cameras().front()->next(frame)) {
-      frames.push_back(frame);
-    }
+    const Stopwatch waited;
+    (void)wait_until([&] {
+      for (auto next = headset.depth_cameras().front()->next(frame); next && *next == Next::kFrame;
+           next = headset.depth_cameras().front()->next(frame)) {
+        frames.push_back(frame);
+      }
+      return frames.size() >= kEnough || waited.elapsed() > kMoment;
+    });
   }
   return frames;
 }
@@ -46,7 +56,7 @@ void expect_recorded(const DepthWish& wish, double limit_s) {
   auto recorder = replay::RecordingHeadset::around(**headset, folder / "session");
   ASSERT_TRUE(recorder.ok()) << recorder.error().message;
   const auto live = depth_of_session(**recorder);
-  ASSERT_GE(live.size(), 2u);
+  ASSERT_GE(live.size(), kEnough);
   ASSERT_TRUE((*recorder)->close().ok()) << (*recorder)->close().error().message;
 
   const auto replayed = replay::ReplayHeadset::open(folder / "session");
