@@ -29,21 +29,11 @@ struct AutoArguments {
   [[nodiscard]] bool in_place() const { return out.empty() && !common.case_folder.empty(); }
 };
 
-std::vector<nav::ImplantSize> implants_of(const engine::ScrewSizes& sizes) {
-  std::vector<nav::ImplantSize> out;
-  for (const engine::ScrewSize& size : sizes.by_diameter) {
-    for (const double length_m : size.lengths_m) {
-      out.push_back({size.diameter_m, length_m});
-    }
-  }
-  return out;
-}
-
 /// Plans one level; its screws replace those that it has.
 JudgedLevel planned(const nav::PlanningRules& rules, const engine::ScrewSizes& sizes,
                     engine::CaseLevel& level) {
   const nav::SurfaceIndex bone(level.mesh);
-  const auto screws = nav::plan_pedicle_screws(level.mesh, bone, implants_of(sizes), rules);
+  const auto screws = nav::plan_pedicle_screws(level.mesh, bone, sizes.implants(), rules);
   JudgedLevel out{level.label, {}, {}};
   level.screws.clear();
   for (const nav::Side side : {nav::Side::kLeft, nav::Side::kRight}) {

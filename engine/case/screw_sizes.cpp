@@ -73,6 +73,16 @@ ScrewSizes ScrewSizes::built_in() {
   return sizes;
 }
 
+std::vector<nav::ImplantSize> ScrewSizes::implants() const {
+  std::vector<nav::ImplantSize> out;
+  for (const ScrewSize& size : by_diameter) {
+    for (const double length_m : size.lengths_m) {
+      out.push_back({size.diameter_m, length_m});
+    }
+  }
+  return out;
+}
+
 const ScrewSize* ScrewSizes::of_diameter(double diameter_m) const {
   const auto found =
       std::find_if(by_diameter.begin(), by_diameter.end(), [diameter_m](const ScrewSize& size) {

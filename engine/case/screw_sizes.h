@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/case/operation.h"
+#include "nav/planning/pedicle_screws.h"
 
 namespace orthonav::engine {
 
@@ -25,6 +26,8 @@ struct ScrewSizes {
   /// 4.5 to 7.5 mm by 0.5 mm and 8.5 mm, each 25 to 60 mm long by 5 mm.
   [[nodiscard]] static ScrewSizes built_in();
 
+  /// Each diameter with each of its lengths.
+  [[nodiscard]] std::vector<nav::ImplantSize> implants() const;
   /// Of that diameter, to 0.05 mm; null: there is none.
   [[nodiscard]] const ScrewSize* of_diameter(double diameter_m) const;
   /// Whether a screw of that diameter and length (to 0.5 mm) is among them.
