@@ -1,6 +1,5 @@
 #include "engine/study/comparison_page.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "engine/report/html_table.h"
@@ -11,12 +10,6 @@ namespace orthonav::engine {
 namespace {
 
 std::string signed_number(double value) { return (value > 0.0 ? "+" : "") + html_number(value, 2); }
-
-std::string interval_text(const MeanInterval& interval) {
-  return std::isfinite(interval.low)
-             ? signed_number(interval.low) + " to " + signed_number(interval.high)
-             : "<small>too few operations</small>";
-}
 
 void add_compared(const StudyComparison& comparison, std::string& html) {
   HtmlTable table({{""},
@@ -32,7 +25,7 @@ void add_compared(const StudyComparison& comparison, std::string& html) {
     table.cell(html_number(q.first_mean, 2));
     table.cell(html_number(q.second_mean, 2));
     table.cell("<b>" + signed_number(q.difference.mean) + "</b>");
-    table.cell(interval_text(q.difference));
+    table.cell(interval_html(q.difference, signed_number));
     table.cell(std::to_string(q.operations.size()));
     table.cell(std::to_string(q.pairs) + (q.quantity.per_screw ? " screws" : " levels"));
   }

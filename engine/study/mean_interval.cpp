@@ -20,12 +20,26 @@ double student_t_975(double freedom) {
               (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / (384.0 * std::pow(freedom, 3.0)));
 }
 
+namespace {
+
+/// Of the standard error on either side of the mean of so many values.
+double factor_of(std::size_t count) {
+  return count < 3 ? std::numeric_limits<double>::quiet_NaN()
+                   : student_t_975(static_cast<double>(count) - 1.0);
+}
+
+MeanInterval around(double mean, double half) { return {mean, mean - half, mean + half}; }
+
+}  // namespace
+
 MeanInterval mean_interval(std::span<const double> values) {
   const nav::Summary summary = nav::summarize(values);
-  const auto n = static_cast<double>(summary.count);
-  const double half = summary.count < 3 ? std::numeric_limits<double>::quiet_NaN()
-                                        : student_t_975(n - 1.0) * summary.sd / std::sqrt(n);
-  return {summary.mean, summary.mean - half, summary.mean + half};
+  return around(summary.mean, factor_of(summary.count) * summary.sd /
+                                  std::sqrt(static_cast<double>(summary.count)));
+}
+
+MeanInterval mean_interval(double mean, double standard_error, std::size_t count) {
+  return around(mean, factor_of(count) * standard_error);
 }
 
 }  // namespace orthonav::engine

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 namespace orthonav::engine {
@@ -14,6 +15,9 @@ struct MeanInterval {
 /// Of values that are independent of each other. Without an interval (both NaN) for fewer than
 /// three.
 [[nodiscard]] MeanInterval mean_interval(std::span<const double> values);
+
+/// The same of a mean of `count` values, or groups of them, whose standard error is known.
+[[nodiscard]] MeanInterval mean_interval(double mean, double standard_error, std::size_t count);
 
 /// The 97.5 % quantile of Student's t: exact for two degrees of freedom, from the normal one
 /// (Abramowitz & Stegun 26.7.5) for three and more, to 0.03.

@@ -9,7 +9,6 @@
 #include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/report_values.h"
-#include "engine/study/mean_interval.h"
 #include "engine/study/study_page_frame.h"
 #include "engine/study/system_table.h"
 
@@ -23,7 +22,6 @@ constexpr std::array<ReportQuantity, 5> kShown = {{
     {"The same, predicted", "mm", "predicted_tre_mm", false},
     {"Registration RMSE", "mm", "rmse_mm", false},
 }};
-constexpr std::size_t kLeastOperations = 3;  ///< for an interval, as in mean_interval
 constexpr std::size_t kWorst = 10;
 
 /// One screw of an operation, for the list of the worst.
@@ -53,14 +51,7 @@ std::vector<WorstScrew> screws_of(const nlohmann::json& study) {
   return screws;
 }
 
-std::string interval_text(const ClusteredMean& mean) {
-  if (mean.operations < kLeastOperations) {
-    return "<small>too few operations</small>";
-  }
-  const double half =
-      student_t_975(static_cast<double>(mean.operations) - 1.0) * mean.standard_error;
-  return html_number(mean.mean - half, 2) + " to " + html_number(mean.mean + half, 2);
-}
+std::string plain_number(double value) { return html_number(value, 2); }
 
 void add_means(const nlohmann::json& study, std::string& html) {
   HtmlTable table({{""}, {"mean ± SD"}, {"95 % interval of the mean"}, {"n"}, {"operations"}});
@@ -71,7 +62,8 @@ void add_means(const nlohmann::json& study, std::string& html) {
     }
     table.row(std::string(shown.name) + " <small>" + std::string(shown.unit) + "</small>");
     table.cell(html_number(mean->mean, 2) + " ± " + html_number(mean->sd, 2));
-    table.cell(interval_text(*mean));
+    table.cell(interval_html(mean_interval(mean->mean, mean->standard_error, mean->operations),
+                             plain_number));
     table.cell(std::to_string(mean->values));
     table.cell(std::to_string(mean->operations));
   }

@@ -1,5 +1,6 @@
 #include "engine/study/study_page_frame.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "embedded/chart_js.h"
@@ -23,6 +24,11 @@ std::string framed(const StudyPage& page, const nlohmann::json& charts) {
       .append("</script><script>")
       .append(embedded::study_js())
       .append("</script></body></html>\n");
+}
+
+std::string interval_html(const MeanInterval& interval, std::string (*number)(double)) {
+  return std::isfinite(interval.low) ? number(interval.low) + " to " + number(interval.high)
+                                     : "<small>too few operations</small>";
 }
 
 }  // namespace orthonav::engine

@@ -3,6 +3,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "engine/study/mean_interval.h"
+
 namespace orthonav::engine {
 
 /// A page about studies that needs nothing else, in the style of the report of an operation.
@@ -16,5 +18,9 @@ struct StudyPage {
 /// values, step, of), `differences` (title, axis, values, mean, low, high) and `bars` (title, axis,
 /// names, values, sds), each a list that may be absent.
 [[nodiscard]] std::string framed(const StudyPage& page, const nlohmann::json& charts);
+
+/// "0.51 to 1.20", its ends as `number` writes them; or why there is no interval.
+[[nodiscard]] std::string interval_html(const MeanInterval& interval,
+                                        std::string (*number)(double));
 
 }  // namespace orthonav::engine

@@ -39,21 +39,33 @@ inline std::string page_in_browser(const std::string& address, int script_ms) {
       " --dump-dom '" + address + "'");
 }
 
-/// Tables, drawings and charts of a page that run off a phone's screen, by their classes; empty
-/// where all fit, "?" where the browser failed. The page must end with </body>.
-inline std::string too_wide_for_a_phone(std::string page) {
-  // The script stands at the end, when all is laid out.
-  page.insert(page.rfind("</body>"),
-              "<script>let wide='';for(const t of document.querySelectorAll('table,svg,canvas'))"
-              "if(t.getBoundingClientRect().right>document.documentElement.clientWidth)"
-              "wide+=' '+(t.className||t.tagName);parent.document.title='wide:'+wide+';'</script>");
+inline constexpr int kPhone_px = 390;
+
+/// What an expression of JavaScript about the document `d` says of a page on a phone's screen, once
+/// it is laid out; "?" where the browser failed.
+inline std::string on_a_phone(const std::string& page, const std::string& expression) {
   const TemporaryFolder folder;
   std::ofstream(folder.file("page.html")) << page;
   std::ofstream(folder.file("phone.html"))
-      << "<body><iframe style='width:390px;height:800px;border:0' src=page.html></iframe>";
+      << "<body><iframe id=f style='width:" << kPhone_px
+      << "px;height:800px;border:0' src=page.html></iframe><script>f.onload=()=>{"
+         "const d=f.contentDocument;document.title='says '+("
+      << expression << ")+';'}</script>";
   const std::string seen = page_in_browser("file://" + folder.file("phone.html"), 3000);
-  const std::size_t from = seen.find("<title>wide:");
-  return from == std::string::npos ? "?" : seen.substr(from + 12, seen.find(';', from) - from - 12);
+  const std::string begin = "<title>says ";
+  const std::size_t from = seen.find(begin);
+  return from == std::string::npos
+             ? "?"
+             : seen.substr(from + begin.size(), seen.find(';', from) - from - begin.size());
+}
+
+/// Tables, drawings and charts of a page that run off a phone's screen, by their classes; empty
+/// where all fit.
+inline std::string too_wide_for_a_phone(const std::string& page) {
+  return on_a_phone(page,
+                    "[...d.querySelectorAll('table,svg,canvas')].filter(t=>"
+                    "t.getBoundingClientRect().right>d.documentElement.clientWidth)"
+                    ".map(t=>t.className||t.tagName).join(' ')");
 }
 
 }  // namespace orthonav::test

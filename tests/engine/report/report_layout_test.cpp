@@ -63,19 +63,10 @@ ReportContent full_content() {
   return content;
 }
 
-constexpr int kPhone_px = 390;
-
 /// How wide a page becomes on a phone, in pixels, as a browser lays it out; -1: it was not opened.
 int width_on_a_phone(const std::string& page) {
-  const test::TemporaryFolder folder;
-  std::ofstream(folder.file("page.html")) << page;
-  std::ofstream(folder.file("phone.html"))
-      << "<body><iframe id=f style='width:" << kPhone_px
-      << "px;height:800px;border:0' src=page.html></iframe><script>f.onload=()=>{"
-         "document.title='width '+f.contentDocument.documentElement.scrollWidth}</script>";
-  const std::string seen = test::page_in_browser("file://" + folder.file("phone.html"), 3000);
-  const std::size_t at = seen.find("<title>width ");
-  return at == std::string::npos ? -1 : std::stoi(seen.substr(at + 13));
+  const std::string width = test::on_a_phone(page, "d.documentElement.scrollWidth");
+  return width == "?" ? -1 : std::stoi(width);
 }
 
 TEST(ReportLayout, FitsAPhone) {
@@ -86,13 +77,13 @@ TEST(ReportLayout, FitsAPhone) {
   ASSERT_TRUE(report.ok()) << report.error().message;
   const int report_px = width_on_a_phone(*report);
   EXPECT_GT(report_px, 0);
-  EXPECT_LE(report_px, kPhone_px);
+  EXPECT_LE(report_px, test::kPhone_px);
   const auto session = read_journal(ORTHONAV_SOURCE_DIR "/tests/data/session.orthonav");
   ASSERT_TRUE(session.ok());
   const int session_px = width_on_a_phone(session_page(*session, "session.orthonav"));
   EXPECT_GT(session_px, 0);
-  EXPECT_LE(session_px, kPhone_px);
-  EXPECT_GT(width_on_a_phone("<!doctype html><p style='width:600px'>wide"), kPhone_px)
+  EXPECT_LE(session_px, test::kPhone_px);
+  EXPECT_GT(width_on_a_phone("<!doctype html><p style='width:600px'>wide"), test::kPhone_px)
       << "a page that does not fit is seen";
 }
 
