@@ -1,5 +1,6 @@
-# AprilTag for another processor, as the target apriltag::apriltag. Debian's package of its headers is for one architecture
-# at a time, and names the library of that one; the headers are the same for all.
+# When cross-compiling: AprilTag as the target apriltag::apriltag, from the headers of this machine's package and the
+# library of the other architecture. libapriltag-dev can be installed for one architecture only, and its CMake files name
+# that one's library; the headers are the same for all.
 if(CMAKE_CROSSCOMPILING AND NOT TARGET apriltag::apriltag)
   find_library(APRILTAG_LIBRARY NAMES apriltag libapriltag.so.3 REQUIRED)
   find_path(APRILTAG_INCLUDE_DIR apriltag.h PATH_SUFFIXES apriltag REQUIRED)

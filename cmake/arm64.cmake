@@ -1,5 +1,5 @@
-# Builds for arm64 on Debian's amd64: crossbuild-essential-arm64, libraries by multiarch (tools/setup --arm64). What is
-# built for arm64 and run by the build or its tests runs under qemu-user.
+# Toolchain: builds for arm64 on amd64 with Debian's cross compiler and multiarch libraries (tools/setup --arm64).
+# Programs that the build or the tests run are run under qemu-user.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
