@@ -21,7 +21,7 @@
 #include <string>
 
 #include "render/float3.h"
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 #include "render/projection.h"
 
 namespace orthonav::bench {

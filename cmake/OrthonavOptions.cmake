@@ -34,6 +34,10 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   add_compile_options(-march=x86-64-v2)
 endif()
 
+if(ORTHONAV_SANITIZE OR ORTHONAV_FUZZ)
+  # As in release (OrthonavHardening.cmake).
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
+endif()
 if(ORTHONAV_SANITIZE)
   add_compile_options("-fsanitize=${ORTHONAV_SANITIZE}" -fno-omit-frame-pointer
                       -fno-sanitize-recover=all)

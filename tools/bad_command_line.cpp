@@ -63,7 +63,7 @@ int bad_command_line(const CLI::App& app, const CLI::ParseError& error) {
   const auto option = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {
     return !word.empty() && word.front() == '-';
   });
-  const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  const bool extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
   if (!unknown.empty() && (extra || asked.command->get_require_subcommand_min() > 0)) {
     message = about_word(extra && option != unknown.end() ? *option : unknown.front(), asked);
   }

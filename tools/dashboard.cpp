@@ -7,10 +7,12 @@
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "base/mutex.h"
 #include "base/printed.h"
+#include "base/stopwatch.h"
 #include "embedded/dashboard_html.h"
 #include "engine/io/image_file.h"
 #include "tools/arguments.h"
@@ -78,22 +80,21 @@ class Dashboard::Server {
     const MutexLock lock(mutex_);
     state_ = std::move(state);
     left_ = left;
-    told_ = Steady::now();
+    since_told_ = Stopwatch();
   }
   void show(const RgbaImage& picture, const std::string& what) {
     const MutexLock lock(mutex_);
     view_ = picture;
     what_ = what;
-    shown_ = Steady::now();
+    since_shown_ = Stopwatch();
   }
   [[nodiscard]] bool looked_at() const {
-    return Steady::now().time_since_epoch().count() < looked_until_.load();
+    const MutexLock lock(mutex_);
+    return since_look_ && since_look_->elapsed() < kLookLasts;
   }
   [[nodiscard]] int port() const { return port_; }
 
  private:
-  using Steady = std::chrono::steady_clock;
-
   void limit_what_is_taken() {
     // The library would share its port with whoever asks for it as well.
     server_.set_socket_options([](int socket) {
@@ -141,23 +142,28 @@ class Dashboard::Server {
       answer.set_content(state(), "application/json");
     });
     server_.Get("/view.png", [this](const httplib::Request&, httplib::Response& answer) {
-      looked_until_ = (Steady::now() + kLookLasts).time_since_epoch().count();
+      look();
       answer_view(answer);
     });
+  }
+
+  void look() {
+    const MutexLock lock(mutex_);
+    since_look_ = Stopwatch();
   }
 
   /// With its age: what is old must not pass for new.
   std::string state() {
     const MutexLock lock(mutex_);
-    const auto age = Steady::now() - told_;
-    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(age).count();
+    const auto ms =
+        std::chrono::duration_cast<std::chrono::milliseconds>(since_told_.elapsed()).count();
     return "{\"age_ms\":" + std::to_string(ms) +
            ",\"view\":" + nlohmann::json(what_is_seen()).dump() +
            ",\"now\":" + (state_.empty() ? "null" : state_) + "}";
   }
 
   [[nodiscard]] bool has_view() const ORTHONAV_REQUIRES(mutex_) {
-    return !view_.pixels.empty() && Steady::now() - shown_ < kViewLasts;
+    return !view_.pixels.empty() && since_shown_.elapsed() < kViewLasts;
   }
 
   [[nodiscard]] std::string what_is_seen() const ORTHONAV_REQUIRES(mutex_) {
@@ -187,14 +193,14 @@ class Dashboard::Server {
     }
   }
 
-  Mutex mutex_;
+  mutable Mutex mutex_;
   std::string state_ ORTHONAV_GUARDED_BY(mutex_);
   GreyImage left_ ORTHONAV_GUARDED_BY(mutex_);
   RgbaImage view_ ORTHONAV_GUARDED_BY(mutex_);
   std::string what_ ORTHONAV_GUARDED_BY(mutex_);
-  Steady::time_point told_ ORTHONAV_GUARDED_BY(mutex_);
-  Steady::time_point shown_ ORTHONAV_GUARDED_BY(mutex_);
-  std::atomic<Steady::rep> looked_until_ = 0;
+  Stopwatch since_told_ ORTHONAV_GUARDED_BY(mutex_);
+  Stopwatch since_shown_ ORTHONAV_GUARDED_BY(mutex_);
+  std::optional<Stopwatch> since_look_ ORTHONAV_GUARDED_BY(mutex_);
   WebAccess access_;
   httplib::Server server_;
   int port_ = -1;

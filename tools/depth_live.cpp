@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "base/printed.h"
+#include "base/stopwatch.h"
 #include "hal/open/open.h"
 #include "tools/command.h"
 #include "tools/depth_listing.h"
@@ -77,21 +78,21 @@ class LiveDepth {
   /// Until there are enough frames or the headset ends; an Error when none comes for long.
   Status take_frames() {
     const std::int64_t enough = frames_wanted();
-    auto last = std::chrono::steady_clock::now();
+    Stopwatch since_last;
     while (taken_ < enough && !(found_ && !arguments_.all)) {
       const auto next = camera_.next(frame_);
       if (next && *next == Next::kEnd) {
         break;
       }
       if (next && *next == Next::kFrame) {
-        last = std::chrono::steady_clock::now();
+        since_last = Stopwatch();
         take();
         continue;
       }
       // Taking the pairs advances the clock of a headset that waits for its client, and tells the
       // map.
       const auto pair = headset_.cameras().next(pair_);
-      if (std::chrono::steady_clock::now() - last > kNoFrameFor) {
+      if (since_last.elapsed() > kNoFrameFor) {
         return Error{arguments_.source + ": no frame of " + name_of(camera_.calibration().stream) +
                      " within 10 s" + trouble_of(headset_)};
       }

@@ -23,7 +23,7 @@ struct DetectArguments {
   std::vector<std::string> images;
   std::vector<std::string> families = {"tag36h11"};
   std::optional<int> max_hamming;
-  double min_log_likelihood_ratio = 25.0;
+  double min_decision_margin = 25.0;
   double decimate = 1.0;
   std::string refine = "edges";
   bool json = false;
@@ -56,7 +56,7 @@ Result<std::vector<Seen>> detect_all(const DetectArguments& arguments) {
   nav::DetectorOptions options;
   options.families = arguments.families;
   options.max_hamming = arguments.max_hamming.value_or(default_hamming(arguments.families));
-  options.min_decision_margin = arguments.min_log_likelihood_ratio;
+  options.min_decision_margin = arguments.min_decision_margin;
   options.decimate = arguments.decimate;
   options.refinement = refinements().at(arguments.refine);
   auto detector = nav::MarkerDetector::create(options);
@@ -147,7 +147,7 @@ void add_detect_command(CLI::App& app, Action& action) {
                    "Corrected bits, 0-2; default: 2, or 1 for families of over 10,000 codes")
       ->check(whole_number(0, 2));
   command
-      ->add_option("--min-margin", arguments->min_log_likelihood_ratio,
+      ->add_option("--min-margin", arguments->min_decision_margin,
                    "Least decision margin, grey levels: weaker tags are left out")
       ->check(finite_number(0, 255))
       ->capture_default_str();

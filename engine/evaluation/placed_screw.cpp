@@ -45,12 +45,12 @@ nav::PoseUncertainty total_uncertainty(const Shaft& shaft, const BoneRegistratio
   const Vec3 across = vertebra_from_scan.rotation() * shaft.line.across;
   const Vec3 athwart = vertebra_from_scan.rotation() * shaft.line.athwart;
   const Vec3 middle_m = (vertebra_from_scan * Point<Scan>{shaft.line.middle_m}).v;
-  const Vec3 arm_m = bone.uncertainty.centre_m() - middle_m;
+  const Vec3 lever_arm_m = bone.uncertainty.centre_m() - middle_m;
   // A turn about the middle of the shaft is one about the centre, and a shift.
   const std::array<std::array<Vec3, 2>, 4> motions = {{{across, {}},
                                                        {athwart, {}},
-                                                       {athwart.cross(arm_m), athwart},
-                                                       {(-across).cross(arm_m), -across}}};
+                                                       {athwart.cross(lever_arm_m), athwart},
+                                                       {(-across).cross(lever_arm_m), -across}}};
   Eigen::Matrix<double, 6, 4> motion;
   for (Eigen::Index c = 0; c < 4; ++c) {
     const auto& [shift, turn] = motions[static_cast<std::size_t>(c)];

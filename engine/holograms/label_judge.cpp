@@ -6,7 +6,7 @@
 #include "engine/holograms/hologram_cross.h"
 #include "engine/holograms/hologram_label.h"
 #include "render/float3.h"
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 
 namespace orthonav::engine {
 namespace {

@@ -13,7 +13,7 @@ namespace {
 constexpr LabelMargins kToStay = {0.0010f, -0.0008f};  // within what is left free around ink
 constexpr LabelMargins kToCome = {0.0035f, 0.0f};
 
-constexpr Duration kForgotten = std::chrono::seconds(2);
+constexpr Duration kForgetAfter = std::chrono::seconds(2);
 constexpr float kLeaderWidth_m = 0.0004f;
 constexpr float kLeaderOpacity = 0.6f;
 
@@ -37,10 +37,10 @@ void LabelLayout::lay_out(render::Scene& scene, const std::vector<render::View>&
 }
 
 void LabelLayout::forget(Timestamp shown_at) {
-  const bool jumped = shown_at < now_ || shown_at - kForgotten > now_;
+  const bool jumped = shown_at < now_ || shown_at - kForgetAfter > now_;
   now_ = shown_at;
   std::erase_if(kept_,
-                [&](const Kept& kept) { return jumped || kept.seen < shown_at - kForgotten; });
+                [&](const Kept& kept) { return jumped || kept.seen < shown_at - kForgetAfter; });
 }
 
 LabelLayout::Kept& LabelLayout::kept_of(render::Label label, const LabelSubject& subject) {

@@ -27,9 +27,19 @@ bool names_something(Label label) {
     case HologramKind::kRod:
     case HologramKind::kCheckPoint:
       return true;
-    default:
+    case HologramKind::kPath:
+    case HologramKind::kVertebra:
+    case HologramKind::kTrajectory:
+    case HologramKind::kTriangle:
+    case HologramKind::kAngle:
+    case HologramKind::kCross:
+    case HologramKind::kTwin:
+    case HologramKind::kDepth:
+    case HologramKind::kStatus:
+    case HologramKind::kNumbers:
       return false;
   }
+  return false;
 }
 
 class Finder {

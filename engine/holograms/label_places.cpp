@@ -87,9 +87,18 @@ LabelRank rank_of(const TextItem& text) {
       return text.align == TextAlign::kCentre ? LabelRank::kMeasured : LabelRank::kIncidental;
     case HologramKind::kEntry:
       return LabelRank::kNamed;
-    default:
+    case HologramKind::kPath:
+    case HologramKind::kVertebra:
+    case HologramKind::kTrajectory:
+    case HologramKind::kTriangle:
+    case HologramKind::kCross:
+    case HologramKind::kTwin:
+    case HologramKind::kDepth:
+    case HologramKind::kStatus:
+    case HologramKind::kNumbers:
       return LabelRank::kFixed;
   }
+  return LabelRank::kFixed;
 }
 
 CapsBox box_at(const LabelPlace& place, const LabelExtent& extent) {

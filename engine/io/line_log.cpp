@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "engine/io/file_names.h"
 
 namespace orthonav::engine {
@@ -129,7 +130,7 @@ LineLog::~LineLog() {
 
 void LineLog::add(std::string line, Keep keep) {
   line += '\n';
-  const auto latest = std::chrono::steady_clock::now() + kMostWait;
+  const auto latest = Stopwatch().after(kMostWait);
   const MutexLock lock(mutex_);
   waiting_.push_back({std::move(line), keep});
   const std::size_t number = ++told_;

@@ -6,7 +6,7 @@
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
 #include "render/float3.h"
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 #include "render/text/text_layout.h"
 
 namespace orthonav::engine {

@@ -19,7 +19,7 @@ JudgedFigure at_least(double value, int decimals, double limit, int limit_decima
   return {value, decimals, Bound::kAtLeast, limit, limit_decimals};
 }
 
-std::string margin_row(const nav::Registration& r, double least) {
+std::string log_likelihood_ratio_row(const nav::Registration& r, double least) {
   const std::string name = "Margin of the next best pose";
   const std::string meaning = "how much worse it explains the points (log-likelihood ratio)";
   const JudgedFigure margin = at_least(r.log_likelihood_ratio, 1, least, 0);
@@ -67,7 +67,8 @@ std::string rows_of_best(const RegisteredLevel& level) {
                     at_most(r.shaft_collision_fraction * 1e2, 0,
                             limits.max_shaft_collision_fraction * 1e2, 0),
                     "where its shaft would have been, were this pose right") +
-         margin_row(r, limits.min_log_likelihood_ratio) + rows_of_hypotheses(r, limits);
+         log_likelihood_ratio_row(r, limits.min_log_likelihood_ratio) +
+         rows_of_hypotheses(r, limits);
 }
 
 /// `paper` judges by the residuals and by the error to expect at the model's centre.

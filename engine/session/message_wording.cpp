@@ -49,8 +49,14 @@ void append_sleeve_refusal(std::string& out, const TouchRefusal& why) {
     case kAngleUnsure:
       angle("angle known to ± %.1f°, limit %.1f°");
       break;
-    default:
-      break;
+    case kPressAgain:
+    case kPointerNotSeen:
+    case kTipMoved:
+    case kHeldTooLong:
+    case kTooMany:
+    case kTouchesApart:
+    case kTooNear:
+      break;  // below
   }
 }
 
@@ -80,7 +86,13 @@ void append_refusal(std::string& out, const TouchRefusal& why) {
       append_beside_limit(out, "%.0f mm from the reference, at least %.0f mm: make it farther away",
                           why.value_m * 1e3, why.limit_m * 1e3);
       break;
-    default:
+    case TouchRefusal::Kind::kGuideNotSeen:
+    case TouchRefusal::Kind::kReferenceNotSeen:
+    case TouchRefusal::Kind::kSleeveTurned:
+    case TouchRefusal::Kind::kOffTheScrew:
+    case TouchRefusal::Kind::kAcrossTheScrew:
+    case TouchRefusal::Kind::kEntryUnsure:
+    case TouchRefusal::Kind::kAngleUnsure:
       append_sleeve_refusal(out, why);
   }
 }

@@ -126,9 +126,14 @@ std::string_view plain_reason(ReplanRefusal::Kind kind) {
       return "another screw is in work";
     case kIllSized:
       return "no pedicle screw is so short, long, thin or thick";
-    default:
-      return {};
+    case kNoSuchSize:
+    case kLastSize:
+    case kEntryTooFar:
+    case kTiltTooFar:
+    case kBreach:
+      return {};  // said with their numbers
   }
+  return {};
 }
 
 void write_breach(PartedText text, const ReplanRefusal& refusal) {
@@ -185,7 +190,16 @@ void write(PartedText text, const ReplanRefusal& refusal) {
                                  degrees(refusal.value), degrees(refusal.limit));
     case kBreach:
       return write_breach(text, refusal);
-    default:
+    case kDrillSet:
+    case kDrilling:
+    case kWireIn:
+    case kNoScrewLeft:
+    case kOtherScrew:
+    case kNothingToUndo:
+    case kNoDiameter:
+    case kNoDirections:
+    case kOffTheBone:
+    case kIllSized:
       out += plain_reason(refusal.kind);
   }
 }

@@ -16,9 +16,14 @@ std::optional<sim::ToolKind> kind_of(nav::ToolRole role) {
       return sim::ToolKind::kGuide;
     case nav::ToolRole::kReference:
       return sim::ToolKind::kReference;
-    default:
+    case nav::ToolRole::kAwl:
+    case nav::ToolRole::kDrill:
+    case nav::ToolRole::kTap:
+    case nav::ToolRole::kScrewdriver:
+    case nav::ToolRole::kWire:
       return std::nullopt;
   }
+  return std::nullopt;
 }
 
 }  // namespace

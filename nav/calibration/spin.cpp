@@ -181,7 +181,7 @@ Result<SpinCalibration> spin_calibration(SpinPoses poses, Point<Marker> tip, Dir
   found.inliers = inliers.size();
   if (inliers.size() > kJackknifeBlocks) {
     std::vector<Vec3> axes;
-    for (const SpinFit& without : consensus.without_tenths(inliers)) {
+    for (const SpinFit& without : consensus.without_each_block(inliers)) {
       axes.push_back(on_the_side_of(axis.v, without.axis_in_marker));
     }
     found.leave_out_rad = jackknife_sd(axes);

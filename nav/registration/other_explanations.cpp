@@ -19,10 +19,10 @@ constexpr double kFewPoints = 10.0;
 /// Of the points' SD: what is farther off than this tells no more.
 constexpr double kClampSds = 4.0;
 constexpr std::size_t kUnitsCompared = 80;
-/// So many mirrored points find their place; where these fit so much worse (log-likelihood ratio),
-/// the others are not asked.
+/// This many mirrored points are fitted first. Where they fit worse than the answer by more than
+/// `kFarWorse` (log-likelihood ratio), the others are not tried.
 constexpr std::size_t kMirroredFew = 150;
-constexpr double kHopeless = 100.0;
+constexpr double kFarWorse = 100.0;
 /// Every start is first tried with a third of the mirrored points; the best few are refined with
 /// all of them.
 constexpr std::size_t kEveryMirrored = 3;
@@ -198,7 +198,7 @@ double OtherExplanations::mirror_log_likelihood() const {
     return -std::numeric_limits<double>::infinity();
   }
   const double by_cost = (few->cost_m2 - best_cost_m2_) / unit_m2_;
-  if (by_cost > kHopeless) {
+  if (by_cost > kFarWorse) {
     return -by_cost;
   }
   // The mirror image gets the same fit as the answer, but to some of the points; all of them are

@@ -18,7 +18,7 @@ std::string line(const char* format, double a, double b) { return beside_limit(f
 
 }  // namespace
 
-Status check_points(std::span<const Point<World>> points, std::size_t min_points) {
+Status validate_points(std::span<const Point<World>> points, std::size_t min_points) {
   const std::size_t fewest = std::max<std::size_t>(min_points, 3);
   if (points.size() < fewest) {
     return Error{"registration has " + std::to_string(points.size()) + " points, needs at least " +

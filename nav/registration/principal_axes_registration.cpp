@@ -45,7 +45,7 @@ void estimate_errors(const VertebraModel& model, std::span<const Point<World>> p
 Result<Registration> register_by_principal_axes(const VertebraModel& model,
                                                 std::span<const Point<World>> points_in_world,
                                                 const RegistrationOptions& options) {
-  if (const Status s = check_points(points_in_world, options.min_points); !s) {
+  if (const Status s = validate_points(points_in_world, options.min_points); !s) {
     return s.error();
   }
   const IcpOptions fine{options.max_iterations, options.converged_m};

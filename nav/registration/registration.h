@@ -192,7 +192,7 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
                                              const PoseSearchRegistrationOptions& options = {});
 
 /// What keeps points from being registered at all: too few, not finite, all over the place, a line.
-Status check_points(std::span<const Point<World>> points, std::size_t min_points);
+Status validate_points(std::span<const Point<World>> points, std::size_t min_points);
 /// What is wrong with standard deviations that shall be theirs; none are fine.
 Status check_point_sds(std::span<const double> sd_m, std::size_t points);
 

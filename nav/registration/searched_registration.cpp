@@ -104,7 +104,7 @@ Registration described(const VertebraModel& model, const Cloud& cloud, const Cer
 Result<Registration> register_by_pose_search(const VertebraModel& model,
                                              std::span<const Point<World>> points_in_world,
                                              const PoseSearchRegistrationOptions& options) {
-  if (const Status s = check_points(points_in_world, options.min_points); !s) {
+  if (const Status s = validate_points(points_in_world, options.min_points); !s) {
     return s.error();
   }
   if (const Status s = check_point_sds(options.point_sd_m, points_in_world.size()); !s) {

@@ -83,8 +83,8 @@ struct Consensus {
     return inliers;
   }
 
-  /// The fits without each tenth of the inliers in turn.
-  [[nodiscard]] std::vector<Fit> without_tenths(const Indices& inliers) const {
+  /// The fits without each of `kJackknifeBlocks` blocks of the inliers in turn (blocked jackknife).
+  [[nodiscard]] std::vector<Fit> without_each_block(const Indices& inliers) const {
     std::vector<Fit> fits;
     for (std::size_t block = 0; block < kJackknifeBlocks; ++block) {
       Indices rest = without_block(inliers.size(), block);

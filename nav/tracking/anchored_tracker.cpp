@@ -214,8 +214,9 @@ std::vector<std::string> ReferenceLimits::check() const {
 }
 
 PoseCovariance relative_covariance(const PairPose& tool, const PairPose& reference) {
-  const Vec3 arm_m = tool.rig_from_marker.translation() - reference.rig_from_marker.translation();
-  return plus_carried(tool.covariance, reference.covariance, arm_m);
+  const Vec3 lever_arm_m =
+      tool.rig_from_marker.translation() - reference.rig_from_marker.translation();
+  return plus_carried(tool.covariance, reference.covariance, lever_arm_m);
 }
 
 Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(

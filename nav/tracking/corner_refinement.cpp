@@ -46,10 +46,10 @@ double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// +1 when the image gets brighter along the normal, else -1.
 double sense_of(const GreyImage& image, Vec2 a, Vec2 b, Vec2 normal) {
-  constexpr int kLooks = 9;
+  constexpr int kProbes = 9;
   double brighter = 0.0;
-  for (int i = 1; i <= kLooks; ++i) {
-    const Vec2 p = a + (i / (kLooks + 1.0)) * (b - a);
+  for (int i = 1; i <= kProbes; ++i) {
+    const Vec2 p = a + (i / (kProbes + 1.0)) * (b - a);
     brighter += grey_at(image, p + 1.5 * normal) - grey_at(image, p - 1.5 * normal);
   }
   return brighter < 0 ? -1.0 : 1.0;

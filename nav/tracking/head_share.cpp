@@ -8,8 +8,8 @@ void add_head(ToolState& state, const StereoFrame& frame) {
   if (!frame.world_from_rig || !frame.head_covariance || pose.status == PoseStatus::kLost) {
     return;
   }
-  const Vec3 arm_m = pose.value.translation() - frame.world_from_rig->translation();
-  pose.covariance = plus_carried(pose.covariance, *frame.head_covariance, arm_m);
+  const Vec3 lever_arm_m = pose.value.translation() - frame.world_from_rig->translation();
+  pose.covariance = plus_carried(pose.covariance, *frame.head_covariance, lever_arm_m);
 }
 
 }  // namespace orthonav::nav

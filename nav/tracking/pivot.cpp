@@ -56,7 +56,7 @@ PivotConsensus consensus_of(Poses poses, const PivotOptions& options) {
 
 double jackknife_sigma_m(const PivotConsensus& consensus, const PivotConsensus::Indices& inliers) {
   std::vector<Vec3> tips;
-  for (const PivotFit& fit : consensus.without_tenths(inliers)) {
+  for (const PivotFit& fit : consensus.without_each_block(inliers)) {
     tips.push_back(fit.tip_in_marker.v);
   }
   return jackknife_sd(tips);

@@ -75,11 +75,12 @@ PoseCovariance turned(const PoseCovariance& covariance, const Mat3& b_from_a) {
   return symmetrized(Matrix6(both * in_a * both.transpose()));
 }
 
-PoseCovariance plus_carried(const PoseCovariance& own, const PoseCovariance& other, Vec3 arm_m) {
+PoseCovariance plus_carried(const PoseCovariance& own, const PoseCovariance& other,
+                            Vec3 lever_arm_m) {
   using ByRows = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
   ByRows carried = ByRows::Identity();
-  carried.topRightCorner<3, 3>() << 0, arm_m.z, -arm_m.y, -arm_m.z, 0, arm_m.x, arm_m.y, -arm_m.x,
-      0;
+  carried.topRightCorner<3, 3>() << 0, lever_arm_m.z, -lever_arm_m.y, -lever_arm_m.z, 0,
+      lever_arm_m.x, lever_arm_m.y, -lever_arm_m.x, 0;
   const Eigen::Map<const ByRows> of_own(own.data());
   const Eigen::Map<const ByRows> of_other(other.data());
   return symmetrized(ByRows(of_own + carried * of_other * carried.transpose()));

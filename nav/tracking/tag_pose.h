@@ -77,6 +77,6 @@ template <class CameraFrame>
 
 /// A pose's own covariance plus that of another pose that carries it, over the arm from there.
 [[nodiscard]] PoseCovariance plus_carried(const PoseCovariance& own, const PoseCovariance& other,
-                                          Vec3 arm_m);
+                                          Vec3 lever_arm_m);
 
 }  // namespace orthonav::nav

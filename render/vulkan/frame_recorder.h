@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 #include "render/vulkan/bindings.h"
 #include "render/vulkan/mesh_cache.h"
 #include "render/vulkan/pipelines.h"

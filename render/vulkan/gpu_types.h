@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 #include "render/scene.h"
 
 namespace orthonav::render {

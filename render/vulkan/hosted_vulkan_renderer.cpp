@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
-#include "render/scene_check.h"
+#include "render/frame/scene_check.h"
 #include "render/vulkan/eye_images.h"
 #include "render/vulkan/failure.h"
 #include "render/vulkan/gpu_types.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "render/decimated.h"
-#include "render/scene_check.h"
+#include "render/frame/scene_check.h"
 #include "render/vulkan/gpu_types.h"
 
 namespace orthonav::render {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "base/result.h"
+#include "render/frame/screen_bounds.h"
+#include "render/frame/surface_edges.h"
 #include "render/renderer.h"
-#include "render/screen_bounds.h"
-#include "render/surface_edges.h"
 #include "render/vulkan/commands.h"
 #include "render/vulkan/memory.h"
 

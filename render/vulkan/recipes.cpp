@@ -121,9 +121,16 @@ bool has_stage(Stage stage, const TargetSpec& spec) {
       return spec.covers();
     case Stage::kLine:
       return !spec.covers();
-    default:
+    case Stage::kDepth:
+    case Stage::kTranslucent:
+    case Stage::kSolid:
+    case Stage::kTriangle:
+    case Stage::kText:
       return true;
+    case Stage::kCount:
+      break;
   }
+  return false;
 }
 
 Recipe recipe_of(Stage stage, const TargetSpec& spec) {

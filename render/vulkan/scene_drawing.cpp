@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "render/float3.h"
+#include "render/frame/scene_check.h"
 #include "render/projection.h"
-#include "render/scene_check.h"
 #include "render/text/text_layout.h"
 #include "render/vulkan/eyes_probe.h"
 #include "render/vulkan/gpu_types.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 #include "render/renderer.h"
 #include "render/vulkan/bindings.h"
 #include "render/vulkan/commands.h"

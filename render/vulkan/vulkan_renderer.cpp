@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/stopwatch.h"
-#include "render/scene_check.h"
+#include "render/frame/scene_check.h"
 #include "render/vulkan/failure.h"
 #include "render/vulkan/readback.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 #include "render/projection.h"
 #include "tests/golden/golden_scene_edit.h"
 

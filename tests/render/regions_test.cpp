@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "render/float3.h"
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 #include "render/shapes.h"
 #include "tests/render/test_renderer.h"
 #include "tests/render/test_scenes.h"

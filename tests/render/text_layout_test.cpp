@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 
 namespace orthonav::render {
 namespace {

@@ -20,8 +20,8 @@ struct Columns {
 };
 
 void add_triangle(const FineBody& body, const Triangle& t, Columns& columns) {
-  // A column never runs exactly through a vertex: it is set off by a hair.
-  constexpr double kHair_m = 1.2345e-9;
+  // A column never runs exactly through a vertex: it is set off by a little.
+  constexpr double kOffGrid_m = 1.2345e-9;
   const auto low = [&](int a) { return std::min({t[0][a], t[1][a], t[2][a]}); };
   const auto high = [&](int a) { return std::max({t[0][a], t[1][a], t[2][a]}); };
   const auto cell = [&](double v, int a) { return (v - body.origin_m[a]) / body.step_m; };
@@ -31,8 +31,8 @@ void add_triangle(const FineBody& body, const Triangle& t, Columns& columns) {
   }
   for (int j = static_cast<int>(std::ceil(cell(low(1), 1))) - 1; j <= cell(high(1), 1) + 1; ++j) {
     for (int i = static_cast<int>(std::ceil(cell(low(0), 0))) - 1; i <= cell(high(0), 0) + 1; ++i) {
-      const double x = body.origin_m.x + i * body.step_m + kHair_m;
-      const double y = body.origin_m.y + j * body.step_m + 2.7 * kHair_m;
+      const double x = body.origin_m.x + i * body.step_m + kOffGrid_m;
+      const double y = body.origin_m.y + j * body.step_m + 2.7 * kOffGrid_m;
       const double u = ((x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (y - t[0].y)) / area;
       const double v = ((t[1].x - t[0].x) * (y - t[0].y) - (x - t[0].x) * (t[1].y - t[0].y)) / area;
       if (u < 0.0 || v < 0.0 || u + v > 1.0) {

@@ -10,7 +10,7 @@
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_shapes.h"
 #include "render/float3.h"
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 
 namespace orthonav::test {
 namespace {

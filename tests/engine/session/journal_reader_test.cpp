@@ -5,12 +5,14 @@
 #include "engine/session/journal.h"
 #include "tests/support/scripted_operation.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/wait_until.h"
 
 namespace orthonav::engine::journal_reader_test {
 namespace {
 
 using orthonav::test::content_of;
 using orthonav::test::TemporaryFolder;
+using orthonav::test::wait_until;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -307,12 +309,17 @@ TEST(JournalReader, FollowsRejectionsCheckPointsAndAMovedMap) {
     EXPECT_TRUE(read.ok()) << read.error().message;
     return read.ok() ? *read : SessionRecord{};
   };
+  // A thread of its own writes.
+  const auto is_written = [&j](const char* what) {
+    return wait_until([&] { return content_of(j.path + ".part").find(what) != std::string::npos; });
+  };
+  EXPECT_TRUE(is_written("check point dropped"));
   expect_the_same(so_far(), j.operation.session());
   EXPECT_TRUE(so_far().cut) << "as long as it is being written";
   EXPECT_EQ(so_far().levels[0].checks.size(), 1U);
   j.operation.says("reject");
+  EXPECT_TRUE(wait_until([&] { return !so_far().levels[0].registration; }));
   expect_the_same(so_far(), j.operation.session());
-  EXPECT_FALSE(so_far().levels[0].registration);
   ++j.operation.map_epoch;
   j.operation.pairs(2);
   expect_the_same(j.finished("end"), j.operation.session());

@@ -69,11 +69,11 @@ TEST(ClearanceSpread, OfATurnGrowsWithTheDistanceFromTheCentre) {
   const Vec3 tip = kScrew.entry.v + kScrew.length_m * kScrew.direction;
   const auto about_tip = spread_of(one_wall(), kScrew, with_sds(tip, 0.0, sd_rad));
   // The far end of the side is 39 mm from the tip; the rim lies 3 mm aside.
-  const double arm_m = 0.039;
-  EXPECT_NEAR(about_tip.lower_95_m, 0.007 - kQuantile95 * sd_rad * arm_m, 0.0001);
+  const double lever_arm_m = 0.039;
+  EXPECT_NEAR(about_tip.lower_95_m, 0.007 - kQuantile95 * sd_rad * lever_arm_m, 0.0001);
   const auto from_afar =
       spread_of(one_wall(), kScrew, with_sds(tip + Vec3{0, -0.05, 0}, 0.0, sd_rad));
-  EXPECT_NEAR(from_afar.lower_95_m, 0.007 - kQuantile95 * sd_rad * (arm_m + 0.05), 0.0002);
+  EXPECT_NEAR(from_afar.lower_95_m, 0.007 - kQuantile95 * sd_rad * (lever_arm_m + 0.05), 0.0002);
 }
 
 TEST(ClearanceSpread, GradesAreAsLikelyAsTheNormalDistributionSays) {

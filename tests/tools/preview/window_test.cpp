@@ -159,7 +159,7 @@ TEST_F(WindowTest, KeepsAnOperationAndGoesOnWithIt) {
 }
 
 TEST_F(WindowTest, HearsWhatIsTypedInsteadOfTheSurgeon) {
-  // He says "start" within a second; unheard, nothing begins.
+  // The surgeon says "start" within a second; unheard, nothing begins.
   write("script", "key u\npairs 150\nuntil setup\nkey s\nuntil digitize L5\n");
   EXPECT_EQ(shell("$preview --speed 0 --script script"), 0) << content("out");
 }

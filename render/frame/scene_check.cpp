@@ -1,4 +1,4 @@
-#include "render/scene_check.h"
+#include "render/frame/scene_check.h"
 
 #include <algorithm>
 #include <cmath>

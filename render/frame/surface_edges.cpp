@@ -1,4 +1,4 @@
-#include "render/surface_edges.h"
+#include "render/frame/surface_edges.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 #include "render/projection.h"
 #include "render/scene.h"
 

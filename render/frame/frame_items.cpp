@@ -1,11 +1,11 @@
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "render/draw_order.h"
 #include "render/float3.h"
+#include "render/frame/draw_order.h"
 #include "render/thinned.h"
 
 namespace orthonav::render {

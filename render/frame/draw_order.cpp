@@ -1,4 +1,4 @@
-#include "render/draw_order.h"
+#include "render/frame/draw_order.h"
 
 #include <compare>
 #include <numeric>

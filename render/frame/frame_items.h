@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "render/frame/screen_bounds.h"
 #include "render/projection.h"
 #include "render/scene.h"
-#include "render/screen_bounds.h"
 #include "render/text/font.h"
 #include "render/text/text_layout.h"
 

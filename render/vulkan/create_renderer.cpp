@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "render/scene_check.h"
+#include "render/frame/scene_check.h"
 #include "render/vulkan/failure.h"
 #include "render/vulkan/vulkan_renderer.h"
 

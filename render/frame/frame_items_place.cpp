@@ -1,4 +1,4 @@
-#include "render/frame_items.h"
+#include "render/frame/frame_items.h"
 
 namespace orthonav::render {
 

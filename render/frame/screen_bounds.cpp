@@ -1,4 +1,4 @@
-#include "render/screen_bounds.h"
+#include "render/frame/screen_bounds.h"
 
 #include <cmath>
 #include <limits>
