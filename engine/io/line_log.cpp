@@ -10,7 +10,9 @@
 #include <system_error>
 #include <utility>
 
+#include "base/guarded.h"
 #include "engine/io/file_names.h"
+#include "engine/io/folders.h"
 
 namespace orthonav::engine {
 namespace fs = std::filesystem;
@@ -47,7 +49,9 @@ Result<std::string> moved_aside(const std::string& file, const std::string& path
     std::string name = earlier_name(path, number);
     const int problem = renamed_to_free(file, name);
     if (problem == 0) {
-      return name;
+      // Durable before another file takes the name: or a crash could leave that one alone.
+      const Status durable = sync_folder(folder_of(path));
+      return durable ? Result<std::string>(std::move(name)) : durable.error();
     }
     if (problem != EEXIST) {
       return log_error(file, problem);
@@ -109,6 +113,11 @@ Result<std::unique_ptr<LineLog>> LineLog::create(const std::string& path) {
     return log_error(part, errno);
   }
   ::flock(file, LOCK_EX | LOCK_NB);
+  if (const Status named = sync_folder(folder_of(part)); !named) {
+    ::close(file);
+    ::unlink(part.c_str());
+    return named.error();
+  }
   std::unique_ptr<LineLog> log(new LineLog(path, file));
   log->earlier_kept_as_ = std::move(earlier);
   return log;
@@ -152,23 +161,34 @@ void LineLog::work() {
       line = std::move(waiting_.front());
       waiting_.pop_front();
     }
-    write(line);
+    const Status whole = guarded("journal", [&] {
+      return write_whole(file_, line.text) ? Status{} : log_error(unfinished(path_), errno);
+    });
+    note("not every line could be written: ", whole);
+    {
+      const MutexLock lock(mutex_);
+      ++written_;
+    }
+    changed_.notify_all();
+    if (whole && line.keep == Keep::kDurable) {
+      sync(::fdatasync);
+    }
   }
 }
 
-void LineLog::write(const Line& line) {
-  const bool whole = write_whole(file_, line.text);
-  const int why = errno;
-  {
-    const MutexLock lock(mutex_);
-    ++written_;
-    if (!whole && !failure_) {
-      failure_ = log_error(unfinished(path_), why);
-    }
+/// After one that failed none is tried: it could succeed without what the first one lost.
+void LineLog::sync(int (*how)(int)) {
+  if (!sync_failed_ && how(file_) != 0) {
+    sync_failed_ = true;
+    note("not every line may outlast a loss of power: ", log_error(unfinished(path_), errno));
   }
-  changed_.notify_all();
-  if (whole && line.keep == Keep::kDurable) {
-    ::fdatasync(file_);
+}
+
+/// Keeps the first failure, which `finish` tells.
+void LineLog::note(const char* what, const Status& done) {
+  const MutexLock lock(mutex_);
+  if (!done && !failure_) {
+    failure_ = Error{what + done.error().message, done.error().code};
   }
 }
 
@@ -192,8 +212,10 @@ Status LineLog::take_its_name() {
     }
     earlier_kept_as_ += (earlier_kept_as_.empty() ? "" : ", ") + *moved;
   }
-  return ::rename(unfinished(path_).c_str(), path_.c_str()) == 0 ? Status{}
-                                                                 : log_error(path_, errno);
+  if (::rename(unfinished(path_).c_str(), path_.c_str()) != 0) {
+    return log_error(path_, errno);
+  }
+  return sync_folder(folder_of(path_));
 }
 
 Status LineLog::finish() {
@@ -201,13 +223,10 @@ Status LineLog::finish() {
     return Error{path_ + ": was finished before"};
   }
   stop_writing();
-  const Status durable = ::fsync(file_) == 0 ? Status{} : log_error(path_, errno);
-  const Status named = take_its_name();
+  sync(::fsync);
+  Status named = take_its_name();
   const MutexLock lock(mutex_);
-  if (failure_) {
-    return Error{"not every line could be written: " + failure_->message};
-  }
-  return named ? durable : named;
+  return failure_ ? Status(*failure_) : named;
 }
 
 }  // namespace orthonav::engine
