@@ -49,9 +49,7 @@ Result<std::string> moved_aside(const std::string& file, const std::string& path
     std::string name = earlier_name(path, number);
     const int problem = renamed_to_free(file, name);
     if (problem == 0) {
-      // Durable before another file takes the name: or a crash could leave that one alone.
-      const Status durable = sync_folder(folder_of(path));
-      return durable ? Result<std::string>(std::move(name)) : durable.error();
+      return name;
     }
     if (problem != EEXIST) {
       return log_error(file, problem);
@@ -98,6 +96,7 @@ Result<std::unique_ptr<LineLog>> LineLog::create(const std::string& path) {
     return Error{path + ": is a folder, not a file"};
   }
   std::string earlier;
+  Status durable;
   if (fs::is_regular_file(part, ignored)) {
     if (const Status free = refuse_if_written(part); !free) {
       return free.error();
@@ -107,19 +106,17 @@ Result<std::unique_ptr<LineLog>> LineLog::create(const std::string& path) {
       return moved.error();
     }
     earlier = std::move(*moved);
+    durable = sync_folder(folder_of(path));
   }
   const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
   if (file < 0) {
     return log_error(part, errno);
   }
   ::flock(file, LOCK_EX | LOCK_NB);
-  if (const Status named = sync_folder(folder_of(part)); !named) {
-    ::close(file);
-    ::unlink(part.c_str());
-    return named.error();
-  }
+  durable = durable ? sync_folder(folder_of(path)) : durable;
   std::unique_ptr<LineLog> log(new LineLog(path, file));
   log->earlier_kept_as_ = std::move(earlier);
+  log->note("its name may not outlast a loss of power: ", durable);
   return log;
 }
 
@@ -211,6 +208,10 @@ Status LineLog::take_its_name() {
       return moved.error();
     }
     earlier_kept_as_ += (earlier_kept_as_.empty() ? "" : ", ") + *moved;
+    // Durable before this one takes the name: or a crash could leave it alone.
+    if (Status durable = sync_folder(folder_of(path_)); !durable) {
+      return durable;
+    }
   }
   if (::rename(unfinished(path_).c_str(), path_.c_str()) != 0) {
     return log_error(path_, errno);

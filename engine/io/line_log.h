@@ -18,7 +18,7 @@ namespace orthonav::engine {
 class LineLog {
  public:
   /// Refuses a missing or unwritable folder, and a PATH.part that another process is writing. The
-  /// new name is durable.
+  /// new name is durable; where the disk fails at that, `finish` tells.
   static Result<std::unique_ptr<LineLog>> create(const std::string& path);
   /// Without `finish`, what was written stays as PATH.part, unless only the first line was: then
   /// nothing stays.
@@ -32,7 +32,7 @@ class LineLog {
   /// longer than a millisecond.
   void add(std::string line, Keep keep = Keep::kWritten);
   /// Waits until every line is on the disk and names the file. An Error when a line could not be
-  /// written, or may not outlast a loss of power since a sync failed; the rest of them are still
+  /// written, or may not outlast a loss of power since a sync failed; what was written is still
   /// there.
   Status finish();
 

@@ -131,13 +131,34 @@ TEST(LineLog, TellsOfTheLastSyncAndOfANameThatIsNotDurable) {
   }
 }
 
-TEST(LineLog, IsRefusedWhereItsNameIsNotDurable) {
+/// A failing disk is no reason to have no journal, as long as it can be written.
+TEST(LineLog, TellsAtItsEndThatItsNewNameIsNotDurable) {
   const TemporaryFolder folder;
+  for (const char* earlier : {"", "cut off\n"}) {
+    if (*earlier != '\0') {
+      std::ignore = folder.with("a.log.part", earlier);
+    }
+    const FileCalls calls(folder.path().string());
+    FileCalls::fail_next("fsync .", EIO);
+    auto log = LineLog::create(folder.file("a.log")).value();
+    log->add("one");
+    EXPECT_EQ(error_of(log->finish()),
+              "its name may not outlast a loss of power: " + folder.path().string() +
+                  ": cannot be written: Input/output error");
+    EXPECT_EQ(content_of(folder.file("a.log")), "one\n");
+  }
+}
+
+TEST(LineLog, TakesNoNameWhoseEarlierOwnerIsNotDurableElsewhere) {
+  const TemporaryFolder folder;
+  std::ignore = folder.with("a.log", "finished\n");
   const FileCalls calls(folder.path().string());
+  auto log = LineLog::create(folder.file("a.log")).value();
+  log->add("one");
   FileCalls::fail_next("fsync .", EIO);
-  EXPECT_EQ(error_of(LineLog::create(folder.file("a.log"))),
-            folder.path().string() + ": cannot be written: Input/output error");
-  EXPECT_EQ(folder.count(), 0u);
+  EXPECT_THAT(error_of(log->finish()), EndsWith("cannot be written: Input/output error"));
+  EXPECT_EQ(content_of(folder.file("a-1.log")), "finished\n");
+  EXPECT_EQ(content_of(folder.file("a.log.part")), "one\n");
 }
 
 /// A line that the disk had no room for is told of, and tears no other.
