@@ -2,39 +2,21 @@
 
 #include <utility>
 
+#include "engine/io/folders.h"
+
 namespace orthonav::tools {
 
-namespace fs = std::filesystem;
-
 Result<OutFolder> OutFolder::create(const std::string& option, const std::string& path) {
-  std::error_code code;
-  std::vector<fs::path> made;
-  fs::path missing = fs::path(path).lexically_normal();
-  if (!missing.has_filename()) {
-    missing = missing.parent_path();
+  auto made = engine::make_folders(path);
+  if (!made) {
+    return Error{option + " " + made.error().message};
   }
-  for (; !missing.empty() && !fs::exists(missing, code); missing = missing.parent_path()) {
-    made.push_back(missing);
-  }
-  fs::create_directories(path, code);
-  OutFolder folder(path, std::move(made));
-  if (!code && !fs::is_directory(path, code)) {
-    code = std::make_error_code(std::errc::not_a_directory);
-  }
-  if (code) {
-    return Error{option + " " + path + ": " + code.message()};
-  }
-  return folder;
+  return OutFolder(path, std::move(*made));
 }
 
 OutFolder::OutFolder(OutFolder&& other) noexcept
     : path_(std::move(other.path_)), made_(std::exchange(other.made_, {})) {}
 
-OutFolder::~OutFolder() {
-  std::error_code not_empty;
-  for (const fs::path& folder : made_) {
-    fs::remove(folder, not_empty);
-  }
-}
+OutFolder::~OutFolder() { engine::remove_empty(made_); }
 
 }  // namespace orthonav::tools

@@ -12,7 +12,7 @@ namespace orthonav::tools {
 /// that a command that is refused leaves nothing.
 class OutFolder {
  public:
-  /// Makes the folder and those above it. `option` stands for it in a refusal: "--out".
+  /// Makes the folder and those above it, durable. `option` stands for it in a refusal: "--out".
   static Result<OutFolder> create(const std::string& option, const std::string& path);
   OutFolder(OutFolder&& other) noexcept;
   OutFolder& operator=(OutFolder&& other) = delete;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/io/file_names.h"
+#include "engine/io/folders.h"
 
 namespace orthonav::engine {
 namespace fs = std::filesystem;
@@ -178,7 +179,7 @@ Status AtomicFile::commit() {
     return file_error(final_path_, "cannot be written", errno);
   }
   open_ = false;
-  return {};
+  return sync_folder(folder_of(final_path_));
 }
 
 Status write_file(const std::string& path, std::string_view content) {

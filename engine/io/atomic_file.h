@@ -32,7 +32,7 @@ class AtomicFile {
   [[nodiscard]] const std::string& final_path() const { return final_path_; }
   /// Leaves what was written where it is; false where that has no name. No commit may follow.
   bool keep();
-  /// Makes what was written durable and gives the file its name.
+  /// Makes what was written durable, gives the file its name, and makes the name durable.
   Status commit();
 
  private:

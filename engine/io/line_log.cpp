@@ -10,8 +10,10 @@
 #include <system_error>
 #include <utility>
 
+#include "base/guarded.h"
 #include "base/stopwatch.h"
 #include "engine/io/file_names.h"
+#include "engine/io/folders.h"
 
 namespace orthonav::engine {
 namespace fs = std::filesystem;
@@ -95,6 +97,7 @@ Result<std::unique_ptr<LineLog>> LineLog::create(const std::string& path) {
     return Error{path + ": is a folder, not a file"};
   }
   std::string earlier;
+  Status durable;
   if (fs::is_regular_file(part, ignored)) {
     if (const Status free = refuse_if_written(part); !free) {
       return free.error();
@@ -104,14 +107,17 @@ Result<std::unique_ptr<LineLog>> LineLog::create(const std::string& path) {
       return moved.error();
     }
     earlier = std::move(*moved);
+    durable = sync_folder(folder_of(path));
   }
   const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
   if (file < 0) {
     return log_error(part, errno);
   }
   ::flock(file, LOCK_EX | LOCK_NB);
+  durable = durable ? sync_folder(folder_of(path)) : durable;
   std::unique_ptr<LineLog> log(new LineLog(path, file));
   log->earlier_kept_as_ = std::move(earlier);
+  log->note("its name may not outlast a loss of power: ", durable);
   return log;
 }
 
@@ -153,23 +159,34 @@ void LineLog::work() {
       line = std::move(waiting_.front());
       waiting_.pop_front();
     }
-    write(line);
+    const Status whole = guarded("journal", [&] {
+      return write_whole(file_, line.text) ? Status{} : log_error(unfinished(path_), errno);
+    });
+    note("not every line could be written: ", whole);
+    {
+      const MutexLock lock(mutex_);
+      ++written_;
+    }
+    changed_.notify_all();
+    if (whole && line.keep == Keep::kDurable) {
+      sync(::fdatasync);
+    }
   }
 }
 
-void LineLog::write(const Line& line) {
-  const bool whole = write_whole(file_, line.text);
-  const int why = errno;
-  {
-    const MutexLock lock(mutex_);
-    ++written_;
-    if (!whole && !failure_) {
-      failure_ = log_error(unfinished(path_), why);
-    }
+/// After one that failed none is tried: it could succeed without what the first one lost.
+void LineLog::sync(int (*how)(int)) {
+  if (!sync_failed_ && how(file_) != 0) {
+    sync_failed_ = true;
+    note("not every line may outlast a loss of power: ", log_error(unfinished(path_), errno));
   }
-  changed_.notify_all();
-  if (whole && line.keep == Keep::kDurable) {
-    ::fdatasync(file_);
+}
+
+/// Keeps the first failure, which `finish` tells.
+void LineLog::note(const char* what, const Status& done) {
+  const MutexLock lock(mutex_);
+  if (!done && !failure_) {
+    failure_ = Error{what + done.error().message, done.error().code};
   }
 }
 
@@ -192,9 +209,15 @@ Status LineLog::take_its_name() {
       return moved.error();
     }
     earlier_kept_as_ += (earlier_kept_as_.empty() ? "" : ", ") + *moved;
+    // Durable before this one takes the name: or a crash could leave it alone.
+    if (Status durable = sync_folder(folder_of(path_)); !durable) {
+      return durable;
+    }
   }
-  return ::rename(unfinished(path_).c_str(), path_.c_str()) == 0 ? Status{}
-                                                                 : log_error(path_, errno);
+  if (::rename(unfinished(path_).c_str(), path_.c_str()) != 0) {
+    return log_error(path_, errno);
+  }
+  return sync_folder(folder_of(path_));
 }
 
 Status LineLog::finish() {
@@ -202,13 +225,10 @@ Status LineLog::finish() {
     return Error{path_ + ": was finished before"};
   }
   stop_writing();
-  const Status durable = ::fsync(file_) == 0 ? Status{} : log_error(path_, errno);
-  const Status named = take_its_name();
+  sync(::fsync);
+  Status named = take_its_name();
   const MutexLock lock(mutex_);
-  if (failure_) {
-    return Error{"not every line could be written: " + failure_->message};
-  }
-  return named ? durable : named;
+  return failure_ ? Status(*failure_) : named;
 }
 
 }  // namespace orthonav::engine

@@ -17,7 +17,8 @@ namespace orthonav::engine {
 /// PATH-1, PATH-2, ... before the extension.
 class LineLog {
  public:
-  /// Refuses a missing or unwritable folder, and a PATH.part that another process is writing.
+  /// Refuses a missing or unwritable folder, and a PATH.part that another process is writing. The
+  /// new name is durable; where the disk fails at that, `finish` tells.
   static Result<std::unique_ptr<LineLog>> create(const std::string& path);
   /// Without `finish`, what was written stays as PATH.part, unless only the first line was: then
   /// nothing stays.
@@ -31,7 +32,8 @@ class LineLog {
   /// longer than a millisecond.
   void add(std::string line, Keep keep = Keep::kWritten);
   /// Waits until every line is on the disk and names the file. An Error when a line could not be
-  /// written; the rest of them are still there.
+  /// written, or may not outlast a loss of power since a sync failed; what was written is still
+  /// there.
   Status finish();
 
   /// Where an earlier file of these names was put; empty: there was none.
@@ -44,7 +46,8 @@ class LineLog {
   };
   LineLog(std::string path, int file);
   void work();
-  void write(const Line& line);
+  void sync(int (*how)(int));
+  void note(const char* what, const Status& done);
   void stop_writing();
   Status take_its_name();
 
@@ -52,6 +55,7 @@ class LineLog {
   int file_ = -1;  ///< written by the thread alone
   std::string earlier_kept_as_;
   bool finished_ = false;
+  bool sync_failed_ = false;  ///< of the thread, while there is one
 
   Mutex mutex_;
   ConditionVariable changed_;

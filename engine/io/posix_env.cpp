@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/io/file_names.h"
+#include "engine/io/folders.h"
 
 namespace orthonav::engine {
 namespace fs = std::filesystem;
@@ -71,10 +72,6 @@ class PosixLock : public FolderLock {
  private:
   Descriptor folder_;
 };
-
-Descriptor opened_folder(const std::string& folder) {
-  return Descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-}
 
 }  // namespace
 
@@ -140,13 +137,10 @@ Status PosixEnv::remove(const std::string& path) {
   return ::unlink(path.c_str()) == 0 ? Status{} : file_error(path, "cannot be removed", errno);
 }
 
-Status PosixEnv::sync_folder(const std::string& folder) {
-  const Descriptor file = opened_folder(folder);
-  return file.open() && ::fsync(file.get()) == 0 ? Status{} : file_error(folder, kWriting, errno);
-}
+Status PosixEnv::sync_folder(const std::string& folder) { return engine::sync_folder(folder); }
 
 Result<std::unique_ptr<FolderLock>> PosixEnv::lock(const std::string& folder) {
-  Descriptor file = opened_folder(folder);
+  Descriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!file.open()) {
     return file_error(folder, "cannot be opened", errno);
   }

@@ -12,6 +12,7 @@ namespace {
 using engine::file_error;
 using What = EnvCall::What;
 
+constexpr const char* kReading = "cannot be read";
 constexpr const char* kWriting = "cannot be written";
 
 class MemoryLock : public engine::FolderLock {
@@ -83,6 +84,13 @@ int MemoryEnv::call(EnvCall call) {
   return fails ? error_number_ : 0;
 }
 
+void MemoryEnv::fail_look_at(std::size_t n, int error_number) {
+  fail_look_at_ = n;
+  look_error_number_ = error_number;
+}
+
+int MemoryEnv::look() { return looks_++ == fail_look_at_ ? look_error_number_ : 0; }
+
 Files MemoryEnv::files() const {
   Files files;
   for (const auto& [name, content] : files_) {
@@ -103,15 +111,17 @@ Result<std::unique_ptr<engine::AppendFile>> MemoryEnv::open_append(const std::st
 }
 
 Result<std::string> MemoryEnv::read(const std::string& path, std::size_t most_bytes) {
+  int problem = look();
   const auto file = files_.find(path);
-  if (file == files_.end()) {
-    return file_error(path, "cannot be read", ENOENT);
-  }
-  return file->second->size() <= most_bytes ? Result<std::string>(*file->second)
-                                            : file_error(path, "cannot be read", EFBIG);
+  problem = problem == 0 && file == files_.end() ? ENOENT : problem;
+  problem = problem == 0 && file->second->size() > most_bytes ? EFBIG : problem;
+  return problem == 0 ? Result<std::string>(*file->second) : file_error(path, kReading, problem);
 }
 
 Result<std::vector<std::string>> MemoryEnv::list(const std::string& folder) {
+  if (const int problem = look(); problem != 0) {
+    return file_error(folder, kReading, problem);
+  }
   std::vector<std::string> names;
   for (const auto& [path, content] : files_) {
     if (engine::folder_of(path) == folder) {
@@ -161,6 +171,9 @@ Status MemoryEnv::sync_folder(const std::string& folder) {
 }
 
 Result<std::unique_ptr<engine::FolderLock>> MemoryEnv::lock(const std::string& folder) {
+  if (const int problem = look(); problem != 0) {
+    return file_error(folder, "cannot be locked", problem);
+  }
   if (!locked_->insert(folder).second) {
     return engine::folder_in_use(folder);
   }

@@ -35,6 +35,9 @@ class MemoryEnv : public engine::Env {
   /// The n-th change from 0 fails like this; `from_then_on`: so do all after it. Of an append that
   /// fails, half of the bytes are written.
   void fail_at(std::size_t n, int error_number, bool from_then_on);
+  /// So does the n-th look from 0: a `read`, a `list` or a `lock`. Those after it are well again.
+  void fail_look_at(std::size_t n, int error_number);
+  [[nodiscard]] std::size_t looks() const { return looks_; }
   [[nodiscard]] const std::vector<EnvCall>& calls() const { return calls_; }
   [[nodiscard]] Files files() const;
 
@@ -53,12 +56,17 @@ class MemoryEnv : public engine::Env {
 
   /// Remembers the call; the number of the error that it ends with, or 0.
   int call(EnvCall call);
+  /// Counts the look; the number of the error that it ends with, or 0.
+  int look();
 
   std::map<std::string, Content> files_;
   std::vector<EnvCall> calls_;
   std::optional<std::size_t> fail_at_;
   int error_number_ = 0;
   bool from_then_on_ = false;
+  std::size_t looks_ = 0;
+  std::optional<std::size_t> fail_look_at_;
+  int look_error_number_ = 0;
   std::shared_ptr<std::set<std::string>> locked_;
 };
 

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "engine/io/folders.h"
 #include "engine/io/image_file.h"
 #include "tools/preview/preview_app.h"
 
@@ -10,12 +11,8 @@ namespace orthonav::preview {
 namespace fs = std::filesystem;
 
 Status PreviewApp::make_out() {
-  std::error_code code;
-  fs::create_directories(options_.out, code);
-  if (code) {
-    return Error{"--out " + options_.out + ": cannot be made: " + code.message()};
-  }
-  return {};
+  const auto made = engine::make_folders(options_.out);
+  return made ? Status{} : Error{"--out " + made.error().message};
 }
 
 std::string PreviewApp::next_name(const std::string& ending) {

@@ -3,15 +3,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <tuple>
 
+#include "tests/support/file_calls.h"
+#include "tests/support/is_ok.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orthonav::engine {
 namespace {
 
 using orthonav::test::content_of;
+using orthonav::test::FileCalls;
+using orthonav::test::is_ok;
 using orthonav::test::TemporaryFolder;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class StagedFile : public ::testing::TestWithParam<Staging> {};
@@ -64,6 +70,47 @@ TEST(AtomicFile, IsVisibleWhereItHasANameBeforeTheCommit) {
   const std::string name = std::filesystem::path(file->temporary_path()).filename().string();
   EXPECT_THAT(name, ::testing::StartsWith("operation.part-"));
   EXPECT_THAT(name, ::testing::EndsWith(".mp4"));
+}
+
+/// Its content before its name, and its name before the commit is said to be done.
+TEST(AtomicFile, IsDurableInTheOrderThatACrashNeeds) {
+  const TemporaryFolder folder;
+  auto nameless = AtomicFile::create(folder.file("report.json"));
+  ASSERT_TRUE(is_ok(nameless));
+  {
+    const FileCalls calls(folder.path().string());
+    ASSERT_TRUE(is_ok(nameless->commit()));
+    EXPECT_THAT(FileCalls::made(),
+                ElementsAre("fsync (nameless)", "link (nameless) report.json", "fsync ."));
+  }
+  auto beside = AtomicFile::create(folder.file("report.json"), Staging::kBeside);
+  ASSERT_TRUE(is_ok(beside));
+  const std::string part = std::filesystem::path(beside->temporary_path()).filename().string();
+  const FileCalls calls(folder.path().string());
+  ASSERT_TRUE(is_ok(beside->commit()));
+  EXPECT_THAT(FileCalls::made(),
+              ElementsAre("fsync " + part, "rename " + part + " report.json", "fsync ."));
+}
+
+TEST(AtomicFile, TakesNoNameWhereItsContentIsNotDurable) {
+  const TemporaryFolder folder;
+  std::ignore = folder.with("report.json", "old");
+  auto file = AtomicFile::create(folder.file("report.json"), Staging::kBeside);
+  ASSERT_TRUE(is_ok(file));
+  const std::string part = std::filesystem::path(file->temporary_path()).filename().string();
+  const FileCalls calls(folder.path().string());
+  FileCalls::fail_next("fsync " + part, EIO);
+  EXPECT_THAT(file->commit().error().message, HasSubstr("cannot be written: Input/output error"));
+  EXPECT_EQ(content_of(folder.file("report.json")), "old");
+}
+
+TEST(AtomicFile, TellsOfANameThatIsNotDurable) {
+  const TemporaryFolder folder;
+  auto file = AtomicFile::create(folder.file("report.json"));
+  ASSERT_TRUE(is_ok(file));
+  const FileCalls calls(folder.path().string());
+  FileCalls::fail_next("fsync .", EIO);
+  EXPECT_THAT(file->commit().error().message, HasSubstr("cannot be written: Input/output error"));
 }
 
 TEST(AtomicFile, MovesWithoutLosingOrKeepingTheFile) {

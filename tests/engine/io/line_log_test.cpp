@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <cerrno>
 #include <csignal>
 
+#include "tests/support/file_calls.h"
+#include "tests/support/is_ok.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/wait_until.h"
 
@@ -13,8 +16,12 @@ namespace orthonav::engine {
 namespace {
 
 using orthonav::test::content_of;
+using orthonav::test::error_of;
+using orthonav::test::FileCalls;
+using orthonav::test::is_ok;
 using orthonav::test::TemporaryFolder;
 using orthonav::test::wait_until;
+using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
@@ -77,6 +84,81 @@ TEST(LineLog, RefusesAFolderThatIsNotThere) {
   const TemporaryFolder folder;
   EXPECT_THAT(LineLog::create(folder.file("none/a.log")).error().message,
               HasSubstr("No such file or directory"));
+}
+
+TEST(LineLog, IsDurableInTheOrderThatACrashNeeds) {
+  const TemporaryFolder folder;
+  std::ignore = folder.with("a.log", "finished\n");
+  std::ignore = folder.with("a.log.part", "cut off\n");
+  const FileCalls calls(folder.path().string());
+  auto log = LineLog::create(folder.file("a.log")).value();
+  log->add("one");
+  log->add("two", LineLog::Keep::kDurable);
+  ASSERT_TRUE(is_ok(log->finish()));
+  EXPECT_THAT(FileCalls::made(),
+              ElementsAre("rename a.log.part a-1.log", "fsync .", "fsync .", "write a.log.part",
+                          "write a.log.part", "fdatasync a.log.part", "fsync a.log.part",
+                          "rename a.log a-1.log", "rename a.log a-2.log", "fsync .",
+                          "rename a.log.part a.log", "fsync ."))
+      << "each name is durable before another file takes it";
+}
+
+TEST(LineLog, TellsOfASyncThatFailedAndTriesNoneAfterIt) {
+  const TemporaryFolder folder;
+  const FileCalls calls(folder.path().string());
+  auto log = LineLog::create(folder.file("a.log")).value();
+  FileCalls::fail_next("fdatasync a.log.part", EIO);
+  log->add("one", LineLog::Keep::kDurable);
+  log->add("two", LineLog::Keep::kDurable);
+  EXPECT_EQ(error_of(log->finish()),
+            "not every line may outlast a loss of power: " + folder.file("a.log.part") +
+                ": cannot be written: Input/output error");
+  EXPECT_THAT(FileCalls::made(),
+              ElementsAre("fsync .", "write a.log.part", "fdatasync a.log.part", "write a.log.part",
+                          "rename a.log.part a.log", "fsync ."))
+      << "the disk is well again, but what it dropped is not known";
+  EXPECT_EQ(content_of(folder.file("a.log")), "one\ntwo\n");
+}
+
+TEST(LineLog, TellsOfTheLastSyncAndOfANameThatIsNotDurable) {
+  const TemporaryFolder folder;
+  const FileCalls calls(folder.path().string());
+  for (const char* call : {"fsync a.log.part", "fsync ."}) {
+    auto log = LineLog::create(folder.file("a.log")).value();
+    log->add("one");
+    FileCalls::fail_next(call, EIO);
+    EXPECT_THAT(error_of(log->finish()), EndsWith("cannot be written: Input/output error")) << call;
+  }
+}
+
+/// A failing disk is no reason to have no journal, as long as it can be written.
+TEST(LineLog, TellsAtItsEndThatItsNewNameIsNotDurable) {
+  const TemporaryFolder folder;
+  for (const char* earlier : {"", "cut off\n"}) {
+    if (*earlier != '\0') {
+      std::ignore = folder.with("a.log.part", earlier);
+    }
+    const FileCalls calls(folder.path().string());
+    FileCalls::fail_next("fsync .", EIO);
+    auto log = LineLog::create(folder.file("a.log")).value();
+    log->add("one");
+    EXPECT_EQ(error_of(log->finish()),
+              "its name may not outlast a loss of power: " + folder.path().string() +
+                  ": cannot be written: Input/output error");
+    EXPECT_EQ(content_of(folder.file("a.log")), "one\n");
+  }
+}
+
+TEST(LineLog, TakesNoNameWhoseEarlierOwnerIsNotDurableElsewhere) {
+  const TemporaryFolder folder;
+  std::ignore = folder.with("a.log", "finished\n");
+  const FileCalls calls(folder.path().string());
+  auto log = LineLog::create(folder.file("a.log")).value();
+  log->add("one");
+  FileCalls::fail_next("fsync .", EIO);
+  EXPECT_THAT(error_of(log->finish()), EndsWith("cannot be written: Input/output error"));
+  EXPECT_EQ(content_of(folder.file("a-1.log")), "finished\n");
+  EXPECT_EQ(content_of(folder.file("a.log.part")), "one\n");
 }
 
 /// A line that the disk had no room for is told of, and tears no other.

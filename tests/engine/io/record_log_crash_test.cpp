@@ -1,103 +1,58 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cerrno>
 
-#include "engine/io/record_log.h"
-#include "tests/support/is_ok.h"
-#include "tests/support/memory_env.h"
+#include "tests/support/told_log.h"
 
 namespace orthonav::engine {
 namespace {
 
 using orthonav::test::after_kill;
 using orthonav::test::after_power_loss;
+using orthonav::test::durable_by;
 using orthonav::test::Files;
 using orthonav::test::is_ok;
+using orthonav::test::kToldLog;
+using orthonav::test::long_story;
 using orthonav::test::MemoryEnv;
+using orthonav::test::records_left;
+using orthonav::test::tell;
 using ::testing::HasSubstr;
-
-const std::string kLog = "out/operation.log";
-
-/// What is recorded, with lengths on both sides of a block's.
-std::vector<std::string> story() {
-  std::vector<std::string> payloads = {"begin", "", "a"};
-  for (std::size_t i = 0; i < 36; ++i) {
-    const std::size_t size = i % 3 == 0 ? 480 + i : (i * i * 37) % 3000;
-    payloads.push_back(std::string(size, static_cast<char>('b' + i % 20)));
-  }
-  return payloads;
-}
-
-/// Tells it; returns after how many calls each record was said to be durable.
-std::vector<std::size_t> tell(MemoryEnv& env, const std::vector<std::string>& payloads) {
-  std::vector<std::size_t> durable_after;
-  auto log = RecordLog::create(env, kLog, {1, 1, payloads.front()});
-  for (std::size_t i = 0; log && i < payloads.size(); ++i) {
-    if (i > 0 && !(*log)->append({2, 1, payloads[i]})) {
-      break;
-    }
-    durable_after.push_back(env.calls().size());
-  }
-  return durable_after;
-}
-
-/// How many records the newest log holds; each must be as it was told.
-std::size_t records_left(const Files& files, const std::vector<std::string>& payloads) {
-  MemoryEnv env(files);
-  const auto path = newest_log(env, kLog);
-  if (!path || !*path) {
-    return 0;
-  }
-  const auto read = read_log(env, **path);
-  EXPECT_TRUE(is_ok(read));
-  if (!read) {
-    return 0;
-  }
-  EXPECT_GE(read->records.size(), 1u) << "a log has its name before it has its first record";
-  EXPECT_LE(read->records.size(), payloads.size());
-  for (std::size_t i = 0; i < std::min(read->records.size(), payloads.size()); ++i) {
-    EXPECT_EQ(read->records[i].payload, payloads[i]);
-  }
-  return read->records.size();
-}
 
 /// Of a log that is there, another process goes on with.
 void expect_goes_on(const Files& files) {
   MemoryEnv env(files);
-  auto again = RecordLog::reopen(env, kLog);
+  auto again = RecordLog::reopen(env, kToldLog);
   ASSERT_TRUE(is_ok(again));
   const std::size_t before = again->records.size();
   ASSERT_TRUE(is_ok(again->log->append({3, 1, "after the crash"})));
   // And power is lost at once.
   for (const Files& left : after_power_loss(files, env.calls())) {
     MemoryEnv later(left);
-    const auto read = read_log(later, kLog);
+    const auto read = read_log(later, kToldLog);
     ASSERT_TRUE(is_ok(read));
     ASSERT_EQ(read->records.size(), before + 1);
     EXPECT_EQ(read->records.back().payload, "after the crash");
   }
 }
 
-std::size_t durable_by(const std::vector<std::size_t>& durable_after, std::size_t calls) {
-  return static_cast<std::size_t>(std::count_if(durable_after.begin(), durable_after.end(),
-                                                [&](std::size_t after) { return after <= calls; }));
-}
-
 TEST(CrashOfALog, LeavesAPrefixWithAllThatWasSavedWheneverPowerIsLost) {
-  const auto payloads = story();
+  const auto payloads = long_story();
   MemoryEnv env;
   const auto durable_after = tell(env, payloads);
   ASSERT_EQ(durable_after.size(), payloads.size());
   std::size_t tried = 0;
+  std::size_t lost = 0;
+  std::size_t too_many = 0;
   for (std::size_t n = 0; n <= env.calls().size(); ++n) {
     const auto calls = std::span(env.calls()).first(n);
     const std::size_t saved = durable_by(durable_after, n);
     for (const Files& files : after_power_loss({}, calls)) {
       const std::size_t left = records_left(files, payloads);
-      ASSERT_GE(left, saved) << "after call " << n;
-      ASSERT_LE(left, saved + 1) << "after call " << n;
+      lost += saved - std::min(saved, left);
+      too_many += left - std::min(left, saved + 1);
+      ASSERT_EQ(lost + too_many, 0u) << "after call " << n << ": " << left << " of " << saved;
       ++tried;
       if (left > 0 && (tried % 7) == 0) {
         expect_goes_on(files);
@@ -105,9 +60,12 @@ TEST(CrashOfALog, LeavesAPrefixWithAllThatWasSavedWheneverPowerIsLost) {
     }
     const std::size_t left = records_left(after_kill({}, calls), payloads);
     ASSERT_GE(left, saved);
+    too_many += left - std::min(left, saved + 1);
   }
   RecordProperty("prefixes", static_cast<int>(env.calls().size() + 1));
   RecordProperty("disks", static_cast<int>(tried));
+  RecordProperty("lost_records", static_cast<int>(lost));
+  RecordProperty("doubled_records", static_cast<int>(too_many));
   EXPECT_GT(tried, 500u);
 }
 
@@ -124,20 +82,65 @@ TEST(CrashOfALog, NeverLosesTheOperationBefore) {
     for (const Files& files : after_power_loss(before, std::span(env.calls()).first(n))) {
       MemoryEnv left(files);
       const bool aside = files.count("out/operation-1.log") > 0;
-      EXPECT_EQ(read_log(left, aside ? "out/operation-1.log" : kLog)->records.size(), 2u)
+      EXPECT_EQ(read_log(left, aside ? "out/operation-1.log" : kToldLog)->records.size(), 2u)
           << "after call " << n;
-      const bool begun = aside && files.count(kLog) > 0;
+      const bool begun = aside && files.count(kToldLog) > 0;
       EXPECT_GE(records_left(files, begun ? later : earlier), saved);
     }
   }
 }
 
+/// `demo` keeps no earlier log: one of the two is there whenever power is lost, and whole.
+TEST(CrashOfALog, ThatReplacesAnEarlierOneLeavesTheOneOrTheOther) {
+  MemoryEnv first;
+  const std::vector<std::string> earlier = {"earlier", std::string(700, 's'), "screw"};
+  tell(first, earlier);
+  const Files before = first.files();
+  MemoryEnv env(before);
+  const std::vector<std::string> later = {std::string(900, 'l'), "another"};
+  const auto durable_after = tell(env, later, RecordLog::Earlier::kReplaced);
+  ASSERT_EQ(durable_after.size(), later.size());
+  std::size_t replaced = 0;
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n <= env.calls().size(); ++n) {
+    const auto calls = std::span(env.calls()).first(n);
+    std::vector<Files> disks = after_power_loss(before, calls);
+    disks.push_back(after_kill(before, calls));
+    const std::size_t saved = durable_by(durable_after, n);
+    for (const Files& files : disks) {
+      MemoryEnv left(files);
+      const auto read = read_log(left, kToldLog);
+      ASSERT_TRUE(is_ok(read)) << "after call " << n;
+      ASSERT_FALSE(read->records.empty()) << "after call " << n;
+      const bool is_earlier = read->records.front().payload == earlier.front();
+      ++(is_earlier ? kept : replaced);
+      EXPECT_TRUE(saved == 0 || !is_earlier) << "after call " << n;
+      EXPECT_GE(records_left(files, is_earlier ? earlier : later),
+                is_earlier ? earlier.size() : saved);
+    }
+  }
+  RecordProperty("prefixes", static_cast<int>(env.calls().size() + 1));
+  RecordProperty("disks", static_cast<int>(kept + replaced));
+  EXPECT_GT(kept, 10u);
+  EXPECT_GT(replaced, 10u);
+}
+
+/// What was behind the last whole record is there still, or beside.
+bool keeps(const Files& files, const std::string& torn) {
+  const auto ends = [&](const std::string& name) {
+    const auto file = files.find(name);
+    return file != files.end() && file->second.ends_with(torn);
+  };
+  return ends(kToldLog) || ends(kToldLog + ".dropped");
+}
+
 class FaultOfADisk : public ::testing::TestWithParam<int> {};
 
 TEST_P(FaultOfADisk, AtAnyCallLeavesAPrefixAndIsToldOnce) {
-  const auto payloads = story();
+  const auto payloads = long_story();
   MemoryEnv well;
   tell(well, payloads);
+  RecordProperty("faults", static_cast<int>(2 * well.calls().size()));
   for (const bool from_then_on : {false, true}) {
     for (std::size_t n = 0; n < well.calls().size(); ++n) {
       MemoryEnv env;
@@ -154,24 +157,68 @@ TEST_P(FaultOfADisk, AtAnyCallLeavesAPrefixAndIsToldOnce) {
 
 TEST_P(FaultOfADisk, AtAnyCallOfGoingOnLeavesWhatWasSaved) {
   MemoryEnv first;
-  const auto payloads = story();
+  const auto payloads = long_story();
   tell(first, payloads);
   Files torn = first.files();
-  torn[kLog] += "torn";
+  torn[kToldLog] += "torn";
   MemoryEnv well(torn);
-  ASSERT_TRUE(is_ok(RecordLog::reopen(well, kLog)));
+  ASSERT_TRUE(is_ok(RecordLog::reopen(well, kToldLog)));
+  RecordProperty("faults", static_cast<int>(well.calls().size()));
   for (std::size_t n = 0; n < well.calls().size(); ++n) {
     MemoryEnv env(torn);
     env.fail_at(n, GetParam(), false);
-    const auto again = RecordLog::reopen(env, kLog);
+    const auto again = RecordLog::reopen(env, kToldLog);
     ASSERT_FALSE(again.ok()) << "call " << n;
     EXPECT_THAT(again.error().message, HasSubstr("out"));
     for (const Files& files : after_power_loss(torn, env.calls())) {
       EXPECT_EQ(records_left(files, payloads), payloads.size());
+      EXPECT_TRUE(keeps(files, "torn")) << "call " << n;
       MemoryEnv later(files);
-      EXPECT_TRUE(is_ok(RecordLog::reopen(later, kLog)));
+      EXPECT_TRUE(is_ok(RecordLog::reopen(later, kToldLog)));
     }
   }
+}
+
+TEST_P(FaultOfADisk, AtAnyLookIsToldAndTheEarlierLogStays) {
+  MemoryEnv first;
+  const std::vector<std::string> earlier = {"earlier", "screw"};
+  tell(first, earlier);
+  const Files before = first.files();
+  MemoryEnv well(before);
+  ASSERT_TRUE(is_ok(RecordLog::create(well, kToldLog, {1, 1, "later"})));
+  ASSERT_GE(well.looks(), 1u);
+  for (std::size_t n = 0; n < well.looks(); ++n) {
+    MemoryEnv env(before);
+    env.fail_look_at(n, GetParam());
+    const auto log = RecordLog::create(env, kToldLog, {1, 1, "later"});
+    ASSERT_FALSE(log.ok()) << "look " << n;
+    EXPECT_THAT(log.error().message, HasSubstr("out: cannot be read"));
+    for (const Files& files : after_power_loss(before, env.calls())) {
+      EXPECT_EQ(records_left(files, earlier), 2u);
+    }
+    EXPECT_TRUE(is_ok(RecordLog::create(env, kToldLog, {1, 1, "later"}))) << "well again";
+  }
+  RecordProperty("faults", static_cast<int>(well.looks()));
+}
+
+TEST_P(FaultOfADisk, AtAnyLookOfGoingOnChangesNothing) {
+  MemoryEnv first;
+  tell(first, {"begin", "one"});
+  Files torn = first.files();
+  torn[kToldLog] += "torn";
+  const auto looks_once = [&](const auto& how) {
+    MemoryEnv env(torn);
+    env.fail_look_at(0, GetParam());
+    const auto answer = how(env);
+    EXPECT_FALSE(answer.ok());
+    EXPECT_THAT(test::error_of(answer), HasSubstr("cannot be read"));
+    EXPECT_TRUE(env.calls().empty());
+    EXPECT_TRUE(is_ok(how(env))) << "well again";
+  };
+  looks_once([](MemoryEnv& env) { return RecordLog::reopen(env, kToldLog); });
+  looks_once([](MemoryEnv& env) { return newest_log(env, kToldLog); });
+  looks_once([](MemoryEnv& env) { return read_log(env, kToldLog); });
+  RecordProperty("faults", 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, FaultOfADisk, ::testing::Values(ENOSPC, EIO, EROFS));

@@ -51,16 +51,32 @@ std::size_t saved_by(const std::vector<Told>& told, std::size_t calls) {
   return records;
 }
 
+/// How many samples the saved regions of the first so many records hold.
+std::size_t samples_in(std::span<const Record> records) {
+  const auto operation = LoggedOperation::from({records.begin(), records.end()}, "log");
+  std::size_t samples = 0;
+  for (const LoggedLevel& level : operation->levels) {
+    for (const nav::Region& region : level.regions) {
+      samples += region.samples.size();
+    }
+  }
+  return samples;
+}
+
 /// Whatever a crash leaves, another program finds the operation as it was at some moment, with
 /// everything of which the surgeon had been told that it was saved.
 TEST(CrashOfAnOperation, LeavesWhatHadHappenedUpToSomeMoment) {
   MemoryEnv env;
   const std::vector<Told> told = operate(env);
   const std::vector<Record> all = read_log(env, kLogPath)->records;
+  std::vector<std::size_t> samples = {0};  // by the number of records
   for (std::size_t n = 1; n <= all.size(); ++n) {
-    EXPECT_TRUE(is_ok(LoggedOperation::from({all.begin(), all.begin() + n}, "log"))) << n;
+    ASSERT_TRUE(is_ok(LoggedOperation::from({all.begin(), all.begin() + n}, "log"))) << n;
+    samples.push_back(samples_in(std::span(all).first(n)));
   }
+  EXPECT_GT(samples.back(), 15u);
   int tried = 0;
+  std::size_t lost_samples = 0;
   for (std::size_t n = told.front().calls; n <= env.calls().size(); ++n) {
     const auto calls = std::span(env.calls()).first(n);
     std::vector<Files> disks = after_power_loss({}, calls);
@@ -70,12 +86,17 @@ TEST(CrashOfAnOperation, LeavesWhatHadHappenedUpToSomeMoment) {
       const auto read = read_log(left, kLogPath);
       ASSERT_TRUE(is_ok(read));
       ASSERT_LE(read->records.size(), all.size());
-      EXPECT_GE(read->records.size(), saved_by(told, n)) << "after call " << n;
+      const std::size_t saved = saved_by(told, n);
+      EXPECT_GE(read->records.size(), saved) << "after call " << n;
+      lost_samples += samples[saved] - std::min(samples[saved], samples[read->records.size()]);
       EXPECT_TRUE(std::equal(read->records.begin(), read->records.end(), all.begin()));
       ++tried;
     }
   }
+  EXPECT_EQ(lost_samples, 0u);
+  RecordProperty("prefixes", static_cast<int>(env.calls().size() + 1 - told.front().calls));
   RecordProperty("disks", tried);
+  RecordProperty("lost_samples", static_cast<int>(lost_samples));
   EXPECT_GT(tried, 200);
 }
 

@@ -189,6 +189,7 @@ TEST(OperationLog, SaysNotSavedFromThenOnAndTheOperationGoesOn) {
       EXPECT_THAT(end.error().message, HasSubstr("out/operation.log: cannot be written"));
     }
   }
+  RecordProperty("faults", 3 * 4);
 }
 
 TEST(OperationLog, HoldsWhatWasShownWhenARegistrationWasAccepted) {
@@ -222,6 +223,33 @@ TEST(OperationLog, HoldsAnOverrideWithItsReason) {
   const nlohmann::json kept = last_of(env, OperationRecord::kWire);
   EXPECT_TRUE(kept["wire"]["kept"]);
   EXPECT_GT(kept["wire"]["entry_m"][0], kept["wire"]["entry_limit_m"]);
+}
+
+TEST(OperationLog, HoldsABreachOfTheCortexWithItsReason) {
+  MemoryEnv env;
+  ScriptedOperation s = by_touch();
+  s.registers_within(0.0004);
+  auto log = log_of(s, env);
+  s.accepts_first_by_touch();
+  s.says("move lateral nine");
+  EXPECT_EQ(last_of(env, OperationRecord::kPlan)["screws"][0]["accepted_breach"], "")
+      << "still in the bone";
+  const std::size_t before = records_in(env).size();
+  s.says("tilt lateral nine");
+  s.pair();
+  EXPECT_EQ(records_in(env).size(), before) << "asked, not taken yet";
+  s.says("accept");
+  const nlohmann::json plan = last_of(env, OperationRecord::kPlan);
+  EXPECT_EQ(plan["label"], "L4");
+  EXPECT_EQ(plan["why"], "tilt lateral 9.0\u00b0");
+  EXPECT_EQ(plan["screws"][0]["accepted_breach"], "accepted in surgery");
+  EXPECT_EQ(plan["screws"][0]["earlier"].size(), 2u);
+  EXPECT_EQ(plan["screws"][1]["accepted_breach"], "") << "of that screw alone";
+  const nav::ScrewPlan& screw = s.session().levels()[0].plan.screws[0];
+  const LoggedOperation told = recorded_in(env);
+  const LoggedScrew& again = told.levels[0].screws[0];
+  EXPECT_EQ(again.plan.accepted_breach, "accepted in surgery");
+  EXPECT_EQ(again.plan.target, screw.target);
 }
 
 TEST(OperationLog, IsOneProcessAlone) {

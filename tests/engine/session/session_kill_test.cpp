@@ -2,6 +2,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <map>
 #include <set>
@@ -18,6 +20,7 @@ namespace {
 
 using test::after_kill;
 using test::after_power_loss;
+using test::EnvCall;
 using test::Files;
 using test::is_ok;
 using test::kLogFolder;
@@ -44,20 +47,35 @@ std::map<std::string, int> screws_done(const std::vector<Record>& records) {
 const std::map<std::string, int> kEveryScrewOnce = {
     {"L4 left", 1}, {"L4 right", 1}, {"L5 left", 1}, {"L5 right", 1}};
 
-/// Another program goes on with what was left, to the end; returns where each screw went.
-std::vector<Vec3> finished(Env& env, bool reference, const std::string& folder) {
+int doubled_in(const std::map<std::string, int>& done) {
+  int doubled = 0;
+  for (const auto& [screw, times] : done) {
+    doubled += times - 1;
+  }
+  return doubled;
+}
+
+/// How an operation ended that was gone on with.
+struct Ended {
+  std::vector<Vec3> entries_m;  ///< where each screw went
+  int doubled = 0;              ///< screws that were declared done more than once
+};
+
+/// Another program goes on with what was left, to the end.
+Ended finished(Env& env, bool reference, const std::string& folder) {
   ResumedOperation r(env, reference, folder);
   EXPECT_TRUE(is_ok(r.resumed));
   ScriptedSurgeon(*r.operation).finish();
   EXPECT_EQ(r.operation->session().current_step(), Step::kDone);
   EXPECT_TRUE(is_ok(r.log->finish(true, "")));
-  std::vector<Vec3> entries_m;
+  Ended ended;
   for (std::size_t i = 0; i < r.before.levels.size(); ++i) {
     const LevelState& level = r.operation->session().levels()[i];
     EXPECT_TRUE(level.finished());
     for (std::size_t screw = 0; screw < level.executed.size(); ++screw) {
       EXPECT_TRUE(level.executed[screw]);
-      entries_m.push_back(level.executed[screw] ? level.executed[screw]->axis.point.v : Vec3{});
+      ended.entries_m.push_back(level.executed[screw] ? level.executed[screw]->axis.point.v
+                                                      : Vec3{});
       const LoggedScrew& before = r.before.levels[i].screws[screw];
       if (before.done) {
         EXPECT_EQ(level.executed[screw]->axis.point, before.executed->axis.point) << "to the bit";
@@ -65,7 +83,24 @@ std::vector<Vec3> finished(Env& env, bool reference, const std::string& folder) 
     }
   }
   const auto log = read_log(env, folder + "/operation.log");
-  EXPECT_EQ(screws_done(log->records), kEveryScrewOnce);
+  const auto done = screws_done(log->records);
+  EXPECT_EQ(done, kEveryScrewOnce);
+  ended.doubled = doubled_in(done);
+  return ended;
+}
+
+/// One that nothing interrupts; returns where each screw went.
+std::vector<Vec3> operate(MemoryEnv& env, bool reference) {
+  std::vector<Vec3> entries_m;
+  auto s = touched_operation(reference);
+  auto log = log_of(*s, env, reference);
+  ScriptedSurgeon(*s).finish();
+  EXPECT_EQ(s->session().current_step(), Step::kDone);
+  for (const LevelState& level : s->session().levels()) {
+    for (const auto& executed : level.executed) {
+      entries_m.push_back(executed->axis.point.v);
+    }
+  }
   return entries_m;
 }
 
@@ -73,21 +108,11 @@ class KilledOperation : public ::testing::TestWithParam<bool> {};
 
 TEST_P(KilledOperation, AtEveryEventEndsWithTheSameScrewsAndNoneTwice) {
   MemoryEnv env;
-  std::vector<Vec3> expected_m;
-  {
-    auto s = touched_operation(GetParam());
-    auto log = log_of(*s, env, GetParam());
-    ScriptedSurgeon(*s).finish();
-    ASSERT_EQ(s->session().current_step(), Step::kDone);
-    for (const LevelState& level : s->session().levels()) {
-      for (const auto& executed : level.executed) {
-        expected_m.push_back(executed->axis.point.v);
-      }
-    }
-  }
+  const std::vector<Vec3> expected_m = operate(env, GetParam());
   // The operation is the same whenever power goes with the same number of whole records.
   std::set<std::size_t> tried;
   int disks = 0;
+  int doubled = 0;
   for (std::size_t n = 5; n <= env.calls().size(); ++n) {
     const auto calls = std::span(env.calls()).first(n);
     std::vector<Files> left = after_power_loss({}, calls);
@@ -100,16 +125,73 @@ TEST_P(KilledOperation, AtEveryEventEndsWithTheSameScrewsAndNoneTwice) {
       if (!tried.insert(read->records.size()).second) {
         continue;
       }
-      const std::vector<Vec3> entries_m = finished(disk, GetParam(), kLogFolder);
-      ASSERT_EQ(entries_m.size(), expected_m.size());
-      for (std::size_t i = 0; i < entries_m.size(); ++i) {
-        EXPECT_LT((entries_m[i] - expected_m[i]).norm(), 2e-5) << "killed after call " << n;
+      const Ended ended = finished(disk, GetParam(), kLogFolder);
+      doubled += ended.doubled;
+      ASSERT_EQ(ended.entries_m.size(), expected_m.size());
+      for (std::size_t i = 0; i < expected_m.size(); ++i) {
+        EXPECT_LT((ended.entries_m[i] - expected_m[i]).norm(), 2e-5) << "killed after call " << n;
       }
     }
   }
   RecordProperty("kills", static_cast<int>(tried.size()));
   RecordProperty("disks", disks);
+  RecordProperty("doubled_screws", doubled);
   EXPECT_GT(tried.size(), 30u);
+}
+
+/// What power leaves after a second program went on with what a killed one had written: at once,
+/// and in the middle of its last record. Of each, how many records it had been told are saved.
+struct WithoutPower {
+  std::vector<Files> disks;
+  std::size_t saved = 0;
+};
+
+std::vector<WithoutPower> without_power(std::vector<EnvCall> calls, bool reference) {
+  MemoryEnv second(after_kill({}, calls));
+  ResumedOperation r(second, reference, kLogFolder);
+  EXPECT_TRUE(is_ok(r.resumed));
+  const std::size_t opened = second.calls().size();
+  const std::size_t found = read_log(second, kLogPath)->records.size();
+  ScriptedSurgeon surgeon(*r.operation);
+  for (int i = 0; i < 8 && surgeon.act(); ++i) {
+  }
+  const std::size_t told = read_log(second, kLogPath)->records.size();
+  const std::size_t killed = calls.size();
+  calls.insert(calls.end(), second.calls().begin(), second.calls().end());
+  const auto after = [&](std::size_t n) { return after_power_loss({}, std::span(calls).first(n)); };
+  return {{after(killed + opened), found}, {after(calls.size() - 1), told - 1}};
+}
+
+TEST_P(KilledOperation, AndThenWithoutPowerEndsWithEachScrewOnce) {
+  MemoryEnv first;
+  operate(first, GetParam());
+  int kills = 0;
+  int disks = 0;
+  int doubled = 0;
+  std::size_t lost = 0;
+  constexpr std::size_t kEvery = 17;  // odd: between a write and its sync, and after both
+  for (std::size_t n = 5; n <= first.calls().size(); n += kEvery) {
+    const auto calls = std::span(first.calls()).first(n);
+    for (const auto& [left, saved] : without_power({calls.begin(), calls.end()}, GetParam())) {
+      std::set<std::size_t> tried;
+      for (const Files& files : left) {
+        MemoryEnv disk(files);
+        const std::size_t records = read_log(disk, kLogPath)->records.size();
+        lost += saved - std::min(saved, records);
+        ++disks;
+        if (tried.insert(records).second) {
+          doubled += finished(disk, GetParam(), kLogFolder).doubled;
+        }
+      }
+    }
+    ++kills;
+  }
+  EXPECT_EQ(lost, 0u);
+  RecordProperty("kills", kills);
+  RecordProperty("disks", disks);
+  RecordProperty("lost_records", static_cast<int>(lost));
+  RecordProperty("doubled_screws", doubled);
+  EXPECT_GE(kills, 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutReference, KilledOperation, ::testing::Bool());
@@ -142,13 +224,17 @@ void operate_until_killed(const std::string& folder, int acts) {
 }
 
 TEST(KilledProcess, IsGoneOnWithByAnother) {
-  for (const int acts : {1, 5, 10, 14, 19, 26, 40}) {
+  constexpr std::array kAfterActs = {1, 5, 10, 14, 19, 26, 40};
+  int doubled = 0;
+  for (const int acts : kAfterActs) {
     const TemporaryFolder folder;
     operate_until_killed(folder.path().string(), acts);
     PosixEnv env;
     ASSERT_TRUE(is_ok(OperationLog::find(env, folder.path().string()))) << "the lock went with it";
-    finished(env, true, folder.path().string());
+    doubled += finished(env, true, folder.path().string()).doubled;
   }
+  RecordProperty("processes_killed", static_cast<int>(kAfterActs.size()));
+  RecordProperty("doubled_screws", doubled);
 }
 
 }  // namespace

@@ -200,6 +200,7 @@ TEST(ResumedSession, GoesOnUnsavedWhereTheDiskTakesNothingMore) {
           << "what was saved before still is";
     }
   }
+  RecordProperty("faults", 3 * 8);
 }
 
 TEST(ResumedSession, IsRefusedWhereReferencesLieElsewhereAndOnceItBegan) {
