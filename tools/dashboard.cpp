@@ -13,6 +13,7 @@
 #include "base/printed.h"
 #include "embedded/dashboard_html.h"
 #include "engine/io/image_file.h"
+#include "engine/session/part_wording.h"
 #include "tools/arguments.h"
 #include "tools/dashboard_state.h"
 #include "tools/web_access.h"
@@ -79,6 +80,11 @@ class Dashboard::Server {
     state_ = std::move(state);
     left_ = left;
     told_ = Steady::now();
+    stalled_.clear();
+  }
+  void tell_stall(std::string_view text) {
+    const MutexLock lock(mutex_);
+    stalled_ = text;
   }
   void show(const RgbaImage& picture, const std::string& what) {
     const MutexLock lock(mutex_);
@@ -153,6 +159,7 @@ class Dashboard::Server {
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(age).count();
     return "{\"age_ms\":" + std::to_string(ms) +
            ",\"view\":" + nlohmann::json(what_is_seen()).dump() +
+           ",\"stalled\":" + nlohmann::json(stalled_).dump() +
            ",\"now\":" + (state_.empty() ? "null" : state_) + "}";
   }
 
@@ -189,6 +196,7 @@ class Dashboard::Server {
 
   Mutex mutex_;
   std::string state_ ORTHONAV_GUARDED_BY(mutex_);
+  std::string stalled_ ORTHONAV_GUARDED_BY(mutex_);  ///< empty: nothing hangs
   GreyImage left_ ORTHONAV_GUARDED_BY(mutex_);
   RgbaImage view_ ORTHONAV_GUARDED_BY(mutex_);
   std::string what_ ORTHONAV_GUARDED_BY(mutex_);
@@ -257,6 +265,10 @@ void Dashboard::show(const RgbaImage& picture, const std::string& what) {
   if (server_) {
     server_->show(picture, what);
   }
+}
+
+void Dashboard::part_stalled(engine::Part part) {
+  server_->tell_stall(engine::stalled_text(part));
 }
 
 void Dashboard::note_changes() {
