@@ -29,6 +29,9 @@ using test::ScriptedSurgeon;
 using test::TemporaryFolder;
 using test::touched_operation;
 
+/// With a refusal, a changed plan, a redone screw and an override, so that kills fall between them.
+constexpr test::Story kStory = test::Story::kEventful;
+
 /// How often each screw was declared done, over all programs of the operation.
 std::map<std::string, int> screws_done(const std::vector<Record>& records) {
   std::map<std::string, int> done;
@@ -48,7 +51,7 @@ const std::map<std::string, int> kEveryScrewOnce = {
 std::vector<Vec3> finished(Env& env, bool reference, const std::string& folder) {
   ResumedOperation r(env, reference, folder);
   EXPECT_TRUE(is_ok(r.resumed));
-  ScriptedSurgeon(*r.operation).finish();
+  ScriptedSurgeon(*r.operation, 5, kStory).finish();
   EXPECT_EQ(r.operation->session().current_step(), Step::kDone);
   EXPECT_TRUE(is_ok(r.log->finish(true, "")));
   std::vector<Vec3> entries_m;
@@ -77,8 +80,12 @@ TEST_P(KilledOperation, AtEveryEventEndsWithTheSameScrewsAndNoneTwice) {
   {
     auto s = touched_operation(GetParam());
     auto log = log_of(*s, env, GetParam());
-    ScriptedSurgeon(*s).finish();
+    ScriptedSurgeon(*s, 5, kStory).finish();
     ASSERT_EQ(s->session().current_step(), Step::kDone);
+    EXPECT_TRUE(s->session().levels()[0].replanned(1));
+    EXPECT_EQ(s->session().levels()[1].redone[0], 1);
+    EXPECT_TRUE(s->session().levels()[1].wires[1].measured->kept);
+    EXPECT_EQ(s->session().levels()[1].attempts, 2) << "the first was refused";
     for (const LevelState& level : s->session().levels()) {
       for (const auto& executed : level.executed) {
         expected_m.push_back(executed->axis.point.v);
@@ -126,7 +133,7 @@ void operate_until_killed(const std::string& folder, int acts) {
     auto log = OperationLog::begin(env, folder, test::identity_of(*s, true), s->session().levels(),
                                    RecordWriter::Waits::kNot, RecordLog::Earlier::kKept);
     s->session().observe(log->get());
-    ScriptedSurgeon surgeon(*s);
+    ScriptedSurgeon surgeon(*s, 5, kStory);
     for (;;) {
       surgeon.act();
       std::ignore = ::write(pipe[1], "x", 1);
