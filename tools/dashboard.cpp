@@ -15,6 +15,7 @@
 #include "base/stopwatch.h"
 #include "embedded/dashboard_html.h"
 #include "engine/io/image_file.h"
+#include "engine/session/part_wording.h"
 #include "tools/arguments.h"
 #include "tools/dashboard_state.h"
 #include "tools/web_access.h"
@@ -81,6 +82,11 @@ class Dashboard::Server {
     state_ = std::move(state);
     left_ = left;
     since_told_ = Stopwatch();
+    stalled_.clear();
+  }
+  void tell_stall(std::string_view text) {
+    const MutexLock lock(mutex_);
+    stalled_ = text;
   }
   void show(const RgbaImage& picture, const std::string& what) {
     const MutexLock lock(mutex_);
@@ -159,6 +165,7 @@ class Dashboard::Server {
         std::chrono::duration_cast<std::chrono::milliseconds>(since_told_.elapsed()).count();
     return "{\"age_ms\":" + std::to_string(ms) +
            ",\"view\":" + nlohmann::json(what_is_seen()).dump() +
+           ",\"stalled\":" + nlohmann::json(stalled_).dump() +
            ",\"now\":" + (state_.empty() ? "null" : state_) + "}";
   }
 
@@ -195,6 +202,7 @@ class Dashboard::Server {
 
   mutable Mutex mutex_;
   std::string state_ ORTHONAV_GUARDED_BY(mutex_);
+  std::string stalled_ ORTHONAV_GUARDED_BY(mutex_);  ///< empty: nothing hangs
   GreyImage left_ ORTHONAV_GUARDED_BY(mutex_);
   RgbaImage view_ ORTHONAV_GUARDED_BY(mutex_);
   std::string what_ ORTHONAV_GUARDED_BY(mutex_);
@@ -264,6 +272,8 @@ void Dashboard::show(const RgbaImage& picture, const std::string& what) {
     server_->show(picture, what);
   }
 }
+
+void Dashboard::part_stalled(engine::Part part) { server_->tell_stall(engine::stalled_text(part)); }
 
 void Dashboard::note_changes() {
   const std::string& step = changes_.new_step();

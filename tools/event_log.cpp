@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "engine/session/part_wording.h"
+
 namespace orthonav::tools {
 
 void EventLogArguments::add_to(CLI::App& command) {
@@ -79,6 +81,8 @@ void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*
     }
   }
 }
+
+void EventLog::part_stalled(engine::Part part) { warn(std::string(engine::stalled_text(part))); }
 
 void EventLog::ended(const engine::LoopReport& report) {
   if (!log_) {

@@ -22,6 +22,9 @@ class LoopObserver {
                        const Guidance& /*guidance*/) {}
   /// A snapshot was filled and is about to go to the rendering thread.
   virtual void captured(const Snapshot& /*snapshot*/) {}
+  /// The tracking thread hangs in that part, once each time. Called on the rendering thread, where
+  /// snapshots are drawn in real time.
+  virtual void part_stalled(Part /*part*/) {}
 };
 
 /// Draws snapshots, on the rendering thread.

@@ -73,22 +73,28 @@ Status FrameLoop::draw_into_sink(const Snapshot& snapshot) {
   return sink_->draw(snapshot);
 }
 
-/// Draws a notice in place of everything else: the part that the tracking thread hangs in.
+/// Draws a notice in place of everything else: the part that the tracking thread hangs in. Before
+/// the first snapshot there is nothing else.
 void FrameLoop::warn_of_stall(const Snapshot* last, std::optional<Part>& warned,
                               LoopReport& drawing) {
   const std::optional<Part> stalled = beats_->tracking_stalled();
-  if (!stalled || stalled == warned || !last) {
+  if (!stalled || stalled == warned) {
     return;
   }
+  const Snapshot none;
+  const Snapshot& before = last ? *last : none;
   Snapshot warning;
-  warning.frame = last->frame;
+  warning.frame = before.frame;
   warning.display_time = next_display_time();
-  warning.step = last->step;
-  warning.map_epoch = last->map_epoch;
+  warning.step = before.step;
+  warning.map_epoch = before.map_epoch;
   warning.blank = true;
-  write_notice_alone(last->scene, stalled_text(*stalled), warning.scene);
+  write_notice_alone(before.scene, stalled_text(*stalled), warning.scene);
   warned = stalled;
   ++drawing.stalls;
+  for (LoopObserver* observer : observers_) {
+    observer->part_stalled(*stalled);
+  }
   if (const Status drawn = draw_into_sink(warning); !drawn) {
     ++drawing.failures;
     drawing.last_failure = drawn.error().message;

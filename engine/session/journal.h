@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -86,13 +87,18 @@ class Journal : public SessionObserver {
  private:
   Journal(std::unique_ptr<LineLog> log, std::int64_t epoch_ticks_100ns)
       : log_(std::move(log)), epoch_ticks_100ns_(epoch_ticks_100ns) {}
+  /// Of an operation that was resumed: an earlier journal told of the registration.
+  void tell_restored(Timestamp time, const LevelState& level);
+  void tell_registration(Timestamp time, const LevelState& level,
+                         const RegistrationOutcome& outcome, bool restored);
   [[nodiscard]] std::int64_t file_ticks(Timestamp time) const {
     return epoch_ticks_100ns_ + ticks_100ns(time);
   }
 
   std::unique_ptr<LineLog> log_;
   std::int64_t epoch_ticks_100ns_;
-  Timestamp newest_{};  ///< of what was told
+  Timestamp newest_{};                ///< of what was told
+  std::set<std::string> registered_;  ///< labels of the levels of which a registration was told
 };
 
 }  // namespace orthonav::engine

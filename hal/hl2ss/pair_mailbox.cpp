@@ -67,8 +67,16 @@ void PairMailbox::fail(Error trouble) {
   trouble_ = std::move(trouble);
 }
 
+void PairMailbox::die(Error why) {
+  const MutexLock lock(mutex_);
+  died_ = std::move(why);
+}
+
 std::optional<Error> PairMailbox::trouble() {
   const MutexLock lock(mutex_);
+  if (died_) {
+    return died_;
+  }
   return std::exchange(trouble_, std::nullopt);
 }
 

@@ -21,6 +21,8 @@ class PairMailbox {
   bool take(StereoFrame& frame);
   /// What went wrong since the last question; the pair that waited is void with it.
   void fail(Error trouble);
+  /// Nothing is put any more: that is the answer to every question from now on.
+  void die(Error why);
   [[nodiscard]] std::optional<Error> trouble();
   /// What was put is void: nobody may guide on it any more.
   void clear();
@@ -42,6 +44,7 @@ class PairMailbox {
   std::int64_t next_sequence_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   HostTime arrived_ ORTHONAV_GUARDED_BY(mutex_){};
   std::optional<Error> trouble_ ORTHONAV_GUARDED_BY(mutex_);
+  std::optional<Error> died_ ORTHONAV_GUARDED_BY(mutex_);
   Figures figures_ ORTHONAV_GUARDED_BY(mutex_);
   std::size_t next_publish_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::size_t next_take_ ORTHONAV_GUARDED_BY(mutex_) = 0;

@@ -35,7 +35,7 @@ Result<std::unique_ptr<Receiver>> Receiver::start(const net::Endpoint& host,
   receiver->thread_ = std::thread([self = receiver.get()] {
     const Status died = guarded("hl2ss", [self] { self->run(); });
     if (!died) {
-      self->pairs_.fail(died.error());
+      self->pairs_.die(died.error());
     }
   });
   return receiver;

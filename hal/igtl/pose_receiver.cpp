@@ -31,7 +31,7 @@ PoseReceiver::PoseReceiver(const net::Endpoint& host, const TrackerOptions& opti
     const Status died = guarded("igtl", [this] { run(); });
     if (!died) {
       const MutexLock lock(mutex_);
-      lost_ = died.error().message;
+      died_ = died;
     }
   });
 }
@@ -173,6 +173,9 @@ void PoseReceiver::tell() {
 
 Result<Next> PoseReceiver::next(StereoFrame& frame) {
   const MutexLock lock(mutex_);
+  if (!died_) {
+    return died_.error();
+  }
   if (lost_) {
     return Error{"igtl: " + options_.host +
                  ": connection lost: " + std::exchange(lost_, std::nullopt).value_or("")};

@@ -39,7 +39,8 @@ class PoseReceiver final : private MessageReader {
   PoseReceiver& operator=(const PoseReceiver&) = delete;
 
   [[nodiscard]] const Clock& clock() const { return clock_; }
-  /// As StereoCamera::do_next. An Error once for each connection that was lost.
+  /// As StereoCamera::do_next. An Error once for each connection that was lost, and for ever once
+  /// its thread died.
   Result<Next> next(StereoFrame& frame) ORTHONAV_EXCLUDES(mutex_);
   /// Of the newest frame.
   [[nodiscard]] std::optional<Timestamp> newest() const ORTHONAV_EXCLUDES(mutex_);
@@ -80,6 +81,7 @@ class PoseReceiver final : private MessageReader {
   std::optional<PoseFrame> waiting_ ORTHONAV_GUARDED_BY(mutex_);
   std::optional<Timestamp> newest_ ORTHONAV_GUARDED_BY(mutex_);
   std::optional<std::string> lost_ ORTHONAV_GUARDED_BY(mutex_);
+  Status died_ ORTHONAV_GUARDED_BY(mutex_);  ///< of what its thread did
   std::int64_t map_epoch_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::int64_t sequence_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::int64_t dropped_ ORTHONAV_GUARDED_BY(mutex_) = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "engine/case/tool_file.h"
 #include "engine/session/journal.h"
@@ -22,53 +24,37 @@ using engine::RecordWriter;
 constexpr Duration kLongest = std::chrono::minutes(45);
 constexpr int kMostResumes = 4;
 
-std::int64_t screws_done(std::span<const engine::LevelState> levels) {
-  std::int64_t done = 0;
-  for (const engine::LevelState& level : levels) {
-    done += std::count(level.screw_done.begin(), level.screw_done.end(), true);
-  }
-  return done;
-}
-
-std::int64_t screws_done(const engine::LoggedOperation& logged) {
-  std::int64_t done = 0;
-  for (const engine::LoggedLevel& level : logged.levels) {
-    done += std::count_if(level.screws.begin(), level.screws.end(),
-                          [](const engine::LoggedScrew& screw) { return screw.done; });
-  }
-  return done;
-}
-
 /// Draws nothing: the drawing thread takes its snapshots all the same.
 class Nobody : public engine::SnapshotSink {
  public:
   Status draw(const engine::Snapshot&) override { return {}; }
 };
 
-/// Fills the disk for a while, counted in pairs, and keeps what was known at the last pair.
+/// Fills the disk for a while, counted in pairs, and notes when "saved" is shown.
 class PairWatch : public engine::LoopObserver {
  public:
-  PairWatch(FlakyEnv& env, std::int64_t begin, std::int64_t pairs)
-      : env_(env), begin_(begin), end_(begin + pairs) {}
+  PairWatch(FlakyEnv& env, ToldEvents& told, std::int64_t begin, std::int64_t pairs)
+      : env_(env), told_(told), begin_(begin), end_(begin + pairs) {}
   void stepped(const StereoFrame& frame, const engine::Inputs&,
                const engine::Guidance& guidance) override {
     env_.set_full(pair_ >= begin_ && pair_ < end_);
     ++pair_;
     first_ = first_ ? first_ : frame.time;
     last_ = frame.time;
-    screws_ = screws_done(guidance.levels);
+    if (guidance.status.saved == engine::Saved::kSaved) {
+      told_.saved_is_shown();
+    }
   }
   [[nodiscard]] double span_s() const { return first_ ? seconds(last_ - *first_) : 0.0; }
-  [[nodiscard]] std::int64_t screws() const { return screws_; }
 
  private:
   FlakyEnv& env_;
+  ToldEvents& told_;
   std::int64_t begin_;
   std::int64_t end_;
   std::int64_t pair_ = 0;
   std::optional<Timestamp> first_;
   Timestamp last_{};
-  std::int64_t screws_ = 0;
 };
 
 /// One run of the program: until the operation ends or the device is lost.
@@ -81,11 +67,15 @@ class Attempt {
         row_(row),
         folder_(std::move(folder)),
         random_(Random(row.seed).fork("attempt").fork(static_cast<std::uint64_t>(row.resumed))),
-        pairs_(env_, row.full_disk ? static_cast<std::int64_t>(random_.uniform(200, 6000)) : 0,
+        pairs_(env_, told_,
+               row.full_disk ? static_cast<std::int64_t>(random_.uniform(200, 6000)) : 0,
                row.full_disk ? 300 : 0) {}
 
   /// Whether the operation reached its end.
   bool run() {
+    if (const Status found = find_earlier(); !found) {
+      return fail("operation log", found.error());
+    }
     const std::string journal_path = folder_ + "/session.orthonav";
     engine::JournalHeader header{"soak", "sim:", "best", source_.name, row_.seed, 0, {}};
     auto journal = engine::Journal::create(journal_path, header);
@@ -137,36 +127,50 @@ class Attempt {
     engine::OperationOptions options;
     options.measurement = engine::Measurement::kModel;
     options.tools = engine::built_in_tools();
+    options.use_reference = row_.reference;
+    if (earlier_) {
+      options.reference_places = earlier_->operation.references;
+    }
     options.sim.seed = row_.seed;
     options.loop.max_time = kLongest;
     options.loop.draw_every = 10;
     return options;
   }
+  /// What earlier attempts left, unless they recorded nothing.
+  Status find_earlier() {
+    if (row_.resumed == 0 || !row_.recorded) {
+      return {};
+    }
+    auto found = OperationLog::find(env_, folder_);
+    if (!found) {
+      return found.error();
+    }
+    records_before_ = found->records;
+    earlier_ = std::move(*found);
+    return {};
+  }
   Status keep(engine::AssembledOperation& live) {
     const engine::Session& session = live.session();
     const auto waits = RecordWriter::Waits::kUntilDurable;
-    if (row_.resumed == 0 || !row_.recorded) {
-      auto begun =
-          OperationLog::begin(env_, folder_,
-                              engine::identity_of(source_.name, session.levels(),
-                                                  session.tracker().tools(), "best", false),
-                              session.levels(), waits, RecordLog::Earlier::kReplaced);
+    if (!earlier_) {
+      auto begun = OperationLog::begin(
+          env_, folder_,
+          engine::identity_of(source_.name, session.levels(), session.tracker().tools(), "best",
+                              row_.reference),
+          session.levels(), waits, RecordLog::Earlier::kReplaced);
       if (!begun) {
         return begun.error();
       }
       log_ = std::move(*begun);
     } else {
-      auto found = OperationLog::find(env_, folder_);
-      if (!found) {
-        return found.error();
-      }
-      engine::LoggedOperation logged = found->operation;
+      engine::LoggedOperation logged = earlier_->operation;
       logged.go_on();
       if (const Status restored = live.resume(logged); !restored) {
         return restored;
       }
-      log_ = OperationLog::go_on(env_, std::move(*found), waits);
+      log_ = OperationLog::go_on(env_, *std::exchange(earlier_, std::nullopt), waits);
     }
+    live.observe(&told_);
     live.observe(log_.get());
     live.show_saving(log_.get());
     return {};
@@ -181,7 +185,6 @@ class Attempt {
   }
   void check_log(bool done) {
     env_.set_full(false);
-    const std::int64_t screws = pairs_.screws();
     const Status saved = log_->written();
     const bool said = log_->saved(Timestamp::max(), {}) == engine::Saved::kNotSaved;
     row_.not_saved = row_.not_saved || !saved;
@@ -193,19 +196,39 @@ class Attempt {
     }
     log_.reset();
     const auto found = OperationLog::find(env_, folder_);
-    // A log in which nothing was recorded goes away with its program.
-    if (!found && found.error().code == ErrorCode::kNotFound && !row_.recorded && screws == 0) {
-      return;
-    }
-    if (!found) {
+    if (!found && found.error().code != ErrorCode::kNotFound) {
       fail("operation log", found.error());
       return;
     }
-    row_.recorded = true;
-    const std::int64_t kept = screws_done(found->operation);
-    // What came after NOT SAVED was shown may be gone.
-    row_.lost += saved ? std::max<std::int64_t>(screws - kept, 0) : 0;
-    row_.screws = std::max(kept, screws);
+    std::vector<engine::Record> records;
+    // A log in which nothing was recorded goes away with its program.
+    if (found) {
+      auto read = engine::read_log(env_, found->path);
+      if (!read) {
+        fail("operation log", read.error());
+        return;
+      }
+      records = std::move(read->records);
+    }
+    row_.recorded = row_.recorded || found.ok();
+    compare(records, saved.ok());
+  }
+  /// What this attempt told with what it added to the log.
+  void compare(std::span<const engine::Record> records, bool saved) {
+    const auto added =
+        kept_events(records.subspan(std::min<std::size_t>(records_before_, records.size())));
+    // What came after the disk failed may be gone, but nothing that "saved" was shown for.
+    const Differences must = differences(saved ? told_.all() : told_.shown_saved(), added);
+    for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+      row_.lost[kind] += must.lost[kind];
+    }
+    row_.lost_samples += must.lost_samples;
+    row_.doubled += differences(told_.all(), added).doubled;
+    row_.unsaved += static_cast<std::int64_t>(told_.all().size() - added.size());
+    const auto kept = kept_events(records);
+    row_.kept = counts_of(kept);
+    row_.samples = samples_of(kept);
+    row_.twice = screws_done_twice(records);
   }
 
   const engine::Case& source_;
@@ -214,9 +237,12 @@ class Attempt {
   std::string folder_;
   Random random_;
   FlakyEnv env_;
+  ToldEvents told_;
   PairWatch pairs_;
   Nobody nobody_;
   std::unique_ptr<FlakyHeadset> flaky_;
+  std::optional<OperationLog::Found> earlier_;  ///< until it is gone on with
+  std::size_t records_before_ = 0;
   std::unique_ptr<OperationLog> log_;
 };
 
@@ -227,6 +253,7 @@ SoakRow soak_operation(const engine::Case& source, const engine::Operation& plan
   SoakRow row;
   row.seed = seed;
   row.full_disk = Random(seed).fork("disk").uniform() < 0.2;
+  row.reference = Random(seed).fork("reference").uniform() < 0.5;
   for (;;) {
     const std::int64_t losses = device_losses(row.troubles);
     row.completed = Attempt(source, planned, row, folder).run();

@@ -6,6 +6,7 @@
 #include "engine/case/case.h"
 #include "engine/case/operation.h"
 #include "tests/soak/flaky_headset.h"
+#include "tests/soak/kept_events.h"
 
 namespace orthonav::soak {
 
@@ -15,17 +16,23 @@ struct SoakRow {
   double simulated_s = 0.0;
   Troubles troubles{};
   bool full_disk = false;
+  bool reference = false;  ///< everything hangs on a patient reference
   int resumed = 0;
   bool completed = false;
   bool recorded = false;   ///< its log holds something
   bool not_saved = false;  ///< and said so
   std::int64_t frames = 0;
   std::int64_t stale = 0;
-  std::int64_t stalls = 0;  ///< named by the loop
-  std::int64_t screws = 0;  ///< done
-  std::int64_t lost = 0;    ///< screws done that the log lacks, though it had to keep them
-  std::string why_not;      ///< why it was not completed, as the last attempt says
-  std::string trouble;      ///< what should not have happened; empty: nothing
+  std::int64_t stalls = 0;   ///< named by the loop
+  Counts kept{};             ///< in its log
+  std::int64_t samples = 0;  ///< of the saved regions in its log
+  Counts lost{};             ///< that the log lacks, though it had to keep them
+  std::int64_t lost_samples = 0;
+  std::int64_t unsaved = 0;  ///< gone after NOT SAVED was shown
+  std::int64_t doubled = 0;  ///< records in the log of what did not happen, or not as often
+  std::int64_t twice = 0;    ///< screws done that were done before
+  std::string why_not;       ///< why it was not completed, as the last attempt says
+  std::string trouble;       ///< what should not have happened; empty: nothing
 };
 
 /// One operation in bad weather of this seed, resumed each time its device is lost; its files lie

@@ -144,6 +144,9 @@ ScriptedOperation::ScriptedOperation(std::vector<std::string> labels,
     tracker->add_other(*other);
   }
   auto registrar = [this](const engine::RegistrationRequest& request) -> Result<nav::Registration> {
+    if (before_registering) {
+      before_registering();
+    }
     registered_points.push_back(request.points_in_world.size());
     if (unusable) {
       return Error{*unusable};

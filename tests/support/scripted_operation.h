@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -112,6 +113,7 @@ class ScriptedOperation {
   nav::Registration registration;              ///< what the next registration says
   std::optional<std::string> unusable;         ///< or why there is none
   std::vector<std::size_t> registered_points;  ///< of each registration asked for
+  std::function<void()> before_registering;    ///< null: nothing; the coach's, on its thread
   Duration latency = std::chrono::milliseconds(16);
   std::int64_t map_epoch = 0;           ///< of the next pairs
   std::optional<engine::Part> stalled;  ///< in the next pairs

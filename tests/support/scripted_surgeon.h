@@ -7,13 +7,23 @@
 
 namespace orthonav::test {
 
+/// What happens besides the plain course.
+enum class Story {
+  kPlain,
+  /// The second level's first registration is refused; the first level's right screw is moved
+  /// before it is drilled; the second level's left wire is redone, and its right one kept beyond
+  /// the limit.
+  kEventful
+};
+
 /// Does the next thing that the session asks for, whatever was done before: an operation that was
 /// resumed goes on by the same rules. Registrations are verified by touch.
 class ScriptedSurgeon {
  public:
   /// Strokes take so many pairs each.
-  explicit ScriptedSurgeon(ScriptedOperation& operation, int stroke = 5)
-      : s_(operation), stroke_(stroke) {
+  explicit ScriptedSurgeon(ScriptedOperation& operation, int stroke = 5,
+                           Story story = Story::kPlain)
+      : s_(operation), stroke_(stroke), eventful_(story == Story::kEventful) {
     s_.pair();
   }
 
@@ -31,6 +41,10 @@ class ScriptedSurgeon {
       case Step::kAccepted:
         return touch_landmark();
       case Step::kGuide:
+        if (is_to_be_moved()) {
+          s_.says("move cranial one");
+          return true;
+        }
         s_.tracker().guide = guide_at(entry() - Vec3{0, 0.030, 0}, 0.01);
         s_.pairs(3);
         s_.says("next");
@@ -58,9 +72,14 @@ class ScriptedSurgeon {
   static constexpr Vec3 kOnBone{0, 0.02, 0};
 
   [[nodiscard]] const engine::LevelState& level() { return s_.session().levels()[s_.pair().level]; }
-  [[nodiscard]] Vec3 entry() {
-    const engine::LevelState& now = level();
-    return now.plan.screws[now.open_screw().value_or(0)].entry.v;
+  [[nodiscard]] std::size_t screw() { return level().open_screw().value_or(0); }
+  [[nodiscard]] Vec3 entry() { return level().plan.screws[screw()].entry.v; }
+  [[nodiscard]] bool is_second_level() { return eventful_ && s_.pair().level == 1; }
+  [[nodiscard]] bool is_to_be_moved() {
+    return eventful_ && s_.pair().level == 0 && screw() == 1 && !level().replanned(1);
+  }
+  [[nodiscard]] bool is_to_be_redone() {
+    return is_second_level() && screw() == 0 && level().redone[0] == 0;
   }
 
   bool digitize() {
@@ -73,6 +92,10 @@ class ScriptedSurgeon {
       s_.strokes(stroke_);
       s_.says("save");
     } else {
+      s_.unusable.reset();
+      if (is_second_level() && level().attempts == 0) {
+        s_.unusable = "too few places";
+      }
       s_.does({ClickerAction::kDoubleClick});
     }
     return true;
@@ -94,18 +117,20 @@ class ScriptedSurgeon {
     const auto* so_far = std::get_if<engine::LandmarkSoFar>(&s_.pair().status.state);
     if (so_far != nullptr && (!so_far->last || so_far->last->missing > 0)) {
       s_.touches(ScriptedOperation::kDimple);
-    } else {
-      s_.says("next");
+    } else if (s_.says("next").step == Step::kAccepted) {
+      s_.touches(ScriptedOperation::kDimple);  // a screw is redone
     }
     return true;
   }
 
   bool measure() {
-    if (s_.pair().wire != nullptr) {
-      s_.says("next");
+    if (const engine::PlacedWire* wire = s_.pair().wire) {
+      const bool stays = wire->within() || wire->kept;
+      s_.says(stays ? "next" : is_to_be_redone() ? "delete" : "accept");
       return true;
     }
-    s_.tracker().guide = guide_at(entry() + Vec3{0.0004, 0.004, 0}, 0.0);
+    const bool beyond = is_to_be_redone() || (is_second_level() && screw() == 1);
+    s_.tracker().guide = guide_at(entry() + Vec3{beyond ? 0.003 : 0.0004, 0.004, 0}, 0.0);
     s_.does({ClickerAction::kPress});
     s_.pair();
     s_.does({ClickerAction::kRelease, ClickerAction::kClick});
@@ -131,6 +156,7 @@ class ScriptedSurgeon {
 
   ScriptedOperation& s_;
   int stroke_;
+  bool eventful_;
 };
 
 }  // namespace orthonav::test

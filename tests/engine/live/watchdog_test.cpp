@@ -1,13 +1,7 @@
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <atomic>
-#include <stdexcept>
-
-#include "hal/api/forwarding_headset.h"
-#include "tests/engine/live/guiding_loop.h"
+#include "tests/engine/live/watched_loop.h"
 #include "tests/support/scripted_pairs.h"
-#include "tests/support/wait_until.h"
 
 namespace orthonav::engine::watchdog_test {
 namespace {
@@ -17,133 +11,6 @@ using test::kStart;
 using test::pairs;
 using test::wait_until;
 using ::testing::HasSubstr;
-
-std::string text_of(const render::Scene& scene) {
-  std::string text;
-  for (const render::TextItem& item : scene.texts) {
-    for (const render::TextRun& run : item.runs) {
-      text += run.text + " ";
-    }
-  }
-  return text;
-}
-
-/// What happens just before a certain pair comes; by default nothing.
-struct AtPair {
-  std::int64_t pair = 0;
-  std::function<void()> happens = [] {};
-};
-
-class EventfulCamera : public StereoCamera {
- public:
-  EventfulCamera(StereoCamera& inner, AtPair at) : inner_(inner), at_(std::move(at)) {}
-
- private:
-  StereoCamera& inner_;
-  AtPair at_;
-  std::int64_t pair_ = 0;
-  [[nodiscard]] const StereoCalibration& do_calibration() const override {
-    return inner_.calibration();
-  }
-  Result<Next> do_next(StereoFrame& frame) override {
-    if (pair_++ == at_.pair) {
-      at_.happens();
-    }
-    return inner_.next(frame);
-  }
-};
-
-/// Hears nothing; a function decides how each poll ends.
-class ToldVoice : public Voice {
- public:
-  explicit ToldVoice(std::function<Status(Timestamp)> answer) : answer_(std::move(answer)) {}
-
- private:
-  std::function<Status(Timestamp)> answer_;
-  Status do_poll(Timestamp until, std::vector<Phrase>&) override { return answer_(until); }
-};
-
-class EventfulHeadset : public ForwardingHeadset {
- public:
-  EventfulHeadset(
-      Headset& inner, AtPair camera,
-      std::function<Status(Timestamp)> voice = [](Timestamp) { return Status{}; })
-      : ForwardingHeadset(inner), cameras_(inner.cameras(), std::move(camera)), voice_(voice) {}
-  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
-  [[nodiscard]] Voice& voice() override { return voice_; }
-
- private:
-  EventfulCamera cameras_;
-  ToldVoice voice_;
-};
-
-/// Keeps the texts that it was given to draw, and can hang or throw from a snapshot on.
-class WatchedSink : public SnapshotSink {
- public:
-  Status draw(const Snapshot& snapshot) override {
-    {
-      const MutexLock lock(mutex_);
-      texts_.push_back(text_of(snapshot.scene));
-    }
-    if (text_of(snapshot.scene).find("stalled") != std::string::npos && !warns) {
-      return Error{"no warnings"};
-    }
-    // In real time any snapshot may be skipped.
-    if (hangs_at >= 0 && snapshot.frame >= hangs_at) {
-      hanging = true;
-      EXPECT_TRUE(wait_until([&] { return let_go.load(); }));
-    }
-    if (dies_at >= 0 && snapshot.frame >= dies_at) {
-      throw std::runtime_error("driver");
-    }
-    return {};
-  }
-  [[nodiscard]] bool stalled() const override { return hangs_by_itself; }
-  [[nodiscard]] bool drew(const std::string& text) const {
-    const MutexLock lock(mutex_);
-    return std::any_of(texts_.begin(), texts_.end(), [&](const std::string& drawn) {
-      return drawn.find(text) != std::string::npos;
-    });
-  }
-  bool warns = true;  ///< false: a notice of a stall can't be drawn
-  std::int64_t hangs_at = -1;
-  std::int64_t dies_at = -1;
-  std::atomic<bool> hanging = false;
-  std::atomic<bool> let_go = false;
-  std::atomic<bool> hangs_by_itself = false;
-
- private:
-  mutable Mutex mutex_;
-  std::vector<std::string> texts_ ORTHONAV_GUARDED_BY(mutex_);
-};
-
-/// Calls something once the guidance of a pair is known.
-class Stepped : public LoopObserver {
- public:
-  explicit Stepped(std::function<void(const Guidance&)> then) : then_(std::move(then)) {}
-  void stepped(const StereoFrame&, const Inputs&, const Guidance& guidance) override {
-    then_(guidance);
-  }
-
- private:
-  std::function<void(const Guidance&)> then_;
-};
-
-/// Guidance in real time, drawn into a sink that is watched.
-class WatchedLoop : public GuidingLoop {
- protected:
-  WatchedLoop() { options.drop_late_snapshots = true; }
-  Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr) {
-    return GuidingLoop::run(headset, observer, &sink);
-  }
-  /// For whoever is to hang: waits until guidance is drawn, and then, too long, until this is.
-  void hang_until_drawn(fake::FakeHeadset& headset, const char* text) {
-    EXPECT_TRUE(wait_until([&] { return sink.drew("guide"); }));
-    headset.manual_clock().advance(kStallAfter + Duration(1));
-    EXPECT_TRUE(wait_until([&] { return sink.drew(text); }));
-  }
-  WatchedSink sink;
-};
 
 TEST_F(WatchedLoop, ACameraThatHangsIsNamedByTheDrawer) {
   fake::FakeHeadset inner(pairs(3));

@@ -32,6 +32,9 @@ using test::ScriptedSurgeon;
 using test::TemporaryFolder;
 using test::touched_operation;
 
+/// With a refusal, a changed plan, a redone screw and an override, so that kills fall between them.
+constexpr test::Story kStory = test::Story::kEventful;
+
 /// How often each screw was declared done, over all programs of the operation.
 std::map<std::string, int> screws_done(const std::vector<Record>& records) {
   std::map<std::string, int> done;
@@ -65,7 +68,7 @@ struct Ended {
 Ended finished(Env& env, bool reference, const std::string& folder) {
   ResumedOperation r(env, reference, folder);
   EXPECT_TRUE(is_ok(r.resumed));
-  ScriptedSurgeon(*r.operation).finish();
+  ScriptedSurgeon(*r.operation, 5, kStory).finish();
   EXPECT_EQ(r.operation->session().current_step(), Step::kDone);
   EXPECT_TRUE(is_ok(r.log->finish(true, "")));
   Ended ended;
@@ -94,8 +97,12 @@ std::vector<Vec3> operate(MemoryEnv& env, bool reference) {
   std::vector<Vec3> entries_m;
   auto s = touched_operation(reference);
   auto log = log_of(*s, env, reference);
-  ScriptedSurgeon(*s).finish();
+  ScriptedSurgeon(*s, 5, kStory).finish();
   EXPECT_EQ(s->session().current_step(), Step::kDone);
+  EXPECT_TRUE(s->session().levels()[0].replanned(1));
+  EXPECT_EQ(s->session().levels()[1].redone[0], 1);
+  EXPECT_TRUE(s->session().levels()[1].wires[1].measured->kept);
+  EXPECT_EQ(s->session().levels()[1].attempts, 2) << "the first was refused";
   for (const LevelState& level : s->session().levels()) {
     for (const auto& executed : level.executed) {
       entries_m.push_back(executed->axis.point.v);
@@ -152,7 +159,7 @@ std::vector<WithoutPower> without_power(std::vector<EnvCall> calls, bool referen
   EXPECT_TRUE(is_ok(r.resumed));
   const std::size_t opened = second.calls().size();
   const std::size_t found = read_log(second, kLogPath)->records.size();
-  ScriptedSurgeon surgeon(*r.operation);
+  ScriptedSurgeon surgeon(*r.operation, 5, kStory);
   for (int i = 0; i < 8 && surgeon.act(); ++i) {
   }
   const std::size_t told = read_log(second, kLogPath)->records.size();
@@ -208,7 +215,7 @@ void operate_until_killed(const std::string& folder, int acts) {
     auto log = OperationLog::begin(env, folder, test::identity_of(*s, true), s->session().levels(),
                                    RecordWriter::Waits::kNot, RecordLog::Earlier::kKept);
     s->session().observe(log->get());
-    ScriptedSurgeon surgeon(*s);
+    ScriptedSurgeon surgeon(*s, 5, kStory);
     for (;;) {
       surgeon.act();
       std::ignore = ::write(pipe[1], "x", 1);

@@ -6,6 +6,7 @@
 #include "hal/hl2ss/boot_clock.h"
 #include "hal/hl2ss/map_watch.h"
 #include "hal/hl2ss/options.h"
+#include "hal/hl2ss/pair_mailbox.h"
 #include "hal/hl2ss/server/faults.h"
 
 namespace orthonav::hl2ss {
@@ -261,6 +262,19 @@ TEST(Faults, AreReadFromText) {
   EXPECT_THAT(faults_of("gap").error().message, HasSubstr("known are gap, lose"));
   EXPECT_THAT(faults_of("gap=2").error().message, HasSubstr("gap must lie in [0, 1]"));
   EXPECT_THAT(faults_of("gap=nan").error().message, HasSubstr("gap must lie"));
+}
+
+TEST(PairMailbox, TellsALossOnceAndADeathAtEveryQuestion) {
+  PairMailbox pairs;
+  pairs.fail(Error{"lost"});
+  EXPECT_TRUE(pairs.trouble().has_value());
+  EXPECT_FALSE(pairs.trouble().has_value()) << "the connection comes back";
+  pairs.die(Error{"hl2ss: out of memory"});
+  for (int question = 0; question < 3; ++question) {
+    const auto trouble = pairs.trouble();
+    ASSERT_TRUE(trouble.has_value());
+    EXPECT_EQ(trouble->message, "hl2ss: out of memory");
+  }
 }
 
 }  // namespace

@@ -110,6 +110,24 @@ TEST(IgtlListening, DropsWhoSaysTooMuchOrWhatIsNoText) {
   EXPECT_THAT(server->counts().last_drop, HasSubstr("checksum"));
 }
 
+/// Whoever is told may throw: the server's thread ends in order, and says of what.
+class Dying : public TextListener {
+ public:
+  void said(const std::string&, const std::string&, const std::string&) override {
+    throw std::bad_alloc();
+  }
+};
+
+TEST(IgtlListening, AServerWhoseListenerThrowsEndsInOrder) {
+  Dying dying;
+  const auto server = started(&dying);
+  IgtlClient client(server->port());
+  client.send(packed_text({"Command", 0}, "next"));
+  ASSERT_TRUE(wait_until([&] { return server->counts().dropped == 1; }));
+  EXPECT_EQ(server->counts().last_drop, "server: out of memory");
+  server->publish({1, 2, 3});  // whoever publishes notices nothing
+}
+
 TEST(IgtlListening, KeepsNoBodyLargerThanAText) {
   Heard heard;
   const auto server = started(&heard);

@@ -108,6 +108,18 @@ TEST_F(DashboardPage, ShowsThePictureThatItIsGivenAndSaysWhatItIs) {
   EXPECT_TRUE(dashboard_.looked_at());
 }
 
+TEST_F(DashboardPage, SaysWhatHangsUntilItGoesOn) {
+  const auto stalled = [this] { return json::parse(browser_->Get("/state")->body)["stalled"]; };
+  test::ScriptedOperation s;
+  dashboard_.watch(s.session(), {0.05, 0.09});
+  EXPECT_EQ(stalled(), "");
+  dashboard_.part_stalled(engine::Part::kTracker);
+  EXPECT_EQ(stalled(), "tracker stalled: nothing is guided");
+  StereoFrame frame;
+  dashboard_.stepped(frame, {}, s.pair());
+  EXPECT_EQ(stalled(), "");
+}
+
 TEST_F(DashboardPage, AnswersThisMachinesPageAloneAndIsReadOnly) {
   EXPECT_EQ(browser_->Get("/state", {{"Host", "hospital.example"}})->status, 403);
   EXPECT_EQ(browser_->Get("/state", {{"Host", "localhost:80"}})->status, 200);

@@ -1,0 +1,109 @@
+// What hangs before anything was shown, and what hangs beside the frame loop.
+#include <gmock/gmock.h>
+
+#include "engine/session/coach.h"
+#include "tests/engine/live/watched_loop.h"
+#include "tests/support/scripted_pairs.h"
+
+namespace orthonav::engine::watchdog_begin_test {
+namespace {
+
+using test::pairs;
+using test::wait_until;
+using ::testing::ElementsAre;
+
+/// Hears which parts were named.
+class Told : public LoopObserver {
+ public:
+  void part_stalled(Part part) override {
+    const MutexLock lock(mutex_);
+    parts_.push_back(part);
+  }
+  [[nodiscard]] std::vector<Part> parts() const {
+    const MutexLock lock(mutex_);
+    return parts_;
+  }
+
+ private:
+  mutable Mutex mutex_;
+  std::vector<Part> parts_ ORTHONAV_GUARDED_BY(mutex_);
+};
+
+TEST_F(WatchedLoop, WhatHangsBeforeTheFirstPairIsNamedToo) {
+  fake::FakeHeadset inner(pairs(3));
+  EventfulHeadset headset(inner,
+                          {0, [&] {
+                             inner.manual_clock().advance(kStallAfter + Duration(1));
+                             EXPECT_TRUE(wait_until([&] { return sink.drew("camera stalled"); }));
+                           }});
+  Told told;
+  const auto report = run(headset, &told);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->stalls, 1);
+  EXPECT_THAT(told.parts(), ElementsAre(Part::kCamera)) << "as onlookers hear it";
+}
+
+TEST_F(WatchedLoop, ATrackerThatHangsAtTheFirstPairIsNamed) {
+  fake::FakeHeadset inner(pairs(3));
+  Stepped slow([&, steps = 0](const Guidance&) mutable {
+    if (steps++ == 0) {
+      inner.manual_clock().advance(kStallAfter + Duration(1));
+      EXPECT_TRUE(wait_until([&] { return sink.drew("tracker stalled"); }));
+    }
+  });
+  const auto report = run(inner, &slow);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->stalls, 1);
+}
+
+/// Stroking, with a trial of the coach about to begin.
+class CoachedLoop : public ::testing::Test {
+ protected:
+  CoachedLoop() {
+    options.drop_late_snapshots = true;
+    s.tracker().pointer = test::pointer_at({0, 0.02, 0});
+    s.says("start");
+    s.does({ClickerAction::kPress});
+    s.pairs(static_cast<int>(Coach::kFewestSamples) - 10);
+  }
+  Result<LoopReport> run(Headset& headset) {
+    SceneBuilder builder;
+    FrameLoop loop(headset, s.session(), builder, options);
+    loop.draw_into(&sink);
+    return loop.run();
+  }
+  test::ScriptedOperation s{{"L4"}, {}, Verification::kByTouch, true};
+  WatchedSink sink;
+  LoopOptions options;
+};
+
+TEST_F(CoachedLoop, ACoachThatHangsIsNamedOnceItIsAwaited) {
+  fake::FakeHeadset headset(pairs(60));
+  std::atomic<int> trials = 0;
+  // On the coach's thread. The clock goes on while the frame loop waits for it, and pairs do not.
+  s.before_registering = [&] {
+    if (trials++ == 0) {
+      EXPECT_TRUE(wait_until([&] {
+        headset.manual_clock().advance(kStallAfter / 20);
+        return sink.drew("coach stalled: nothing is guided");
+      }));
+    }
+  };
+  const auto report = run(headset);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_GE(trials, 1);
+  EXPECT_GE(report->stalls, 1);
+  EXPECT_EQ(report->displayed, 60) << "and it goes on";
+}
+
+TEST_F(CoachedLoop, ACoachThatDiesEndsTheRunInOrder) {
+  fake::FakeHeadset headset(pairs(60));
+  s.before_registering = [] { throw std::bad_alloc(); };
+  const auto report = run(headset);
+  ASSERT_FALSE(report.ok());
+  EXPECT_EQ(report.error().message, "coach: out of memory");
+  EXPECT_TRUE(headset.display().frames().back().holograms.empty());
+}
+
+}  // namespace
+}  // namespace orthonav::engine::watchdog_begin_test
