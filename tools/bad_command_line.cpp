@@ -53,11 +53,28 @@ std::string about_word(const std::string& word, const Asked& asked) {
          word + (meant.empty() ? "" : "; did you mean " + meant + "?");
 }
 
+/// The parser leaves the name of an option that no help shows out of its message, which then begins
+/// with the colon behind it.
+std::string with_hidden_name(std::string message, const CLI::App& command) {
+  const auto is_told_of = [&message](const CLI::Option* option) {
+    const std::vector<std::string>& given = option->results();
+    return option->get_group().empty() && !option->get_lnames().empty() &&
+           (given.empty() || message.find("\"" + given.front() + "\"") != std::string::npos);
+  };
+  if (message.starts_with(':')) {
+    const std::vector<const CLI::Option*> told = command.get_options(is_told_of);
+    if (!told.empty()) {
+      message.insert(0, "--" + told.front()->get_lnames().front());
+    }
+  }
+  return message;
+}
+
 }  // namespace
 
 int bad_command_line(const CLI::App& app, const CLI::ParseError& error) {
   const Asked asked = asked_of(app);
-  std::string message = error.what();
+  std::string message = with_hidden_name(error.what(), *asked.command);
   // Without a known command the library reports a missing one; what was written instead says more.
   const std::vector<std::string> unknown = app.remaining(true);
   const auto option = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {

@@ -16,7 +16,6 @@
 #include "embedded/dashboard_html.h"
 #include "engine/io/image_file.h"
 #include "engine/session/part_wording.h"
-#include "tools/arguments.h"
 #include "tools/dashboard_state.h"
 #include "tools/web_access.h"
 
@@ -215,21 +214,6 @@ class Dashboard::Server {
   std::atomic<bool> ended_ = false;
   std::thread thread_;
 };
-
-void DashboardArguments::add_to(CLI::App& command) {
-  command
-      .add_option("--web", at,
-                  "shows the operation in a browser of this machine, at this port (0: any), or of "
-                  "others at ADDRESS:PORT")
-      ->check(some_text())
-      ->type_name("PORT");
-  command
-      .add_option("--token", token_file,
-                  "file with the token that a browser must bring to --web, made where there is "
-                  "none; needed where other machines reach the address")
-      ->check(some_text())
-      ->type_name("FILE");
-}
 
 Dashboard::Dashboard() = default;
 Dashboard::~Dashboard() = default;

@@ -21,6 +21,7 @@
 #include "tools/out_folder.h"
 #include "tools/progress.h"
 #include "tools/reading_curves.h"
+#include "tools/recording_watch.h"
 #include "tools/run_files.h"
 #include "tools/step_pictures.h"
 #include "tools/stopped_run.h"
@@ -172,6 +173,10 @@ class Demo {
       onlookers_.watch(operation, arguments_.limits.grades());
       return kept_.begin(operation, out_->path().string(), about_demo(arguments_, source.name));
     };
+    hooks.recorded = [this](engine::AssembledOperation& operation,
+                            const replay::RecordingHeadset& recorder) {
+      recording_.watch(operation, recorder, kept_.log());
+    };
     hooks.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
       view_->look_at(headset, options.sim.error_model);
       began_ = true;
@@ -221,6 +226,7 @@ class Demo {
   std::unique_ptr<engine::Journal> journal_;
   KeptOperation kept_;
   Onlookers onlookers_;
+  RecordingWatch recording_{onlookers_.log()};
   std::unique_ptr<engine::VideoWriter> video_;
   std::unique_ptr<VideoPictures> video_pictures_;
 };

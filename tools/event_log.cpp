@@ -68,6 +68,13 @@ void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*
   if (!changes_.new_message().empty()) {
     log_->info("{:.2f} s: message: {}", time_s, changes_.new_message());
   }
+  if (const bool fails =
+          status.saved == engine::Saved::kNotSaved || status.saved == engine::Saved::kNotRecorded;
+      fails && status.saved != not_kept_) {
+    not_kept_ = status.saved;
+    log_->warn("{:.2f} s: the status line says {}", time_s,
+               not_kept_ == engine::Saved::kNotSaved ? "NOT SAVED" : "NOT RECORDED");
+  }
   if (status.tool_lost != lost_) {
     lost_ = status.tool_lost;
     log_->debug("{:.2f} s: {} {}", time_s, status.tool, lost_ ? "lost" : "found");

@@ -42,6 +42,7 @@ class EventLog : public engine::LoopObserver {
   StatusChanges changes_;
   std::string heard_;
   bool lost_ = false;
+  engine::Saved not_kept_ = engine::Saved::kNothingNew;  ///< as was told last
 };
 
 }  // namespace orthonav::tools

@@ -212,14 +212,9 @@ class LiveRun {
     if (const Status opened = open_journal(); !opened) {
       return opened;
     }
-    if (arguments_.record.empty()) {
-      return {};
-    }
-    const Status recording = files_.start_recording(arguments_.record, *joined_, *tools);
-    if (recording) {
-      operation_->go_through(*files_.recorder());
-    }
-    return recording;
+    return arguments_.record.empty()
+               ? Status{}
+               : files_.record(*operation_, arguments_.record, *joined_, *tools, onlookers_.log());
   }
 
   Status open_journal() {

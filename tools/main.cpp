@@ -102,6 +102,11 @@ int main(int argc, char** argv) {
     return orthonav::tools::run(argc, argv);
   } catch (const std::bad_alloc&) {
     return orthonav::tools::bad_input("out of memory");
+  } catch (const std::system_error& error) {
+    // What a thread gets that there is no memory for: its stack counts.
+    return orthonav::tools::bad_input(error.code() == std::errc::resource_unavailable_try_again
+                                          ? "out of memory, or of threads: one could not be started"
+                                          : error.what());
   } catch (const std::exception& error) {
     return orthonav::tools::bad_input(error.what());
   }

@@ -23,18 +23,24 @@ std::atomic<void*>& reserve() {
 }
 
 void ran_out() {
+  if (!free_memory_reserve()) {
+    std::set_new_handler(nullptr);
+  }
+}
+
+}  // namespace
+
+bool free_memory_reserve() {
   void* const kept = reserve().exchange(nullptr);
   if (kept == nullptr) {
-    std::set_new_handler(nullptr);
-    return;
+    return false;
   }
   constexpr std::string_view kLine = "orthonav: out of memory: ending in order\n";
   (void)!::write(STDERR_FILENO, kLine.data(), kLine.size());
   ::munmap(kept, kReserveBytes);
   ::kill(::getpid(), SIGTERM);
+  return true;
 }
-
-}  // namespace
 
 void keep_memory_reserve() {
   void* const bytes =

@@ -9,6 +9,9 @@ inline constexpr unsigned long kMemoryCeiling = 8UL << 30U;
 /// command to end, as SIGTERM does; those that fail later throw std::bad_alloc. Call it once,
 /// before any thread is started.
 void keep_memory_reserve();
+/// What the first allocation that fails does; false for every later one, and where nothing was set
+/// aside. Allocates nothing.
+bool free_memory_reserve();
 /// Limits this process to the ceiling, so that a leak ends the command in order before the whole
 /// machine swaps. A lower limit stays.
 void limit_memory();

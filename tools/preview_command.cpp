@@ -10,6 +10,7 @@
 #include "tools/config_file.h"
 #include "tools/igtl_stream.h"
 #include "tools/kept_previews.h"
+#include "tools/memory_reserve.h"
 #include "tools/model_notes.h"
 #include "tools/preview/preview_app.h"
 #include "tools/screw_arguments.h"
@@ -260,7 +261,10 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   add_window_options(*preview, arguments);
   add_config_option(*preview);
   preview->callback([arguments, &action, &signals] {
-    action = [arguments, &signals] { return preview_window(*arguments, signals); };
+    action = [arguments, &signals] {
+      limit_memory();
+      return preview_window(*arguments, signals);
+    };
   });
 }
 

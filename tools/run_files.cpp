@@ -34,8 +34,9 @@ Status RunFiles::keep(engine::AssembledOperation& operation, const KeptOperation
   return kept_.begin(operation, out_->path().string(), about);
 }
 
-Status RunFiles::start_recording(const std::string& folder, Headset& headset,
-                                 const std::vector<nav::ToolGeometry>& tools) {
+Status RunFiles::record(engine::AssembledOperation& operation, const std::string& folder,
+                        Headset& headset, const std::vector<nav::ToolGeometry>& tools,
+                        EventLog& log) {
   replay::RecorderOptions options;
   options.tools_json = engine::tools_text(tools);
   options.takes_depth = true;
@@ -44,6 +45,8 @@ Status RunFiles::start_recording(const std::string& folder, Headset& headset,
     return recorder.error();
   }
   recorder_ = std::move(*recorder);
+  operation.go_through(*recorder_);
+  recording_.emplace(log).watch(operation, *recorder_, kept_.log());
   return {};
 }
 

@@ -11,6 +11,7 @@
 #include "nav/tracking/tool.h"
 #include "tools/kept_operation.h"
 #include "tools/out_folder.h"
+#include "tools/recording_watch.h"
 
 namespace orthonav::tools {
 
@@ -27,13 +28,12 @@ class RunFiles {
   [[nodiscard]] KeptOperation& kept() { return kept_; }
   /// Begins the log of the operation in that folder, or goes on with the one that was found.
   Status keep(engine::AssembledOperation& operation, const KeptOperation::About& about);
-  /// Starts to record what goes through `headset`, which must outlive this. Last of all, since the
-  /// files of a recording that was begun stay.
-  Status start_recording(const std::string& folder, Headset& headset,
-                         const std::vector<nav::ToolGeometry>& tools);
+  /// Lets the operation go on through a recorder of `headset`; all, and `log`, must outlive this.
+  /// Last of all, since the files of a recording that was begun stay.
+  Status record(engine::AssembledOperation& operation, const std::string& folder, Headset& headset,
+                const std::vector<nav::ToolGeometry>& tools, EventLog& log);
   /// Null: none.
   [[nodiscard]] engine::Journal* journal() const { return journal_.get(); }
-  [[nodiscard]] replay::RecordingHeadset* recorder() const { return recorder_.get(); }
 
   /// Writes the reports first, so that no later failure can lose the measurements, then closes the
   /// rest. Returns the first failure.
@@ -46,6 +46,7 @@ class RunFiles {
   std::unique_ptr<engine::Journal> journal_;
   KeptOperation kept_;
   std::unique_ptr<replay::RecordingHeadset> recorder_;
+  std::optional<RecordingWatch> recording_;
 };
 
 }  // namespace orthonav::tools

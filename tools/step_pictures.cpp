@@ -28,7 +28,7 @@ Status StepPictures::picture(const RgbaImage& image, const engine::Snapshot& sna
 
 Status StepPictures::finish() {
   if (!held_step_) {
-    return {};
+    return failure_;
   }
   const std::string step = engine::name_of(*held_step_);
   std::string name = step;
@@ -40,12 +40,13 @@ Status StepPictures::finish() {
   char number[16];
   std::snprintf(number, sizeof number, "%02zu-", written_.size() + 1);
   const auto path = folder_ / (number + name + ".png");
-  if (const Status saved = engine::write_png(path, held_); !saved) {
+  held_step_.reset();
+  if (Status saved = engine::write_png(path, held_); !saved) {
+    failure_ = saved;
     return saved;
   }
   written_.push_back({step, path});
-  held_step_.reset();
-  return {};
+  return failure_;
 }
 
 Status VideoPictures::picture(const RgbaImage& image, const engine::Snapshot& /*snapshot*/) {

@@ -32,6 +32,7 @@ class StepPictures : public PictureSink {
   RgbaImage held_;
   std::optional<StepOnDisplay> held_step_;
   bool held_guides_ = false;
+  Status failure_;  ///< the first picture that could not be written
 };
 
 /// Every picture into the video.

@@ -1,6 +1,7 @@
 #include "tools/surgeon_view.h"
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "engine/holograms/render_values.h"
@@ -81,12 +82,19 @@ Status SurgeonView::draw(const engine::Snapshot& snapshot) {
   if (!drawn) {
     return drawn;
   }
-  for (PictureSink* sink : sinks_) {
-    if (const Status taken = sink->picture(images_[0], snapshot); !taken) {
-      return taken;
-    }
-  }
+  hand_out(snapshot);
   return {};
+}
+
+void SurgeonView::hand_out(const engine::Snapshot& snapshot) {
+  std::erase_if(sinks_, [&](PictureSink* sink) {
+    const Status taken = sink->picture(images_[0], snapshot);
+    if (!taken) {
+      std::fprintf(stderr, "orthonav: %s; the operation goes on without\n",
+                   taken.error().message.c_str());
+    }
+    return !taken.ok();
+  });
 }
 
 }  // namespace orthonav::tools

@@ -39,6 +39,7 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
 
   /// Before the loop starts. Borrowed.
   void look_at(sim::SimHeadset& headset, const sim::ErrorModel& error_model);
+  /// One that fails, as on a full disk, gets no more: that is said on standard error.
   void send_to(PictureSink* sink) { sinks_.push_back(sink); }
 
   void captured(const engine::Snapshot& snapshot) override;
@@ -53,6 +54,7 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
 
   SurgeonView(const SurgeonViewOptions& options, std::unique_ptr<render::Renderer> renderer);
   void draw_room(const Moment& moment);
+  void hand_out(const engine::Snapshot& snapshot);
 
   SurgeonViewOptions options_;
   std::unique_ptr<render::Renderer> renderer_;

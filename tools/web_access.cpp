@@ -88,6 +88,16 @@ Result<std::string> token_of(const std::string& path) {
   return token;
 }
 
+/// 0.0.0.0 and :: are where to listen, and nowhere to go to.
+std::string name_for_browsers(const std::string& host, const net::Endpoint& address) {
+  std::array<char, 256> name{};
+  const std::string numbers = net::text_of(address);
+  if ((numbers == "0.0.0.0" || numbers == "::") && ::gethostname(name.data(), name.size()) == 0) {
+    return name.data();
+  }
+  return host.find(':') == std::string::npos ? host : "[" + host + "]";
+}
+
 }  // namespace
 
 Result<WebAccess> WebAccess::of(const std::string& at, const std::string& token_file) {
@@ -105,6 +115,7 @@ Result<WebAccess> WebAccess::of(const std::string& at, const std::string& token_
   if (token_file.empty() && !net::is_loopback(*address)) {
     return Error{"--web \"" + at + "\": other machines reach this address: needs --token FILE"};
   }
+  access.seen_as_ = name_for_browsers(access.host_, *address);
   if (!token_file.empty()) {
     auto token = token_of(token_file);
     if (!token) {
@@ -116,7 +127,7 @@ Result<WebAccess> WebAccess::of(const std::string& at, const std::string& token_
 }
 
 std::string WebAccess::url(int port) const {
-  return "http://" + host_ + ":" + std::to_string(port) + "/" +
+  return "http://" + seen_as_ + ":" + std::to_string(port) + "/" +
          (token_.empty() ? "" : "?token=" + token_);
 }
 

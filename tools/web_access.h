@@ -20,7 +20,8 @@ class WebAccess {
   [[nodiscard]] const std::string& host() const { return host_; }
   [[nodiscard]] int port() const { return port_; }  ///< 0: any that is free
   [[nodiscard]] bool asks_for_a_token() const { return !token_.empty(); }
-  /// Where a browser goes first, with the token.
+  /// Where a browser goes first, with the token. What is served at every address of this machine
+  /// is found by the machine's name.
   [[nodiscard]] std::string url(int port) const;
   /// In constant time for every text of the right length.
   [[nodiscard]] bool is_token(std::string_view text) const;
@@ -32,6 +33,7 @@ class WebAccess {
 
  private:
   std::string host_ = "127.0.0.1";
+  std::string seen_as_ = host_;  ///< by browsers
   int port_ = 0;
   std::string token_;
 };

@@ -28,16 +28,17 @@ fs::path followed(fs::path path) {
 
 std::string way_to(int file) { return "/proc/self/fd/" + std::to_string(file); }
 
-Status made_durable(const std::string& path) {
+/// `name` stands for it in an Error.
+Status made_durable(const std::string& path, const std::string& name) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
-    return file_error(path, "cannot be opened", errno);
+    return file_error(name, "cannot be opened", errno);
   }
   const bool synced = ::fsync(file) == 0;
   const int error_number = errno;
   ::close(file);
   if (!synced) {
-    return file_error(path, "cannot be written", error_number);
+    return file_error(name, "cannot be written", error_number);
   }
   return {};
 }
@@ -166,7 +167,7 @@ Status AtomicFile::commit() {
     open_ = false;
     return {};
   }
-  if (Status durable = made_durable(temporary_path_); !durable) {
+  if (Status durable = made_durable(temporary_path_, final_path_); !durable) {
     return durable;
   }
   if (nameless_ >= 0) {

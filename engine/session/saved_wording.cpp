@@ -9,6 +9,9 @@ void write_saved(PartedText text, Saved saved, std::string_view separator) {
   } else if (saved == Saved::kSaved) {
     text.begin(Importance::kHeard, separator);
     text.out += "saved";
+  } else if (saved == Saved::kNotRecorded) {
+    text.begin(Importance::kMessage, separator);
+    text.out += "NOT RECORDED";
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace orthonav::engine {
 
-/// "saved", "NOT SAVED" or nothing, after `separator`.
+/// "saved", "NOT SAVED", "NOT RECORDED" or nothing, after `separator`.
 void write_saved(PartedText text, Saved saved, std::string_view separator);
 
 }  // namespace orthonav::engine

@@ -8,9 +8,10 @@ namespace orthonav::engine {
 
 /// Whether what was done lately would survive a crash.
 enum class Saved : std::uint8_t {
-  kNothingNew,  ///< nothing was done for a while, or it is on its way to the disk
-  kSaved,       ///< it is on the disk
-  kNotSaved,    ///< the disk failed: nothing is saved any more
+  kNothingNew,   ///< nothing was done for a while, or it is on its way to the disk
+  kSaved,        ///< it is on the disk
+  kNotSaved,     ///< the disk failed: nothing is saved any more
+  kNotRecorded,  ///< a recording was asked for and has stopped; nothing of the operation is lost
 };
 
 /// Asked in every step. Allocates nothing and waits for nobody.

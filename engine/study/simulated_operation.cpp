@@ -106,6 +106,9 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   }
   if (*recorder) {
     live.go_through(**recorder);
+    if (hooks.recorded) {
+      hooks.recorded(live, **recorder);
+    }
   }
   if (const Status opened = tell_opened(hooks, room, method, live.session()); !opened) {
     return opened.error();

@@ -13,6 +13,10 @@
 #include "engine/study/stated_navigation.h"
 #include "hal/sim/sim_headset.h"
 
+namespace orthonav::replay {
+class RecordingHeadset;
+}
+
 namespace orthonav::engine {
 
 /// What the tools are tracked in.
@@ -55,6 +59,8 @@ struct OperationHooks {
   std::function<Result<Headset*>(Headset&)> seen_through;
   /// Called once everything is put together, before `opened`; an Error ends the run.
   std::function<Status(AssembledOperation&)> assembled;
+  /// Called once it is being recorded; the recorder lives until the run has ended.
+  std::function<void(AssembledOperation&, const replay::RecordingHeadset&)> recorded;
   /// Called once the room is open and before the first frame; an Error ends the run.
   std::function<Status(sim::SimHeadset&, const Method&, const Session&)> opened;
 };

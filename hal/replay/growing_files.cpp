@@ -63,7 +63,12 @@ bool LineFile::is_open() const {
   return file_ != nullptr;
 }
 
-void ImageTarWriter::FreeArchive::operator()(archive* a) const { archive_write_free(a); }
+/// Without a `close` nothing is added: the library would fill a torn image up with zeros and write
+/// the end mark of an archive that is whole.
+void ImageTarWriter::FreeArchive::operator()(archive* a) const {
+  archive_write_fail(a);
+  archive_write_free(a);
+}
 
 void ImageTarWriter::FreeEntry::operator()(archive_entry* e) const { archive_entry_free(e); }
 
@@ -81,7 +86,11 @@ Status ImageTarWriter::open(const std::filesystem::path& path) {
 
 Error ImageTarWriter::failed() const {
   const char* text = archive_error_string(archive_.get());
-  return file_error(path_, std::string("cannot be written: ") + (text ? text : "unknown error"));
+  const int number = archive_errno(archive_.get());
+  // The library's own text for a failed write says no more than that.
+  return file_error(
+      path_, "cannot be written: " + (number > 0 ? std::generic_category().message(number)
+                                                 : std::string(text ? text : "unknown error")));
 }
 
 Status ImageTarWriter::write(std::int64_t ticks, const GreyImage& image) {

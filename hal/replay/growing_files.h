@@ -62,7 +62,7 @@ class ImageTarWriter {
 
   Status put(const std::string& name, const std::string& header, const void* pixels,
              std::size_t bytes);
-  Error failed() const;
+  [[nodiscard]] Error failed() const;
 };
 
 /// What stands beside a stream's images: which frames there were and when, where the headset was,

@@ -34,6 +34,7 @@ class Tape {
     const MutexLock lock(mutex_);
     return failure_;
   }
+  [[nodiscard]] bool failed() const { return failed_.load(); }
   Status close() {
     if (running_.exchange(false)) {
       if (Status status = writer_->close(); !status) {
@@ -48,6 +49,7 @@ class Tape {
  private:
   std::unique_ptr<RecordingWriter> writer_;
   std::atomic<bool> running_{true};
+  std::atomic<bool> failed_{false};
   mutable Mutex mutex_;
   Status failure_ ORTHONAV_GUARDED_BY(mutex_);
 
@@ -56,6 +58,7 @@ class Tape {
     running_ = false;
     if (failure_.ok()) {
       failure_ = status;
+      failed_ = true;
     }
   }
 };
@@ -205,6 +208,7 @@ class Recorder : public RecordingHeadset {
   [[nodiscard]] Display& display() override { return display_; }
   [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(passed_on_); }
   [[nodiscard]] Status recording_status() const override { return tape_.status(); }
+  [[nodiscard]] bool recording_failed() const override { return tape_.failed(); }
   Status close() override { return tape_.close(); }
 
  private:

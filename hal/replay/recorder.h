@@ -38,6 +38,8 @@ class RecordingHeadset : public ForwardingHeadset {
                                                           const RecorderOptions& options = {});
   /// The first failure of the recording so far.
   [[nodiscard]] virtual Status recording_status() const = 0;
+  /// Whether it failed, for whoever asks in each step, on any thread: waits for nobody.
+  [[nodiscard]] virtual bool recording_failed() const = 0;
   /// Finishes the files and gives the folder its name. Nothing is recorded from here on, while the
   /// devices go on. A recording without a single pair is no recording: an error. The destructor
   /// closes too, but cannot say whether that went well.

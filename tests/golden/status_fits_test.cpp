@@ -133,7 +133,9 @@ std::vector<StatusLine> lines_about(const Message& message, const Coaching& coac
         line.message = none ? nullptr : &message;
         line.state = state;
         line.heard = &heard;
-        line.saved = warning == 0 ? Saved::kSaved : Saved::kNotSaved;
+        line.saved = warning == 0   ? Saved::kSaved
+                     : warning == 1 ? Saved::kNotSaved
+                                    : Saved::kNotRecorded;
         lines.push_back(line);
       }
     }

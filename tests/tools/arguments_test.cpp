@@ -53,6 +53,13 @@ TEST(CommandLine, TakesDecimalNumbersInTheirRangesAndNothingElse) {
   expect_one_line({"rod", "--heads", "h", "--diameter-mm", "0x6"}, "--diameter-mm: \"0x6\"");
 }
 
+TEST(CommandLine, NamesOptionsThatNoHelpShows) {
+  expect_one_line({"demo", "--pace", "5"},
+                  "orthonav: --pace: \"5\" must be a number from 0.5 to 4");
+  expect_one_line({"preview", "--pace", "x"}, "orthonav: --pace: \"x\" must be a number");
+  expect_one_line({"doctor", "--root"}, "orthonav: --root: 1 required");
+}
+
 TEST(CommandLine, TakesNoEmptyNameForADefault) {
   expect_one_line({"demo", "--case", ""}, "--case: must not be empty");
   expect_one_line({"run", "--out", ""}, "--out: must not be empty");

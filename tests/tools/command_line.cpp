@@ -22,7 +22,8 @@ void redirect(const std::string& path, int descriptor) {
 
 }  // namespace
 
-StartedCommand::StartedCommand(const std::vector<std::string>& arguments) {
+StartedCommand::StartedCommand(const std::vector<std::string>& arguments,
+                               const std::function<void()>& prepare) {
   const std::string out = folder_.file("out");
   const std::string err = folder_.file("err");
   std::vector<std::string> words = {ORTHONAV_COMMAND};
@@ -36,6 +37,9 @@ StartedCommand::StartedCommand(const std::vector<std::string>& arguments) {
   if (child_ == 0) {
     redirect(out, STDOUT_FILENO);
     redirect(err, STDERR_FILENO);
+    if (prepare) {
+      prepare();
+    }
     execv(ORTHONAV_COMMAND, pointers.data());
     _exit(127);
   }

@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -44,12 +45,16 @@ std::string shared(const std::string& name);
 /// The built `orthonav` at work, for tests that do something to it meanwhile.
 class StartedCommand {
  public:
-  explicit StartedCommand(const std::vector<std::string>& arguments);
+  /// `prepare` is called in the process before the command takes its place: for its environment and
+  /// its limits.
+  explicit StartedCommand(const std::vector<std::string>& arguments,
+                          const std::function<void()>& prepare = {});
   ~StartedCommand();  ///< ends it at once, where nobody waited for it
   StartedCommand(const StartedCommand&) = delete;
   StartedCommand& operator=(const StartedCommand&) = delete;
 
   void send(int signal) const;
+  [[nodiscard]] pid_t process() const { return child_; }
   /// It is so far that SIGTERM no longer ends it as if nobody cared.
   [[nodiscard]] bool takes_signals() const;
   /// What it has written on standard error until now.

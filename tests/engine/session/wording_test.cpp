@@ -32,6 +32,18 @@ std::string line_with(const StepState& state) {
   return detail_text(line);
 }
 
+TEST(Wording, SaysLastWhatBecomesOfWhatIsKept) {
+  StatusLine line;
+  line.tool = "guide";
+  line.tool_lost = true;
+  line.saved = Saved::kSaved;
+  EXPECT_EQ(detail_text(line), "guide lost; saved");
+  line.saved = Saved::kNotSaved;
+  EXPECT_EQ(detail_text(line), "guide lost; NOT SAVED");
+  line.saved = Saved::kNotRecorded;
+  EXPECT_EQ(detail_text(line), "guide lost; NOT RECORDED");
+}
+
 TEST(Wording, SaysNothingOfTipsThatNobodyCompares) {
   const TipCheck nobody({}, {}, false);
   LandmarkTouch touch;

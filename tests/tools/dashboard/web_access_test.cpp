@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <array>
 #include <filesystem>
 
 #include "tests/support/temporary_folder.h"
@@ -62,6 +64,18 @@ TEST(WebAccessTest, MakesATokenAtRandomThatItsOwnerAloneCanRead) {
   EXPECT_EQ(std::filesystem::status(file).permissions(), std::filesystem::perms(0600));
   EXPECT_EQ(WebAccess::of("192.0.2.7:80", file)->url(80), first->url(80)) << "it is kept";
   EXPECT_NE(WebAccess::of("192.0.2.7:80", folder.file("other"))->url(80), first->url(80));
+}
+
+TEST(WebAccessTest, SendsABrowserToTheMachineByNameWhereEveryAddressIsServed) {
+  const TemporaryFolder folder;
+  const std::string file = own_file(folder, kToken);
+  std::array<char, 256> name{};
+  ASSERT_EQ(gethostname(name.data(), name.size()), 0);
+  const std::string page = std::string("http://") + name.data() + ":80/?token=" + kToken;
+  EXPECT_EQ(WebAccess::of("0.0.0.0:80", file)->url(80), page);
+  EXPECT_EQ(WebAccess::of(":::80", file)->url(80), page);
+  EXPECT_EQ(WebAccess::of("0.0.0.0:80", file)->host(), "0.0.0.0") << "where to listen";
+  EXPECT_EQ(WebAccess::of("::1:80", {})->url(80), "http://[::1]:80/");
 }
 
 TEST(WebAccessTest, RefusesATokenFileThatOthersReadOrThatHoldsNone) {

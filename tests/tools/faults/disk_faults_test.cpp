@@ -1,0 +1,128 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "tests/tools/faults/failing_disk.h"
+#include "tests/tools/faults/short_run.h"
+
+namespace orthonav::test::disk_faults_test {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// What a run without a fault does to the disk, in its order.
+std::vector<DiskCall> calls_of(ShortRun& run) {
+  const Called whole = run.run([&run] { fail_disk(run.written(), {}, run.list()); });
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  EXPECT_TRUE(all_is_kept(run));
+  EXPECT_THAT(whole.err + content_of(run.log()), Not(HasSubstr("NOT RECORDED")));
+  return listed_calls(run.list());
+}
+
+/// A disk stays full or read-only; it errs once.
+DiskFault fault_of(const std::string& kind, std::size_t at, int problem) {
+  return {kind, at, problem, problem != EIO};
+}
+
+constexpr std::array<int, 3> kProblems = {ENOSPC, EIO, EROFS};
+
+/// Every call with every error.
+std::vector<DiskFault> all_faults(const std::vector<DiskCall>& calls) {
+  std::map<std::string, std::size_t> counted;
+  std::vector<DiskFault> faults;
+  for (const DiskCall& call : calls) {
+    const std::size_t at = ++counted[call.kind];
+    for (const int problem : kProblems) {
+      faults.push_back(fault_of(call.kind, at, problem));
+    }
+  }
+  return faults;
+}
+
+/// The first and the last call of every kind, with one error after another, and errors that pass
+/// within an image and between the lists of a recording.
+std::vector<DiskFault> few_faults(const std::vector<DiskCall>& calls) {
+  std::map<std::string, std::size_t> counted;
+  for (const DiskCall& call : calls) {
+    ++counted[call.kind];
+  }
+  std::vector<DiskFault> faults = {{"write", 6, EIO, false, "VLC LF.tar"},
+                                   {"write", 2, EIO, false, "VLC RF_rig2world.txt"}};
+  for (const auto& [kind, count] : counted) {
+    for (const std::size_t at : std::set<std::size_t>{1, count}) {
+      faults.push_back(fault_of(kind, at, kProblems.at(faults.size() % kProblems.size())));
+    }
+  }
+  return faults;
+}
+
+/// Not all is kept, and it says so; or all is.
+void expect_told(const ShortRun& run, const Called& called) {
+  EXPECT_NE(called.code, -1) << "it crashed or hung: " << called.err;
+  if (!all_is_kept(run)) {
+    EXPECT_EQ(called.code, 2) << called.err;
+    EXPECT_THAT(called.err, HasSubstr("orthonav: "));
+    EXPECT_THAT(called.err, HasSubstr(run.written())) << "the file is named";
+  }
+}
+
+/// Every fault of every call where this is set (tools/test --all), else a spread of them.
+bool all_are_tried() { return std::getenv("ORTHONAV_EVERY_FAULT") != nullptr; }
+
+class DiskFaults : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!disk_can_fail()) {
+      GTEST_SKIP() << "a sanitizer's runtime must be loaded first, where the failing calls must be";
+    }
+  }
+  ShortRun run_;
+};
+
+TEST_F(DiskFaults, AtAnyCallOfARunAreToldAndLeaveWhatCanBeRead) {
+  const std::vector<DiskCall> calls = calls_of(run_);
+  const std::vector<DiskFault> faults = all_are_tried() ? all_faults(calls) : few_faults(calls);
+  ASSERT_GE(faults.size(), 13U) << "of open, write, sync, rename, mkdir and close";
+  int lost_something = 0;
+  for (const DiskFault& fault : faults) {
+    const Called called = run_.run([&] { fail_disk(run_.written(), fault); });
+    SCOPED_TRACE(fault.kind + " " + std::to_string(fault.at) + ": " +
+                 std::generic_category().message(fault.problem));
+    expect_told(run_, called);
+    expect_readable(run_);
+    lost_something += all_is_kept(run_) ? 0 : 1;
+  }
+  EXPECT_GE(lost_something, static_cast<int>(faults.size() / 3)) << "the calls do fail";
+  RecordProperty("calls", static_cast<int>(calls.size()));
+  RecordProperty("faults", static_cast<int>(faults.size()));
+  RecordProperty("lost_something", lost_something);
+}
+
+TEST_F(DiskFaults, OfARecordingAreToldAtOnceAndTheOperationGoesOn) {
+  // Each image is four writes: the second pair's right one begins with the fifth.
+  const DiskFault full{"write", 5, ENOSPC, false, "VLC RF.tar"};
+  const Called called = run_.run([&] { fail_disk(run_.written(), full); });
+  EXPECT_EQ(called.code, 2) << called.err;
+  EXPECT_THAT(called.err,
+              HasSubstr("orthonav: NOT RECORDED from here on: " + run_.written() +
+                        "/recording.part/VLC RF.tar: cannot be written: No space left on device"));
+  const std::string log = content_of(run_.log());
+  EXPECT_THAT(log, ContainsRegex("warning NOT RECORDED from here on: .*VLC RF.tar"));
+  EXPECT_THAT(log, ContainsRegex("warning 0.03 s: the status line says NOT RECORDED\n"))
+      << "with the second pair of three";
+  EXPECT_THAT(log, HasSubstr("3 frames shown"));
+  expect_readable(run_);
+}
+
+}  // namespace
+}  // namespace orthonav::test::disk_faults_test

@@ -1,0 +1,36 @@
+#include <cstddef>
+
+#include "tools/memory_reserve.h"
+
+// C libraries ask malloc, and some take what it answers without a look (libapriltag). Through
+// these, their allocations too end the command in order instead of in a crash: the first that fails
+// gets what was set aside. All three are libc's own otherwise. A sanitizer has its own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+extern "C" {
+
+void* libc_malloc(std::size_t bytes) noexcept __asm__("__libc_malloc");
+void* libc_calloc(std::size_t count, std::size_t bytes) noexcept __asm__("__libc_calloc");
+void* libc_realloc(void* before, std::size_t bytes) noexcept __asm__("__libc_realloc");
+
+void* malloc(std::size_t bytes) noexcept {
+  void* const given = libc_malloc(bytes);
+  return given == nullptr && orthonav::tools::free_memory_reserve() ? libc_malloc(bytes) : given;
+}
+
+void* calloc(std::size_t count, std::size_t bytes) noexcept {
+  void* const given = libc_calloc(count, bytes);
+  return given == nullptr && orthonav::tools::free_memory_reserve() ? libc_calloc(count, bytes)
+                                                                    : given;
+}
+
+void* realloc(void* before, std::size_t bytes) noexcept {
+  void* const given = libc_realloc(before, bytes);
+  return given == nullptr && bytes > 0 && orthonav::tools::free_memory_reserve()
+             ? libc_realloc(before, bytes)
+             : given;
+}
+
+}  // extern "C"
+
+#endif
