@@ -4,9 +4,7 @@
 
 // C libraries ask malloc, and some take what it answers without a look (libapriltag). Through
 // these, their allocations too end the command in order instead of in a crash: the first that fails
-// gets what was set aside. All three are libc's own otherwise. A sanitizer has its own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-
+// gets what was set aside. All three are libc's own otherwise.
 extern "C" {
 
 void* libc_malloc(std::size_t bytes) noexcept __asm__("__libc_malloc");
@@ -32,5 +30,3 @@ void* realloc(void* before, std::size_t bytes) noexcept {
 }
 
 }  // extern "C"
-
-#endif

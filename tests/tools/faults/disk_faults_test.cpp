@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <map>
 #include <set>
 #include <string>
@@ -76,9 +75,6 @@ void expect_told(const ShortRun& run, const Called& called) {
   }
 }
 
-/// Every fault of every call where this is set (tools/test --all), else a spread of them.
-bool all_are_tried() { return std::getenv("ORTHONAV_EVERY_FAULT") != nullptr; }
-
 class DiskFaults : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -91,7 +87,8 @@ class DiskFaults : public ::testing::Test {
 
 TEST_F(DiskFaults, AtAnyCallOfARunAreToldAndLeaveWhatCanBeRead) {
   const std::vector<DiskCall> calls = calls_of(run_);
-  const std::vector<DiskFault> faults = all_are_tried() ? all_faults(calls) : few_faults(calls);
+  const std::vector<DiskFault> faults =
+      every_fault_is_tried() ? all_faults(calls) : few_faults(calls);
   ASSERT_GE(faults.size(), 13U) << "of open, write, sync, rename, mkdir and close";
   int lost_something = 0;
   for (const DiskFault& fault : faults) {

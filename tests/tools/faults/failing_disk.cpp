@@ -15,6 +15,8 @@ void put(const char* name, const std::string& value) { setenv(name, value.c_str(
 
 bool disk_can_fail() { return std::string_view(ORTHONAV_SANITIZED).empty(); }
 
+bool every_fault_is_tried() { return std::getenv("ORTHONAV_EVERY_FAULT") != nullptr; }
+
 void fail_disk(const std::string& folder, const DiskFault& fault, const std::string& list) {
   put("LD_PRELOAD", ORTHONAV_FAILING_CALLS);
   put("FAILING_CALLS_FOLDER", folder);

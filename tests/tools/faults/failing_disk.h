@@ -23,6 +23,8 @@ struct DiskCall {
 
 /// False under sanitizers: their runtime must be loaded first, where the failing calls must be.
 [[nodiscard]] bool disk_can_fail();
+/// Whether what takes minutes is asked for (tools/test --all), by ORTHONAV_EVERY_FAULT.
+[[nodiscard]] bool every_fault_is_tried();
 /// In the process of a command, before it begins: its disk fails so below `folder`. Where `list`
 /// names a file, its calls are listed there.
 void fail_disk(const std::string& folder, const DiskFault& fault, const std::string& list = {});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -135,6 +136,40 @@ TEST_F(KeptCommand, DemoThatFindsNoRoomForAPictureSaysSoAndComesToItsEnd) {
   EXPECT_EQ(json::parse(content_of(out_ + "/report.json"))["completed"], true);
   EXPECT_TRUE(std::filesystem::exists(out_ + "/operation.mp4")) << "the film goes on";
   EXPECT_THAT(content_of(out_ + "/report.html"), HasSubstr("operation.mp4"));
+}
+
+/// A whole operation, which takes minutes: of tools/test --all.
+TEST_F(KeptCommand, DemoInterruptedAfterItsFirstScrewEndsWithBothAndNoneTwice) {
+  if (!every_fault_is_tried()) {
+    GTEST_SKIP() << "ORTHONAV_EVERY_FAULT is not set";
+  }
+  const std::vector<std::string> demo = words("demo", {"--pace", "4", "--no-video", "--json"});
+  StartedCommand first(demo);
+  const auto guides_second = [&first] {
+    return wait_until(
+        [&first] { return first.err_so_far().find("guide L5 right") != std::string::npos; });
+  };
+  constexpr int kMostWaits = 20;
+  int waits = 0;
+  while (!guides_second() && ++waits < kMostWaits) {
+  }
+  first.send(SIGTERM);
+  const Called interrupted = first.wait();
+  ASSERT_EQ(interrupted.code, 1) << interrupted.err;
+  EXPECT_THAT(placed(), ElementsAre("left"));
+  const json before = json::parse(interrupted.out)["levels"][0]["screws"][0];
+  const std::string log = content_of(out_ + "/operation.log");
+  std::vector<std::string> resume = demo;
+  resume.emplace_back("--resume");
+  const Called resumed = orthonav(resume);
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("orthonav: placed: L5 left\n"));
+  EXPECT_THAT(placed(), ElementsAre("left", "right"));
+  EXPECT_EQ(content_of(out_ + "/operation.log").substr(0, log.size()), log);
+  const json after = json::parse(resumed.out)["levels"][0]["screws"];
+  EXPECT_EQ(after[0]["done"], true);
+  EXPECT_EQ(after[0]["planned"], before["planned"]);
+  EXPECT_EQ(after[1]["done"], true);
 }
 
 TEST_F(KeptCommand, RefusesTheCaseOfAnotherPatientAndChangesNothing) {
