@@ -1,0 +1,19 @@
+#include "engine/case/screw_sizes_file.h"
+#include "tests/fuzz/input_file.h"
+
+namespace orthonav::fuzz {
+
+/// Lists of screw sizes: what is let through has no problem, and a size of each of its screws.
+void fuzz_sizes(std::span<const std::uint8_t> input) {
+  const auto sizes = engine::parse_screw_sizes(text_of(input), "sizes");
+  if (!sizes) {
+    insist(sizes.error().message.find('\n') == std::string::npos);
+    return;
+  }
+  insist(sizes->check().empty());
+  for (const nav::ImplantSize& implant : sizes->implants()) {
+    insist(sizes->has(implant.diameter_m, implant.length_m));
+  }
+}
+
+}  // namespace orthonav::fuzz
