@@ -49,14 +49,8 @@ void append_sleeve_refusal(std::string& out, const TouchRefusal& why) {
     case kAngleUnsure:
       angle("angle known to ± %.1f°, limit %.1f°");
       break;
-    case kPressAgain:
-    case kPointerNotSeen:
-    case kTipMoved:
-    case kHeldTooLong:
-    case kTooMany:
-    case kTouchesApart:
-    case kTooNear:
-      break;  // below
+    default:
+      break;
   }
 }
 
