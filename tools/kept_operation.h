@@ -33,6 +33,8 @@ class KeptOperation {
   /// Looks for the last operation of the folder, which is then locked. An Error in one line: there
   /// is none, it was done, or it can't be read.
   Status find(const std::string& folder);
+  /// Whether one was found that is not gone on with yet.
+  [[nodiscard]] bool found() const { return found_.has_value(); }
   /// Where patient references lie in the World of the operation found.
   [[nodiscard]] std::vector<nav::ReferencePlace> reference_places() const;
   /// Refuses the operation found if it is not this one: another patient, plan, tool or method.

@@ -235,7 +235,9 @@ class LiveRun {
     if (const Status opened = files_.open_journal(arguments_.out, header); !opened) {
       return opened;
     }
-    operation_->observe(files_.journal());
+    if (files_.journal()) {
+      operation_->observe(files_.journal());
+    }
     models_.keep();
     print_notes(models_);
     return files_.keep(*operation_, about());

@@ -23,10 +23,15 @@ Status RunFiles::open_journal(const std::string& folder, const engine::JournalHe
   }
   out_.emplace(std::move(*out));
   auto journal = engine::Journal::create(out_->file("session.orthonav"), header);
-  if (!journal) {
+  if (journal) {
+    journal_ = std::move(*journal);
+    return {};
+  }
+  // A disk that takes nothing more must not keep a surgeon from going on; the log says NOT SAVED.
+  if (!kept_.found()) {
     return journal.error();
   }
-  journal_ = std::move(*journal);
+  std::fprintf(stderr, "orthonav: no journal from here on: %s\n", journal.error().message.c_str());
   return {};
 }
 

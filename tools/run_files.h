@@ -22,7 +22,8 @@ void tell_of_earlier(const engine::Journal& journal);
 /// where it was asked for.
 class RunFiles {
  public:
-  /// Makes the folder and opens the journal in it.
+  /// Makes the folder and opens the journal in it. An operation that is resumed goes on without a
+  /// journal where none can be made, and says so.
   Status open_journal(const std::string& folder, const engine::JournalHeader& header);
   /// The operation to be resumed, which is looked for before anything else.
   [[nodiscard]] KeptOperation& kept() { return kept_; }

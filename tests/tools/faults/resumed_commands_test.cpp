@@ -104,6 +104,23 @@ TEST_F(KeptCommand, RunGoesOnAfterAPlacedScrewAndPlacesItNoSecondTime) {
   }
 }
 
+TEST_F(KeptCommand, RunGoesOnThoughItsDiskCanOnlyBeRead) {
+  if (!disk_can_fail()) {
+    GTEST_SKIP() << "a sanitizer's runtime must be loaded first, where the failing calls must be";
+  }
+  ASSERT_EQ(orthonav(run()).code, 0);
+  place(1);
+  StartedCommand resumed(run({"--resume", "--json"}), [this] {
+    fail_disk(out_, {"open", 1, EROFS, true});
+  });
+  const Called ended = resumed.wait();
+  EXPECT_EQ(ended.code, 2) << "not all was saved";
+  EXPECT_THAT(ended.err, HasSubstr("orthonav: no journal from here on: "));
+  EXPECT_THAT(ended.err, HasSubstr("orthonav: NOT SAVED from here on: "));
+  EXPECT_THAT(ended.err, HasSubstr("orthonav: placed: L5 left\n"));
+  EXPECT_EQ(json::parse(ended.out)["levels"][0]["screws"][0]["done"], true);
+}
+
 TEST_F(KeptCommand, DemoGoesOnWithWhatWasPlacedAndComesToItsEnd) {
   ASSERT_EQ(orthonav(run()).code, 0);
   place(2);
