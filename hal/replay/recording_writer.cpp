@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "hal/replay/calibration_files.h"
+#include "hal/replay/durable.h"
 #include "hal/replay/frame_files.h"
 #include "hal/replay/layout.h"
 #include "hal/replay/text.h"
@@ -161,11 +162,7 @@ Status RecordingWriter::close() {
     std::filesystem::remove_all(part_, code);
     return file_error(folder_, "no pair came: nothing was recorded");
   }
-  std::filesystem::rename(part_, folder_, code);
-  if (code) {
-    return file_error(part_, "cannot be renamed: " + code.message());
-  }
-  return {};
+  return rename_durably(part_, folder_);
 }
 
 }  // namespace orthonav::replay

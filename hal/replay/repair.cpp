@@ -4,6 +4,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "hal/replay/durable.h"
 #include "hal/replay/layout.h"
 #include "hal/replay/recording.h"
 #include "hal/replay/text.h"
@@ -162,12 +163,10 @@ Result<RepairReport> repair_recording(const std::filesystem::path& folder) {
                                 " pairs were, " + std::to_string(closed->summary.pairs) + " are; " +
                                 closed->summary.cut);
   }
-  std::error_code code;
-  if (*own != path) {
-    std::filesystem::rename(path, *own, code);
+  if (const Status named = *own != path ? rename_durably(path, *own) : sync_all(path); !named) {
+    return named.error();
   }
-  return code ? Result<RepairReport>(file_error(path, "cannot be renamed: " + code.message()))
-              : Result<RepairReport>(report);
+  return report;
 }
 
 }  // namespace orthonav::replay
