@@ -25,22 +25,22 @@ TEST(DepthLive, ListsWhatTheSimulatedRoomSends) {
 }
 
 TEST(DepthLive, OfAStandInBecomesPointsAndPictures) {
-  StartedCommand server({"serve-hl2ss", "--port", "47540", "--levels", "L5"});
+  StartedCommand server({"serve-hl2ss", "--port", "27540", "--levels", "L5"});
   ASSERT_TRUE(wait_until([&] { return server.err_so_far().find("serving") != std::string::npos; }));
   const ScratchFolder out;
   const std::string ply = out.file("site.ply");
-  const Called points = orthonav({"depth", "hl2ss://127.0.0.1?port=47540&depth=ahat-h264",
+  const Called points = orthonav({"depth", "hl2ss://127.0.0.1?port=27540&depth=ahat-h264",
                                   "--stream", "ahat", "--out", ply, "--json"});
   ASSERT_EQ(points.code, 0) << points.err;
   const auto json = nlohmann::json::parse(points.out);
   EXPECT_EQ(json["frames_used"], 1);
   EXPECT_GT(json["points"], 50'000);
   EXPECT_THAT(content_of(ply), StartsWith("ply\n"));
-  const Called picture = orthonav({"depth", "hl2ss://127.0.0.1?port=47540", "--stream",
+  const Called picture = orthonav({"depth", "hl2ss://127.0.0.1?port=27540", "--stream",
                                    "long-throw", "--out", out.file("site.png")});
   EXPECT_EQ(picture.code, 0) << picture.err;
   EXPECT_THAT(picture.out, HasSubstr("frame 0 of long-throw, white "));
-  const Called listing = orthonav({"depth", "hl2ss://127.0.0.1?port=47540", "--frames", "2"});
+  const Called listing = orthonav({"depth", "hl2ss://127.0.0.1?port=27540", "--frames", "2"});
   EXPECT_THAT(listing.out, HasSubstr("ahat: 512x512 px, 2 frames in 0."));
   EXPECT_THAT(listing.out, HasSubstr(", wraps at 1.055 m\n"));
 }
@@ -53,11 +53,11 @@ void expect_refused(const std::vector<std::string>& arguments, const std::string
 }
 
 TEST(DepthLive, SaysWhatIsWrong) {
-  expect_refused({"depth", "hl2ss://127.0.0.1?port=47560"},
-                 "hl2ss: 127.0.0.1: port 47560: Connection refused");
+  expect_refused({"depth", "hl2ss://127.0.0.1?port=27560"},
+                 "hl2ss: 127.0.0.1: port 27560: Connection refused");
   expect_refused({"depth", "hl2ss://127.0.0.1?depth=zdepth"},
                  "depth \"zdepth\" must be ahat, ahat-h264, long-throw or long-throw-png");
-  expect_refused({"depth", "hl2ss://127.0.0.1?port=47560", "--stream", "short-throw"},
+  expect_refused({"depth", "hl2ss://127.0.0.1?port=27560", "--stream", "short-throw"},
                  "--stream: a HoloLens 2 has ahat and long-throw");
   expect_refused({"depth", "sim:"}, "--stream: must be named, the headset has ahat and long-throw");
   expect_refused({"depth", "nothing:"}, "unknown scheme \"nothing\"");

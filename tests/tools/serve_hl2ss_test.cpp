@@ -34,7 +34,7 @@ TEST(ServeHl2ss, ListensBeyondThisMachineOnlyForWhomItNames) {
 /// A run through what real units do: the stand-in's options of the command line, one by one.
 struct Unit {
   const char* name;
-  int port;  ///< of its own: two runs may go on at the same time
+  int port;  ///< of its own: two runs may go on at the same time; none that the system gives away
   std::vector<std::string> serve;
   std::string uri;     ///< besides address and ports
   std::string counts;  ///< in the statistics of the connection
@@ -48,7 +48,8 @@ TEST_P(StandIn, IsRunThrough) {
                                     "--paced",     "--port",   std::to_string(GetParam().port)};
   words.insert(words.end(), GetParam().serve.begin(), GetParam().serve.end());
   StartedCommand server(words);
-  ASSERT_TRUE(wait_until([&] { return server.err_so_far().find("serving") != std::string::npos; }));
+  ASSERT_TRUE(wait_until([&] { return server.err_so_far().find("serving") != std::string::npos; }))
+      << server.err_so_far();
   const std::string uri = "hl2ss://127.0.0.1?port=" + std::to_string(GetParam().port) +
                           "&standin=" + std::to_string(GetParam().port + 19) + GetParam().uri;
   const Called run =
@@ -62,12 +63,12 @@ INSTANTIATE_TEST_SUITE_P(
     Every, StandIn,
     // Late stamps that nobody corrects, edges of zeros; stamps 0.1 s back (or 1 s ahead), slices.
     ::testing::Values(Unit{"StampsLateZerosAtTheEdges",
-                           47612,
+                           27612,
                            {"--unmapped-edge-px", "8"},
                            "&stamps=exact",
                            " 0 damaged"},
                       Unit{"StampsJumpBackSlices",
-                           47712,
+                           27712,
                            {"--faults", "misstamp=0.2", "--slices", "4"},
                            "&profile=h264",
                            "packets refused, the last one: stamp"}),
@@ -76,28 +77,28 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ServeHl2ss, SaysWhichPortIsTaken) {
   const auto host = net::resolve("127.0.0.1");
   ASSERT_TRUE(host.ok());
-  constexpr int kPort = 47312;
+  constexpr int kPort = 27312;
   const auto taken = net::listen_at(*host, kPort);
   ASSERT_TRUE(taken.ok()) << taken.error().message;
   const Called called =
       orthonav({"serve-hl2ss", "--port", std::to_string(kPort), "--levels", "L5"});
   EXPECT_EQ(called.code, 2);
-  EXPECT_THAT(called.err, HasSubstr("port 47312: Address already in use"));
+  EXPECT_THAT(called.err, HasSubstr("port 27312: Address already in use"));
 }
 
 TEST(Doctor, LooksAtTheHeadsetsPorts) {
-  const Called closed = orthonav({"doctor", "--headset", "hl2ss://127.0.0.1?port=47400"});
+  const Called closed = orthonav({"doctor", "--headset", "hl2ss://127.0.0.1?port=27400"});
   EXPECT_THAT(closed.out, HasSubstr("HoloLens 2: left camera"));
-  EXPECT_THAT(closed.out, HasSubstr("127.0.0.1, port 47400: Connection refused"));
+  EXPECT_THAT(closed.out, HasSubstr("127.0.0.1, port 27400: Connection refused"));
   const Called other = orthonav({"doctor", "--headset", "sim:"});
   EXPECT_EQ(other.code, 2);
   EXPECT_THAT(other.err, HasSubstr("known are hl2ss://HOST and replay:PATH"));
 }
 
 TEST(RunWithAHeadset, SaysWhichPortDoesNotAnswer) {
-  const Called called = orthonav({"run", "--headset", "hl2ss://127.0.0.1?port=47400"});
+  const Called called = orthonav({"run", "--headset", "hl2ss://127.0.0.1?port=27400"});
   EXPECT_EQ(called.code, 2);
-  EXPECT_THAT(called.err, HasSubstr("hl2ss: 127.0.0.1: port 47400: Connection refused"));
+  EXPECT_THAT(called.err, HasSubstr("hl2ss: 127.0.0.1: port 27400: Connection refused"));
 }
 
 }  // namespace

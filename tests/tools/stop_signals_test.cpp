@@ -126,7 +126,7 @@ TEST(StopSignals, StopAStudyThatHasNothingYetWithoutAFile) {
 }
 
 TEST(StopSignals, EndTheStandInWithItsSessions) {
-  StartedCommand server({"serve-hl2ss", "--levels", "L5", "--port", "47512"});
+  StartedCommand server({"serve-hl2ss", "--levels", "L5", "--port", "27512"});
   ASSERT_TRUE(
       test::wait_until([&] { return server.err_so_far().find("serving") != std::string::npos; }));
   server.send(SIGINT);
