@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "bench/quantile.h"
 #include "engine/case/tool_file.h"
 #include "engine/io/posix_env.h"
@@ -99,8 +99,11 @@ double time_back_ms(const std::string& orthonav, const std::string& folder) {
     return -1.0;
   }
   const std::string headset = "sim:?seed=" + std::to_string(kSeed);
-  const auto began = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const pid_t child = ::fork();
+  if (child < 0) {
+    return -1.0;
+  }
   if (child == 0) {
     ::dup2(pipe[1], STDERR_FILENO);
     ::execl(orthonav.c_str(), "orthonav", "run", "--headset", headset.c_str(), "--levels", "L4,L5",
@@ -109,7 +112,7 @@ double time_back_ms(const std::string& orthonav, const std::string& folder) {
   }
   ::close(pipe[1]);
   const std::string said = said_until_first_pair(pipe[0]);
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - began;
+  const double took_ms = watch.elapsed_ms();
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
   ::close(pipe[0]);
@@ -117,7 +120,7 @@ double time_back_ms(const std::string& orthonav, const std::string& folder) {
     std::fputs(said.c_str(), stderr);
     return -1.0;
   }
-  return took.count();
+  return took_ms;
 }
 
 int measure(const std::string& orthonav, const fs::path& folder, int times) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/session/part_wording.h"
+#include "engine/session/saved_wording.h"
 
 namespace orthonav::tools {
 
@@ -72,8 +73,7 @@ void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*
           status.saved == engine::Saved::kNotSaved || status.saved == engine::Saved::kNotRecorded;
       fails && status.saved != not_kept_) {
     not_kept_ = status.saved;
-    log_->warn("{:.2f} s: the status line says {}", time_s,
-               not_kept_ == engine::Saved::kNotSaved ? "NOT SAVED" : "NOT RECORDED");
+    log_->warn("{:.2f} s: the status line says {}", time_s, engine::text_of(not_kept_));
   }
   if (status.tool_lost != lost_) {
     lost_ = status.tool_lost;

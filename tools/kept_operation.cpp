@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/session/resume_wording.h"
+#include "engine/session/saved_wording.h"
 
 namespace orthonav::tools {
 namespace {
@@ -68,7 +69,9 @@ Status KeptOperation::resume(engine::AssembledOperation& operation,
     std::fprintf(stderr, "orthonav: %s\n", line.c_str());
   }
   if (const Status written = log_->written(); !written) {
-    std::fprintf(stderr, "orthonav: NOT SAVED from here on: %s\n", written.error().message.c_str());
+    std::fprintf(stderr, "orthonav: %s from here on: %s\n",
+                 std::string(engine::text_of(engine::Saved::kNotSaved)).c_str(),
+                 written.error().message.c_str());
   }
   return {};
 }

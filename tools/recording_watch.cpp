@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "engine/session/saved_wording.h"
+
 namespace orthonav::tools {
 
 void RecordingWatch::watch(engine::AssembledOperation& operation,
@@ -26,8 +28,8 @@ void RecordingWatch::stepped(const StereoFrame& /*frame*/, const engine::Inputs&
     return;
   }
   told_ = true;
-  const std::string line =
-      "NOT RECORDED from here on: " + recorder_->recording_status().error().message;
+  const std::string line = std::string(engine::text_of(engine::Saved::kNotRecorded)) +
+                           " from here on: " + recorder_->recording_status().error().message;
   log_.warn(line);
   std::fprintf(stderr, "orthonav: %s\n", line.c_str());
 }

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/sync_path.h"
 #include "engine/io/file_names.h"
 #include "engine/io/folders.h"
 
@@ -30,17 +31,12 @@ std::string way_to(int file) { return "/proc/self/fd/" + std::to_string(file); }
 
 /// `name` stands for it in an Error.
 Status made_durable(const std::string& path, const std::string& name) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) {
-    return file_error(name, "cannot be opened", errno);
+  const PathSync synced = sync_path(path);
+  if (synced.error_number == 0) {
+    return {};
   }
-  const bool synced = ::fsync(file) == 0;
-  const int error_number = errno;
-  ::close(file);
-  if (!synced) {
-    return file_error(name, "cannot be written", error_number);
-  }
-  return {};
+  return file_error(name, synced.opened ? "cannot be written" : "cannot be opened",
+                    synced.error_number);
 }
 
 /// The descriptor of a file without a name in that folder, which /proc lets us open and link by

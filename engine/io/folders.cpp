@@ -1,11 +1,10 @@
 #include "engine/io/folders.h"
 
 #include <fcntl.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <system_error>
 
+#include "base/sync_path.h"
 #include "engine/io/file_names.h"
 
 namespace orthonav::engine {
@@ -37,13 +36,9 @@ Status made(const std::string& path) {
 }  // namespace
 
 Status sync_folder(const std::string& folder) {
-  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool synced = file >= 0 && ::fsync(file) == 0;
-  const int error_number = errno;
-  if (file >= 0) {
-    ::close(file);
-  }
-  return synced ? Status{} : file_error(folder, "cannot be written", error_number);
+  const PathSync synced = sync_path(folder, O_DIRECTORY);
+  return synced.error_number == 0 ? Status{}
+                                  : file_error(folder, "cannot be written", synced.error_number);
 }
 
 Result<std::vector<fs::path>> make_folders(const std::string& path) {

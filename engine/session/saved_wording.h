@@ -7,7 +7,9 @@
 
 namespace orthonav::engine {
 
-/// "saved", "NOT SAVED", "NOT RECORDED" or nothing, after `separator`.
+/// "saved", "NOT SAVED", "NOT RECORDED" or nothing.
+[[nodiscard]] std::string_view text_of(Saved saved);
+/// The same after `separator`.
 void write_saved(PartedText text, Saved saved, std::string_view separator);
 
 }  // namespace orthonav::engine

@@ -1,24 +1,24 @@
 #include "hal/replay/durable.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
+#include <string>
 #include <system_error>
 
+#include "base/sync_path.h"
 #include "hal/replay/text.h"
 
 namespace orthonav::replay {
 
+namespace {
+
+/// A file's bytes, or the names in a folder.
 Status sync(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool synced = file >= 0 && ::fsync(file) == 0;
-  const std::error_code code(errno, std::generic_category());
-  if (file >= 0) {
-    ::close(file);
-  }
-  return synced ? Status{} : file_error(path, "may not outlast a loss of power: " + code.message());
+  const int error_number = sync_path(path.string()).error_number;
+  return error_number == 0 ? Status{}
+                           : file_error(path, "may not outlast a loss of power: " +
+                                                  std::generic_category().message(error_number));
 }
+
+}  // namespace
 
 Status sync_all(const std::filesystem::path& folder) {
   std::error_code code;

@@ -9,8 +9,6 @@ namespace orthonav::replay {
 /// On success the folder's files and their names survive a loss of power. Its own name is in the
 /// folder above.
 Status sync_all(const std::filesystem::path& folder);
-/// A file's bytes, or the names in a folder.
-Status sync(const std::filesystem::path& path);
 /// Gives a folder its final name, for good: only once all that is in it is durable.
 Status rename_durably(const std::filesystem::path& from, const std::filesystem::path& to);
 

@@ -1,23 +1,21 @@
 // An operation in the simulated room on a patient reference, killed and resumed by another process.
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <csignal>
 #include <functional>
-#include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
-#include "engine/io/json_document.h"
 #include "engine/io/posix_env.h"
 #include "engine/phantom/phantom.h"
 #include "engine/session/operation_log.h"
 #include "engine/study/simulated_operation.h"
 #include "tests/support/is_ok.h"
+#include "tests/support/killed_process.h"
+#include "tests/support/screws_done.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orthonav::engine::resumed_operation_test {
@@ -122,38 +120,14 @@ struct Program {
 /// Another process operates until it is killed at that moment. Whether it came.
 bool kill_at(const std::string& folder, const std::function<bool(const Guidance&)>& moment) {
   std::ignore = planned_operation();
-  std::array<int, 2> pipe{};
-  EXPECT_EQ(::pipe(pipe.data()), 0);
-  const pid_t child = ::fork();
-  if (child == 0) {
+  return test::kill_after(1, [&](const std::function<void()>& tell) {
     std::ignore = Program(folder).run([&](const Guidance& guidance) {
       if (moment(guidance)) {
-        std::ignore = ::write(pipe[1], "x", 1);
+        tell();
         ::pause();  // in the middle of a pair
       }
     });
-    ::_exit(1);  // it came to its end, and nobody had killed it
-  }
-  ::close(pipe[1]);
-  char byte = 0;
-  const bool came = ::read(pipe[0], &byte, 1) == 1;
-  ::kill(child, SIGKILL);
-  int how = 0;
-  ::waitpid(child, &how, 0);
-  ::close(pipe[0]);
-  return came && WIFSIGNALED(how);
-}
-
-/// How often each screw was declared done, over both programs.
-std::map<std::string, int> screws_done(const std::vector<Record>& records) {
-  std::map<std::string, int> done;
-  for (const Record& record : records) {
-    if (record.type == static_cast<std::uint16_t>(OperationRecord::kScrew)) {
-      const auto document = JsonDocument::parse(record.payload, "screw").value();
-      ++done[document.root().text("label") + " " + document.root().text("side")];
-    }
-  }
-  return done;
+  });
 }
 
 /// Where the first record of that type stands among those of the second program; none: its end.
@@ -163,9 +137,6 @@ std::size_t first_of(OperationRecord type, const std::vector<Record>& records, s
   }
   return from;
 }
-
-const std::map<std::string, int> kEveryScrewOnce = {
-    {"L4 left", 1}, {"L4 right", 1}, {"L5 left", 1}, {"L5 right", 1}};
 
 void expect_untouched(const LoggedOperation& was, const LoggedOperation& is) {
   for (std::size_t i = 0; i < was.levels.size(); ++i) {
@@ -199,7 +170,7 @@ TEST(ResumedOperation, KilledTwiceEndsWithEveryScrewOnceVerifiedBeforeItGuides) 
   const auto found = OperationLog::find(last.env, path);
   ASSERT_TRUE(is_ok(found));
   const std::vector<Record> records = read_log(last.env, found->path).value().records;
-  EXPECT_EQ(screws_done(records), kEveryScrewOnce);
+  EXPECT_EQ(test::screws_done(records), test::kEveryScrewOnce);
   expect_untouched(last.before, found->operation);
   using enum OperationRecord;
   // The bone of a new room has its dimple elsewhere: check points verify what was restored.

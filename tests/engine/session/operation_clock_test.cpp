@@ -1,5 +1,5 @@
-// The wall clock of the machine is set back while an operation runs: by a time server, or at the
-// end of summer time.
+// The wall clock of the machine is set back while an operation runs: by a time server, or by
+// hand.
 #include <gmock/gmock.h>
 
 #include <chrono>

@@ -1,10 +1,8 @@
 #include <gmock/gmock.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <csignal>
+#include <functional>
 #include <map>
 #include <set>
 #include <tuple>
@@ -12,7 +10,9 @@
 #include "engine/io/posix_env.h"
 #include "engine/session/session.h"
 #include "tests/support/is_ok.h"
+#include "tests/support/killed_process.h"
 #include "tests/support/resumed_operation.h"
+#include "tests/support/screws_done.h"
 #include "tests/support/scripted_surgeon.h"
 #include "tests/support/temporary_folder.h"
 
@@ -24,30 +24,17 @@ using test::after_power_loss;
 using test::EnvCall;
 using test::Files;
 using test::is_ok;
+using test::kEveryScrewOnce;
 using test::kLogFolder;
 using test::kLogPath;
 using test::log_of;
 using test::MemoryEnv;
 using test::ResumedOperation;
+using test::screws_done;
 using test::ScriptedSurgeon;
 using test::Story;
 using test::TemporaryFolder;
 using test::touched_operation;
-
-/// How often each screw was declared done, over all programs of the operation.
-std::map<std::string, int> screws_done(const std::vector<Record>& records) {
-  std::map<std::string, int> done;
-  for (const Record& record : records) {
-    if (record.type == static_cast<std::uint16_t>(OperationRecord::kScrew)) {
-      const auto document = JsonDocument::parse(record.payload, "screw").value();
-      ++done[document.root().text("label") + " " + document.root().text("side")];
-    }
-  }
-  return done;
-}
-
-const std::map<std::string, int> kEveryScrewOnce = {
-    {"L4 left", 1}, {"L4 right", 1}, {"L5 left", 1}, {"L5 right", 1}};
 
 int doubled_in(const std::map<std::string, int>& done) {
   int doubled = 0;
@@ -225,12 +212,8 @@ TEST_P(KilledAndWithoutPower, EndsWithEachScrewOnce) {
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutReference, KilledAndWithoutPower, ::testing::Bool());
 
 /// A child that does one thing after another, telling of each; killed after so many.
-void operate_until_killed(const std::string& folder, int acts) {
-  int pipe[2] = {};
-  ASSERT_EQ(::pipe(pipe), 0);
-  const pid_t child = ::fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
+bool operate_until_killed(const std::string& folder, int acts) {
+  return test::kill_after(acts, [&](const std::function<void()>& tell) {
     PosixEnv env;
     auto s = touched_operation(true);
     auto log = OperationLog::begin(env, folder, test::identity_of(*s, true), s->session().levels(),
@@ -239,16 +222,9 @@ void operate_until_killed(const std::string& folder, int acts) {
     ScriptedSurgeon surgeon(*s);
     for (;;) {
       surgeon.act();
-      std::ignore = ::write(pipe[1], "x", 1);
+      tell();
     }
-  }
-  ::close(pipe[1]);
-  char byte = 0;
-  for (int i = 0; i < acts && ::read(pipe[0], &byte, 1) == 1; ++i) {
-  }
-  ::kill(child, SIGKILL);
-  ::waitpid(child, nullptr, 0);
-  ::close(pipe[0]);
+  });
 }
 
 TEST(KilledProcess, IsGoneOnWithByAnother) {
@@ -256,7 +232,7 @@ TEST(KilledProcess, IsGoneOnWithByAnother) {
   int doubled = 0;
   for (const int acts : kAfterActs) {
     const TemporaryFolder folder;
-    operate_until_killed(folder.path().string(), acts);
+    ASSERT_TRUE(operate_until_killed(folder.path().string(), acts));
     PosixEnv env;
     ASSERT_TRUE(is_ok(OperationLog::find(env, folder.path().string()))) << "the lock went with it";
     doubled += finished(env, true, folder.path().string()).doubled;

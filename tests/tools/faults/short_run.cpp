@@ -96,28 +96,25 @@ ShortRun::ShortRun() {
          std::vector<std::vector<PlacedTag>>(std::size_t{kPairs}));
 }
 
-Called ShortRun::run(const std::function<void()>& prepare, const std::vector<std::string>& more) {
+Called ShortRun::run(const std::function<void()>& prepare) {
   fs::remove_all(written_);
   bring_prepared_model(out());
-  std::vector<std::string> arguments = {"run",
-                                        "--case",
-                                        folder_.file("case"),
-                                        "--headset",
-                                        "replay:" + folder_.file("recorded"),
-                                        "--frames",
-                                        std::to_string(kPairs),
-                                        "--out",
-                                        out(),
-                                        "--record",
-                                        written_ + "/recording",
-                                        "--log",
-                                        log()};
-  arguments.insert(arguments.end(), more.begin(), more.end());
+  const std::vector<std::string> arguments = {"run",
+                                              "--case",
+                                              folder_.file("case"),
+                                              "--headset",
+                                              "replay:" + folder_.file("recorded"),
+                                              "--frames",
+                                              std::to_string(kPairs),
+                                              "--out",
+                                              out(),
+                                              "--record",
+                                              written_ + "/recording",
+                                              "--log",
+                                              log()};
   StartedCommand command(arguments, [&prepare] {
     alarm(kLongestRunS);
-    if (prepare) {
-      prepare();
-    }
+    prepare();
   });
   return command.wait();
 }

@@ -22,8 +22,9 @@ class ShortRun {
  public:
   ShortRun();
 
-  /// In new folders, with more arguments where there are. -1 where it crashed or hung for a minute.
-  Called run(const std::function<void()>& prepare = {}, const std::vector<std::string>& more = {});
+  /// In new folders; the new process calls `prepare` first. -1 where it crashed or hung for a
+  /// minute.
+  Called run(const std::function<void()>& prepare);
 
   /// All that the run writes lies below it.
   [[nodiscard]] const std::string& written() const { return written_; }
