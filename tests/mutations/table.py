@@ -37,7 +37,7 @@ NAME_DROPPED = """  if (Status named = env.sync_folder(folder_of(path)); !named)
     return named;
   }
 """
-SYNC_ATOMIC = """  if (Status durable = made_durable(temporary_path_); !durable) {
+SYNC_ATOMIC = """  if (Status durable = made_durable(temporary_path_, final_path_); !durable) {
     return durable;
   }
 """
@@ -77,7 +77,7 @@ MUTATIONS = [
      "PosixLog.SyncsEveryRecord"),
     ("PosixFile tells of no sync that failed", POSIX,
      [("::fsync(file_.get()) == 0 ? ", "::fsync(file_.get()) <= 0 ? ")], "PosixLog.WritesNothingAfterASyncThatFailed"),
-    ("no folder is synced", FOLDERS, [("file >= 0 && ::fsync(file) == 0", "file >= 0")],
+    ("no folder is synced", FOLDERS, [("sync_path(folder, O_DIRECTORY);", "{true, 0};")],
      "PosixLog.IsOnTheDiskBeforeItHasItsName"),
     ("new folders are not synced into those above", FOLDERS,
      [("durable = sync_folder(folder_of(folder->string()));", "durable = {};")],
@@ -85,7 +85,7 @@ MUTATIONS = [
     ("no sync of a file that appears as a whole", ATOMIC, [(SYNC_ATOMIC, "")], ATOMIC_ORDER),
     ("a file has its name before it is synced", ATOMIC,
      [(SYNC_ATOMIC, ""), ("  return sync_folder(folder_of(final_path_));\n",
-                          "  const Status late = made_durable(final_path_);\n"
+                          "  const Status late = made_durable(final_path_, final_path_);\n"
                           "  return late ? sync_folder(folder_of(final_path_)) : late;\n")], ATOMIC_ORDER),
     ("no sync of the folder of a file that appears", ATOMIC,
      [("  return sync_folder(folder_of(final_path_));\n", "  return {};\n")], ATOMIC_ORDER),
