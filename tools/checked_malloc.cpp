@@ -2,9 +2,9 @@
 
 #include "tools/memory_reserve.h"
 
-// C libraries ask malloc, and some take what it answers without a look (libapriltag). Through
-// these, their allocations too end the command in order instead of in a crash: the first that fails
-// gets what was set aside. All three are libc's own otherwise.
+// Some C libraries use what malloc returns without checking it (libapriltag). With these functions
+// in place of libc's, the first allocation of theirs that fails gets the memory that was set aside,
+// and the command ends in order instead of crashing. Otherwise libc's own do the work.
 extern "C" {
 
 void* libc_malloc(std::size_t bytes) noexcept __asm__("__libc_malloc");

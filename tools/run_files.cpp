@@ -27,7 +27,8 @@ Status RunFiles::open_journal(const std::string& folder, const engine::JournalHe
     journal_ = std::move(*journal);
     return {};
   }
-  // A disk that takes nothing more must not keep a surgeon from going on; the log says NOT SAVED.
+  // A disk that takes nothing more must not keep a surgeon from going on: the status line says that
+  // nothing is saved.
   if (!kept_.found()) {
     return journal.error();
   }

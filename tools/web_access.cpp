@@ -92,7 +92,8 @@ Result<std::string> token_of(const std::string& path) {
 std::string name_for_browsers(const std::string& host, const net::Endpoint& address) {
   std::array<char, 256> name{};
   const std::string numbers = net::text_of(address);
-  if ((numbers == "0.0.0.0" || numbers == "::") && ::gethostname(name.data(), name.size()) == 0) {
+  if ((numbers == "0.0.0.0" || numbers == "::") &&
+      ::gethostname(name.data(), name.size() - 1) == 0) {
     return name.data();
   }
   return host.find(':') == std::string::npos ? host : "[" + host + "]";

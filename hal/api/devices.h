@@ -83,9 +83,9 @@ class StereoCamera {
 };
 
 /// Where the head is, was or will be. Contract: the answer's time is the time asked for; more than
-/// `kMaxHeadPrediction` past the newest measurement, the answer is lost. A pose that is
-/// not rigid, or is of another time, comes back as lost. So does every time before the map moved
-/// (`StereoFrame::map_epoch`): answers are in the newest map. Thread-safe.
+/// `kMaxHeadPrediction` past the newest measurement, the answer is lost. A pose that is not
+/// rigid, or is of another time, comes back as lost. So does every pose of a time before the map
+/// moved (`StereoFrame::map_epoch`): answers are in the newest map. Thread-safe.
 class HeadTracker {
  public:
   static constexpr Duration kMaxHeadPrediction = std::chrono::milliseconds(100);

@@ -21,7 +21,7 @@ class PairMailbox {
   bool take(StereoFrame& frame);
   /// What went wrong since the last question; the pair that waited is void with it.
   void fail(Error trouble);
-  /// Nothing is put any more: that is the answer to every question from now on.
+  /// The thread that puts has died: `trouble` answers with this from now on.
   void die(Error why);
   [[nodiscard]] std::optional<Error> trouble();
   /// What was put is void: nobody may guide on it any more.

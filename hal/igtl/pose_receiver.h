@@ -39,8 +39,8 @@ class PoseReceiver final : private MessageReader {
   PoseReceiver& operator=(const PoseReceiver&) = delete;
 
   [[nodiscard]] const Clock& clock() const { return clock_; }
-  /// As StereoCamera::do_next. An Error once for each connection that was lost, and for ever once
-  /// its thread died.
+  /// As StereoCamera::do_next. An Error once for each connection that was lost, and at every
+  /// call once the receiver's thread has died.
   Result<Next> next(StereoFrame& frame) ORTHONAV_EXCLUDES(mutex_);
   /// Of the newest frame.
   [[nodiscard]] std::optional<Timestamp> newest() const ORTHONAV_EXCLUDES(mutex_);

@@ -20,7 +20,7 @@ struct Columns {
 };
 
 void add_triangle(const FineBody& body, const Triangle& t, Columns& columns) {
-  // A column never runs exactly through a vertex: it is set off by a little.
+  // A column never runs exactly through a vertex: it is offset slightly.
   constexpr double kOffGrid_m = 1.2345e-9;
   const auto low = [&](int a) { return std::min({t[0][a], t[1][a], t[2][a]}); };
   const auto high = [&](int a) { return std::max({t[0][a], t[1][a], t[2][a]}); };

@@ -34,7 +34,7 @@ TEST(ServeHl2ss, ListensBeyondThisMachineOnlyForWhomItNames) {
 /// A run through what real units do: the stand-in's options of the command line, one by one.
 struct Unit {
   const char* name;
-  int port;  ///< of its own: two runs may go on at the same time; none that the system gives away
+  int port;  ///< of its own, since two runs may go on at once; not an ephemeral one
   std::vector<std::string> serve;
   std::string uri;     ///< besides address and ports
   std::string counts;  ///< in the statistics of the connection

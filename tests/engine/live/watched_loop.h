@@ -134,7 +134,8 @@ class WatchedLoop : public GuidingLoop {
   Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr) {
     return GuidingLoop::run(headset, observer, &sink);
   }
-  /// For whoever is to hang: waits until guidance is drawn, and then, too long, until this is.
+  /// Hangs the part that calls it: from when guidance is drawn, for longer than a part may take,
+  /// until `text` is drawn.
   void hang_until_drawn(fake::FakeHeadset& headset, const char* text) {
     EXPECT_TRUE(test::wait_until([&] { return sink.drew("guide"); }));
     headset.manual_clock().advance(kStallAfter + Duration(1));
