@@ -1,7 +1,7 @@
 // How far the edges of every golden scene are from what 64 samples in each pixel show, with
 // computed coverage and with four samples. Texts are left out: they are drawn alike. Prints a table
 // in Markdown.
-//   build/bench/bench/bench_edges [SCENE ...]
+//   build/bench/bench/bench_edges [--device NAME] [SCENE ...]
 #include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -30,12 +30,13 @@ struct Errors {
   std::exit(1);
 }
 
-std::unique_ptr<render::Renderer> renderer_for(const engine::GoldenScene& scene, Edges edges) {
+std::unique_ptr<render::Renderer> renderer_for(const engine::GoldenScene& scene, Edges edges,
+                                               const std::string& device) {
   render::RendererOptions options;
   options.width_px = scene.width_px;
   options.height_px = scene.height_px;
   options.edges = edges;
-  options.device = "llvmpipe";
+  options.device = device;
   auto renderer = render::Renderer::create(options);
   if (!renderer) {
     fail(renderer.error());
@@ -51,15 +52,15 @@ std::vector<RgbaImage> drawn(render::Renderer& renderer, const engine::GoldenSce
   return images;
 }
 
-void add(const engine::GoldenScene& scene, Errors& errors) {
-  const auto hard = renderer_for(scene, Edges::kHard);
+void add(const engine::GoldenScene& scene, const std::string& device, Errors& errors) {
+  const auto hard = renderer_for(scene, Edges::kHard, device);
   const auto reference = render::many_samples(*hard, scene.scene, scene.views, kGrid);
   if (!reference) {
     fail(reference.error());
   }
   const auto one = drawn(*hard, scene);
-  const auto coverage = drawn(*renderer_for(scene, Edges::kCoverage), scene);
-  const auto samples = drawn(*renderer_for(scene, Edges::kSamples), scene);
+  const auto coverage = drawn(*renderer_for(scene, Edges::kCoverage, device), scene);
+  const auto samples = drawn(*renderer_for(scene, Edges::kSamples, device), scene);
   for (std::size_t view = 0; view < one.size(); ++view) {
     render::add_error((*reference)[view], one[view], coverage[view], errors.coverage);
     render::add_error((*reference)[view], one[view], samples[view], errors.samples);
@@ -78,7 +79,7 @@ void join(const render::EdgeError& part, render::EdgeError& all) {
   all.channels += part.channels;
 }
 
-void run(const std::vector<std::string>& wanted) {
+void run(const std::vector<std::string>& wanted, const std::string& device) {
   std::printf(
       "| scene | pixels cut | RMS, coverage | RMS, 4 samples | worst, coverage | worst, 4 samples "
       "|\n"
@@ -92,7 +93,7 @@ void run(const std::vector<std::string>& wanted) {
     }
     scene.scene.texts.clear();
     Errors errors;
-    add(scene, errors);
+    add(scene, device, errors);
     if (errors.coverage.channels == 0) {
       continue;
     }
@@ -112,8 +113,10 @@ void run(const std::vector<std::string>& wanted) {
 
 int main(int argc, char** argv) {
   std::vector<std::string> scenes;
+  std::string device = "llvmpipe";
   CLI::App app("Errors of edges against 64 samples in each pixel");
   app.add_option("scenes", scenes, "golden scenes; all of them if none is named");
+  app.add_option("--device", device, "part of the Vulkan device's name");
   CLI11_PARSE(app, argc, argv);
-  orthonav::bench::run(scenes);
+  orthonav::bench::run(scenes, device);
 }

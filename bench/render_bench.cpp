@@ -1,6 +1,7 @@
 // A full frame of guidance in both eyes, compared with VTK drawing the same in the same run, frames
 // alternating so that other load affects both alike. Prints a table in Markdown.
-//   xvfb-run -a build/bench/bench/bench_render [--frames N] [--width PX] [--height PX] [--save]
+//   xvfb-run -a build/bench/bench/bench_render [--frames N] [--width PX] [--height PX]
+//     [--device NAME] [--save]
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,6 +25,7 @@ struct Options {
   int frames = 200;
   int width_px = 1268;
   int height_px = 720;
+  std::string device = "llvmpipe";
   bool save = false;
 };
 
@@ -75,7 +77,7 @@ std::unique_ptr<render::Renderer> make_renderer(const Options& options, render::
   wanted.width_px = options.width_px;
   wanted.height_px = options.height_px;
   wanted.edges = edges;
-  wanted.device = "llvmpipe";
+  wanted.device = options.device;
   wanted.surface_error_m = surface_error_m;
   auto renderer = render::Renderer::create(wanted);
   if (!renderer) {
@@ -209,6 +211,7 @@ int main(int argc, char** argv) {
   app.add_option("--frames", options.frames, "frames measured");
   app.add_option("--width", options.width_px, "of one eye, px");
   app.add_option("--height", options.height_px, "of one eye, px");
+  app.add_option("--device", options.device, "part of the name of our Vulkan device");
   app.add_flag("--save", options.save, "saves what VTK drew as vtk_SAMPLES.png");
   CLI11_PARSE(app, argc, argv);
   if (std::getenv("DISPLAY") == nullptr) {

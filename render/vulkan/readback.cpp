@@ -1,5 +1,9 @@
 #include "render/vulkan/readback.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 
 namespace orthonav::render {
@@ -17,28 +21,55 @@ void take_regions(const std::byte* drawn, std::span<const PixelRect> regions, in
   }
 }
 
-std::size_t pixels_of(const RgbaImage& image) {
+template <class Image>
+std::size_t pixels_of(const Image& image) {
   return static_cast<std::size_t>(image.width_px) * image.height_px;
+}
+
+/// Copies pixels and makes them opaque.
+void copy_opaque(const std::uint8_t* from, std::uint8_t* to, std::size_t pixels) {
+  constexpr std::array<std::uint8_t, 4> kAlpha = {0, 0, 0, 255};
+  const auto alpha = std::bit_cast<std::uint32_t>(kAlpha);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    std::uint32_t pixel = 0;
+    std::memcpy(&pixel, from + 4 * i, 4);
+    pixel |= alpha;
+    std::memcpy(to + 4 * i, &pixel, 4);
+  }
 }
 
 }  // namespace
 
-void take(const std::byte* drawn, std::span<const PixelRect> regions, const RgbaImage* background,
-          RgbaImage& image) {
+void resize(RgbaImage& image, int width_px, int height_px) {
+  image.width_px = width_px;
+  image.height_px = height_px;
   image.pixels.resize(4 * pixels_of(image));
+}
+
+void resize(LabelImage& image, int width_px, int height_px) {
+  image.width_px = width_px;
+  image.height_px = height_px;
+  image.labels.resize(pixels_of(image));
+}
+
+void fill(RgbaImage& image, const RgbaImage* background) {
   if (background != nullptr) {
-    std::memcpy(image.pixels.data(), background->pixels.data(), image.pixels.size());
-  } else {
-    std::memset(image.pixels.data(), 0, image.pixels.size());
+    return copy_opaque(background->pixels.data(), image.pixels.data(), pixels_of(image));
   }
-  for (std::size_t i = 3; i < image.pixels.size(); i += 4) {
-    image.pixels[i] = 255;
+  constexpr std::array<std::uint8_t, 4> kBlack = {0, 0, 0, 255};
+  const std::size_t pixels = pixels_of(image);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    std::memcpy(image.pixels.data() + 4 * i, kBlack.data(), 4);
   }
+}
+
+void fill(LabelImage& image) { std::fill(image.labels.begin(), image.labels.end(), 0); }
+
+void take(const std::byte* drawn, std::span<const PixelRect> regions, RgbaImage& image) {
   take_regions(drawn, regions, image.width_px, image.pixels.data());
 }
 
 void take(const std::byte* drawn, std::span<const PixelRect> regions, LabelImage& image) {
-  image.labels.assign(static_cast<std::size_t>(image.width_px) * image.height_px, 0);
   take_regions(drawn, regions, image.width_px, image.labels.data());
 }
 

@@ -8,13 +8,20 @@
 
 namespace orthonav::render {
 
-// Fills an image of a given size from what was read back: the regions that were drawn, and around
-// them what is seen where there is no hologram. `drawn` holds a whole image.
+// An image of the renderer's size is filled in two steps: while the device draws, with what is seen
+// where there is no hologram; then the regions that were drawn are copied into it.
 
-/// Around the regions: the background, or opaque black without one.
-void take(const std::byte* drawn, std::span<const PixelRect> regions, const RgbaImage* background,
-          RgbaImage& image);
-/// Around the regions: no hologram.
+/// Sets the size of an image. After this nothing is allocated.
+void resize(RgbaImage& image, int width_px, int height_px);
+void resize(LabelImage& image, int width_px, int height_px);
+
+/// Opaque: the background, or black without one.
+void fill(RgbaImage& image, const RgbaImage* background);
+/// No hologram.
+void fill(LabelImage& image);
+
+/// `drawn` holds a whole image, of which only the regions are valid.
+void take(const std::byte* drawn, std::span<const PixelRect> regions, RgbaImage& image);
 void take(const std::byte* drawn, std::span<const PixelRect> regions, LabelImage& image);
 
 }  // namespace orthonav::render

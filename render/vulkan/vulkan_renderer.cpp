@@ -4,7 +4,6 @@
 #include <exception>
 #include <span>
 
-#include "base/stopwatch.h"
 #include "render/frame/scene_check.h"
 #include "render/vulkan/failure.h"
 #include "render/vulkan/readback.h"
@@ -108,23 +107,36 @@ Status VulkanRenderer::take_input(const Scene& scene, const std::vector<View>& v
   return drawing_.take(scene);
 }
 
-template <class Picture, class Take>
-void VulkanRenderer::read_back(std::size_t views, std::vector<Picture>& pictures,
-                               const Take& take_picture) {
-  const Stopwatch watch;
-  pictures.resize(views);
-  for (std::size_t i = 0; i < views; ++i) {
-    pictures[i].width_px = options_.width_px;
-    pictures[i].height_px = options_.height_px;
-    take_picture(i, readback_.mapped() + i * image_bytes(), pictures[i]);
+template <class Picture, class Fill>
+Status VulkanRenderer::draw_into(std::vector<Picture>& pictures, PassKind kind, const Scene& scene,
+                                 const std::vector<View>& views,
+                                 const std::vector<const RgbaImage*>& backgrounds,
+                                 const Fill& fill_picture) {
+  if (const Status taken = take_input(scene, views, backgrounds); !taken) {
+    return taken;
   }
-  timing_.read_ms = watch.elapsed_ms();
+  pictures.resize(views.size());
+  for (Picture& picture : pictures) {
+    resize(picture, options_.width_px, options_.height_px);
+  }
+  submit(kind, scene, views, backgrounds);
+  // Nothing throws between submitting a frame and waiting for it.
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    fill_picture(pictures[i], i);
+  }
+  finish();
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    take(readback_.mapped() + i * image_bytes(), drawn_[i], pictures[i]);
+  }
+  timing_.read_ms = phase_.elapsed_ms();
+  return {};
 }
 
 /// No exception leaves it, and the meshes see the frame end however it ended.
 template <class Work>
 Status VulkanRenderer::attempt(const Work& work) {
   const Stopwatch watch;
+  phase_ = watch;
   timing_ = {};
   Status drawn;
   try {
@@ -145,27 +157,19 @@ Status VulkanRenderer::attempt(const Work& work) {
 Status VulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
                             const std::vector<const RgbaImage*>& backgrounds,
                             std::vector<RgbaImage>& images) {
-  return attempt([&]() -> Status {
-    if (const Status drawn = draw_into(PassKind::kColour, scene, views, backgrounds); !drawn) {
-      return drawn;
-    }
-    read_back(views.size(), images, [&](std::size_t i, const std::byte* drawn, RgbaImage& image) {
-      take(drawn, drawn_[i], backgrounds.empty() ? nullptr : backgrounds[i], image);
-    });
-    return {};
+  return attempt([&] {
+    return draw_into(images, PassKind::kColour, scene, views, backgrounds,
+                     [&](RgbaImage& image, std::size_t i) {
+                       fill(image, backgrounds.empty() ? nullptr : backgrounds[i]);
+                     });
   });
 }
 
 Status VulkanRenderer::draw_labels(const Scene& scene, const std::vector<View>& views,
                                    std::vector<LabelImage>& images) {
-  return attempt([&]() -> Status {
-    if (const Status drawn = draw_into(PassKind::kLabels, scene, views, {}); !drawn) {
-      return drawn;
-    }
-    read_back(views.size(), images, [&](std::size_t i, const std::byte* drawn, LabelImage& image) {
-      take(drawn, drawn_[i], image);
-    });
-    return {};
+  return attempt([&] {
+    return draw_into(images, PassKind::kLabels, scene, views, {},
+                     [](LabelImage& image, std::size_t) { fill(image); });
   });
 }
 

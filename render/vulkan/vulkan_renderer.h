@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "base/stopwatch.h"
 #include "render/renderer.h"
 #include "render/vulkan/device.h"
 #include "render/vulkan/instance.h"
@@ -35,10 +36,16 @@ class VulkanRenderer final : public Renderer {
  private:
   template <class Work>
   Status attempt(const Work& work);
-  Status draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
-                   const std::vector<const RgbaImage*>& backgrounds);
-  template <class Picture, class Take>
-  void read_back(std::size_t views, std::vector<Picture>& pictures, const Take& take_picture);
+  /// Fills the pictures with what is behind the holograms while the device draws.
+  template <class Picture, class Fill>
+  Status draw_into(std::vector<Picture>& pictures, PassKind kind, const Scene& scene,
+                   const std::vector<View>& views, const std::vector<const RgbaImage*>& backgrounds,
+                   const Fill& fill_picture);
+  /// What was taken.
+  void submit(PassKind kind, const Scene& scene, const std::vector<View>& views,
+              const std::vector<const RgbaImage*>& backgrounds);
+  /// Waits for what was submitted.
+  void finish();
   /// Checks everything and uploads the scene's meshes.
   Status take_input(const Scene& scene, const std::vector<View>& views,
                     const std::vector<const RgbaImage*>& backgrounds);
@@ -64,6 +71,7 @@ class VulkanRenderer final : public Renderer {
   std::array<std::unique_ptr<FramePass>, 4> passes_;  ///< by kind and number of views
   std::array<std::vector<PixelRect>, 2> drawn_;       ///< regions of each view
   FrameTiming timing_;
+  Stopwatch phase_;  ///< since the last time that was put into `timing_`
   bool lost_ = false;
 };
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "base/stopwatch.h"
 #include "render/vulkan/gpu_types.h"
 #include "render/vulkan/vulkan_renderer.h"
 
@@ -45,12 +44,8 @@ void VulkanRenderer::record_pass(VkCommandBuffer batch, PassKind kind, std::span
                        drawing_.edges(first), drawn_so_far_.get()});
 }
 
-Status VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
-                                 const std::vector<const RgbaImage*>& backgrounds) {
-  const Stopwatch watch;
-  if (const Status taken = take_input(scene, views, backgrounds); !taken) {
-    return taken;
-  }
+void VulkanRenderer::submit(PassKind kind, const Scene& scene, const std::vector<View>& views,
+                            const std::vector<const RgbaImage*>& backgrounds) {
   drawing_.build(scene, views, size(), kind);
   const std::size_t at_once = std::min(views.size(), drawing_.views_a_pass());
   Commands& commands = drawing_.slot().commands;
@@ -60,11 +55,16 @@ Status VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::v
     record_pass(batch, kind, std::span(views).subspan(first, at_once),
                 behind.empty() ? behind : behind.subspan(first, at_once), first);
   }
-  timing_.record_ms = watch.elapsed_ms();
-  commands.run();
+  timing_.record_ms = phase_.elapsed_ms();
+  commands.submit();
   timing_.submit_ms = commands.submit_ms();
-  timing_.gpu_ms = watch.elapsed_ms() - timing_.record_ms - timing_.submit_ms;
-  return {};
+  phase_ = Stopwatch();
+}
+
+void VulkanRenderer::finish() {
+  drawing_.slot().commands.wait();
+  timing_.gpu_ms = phase_.elapsed_ms();
+  phase_ = Stopwatch();
 }
 
 }  // namespace orthonav::render

@@ -24,6 +24,7 @@
 #include "render/renderer.h"
 #include "tests/support/camera_scene.h"
 #include "tests/support/is_ok.h"
+#include "tests/support/test_device.h"
 
 namespace orthonav::engine {
 namespace {
@@ -101,7 +102,7 @@ class Painter {
     options.width_px = kWidth_px;
     options.height_px = kHeight_px;
     options.blend = blend;
-    options.device = "llvmpipe";
+    options.device = test::test_device();
     options.cache_folder = "";
     auto made = render::Renderer::create(options);
     EXPECT_TRUE(test::is_ok(made));

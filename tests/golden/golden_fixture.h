@@ -9,6 +9,7 @@
 
 #include "engine/golden/golden_images.h"
 #include "tests/render/silent_validation.h"
+#include "tests/support/test_device.h"
 
 namespace orthonav::engine {
 
@@ -18,9 +19,8 @@ class Golden : public ::testing::TestWithParam<std::string> {
   // One painter for all: a device and its shaders take longer than a picture.
   static void SetUpTestSuite() {
     validation_ = std::make_unique<render::SilentValidation>();
-    painter_ =
-        std::make_unique<GoldenPainter>(GoldenPainter::kPinnedDevice, true, validation_->sink());
-    spoiler_ = std::make_unique<GoldenPainter>(GoldenPainter::kPinnedDevice);
+    painter_ = std::make_unique<GoldenPainter>(test::test_device(), true, validation_->sink());
+    spoiler_ = std::make_unique<GoldenPainter>(test::test_device());
   }
   static void TearDownTestSuite() {
     painter_.reset();

@@ -159,7 +159,7 @@ TEST(GoldenFolder, LacksNothingSilently) {
 
 TEST(GoldenImages, OfAnotherSizeDiffer) {
   const render::SilentValidation validation;
-  GoldenPainter painter(GoldenPainter::kPinnedDevice, true, validation.sink());
+  GoldenPainter painter(test::test_device(), true, validation.sink());
   GoldenScene scene = golden_scenes().front();
   const auto images = painter.paint(scene);
   ASSERT_TRUE(images.ok()) << images.error().message;
@@ -175,7 +175,7 @@ TEST(GoldenScenes, AreTheSameAtEveryCall) {
   const std::vector<GoldenScene> first = golden_scenes();
   const std::vector<GoldenScene> second = golden_scenes();
   const render::SilentValidation validation;
-  GoldenPainter painter(GoldenPainter::kPinnedDevice, true, validation.sink());
+  GoldenPainter painter(test::test_device(), true, validation.sink());
   const auto a = painter.paint(first.back());
   const auto b = painter.paint(second.back());
   ASSERT_TRUE(a.ok() && b.ok());

@@ -6,6 +6,7 @@
 #include "engine/golden/golden_scenes.h"
 #include "tests/support/is_ok.h"
 #include "tests/support/many_samples.h"
+#include "tests/support/test_device.h"
 
 namespace orthonav::engine {
 namespace {
@@ -17,7 +18,7 @@ std::vector<RgbaImage> drawn(const GoldenScene& scene, Edges edges) {
   options.width_px = scene.width_px;
   options.height_px = scene.height_px;
   options.edges = edges;
-  options.device = "llvmpipe";
+  options.device = test::test_device();
   std::vector<RgbaImage> images;
   const auto renderer = render::Renderer::create(options);
   EXPECT_TRUE(test::is_ok(renderer));
@@ -40,7 +41,7 @@ TEST_P(Sharpness, IsGreaterWithComputedCoverageThanWithFourSamples) {
   options.width_px = scene.width_px;
   options.height_px = scene.height_px;
   options.edges = Edges::kHard;
-  options.device = "llvmpipe";
+  options.device = test::test_device();
   const auto hard = render::Renderer::create(options);
   ASSERT_TRUE(test::is_ok(hard));
   const auto reference = render::many_samples(**hard, scene.scene, scene.views, 8);

@@ -6,6 +6,7 @@
 namespace orthonav::render {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 
 RgbaImage plain_background(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
@@ -36,11 +37,11 @@ TEST(Background, IsAddedToOrCovered) {
   const RgbaImage background = plain_background(0, 188, 0);  // green 0.5 in linear light
   TestRenderer additive;
   TestRenderer over(200, 120, Blend::kOver);
-  // Red 0.2 × 0.5 = 0.1: 89 in sRGB. Green stays, or halves to 0.25: 137.
+  // Red 0.2 × 0.5 = 0.1: 89 in sRGB. Green stays, or halves to 0.25: 137, or 138 as a GPU rounds.
   EXPECT_THAT(pixel(additive.draw(scene, TestRenderer::straight_ahead(), &background), 100, 60),
               ElementsAre(89, 188, 0));
   EXPECT_THAT(pixel(over.draw(scene, TestRenderer::straight_ahead(), &background), 100, 60),
-              ElementsAre(89, 137, 0));
+              ElementsAre(89, AnyOf(137, 138), 0));
 }
 
 TEST(Background, ShinesThroughAVeil) {

@@ -4,6 +4,7 @@
 #include "render/vulkan/mesh_cache.h"
 #include "tests/render/test_renderer.h"
 #include "tests/support/allocation_count.h"
+#include "tests/support/test_device.h"
 
 namespace orthonav::render {
 namespace {
@@ -33,7 +34,7 @@ TEST(FrameLoop, AllocatesNothingAfterTheFirstFrames) {
   RendererOptions options;
   options.width_px = 200;
   options.height_px = 120;
-  options.device = "llvmpipe";
+  options.device = test::test_device();
   options.cache_folder = "";
   const auto made = Renderer::create(options);
   ASSERT_TRUE(test::is_ok(made));
@@ -114,7 +115,7 @@ class MeshCacheTest : public ::testing::Test {
  protected:
   SilentValidation validation_;
   Instance instance_{true, validation_.sink()};
-  Device device_{choose_device(instance_, "llvmpipe").value()};
+  Device device_{choose_device(instance_, test::test_device()).value()};
   Commands commands_{device_};
   MeshCache cache_;
 };

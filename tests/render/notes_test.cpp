@@ -6,6 +6,7 @@
 #include "render/vulkan/mesh_cache.h"
 #include "tests/render/test_renderer.h"
 #include "tests/render/test_scenes.h"
+#include "tests/support/test_device.h"
 
 namespace orthonav::render {
 namespace {
@@ -120,7 +121,7 @@ TEST(HugeMesh, IsDrawnWithFewerTrianglesAndANote) {
 TEST(HugeMesh, HasNoMoreTrianglesThanTheLimitWhateverTheError) {
   SilentValidation validation;
   const Instance instance(true, validation.sink());
-  const Device device(choose_device(instance, "llvmpipe").value());
+  const Device device(choose_device(instance, test::test_device()).value());
   Commands commands(device);
   MeshCache cache;
   const auto mesh = std::make_shared<const MeshData>(make_sphere(0.05f, 180, 90));

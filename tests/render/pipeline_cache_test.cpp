@@ -8,6 +8,7 @@
 
 #include "tests/render/test_renderer.h"
 #include "tests/render/test_scenes.h"
+#include "tests/support/test_device.h"
 
 namespace orthonav::render {
 namespace {
@@ -26,7 +27,7 @@ class PipelineCacheTest : public ::testing::Test {
 
   SilentValidation validation_;
   Instance instance_{true, validation_.sink()};
-  VkPhysicalDevice physical_ = choose_device(instance_, "llvmpipe").value();
+  VkPhysicalDevice physical_ = choose_device(instance_, test::test_device()).value();
   Device device_{physical_};
   std::string folder_ = ::testing::TempDir() + "orthonav_pipeline_cache/deeper";
 };
@@ -61,7 +62,7 @@ TEST_F(PipelineCacheTest, LeavesTheRenderersPicturesAlone) {
   RendererOptions options;
   options.width_px = 200;
   options.height_px = 120;
-  options.device = "llvmpipe";
+  options.device = test::test_device();
   options.cache_folder = folder_;
   std::vector<RgbaImage> first;
   std::vector<RgbaImage> second;

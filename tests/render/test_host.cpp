@@ -1,4 +1,5 @@
 #include "tests/render/test_host.h"
+#include "tests/support/test_device.h"
 
 #include <array>
 #include <cstring>
@@ -22,11 +23,11 @@ Result<void*> TestHost::physical_device(void* instance) {
   for (std::uint32_t i = 0; i < count; ++i) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(devices[i], &properties);
-    if (std::strstr(properties.deviceName, "llvmpipe") != nullptr) {
+    if (std::strstr(properties.deviceName, test::test_device().c_str()) != nullptr) {
       return static_cast<void*>(devices[i]);
     }
   }
-  return Error{"no llvmpipe"};
+  return Error{"no " + test::test_device()};
 }
 
 Result<void*> TestHost::create_device(void* physical, VulkanFunction, const void* info) {

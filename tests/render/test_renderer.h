@@ -11,6 +11,7 @@
 #include "render/renderer.h"
 #include "tests/render/silent_validation.h"
 #include "tests/support/is_ok.h"
+#include "tests/support/test_device.h"
 
 namespace orthonav::render {
 
@@ -24,7 +25,7 @@ class TestRenderer {
     options.height_px = height_px;
     options.blend = blend;
     options.edges = edges;
-    options.device = "llvmpipe";
+    options.device = test::test_device();
     options.validation = true;
     options.messages = validation_.sink();
     options.eyes_a_pass = eyes_a_pass;

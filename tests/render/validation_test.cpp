@@ -7,6 +7,7 @@
 #include "render/vulkan/failure.h"
 #include "tests/render/silent_validation.h"
 #include "tests/render/test_renderer.h"
+#include "tests/support/test_device.h"
 
 namespace orthonav::render {
 namespace {
@@ -36,7 +37,7 @@ void leave_a_fence_behind(const Device& device) {
 TEST(Validation, HearsAnInvalidCall) {
   const auto messages = std::make_shared<std::vector<std::string>>();
   const Instance instance(true, messages);
-  const Device device(choose_device(instance, "llvmpipe").value());
+  const Device device(choose_device(instance, test::test_device()).value());
   EXPECT_THAT(*messages, IsEmpty());
   ask_for_what_was_not_enabled(device);
   EXPECT_THAT(*messages, Contains(HasSubstr("anisotropyEnable")));
@@ -46,7 +47,7 @@ TEST(Validation, HearsAnInvalidCall) {
 TEST(Validation, HearsABadPractice) {
   const auto messages = std::make_shared<std::vector<std::string>>();
   const Instance instance(true, messages);
-  const Device device(choose_device(instance, "llvmpipe").value());
+  const Device device(choose_device(instance, test::test_device()).value());
   // A pool that may be reset by halves costs more; nothing is wrong with it otherwise.
   VkCommandPoolCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -63,7 +64,7 @@ TEST(Validation, FailsATestForWhatIsLeftBehind) {
       {
         const SilentValidation validation;
         const Instance instance(true, validation.sink());
-        const Device device(choose_device(instance, "llvmpipe").value());
+        const Device device(choose_device(instance, test::test_device()).value());
         leave_a_fence_behind(device);
       },
       "has not been destroyed");
@@ -73,7 +74,7 @@ TEST(Validation, HearsTheRenderersOwnMessagesAfterItIsGone) {
   const auto messages = std::make_shared<std::vector<std::string>>();
   RendererOptions options;
   options.width_px = options.height_px = 64;
-  options.device = "llvmpipe";
+  options.device = test::test_device();
   options.cache_folder = "";
   options.validation = true;
   options.messages = messages;
@@ -117,7 +118,7 @@ class LongBatch : public ::testing::Test {
   }
   SilentValidation validation_;
   Instance instance_{true, validation_.sink()};
-  Device device_{choose_device(instance_, "llvmpipe").value()};
+  Device device_{choose_device(instance_, test::test_device()).value()};
 };
 
 TEST_F(LongBatch, IsLostWhenItOutlastsThePatienceAndOverWhenThatIsTold) {
