@@ -8,8 +8,8 @@
 
 namespace orthonav {
 
-/// A finding in words: `format` as for printf, with the value and its limit (two `%f`, `%e` or
-/// `%g`, or one). They never read alike where they differ (base/printed.h).
+/// A finding in words: `format` as for printf, for the value and its limit (two of `%f`, `%e` or
+/// `%g`) or for the value alone. Value and limit never print alike if they differ (base/printed.h).
 [[nodiscard]] std::string with_numbers(const char* format, double value, double limit);
 
 /// The same as an Error.

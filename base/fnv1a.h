@@ -7,8 +7,8 @@ namespace orthonav {
 
 inline constexpr std::uint64_t kFnv1aStart = 0xcbf29ce484222325U;
 
-/// FNV-1a, 64 bits, of `bytes` after what `before` is the hash of: whether something is what it
-/// was. Against mix-ups, not against malice.
+/// FNV-1a, 64 bits, of `bytes`, continued from the hash `before`. Tells whether data changed: it
+/// protects against mix-ups, not against malice.
 [[nodiscard]] constexpr std::uint64_t fnv1a(std::string_view bytes,
                                             std::uint64_t before = kFnv1aStart) {
   for (const char byte : bytes) {

@@ -9,7 +9,7 @@
 
 namespace orthonav {
 
-/// For a catch block: an Error that says what `who` was ended by.
+/// For a catch block: an Error that says which exception ended `who`.
 [[nodiscard]] inline Error ended_by_exception(const std::string& who) {
   try {
     throw;

@@ -5,7 +5,7 @@
 
 namespace orthonav {
 
-/// Every part in one line, for a message: "a; b; c".
+/// All parts in one line, for a message: "a; b; c".
 [[nodiscard]] inline std::string joined(std::span<const std::string> parts,
                                         const char* separator = "; ") {
   std::string line;

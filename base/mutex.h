@@ -18,16 +18,17 @@
 #define ORTHONAV_RELEASE(...) ORTHONAV_THREAD_ANNOTATION(release_capability(__VA_ARGS__))
 /// On a member: read and written only while this mutex is held.
 #define ORTHONAV_GUARDED_BY(mutex) ORTHONAV_THREAD_ANNOTATION(guarded_by(mutex))
-/// On a function: whoever calls it holds the mutex.
+/// On a function: the caller must hold the mutex.
 #define ORTHONAV_REQUIRES(...) ORTHONAV_THREAD_ANNOTATION(requires_capability(__VA_ARGS__))
-/// On a function that takes the mutex itself: whoever calls it must not hold it.
+/// On a function that takes the mutex itself: the caller must not hold it.
 #define ORTHONAV_EXCLUDES(...) ORTHONAV_THREAD_ANNOTATION(locks_excluded(__VA_ARGS__))
-/// On a function that is right for a reason that clang can't see; a comment there gives it.
+/// On a function that is correct for a reason that clang can't see; a comment there says why.
 #define ORTHONAV_NO_THREAD_SAFETY_ANALYSIS ORTHONAV_THREAD_ANNOTATION(no_thread_safety_analysis)
 
 namespace orthonav {
 
-/// A std::mutex that clang knows: it then refuses code that touches a guarded member without it.
+/// A std::mutex that clang's analysis knows: code that touches a guarded member without it is
+/// refused.
 class ORTHONAV_CAPABILITY("mutex") Mutex {
  public:
   void lock() ORTHONAV_ACQUIRE() { mutex_.lock(); }
@@ -64,7 +65,7 @@ class ConditionVariable {
     changed_.wait(lock);
     lock.release();
   }
-  /// The same; false once that time has come.
+  /// The same; returns false once `time` is reached.
   bool wait_until(Mutex& mutex, std::chrono::steady_clock::time_point time)
       ORTHONAV_REQUIRES(mutex) {
     std::unique_lock lock(mutex.mutex_, std::adopt_lock);

@@ -4,7 +4,8 @@
 
 namespace orthonav {
 
-/// "measured", "predicted", "lost": in files and interfaces, whatever the display says.
+/// "measured", "predicted", "lost": the names in files and interfaces, independent of the display's
+/// wording.
 [[nodiscard]] constexpr const char* name_of(PoseStatus status) {
   switch (status) {
     case PoseStatus::kMeasured:

@@ -21,7 +21,7 @@ struct Conversion {
   char letter = 0;
 };
 
-/// Reads a conversion behind its `%`, and moves the format behind it.
+/// Reads the conversion that follows a `%` and advances the format past it.
 Conversion take_conversion(const char*& format) {
   Conversion found;
   std::size_t count = 0;
@@ -47,7 +47,7 @@ Conversion take_conversion(const char*& format) {
   return found;
 }
 
-/// "-0.00", whatever is before and behind it.
+/// "-0.00", with any text before or after it.
 bool is_negative_zero(const Buffer& text) {
   const char* const minus = std::strchr(text.data(), '-');
   const std::size_t zeros = minus == nullptr ? 0 : std::strspn(minus + 1, "0.");
@@ -105,7 +105,7 @@ void append_value(std::string& out, const Conversion& how, const PrintedValue& v
   out += text.data();
 }
 
-/// Prints with `more` decimals in every real number, `before` ahead of the first.
+/// Prints with `more` extra decimals in every real number and `before` ahead of the first.
 void append_with(std::string& out, const char* format, std::span<const PrintedValue> values,
                  int more, const char* before) {
   std::size_t next = 0;

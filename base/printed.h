@@ -9,7 +9,7 @@
 
 namespace orthonav {
 
-/// One value to be printed, as its type was.
+/// One value to be printed, with its type.
 struct PrintedValue {
   enum class Kind { kSigned, kUnsigned, kReal, kText };
 
@@ -31,9 +31,9 @@ struct PrintedValue {
 };
 
 /// Appends what `printf` would print, but a number that rounds to zero never has a sign: `0.0`,
-/// not `-0.0`. Conversions: d i u x (for any integer, whatever its length), f e g, s; flags, width
-/// and precision as usual, `*` only as a precision. What is padded is cut at 399 characters.
-/// Allocates nothing where the string has the room.
+/// not `-0.0`. Conversions: d i u x (for integers of any size), f e g, s; flags, width and
+/// precision as usual, `*` only as a precision. Padded text is cut at 399 characters. Allocates
+/// nothing if the string has room.
 void append_printed(std::string& out, const char* format, std::span<const PrintedValue> values);
 template <class... Values>
 void append_printed(std::string& out, const char* format, const Values&... values) {
@@ -41,7 +41,7 @@ void append_printed(std::string& out, const char* format, const Values&... value
   append_printed(out, format, std::span<const PrintedValue>(all));
 }
 
-/// The same as a text of its own.
+/// The same, as a new string.
 template <class... Values>
 [[nodiscard]] std::string printed(const char* format, const Values&... values) {
   std::string out;
@@ -49,13 +49,13 @@ template <class... Values>
   return out;
 }
 
-/// Appends a value beside its limit: `format` has a conversion f, e or g for each, in this order.
-/// Where the two would round alike, both get as many more decimals as it takes to tell them apart,
-/// at most three; then it says "just over" or "just under" the limit.
+/// Appends a value and its limit: `format` has a conversion f, e or g for each, in this order. If
+/// the two would print alike, both get enough extra decimals to tell them apart, at most three; if
+/// that is not enough, the text says "just over" or "just under" the limit.
 void append_beside_limit(std::string& out, const char* format, double value, double limit);
 [[nodiscard]] std::string beside_limit(const char* format, double value, double limit);
 
-/// The value alone, for where its limit stands elsewhere: "2.04", "just over 2.0".
+/// The value alone, if its limit is printed elsewhere: "2.04", "just over 2.0".
 [[nodiscard]] std::string value_beside(double value, double limit, int decimals);
 
 }  // namespace orthonav

@@ -105,7 +105,7 @@ double Random::normal() {
 Random Random::fork(std::string_view name) const { return fork(fnv1a(name)); }
 
 Random Random::fork(std::uint64_t number) const {
-  // Two rounds, so that fork(a).fork(b) and fork(b).fork(a) part.
+  // Two rounds, so that fork(a).fork(b) and fork(b).fork(a) differ.
   std::uint64_t mixer = seed_;
   mixer = splitmix64(mixer) + number;
   return Random(splitmix64(mixer));

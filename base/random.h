@@ -6,8 +6,8 @@
 
 namespace orthonav {
 
-/// Random numbers that are the same bits on every machine and for ever: xoshiro256** (Blackman and
-/// Vigna 2018), seeded by splitmix64. std's distributions differ from library to library.
+/// Random numbers with the same bits on every machine and in every version: xoshiro256** (Blackman
+/// and Vigna 2018), seeded by splitmix64. The distributions of std differ between libraries.
 class Random {
  public:
   explicit Random(std::uint64_t seed = 0);
@@ -21,8 +21,8 @@ class Random {
   double normal();
   double normal(double mean, double sd) { return mean + sd * normal(); }
 
-  /// An independent stream. It depends on the seed and the name only, not on how much was drawn, so
-  /// that a new consumer never changes what the others get.
+  /// An independent stream. It depends only on the seed and the name, not on how much was drawn, so
+  /// a new consumer never changes the numbers of the others.
   [[nodiscard]] Random fork(std::string_view name) const;
   [[nodiscard]] Random fork(std::uint64_t number) const;
 

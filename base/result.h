@@ -23,8 +23,8 @@ struct Error {
   ErrorCode code = ErrorCode::kInvalid;
 };
 
-/// A value, or the reason why there is none. Reading the absent side ends the program, in release
-/// too.
+/// A value, or the reason why there is none. Reading the absent one ends the program, in release
+/// builds too.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -4,7 +4,7 @@
 
 namespace orthonav {
 
-/// Wall time since it was made, for measuring how long work takes and for ending waits. Besides
+/// Wall time since construction, for measuring how long work takes and for ending waits. Apart from
 /// devices, only this class and `WallClock` read a clock; no result may depend on them.
 class Stopwatch {
  public:

@@ -6,7 +6,7 @@
 namespace orthonav {
 
 /// The headset's own clock. It counts nanoseconds from an epoch of the device's choosing and never
-/// mixes with wall time. It has no now(): only a device or a Clock object reads a clock.
+/// mixes with wall time. There is no now(): only a device or a Clock object reads a clock.
 struct DeviceClock {
   using rep = std::int64_t;
   using period = std::nano;

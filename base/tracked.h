@@ -12,7 +12,7 @@ enum class PoseStatus { kMeasured, kPredicted, kLost };
 
 /// 6×6 covariance, row-major, of (translation m, rotation vector rad), both in the parent frame.
 using PoseCovariance = std::array<double, 36>;
-/// The SDs of its translation and rotation, in 3-D.
+/// The 3-D SD of the translation, and of the rotation.
 [[nodiscard]] inline double translation_sigma_m(const PoseCovariance& c) {
   return std::sqrt(c[0] + c[7] + c[14]);
 }

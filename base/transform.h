@@ -19,7 +19,7 @@ struct DepthSensor;  ///< a depth camera: as LeftCamera
 struct Marker;       ///< a tag: x right, y up as the upright tag is seen, z out of its face
 struct Tag;          ///< a further tag on a rigid tool: axes as Marker
 struct Vertebra;     ///< a preoperative model, axes LPS
-struct Spine;        ///< the levels in their common place, axes LPS
+struct Spine;        ///< all levels in their common position, axes LPS
 struct Eye;          ///< a display eye: x right, y up, -z forward
 
 /// A position expressed in frame A, metres.
@@ -52,9 +52,9 @@ class Transform {
   constexpr Transform(const Mat3& rotation, Vec3 translation_m)
       : rotation_(rotation), translation_(translation_m) {}
 
-  /// Refuses what is no rigid motion: non-finite, not orthonormal within `tolerance`, mirrored. A
-  /// rotation that is orthonormal within kExact is kept to the bit, so that a recorded pose comes
-  /// back unchanged; a rougher one is orthonormalized.
+  /// Refuses a matrix that is not a rigid motion: non-finite, not orthonormal within `tolerance`,
+  /// or mirrored. A rotation that is orthonormal within kExact is kept to the bit, so that a
+  /// recorded pose comes back unchanged; a rougher one is orthonormalized.
   static Result<Transform> checked(const Mat3& rotation, Vec3 translation_m,
                                    double tolerance = 1e-2) {
     bool finite = translation_m.is_finite();

@@ -2,7 +2,7 @@
 
 namespace orthonav {
 
-/// Millimetres live in files, speech and readouts only.
+/// Millimetres are used only in files, speech and readouts.
 inline constexpr double kMetresPerMm = 1e-3;
 
 }  // namespace orthonav

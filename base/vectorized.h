@@ -1,8 +1,8 @@
 #pragma once
 
-/// Before a loop whose steps don't depend on one another and whose arrays don't overlap: compilers
-/// make vector instructions of it without comparing every pair of arrays first. GCC gives up beyond
-/// ten such comparisons, `__restrict` or not.
+/// Goes before a loop whose steps are independent and whose arrays don't overlap: compilers then
+/// vectorize it without first comparing every pair of arrays. GCC gives up beyond ten such
+/// comparisons, even with `__restrict`.
 #if defined(__clang__)
 #define ORTHONAV_VECTORIZED _Pragma("clang loop vectorize(assume_safety)")
 #elif defined(__GNUC__)

@@ -11,13 +11,13 @@ namespace orthonav {
 
 /// For each vertex of a triangle surface, the sum over its triangles of twice their area (m²) along
 /// their normal, which is outward where the triangles run anticlockwise seen from outside. Summed
-/// in the order of the triangles, so that one mesh gives the same bits everywhere. Zero where no
-/// triangle meets a vertex. Every index must be one of a vertex.
+/// in the order of the triangles, so that one mesh gives the same bits everywhere. Zero for a
+/// vertex without triangles. Every index must be that of a vertex.
 [[nodiscard]] std::vector<Vec3> vertex_areas_m2(
     std::span<const Vec3> vertices_m, std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// Their directions, that is the mean of the triangles' normals about each vertex, weighted by
-/// area: unit vectors, or zero where the sum is.
+/// Their directions, that is, the area-weighted mean of the normals of each vertex's triangles:
+/// unit vectors, or zero where the sum is zero.
 [[nodiscard]] std::vector<Vec3> vertex_normals(
     std::span<const Vec3> vertices_m, std::span<const std::array<std::uint32_t, 3>> triangles);
 

@@ -6,8 +6,8 @@
 
 namespace orthonav {
 
-/// This machine's time, counted from any moment: for pacing what people watch, and for devices
-/// without a clock of their own.
+/// This machine's time, counted from an arbitrary moment: paces what people watch, and serves
+/// devices without a clock of their own.
 class WallClock : public Clock {
  public:
   [[nodiscard]] Timestamp now() const override {

@@ -1,5 +1,5 @@
 # The target `api` writes pages of the installed headers into build/release/api/html, by Doxygen where it is there;
-# what it warns of is an error.
+# its warnings are errors.
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)
   return()
@@ -12,21 +12,21 @@ set(DOXYGEN_PROJECT_NAME orthonav)
 set(DOXYGEN_FULL_PATH_NAMES YES)
 set(DOXYGEN_STRIP_FROM_PATH "${PROJECT_SOURCE_DIR}")
 set(DOXYGEN_STRIP_FROM_INC_PATH "${PROJECT_SOURCE_DIR}")
-# A first sentence is the summary; what needs no words has none.
+# The first sentence is the summary; entities without a comment are allowed.
 set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
 set(DOXYGEN_EXTRACT_ALL YES)
 set(DOXYGEN_BUILTIN_STL_SUPPORT YES)
 set(DOXYGEN_AUTOLINK_SUPPORT YES)
 set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
 set(DOXYGEN_QUIET YES)
-# Annotations for the analysis of threads are not for readers.
+# Annotations for thread-safety analysis are left out of the pages.
 set(DOXYGEN_MACRO_EXPANSION YES)
 set(DOXYGEN_EXPAND_ONLY_PREDEF YES)
 set(DOXYGEN_PREDEFINED "ORTHONAV_CAPABILITY(x)=" ORTHONAV_SCOPED_CAPABILITY=)
 foreach(annotation GUARDED_BY ACQUIRE RELEASE REQUIRES EXCLUDES)
   list(APPEND DOXYGEN_PREDEFINED "ORTHONAV_${annotation}(x)=")
 endforeach()
-# Plain pages, the same at every build: no pictures, no scripts of others, no date.
+# Plain pages, identical in every build: no pictures, no third-party scripts, no date.
 set(DOXYGEN_HAVE_DOT NO)
 set(DOXYGEN_CLASS_DIAGRAMS NO)
 set(DOXYGEN_SEARCHENGINE NO)

@@ -1,6 +1,7 @@
 # orthonav_hardened(target): in a release build our code ends at the first overflow that these checks catch
-# (docs/decisions/0095-a-hardened-build.md has the cost). Private: whoever links our libraries chooses for
-# themselves. Programs are also position independent, and their relocation tables read-only once loaded.
+# (docs/decisions/0095-a-hardened-build.md has the cost). The options are private: users who link
+# our libraries choose for themselves. Programs are also position independent, and their relocation
+# tables read-only once loaded.
 option(ORTHONAV_HARDEN "Harden release builds" ON)
 include(CheckPIESupported)
 check_pie_supported(LANGUAGES C CXX)

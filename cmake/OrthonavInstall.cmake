@@ -5,13 +5,13 @@ include(CMakePackageConfigHelpers)
 get_property(orthonav_libraries GLOBAL PROPERTY ORTHONAV_LIBRARIES)
 set(orthonav_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/orthonav")
 
-# Whoever builds the command alone can install everything.
+# Building the target orthonav is enough to install everything.
 add_dependencies(orthonav ${orthonav_libraries})
 install(TARGETS ${orthonav_libraries} EXPORT orthonavTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
 install(EXPORT orthonavTargets NAMESPACE orthonav:: DESTINATION "${orthonav_package_folder}" COMPONENT dev)
 install(TARGETS orthonav RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime)
-# Headers of what is not installed, which no program includes.
+# Headers of libraries that are not installed, which no program includes.
 set(ORTHONAV_NOT_INSTALLED "^(render/font_maker|engine/(golden|scan|evaluation)|hal/igtl)/")
 foreach(folder base hal nav render engine)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${folder}/*.h")
@@ -22,7 +22,7 @@ foreach(folder base hal nav render engine)
             COMPONENT dev)
   endforeach()
 endforeach()
-# What devices are tested by, for those who write one elsewhere.
+# The contract tests of devices, for those who write a device outside this tree.
 set(orthonav_contract_folder "${CMAKE_INSTALL_DATADIR}/orthonav/contract")
 install(FILES "${PROJECT_SOURCE_DIR}/tests/contract/contract_test.cpp"
               "${PROJECT_SOURCE_DIR}/tests/contract/depth_contract_test.cpp"

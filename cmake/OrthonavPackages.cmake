@@ -27,8 +27,8 @@ registers preoperative vertebrae to strokes over the bone, guides pedicle
 screws, templates rods, and draws all of it as holograms. Brings a simulated
 operating room. Not certified for use on patients.")
 
-# What the static libraries are built with, as the packages of tools/setup: libraries alone, and without
-# those of the window and of scans, which are the command's own.
+# What the static libraries are built with, as in tools/setup: libraries only, without those for the
+# window and for scans, which only the command uses.
 execute_process(COMMAND "${PROJECT_SOURCE_DIR}/tools/setup" --list-libraries OUTPUT_VARIABLE libraries
   OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE "\n" ", " libraries "${libraries}")
@@ -65,7 +65,7 @@ to vertebrae, guides tools to planned screws and draws scenes, with NumPy
 arrays. Not certified for use on patients.")
 endif()
 
-# Each package says whose it is and what changed (gzip was looked for with the manual).
+# Each package carries its copyright and changelog (gzip was searched for with the manual).
 if(GZIP_PROGRAM)
   set(papers "${PROJECT_BINARY_DIR}/papers")
   file(WRITE "${papers}/copyright" "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/

@@ -3,8 +3,9 @@
 #
 # orthonav_library(NAME [NOT_INSTALLED] [COLD] [SOURCES_IN folders... | FILES files...] [EXCEPT files...])
 # makes the static library orthonav_NAME, alias orthonav::NAME, of every .cpp directly in the calling
-# folder, in the folders SOURCES_IN, or of FILES; without the files named after EXCEPT. COLD: what it
-# does takes no time, so it is optimized less and compiled sooner; the results are the same to the bit.
+# folder, in the folders SOURCES_IN, or of FILES; without the files named after EXCEPT. COLD: its
+# speed does not matter, so it is optimized less and compiles faster; the results are the same to
+# the bit.
 function(orthonav_library name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "NOT_INSTALLED;COLD" "" "SOURCES_IN;FILES;EXCEPT")
   if(NOT ARG_SOURCES_IN AND NOT ARG_FILES)
@@ -36,7 +37,7 @@ function(orthonav_library name)
   endif()
 endfunction()
 
-# Several sources are compiled as one: headers are read once for all of them.
+# Several sources are compiled as one, so that headers are read once for all of them.
 function(orthonav_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${ORTHONAV_UNITY}
     UNITY_BUILD_BATCH_SIZE ${ORTHONAV_UNITY_BATCH})
@@ -50,26 +51,26 @@ function(orthonav_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror -Wshadow
     -Wconversion -Wno-sign-conversion -Wno-missing-field-initializers
     -Wnon-virtual-dtor -Woverloaded-virtual)
-  # GCC 12 sees overlapping copies in plain "text" + std::string (GCC bug 105651).
+  # GCC 12 wrongly warns of overlapping copies in plain "text" + std::string (GCC bug 105651).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
-  # Without optimisation, or beside sanitizers, a loop may stay as it is.
+  # Without optimisation, or with sanitizers, a loop need not be vectorized.
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     target_compile_options(${target} PRIVATE -Wno-pass-failed)
   endif()
 endfunction()
 
-# orthonav_uses_regex(FILES...): under AddressSanitizer GCC 12 sees <regex> use what it has not set, and
-# is wrong (GCC bug 105562).
+# orthonav_uses_regex(FILES...): under AddressSanitizer GCC 12 wrongly warns that <regex> uses
+# uninitialized values (GCC bug 105562).
 function(orthonav_uses_regex)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND ORTHONAV_SANITIZE MATCHES "address")
     set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -Wno-maybe-uninitialized)
   endif()
 endfunction()
 
-# The headers that nearly every test includes, read once for all of them. Each test names what it uses
-# all the same: without ORTHONAV_UNITY nothing is precompiled.
+# The headers that nearly every test includes, read once for all of them. Each test still includes
+# what it uses: without ORTHONAV_UNITY nothing is precompiled.
 function(orthonav_test_headers target)
   if(NOT ORTHONAV_UNITY)
     return()
@@ -86,10 +87,11 @@ function(orthonav_test_headers target)
 endfunction()
 
 # orthonav_test(NAME [IN folder] [SHARDS N] [COST n] [COMPUTES] libs...) makes one test program of every
-# .cpp in the folder, which is the calling one unless it is named. COMPUTES: the tests themselves compute
-# so much that they are optimized; then they share no precompiled header, which is made without.
-# Each test is a process of its own; with SHARDS N all run in N processes, for tests that share what is
-# slow to make. Tests of greater COST start earlier, so that none of the long ones is left for the end.
+# .cpp in the folder, which is the calling one unless it is named. COMPUTES: the tests themselves
+# compute so much that they are optimized; they then can't share the precompiled header, which is
+# built without optimization. Each test is a process of its own; with SHARDS N all run in N
+# processes, for tests that share what is slow to make. Tests of greater COST start earlier, so that
+# none of the long ones is left for the end.
 function(orthonav_test name)
   cmake_parse_arguments(PARSE_ARGV 1 test "COMPUTES" "IN;SHARDS;COST" "")
   find_package(GTest REQUIRED)
@@ -103,14 +105,16 @@ function(orthonav_test name)
     ORTHONAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
   orthonav_warnings(test_${name})
   orthonav_unity(test_${name})
-  # What is tested is optimized; the tests themselves are compiled in three quarters of the time so.
+  # The tested code is optimized, the tests are not: that takes three quarters of the time to
+  # compile.
   if(test_COMPUTES)
     orthonav_cold(test_${name})
   else()
     orthonav_test_headers(test_${name})
     target_compile_options(test_${name} PRIVATE "$<$<CONFIG:Release>:-O0>")
   endif()
-  # A whole operation of 45 s takes ten minutes under ThreadSanitizer, several at a time longer.
+  # A whole operation of 45 s takes ten minutes under ThreadSanitizer, and longer when several run
+  # at once.
   set(timeout 600)
   if(ORTHONAV_SANITIZE)
     set(timeout 3600)

@@ -1,5 +1,5 @@
 # Toolchain: builds for arm64 on amd64 with Debian's cross compiler and multiarch libraries (tools/setup --arm64).
-# Programs that the build or the tests run are run under qemu-user.
+# Programs that the build or the tests run use qemu-user.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

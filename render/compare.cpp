@@ -6,7 +6,7 @@
 namespace orthonav::render {
 namespace {
 
-/// Sizes agree, and both images hold as many pixels as they say.
+/// Whether the sizes agree and both images hold as many pixels as their sizes say.
 bool comparable(const RgbaImage& a, const RgbaImage& b) {
   const auto bytes = 4 * static_cast<std::size_t>(std::max(a.width_px, 0)) * a.height_px;
   return a.width_px == b.width_px && a.height_px == b.height_px && a.pixels.size() == bytes &&

@@ -8,8 +8,8 @@
 
 namespace orthonav::render {
 
-// Comparing frames. There is no budget of pixels that may differ: a whole-frame budget is blind to
-// thin holograms and single digits.
+// Compares frames. No number of pixels may differ: a whole-frame budget would miss thin holograms
+// and single digits.
 
 /// The allowed difference of 8-bit colours on the pinned software rasterizer: rounding of the last
 /// blend.
@@ -41,7 +41,7 @@ struct LabelDifference {
 /// Labels are integers: any difference counts.
 [[nodiscard]] LabelDifference compare_labels(const LabelImage& expected, const LabelImage& actual);
 
-/// Differences of the channels times `gain`, to be looked at. Empty when the sizes differ.
+/// Differences of the channels times `gain`, for people to look at. Empty if the sizes differ.
 [[nodiscard]] RgbaImage difference_image(const RgbaImage& expected, const RgbaImage& actual,
                                          int gain = 16);
 
@@ -55,7 +55,7 @@ struct LabelExtent {
   int bottom_px = 0;
   std::size_t pixels = 0;
 };
-/// Nothing when no pixel has the label.
+/// Empty if no pixel has the label.
 [[nodiscard]] std::optional<LabelExtent> extent_of(const LabelImage& image, Label label);
 
 }  // namespace orthonav::render

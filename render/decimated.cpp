@@ -29,8 +29,8 @@ MeshData compacted(const MeshData& mesh, const std::vector<std::uint32_t>& indic
   return out;
 }
 
-/// Merges vertices at one place: a surface of loose triangles (STL) could not be collapsed
-/// otherwise.
+/// Merges vertices at the same position: a surface of separate triangles (STL) could not be
+/// collapsed otherwise.
 std::vector<std::uint32_t> joined_indices(const MeshData& mesh) {
   std::vector<std::uint32_t> joined(mesh.indices.size());
   meshopt_generateShadowIndexBuffer(joined.data(), mesh.indices.data(), mesh.indices.size(),

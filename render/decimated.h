@@ -13,8 +13,8 @@ namespace orthonav::render {
 /// unchanged.
 [[nodiscard]] MeshData decimated(const MeshData& mesh, std::size_t most_triangles);
 
-/// The same, with as few triangles as move the surface by no more than about `error_m`, but never
-/// fewer than about `enough_triangles`.
+/// The same, with as few triangles as possible while the surface moves by no more than about
+/// `error_m`, but never fewer than about `enough_triangles`.
 [[nodiscard]] MeshData simplified(const MeshData& mesh, std::size_t enough_triangles,
                                   float error_m);
 

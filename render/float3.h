@@ -29,7 +29,7 @@ namespace orthonav::render {
   return norm > 1e-12f && std::isfinite(norm) ? (1.0f / norm) * a : fallback;
 }
 
-/// Of a point from the segment between `a` and `b`.
+/// The squared distance of a point from the segment between `a` and `b`.
 [[nodiscard]] constexpr float squared_distance_to_segment(Float3 p, Float3 a, Float3 b) {
   const Float3 along = b - a;
   const float squared_length = dot(along, along);

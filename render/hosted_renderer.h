@@ -13,8 +13,8 @@
 
 namespace orthonav::render {
 
-// Drawing into images that someone else owns, on a Vulkan device that someone else makes: the
-// swapchains of a headset's runtime.
+// Draws into images that the host owns, on a Vulkan device that the host makes: the swapchains of a
+// headset's runtime.
 
 /// Makes instance and device. A handle in an answer is never null.
 class VulkanHost {
@@ -53,11 +53,11 @@ class HostedRenderer {
   /// Whether the device draws both eyes in one pass, into an image of two layers. If not, each eye
   /// gets a chain of its own: llvmpipe of Mesa 22.3 loses parts of the second layer.
   [[nodiscard]] virtual bool takes_layers() const = 0;
-  /// The images to draw into from now on, which stay until the next call or `finish`. Where
-  /// coverage is computed they are copied from, too.
+  /// The images to draw into from now on; they must stay valid until the next call or `finish`. If
+  /// coverage is computed, they are also copied from.
   virtual Status use(const EyeImages& images) = 0;
-  /// Does what takes time before the views need to be known: waits for the oldest frame in flight,
-  /// checks the scene, uploads new meshes. `draw` of the same scene follows.
+  /// Does the slow work that does not need the views: waits for the oldest frame in flight, checks
+  /// the scene, uploads new meshes. `draw` of the same scene must follow.
   virtual Status prepare(const Scene& scene) = 0;
   /// Draws `scene` for both eyes into image `indices[i]` of chain i, the chains of depth after the
   /// others, and returns once the frame is submitted. The images are left as colour attachments,
@@ -70,7 +70,7 @@ class HostedRenderer {
   /// The device is lost: every call fails from now on, with ErrorCode::kLost.
   [[nodiscard]] virtual bool lost() const = 0;
   [[nodiscard]] virtual const DeviceInfo& device() const = 0;
-  /// Of the last frame; its time on the device is not known.
+  /// The timing of the last frame; its time on the device is unknown.
   [[nodiscard]] virtual FrameTiming last_timing() const = 0;
   [[nodiscard]] virtual const std::vector<std::string>& validation_messages() const = 0;
   [[nodiscard]] virtual const std::vector<std::string>& notes() const = 0;

@@ -9,10 +9,10 @@
 
 namespace orthonav::render {
 
-/// A list whose items, when it is cleared, keep the memory they hold for the items that come next:
-/// a scene is refilled with every frame, and the frame loop must not allocate. `T` has a
-/// `renew(T&)` that makes it as new except for reserved memory. Copies and comparisons concern the
-/// items only.
+/// A list that keeps the memory of its items when it is cleared, for the items added next: a scene
+/// is refilled for every frame, and the frame loop must not allocate. `T` has a `renew(T&)` that
+/// makes it as new except for reserved memory. Copies and comparisons regard the current items
+/// only.
 template <class T>
 class ItemList {
  public:

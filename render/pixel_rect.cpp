@@ -10,7 +10,7 @@ constexpr std::size_t kMostRegions = 6;
 constexpr long kPassCost_px =
     128L * 128;  // the cost of one more pass, in pixels to clear and resolve
 
-/// The number of pixels drawn in vain when two regions are joined.
+/// The number of extra pixels drawn when two regions are joined.
 long waste(const PixelRect& a, const PixelRect& b) {
   return joined(a, b).area() - a.area() - b.area();
 }

@@ -5,7 +5,8 @@
 
 namespace orthonav::render {
 
-/// Pixels from the first column and row to one before the last; nothing when it has no extent.
+/// Pixels from the first column and row up to, but not including, the last; empty if it has no
+/// extent.
 struct PixelRect {
   int left = 0;
   int top = 0;

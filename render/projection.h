@@ -35,11 +35,12 @@ struct Head {
 /// The matrix that the shaders use: x right, y down, depth 0 at the near plane, 1 at infinity.
 [[nodiscard]] Matrix4 clip_from_world(const View& view);
 
-/// Where a point appears in an image of this size; nothing when it lies before the near plane.
+/// Where a point appears in an image of this size; empty if it lies in front of the near plane.
 [[nodiscard]] std::optional<PixelPoint> project(const View& view, Float3 in_world, int width_px,
                                                 int height_px);
 
-/// The head of one or two views; two eyes share the point between them and the mean direction.
+/// The head of one or two views; for two, the point midway between the eyes and their mean
+/// direction.
 [[nodiscard]] Head head_of(const std::vector<View>& views);
 
 /// A view from `eye` towards `target`, with `up` as far up as possible. Tangents as in View.

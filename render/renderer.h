@@ -20,21 +20,21 @@ using MessageSink = std::shared_ptr<std::vector<std::string>>;
 enum class EyesAPass {
   kProbe,  ///< two, if a test frame shows that the device draws them completely
   kOne,
-  kTwo  ///< without asking: a driver that fails loses parts of the right eye, and nothing tells
+  kTwo  ///< without a test: a faulty driver loses parts of the right eye unnoticed
 };
 
-/// What happens to pixels that an edge cuts.
+/// How pixels that an edge cuts are drawn.
 enum class Edges {
   kCoverage,  ///< how much of a pixel is covered is computed; one sample
   kSamples,   ///< four samples
-  kHard       ///< covered where its centre is: what the others are measured against
+  kHard       ///< covered if its centre is; the reference for the others
 };
 
 struct RendererOptions {
   int width_px = 1268;  ///< of one eye, 16 to 8192
   int height_px = 720;
   Blend blend = Blend::kAdditive;
-  /// Blend::kPremultiplied takes four samples in place of coverage, which is kept in alpha.
+  /// Blend::kPremultiplied uses four samples instead of coverage, since coverage is kept in alpha.
   Edges edges = Edges::kCoverage;
   std::string
       device;  ///< part of a device's name ("llvmpipe"); empty: the best GPU, or else lavapipe
@@ -45,8 +45,8 @@ struct RendererOptions {
   /// over triangles (single points may be four times as far off); 0: every triangle. Surfaces too
   /// large to be drawn at all are simplified even then, with a note.
   float surface_error_m = 2e-5f;
-  /// Where compiled pipelines are kept for the next start. Absent: the user's cache folder
-  /// (XDG_CACHE_HOME or ~/.cache); empty: nowhere.
+  /// Where compiled pipelines are kept for the next start. Not set: the user's cache folder
+  /// (XDG_CACHE_HOME or ~/.cache); empty: they are not kept.
   std::optional<std::string> cache_folder;
 };
 
@@ -72,7 +72,7 @@ struct FrameTiming {
 /// device is lost, and every call fails from then on.
 class Renderer {
  public:
-  /// An Error when the options can't be met or no Vulkan device is suitable.
+  /// An Error if the options can't be met or no Vulkan device is suitable.
   static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options);
   virtual ~Renderer() = default;
 
@@ -89,8 +89,8 @@ class Renderer {
   [[nodiscard]] virtual FrameTiming last_timing() const = 0;
   /// What the validation layer has reported so far; empty when there was nothing or it is off.
   [[nodiscard]] virtual const std::vector<std::string>& validation_messages() const = 0;
-  /// What was drawn differently from what was asked for, one line each, such as a surface with
-  /// fewer triangles.
+  /// What was drawn differently than requested, one line each, such as a surface with fewer
+  /// triangles.
   [[nodiscard]] virtual const std::vector<std::string>& notes() const = 0;
 };
 

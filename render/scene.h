@@ -44,7 +44,7 @@ struct MeshData {
   std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise from outside
   /// From 0 (the item's colour) to 1 (its tint): one per vertex, or none for the colour alone.
   std::vector<float> tints;
-  /// Of a tube: what it was made along, and how thick; else empty. Not drawn.
+  /// For a tube: the path it was made along, and its radius; otherwise empty. Not drawn.
   std::vector<Float3> axis;
   float axis_radius_m = 0;
 };
@@ -133,7 +133,7 @@ struct Scene {
   ItemList<TriangleItem> triangles;
   ItemList<TextItem> texts;
 
-  /// Empties it; its items keep their memory for the next frame's.
+  /// Empties it; the memory of its items is kept for the next frame.
   void clear() {
     meshes.clear();
     lines.clear();
@@ -155,8 +155,8 @@ struct View {
 enum class Blend {
   kAdditive,      ///< optical see-through: background + hologram
   kOver,          ///< preview: hologram over background by its opacity
-  kPremultiplied  ///< over nothing, for somebody else to put over the world: colour times opacity,
-                  ///< and the opacity itself as alpha
+  kPremultiplied  ///< over nothing, for another compositor to put over the world: colour times
+                  ///< opacity, and the opacity itself as alpha
 };
 
 }  // namespace orthonav::render

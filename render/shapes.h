@@ -7,9 +7,9 @@
 
 namespace orthonav::render {
 
-// Makers of plain geometry, metres. Surfaces are closed, triangles counter-clockwise as seen from
+// Make plain geometry, in metres. Surfaces are closed, triangles counter-clockwise as seen from
 // outside, normals outward. Without extent (a radius that is not positive, a path without two
-// distinct points, a number that is not finite) the result is empty, never a broken one.
+// distinct points, a number that is not finite) the result is an empty mesh, never a broken one.
 
 /// Unit normals of a surface, one per vertex: the triangles' normals weighted by their angle there.
 /// A vertex without a usable triangle gets +z. An index out of range is ignored.
@@ -28,7 +28,7 @@ namespace orthonav::render {
 /// A round tube along a path, with flat caps; the cross-section is carried along without twist.
 [[nodiscard]] MeshData make_tube(std::span<const Float3> path, float radius_m, int slices = 16);
 
-/// The points of a circle, to be drawn as a closed line; what the list held is replaced.
+/// The points of a circle, to be drawn as a closed line; replaces the content of the list.
 void set_ring(std::vector<Float3>& ring, Float3 centre, Float3 normal, float radius_m,
               int points = 48);
 [[nodiscard]] std::vector<Float3> make_ring(Float3 centre, Float3 normal, float radius_m,

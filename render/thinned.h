@@ -9,9 +9,10 @@
 
 namespace orthonav::render {
 
-/// The points of a line without those that a straight piece stands for: from each point kept as far
-/// on as `stands_for(p, from, to)` holds for all points between. At most `longest_run` in a row are
-/// left out, which bounds the work. What is kept is appended; the first and the last stay.
+/// The points of a line without those that a straight segment can replace: from each kept point,
+/// the segment reaches as far as `stands_for(p, from, to)` holds for all points between. At most
+/// `longest_run` points in a row are left out, which bounds the work. The kept points are appended;
+/// the first and the last are always kept.
 template <class StandsFor>
 void append_needed(std::span<const Float3> points, std::size_t longest_run,
                    const StandsFor& stands_for, std::vector<Float3>& kept) {
@@ -30,14 +31,15 @@ void append_needed(std::span<const Float3> points, std::size_t longest_run,
   }
 }
 
-/// The points of a line without those that nobody sees missing: every one left out lies, as seen
-/// from each eye, within the angle (in radians) of the line that remains. The first and the last
-/// stay.
+/// The points of a line without those whose absence is not visible: as seen from each eye, every
+/// point left out lies within the angle (in radians) of the line that remains. The first and the
+/// last are kept.
 void thin(std::span<const Float3> points, std::span<const Float3> eyes, float angle_rad,
           std::vector<Float3>& kept);
 
-/// Whether the line a-b-c bends so little at b, as all eyes see it, that the ends of its two parts
-/// need no rounding there: neither because of the bend nor because a part points at an eye.
+/// Whether the line a-b-c bends so little at b, as seen from all eyes, that the ends of its two
+/// segments need no rounding there, either because of the bend or because a segment points at an
+/// eye.
 [[nodiscard]] bool bends_gently(Float3 a, Float3 b, Float3 c, std::span<const Float3> eyes);
 
 }  // namespace orthonav::render

@@ -24,8 +24,8 @@ vec3 continued(vec3 near, vec3 far, float by) {
   return clamp(near + by * (near - far), 0.5 * near, min(2.0 * near, 1.0));
 }
 
-// A pixel that a surface's edge cuts shows both what lies on its own side and, by the part that the
-// edge cuts off, what lies on the other: the colour of its neighbour there. After E. Persson,
+// A pixel that a surface's edge cuts is a blend of its own colour and, in proportion to the part
+// that the edge cuts off, the colour of its neighbour on the other side. After E. Persson,
 // "Geometric post-process anti-aliasing", 2011.
 void main() {
   vec2 along = edge.zw - edge.xy;
@@ -39,7 +39,7 @@ void main() {
   ivec2 beside = (upright ? ivec2(1, 0) : ivec2(0, 1)) * (off < 0.0 ? -1 : 1);
   vec3 own = drawn_at(pixel);
   vec3 next = drawn_at(pixel + beside);
-  // Of one that goes through the centre, rounding decides on which side the device saw it.
+  // If the edge runs through the centre, rounding decides on which side the device put it.
   if (abs(off) < kRounding) {
     vec3 back = drawn_at(pixel - beside);
     if (difference(own, back) > difference(own, next)) {
@@ -47,10 +47,11 @@ void main() {
       next = back;
     }
   }
-  // An edge that nobody sees must not undo what another did.
+  // An invisible edge must not undo what another one did.
   if (other * difference(own, next) < kLeast) discard;
-  // A surface's light changes most at its edge: it is continued from its two nearest pixels to the
-  // middle of what they leave of this one. It lies to the left of its edge.
+  // Shading changes fastest at a surface's edge, so it is extrapolated from the surface's two
+  // nearest pixels to the middle of its part of this pixel. The surface lies to the left of its
+  // edge.
   bool outside = along.y * float(beside.x) > along.x * float(beside.y);
   vec3 inner = drawn_at(outside ? pixel + 2 * beside : pixel - beside);
   float by = (outside ? 0.75 : 0.25) - 0.5 * abs(off);

@@ -1,4 +1,4 @@
-// What every shader sees. Mirrors render/vulkan/gpu_types.h.
+// The data that every shader reads. Mirrors render/vulkan/gpu_types.h.
 #extension GL_EXT_multiview : require
 
 struct Eye {

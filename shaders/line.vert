@@ -5,7 +5,7 @@
 
 // A segment is drawn as a pill of 14 corners: half a circle around either end.
 const uint kCorners = 14u;
-// One that follows on others smoothly is drawn with four of them alone, without its discs.
+// A segment that continues others smoothly is drawn with only four of them, without its discs.
 
 void main() {
   uint corner = uint(gl_VertexIndex) % kCorners;
@@ -20,7 +20,7 @@ void main() {
   float turn = radians(30.0) * float(corner % 7u);
   vec2 across = vec2(-ends.along.y, ends.along.x);
   vec2 offset = (first ? 1.0 : -1.0) * (cos(turn) * across - sin(turn) * ends.along);
-  // Without discs, a little longer: it closes the gap where the line bends gently.
+  // Without discs it is slightly longer, which closes the gap where the line bends gently.
   if (item.ids.w == 0u) offset += (first ? -0.13 : 0.13) * ends.along;
   vec2 at = end.xy + radius * offset;
   gl_Position = vec4((2.0 * at / frame.target.xy - 1.0) * end.w, end.z, end.w);

@@ -4,5 +4,5 @@
 
 layout(location = 0) out vec4 colour;
 
-// Blended by what alpha leaves, which it sets back: the rest of the line adds nothing here.
+// Blended by what alpha lacks; alpha is then reset, so the rest of the line adds nothing here.
 void main() { colour = vec4(item.colour.rgb, 1); }

@@ -7,7 +7,7 @@ layout(location = 0) flat in vec4 axis;
 layout(location = 1) flat in vec2 radii;
 layout(location = 0) out vec4 colour;
 
-// Alpha keeps the least of what the segments of a line leave of what lies behind it.
+// Each segment writes how much of the background it leaves visible; alpha keeps the minimum.
 void main() {
   vec2 along = axis.zw - axis.xy;
   float at = clamp(dot(gl_FragCoord.xy - axis.xy, along) / max(dot(along, along), 1e-8), 0.0, 1.0);

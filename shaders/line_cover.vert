@@ -8,7 +8,7 @@
 layout(location = 0) flat out vec4 axis;
 layout(location = 1) flat out vec2 radii;
 
-// Its two passes must agree to the bit where something hides it.
+// The line's two passes must agree to the bit on where something hides it.
 invariant gl_Position;
 
 // A segment is drawn as a rectangle around it, whose corners are numbered as in a Z.
@@ -25,13 +25,14 @@ void main() {
   radii = vec2(ends.radius_a, ends.radius_b);
   bool first = corner < 2u;
   vec2 across = vec2(-ends.along.y, ends.along.x);
-  // One that follows on others smoothly needs no discs at its ends: a little more than its length.
+  // A segment that continues others smoothly needs no discs at its ends, only slightly more than
+  // its length.
   float ahead = item.ids.w == 0u ? 0.2 : 1.0;
   vec2 offset =
       ((corner & 1u) == 0u ? across : -across) + ahead * (first ? -ends.along : ends.along);
   float reach = (first ? ends.radius_a : ends.radius_b) + kReach_px;
-  // Its depth changes along it as that of the pill in line.vert: which reaches that of the second end
-  // there at its sides, and at the end of the disc in the middle.
+  // Depth changes along it as along the pill in line.vert, which reaches the depth of the second
+  // end at its sides there, and in the middle only at the end of the disc.
   float span = distance(ends.a.xy, ends.b.xy);
   float depth_a = ends.a.z / ends.a.w;
   float depth_b = ends.b.z / ends.b.w;

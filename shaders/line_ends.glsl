@@ -28,7 +28,7 @@ Ends ends_of(uint segment) {
   float near = frame.font.z;
   ends.shown = a.w >= near || b.w >= near;
   if (!ends.shown) return ends;
-  // What lies behind the eye has no place on the screen: cut there before projecting.
+  // The part behind the eye can't be projected: it is cut off first.
   if (a.w < near) a = mix(a, b, (near - a.w) / (b.w - a.w));
   if (b.w < near) b = mix(b, a, (near - b.w) / (a.w - b.w));
   ends.a = to_pixels(a);

@@ -5,7 +5,8 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in float tint;
-// What a triangle passes on costs a software rasterizer as much as its pixels: two vectors, no third.
+// For a software rasterizer, outputs of a triangle cost as much as its pixels: two vectors, not
+// three.
 layout(location = 0) out vec4 normal_and_tint;  // in World
 layout(location = 1) out vec3 towards_eye;
 

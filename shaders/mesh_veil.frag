@@ -9,8 +9,8 @@ layout(location = 0) in vec4 normal_and_tint;
 layout(location = 1) in vec3 towards_eye;
 layout(location = 0) out vec4 colour;
 
-// Only the nearest veil shows, so this replaces what it finds instead of blending with it: the
-// background is the one thing that can lie below, and it is fetched here. One pass, no sorting.
+// Only the nearest veil is visible, so it replaces the colour below instead of blending with it:
+// only the background can lie below, and it is fetched here. One pass, no sorting.
 void main() {
   float light = item.ids.z == 1u ? rim_light(normal_and_tint.xyz, towards_eye)
                                  : headlight(normal_and_tint.xyz, towards_eye);
@@ -18,7 +18,7 @@ void main() {
   if (frame.mode.y == 1u) {
     below = texelFetch(background, ivec3(gl_FragCoord.xy, gl_ViewIndex), 0).rgb;
   }
-  // A rim's light is its opacity: where it is thin, the bone shows through.
+  // A rim is as opaque as it is bright: where it is faint, the bone shows through.
   float opacity = item.ids.z == 1u ? min(item.colour.a * light, 1.0) : item.colour.a;
   float kept = frame.mode.x == 1u ? 1.0 - opacity : 1.0;
   vec3 shade = mix(item.colour.rgb, item.extra.rgb, normal_and_tint.w);

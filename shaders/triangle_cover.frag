@@ -10,8 +10,8 @@ layout(location = 0) out vec4 colour;
 
 float within(vec3 side) { return covered(dot(side.xy, gl_FragCoord.xy) + side.z, side.xy); }
 
-// What lies outside one side seldom lies outside another: the parts of a pixel that they cut off add
-// up, as they do in a strip thinner than a pixel.
+// A point outside one side is seldom outside another, so the parts of a pixel that the sides cut
+// off are added up; this also holds for a strip thinner than a pixel.
 void main() {
   float part = max(within(side_a) + within(side_b) + within(side_c) - 2.0, 0.0);
   float opacity = item.colour.a * part;

@@ -5,7 +5,7 @@
 
 layout(set = 0, binding = 1) readonly buffer Data { vec4 data[]; };
 
-// Of each side: its inward normal, and the distance from it of the image's corner; in pixels.
+// For each side: its inward normal, and the distance of the image's corner from it, in pixels.
 layout(location = 0) flat out vec3 side_a;
 layout(location = 1) flat out vec3 side_b;
 layout(location = 2) flat out vec3 side_c;
@@ -29,7 +29,8 @@ void main() {
   uint corner = uint(gl_VertexIndex) % 3u;
   gl_Position = clip[corner];
   side_a = side_b = side_c = vec3(0, 0, 1e3);
-  // One that reaches behind the eye is cut by the device and has other corners than these.
+  // A triangle that reaches behind the eye is clipped by the device and has other corners than
+  // these.
   if (min(min(clip[0].w, clip[1].w), clip[2].w) < frame.font.z) return;
   vec2 at[3] = vec2[](pixels_of(clip[0]), pixels_of(clip[1]), pixels_of(clip[2]));
   vec2 u = at[1] - at[0];
@@ -38,7 +39,7 @@ void main() {
   side_a = side(at[0], at[1], turn);
   side_b = side(at[1], at[2], turn);
   side_c = side(at[2], at[0], turn);
-  // Pixels that it covers in part have centres outside of it.
+  // Partly covered pixels may have their centres outside the triangle.
   vec2 before = corner == 0u ? side_c.xy : corner == 1u ? side_a.xy : side_b.xy;
   vec2 after = corner == 0u ? side_a.xy : corner == 1u ? side_b.xy : side_c.xy;
   vec2 outward = -kReach_px * (before + after) / max(1.0 + dot(before, after), 1e-3);

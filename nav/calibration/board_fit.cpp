@@ -14,15 +14,15 @@ using ObjectPoints = std::vector<std::vector<cv::Point3f>>;
 
 constexpr float kCentre = 0.5F;
 // Half the window in which a corner is refined, as a fraction of the distance to the next corner: a
-// larger window would show the next corner's edges.
+// larger window would include the next corner's edges.
 constexpr double kWindowFraction = 0.3;
-// The image is softened by this much first: gradients of sharp edges fall between pixels, and their
-// errors depend on where.
+// The image is first softened by this much: gradients of sharp edges fall between pixels, with
+// errors that depend on their position.
 constexpr double kSofteningPx = 1.0;
 constexpr int kSmallestWindowPx = 2;
 constexpr int kLargestWindowPx = 11;
 
-/// OpenCV prints whatever it throws; while this lives it only throws.
+/// OpenCV prints every error that it throws; during this object's lifetime it does not print.
 class QuietOpenCv {
  public:
   QuietOpenCv() {
@@ -37,7 +37,7 @@ Error opencv_error(const cv::Exception& error) {
   return Error{"camera calibration: OpenCV refused: " + error.err};
 }
 
-/// Half the refinement window for corners as close together as these.
+/// Half the refinement window, from the distances between these corners.
 int window_px(const Chessboard& board, const std::vector<cv::Point2f>& corners) {
   double nearest = std::numeric_limits<double>::infinity();
   const auto a_row = static_cast<std::size_t>(board.columns);

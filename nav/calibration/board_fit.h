@@ -13,13 +13,13 @@
 
 namespace orthonav::nav {
 
-// The only door to OpenCV's calib3d. Pixels on our side are ours: the first one's centre is at
-// (0.5, 0.5), where OpenCV has (0, 0).
+// The only use of OpenCV's calib3d. Pixel coordinates here follow our convention: the first pixel's
+// centre is at (0.5, 0.5), not at (0, 0) as in OpenCV.
 
 using BoardCorners = std::vector<Vec2>;  ///< px, by rows, as `Chessboard::corner_m`
 
-/// The inner corners to a fraction of a pixel, in the order of `put_in_order`; nothing where the
-/// board is not seen completely.
+/// The inner corners to a fraction of a pixel, in the order of `put_in_order`; empty unless the
+/// whole board is visible.
 [[nodiscard]] std::optional<BoardCorners> find_chessboard(const GreyImage& image,
                                                           const Chessboard& board);
 
@@ -47,8 +47,8 @@ struct StereoFit {
   std::vector<std::array<double, 2>> view_rms_px;  ///< left and right
 };
 
-/// Both cameras and their relative pose, refined together from these starting values. As many left
-/// views as right ones.
+/// Both cameras and their relative pose, refined together from these starting values. There must be
+/// as many left views as right ones.
 Result<StereoFit> fit_stereo(const Chessboard& board, ImageSize size,
                              std::span<const BoardCorners> left,
                              std::span<const BoardCorners> right, const BrownConrady& left_start,

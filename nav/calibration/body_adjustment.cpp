@@ -17,7 +17,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix2x6 = Eigen::Matrix<double, 2, 6, Eigen::RowMajor>;
 
 constexpr int kMostSteps = 100;
-// Number of steps in which the scale of the weights still follows the residuals.
+// Number of initial steps in which the scale of the weights follows the residuals.
 constexpr int kScaleSteps = 8;
 // The weight at twice the residual at which it is one half.
 constexpr double kOutlierWeight = 0.2;

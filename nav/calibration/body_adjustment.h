@@ -28,19 +28,19 @@ struct BodyProblem {
 
 /// The residuals after the adjustment, and how exact the results are.
 struct BodyFit {
-  double rms_px = 0.0;       ///< of the corners that are no outliers, 2-D
+  double rms_px = 0.0;       ///< of the corners that are not outliers, 2-D
   std::size_t corners = 0;   ///< seen, in both images
   std::size_t outliers = 0;  ///< corners that disagree with the others
-  /// Predicted covariances of (translation m, rotation rad), in the order of what was found: the
-  /// right camera (in its own frame), then the tags (in the marker's frame).
+  /// Predicted covariances of (translation m, rotation rad) of the poses found: the right camera
+  /// (in its own frame), then the tags (in the marker's frame).
   std::vector<PoseCovariance> covariances;
 };
 
 /// Finds them by least squares over the corners of all images at once (bundle adjustment: Triggs et
 /// al. 2000): Levenberg and Marquardt's method on poses, with the body's poses eliminated, and with
 /// Cauchy's weights for corners that do not fit, their scale from the median residual. `state` is
-/// the start and is overwritten by the result. Errors: a corner that does not project at the start,
-/// or unknowns that the corners do not determine.
+/// the start and is overwritten by the result. Fails if a corner does not project at the start, or
+/// if the corners do not determine the unknowns.
 Result<BodyFit> adjust(const BodyProblem& problem, BodyState& state);
 
 }  // namespace orthonav::nav

@@ -8,8 +8,8 @@
 
 namespace orthonav::nav {
 
-/// Which poses are to be found besides those of the body, numbered from 0 on: the right camera,
-/// then the tags; -1 for what is known.
+/// Which poses are to be found besides those of the body, numbered from 0: the right camera, then
+/// the tags; -1 for a known pose.
 struct BodyUnknowns {
   int camera = -1;
   std::vector<int> tags;
@@ -25,13 +25,13 @@ struct BodyResidual {
   int camera = -1;
 };
 
-/// The residuals of the corners in one pair, tag by tag, left image before right; nothing for a
+/// The residuals of the corners in one pair, tag by tag, left image before right; empty for a
 /// corner that does not project.
 [[nodiscard]] std::vector<std::optional<BodyResidual>> residuals_of_pair(
     const BodyProblem& problem, const BodyUnknowns& unknowns, const BodyState& at, std::size_t pair,
     bool derivatives);
 
-/// The residual lengths of all corners, pair by pair; nothing where one does not project.
+/// The residual lengths of all corners, pair by pair; empty if any corner does not project.
 [[nodiscard]] std::optional<std::vector<double>> residual_lengths_px(const BodyProblem& problem,
                                                                      const BodyUnknowns& unknowns,
                                                                      const BodyState& at);

@@ -22,8 +22,8 @@ struct TagSighting {
 /// The tags seen in one pair, in the order of the tags.
 using PairSightings = std::vector<TagSighting>;
 
-/// Which of these tags a pair shows. Sightings by both cameras that contradict each other are left
-/// out, with limits wide enough for a wrong size to be noticed afterwards.
+/// Which of these tags a pair shows. A sighting in which the two cameras contradict each other is
+/// left out, but the limits are wide enough for a wrong tag size to be noticed afterwards.
 [[nodiscard]] PairSightings sightings(std::span<const MarkerDefinition> tags,
                                       std::span<const MarkerCorners> left,
                                       std::span<const MarkerCorners> right,
@@ -32,7 +32,7 @@ using PairSightings = std::vector<TagSighting>;
 /// Detects in both images and keeps `sightings` of pair after pair. One thread at a time.
 class SightingCollector {
  public:
-  /// Refuses what the detector refuses.
+  /// Fails for input that the detector refuses.
   static Result<SightingCollector> create(const StereoCalibration& calibration,
                                           std::vector<MarkerDefinition> tags);
   /// An image that the detector refuses shows no tags.

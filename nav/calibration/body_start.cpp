@@ -18,7 +18,7 @@ Transform<Rig, Tag> rig_from_tag(const TagPose& pose) {
   return {pose.rig_from_marker.rotation(), pose.rig_from_marker.translation()};
 }
 
-/// From a later tag to an earlier one, wherever both were seen by both cameras.
+/// Relative poses from a later tag to an earlier one, from pairs in which both cameras saw both.
 RelativePoses relative_poses(std::span<const PairSightings> pairs) {
   RelativePoses poses;
   for (const PairSightings& pair : pairs) {
@@ -65,7 +65,7 @@ TagLayout first_layout(std::span<const PairSightings> pairs, std::size_t tags,
   TagLayout layout{std::vector<Transform<Marker, Tag>>(tags), std::vector<bool>(tags, false)};
   layout.reached.at(0) = true;
   for (;;) {
-    // Of all connections from what is reached, the one seen most often (Prim 1957).
+    // Of all connections from the tags reached so far, the one seen most often (Prim 1957).
     auto best = poses.end();
     for (auto edge = poses.begin(); edge != poses.end(); ++edge) {
       if (layout.reached[edge->first.first] != layout.reached[edge->first.second] &&

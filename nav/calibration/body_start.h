@@ -23,7 +23,7 @@ struct TagLayout {
                                      std::size_t min_pairs);
 
 /// The body's pose in a pair, from the tag whose pose puts the others nearest to where they are
-/// seen; nothing where no tag was seen by both cameras, or a corner would not project.
+/// seen; empty if no tag was seen by both cameras or a corner would not project.
 [[nodiscard]] std::optional<Transform<Rig, Marker>> first_pose(const BodyProblem& problem,
                                                                const BodyState& state,
                                                                const PairSightings& pair);

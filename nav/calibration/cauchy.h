@@ -9,13 +9,13 @@
 
 namespace orthonav::nav {
 
-// Cauchy's loss for the lengths of residuals of two normal coordinates; 95 % efficient where all
-// are normal (Holland & Welsch 1977).
+// Cauchy's loss for the lengths of residuals of two normal coordinates; 95 % efficient if all are
+// normal (Holland & Welsch 1977).
 
 inline constexpr double kCauchyConstant = 2.385;
 
-/// The SD of one coordinate from the median length, which is 1.1774 times it; at least 0.02 px,
-/// below which interpolation and not noise makes the residuals. `lengths_px` must not be empty.
+/// The SD of one coordinate from the median length, which is 1.1774 SDs; at least 0.02 px, since
+/// smaller residuals come from interpolation, not from noise. `lengths_px` must not be empty.
 [[nodiscard]] inline double cauchy_scale(std::vector<double> lengths_px) {
   return std::max(0.02, median(std::move(lengths_px)) / 1.1774);
 }

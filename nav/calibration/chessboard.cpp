@@ -65,7 +65,7 @@ void put_in_order(const GreyImage& image, const Chessboard& board, std::vector<V
   const auto a_row = static_cast<std::size_t>(board.columns);
   const Vec2 along = corners_px[a_row - 1] - corners_px[0];
   const Vec2 down = corners_px[corners_px.size() - a_row] - corners_px[0];
-  // A mirrored order would be that of a board seen from behind.
+  // A mirrored order would mean a board seen from behind.
   if (cross(along, down) < 0) {
     for (std::size_t start = 0; start < corners_px.size(); start += a_row) {
       std::reverse(corners_px.begin() + static_cast<long>(start),

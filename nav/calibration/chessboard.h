@@ -20,16 +20,16 @@ struct Chessboard {
   [[nodiscard]] std::size_t corners() const {
     return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   }
-  /// Half a turn swaps the colours of most boards; where both counts are odd, or both even, it goes
+  /// Half a turn swaps the colours of most boards; if both counts are odd, or both even, it goes
   /// unnoticed.
   [[nodiscard]] bool looks_the_same_turned() const { return (columns + rows) % 2 == 0; }
   /// Place of a corner on the board, counted by rows: x along the columns, y down the rows.
   [[nodiscard]] Vec2 corner_m(std::size_t index) const;
 };
 
-/// Puts corners that were found row by row into the one order that every picture of the board
-/// gives: as seen on its face, beginning where the first inner square is dark. A board that looks
-/// the same turned may begin at either end.
+/// Puts corners that were found row by row into an order that is the same in every picture of the
+/// board: as seen on its face, beginning where the first inner square is dark. On a board that
+/// looks the same when turned, the order may begin at either end.
 void put_in_order(const GreyImage& image, const Chessboard& board, std::vector<Vec2>& corners_px);
 
 }  // namespace orthonav::nav

@@ -12,8 +12,8 @@ namespace orthonav::nav {
 /// two rows.
 using PixelByPose = std::array<double, 12>;
 
-/// A corner in one image: where the poses put it minus where it is seen, and the derivatives of
-/// that.
+/// A corner in one image: the pixel where the poses put it minus the one where it is seen, and the
+/// derivatives of that difference.
 struct CornerResidual {
   Vec2 off_px;
   PixelByPose by_body{};    ///< by rig_from_marker
@@ -21,7 +21,7 @@ struct CornerResidual {
   PixelByPose by_camera{};  ///< by camera_from_rig
 };
 
-/// From tag to marker, to rig, to camera, to pixel; nothing where it does not project.
+/// From tag to marker, to rig, to camera, to pixel; empty if the corner does not project.
 template <class Camera>
 [[nodiscard]] std::optional<CornerResidual> corner_residual(
     const CameraModel& model, const Transform<Camera, Rig>& camera_from_rig,

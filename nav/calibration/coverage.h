@@ -7,7 +7,7 @@
 
 namespace orthonav::nav {
 
-/// The fraction of an image that was reached: of 8 by 6 fields, those that hold a point.
+/// The fraction of an image that points cover: of 8 by 6 fields, the fraction that hold a point.
 class Coverage {
  public:
   Coverage(int width_px, int height_px) : width_px_(width_px), height_px_(height_px) {}

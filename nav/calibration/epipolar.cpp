@@ -17,7 +17,7 @@ std::optional<double> across_epipolar_px(const CameraModel& left, const CameraMo
   // The plane of both rays cuts the right camera's unit plane in line.x x + line.y y + line.z = 0.
   const Vec3 line = right_from_left.translation().cross(ray);
   const double off = line.dot({from_right->x, from_right->y, 1.0});
-  // The gradient of that by the pixel is the one by the unit plane times the inverse Jacobian.
+  // The gradient with respect to the pixel is that on the unit plane times the inverse Jacobian.
   const auto& [a, b, c, d] = *jacobian;
   const double det = a * d - b * c;
   const Vec2 gradient{(line.x * d - line.y * c) / det, (line.y * a - line.x * b) / det};

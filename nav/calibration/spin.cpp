@@ -22,8 +22,8 @@ constexpr std::size_t kSpinSample = 2;
 // Half of the axes that scatter normally with SD s in each of two directions lie within 1.177 s.
 constexpr double kMedianOfRayleigh = 1.177;
 constexpr double kLeastInlierRad = 1e-3;
-// Two poses of a sample are turned so far against each other: a smaller turn has no clear axis, and
-// about half a turn has none either.
+// Least rotation between the two poses of a sample: a smaller one has no clear axis, and neither
+// has about half a turn.
 constexpr double kLeastTurnRad = 0.35;
 constexpr double kMostTurnRad = 2.8;
 
@@ -31,7 +31,7 @@ Error spin_refused(const char* format, double value, double limit) {
   return Error{"axis calibration: " + with_numbers(format, value, limit)};
 }
 
-/// Of the same line, the direction on the side of `like`.
+/// The direction along the same line that points to the side of `like`.
 Vec3 on_the_side_of(Vec3 like, Vec3 axis) { return like.dot(axis) < 0.0 ? -axis : axis; }
 
 std::optional<SpinFit> sampled_spin(SpinPoses poses, Vec3 given, double most_off_rad,

@@ -68,7 +68,8 @@ std::optional<SpinFit> fit_spin(SpinPoses poses, ChosenPoses chosen) {
   }
   const auto count = static_cast<double>(chosen.size());
   fit.wobble_rad = std::sqrt(squared / count);
-  // Two numbers a pose, four unknowns; an error of the axis shows by as much as it is turned about.
+  // Two numbers per pose, four unknowns; an error of the axis is visible in proportion to the
+  // turning.
   const double variance = squared / std::max(1.0, 2.0 * count - 4.0);
   fit.axis_sigma_rad = std::sqrt(variance / count * (1.0 / free(0) + 1.0 / free(1)));
   return fit;

@@ -8,7 +8,7 @@
 
 namespace orthonav::nav {
 
-/// The axis in the marker and the world about which some poses turn.
+/// The axis about which some poses turn, in the marker's frame and in the world's.
 struct SpinFit {
   Vec3 axis_in_marker;  ///< unit
   Vec3 axis_in_world;   ///< unit
@@ -19,7 +19,7 @@ struct SpinFit {
   [[nodiscard]] double miss_rad(const Transform<World, Marker>& pose) const;
 };
 
-/// Over the poses with these indices; nothing when they do not turn.
+/// Fits the poses with these indices; empty if they do not turn.
 [[nodiscard]] std::optional<SpinFit> fit_spin(std::span<const Transform<World, Marker>> poses,
                                               std::span<const std::size_t> chosen);
 

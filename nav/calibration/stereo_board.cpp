@@ -14,7 +14,7 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kSignificant = 3.0;
-// A view with a smaller residual than this holds no mistake.
+// A view with a smaller residual than this contains no mistake.
 constexpr double kNoMistakePx = 0.3;
 
 Status check_views(const Chessboard& board, ImageSize size, std::span<const BoardView> views,
@@ -42,8 +42,7 @@ Status check_views(const Chessboard& board, ImageSize size, std::span<const Boar
   return Error{"stereo calibration: " + joined(problems)};
 }
 
-/// Where half a turn of the board goes unnoticed, both cameras are assumed to be upright in the
-/// same sense.
+/// If half a turn of the board goes unnoticed, both cameras are assumed to be the same way up.
 BoardViews aligned(const Chessboard& board, std::span<const BoardView> views) {
   BoardViews split;
   for (const BoardView& view : views) {
@@ -101,7 +100,7 @@ double view_rms_px(const StereoFit& fit, std::size_t view) {
   return std::sqrt(0.5 * (left * left + right * right));
 }
 
-/// The worst view, if it holds a mistake.
+/// The worst view, if it contains a mistake.
 std::optional<std::size_t> mistaken_view(const StereoFit& fit, double factor) {
   std::vector<double> all;
   for (std::size_t i = 0; i < fit.view_rms_px.size(); ++i) {

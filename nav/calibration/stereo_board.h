@@ -18,13 +18,13 @@ struct BoardView {
 
 struct StereoBoardOptions {
   std::size_t min_views = 3;
-  /// A view whose residual is this many times the median one holds a mistake and is left out.
+  /// A view whose residual is this many times the median one contains a mistake and is left out.
   double outlier_factor = 3.0;
   /// At most this fraction of the views is left out.
   double max_outlier_fraction = 0.25;
   double max_rms_px = 1.0;
   double max_focal_sigma_fraction = 0.02;
-  /// What is worth a note.
+  /// Limits beyond which a result gets a note.
   std::size_t note_views = 10;
   double note_rms_px = 0.45;
   double note_focal_sigma_fraction = 0.005;
@@ -43,7 +43,7 @@ struct BoardViewResidual {
   double epipolar_rms_px = 0.0;
 };
 
-/// Jackknife SDs: the views in tenths, each left out in turn.
+/// Jackknife SDs: each tenth of the views is left out in turn.
 struct StereoSigma {
   double baseline_m = 0.0;
   double rotation_rad = 0.0;        ///< 3-D, of the right camera to the left one
@@ -60,7 +60,7 @@ struct StereoBoardCalibration {
   double stereo_rms_px = 0.0;  ///< of both together
   double epipolar_rms_px = 0.0;
   double covered_fraction =
-      0.0;  ///< of the image that the corners reach, the smaller of both cameras
+      0.0;  ///< of the image that the corners cover, the smaller of both cameras
   std::optional<StereoSigma> sigma;  ///< with four views at least
   std::size_t used = 0;
   std::vector<BoardViewResidual>

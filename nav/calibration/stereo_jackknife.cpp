@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kFewestViews = 4;
 
-/// SD of the whole from the values without each of the groups.
+/// SD of the overall value from the values without each group.
 double jackknife(const std::vector<double>& values) {
   const auto count = static_cast<double>(values.size());
   double mean = 0.0;
@@ -24,7 +24,7 @@ double jackknife(const std::vector<double>& values) {
   return std::sqrt((count - 1.0) / count * squared);
 }
 
-/// The same for numbers that belong together, as the length of their SDs.
+/// The same for vectors: the length of the vector of SDs.
 double jackknife(const std::vector<Vec3>& values) {
   double squared = 0.0;
   for (int axis = 0; axis < 3; ++axis) {

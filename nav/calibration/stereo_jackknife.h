@@ -15,9 +15,9 @@ struct BoardViews {
   }
 };
 
-/// How exact a stereo fit is, by leaving out each tenth of the views in turn (each view, where
-/// there are fewer than ten). Unlike predictions from residuals, it notices a board that is not
-/// flat and corners that err together. Nothing with fewer than four views.
+/// How exact a stereo fit is, by leaving out each tenth of the views in turn (each view, if there
+/// are fewer than ten). Unlike predictions from residuals, it notices a board that is not flat and
+/// correlated errors of corners. Empty with fewer than four views.
 [[nodiscard]] std::optional<StereoSigma> stereo_sigma(const Chessboard& board, ImageSize size,
                                                       const BoardViews& views, const StereoFit& fit,
                                                       bool with_k3);

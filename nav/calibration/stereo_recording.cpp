@@ -18,7 +18,7 @@ namespace {
 
 Error stereo_refused(const std::string& why) { return Error{"stereo calibration: " + why}; }
 
-/// What both cameras saw of the tags.
+/// The tags that both cameras saw.
 std::vector<PairSightings> seen_by_both(std::span<const PairSightings> pairs) {
   std::vector<PairSightings> both(pairs.begin(), pairs.end());
   for (PairSightings& pair : both) {

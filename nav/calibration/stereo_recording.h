@@ -21,10 +21,11 @@ struct StereoRecordingOptions {
   std::size_t max_pairs = 400;
   double max_rms_px = 1.0;
   double max_size_deviation = 0.05;
-  /// The calibration is off when it differs by at least this many SDs, and by at least this much.
+  /// The calibration counts as off if it differs by at least this many SDs, and by at least this
+  /// many pixels.
   double significance = 3.0;
   double min_off_px = 0.1;
-  /// What is worth a note.
+  /// Limits beyond which a result gets a note.
   double note_sigma_px = 0.05;
   double note_covered_fraction = 0.3;
 
@@ -41,8 +42,8 @@ struct StereoRecording {
   Vec3 translation_m;
   double rotation_sigma_rad = 0.0;  ///< 3-D, the larger of predicted and jackknife
   double translation_sigma_m = 0.0;
-  /// RMS over the corners of how far rotation and translation move them across the epipolar lines,
-  /// and its SD: a jackknife over tenths of the recording.
+  /// RMS distance over the corners by which rotation and translation move them across the epipolar
+  /// lines, and its SD from a jackknife over tenths of the recording.
   double off_px = 0.0;
   double off_sigma_px = 0.0;
   bool is_off = false;  ///< significantly
@@ -58,8 +59,8 @@ struct StereoRecording {
 
 /// The right camera's pose from a board of tags seen in many pairs: non-linear least squares over
 /// all corners (`adjust`), which finds the board's pose in each pair as well; the lenses stay as
-/// the device reports them. Pairs in the order of time. Refuses bad options, too few pairs, sizes
-/// that the images contradict, and what the corners do not determine.
+/// the device reports them. Pairs must be in the order of time. Refuses bad options, too few pairs,
+/// sizes that the images contradict, and corners that do not determine the result.
 Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
                                          std::span<const BoardTag> board,
                                          std::span<const PairSightings> pairs,

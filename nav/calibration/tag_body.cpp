@@ -45,7 +45,7 @@ Status check_input(std::span<const MarkerDefinition> tags, const TagBodyOptions&
   return body_refused(joined(problems));
 }
 
-/// 0 where both cameras never saw it together.
+/// 0 if both cameras never saw the tag together.
 double median_size_ratio(std::span<const PairSightings> pairs, std::size_t tag) {
   std::vector<double> ratios;
   for (const PairSightings& pair : pairs) {
@@ -66,7 +66,7 @@ std::size_t pairs_with(std::span<const PairSightings> pairs, std::size_t tag) {
       }));
 }
 
-/// Refuses tags that no chain of tags seen together connects with the first one.
+/// Refuses tags that are not connected with the first one by a chain of tags seen together.
 Status check_connected(std::span<const MarkerDefinition> tags, std::span<const PairSightings> pairs,
                        const TagLayout& layout, std::size_t min_pairs) {
   std::string names;
@@ -113,7 +113,7 @@ struct TagSigma {
   double rad = 0.0;
 };
 
-/// Of each tag, from leaving out each tenth of the pairs in turn.
+/// The SDs of each tag, from leaving out each tenth of the pairs in turn.
 std::vector<TagSigma> tag_sigmas(const BodyProblem& problem, const BodyState& whole) {
   const std::size_t tags = problem.size_m.size();
   std::vector<TagSigma> sigma(tags);

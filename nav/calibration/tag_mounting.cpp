@@ -10,13 +10,15 @@
 namespace orthonav::nav {
 namespace {
 
-/// A description may be a design that was built by hand; a quarter turn is still far beyond this.
+/// The tool may be hand-made and differ from its description; a quarter turn is still far beyond
+/// this.
 constexpr double kMaxTilt_rad = 30.0 * kRadiansPerDegree;
 constexpr double kMaxShift_m = 0.030;
-/// Makes an angle a length, to weigh both: tags of a tool lie some 50 mm apart.
+/// Converts an angle to a length, so that both can be weighed: tags of a tool lie some 50 mm apart.
 constexpr double kMountingLever_m = 0.05;
-/// A turn of the marker must explain the places so much better than none: where all tags lie on the
-/// marker's axis it explains them as well, and their own turns are then the simpler reading.
+/// A turn of the marker must explain the places by this factor better than no turn: if all tags lie
+/// on the marker's axis, it explains them equally well, and turns of the tags themselves are the
+/// simpler explanation.
 constexpr double kClearlyBetter = 0.5;
 
 Mat3 quarter_turns_about_z(int turns) {
@@ -44,7 +46,7 @@ std::vector<Pair> in_both(std::span<const BodyTag> measured,
   return pairs;
 }
 
-/// How a tag sits if the marker is turned by that many quarter turns.
+/// How a tag is mounted if the marker is turned by that many quarter turns.
 struct Reading {
   int turns = 0;
   double tilt_rad = 0.0;

@@ -15,9 +15,9 @@ struct BoardTouches {
   double fit_rmse_m = 0.0;
 };
 
-/// The points must have been touched in their order; surplus rests (a tool laid aside) are left out
-/// so that the others fit best (rigid, Horn 1987). Refuses fewer rests than points, a surplus above
-/// `max_stray`, and points or rests that all lie on a line.
+/// The points must have been touched in their order; surplus rests (such as a tool laid aside) are
+/// left out such that the others fit best (rigid, Horn 1987). Refuses fewer rests than points, a
+/// surplus above `max_stray`, and points or rests that all lie on a line.
 Result<BoardTouches> board_touches(std::span<const Vec3> rests_m, std::span<const Vec3> points_m,
                                    std::size_t max_stray);
 

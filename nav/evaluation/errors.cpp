@@ -14,7 +14,7 @@ ScrewError screw_error(const ScrewPlan& plan, const Axis<Vertebra>& executed,
   if (!nearest || !(length > 0.0)) {
     return error;
   }
-  // A vertebra's diagonal is below 0.44 m: this far back along the axis is outside it.
+  // A vertebra's diagonal is below 0.44 m, so a point this far back along the axis is outside it.
   constexpr double kDiagonal_m = 0.44;
   const Vec3 outside_m =
       executed.point.v - (nearest->distance_m + kDiagonal_m) / length * executed.direction;

@@ -12,7 +12,7 @@ namespace orthonav::nav {
 
 struct ScrewError {
   double angle_rad = 0.0;         ///< between planned and executed trajectory
-  std::optional<double> entry_m;  ///< planned to executed entry; absent when it misses the bone
+  std::optional<double> entry_m;  ///< planned to executed entry; absent if it misses the bone
 };
 
 /// The executed entry is the first intersection of the executed trajectory with the model (Liebmann
@@ -20,7 +20,7 @@ struct ScrewError {
 [[nodiscard]] ScrewError screw_error(const ScrewPlan& plan, const Axis<Vertebra>& executed,
                                      const SurfaceIndex& model);
 
-/// Zeros without values; `sd` is 0 for a single one.
+/// All zero without values; `sd` is 0 for a single one.
 struct Summary {
   std::size_t count = 0;
   double mean = 0.0;

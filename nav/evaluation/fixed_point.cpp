@@ -25,8 +25,8 @@ Eigen::Matrix3d as_eigen(const Mat3& m) {
 
 Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 
-/// Sums over poses from which the fit of any stretch follows. With q the tip as the tool file has
-/// it and d its offset, the tips R d + q should all be one point p.
+/// Sums over poses from which the fit of any stretch follows. With q the tip from the tool file and
+/// d its offset, the tips R d + q should all be the same point p.
 struct Sums {
   double n = 0.0;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();       ///< R
@@ -64,8 +64,7 @@ Fit fit_of(const Sums& sums, double min_spread_rad) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(normal);
   fit.spread_rad = std::sqrt(std::max(0.0, solver.eigenvalues()(0)) / sums.n);
-  // Without rotation the offset is undetermined; the tip as the tool file has it is then as good as
-  // any.
+  // Without rotation the offset is undetermined; the tip from the tool file is then as good as any.
   if (fit.spread_rad >= min_spread_rad) {
     fit.offset =
         normal.ldlt().solve(sums.rotation.transpose() * sums.tip / sums.n - sums.tip_in_marker);
@@ -85,7 +84,7 @@ struct PoseBlocks {
 
 PoseBlocks blocks_of(std::span<const TrackedPose> poses, Point<Marker> tip) {
   PoseBlocks blocks;
-  // Near the origin, since otherwise the squares lose the digits that matter.
+  // Relative to the first tip, since otherwise the squares lose significant digits.
   const Vec3 origin_m = (poses[0].value * tip).v;
   Sums sums;
   double begins_s = 0.0;
@@ -121,7 +120,7 @@ std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world
       const Fit fit = fit_of(blocks.before[to] - blocks.before[from], options.min_spread_rad);
       if (fit.rmse_m > options.max_rmse_m || fit.offset.norm() > options.max_offset_m) {
         // While the tool has turned too little to determine the offset, a wrong tip looks like a
-        // motion, but like no larger one than its offset can cause.
+        // motion, but no larger than its offset can cause.
         if (fit.spread_rad >= options.min_spread_rad ||
             fit.rmse_m > 2.0 * options.max_offset_m + options.max_rmse_m) {
           ++unfit;

@@ -10,7 +10,7 @@ namespace orthonav::nav {
 
 struct FixedPointOptions {
   double min_duration_s = 3.0;
-  double min_spread_rad = 0.15;  ///< as `PivotOptions` has it
+  double min_spread_rad = 0.15;  ///< as in `PivotOptions`
   double max_rmse_m = 0.005;
   double max_offset_m = 0.03;  ///< largest distance of the point from the given tip
 };
@@ -23,9 +23,9 @@ struct FixedPoint {
   double rmse_m = 0.0;
 };
 
-/// The longest stretch of poses that turned about a fixed point near the tip, with that point free
-/// (least squares as in `pivot_calibration`). A longer stretch that fits worse counts for less, so
-/// that approach and departure are left out: length × (1 - (RMSE / limit)²). Times must increase.
+/// The longest stretch of poses that turned about a fixed point near the tip; the point is fitted
+/// too (least squares as in `pivot_calibration`). Stretches are ranked by length × (1 - (RMSE /
+/// limit)²), so that approach and departure, which fit worse, are left out. Times must increase.
 [[nodiscard]] std::optional<FixedPoint> longest_fixed_point(
     std::span<const TrackedPose> world_from_marker, Point<Marker> tip,
     const FixedPointOptions& options);

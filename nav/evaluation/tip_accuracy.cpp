@@ -20,7 +20,7 @@ Status check_input(std::span<const Vec3> board_points_m, const AccuracyOptions& 
     return refused("board: %.0f points to touch, at least %.0f are needed",
                    static_cast<double>(board_points_m.size()), 3);
   }
-  // The board's points must be far enough apart for rests to tell them apart.
+  // The board's points must be far enough apart to be distinguished by rests.
   for (std::size_t i = 0; i < board_points_m.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (!((board_points_m[i] - board_points_m[k]).norm() >= 3.0 * options.rests.radius_m)) {
@@ -92,7 +92,7 @@ void add_fixed_points(Vec3 tip_m, PointerTrack& track) {
   }
 }
 
-/// The rests, sorted: in the dimple; away from it (touches); and beside it for so long that the
+/// The rests, sorted: in the dimple; away from it (touches); and next to it for so long that the
 /// pointer must have slipped out.
 struct SortedRests {
   Dimple dimple;

@@ -24,8 +24,8 @@ struct AccuracyLimits {
 /// its own, and the largest point-to-point error within twice that.
 struct AccuracyOptions {
   TipRestOptions rests;
-  /// A pointer that turns by less than this is held still, if for at least this long and this many
-  /// samples.
+  /// A pointer counts as held still if it turns by less than this for at least this long and this
+  /// many samples.
   double still_angle_rad = 0.087;
   double min_still_s = 2.0;
   std::size_t min_still_samples = 15;
@@ -33,9 +33,9 @@ struct AccuracyOptions {
   /// `PivotOptions::min_spread_rad`.
   double min_turning_s = 3.0;
   double min_turning_spread_rad = 0.15;
-  /// Tips that fit a fixed point worse than this do not rest in a dimple.
+  /// If the tips fit a fixed point worse than this, they did not rest in a dimple.
   double max_turning_rmse_m = 0.005;
-  /// A resting point farther than this from the tip of the tool file is not this pointer's tip.
+  /// A resting point farther than this from the tip in the tool file is not this pointer's tip.
   double max_tip_bias_m = 0.03;
   /// A rest nearer than this to the dimple is in the dimple, or has slipped out of it.
   double dimple_m = 0.025;
@@ -70,8 +70,8 @@ struct AccuracyPart {
   double start_s = 0.0;  ///< from the first measured pose
   double end_s = 0.0;
   std::vector<Judged> judged;
-  /// Why the part fails whatever its figures are, such as a tip that slipped; empty if nothing of
-  /// the kind happened.
+  /// Why the part fails regardless of its figures, such as a tip that slipped; empty if there is no
+  /// such reason.
   std::string failure;
   [[nodiscard]] Verdict verdict() const;
 };
@@ -93,10 +93,10 @@ struct TiltBin {
 
 /// Sensitivity to orientation: the pointer turns about its resting tip.
 struct TurningPart : AccuracyPart {
-  TipSpread spread;  ///< of the tips as the tool file has them
+  TipSpread spread;  ///< of the tips according to the tool file
   double largest_tilt_rad = 0.0;
   std::vector<TiltBin> bins;
-  /// The systematic part: the tip that the tool turned about, minus the tip of the tool file.
+  /// The systematic part: the tip that the tool turned about, minus the tip in the tool file.
   Vec3 tip_bias_m{};              ///< in the marker's axes
   double tip_bias_sigma_m = 0.0;  ///< predicted 3-D SD of it
   double residual_rms_m = 0.0;    ///< what remains of the spread without the bias
@@ -106,7 +106,7 @@ struct TouchedPoint {
   double time_s = 0.0;  ///< middle of the touch
   std::size_t samples = 0;
   Vec3 known_m{};     ///< on the board
-  Vec3 residual_m{};  ///< touched less known, along the board's axes, after the best rigid fit
+  Vec3 residual_m{};  ///< touched minus known, along the board's axes, after the best rigid fit
 };
 
 /// Point-to-point distances of a board with known points.
@@ -131,12 +131,12 @@ struct AccuracyReport {
 };
 
 /// The three tests of ASTM F2554 for the accuracy of a tracked pointer, as far as a dimple and a
-/// printed board allow. The dimple is the point about which the pointer turned longest (fitted with
-/// a free tip, so that a wrong tip does not hide it). Single-point repeatability comes from the
+/// printed board allow. The dimple is the point about which the pointer turned longest (the tip is
+/// fitted too, so that a wrong tip does not hide it). Single-point repeatability comes from the
 /// longest stretch there without turning. The rests elsewhere are the touches of the board, in the
-/// order of `board_points_m` (at least three; none: no such test). Only measured poses count.
-/// Refuses, in one line with value and limit, bad options, times that do not increase, and too few
-/// data for a part.
+/// order of `board_points_m` (at least three; if empty, that test is skipped). Only measured poses
+/// count. Refuses, in one line with value and limit, bad options, times that do not increase, and
+/// too little data for a part.
 Result<AccuracyReport> test_tip_accuracy(std::span<const TrackedPose> world_from_marker,
                                          const ToolGeometry& pointer,
                                          std::span<const Vec3> board_points_m,

@@ -105,7 +105,7 @@ std::vector<TiltBin> bins_of(const std::vector<TipSample>& tips, Vec3 mean_m,
   return bins;
 }
 
-/// Where the tool's resting point is, over everything that rested in the dimple.
+/// The tool's resting point, from all samples that rested in the dimple.
 Result<PivotFit> fit_in(const PointerTrack& track, const Dimple& dimple,
                         const AccuracyOptions& options) {
   std::vector<Transform<World, Marker>> poses;
@@ -171,7 +171,7 @@ Result<std::vector<std::size_t>> still_stretch(const PointerTrack& track, const 
       stretch.clear();
     }
     stretch.push_back(i);
-    // The oldest samples leave until the newest is within the angle of all that remain.
+    // The oldest samples are dropped until the newest is within the angle of all remaining ones.
     std::size_t drop = 0;
     for (std::size_t k = 0; k + 1 < stretch.size(); ++k) {
       if (rotation_angle_rad(rotation_at(track, stretch[k]), rotation_at(track, i)) >
@@ -220,7 +220,7 @@ Result<TurningPart> turning_part(const PointerTrack& track, const ToolGeometry& 
   if (!pivot) {
     return pivot.error();
   }
-  // While the pointer is held still all tips have one tilt and would only dilute the spread.
+  // While the pointer is held still, all tips have the same tilt and would only dilute the spread.
   std::vector<std::size_t> turning;
   std::set_difference(dimple.samples.begin(), dimple.samples.end(), still.begin(), still.end(),
                       std::back_inserter(turning));

@@ -6,14 +6,14 @@
 
 namespace orthonav::nav {
 
-/// What every part of the accuracy test looks at; index i is the same moment everywhere.
+/// The data that every part of the accuracy test uses; index i is the same moment in all lists.
 struct PointerTrack {
   std::vector<TrackedPose> world_from_marker;
-  std::vector<TipSample> tips;   ///< as the tool file has the tip
+  std::vector<TipSample> tips;   ///< with the tip from the tool file
   std::vector<TipSample> fixed;  ///< the point of the tool that it turned about in the dimple
 };
 
-/// The dimple: where the pointer turned about its tip, and all that rested there.
+/// The dimple: where the pointer turned about its tip, and all samples that rested there.
 struct Dimple {
   Vec3 offset_m{};                   ///< of the fixed point from the tip, in the marker's axes
   Vec3 point_m{};                    ///< in the world

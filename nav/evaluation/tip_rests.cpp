@@ -39,7 +39,7 @@ bool lie_together(Samples samples, const std::vector<std::size_t>& indices, doub
                      [&](std::size_t i) { return (samples[i].tip_m - mean_m).norm() <= radius_m; });
 }
 
-/// Extends the rest as long as the samples stay near its mean so far.
+/// Extends the rest while samples stay near its mean so far.
 void grow(Samples samples, const TipRestOptions& options, std::vector<std::size_t>& indices) {
   Vec3 sum_m = static_cast<double>(indices.size()) * mean_of(samples, indices);
   std::size_t outliers = 0;

@@ -21,7 +21,7 @@ struct TipRestOptions {
   std::size_t min_samples = 4;
   /// A longer time without a sample ends a rest.
   double max_gap_s = 1.0;
-  /// This many samples in a row may lie elsewhere without ending it; they are left out.
+  /// This many samples in a row may lie elsewhere without ending a rest; they are left out.
   std::size_t max_outliers = 2;
   /// Approach and departure: left out at either end, but no more than a third of the rest each.
   double settle_s = 0.15;
@@ -33,8 +33,8 @@ struct TipRest {
 };
 
 /// Every rest, in the order of time (dispersion threshold, as Salvucci and Goldberg 2000 find
-/// fixations of the eye). Consecutive rests at the same place (a tag that was hidden, a tip put
-/// back) are one. The samples' times must increase.
+/// fixations of the eye). Consecutive rests at the same place (the tag was hidden, or the tip was
+/// put back) count as one. The samples' times must increase.
 [[nodiscard]] std::vector<TipRest> tip_rests(std::span<const TipSample> samples,
                                              const TipRestOptions& options);
 

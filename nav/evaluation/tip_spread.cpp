@@ -8,11 +8,11 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kSpreadBlock_s = 0.25;
-// A second for either mean.
+// One second for each mean.
 constexpr std::size_t kLeastBlocks = 4;
 constexpr double kSignificance = 4.0;
 
-/// Noise of neighbouring samples is correlated; that of quarters of a second hardly is.
+/// The noise of neighbouring samples is correlated, but hardly that of quarter-second means.
 std::vector<TipSample> block_means(std::span<const TipSample> samples) {
   std::vector<TipSample> blocks;
   for (std::size_t first = 0; first < samples.size();) {

@@ -8,7 +8,7 @@
 
 namespace orthonav::nav {
 
-/// Distances of tips from their mean. Zeros without any.
+/// Distances of tips from their mean. All zero without tips.
 struct TipSpread {
   std::size_t samples = 0;
   Vec3 mean_m{};

@@ -13,9 +13,9 @@ struct RigidFit {
   double rmse_m = 0.0;  ///< the FRE
 };
 
-/// The rotation and translation that take `from` onto `to` with least squares, by unit quaternions
-/// (Horn 1987, "Closed-form solution of absolute orientation using unit quaternions"). Refuses
-/// fewer than 3 points, different counts, non-finite and collinear points. Never a reflection.
+/// The least-squares rotation and translation that take `from` onto `to`, by unit quaternions (Horn
+/// 1987, "Closed-form solution of absolute orientation using unit quaternions"). Refuses fewer than
+/// 3 points, different counts, non-finite and collinear points. Never a reflection.
 Result<RigidFit> absolute_orientation(std::span<const Vec3> from_m, std::span<const Vec3> to_m);
 
 }  // namespace orthonav::nav

@@ -37,7 +37,7 @@ Box box_of(const std::array<Vec3, 3>& triangle) {
   return box;
 }
 
-/// In single precision, which must not make it smaller.
+/// Stores the box in single precision, rounded outwards so that it does not shrink.
 void put(const Box& box, std::size_t lane, BoxTree::Node& node) {
   constexpr double kLargest = std::numeric_limits<float>::max();
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -85,7 +85,7 @@ class Builder {
   std::vector<BoxTree::Node> nodes;
 
  private:
-  /// As few parts as keep the tree as shallow as this many triangles allow.
+  /// As few parts as possible while the tree stays as shallow as this many triangles allow.
   std::vector<Range> parts_of(Range range) {
     std::size_t largest = 1;
     while (largest * BoxTree::kWide < range.size()) {
@@ -96,7 +96,7 @@ class Builder {
     return parts;
   }
 
-  /// Into parts of as many triangles each.
+  /// Divides the range into parts with equally many triangles.
   void divide(Range range, std::size_t count, std::vector<Range>& parts) {
     if (count == 1) {
       parts.push_back(range);
@@ -109,7 +109,7 @@ class Builder {
     divide({middle, range.end}, count - first, parts);
   }
 
-  /// Along the axis on which their centres lie farthest apart.
+  /// Separates them along the axis on which their centres are spread most.
   void separate(Range range, std::size_t middle) {
     Vec3 low = centres_m_[order_[range.begin]];
     Vec3 high = low;

@@ -10,7 +10,7 @@
 
 namespace orthonav::nav {
 
-/// A bounding volume hierarchy of triangles with eight children a node, as many as a few vector
+/// A bounding volume hierarchy of triangles with eight children per node, as many as a few vector
 /// instructions test at once (Wald, Benthin & Boulos 2008, "Getting rid of packets"). Boxes are
 /// rounded outwards to single precision, so that a search by them misses no triangle.
 class BoxTree {
@@ -18,7 +18,7 @@ class BoxTree {
   static constexpr std::size_t kWide = 8;
   /// Marks the child that is a triangle.
   static constexpr std::uint32_t kTriangle = 0x8000'0000U;
-  /// Of boxes put aside: seven at each of the eleven levels that 2^31 triangles need at most.
+  /// The most boxes put aside: seven at each of the eleven levels that 2^31 triangles need at most.
   static constexpr std::size_t kDeepest = 88;
 
   using Lanes = std::array<float, kWide>;
@@ -44,8 +44,8 @@ class BoxTree {
   double farthest_m_ = 0.0;
 };
 
-/// Which of a node's boxes are no farther than the limit, a bit each. All are compared before any
-/// is looked at: a branch for each would be mispredicted too often.
+/// Which of a node's boxes are no farther than the limit, one bit per box. All are compared before
+/// any is examined: a branch for each would be mispredicted too often.
 template <class Key>
 [[nodiscard]] std::uint32_t boxes_within(const Key& limit, const BoxTree::Node& node,
                                          const std::array<Key, BoxTree::kWide>& keys) {
@@ -56,8 +56,8 @@ template <class Key>
   return bits & ((1U << node.count) - 1U);
 }
 
-/// Calls `take_in` for the triangles whose boxes are no farther than `limit`, which it may lower,
-/// those of the nearest boxes first. `keys` computes how far the boxes of a node are.
+/// Calls `take_in` for the triangles whose boxes are no farther than `limit`, nearest boxes first;
+/// `take_in` may lower `limit`. `keys` computes how far the boxes of a node are.
 template <class Key, class Keys, class TakeIn>
 void search_boxes(std::span<const BoxTree::Node> nodes, const Keys& keys, const Key& limit,
                   const TakeIn& take_in) {

@@ -40,7 +40,8 @@ ClosestGrid::ClosestGrid(const TriangleMesh& mesh, const SurfaceIndex& surface, 
   closest_m_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 centre = centre_m(i);
-    // The neighbour's closest point lies on the surface, so nothing closer is farther away.
+    // The neighbour's closest point lies on the surface, so the closest point is no farther than
+    // it.
     const double within_m =
         i % stride_[1] > 0 ? (closest_m_.back() - centre).norm() * (1.0 + 1e-12) + 1e-15 : 1e9;
     const auto found = surface.nearest(centre, within_m);

@@ -10,16 +10,16 @@
 namespace orthonav::nav {
 
 /// Closest points of a surface by look-up: the point closest to a cell's centre stands for the
-/// whole cell. Tens of times faster than SurfaceIndex, and wrong by up to about a cell: for a first
-/// look at many poses. Immutable, thread-safe, no allocation in queries.
+/// whole cell. Tens of times faster than SurfaceIndex, but wrong by up to about a cell: for a first
+/// comparison of many poses. Immutable, thread-safe, no allocation in queries.
 class ClosestGrid {
  public:
-  /// Covers the mesh and `margin_m` around it; points outside take the border's cell.
+  /// Covers the mesh and `margin_m` around it; points outside use the nearest border cell.
   ClosestGrid(const TriangleMesh& mesh, const SurfaceIndex& surface, double cell_m,
               double margin_m);
-  /// The same from what `closest_m` returned, without computing it again. Refuses data of another
-  /// mesh: another number of cells, or a point that is not the closest one in any of some hundred
-  /// cells that are checked.
+  /// The same from the data that `closest_m` returned, without computing it again. Refuses data of
+  /// another mesh: a different number of cells, or a point that is not the closest one in any of
+  /// the hundred or so cells that are checked.
   static Result<ClosestGrid> restored(const TriangleMesh& mesh, const SurfaceIndex& surface,
                                       double cell_m, double margin_m, std::vector<Vec3> closest_m);
   /// For every cell's centre, x running fastest.

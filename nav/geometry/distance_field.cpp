@@ -8,7 +8,7 @@
 namespace orthonav::nav {
 namespace {
 
-/// Farther than this from the surface, nobody asks on which side a point lies.
+/// Farther than this from the surface, the side on which a point lies is not needed.
 constexpr double kSigned_m = 0.008;
 
 float signed_distance_m(double distance_m, const SurfaceIndex& bone, Vec3 place_m) {
@@ -52,7 +52,7 @@ DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
   double before_m = 0.0;
   for (std::size_t i = 0; i < samples; ++i) {
     const Vec3 place = place_m(i);
-    // Nothing is farther than the neighbour's distance and the step to it.
+    // The distance is at most the neighbour's distance plus the step to it.
     const double within_m = i % row > 0 ? before_m + cell_m * (1.0 + 1e-9) : 1e9;
     const auto found = near.nearest(place, within_m);
     before_m = found ? found->distance_m : before_m + cell_m;

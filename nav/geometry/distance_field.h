@@ -12,17 +12,17 @@ namespace orthonav::nav {
 
 /// Distance to a surface by look-up: sampled on a grid, trilinear in between. Negative inside the
 /// bone down to 8 mm from the surface, positive elsewhere. Off by a few tenths of a cell where the
-/// surface bends within one: good for finding poses, not for the last step. Immutable, thread-safe,
-/// no allocation in queries.
+/// surface bends within one: good enough for finding poses, not for the last step. Immutable,
+/// thread-safe, no allocation in queries.
 class DistanceField {
  public:
   /// Distance to the surface of `near`, with the sign from the closed surface `bone`. Covers
   /// `mesh`, of which `near` is the index, and `margin_m` around it.
   DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near, const SurfaceIndex& bone,
                 double cell_m, double margin_m);
-  /// The same from what `samples_m` returned, without computing it again. Refuses data of other
-  /// surfaces: another number of samples, or a wrong distance at any of some hundred places that
-  /// are checked.
+  /// The same from the data that `samples_m` returned, without computing it again. Refuses data of
+  /// other surfaces: a different number of samples, or a wrong distance at any of the hundred or so
+  /// places that are checked.
   static Result<DistanceField> restored(const TriangleMesh& mesh, const SurfaceIndex& near,
                                         const SurfaceIndex& bone, double cell_m, double margin_m,
                                         std::vector<float> samples_m);
@@ -33,7 +33,7 @@ class DistanceField {
     double distance_m = 0.0;
     Vec3 gradient;  ///< approximately of unit length
   };
-  /// False outside the grid, which is farther than the margin from the surface.
+  /// Returns false outside the grid, where a point is farther than the margin from the surface.
   [[nodiscard]] bool at(Vec3 query_m, Value& value) const;
 
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }

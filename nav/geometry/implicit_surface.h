@@ -7,8 +7,8 @@
 
 namespace orthonav::nav {
 
-/// Negative inside, positive outside, metres. Need not be an exact distance, but a value of v means
-/// that the surface is no nearer than about v / 2.
+/// Negative inside, positive outside, metres. It need not be an exact distance, but a value of v
+/// must mean that the surface is no nearer than about v / 2.
 using ImplicitFunction = std::function<double(Vec3)>;
 
 /// The zero surface inside a box as a closed manifold mesh, outward-oriented: dual contouring on a

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kSmallest_m = 0.030;
 constexpr double kLargest_m = 0.250;
-/// A volume below this fraction of the bounding cube's: folded flat, without an inside.
+/// Below this fraction of the bounding cube's volume, a mesh is folded flat and has no interior.
 constexpr double kMinVolumeFraction = 1e-4;
 
 struct DirectedEdge {

@@ -25,21 +25,22 @@ struct Bounds {
   Vec3 high;
   [[nodiscard]] Vec3 centre() const { return 0.5 * (low + high); }
 };
-/// Of the vertices that faces refer to; stray vertices are ignored. Zero without faces.
+/// The bounds of the vertices that faces refer to; stray vertices are ignored. Zero without faces.
 [[nodiscard]] Bounds bounds_of(const TriangleMesh& mesh);
 
 /// Refuses a mesh that can't be navigated on, with the reason: no faces, non-finite vertices, an
 /// index out of range, edges not shared by exactly two triangles (non-manifold or open), a size
-/// outside 30-250 mm (a vertebra is 60-130 mm across; the message says so when metres were taken
-/// for millimetres). A mesh that is closed but oriented inward is turned inside out.
+/// outside 30-250 mm (a vertebra is 60-130 mm across; the message says so if metres were taken for
+/// millimetres). A mesh that is closed but oriented inward is turned inside out.
 Result<TriangleMesh> checked_vertebra(TriangleMesh mesh);
 
-/// The same surface with vertices at exactly the same place merged, and without the faces that this
-/// makes collapse: needed before the check above for a format without shared vertices (STL).
+/// The same surface with vertices at exactly the same position merged, without the faces that
+/// collapse as a result: needed before the check above for a format without shared vertices (STL).
 TriangleMesh welded(const TriangleMesh& mesh);
 
-/// For each face the number of the connected part that it belongs to, one of its vertices; faces
-/// that share a vertex are connected. Of faces that are not `kept` the number means nothing.
+/// For each face the number of the connected part that it belongs to, which is the index of one of
+/// the part's vertices; faces that share a vertex are connected. For faces that are not `kept` the
+/// number is meaningless.
 std::vector<std::uint32_t> parts_of(const TriangleMesh& mesh, const std::vector<bool>& kept);
 
 /// The mesh of these faces, which must be the given mesh's own, with the vertices that they use.
@@ -64,7 +65,7 @@ struct RayHit {
 class SurfaceIndex {
  public:
   explicit SurfaceIndex(const TriangleMesh& mesh);
-  /// The nearest point of the surface; only what lies within `within_m` is looked for.
+  /// The nearest point of the surface; the search is limited to `within_m`.
   [[nodiscard]] std::optional<SurfacePoint> nearest(Vec3 query_m, double within_m = 1e9) const;
   /// First intersection along origin + s·direction, s ≥ 0; `direction` of any length.
   [[nodiscard]] std::optional<RayHit> first_hit(Vec3 origin_m, Vec3 direction) const;

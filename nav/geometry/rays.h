@@ -19,8 +19,8 @@ struct RayMeeting {
 };
 
 /// The point closest to both rays (mid-point method: Hartley & Sturm 1997, "Triangulation").
-/// Nothing when they are parallel within 1e-6 rad, when the meeting lies behind either origin or
-/// when a number is not finite.
+/// Empty if they are parallel within 1e-6 rad, if the meeting lies behind either origin, or if a
+/// number is not finite.
 [[nodiscard]] std::optional<RayMeeting> closest_point(const Ray& a, const Ray& b);
 
 }  // namespace orthonav::nav

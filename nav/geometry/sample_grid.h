@@ -44,7 +44,7 @@ class SampleGrid {
   [[nodiscard]] std::size_t nodes() const { return values_.size(); }
 
  private:
-  /// Far from the surface one value stands for a whole block.
+  /// Far from the surface one value is used for a whole block.
   void fill_block(const ImplicitFunction& function, const std::array<int, 3>& first) {
     const double half = 0.5 * kBlock * step_;
     const double middle = function(position(first) + Vec3{half, half, half});

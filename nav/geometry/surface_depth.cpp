@@ -5,11 +5,12 @@
 namespace orthonav::nav {
 namespace {
 
-/// Cosine between the nearest face's normal and the way from it. It is 1 above the middle of a
-/// face. Above an edge, the face that happens to be taken tells the wrong side only where two faces
-/// meet at less than acos(0.95) = 18°, as on the edge of a blade.
+/// Cosine between the nearest face's normal and the direction from the face to the place. It is 1
+/// above the interior of a face. Above an edge, the face that happens to be chosen gives the wrong
+/// side only if two faces meet at less than acos(0.95) = 18°, as on the edge of a blade.
 constexpr double kBeyondDoubt = 0.95;
-/// Of a distance and its square: what is as near as the last place must still be found.
+/// Allowance for rounding of a distance and its square: a point as near as the last one must still
+/// be found.
 constexpr double kRounding = 1e-12;
 constexpr double kRounding_m = 1e-15;
 constexpr double kOnSurface_m = 1e-9;
@@ -33,7 +34,8 @@ std::optional<SurfaceDepth> DepthProbe::at(Vec3 place_m) {
   }
   last_m_ = nearest->point_m;
   const double side = lies_inside(closed_, place_m, *nearest) ? 1.0 : -1.0;
-  // As good as on the surface, only the face knows the way in: the difference is rounding.
+  // Practically on the surface the difference is only rounding, so the face gives the direction
+  // inward.
   const Vec3 deeper = nearest->distance_m > kOnSurface_m
                           ? (side / nearest->distance_m) * (place_m - nearest->point_m)
                           : -nearest->normal;

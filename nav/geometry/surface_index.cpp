@@ -28,7 +28,7 @@ class PlaceToBoxes {
     rounding_m_ = largest_m < kBeyond_m ? kRounding * largest_m : kInfinitelyFar;
   }
 
-  /// The largest key that a box within `within_m` can have, however keys are rounded.
+  /// The largest key that a box within `within_m` can have, including rounding.
   [[nodiscard]] float limit_key(double within_m) const {
     const double m = (within_m + rounding_m_) * (1.0 + kRounding);
     return m < kBeyond_m ? static_cast<float>(4.0 * m * m) : std::numeric_limits<float>::infinity();
@@ -37,7 +37,7 @@ class PlaceToBoxes {
   /// Keys are four times the squared distances.
   void operator()(const BoxTree::Node& node, Lanes& keys_m2) const {
     const auto [x, y, z] = place_m_;
-    // No maximum: GCC makes branches of it, and no vector instructions.
+    // Not std::max: GCC turns it into branches and does not vectorize the loop.
     const auto twice_outside = [](float centre, float half, float at) {
       const float beyond = std::abs(at - centre) - half;
       return beyond + std::abs(beyond);
@@ -54,7 +54,7 @@ class PlaceToBoxes {
  private:
   /// Several times the error of three roundings to single precision.
   static constexpr double kRounding = 1e-6;
-  /// The square of what is less is a single-precision number.
+  /// The square of a smaller number fits single precision.
   static constexpr double kBeyond_m = 1e15;
 
   std::array<float, 3> place_m_{};
@@ -158,7 +158,7 @@ std::optional<RayHit> SurfaceIndex::first_hit(Vec3 origin_m, Vec3 direction) con
   const Vec3 unit = direction / length;
   double best = kInfinitelyFar;
   std::size_t hit = corners_.size();
-  // What is out of the ray's way has an infinite key.
+  // A box that the ray does not meet has an infinite key.
   double limit = std::numeric_limits<double>::max();
   search_boxes<double>(boxes_.nodes(), RayToBoxes(origin_m, unit, best), limit, [&](std::size_t i) {
     if (const auto t = ray_meets_triangle(origin_m, unit, corners_[i]);
@@ -173,8 +173,8 @@ std::optional<RayHit> SurfaceIndex::first_hit(Vec3 origin_m, Vec3 direction) con
 }
 
 bool SurfaceIndex::contains(Vec3 query_m) const {
-  // Seen from inside, the first face along any ray shows its back. Three rays outvote one that
-  // grazes an edge.
+  // Seen from inside, the first face along any ray is seen from its back. Three rays outvote one
+  // that grazes an edge.
   constexpr std::array<Vec3, 3> kDirections = {
       {{0.8164, 0.3147, 0.4842}, {-0.2741, 0.9013, -0.3353}, {0.1372, -0.5329, -0.8350}}};
   int inside = 0;

@@ -11,10 +11,10 @@ constexpr double kLeastAlong = 0.5;
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 double sd_of_variance(double variance) {
-  return variance >= 0.0 ? std::sqrt(variance) : kUnknown;  // NaN is not known either
+  return variance >= 0.0 ? std::sqrt(variance) : kUnknown;  // NaN counts as unknown too
 }
 
-/// Of the error of a place, along a unit direction.
+/// SD of the error of a place along a unit direction.
 double sd_along(const std::array<double, 9>& covariance_m2, Vec3 direction) {
   double variance = 0.0;
   for (int r = 0; r < 3; ++r) {
@@ -25,8 +25,8 @@ double sd_along(const std::array<double, 9>& covariance_m2, Vec3 direction) {
   return sd_of_variance(variance);
 }
 
-/// A tool's direction within a plane through the planned axis, and the axis about which a small
-/// turn of the tool changes its angle there, scaled to how much.
+/// A tool's angle in a plane through the planned axis, and its gradient: the axis about which a
+/// small turn of the tool changes the angle, scaled by the amount of change.
 struct AngleInPlane {
   double angle_rad = 0.0;
   Vec3 by_turn;

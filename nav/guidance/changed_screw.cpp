@@ -7,9 +7,9 @@
 namespace orthonav::nav {
 namespace {
 
-/// As far as a screw's entry is looked for beside its plan elsewhere (nav/guidance/screw_cylinder).
+/// The same search range for an entry as in nav/guidance/screw_cylinder.
 constexpr double kNewEntrySought_m = 0.025;
-/// The reachable part is cut out of the bone's own surface: a ray meets both at once.
+/// The reachable part is a subset of the bone's surface, so a ray meets both at the same point.
 constexpr double kUnchanged_m = 1e-5;
 
 std::optional<Vec3> towards(const ScrewPlan& screw, ScrewDirection direction) {

@@ -12,35 +12,36 @@ namespace orthonav::nav {
 /// (nav/guidance/anatomical_deviation.h).
 enum class ScrewDirection : std::uint8_t { kCranial, kCaudal, kMedial, kLateral };
 
-/// What of it is moved.
+/// Which part of the screw is moved.
 enum class ScrewPart : std::uint8_t {
   kWhole,   ///< entry and target alike
-  kEntry,   ///< the axis goes on through where the target was
+  kEntry,   ///< the axis still runs through the old target
   kTarget,  ///< the entry stays
 };
 
-// Each gives the screw anew: side, radius and length stay as they are, and so does the reason for a
-// breach. None where its directions have no names (`directions_of`).
+// Each returns a changed copy of the screw: side, radius, length and the reason for a breach stay
+// as they are, except where stated. Empty if its directions have no names (`directions_of`).
 
-/// Moved by so much across its axis. The new axis meets the bone from behind in the new entry, on
-/// the part that a pointer reaches; None too where it does not meet it there, within 25 mm of
-/// abreast the old entry, or goes through other bone before. `kTarget` asks nothing of the bone.
+/// Moved by this much across its axis. The new entry is where the new axis meets the bone from
+/// behind, on the part that a pointer reaches. Also empty if the axis does not meet the bone there
+/// within 25 mm, along it, of the old entry, or passes through other bone first. `kTarget` does not
+/// use the bone.
 [[nodiscard]] std::optional<ScrewPlan> moved_screw(const ScrewPlan& screw, ScrewPart part,
                                                    ScrewDirection direction, double by_m,
                                                    const SurfaceIndex& bone,
                                                    const SurfaceIndex& reachable);
 
-/// Turned about its entry, so that it aims more that way.
+/// Turned about its entry so that it aims more in that direction.
 [[nodiscard]] std::optional<ScrewPlan> tilted_screw(const ScrewPlan& screw,
                                                     ScrewDirection direction, double by_rad);
 
-/// Another size: entry and axis stay. A radius of 0 and a length of 0 leave what there is.
+/// Another size: entry and axis stay. A radius or length of 0 leaves the old one.
 [[nodiscard]] ScrewPlan resized_screw(const ScrewPlan& screw, double radius_m, double length_m);
 
 /// From the entry to the target.
 [[nodiscard]] double screw_length_m(const ScrewPlan& screw);
 
-/// A screw against how it was planned before, in the directions of the earlier plan.
+/// A screw compared with its earlier plan, in the directions of that plan.
 struct ScrewDifference {
   double entry_cranial_m = 0.0;
   double entry_medial_m = 0.0;
@@ -56,9 +57,9 @@ struct ScrewDifference {
   [[nodiscard]] double entry_moved_m() const;
   friend bool operator==(const ScrewDifference&, const ScrewDifference&) = default;
 };
-/// Where directions have no names (`directions_of`), entry and aim stay zero; sizes are told.
+/// If directions have no names (`directions_of`), entry and aim stay zero; sizes are given.
 [[nodiscard]] ScrewDifference difference_of(const ScrewPlan& before, const ScrewPlan& now);
-/// Between both axes.
+/// The angle between both axes.
 [[nodiscard]] double tilt_between_rad(const ScrewPlan& before, const ScrewPlan& now);
 
 }  // namespace orthonav::nav

@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t kMotions = 1024;
 constexpr std::size_t kSix = 6;
-/// Rows along the screw at most this far apart, of so many places each: 30° from one to the next
-/// leave out 1 - cos(15°) = 3 % of a motion at most.
+/// Largest distance between rows along the screw, and the places in each row: with 30° between
+/// them, at most 1 - cos(15°) = 3 % of a motion is missed.
 constexpr double kRow_m = 0.003;
 constexpr int kPlacesInRow = 12;
-/// A place that would have to come nearer to the wall than the binding place by more SDs than this
-/// is left aside: it would in one of 4000 cases.
+/// A place that would have to move by more SDs than this to become nearer to the wall than the
+/// nearest place is skipped: it happens in one of 4000 cases.
 constexpr double kWorth_sd = 3.5;
 
 using Six = std::array<double, kSix>;
@@ -47,7 +47,7 @@ const Motions& standard_motions() {
   return kMade;
 }
 
-/// Cholesky; a direction without any variance, and what rounding makes less than none, is 0.
+/// Cholesky; a direction without variance, or with a variance below zero from rounding, gives 0.
 Root root_of(const std::array<double, 36>& covariance) {
   constexpr double kNothing = 1e-12;
   Root root{};
@@ -92,7 +92,7 @@ double length_between(const Six& a, const Six& b) {
   return std::sqrt(squares);
 }
 
-/// The least depth in each motion, of the places so far.
+/// The least depth in each motion over the places so far.
 class LeastInEach {
  public:
   LeastInEach(double binding_m, const Six& binding) : binding_m_(binding_m), binding_(binding) {

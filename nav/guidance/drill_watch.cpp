@@ -6,7 +6,7 @@
 namespace orthonav::nav {
 namespace {
 
-/// Nothing seen for longer than this: whether the tip rested meanwhile, nobody knows.
+/// After a longer gap without a measurement, it is unknown whether the tip rested meanwhile.
 constexpr Duration kUnbroken = std::chrono::milliseconds(100);
 
 }  // namespace
@@ -56,7 +56,7 @@ void DrillWatch::forget() {
 }
 
 double DrillWatch::stop_margin_m(double depth_sd_m) const {
-  // Negated, so that NaN is not known either.
+  // Negated, so that NaN counts as unknown too.
   if (!(depth_sd_m >= 0.0) || std::isinf(depth_sd_m)) {
     return limits_.unknown_stop_margin_m;
   }
@@ -87,7 +87,7 @@ void DrillWatch::measured(const DrillReading& reading) {
   newest_ = reading.time;
 }
 
-/// The drill goes on along the planned axis as far as the stop lets it.
+/// Assumes that the drill advances along the planned axis until it meets the stop.
 void DrillWatch::look_at_stop(const DrillReading& reading) {
   view_.stop_past_target_m.reset();
   if (reading.stop_m) {
@@ -129,7 +129,7 @@ void DrillWatch::judge(const DrillReading& reading) {
   const double margin_m = stop_margin_m(reading.depth_sd_m);
   const bool stopped = view_.alarm == DrillAlarm::kStop;
   const double stop_from_m = stopped ? margin_m + limits_.stop_released_m : margin_m;
-  // Negated, so that what is not a number alarms.
+  // Negated, so that NaN raises the alarm.
   if (!(reading.to_target_m > stop_from_m)) {
     view_.alarm = DrillAlarm::kStop;
   } else if (!(reading.off_axis_m <= limits_.red_offset_m &&

@@ -5,7 +5,7 @@
 namespace orthonav::nav {
 namespace {
 
-/// cos(60°): along the plan at least so far.
+/// cos(60°): a tool at a larger angle to the plan is left out.
 constexpr double kAlongPlan = 0.5;
 
 void add_product(std::array<double, 9>& sums, Vec3 v) {
@@ -16,7 +16,7 @@ void add_product(std::array<double, 9>& sums, Vec3 v) {
   }
 }
 
-/// Adds to a covariance what scatter leaves in the mean of `n` values, of which the sums are given.
+/// Adds to a covariance that of the mean of `n` scattered values, from their sums.
 void add_of_mean(std::array<double, 9>& covariance, const std::array<double, 9>& squares, Vec3 sum,
                  double n) {
   if (n < 2.0) {

@@ -7,11 +7,11 @@ namespace {
 
 constexpr double kCoarse_m = 0.001;
 constexpr double kFine_m = 0.0002;
-/// The surface is looked for so far to either side of the planned entry. Estimate: beyond it lies
-/// another process.
+/// The surface is searched for this far to either side of the planned entry. Estimate: another
+/// process lies beyond.
 constexpr double kSought_m = 0.010;
 
-/// Looks for one among the places that lie beside the planned entry, seen along the planned axis.
+/// Searches for an entry among the places around the planned one, as seen along the planned axis.
 class Search {
  public:
   Search(const ScrewPlan& plan, Point<Vertebra> hole, const SurfaceIndex& bone,
@@ -23,7 +23,7 @@ class Search {
     athwart_ = inward_.cross(across_);
   }
 
-  /// Every place of a square grid of so many steps to each side.
+  /// Tries every place of a square grid around a place.
   void look_around(double across_m, double athwart_m, double step_m, double reach_m) {
     const int steps = static_cast<int>(std::lround(reach_m / step_m));
     for (int i = -steps; i <= steps; ++i) {

@@ -8,7 +8,7 @@ namespace {
 
 using Covariance = std::array<double, 9>;
 
-/// Shorter than this a deviation has no direction of its own: micrometres, or microradians.
+/// A deviation shorter than this has no meaningful direction: micrometres, or microradians.
 constexpr double kNone = 1e-6;
 
 double variance_along(const Covariance& covariance, Vec3 direction) {
@@ -21,7 +21,7 @@ double variance_along(const Covariance& covariance, Vec3 direction) {
   return variance;
 }
 
-/// Of the length of a deviation across `axis`, by the errors across it.
+/// SD of the length of a deviation across `axis`, from the errors across it.
 double sd_of_length(const Covariance& covariance, Vec3 deviation, Vec3 axis) {
   const double length = deviation.norm();
   if (length > kNone) {

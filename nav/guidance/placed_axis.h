@@ -6,15 +6,15 @@
 
 namespace orthonav::nav {
 
-/// SDs of an axis that a sleeve shows, besides those of its pose: about each direction across it,
-/// and of its tip along each direction.
+/// SDs of an axis measured with a sleeve, in addition to those of the sleeve's pose: of its
+/// direction, about each axis across it, and of its tip, along each axis.
 struct SleeveErrors {
   double axis_rad = 0.0;
   double tip_m = 0.0;
 };
 
-/// A wire as it stands, seen by a sleeve that was set over it. Where the sleeve stands on the wire
-/// is not known, so that this is a line and no place on it.
+/// A placed wire, measured by a sleeve that was put over it. How far along the wire the sleeve sits
+/// is unknown, so this is a line without a position along it.
 struct PlacedAxis {
   Axis<Vertebra> line;     ///< unit into the bone; its point is the nearest to the planned entry
   NumberWithSd angle_rad;  ///< between the line and the planned trajectory, [0, pi]
@@ -27,8 +27,9 @@ struct PlacedAxis {
 
 /// `sleeve` is its tip and its unit direction into the bone, `pose` the uncertainty of its pose
 /// relative to the bone, as `with_tool` gives it. To first order: an error of the direction about
-/// the tip counts at the entry by the way between them. Where the line lies on the plan the SDs are
-/// those of an axis on average, since no direction stands out. The plan's entry and target differ.
+/// the tip moves the entry in proportion to the distance between them. If the line lies on the
+/// plan, the SDs are averages over directions, since no direction stands out. The plan's entry and
+/// target must differ.
 [[nodiscard]] PlacedAxis placed_axis(const ScrewPlan& plan, const Axis<Vertebra>& sleeve,
                                      const PoseUncertainty& pose, const SleeveErrors& errors);
 

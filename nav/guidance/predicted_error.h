@@ -8,8 +8,8 @@
 
 namespace orthonav::nav {
 
-/// Root mean square errors to expect at a screw from the registration, metres; infinite when
-/// the points leave a motion of the bone open.
+/// Root mean square errors to expect at a screw from the registration, metres; infinite if the
+/// points leave a motion of the bone undetermined.
 struct PredictedScrewError {
   Side side = Side::kLeft;
   double entry_m = 0.0;
@@ -21,10 +21,10 @@ struct PredictedScrewError {
 [[nodiscard]] std::vector<PredictedScrewError> predicted_errors(const Registration& registration,
                                                                 std::span<const ScrewPlan> screws);
 
-/// The worst of them; 0 without any.
+/// The largest of them; 0 without any.
 [[nodiscard]] double worst_m(std::span<const PredictedScrewError> errors);
 
-/// Where screws need a pose to be sure: of each its entry and its target.
+/// Where screws need a certain pose: the entry and target of each.
 [[nodiscard]] std::vector<Point<Vertebra>> entries_and_targets(std::span<const ScrewPlan> screws);
 
 }  // namespace orthonav::nav

@@ -13,22 +13,22 @@
 namespace orthonav::nav {
 namespace {
 
-/// The head of a screw is 8 mm and more wide along the rod. Two that lie nearer than this, with
-/// errors of touch of 1-2 mm each, are one that was touched twice.
+/// The head of a screw is at least 8 mm wide along the rod. Two heads nearer to each other than
+/// this, with touch errors of 1-2 mm each, are one head touched twice.
 constexpr double kClosest_m = 0.005;
 /// Heads lie 15-60 mm apart; over three levels without screws (37 mm each), as far as this.
 constexpr double kFarthestHead_m = 0.15;
-/// From T1 to the pelvis a rod is half a metre long; more is a slip of the unit.
+/// From T1 to the pelvis a rod is half a metre long; a greater length is a mistake of units.
 constexpr double kLongestRod_m = 0.6;
-/// Surgeons bend 5.5 mm rods by up to 30-40° at a place, over a pedicle subtraction osteotomy; 60°
-/// are the sharpest contour of the fatigue tests, where such rods break early (Tang et al. 2013,
-/// Neurosurgery 72:276). Entries of lumbar plans ask for up to 27°. Points that ask for more than
-/// 60° are not the heads of one rod.
+/// Surgeons bend 5.5 mm rods by up to 30-40° at one place, over a pedicle subtraction osteotomy;
+/// 60° is the sharpest contour in fatigue tests, in which such rods break early (Tang et al. 2013,
+/// Neurosurgery 72:276). Entries of lumbar plans need up to 27°. Points that need more than 60° are
+/// not the heads of one rod.
 constexpr double kSharpest_rad = 60.0 * kRadiansPerDegree;
 constexpr double kBack_rad = 90.0 * kRadiansPerDegree;
 constexpr double kSampling_m = 0.001;
 
-/// A length outside of what is allowed, with the digits that tell it from the limit.
+/// A length outside its limits, with enough digits to tell it from the limit.
 std::string outside(double length_m, double shortest_m, double longest_m) {
   const double limit_m = length_m < shortest_m ? shortest_m : longest_m;
   std::string text = beside_limit("%.4g mm;%.4g", length_m * 1e3, limit_m * 1e3);
@@ -84,7 +84,7 @@ double bend_rad(std::span<const Vec3> heads_m, std::size_t i) {
   return angle_between_rad(heads_m[i] - heads_m[i - 1], heads_m[i + 1] - heads_m[i]);
 }
 
-/// Whether a rod of a patient's spine runs so; `order` numbers the heads as they were given.
+/// Checks whether a spinal rod can run along these heads; `order` holds their indices as given.
 Status check_run(std::span<const Vec3> heads_m, std::span<const std::size_t> order) {
   for (std::size_t i = 1; i < heads_m.size(); ++i) {
     const double gap_m = (heads_m[i] - heads_m[i - 1]).norm();

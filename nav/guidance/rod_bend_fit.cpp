@@ -9,25 +9,27 @@
 namespace orthonav::nav {
 namespace {
 
-// What weighs how much, as standard deviations: seats and tulips decide, angles and places choose
-// among what these leave open. Orders of magnitude apart, so the values do not matter further.
+// Weights, as standard deviations: seats and tulips decide; angles and places choose among the
+// solutions that these leave. They are orders of magnitude apart, so the exact values do not
+// matter.
 
 constexpr double kSeatSd_m = 0.05e-3;
 constexpr double kTulipSd_m = 0.05e-3;
 constexpr double kLimitSd_rad = 0.002;
-/// In a second fit, where the first gave way at tulips or limits: by so much stiffer that a seat
-/// 1 mm off moves them less than their margins. Stiff from the start, the fit would get stuck
-/// there.
+/// Factor of stiffness in a second fit, if the first one violated tulips or limits: so stiff that a
+/// seat 1 mm off moves them by less than their margins. A fit that is stiff from the start would
+/// get stuck there.
 constexpr double kStiffer = 20.0;
 constexpr double kAngleSd_rad = 0.35;
 constexpr double kMiddleSd_m = 0.01;
 constexpr double kEndsSd_m = 0.001;
-/// Limits are approached from inside by this, so that what is found keeps them.
+/// The fit keeps this margin inside the limits, so that its result respects them.
 constexpr double kTulipMargin_m = 0.1e-3;
 constexpr double kLimitMargin_rad = 0.002;
-/// Rounding alone.
+/// Allowance for rounding.
 constexpr double kClearance_m = 1e-6;
-/// A bend that is made may reach so far into a tulip: the rod leaves its straight by 20 µm there.
+/// A bend already made may reach this far into a tulip, where the rod deviates from straight by 20
+/// µm.
 constexpr double kMadeLeeway_m = 0.001;
 
 constexpr std::size_t kPoseParameters = 6;
@@ -77,8 +79,8 @@ RodFit rod_of(const RodFitTask& task, const std::vector<std::size_t>& straights_
   return rod;
 }
 
-/// Of the rod that the tulips on either side of bend `k` leave for it, less the bend: negative
-/// where it reaches into one.
+/// The length of rod that the tulips on either side leave for bend `k`, minus the bend: negative if
+/// it reaches into one.
 struct TulipRoom {
   double before_m = 0.0;
   double after_m = 0.0;
@@ -105,7 +107,7 @@ void write_residuals(const RodFitTask& task, const RodFit& rod,
                      const std::vector<std::size_t>& straights_of, double stiffer,
                      std::vector<double>& out) {
   out.clear();
-  // The distance alone has no derivative at zero; its three components have.
+  // The distance has no derivative at zero, but its three components have.
   const std::vector<RodStraight> straights = rod_straights(rod.arcs, 0.0);
   const Mat3 rod_from_seats = rod.seats_from_rod.transposed();
   for (std::size_t i = 0; i < task.seats_m.size(); ++i) {
@@ -132,8 +134,8 @@ void write_residuals(const RodFitTask& task, const RodFit& rod,
   out.push_back((task.length_m ? 0.5 * (first_m - last_m) : first_m - task.overhang_m) / kEndsSd_m);
 }
 
-/// The direction of each straight: between the ends of its seats; of a single seat, of the chord
-/// past it.
+/// The direction of each straight: from its first to its last seat; with a single seat, that of the
+/// chord between its neighbours.
 std::vector<Vec3> guessed_directions(const RodFitTask& task) {
   const std::vector<std::size_t> straights_of = straights_of_seats(task);
   const std::size_t seats = task.seats_m.size();
@@ -157,7 +159,8 @@ Mat3 frame_along(Vec3 along) {
   return Mat3::from_columns(line, along.cross(line), along);
 }
 
-/// A rod not begun: straights along the guessed directions, bends in the middle of their gaps.
+/// For a rod not yet begun: straights along the guessed directions, bends in the middle of their
+/// gaps.
 RodGuess guess_from_seats(const RodFitTask& task) {
   const std::vector<Vec3> directions = guessed_directions(task);
   RodGuess guess;
@@ -196,8 +199,8 @@ RodGuess guess_from_plan(const RodFitTask& task, const RodFit& before) {
   return guess;
 }
 
-/// The first end lies `overhang_m` before the first seat, and the line is drawn on the side to
-/// which the first bend goes: both are free on a rod not begun.
+/// Puts the first end `overhang_m` before the first seat, and the drawn line on the side to which
+/// the first bend goes: both can be chosen on a rod not yet begun.
 void settle_ends_and_line(const RodFitTask& task, RodFit& rod) {
   const double shift_m = rod.seats.front().at_m - task.overhang_m;
   const double roll_rad = rod.arcs.empty() ? 0.0 : rod.arcs.front().roll_rad;

@@ -15,7 +15,7 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kWidestTrial_rad = 120.0 * kRadiansPerDegree;
-/// Halvings of 180°: the rest is far below what a bender's scale shows.
+/// Halvings of 180°: the remainder is far below the resolution of a bender's scale.
 constexpr int kHalvings = 60;
 
 struct BenderRange {
@@ -65,7 +65,7 @@ Status check_trials(const std::vector<SpringBackTrial>& trials) {
       return Error{printed("spring-back trial %zu keeps %.1f°, limit 0-%.1f°, what was set", i + 1,
                            kept_deg, set_deg)};
     }
-    // Only the first may keep nothing: it was elastic.
+    // Only the first trial may keep no angle: it was elastic.
     if (trial.set_rad <= before.set_rad || (i > 0 && trial.kept_rad <= before.kept_rad)) {
       return Error{printed(
           "spring-back trial %zu of %.1f° that keeps %.1f° does not rise from the one before",
@@ -79,8 +79,9 @@ Status check_trials(const std::vector<SpringBackTrial>& trials) {
   return {};
 }
 
-/// Moment over that at first yield, of a round bar curved `over_yield` times as much as at first
-/// yield, which yields at a constant stress: from π/32 σ d³ it grows to 16/(3π) = 1.70 times that.
+/// The moment, relative to that at first yield, of a round bar that is curved `over_yield` times as
+/// much as at first yield and yields at a constant stress: it grows from π/32 σ d³ to 16/(3π) =
+/// 1.70 times that.
 double moment_over_yield(double over_yield) {
   if (over_yield <= 1.0) {
     return over_yield;
@@ -116,7 +117,7 @@ double RodSpringBack::kept_rad(double set_rad) const {
       }
       before = trial;
     }
-    // Beyond the trials nothing more springs back.
+    // Beyond the trials, no additional spring-back is assumed.
     return before.kept_rad + set_rad - before.set_rad;
   }
   const double yield_rad =
@@ -154,7 +155,7 @@ Result<double> RodSpringBack::set_rad(double kept_rad) const {
     (this->kept_rad(middle_rad) < kept_rad ? low_rad : high_rad) = middle_rad;
   }
   const double radius_m = bender_.width_m / high_rad;
-  // A micrometre: what bisection leaves of a bend that is exactly the sharpest.
+  // A micrometre of tolerance: bisection may miss a bend that is exactly the sharpest by that much.
   if (radius_m < smallest_radius_m() - 1e-6) {
     return Error{printed("bend of %.1f° has a radius of %s mm on the bender, limit %.1f mm",
                          kept_rad * kDegreesPerRadian,

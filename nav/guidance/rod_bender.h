@@ -7,16 +7,16 @@
 
 namespace orthonav::nav {
 
-/// What a bend is made with.
+/// The tool that makes the bends.
 struct RodBender {
-  /// Of the rod's axis that one bend curves, evenly; also the least distance between the middles
-  /// of two bends. Estimate for a French bender.
+  /// Length of the rod's axis that one bend curves, evenly; also the least distance between the
+  /// middles of two bends. Estimate for a French bender.
   double width_m = 0.020;
-  /// Of the rod's axis over the die: it can't be curved more tightly. Estimate.
+  /// Radius of the rod's axis over the die: it can't be bent more tightly. Estimate.
   double die_radius_m = 0.020;
 };
 
-/// One bend of a trial: the angle that the bender was set to and the one that was left.
+/// One bend of a trial: the angle to which the bender was set and the angle that remained.
 struct SpringBackTrial {
   double set_rad = 0.0;
   double kept_rad = 0.0;
@@ -29,9 +29,9 @@ struct RodMaterial {
   /// Strain at which a bar may break in tension (ASTM F136: at least 10 %); no outer fibre is
   /// strained further.
   double elongation = 0.10;
-  /// Where not empty, in place of yield and modulus: trials on that very bender with that very rod,
-  /// both angles rising from one to the next; from no bend at all to the first, and between them,
-  /// straight lines.
+  /// If not empty, used instead of yield and modulus: trials with this bender and this kind of rod,
+  /// both angles rising from one to the next; interpolated linearly from zero to the first and
+  /// between them.
   std::vector<SpringBackTrial> trials;
 };
 
@@ -44,17 +44,18 @@ class RodSpringBack {
   static Result<RodSpringBack> of(const RodBender& bender, const RodMaterial& material,
                                   double diameter_m);
 
-  /// What is left of a bend when the bender lets go; 0 where it was elastic alone. Without trials a
-  /// round bar of a material that yields at a constant stress: the curvature M/(EI) goes back, with
-  /// the moment M from the stress over the section. It tends to 1.70 · 2σ_y / (E d) for wide
-  /// angles, the formula of `study rods`, and is less for small ones.
+  /// The angle that remains of a bend after the bender is released; 0 if the bend was only elastic.
+  /// Without trials, the model is a round bar of a material that yields at a constant stress: the
+  /// curvature M/(EI) springs back, with the moment M from the stress over the section. It tends to
+  /// 1.70 · 2σ_y / (E d) for wide angles, the formula of `study rods`, and is less for small ones.
   [[nodiscard]] double kept_rad(double set_rad) const;
-  /// What to set for an angle that is to be left. Refuses negative ones and, in one line, what is
-  /// curved below the smallest radius on the bender, or lies beyond the last trial.
+  /// The angle to set so that the given angle remains. Refuses, in one line, negative angles, a
+  /// curve below the smallest radius on the bender, and an angle beyond the last trial.
   [[nodiscard]] Result<double> set_rad(double kept_rad) const;
   /// The largest angle that `set_rad` takes.
   [[nodiscard]] double most_kept_rad() const;
-  /// Of the rod's axis on the bender: the die's, or where the outer fibre reaches `elongation`.
+  /// Smallest radius of the rod's axis on the bender: the die's, or the one at which the outer
+  /// fibre reaches `elongation`.
   [[nodiscard]] double smallest_radius_m() const;
   [[nodiscard]] double width_m() const { return bender_.width_m; }
   [[nodiscard]] double diameter_m() const { return diameter_m_; }

@@ -15,11 +15,11 @@
 namespace orthonav::nav {
 namespace {
 
-/// Nearer than this, two seats are one head touched twice (rod.cpp).
+/// Two seats nearer to each other than this are one head touched twice (rod.cpp).
 constexpr double kMeeting_m = 0.005;
-/// What the fit keeps off a tulip's edge, on both sides of a bend.
+/// The fit's margin from a tulip's edge, on both sides of a bend.
 constexpr double kFittingMargin_m = 0.0002;
-/// So many of the gentlest bends are tried to be left out; the others are needed anyhow.
+/// Number of the gentlest bends that may be left out on trial; the others are needed anyway.
 constexpr std::size_t kLeftOutTries = 4;
 
 Status check_length(const char* name, double value_m, double least_m, double most_m) {
@@ -70,7 +70,7 @@ double least_gap_m(const RodBending& bending) {
   return bending.bender.width_m + bending.tulip_m + kFittingMargin_m;
 }
 
-/// Those long enough for a bend between their tulips.
+/// The gaps long enough for a bend between their tulips.
 std::vector<std::size_t> gaps_for_bends(std::span<const Vec3> seats_m, const RodBending& bending) {
   std::vector<std::size_t> gaps;
   for (std::size_t i = 0; i + 1 < seats_m.size(); ++i) {
@@ -100,7 +100,8 @@ struct PlannedRod {
   RodFit fit;
 };
 
-/// The same rod with one bend less, if one can be spared: of those tried, what bends least.
+/// The same rod with one bend fewer, if one can be spared: of those tried, the one that is bent
+/// least.
 std::optional<PlannedRod> with_a_bend_less(std::span<const Vec3> seats_m, const PlannedRod& rod,
                                            const RodBending& bending, double most_angle_rad) {
   std::vector<std::size_t> order(rod.gaps.size());
@@ -122,7 +123,7 @@ std::optional<PlannedRod> with_a_bend_less(std::span<const Vec3> seats_m, const 
   return best;
 }
 
-/// Why not even a bend in every gap does.
+/// Why not even a bend in every gap is enough.
 Error out_of_reach(const PlannedRod& rod, std::span<const Vec3> seats_m, const RodBending& bending,
                    const RodSpringBack& spring_back) {
   for (std::size_t k = 0; k < rod.fit.arcs.size(); ++k) {
@@ -171,7 +172,7 @@ Result<RodInstructions> told(PlannedRod rod, std::span<const Vec3> seats_m, std:
   return out;
 }
 
-/// A bend in every gap that takes one.
+/// The rod with a bend in every gap that has room for one.
 Result<PlannedRod> with_every_bend(std::span<const Vec3> seats_m, const RodBending& bending,
                                    const RodSpringBack& spring_back) {
   const double most_angle_rad = spring_back.most_kept_rad();

@@ -12,15 +12,16 @@
 
 namespace orthonav::nav {
 
-/// With what a rod is bent, and how near it has to come.
+/// The bender and rod, and how near the rod has to come to the seats.
 struct RodBending {
   RodBender bender;
   RodMaterial material;
   double diameter_m = 0.0055;
   double overhang_m = RodSeating{}.overhang_m;
-  /// Of the rod that a tulip holds; there it is straight. Estimate: a tulip is 8 mm and more.
+  /// Length of the rod that a tulip holds, where the rod is straight. Estimate: tulips are 8 mm or
+  /// longer.
   double tulip_m = 0.010;
-  /// From the seats to the axis of the rod that the instructions promise.
+  /// Largest distance from the seats to the rod's axis if the instructions are followed.
   double tolerance_m = 0.0003;
 };
 
@@ -35,9 +36,10 @@ struct RodInstruction {
 /// bent at each place in order from the first end. The first bend goes towards the line: roll 0.
 struct RodInstructions {
   std::vector<Vec3> seats_m;
-  std::vector<RodInstruction> bends;  ///< `made` of them as they were measured, the rest to be made
+  std::vector<RodInstruction> bends;  ///< the first `made` of them as measured, the rest still to
+                                      ///< be made
   std::size_t made = 0;
-  RodFit fit;  ///< the rod when all has been followed, and the seats on it
+  RodFit fit;  ///< the finished rod, and the seats on it
 
   [[nodiscard]] double cut_length_m() const { return fit.length_m; }
 };
@@ -47,18 +49,18 @@ inline constexpr double kWidestTulip_m = 0.03;
 inline constexpr double kFinestTolerance_m = 0.00005;
 inline constexpr double kCoarsestTolerance_m = 0.005;
 
-/// Instructions for a rod through these seats, in order along it (RodCut::seats_m). A bend goes
-/// into the gaps between tulips alone, never into a tulip, one into each gap at most; as few as
-/// keep every seat within `tolerance_m`, and among those the gentlest. Each is made once, from the
-/// first end to the last, and none is bent back. Refuses, in one line: values outside their limits,
-/// fewer than two seats, seats that are not finite or meet, and seats that this bender can't reach
-/// because a radius would be too tight or a gap is too short.
+/// Instructions for a rod through these seats, in order along it (RodCut::seats_m). Bends go only
+/// into the gaps between tulips, never into a tulip, at most one per gap; there are as few as keep
+/// every seat within `tolerance_m`, and among those choices the gentlest. Each is made once, from
+/// the first end to the last, and none is bent back. Refuses, in one line: values outside their
+/// limits, fewer than two seats, seats that are not finite or meet, and seats that this bender
+/// can't reach because a radius would be too tight or a gap is too short.
 Result<RodInstructions> rod_instructions(std::span<const Vec3> seats_m, const RodBending& bending);
 
-/// The same when the first bends are made, as `made` tells from measuring them (rod_stroke.h): the
-/// bends still to come make up for what those are off, as well as they can. Refuses more bends made
-/// than were planned and what is not finite, what `rod_instructions` refuses of `bending`, and a
-/// rod that can't be brought nearer than `kLost_m` to a seat: another one has to be begun.
+/// The same after the first bends were made, with `made` as measured (rod_stroke.h): the remaining
+/// bends compensate for their errors as well as possible. Refuses more bends made than planned,
+/// numbers that are not finite, a `bending` that `rod_instructions` refuses, and a rod that can't
+/// be brought within `kLost_m` of a seat: then a new rod is needed.
 Result<RodInstructions> rod_instructions_after(const RodInstructions& plan,
                                                std::span<const RodArc> made,
                                                const RodBending& bending);

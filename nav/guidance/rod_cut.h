@@ -9,21 +9,21 @@
 
 namespace orthonav::nav {
 
-/// Where the rod lies against the heads that were touched, and how far it stands out.
+/// Where the rod lies relative to the touched heads, and how far it overhangs.
 struct RodSeating {
   /// From the touched top of a head to the middle of the rod in its tulip, along the screw. 6 mm is
   /// an estimate: half the height of a tulip of 12 mm.
   double head_to_seat_m = 0.006;
-  /// Wanted beyond the middle of the first and of the last seat.
+  /// Length wanted beyond the middle of the first and of the last seat.
   double overhang_m = 0.005;
-  /// Of each head in their order, where they differ; empty: `head_to_seat_m` for all.
+  /// One per head, in their order, if they differ; empty: `head_to_seat_m` for all.
   std::vector<double> each_head_to_seat_m = {};
 };
 
 struct RodCut {
   std::vector<Vec3> seats_m;     ///< in the order of the template's heads
   double seated_length_m = 0.0;  ///< along the spline from the first to the last seat, to 1 µm
-  double cut_length_m = 0.0;     ///< that and the overhang at both ends
+  double cut_length_m = 0.0;     ///< seated length plus the overhang at both ends
 };
 
 /// Limits of what `rod_cut` takes.
@@ -31,12 +31,12 @@ inline constexpr double kDeepestSeat_m = 0.03;
 inline constexpr double kLongestOverhang_m = 0.05;
 
 /// The length to cut a rod to. The heads are touched on top, but the rod lies below, at the seats:
-/// each is its head plus `head_to_seat_m` along `to_bone`, the direction of that screw from head to
-/// tip (any length but zero, in the order of `rod.heads_m`). In a lordosis the seats lie on the
-/// outside of the curve, so their spline is longer than the heads': by the depth times the angle
-/// of the curve, 4 mm for 6 mm and 40°. Refuses fewer than 2 heads, another number of directions
-/// or of seats than heads, what is not finite, distances that are negative or beyond the limits
-/// above, and seats that meet.
+/// each seat is its head plus `head_to_seat_m` along `to_bone`, the direction of that screw from
+/// head to tip (any length but zero, in the order of `rod.heads_m`). In a lordosis the seats lie on
+/// the outside of the curve, so their spline is longer than the heads': by the depth times the
+/// angle of the curve, 4 mm for 6 mm and 40°. Refuses fewer than 2 heads, a number of directions or
+/// seats that differs from that of heads, numbers that are not finite, distances that are negative
+/// or beyond the limits above, and seats that coincide.
 Result<RodCut> rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
                        const RodSeating& seating = {});
 

@@ -7,10 +7,10 @@ namespace orthonav::nav {
 namespace {
 
 constexpr int kChordsOfArc = 8;
-/// Below this the series of sine and cosine is exact to the last bit that matters.
+/// Below this angle the series of sine and cosine is exact enough.
 constexpr double kNearlyStraight_rad = 1e-4;
 
-/// A place on the axis with the frame that is carried along.
+/// A place on the axis with the frame carried along it.
 struct RodPlace {
   Vec3 at_m;
   Vec3 line{1.0, 0.0, 0.0};

@@ -7,9 +7,9 @@
 
 namespace orthonav::nav {
 
-/// A bend as it lies in the rod: a circular arc of `width_m` of its axis. `roll_rad` says towards
-/// which side of the rod the far end goes: 0 towards the line drawn along it, positive as a right
-/// hand turns about the rod's direction from its first to its last end.
+/// A bend in the rod: a circular arc of length `width_m` of its axis. `roll_rad` says to which side
+/// the far end is bent: 0 towards the line drawn along the rod, positive by the right-hand rule
+/// about the direction from its first to its last end.
 struct RodArc {
   double centre_m = 0.0;  ///< along the axis from the first end
   double width_m = 0.0;
@@ -28,13 +28,13 @@ struct RodStraight {
 // The rod's own frame: origin at its first end, z along its first straight towards the last end, x
 // towards the drawn line.
 
-/// The straights of a bent rod, one more than its bends. A bender does not twist: the drawn line is
-/// carried along without turning about the axis, and the axis keeps its length. The arcs are given
-/// in order and do not overlap.
+/// The straights of a bent rod, one more than its bends. A bender does not twist: the drawn line
+/// does not turn about the axis, and the axis keeps its length. The arcs must be in order and must
+/// not overlap.
 [[nodiscard]] std::vector<RodStraight> rod_straights(std::span<const RodArc> arcs, double length_m);
 
-/// The axis as a chain of chords, arcs in eight: less than 0.03 mm off an arc of 20 mm and 27 mm
-/// radius. From the first end to the last.
+/// The axis as a chain of chords from the first end to the last, eight per arc: less than 0.03 mm
+/// off an arc of 20 mm length and 27 mm radius.
 [[nodiscard]] std::vector<Vec3> rod_axis(std::span<const RodArc> arcs, double length_m);
 
 }  // namespace orthonav::nav

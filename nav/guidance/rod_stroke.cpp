@@ -17,12 +17,13 @@
 namespace orthonav::nav {
 namespace {
 
-/// Neighbours so near along the rod are one block when their common error is estimated.
+/// Points within this length of the rod form one block when their common error is estimated.
 constexpr double kStrokeBlock_m = 0.01;
-// A rod that is nearly straight may lie anywhere about its axis: far beyond any misfit.
+// The turn of a nearly straight rod about its axis is undetermined: the SD is far larger than any
+// misfit.
 constexpr double kPoseTurnSd_rad = 1.0;
 constexpr double kPoseShiftSd_m = 0.05;
-// A few steps tell which side of the rod was stroked.
+// A few steps show which side of the rod was stroked.
 constexpr int kFirstIterations = 6;
 constexpr int kAllIterations = 40;
 constexpr std::size_t kStrokeAngle = 6;
@@ -134,15 +135,14 @@ Status check_stroke(std::span<const RodArc> arcs, std::span<const Vec3> stroked_
   return {};
 }
 
-/// Places along the main direction, 0 at its least and 1 at its greatest, growing in the order
-/// given.
+/// Positions along the main direction, scaled to [0, 1], increasing in the given order.
 std::vector<double> parts_along(std::span<const Vec3> points_m) {
   const PrincipalAxes axes = principal_axes(points_m);
   std::vector<double> along;
   for (const Vec3& point_m : points_m) {
     along.push_back(axes.axes[0].dot(point_m));
   }
-  // The mean product with the order: which way the stroke ran.
+  // The mean product with the index: the direction in which the stroke ran.
   const double middle = 0.5 * static_cast<double>(along.size() - 1);
   double trend = 0.0;
   for (std::size_t i = 0; i < along.size(); ++i) {
@@ -157,7 +157,7 @@ std::vector<double> parts_along(std::span<const Vec3> points_m) {
   return along;
 }
 
-/// For every point a place on the axis that lies as far along the rod as a whole.
+/// For every point, the place on the axis at the same fraction of the rod's length.
 std::vector<Vec3> partners_on(const std::vector<Vec3>& chain_m, std::span<const Vec3> points_m) {
   const std::vector<double> model = parts_along(chain_m);
   std::vector<Vec3> partners;
@@ -173,8 +173,8 @@ std::vector<Vec3> partners_on(const std::vector<Vec3>& chain_m, std::span<const 
   return partners;
 }
 
-/// By how much more the mean of points varies than if all erred independently: their variance in
-/// blocks along the rod, times the points in a block, over that of one point; at least 1.
+/// How much more the mean of points varies than with independent errors: the variance of block
+/// means along the rod, times the points per block, over the variance of one point; at least 1.
 double common_error_factor(const std::vector<StrokeFoot>& feet, double radius_m) {
   std::vector<std::pair<double, int>> blocks;
   double square = 0.0;
@@ -200,8 +200,8 @@ double stroke_rms_m(const std::vector<StrokeFoot>& feet, double radius_m) {
   return std::sqrt(square / static_cast<double>(feet.size()));
 }
 
-/// From the axis laid through the points, and beside them in four directions: one side may have
-/// been stroked alone.
+/// Starts with the axis through the points, and with it shifted to the four sides, since only one
+/// side may have been stroked.
 Result<LeastSquares> first_fit(StrokedRod& rod, const RigidFit& laid, const RodArc& bend,
                                double radius_m) {
   const Vec3 x = radius_m * laid.rotation.column(0);
@@ -234,8 +234,8 @@ Status check_reach(const std::vector<StrokeFoot>& feet, const RodArc& bend, std:
   return {};
 }
 
-/// To the bottom before the points' errors are judged, since a misfit would pass for an error in
-/// common; then again with those.
+/// Fits to convergence before the points' errors are judged, since a misfit would be taken for a
+/// common error; then fits again with those errors.
 Result<LeastSquares> settled_fit(StrokedRod& rod, const RigidFit& laid, const RodArc& bend,
                                  double radius_m, const RodStrokeRules& rules) {
   auto fit = first_fit(rod, laid, bend, radius_m);

@@ -11,14 +11,14 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-/// Length of the first slices, and of the parts that those which stay open are cut into: so thin
-/// that what their middle says of the whole rim lacks 0.04 mm for a radius of 3 mm.
+/// Length of the first slices, and of the parts into which open ones are cut: so thin that the
+/// depth at the middle bounds that of the whole circumference to 0.04 mm for a radius of 3 mm.
 constexpr double kSlice_m = 0.002;
 constexpr int kSliceParts = 2;
 constexpr std::size_t kMostSlices = 128;
 /// Width of the first patches of a rim.
 constexpr double kPatch_m = 0.0012;
-/// From this to that, the search from the shallowest place narrows.
+/// First and last step of the descent from the shallowest place.
 constexpr double kFirstStep_m = 0.0005;
 constexpr double kLastStep_m = 0.000004;
 
@@ -34,7 +34,7 @@ struct Patch {
 struct Slice {
   double along_m = 0.0;
   double half_m = 0.0;
-  double least_m = 0.0;  ///< nothing in it is shallower
+  double least_m = 0.0;  ///< no place in it is shallower
 };
 
 class LeastDepth {
@@ -49,13 +49,15 @@ class LeastDepth {
   }
 
  private:
-  /// Shallower places by more than the tolerance may hide where nothing is shallower than that.
+  /// Whether a region with this lower bound may hide a place shallower than the best by more than
+  /// the tolerance.
   [[nodiscard]] bool open(double least_m) const { return least_m < best_m_ - tolerance_m_; }
-  /// No place of the patch is farther from its middle: the way along the surface is longer.
+  /// An upper bound on the distance of the patch's places from its middle: the path along the
+  /// surface is longer.
   [[nodiscard]] double radius_m(const Patch& p) const {
     return std::hypot(p.half_along_m, screw_.radius_m() * p.half_around_rad);
   }
-  /// Nothing in the slice is shallower; `half_m` 0 for the whole tip.
+  /// Lower bound on the depth in the slice; `half_m` is 0 for the whole tip.
   [[nodiscard]] double least_in(double middle_depth_m, double half_m) const {
     return middle_depth_m - std::hypot(half_m, screw_.radius_m());
   }
@@ -74,7 +76,7 @@ class LeastDepth {
   double best_around_rad_ = 0.0;
 };
 
-/// The depth there, which becomes the best when it is less.
+/// The depth there, which becomes the best if it is smaller.
 std::optional<SurfaceDepth> LeastDepth::take(double along_m, double around_rad) {
   const auto depth = depths_.at(screw_.at(along_m, around_rad).v);
   if (depth && depth->depth_m < best_m_) {
@@ -99,7 +101,7 @@ bool LeastDepth::search() {
     }
     slices[i] = {along_m, tip ? 0.5 * screw_.radius_m() : half_m,
                  least_in(depth->depth_m, tip ? 0.0 : half_m)};
-    // The wall nearest to the axis is mostly nearest to the screw.
+    // The wall nearest to the axis is usually also nearest to the screw.
     if (open(slices[i].least_m)) {
       take(along_m, screw_.around_rad(-depth->deeper));
     }
@@ -117,7 +119,7 @@ bool LeastDepth::search() {
   return true;
 }
 
-/// Goes downhill along the surface as long as it helps.
+/// Descends along the surface while the depth decreases.
 void LeastDepth::descend() {
   double step_m = kFirstStep_m;
   auto here = take(best_along_m_, best_around_rad_);
@@ -139,7 +141,7 @@ void LeastDepth::descend() {
   }
 }
 
-/// What going downhill misses, where two walls meet or at the rim of the tip.
+/// Finds what the descent misses where two walls meet or at the rim of the tip.
 void LeastDepth::close_steps() {
   for (double step_m = 0.1 * kFirstStep_m; step_m > kLastStep_m; step_m *= 0.5) {
     const double along_m = best_along_m_;

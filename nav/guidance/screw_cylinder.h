@@ -7,8 +7,8 @@
 
 namespace orthonav::nav {
 
-/// A screw as the cortex sees it: a cylinder with a flat tip. Finite, with a length and a radius
-/// above 0, wherever one is returned.
+/// A screw as used for clearances: a cylinder with a flat tip. Whenever one is returned, it is
+/// finite with a length and a radius above 0.
 struct ScrewCylinder {
   Point<Vertebra> entry;  ///< on the axis, where the length begins
   Vec3 direction;         ///< unit, into the bone
@@ -16,32 +16,32 @@ struct ScrewCylinder {
   double radius_m = 0.0;
 };
 
-/// None where the plan states no radius.
+/// Empty if the plan states no radius.
 [[nodiscard]] std::optional<ScrewCylinder> cylinder_of(const ScrewPlan& plan);
 
-/// The planned screw if it were driven along another axis instead, of which `point` is any point
-/// and `direction` points into the bone: it enters where the axis meets the bone from behind, no
-/// farther than 25 mm along it from abreast of the planned entry. None where it misses the bone
-/// there, and where the plan states no radius.
+/// The planned screw if it were driven along another axis, given by any point on it and its
+/// direction into the bone: it enters where the axis meets the bone from behind, no farther than 25
+/// mm, along the axis, from the planned entry. Empty if the axis misses the bone there or the plan
+/// states no radius.
 [[nodiscard]] std::optional<ScrewCylinder> cylinder_along(const Axis<Vertebra>& axis,
                                                           const ScrewPlan& plan,
                                                           const SurfaceIndex& bone);
 
-/// The screw's surface that is asked for its depth: the side from 6 mm past the entry on, then the
-/// flat tip from its rim to its middle, unrolled. Nearer the entry the screw has to come out of the
-/// bone.
+/// The part of the screw's surface whose depth counts, unrolled: the side from 6 mm past the entry
+/// on, then the flat tip from its rim to its middle. Nearer to the entry the screw necessarily
+/// leaves the bone.
 class CylinderSurface {
  public:
   static constexpr double kFrom_m = 0.006;
 
-  /// None for a screw that is no longer than that.
+  /// Empty for a screw that is no longer than that.
   static std::optional<CylinderSurface> of(const ScrewCylinder& screw);
 
   /// `along_m` in [0, length_m()], `around_rad` any.
   [[nodiscard]] Point<Vertebra> at(double along_m, double around_rad) const {
     return {middle(along_m) + radius_at(along_m) * outward(around_rad)};
   }
-  /// The middle of the cross section there; all of the tip has the same.
+  /// The middle of the cross section there; the same for the whole tip.
   [[nodiscard]] Vec3 middle(double along_m) const {
     return screw_.entry.v + arc_length_m(along_m) * screw_.direction;
   }
@@ -49,7 +49,7 @@ class CylinderSurface {
   [[nodiscard]] Vec3 outward(double around_rad) const;
   /// The angle at which a vector points outward.
   [[nodiscard]] double around_rad(Vec3 v) const;
-  /// How a step of one metre along the unrolled surface, and one around it, moves a place.
+  /// How a point moves per metre along the unrolled surface, and per metre around it.
   [[nodiscard]] Vec3 along(double along_m, double around_rad) const {
     return on_tip(along_m) ? -outward(around_rad) : screw_.direction;
   }

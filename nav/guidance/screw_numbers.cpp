@@ -6,9 +6,9 @@
 namespace orthonav::nav {
 namespace {
 
-/// More is no offset of a tool at a screw, and would not fit its place.
+/// A larger offset is not one of a tool at a screw, and would not fit the display.
 constexpr double kMostShown = 9999.0;
-/// 1.2 mm is 12 tenths, whatever the last bit says.
+/// 1.2 mm is 12 tenths, regardless of the last bits.
 constexpr double kLastBits = 1e-6;
 
 int rounded_up(double tenths) { return static_cast<int>(std::ceil(tenths - kLastBits)); }

@@ -7,11 +7,11 @@
 
 namespace orthonav::nav {
 
-/// A number as the surgeon reads it, in tenths of a millimetre or of a degree.
+/// A number as displayed to the surgeon, in tenths of a millimetre or of a degree.
 struct ShownNumber {
   int tenths = 0;                ///< > 0: cranial or medial
   std::optional<int> sd_tenths;  ///< of its error, rounded up; absent: not known
-  bool sure = false;             ///< else it is shown greyed, with its SD
+  bool sure = false;             ///< otherwise it is greyed and shown with its SD
 };
 
 /// `AnatomicalDeviation` as it is shown.
@@ -24,20 +24,21 @@ struct ScrewNumbers {
 inline constexpr double kTenth_m = 1e-4;
 inline constexpr double kTenth_rad = 0.1 * std::numbers::pi / 180.0;
 
-/// A number is sure up to these SDs. 1.0 mm: 95 % of its errors lie within 2 mm, one step of the
-/// Gertzbein-Robbins scale. 1.5°: 95 % of them move the end of a screw of 40 mm by no more than
-/// those 2 mm.
+/// A number is sure if its SD is at most this. 1.0 mm: 95 % of its errors lie within 2 mm, one step
+/// of the Gertzbein-Robbins scale. 1.5°: 95 % of them move the end of a screw of 40 mm by no more
+/// than those 2 mm.
 inline constexpr double kSureOffset_m = 1.0e-3;
 inline constexpr double kSureAngle_rad = 1.5 * std::numbers::pi / 180.0;
 
-/// Decides which whole number of tenths stands for a measured one, so that it never looks better
-/// than measured and a trembling hand does not flicker the last digit. One for each number.
+/// Decides which whole number of tenths is displayed for a measured number, so that it never looks
+/// better than measured and a trembling hand does not make the last digit flicker. One object per
+/// number.
 ///
 /// The magnitude is rounded up. A larger one is shown at once; a smaller one only when the measured
-/// one has fallen by another tenth below where rounding changes. So what is shown is never below
-/// what is measured, and above it by less than two tenths. Zero alone is excepted: it is shown from
-/// half a tenth down, stays up to a whole one, and in either case only while the measured number is
-/// no larger than its own SD, that is, zero as far as anyone can tell.
+/// number has fallen by another tenth below the point where rounding changes. The displayed number
+/// is thus never below the measured one, and above it by less than two tenths. Zero is the only
+/// exception: it appears at half a tenth or less, stays up to one tenth, and in both cases only
+/// while the measured number is no larger than its SD, that is, indistinguishable from zero.
 class SteadyNumber {
  public:
   static constexpr double kBand = 1.0;       ///< tenths, towards the safe side
@@ -52,11 +53,11 @@ class SteadyNumber {
   std::optional<int> shown_;
 };
 
-/// All four of them, pair after pair.
+/// Writes all four numbers, pair after pair.
 class ScrewNumberWriter {
  public:
   [[nodiscard]] ScrewNumbers write(const AnatomicalDeviation& measured);
-  /// What was shown so far has no part in what comes: another screw, or no measurement since.
+  /// Forgets the numbers shown so far: the screw has changed, or the tool was not measured.
   void forget() { *this = {}; }
 
  private:

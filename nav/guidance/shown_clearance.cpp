@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kTenths_per_m = 1e4;
 constexpr double kMostTenths = 9999.0;
-/// 1.2 mm is 12 tenths, whatever the last bit says.
+/// 1.2 mm is 12 tenths, regardless of the last bits.
 constexpr double kLastBitsOfTenths = 1e-6;
 /// Towards the safe side.
 constexpr double kBandOfTenths = 1.0;

@@ -6,13 +6,13 @@
 
 namespace orthonav::nav {
 
-/// Which whole number of tenths stands for a measured one of which more is better: the counterpart
-/// of `SteadyNumber`, signed and without its zero. Rounded down; a smaller one is shown at once, a
-/// larger one only when the measured one has risen by another tenth. Never above what is measured,
-/// nor below it by two tenths.
+/// Decides which whole number of tenths is displayed for a measured number of which more is better:
+/// the counterpart of `SteadyNumber`, signed and without its rule for zero. Rounded down; a smaller
+/// one is shown at once, a larger one only when the measured number has risen by another tenth.
+/// Never above the measured number, and below it by less than two tenths.
 class SteadyLeast {
  public:
-  /// Finite.
+  /// `tenths` must be finite.
   int show(double tenths);
   void forget() { shown_.reset(); }
 
@@ -20,21 +20,21 @@ class SteadyLeast {
   std::optional<int> shown_;
 };
 
-/// A screw's clearance as the surgeon reads it, in tenths of a millimetre.
+/// A screw's clearance as displayed to the surgeon, in tenths of a millimetre.
 struct ShownClearance {
   int least_tenths = 0;
-  /// With 95 % probability it is above that; absent: not known.
+  /// With 95 % probability the clearance is above this; absent: not known.
   std::optional<int> lower_95_tenths;
   const char* towards = "";  ///< `direction_of` the nearest wall
 
-  /// The screw breaks through, or may: where nothing is known, nobody can rule it out, but it is
-  /// not said of every screw.
+  /// Whether the screw breaks through, or may. If the uncertainty is unknown, a breach can't be
+  /// ruled out, but that alone does not count, or every screw would be flagged.
   [[nodiscard]] bool may_break() const {
     return least_tenths < 0 || (lower_95_tenths && *lower_95_tenths < 0);
   }
 };
 
-/// Pair after pair.
+/// Writes the clearance, pair after pair.
 class ClearanceWriter {
  public:
   [[nodiscard]] ShownClearance write(const ScrewClearance& measured, Side side);

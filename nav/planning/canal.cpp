@@ -14,11 +14,10 @@ constexpr double kGrid_m = 0.003;
 constexpr double kOffMiddle_m = 0.012;
 /// Canals are 12-18 mm deep and 20-35 mm wide (Panjabi et al. 1992); with a tilt, somewhat more.
 constexpr double kFarthestWall_m = 0.030;
-/// Fewer places than this are a dent, not a canal.
+/// Fewer places than this form a dent, not a canal.
 constexpr std::size_t kLeastPlaces = 20;
 
-/// The distance to bone along the direction; none where there is none near, or where the place lies
-/// in bone.
+/// The distance to bone along the direction; nothing if none is near, or if the place lies in bone.
 std::optional<double> to_bone_m(const SurfaceIndex& surface, Vec3 place_m, Vec3 direction) {
   const auto hit = surface.first_hit(place_m, direction);
   if (!hit || hit->distance_m > kFarthestWall_m || !(hit->normal.dot(direction) < 0.0)) {
@@ -51,14 +50,14 @@ std::optional<Vec3> middle_of_enclosed(const TriangleMesh& mesh, const SurfaceIn
   return Vec3{median(x), median(y), median(z)};
 }
 
-/// A line through the canal, and how far it keeps from bone, less what its lean costs.
+/// A line through the canal, and its distance from bone minus the penalty for its lean.
 struct Passage {
   Vec3 centre_m;
   Vec3 up{0, 0, 1};
   double free_m = 0.0;
 };
 
-/// Takes the line if all of it keeps farther from bone than the best so far. Each degree of lean
+/// Takes the line if all of it stays farther from bone than the best so far. Each degree of lean
 /// must gain `kPerDegree_m`.
 void consider(const SurfaceIndex& surface, Vec3 centre_m, Vec3 up, Passage& best) {
   constexpr double kPerDegree_m = 0.00003;

@@ -10,18 +10,19 @@
 namespace orthonav::nav {
 namespace {
 
-/// From here behind the pedicle, the bone that is met first is the entry.
+/// A ray from this far behind the pedicle meets the bone first at the entry.
 constexpr double kFromBehind_m = 0.060;
 /// An entry nearer to the pedicle's plane lies on the side of the body, not behind the pedicle.
 constexpr double kLeastBehind_m = 0.006;
-/// A screw ends this share of the way, and this far, before the far cortex.
+/// A screw ends at least this fraction of the way, and at least this far, before the far cortex.
 constexpr double kShareBeforeFront = 0.15;
 constexpr double kLeastBeforeFront_m = 0.005;
 
 double outward(Side side) { return side == Side::kLeft ? 1.0 : -1.0; }
 
-/// The least depth of the axis between two places, as soon as it is known to be no more than
-/// `floor_m`. The depth changes no faster than the place: what is deep is passed in long steps.
+/// The least depth of the axis between two places; stops early once it is known to be at most
+/// `floor_m`. Depth changes by no more than the distance moved, so deep parts are passed in long
+/// steps.
 double least_depth_m(DepthProbe& depths, Vec3 entry_m, Vec3 direction, double to_m,
                      double floor_m) {
   constexpr double kStep_m = 0.0007;
@@ -36,7 +37,7 @@ double least_depth_m(DepthProbe& depths, Vec3 entry_m, Vec3 direction, double to
   }
 }
 
-/// A place of the pedicle's plane, and how deep it lies in bone.
+/// A place in the pedicle's plane, and how deep it lies in bone.
 struct Place {
   double lateral_m = 0.0;
   double up_m = 0.0;

@@ -8,8 +8,8 @@
 namespace orthonav::nav {
 namespace {
 
-/// Along each of the four degrees of freedom, and along shift and turn in one plane together: where
-/// two walls limit the clearance, only the two together lead on.
+/// Moves along each of the four degrees of freedom, and shift and turn in one plane combined: where
+/// two walls limit the clearance, only the combination improves it.
 constexpr std::array<std::array<double, 4>, 16> kMoves = {{{1, 0, 0, 0},
                                                            {-1, 0, 0, 0},
                                                            {0, 1, 0, 0},
@@ -27,7 +27,7 @@ constexpr std::array<std::array<double, 4>, 16> kMoves = {{{1, 0, 0, 0},
                                                            {0, 0.5, 0, -1},
                                                            {0, -0.5, 0, 1}}};
 
-/// A place on a screw's surface in the screw's own terms.
+/// A place on a screw's surface, in the screw's own coordinates.
 struct ScrewPlace {
   double arc_m = 0.0;
   Vec3 radial_m;
@@ -40,7 +40,7 @@ class FineSearch {
              const PedicleSearch::Wanted& wanted)
       : search_(search), bone_(bone), side_(side), wanted_(wanted), depths_(bone) {}
 
-  /// Whether this axis is better than the best so far, which it then becomes.
+  /// Whether this axis is better than the best so far; if so, it becomes the best.
   bool take(const PedicleAxis& axis);
   [[nodiscard]] const std::optional<PedicleSearch::Found>& best() const { return best_; }
 
@@ -59,8 +59,8 @@ class FineSearch {
   std::size_t known_ = 0;
 };
 
-/// Where earlier screws were nearest to the cortex this one mostly is as well: one look there shows
-/// that it is no better, without the whole of its surface.
+/// This screw is usually nearest to the cortex where earlier ones were: checking that place first
+/// often shows that it is no better, without the rest of its surface.
 bool FineSearch::shallow(const PedicleSearch::Way& way, double lost_m) {
   for (std::size_t i = std::min(known_, tight_.size()); i-- > 0;) {
     const ScrewPlace& tight = tight_[i];
@@ -112,7 +112,7 @@ std::optional<PedicleSearch::Found> PedicleSearch::fine(Side side,
                                                         const Wanted& wanted) const {
   constexpr double kWidestStep_m = 0.0016;
   constexpr double kFinestStep_m = 0.00005;
-  constexpr double kRadPerMetre = 35.0;  // 1 mm and 2 degrees move the ends of a screw alike
+  constexpr double kRadPerMetre = 35.0;  // 1 mm and 2 degrees move the ends of a screw equally
   FineSearch search(*this, bone_, side, wanted);
   for (const PedicleAxis& start : starts) {
     search.take(start);

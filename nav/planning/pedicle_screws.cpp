@@ -9,13 +9,13 @@
 namespace orthonav::nav {
 namespace {
 
-/// A tip lies at least so far in the body.
+/// A tip lies at least this far in the body.
 constexpr double kInBody_m = 0.005;
 
-/// Clearance that is given for a degree by which one side leans otherwise than the other.
+/// Clearance given up per degree by which the two sides lean differently.
 constexpr double kMirrored_m = 0.00003;
 
-/// What there is in a list of sizes.
+/// The available sizes.
 class Sizes {
  public:
   Sizes(std::span<const ImplantSize> all, double thickest_m) {
@@ -38,8 +38,7 @@ class Sizes {
     }
     return longest_m;
   }
-  /// The thickest that leaves so much about the axis of a pedicle with that room; else the
-  /// thinnest.
+  /// The thickest that leaves this clearance in a pedicle with that room; otherwise the thinnest.
   [[nodiscard]] double diameter_m(double room_m, double clearance_m) const {
     double best_m = thinnest_m();
     for (const ImplantSize& size : sizes_) {
@@ -47,7 +46,7 @@ class Sizes {
     }
     return best_m;
   }
-  /// The longest of that diameter that is no longer than that; 0: none.
+  /// The longest of that diameter that is at most `most_m`; 0: none.
   [[nodiscard]] double length_m(double diameter_m, double most_m) const {
     double best_m = 0.0;
     for (const ImplantSize& size : sizes_) {
@@ -100,7 +99,8 @@ Result<Start> start_of(const PedicleSearch& search, Side side, const Sizes& size
   return Start{*found, size};
 }
 
-/// Both alike: the thinner and the shorter one, where it exists in that diameter.
+/// One size for both sides: the thinner diameter with the shorter length, if it exists in that
+/// diameter.
 ImplantSize common_size(const ImplantSize& a, const ImplantSize& b, const Sizes& sizes) {
   const double diameter_m = std::min(a.diameter_m, b.diameter_m);
   const double length_m = sizes.length_m(diameter_m, std::min(a.length_m, b.length_m));

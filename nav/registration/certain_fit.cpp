@@ -13,8 +13,8 @@ constexpr std::size_t kFittedRobustly = 700;
 /// Which points lie beyond the rim is determined again once the bone has moved by more than this.
 constexpr double kRimRecheck_m = 0.0005;
 
-/// Points beyond the rim of the reachable surface are nearer to bone that registration leaves out:
-/// their height above the rim says nothing.
+/// Points beyond the rim of the reachable surface are nearer to bone that registration leaves out,
+/// so their height above the rim is meaningless.
 class BeyondRim {
  public:
   explicit BeyondRim(const VertebraModel& model) : model_(model) {}
@@ -48,8 +48,8 @@ class BeyondRim {
   Vec3 found_at_m_;
 };
 
-/// A part of the points, robustly: standoff and pose, or the pose alone where there is no credible
-/// standoff. Nothing where no point is near the surface.
+/// Fits a part of the points robustly: standoff and pose, or the pose alone if there is no credible
+/// standoff. Nothing if no point is near the surface.
 std::optional<SurfaceFit> robust_fit(const VertebraModel& model, std::span<const Vec3> points_m,
                                      const CentredPose& start,
                                      const PoseSearchRegistrationOptions& options) {
@@ -71,7 +71,7 @@ std::optional<SurfaceFit> robust_fit(const VertebraModel& model, std::span<const
   return std::nullopt;
 }
 
-/// All points at a pose and height; `near_m`: places of the surface near each of them.
+/// All points at a pose and height; `near_m`: places on the surface near each of them.
 std::optional<SurfaceFit> fit_near(const VertebraModel& model, std::span<const Vec3> points_m,
                                    const CentredPose& pose, double standoff_m,
                                    std::span<const Vec3> near_m,

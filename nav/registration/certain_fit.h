@@ -10,18 +10,18 @@ namespace orthonav::nav {
 
 struct CertainFit {
   SurfaceFit fit;
-  std::optional<ResidualField> field;  ///< nothing where a motion is undetermined
+  std::optional<ResidualField> field;  ///< empty if a motion is undetermined
 };
 
-/// Fits all points, starting from a candidate's pose: robustly, then with what their heights have
-/// in common, in at most `units` units. Nothing where no point is near the surface.
+/// Fits all points, starting from a candidate's pose: robustly first, then with the correlation of
+/// their heights, in at most `units` units. Empty if no point is near the surface.
 [[nodiscard]] std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& cloud,
                                                   const SurfaceFit& start,
                                                   const PoseSearchRegistrationOptions& options,
                                                   std::size_t units = kMostUnits);
 
-/// The points' heights over the surface, with their weights, at a given pose and standoff (m). Of
-/// the options, tip radius and SDs of the points are used.
+/// The points' heights over the surface, with their weights, at a given pose and standoff (m). Only
+/// the tip radius and the SDs of the points are used from the options.
 [[nodiscard]] std::optional<SurfaceFit> fit_at(const VertebraModel& model,
                                                std::span<const Vec3> points_m,
                                                const CentredPose& pose, double standoff_m,

@@ -8,9 +8,9 @@
 namespace orthonav::nav {
 namespace {
 
-/// A touch so near to a proposed place was meant for it.
+/// A touch this near to a proposed place counts for it.
 constexpr double kTouchedWithin_m = 0.008;
-/// So many places see every motion of a rigid body but those along the surface.
+/// This many places reveal every motion of a rigid body except along the surface.
 constexpr std::size_t kPlacesApart = 3;
 
 double height_m(Vec3 a, Vec3 b, Vec3 c) {
@@ -18,8 +18,8 @@ double height_m(Vec3 a, Vec3 b, Vec3 c) {
   return longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0;
 }
 
-/// How far the points have come: the most that lie apart from each other, up to three, and whether
-/// three of them lie off a line too.
+/// How far the points are spread: the largest number that lie apart from each other, up to three,
+/// and whether three of them also lie off a line.
 struct Spread {
   std::size_t apart = 0;
   bool off_line = false;
@@ -51,7 +51,7 @@ Spread spread_of(std::span<const CheckPoint> points, const CheckPointRules& rule
   return spread;
 }
 
-/// In World: the places on the bone that the strokes went over.
+/// The places on the bone that the strokes passed, in World.
 std::vector<Vec3> stroked_bone(const VertebraModel& model,
                                const Transform<World, Vertebra>& world_from_vertebra,
                                std::span<const Point<World>> stroked,
@@ -114,7 +114,8 @@ CheckPoint check_point(const VertebraModel& model,
   if (!nearest) {
     return point;
   }
-  // The whole bone tells in from out; at an edge the nearest triangle's normal may not.
+  // The whole bone decides between inside and outside; at an edge the nearest triangle's normal may
+  // be wrong.
   const double sign = model.surface().contains(in_vertebra) ? -1.0 : 1.0;
   point.distance_m = sign * nearest->distance_m;
   point.within = nearest->distance_m <= rules.within_m;
@@ -132,7 +133,7 @@ std::vector<Point<World>> places_to_check(const VertebraModel& model,
   }
   const Vec3 middle =
       std::accumulate(on_bone.begin(), on_bone.end(), Vec3{}) / static_cast<double>(on_bone.size());
-  // Each as far as can be: from the middle, from the first, from the line of the first two.
+  // Each as far as possible: from the middle, from the first, from the line through the first two.
   const auto take = [&](const auto& distance, double at_least_m) {
     const Vec3 best = *std::max_element(on_bone.begin(), on_bone.end(),
                                         [&](Vec3 a, Vec3 b) { return distance(a) < distance(b); });
@@ -193,7 +194,7 @@ CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRule
 }
 
 void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points) {
-  // What may be off by chance; less than that is never held against a touch.
+  // Deviations within this many SDs may be chance and are never held against a touch.
   constexpr double kMostSds = 4.0;
   constexpr double kTouch_m = 0.001;
   constexpr std::size_t kMany = 8;
@@ -203,8 +204,8 @@ void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points) {
     const double off_m = joined.off_m[before + i];
     const double limit_m = std::max(kTouch_m, kMostSds * joined.off_sd_m[before + i]);
     const bool fits = std::abs(off_m) <= limit_m;
-    // Of many places some lie beyond a fixed limit, by the model and by how the map walked since;
-    // what the others say of each is the better judge of it.
+    // Among many places, some lie beyond a fixed limit because of model error and the map's drift;
+    // comparing each with the prediction from the others is the better test.
     if (fits && joined.off_m.size() >= kMany &&
         std::abs(points[i].distance_m) <= kMostWithin * points[i].limit_m) {
       points[i].limit_m = std::max(points[i].limit_m, std::abs(points[i].distance_m));

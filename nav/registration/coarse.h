@@ -13,13 +13,13 @@ struct CoarsePose {
   double rmse_m = 0.0;
 };
 
-/// Two poses that could explain the points, the better first; they differ clearly (only one when
+/// Two clearly different poses that could explain the points, the better one first (only one if
 /// nothing else fits at all). The extreme points along the principal axes of the digitized points
 /// and of the reachable surface are paired (Liebmann et al. 2019, eq. 1) and fitted (Horn 1987).
 ///
-/// The paper leaves two things open which decide whether that works:
-/// - Which axis belongs to which: strokes cover another part than the trimmed model, so that the
-///   spread from side to side and that along the spinous process often change places. All 24 proper
+/// The paper leaves two things open that decide whether this works:
+/// - Which axes correspond: strokes cover a different part than the trimmed model, so the spread
+///   from side to side and the spread along the spinous process often swap ranks. All 24 proper
 ///   pairings of axes and signs are tried, never a mirrored one.
 /// - ICP stops in the nearest minimum, typically one crest off. Poses are shaken (shifted and
 /// turned

@@ -16,12 +16,12 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kCovered_m = 0.005;
-/// What a few strokes over a place would pin it to.
+/// The SD of a place after a few strokes over it.
 constexpr double kPinned_m = 0.0003;
-/// The spinous process lies so near to the midline.
+/// The spinous process lies within this distance of the midline.
 constexpr double kMidline_m = 0.007;
 constexpr double kLateral_m = 0.028;
-/// Neither upper nor lower so near to the middle.
+/// Within this distance of the middle, a place is neither upper nor lower.
 constexpr double kMiddle_m = 0.006;
 
 Eigen::Matrix<double, 3, 6> moves_at(Vec3 lever_arm) {

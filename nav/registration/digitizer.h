@@ -10,7 +10,7 @@
 
 namespace orthonav::nav {
 
-/// One digitized point. In World, or in the patient reference's frame where one is used; the caller
+/// One digitized point. In World, or in the patient reference's frame if one is used; the caller
 /// keeps track of which.
 struct Sample {
   Point<World> tip_in_world;
@@ -40,10 +40,10 @@ class Digitizer {
            Direction<Marker> axis_in_marker = ToolGeometry{}.axis_in_marker);
   /// Keeps the current region; without samples there is nothing to keep.
   void save();
-  /// Drops the region that is not saved yet and returns it; nothing when it has no samples. Never
+  /// Drops the region that is not saved yet and returns it; empty if it has no samples. Never
   /// touches a saved one. Recording continues while the button is held.
   std::optional<Region> drop();
-  /// Drops the last saved region and returns it; nothing when there is none.
+  /// Drops the last saved region and returns it; empty if there is none.
   std::optional<Region> drop_saved();
   /// Replaces everything by regions that were saved earlier.
   void restore(std::vector<Region> saved);
@@ -52,7 +52,7 @@ class Digitizer {
   [[nodiscard]] bool recording() const { return recording_; }
   [[nodiscard]] std::span<const Region> regions() const { return regions_; }
   [[nodiscard]] std::vector<Point<World>> saved_points() const;
-  /// For these points, in their order.
+  /// The SDs of these points, in their order.
   [[nodiscard]] std::vector<double> saved_point_sds_m() const;
   [[nodiscard]] std::vector<Vec3> saved_shafts() const;
   [[nodiscard]] std::size_t saved_count() const;

@@ -7,13 +7,14 @@
 
 namespace orthonav::nav {
 
-/// Where the pose must be sure: those of the options, or else where screws usually go.
+/// Where the pose must be certain: the targets in the options, or, if there are none, where screws
+/// usually go.
 [[nodiscard]] std::vector<Point<Vertebra>> targets_of(const VertebraModel& model,
                                                       const PoseSearchRegistrationOptions& options);
 
-/// Notes what a pose's uncertainty, errors in common apart, means at the targets: the errors to
-/// expect, the motion behind them, where strokes would tell most; and, with the errors in common,
-/// the uncertainty of the whole.
+/// Fills in what a pose's uncertainty means at the targets: without common errors, the expected
+/// errors, the motion behind them and where strokes would help most; and, with common errors, the
+/// total uncertainty.
 void put_errors(const VertebraModel& model, const PoseUncertainty& own, const CommonErrors& common,
                 std::span<const Point<Vertebra>> targets, Registration& r);
 

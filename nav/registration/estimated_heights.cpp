@@ -9,11 +9,11 @@
 namespace orthonav::nav {
 namespace {
 
-/// The others change nothing that could be seen.
+/// The remaining ones would not change the result visibly.
 constexpr std::size_t kMostHypotheses = 3;
 constexpr double kNear_m = 0.004;
 constexpr std::size_t kFewestPairs = 100;
-/// Points about which neighbours are sought; more tell no more.
+/// Number of points whose neighbours are searched; more would add nothing.
 constexpr std::size_t kMostPoints = 1500;
 
 std::vector<FieldHypothesis> likeliest(std::vector<FieldHypothesis> all) {

@@ -9,7 +9,7 @@
 
 namespace orthonav::nav {
 
-// What a registration finds out about itself, as data. Whoever tells a person makes the words
+// What a registration finds out about itself, as data. The words for people are made elsewhere
 // (engine/session/wording.h).
 
 /// A part of the vertebra's reachable surface, as surgeons name it.
@@ -24,7 +24,7 @@ struct BonePlace {
   friend bool operator==(const BonePlace&, const BonePlace&) = default;
 };
 
-/// The motion of the bone that its strokes tell least of.
+/// The motion of the bone that its strokes determine least.
 struct UncertainMotion {
   enum class Kind : std::uint8_t {
     kLateral,
@@ -33,23 +33,23 @@ struct UncertainMotion {
     kFlexion,  ///< and extension
     kLateralBending,
     kAxialRotation,
-    kUnconstrained,  ///< by the strokes; which motion it is, is not known
+    kUnconstrained,  ///< by the strokes; it is not known which motion
   };
 
   Kind kind = Kind::kUnconstrained;
-  double error_m = 0.0;  ///< root mean square, at the worst target; meaningless when unconstrained
+  double error_m = 0.0;  ///< root mean square, at the worst target; meaningless if unconstrained
 
   friend bool operator==(const UncertainMotion&, const UncertainMotion&) = default;
 };
 
-/// In place of a label, where several levels explain the points alike.
+/// Used instead of a label if several levels explain the points equally well.
 inline constexpr std::string_view kSeveralLevels = "several levels";
 
-/// One reason why nothing may be guided on a registration: what was found, and the limit.
+/// One reason why a registration must not be used for guidance: what was found, and the limit.
 struct RefusalReason {
   enum class Kind : std::uint8_t {
     kRmse,                ///< m
-    kRunnerUpRmse,        ///< the runner-up's RMSE, in that of the best
+    kRunnerUpRmse,        ///< the runner-up's RMSE divided by that of the best
     kTreAtCentre,         ///< m, expected at the centre of the bone
     kNoise,               ///< m, SD of the points about the surface
     kInliers,             ///< fraction of the points
@@ -58,10 +58,10 @@ struct RefusalReason {
     kLogLikelihoodRatio,  ///< against the runner-up
     kTreAtScrews,         ///< m, expected at the worst of the screws
     kTre99AtScrews,       ///< m, below which 99 of 100 errors lie at the worst of the screws
-    kFitsOtherLevel,      ///< no number: the label tells which
-    kSoftTissue,          ///< m, SD of the tip's height over the bone; `scrape` tells where
-    kModelSize,           ///< size of the bone, that of the model being 1
-    kMirrored,            ///< against the model's mirror image: its log-likelihood ratio
+    kFitsOtherLevel,      ///< no number; the label says which level
+    kSoftTissue,          ///< m, SD of the tip's height over the bone; `scrape` says where
+    kModelSize,           ///< size of the bone relative to the model
+    kMirrored,            ///< log-likelihood ratio of the model's mirror image
   };
 
   Kind kind = Kind::kRmse;

@@ -24,7 +24,7 @@ struct UnknownsAnswer {
 
 constexpr Index kStandoff = kStandoffUnknown;
 constexpr Index kSize = kSizeUnknown;
-/// Before anything was stroked: a mean height of this SD, a size of this SD.
+/// Priors: the SD of the mean height, and the SD of the size.
 constexpr double kStandoffPrior_m = 0.002;
 constexpr double kSizePrior = 0.05;
 /// Rotations are compared with translations at this lever arm, the size likewise.

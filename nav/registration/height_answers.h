@@ -24,7 +24,7 @@ struct WhitenedSums {
   void add(const WhitenedSystem& system);
 };
 
-/// With the priors of standoff and size. Nothing where a motion is undetermined.
+/// The solution, with the priors of standoff and size. Empty if a motion is undetermined.
 [[nodiscard]] std::optional<HeightModel::Answers> answers_of(const WhitenedSums& sums);
 
 }  // namespace orthonav::nav

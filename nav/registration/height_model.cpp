@@ -64,7 +64,7 @@ class HeightModel::Matrices {
 
   const SurfaceFit& fit_;
   const ResidualUnits& units_;
-  /// Scaled; one column a unit.
+  /// Scaled; one column per unit.
   Eigen::Matrix<double, kHeightUnknowns, Eigen::Dynamic> derivatives_;
   Eigen::VectorXd heights_m_;
   double last_length_m_ = 0.0;
@@ -135,14 +135,14 @@ double HeightModel::Matrices::own_noise_m2(const ResidualUnit& unit,
   const auto points = units_.points_of(unit);
   double white = 0.0;
   double wandering = 0.0;
-  double before = 0.0;  // sum of what earlier points of the unit still say
+  double before = 0.0;  // decayed sum over earlier points of the unit
   for (const std::uint32_t i : points) {
     const double weight = fit_.points[i].inlier_precision() / unit.weight;
     white += weight * weight;
     wandering += weight * weight + 2.0 * weight * before * noise.kept;
     before = before * noise.kept + weight;
   }
-  // Points in no order err alike within a cell.
+  // For unordered points, errors within a cell are fully correlated.
   return units_.along_strokes ? noise.white_m2 * white + noise.wandering_m2 * wandering
                               : noise.white_m2 + noise.wandering_m2;
 }

@@ -19,8 +19,8 @@ class HeightModel {
   HeightModel(const HeightModel&) = delete;
   HeightModel& operator=(const HeightModel&) = delete;
 
-  /// The unknowns in the order of ResidualUnit::derivative, those of a pose as a step from the
-  /// fit's; the standoff is not negative. Covariance by rows.
+  /// The unknowns in the order of ResidualUnit::derivative, with the pose as a step from the fit's;
+  /// the standoff is never negative. Covariance by rows.
   struct Answer {
     double log_evidence = 0.0;
     std::array<double, kHeightUnknowns> unknowns{};
@@ -30,12 +30,12 @@ class HeightModel {
     Answer fixed_size;
     Answer free_size;
   };
-  /// Given a field and the noise beside it. Nothing where a motion is undetermined. Fastest when
-  /// fields of one length come one after the other.
+  /// The solution for a given field and the noise in addition to it. Empty if a motion is
+  /// undetermined. Fastest if fields of the same length come one after the other.
   [[nodiscard]] std::optional<Answers> solve(const FieldHypothesis& field,
                                              const StrokeNoise& noise);
-  /// The mean of each unit's height without its noise: standoff, field, and the stroke's own. Empty
-  /// where a motion is undetermined.
+  /// The mean of each unit's height without noise: standoff, field, and the stroke's own height.
+  /// Empty if a motion is undetermined.
   [[nodiscard]] std::vector<double> heights_without_noise(const FieldHypothesis& field,
                                                           const StrokeNoise& noise);
 

@@ -20,8 +20,8 @@ struct IcpResult {
 };
 
 /// Iterative closest points (Besl & McKay 1992), point to point, every point with equal weight.
-/// Each step lowers the RMSE, so it ends in the nearest minimum and not in the best one: the start
-/// decides. An Error when the closest points are collinear.
+/// Each step lowers the RMSE, so it ends in the nearest minimum, not the best one: the result
+/// depends on the start. An Error if the closest points are collinear.
 Result<IcpResult> refine_icp(const SurfaceIndex& surface,
                              std::span<const Point<World>> points_in_world,
                              const Transform<World, Vertebra>& start, const IcpOptions& options);

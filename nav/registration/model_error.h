@@ -6,24 +6,24 @@
 
 namespace orthonav::nav {
 
-/// Of a model about the bone that it was made of: segmentation.
+/// The error of a model relative to its bone, from segmentation.
 struct ModelError {
   double sd_m = 0.0;
-  double length_m = 0.007;  ///< alike over it: covariance `sd² exp(-distance / length)`
+  double length_m = 0.007;  ///< correlation length: covariance `sd² exp(-distance / length)`
 };
 
 /// The usual SD of a segmentation of a vertebra in CT.
 inline constexpr double kUsualModelError_m = 0.0005;
 
-/// How a model may be off the bone, and the logarithm of how probable that is, up to a constant.
+/// A possible error of a model, and the logarithm of its probability, up to a constant.
 struct ModelErrorHypothesis {
   ModelError error;
   double log_probability = 0.0;
 };
 
-/// What is known before a bone is touched: segmentations of vertebrae in CT are off by 0.3 to 0.8
-/// mm, alike over 5 to 10 mm. Two thirds of the probability lie there, the rest from 0.1 mm, which
-/// is as good as exact, to 1 mm.
+/// The prior before a bone is touched: segmentations of vertebrae in CT are off by 0.3 to 0.8 mm,
+/// with a correlation length of 5 to 10 mm. Two thirds of the probability lie there, the rest
+/// between 0.1 mm, which is practically exact, and 1 mm.
 [[nodiscard]] std::vector<ModelErrorHypothesis> model_error_hypotheses();
 
 /// Covariance of a model's error at two places.

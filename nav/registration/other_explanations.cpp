@@ -12,11 +12,12 @@ namespace {
 
 /// A rival whose log-likelihood ratio is below this many times the least one is fitted closely.
 constexpr double kDoubtful = 3.0;
-/// A level that explains the points nearly as well as this one does; levels that do so alike.
+/// Below this log-likelihood ratio, another level explains the points nearly as well as this one,
+/// or two levels explain them equally well.
 constexpr double kLevelLogLikelihoodRatio = 6.0;
-/// Without a known covariance, points count for little.
+/// Number of effective points assumed without a known covariance.
 constexpr double kFewPoints = 10.0;
-/// Of the points' SD: what is farther off than this tells no more.
+/// Residuals are clamped at this many SDs of the points.
 constexpr double kClampSds = 4.0;
 constexpr std::size_t kUnitsCompared = 80;
 /// This many mirrored points are fitted first. Where they fit worse than the answer by more than
@@ -38,7 +39,7 @@ double fit_rmse_m(const SurfaceFit& fit) {
   return std::sqrt(sum / static_cast<double>(fit.points.size()));
 }
 
-/// Left for right in the model's frame, at a pose.
+/// The cloud at a pose, with left and right swapped in the model's frame.
 Cloud mirrored_cloud(const Cloud& cloud, const CentredPose& pose) {
   const auto mirrored = [&](Vec3 p) {
     const Vec3 q = pose.rotation * p;
@@ -55,7 +56,7 @@ Cloud mirrored_cloud(const Cloud& cloud, const CentredPose& pose) {
   return out;
 }
 
-/// Itself, and shifted and turned to every side: a crooked bone's mirror image lies askew.
+/// The pose itself, and shifted and turned to every side: a crooked bone's mirror image lies askew.
 std::vector<CentredPose> poses_about(const CentredPose& pose) {
   constexpr double kAside_m = 0.003;
   constexpr double kTurned_rad = 0.15;
@@ -64,7 +65,7 @@ std::vector<CentredPose> poses_about(const CentredPose& pose) {
     for (const double side : {-1.0, 1.0}) {
       Vec3 along;
       along[axis] = side;
-      // Backwards there is no bone, and forwards none that is reached.
+      // There is no bone behind, and none in front that can be reached.
       if (axis != 1) {
         out.push_back({pose.rotation, pose.centre_m + kAside_m * along});
       }

@@ -13,8 +13,8 @@ namespace {
 /// Enough points to tell candidates apart.
 constexpr std::size_t kPointsToCompare = 300;
 constexpr double kFieldNoise_m = 0.0005;
-/// The field is right to tenths of a millimetre: a pose whose cost in the field is this many times
-/// the best one's is no rival.
+/// The field is accurate to tenths of a millimetre: a pose whose cost in the field is this many
+/// times the best one's is not a rival.
 constexpr double kFarFromBestInField = 3.0;
 /// Squared distances are truncated at this many SDs of the noise, but not below that distance.
 constexpr double kTruncateSd = 3.0;
@@ -49,7 +49,7 @@ void refit_with_standoff(const VertebraModel& model, const Cloud& cloud, Surface
   }
 }
 
-/// The poses that the field suggests, fitted, in the order found.
+/// The poses found in the field, fitted, in the order found.
 std::vector<Candidate> fitted_poses(const VertebraModel& model, const Cloud& cloud,
                                     std::span<const Point<Vertebra>> targets,
                                     const SurfaceFitOptions& options) {

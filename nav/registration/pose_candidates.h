@@ -9,16 +9,16 @@
 
 namespace orthonav::nav {
 
-/// A pose that moves no target farther than this is the same pose.
+/// Two poses that put every target within this distance count as the same.
 inline constexpr double kSameAtTargets_m = 0.002;
-/// Points that scatter more than a tracker's were stroked by a light hand, or over soft tissue.
-/// Then their mean height above the bone is fitted as well.
+/// Points that scatter by more than this, more than tracking explains, were stroked with a light
+/// hand or over soft tissue. Their mean height above the bone is then fitted as well.
 inline constexpr double kLooseHand_m = 0.0005;
 
 /// Digitized points for the search.
 struct Cloud {
   std::vector<Vec3> all_m;  ///< about the centre, in the order of time
-  std::vector<Vec3> few_m;  ///< of these, enough to tell candidates apart
+  std::vector<Vec3> few_m;  ///< a subset, enough to tell candidates apart
   Vec3 centre_m;            ///< in World
 };
 [[nodiscard]] Cloud cloud_of(std::span<const Point<World>> points);
@@ -28,7 +28,8 @@ struct Cloud {
                              const Transform<World, Vertebra>& b,
                              std::span<const Point<Vertebra>> targets);
 
-/// A place of the reachable surface near each point at a pose: where its nearest one is sought.
+/// A place on the reachable surface near each point at a pose, where the search for the nearest one
+/// starts.
 [[nodiscard]] std::vector<Vec3> places_near(const VertebraModel& model,
                                             std::span<const Vec3> points_m,
                                             const CentredPose& pose);
@@ -39,7 +40,7 @@ struct Cloud {
                                                     const CentredPose& start,
                                                     SurfaceFitOptions options);
 
-/// Whether a mean height of the tip above the bone can be true: a tip does not dive into bone.
+/// Whether a mean height of the tip above the bone is plausible: a tip can't be inside the bone.
 [[nodiscard]] bool is_credible_standoff(double standoff_m);
 
 struct Candidate {
@@ -48,11 +49,12 @@ struct Candidate {
 };
 struct PoseCandidates {
   std::vector<Candidate> best_first;
-  double width_m = 0.0;  ///< where squared distances are truncated, by the noise of the best fit
+  double width_m = 0.0;  ///< where squared distances are truncated, depending on the noise of the
+                         ///< best fit
 };
 
-/// Every pose that the points may mean, each fitted to `few_m`. Where targets are given, the search
-/// goes on until one candidate is another pose at the targets than the first.
+/// Every pose that could explain the points, each fitted to `few_m`. If targets are given, the
+/// search continues until one candidate differs from the first one at the targets.
 [[nodiscard]] PoseCandidates find_candidates(const VertebraModel& model, const Cloud& cloud,
                                              std::span<const Point<Vertebra>> targets,
                                              double tip_radius_m);

@@ -17,7 +17,8 @@ constexpr double kFieldCell_m = 0.002;
 constexpr double kFieldMargin_m = 0.014;
 
 constexpr double kSearchCell_m = 0.002;
-/// Points of a vertebra's back lie within this distance of their centre; farther ones are outliers.
+/// Points on the back of a vertebra lie within this distance of their centre; farther ones are
+/// outliers.
 constexpr double kReach_m = 0.075;
 /// Costs of single points are truncated here: an outlier costs no more for being farther off.
 constexpr double kFarthest_m = 0.010;

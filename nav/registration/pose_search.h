@@ -13,7 +13,7 @@
 namespace orthonav::nav {
 
 /// A vertebra prepared for the search over all poses: distances to its reachable surface, on a fine
-/// grid for descending and on a coarse one for adding up. Immutable.
+/// grid for descent and on a coarse one for summing costs. Immutable.
 class SearchField {
  public:
   SearchField(const TriangleMesh& reachable, const SurfaceIndex& reachable_surface,
@@ -62,7 +62,7 @@ struct FoundPose {
 
 struct PoseSearchOptions {
   std::size_t most = 8;  ///< poses to return
-  /// Poses closer to each other than both of these are one.
+  /// Two poses closer than both of these count as one.
   double same_m = 0.003;
   double same_rad = 0.1;
   double tip_radius_m = 0.0;
@@ -71,7 +71,7 @@ struct PoseSearchOptions {
 /// The poses at which the points could lie on the surface, the best first. Every orientation (a
 /// low-discrepancy set, 12° apart on average; Alexa 2022, "Super-Fibonacci spirals") and every
 /// place is examined coarsely; thousands are then refined in the field by robust Gauss-Newton
-/// steps. Relies on no start, no prior and no axis of the strokes.
+/// steps. Needs no start, no prior and no axis of the strokes.
 [[nodiscard]] std::vector<FoundPose> search_poses(const SearchField& vertebra,
                                                   std::span<const Vec3> points_in_world_m,
                                                   const PoseSearchOptions& options = {});

@@ -11,7 +11,7 @@ using Pose6 = Eigen::Matrix<double, 6, 1>;
 using Covariance6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 using Rows6 = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-/// Soft tissue under a pressed tip is alike over such a distance.
+/// Correlation length of soft tissue under a pressed tip.
 constexpr double kSameTissue_m = 0.003;
 
 Pose6 slope_about(Vec3 centre_m, const PressedHeight& at) {
@@ -43,7 +43,7 @@ double PressCovariance::between_m2(const PressedHeight& a, const PressedHeight& 
   const Covariance6 prior = Eigen::Map<const Covariance6>(before.data());
   const double walk_m2 =
       press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s * std::min(a.time_s, b.time_s);
-  // Over the same tissue, a second press leaves what the first one left.
+  // A second press over the same tissue has the same error as the first.
   const double tissue = std::exp(-(a.at_m - b.at_m).norm() / kSameTissue_m);
   return slope_about(centre_m, a).dot(prior * slope_about(centre_m, b)) + walk_m2 * a.up.dot(b.up) +
          press.common_sd_m * press.common_sd_m + press.sd_m * press.sd_m * tissue;

@@ -6,19 +6,21 @@
 
 namespace orthonav::nav {
 
-/// How the heights of pressed places vary with the pose and with each other, but for what each has
-/// alone and for the model's error.
+/// The covariance of the heights of pressed places with the pose and with each other, without the
+/// part that each has alone and without the model's error.
 struct PressCovariance {
   std::array<double, 36> before{};  ///< of the pose of the strokes, by rows
   Vec3 centre_m;                    ///< of a step of the pose, in the model's frame
   PressModel press;
 
-  /// Of a height, by a step of the pose: the points move in the model's frame about the centre.
+  /// The derivative of a height by a step of the pose: the points move in the model's frame about
+  /// the centre.
   [[nodiscard]] std::array<double, 6> slope(const PressedHeight& at) const;
-  /// Of a height and the pose at the time of its press, the random walk of World among it.
+  /// The covariance of a height and the pose at the time of its press, including the random walk of
+  /// World.
   [[nodiscard]] std::array<double, 6> with_pose(const PressedHeight& at) const;
   [[nodiscard]] double between_m2(const PressedHeight& a, const PressedHeight& b) const;
-  /// Of the pose, once World walked for so long.
+  /// The covariance of the pose after World has drifted for this long.
   [[nodiscard]] std::array<double, 36> walked(double time_s) const;
 };
 

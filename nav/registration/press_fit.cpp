@@ -14,26 +14,26 @@ using Pose6 = Eigen::Matrix<double, 6, 1>;
 using Covariance6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 using Rows6 = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-/// Nearer to the surface than this, the direction to it says nothing.
+/// Nearer to the surface than this, the direction to it is meaningless.
 constexpr double kOnSurface_m = 1e-5;
 
 Pose6 pose_of(const std::array<double, 6>& step) { return Eigen::Map<const Pose6>(step.data()); }
 
-/// The heights of places about a pose, what a press leaves taken off, as of the step 0.
+/// The heights of places at a pose (step 0), minus the mean height of a press.
 struct Heights {
   std::vector<PressedHeight> at;
   Eigen::VectorXd above_m;
   Rows6 shared;             ///< with the pose now
-  Eigen::MatrixXd rest_m2;  ///< covariance, but for the model's error
+  Eigen::MatrixXd rest_m2;  ///< covariance without the model's error
 };
 
-/// What every round is about.
+/// The problem that every round solves.
 struct PressProblem {
   const VertebraModel& model;
   Transform<Vertebra, World> from_world;
   std::span<const PressedPlace> places;
   PressCovariance prior;
-  Covariance6 now;  ///< of the pose, once World walked until the last press
+  Covariance6 now;  ///< of the pose, with World's drift until the last press
 };
 
 Heights heights_of(const PressProblem& problem, const Pose6& step) {
@@ -67,7 +67,7 @@ Heights heights_of(const PressProblem& problem, const Pose6& step) {
   return out;
 }
 
-/// By one field.
+/// The result for one field.
 struct Answer {
   ModelError model;
   double log_weight = 0.0;  ///< prior and evidence, up to a constant
@@ -96,7 +96,7 @@ std::optional<Answer> answer(const Heights& heights, const ModelErrorHypothesis&
   out.model = by.error;
   out.inverse = llt.solve(Eigen::MatrixXd::Identity(n, n));
   const Eigen::VectorXd weighed = out.inverse * heights.above_m;
-  // The heights are to become what a press leaves.
+  // The step that brings the heights to the mean height of a press.
   out.step = -heights.shared.transpose() * weighed;
   out.covariance = now - heights.shared.transpose() * out.inverse * heights.shared;
   out.covariance = 0.5 * (out.covariance + out.covariance.transpose()).eval();
@@ -114,8 +114,8 @@ Eigen::ArrayXd normalized(const Eigen::ArrayXd& logs) {
   return weights / weights.sum();
 }
 
-/// Each place against all others, with the model's error that these alone suggest; otherwise one
-/// that slipped would look like a bad model.
+/// Compares each place with the prediction from all others, with the model error estimated from
+/// those alone; otherwise a press that slipped would look like a bad model.
 void leave_one_out(const std::vector<Answer>& answers, PressFit& out) {
   const auto fields = static_cast<Eigen::Index>(answers.size());
   for (Eigen::Index i = 0; i < answers.front().off_m.size(); ++i) {
@@ -166,14 +166,14 @@ Pose6 mean_of(const std::vector<Answer>& answers) {
   return mean;
 }
 
-/// The heights about a step of the pose, and what they answer.
+/// The heights at a step of the pose, and the resulting answers.
 struct Round {
   std::vector<Answer> answers;
   Heights heights;
   Pose6 mean;
 };
 
-/// Nothing where a number is not finite.
+/// Nothing if a number is not finite.
 std::optional<Round> round_at(const PressProblem& problem, const Pose6& step,
                               std::span<const ModelErrorHypothesis> by) {
   Heights heights = heights_of(problem, step);
@@ -186,13 +186,14 @@ std::optional<Round> round_at(const PressProblem& problem, const Pose6& step,
                           : std::nullopt;
 }
 
-/// The last round, from which the pose hardly moves any more.
+/// Repeats rounds until the pose hardly moves; returns the last one.
 std::optional<Round> last_round(const PressProblem& problem) {
   constexpr int kRounds = 6;
   constexpr int kRoundsByAll = 2;
   constexpr double kStands_m = 1e-6;
   const std::optional<ModelError>& known = problem.prior.press.model;
-  // The directions to the bone stand for any model; what they stand for is told by all of them.
+  // The directions to the bone do not depend on the model error: a typical one is used to find
+  // them, and all of them are used for the result.
   const std::vector<ModelErrorHypothesis> usual = {
       {known.value_or(ModelError{kUsualModelError_m}), 0.0}};
   Pose6 at = Pose6::Zero();

@@ -13,10 +13,11 @@
 namespace orthonav::nav {
 namespace {
 
-/// What the noise of a tip at rest for a second leaves.
+/// The SD that averaging a tip at rest for a second leaves.
 constexpr double kUsualSd_m = 0.0002;
 
-/// Places touched do not see what the strokes were refused for otherwise.
+/// Judges the registration again; touched places can't remove the other reasons for which the
+/// strokes were refused.
 void judge(const PoseSearchRegistrationOptions& options, Registration& r) {
   using Kind = RefusalReason::Kind;
   std::erase_if(r.reasons, [](const RefusalReason& reason) {
@@ -32,8 +33,8 @@ void judge(const PoseSearchRegistrationOptions& options, Registration& r) {
 
 using Covariance6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
-/// What World's walk makes of the pose's covariance after all presses, by the gain of the likeliest
-/// field.
+/// The part of the pose's covariance after all presses that comes from World's drift, by the gain
+/// of the likeliest field.
 Covariance6 walk_left(const PressFit& fit, const PressModel& press) {
   const double walk_m2 = press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s;
   const auto n = static_cast<Eigen::Index>(fit.heights.size());
@@ -57,8 +58,8 @@ Covariance6 walk_left(const PressFit& fit, const PressModel& press) {
   return walk_m2 * left;
 }
 
-/// The pose's covariance without World's walk. The gain of one field does not quite fit the
-/// covariance of all of them: where the difference is none, the walk stays in.
+/// The pose's covariance without World's walk. The gain of one field does not quite match the
+/// covariance of all of them: if the difference is not a covariance, the drift is kept.
 std::array<double, 36> without_walk(const PressFit& fit, const PressModel& press) {
   std::array<double, 36> own = fit.covariance;
   Eigen::Map<Covariance6> left(own.data());

@@ -14,12 +14,12 @@ struct PrincipalAxes {
   std::array<double, 3> deviation_m{};  ///< standard deviation along each axis
 };
 
-/// `weights` empty: all alike. Needs at least one finite point and a positive sum of weights.
-/// The signs of the axes are arbitrary but repeatable.
+/// `weights` empty: all equal. Needs at least one finite point and a positive sum of weights. The
+/// signs of the axes are arbitrary but repeatable.
 [[nodiscard]] PrincipalAxes principal_axes(std::span<const Vec3> points_m,
                                            std::span<const double> weights = {});
 
-/// The outermost points along each axis (Liebmann et al. 2019, eq. 1): least and greatest along the
+/// The outermost points along each axis (Liebmann et al. 2019, eq. 1): lowest and highest along the
 /// first, the second, the third.
 [[nodiscard]] std::array<Vec3, 6> extreme_points(std::span<const Vec3> points_m,
                                                  const PrincipalAxes& axes);

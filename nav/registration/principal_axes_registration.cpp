@@ -16,7 +16,7 @@ void judge(const VertebraModel& model, const RegistrationOptions& options, Regis
   if (!(r.rmse_m <= options.max_rmse_m)) {
     r.reasons.push_back({Kind::kRmse, r.rmse_m, options.max_rmse_m, {}, {}});
   }
-  // Two starts that end in the same pose agree; only another pose is a rival.
+  // Two starts that end in the same pose agree; only a different pose is a rival.
   const bool rival = differ_clearly(model, r.world_from_vertebra, r.runner_up);
   if (rival && !(r.runner_up_rmse_m >= options.min_runner_up_ratio * r.rmse_m)) {
     r.reasons.push_back(

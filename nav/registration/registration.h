@@ -19,12 +19,13 @@
 
 namespace orthonav::nav {
 
-/// Raise it with every change after which the same mesh is prepared otherwise: what was kept of
-/// earlier preparations (engine/case/model_cache.h) is then made anew. A test holds it against the
-/// figures of a known bone.
+/// Raise this with every change that prepares the same mesh differently: stored preparations
+/// (engine/case/model_cache.h) are then made again. A test checks it against the figures of a known
+/// bone.
 inline constexpr std::uint32_t kPreparationVersion = 1;
 
-/// What is slow to make of a vertebra, as plain numbers that can be kept.
+/// The parts of a vertebra's preparation that are slow to compute, as plain numbers that can be
+/// stored.
 struct PreparedParts {
   std::vector<std::uint32_t> reachable;  ///< faces, ascending
   std::vector<Vec3> closest_m;           ///< of `reachable_grid`
@@ -36,9 +37,9 @@ struct PreparedParts {
 class VertebraModel {
  public:
   static Result<std::shared_ptr<const VertebraModel>> prepare(TriangleMesh mesh);
-  /// The same, sooner, from the parts that an earlier preparation of this mesh gave. Refuses parts
-  /// that are not this mesh's as far as their counts and some hundred samples tell: enough against
-  /// mix-ups, not against malice. Parts with wrong numbers never crash.
+  /// The same, but faster, from the parts of an earlier preparation of this mesh. Refuses parts of
+  /// another mesh, judged by their counts and a hundred or so samples: enough against mix-ups, not
+  /// against malice. Parts with wrong numbers never cause a crash.
   static Result<std::shared_ptr<const VertebraModel>> restore(TriangleMesh mesh,
                                                               PreparedParts parts);
   [[nodiscard]] PreparedParts parts() const;
@@ -52,7 +53,7 @@ class VertebraModel {
   [[nodiscard]] const std::vector<std::uint32_t>& reachable_faces() const {
     return reachable_faces_;
   }
-  /// Its closest points, roughly and fast.
+  /// Approximate closest points by fast look-up.
   [[nodiscard]] const ClosestGrid& reachable_grid() const { return reachable_grid_; }
   /// Principal axes of the reachable surface (by area) and its extreme points along them.
   [[nodiscard]] const PrincipalAxes& reachable_axes() const { return reachable_axes_; }
@@ -77,22 +78,22 @@ class VertebraModel {
 struct RegistrationOptions {
   std::size_t min_points = 100;
   int max_iterations = 200;
-  double converged_m = 1e-8;  ///< change of the RMSE that ends ICP; it creeps towards its end
+  double converged_m = 1e-8;  ///< change of the RMSE that ends ICP, which converges slowly
   double max_rmse_m = 0.003;  ///< above: refused
-  /// Runner-up RMSE / RMSE that is still taken. With full strokes a wrong pose fits at least twice
-  /// as badly; where two fit alike, the strokes don't tell.
+  /// Least accepted ratio of the runner-up's RMSE to the RMSE. With full strokes a wrong pose fits
+  /// at least twice as badly; if two poses fit equally well, the strokes are ambiguous.
   double min_runner_up_ratio = 1.25;
   /// Error to expect at the model's centre (nav/registration/tre.h); above: refused.
   double max_predicted_tre_m = 0.003;
 };
 
-/// Another vertebra of the patient, which the strokes might belong to.
+/// Another vertebra of the patient, to which the strokes might belong.
 struct NeighbourLevel {
   std::string label;
   const VertebraModel* model = nullptr;
 };
 
-/// How high the tip stood above the bone, at one place.
+/// How high the tip was above the bone, at one place.
 struct EstimatedHeight {
   Point<Vertebra> at;
   double height_m = 0.0;
@@ -100,39 +101,40 @@ struct EstimatedHeight {
 
 struct PoseSearchRegistrationOptions {
   std::size_t min_points = 100;
-  /// Where the pose must be sure: the plan's entries and targets. Without any, places where screws
-  /// usually go are taken.
+  /// Where the pose must be certain: the plan's entries and targets. If empty, places where screws
+  /// usually go are used.
   std::vector<Point<Vertebra>> targets;
   /// Root mean square error to expect at the worst of them; above: refused.
   double max_predicted_tre_m = 0.0015;
-  /// What 99 of 100 errors are below, at the worst of them; above: refused.
+  /// The error that 99 of 100 stay below, at the worst of them; above: refused.
   double max_tre_99_m = 0.002;
   /// By how much another pose must explain the points worse (log-likelihood ratio).
   double min_log_likelihood_ratio = 12.0;
   double max_noise_m = 0.0016;          ///< SD of the points about the surface
   double min_inlier_fraction = 0.7;     ///< of the points that lie on the surface within the noise
   double min_coverage_fraction = 0.10;  ///< of the reachable surface within 5 mm of a point
-  double tip_radius_m = 0.0;            ///< of a ball at the pointer's end
-  /// How exactly each point was tracked (SD along an axis): those known better count for more.
-  /// Empty: all alike.
+  double tip_radius_m = 0.0;            ///< of the ball at the pointer's end
+  /// How exactly each point was tracked (SD along an axis): better known points count more. Empty:
+  /// all equal.
   std::vector<double> point_sd_m;
-  /// From the tip back along the pointer's shaft, unit vectors in World: where it was is no bone.
-  /// Empty: not known.
+  /// From the tip back along the pointer's shaft, unit vectors in World: there can be no bone where
+  /// the shaft was. Empty: not known.
   std::vector<Vec3> shafts;
   double max_shaft_collision_fraction = 0.15;  ///< of the points whose shaft would go through bone
   std::vector<NeighbourLevel> neighbours;
   CommonErrors common;
   /// By how much (natural logarithm) the model's mirror image may explain the points better; and
-  /// how far off the model's size may be.
+  /// how far the model's size may be off.
   double max_mirror_log_likelihood = 4.0;
   double max_size_off = 0.015;
 };
 
-/// What registration says. `accepted` false: `reasons` tells why, nothing may be guided on it.
+/// The result of a registration. If `accepted` is false, `reasons` says why, and it must not be
+/// used for guidance.
 struct Registration {
   bool accepted = false;
   std::vector<RefusalReason> reasons;
-  /// Refused, but for the error at the screws only: places pressed to the bone can take it away
+  /// Refused only because of the error at the screws, which pressing places on the bone can reduce
   /// (nav/registration/pressed_places.h).
   bool provisional = false;
   Transform<World, Vertebra> world_from_vertebra;
@@ -141,59 +143,61 @@ struct Registration {
   Transform<World, Vertebra> runner_up;
   int iterations = 0;
   std::size_t points = 0;
-  /// What the points leave open, with the errors in common; absent when a whole motion is.
+  /// The remaining uncertainty, including common errors; absent if a motion is undetermined.
   std::optional<PoseUncertainty> uncertainty;
-  /// Root mean square error to expect, `paper` at the centre of the model, `best` at the worst
-  /// target; of the registration alone. Infinite when a motion is open.
+  /// Root mean square error to expect from the registration alone: with `paper` at the centre of
+  /// the model, with `best` at the worst target. Infinite if a motion is undetermined.
   double predicted_tre_m = 0.0;
 
-  // What `best` says besides; zero and empty with `paper`.
-  double tre_95_m = 0.0;  ///< what 95 of 100 errors are below, at the worst target
+  // Reported by `best` only; zero or empty with `paper`.
+  double tre_95_m = 0.0;  ///< the error that 95 of 100 stay below, at the worst target
   double tre_99_m = 0.0;
-  CommonErrors common;            ///< that are in `uncertainty`, and nowhere else
-  double noise_m = 0.0;           ///< SD of the points about the surface, outliers left aside
-  double standoff_m = 0.0;        ///< mean height of the tip above the bone; 0 where not certain
-  double inlier_fraction = 0.0;   ///< of the points
-  double effective_points = 0.0;  ///< independent ones that would tell as much
+  CommonErrors common;                ///< included in `uncertainty`, and nowhere else
+  double noise_m = 0.0;               ///< SD of the points about the surface, without outliers
+  double standoff_m = 0.0;            ///< mean height of the tip above the bone; 0 if not certain
+  double inlier_fraction = 0.0;       ///< of the points
+  double effective_points = 0.0;      ///< number of independent points with the same information
   double log_likelihood_ratio = 0.0;  ///< against the runner-up
   double coverage_fraction = 0.0;     ///< of the reachable surface
-  double shaft_collision_fraction =
-      0.0;  ///< of the points whose pointer would have gone through bone
-  /// The motion known worst, and the part of the bone whose strokes would tell most.
+  double shaft_collision_fraction = 0.0;  ///< of the points whose pointer would have gone through
+                                          ///< bone
+  /// The least certain motion, and the part of the bone where strokes would help most.
   std::optional<UncertainMotion> weakest;
   std::optional<BonePlace> stroke_next;
-  Point<Vertebra> stroke_next_at;  ///< where there is one
+  Point<Vertebra> stroke_next_at;  ///< if there is one
   /// SD over the bone of the tip's height: soft tissue, or a model that is not quite the bone.
   double field_sd_m = 0.0;
-  std::vector<EstimatedHeight> heights;  ///< of the tip along the strokes, noise left out
-  /// Of the heights of places beside each other on different strokes: about 0 over bare bone.
+  std::vector<EstimatedHeight> heights;  ///< of the tip along the strokes, without noise
+  /// Correlation of the heights of neighbouring places on different strokes: about 0 over bare
+  /// bone.
   double correlation_across_strokes = 0.0;
-  double size = 1.0;  ///< of the bone, as the points say; that of the model is 1
+  double size = 1.0;  ///< of the bone relative to the model, from the points
   double size_sd = 0.0;
-  double mirror_log_likelihood = 0.0;  ///< of the mirror image, against the model as it is
-  std::size_t levels_compared = 0;  ///< other levels of the patient that the points were tried on
-  std::string fits_better;  ///< label of a neighbouring level that the points fit as well or better
+  double mirror_log_likelihood = 0.0;  ///< of the mirror image, relative to the model itself
+  std::size_t levels_compared = 0;     ///< number of other levels of the patient that were tried
+  std::string fits_better;  ///< label of a neighbouring level that fits the points as well or
+                            ///< better
 };
 
 /// The published method: PCA extreme points (paper eq. 1) give the coarse poses, of which the two
-/// best configurations remain (nav/registration/coarse.h says where it goes further than eq. 2),
-/// ICP (Besl & McKay 1992) refines both on the reachable surface, the smaller RMSE wins. An Error
-/// means unusable input (too few, collinear, non-finite points).
+/// best configurations are kept (nav/registration/coarse.h says where this goes beyond eq. 2); ICP
+/// (Besl & McKay 1992) refines both on the reachable surface; the smaller RMSE wins. An Error means
+/// unusable input (too few, collinear or non-finite points).
 Result<Registration> register_by_principal_axes(const VertebraModel& model,
                                                 std::span<const Point<World>> points_in_world,
                                                 const RegistrationOptions& options = {});
 
-/// Every pose is searched for, the best ones are fitted exactly and robustly
-/// (docs/registration.md). Accepted only when nothing else explains the points, the error to expect
-/// at every target is small, and no neighbouring level fits as well. `points_in_world` in the order
-/// of time.
+/// Searches all poses and fits the best ones exactly and robustly (docs/registration.md). Accepted
+/// only if nothing else explains the points, the error to expect at every target is small, and no
+/// neighbouring level fits as well. `points_in_world` must be in the order of time.
 Result<Registration> register_by_pose_search(const VertebraModel& model,
                                              std::span<const Point<World>> points_in_world,
                                              const PoseSearchRegistrationOptions& options = {});
 
-/// What keeps points from being registered at all: too few, not finite, all over the place, a line.
+/// Refuses points that can't be registered at all: too few, not finite, spread too widely, on a
+/// line.
 Status validate_points(std::span<const Point<World>> points, std::size_t min_points);
-/// What is wrong with standard deviations that shall be theirs; none are fine.
+/// Refuses unusable standard deviations of the points; an empty list is fine.
 Status check_point_sds(std::span<const double> sd_m, std::size_t points);
 
 }  // namespace orthonav::nav

@@ -25,26 +25,26 @@ constexpr std::size_t kFewestUnits = 12;
 constexpr std::array<double, 3> kLengths_m = {0.008, 0.020, 0.050};
 constexpr std::array<double, 6> kSds_m = {0.00007, 0.00015, 0.0003, 0.0006, 0.0011, 0.002};
 constexpr std::array<double, 5> kStrokeSds_m = {0.00015, 0.0003, 0.0006, 0.0011, 0.002};
-/// How slowly a hand wanders is a matter of chance over one set of strokes: were it taken for known
-/// over bare bone, a slow hand would look like tissue.
+/// In a single set of strokes, the correlation time of a hand's wandering varies by chance: if it
+/// were assumed known, a slow hand over bare bone would look like tissue.
 constexpr std::array<double, 3> kNoiseTimes = {0.6, 1.0, 1.7};
 constexpr double kFields = kLengths_m.size() * kSds_m.size();
 constexpr double kStrokes = kStrokeSds_m.size();
-/// Before anything was stroked: the bone is bare and the hand even; there is a field; each stroke
-/// has a height of its own; or both. Those of a kind are alike.
+/// Prior probabilities: the bone is bare and the hand even; there is a field; each stroke has its
+/// own height; or both. Hypotheses of the same kind are equally likely.
 constexpr double kBareProbability = 0.5;
 constexpr double kFieldProbability = 0.25;
 constexpr double kStrokesProbability = 0.125;
 constexpr double kBothProbability = 0.125;
-/// Strokes' heights are tried beside so many fields, those that explain most without.
+/// Strokes' heights are tried with this many fields: those that explain most without them.
 constexpr std::size_t kFieldsBesideStrokes = 2;
-/// A field of this much more than what the heights vary by is not tried.
+/// A field with more than this many times the variance of the heights is not tried.
 constexpr double kMostVariance = 4.0;
 /// Larger SDs are not tried once the evidence has fallen by this from its maximum.
 constexpr double kEvidenceLost = 8.0;
 constexpr double kLeastProbability = 0.003;
-/// Factors of the variance for what this model of the heights leaves out: measured on strokes over
-/// soft tissue (bench_registration --tissue-mm).
+/// Factors on the variance for effects that this model of the heights neglects, measured on strokes
+/// over soft tissue (bench_registration --tissue-mm).
 constexpr double kUnseen = 1.15;
 constexpr double kUnseenWithField = 1.7;
 
@@ -54,7 +54,7 @@ struct Tried {
   double log_prior = 0.0;
 };
 
-/// Every hypothesis, each with what it says about the unknowns.
+/// Tries hypotheses and keeps what each says about the unknowns.
 class Trial {
  public:
   Trial(const SurfaceFit& fit, const ResidualUnits& units)
@@ -62,7 +62,7 @@ class Trial {
 
   [[nodiscard]] bool has_noise() const { return !seen_.covariance_m2.empty(); }
 
-  /// Of single points' heights.
+  /// Variance of the heights of single points.
   [[nodiscard]] double variance_m2() const { return seen_.covariance_m2[0]; }
 
   std::vector<Tried> all() {
@@ -94,7 +94,7 @@ class Trial {
   }
 
  private:
-  /// With an SD that grows until it is far too large.
+  /// Tries growing SDs until they are far too large.
   void consider_growing(std::span<const double> sds_m, FieldHypothesis field,
                         double FieldHypothesis::*sd) {
     double most = -std::numeric_limits<double>::infinity();
@@ -184,7 +184,7 @@ void find_size(const std::vector<Tried>& tried, double log_evidence, ResidualFie
   out.size_sd = std::sqrt(std::max(0.0, square - mean * mean));
 }
 
-/// The number of points, by how much more the pose varies than if all were independent.
+/// The number of points, reduced by how much more the pose varies than if all were independent.
 double effective_points(const ResidualUnits& units, double variance_m2,
                         const UnknownsSpread& covariance) {
   using Pose = Eigen::Matrix<double, 6, 6>;
@@ -196,7 +196,7 @@ double effective_points(const ResidualUnits& units, double variance_m2,
     all += unit.weight / variance_m2 * j * j.transpose();
     points += unit.weight;
   }
-  // About the pose, the standoff being unknown.
+  // Information about the pose, with the standoff unknown.
   const Pose information = all.topLeftCorner<6, 6>() -
                            all.topRightCorner<6, 1>() * all.bottomLeftCorner<1, 6>() / all(6, 6);
   const double repeated = (covariance.topLeftCorner<6, 6>() * information).trace() / 6.0;
@@ -226,7 +226,7 @@ UnknownsMean average(const std::vector<Tried>& tried, ResidualField& out) {
   return mean;
 }
 
-/// Of each hypothesis, and between them.
+/// The covariance within each hypothesis, and between them.
 UnknownsSpread total_covariance(const std::vector<Tried>& tried, const UnknownsMean& mean,
                                 double log_evidence) {
   UnknownsSpread covariance = UnknownsSpread::Zero();

@@ -6,19 +6,21 @@
 namespace orthonav::nav {
 namespace {
 
-/// The hand forgets within 4 s at 30 Hz.
+/// 4 s at 30 Hz: longer than a hand's wandering stays correlated.
 constexpr std::size_t kLongestLag = 120;
 constexpr double kFewestPairs = 30.0;
-/// The autocorrelation is followed until it falls below this; smaller values drown in chance.
+/// The autocorrelation is followed until it falls below this; smaller values are dominated by
+/// chance.
 constexpr double kNoiseCorrelation = 0.1;
 constexpr double kSlowest = 0.985;
 constexpr double kFastest = 0.05;
-/// At least this fraction of the variance is noise, and of the noise white.
+/// At least this fraction of the variance is noise, and at least this fraction of the noise is
+/// white.
 constexpr double kLeastNoise = 0.05;
 constexpr double kLeastWhite = 0.01;
 
-/// The ratio of a geometric series that begins with 1 and whose first `terms` are `sum` together:
-/// all lags tell of it, where the last one alone would be a matter of chance.
+/// The ratio of a geometric series that begins with 1 and whose first `terms` add up to `sum`: this
+/// uses all lags, while the last one alone would be dominated by chance.
 double ratio_of_series(double sum, std::size_t terms) {
   double low = kFastest;
   double high = kSlowest;
@@ -37,7 +39,7 @@ struct Weighed {
   int stroke = 0;
 };
 
-/// Beside each other in memory, along the strokes.
+/// The points along the strokes, contiguous in memory.
 std::vector<Weighed> weighed(const SurfaceFit& fit, const ResidualUnits& units) {
   std::vector<Weighed> out;
   out.reserve(units.order.size());

@@ -16,17 +16,17 @@ constexpr double kSmallestCell_m = 0.005;
 constexpr double kLargestCell_m = 0.1;
 constexpr double kGrows = 1.25;
 
-/// Two samples this close are one that was sent again or resampled. A moving hand goes farther, and
-/// a resting one scatters more by tracking noise.
+/// Two samples this close are the same one, repeated or resampled. A moving hand moves farther, and
+/// tracking noise scatters a resting one by more.
 constexpr double kSamePoint_m = 0.00005;
 
-/// Places that were seen, in cells of which a place's surroundings meet a few only.
+/// The places seen so far, in cells, so that only a few cells near a place have to be searched.
 class SeenPlaces {
  public:
   explicit SeenPlaces(std::size_t count) : next_(count), places_m_(count) {
     heads_.assign(std::bit_ceil(2 * std::max<std::size_t>(count, 1)), kNone);
   }
-  /// Whether none was seen near it; then it is seen from now on.
+  /// Whether no place was seen near it; it then counts as seen.
   bool is_new(Vec3 p) {
     const GridCell low = cell(p - Vec3{kSamePoint_m, kSamePoint_m, kSamePoint_m});
     const GridCell high = cell(p + Vec3{kSamePoint_m, kSamePoint_m, kSamePoint_m});
@@ -68,7 +68,7 @@ class SeenPlaces {
   std::size_t seen_ = 0;
 };
 
-/// What is repeated tells nothing new, whatever came in between.
+/// A repeated point adds nothing, even if others came in between.
 std::vector<std::uint32_t> different_points(const SurfaceFit& fit) {
   SeenPlaces seen(fit.points.size());
   std::vector<std::uint32_t> out;
@@ -98,7 +98,7 @@ double find_strokes(const SurfaceFit& fit, ResidualUnits& out, std::vector<doubl
   return length_m;
 }
 
-/// What a unit's points say by this fit.
+/// Fills in a unit's values from its points in this fit.
 void fill(const SurfaceFit& fit, const ResidualUnits& units, ResidualUnit& unit) {
   unit.weight = unit.height_m = 0.0;
   unit.derivative = {};
@@ -145,7 +145,7 @@ void cut_strokes(const SurfaceFit& fit, const std::vector<double>& along_m, doub
   }
 }
 
-/// Points in no order: each cell of space is a unit, and a stroke of its own.
+/// For unordered points: each cell of space is a unit and a stroke of its own.
 void cut_space(const SurfaceFit& fit, std::size_t most, ResidualUnits& out) {
   std::map<std::array<long, 3>, std::vector<std::uint32_t>> cells;
   for (double cell_m = kSmallestCell_m; cell_m < kLargestCell_m; cell_m *= kGrows) {

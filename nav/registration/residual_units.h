@@ -10,13 +10,13 @@
 
 namespace orthonav::nav {
 
-/// Height above the bone by translation and rotation of the points (about their centre), by the
-/// standoff, and by the model's size (natural logarithm).
+/// The unknowns of a height above the bone: translation and rotation of the points (about their
+/// centre), standoff, and model size (natural logarithm).
 inline constexpr std::size_t kHeightUnknowns = 8;
 inline constexpr std::size_t kStandoffUnknown = 6;
 inline constexpr std::size_t kSizeUnknown = 7;
 
-/// Some millimetres of a stroke, whose points count as one.
+/// A few millimetres of a stroke, whose points count as one.
 struct ResidualUnit {
   int stroke = 0;
   std::size_t first = 0;  ///< in `ResidualUnits::order`, and the one after its last
@@ -27,12 +27,12 @@ struct ResidualUnit {
   std::array<double, kHeightUnknowns> derivative{};  ///< of `height_m`, weighted mean
 };
 
-/// The points of a fit that lie on the bone, each place once, along their strokes.
+/// The points of a fit that lie on the bone, each place only once, along their strokes.
 struct ResidualUnits {
   std::vector<ResidualUnit> all;
   std::vector<std::uint32_t> order;  ///< of points
   std::vector<int> stroke;           ///< of each entry of `order`
-  /// False where most steps are leaps. Then a unit is what lies in a cell of space.
+  /// False if most steps are leaps; a unit then consists of the points in a cell of space.
   bool along_strokes = true;
 
   [[nodiscard]] std::span<const std::uint32_t> points_of(const ResidualUnit& unit) const {
@@ -40,11 +40,11 @@ struct ResidualUnits {
   }
 };
 
-/// The same points in the same units, with their heights by another fit.
+/// The same points in the same units, with their heights from another fit.
 [[nodiscard]] ResidualUnits refilled(const ResidualUnits& units, const SurfaceFit& fit);
 
-/// About `most` units at most. A step of more than 8 mm begins another stroke. Points within
-/// 0.05 mm of an earlier one say nothing new and are left out.
+/// At most about `most` units. A step of more than 8 mm begins another stroke. Points within 0.05
+/// mm of an earlier one add nothing and are left out.
 [[nodiscard]] ResidualUnits residual_units(const SurfaceFit& fit, std::size_t most);
 
 }  // namespace orthonav::nav

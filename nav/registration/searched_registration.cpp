@@ -17,8 +17,9 @@ namespace {
 
 /// Points within this many SDs lie on the surface.
 constexpr double kInlierSd = 3.5;
-/// How much larger than it is a bone looks, by the points' variance, 1/m²; and by how much the size
-/// varies more than the heights' model says. Measured on the project's own strokes.
+/// How much larger a bone appears than it is, per variance of the points, 1/m²; and the factor by
+/// which the size varies more than the model of the heights predicts. Measured on the project's own
+/// strokes.
 constexpr double kSizeByScatter = 0.0105 / (0.0009 * 0.0009);
 constexpr double kSizeSds = 1.5;
 
@@ -64,7 +65,7 @@ void drop_impossible(const VertebraModel& model, const Cloud& cloud,
   }
 }
 
-/// Only for the pose that is answered: no choice between poses needs them.
+/// Only for the final pose: the choice between poses does not need them.
 void estimate_heights(const CertainFit& certain, Registration& r) {
   if (!certain.field) {
     return;
@@ -89,8 +90,8 @@ Registration described(const VertebraModel& model, const Cloud& cloud, const Cer
   estimate_errors(model, certain, targets, options.common, r);
   if (certain.field) {
     r.field_sd_m = certain.field->field_sd_m;
-    // Points that scatter about a curved surface lie, on average, outside of it; half of what a
-    // field over the bone does to them is no such scatter.
+    // Points that scatter about a curved surface lie, on average, outside it; half of the field's
+    // variance is not such scatter.
     const double scatter_m2 = r.noise_m * r.noise_m - 0.5 * r.field_sd_m * r.field_sd_m;
     const double too_large = kSizeByScatter * std::max(0.0, scatter_m2);
     r.size = certain.field->size - too_large;
@@ -114,7 +115,7 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
   const std::vector<Point<Vertebra>> targets = targets_of(model, options);
   auto [found, width_m] = find_candidates(model, cloud, targets, options.tip_radius_m);
   drop_impossible(model, cloud, points_in_world, options, found);
-  // A rival that turns out to explain all the points better takes the best one's place.
+  // A rival that explains all the points better replaces the best pose.
   constexpr int kMostSwaps = 2;
   for (int swaps = 0;; ++swaps) {
     const auto certain =

@@ -7,11 +7,11 @@
 namespace orthonav::nav {
 namespace {
 
-/// The first millimetres of the shaft are left out: they may graze what the tip touches.
+/// The first millimetres of the shaft are left out: they may graze the bone that the tip touches.
 constexpr double kFrom_m = 0.006;
 constexpr double kTo_m = 0.060;
 constexpr double kStep_m = 0.003;
-/// Shafts have a width, and poses and fields have errors: only what lies deeper than this counts.
+/// Shafts have a width, and poses and fields have errors: only depths beyond this count.
 constexpr double kInside_m = 0.002;
 constexpr std::size_t kShaftsChecked = 300;
 

@@ -7,9 +7,9 @@
 namespace orthonav::nav {
 
 /// Fraction of the points at which, in this pose, the pointer's shaft would have gone through bone:
-/// where the pointer was is free space. `shafts_in_world` are unit vectors from the tip back, one
-/// per point; a point without one (zero) does not count. 0 without any. Looks at some hundred
-/// points.
+/// the space that the pointer occupied must be free. `shafts_in_world` are unit vectors from the
+/// tip back, one per point; a point without one (zero) does not count. 0 without points. Samples a
+/// hundred or so points.
 [[nodiscard]] double shaft_collision_fraction(const VertebraModel& model,
                                               const Transform<World, Vertebra>& world_from_vertebra,
                                               std::span<const Point<World>> points,

@@ -27,7 +27,7 @@ Vec3 middle_of(std::span<const Vec3> points_m) {
   return middle;
 }
 
-/// Next comes, each time, the point farthest from all before it.
+/// Each next point is the one farthest from all before it.
 void order_by_distance(std::vector<Vec3>& points_m, std::size_t count) {
   std::vector<double> distance2(points_m.size(), 1e9);
   for (std::size_t i = 0; i < std::min(count, points_m.size()); ++i) {
@@ -46,7 +46,7 @@ void order_by_distance(std::vector<Vec3>& points_m, std::size_t count) {
 }
 
 struct Cell {
-  Vec3 point;  ///< the first that came
+  Vec3 point;  ///< the first one in the cell
   std::size_t count = 0;
 };
 
@@ -68,7 +68,7 @@ std::vector<Cell> cells_around(Vec3 middle, std::span<const Vec3> points_m, doub
   return cells;
 }
 
-/// Outliers are few but lie apart, where each would have a cell of its own.
+/// Drops sparse cells: outliers are few but far apart, so each would get a cell of its own.
 void drop_lonely(std::vector<Cell>& cells) {
   std::size_t all = 0;
   for (const Cell& cell : cells) {

@@ -8,8 +8,8 @@
 
 namespace orthonav::nav {
 
-/// The points of a cloud about their centre, in such an order that the first few, however many, are
-/// spread evenly over it, no matter how often a place was stroked.
+/// The points of a cloud about their centre, ordered such that the first n, for any n, are spread
+/// evenly over it, no matter how often a place was stroked.
 class SpreadPoints {
  public:
   /// Leaves out points farther than `reach_m` from the middle.

@@ -20,7 +20,7 @@ constexpr double kSdByMedian = 1.4826;
 constexpr double kLeastRest = 0.1;
 constexpr double kRelativeDamping = 1e-9;
 constexpr double kNowhere_m = 1e3;
-/// Allowance for rounding, which must not hide a place that is just as far.
+/// Allowance for rounding, so that a place at exactly the same distance is found.
 constexpr double kRoundingAllowance = 1.0 + 1e-12;
 
 void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double farthest_m,
@@ -30,7 +30,7 @@ void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double
     FittedPoint& out = fit.points[i];
     out.lever_arm_m = fit.pose.rotation * points_m[i];
     const Vec3 query = out.lever_arm_m + fit.pose.centre_m;
-    // The nearest place is no farther than the one that was nearest before.
+    // The nearest place is no farther than the previous nearest one.
     const double within_m =
         std::min(farthest_m, (query - out.nearest_m).norm() * kRoundingAllowance);
     const auto near = surface.nearest(query, within_m);
@@ -44,7 +44,7 @@ void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double
     const Vec3 off = query - near->point_m;
     const double side = off.dot(near->normal) < 0.0 ? -1.0 : 1.0;
     out.residual_m = side * near->distance_m - height_m;
-    // On the surface itself, only the face has a direction.
+    // On the surface itself, only the face gives a direction.
     out.gradient = near->distance_m > 1e-7 ? (side / near->distance_m) * off : near->normal;
   }
 }
@@ -59,9 +59,8 @@ double spread_m(const SurfaceFit& fit, std::vector<double>& scratch) {
   return kSdByMedian * *middle;
 }
 
-/// The residuals' variance consists of what is known of the points' errors, on average, and of the
-/// rest (bone and hand), which is the same for all points. `known_m2`: mean of the squares of
-/// `sd_m`.
+/// The residuals' variance is the mean known variance of the points plus a rest (bone and hand)
+/// that is the same for all points. `known_m2`: mean of the squares of `sd_m`.
 void weigh(std::span<const double> sd_m, double known_m2, SurfaceFit& fit) {
   const double noise_m2 = fit.noise_m * fit.noise_m;
   const double rest_m2 = std::max(noise_m2 - known_m2, kLeastRest * noise_m2);

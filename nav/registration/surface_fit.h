@@ -11,19 +11,19 @@ namespace orthonav::nav {
 struct SurfaceFitOptions {
   int max_iterations = 12;
   double last_step_m = 1e-5;  ///< a shorter step ends the fit
-  double farthest_m = 0.005;  ///< points farther off are ignored on the way
-  double counted_m = 0.012;   ///< and at the end points farther off count as this far
-  double tip_radius_m = 0.0;  ///< of a ball at the pointer's end; the points are its centre
+  double farthest_m = 0.005;  ///< points farther off are ignored during the iterations
+  double counted_m = 0.012;   ///< at the end, points farther off count as this far
+  double tip_radius_m = 0.0;  ///< of the ball at the pointer's end; the points are its centre
   /// Whether a mean height of the tip above the bone (soft tissue, a light hand) is one of the
   /// unknowns: surfaces that face different ways distinguish it from a translation.
   bool with_standoff = false;
-  double first_standoff_m = 0.0;  ///< where it starts from; stays so where it is not an unknown
-  /// For each point, any place on the surface: bounds the first search. Saves time only. Empty:
-  /// none known.
+  double first_standoff_m = 0.0;  ///< starting value; fixed if it is not an unknown
+  /// For each point, any place on the surface, which limits the first search. Only saves time.
+  /// Empty: none known.
   std::span<const Vec3> near_m{};
   /// SD of each point, as far as it is known; empty: all equal.
   std::span<const double> point_sd_m{};
-  /// Limits of the SD that residuals are taken to have.
+  /// Limits of the assumed SD of the residuals.
   double least_noise_m = 0.00015;
   double most_noise_m = 0.002;
 };
@@ -34,9 +34,9 @@ struct FittedPoint {
   Vec3 gradient;            ///< of the residual by the point's position
   Vec3 nearest_m;           ///< on the surface
   double residual_m = 0.0;  ///< outside the surface positive
-  double weight = 0.0;      ///< in [0, 1]: robust weight, and what is known of the point
-  double precision = 1.0;   ///< what is known of the point alone, in that of the points' mean
-  /// What a fit that is not robust may count it for: nothing beyond 3 SDs.
+  double weight = 0.0;      ///< in [0, 1]: robust weight times the point's precision
+  double precision = 1.0;   ///< of the point, relative to the mean of the points
+  /// Its weight in a fit that is not robust: zero beyond 3 SDs.
   [[nodiscard]] double inlier_precision() const {
     return weight > 0.1 * precision ? precision : 0.0;
   }

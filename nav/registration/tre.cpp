@@ -46,7 +46,7 @@ std::vector<Touch> touches(const VertebraModel& model, const Transform<World, Ve
   return found;
 }
 
-/// What one touch says about (translation, rotation · lever arm): its residual's derivative.
+/// The derivative of a touch's residual by (translation, rotation · lever arm).
 Vector6 derivative(const Touch& touch, Vec3 centre_m) {
   const Vec3 by_rotation = (touch.at_m - centre_m).cross(touch.normal) / kLever_m;
   Vector6 j;
@@ -70,7 +70,7 @@ Matrix6 information(const std::vector<Touch>& sorted, Vec3 centre_m) {
   return sum;
 }
 
-/// Of the standard normal distribution, by bisection: it is needed seldom.
+/// Quantile of the standard normal distribution, by bisection: it is rarely needed.
 double normal_quantile(double probability) {
   double low = -8.0;
   double high = 8.0;
@@ -172,8 +172,8 @@ PoseUncertainty with_common(const PoseUncertainty& own, const CommonErrors& comm
 }
 PoseUncertainty with_turn(const PoseUncertainty& own, Point<Vertebra> about, Vec3 axis,
                           double sd_rad) {
-  // w about a place p is w about the centre c and the shift w x (c - p): two columns, one for each
-  // direction across.
+  // A rotation w about a place p is w about the centre c plus the shift w x (c - p): two columns,
+  // one for each direction across.
   auto covariance = own.covariance();
   const Vec3 any = std::abs(axis[0]) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 across = axis.cross(any).normalized();

@@ -13,14 +13,13 @@ class VertebraModel;
 /// How far a surface registration leaves the bone free to move, and so the error to expect at a
 /// target (the surface counterpart of Fitzpatrick & West 2001, "The distribution of target
 /// registration error in rigid-body point-based registration"). A residual along the surface's
-/// normal says about the six motions what a plane can say; the inverse of that information, times
-/// the squared residual, is the covariance of the pose (Simon 1996, "Fast and accurate shape-based
+/// normal constrains the six motions as a plane does; the inverse of that information, times the
+/// squared residual, is the covariance of the pose (Simon 1996, "Fast and accurate shape-based
 /// registration", section 4). Points of a stroke share the tracker's error, so all points within 5
-/// mm count as one. Errors common to all points are added by
-/// `with_common`.
+/// mm count as one. Errors common to all points are added by `with_common`.
 class PoseUncertainty {
  public:
-  /// An Error when the points leave a motion wholly undetermined (a plane, a ball, a cylinder).
+  /// An Error if the points leave a motion completely undetermined (a plane, a ball, a cylinder).
   static Result<PoseUncertainty> estimate(const VertebraModel& model,
                                           const Transform<World, Vertebra>& world_from_vertebra,
                                           std::span<const Point<World>> points_in_world);
@@ -46,18 +45,18 @@ class PoseUncertainty {
       covariance_{};  ///< row-major, of (translation m, rotation rad) about the centre
 };
 
-/// SD along each axis of what shifts all points alike, by its source; 0 where nobody knows it. No
-/// residual shows it.
+/// SD along each axis of errors that shift all points equally, by source; 0 if unknown. Residuals
+/// do not show them.
 struct CommonErrors {
-  double tip_m = 0.0;      ///< of the pointer, as its calibration leaves it
-  double cameras_m = 0.0;  ///< of where calibrated cameras see a tool
-  double map_m = 0.0;      ///< of World against the patient since the bone was stroked
-  /// Of all of them together, along each axis.
+  double tip_m = 0.0;      ///< of the pointer's tip, from its calibration
+  double cameras_m = 0.0;  ///< of the position at which calibrated cameras see a tool
+  double map_m = 0.0;      ///< of World relative to the patient since the bone was stroked
+  /// The SD of all of them together, along each axis.
   [[nodiscard]] double sd_m() const;
 };
-/// An uncertainty with errors in common added, and without them again.
+/// Adds common errors to an uncertainty, and removes them again.
 [[nodiscard]] PoseUncertainty with_common(const PoseUncertainty& own, const CommonErrors& common);
-/// An uncertainty with a turn about a place added, of this SD about each direction across `axis`
+/// Adds to an uncertainty a rotation about a place, of this SD about each direction across `axis`
 /// (unit).
 [[nodiscard]] PoseUncertainty with_turn(const PoseUncertainty& own, Point<Vertebra> about,
                                         Vec3 axis, double sd_rad);

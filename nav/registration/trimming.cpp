@@ -45,8 +45,8 @@ bool is_visible(const SurfaceIndex& surface, const Triangle& triangle,
   });
 }
 
-/// The vertebra seen along its axis, one cell per square millimetre: what is bone and what is
-/// outside; the largest remaining region is the canal.
+/// The vertebra seen along its axis, one cell per square millimetre, marked as bone or outside; the
+/// largest remaining region is the canal.
 class AxialView {
  public:
   AxialView(const SurfaceIndex& surface, const Bounds& b)

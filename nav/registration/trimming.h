@@ -9,13 +9,13 @@ namespace orthonav::nav {
 
 /// The faces of a vertebra (axes LPS, closed, outward-oriented, metres) that a pointer coming from
 /// behind can touch: faces with a free line of sight to the back, within 75 degrees to either side
-/// and 40 degrees up and down, and behind the front wall of the canal. So the body's wall is
-/// excluded even where it can be seen between the laminae, which soft tissue covers. Small islands
+/// and 40 degrees up and down, and behind the front wall of the canal. This excludes the body's
+/// wall even where it can be seen between the laminae, since soft tissue covers it. Small islands
 /// are dropped. Ascending.
 std::vector<std::uint32_t> faces_reachable_from_behind(const TriangleMesh& mesh,
                                                        const SurfaceIndex& surface);
 
-/// Both at once.
+/// The trimmed mesh in one call.
 TriangleMesh reachable_from_behind(const TriangleMesh& mesh, const SurfaceIndex& surface);
 
 /// Whether the face can be seen from behind, even if it lies in front of the canal or on an island.

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kStroked_m = 0.004;
 constexpr double kUnstroked_m = 0.006;
-/// Of points closer together than this, one is enough; the limits move by no more than that.
+/// Only one of several points closer together than this is used; the limits move by no more than
+/// that.
 constexpr double kThinned_m = 0.0005;
 
 std::vector<Vec3> thinned(const Transform<Vertebra, World>& vertebra_from_world,

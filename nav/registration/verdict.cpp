@@ -6,11 +6,11 @@
 namespace orthonav::nav {
 namespace {
 
-/// A field of less cannot be told from a segmentation's own error.
+/// A smaller field can't be distinguished from a segmentation's own error.
 constexpr double kUneven_m = 0.0003;
-/// A size is off where it is so by this many SDs.
+/// A size counts as off from this many SDs.
 constexpr double kCertainSds = 1.8;
-/// Root mean square error at the screws above which a pose is no start for pressed places.
+/// Root mean square error at the screws above which a pose is not good enough for pressed places.
 constexpr double kMostProvisional_m = 0.004;
 
 }  // namespace
@@ -19,7 +19,7 @@ std::vector<RefusalReason> reasons_against(const Registration& r,
                                            const PoseSearchRegistrationOptions& o) {
   using Kind = RefusalReason::Kind;
   std::vector<RefusalReason> reasons;
-  // Negated comparisons, so that what is not a number refuses.
+  // Negated comparisons, so that NaN is refused.
   const auto at_most = [&](Kind kind, double value, double limit) {
     if (!(value <= limit)) {
       reasons.push_back({kind, value, limit, {}, {}});

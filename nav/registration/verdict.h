@@ -7,16 +7,16 @@
 
 namespace orthonav::nav {
 
-/// Why a registration by the pose search must not be relied on; none when it may.
+/// Why a registration by the pose search must not be relied on; empty if it may be.
 [[nodiscard]] std::vector<RefusalReason> reasons_against(
     const Registration& registration, const PoseSearchRegistrationOptions& limits);
 
-/// The reason that the error at the screws gives, where it does.
+/// The reason due to the error at the screws, if it is too large.
 [[nodiscard]] std::optional<RefusalReason> error_at_screws(
     const Registration& registration, const PoseSearchRegistrationOptions& limits);
 
-/// Whether only the error at the screws speaks against it, and is not too large for places pressed
-/// to the bone to tell it away.
+/// Whether only the error at the screws speaks against it, and is small enough that pressing places
+/// on the bone can reduce it.
 [[nodiscard]] bool is_provisional(const Registration& registration);
 
 }  // namespace orthonav::nav

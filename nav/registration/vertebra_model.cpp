@@ -44,7 +44,7 @@ Status check_faces(const TriangleMesh& mesh, const SurfaceIndex& surface,
 
 }  // namespace
 
-/// What both ways of making a model start with.
+/// The common start of both ways to make a model.
 struct VertebraModel::Surfaces {
   Surfaces(TriangleMesh whole, SurfaceIndex index, std::vector<std::uint32_t> faces)
       : mesh(std::move(whole)),

@@ -9,8 +9,8 @@
 
 namespace orthonav::nav {
 
-// The blocked jackknife (Kuensch 1989): consecutive measurements err together, so whole stretches
-// of them are left out in turn and not single ones.
+// The blocked jackknife (Kuensch 1989): errors of consecutive measurements are correlated, so whole
+// stretches of them are left out in turn, not single ones.
 
 inline constexpr std::size_t kJackknifeBlocks = 10;
 
@@ -25,8 +25,8 @@ inline constexpr std::size_t kJackknifeBlocks = 10;
   return rest;
 }
 
-/// The SD of an estimate from what it was without each tenth; of vectors in all directions
-/// together. 0 for fewer than two.
+/// The SD of an estimate from its values without each tenth; for vectors, the 3-D SD. 0 for fewer
+/// than two.
 [[nodiscard]] inline double jackknife_sd(std::span<const Vec3> without_each) {
   const auto count = static_cast<double>(without_each.size());
   if (count < 2.0) {

@@ -22,14 +22,15 @@ struct Consensus {
   using Indices = std::vector<std::size_t>;
 
   std::size_t count = 0;
-  /// Over some of the measurements; nothing where they determine none.
+  /// A fit to some of the measurements; nothing if they do not determine one.
   std::function<std::optional<Fit>(std::span<const std::size_t>)> fit;
   std::function<double(const Fit&, std::size_t)> miss;  ///< of one measurement, >= 0
-  /// Of as few measurements as determine a fit; nothing where those drawn do not.
+  /// A fit to a minimal random sample; nothing if the sample drawn does not determine one.
   std::function<std::optional<Fit>(Random&)> sample;
-  double limit = 0.0;  ///< a measurement that misses by more is no inlier
-  double least = 0.0;  ///< misses below this are rounding
-  /// The median miss of inliers by their SD in each direction: 1.538 in space, 1.177 in a plane.
+  double limit = 0.0;  ///< a measurement that misses by more is an outlier
+  double least = 0.0;  ///< misses below this count as rounding
+  /// The median miss of inliers divided by their SD in each direction: 1.538 in space, 1.177 in a
+  /// plane.
   double median_of_sd = 0.0;
 
   [[nodiscard]] Indices within(const Fit& found, double limit_of_these) const {
@@ -42,7 +43,7 @@ struct Consensus {
     return inliers;
   }
 
-  /// The fit that most measurements agree with; the plain one when no sample determines one.
+  /// The fit that most measurements agree with; the fit to all of them if no sample determines one.
   [[nodiscard]] std::optional<Fit> best(int rounds, Random& random) const {
     Indices all(count);
     std::iota(all.begin(), all.end(), std::size_t{0});
@@ -53,7 +54,8 @@ struct Consensus {
       if (!tried) {
         continue;
       }
-      // So small a sample amplifies noise: all that agree with it locate the fit better.
+      // A minimal sample amplifies noise; all measurements that agree with it locate the fit
+      // better.
       if (auto again = fit(within(*tried, 2.0 * limit))) {
         tried = std::move(again);
       }
@@ -109,7 +111,8 @@ struct Consensus {
     return sum;
   }
 
-  /// From the measurements nearest to the fit: all but one in some thousands lie within 4.5 SDs.
+  /// The limit from the measurements nearest to the fit: only one in some thousands lies beyond 4.5
+  /// SDs.
   [[nodiscard]] double limit_of_scatter(const Fit& found) const {
     std::vector<double> misses;
     for (const std::size_t i : within(found, limit)) {

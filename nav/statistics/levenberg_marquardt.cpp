@@ -10,9 +10,9 @@ namespace {
 constexpr double kDifference = 1e-6;
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMostDamping = 1e10;
-/// Steps that gain less than this part of the sum are rounding.
+/// Steps that gain less than this fraction of the sum count as rounding.
 constexpr double kLeastGain = 1e-10;
-/// Added to the normal matrix's diagonal, so that what the residuals do not tell has a finite step.
+/// Added to the normal matrix's diagonal, so that undetermined parameters have a finite step.
 constexpr double kLeastCurvature = 1e-6;
 
 double squares_of(const std::vector<double>& residuals) {
@@ -51,7 +51,7 @@ NormalEquations normal_equations(std::vector<double> at, const std::vector<doubl
   return equations;
 }
 
-/// Damps until a step gains. False when none does: this is the bottom.
+/// Increases the damping until a step improves the sum. False if none does: this is the minimum.
 bool step_down(const NormalEquations& equations, const ResidualsOf& of, double& damping,
                LeastSquares& fit) {
   const auto count = static_cast<Eigen::Index>(fit.parameters.size());

@@ -6,8 +6,7 @@
 
 namespace orthonav::nav {
 
-/// The outcome of a check of calibration or accuracy: good; usable, but something should be known;
-/// not to be used.
+/// The outcome of a check of calibration or accuracy: good; usable, with a caveat; not to be used.
 enum class Verdict { kPass, kNote, kFail };
 
 [[nodiscard]] constexpr std::string_view to_text(Verdict verdict) {
@@ -32,7 +31,7 @@ struct Judgement {
     verdict = std::max(verdict, found);
     reason += (reason.empty() ? "" : "; ") + why;
   }
-  /// Says so if there was no finding.
+  /// States that nothing was found, if there is no finding.
   void conclude() {
     if (reason.empty()) {
       reason = "every figure is within its limit";

@@ -14,9 +14,9 @@ struct Reference {
   std::size_t tool = 0;
   /// Absent until it counts.
   std::optional<Transform<World, Marker>> anchored_from_marker;
-  PoseFilter learning;  ///< where it lies, by references that count
+  PoseFilter learning;  ///< where it lies, relative to references that count
   int pairs_learnt = 0;
-  int pairs_elsewhere = 0;  ///< in a row, in which it lay where it should not
+  int pairs_elsewhere = 0;  ///< in a row in which it was not where it should be
 };
 
 class AnchoredTracker final : public ToolTracker {
@@ -67,8 +67,8 @@ class AnchoredTracker final : public ToolTracker {
   [[nodiscard]] const Anchor* anchor() const override { return &anchor_; }
 
  private:
-  /// The surest of those that count; the very first to be seen counts at once and says where the
-  /// anchored World lies.
+  /// The most certain of those that count; the very first one seen counts at once and defines the
+  /// anchored World.
   const Reference* best_in_sight(std::span<const ToolState> seen) {
     const Reference* best = nullptr;
     for (const Reference& reference : references_) {
@@ -92,7 +92,7 @@ class AnchoredTracker final : public ToolTracker {
     return nullptr;
   }
 
-  /// The other references in sight: those that count must lie where they did, the others are
+  /// Checks the other visible references: those that count must be where they were; the others are
   /// learnt.
   void watch(std::span<const ToolState> seen, const Reference& best,
              const Transform<World, Rig>& anchored_from_rig, const StereoFrame& frame) {
@@ -133,7 +133,7 @@ class AnchoredTracker final : public ToolTracker {
     }
   }
 
-  /// Which of two moved nobody knows: one of them says where the anchored World lies from now on.
+  /// It is unknown which of two moved: one of them defines the anchored World from now on.
   void forget_all_but(const Reference& kept) {
     for (Reference& reference : references_) {
       if (&reference != &kept) {

@@ -10,27 +10,28 @@
 
 namespace orthonav::nav {
 
-/// When two references that are both in sight no longer lie as they did.
+/// When two visible references count as having moved relative to each other.
 struct ReferenceLimits {
   double moved_m = 0.001;
   double moved_rad = 0.0105;  ///< 0.6°
-  /// So many pairs in a row: a single pair may be wrong.
+  /// This many pairs in a row must show it: a single pair may be wrong.
   int pairs = 10;
-  /// A further reference counts once it was seen in so many pairs together with one that does.
+  /// A further reference counts once it was seen in this many pairs together with one that already
+  /// counts.
   int learnt_from_pairs = 30;
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// Tracks by `tracker`, with poses relative to the patient references among its tools: a tool and a
-/// reference of the same pair, so that head, map and patient motion cancel. The covariances are
-/// those of the two poses, the reference's at the lever arm to the tool. Without a reference in
-/// sight the tools are predicted for `coast`, then lost; where `tracker` follows no tools, nothing
-/// is filtered or predicted. `known`: where references lie in the World of a resumed operation;
-/// then no reference defines a new one. Refuses tools without a reference, a place of a tool that
-/// is no reference, and limits with problems. `tracker` must give the poses of single pairs
-/// (`ToolState::pair`).
+/// Tracks with `tracker`, and gives poses relative to the patient references among its tools, from
+/// a tool and a reference in the same pair, so that motion of head, map and patient cancels. The
+/// covariances combine those of the two poses, the reference's at the lever arm to the tool.
+/// Without a visible reference the tools are predicted for `coast`, then lost; if `tracker` does
+/// not filter (`follows_tools`), nothing is filtered or predicted. `known`: where references lie in
+/// the World of a resumed operation; no reference then defines a new World. Refuses tools without a
+/// reference, a place for a tool that is not a reference, and invalid limits. `tracker` must give
+/// the poses of single pairs (`ToolState::pair`).
 Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(
     std::unique_ptr<ToolTracker> tracker, Duration coast, const ReferenceLimits& limits = {},
     std::span<const ReferencePlace> known = {});

@@ -7,8 +7,8 @@
 
 namespace orthonav::nav {
 
-/// Grey value at a place between pixel centres; outside the image, that of the nearest edge. The
-/// image must be at least two pixels wide and high.
+/// Grey value at any position, interpolated between pixel centres; outside the image, that of the
+/// nearest edge. The image must be at least two pixels wide and high.
 [[nodiscard]] inline double grey_at(const GreyImage& image, Vec2 place_px) {
   const double x = std::clamp(place_px.x - 0.5, 0.0, image.width_px - 1.0);
   const double y = std::clamp(place_px.y - 0.5, 0.0, image.height_px - 1.0);

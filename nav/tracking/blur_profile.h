@@ -10,8 +10,7 @@ namespace orthonav::nav {
 inline constexpr float kReachSd = 4.0F;
 
 /// e to the x for x in [-8, 0], with a relative error of 3e-6: a polynomial of 2 to the fractional
-/// part, the whole part put into the exponent. The library's function would not become vector
-/// instructions.
+/// part, the whole part put into the exponent. The library's function would not be vectorized.
 inline float exponential(float x) {
   const float y = x * 1.44269504F;
   const int whole = static_cast<int>(y - 0.5F);

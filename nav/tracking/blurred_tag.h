@@ -8,8 +8,8 @@
 
 namespace orthonav::nav {
 
-/// The rays of a camera as the model of a view reads them: the unit-plane point of every pixel's
-/// centre, one array per coordinate, NaN where the camera sees nothing.
+/// The rays of a camera, for the model of a view: the unit-plane point of every pixel's centre, one
+/// array per coordinate, NaN where a pixel has no direction.
 struct RayTable {
   int width_px = 0;
   int height_px = 0;
@@ -21,9 +21,8 @@ struct RayTable {
   explicit RayTable(const CameraModel& camera);
 };
 
-/// A tag's template with what interpolation in it needs: near the edges between a cell and its
-/// neighbours, grey is a polynomial in the fractions of the blur's footprint that lie over each of
-/// them.
+/// A tag's template, prepared for interpolation: near the edges between a cell and its neighbours,
+/// grey is a polynomial in the fractions of the blur's footprint that lie over each of them.
 class BlurredTag {
  public:
   /// `size_m` is measured from outer edge to outer edge of the border.

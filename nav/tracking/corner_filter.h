@@ -12,13 +12,13 @@ struct CornerFilterOptions {
   double acceleration_px = 400.0;
   /// SD of a measured corner coordinate, px.
   double noise_px = 0.1;
-  /// SD of the velocity of a tag that has just come into sight, px/s.
+  /// SD of the velocity of a newly visible tag, px/s.
   double first_velocity_px = 400.0;
 };
 
 /// Constant-velocity Kalman filters for the four corners of one tag in one camera. Corners are
 /// filtered independently; with equal noise and equal history all eight coordinates share their
-/// covariance, so it is kept once. Where the innovations of the whole tag exceed what the model
+/// covariance, so it is kept once. If the innovations of the whole tag exceed what the model
 /// allows, the prediction's covariance is inflated to fit them (a strong tracking filter: Zhou &
 /// Frank 1996), so that a sudden start or turn of the hand isn't smoothed away.
 class CornerFilter {
@@ -36,8 +36,8 @@ class CornerFilter {
 
   /// Forgets everything.
   void stop() { alive_ = false; }
-  /// Adds a measurement; starts afresh when there is no past, when time does not move forward, or
-  /// when the tag has jumped farther than it could move.
+  /// Adds a measurement; restarts if there is none before it, if time does not increase, or if the
+  /// tag jumped farther than it could move.
   void update(const Corners& measured_px, Timestamp time);
 
   struct Prediction {

@@ -28,7 +28,7 @@ constexpr double kTukey = 4.685;
 constexpr double kMadToSd = 1.4826;
 constexpr double kLeastScalePx = 0.05;
 constexpr int kReweightings = 5;
-// Edges that are nearly parallel meet anywhere.
+// The intersection of nearly parallel edges is meaningless.
 constexpr double kLeastSine = 0.05;
 
 struct Line {
@@ -36,7 +36,7 @@ struct Line {
   Vec2 direction;  ///< of length 1
 };
 
-/// Where a ray crosses an edge and how well that shows.
+/// Where a ray crosses an edge, and how clearly.
 struct Crossing {
   Vec2 place;
   double steepness = 0.0;
@@ -122,7 +122,7 @@ std::optional<Line> robust_line(const std::vector<Crossing>& seen) {
   return line;
 }
 
-/// The edge from a to b as the image shows it, or as it was given.
+/// The edge from a to b as found in the image, or as given.
 Line edge(const GreyImage& image, Vec2 a, Vec2 b, double reach_px) {
   const double length_px = (b - a).norm();
   const Vec2 along = (1 / length_px) * (b - a);
@@ -170,7 +170,7 @@ std::array<Vec2, 4> refined_corners(const GreyImage& image, const std::array<Vec
     }
     const double along = cross(after.point - before.point, after.direction) / sine;
     const Vec2 meeting = before.point + along * before.direction;
-    // Farther than edges were searched for, the corner has slid along a misjudged one.
+    // A corner farther off than edges were searched for has slid along a misjudged edge.
     if ((meeting - corners_px[i]).norm() <= 2 * options.reach_px) {
       refined[i] = meeting;
     }

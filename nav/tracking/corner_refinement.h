@@ -8,15 +8,15 @@
 namespace orthonav::nav {
 
 struct CornerRefinementOptions {
-  /// How far across an edge its true position is searched for. Farther out, the next cell appears:
-  /// the cells of a small tag are three pixels wide.
+  /// How far across an edge its true position is searched for. Farther out lies the next cell: the
+  /// cells of a small tag are three pixels wide.
   double reach_px = 1.25;
 };
 
 /// The corners of a dark or bright square, moved to where its four edges meet. Each edge is the
 /// line through the places of steepest grey on rays across it, weighted by the steepness; rays that
 /// disagree with the others lose their weight (Tukey's biweight). Grey is interpolated, which on
-/// rendered tags makes these lines twice as exact as those of the library's own refinement. An edge
+/// rendered tags makes these lines twice as exact as with the library's own refinement. An edge
 /// without enough agreeing rays stays as it was. Corners in continuous pixels, in either sense of
 /// rotation.
 [[nodiscard]] std::array<Vec2, 4> refined_corners(const GreyImage& image,

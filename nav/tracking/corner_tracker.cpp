@@ -59,7 +59,7 @@ class PaperTracker final : public ToolTracker {
     TrackedPose newer;
   };
 
-  /// Poses in another map predict nothing; corners belong to the images and stay.
+  /// Poses in another map are useless for prediction; corners belong to the images and are kept.
   void forget_map() {
     for (Trail& trail : trails_) {
       trail.older = trail.newer = {};
@@ -70,7 +70,7 @@ class PaperTracker final : public ToolTracker {
     return filter.alive() && time > filter.time() && time - filter.time() <= options_.coast;
   }
 
-  // After a gap in the stream, what was measured before it may be anywhere.
+  // After a gap in the stream, tools may have moved anywhere.
   [[nodiscard]] bool follows_a_gap(Timestamp time) const {
     for (std::size_t i = 0; i < tools_.size(); ++i) {
       if (states_[i].world_from_marker.status == PoseStatus::kMeasured &&
@@ -164,7 +164,8 @@ class PaperTracker final : public ToolTracker {
     if (!frame.world_from_rig) {
       return;
     }
-    // Nothing to predict at the time of the newest measurement itself, which is not of this pair.
+    // There is nothing to predict at the time of the newest measurement, which comes from another
+    // pair.
     if (frame.time <= trails_[i].newer.time) {
       return;
     }

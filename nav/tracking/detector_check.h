@@ -6,9 +6,10 @@
 
 namespace orthonav::nav {
 
-/// What the detector can't be made with: the first problem.
+/// Refuses options that the detector can't work with: the first problem.
 [[nodiscard]] Status check(const DetectorOptions& options);
-/// What it can't look at: no pixels, too many for the library, a buffer of another length.
+/// Refuses an image that it can't process: no pixels, too many for the library, a buffer of the
+/// wrong length.
 [[nodiscard]] Status check(const GreyImage& image);
 
 }  // namespace orthonav::nav

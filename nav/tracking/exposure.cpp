@@ -8,9 +8,9 @@ namespace {
 
 constexpr double kUsual_s = 0.005;
 constexpr double kLongest_s = 0.030;
-/// Pairs of the last few seconds are remembered.
+/// Forgetting factor: pairs of the last few seconds count.
 constexpr double kForgetting = 0.99;
-/// The weight of the belief in the usual exposure: that of one fast sighting (v² / 12 in px⁴/s⁴).
+/// The weight of the prior for the usual exposure: that of one fast sighting (v² / 12 in px⁴/s⁴).
 constexpr double kBelief = 2e6;
 /// Pairs farther apart than this say nothing about speed.
 constexpr Duration kLongestGap = std::chrono::milliseconds(120);

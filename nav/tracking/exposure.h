@@ -21,12 +21,14 @@ struct BlurSighting {
 
 /// How long the cameras expose, estimated from the blur of moving tags: the variance of the blur is
 /// that of the lens plus v² T² / 12 of the motion, a straight line over v² whose slope is found by
-/// least squares with forgetting. Cameras report no exposure, and it follows the light.
+/// least squares with forgetting. Cameras do not report the exposure time, and it changes with the
+/// light.
 class ExposureEstimator {
  public:
-  /// In the order of time. Three consecutive sightings of the same view count.
+  /// Sightings must come in the order of time. Three consecutive sightings of the same view are
+  /// needed.
   void add(const BlurSighting& sighting);
-  /// 5 ms until motion has shown more.
+  /// 5 ms until motion has provided an estimate.
   [[nodiscard]] double exposure_s() const;
 
  private:

@@ -9,9 +9,9 @@
 
 namespace orthonav::nav {
 
-/// Searches a whole pair of images for tags while the next pair is awaited: started at the end of
-/// one pair's tracking, it delivers its results at the beginning of the next, so that they are the
-/// same however many threads there are.
+/// Searches a whole pair of images for tags while the next pair is awaited. It starts at the end of
+/// one pair's tracking and delivers its results at the beginning of the next, so the results do not
+/// depend on the number of threads.
 class FullImageSearch {
  public:
   static Result<std::unique_ptr<FullImageSearch>> create(const DetectorOptions& options,
@@ -20,8 +20,8 @@ class FullImageSearch {
 
   /// Copies the images and starts; with one thread, searches at once.
   void start(const StereoFrame& frame);
-  /// Waits for a search that was started; its results stay until the next call. Without a search
-  /// there are none.
+  /// Waits for the search, if one was started; its results stay until the next call. Without a
+  /// search they are empty.
   void finish();
   [[nodiscard]] std::span<const MarkerCorners> left() const;
   [[nodiscard]] std::span<const MarkerCorners> right() const;

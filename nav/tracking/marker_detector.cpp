@@ -50,7 +50,7 @@ struct MarkerDetector::Library {
   double min_decision_margin = 0.0;
   int step_px = kTilePx;
   bool refine_edges = false;
-  /// Looks for tags with wide borders, in the thinned image; absent when none are asked for.
+  /// Looks for tags with wide borders in the thinned image; absent if none are requested.
   std::unique_ptr<Library> wide;
   GreyImage thinned;
 
@@ -225,12 +225,12 @@ void MarkerDetector::look_for_wide_borders(const GreyImage& image, const PixelBo
       return;
     }
     for (MarkerCorners& marker : more) {
-      // Twice, since the thinned outline starts nearly as far off as edges are searched for.
+      // Twice, since the thinned outline may be off by nearly the search range.
       marker.corners_px = refined_corners(image, refined_corners(image, marker.corners_px));
       if (!has_wide_border(image, marker.corners_px)) {
         continue;
       }
-      // Where squares touch the tag, the outline found in the image itself is the worse one.
+      // If squares touch the tag, the outline found in the image itself is worse.
       std::erase_if(found, [&](const MarkerCorners& other) { return same_tag(marker, other); });
       found.push_back(marker);
     }

@@ -19,14 +19,14 @@ namespace orthonav::nav {
 /// order of the upright tag's: bottom left, bottom right, top right, top left, seen on its face;
 /// that is Marker coordinates (-s, -s), (s, -s), (s, s), (-s, s) with s = size / 2.
 struct MarkerCorners {
-  std::string_view family;  ///< one of `known_families()`, valid for ever
+  std::string_view family;  ///< one of `known_families()`, valid forever
   int id = 0;
   std::array<Vec2, 4> corners_px;
   double decision_margin = 0.0;
   int hamming = 0;
 };
 
-/// How the corners are made more exact than the quad's outline.
+/// How the corners are refined beyond the quad's outline.
 enum class Refinement {
   kNone,     ///< they are left as they are
   kLibrary,  ///< the library's own
@@ -43,17 +43,16 @@ struct DetectorOptions {
 };
 
 /// Names of the tag families that can be detected. tag36h11b2 has the codes of tag36h11 inside a
-/// black border two cells wide, as Kalibr prints its AprilGrid; its size is the outer edge of that
-/// border, ten cells. Its tags are looked for in two thinned images as well (three times the work),
-/// and the corners found there are always refined by `refined_corners`.
+/// black border two cells wide, as Kalibr prints its AprilGrid; its size is measured at the outer
+/// edge of that border, ten cells. Its tags are also searched for in two thinned images (three
+/// times the work), and corners found there are always refined by `refined_corners`.
 [[nodiscard]] std::span<const std::string_view> known_families();
 /// How many ids a family has; 0 for an unknown one.
 [[nodiscard]] int family_size(std::string_view family);
 /// One tag's code as the AprilTag library stores it.
 struct TagCode {
   struct Bit {
-    int row =
-        0;  ///< of its cell, counted from the outer edge of the border, negative outside of it
+    int row = 0;  ///< of its cell, counted from the outer edge of the border, negative outside it
     int column = 0;
     bool white = false;
   };

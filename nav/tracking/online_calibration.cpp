@@ -17,7 +17,7 @@ double precision(double sd) { return 1.0 / (sd * sd); }
 
 }  // namespace
 
-/// Of what is left to correct, the sizes eliminated.
+/// The remaining correction, with the sizes eliminated.
 struct OnlineCalibration::Estimate {
   CamerasVector cameras;
   CamerasMatrix covariance;
@@ -106,7 +106,8 @@ bool OnlineCalibration::correct() {
   return true;
 }
 
-/// The equations are about what is left from now on. Focal length and baseline stay as reported.
+/// From now on the equations describe the remaining correction. Focal length and baseline stay as
+/// reported.
 void OnlineCalibration::apply(const Camera& cameras) {
   CamerasVector x = CamerasVector::Zero();
   x.head<3>() << cameras[0], cameras[1], cameras[2];

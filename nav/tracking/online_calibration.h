@@ -10,8 +10,8 @@
 
 namespace orthonav::nav {
 
-/// Of the cameras: the right one's rotation vector (rad, in its frame), then the logarithms of its
-/// focal length and of the baseline.
+/// The unknowns of the cameras: the right one's rotation vector (rad, in its frame), then the
+/// logarithms of its focal length and of the baseline.
 inline constexpr std::size_t kCameraUnknowns = 5;
 inline constexpr std::size_t kFocalUnknown = 3;
 inline constexpr std::size_t kBaselineUnknown = 4;
@@ -19,62 +19,64 @@ inline constexpr std::size_t kBaselineUnknown = 4;
 inline constexpr std::size_t kTagSizeUnknown = 5;
 inline constexpr std::size_t kCalibrationUnknowns = 6;
 
-/// What one pair says, through one tool that both cameras saw, about how the calibration differs
-/// from what poses are computed with: least squares, the pose and the light eliminated.
+/// Least-squares equations from one pair and one tool that both cameras saw, for the deviation of
+/// the calibration from the one that poses are computed with; pose and light are eliminated.
 struct CalibrationEquations {
   std::array<double, kCalibrationUnknowns * kCalibrationUnknowns> information{};  ///< symmetric
   std::array<double, kCalibrationUnknowns> right{};
 };
 
 struct CalibrationOptions {
-  /// Errors repeat from pair to pair: only this fraction of a pair's information is new.
+  /// Errors are correlated from pair to pair: only this fraction of a pair's information is new.
   double independent_fraction = 0.05;
-  /// Fewer pairs may agree by accident.
+  /// Fewer pairs may agree by chance.
   std::int64_t min_pairs = 30;
-  /// By how much the squared, normalised error must fall: with 3 rotations and 3 tools 1 in 100,000
-  /// by chance.
+  /// By how much the squared, normalised error must fall: with 3 rotations and 3 tools this happens
+  /// by chance in 1 of 100,000 cases.
   double significance = 35.0;
-  /// What was found is applied where it turns the camera by more than this, a twentieth of a
-  /// pixel, or where a tag's size changes by more than this.
+  /// A correction is applied if it turns the camera by more than this, a twentieth of a pixel, or
+  /// changes a tag's size by more than this.
   double min_rotation_rad = 0.00015;
   double min_size = 0.0004;
-  /// With a larger rotation the device is broken, or the calibration belongs to another one; tags
-  /// whose size is off by more were printed at the wrong scale, which is reported instead.
+  /// A larger rotation means that the device is damaged or the calibration belongs to another one;
+  /// tags whose size is off by more were printed at the wrong scale. Neither is corrected; a wrong
+  /// tag size is reported instead.
   double max_rotation_rad = 0.01;
   double max_size = 0.015;
-  /// SDs before anything was seen; any rotation is as likely as another.
+  /// Prior SDs; all rotations are equally likely.
   double focal_sd = 0.001;
   double baseline_sd = 0.0015;
   double size_sd = 0.003;
 };
 
 /// Estimates from tags in use how the right camera is turned and how large each tool's tags are
-/// (least squares with priors). The common size of all tags and the angle between the cameras look
-/// alike from one distance; the stated sizes then count as right on average, so what is corrected
-/// is how they differ.
+/// (least squares with priors). At a single distance, the common size of all tags can't be
+/// distinguished from the angle between the cameras; the stated sizes are then assumed to be right
+/// on average, and only their differences are corrected.
 class OnlineCalibration {
  public:
   explicit OnlineCalibration(std::size_t tools, const CalibrationOptions& options = {});
 
   void add(std::size_t tool, const CalibrationEquations& pair);
-  /// Computes what has to change now; false while that is not certain, too small to matter or
-  /// beyond the limits. What was found then counts as applied.
+  /// Computes the correction that the caller must apply now, and counts it as applied. False,
+  /// without a correction, while it is not certain, too small to matter, or beyond the limits.
   bool correct();
   /// The rotation (rad) by which the right camera is to be turned, by the last `correct()`.
   [[nodiscard]] Vec3 turn_rad() const { return turn_rad_; }
   /// The factor of a tool's stated tag sizes by all corrections so far.
   [[nodiscard]] double size_factor(std::size_t tool) const;
-  /// The SD of that factor. That of the prior while nothing was seen.
+  /// The SD of that factor; that of the prior before the first pair.
   [[nodiscard]] double size_sd(std::size_t tool) const;
   /// The SD of how much larger one tool's tags are than another's, as a fraction.
   [[nodiscard]] double size_difference_sd(std::size_t tool, std::size_t other) const;
-  /// With what was applied. Nothing before the first pair, or while a direction is undetermined.
+  /// Includes the corrections applied. Nothing before the first pair, or while a direction is
+  /// undetermined.
   [[nodiscard]] std::optional<StereoAlignment> alignment() const;
 
  private:
   using Camera = std::array<double, kCameraUnknowns>;
   struct Tool {
-    Camera cross{};  ///< information that it shares with the cameras
+    Camera cross{};  ///< information shared with the cameras
     double information = 0.0;
     double right = 0.0;
     double applied = 0.0;  ///< logarithm of the factor

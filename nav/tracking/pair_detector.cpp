@@ -66,7 +66,8 @@ void PairDetector::detect_side(void* argument) {
     if (!side.detector.detect(*side.image, box.box, side.in_box)) {
       continue;
     }
-    // Boxes overlap: only the tag that a box was made for counts, or it would be found twice.
+    // Boxes may overlap: only the tag that a box was made for counts, or a tag would be found
+    // twice.
     for (const MarkerCorners& marker : side.in_box) {
       if (marker.family == box.family && marker.id == box.id) {
         side.found.push_back(marker);

@@ -29,7 +29,7 @@ struct SearchPlan {
   bool everywhere = true;
   std::vector<Box> boxes;
 
-  /// Plans a box around a tag. Corners that are not finite, or far outside any image, plan none.
+  /// Plans a box around a tag; none if the corners are not finite or far outside any image.
   void add(const TagCorners& corners_px, const BoxRoom& room, std::string_view family, int id);
 };
 

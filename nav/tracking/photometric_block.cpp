@@ -4,20 +4,20 @@
 
 #include "nav/tracking/photometric_view.h"
 
-// What a block of pixels adds to a view's equations and says of the tag's cells. Loops of a fixed
-// length over separate arrays, so that they become vector instructions.
+// The contribution of a block of pixels to a view's equations and to the judgement of the tag's
+// cells. Loops of a fixed length over separate arrays, so that they are vectorized.
 namespace orthonav::nav {
 namespace {
 
 /// Tukey's biweight at 4.7 SD: 95 % efficient on clean noise.
 constexpr float kOutlierSd = 4.7F;
-/// The least slope (per cell, of the blurred template) at which a pixel says something about the
+/// The least slope (per cell, of the blurred template) at which a pixel is informative about the
 /// pose.
 constexpr float kEdgeSlope = 0.1F;
 /// Below this squared slope a pixel has no influence.
 constexpr float kLeastSlope2 = 1e-4F;
-/// The fractions of its pixels that agree with a cell: below the first it is hidden in part, above
-/// the second it is free.
+/// Fractions of a cell's pixels that agree with it: below the first the cell is partly hidden,
+/// above the second it is visible.
 constexpr float kHiddenFraction = 0.45F;
 constexpr float kFreeFraction = 0.8F;
 
@@ -43,7 +43,7 @@ struct PixelModel {
   float g;       ///< derivative of the grey by the template
 };
 
-/// What the pixels of a view have in common: its light, and the eye in the tag's cells.
+/// Values common to the pixels of a view: its light, and the eye in the tag's cells.
 struct BlockModel {
   float black;
   float contrast;
@@ -81,7 +81,7 @@ struct BlockModel {
     m.g = m.full * steep;
     return m;
   }
-  /// Of the template, by the tag's distance.
+  /// Derivative of the template by the tag's distance.
   [[nodiscard]] float by_depth(float x, float y, float tx, float ty) const {
     return inverse_eye * ((eye_x - x) * tx + (eye_y - y) * ty);
   }
@@ -131,7 +131,7 @@ void ViewModel::compare(const Photometry& light) {
   }
 }
 
-/// Robust weights, given what noise and doubt explain.
+/// Robust weights, allowing for noise and doubt.
 void ViewModel::weigh(const Photometry& light, double doubt_cells) {
   const auto column = [this](int c) { return block_.data() + c * kBlock; };
   const float* __restrict white = column(kT);
@@ -224,7 +224,7 @@ void ViewModel::score(int pixels) {
   }
 }
 
-/// What hides a tag hides it in one piece: a cell with many outliers is doubted as a whole.
+/// An occluder covers a connected area: a cell with many outliers is doubted as a whole.
 void ViewModel::judge_cells(std::vector<float>& cell_weights) const {
   cell_weights.resize(counted_.size());
   for (std::size_t i = 0; i < counted_.size(); ++i) {

@@ -11,7 +11,7 @@ constexpr double kBlurCeilingCells = 0.6;
 /// Largest change at once of a logarithm of blur, or of a fraction of grey.
 constexpr double kLargestLightStep = 0.5;
 constexpr double kVarianceFloor = 0.3;
-/// With fewer pixels of black and of white, nothing is learnt of their noise.
+/// With fewer black or white pixels, their noise is not updated.
 constexpr double kFewestFractions = 20.0;
 /// Neither black nor white gets less than this fraction of the mean noise.
 constexpr double kLeastOfMean = 0.25;

@@ -9,8 +9,8 @@ namespace orthonav::nav {
 /// One entry per light column of `ViewEquations`.
 using LightStep = std::array<double, kLightColumns>;
 
-/// Weak beliefs about the light, so that a view without white cells, or without edges, stays
-/// solvable: what they add to the diagonal of its normal equations and to their right-hand side.
+/// Weak priors on the light, which keep a view without white cells or without edges solvable: their
+/// additions to the diagonal of the view's normal equations and to the right-hand side.
 struct LightPrior {
   LightStep weight{};
   LightStep right{};

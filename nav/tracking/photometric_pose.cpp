@@ -15,12 +15,12 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kLargestStepCells = 0.5;
-constexpr double kNoiseFraction = 0.3;  ///< of the newest pair in the noise that is remembered
+constexpr double kNoiseFraction = 0.3;  ///< weight of the newest pair in the remembered noise
 constexpr int kNewLightIterations = 5;
 constexpr double kFewestPixels = 30.0;
-/// The fraction of its length that a step leaves to those after it.
+/// The fraction of a step's length that remains for the steps after it.
 constexpr double kLeftOfStep = 0.3;
-/// Once it has converged, what noise leaves.
+/// Remaining doubt after convergence, due to noise.
 constexpr double kSettledPx = 0.05;
 
 /// The derivative of a small motion of the tag (in its frame, in cells) by a small motion of the
@@ -57,7 +57,7 @@ struct MotionEquations {
     normal += motion.transpose() * own_normal * motion;
     right += motion.transpose() * own_right;
   }
-  /// False where the views do not determine the motion.
+  /// False if the views do not determine the motion.
   bool solve(Eigen::Map<Vector6>& motion, PoseCovariance& covariance) const {
     const Eigen::LDLT<Matrix6> solver(normal);
     motion = solver.solve(right);
@@ -75,9 +75,9 @@ Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 translatio
           pose.translation() + pose.rotation() * translation};
 }
 
-/// The derivative of how a tag seems to move (in its frame, in cells) by what the calibration may
-/// be off by, in the order of `CalibrationEquations`. `baseline_m`: from the right camera to the
-/// left one; null in the left camera, which is as reported.
+/// The derivative of a tag's apparent motion (in its frame, in cells) by the errors of the
+/// calibration, in the order of `CalibrationEquations`. `baseline_m`: from the right camera to the
+/// left one; null for the left camera, which is taken as reported.
 Matrix6 tag_by_calibration(const CameraFromTag& pose, const Vec3* baseline_m, double cell_m) {
   Matrix6 out = Matrix6::Zero();
   const Mat3 back = pose.rotation.transposed();
@@ -94,11 +94,11 @@ Matrix6 tag_by_calibration(const CameraFromTag& pose, const Vec3* baseline_m, do
       const Vec3 rotation = back * unit_rotation;
       out.col(axis).tail<3>() << rotation.x, rotation.y, rotation.z;
     }
-    // Magnified, it seems as much nearer along the optical axis.
+    // A magnified tag appears nearer along the optical axis by the same fraction.
     moves(kFocalUnknown, {0.0, 0.0, -place_m.z});
     moves(kBaselineUnknown, *baseline_m);
   }
-  // Larger, it seems as much nearer.
+  // A larger tag appears nearer by the same fraction.
   moves(kTagSizeUnknown, -place_m);
   return out;
 }
@@ -234,7 +234,7 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
   return fit;
 }
 
-/// A light that is new is learnt on the way: what it is off by is no noise. True when none is new.
+/// A new light is learnt during the fit: its initial error is not noise. True if none is new.
 bool PhotometricSolver::learn_new_light(std::span<TagView> views) const {
   bool all_known = true;
   for (std::size_t i = 0; i < views.size(); ++i) {

@@ -21,7 +21,7 @@ struct TagView {
   std::vector<float> cell_weights;  ///< by cell: 0 where it is hidden
   // Of the last fit:
   double kept_fraction = 0.0;  ///< of the pixels, by robust weight
-  /// In: whether to look at this view at all. Out: whether the fit rests on it.
+  /// In: whether to use this view at all. Out: whether the fit used it.
   bool used = true;
 };
 
@@ -29,7 +29,7 @@ struct PhotometricOptions {
   int max_iterations = 10;
   /// A smaller correction ends the search: a small part of the pose's noise.
   double last_step_px = 0.02;
-  /// A view is not used where less of the tag than this agrees with its template.
+  /// A view is not used if less of the tag than this agrees with its template.
   double min_kept_fraction = 0.45;
   double min_contrast_grey = 12.0;
 };
@@ -51,13 +51,13 @@ class PhotometricSolver {
   explicit PhotometricSolver(const StereoCalibration& calibration);
 
   /// Improves a pose that is right to about half a cell; `doubt_m` says how far off it may be. Only
-  /// sightings with `used` set count; their light is updated, even if the fit fails. Nothing when
-  /// too little of the tags is visible.
+  /// sightings with `used` set count; their light is updated even if the fit fails. Nothing if too
+  /// little of the tags is visible.
   [[nodiscard]] std::optional<PhotometricFit> solve(const StereoFrame& frame,
                                                     const Transform<Rig, Marker>& start,
                                                     double doubt_m, std::span<TagView> views,
                                                     const PhotometricOptions& options = {});
-  /// What the last fit says about the calibration; nothing when only one camera was used.
+  /// The calibration equations of the last fit; nothing if only one camera was used.
   [[nodiscard]] std::optional<CalibrationEquations> calibration_equations(
       const PhotometricFit& fit, std::span<const TagView> views) const;
   /// Pixels per unit of the unit plane, near the middle of the left or the right image.
@@ -74,8 +74,8 @@ class PhotometricSolver {
  private:
   struct Step {
     std::array<double, 6> motion{};  ///< of the tool in its own frame: m, rad
-    double size_m = 0.0;             ///< how far it moves the farthest cells
-    double pixels_a_metre = 0.0;     ///< in the view nearest to the tag
+    double size_m = 0.0;             ///< how far the motion moves the farthest cells
+    double pixels_a_metre = 0.0;     ///< in the nearest view
     double cell_m = 1.0;             ///< of the smallest tag
   };
   std::optional<Step> step(const StereoFrame& frame, double doubt_m,

@@ -7,8 +7,8 @@
 
 namespace orthonav::nav {
 
-/// A view's equations for the tag's pose, its light eliminated (Schur's complement). Residuals that
-/// scatter more than their noise reduce its weight.
+/// A view's equations for the tag's pose, with its light eliminated (Schur complement). Residuals
+/// that scatter more than their noise reduce its weight.
 struct ReducedView {
   std::array<double, 36> normal{};
   std::array<double, 6> right{};
@@ -19,9 +19,9 @@ struct ReducedView {
 [[nodiscard]] LightStep light_step(const ViewEquations& equations, const Photometry& light,
                                    const std::array<double, 6>& of_tag);
 
-/// How much more strongly the pieces of the tag's edges pull at the pose than noise would make
-/// them: 1 where the model is right. `scores` are the pulls, as in `ViewModel::scores`. (White's
-/// sandwich, Econometrica 48, 1980, with a piece of an edge as a cluster, reduced to one number.)
+/// How much more strongly the pieces of the tag's edges pull at the pose than noise alone would: 1
+/// if the model is right. `scores` are the pulls, as in `ViewModel::scores`. (White's sandwich,
+/// Econometrica 48, 1980, with a piece of an edge as a cluster, reduced to one number.)
 [[nodiscard]] double scatter(const ViewEquations& equations, const Photometry& light,
                              std::span<const float> scores);
 

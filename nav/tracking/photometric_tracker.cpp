@@ -7,7 +7,7 @@
 namespace orthonav::nav {
 namespace {
 
-/// A prediction is doubted by this many of its SDs and this many pixels.
+/// A prediction may be off by this many SDs plus this many pixels.
 constexpr double kDoubtSd = 3.0;
 constexpr double kFewestDoubtPx = 1.0;
 
@@ -59,7 +59,8 @@ std::span<const ToolState> PhotometricTracker::track(const StereoFrame& frame) {
     missing = true;
     predict(i, frame);
   }
-  // Beside tools that are tracked, the whole image is searched while the next pair is awaited.
+  // While other tools are tracked, the whole image is searched in the background until the next
+  // pair.
   if (missing && (tracked > 0 || any_recent(frame.time)) && is_turn()) {
     full_search_->start(frame);
   }
@@ -197,7 +198,7 @@ Result<std::unique_ptr<ToolTracker>> create_photometric_tracker(
   if (!near) {
     return near.error();
   }
-  // The search of the whole image only says where to look more closely.
+  // The search of the whole image only finds where to look more closely.
   detection.decimate = std::max(detection.decimate, 2.0);
   Result<std::unique_ptr<FullImageSearch>> whole =
       FullImageSearch::create(detection, options.parallel);

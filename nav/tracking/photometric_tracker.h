@@ -15,9 +15,9 @@
 
 namespace orthonav::nav {
 
-/// What `create_photometric_tracker` makes. A tool that was just seen is followed in the pixels of
-/// both images. A lost one is looked for where it was last seen, and in the whole image while the
-/// next pair is awaited.
+/// What `create_photometric_tracker` makes. A recently seen tool is followed in the pixels of both
+/// images. A lost one is searched for where it was last seen, and in the whole image while the next
+/// pair is awaited.
 class PhotometricTracker final : public ToolTracker {
  public:
   PhotometricTracker(const StereoCalibration& calibration, std::vector<ToolGeometry> tools,
@@ -42,10 +42,10 @@ class PhotometricTracker final : public ToolTracker {
     TagSizeEstimator size;
   };
 
-  /// Where the tools were in another map says nothing about where they are in this one.
+  /// Forgets where the tools were: positions in another map mean nothing in this one.
   void forget_map();
-  /// Once it is certain that the cameras are not aligned as reported, or tags not as large, poses
-  /// use what was found.
+  /// Applies an estimated correction of camera alignment or tag sizes to the poses once it is
+  /// certain.
   void calibrate();
   /// A tag printed at the wrong size looks like cameras that are turned towards each other.
   [[nodiscard]] bool may_be_of_wrong_size() const;
@@ -55,9 +55,10 @@ class PhotometricTracker final : public ToolTracker {
   /// The length that `kFewestDoubtPx` covers at the tool's distance.
   [[nodiscard]] double pixel_m(const Transform<Rig, Marker>& pose) const;
 
-  // Of tool `i`, in a frame whose `world_from_rig` is known. True: its pose was measured.
+  // For tool `i`, in a frame whose `world_from_rig` is known. True: its pose was measured.
   bool follow(std::size_t i, const StereoFrame& frame);
-  /// Fits the pose from `expected` on. `by_both`: it counts only when both cameras agree on it.
+  /// Fits the pose, starting from `expected`. `by_both`: it counts only if both cameras agree on
+  /// it.
   bool take(std::size_t i, const StereoFrame& frame, const Transform<Rig, Marker>& expected,
             double doubt_m, bool by_both = false);
   bool find(std::size_t i, const StereoFrame& frame);
@@ -66,8 +67,8 @@ class PhotometricTracker final : public ToolTracker {
   bool find_by_both(std::size_t i, const MarkerDefinition& marker,
                     const Transform<Tag, Marker>& tag_from_marker, const TagMatch& match,
                     const StereoFrame& frame);
-  /// Its corners were found in one image only. The other image may still show enough of the tag to
-  /// tell which of the two possible poses is right.
+  /// For a tool whose corners were found in only one image. The other image may still show enough
+  /// of the tag to decide which of the two possible poses is right.
   bool find_by_one(std::size_t i, const MarkerDefinition& marker,
                    const Transform<Tag, Marker>& tag_from_marker, const TagMatch& match,
                    const StereoFrame& frame);

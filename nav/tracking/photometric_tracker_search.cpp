@@ -11,7 +11,7 @@ namespace {
 constexpr Duration kRemembered = std::chrono::seconds(3);
 /// Margin around a tag within which it is looked for: a fraction of its extent, and pixels.
 constexpr BoxRoom kRoom{0.5, 30.0};
-/// Detected corners are right to a small part of a cell; a pose from them is less so.
+/// Detected corners are accurate to a small fraction of a cell; a pose from them is less accurate.
 constexpr double kDetectedDoubtPx = 1.0;
 /// One camera's corners determine depth badly, and an error in depth moves the tag in the other
 /// image.
@@ -26,8 +26,8 @@ void PhotometricTracker::look_for_lost(const StereoFrame& frame, bool others_tra
   SearchPlan& right = near_->right_plan();
   left.boxes.clear();
   right.boxes.clear();
-  // While a tool is tracked a search of the whole image would delay it; with none tracked, and no
-  // idea where to look, it is done at once.
+  // While a tool is tracked, a search of the whole image would delay it; with none tracked and no
+  // place to look, it is done at once.
   left.everywhere = right.everywhere = !others_tracked && !any_recent(frame.time) && is_turn();
   if (!left.everywhere) {
     for (std::size_t i = 0; i < tools_.size(); ++i) {

@@ -10,14 +10,14 @@ namespace orthonav::nav {
 namespace {
 
 constexpr std::uint8_t kSaturated = 254;
-/// In areas without edges every second column and row is enough: they only tell the light.
+/// In areas without edges every second column and row is enough: they only determine the light.
 constexpr int kFlatStep = 2;
-/// Where a corner lies outside the image, its place is known roughly.
+/// The position of a corner outside the image is known only roughly.
 constexpr double kRoughPx = 24.0;
 
-/// Along one axis: the cell, and of its low and its high edge what of the blur's footprint lies
-/// beyond, the derivatives of that by the place, by the logarithm of the blur and by its tails, and
-/// the density at the edge.
+/// Along one axis: the cell, and for its low and its high edge the fraction of the blur's footprint
+/// beyond it, the derivatives of that fraction by position, by the logarithm of the blur and by its
+/// tails, and the density at the edge.
 enum AxisColumn {
   kCell,
   kLow,
@@ -32,7 +32,7 @@ enum AxisColumn {
   kHighDensity,
   kAxisColumns
 };
-/// What one row of pixels needs: places across and up, the blur's scale, and both axes.
+/// The columns for one row of pixels: positions across and up, the blur's scale, and both axes.
 enum RowColumn {
   kX,
   kY,
@@ -50,7 +50,7 @@ void along(const float* __restrict place, const float* __restrict scale, int n, 
   }
   ORTHONAV_VECTORIZED
   for (int i = 0; i < n; ++i) {
-    // In this order a place that is not a number becomes the low end.
+    // In this order NaN becomes the low end.
     const float c = std::min(std::max(0.0F, place[i] + half), 2.0F * half - 1e-4F);
     const float cell = static_cast<float>(static_cast<int>(c));
     const float f = c - cell;
@@ -71,8 +71,8 @@ void along(const float* __restrict place, const float* __restrict scale, int n, 
   }
 }
 
-/// Whether the blur reaches past the template along this axis of a pixel: what lies there is
-/// unknown. The densities are zero where the footprint does not reach an edge.
+/// Whether a pixel's blur reaches past the template along this axis, where the image is unknown.
+/// The densities are zero if the footprint does not reach an edge.
 inline bool reaches_out(const float* axis, std::ptrdiff_t stride, float last_cell) {
   const float cell = axis[kCell * stride];
   return (cell == 0.0F && axis[kLowDensity * stride] > 0.0F) ||
@@ -114,8 +114,8 @@ Vec2 rough_pixel(const CameraModel& camera, Vec2 u) {
 
 ViewModel::ViewModel() : block_(static_cast<std::size_t>(kBlockColumns) * kBlock, 0.0F) {}
 
-/// The camera's centre and the way from its rays to the tag's cells; `t` in cells. False where the
-/// tag is seen from behind or lies behind the camera.
+/// Computes the camera's centre and the map from its rays to the tag's cells; `t` in cells. False
+/// if the tag is seen from behind or lies behind the camera.
 bool ViewModel::face(const Mat3& rotation, Vec3 t) {
   const Vec3 eye = -(rotation.transposed() * t);
   if (!(eye.z > 0.5) || !(t.z > 0.5)) {
@@ -195,8 +195,8 @@ void ViewModel::spread(const RayTable& rays, int y, const Photometry& light) {
         static_cast<float>(light.tails[1]), row_.data() + kDown * stride, stride);
 }
 
-// Bilinear in what lies beyond the edges, plus what the blur's correlation moves at corners (the
-// first term of Mehler's series).
+// Bilinear in the fractions beyond the edges, plus the effect of the blur's correlation at corners
+// (the first term of Mehler's series).
 void ViewModel::add(int k, int i, std::uint8_t grey, float skew, const float* c) {
   const std::ptrdiff_t stride = x1_ - x0_;
   const float* row = row_.data() + i;

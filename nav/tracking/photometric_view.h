@@ -29,21 +29,22 @@ struct Photometry {
   /// SD of the blur, in cells, across edges between columns and between rows; lens, pixel and
   /// motion together.
   std::array<double, 2> blur_cells{0.15, 0.15};
-  /// Excess kurtosis of the blur's profile along columns and along rows: 0 for a Gaussian, more
-  /// where a lens scatters light, less along a motion.
+  /// Excess kurtosis of the blur's profile along columns and along rows: 0 for a Gaussian, larger
+  /// if the lens scatters light, smaller along a motion.
   std::array<double, 2> tails{};
-  /// Correlation of the blur between columns and rows: of a tag seen obliquely, or of motion.
+  /// Correlation of the blur between columns and rows, from an oblique view of the tag or from
+  /// motion.
   double skew = 0.0;
-  /// Departure of the sensor's response from a line: as of a gamma, which makes white areas grow,
-  /// and as of more contrast in the middle, in the last three places.
+  /// Departure of the sensor's response from a line: like a gamma, which makes white areas grow,
+  /// and like increased contrast in the middle, in the last three places.
   std::array<double, 3> response{};
   /// Variance of a grey value in black and in white areas; initially so large that nothing is an
   /// outlier.
   std::array<double, 2> variance{2500.0, 2500.0};
-  /// What is added to it along edges, by the square of the slope of the blurred template (per
-  /// cell): there the model is off by more than noise.
+  /// Additional variance along edges, per square of the slope of the blurred template (per cell):
+  /// there the model's error exceeds the noise.
   double edge_variance = 0.0;
-  /// How much more strongly the edges pull at the pose than noise would make them (`scatter`).
+  /// How much more strongly the edges pull at the pose than noise alone would (`scatter`).
   double scatter = 1.0;
   bool known = false;  ///< from an earlier fit
 };
@@ -64,13 +65,14 @@ struct ViewEquations {
   /// Upper triangle by rows of JᵀWJ over the columns and the residual as the last column.
   std::array<double, (kColumns + 1) * (kColumns + 2) / 2> sums{};
   double pixels = 0.0;   ///< that were compared
-  double kept = 0.0;     ///< of them by robust weight
-  double scatter = 1.0;  ///< how much more the edges pull at the pose than noise makes them
-  /// Least squares, by robust weight, of the residuals' squares on how black and how white the
-  /// pixels are, away from edges: between the two the noise of light grows evenly.
+  double kept = 0.0;     ///< of these, by robust weight
+  double scatter = 1.0;  ///< how much more strongly the edges pull at the pose than noise alone
+                         ///< would
+  /// Robustly weighted least squares of the squared residuals on the black and white fractions of
+  /// the pixels, away from edges: noise grows linearly from black to white.
   std::array<double, 2> squares{};
   std::array<double, 3> fractions{};  ///< black by black, black by white, white by white
-  /// Least squares of what the residuals' squares are beyond that on the slope's square.
+  /// Least squares of the remaining squared residuals on the square of the slope.
   double edge_squares = 0.0;
   double edge_fractions = 0.0;
 
@@ -80,17 +82,17 @@ struct ViewEquations {
 };
 
 /// Compares the image with the model at a pose. `doubt_cells` is how far off the pose may still be:
-/// a pixel counts as an outlier only when that does not explain it. Reuses its memory; one thread
-/// at a time.
+/// a pixel counts as an outlier only if that does not explain it. Reuses its memory; one thread at
+/// a time.
 class ViewModel {
  public:
   ViewModel();
-  /// `cell_weights` (one per cell; empty: unknown) says how far each cell was found to show the tag
-  /// last time; it returns the values found this time.
+  /// `cell_weights` (one per cell; empty: unknown) says to what extent each cell showed the tag
+  /// last time; it receives the values found this time.
   void linearize(const GreyImage& image, const CameraModel& camera, const RayTable& rays,
                  const BlurredTag& tag, const CameraFromTag& pose, const Photometry& light,
                  double doubt_cells, std::vector<float>& cell_weights, ViewEquations& out);
-  /// By piece of an edge, two cells long: what it pulls at each column (the sums of w r J).
+  /// For each piece of an edge, two cells long: its pull at each column (the sums of w r J).
   [[nodiscard]] std::span<const float> scores() const { return scores_; }
 
  private:
@@ -138,11 +140,11 @@ class ViewModel {
   std::vector<float> block_;                  ///< kBlockColumns of kBlock
   std::array<std::uint16_t, kBlock> cell_{};  ///< of each pixel of the block
   int filled_ = 0;
-  // By cell: weight of the last time, and of the pixels now how many there are and are kept.
+  // By cell: the last weight, the number of pixels now, and how many of them are kept.
   std::vector<float> believed_;
   std::vector<float> counted_;
   std::vector<float> kept_;
-  // Of the view at hand.
+  // For the current view.
   int x0_ = 0;
   int x1_ = 0;
   int y0_ = 0;

@@ -18,13 +18,14 @@ struct PivotOptions {
   double min_spread_rad = 0.15;
   /// A larger residual means that the tip slipped.
   double max_rmse_m = 0.002;
-  /// A pose whose tip misses the pivot by more is no inlier. Three times the scatter of the
-  /// published method 150 mm below a 40 mm tag; where poses scatter less, the limit follows them.
+  /// A pose whose tip misses the pivot by more is not an inlier. Three times the scatter of the
+  /// published method 150 mm below a 40 mm tag; if the poses scatter less, the limit shrinks with
+  /// them.
   double inlier_m = 0.005;
-  /// With fewer inliers no single pivot can be named: the tip moved, or did something else.
+  /// With fewer inliers there is no single pivot: the tip moved, or the tool was not pivoted.
   double min_inlier_fraction = 0.6;
   double max_tip_sigma_m = 0.001;
-  /// What is worth a note.
+  /// Limits beyond which a result gets a note.
   double note_spread_rad = 0.25;
   double note_tip_sigma_m = 0.0003;
   double note_inlier_fraction = 0.9;
@@ -40,10 +41,11 @@ struct PivotCalibration {
   Point<Marker> tip_in_marker;
   Point<World> pivot_in_world;
   double rmse_m = 0.0;  ///< of the inliers' tips about the pivot, 3-D
-  /// RMS of the rotation in the direction that determines the tip worst; turning about one axis
-  /// only gives 0, since the tip may then lie anywhere along it.
+  /// RMS of the rotation in the direction that determines the tip worst; turning about a single
+  /// axis gives 0, since the tip may then lie anywhere along it.
   double spread_rad = 0.0;
-  /// 3-D SD of the tip: the larger of what residual and geometry predict and of `leave_out_m`.
+  /// 3-D SD of the tip: the larger of `leave_out_m` and the SD predicted from residual and
+  /// geometry.
   double tip_sigma_m = 0.0;
   /// Jackknife SD from leaving out each tenth of the inliers in turn: it shows drift, which the
   /// residual alone takes for noise.
@@ -55,10 +57,10 @@ struct PivotCalibration {
 };
 
 /// Algebraic least squares over R·tip + t = pivot (`fit_pivot`) on the inliers that a search with
-/// random samples finds (RANSAC with truncated squares, Torr & Zisserman 2000), three poses a
-/// sample. Poses in the order of time. The same poses and options give the same bits. Refuses bad
-/// options, too few poses, numbers that are not finite, too little turning, too few inliers, too
-/// large a residual or uncertainty, each with value and limit.
+/// random samples finds (RANSAC with truncated squares, Torr & Zisserman 2000), three poses per
+/// sample. Poses must be in the order of time. The same poses and options give the same bits.
+/// Refuses bad options, too few poses, numbers that are not finite, too little turning, too few
+/// inliers, too large a residual or uncertainty, each with value and limit.
 Result<PivotCalibration> pivot_calibration(std::span<const Transform<World, Marker>> poses,
                                            const PivotOptions& options = {});
 

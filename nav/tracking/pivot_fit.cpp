@@ -10,7 +10,7 @@ namespace {
 using Poses = std::span<const Transform<World, Marker>>;
 using Chosen = std::span<const std::size_t>;
 
-// A rotation so small determines no tip.
+// So small a rotation does not determine the tip.
 constexpr double kLeastSpreadRad = 1e-6;
 
 Eigen::Matrix3d to_eigen(const Mat3& m) {

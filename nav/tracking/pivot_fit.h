@@ -25,7 +25,7 @@ struct PivotFit {
   }
 };
 
-/// Over the poses with these indices, at least three; nothing when the tip is not determined.
+/// Fits the poses with these indices, at least three; nothing if the tip is not determined.
 [[nodiscard]] std::optional<PivotFit> fit_pivot(std::span<const Transform<World, Marker>> poses,
                                                 std::span<const std::size_t> chosen);
 

@@ -12,14 +12,14 @@
 namespace orthonav::nav {
 
 /// The two poses of a square tag that one camera can't distinguish by its corners: they differ in
-/// which way the tag is tilted against the line of sight (Collins & Bartoli 2014, "Infinitesimal
-/// plane-based pose estimation", on the ambiguity). Rough: by decomposing the homography of the
-/// corners on the unit plane (Zhang 2000, section 3.1), in the order of `MarkerCorners`. Nothing
-/// when the corners make no square in front of the camera.
+/// the direction in which the tag is tilted relative to the line of sight (Collins & Bartoli 2014,
+/// "Infinitesimal plane-based pose estimation", on the ambiguity). Rough: by decomposing the
+/// homography of the corners on the unit plane (Zhang 2000, section 3.1), in the order of
+/// `MarkerCorners`. Nothing if the corners do not form a square in front of the camera.
 [[nodiscard]] std::optional<std::array<CameraFromTag, 2>> planar_poses(
     const std::array<Vec2, 4>& unit_plane, double size_m);
 
-/// The same in the rig, for a tag whose corners one camera sees.
+/// The same in the rig, for a tag whose corners only one camera sees.
 [[nodiscard]] std::optional<std::array<Transform<Rig, Tag>, 2>> poses_by_one(
     const StereoCalibration& calibration, const MarkerCorners& seen, bool right, double size_m);
 

@@ -42,7 +42,7 @@ PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 translation, Vec3 rota
 /// / 24: this part of the innovation is not motion of the pose at mid-exposure.
 double of_exposure(double exposure_s, double dt_s) { return std::pow(exposure_s / dt_s, 2) / 24.0; }
 
-/// Subtracting it would help little, since the prediction errs as well: it goes into the
+/// Subtracting it would help little, since the prediction has errors too, so it is added to the
 /// covariance.
 PoseCovariance blurred(const PoseCovariance& noise, const Vector6& innovation, double fraction) {
   PoseCovariance out = noise;

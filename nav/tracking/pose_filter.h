@@ -8,8 +8,8 @@
 namespace orthonav::nav {
 
 struct PoseFilterOptions {
-  /// Densities of the white acceleration of a tool at rest (m²/s³, rad²/s³): so small that a second
-  /// of pairs is averaged.
+  /// Densities of the white acceleration of a tool at rest (m²/s³, rad²/s³): so small that the
+  /// pairs of a whole second are averaged.
   double rest_m = 2e-8;
   double rest_rad = 2e-7;
   /// Those of a tool in a hand: 5 m/s² and 60 rad/s² held for 0.05 s.
@@ -18,8 +18,8 @@ struct PoseFilterOptions {
   /// A pair whose innovation exceeds this (squared, normalised, 6 degrees of freedom: 1 in 2,000 at
   /// rest) shows that the tool is in a hand.
   double rest_limit = 24.0;
-  /// The part of a measurement's variance that repeats in the next one: errors that the model does
-  /// not know may not average out.
+  /// The part of a measurement's variance that repeats in the next one: errors outside the model
+  /// must not be averaged away.
   double lasting_fraction = 0.05;
   /// SD of an unknown velocity.
   double first_speed_m = 0.5;
@@ -39,7 +39,7 @@ class PoseFilter {
   [[nodiscard]] bool alive() const { return alive_; }
   void stop() { alive_ = false; }
   [[nodiscard]] Timestamp time() const { return time_; }
-  /// Alive, and its newest measurement lies before `time` by no more than `coast`.
+  /// Whether it is alive and its newest measurement is at most `coast` older than `time`.
   [[nodiscard]] bool follows(Timestamp time, Duration coast) const {
     return alive_ && time > time_ && time - time_ <= coast;
   }

@@ -9,8 +9,8 @@ namespace {
 // s (density = acceleration² · duration).
 constexpr double kAccelerationSpectrum_m2_per_s3 = 0.1;
 constexpr double kAccelerationSpectrum_rad2_per_s3 = 10.0;
-// Without a usable older pose the velocity is unknown: up to a fast reach and a fast turn of the
-// wrist.
+// Without a usable older pose the velocity is unknown: the SDs allow for a fast reach and a fast
+// turn of the wrist.
 constexpr double kUnknownSpeedM = 0.3;    // m/s
 constexpr double kUnknownSpeedRad = 1.5;  // rad/s
 // Older pairs say nothing about the velocity now.

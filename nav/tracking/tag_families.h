@@ -20,7 +20,7 @@ struct FreeFamily {
 };
 using TagFamily = std::unique_ptr<apriltag_family, FreeFamily>;
 
-/// Null for a family that is not known, and where memory runs out.
+/// Null for an unknown family, or if memory runs out.
 [[nodiscard]] TagFamily create_family(std::string_view name);
 
 }  // namespace orthonav::nav

@@ -20,8 +20,8 @@ struct MatchLimits {
   double size_fraction = 0.15;
 };
 
-/// The sightings of one tag in a pair of images that belong together; null where there is none.
-/// Both are set only when they agree with each other and with the tag's size.
+/// The sightings of one tag in the two images; null if there is none. Both are set only if they
+/// agree with each other and with the tag's size.
 struct TagMatch {
   const MarkerCorners* left = nullptr;
   const MarkerCorners* right = nullptr;
@@ -29,17 +29,17 @@ struct TagMatch {
 };
 
 /// The same id may be seen twice in an image (a copy, a misread): of the consistent pairs, the one
-/// nearest to where the tag is expected is taken, or without expectation the one decoded best.
-/// Where only one camera sees the id, that sighting is returned alone, unpaired; where both do but
-/// nothing fits together, nothing is returned.
+/// nearest to the expected position is taken, or, without one, the one decoded best. If only one
+/// camera sees the id, that sighting is returned alone; if both do but no pair is consistent,
+/// nothing is returned.
 [[nodiscard]] TagMatch matched(std::span<const MarkerCorners> left,
                                std::span<const MarkerCorners> right, std::string_view family,
                                int id, double size_m, const TagGeometry& geometry,
                                const std::optional<TagPair>& expected,
                                const MatchLimits& limits = {});
 
-/// The triangulated size of a tag that both cameras see, relative to the size given; nothing where
-/// they do not see one and the same square.
+/// The triangulated size of a tag that both cameras see, relative to the size given; nothing if
+/// they do not see the same square.
 [[nodiscard]] std::optional<double> size_ratio(std::span<const MarkerCorners> left,
                                                std::span<const MarkerCorners> right,
                                                std::string_view family, int id, double size_m,

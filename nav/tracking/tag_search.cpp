@@ -11,7 +11,7 @@ constexpr int kLargestRadiusPx = 40;
 constexpr int kFineRadiusPx = 6;
 constexpr double kFewestCells = 8.0;
 
-/// Of single pixels' grey with a template of zeros and ones.
+/// Correlation of single pixels' grey with a template of zeros and ones.
 struct Correlation {
   double n = 0.0;
   double grey = 0.0;

@@ -9,7 +9,7 @@
 
 namespace orthonav::nav {
 
-/// How well an image agrees with a tag at a place, judged at the middles of its cells.
+/// How well an image agrees with a tag at a position, judged at the middles of its cells.
 struct CellMatch {
   Vec2 shift_px{};           ///< from where the pose puts the tag
   double correlation = 0.0;  ///< of grey and template, over the cells in the image

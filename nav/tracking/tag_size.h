@@ -19,8 +19,8 @@ struct TagSizeOptions {
   std::int64_t then_every = 30;
   /// SDs that make a difference certain.
   double certain_sd = 5.0;
-  /// A smaller difference may be the cameras': 0.6 px across the epipolar lines, as in one real
-  /// unit, looks like 0.8 % at arm's length. A page "fitted to paper" differs by 3 % or more.
+  /// A smaller difference may come from the cameras: 0.6 px across the epipolar lines, as in one
+  /// real unit, looks like 0.8 % at arm's length. A page "fitted to paper" differs by 3 % or more.
   double min_fraction = 0.015;
 };
 
@@ -29,11 +29,11 @@ struct TagSize {
   double fraction = 0.0;  ///< by which they are larger than stated
   double sd = 0.0;
   std::int64_t measurements = 0;
-  bool notable = false;  ///< more than small errors of the cameras could look like
-  /// Certainly another size than stated: a wrong print or a wrong unit (or misaligned cameras).
+  bool notable = false;  ///< more than small errors of the cameras could cause
+  /// Certainly a different size than stated: a wrong print or a wrong unit (or misaligned cameras).
   /// Poses are then wrong.
   bool disagrees = false;
-  double applied = 0.0;  ///< of `fraction`: what poses take into account
+  double applied = 0.0;  ///< the part of `fraction` that poses take into account
 };
 
 /// Accumulates measurements of one tool.
@@ -42,7 +42,7 @@ class TagSizeEstimator {
   TagSizeEstimator() = default;
   explicit TagSizeEstimator(const TagSizeOptions& options) : options_(options) {}
 
-  /// Counts a pair in which the size could be measured; true when it should be.
+  /// Counts a pair in which the size could be measured; true if it should be measured now.
   bool is_due();
   void add(const SizeEvidence& measured);
   /// Nothing before the first measurement.

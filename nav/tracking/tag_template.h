@@ -21,7 +21,7 @@ struct TagTemplate {
   [[nodiscard]] double cell_m(double size_m) const { return size_m / border_cells; }
 };
 
-/// The template of one tag out of the AprilTag library's tables; nothing for a family or an id that
+/// The template of a tag from the AprilTag library's tables; nothing for a family or an id that
 /// does not exist.
 [[nodiscard]] std::optional<TagTemplate> tag_template(std::string_view family, int id);
 

@@ -12,7 +12,7 @@ namespace orthonav::nav {
 
 enum class ToolRole : std::uint8_t {
   kPointer,
-  kGuide,  ///< the only one that is guided
+  kGuide,  ///< the only tool that is guided
   kReference,
   kAwl,
   kDrill,
@@ -36,8 +36,8 @@ struct AttachedMarker {
   Transform<Marker, Tag> marker_from_tag;
 };
 
-/// A rigid tool: where its tip and axis lie relative to its marker. Of a tool without a tag, Marker
-/// is the frame that the device measures.
+/// A rigid tool: where its tip and axis lie relative to its marker. For a tool without a tag,
+/// Marker is the frame that the device measures.
 struct ToolGeometry {
   std::string name;
   ToolRole role = ToolRole::kPointer;
@@ -48,11 +48,11 @@ struct ToolGeometry {
   /// Other tags of the same rigid body. A tracker may use them or `marker` alone; poses are always
   /// those of `marker`.
   std::vector<AttachedMarker> more_markers;
-  std::string level = {};  ///< of a reference: the vertebra that it is clamped to; empty: not said
-  /// Of a guide with a sleeve, whose end is the tip: how long the sleeve is. Absent: not said.
+  std::string level = {};  ///< for a reference: the vertebra it is clamped to; empty: not stated
+  /// For a guide with a sleeve, whose end is the tip: the length of the sleeve. Absent: not stated.
   std::optional<double> sleeve_length_m = {};
-  /// Of a guide with a depth stop: how far the drill gets past where the tip was set on the bone,
-  /// until the stop is met. Absent: it has none, or nobody knows.
+  /// For a guide with a depth stop: how far the drill advances past where the tip was set on the
+  /// bone before it meets the stop. Absent: no stop, or unknown.
   std::optional<double> stop_m = {};
 
   [[nodiscard]] bool has_tag() const { return !marker.family.empty(); }
@@ -60,12 +60,12 @@ struct ToolGeometry {
 
 /// Every problem at once: empty names, unknown families, duplicate names, a tag given twice on any
 /// tool, sizes outside 5-200 mm, tips or further tags farther than 1 m, axes that are not unit
-/// vectors, sleeves outside 10-300 mm, stops outside 1-150 mm, either on another tool than a
-/// guide. Empty when all is well.
+/// vectors, sleeves outside 10-300 mm, stops outside 1-150 mm, a sleeve or stop on a tool that is
+/// not a guide. Empty when all is well.
 [[nodiscard]] std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools);
 /// Families of the tags, each once.
 [[nodiscard]] std::vector<std::string> families_of(const std::vector<MarkerDefinition>& tags);
-/// Of all tags of the tools.
+/// The same for all tags of the tools.
 [[nodiscard]] std::vector<std::string> families_of(const std::vector<ToolGeometry>& tools);
 /// Tag families that can be detected.
 [[nodiscard]] bool is_known_family(const std::string& family);

@@ -10,8 +10,8 @@
 namespace orthonav::nav {
 namespace {
 
-/// Correlations of a tag's cells with its template that are needed: where it is expected, somewhere
-/// near, and after the measurement. Texture reaches 0.4; a half-hidden tag 0.6.
+/// Required correlations of a tag's cells with its template: where it is expected, somewhere near,
+/// and after the measurement. Texture reaches 0.4; a half-hidden tag 0.6.
 constexpr double kFoundHere = 0.75;
 constexpr double kFoundNear = 0.6;
 constexpr double kBelieved = 0.55;
@@ -21,12 +21,12 @@ constexpr double kSameId = 0.5;
 /// The fraction of a tag that a single camera must see: with less, a wrong pose may explain the
 /// rest.
 constexpr double kKeptByOne = 0.7;
-/// With less of a tag in an image, using it is not worth the risk.
+/// An image with less of a tag than this is not used.
 constexpr double kLeastFraction = 0.5;
-/// Tilted by more than 80°, a tag is a line.
+/// A tag tilted by more than 80° is practically a line.
 constexpr double kLeastCosine = 0.17;
 constexpr double kFarthestDoubtPx = 24.0;
-/// Where the search found nothing to shift, the pose is off by less than this fraction of a cell.
+/// If the search found no shift, the pose is off by less than this fraction of a cell.
 constexpr double kUnshiftedCells = 0.3;
 
 const GreyImage& image_of(const StereoFrame& frame, const TagView& view) {
@@ -43,7 +43,7 @@ bool faces(const CameraFromTag& pose) {
          -pose.rotation.column(2).dot(pose.translation_m) > kLeastCosine * distance;
 }
 
-/// Where a view's tag is found, at the pose or near it; nothing when it is not there.
+/// Where a view's tag is found, at the pose or near it; nothing if it is not there.
 std::optional<CellMatch> match_near(const StereoFrame& frame, const TagView& view,
                                     const CameraFromTag& seen, double doubt_m,
                                     const PhotometricSolver& solver, TagSearch& search) {
@@ -62,7 +62,7 @@ std::optional<CellMatch> match_near(const StereoFrame& frame, const TagView& vie
   return match.code < kSameId ? std::nullopt : std::optional(match);
 }
 
-/// Shifts in the images become a translation in space, by least squares.
+/// Converts shifts in the images to a translation in space, by least squares.
 struct TranslationInSpace {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -91,8 +91,8 @@ struct TranslationInSpace {
   }
 };
 
-/// By what fraction a tag is farther away than either camera alone takes it to be: where their
-/// lines of sight to it meet. Nothing where they do not meet.
+/// The fraction by which a tag is farther away, where the cameras' lines of sight to it meet, than
+/// either camera alone estimates. Nothing if they do not meet.
 std::optional<double> farther_than_alone(const std::array<Vec3, 2>& eyes_m,
                                          const std::array<Vec3, 2>& alone_m) {
   const auto both =

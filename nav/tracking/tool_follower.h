@@ -14,7 +14,7 @@
 
 namespace orthonav::nav {
 
-/// What a pair of images says about a tool.
+/// The result of fitting a tool to a pair of images.
 struct ToolFit {
   Transform<Rig, Marker> rig_from_marker;
   PoseCovariance covariance_in_rig{};
@@ -23,28 +23,27 @@ struct ToolFit {
   std::optional<CalibrationEquations> calibration;  ///< where both cameras saw it
 };
 
-/// Finds a tool again near where it is expected and measures it photometrically, in whichever
-/// cameras see it. Keeps what it learnt about light and blur. The solver and the search are
-/// borrowed scratch.
+/// Finds a tool near its expected pose and measures it photometrically, with all cameras that see
+/// it. Keeps its estimates of light and blur. Solver and search are borrowed as scratch.
 class ToolFollower {
  public:
   static Result<ToolFollower> create(const ToolGeometry& tool);
 
-  /// Nothing when no image shows the tool's tags within `doubt_m` of where it is expected, or what
-  /// is there does not look like them.
+  /// Nothing if no image shows the tool's tags within `doubt_m` of the expected pose, or if the
+  /// image there does not look like them.
   [[nodiscard]] std::optional<ToolFit> follow(const StereoFrame& frame,
                                               const Transform<Rig, Marker>& expected,
                                               double doubt_m, PhotometricSolver& solver,
                                               TagSearch& search);
   /// The fraction by which a tag that both cameras saw in the last fit is larger than stated: each
-  /// camera alone tells how far away a tag of the stated size would be, both together tell how far
-  /// it is. Nothing when no tag was seen by both.
+  /// camera alone gives the distance of a tag of the stated size, both together give the true
+  /// distance. Nothing if no tag was seen by both.
   [[nodiscard]] std::optional<SizeEvidence> measured_size(const StereoFrame& frame,
                                                           const Transform<Rig, Marker>& pose,
                                                           PhotometricSolver& solver);
-  /// How long the cameras expose, as far as the tool's motion has shown.
+  /// The cameras' exposure time, estimated from the tool's motion.
   [[nodiscard]] double exposure_s() const { return exposure_.exposure_s(); }
-  /// Its tags are as large as stated, times this.
+  /// Sets the factor on the stated size of its tags.
   void set_size_factor(double factor);
   /// Forgets the light.
   void forget();

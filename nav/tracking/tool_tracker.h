@@ -19,12 +19,12 @@ struct Anchor;
 
 using TrackedPose = Tracked<Transform<World, Marker>>;
 
-/// Where a tool is relative to the headset by one stereo pair alone. Of two tools of the same pair,
-/// the head's pose, its noise and the map have no part in their relative pose.
+/// Where a tool is relative to the headset, from one stereo pair alone. The head's pose, its noise
+/// and the map do not affect the relative pose of two tools in the same pair.
 struct PairPose {
   Transform<Rig, Marker> rig_from_marker;
   PoseCovariance covariance{};  ///< in Rig
-  double exposure_s = 0.0;      ///< which the pose is a mean over
+  double exposure_s = 0.0;      ///< over which the pose is a mean
 };
 
 /// The state of one tool after one stereo pair.
@@ -37,12 +37,13 @@ struct ToolState {
   /// How many cameras a measured pose comes from; with 1 it is less certain, above all along the
   /// line of sight.
   int cameras = 0;
-  /// Absent where this pair does not measure the tool, or the method keeps no pose of one pair.
+  /// Absent if this pair does not measure the tool, or if the method has no pose from a single
+  /// pair.
   std::optional<PairPose> pair = {};
 };
 
-/// Adds the head's own error, as the device states it, to the covariance in World: over the lever
-/// arm from the rig to the tag. What the device does not state is left out.
+/// Adds the head's own error, as the device states it, to the covariance in World, over the lever
+/// arm from the rig to the tag. Without a stated error, nothing is added.
 void add_head(ToolState& state, const StereoFrame& frame);
 
 struct TrackerOptions {
@@ -75,18 +76,19 @@ class ToolTracker {
   [[nodiscard]] virtual std::optional<TagSize> tag_size(std::size_t /*tool*/) const {
     return std::nullopt;
   }
-  /// SD of how much larger one tool's tags are than another's, as a fraction, beside what poses
-  /// take into account; that of printers from a method that does not estimate it.
+  /// SD of how much larger one tool's tags are than another's, as a fraction, after the corrections
+  /// that poses take into account; a method that does not estimate it returns the usual SD of
+  /// printers.
   [[nodiscard]] virtual double tag_size_difference_sd(std::size_t /*tool*/,
                                                       std::size_t /*other*/) const {
     constexpr double kOfTwoPrints = 0.0042;
     return kOfTwoPrints;
   }
-  /// Whether it filters poses over pairs and predicts those that a pair misses. If not, they come
-  /// from another program and are passed on as they are.
+  /// Whether it filters poses over pairs and predicts missing ones. If not, poses come from another
+  /// program and are passed on unchanged.
   [[nodiscard]] virtual bool follows_tools() const { return true; }
-  /// The patient reference that its poses hang on (nav/tracking/anchor.h); null: they are
-  /// in the headset's map.
+  /// The patient references to which its poses are relative (nav/tracking/anchor.h); null: poses
+  /// are in the headset's map.
   [[nodiscard]] virtual const Anchor* anchor() const { return nullptr; }
 };
 
@@ -97,14 +99,14 @@ Result<std::unique_ptr<ToolTracker>> create_corner_tracker(const StereoCalibrati
                                                            std::vector<ToolGeometry> tools,
                                                            const TrackerOptions& options = {});
 
-/// The same with corners that someone else finds.
+/// The same with corners found elsewhere.
 Result<std::unique_ptr<ToolTracker>> create_tracker_of_corners(const StereoCalibration& calibration,
                                                                std::vector<ToolGeometry> tools,
                                                                const TrackerOptions& options,
                                                                std::unique_ptr<TagFinder> finder);
 
-/// The pose at which the tool's tags, as they are printed, explain both images at once, starting
-/// from a prediction (docs/tracking.md). Whole images are searched only for tools that are lost.
+/// Finds the pose at which the tool's printed tags explain both images at once, starting from a
+/// prediction (docs/tracking.md). Whole images are searched only for lost tools.
 Result<std::unique_ptr<ToolTracker>> create_photometric_tracker(
     const StereoCalibration& calibration, std::vector<ToolGeometry> tools,
     const TrackerOptions& options = {});

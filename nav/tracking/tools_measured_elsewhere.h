@@ -9,9 +9,9 @@
 
 namespace orthonav::nav {
 
-/// For a device that measures tools itself (StereoCamera::measured_tools): hands its poses on as
-/// they came, with the covariance stated for them. Nothing is filtered, predicted or guessed: a
-/// tool that a frame does not hold is lost in it. Tools that the device does not name are always
+/// For a device that measures tools itself (StereoCamera::measured_tools): passes its poses on
+/// unchanged, with the covariance stated for them. Nothing is filtered, predicted or guessed: a
+/// tool that is missing from a frame is lost in it. Tools that the device does not name are always
 /// lost; refuses names that no tool has, and tools with problems.
 Result<std::unique_ptr<ToolTracker>> create_tracker_of_poses(std::span<const std::string> measured,
                                                              std::vector<ToolGeometry> tools);

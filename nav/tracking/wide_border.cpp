@@ -87,7 +87,8 @@ void thin(const GreyImage& image, const PixelBox& box, int window_px, GreyImage&
 
 bool has_wide_border(const GreyImage& image, const std::array<Vec2, 4>& corners_px) {
   const SquareToQuad place(corners_px);
-  // The surroundings are not white everywhere (an AprilGrid's squares): three quarters of them are.
+  // The surroundings are not white everywhere (an AprilGrid has black squares), but three quarters
+  // of them are.
   const double black = ring_mean(image, place, 0);
   const double white = ring_mean(image, place, -1);
   if (!(white > black)) {

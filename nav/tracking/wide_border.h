@@ -8,11 +8,11 @@
 
 namespace orthonav::nav {
 
-/// Part of an image in which dark things are smaller: every pixel is the brightest of a window of
+/// Shrinks dark areas in a part of an image: every pixel becomes the brightest of a window of
 /// `window_px` pixels per side that begins with it and extends to the right and down. The black
 /// squares between the tags of an AprilGrid touch their corners; this separates them, so that the
-/// tags' outlines show. A place in `thinned` lies in `image` at the box's corner plus
-/// `thinned_offset(window_px)`.
+/// tags' outlines appear. A position in `thinned` corresponds in `image` to the same position plus
+/// the box's corner and `thinned_offset(window_px)`.
 void thin(const GreyImage& image, const PixelBox& box, int window_px, GreyImage& thinned);
 [[nodiscard]] inline Vec2 thinned_offset(int window_px) {
   return {0.5 * (window_px - 1), 0.5 * (window_px - 1)};

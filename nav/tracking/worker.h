@@ -16,10 +16,10 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// Runs `task(argument)` on the thread; the last task must have been waited for.
+  /// Runs `task(argument)` on the thread; call `wait` for the previous task first.
   void start(void (*task)(void*), void* argument);
-  /// Returns when the task has ended; what it wrote is then visible here. What it threw is thrown
-  /// here.
+  /// Returns when the task has ended; its writes are then visible to the caller. An exception that
+  /// it threw is rethrown here.
   void wait();
 
  private:

@@ -20,7 +20,7 @@ using render::FontFileGlyph;
 using render::FontFileHeader;
 
 constexpr int kEm_px = 48;        // of the atlas
-constexpr int kOversampling = 8;  // outline rasterised that much finer, then measured
+constexpr int kOversampling = 8;  // the outline is rasterised this much finer, then measured
 constexpr int kPadding_px = 6;    // reach of the distances on either side of the outline
 constexpr int kAtlasWidth_px = 1024;
 
@@ -122,7 +122,8 @@ Cell cell_of(FT_Face face, char32_t code, float cap_px) {
   return cell;
 }
 
-/// Rows of cells, tallest glyphs wherever they come; fills in the texture rectangles.
+/// Packs the cells in rows, in their order, each row as tall as its tallest glyph; fills in the
+/// texture rectangles.
 std::vector<std::uint8_t> packed(std::vector<Cell>& cells, int& height_px) {
   int x = 0;
   int y = 0;
@@ -152,8 +153,8 @@ std::vector<std::uint8_t> packed(std::vector<Cell>& cells, int& height_px) {
   return atlas;
 }
 
-/// A dash as wide as a digit would join its neighbours to one stroke. The figure dash is therefore
-/// a hyphen, centred in that width.
+/// A dash as wide as a digit would merge with its neighbours into one stroke. The figure dash is
+/// therefore a hyphen, centred in that width.
 void set_apart(std::vector<Cell>& cells) {
   const auto find = [&](char32_t code) {
     return std::find_if(cells.begin(), cells.end(),

@@ -10,8 +10,8 @@
 
 namespace orthonav::render {
 
-/// Orders the items of one kind by what they are, never by when they were submitted: farther ones
-/// first (by the middle of the item), then by label, then by content. Equal items are
+/// Orders the items of one kind independently of the order in which they were submitted: farther
+/// ones first (by the middle of the item), then by label, then by content. Equal items are
 /// interchangeable, so any order of them gives the same frame. Fills `order` with indices;
 /// allocates only while `order` grows.
 void sort_for_drawing(std::span<const MeshItem> items, const Head& head,

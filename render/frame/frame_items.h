@@ -59,12 +59,13 @@ struct PixelSize {
 /// when a frame is larger than all before it.
 class FrameItems {
  public:
-  /// Points of long lines are left out where their absence shows by less than `least_rad`.
+  /// Points of long lines are left out where that moves the line by less than `least_rad`.
   void build(const Scene& scene, const std::vector<View>& views, const Font& font,
              float least_rad = 0);
 
-  /// Finds where each item may show in the views of one pass, and the regions that hold all of
-  /// them: no two regions share a pixel, and each item lies in one. `box_of` gives a mesh's box.
+  /// Finds where each item may appear in the views of one pass, and the regions that hold all
+  /// items: no two regions share a pixel, and each item lies in one region. `box_of` gives a mesh's
+  /// bounding box.
   void place(std::span<const View> views, PixelSize size,
              const std::function<Box(const MeshItem&)>& box_of);
   [[nodiscard]] const std::vector<PixelRect>& regions() const { return regions_; }

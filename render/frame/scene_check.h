@@ -7,8 +7,8 @@
 
 namespace orthonav::render {
 
-// Whether it can be drawn: an Error names item, value and limit in one line. Success allocates
-// nothing. The inside of a mesh is checked once, when it is first seen (check_mesh).
+// Check whether a scene can be drawn: an Error names item, value and limit in one line. Success
+// allocates nothing. The content of a mesh is checked once, when it is first drawn (check_mesh).
 
 [[nodiscard]] Status check_scene(const Scene& scene);
 [[nodiscard]] Status check_views(const std::vector<View>& views);

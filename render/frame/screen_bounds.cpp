@@ -73,7 +73,8 @@ void ScreenBounds::add_to_view(std::size_t view, Float3 p, float radius_m, float
   const Matrix4& m = clip_from_world_[view];
   Extent& extent = extents_[view];
   const float depth = m[3] * p.x + m[7] * p.y + m[11] * p.z + m[15];
-  // What is close to the plane counts as both, so that rounding can't lose it.
+  // A point close to the plane counts as both in front of and behind it, so that rounding can't
+  // lose it.
   extent.in_front |= depth > 0.99f * kNearPlane_m;
   extent.behind |= depth < 1.01f * kNearPlane_m;
   if (extent.behind) {
@@ -98,7 +99,7 @@ PixelRect ScreenBounds::rect_in(const Extent& extent) const {
   if (extent.behind) {
     return whole;
   }
-  // Clamped before rounding: what is far off to the side does not fit into an integer.
+  // Clamped before rounding: a point far off to the side would overflow an integer.
   const auto within = [](float value, float most) { return std::clamp(value, -64.0f, most + 64); };
   const PixelRect rect{std::max(rounded_down(within(extent.left, width_px_)), 0),
                        std::max(rounded_down(within(extent.top, height_px_)), 0),

@@ -15,8 +15,8 @@ struct Box {
 };
 [[nodiscard]] Box box_of(const MeshData& mesh);
 
-/// Collects the pixels that the convex hull of points may touch in any of one or two views, never
-/// too few: what crosses the near plane may be anywhere. Rectangles are clipped to the image.
+/// Collects the pixels that the convex hull of points may touch in one or two views, never too few:
+/// a hull that crosses the near plane may be anywhere. Rectangles are clipped to the image.
 class ScreenBounds {
  public:
   ScreenBounds(std::span<const View> views, int width_px, int height_px);

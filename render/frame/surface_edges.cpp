@@ -74,7 +74,7 @@ bool is_hollow(const MeshData& mesh, const Float4& plane, const Side& neighbour)
     const Float3 p = mesh.positions[mesh.indices[3 * neighbour.triangle + i]];
     highest = std::max(highest, plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.w);
   }
-  // Rounding is not to hide an edge between triangles of one plane.
+  // Rounding must not hide an edge between triangles in one plane.
   constexpr float kFlat = 1e-3f;
   return highest >
          kFlat * (std::abs(plane.x) + std::abs(plane.y) + std::abs(plane.z)) *
@@ -107,8 +107,8 @@ std::uint8_t axis_of(const Float4& edge) {
   return std::abs(edge.z - edge.x) < std::abs(edge.w - edge.y) ? 1 : 2;
 }
 
-/// Where an edge that is drawn row by row meets one that is drawn column by column, pixels lie
-/// beyond the ends of both.
+/// Where an edge that is drawn row by row meets one that is drawn column by column, some pixels at
+/// the corner lie beyond the ends of both.
 Float4 lengthened(const Float4& edge, bool at_begin, bool at_end) {
   constexpr float kBeyond_px = 0.7f;
   const float x = edge.z - edge.x;

@@ -12,7 +12,7 @@ namespace orthonav::render {
 
 /// What SurfaceEdges needs room for; kept from frame to frame.
 struct EdgeScratch {
-  /// An edge that shows: its ends among the surface's positions, and in the image.
+  /// A visible edge: its ends as indices of the surface's positions, and in the image.
   struct Shown {
     std::array<std::uint32_t, 2> ends{};
     Float4 at_px;
@@ -22,9 +22,9 @@ struct EdgeScratch {
   std::vector<Shown> shown;
 };
 
-/// The edges of a surface at which its picture may end or jump: between a triangle that faces the
-/// eye and one that does not, along a border, and along creases, where the normals of the two sides
-/// differ.
+/// The edges of a surface at which its image may end or change abruptly: between a triangle that
+/// faces the eye and one that does not, along a border, and along creases, where the normals of the
+/// two sides differ.
 class SurfaceEdges {
  public:
   SurfaceEdges() = default;
@@ -32,8 +32,8 @@ class SurfaceEdges {
 
   /// Appends the edges that show from the view, as they lie in its image: x and y of one end, then
   /// of the other, in pixels; as one goes along it, a triangle that faces the eye is on the left.
-  /// Edges that lead round a corner are a little too long, so that they leave no pixel out. One
-  /// that reaches behind the near plane is left out.
+  /// Edges that turn a corner are drawn slightly too long, so that no pixel is missed. An edge that
+  /// crosses the near plane is left out.
   void seen_by(const View& view, PixelSize size, const Matrix4& world_from_model,
                EdgeScratch& scratch, std::vector<Float4>& edges) const;
 

@@ -15,7 +15,7 @@ class Font {
   [[nodiscard]] const FontFileGlyph& glyph(char32_t code) const;
   [[nodiscard]] bool has(char32_t code) const;
   [[nodiscard]] const FontFileHeader& header() const { return header_; }
-  /// width × height distances, 127.5 on the outline, more inside.
+  /// width × height distances: 127.5 on the outline, larger inside.
   [[nodiscard]] const std::vector<std::uint8_t>& atlas() const { return atlas_; }
 
  private:

@@ -10,12 +10,12 @@ namespace orthonav::render {
 class Bindings {
  public:
   explicit Bindings(const Device& device);
-  /// One GpuFrame a pass, kFrameStride apart.
+  /// One GpuFrame per pass, kFrameStride apart.
   void bind_frames(const Buffer& frames) const;
   void bind_data(const Buffer& data) const;
   void bind_atlas(const DeviceImage& atlas) const;
   void bind_background(const DeviceImage& background) const;
-  /// What was drawn so far, where surfaces' edges are smoothed.
+  /// The image drawn so far, where edges of surfaces are smoothed.
   void bind_drawn(const DeviceImage& drawn) const;
   [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
   [[nodiscard]] const VkDescriptorSet& set() const { return set_; }

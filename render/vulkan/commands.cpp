@@ -64,7 +64,8 @@ void Commands::wait() {
     return;
   }
   // The batch can't be cancelled. Nothing that it reads may be destroyed before it ends or the
-  // driver gives the device up, however long that takes; waiting again would bring nothing new.
+  // driver declares the device lost, however long that takes. The device counts as lost either way,
+  // since waiting again would not help.
   lost_ = true;
   vkDeviceWaitIdle(device_);
   if (result == VK_TIMEOUT) {

@@ -15,13 +15,13 @@ class Commands {
  public:
   explicit Commands(const Device& device,
                     std::chrono::nanoseconds patience = std::chrono::seconds(10));
-  /// Starts a new batch; what was recorded before is dropped.
+  /// Starts a new batch and drops anything recorded before.
   VkCommandBuffer begin();
   /// Submits the batch and waits for its end.
   void run();
   /// Submits the batch; `wait` before the next `begin`.
   void submit();
-  /// Waits until what was submitted has ended; returns at once when nothing was. Throws on a lost
+  /// Waits until the submitted batch has ended; returns at once if there is none. Throws on a lost
   /// device or one that takes longer than `patience`, but not before the device is idle, so that
   /// the caller may destroy what the batch used.
   void wait();
@@ -51,7 +51,7 @@ struct LayoutChange {
 /// A barrier between the transfers before it and the shaders or transfers after it.
 void change_layout(VkCommandBuffer commands, const LayoutChange& change);
 
-/// An image of some layers to be filled from a buffer that holds all of it, layer after layer.
+/// An image with layers, to be filled from a buffer that holds all of them one after the other.
 struct ImageFill {
   const Buffer& from;
   const DeviceImage& to;

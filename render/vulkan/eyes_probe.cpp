@@ -22,7 +22,7 @@ TargetSpec small_target() {
   return spec;
 }
 
-/// A triangle over the whole of both views.
+/// A triangle that covers both views completely.
 FrameItems covering_items(const Font& font) {
   Scene scene;
   scene.triangles.push_back({kLabel, {Float3{-9, -9, -1}, {9, -9, -1}, {0, 9, -1}}, {}});

@@ -10,8 +10,8 @@
 
 namespace orthonav::render {
 
-/// An Error on its way out of a constructor or of code deep in a frame. Never leaves render/: the
-/// renderers' public calls turn it back into an Error.
+/// Carries an Error out of a constructor or out of code deep in a frame. It never leaves render/:
+/// the renderers' public calls turn it back into an Error.
 class Failure : public std::runtime_error {
  public:
   explicit Failure(const Error& error);

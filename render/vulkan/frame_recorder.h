@@ -58,15 +58,15 @@ struct FrameSources {
   bool has_background = false;
   std::size_t outer = 0;  ///< which of the targets' outer images
   EdgeRanges edges = {};
-  VkImage drawn = VK_NULL_HANDLE;  ///< where what is drawn is copied before edges are smoothed
+  VkImage drawn = VK_NULL_HANDLE;  ///< receives a copy of the drawn image before edges are smoothed
 };
 
 /// Records drawing the regions that hold holograms, and the copy of each into its place in the
-/// readback buffer; what lies outside is not touched. The rules of depth and
-/// order that it follows are in docs/decisions/0021-holograms-need-no-order.md.
+/// readback buffer; pixels outside are not touched. The rules of depth and order are in
+/// docs/decisions/0021-holograms-need-no-order.md.
 void record_frame(VkCommandBuffer commands, const FrameSources& sources);
 
-/// Records drawing the whole of one of the targets' outer images, which nobody copies.
+/// Records drawing one whole outer image of the targets, without a copy.
 void record_outer_frame(VkCommandBuffer commands, const FrameSources& sources);
 
 }  // namespace orthonav::render

@@ -23,7 +23,7 @@ struct GpuFrame {
   std::array<std::uint32_t, 4> mode{};  ///< over?, background?
 };
 static_assert(sizeof(GpuFrame) == 2 * 96 + 48);
-/// From one pass's frame to the next in their buffer: what every device can be asked for.
+/// Offset from one pass's frame to the next in their buffer; every device supports this alignment.
 inline constexpr std::uint32_t kFrameStride = 256;
 static_assert(sizeof(GpuFrame) <= kFrameStride);
 

@@ -14,9 +14,9 @@
 namespace orthonav::render {
 namespace {
 
-/// Rank of the formats that can hold what the shaders write; higher is better. sRGB is what
-/// Renderer's images have: the same bits. Half floats hold linear light without visible steps; 8
-/// bits of linear light show steps in the dark, and are better than nothing.
+/// Rank of the formats that can hold what the shaders write; higher is better. sRGB gives the same
+/// bits as Renderer's images. Half floats hold linear light without visible steps; 8 bits of linear
+/// light show steps in dark areas, but are better than nothing.
 int rank_of(VkFormat format) {
   switch (format) {
     case VK_FORMAT_R8G8B8A8_SRGB:

@@ -11,14 +11,14 @@
 
 namespace orthonav::render {
 
-/// A host's answer, in which a null handle is an Error too.
+/// A host's answer; a null handle becomes an Error.
 [[nodiscard]] Result<void*> handle_of(Result<void*> answer);
 
-/// The entry to Vulkan: an instance, with the validation layer where it is asked for.
+/// The entry to Vulkan: an instance, with the validation layer if requested.
 class Instance {
  public:
-  /// Throws Failure when there is no Vulkan here, or no validation layer where asked for. Messages
-  /// go to `messages`, or to a sink of its own if that is empty. With a host, the host makes it.
+  /// Throws Failure if there is no Vulkan, or no validation layer although requested. Messages go
+  /// to `messages`, or to its own sink if that is empty. With a host, the host makes it.
   explicit Instance(bool validation, MessageSink messages = nullptr, VulkanHost* host = nullptr);
   ~Instance();
   Instance(const Instance&) = delete;

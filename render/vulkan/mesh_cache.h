@@ -16,7 +16,7 @@ namespace orthonav::render {
 struct MeshDetail {
   float error = 0;                        ///< allowed for leaving triangles out; 0: all stay
   std::size_t enough_triangles = 14'000;  ///< with fewer, simplifying does not pay
-  std::size_t most_triangles = 250'000;   ///< whatever the error
+  std::size_t most_triangles = 250'000;   ///< regardless of the error
   bool edges = false;                     ///< whether they are wanted
 };
 
@@ -29,9 +29,9 @@ struct GpuMesh {
   SurfaceEdges edges;  ///< of what is drawn, where they are wanted
 };
 
-/// Device copies of meshes, keyed by pointer. A copy is dropped when nobody else holds the mesh any
-/// more, or when it was not drawn for a while. The cache keeps the mesh alive meanwhile, so that a
-/// pointer never means two meshes.
+/// Device copies of meshes, keyed by pointer. A copy is dropped when only the cache still holds the
+/// mesh, or when it was not drawn for a while. Until then the cache keeps the mesh alive, so that a
+/// pointer never stands for two meshes.
 class MeshCache {
  public:
   /// `frames_in_flight`: how many may still be drawing when a frame ends; their copies are not

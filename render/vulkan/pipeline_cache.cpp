@@ -18,8 +18,8 @@
 namespace orthonav::render {
 namespace {
 
-/// The header before the driver's own bytes. Drivers trust what they are given, so it is checked
-/// here.
+/// The header before the driver's own bytes. Drivers do not check the data they are given, so it is
+/// checked here.
 struct FileHead {
   std::array<char, 8> magic = {'o', 'n', 'p', 'i', 'p', 'e', '0', '1'};
   std::uint64_t bytes = 0;
@@ -61,7 +61,7 @@ std::vector<char> read_file(const std::string& path) {
   return bytes;
 }
 
-/// Writes under another name first, so that nobody ever reads half a file.
+/// Writes under another name first, so that a partly written file is never read.
 void write_file(const std::string& path, const std::vector<char>& bytes) {
   std::error_code ignored;
   const std::filesystem::path target(path);
@@ -84,7 +84,7 @@ void write_file(const std::string& path, const std::vector<char>& bytes) {
 
 std::string user_cache_folder() {
   const auto value = [](const char* name) {
-    const char* found = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets it
+    const char* found = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): it is never set here
     return std::string(found != nullptr ? found : "");
   };
   // The XDG specification says that a relative folder is to be ignored.
@@ -117,7 +117,7 @@ PipelineCache::PipelineCache(const Device& device, VkPhysicalDevice physical,
 PipelineCache::~PipelineCache() {
   try {
     save();
-  } catch (const std::exception&) {  // the next start compiles again, that is all
+  } catch (const std::exception&) {  // the next start merely compiles again
   }
 }
 

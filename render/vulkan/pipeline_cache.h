@@ -8,18 +8,17 @@
 
 namespace orthonav::render {
 
-/// Where this user's caches lie: orthonav in XDG_CACHE_HOME or in ~/.cache; empty where neither is
-/// known.
+/// This user's cache folder: orthonav in XDG_CACHE_HOME or in ~/.cache; empty if neither is known.
 [[nodiscard]] std::string user_cache_folder();
 
 /// Compiled pipelines, kept in a file of the folder from one start to the next. A file that is
-/// missing, truncated, changed, or of another device or driver is ignored, and one that can't be
-/// written is not written: a cache is never a reason to fail.
+/// missing, truncated, changed, or of another device or driver is ignored, and a failure to write
+/// is ignored too: a cache is never a reason to fail.
 class PipelineCache {
  public:
   /// An empty folder: nothing is read or written.
   PipelineCache(const Device& device, VkPhysicalDevice physical, const std::string& folder);
-  /// Writes what has been added since.
+  /// Writes the file if pipelines were added.
   ~PipelineCache();
   PipelineCache(const PipelineCache&) = delete;
   PipelineCache& operator=(const PipelineCache&) = delete;

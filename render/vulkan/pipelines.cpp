@@ -25,8 +25,8 @@ ShaderModule make_module(VkDevice device, std::string_view spirv) {
 
 VkPipelineColorBlendAttachmentState blend_state(const Recipe& recipe, PassKind kind, Blend blend) {
   VkPipelineColorBlendAttachmentState state = {};
-  // Images come out opaque: the clear writes alpha 1 and nothing changes it. Only where someone
-  // else puts them over the world does alpha say how much of the world is hidden.
+  // Images are opaque: the clear writes alpha 1 and nothing changes it. Only where the host puts
+  // them over the world does alpha say how much of the world is hidden.
   state.colorWriteMask =
       VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
   if (blend == Blend::kPremultiplied) {
@@ -99,7 +99,7 @@ struct States {
     if (recipe.mesh) {
       input.vertexBindingDescriptionCount = 1;
       input.pVertexBindingDescriptions = &binding;
-      // A depth pipeline runs the same shader and so takes the normals and tints too.
+      // A depth pipeline runs the same shader, so it takes normals and tints too.
       input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size());
       input.pVertexAttributeDescriptions = attributes.data();
     }

@@ -37,7 +37,7 @@ Recipe mesh_recipe(std::string_view fragment, Mix mix, bool depth_write,
   return recipe;
 }
 
-/// For what is drawn over the meshes without hiding anything.
+/// For stages that are drawn over the meshes without hiding anything.
 Recipe overlay_recipe(std::string_view vertex, std::string_view fragment, bool depth_test) {
   Recipe recipe;
   recipe.vertex = vertex;
@@ -47,7 +47,7 @@ Recipe overlay_recipe(std::string_view vertex, std::string_view fragment, bool d
   return recipe;
 }
 
-/// For what covers pixels whatever their depth.
+/// For stages that cover pixels regardless of depth.
 Recipe plain_recipe(std::string_view vertex, std::string_view fragment) {
   Recipe recipe;
   recipe.vertex = vertex;
@@ -55,7 +55,7 @@ Recipe plain_recipe(std::string_view vertex, std::string_view fragment) {
   return recipe;
 }
 
-/// A line in parts of one and the same shape.
+/// A stage of a line drawn with computed coverage; all such stages use the same geometry.
 Recipe covered_line_recipe(std::string_view fragment, Mix mix) {
   Recipe recipe = overlay_recipe(embedded::line_cover_vert(), fragment, true);
   recipe.mix = mix;
@@ -99,7 +99,7 @@ Recipe recipe_of(Stage stage, bool labels, bool covers) {
                         labels ? embedded::text_label_frag() : embedded::text_frag(), false);
 }
 
-/// The stage as it is drawn, but for its depth alone; text stands in front of everything.
+/// The stage as it is drawn for depth only; text is in front of everything.
 Recipe depth_recipe_of(Stage stage) {
   Recipe recipe = recipe_of(stage, true, false);
   recipe.fragment = stage == Stage::kText ? embedded::text_depth_frag() : std::string_view{};

@@ -6,27 +6,27 @@
 
 namespace orthonav::render {
 
-/// What a frame is drawn with, in this order.
+/// The stages of drawing a frame, in this order.
 enum class Stage {
   kBackground,   ///< the image behind everything; colour only
   kDepth,        ///< solids into the depth alone
-  kTranslucent,  ///< see-through meshes: the nearest surface replaces what is there
+  kTranslucent,  ///< see-through meshes: the nearest surface replaces what was drawn before
   kSolid,        ///< the nearest solid surface, blended
   kTriangle,
   kLine,        ///< the stencil lets each item touch a sample once
-  kLineCover,   ///< in place of kLine where coverage is computed: a line into alpha, then
+  kLineCover,   ///< replaces kLine where coverage is computed: a line into alpha, then
   kLineColour,  ///< its colour by what alpha lacks
   kEdge,        ///< of meshes, where coverage is computed: pixels get their neighbours' share
   kText,        ///< in front of everything: a number is never hidden
   kCount
 };
 
-/// How a stage's colour meets what is there.
+/// How a stage's colour is combined with the existing one.
 enum class Mix {
   kReplace,
   kBlend,       ///< as the frame's Blend says
-  kCoverAlpha,  ///< the least alpha stays, colour is left alone
-  kByAlpha      ///< by what is missing in alpha, which becomes full
+  kCoverAlpha,  ///< the smallest alpha is kept, colour is unchanged
+  kByAlpha      ///< weighted by what alpha lacks; alpha becomes full
 };
 
 /// How a stage differs from the others.

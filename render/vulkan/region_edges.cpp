@@ -3,7 +3,7 @@
 #include "render/vulkan/commands.h"
 #include "render/vulkan/region_recording.h"
 
-// What frames with computed coverage have besides (docs/decisions/0100-coverage-at-one-sample.md).
+// What only frames with computed coverage need (docs/decisions/0100-coverage-at-one-sample.md).
 
 namespace orthonav::render {
 

@@ -154,7 +154,7 @@ void RegionRecording::copy() const {
   // Rows of adjacent regions alternate in the buffer: one copy after the other.
   wait_for_copies(commands_, sources_.readback, VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_TRANSFER_WRITE_BIT);
-  // Into its place in the whole image, so that a reader needs to know the regions only.
+  // Each region keeps its place in the whole image, so a reader needs to know only the regions.
   const auto pixel = std::size_t{spec.width} * region_.top + region_.left;
   VkBufferImageCopy copy = {};
   copy.bufferOffset = sources_.readback_offset + 4 * pixel;

@@ -13,7 +13,7 @@ class RegionRecording {
   RegionRecording(VkCommandBuffer commands, const FrameSources& sources, const PixelRect& region)
       : commands_(commands), sources_(sources), region_(region) {}
 
-  /// All that shows in it.
+  /// Draws everything visible in it.
   void everything() const;
   /// Copies it into its place in the readback buffer.
   void copy() const;
@@ -26,7 +26,8 @@ class RegionRecording {
   void lines() const;
   void texts() const;
   [[nodiscard]] bool draws_depth() const;
-  /// Whether it shows in this region; binds the stage's pipeline before the first item that does.
+  /// Whether an item with these bounds is visible in this region; binds the stage's pipeline before
+  /// the first such item.
   bool shows(const PixelRect& bounds, Stage stage, bool& bound) const;
   void next_stencil(std::uint32_t& stencil) const;
   void push(const GpuItem& item) const;
@@ -34,8 +35,8 @@ class RegionRecording {
 
   void push_line(const SpanDraw& draw) const;
   void cover_line(const SpanDraw& draw) const;
-  /// All of one line into alpha, which then says how much of its colour is added; the stencil is
-  /// not needed.
+  /// Draws each line into alpha first, which then says how much of its colour is added; no stencil
+  /// is needed.
   void covered_lines() const;
   /// The part of the region whose pixels edges of meshes may cut; empty where there are none.
   [[nodiscard]] PixelRect edges_within() const;
@@ -43,7 +44,7 @@ class RegionRecording {
   void copy_drawn(const PixelRect& part) const;
   /// Clears depth or stencil of every view, as at the frame's beginning.
   void clear(VkImageAspectFlags aspect) const;
-  /// Draws the meshes of a stage; whether there were any.
+  /// Draws the meshes of a stage; returns whether there were any.
   bool mesh_stage(Stage stage, const std::vector<MeshDraw>& meshes) const;
 
   VkCommandBuffer commands_;
@@ -51,9 +52,9 @@ class RegionRecording {
   PixelRect region_;
 };
 
-/// As Vulkan has it.
+/// The rectangle in Vulkan's form.
 [[nodiscard]] VkRect2D rect_of(const PixelRect& region);
-/// Makes what follows wait for what was copied into the buffer.
+/// Makes later work wait for the copies into the buffer.
 void wait_for_copies(VkCommandBuffer commands, const Buffer& readback, VkPipelineStageFlags stage,
                      VkAccessFlags access);
 

@@ -44,7 +44,7 @@ void write_line_indices(const Buffer& buffer) {
   }
 }
 
-/// How far a line may be off unnoticed: kUnseen_px where pixels are smallest.
+/// By how large an angle a line may deviate unnoticed: kUnseen_px where pixels are smallest.
 float unseen_rad(const std::vector<View>& views, PixelSize size) {
   float least = std::numeric_limits<float>::max();
   for (const View& view : views) {
@@ -167,7 +167,7 @@ void SceneDrawing::note(std::string line) {
   }
 }
 
-/// Notes each character that the font lacks, once: a box stands in its place.
+/// Notes each character that the font lacks, once: a box is drawn instead.
 void SceneDrawing::note_missing_glyphs(const Scene& scene) {
   for (const TextItem& item : scene.texts) {
     std::size_t noted = missing_glyphs_.size();

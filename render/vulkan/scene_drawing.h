@@ -18,28 +18,29 @@
 
 namespace orthonav::render {
 
-/// What belongs to a frame until the device has drawn it.
+/// Resources that belong to a frame until the device has drawn it.
 struct FrameSlot {
   explicit FrameSlot(const Device& device);
   Commands commands;
   Bindings bindings;
   Buffer frames;        ///< one GpuFrame per pass
   Buffer data;          ///< FrameItems::data
-  Buffer line_indices;  ///< of as many segments as were ever needed
+  Buffer line_indices;  ///< for as many segments as any frame needed so far
 };
 
-/// What drawing into own images and into someone else's have in common: a scene is checked, its
-/// meshes are uploaded, it is laid out and written where the shaders find it. Frames alternate
-/// between the slots. After the first frames it allocates nothing.
+/// The common part of drawing into own images and into a host's: a scene is checked, its meshes are
+/// uploaded, and it is laid out and written where the shaders read it. Frames alternate between the
+/// slots. After the first frames it allocates nothing.
 class SceneDrawing {
  public:
   /// Throws Failure, as its other calls do where the device fails. `device` must outlive it.
   SceneDrawing(const RendererOptions& options, const Device& device, VkPhysicalDevice physical,
                std::size_t slots);
 
-  /// What is behind the holograms, for all slots; before the first frame.
+  /// The image behind the holograms, for all slots; to be called before the first frame.
   void bind_background(const DeviceImage& background);
-  /// Where what is drawn is copied for the smoothing of surfaces' edges, for all slots.
+  /// The image that receives a copy of the drawn one for smoothing edges of surfaces, for all
+  /// slots.
   void bind_drawn(const DeviceImage& drawn);
   /// How many views a pass draws, according to the options or to a test of the device; needs a
   /// background.
@@ -57,7 +58,7 @@ class SceneDrawing {
   /// Whether colour is drawn with computed coverage.
   [[nodiscard]] bool covers() const { return drawn_edges(options_) == Edges::kCoverage; }
   /// Lays the scene out for a pass over these views in images of this size, into the current slot;
-  /// the edges of its meshes too, where the pass smooths them.
+  /// also the edges of its meshes, if the pass smooths them.
   void build(const Scene& scene, const std::vector<View>& views, PixelSize size, PassKind kind);
   /// The edges of the pass whose first view is `first`.
   [[nodiscard]] EdgeRanges edges(std::size_t first) const {

@@ -55,7 +55,7 @@ VkSubpassDependency before_reading(bool outer) {
   return dependency;
 }
 
-/// The views of a mask, drawn together; the info points to the mask.
+/// Draws the views of a mask together; the returned info points to the mask.
 VkRenderPassMultiviewCreateInfo all_at_once(const std::uint32_t& view_mask) {
   VkRenderPassMultiviewCreateInfo multiview = {};
   multiview.sType = VK_STRUCTURE_TYPE_RENDER_PASS_MULTIVIEW_CREATE_INFO;
@@ -66,7 +66,7 @@ VkRenderPassMultiviewCreateInfo all_at_once(const std::uint32_t& view_mask) {
   return multiview;
 }
 
-/// Of an image that is drawn into.
+/// The aspects of an image that is drawn into.
 VkImageAspectFlags aspects_of(VkFormat depth) {
   const bool stencil =
       depth == VK_FORMAT_D24_UNORM_S8_UINT || depth == VK_FORMAT_D32_SFLOAT_S8_UINT;
@@ -147,7 +147,7 @@ void Targets::make_framebuffers(const Device& device) {
   }
 }
 
-/// `result`: the view that is read in the end.
+/// `result`: the view that receives the final result.
 Framebuffer Targets::framebuffer_of(const Device& device, VkImageView result) const {
   const std::array<VkImageView, 3> views = {resolves() ? colour_.view() : result, depth_.view(),
                                             result};
@@ -242,7 +242,7 @@ void Targets::make_depth_pass(const Device& device) {
   set_pass(device, info);
 }
 
-/// All views at once.
+/// Makes the render pass, for all views at once.
 void Targets::set_pass(const Device& device, VkRenderPassCreateInfo info, PassPart part) {
   const std::uint32_t view_mask = (1u << spec_.views) - 1;
   const VkRenderPassMultiviewCreateInfo multiview = all_at_once(view_mask);

@@ -11,11 +11,11 @@ namespace orthonav::render {
 enum class PassKind {
   kColour,
   kLabels,
-  kDepth  ///< of everything that shows, for somebody else to know how far it is
+  kDepth  ///< of everything visible, for the host to know how far away it is
 };
 
-/// How edges are drawn, whatever was asked for: alpha can't hold both the coverage of lines and
-/// what somebody else is to see of the world.
+/// How edges are actually drawn: alpha can't hold both the coverage of lines and how much of the
+/// world the host shows.
 [[nodiscard]] inline Edges drawn_edges(const RendererOptions& options) {
   const bool full = options.blend == Blend::kPremultiplied && options.edges == Edges::kCoverage;
   return full ? Edges::kSamples : options.edges;
@@ -26,11 +26,11 @@ struct TargetSpec {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint32_t views = 1;
-  Edges edges = Edges::kHard;  ///< of colour; all else is as hard as it comes
+  Edges edges = Edges::kHard;  ///< of colour; other kinds always have hard edges
   VkFormat colour = kColourFormat;
   VkFormat depth = VK_FORMAT_UNDEFINED;  ///< of the outer images, where depth alone is drawn
-  /// Someone else's images with as many layers as there are views, one of which receives the result
-  /// at a time; empty: the targets have an image of their own.
+  /// The host's images with as many layers as there are views, one of which receives the result at
+  /// a time; empty: the targets have their own image.
   std::vector<VkImage> outer;
 
   /// Whether the coverage of pixels is computed.
@@ -51,12 +51,12 @@ enum class PassPart {
 };
 
 /// The images of one kind of frame, one layer a view, and the pass that draws into all layers at
-/// once. The result is left ready to be copied from, or in somebody else's image as an attachment.
+/// once. The result is left ready to be copied from, or, in a host's image, as an attachment.
 class Targets {
  public:
   Targets(const Device& device, const TargetSpec& spec);
   [[nodiscard]] const TargetSpec& spec() const { return spec_; }
-  /// Parts other than the whole are of colour with computed coverage alone.
+  /// Parts other than the whole exist only for colour with computed coverage.
   [[nodiscard]] VkRenderPass pass(PassPart part = PassPart::kWhole) const {
     return passes_[static_cast<std::size_t>(part)].get();
   }

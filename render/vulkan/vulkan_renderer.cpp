@@ -132,7 +132,7 @@ Status VulkanRenderer::draw_into(std::vector<Picture>& pictures, PassKind kind, 
   return {};
 }
 
-/// No exception leaves it, and the meshes see the frame end however it ended.
+/// Turns exceptions into Errors, and ends the frame for the mesh cache however it ended.
 template <class Work>
 Status VulkanRenderer::attempt(const Work& work) {
   const Stopwatch watch;

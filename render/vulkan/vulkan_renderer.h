@@ -12,10 +12,10 @@
 
 namespace orthonav::render {
 
-/// Draws one frame after the other, each to its end, with buffers that are kept.
+/// Draws one frame at a time to completion, with buffers that it reuses.
 class VulkanRenderer final : public Renderer {
  public:
-  /// Of checked options. Throws Failure.
+  /// `options` must have been checked. Throws Failure.
   explicit VulkanRenderer(const RendererOptions& options);
   ~VulkanRenderer() override;
   VulkanRenderer(const VulkanRenderer&) = delete;
