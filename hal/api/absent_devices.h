@@ -6,12 +6,12 @@
 
 namespace orthonav {
 
-/// A button that is never pressed: there is none.
+/// Stands in where there is no button: never pressed.
 class AbsentClicker final : public Clicker {
   Status do_poll(Timestamp /*until*/, std::vector<ClickerEvent>& /*events*/) override { return {}; }
 };
 
-/// Nobody is listened to.
+/// Stands in where there is no voice recognition: hears nothing.
 class AbsentVoice final : public Voice {
   Status do_poll(Timestamp /*until*/, std::vector<Phrase>& /*phrases*/) override { return {}; }
 };

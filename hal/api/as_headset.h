@@ -7,7 +7,7 @@
 
 namespace orthonav {
 
-/// What was opened, as any headset.
+/// Converts what was opened to any Headset.
 template <class T>
 Result<std::unique_ptr<Headset>> as_headset(Result<std::unique_ptr<T>> opened) {
   if (!opened) {

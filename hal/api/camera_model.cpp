@@ -16,7 +16,7 @@ constexpr int kMaxSide = 16384;
 /// Newton's error is about the square of its last step: 1e-8 px, where the contract is 1e-6.
 constexpr double kNewtonStepPx = 1e-4;
 constexpr int kNewtonSteps = 30;
-/// A point that rounding put just past the image's edge still lies on it.
+/// A point that is just past the image's edge due to rounding counts as on it.
 constexpr double kEdgePx = 1e-7;
 
 struct Place {
@@ -50,7 +50,7 @@ int orientation(const LookupCell& cell) {
   return positive == 4 ? 1 : (negative == 4 ? -1 : 0);
 }
 
-/// Newton's step in pixels: so far the place in the cell moves to see what lies `off` away.
+/// Newton's step in pixels: how far to move in the cell to change the direction by `off`.
 std::optional<Vec2> newton_step(const LookupCell& cell, const Place& at, Vec2 off) {
   const Vec2 by_x = cell.along_x(at.t);
   const Vec2 by_y = cell.along_y(at.s);
@@ -61,7 +61,8 @@ std::optional<Vec2> newton_step(const LookupCell& cell, const Place& at, Vec2 of
   return Vec2{off.cross(by_y) / determinant, by_x.cross(off) / determinant};
 }
 
-/// The pixel, on the image's edge where rounding put it just past that; nothing farther out.
+/// The pixel, moved onto the image's edge if it is just past it due to rounding; nothing farther
+/// out.
 std::optional<Vec2> on_image(Vec2 pixel_px, int width_px, int height_px) {
   if (pixel_px.x < -kEdgePx || pixel_px.y < -kEdgePx || pixel_px.x > width_px + kEdgePx ||
       pixel_px.y > height_px + kEdgePx) {
@@ -187,7 +188,7 @@ std::optional<Vec2> CameraModel::unproject(Vec2 pixel_px) const {
   if (cell.valid()) {
     return cell.value(at.s, at.t);
   }
-  // A pixel's own centre needs no neighbour, at the rim of the valid part it may have none.
+  // A pixel's own centre needs no neighbours; at the rim of the valid part it may have none.
   const Vec2 own = at.s == 0.0 && at.t == 0.0 ? cell.a : kNoDirection;
   return is_nan(own) ? std::nullopt : std::optional<Vec2>(own);
 }

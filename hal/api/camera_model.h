@@ -37,7 +37,7 @@ class CameraModel {
  public:
   CameraModel() = default;
   /// `unit_plane` has width·height entries, row-major, for pixel centres (x+0.5, y+0.5). NaN marks
-  /// a pixel without a direction. Refuses wrong sizes, infinities, an all-NaN table and a table
+  /// a pixel without a direction. Refuses wrong sizes, infinities, a table of NaN only, and a table
   /// that folds over (not invertible).
   static Result<CameraModel> from_lookup(int width_px, int height_px, std::vector<Vec2> unit_plane);
   static Result<CameraModel> from_brown_conrady(const BrownConrady& parameters);
@@ -45,7 +45,7 @@ class CameraModel {
   [[nodiscard]] int width_px() const { return width_px_; }
   [[nodiscard]] int height_px() const { return height_px_; }
   /// Bilinear in the table, extrapolated up to one pixel past the outermost centres; nothing
-  /// outside the image or where the table has NaN.
+  /// outside the image or where the table holds NaN.
   [[nodiscard]] std::optional<Vec2> unproject(Vec2 pixel_px) const;
   /// The pixel that sees a unit-plane point, inverse of `unproject` within 1e-6 px; nothing when
   /// outside the image.

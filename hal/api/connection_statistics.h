@@ -8,13 +8,13 @@
 
 namespace orthonav {
 
-/// What one stream of a connection has done so far.
+/// Statistics of one stream of a connection so far.
 struct StreamStatistics {
   std::string name;
   std::int64_t connections = 0;
   std::int64_t packets = 0;
   std::int64_t bytes = 0;
-  std::int64_t damaged = 0;       ///< packets refused, themselves or for their picture
+  std::int64_t damaged = 0;  ///< packets refused because of their own or their picture's damage
   std::int64_t out_of_order = 0;  ///< packets stamped before their predecessor
   std::int64_t gaps = 0;          ///< stamps more than one and a half intervals apart
   Duration longest_gap{};         ///< between two stamps
@@ -23,12 +23,12 @@ struct StreamStatistics {
   std::string last_trouble;
 };
 
-/// What a headset's connection has done so far.
+/// Statistics of a headset's connection so far.
 struct ConnectionStatistics {
   std::vector<StreamStatistics> streams;
   std::int64_t pairs = 0;
-  std::int64_t unpaired = 0;  ///< images whose partner never came
-  std::int64_t dropped = 0;   ///< pairs that a newer one replaced before they were asked for
+  std::int64_t unpaired = 0;  ///< images without a partner
+  std::int64_t dropped = 0;   ///< pairs replaced by a newer one before they were taken
   std::int64_t map_moves = 0;
   std::int64_t clock_restarts = 0;
   /// Headset's clock minus this machine's steady clock, from the packet with the shortest transit

@@ -16,15 +16,15 @@ namespace orthonav {
 
 /// How a depth camera measures. One camera of a HoloLens is two streams.
 enum class DepthStream {
-  kAhat,       ///< HoloLens 2, near and fast; wraps: what is past about 1 m appears near
+  kAhat,       ///< HoloLens 2, near and fast; wraps: objects beyond about 1 m appear near
   kLongThrow,  ///< HoloLens 1 and 2: far and slow
   kShortThrow  ///< HoloLens 1, near and fast
 };
 /// "ahat", "long-throw" or "short-throw".
 [[nodiscard]] const char* name_of(DepthStream stream);
 
-/// A depth camera as the device describes it. Nobody projects into one, so its table may fold over
-/// outside a wide lens's image circle, where a CameraModel's must not.
+/// A depth camera as the device describes it. No points are projected into it, so its table, unlike
+/// a CameraModel's, may fold over outside a wide lens's image circle.
 struct DepthCalibration {
   /// A unit vector in the camera's frame, as devices store it; z = 0: the pixel sees nothing.
   using Ray = std::array<float, 3>;
@@ -43,10 +43,10 @@ struct DepthCalibration {
   /// Where a pixel's measurement lies; nothing without a measurement (0) or without a ray. The
   /// pixel must lie in the image.
   ///
-  /// What is measured is the distance along the ray, not z: so do the tools of either recorder's
-  /// makers read it (microsoft/HoloLens2ForCV StreamRecorderConverter/save_pclouds.py: unit rays
-  /// times depth; microsoft/HoloLensForCV Samples/py/pcloud_compute.py and its issue 63: z = depth
-  /// / sqrt(x^2 + y^2 + 1)), and jdibenes/hl2ss viewer/hl2ss_3dcv.py, for AHaT as for long throw.
+  /// The measurement is the distance along the ray, not z. The tools of both recorders' makers read
+  /// it that way (microsoft/HoloLens2ForCV StreamRecorderConverter/save_pclouds.py: unit rays times
+  /// depth; microsoft/HoloLensForCV Samples/py/pcloud_compute.py and its issue 63: z = depth /
+  /// sqrt(x^2 + y^2 + 1)), and jdibenes/hl2ss viewer/hl2ss_3dcv.py, for AHaT as for long throw.
   [[nodiscard]] std::optional<Point<DepthSensor>> point_at(int x_px, int y_px,
                                                            std::uint16_t range_mm) const;
 };
@@ -56,11 +56,11 @@ struct DepthFrame {
   std::int64_t sequence = 0;
   std::int64_t map_epoch = 0;  ///< as StereoFrame's
   Timestamp time{};            ///< mid-exposure
-  /// Distance along each pixel's ray in whole millimetres; 0: not measured, however the device
-  /// itself marks that.
+  /// Distance along each pixel's ray in whole millimetres; 0: not measured, regardless of how the
+  /// device marks that.
   DepthImage range_mm;
   /// How brightly each pixel returned the camera's own infrared light, in the device's unit; of the
-  /// same size, or empty where the device does not report it.
+  /// same size, or empty if the device does not report it.
   DepthImage brightness;
   /// Where the headset was at `time`; absent while the headset is not located.
   std::optional<Transform<World, Rig>> world_from_rig;
@@ -86,7 +86,7 @@ class DepthCamera {
   FrameOrder order_;
 };
 
-/// What a headset that owns its depth cameras answers.
+/// The list of depth cameras that a headset which owns them returns.
 template <class Camera>
 [[nodiscard]] std::vector<DepthCamera*> borrowed(
     const std::vector<std::unique_ptr<Camera>>& cameras) {

@@ -27,7 +27,7 @@ struct ToolsFile {
   std::string text;
 };
 
-/// What a device can say about the tools in front of its cameras: nothing, values, or a file's
+/// How a device describes the tools in front of its cameras: not at all, by values, or by a file's
 /// text.
 using DescribedTools = std::variant<std::monostate, std::vector<DescribedTool>, ToolsFile>;
 

@@ -34,7 +34,7 @@ const char* name_of(ClickerAction action) {
   return "unknown action";
 }
 
-/// What every stream of events keeps: in order, and not later than asked for.
+/// The contract of every stream of events: in order, and not later than requested.
 Status check_time(const std::string& what, Timestamp time, Timestamp until,
                   std::optional<Timestamp> last) {
   if (last && time < *last) {
@@ -48,7 +48,7 @@ Status check_time(const std::string& what, Timestamp time, Timestamp until,
   return {};
 }
 
-/// Why an event can't come now; null where it can.
+/// Why an event is not allowed now; null if it is.
 const char* problem_of(ClickerAction action, const ButtonState& button) {
   switch (action) {
     case ClickerAction::kPress:
@@ -68,7 +68,7 @@ const char* problem_of(ClickerAction action, const ButtonState& button) {
   return nullptr;
 }
 
-/// What a device says of its own error is finite, and no variance is negative.
+/// A device's stated error must be finite and have no negative variance.
 bool is_sound(const PoseCovariance& covariance) {
   bool sound = true;
   for (std::size_t i = 0; i < covariance.size(); ++i) {

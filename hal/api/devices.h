@@ -21,7 +21,7 @@
 
 namespace orthonav {
 
-/// The two front cameras as the device reports them; without pixels where it has none.
+/// The two front cameras as the device reports them; without pixels if it has none.
 struct StereoCalibration {
   CameraModel left;
   CameraModel right;
@@ -37,19 +37,19 @@ struct StereoCalibration {
 /// Two images taken at the same moment. The buffers are reused from frame to frame.
 struct StereoFrame {
   std::int64_t sequence = 0;
-  /// Which map World is. It increases when the device's map has moved or was replaced (recentred,
-  /// relocalised, lost and found again): positions in World from before then mean nothing.
+  /// The map that World belongs to. It increases when the device's map has moved or was replaced
+  /// (recentred, relocalised, lost and found again): earlier positions in World then mean nothing.
   std::int64_t map_epoch = 0;
   Timestamp time{};  ///< mid-exposure
   GreyImage left;
   GreyImage right;
   /// Where the headset was at `time`; absent while the headset is not located.
   std::optional<Transform<World, Rig>> world_from_rig;
-  /// How far that may be off, drift of the map apart, where the device says so: of (translation m,
-  /// rotation vector rad about the rig's origin), in World. Absent: it is not stated.
+  /// Covariance of that pose, without drift of the map, if the device states it: of (translation m,
+  /// rotation vector rad about the rig's origin), in World.
   std::optional<PoseCovariance> head_covariance;
-  /// Tools that the device itself measured at `time`, each at most once; those that it did not see
-  /// are not among them. Empty for a device that leaves tracking to us.
+  /// Tools that the device itself measured at `time`, each at most once; tools that it did not see
+  /// are left out. Empty for a device that does not track tools itself.
   std::vector<MeasuredTool> tools;
 
   /// Empties it and keeps the buffers, so that the next frame allocates nothing.
@@ -59,11 +59,11 @@ struct StereoFrame {
 /// Pull interface of the camera pair. Contract, kept by the public call for every device: times
 /// strictly increase, both images have the calibration's size, sequence numbers increase, the map's
 /// epoch never decreases, a pose is a rigid motion; after kEnd there is only kEnd. A frame that
-/// breaks it is answered with an Error and not passed on (`frame` comes back empty); the stream
-/// continues with the next good frame.
+/// breaks the contract results in an Error and is not passed on (`frame` comes back empty); the
+/// stream continues with the next good frame.
 ///
-/// A device that measures tools itself names them; its frames carry their poses, and where it has
-/// no cameras its calibration and its images are empty.
+/// A device that measures tools itself names them, and its frames carry their poses; if it has no
+/// cameras, its calibration and images are empty.
 class StereoCamera {
  public:
   virtual ~StereoCamera() = default;
@@ -82,10 +82,10 @@ class StereoCamera {
   FrameOrder order_;
 };
 
-/// Where the head is, was or will be. Contract: the answer's time is the time asked for; more than
-/// `kMaxHeadPrediction` past the newest measurement, the answer is lost. A pose that is not
-/// rigid, or is of another time, comes back as lost. So does every pose of a time before the map
-/// moved (`StereoFrame::map_epoch`): answers are in the newest map. Thread-safe.
+/// Where the head is, was or will be. Contract: the answer has the requested time; more than
+/// `kMaxHeadPrediction` past the newest measurement, it is lost. A pose that is not rigid, or has
+/// another time, is returned as lost. So is any pose from before the map moved
+/// (`StereoFrame::map_epoch`): answers are in the newest map. Thread-safe.
 class HeadTracker {
  public:
   static constexpr Duration kMaxHeadPrediction = std::chrono::milliseconds(100);
@@ -94,7 +94,7 @@ class HeadTracker {
 
  private:
   [[nodiscard]] virtual Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const = 0;
-  /// Time of the newest measurement; a device that gives it need not check the limit itself.
+  /// Time of the newest measurement; a device that provides it need not check the limit itself.
   [[nodiscard]] virtual std::optional<Timestamp> do_newest_measurement() const {
     return std::nullopt;
   }
@@ -115,13 +115,13 @@ struct ButtonState {
   bool clicked = false;      ///< released, and reported as a click
   bool after_click = false;  ///< the release before the newest press was reported as a click
 
-  /// Takes the next event, or says why it cannot come now.
+  /// Takes the next event, or says why it is not allowed now.
   Status take(ClickerAction action);
 };
 
 /// One button. Contract: times never decrease, press and release alternate, a click follows its
-/// release, a double click the second of two releases: the first was reported as a click, and the
-/// second is reported as a double click only. A hold falls between press and release.
+/// release, and a double click the second of two releases, of which the first is reported as a
+/// click and the second as a double click only. A hold falls between press and release.
 class Clicker {
  public:
   virtual ~Clicker() = default;
@@ -139,8 +139,8 @@ class Clicker {
 /// Derives clicks, double clicks and holds from raw presses and releases; for devices that only see
 /// a button. Click: released within `hold_after`; double click: two clicks whose presses lie within
 /// `double_within`. The first click is delivered as a click too, the second as a double click only;
-/// a third in a row starts anew. A button reported twice in the same position (a keyboard's repeat)
-/// is ignored.
+/// a third in a row starts anew. A repeated report of the same position (a keyboard's repeat) is
+/// ignored.
 class ClickTimer {
  public:
   Duration double_within = std::chrono::milliseconds(300);
@@ -155,7 +155,7 @@ class ClickTimer {
   bool held_ = false;
 };
 
-/// A phrase as understood, lower case, with a confidence in [0, 1].
+/// A recognized phrase, lower case, with a confidence in [0, 1].
 struct Phrase {
   std::string text;
   double confidence = 0.0;
@@ -188,10 +188,10 @@ class Headset {
   virtual ~Headset() = default;
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual const Clock& clock() const = 0;
-  /// What this device's time zero is called in files, in ticks of 100 ns. A HoloLens counts from
-  /// the year 1601, and such ticks times 100 do not fit into 64 bits of nanoseconds.
+  /// This device's time zero as stored in files, in ticks of 100 ns. A HoloLens counts from the
+  /// year 1601; in nanoseconds, such times would not fit into 64 bits.
   [[nodiscard]] virtual std::int64_t epoch_ticks_100ns() const { return 0; }
-  /// A time as files name it.
+  /// A time as stored in files.
   [[nodiscard]] std::int64_t file_ticks_100ns(Timestamp t) const {
     return epoch_ticks_100ns() + ticks_100ns(t);
   }
@@ -200,18 +200,18 @@ class Headset {
   [[nodiscard]] virtual Clicker& clicker() = 0;
   [[nodiscard]] virtual Voice& voice() = 0;
   [[nodiscard]] virtual Display& display() = 0;
-  /// Its depth cameras, one per stream; none where it has none. The same ones at every call.
+  /// Its depth cameras, one per stream; may be empty. The same ones at every call.
   [[nodiscard]] virtual std::vector<DepthCamera*> depth_cameras() { return {}; }
-  /// What it hears, if it lets others listen; null otherwise. It is listened to from the first call
-  /// on.
+  /// Its microphone, if it lets others listen; null otherwise. Listening starts with the first
+  /// call.
   [[nodiscard]] virtual Microphone* microphone() { return nullptr; }
   /// The display, if it takes pixels; null otherwise.
   [[nodiscard]] virtual PixelDisplay* pixels() { return nullptr; }
   /// The display, if it draws objects on its own; null otherwise.
   [[nodiscard]] virtual ObjectDisplay* objects() { return nullptr; }
-  /// What the source of the pairs says about the tools in them.
+  /// The tools in the pairs, as their source describes them.
   [[nodiscard]] virtual DescribedTools described_tools() const { return {}; }
-  /// What the connection that delivers the pairs has done so far; absent where there is none.
+  /// Statistics of the connection that delivers the pairs; absent if there is none.
   [[nodiscard]] virtual std::optional<ConnectionStatistics> connection() const {
     return std::nullopt;
   }

@@ -33,12 +33,13 @@ enum class HologramKind : std::uint8_t {
 struct ShownHologram {
   HologramKind kind = HologramKind::kPath;
   std::string level;         ///< of an entry point: the vertebra's label
-  std::optional<Side> side;  ///< of an entry point, and of the screw that numbers are about
+  std::optional<Side> side;  ///< of an entry point, or of the screw that the numbers concern
   std::string text;          ///< what is written there, if anything
-  /// What the number written there says: the angle in rad, rounded as it is shown, or the distance
-  /// of a check point in m. Absent on a place still to be touched, and where dashes are shown. H13
-  /// comes as four holograms, each with one number as it is shown: how far the tip is off the
-  /// planned axis to cranial and to medial (m), then how far the tool's aim is (rad).
+  /// The number shown: the angle in rad, rounded as displayed, or the distance of a check point in
+  /// m. Absent on a place still to be touched, and if dashes are shown. H13 comes as four
+  /// holograms, each with one number as displayed: the offset of the tip from the planned axis
+  /// towards cranial and medial (m), then the deviation of the tool's aim in the same directions
+  /// (rad).
   std::optional<double> reading;
   std::vector<Point<World>> points_in_world;
 };
@@ -46,14 +47,14 @@ struct ShownHologram {
 /// One displayed frame as its wearer perceives it.
 struct ShownFrame {
   Timestamp display_time{};
-  Timestamp pose_time{};              ///< mid-exposure of the images that the newest pose came from
+  Timestamp pose_time{};              ///< mid-exposure of the images of the newest pose
   std::optional<ShownStatus> status;  ///< absent: no status line
   std::vector<ShownHologram> holograms;
 };
 
-/// The see-through display. Pixels go to a swapchain or an image; what was shown is reported here,
-/// so that a simulated wearer can read it. Contract: display times strictly increase; a frame that
-/// breaks this is refused and reaches nobody.
+/// The see-through display. Pixels go to a swapchain or an image; the content shown is reported
+/// here, so that a simulated wearer can read it. Contract: display times strictly increase; a frame
+/// that breaks this is refused and not passed on.
 class Display {
  public:
   virtual ~Display() = default;

@@ -4,8 +4,8 @@
 
 namespace orthonav {
 
-/// Forwards to another headset, part by part; a base for one that replaces some of its parts.
-/// Borrows it.
+/// Forwards to another headset, part by part; a base class for headsets that replace some parts.
+/// Borrows the other headset.
 class ForwardingHeadset : public Headset {
  public:
   explicit ForwardingHeadset(Headset& inner) : inner_(inner) {}

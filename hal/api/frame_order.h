@@ -19,19 +19,19 @@ enum class Next {
   kEnd     ///< the stream has ended for good
 };
 
-/// A time as messages name it.
+/// A time as written in messages.
 [[nodiscard]] std::string in_seconds(Timestamp t);
 
-/// Whether a pose is what a device may publish: finite, and a rotation up to rounding.
+/// Whether a device may publish a pose: finite, and a rotation up to rounding.
 [[nodiscard]] bool is_rigid(const Transform<World, Rig>& pose);
 
-/// The contract of every stream of frames, whoever takes the pictures: times and sequence numbers
-/// strictly increase, the map's epoch never decreases, a pose is a rigid motion; after kEnd there
-/// is only kEnd. `Frame` has time, sequence, map_epoch, world_from_rig and clear().
+/// The contract of every stream of frames, from any device: times and sequence numbers strictly
+/// increase, the map's epoch never decreases, a pose is a rigid motion; after kEnd there is only
+/// kEnd. `Frame` has time, sequence, map_epoch, world_from_rig and clear().
 class FrameOrder {
  public:
-  /// A device's public call: `do_next` does the work, `check_images` says whether what it filled in
-  /// fits the calibration. A frame that breaks the contract comes back empty, with an Error.
+  /// A device's public call: `do_next` does the work, `check_images` says whether the frame fits
+  /// the calibration. A frame that breaks the contract comes back empty, with an Error.
   template <class Frame, class DoNext, class CheckImages>
   Result<Next> next(std::string_view what, Frame& frame, const DoNext& do_next,
                     const CheckImages& check_images) {
@@ -75,8 +75,7 @@ class FrameOrder {
                                          const std::optional<Transform<World, Rig>>& pose);
 };
 
-/// Whether the `which` image of the stream `what` is as large as its calibration says, and holds as
-/// many pixels.
+/// Whether the `which` image of the stream `what` has its calibration's size and as many pixels.
 template <class Value>
 [[nodiscard]] Status check_size(std::string_view what, std::string_view which,
                                 const PlainImage<Value>& image, int width_px, int height_px) {

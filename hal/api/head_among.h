@@ -6,7 +6,7 @@
 
 namespace orthonav {
 
-// A head at work stays below these speeds; beyond them World itself was moved.
+// A surgeon's head stays below these speeds; above them, World itself must have moved.
 inline constexpr double kFastestHead_m_s = 2.0;
 inline constexpr double kFastestHead_rad_s = 8.0;
 
@@ -15,7 +15,7 @@ inline constexpr double kFastestHead_rad_s = 8.0;
 /// lost otherwise and in gaps longer than that.
 template <class Iterator>
 Tracked<Transform<World, Rig>> head_among(Iterator begin, Iterator end, Timestamp at) {
-  // Adding it to a sample's time can't overflow; a difference with a time asked for might.
+  // Adding it to a sample's time can't overflow; a difference to a requested time might.
   constexpr Duration kMaxGap = HeadTracker::kMaxHeadPrediction;
   Tracked<Transform<World, Rig>> answer;
   answer.time = at;

@@ -9,16 +9,17 @@
 
 namespace orthonav {
 
-// Of a camera's look-up table (hal/api/camera_model.h): where directions are, and between them.
+// Cells of a camera's look-up table (hal/api/camera_model.h): directions at pixel centres, and
+// between them.
 
-/// Of a pixel that sees nothing.
+/// The entry of a pixel without a direction.
 inline constexpr Vec2 kNoDirection{std::numeric_limits<double>::quiet_NaN(),
                                    std::numeric_limits<double>::quiet_NaN()};
 
 /// A pixel without a direction.
 [[nodiscard]] inline bool is_nan(Vec2 v) { return std::isnan(v.x) || std::isnan(v.y); }
 
-/// The table between four neighbouring pixel centres: value and derivative at a fraction.
+/// The table between four neighbouring pixel centres: value and derivative at fractional positions.
 struct LookupCell {
   Vec2 a;  ///< top left
   Vec2 b;  ///< top right

@@ -18,9 +18,9 @@ class Microphone {
   /// Samples per second; never changes. Positive.
   [[nodiscard]] int sample_rate_hz() const { return do_sample_rate_hz(); }
   /// Moves the next samples, each delivered once, to the front of `samples` and returns how many
-  /// there were; 0 when nothing new was heard. Does not block. A device that is not read in time
-  /// drops the oldest samples; it never queues without limit. An Error says that sound was lost for
-  /// good (unplugged, disconnected) or dropped; the caller may go on asking.
+  /// there were; 0 if there are none. Does not block. A device that is not read in time drops the
+  /// oldest samples; it never queues without limit. An Error says that the sound is lost for good
+  /// (unplugged, disconnected) or that samples were dropped; the caller may keep reading.
   Result<std::size_t> read(std::span<std::int16_t> samples);
   /// When the newest sample that `read` delivered was heard, in the headset's time, so that a
   /// phrase can be stamped when it was spoken. Nothing before the first sample.

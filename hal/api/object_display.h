@@ -10,8 +10,8 @@
 
 namespace orthonav {
 
-// A display that draws on its own what it was told once: a headset at the end of a network, which
-// keeps objects in place at its own rate whatever the network does.
+// A display that is sent objects once and then draws them itself: a headset across a network, which
+// keeps objects in place at its own frame rate regardless of the network.
 
 /// At scale 1: sphere, cube and cylinder have a diameter (edge) of 1 m, the cylinder is 2 m long
 /// along y; the quad is 1×1 m in xy and seen from +z; a text is centred, reads along x, upright
@@ -34,52 +34,54 @@ struct ObjectColour {
 };
 
 struct DisplayObject {
-  std::uint64_t key = 0;  ///< the same object from list to list; unique within one
+  std::uint64_t key = 0;  ///< identifies the object from list to list; unique within a list
   ObjectShape shape = ObjectShape::kSphere;
   ObjectPlace place = ObjectPlace::kWorld;
-  /// Its place or text came from a tool's pose: hidden once `ObjectList::tool_time` is too old.
+  /// Its place or text depends on a tool's pose: hidden once `ObjectList::tool_time` is too old.
   bool follows_tool = false;
   Vec3 position_m{};
   Quaternion rotation{};
   Vec3 scale{1, 1, 1};
   ObjectColour colour;
-  std::string text;           ///< UTF-8, one line; of a text only
-  double cap_height_m = 0.0;  ///< of a text only
+  std::string text;           ///< UTF-8, one line; for texts only
+  double cap_height_m = 0.0;  ///< for texts only
 };
 
-/// All that is to be seen, the most important first: what exceeds a limit is left out at the end.
+/// All objects to be shown, the most important first: objects beyond a limit are left out from the
+/// end.
 struct ObjectList {
   std::int64_t map_epoch = 0;  ///< of World (StereoFrame::map_epoch)
-  /// Mid-exposure of the pair that the objects which follow a tool are of; absent: none is shown.
+  /// Mid-exposure of the pair from which objects that follow a tool were computed; absent: none is
+  /// shown.
   std::optional<Timestamp> tool_time;
   std::vector<DisplayObject> objects;
 };
 
-/// What became of the lists so far.
+/// Statistics of the lists so far.
 struct ObjectDisplayStatistics {
-  std::int64_t lists = 0;  ///< sent, each a set of differences
+  std::int64_t lists = 0;  ///< sent, each as a set of differences
   std::int64_t commands = 0;
   std::int64_t bytes = 0;
-  std::int64_t refused = 0;  ///< commands; their objects are made anew
+  std::int64_t refused = 0;  ///< commands refused; their objects are created again
   std::int64_t connections = 0;
-  std::int64_t given_up = 0;  ///< connections given up because acknowledgements stopped
+  std::int64_t given_up = 0;  ///< connections closed because acknowledgements stopped
   std::int64_t withheld = 0;  ///< lists whose tool guidance was too old to be sent
   std::int64_t objects = 0;   ///< on the headset now
   std::int64_t left_out = 0;  ///< of the newest list, beyond the limits
-  /// From mid-exposure to the acknowledgement that it is shown, of lists with tool guidance.
+  /// From mid-exposure to the acknowledgement that the list is shown, for lists with tool guidance.
   std::vector<double> shown_age_ms;
   /// From sending a list to its acknowledgement.
   std::vector<double> acknowledged_ms;
 };
 
-/// Retains objects; told what is wanted, it works out and sends the differences. Thread-safe.
+/// Retains objects; given the wanted list, it computes and sends the differences. Thread-safe.
 class ObjectDisplay {
  public:
-  /// An object that follows a tool is hidden when its pair is older than this, by the display
-  /// itself, even if nothing more reaches it.
+  /// The display itself hides an object that follows a tool once its pair is older than this, even
+  /// if it receives nothing more.
   static constexpr Duration kLongestToolAge = std::chrono::milliseconds(150);
   virtual ~ObjectDisplay() = default;
-  /// Replaces what was wanted before. Does not wait.
+  /// Replaces the previous list. Does not wait.
   virtual void show(const ObjectList& list) = 0;
   [[nodiscard]] virtual ObjectDisplayStatistics statistics() const = 0;
 };

@@ -13,16 +13,16 @@
 namespace orthonav {
 
 // A display that takes pixels directly from the device that draws them: a headset's runtime, which
-// makes that device, owns the images and says when they are wanted.
+// makes that device, owns the images and says when it needs them.
 
 /// How the display puts pixels over the world.
 enum class WorldBlend {
   kAdditive,  ///< optical see-through: light is added, alpha has no effect
   kAlpha,     ///< over the cameras' view, premultiplied by alpha
-  kOpaque     ///< instead of the world: what is black is black
+  kOpaque     ///< instead of the world: black is shown as black
 };
 
-/// What the display requires of the renderer before there is a device.
+/// The display's requirements on the renderer before there is a device.
 struct GraphicsNeeds {
   std::array<VulkanVersion, 2> vulkan{};  ///< the oldest and the newest that it takes
   WorldBlend blend = WorldBlend::kOpaque;
@@ -50,18 +50,18 @@ struct EyeView {
   double tan_down = 0.0;
 };
 
-/// Both eyes, left first. With `kLost` nothing may be drawn that has a place in the world.
+/// Both eyes, left first. With `kLost` nothing placed in the world may be drawn.
 struct EyeViews : Tracked<std::array<EyeView, 2>> {
-  /// With `kLost`: true if it is still known where the eyes are on the head. Then World in `value`
-  /// is the head, and what is fixed to the head may be drawn. If false, `value` means nothing.
+  /// With `kLost`: true if the eyes' places on the head are still known. World in `value` is then
+  /// the head, and items fixed to the head may be drawn. If false, `value` is meaningless.
   bool on_head = false;
 };
 
 /// What the display wants next.
 struct DisplayFrame {
   enum class Kind {
-    kFrame,  ///< a frame was begun: `end_frame` must follow
-    kIdle,   ///< nobody is looking; ask again in a moment
+    kFrame,  ///< a frame has begun: `end_frame` must follow
+    kIdle,   ///< the display is not being viewed; ask again in a moment
     kLost,   ///< the session or the runtime is gone: `close`, then `open` again
     kOver    ///< the user ended the session: `close`
   };
@@ -77,8 +77,8 @@ class PixelDisplay {
  public:
   virtual ~PixelDisplay() = default;
 
-  /// Connects with the runtime; again after a loss. The calls that follow, in this order, make the
-  /// device and the images.
+  /// Connects to the runtime, also again after a loss. The calls below, in this order, then make
+  /// the device and the images.
   virtual Result<GraphicsNeeds> open() = 0;
   /// A VkInstance as described by a VkInstanceCreateInfo; the caller destroys it.
   virtual Result<void*> create_instance(VulkanFunction get_instance_proc_addr,
@@ -95,10 +95,11 @@ class PixelDisplay {
   virtual Result<std::vector<std::uint32_t>> acquire() = 0;
   /// Where the eyes will be at the display time of the frame begun, as predicted now.
   virtual EyeViews views() = 0;
-  /// Submits the frame: with what was drawn for the newest `views`, or with nothing.
+  /// Submits the frame, with the images drawn for the newest `views`, or with none.
   virtual Status end_frame(bool drawn) = 0;
 
-  /// Asks the runtime to end the session in order; `begin_frame` continues until it returns kOver.
+  /// Asks the runtime to end the session in an orderly way; keep calling `begin_frame` until it
+  /// returns kOver.
   virtual void ask_to_end() = 0;
   /// Releases images and session; the renderer must be done with them.
   virtual void close() = 0;

@@ -7,7 +7,7 @@ void SharedButton::offer(Hand hand, const ClickerEvent& event, std::vector<Click
     return;
   }
   ButtonState next = state_;
-  // A double click of whom nobody saw the first click is none.
+  // A double click whose first click was dropped does not count as one.
   if (event.action == ClickerAction::kPress && hand != hand_) {
     next = {};
   }

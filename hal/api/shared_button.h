@@ -6,9 +6,9 @@
 
 namespace orthonav {
 
-/// Two buttons as one: whoever presses first has it until the release, and what the other does
-/// meanwhile is dropped. A press belongs to whoever pressed, and so does everything up to the next
-/// press by either.
+/// Two buttons as one: the hand that presses first owns the button until its release, and the other
+/// hand's events are dropped meanwhile. Everything from a press up to the next press by either hand
+/// belongs to the hand that pressed.
 class SharedButton {
  public:
   enum class Hand { kNobody, kFirst, kSecond };

@@ -11,7 +11,7 @@
 
 namespace orthonav {
 
-/// Where the operation stands. One step at a time; the workflow's table decides every change
+/// The current step of the operation; the workflow's table decides every change
 /// (engine/session/workflow.h).
 enum class Step : std::uint8_t {
   kSetup,
@@ -25,56 +25,57 @@ enum class Step : std::uint8_t {
 };
 inline constexpr std::size_t kStepCount = 8;
 
-/// A step and what it is about.
+/// A step, with its level and side.
 struct StepOnDisplay {
   Step step = Step::kSetup;
-  std::string level;         ///< "L4"; empty in steps of no level
+  std::string level;         ///< "L4"; empty in steps without a level
   std::optional<Side> side;  ///< of the screw that is guided, or the rod
 
   friend auto operator<=>(const StepOnDisplay&, const StepOnDisplay&) = default;
 };
 
-// Names in files and scripts, which stay whatever the display says: "digitize"; "guide L4 left".
+// Names in files and scripts, which do not change with the display's wording: "digitize"; "guide L4
+// left".
 [[nodiscard]] std::string_view name_of(Step step);
 [[nodiscard]] std::string name_of(const StepOnDisplay& at);
 
-/// What the message on the status line is about. Its data and its words are the engine's.
+/// The subject of the message on the status line. Its data and wording belong to the engine.
 enum class Notice : std::uint8_t {
   kNone,
-  kNotPossibleNow,   ///< what was done means nothing in this step
+  kNotPossibleNow,   ///< the input has no meaning in this step
   kNotUnderstood,    ///< a phrase
-  kSaidTooEarly,     ///< "accept", before what is to be accepted was shown
+  kSaidTooEarly,     ///< "accept", before the result to be accepted was shown
   kNothingToDelete,  ///< no region, check point, touch of the landmark or head
-  kConfirmDelete,    ///< a saved region goes when "delete" is said again
+  kConfirmDelete,    ///< another "delete" removes a saved region
   kRegistrationRefused,
-  kChecksMissing,     ///< "accept", while the check points do not bear it out
+  kChecksMissing,     ///< "accept", before the check points confirm it
   kTouchNotRecorded,  ///< of a check point, the landmark or a head
   kLandmarkMissing,   ///< "next", before the landmark was touched
   kLandmarkMoved,     ///< it is not where it was: the registration is verified again
-  kBoneUnchecked,     ///< for long: the landmark is to be touched again
-  kTipCorrected,      ///< of the guide, by the pointer's
-  kAxisCorrected,     ///< of the guide, by a wire in its sleeve
-  kWireUndecided,     ///< "next", while a wire beyond a limit waits for a word
-  kNoOtherEntry,      ///< through which its screw could be redone
-  kConfirmRedo,       ///< a screw that was redone is so again when "delete" is said again
-  kScrewRedone,       ///< it has another entry
-  kReplanRefused,     ///< a change of the screw
+  kBoneUnchecked,     ///< for too long: the landmark must be touched again
+  kTipCorrected,      ///< of the guide, using the pointer's
+  kAxisCorrected,     ///< of the guide, using a wire in its sleeve
+  kWireUndecided,     ///< "next", while a wire beyond a limit awaits a decision
+  kNoOtherEntry,      ///< through which the screw could be redone
+  kConfirmRedo,       ///< another "delete" redoes a screw that was redone before
+  kScrewRedone,       ///< with another entry
+  kReplanRefused,     ///< a change of the screw was refused
   kReplanned,         ///< the screw was changed
-  kNoRod,             ///< the heads give none
-  kMapMoved,          ///< the headset's map: what was measured in it is gone
-  kReferenceMoved,    ///< the patient's: what hung on it is gone
-  kNoImages,          ///< the cameras deliver none
+  kNoRod,             ///< the heads do not allow one
+  kMapMoved,          ///< the headset's map: measurements in it are lost
+  kReferenceMoved,    ///< the patient reference: everything relative to it is lost
+  kNoImages,          ///< the cameras deliver no images
   kEnded,
 };
 
-/// What the status line asks of a surgeon who verifies by touch, in whatever step.
+/// What the status line asks of a surgeon who verifies by touch, in any step.
 enum class ChecksAsked : std::uint8_t {
-  kNone,          ///< it says nothing of check points
-  kTouchMore,     ///< further places, or the landmark before a screw
+  kNone,          ///< nothing about check points
+  kTouchMore,     ///< more places, or the landmark before a screw
   kGuideTip,      ///< the guide's tip in the landmark too
   kCorrectGuide,  ///< consent to correct its tip or its axis
-  kMeasureWire,   ///< by the sleeve over it
-  kDecideOnWire,  ///< beyond a limit: to keep it or to redo it
+  kMeasureWire,   ///< with the sleeve over it
+  kDecideOnWire,  ///< beyond a limit: keep or redo
   kKeepWire,      ///< beyond a limit, and it can't be redone
   kReject,        ///< a check point lies too far off the surface
   kPassed,
@@ -85,8 +86,8 @@ struct ShownStatus {
   StepOnDisplay at;
   Notice notice = Notice::kNone;
   ChecksAsked checks = ChecksAsked::kNone;
-  std::string text;   ///< as it is written
-  std::string heard;  ///< the newest command that was heard, as it is written; empty: none
+  std::string text;   ///< as displayed
+  std::string heard;  ///< the newest command heard, as displayed; empty: none
 };
 
 }  // namespace orthonav

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kGridCellPx = 8;
 
-/// Cells nobody mapped to take the start of a neighbour, ring by ring.
+/// Cells that no pixel maps to take the start of a neighbour, ring by ring.
 void fill_gaps(StartGrid& grid) {
   std::vector<Vec2> next;
   for (bool gaps = true; gaps;) {

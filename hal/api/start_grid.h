@@ -7,7 +7,8 @@
 
 namespace orthonav {
 
-/// A coarse grid over the unit plane with a pixel to start Newton's iteration from, for each cell.
+/// A coarse grid over the unit plane that holds a starting pixel for Newton's iteration in each
+/// cell.
 struct StartGrid {
   int columns = 0;
   int rows = 0;
@@ -16,7 +17,7 @@ struct StartGrid {
   std::vector<Vec2> start_px;  ///< row-major
 };
 
-/// Of a checked look-up table, row-major, NaN where a pixel has no direction.
+/// From a checked look-up table, row-major, NaN where a pixel has no direction.
 [[nodiscard]] StartGrid start_grid(int width_px, int height_px, std::span<const Vec2> lookup);
 
 }  // namespace orthonav

@@ -14,7 +14,7 @@ struct UriItem {
   bool again = false;  ///< the key was given before
 };
 
-/// What stands behind a URI's question mark, cut at every '&'; one at the end adds nothing.
+/// The part after a URI's question mark, split at every '&'; a trailing one adds nothing.
 [[nodiscard]] std::vector<UriItem> uri_items(std::string_view query);
 
 }  // namespace orthonav

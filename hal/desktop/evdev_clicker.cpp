@@ -11,7 +11,7 @@ namespace orthonav::desktop {
 
 namespace {
 
-/// More changes of a button than this, untold, are no hand's.
+/// More undelivered changes of a button than this do not come from a hand.
 constexpr std::size_t kMaxChanges = 1024;
 
 /// CLOCK_MONOTONIC, by which the kernel stamps events.
@@ -137,7 +137,7 @@ Status EvdevClicker::read_keys() {
   if (read) {
     return {};
   }
-  // Whatever was held when the device went away is held no longer.
+  // Keys held when the device disappeared count as released.
   for (const int code : std::vector<int>(down_)) {
     press_or_release(code, false, now);
   }
@@ -200,7 +200,7 @@ void EvdevClicker::tell(Timestamp until, std::vector<ClickerEvent>& events) {
 Status EvdevClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events) {
   const Status read = read_keys();
   tell(until, events);
-  // Events from before the device went away are delivered first; its absence is reported by the
+  // Events from before the device disappeared are delivered first; its absence is reported by the
   // next call.
   return events.empty() ? read : Status();
 }

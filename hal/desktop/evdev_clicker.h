@@ -26,15 +26,15 @@ struct ClickerOptions {
 };
 
 /// Keys of a Bluetooth clicker, a keyboard or a foot pedal as one button, which is down while any
-/// of the chosen keys is. A device that goes away releases the button; when it comes back it is
+/// of the chosen keys is. A device that disappears releases the button; when it comes back, it is
 /// used again. `poll` does all the work and never waits.
 class EvdevClicker : public Clicker {
  public:
-  /// Borrows the headset's clock. Refuses options with problems, and a path that exists but is no
+  /// Borrows the headset's clock. Refuses invalid options, and a path that exists but is not a
   /// device; a device that is not there yet is waited for.
   static Result<std::unique_ptr<EvdevClicker>> open(const ClickerOptions& options,
                                                     const Clock& clock);
-  /// Of the device in use; empty while there is none.
+  /// Name of the device in use; empty while there is none.
   [[nodiscard]] std::string device_name() const { return keys_ ? keys_->name() : std::string(); }
 
  private:

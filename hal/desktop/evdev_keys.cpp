@@ -13,7 +13,7 @@ namespace orthonav::desktop {
 
 namespace {
 
-// A hand presses a few keys a second; more in one call would be a device that floods.
+// A hand presses a few keys per second; more in one call means a device that floods.
 constexpr int kMaxEventsPerPoll = 256;
 
 Error device_error(const std::string& path, const std::string& why) {

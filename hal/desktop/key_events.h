@@ -13,7 +13,7 @@ namespace orthonav::desktop {
 struct KeyEvent {
   int code = 0;  ///< as in linux/input-event-codes.h
   bool down = false;
-  Duration at{};  ///< by the source's own clock: CLOCK_MONOTONIC of a device, any of a file
+  Duration at{};  ///< by the source's own clock: CLOCK_MONOTONIC for a device, any for a file
   friend bool operator==(const KeyEvent&, const KeyEvent&) = default;
 };
 
@@ -21,15 +21,15 @@ struct KeyEvent {
 class KeyEvents {
  public:
   virtual ~KeyEvents() = default;
-  /// Appends what has come since the last call, up to a limit; does not block. An Error: the source
-  /// is gone for good.
+  /// Appends the events since the last call, up to a limit; does not block. An Error: the source is
+  /// gone for good.
   virtual Status read(std::vector<KeyEvent>& events) = 0;
-  /// Its times are those of CLOCK_MONOTONIC; otherwise they count from the source's start.
+  /// Whether its times are those of CLOCK_MONOTONIC; otherwise they count from the source's start.
   [[nodiscard]] virtual bool live() const = 0;
   [[nodiscard]] virtual std::string name() const = 0;
 };
 
-/// Which keys make up a button, and whether other programs are kept from the device.
+/// Which keys make up a button, and whether the device is grabbed from other programs.
 struct KeyChoice {
   std::vector<int> codes;
   bool grab = true;
@@ -38,18 +38,18 @@ struct KeyChoice {
 /// What presenters, camera remotes and foot pedals send: volume up and down, enter, page up and
 /// down, space, and the buttons of gamepads and mice.
 [[nodiscard]] const std::vector<int>& clicker_keys();
-/// The code of "enter", "KEY_ENTER", "volumeup", "BTN_0"; nothing where there is none.
+/// The code of "enter", "KEY_ENTER", "volumeup", "BTN_0"; negative for an unknown name.
 [[nodiscard]] int key_code(const std::string& name);
 
-/// A device node through libevdev. Refuses what is no event device, can't be read, or has none of
-/// the chosen keys. A full keyboard is never grabbed: the program could no longer be stopped with
-/// it.
+/// A device node, read by libevdev. Refuses a path that is not an event device, can't be read, or
+/// has none of the chosen keys. A full keyboard is never grabbed, since the program could then not
+/// be stopped with it.
 [[nodiscard]] Result<std::unique_ptr<KeyEvents>> open_evdev_keys(const std::string& path,
                                                                  const KeyChoice& choice);
 /// Recorded `struct input_event`s, from a file or from a FIFO that another program writes to.
 [[nodiscard]] Result<std::unique_ptr<KeyEvents>> open_recorded_keys(const std::string& path);
 
-/// The properties of a device node, without keeping it open: for choosing one, and for the doctor.
+/// The properties of a device node, without keeping it open: used to choose one, and by `doctor`.
 struct KeyDevice {
   std::string path;
   std::string name;

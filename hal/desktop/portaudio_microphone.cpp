@@ -13,8 +13,8 @@ namespace orthonav::desktop {
 
 namespace {
 
-/// Silences standard error for a while. PortAudio asks ALSA and JACK for everything they might
-/// have, both print what is not there, and PortAudio offers no way to stop them.
+/// Silences standard error for its lifetime. PortAudio queries ALSA and JACK for all possible
+/// devices, both print messages for missing ones, and PortAudio offers no way to prevent that.
 class QuietStandardError {
  public:
   QuietStandardError() : kept_(::dup(STDERR_FILENO)) {
@@ -60,8 +60,8 @@ class PortAudio {
   PaError code_ = paNotInitialized;
 };
 
-/// One writer (PortAudio's thread) and one reader; neither waits for the other. What is not read in
-/// time is overwritten.
+/// One writer (PortAudio's thread) and one reader; neither waits for the other. Samples not read in
+/// time are overwritten.
 class SoundRing {
  public:
   static constexpr std::size_t kSize = std::size_t{1} << 17U;  // 2.7 s at 48 kHz
@@ -74,7 +74,7 @@ class SoundRing {
     newest_ = newest;
     written_.store(begin + count, std::memory_order_release);
   }
-  /// How many were read, and whether others had been overwritten before.
+  /// How many were read, and whether others were overwritten before that.
   std::pair<std::size_t, bool> read(std::span<std::int16_t> samples) {
     const std::uint64_t written = written_.load(std::memory_order_acquire);
     // A margin that the writer can't cross while the reader copies.

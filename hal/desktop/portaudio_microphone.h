@@ -12,7 +12,7 @@ namespace orthonav::desktop {
 [[nodiscard]] std::vector<std::string> microphone_names();
 
 /// The first microphone whose name contains `name`, the default one for an empty name. Borrows the
-/// headset's clock. Refuses, with the names of those that are there, when none suits.
+/// headset's clock. If none matches, the Error lists the available names.
 [[nodiscard]] Result<std::unique_ptr<Microphone>> open_portaudio_microphone(const std::string& name,
                                                                             const Clock& clock);
 

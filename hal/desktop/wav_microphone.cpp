@@ -28,7 +28,7 @@ class WavMicrophone : public Microphone {
   std::int64_t next_ = 0;
 
   [[nodiscard]] int do_sample_rate_hz() const override { return rate_hz_; }
-  /// Silence follows the file, so that its last word comes to an end.
+  /// Silence follows the file, so that its last word is recognized as ended.
   Result<std::size_t> do_read(std::span<std::int16_t> samples) override {
     const auto heard = static_cast<std::int64_t>(seconds(clock_.now() - start_) * rate_hz_);
     const std::int64_t end =

@@ -64,7 +64,7 @@ Result<Next> FailingCamera::spoiled(CameraFault fault, StereoFrame& frame) {
   switch (fault) {
     case CameraFault::kDrop:
     case CameraFault::kDelay:
-      break;  // done before the pair came
+      break;  // done before the pair was taken
     case CameraFault::kError:
       return Error{"camera pair: simulated failure"};
     case CameraFault::kWrongSize:

@@ -9,7 +9,7 @@
 
 namespace orthonav::fake {
 
-/// A fault and the call (or event) that it strikes, counted from 0.
+/// A fault and the call (or event) at which it occurs, counted from 0.
 template <class Kind>
 struct Fault {
   std::int64_t at = 0;
@@ -21,19 +21,19 @@ enum class CameraFault {
   kDelay,         ///< kNone now; the pair comes with the next call
   kError,         ///< an Error, and the pair is lost
   kWrongSize,     ///< the left image is one line short
-  kShortBuffer,   ///< the right image says its size but holds fewer bytes
+  kShortBuffer,   ///< the right image holds fewer bytes than its size requires
   kTimeBack,      ///< stamped like the pair before it
   kSequenceBack,  ///< numbered like the pair before it
   kMirroredPose,
   kNanPose,
   kNoPose,  ///< the head is not located: allowed
-  kNoise    ///< every pixel inverted: allowed, nobody can know
+  kNoise    ///< every pixel inverted: allowed, since it can't be detected
 };
 enum class HeadFault { kLost, kWrongTime, kNanPose, kMirroredPose, kNanCovariance };
 enum class EventFault {
   kDrop,      ///< this event is lost
-  kDelay,     ///< this event and what follows come with the next poll
-  kError,     ///< an Error; what was due comes with the next poll
+  kDelay,     ///< this event and the following ones come with the next poll
+  kError,     ///< an Error; the due events come with the next poll
   kTimeBack,  ///< stamped an hour early
   kFuture,    ///< stamped a second after the time asked for
   kRepeat,    ///< delivered twice
@@ -90,7 +90,7 @@ class FailingEvents : public Device {
   std::vector<Fault<EventFault>> faults_;
   std::vector<Event> waiting_;
   std::int64_t delivered_ = 0;
-  std::int64_t spent_ = -1;  // the last event that a delay or an error has already held back
+  std::int64_t spent_ = -1;  // the last event already held back by a delay or an error
 
   Status do_poll(Timestamp until, std::vector<Event>& events) override;
 };

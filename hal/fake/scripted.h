@@ -25,7 +25,7 @@ class ManualClock : public Clock {
   std::atomic<Timestamp> now_;
 };
 
-/// What one call of next() does: deliver a pair, have nothing, or fail.
+/// The result of one call of next(): a pair, nothing, or a failure.
 using CameraStep = std::variant<StereoFrame, Next, Error>;
 
 /// Plays its steps, one per call, then ends. A delivered pair sets the clock to its time.
@@ -73,8 +73,8 @@ struct HeadPose {
   Transform<World, Rig> world_from_rig;
 };
 
-/// Knows the poses up to the clock's time: measured at and between them, and beyond the newest
-/// predicted as standing still.
+/// Knows the poses up to the clock's time: measured at and between them; beyond the newest, it
+/// predicts no motion.
 class ScriptedHead : public HeadTracker {
  public:
   /// `poses` strictly increase in time.
@@ -112,7 +112,7 @@ class ScriptedVoice : public Voice {
   Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override;
 };
 
-/// Keeps what it was shown. Thread-safe.
+/// Stores the frames that it was shown. Thread-safe.
 class RememberingDisplay : public Display {
  public:
   explicit RememberingDisplay(Duration latency) : latency_(latency) {}

@@ -7,15 +7,15 @@
 
 namespace orthonav::hl2ss {
 
-/// Counts a stream's packets, measures how evenly they come and which are missing.
+/// Counts a stream's packets, and measures their jitter and gaps.
 class ArrivalMeter {
  public:
   ArrivalMeter(std::string name, Duration interval) : interval_(interval) {
     statistics_.name = std::move(name);
   }
-  /// False for a packet stamped no later than one before it: counted, not measured.
+  /// False for a packet stamped no later than an earlier one: it is counted but not measured.
   bool heard(Timestamp stamp, HostTime at);
-  /// A packet of a stream that has no rhythm.
+  /// A packet of a stream without a regular interval.
   void counted() { ++statistics_.packets; }
   void connected() {
     ++statistics_.connections;
@@ -26,7 +26,7 @@ class ArrivalMeter {
     ++statistics_.damaged;
     trouble(std::move(what));
   }
-  /// Damage too: a packet that is whole, but whose time is not to be believed.
+  /// Counts damage, including a complete packet with an implausible time.
   void refused(const std::string& why) {
     ++refused_;
     damaged(std::to_string(refused_) + " packets refused, the last one: " + why);

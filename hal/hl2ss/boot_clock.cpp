@@ -10,9 +10,9 @@ namespace {
 using std::chrono::duration_cast;
 
 constexpr std::int64_t kTicksPerSecond = 10'000'000;
-/// More than any network delays, and less than a restart takes.
+/// Longer than any network delay, and shorter than a restart takes.
 constexpr std::int64_t kMaxAstrayTicks = 10 * kTicksPerSecond;
-/// So many stamps that agree with one another and not with the past: the clock began anew.
+/// After this many stamps that agree with one another but not with the past, the clock was reset.
 constexpr int kRestartAfter = 20;
 /// Stamps from here on are FILETIME and are counted from 1970, as in recordings.
 constexpr std::int64_t kUnixEpochTicks = 116444736000000000;
@@ -119,7 +119,7 @@ void BootClock::round_trip(Duration took) {
 void BootClock::paced(Timestamp now, HostTime at) {
   const MutexLock lock(mutex_);
   paced_ = now;
-  // Where it goes on from, should the pacing end.
+  // The point from which it continues if pacing ends.
   seconds_ = {};
   newest_second_ = ns_of(at) / 1'000'000'000;
   seconds_[static_cast<std::size_t>(newest_second_) % kSeconds] = {

@@ -10,16 +10,16 @@
 
 namespace orthonav::hl2ss {
 
-/// Times out of a headset's stamps. A stamp may be early or late by what a network does; one that
-/// lies elsewhere is damage, unless all that follow agree with it: then the headset was restarted
-/// and its clock began anew, and times go on from where they were.
+/// Converts a headset's stamps to times. A stamp may be early or late by a network's delays; one
+/// farther off is damage, unless all later stamps agree with it: then the headset was restarted and
+/// its clock reset, and times continue from where they were.
 class StampReader {
  public:
-  /// The device's time of a stamp in ticks of 100 ns that came at `at`; nothing for damage.
+  /// The device's time for a stamp in ticks of 100 ns that arrived at `at`; nothing for damage.
   [[nodiscard]] std::optional<Timestamp> time_of(std::uint64_t ticks, HostTime at);
-  /// The same without updating anything; nothing for a stamp far from those heard so far.
+  /// The same without updating anything; nothing for a stamp far from those received so far.
   [[nodiscard]] std::optional<Timestamp> told(std::uint64_t ticks, HostTime at) const;
-  /// What time zero of the device's times is called in stamps; known from the first on.
+  /// The stamp that corresponds to time zero of the device; known from the first stamp on.
   [[nodiscard]] std::int64_t base_ticks() const { return base_ticks_; }
   [[nodiscard]] std::int64_t restarts() const { return restarts_; }
 
@@ -29,9 +29,9 @@ class StampReader {
     HostTime at{};
   };
   [[nodiscard]] static bool follows(const Heard& last, const Heard& next);
-  /// Nothing for what is no stamp.
+  /// Nothing for an invalid stamp.
   [[nodiscard]] static std::optional<Heard> heard_at(std::uint64_t ticks, HostTime at);
-  /// Nothing where the device's times end.
+  /// Nothing beyond the range of the device's times.
   [[nodiscard]] std::optional<Timestamp> time_of(const Heard& heard) const;
 
   std::int64_t base_ticks_ = 0;
@@ -42,24 +42,24 @@ class StampReader {
   std::int64_t restarts_ = 0;
 };
 
-/// The headset's clock as this machine knows it: each packet was sent no earlier than it was
-/// stamped, so that the one underway for the shortest time tells the offset best; the smallest
-/// round trip's half is added. What a headset needs from stamp to sending stays unknown: the clock
-/// is that much late. The offset of the last ten seconds counts, since clocks drift. Thread-safe.
+/// The headset's clock as estimated on this machine: each packet was sent no earlier than it was
+/// stamped, so the one with the shortest transit time gives the best offset; half of the smallest
+/// round trip is added. The headset's delay from stamping to sending is unknown, so the clock is
+/// late by that much. Only the last ten seconds count, since clocks drift. Thread-safe.
 class BootClock : public Clock {
  public:
   [[nodiscard]] Timestamp now() const override;
-  /// A packet with this time came.
+  /// A packet with this time arrived.
   void heard(Timestamp stamp, HostTime at);
   void round_trip(Duration took);
-  /// From now on the clock stands at `now` until the next such call, while they come: a stand-in
-  /// waits for its client and its time passes only with the pairs.
+  /// As long as these calls keep coming, the clock stands at `now` until the next one: a stand-in
+  /// waits for its client, and its time advances only with the pairs.
   void paced(Timestamp now, HostTime at);
-  /// It no longer waits.
+  /// The stand-in no longer waits.
   void unpaced();
 
   [[nodiscard]] Duration offset() const;
-  /// Largest minus smallest offset of the seconds that count.
+  /// Largest minus smallest offset in the seconds that count.
   [[nodiscard]] Duration spread() const;
 
  private:

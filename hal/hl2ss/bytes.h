@@ -20,7 +20,7 @@ using Bytes = std::span<const std::uint8_t>;
 template <class T>
 concept Number = std::is_arithmetic_v<T>;
 
-/// The number that begins at `at`; the caller has checked that it lies inside.
+/// The number that begins at `at`; the caller must have checked that it lies inside.
 template <Number T>
 [[nodiscard]] T number_at(Bytes bytes, std::size_t at) {
   T value{};
@@ -35,8 +35,8 @@ void append(std::vector<std::uint8_t>& bytes, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof(T));
 }
 
-/// Takes numbers off the front. Once it ran dry every further answer is 0 and `ok` stays false, so
-/// that a reader looks once, at the end.
+/// Takes numbers off the front. After the bytes run out, every further answer is 0 and `ok` stays
+/// false, so a reader needs to check only once, at the end.
 class ByteReader {
  public:
   explicit ByteReader(Bytes bytes) : rest_(bytes) {}

@@ -51,7 +51,7 @@ std::vector<std::uint8_t> calibration_bytes(const CameraModel& camera,
   const UnitPlaneTable centres{
       camera.width_px(), camera.height_px(), {camera.lookup().begin(), camera.lookup().end()}};
   const UnitPlaneTable corners = shifted(centres, -kHalfPixel);
-  // Where there is no direction a headset says (0, 0).
+  // A headset reports (0, 0) where there is no direction.
   const auto told = [](Vec2 v, double entry) {
     return std::isnan(v.x) || std::isnan(v.y) ? 0.0f : static_cast<float>(entry);
   };

@@ -10,7 +10,7 @@
 
 namespace orthonav::hl2ss {
 
-/// What one front camera says of itself. `A` is the camera's frame.
+/// The calibration that a front camera reports. `A` is the camera's frame.
 template <class A>
 struct CameraCalibration {
   CameraModel camera;
@@ -18,19 +18,18 @@ struct CameraCalibration {
 };
 
 /// From the answer in mode 2: tables of unit-plane x and y at integer pixel coordinates, which are
-/// the pixels' top-left corners and are carried over to their centres here, and camera_from_rig for
-/// row vectors. The undistorted image's maps and focal lengths behind them are not needed. Entries
-/// (0, 0) are pixels without a direction, unless they look straight ahead as those beside them do.
-/// Refuses a wrong size, what is no camera (`CameraModel::from_lookup`) and what is no rigid
-/// motion.
+/// the pixels' top-left corners and are converted to pixel centres here, and camera_from_rig for
+/// row vectors. The undistorted image's maps and focal lengths after them are not needed. Entries
+/// (0, 0) are pixels without a direction, unless their neighbours look straight ahead too. Refuses
+/// a wrong size, an invalid camera (`CameraModel::from_lookup`) and an invalid rigid motion.
 Result<CameraCalibration<LeftCamera>> read_left_calibration(Bytes answer);
 Result<CameraCalibration<RightCamera>> read_right_calibration(Bytes answer);
 
-/// The answer that a server gives for a camera of 640×480: maps and focal lengths are zero.
+/// A server's answer for a camera of 640×480; maps and focal lengths are zero.
 [[nodiscard]] std::vector<std::uint8_t> calibration_bytes(const CameraModel& camera,
                                                           const std::array<double, 16>& row_major);
 
-/// Takes the directions along the edges out of such an answer, as a headset whose mapping failed
+/// Removes the directions along the edges from such an answer, as on a headset whose mapping failed
 /// there.
 void unmap_edges(std::vector<std::uint8_t>& answer, int edge_px);
 

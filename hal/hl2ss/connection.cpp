@@ -5,7 +5,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// Reads of one turn, so that one stream can't starve the others.
+/// Reads per turn, so that one stream can't starve the others.
 constexpr int kReadsATurn = 16;
 constexpr Duration kGoodbyeWithin = std::chrono::milliseconds(100);
 constexpr std::size_t kMaxUnsent = std::size_t{1} << 20;
@@ -37,7 +37,7 @@ void Connection::step(short revents, HostTime now) {
   if ((revents & (POLLIN | POLLERR | POLLHUP)) != 0) {
     read(now);
     if (is_connected()) {
-      say_more(now);  // an answer may be what the next question waited for
+      say_more(now);  // the next request may have been waiting for this answer
     }
   }
   if (is_connected() && now - heard_ > options_.longest_silence) {
@@ -99,7 +99,7 @@ void Connection::write() {
   }
   const auto count = send_some(link_.socket(), unsent_);
   if (!count) {
-    return;  // reading tells the same, with whatever came before it
+    return;  // reading reports the same error, after the bytes that came before it
   }
   unsent_.erase(unsent_.begin(), unsent_.begin() + static_cast<std::ptrdiff_t>(*count));
 }

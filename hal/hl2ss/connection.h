@@ -9,43 +9,44 @@
 
 namespace orthonav::hl2ss {
 
-/// What understands the bytes of one port. All calls come from the thread that runs the links.
+/// Interprets the bytes of one port. All calls come from the thread that runs the links.
 class Protocol {
  public:
   virtual ~Protocol() = default;
-  /// What is said first on each new connection.
+  /// The bytes sent first on each new connection.
   [[nodiscard]] virtual std::vector<std::uint8_t> opening() = 0;
-  /// Room for bytes, and that so many came at this time. An Error ends the connection: what follows
-  /// can't be understood.
+  /// Room for bytes, then how many arrived at this time. An Error ends the connection, since the
+  /// rest can't be understood.
   virtual std::span<std::uint8_t> room() = 0;
   virtual Status received(std::size_t count, HostTime at) = 0;
-  /// What is to be said now, if anything; asked whenever time has passed.
+  /// The bytes to send now, if any; called regularly.
   [[nodiscard]] virtual std::vector<std::uint8_t> more(HostTime /*now*/) { return {}; }
-  /// An Error: what was sent and not delivered must not arrive any more. The connection is reset.
+  /// An Error means that data sent but not yet delivered must not arrive any more: the connection
+  /// is reset.
   [[nodiscard]] virtual Status overdue(HostTime /*now*/) { return {}; }
-  /// What is said last before we leave.
+  /// The bytes sent last before disconnecting.
   [[nodiscard]] virtual std::vector<std::uint8_t> goodbye() { return {}; }
   virtual void disconnected() = 0;
 };
 
-/// One port of the headset: a link that understands a protocol, and gives up a connection that is
-/// silent for too long. Nothing here waits.
+/// One port of the headset: a link with a protocol, which drops a connection that is silent for too
+/// long. Nothing here waits.
 class Connection {
  public:
   struct Options {
     int port = 0;
     Duration longest_silence = std::chrono::seconds(3);
   };
-  /// Meter and conversation are borrowed; both hear of everything that happens here.
+  /// Meter and protocol are borrowed; both are told of everything that happens here.
   Connection(const net::Endpoint& host, Options options, ArrivalMeter& meter, Protocol& protocol)
       : options_(options), meter_(meter), protocol_(protocol), link_(host, options.port) {}
 
-  /// What poll() is to watch: -1 for nothing.
+  /// The descriptor that poll() should watch; -1 for none.
   [[nodiscard]] int fd() const { return link_.fd(); }
   [[nodiscard]] short events() const;
-  /// Does what is due; `revents` is what poll() saw.
+  /// Does what is due; `revents` comes from poll().
   void step(short revents, HostTime now);
-  /// Says goodbye, if the protocol has a word for it; waits 0.1 s at most for it to arrive.
+  /// Sends the goodbye, if the protocol has one; waits at most 0.1 s for it to arrive.
   void leave();
   [[nodiscard]] bool is_connected() const { return link_.is_connected(); }
   [[nodiscard]] Duration round_trip() const {

@@ -15,7 +15,7 @@ namespace {
 /// Steps from 10 mm down to 0.01 mm; a headset's are 1 mm.
 constexpr double kLeastUnits = 1e2;
 constexpr double kMostUnits = 1e5;
-/// From here on AHaT says that it measured nothing.
+/// From this value on, AHaT means that nothing was measured.
 constexpr std::size_t kAhatNothing = 4090;
 
 Status check_scale(double units_per_m) {
@@ -26,7 +26,7 @@ Status check_scale(double units_per_m) {
   return {};
 }
 
-/// Ranges are computed without it, so any positive number will do.
+/// Ranges do not depend on it, so any positive number is accepted.
 Status check_alias(double alias) {
   if (!(alias > 0.0 && std::isfinite(alias))) {
     return Error{"calibration: alias " + printed("%g", alias) + ", must be positive"};

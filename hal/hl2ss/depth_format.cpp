@@ -7,10 +7,10 @@ namespace {
 
 constexpr std::size_t kTicksBytes = 8;
 constexpr std::size_t kSizesBytes = 8;
-/// A key frame a second.
+/// One key frame per second.
 constexpr std::uint64_t kAhatGopSize = 45;
 constexpr std::uint8_t kDefaultLevel = 255;
-/// Depth and brightness in one coded picture; the other way would be Zdepth.
+/// Depth and brightness in one coded picture; the alternative would be Zdepth.
 constexpr std::uint8_t kDepthWithBrightness = 0;
 constexpr int kQuarter = 4;
 constexpr int kMiddleOfQuarter = 2;
@@ -91,8 +91,8 @@ void read_coded_ahat(const GreyImage& luma, const std::vector<std::uint8_t>& chr
     image->height_px = luma.height_px;
     image->pixels.resize(count);
   }
-  // Each number of a plane is for two pixels: of the first plane for columns 0 and 1 of every four,
-  // of the second for columns 2 and 3.
+  // Each number of a plane covers two pixels: in the first plane columns 0 and 1 of every four, in
+  // the second columns 2 and 3.
   const std::size_t plane = chroma.size() / 2;
   for (std::size_t i = 0; i < count; ++i) {
     const int value = kQuarter * luma.pixels[i];

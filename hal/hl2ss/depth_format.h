@@ -12,7 +12,7 @@
 
 namespace orthonav::hl2ss {
 
-/// What is fixed of a depth stream.
+/// The fixed properties of a depth stream.
 struct DepthFormat {
   Service service = Service::kAhat;
   int width_px = 0;
@@ -31,12 +31,11 @@ struct DepthFormat {
 /// `stream`: AHaT, or long throw.
 [[nodiscard]] DepthFormat format_of(DepthStream stream);
 
-/// Bytes that ask for the stream with poses.
+/// The bytes of a request for the stream with poses.
 [[nodiscard]] std::vector<std::uint8_t> request_bytes(const DepthWish& wish, std::uint32_t bitrate);
 
-/// The picture within a payload: raw or coded. Nothing where the packet carries none, which is no
-/// fault; an Error for sizes that contradict one another and for what was coded in another way than
-/// we asked for.
+/// The picture in a payload, raw or coded. Nothing if the packet carries none, which is not a
+/// fault; an Error for contradictory sizes and for a coding other than the one requested.
 Result<std::optional<Bytes>> split_depth(DepthStream stream, Bytes payload);
 
 /// Two images out of `raw_bytes`, in the device's units.
@@ -45,8 +44,8 @@ void read_raw_depth(const DepthFormat& format, Bytes raw, DepthImage& depth,
 
 /// The same from a coded picture of AHaT. `luma` is a quarter of the depth, its low 8 bits;
 /// `chroma`, one plane behind the other, holds square roots of brightness, each of two pixels. The
-/// depth becomes the middle of the four values that a luma stands for, and 0 (not measured) below
-/// 64: past 1,023 the luma starts again at 0, and nothing nearer than 64 is measured.
+/// depth becomes the middle of the four values that a luma value stands for, and 0 (not measured)
+/// below 64: beyond 1,023 the luma starts again at 0, and nothing nearer than 64 is measured.
 void read_coded_ahat(const GreyImage& luma, const std::vector<std::uint8_t>& chroma,
                      DepthImage& depth, DepthImage& brightness);
 

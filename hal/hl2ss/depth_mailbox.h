@@ -8,8 +8,8 @@
 
 namespace orthonav::hl2ss {
 
-/// The newest pictures of a depth camera until they are taken; a slow reader misses the oldest.
-/// Thread-safe; buffers are used again.
+/// Holds the newest pictures of a depth camera until they are taken; a slow reader misses the
+/// oldest. Thread-safe; buffers are reused.
 class DepthMailbox {
  public:
   /// Swaps `picture` in. It must be later than the one before it.
@@ -43,7 +43,7 @@ class DepthMailbox {
   }
 
  private:
-  /// A recorder takes pictures 30 times a second; the camera sends 45.
+  /// A recorder takes pictures 30 times a second, and the camera sends 45.
   static constexpr std::size_t kMost = 4;
   Mutex mutex_;
   std::deque<DepthFrame> waiting_ ORTHONAV_GUARDED_BY(mutex_);

@@ -73,7 +73,7 @@ Status DepthReader::take(const Packet& packet, Timestamp time) {
   if (!*picture) {
     return {};
   }
-  // A pose that is none must not cost the picture.
+  // An invalid pose must not cost the picture.
   const auto pose = read_pose(packet.pose);
   picture_.time = time;
   picture_.world_from_rig = pose ? *pose : std::nullopt;

@@ -14,12 +14,12 @@
 
 namespace orthonav::hl2ss {
 
-/// Converts stamps to times by the clock that the other streams established. Stamps of depth never
-/// change that clock: nothing that a depth stream sends may change an operation.
+/// Converts stamps to times with the clock that the other streams established. Depth stamps never
+/// change that clock: a depth stream must not affect an operation.
 class StampTeller {
  public:
   virtual ~StampTeller() = default;
-  /// An Error says why the stamp, in ticks of 100 ns, can't be believed.
+  /// An Error says why the stamp, in ticks of 100 ns, is implausible.
   [[nodiscard]] virtual Result<Timestamp> told(std::uint64_t ticks, HostTime at) const = 0;
 };
 
@@ -33,7 +33,7 @@ class DepthReader final : public PacketPort {
   [[nodiscard]] std::vector<std::uint8_t> opening() override;
 
  private:
-  /// What is known of an access unit that the decoder has not given back yet.
+  /// The data of an access unit that is still in the decoder.
   struct Underway {
     Timestamp time{};
     std::optional<Transform<World, Rig>> world_from_rig;
@@ -41,7 +41,7 @@ class DepthReader final : public PacketPort {
   DepthReader(const DepthWish& wish, std::uint32_t bitrate, const DepthDescription& camera,
               const StampTeller& stamps, ArrivalMeter& meter, DepthMailbox& pictures);
   void heard(const Packet& packet, HostTime at) override;
-  /// An Error says what was wrong with this packet; the stream goes on.
+  /// An Error says what was wrong with this packet; the stream continues.
   Status take(const Packet& packet, Timestamp time);
   Status take_picture(Bytes picture);
   Status take_raw(Bytes picture);

@@ -13,9 +13,9 @@ namespace orthonav::hl2ss {
 namespace {
 
 constexpr int kDepthTurnMs = 10;
-/// Long throw may send but one picture a second.
+/// Long throw may send only one picture per second.
 constexpr Duration kDepthSilence = std::chrono::seconds(5);
-/// A stand-in that waits for its client is silent for as long as that thinks.
+/// A stand-in that waits for its client may be silent for as long as the client computes.
 constexpr Duration kPacedDepthSilence = std::chrono::minutes(2);
 
 }  // namespace

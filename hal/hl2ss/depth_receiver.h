@@ -14,7 +14,7 @@ class Receiver;
 /// A headset's depth stream, on a thread of its own, so that it can never delay the cameras.
 class DepthReceiver final : private StampTeller {
  public:
-  /// `cameras` must outlive it: it knows the time and the map.
+  /// `cameras` provides time and map, and must outlive it.
   static Result<std::unique_ptr<DepthReceiver>> start(const net::Endpoint& host,
                                                       const Hl2ssOptions& options,
                                                       DepthDescription described,

@@ -11,7 +11,7 @@ namespace {
 constexpr auto kAskEvery = std::chrono::milliseconds(100);
 constexpr std::size_t kMostHeardSamples = kMicrophoneHz;
 constexpr std::size_t kChannels = 2;
-/// A phrase was spoken no longer ago than this.
+/// A phrase spoken longer ago than this is implausible.
 constexpr Duration kSpokenWithin = std::chrono::seconds(30);
 
 }  // namespace
@@ -121,7 +121,7 @@ Status VoiceStream::received(std::size_t count, HostTime at) {
   }
 }
 
-/// The start of a phrase may be told in stamps or in FILETIME; what is neither is now.
+/// The start of a phrase may be given in stamps or in FILETIME; anything else becomes `at`.
 Timestamp VoiceStream::spoken_at(const VoiceResult& result, HostTime at) {
   const Timestamp now = time_.clock.now();
   const auto boot = static_cast<std::uint64_t>(result.start);
@@ -137,7 +137,7 @@ Timestamp VoiceStream::spoken_at(const VoiceResult& result, HostTime at) {
 
 void VoiceStream::hear(const VoiceResult& result, HostTime at) {
   if (result.index == phrases_.size()) {
-    return;  // nothing that it was told to listen for
+    return;  // not a phrase in its vocabulary
   }
   if (result.index > phrases_.size()) {
     return meter_.damaged("voice: phrase " + std::to_string(result.index) + " of " +

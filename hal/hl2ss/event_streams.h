@@ -10,8 +10,8 @@
 
 namespace orthonav::hl2ss {
 
-/// Head, eyes and hands, 60 times a second: checked and counted, and a good measure of the clock,
-/// for these packets are small. The head of spatial input is not the rig, so that it gives no pose.
+/// Head, eyes and hands, 60 times a second: checked and counted. The packets are small, so they
+/// measure the clock well. The head of spatial input is not the rig, so it is not used as a pose.
 class SpatialStream final : public PacketStream {
  public:
   SpatialStream(ArrivalMeter& meter, HeadsetTime& time);
@@ -21,7 +21,7 @@ class SpatialStream final : public PacketStream {
   Status take(const Packet& packet, const Stamped& stamped) override;
 };
 
-/// Sound: two channels come in, their mean is kept for a second at most.
+/// Sound: the mean of its two channels is kept for at most a second.
 class SoundStream final : public PacketStream, public Microphone {
  public:
   SoundStream(ArrivalMeter& meter, HeadsetTime& time);
@@ -36,12 +36,12 @@ class SoundStream final : public PacketStream, public Microphone {
 
   mutable Mutex mutex_;
   std::deque<std::int16_t> samples_ ORTHONAV_GUARDED_BY(mutex_);
-  Timestamp end_ ORTHONAV_GUARDED_BY(mutex_){};  ///< of the newest sample that came
+  Timestamp end_ ORTHONAV_GUARDED_BY(mutex_){};  ///< of the newest sample received
   std::optional<Timestamp> delivered_ ORTHONAV_GUARDED_BY(mutex_);
   std::optional<Error> trouble_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
-/// The headset's own speech recognition: told the phrases, then asked ten times a second.
+/// The headset's own speech recognition: it is sent the phrases, then polled ten times a second.
 class VoiceStream final : public Protocol {
  public:
   /// `filetime_offset` is UTC in ticks of 100 ns minus the headset's stamps.

@@ -9,7 +9,7 @@
 
 namespace orthonav::hl2ss {
 
-/// camera_from_rig of a calibration: 16 float32 for row vectors. Refuses what is no rigid motion.
+/// camera_from_rig of a calibration: 16 float32 for row vectors. Refuses an invalid rigid motion.
 template <class A>
 Result<Transform<A, Rig>> read_extrinsics(Bytes bytes) {
   std::array<double, 16> columns_first{};

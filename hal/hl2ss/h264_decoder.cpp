@@ -49,14 +49,14 @@ Result<std::unique_ptr<H264Decoder>> H264Decoder::create(int width_px, int heigh
   if (!codec->allocate(h264)) {
     return Error{"out of memory for the H.264 decoder"};
   }
-  // Threads would hold pictures back; damage is to be told, never painted over.
+  // Threads would delay pictures; damage must be reported, never concealed.
   codec->context->thread_count = 1;
   codec->context->flags |= AV_CODEC_FLAG_LOW_DELAY;
   codec->context->err_recognition = AV_EF_EXPLODE | AV_EF_BITSTREAM | AV_EF_BUFFER;
-  // Concealment stays on and what it painted is refused by its flag (`take_picture`): libavcodec
-  // 5.1 keeps its table of whole macroblocks for it alone, and without it calls every picture of
-  // several slices damaged.
-  // A library does not print; what matters comes back as a code.
+  // Concealment stays on, and concealed pictures are refused by their flag (`take_picture`):
+  // libavcodec 5.1 keeps its table of complete macroblocks only for concealment, and without it
+  // reports every picture with several slices as damaged. Prevents printing by the library; errors
+  // are returned as codes.
   codec->context->log_level_offset = AV_LOG_MAX_OFFSET;
   if (const int code = avcodec_open2(codec->context, h264, nullptr); code < 0) {
     return Error{"H.264 decoder: " + libav_reason(code)};
@@ -94,7 +94,7 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
   if (!picture) {
     restart();
   }
-  // A key frame stands on nothing, whatever is missing before it; else the loss is to be told.
+  // A key frame does not depend on missing pictures; otherwise the loss must be reported.
   if (!whole && !(picture && *picture)) {
     return whole.error();
   }

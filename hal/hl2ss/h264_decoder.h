@@ -12,21 +12,21 @@
 
 namespace orthonav::hl2ss {
 
-/// Pictures out of H.264 access units, one in, one out, by libavcodec. A picture that was decoded
-/// with anything missing is no picture: after damage nothing comes until the next key frame.
+/// Decodes H.264 access units to pictures, one in, one out, with libavcodec. Incompletely decoded
+/// pictures are discarded: after damage nothing is returned until the next key frame.
 class H264Decoder {
  public:
-  /// Of this size; pictures of another are refused. Both sides must be even.
+  /// For pictures of this size only. Both sides must be even.
   static Result<std::unique_ptr<H264Decoder>> create(int width_px, int height_px);
   ~H264Decoder();
 
-  /// Decodes one access unit's luma into `image` and answers which unit the picture belongs to, as
-  /// it was numbered by `unit`; nothing when none came out. An Error names the damage; the decoder
-  /// then waits for a key frame. `chroma`, if given, gets the two other planes one after the other,
-  /// half as wide and high each, without padding.
+  /// Decodes one access unit's luma into `image` and returns the number (`unit`) of the access unit
+  /// that the picture belongs to; nothing if no picture came out. An Error names the damage; the
+  /// decoder then waits for a key frame. `chroma`, if given, receives the two other planes one
+  /// after the other, each half as wide and high, without padding.
   Result<std::optional<std::int64_t>> decode(Bytes access_unit, std::int64_t unit, GreyImage& image,
                                              std::vector<std::uint8_t>* chroma = nullptr);
-  /// Something of the stream was lost: waits for a key frame.
+  /// A part of the stream was lost: waits for a key frame.
   void restart();
 
  private:

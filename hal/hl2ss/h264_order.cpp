@@ -10,10 +10,11 @@ namespace {
 constexpr std::uint8_t kSlice = 1;
 constexpr std::uint8_t kKeySlice = 5;
 constexpr std::uint8_t kSequenceParameters = 7;
-/// All that is read of a unit lies in its first bytes, but for a parameter set with scaling lists.
+/// Everything read from a unit lies in its first bytes, except in a parameter set with scaling
+/// lists.
 constexpr std::size_t kMostRead = 512;
 
-/// Bits of a unit from the highest on, without the bytes that only keep start codes apart.
+/// The bits of a unit, highest first, without emulation prevention bytes.
 class BitReader {
  public:
   explicit BitReader(Bytes unit) {
@@ -80,7 +81,7 @@ bool has_chroma_format(std::uint32_t profile) {
   return std::find(kProfiles.begin(), kProfiles.end(), profile) != kProfiles.end();
 }
 
-/// How many bits `frame_num` takes, by a sequence parameter set; 0 for a damaged one.
+/// The number of bits of `frame_num`, from a sequence parameter set; 0 for a damaged one.
 std::uint32_t frame_num_bits(Bytes unit) {
   BitReader reader(unit);
   const std::uint32_t profile = reader.bits(8);
@@ -106,7 +107,7 @@ std::uint32_t frame_num_bits(Bytes unit) {
   return reader.ok() && bits <= 16 ? bits : 0;
 }
 
-/// The next unit's payload from `at` on, which moves behind it; empty at the end.
+/// The next unit's payload from `at` on; `at` moves past it; empty at the end.
 Bytes next_unit(Bytes stream, std::size_t& at) {
   const auto start_code = [&](std::size_t i) {
     return i + 3 <= stream.size() && stream[i] == 0 && stream[i + 1] == 0 && stream[i + 2] == 1;
@@ -151,7 +152,7 @@ Status H264Order::follow(Bytes access_unit) {
     if (!reader.ok()) {
       return Error{"H.264 slice is damaged"};
     }
-    // One slice tells for its picture.
+    // One slice is enough for its picture.
     return follow({frame_num, (unit[0] >> 5 & 3u) != 0}, kind == kKeySlice);
   }
   return {};

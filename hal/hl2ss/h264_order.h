@@ -8,12 +8,12 @@
 
 namespace orthonav::hl2ss {
 
-/// Finds pictures that are missing in a stream of H.264 access units (Annex B), by `frame_num` of
-/// their slice headers (ITU-T H.264, 7.3.2.1, 7.3.3 and 7.4.3). libavcodec decodes what follows a
-/// missing picture without a word, and what it then shows is another picture.
+/// Detects missing pictures in a stream of H.264 access units (Annex B), by `frame_num` of their
+/// slice headers (ITU-T H.264, 7.3.2.1, 7.3.3 and 7.4.3). libavcodec decodes the units after a
+/// missing picture without an error, and the result is a wrong picture.
 class H264Order {
  public:
-  /// Takes the next access unit; an Error when a picture that it stands on never came.
+  /// Takes the next access unit; an Error if a picture that it depends on never arrived.
   Status follow(Bytes access_unit);
   void restart() { last_.reset(); }
 
@@ -24,7 +24,7 @@ class H264Order {
   };
   Status follow(const Picture& next, bool is_key);
 
-  std::uint32_t frame_num_bits_ = 0;  ///< 0: no parameter set was seen yet
+  std::uint32_t frame_num_bits_ = 0;  ///< 0: no parameter set seen yet
   std::optional<Picture> last_;
 };
 

@@ -12,9 +12,9 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// The display is no part of the protocol: one refresh of a HoloLens 2 at 60 Hz.
+/// The display is not part of the protocol: assumes one refresh of a HoloLens 2 at 60 Hz.
 constexpr Duration kDisplayLatency = std::chrono::milliseconds(16);
-/// A server without the configuration's port is none the worse for us.
+/// A server without the configuration port is acceptable.
 constexpr Duration kConfigurationWithin = std::chrono::milliseconds(500);
 constexpr std::uint8_t kAskUtcOffset = 1;
 
@@ -49,7 +49,7 @@ Result<StereoCalibration> ask_calibration(const net::Endpoint& endpoint,
                            right->camera_from_rig};
 }
 
-/// Absent: no depth was asked for. Waits while the cameras are opened.
+/// Absent: no depth was requested. It is computed while the cameras are opened.
 using AskedDepth = std::future<Result<DepthDescription>>;
 std::optional<AskedDepth> begin_asking_depth(const net::Endpoint& endpoint,
                                              const Hl2ssOptions& options, HostTime deadline) {
@@ -73,12 +73,12 @@ std::optional<AskedDepth> begin_asking_depth(const net::Endpoint& endpoint,
   });
 }
 
-/// 0 where nobody tells it: stamps then count from a moment without a name.
+/// 0 if the server does not provide it: stamps then count from an unknown moment.
 std::int64_t ask_utc_offset(const net::Endpoint& endpoint, const Hl2ssOptions& options,
                             HostTime deadline) {
   const std::uint8_t request[] = {kAskUtcOffset};
   const HostTime now = HostClock::now();
-  // Where nobody answers, most of the time is left for the images.
+  // If there is no answer, most of the time is left for the images.
   const HostTime within =
       now + std::min<HostClock::duration>(kConfigurationWithin, (deadline - now) / 4);
   const auto answer = ask(endpoint, options.first_port + offset_of(Service::kConfiguration),
@@ -87,7 +87,7 @@ std::int64_t ask_utc_offset(const net::Endpoint& endpoint, const Hl2ssOptions& o
     return 0;
   }
   const auto offset = number_at<std::uint64_t>(*answer, 0);
-  // Past the year 2300 it is none.
+  // Beyond the year 2300 it is invalid.
   return offset <= 220'000'000'000'000'000u ? static_cast<std::int64_t>(offset) : 0;
 }
 
@@ -100,7 +100,7 @@ class Cameras final : public StereoCamera {
   [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
   Result<Next> do_next(StereoFrame& frame) override {
     StandinStream* standin = receiver_.standin();
-    // Asking for the next pair says that the last one was done with.
+    // A request for the next pair means that the caller is done with the last one.
     if (standin && taken_) {
       standin->send(StandinTook{*std::exchange(taken_, std::nullopt)});
     }
@@ -124,7 +124,7 @@ class Cameras final : public StereoCamera {
 
   Receiver& receiver_;
   StereoCalibration calibration_;
-  std::optional<Timestamp> taken_;  ///< handed out, and not told to the stand-in yet
+  std::optional<Timestamp> taken_;  ///< handed out, but not yet reported to the stand-in
 };
 
 class InboxClicker final : public Clicker {
@@ -201,7 +201,7 @@ class ConnectedHeadset final : public Hl2ssHeadset {
     }
     return all;
   }
-  /// Before anybody asks for it.
+  /// Must be called before the depth cameras are used.
   void add_depth(const net::Endpoint& endpoint, const Hl2ssOptions& options,
                  Result<DepthDescription> described) {
     auto depth = described

@@ -11,13 +11,13 @@
 
 namespace orthonav::hl2ss {
 
-/// Events from the receiving thread, taken by time. Full, it drops the oldest. Thread-safe.
+/// Events from the receiving thread, taken by time. Drops the oldest when full. Thread-safe.
 template <class Event>
 class Inbox {
  public:
   void put(Event event) {
     const MutexLock lock(mutex_);
-    // What came late may be stamped before what came early; the contract wants an order.
+    // An event that arrives later may have an earlier stamp; the contract requires order.
     if (last_ && event.time < *last_) {
       event.time = *last_;
     }

@@ -9,7 +9,7 @@ struct AVPacket;
 
 namespace orthonav::hl2ss {
 
-/// What libavcodec needs to code or decode; freed when it goes.
+/// The objects that libavcodec needs to encode or decode; freed on destruction.
 struct LibavCodec {
   AVCodecContext* context = nullptr;
   AVFrame* frame = nullptr;
@@ -19,11 +19,11 @@ struct LibavCodec {
   ~LibavCodec();
   LibavCodec(const LibavCodec&) = delete;
   LibavCodec& operator=(const LibavCodec&) = delete;
-  /// False when memory is short, or for no codec.
+  /// False if memory is short or `codec` is null.
   [[nodiscard]] bool allocate(const AVCodec* codec);
 };
 
-/// What a code of libavcodec's means.
+/// The meaning of an error code of libavcodec.
 [[nodiscard]] std::string libav_reason(int code);
 
 }  // namespace orthonav::hl2ss

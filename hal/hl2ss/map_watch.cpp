@@ -7,20 +7,20 @@
 namespace orthonav::hl2ss {
 namespace {
 
-// A head at work stays below these as well. A false alarm costs a registration, a missed move a
-// wrong hologram: at 30 Hz a move of more than 5 cm or 9 degrees is found.
+// A surgeon's head stays below these too. A false alarm costs a registration, and a missed move
+// shows a wrong hologram: at 30 Hz a move of more than 5 cm or 9 degrees is detected.
 constexpr double kMaxAcceleration = 30.0;       // m/s²
 constexpr double kMaxTurnAcceleration = 100.0;  // rad/s²
 constexpr double kNoiseM = 0.010;
 constexpr double kNoiseRad = 0.020;
-/// Beyond this two poses tell no speed.
+/// Two poses farther apart in time than this give no speed.
 constexpr Duration kSpeedWithin = std::chrono::milliseconds(110);
-/// While nobody looks a head does not go farther than this.
+/// Without poses, a head is assumed to move at most for this long at full speed.
 constexpr double kMaxUnseenS = 0.25;
-/// After so long without a pose nobody can vouch for the map.
+/// After this long without a pose, the map can't be assumed to be the same.
 constexpr Duration kVouchedFor = std::chrono::seconds(10);
-/// Two streams' poses of the head agree to millimetres; the rest is for predictions past the newest
-/// one.
+/// Head poses of two streams agree to millimetres; the rest of the limit allows for predictions
+/// past the newest one.
 constexpr double kSameMapM = 0.05;
 constexpr double kSameMapRad = 0.13;
 

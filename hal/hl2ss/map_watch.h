@@ -9,14 +9,14 @@
 
 namespace orthonav::hl2ss {
 
-/// Finds out that the map has moved: by two poses in a row that no head could have had. A stamp
-/// alone never moves a map.
+/// Detects that the map has moved: two consecutive poses show a motion that no head could have
+/// made. A wrong stamp alone does not count.
 class MapWatch {
  public:
-  /// Takes the next pose; true when World is another one from this pose on. One that is not later
-  /// than the pose before says nothing, and is passed over.
+  /// Takes the next pose; true if World has changed from this pose on. A pose no later than the one
+  /// before is ignored.
   bool moved(Timestamp time, const Transform<World, Rig>& world_from_rig);
-  /// Whatever comes next lies in another map.
+  /// The next pose lies in another map.
   void break_off() { broken_off_ = true; }
 
  private:
@@ -27,19 +27,19 @@ class MapWatch {
   [[nodiscard]] bool is_possible(const Seen& next) const;
 
   std::optional<Seen> last_;
-  std::optional<Seen> before_;  ///< the one before it, near enough to tell a speed
+  std::optional<Seen> before_;  ///< the one before it, close enough in time to give a speed
   bool broken_off_ = false;
 };
 
-/// Poses of the last seconds: measured at them and between two, predicted at constant velocity
-/// beyond, lost where they lie too far apart or in another map. Thread-safe.
+/// Poses of the last seconds. The head is measured at and between them, predicted at constant
+/// velocity beyond, and lost where they lie too far apart or in another map. Thread-safe.
 class HeadTrack final : public HeadTracker {
  public:
   void add(Timestamp time, const Transform<World, Rig>& world_from_rig, std::int64_t map_epoch);
-  /// The epoch of the newest pose's map. Resets `world_from_rig` where it disagrees with where the
-  /// head was at that time in this map: it may be of another one.
+  /// The epoch of the newest pose's map. Resets `world_from_rig` if it disagrees with the head's
+  /// pose at that time in this map, since it may be of another map.
   std::int64_t place(Timestamp at, std::optional<Transform<World, Rig>>& world_from_rig) const;
-  /// Nothing is known any more: the connection is gone.
+  /// Forgets all poses: the connection is gone.
   void lose();
 
  private:
@@ -53,7 +53,7 @@ class HeadTrack final : public HeadTracker {
   [[nodiscard]] std::optional<Timestamp> do_newest_measurement() const override;
 
   mutable Mutex mutex_;
-  std::deque<Sample> samples_ ORTHONAV_GUARDED_BY(mutex_);  ///< all of one map
+  std::deque<Sample> samples_ ORTHONAV_GUARDED_BY(mutex_);  ///< all in one map
   std::int64_t map_epoch_ ORTHONAV_GUARDED_BY(mutex_) = 0;
 };
 

@@ -14,7 +14,7 @@
 
 namespace orthonav::hl2ss {
 
-/// A depth stream that is asked for: raw, or AHaT as H.264 and long throw as PNG.
+/// The depth stream to request: raw, or AHaT as H.264 and long throw as PNG.
 struct DepthWish {
   DepthStream stream = DepthStream::kAhat;  ///< kAhat or kLongThrow
   bool coded = false;
@@ -27,16 +27,16 @@ struct Hl2ssOptions {
   int standin_port = 0;  ///< of our own server's side channel; 0: none
   std::uint32_t bitrate = 12'000'000;
   std::vector<std::string> phrases = workflow_phrases();
-  /// The server is asked to stamp, and to take poses, earlier by this; zero for one that stamps as
-  /// the images were.
+  /// The server is asked to stamp, and to take poses, earlier by this; zero for a server with
+  /// correct stamps.
   Duration stamps_late = kResearchModeStampsLate;
-  bool scene = true;  ///< holograms are shown by the headset's own scene
-  /// Research mode runs AHaT or long throw, not both; absent: neither is asked for.
+  bool scene = true;  ///< holograms are shown in the headset's own scene
+  /// Research mode runs AHaT or long throw, not both; absent: neither is requested.
   std::optional<DepthWish> depth;
-  /// Opening waits no longer for calibrations and the first image.
+  /// The longest wait for calibrations and the first image when opening.
   Duration open_within = std::chrono::seconds(8);
-  /// At most so much of `open_within` is spent waiting for the depth camera's calibration (4 MB, a
-  /// fifth of a second at the images' data rate); without it the headset opens without depth.
+  /// The longest part of `open_within` spent waiting for the depth camera's calibration (4 MB, a
+  /// fifth of a second at the images' data rate); after that, the headset opens without depth.
   Duration depth_within = std::chrono::seconds(2);
 };
 

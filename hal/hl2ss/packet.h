@@ -17,12 +17,12 @@ struct Packet {
 };
 
 struct PacketFormat {
-  std::size_t max_payload = 0;  ///< a larger size is damage or malice
+  std::size_t max_payload = 0;  ///< a larger size means damage or an attack
   bool has_pose = false;
 };
 
-/// Cuts a stream of bytes into packets, however it was torn on the way. Memory stays below one
-/// largest packet and one read.
+/// Splits a stream of bytes into packets, regardless of how the network divided it. Memory stays
+/// below one largest packet plus one read.
 class PacketAssembler {
  public:
   PacketAssembler(std::string stream, const PacketFormat& format);
@@ -30,10 +30,10 @@ class PacketAssembler {
   /// Room for the next bytes of the stream; `received` says how many were written there.
   std::span<std::uint8_t> room();
   void received(std::size_t count);
-  /// The next whole packet, nothing when more bytes are needed, or why the stream can't be followed
-  /// any more: its sizes are wrong, so that nobody knows where a packet begins. Valid until `room`.
+  /// The next complete packet; nothing if more bytes are needed; an Error if a size is wrong, so
+  /// that the start of the next packet is unknown. Valid until `room`.
   Result<std::optional<Packet>> next();
-  /// Forgets what came.
+  /// Discards the received bytes.
   void restart();
 
  private:

@@ -8,7 +8,7 @@
 
 namespace orthonav::hl2ss {
 
-/// A port that sends packets: cuts them out of what comes.
+/// A port that sends packets: splits its bytes into packets.
 class PacketPort : public Protocol {
  public:
   PacketPort(const std::string& name, const PacketFormat& format) : assembler_(name, format) {}
@@ -17,7 +17,7 @@ class PacketPort : public Protocol {
   void disconnected() override { assembler_.restart(); }
 
  protected:
-  /// A whole packet; whatever is wrong with it, the stream goes on.
+  /// Takes a complete packet; the stream continues even if something is wrong with it.
   virtual void heard(const Packet& packet, HostTime at) = 0;
 
  private:

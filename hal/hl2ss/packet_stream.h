@@ -6,13 +6,13 @@
 
 namespace orthonav::hl2ss {
 
-/// What the streams of one headset share: its time.
+/// The headset's time, which its streams share.
 struct HeadsetTime {
   StampReader stamps;
   BootClock clock;
 };
 
-/// A port that sends packets: tells their times, counts what is wrong with them.
+/// A port that sends packets: determines their times and counts faults.
 class PacketStream : public PacketPort {
  public:
   PacketStream(const std::string& name, const PacketFormat& format, ArrivalMeter& meter,
@@ -26,9 +26,9 @@ class PacketStream : public PacketPort {
     bool in_order = true;    ///< after all packets before it
     bool is_trusted = true;  ///< `check_stamp` found nothing wrong
   };
-  /// An Error says why the stamp must be wrong: the packet's time is then used for nothing.
+  /// An Error says why the stamp must be wrong: the packet's time is then not used.
   virtual Status check_stamp(const Packet& /*packet*/, Timestamp /*stamp*/) { return {}; }
-  /// An Error says what was wrong with this packet; the stream goes on.
+  /// An Error says what was wrong with this packet; the stream continues.
   virtual Status take(const Packet& packet, const Stamped& stamped) = 0;
   ArrivalMeter& meter_;
 

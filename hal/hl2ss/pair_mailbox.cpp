@@ -6,7 +6,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// Latencies of so many pairs are kept.
+/// Latencies of this many pairs are kept.
 constexpr std::size_t kMostFigures = 4096;
 
 void copy(const GreyImage& from, GreyImage& to) {

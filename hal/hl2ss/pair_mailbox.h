@@ -9,22 +9,22 @@
 
 namespace orthonav::hl2ss {
 
-/// The newest pair, until somebody takes it or a newer one replaces it: what is late is dropped,
+/// Holds the newest pair until it is taken or a newer one replaces it: late pairs are dropped,
 /// never queued. Thread-safe; times increase.
 class PairMailbox {
  public:
   /// The pair must be later than the one before it.
   void put(const Pairer::Pair& pair, std::int64_t map_epoch);
-  /// The time of the pair that waits.
+  /// The time of the waiting pair.
   [[nodiscard]] std::optional<Timestamp> waiting() const;
   /// Copies it into `frame`; false when none waits.
   bool take(StereoFrame& frame);
-  /// What went wrong since the last question; the pair that waited is void with it.
+  /// Reports what went wrong; the waiting pair is discarded.
   void fail(Error trouble);
-  /// The thread that puts has died: `trouble` answers with this from now on.
+  /// The thread that puts pairs has ended: `trouble` returns this from now on.
   void die(Error why);
   [[nodiscard]] std::optional<Error> trouble();
-  /// What was put is void: nobody may guide on it any more.
+  /// Discards the waiting pair: it must not be used for guidance any more.
   void clear();
 
   struct Figures {

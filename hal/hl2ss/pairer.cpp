@@ -8,9 +8,9 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// 1 ms in ticks of 1 ns; the cameras of one rig differ by some 10 ns in fact.
+/// 1 ms in ticks of 1 ns; in practice the cameras of one rig differ by some 10 ns.
 constexpr std::uint64_t kWithinTicks = 1'000'000;
-/// A server whose ticks are not nanoseconds must not mix two moments either.
+/// Also keeps two moments apart for a server whose ticks are not nanoseconds.
 constexpr Duration kStampsWithin = kGreyCameraInterval / 3;
 
 std::uint64_t apart(std::uint64_t a, std::uint64_t b) { return a > b ? a - b : b - a; }

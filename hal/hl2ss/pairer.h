@@ -13,29 +13,28 @@ namespace orthonav::hl2ss {
 struct CameraImage {
   std::uint64_t sensor_ticks = 0;
   Timestamp time{};
-  HostTime arrived{};  ///< its last byte
+  HostTime arrived{};  ///< arrival of its last byte
   std::optional<Transform<World, Rig>> world_from_rig;
   GreyImage image;
 };
 
 enum class CameraSide : std::uint8_t { kLeft, kRight };
 
-/// Brings left and right images of one moment together, by sensor ticks, in whatever order the two
-/// streams bring them; their times must agree too, to a third of a frame. Holds the last few images
-/// of each side; who finds no partner among those of the other side is given up when its place is
-/// needed. Buffers go round.
+/// Pairs left and right images of the same moment, by sensor ticks, in any order of arrival; their
+/// times must also agree to a third of a frame. Holds the last few images of each side; an image
+/// without a partner is dropped when its place is needed. Buffers are reused.
 class Pairer {
  public:
   struct Pair {
     CameraImage& left;
     CameraImage& right;
   };
-  /// Swaps `image` in, and answers with the pair that it completes, valid until the next call.
-  /// What is older than a pair delivered before makes none.
+  /// Swaps `image` in, and returns the pair that it completes, valid until the next call. An image
+  /// older than a delivered pair does not form one.
   std::optional<Pair> add(CameraSide side, CameraImage& image);
-  /// Images that found no partner so far.
+  /// Number of images without a partner so far.
   [[nodiscard]] std::int64_t unpaired() const { return unpaired_; }
-  /// A connection is new: what waits finds no partner any more.
+  /// A connection is new: waiting images can't find a partner any more.
   void forget();
 
  private:

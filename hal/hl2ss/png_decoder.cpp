@@ -29,9 +29,9 @@ Result<std::unique_ptr<PngDecoder>> PngDecoder::create(int width_px, int height_
   }
   codec->context->thread_count = 1;
   codec->context->err_recognition = AV_EF_EXPLODE | AV_EF_CRCCHECK;
-  // A picture that claims to be larger is refused before it is given memory.
+  // A picture that claims to be larger is refused before memory is allocated.
   codec->context->max_pixels = std::int64_t{width_px} * height_px;
-  codec->context->log_level_offset = 64;  // a library does not print
+  codec->context->log_level_offset = 64;  // prevents printing by the library
   if (const int code = avcodec_open2(codec->context, png, nullptr); code < 0) {
     return Error{"PNG decoder: " + libav_reason(code)};
   }

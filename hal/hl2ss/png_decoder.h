@@ -9,7 +9,7 @@
 
 namespace orthonav::hl2ss {
 
-/// PNG files of one size with 8-bit RGBA, by libavcodec. Each stands on its own.
+/// Decodes PNG files of one size with 8-bit RGBA, with libavcodec. Each is independent.
 class PngDecoder {
  public:
   static Result<std::unique_ptr<PngDecoder>> create(int width_px, int height_px);

@@ -13,14 +13,14 @@ namespace orthonav::hl2ss {
 namespace {
 
 constexpr Duration kSpatialInterval = kGreyCameraInterval / 2;
-/// A picture may stand on at most a second of others.
+/// A picture may depend on at most one second of earlier ones.
 constexpr std::uint64_t kGopSize = 30;
 constexpr Duration kSilence = std::chrono::seconds(3);
-/// A stand-in that waits for its client is silent for as long as that thinks.
+/// A stand-in that waits for its client may be silent for as long as the client computes.
 constexpr Duration kPacedSilence = std::chrono::minutes(2);
 /// The clock is estimated from transit times and is late by some milliseconds.
 constexpr Duration kMostAhead = std::chrono::milliseconds(100);
-/// What is due by time is looked at this often.
+/// How often timed actions are checked.
 constexpr int kTurnMs = 10;
 
 }  // namespace
@@ -175,8 +175,8 @@ void Receiver::take(CameraSide side, CameraImage& image) {
   if (time_.stamps.restarts() != restarts_) {
     restarts_ = time_.stamps.restarts();
     pairer_.forget();
-    // Behind a lost connection the headset was started anew, and its map with it; else its clock
-    // was set, which moves no map.
+    // After a lost connection the headset was restarted, and its map with it; otherwise its clock
+    // was set, which does not move the map.
     if (was_lost_) {
       map_.break_off();
     }
@@ -187,7 +187,7 @@ void Receiver::take(CameraSide side, CameraImage& image) {
 }
 
 void Receiver::publish(const Pairer::Pair& pair) {
-  // The right camera's pose is of a moment that may differ; the pair stands at the left one's.
+  // The right camera's pose may be of a different moment; the pair uses the left one's.
   const auto& pose = pair.left.world_from_rig;
   if (newest_pair_ && pair.left.time <= *newest_pair_) {
     ++late_pairs_;
@@ -198,7 +198,7 @@ void Receiver::publish(const Pairer::Pair& pair) {
   if (pose && map_.moved(pair.left.time, *pose)) {
     ++map_epoch_;
   }
-  // First the head: who takes the pair asks for it at once.
+  // The head first, since the pair's consumer asks for it at once.
   if (pose) {
     head_.add(pair.left.time, *pose, map_epoch_);
   }

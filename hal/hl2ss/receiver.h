@@ -19,8 +19,8 @@
 
 namespace orthonav::hl2ss {
 
-/// The one thread that reads every stream of a headset, decodes, pairs and publishes. It always
-/// reads on, whoever takes what it publishes or not, so that nothing ever queues on the network.
+/// The one thread that reads every stream of a headset, decodes, pairs and publishes. It keeps
+/// reading whether or not its results are taken, so that nothing ever queues on the network.
 class Receiver final : private ImageSink {
  public:
   /// `filetime_offset`: UTC in ticks of 100 ns minus the headset's stamps.
@@ -34,30 +34,31 @@ class Receiver final : private ImageSink {
   [[nodiscard]] PairMailbox& pairs() { return pairs_; }
   [[nodiscard]] HeadTrack& head() { return head_; }
   [[nodiscard]] const BootClock& clock() const { return time_.clock; }
-  /// For a stream that must not change what the others know: the time of a stamp, and the map that
-  /// the head is in (`HeadTrack::place`).
+  /// For a stream that must not affect the others: the time of a stamp, and the map that the head
+  /// is in (`HeadTrack::place`).
   [[nodiscard]] Result<Timestamp> time_of(std::uint64_t ticks, HostTime at) const;
   std::int64_t place(Timestamp at, std::optional<Transform<World, Rig>>& world_from_rig) const {
     return head_.place(at, world_from_rig);
   }
-  /// A stand-in said that nothing comes any more.
+  /// Whether a stand-in has announced the end.
   [[nodiscard]] bool has_ended() const { return standin_ && standin_->has_ended(); }
   [[nodiscard]] Inbox<ClickerEvent>& clicks() { return clicks_; }
   [[nodiscard]] Inbox<Phrase>& phrases() { return phrases_; }
   /// Null without a stand-in.
   [[nodiscard]] StandinStream* standin() { return standin_; }
-  /// Null where it is not wanted.
+  /// Null if not wanted.
   [[nodiscard]] ObjectDisplay* scene() { return scene_; }
-  /// Begins to listen, at the first question.
+  /// Starts listening at the first call.
   [[nodiscard]] Microphone& microphone();
-  /// Whether a front camera has sent anything; the base of its stamps is known then.
+  /// Whether a front camera has sent anything; the base of its stamps is then known.
   [[nodiscard]] bool has_heard() const { return heard_.load(); }
   [[nodiscard]] std::int64_t base_ticks() const;
   [[nodiscard]] ConnectionStatistics statistics() const;
-  /// What the streams that are not connected last suffered, and what was refused of the others.
+  /// The last errors of streams that are not connected, and the reasons for refused packets of the
+  /// others.
   [[nodiscard]] std::string troubles() const;
 
-  /// By how much later than its images a HoloLens 2 stamps them for us, as we asked.
+  /// The lateness of stamps that remains with the requested options on a HoloLens 2.
   [[nodiscard]] Duration stamps_left_late() const {
     return kResearchModeStampsLate - options_.stamps_late;
   }
@@ -77,7 +78,7 @@ class Receiver final : private ImageSink {
   auto& add(const std::string& name, int port, Duration interval, Duration longest_silence,
             Make make) ORTHONAV_REQUIRES(mutex_);
   void run() ORTHONAV_EXCLUDES(mutex_);
-  // Called by the streams, which `run` lets go on under the mutex.
+  // Called by the streams, which `run` drives under the mutex.
   void take(CameraSide side, CameraImage& image) override ORTHONAV_REQUIRES(mutex_);
   void lost(CameraSide side) override ORTHONAV_REQUIRES(mutex_);
   void publish(const Pairer::Pair& pair) ORTHONAV_REQUIRES(mutex_);
@@ -93,9 +94,9 @@ class Receiver final : private ImageSink {
   std::atomic<bool> heard_ = false;
   std::atomic<bool> stop_ = false;
 
-  StandinStream* standin_ = nullptr;  ///< made before the thread starts, the same ever after
+  StandinStream* standin_ = nullptr;  ///< made before the thread starts, never changed
   SceneStream* scene_ = nullptr;      ///< likewise
-  mutable Mutex mutex_;               ///< also of the stamps in `time_`, which the streams share
+  mutable Mutex mutex_;  ///< also guards the stamps in `time_`, which the streams share
   std::vector<Stream> streams_ ORTHONAV_GUARDED_BY(mutex_);
   SoundStream* sound_ ORTHONAV_GUARDED_BY(mutex_) = nullptr;
   Pairer pairer_ ORTHONAV_GUARDED_BY(mutex_);

@@ -6,7 +6,8 @@ namespace orthonav::hl2ss {
 namespace {
 
 constexpr double kSmallestMoveM = 5e-5;
-/// Of a quaternion's components, half an angle: 1 mrad moves what is 5 cm away by 0.05 mm.
+/// In a quaternion's components, which are half an angle: 1 mrad moves a point 5 cm away by 0.05
+/// mm.
 constexpr double kSmallestTurn = 5e-4;
 constexpr double kSmallestScale = 5e-5;
 

@@ -12,17 +12,17 @@ constexpr Duration kShortestFrame = std::chrono::microseconds(16'667);
 constexpr Duration kLongestFrame = milliseconds(100);
 /// How much a single frame moves the estimate.
 constexpr int kFrameSmoothing = 8;
-/// Without an answer for so long, what was sent may be shown late, by whatever holds it back.
+/// Without an answer for this long, data sent may be delayed and shown late.
 constexpr Duration kLongestUnanswered = milliseconds(250);
-/// Of the pair of guidance that was sent and is not acknowledged yet. What is on its way then would
-/// be shown when it arrives, however old it is by that time: TCP delivers what was lost much later.
+/// Longest age of the pair of unacknowledged guidance. Guidance in transit would be shown whenever
+/// it arrives, even when old: TCP retransmits lost data much later.
 constexpr Duration kLongestUnshown = milliseconds(200);
-/// By so much a sample may be longer than the one before.
+/// A sample may be longer than the previous one by this much.
 constexpr Duration kRoundTripGrows = milliseconds(2);
 constexpr Duration kKeepAliveEvery = std::chrono::seconds(1);
 constexpr int kPatientRefusals = 3;
 constexpr Duration kRefusalPause = std::chrono::seconds(1);
-/// What had no room waits until there is room for a few more.
+/// Commands without room wait until there is room for a few of them.
 constexpr double kWorthwhileBytes = 500;
 constexpr std::size_t kMostSamples = 100'000;
 
@@ -95,7 +95,8 @@ std::vector<std::uint8_t> SceneClient::next(const SceneMoment& now) {
   return assemble(draft, fuse, now.host);
 }
 
-/// One command, one frame: what is there belongs to somebody before us, or to another map.
+/// Removes all objects, with one command in one frame: they belong to a previous client or another
+/// map.
 std::vector<std::uint8_t> SceneClient::start_over(HostTime now) {
   std::vector<std::uint8_t> bytes;
   append_plain(bytes, SceneCommand::kRemoveAll);
@@ -112,8 +113,8 @@ std::vector<std::uint8_t> SceneClient::start_over(HostTime now) {
   return sent(std::move(bytes), now);
 }
 
-/// A suspended application closes no connection. Only a missing answer tells, so something is asked
-/// once a second.
+/// A suspended application does not close the connection. Only a missing answer reveals it, so a
+/// command is sent once a second.
 std::vector<std::uint8_t> SceneClient::keep_alive(HostTime now) {
   if (!expected_.empty() || now - sent_at_ < kKeepAliveEvery) {
     return {};
@@ -187,7 +188,7 @@ Status SceneClient::take_id(std::uint64_t key, std::uint32_t answer, HostTime no
   return {};
 }
 
-/// Several commands for one object may be refused; it is asked for anew once.
+/// Several commands for one object may be refused; it is requested again only once.
 void SceneClient::refuse(std::uint64_t key, HostTime now) {
   const auto found = remotes_.find(key);
   if (found == remotes_.end()) {
@@ -202,7 +203,7 @@ void SceneClient::refuse(std::uint64_t key, HostTime now) {
   remote.forget();
 }
 
-/// Frames make samples longer by chance: the shortest count, and are forgotten slowly.
+/// Frame timing lengthens samples at random: the shortest count, with slow forgetting.
 void SceneClient::note_round_trip(HostTime now) {
   if (std::exchange(asks_alone_, false)) {
     const auto took = std::chrono::duration_cast<Duration>(now - sent_at_);

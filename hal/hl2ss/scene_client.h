@@ -17,39 +17,40 @@ struct SceneMoment {
   Timestamp headset{};
 };
 
-/// Limits that are kept whatever is asked for.
+/// Limits that always apply.
 struct SceneBudget {
   std::size_t objects = 400;
-  std::size_t commands_a_list = 160;  ///< the headset works a list off within one frame
+  std::size_t commands_a_list = 160;  ///< the headset processes a list within one frame
   double bytes_a_second = 200e3;
   double burst_bytes = 32e3;
 };
 
-/// What to say to the headset's scene, and what its answers mean: works out the differences between
-/// what is wanted and what the headset knows, one display list at a time. No sockets, no clock.
+/// The protocol logic for the headset's scene: computes the differences between the wanted objects
+/// and the headset's state, one display list at a time, and interprets the answers. No sockets, no
+/// clock.
 ///
-/// **The fuse.** Nothing that was sent can be withdrawn, so each list that shows what follows a
-/// tool carries its own end: behind it a few commands that do nothing, of which the headset works
-/// off one a frame, then the beginning of the next list, which hides all of it. If that list's rest
-/// is there by then, it is worked off in the same frame and nothing is seen of it; if not, the
-/// headset shows the frame with everything hidden. See docs/hl2ss.md.
+/// **The fuse.** Nothing that was sent can be withdrawn, so each list with objects that follow a
+/// tool carries its own end: after it come a few commands without effect, of which the headset
+/// processes one per frame, then the beginning of the next list, which hides those objects. If the
+/// rest of that list has arrived by then, it is processed in the same frame and the hiding is not
+/// visible; if not, the headset shows a frame with the objects hidden. See docs/hl2ss.md.
 class SceneClient {
  public:
   explicit SceneClient(const SceneBudget& budget = {}) : budget_(budget) {}
 
-  /// A new connection: whatever is there is removed first, then everything is made anew.
+  /// A new connection: existing objects are removed first, then everything is created again.
   void connected(HostTime now);
   void want(const ObjectList& list);
-  /// The next list, if there is something to say and the headset is ready for it; else empty.
+  /// The next list, if there is something to send and the headset is ready for it; otherwise empty.
   [[nodiscard]] std::vector<std::uint8_t> next(const SceneMoment& now);
-  /// The next answer. An Error when it can't be one: what follows can't be understood.
+  /// Takes the next answer. An Error if it is invalid: the rest can't be understood.
   Status answered(std::uint32_t answer, const SceneMoment& now);
-  /// An Error once tool guidance was sent that would be shown too late if it arrived now, or
+  /// An Error if tool guidance was sent that would be shown too late if it arrived now, or if
   /// answers have stopped while it is shown.
   [[nodiscard]] Status overdue(HostTime now) const;
   [[nodiscard]] static std::vector<std::uint8_t> goodbye();
   [[nodiscard]] ObjectDisplayStatistics statistics() const;
-  /// The caller gave the connection up; counted.
+  /// Counts that the caller closed the connection.
   void given_up() { ++statistics_.given_up; }
 
  private:
@@ -61,8 +62,8 @@ class SceneClient {
     std::vector<std::uint8_t> bytes;
     std::vector<Expected> expected;
   };
-  /// A list in the making. Its parts are sent in this order: wherever the list is cut off, what has
-  /// arrived is harmless.
+  /// A list under construction. Its parts are sent in this order, such that a list cut off anywhere
+  /// is harmless.
   struct Draft {
     Part removals;
     Part changes;  ///< moves, colours, texts
@@ -73,7 +74,7 @@ class SceneClient {
     [[nodiscard]] std::array<const Part*, 5> parts() const {
       return {&removals, &changes, &creates, &shows, &tool_shows};
     }
-    /// Of all its parts and of the fuse behind it.
+    /// Total size of all parts and of the fuse after them.
     [[nodiscard]] std::size_t bytes() const;
     [[nodiscard]] std::size_t commands() const;
   };
@@ -88,7 +89,7 @@ class SceneClient {
   void draft_removals(Draft& draft);
   void draft_show(const DisplayObject& wanted, RemoteObject& remote, bool shows_tools,
                   Draft& draft);
-  /// Whether there is room for one more command; else there is more to come in the next list.
+  /// Whether there is room for one more command; otherwise the rest goes into the next list.
   bool has_room(const Draft& draft);
   [[nodiscard]] std::vector<std::uint8_t> assemble(const Draft& draft, int fuse, HostTime now);
   void append_fuse(const Draft& draft, int fuse, std::vector<std::uint8_t>& bytes);
@@ -104,9 +105,9 @@ class SceneClient {
   SceneBudget budget_;
   ObjectList wanted_;
   std::uint64_t list_number_ = 0;
-  bool is_fresh_ = false;      ///< `wanted_` was not looked at yet
+  bool is_fresh_ = false;      ///< `wanted_` was not processed yet
   bool is_clear_ = false;      ///< *remove all* was sent on this connection
-  bool list_is_open_ = false;  ///< the fuse began the next list
+  bool list_is_open_ = false;  ///< the fuse has begun the next list
   bool has_more_ = false;      ///< the last list had no room for everything
   std::optional<std::int64_t> epoch_;
   std::map<std::uint64_t, RemoteObject> remotes_;
@@ -118,14 +119,16 @@ class SceneClient {
   HostTime heard_at_{};
   HostTime allowance_at_{};
   double allowance_bytes_ = 0;
-  std::optional<HostTime> tool_due_;  ///< guidance that was sent is acknowledged by then, or late
+  std::optional<HostTime> tool_due_;  ///< guidance sent must be acknowledged by then
   bool was_idle_ = true;              ///< nothing was unanswered when `next` was called
-  /// The bytes sent last went out while nothing was unanswered, so their first answer measures the
-  /// round trip.
+  /// The last bytes were sent while no answer was pending, so their first answer measures the round
+  /// trip.
   bool asks_alone_ = false;
-  /// From sending to the first answer where nothing else waited; frames of the headset included.
+  /// From sending to the first answer when nothing else was pending; includes the headset's frame
+  /// time.
   Duration round_trip_ = std::chrono::milliseconds(5);
-  Duration frame_ = std::chrono::microseconds(16'667);  ///< of the headset, as its answers tell
+  Duration frame_ = std::chrono::microseconds(16'667);  ///< of the headset, estimated from its
+                                                        ///< answers
   ObjectDisplayStatistics statistics_;
 };
 

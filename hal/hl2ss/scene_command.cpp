@@ -37,7 +37,7 @@ void append_colour(std::vector<std::uint8_t>& bytes, const ObjectColour& colour)
   append_floats(bytes, {colour.r, colour.g, colour.b, colour.a});
 }
 
-/// What is built into the application's font is ASCII and Latin-1; and `<` begins a tag.
+/// The application's font contains ASCII and Latin-1, and `<` begins a tag.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kWrittenAs = {{
     {"<", "\u00AB"},
     {"\u2212", "-"},  // minus

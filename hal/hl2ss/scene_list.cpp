@@ -3,26 +3,27 @@
 
 #include "hal/hl2ss/scene_client.h"
 
-// How SceneClient makes a display list of what differs.
+// How SceneClient makes a display list from the differences.
 
 namespace orthonav::hl2ss {
 namespace {
 
 constexpr int kMostFuseFrames = 3;
-/// Beside the frames of the fuse: the one that works the list off may have begun just before, and
-/// the one that hides is on its way to the eyes.
+/// In addition to the frames of the fuse: the frame that processes the list may have begun just
+/// before, and the frame that hides takes time to reach the eyes.
 constexpr int kFramesBesideFuse = 2;
-/// By so much a list may take longer than half of a round trip.
+/// A list may take this much longer than half a round trip.
 constexpr Duration kNetwork = std::chrono::milliseconds(5);
-/// Hidden guidance is kept for so many lists: it often comes back, and keeping it costs nothing.
+/// Hidden guidance is kept for this many lists: it often comes back, and keeping it costs nothing.
 constexpr std::uint64_t kKeptHiddenLists = 300;
-/// Of one list: what is new must not displace what moves, nor the other way round.
+/// Limits per list: new objects must not displace moving ones, nor vice versa.
 constexpr std::size_t kMostCreates = 40;
 constexpr std::size_t kBytesToHide = 16;
-/// The beginning and the end of the list, the fuse and what begins the next.
+/// The beginning and the end of the list, the fuse, and the beginning of the next list.
 constexpr std::size_t kBytesAround = 16 + kMostFuseFrames * 12;
 
-/// Where not everything has room, guidance goes first, and what moves starves nothing that is new.
+/// If there is not room for everything, guidance goes first, and moving objects do not starve new
+/// ones.
 enum class Turn { kTool, kNew, kOther };
 
 Turn turn_of(const DisplayObject& wanted, const RemoteObject& remote) {
@@ -54,14 +55,15 @@ std::size_t SceneClient::Draft::commands() const {
   return sum;
 }
 
-/// How many frames what follows a tool may stay behind the next list; 0: it is too old already.
+/// For how many frames after the next list objects that follow a tool may stay visible; 0: they are
+/// too old already.
 int SceneClient::fuse_frames(const SceneMoment& now) const {
   if (!wanted_.tool_time) {
     return 0;
   }
   const auto is_idle = [](const Expected& each) { return each.kind == Expected::Kind::kIdle; };
   const auto waiting = std::count_if(expected_.begin(), expected_.end(), is_idle);
-  // It is shown when it has arrived and the fuse before it is burnt, as far as its answers tell.
+  // The list is shown when it has arrived and, judged by the answers, the previous fuse has ended.
   const Duration one_way = round_trip_ / 2;
   const Duration until_shown = std::max(one_way, waiting * frame_ - one_way) + kNetwork;
   const Duration left =
@@ -102,7 +104,7 @@ bool SceneClient::has_room(const Draft& draft) {
   return false;
 }
 
-/// That it is there, with its shape.
+/// Ensures that the object exists with its shape.
 void SceneClient::draft_presence(const DisplayObject& wanted, HostTime now, Draft& draft) {
   const auto found = remotes_.find(wanted.key);
   if (found == remotes_.end() && remotes_.size() >= budget_.objects) {
@@ -125,7 +127,7 @@ void SceneClient::draft_removal(const RemoteObject& remote, Draft& draft) {
   draft.removals.expected.push_back({});
 }
 
-/// Objects start hidden, so that this alone shows nothing; the rest follows once the id is known.
+/// Objects start hidden, so this alone shows nothing; the rest follows once the id is known.
 void SceneClient::draft_create(const DisplayObject& wanted, RemoteObject& remote, HostTime now,
                                Draft& draft) {
   if (remote.creating) {
@@ -158,7 +160,7 @@ bool SceneClient::draft_changes(const DisplayObject& wanted, RemoteObject& remot
     append_transform(bytes, remote.id, wanted);
     draft.changes.expected.push_back(expected);
   } else {
-    // Compared with what was told, not with the last that differed too little.
+    // Compared with the value last sent, not with later ones that differed too little.
     remote.told.place = told.place;
     remote.told.position_m = told.position_m;
     remote.told.rotation = told.rotation;
@@ -236,7 +238,7 @@ std::vector<std::uint8_t> SceneClient::assemble(const Draft& draft, int fuse, Ho
 }
 
 /// The next list may be sent when one frame of the fuse is left (two of a fuse of three), earlier
-/// by the frames a round trip takes. It should arrive just before the fuse ends.
+/// by the frames of a round trip, so that it arrives just before the fuse ends.
 void SceneClient::append_fuse(const Draft& draft, int fuse, std::vector<std::uint8_t>& bytes) {
   for (int i = 0; i < fuse; ++i) {
     append_idle(bytes);

@@ -35,7 +35,7 @@ Result<Transform<World, Eye>> head_of(Vec3 position, Vec3 forward, Vec3 up) {
   return head;
 }
 
-/// Nothing where the hand is not in view.
+/// Nothing if the hand is not in view.
 Result<std::optional<Hand>> take_hand(ByteReader& reader, const char* which, bool valid) {
   Hand hand;
   bool finite = true;

@@ -23,7 +23,7 @@ struct HandJoint {
 };
 using Hand = std::array<HandJoint, 26>;
 
-/// What a wearer's head, eyes and hands did; absent: not tracked (the packet repeats old values).
+/// State of a wearer's head, eyes and hands; absent: not tracked (the packet repeats old values).
 struct SpatialInput {
   /// The head between the eyes, not the rig: its axes are x right, y up, z backward.
   std::optional<Transform<World, Eye>> world_from_head;
@@ -32,10 +32,10 @@ struct SpatialInput {
   std::optional<Hand> right_hand;
 };
 
-/// Refuses a wrong size, and numbers that are not finite or axes that are no axes where the packet
-/// says that they are valid.
+/// Refuses a wrong size, and, in values that the packet marks as valid, numbers that are not finite
+/// and invalid axes.
 Result<SpatialInput> read_spatial_input(Bytes payload);
-/// Head only; everything else is not valid.
+/// A packet with a valid head only.
 [[nodiscard]] std::vector<std::uint8_t> spatial_input_bytes(
     const std::optional<Transform<World, Eye>>& world_from_head);
 

@@ -8,18 +8,18 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// Stamps tremble by 2 ms or so; a head that turns by 30 degrees a second puts a pose of 10 ms
-/// earlier 2 mm off at a pointer's tip.
+/// Stamps jitter by about 2 ms; with a head turning at 30 degrees per second, a pose that is 10 ms
+/// early is 2 mm off at a pointer's tip.
 constexpr double kMaxOffS = 0.010;
 /// With this surplus of images that agree with one another but not with the past, a clock was set,
-/// or the image believed first was the wrong one.
+/// or the first accepted image was wrong.
 constexpr int kBelievedAfter = 20;
 constexpr std::array<double, 2> kTickS = {1e-9, 1e-7};
 
 }  // namespace
 
 double StampCheck::ahead_s(const Moment& from, const Moment& to) {
-  // Unsigned ticks go round; the difference with a sign is right either way.
+  // Unsigned ticks wrap around; the signed difference is right in both cases.
   const auto ticks =
       static_cast<double>(static_cast<std::int64_t>(to.sensor_ticks - from.sensor_ticks));
   const double stamps_s = seconds(to.stamp - from.stamp);

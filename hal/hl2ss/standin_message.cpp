@@ -76,7 +76,7 @@ Status read(ByteReader& reader, StandinTook& took) {
   return {};
 }
 
-/// Makes `message` one of that kind.
+/// Sets `message` to one of that kind.
 template <std::size_t kind = 0>
 Status become(StandinMessage& message, std::uint8_t wanted) {
   if constexpr (kind == std::variant_size_v<StandinMessage>) {

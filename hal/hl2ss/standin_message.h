@@ -9,25 +9,26 @@
 
 namespace orthonav::hl2ss {
 
-// The side channel between our client and our own server: what a real headset's wearer would see
-// and press goes over it. It is no part of hl2ss. Times are nanoseconds of the server's clock.
+// The side channel between our client and our own server: it carries what a real headset's wearer
+// would see and press. It is not part of hl2ss. Times are nanoseconds of the server's clock.
 
-/// Server, first of all.
+/// Server: the first message.
 struct StandinHello {
-  bool paced = false;  ///< the next pair comes when the last one was done with
+  bool paced = false;  ///< the next pair is sent when the client is done with the last one
   Duration display_latency{};
   Timestamp clock{};
 };
-/// Server: what the button did.
+/// Server: events of the button.
 struct StandinClicks {
   std::vector<ClickerEvent> events;
 };
-/// Server: clicks up to the pair of this time were sent; its clock when the pair was there.
+/// Server: all clicks up to the pair of this time have been sent; also its clock when the pair was
+/// available.
 struct StandinUpTo {
   Timestamp pair_time{};
   Timestamp clock{};
 };
-/// Server: no pair will come any more.
+/// Server: there are no more pairs.
 struct StandinEnd {};
 /// Client: what is shown.
 struct StandinShown {
@@ -42,8 +43,8 @@ using StandinMessage =
 
 void append(std::vector<std::uint8_t>& bytes, const StandinMessage& message);
 
-/// The next message with the bytes it took; nothing while bytes are missing; an Error for what is
-/// none.
+/// The next message with its size in bytes; nothing while bytes are missing; an Error for an
+/// invalid message.
 struct ReadStandinMessage {
   StandinMessage message;
   std::size_t bytes = 0;

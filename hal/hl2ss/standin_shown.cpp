@@ -13,7 +13,7 @@ void append_side(std::vector<std::uint8_t>& bytes, const std::optional<Side>& si
   append(bytes, side ? static_cast<std::uint8_t>(*side) : kNoSide);
 }
 
-/// One of the values from `first` to `last`; what it is not ends up in `problem`.
+/// Reads one of the values from `first` to `last`; otherwise sets `problem`.
 template <class Enum>
 Enum take_one(ByteReader& reader, Enum first, Enum last, const char* what, Status& problem) {
   const auto value = reader.take<std::uint8_t>();

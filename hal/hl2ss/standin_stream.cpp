@@ -67,7 +67,7 @@ Status StandinStream::take(const StandinMessage& message) {
 void StandinStream::send(const StandinMessage& message) {
   {
     const MutexLock lock(mutex_);
-    // Nobody listens, or too slowly: the newest of it is not worth waiting for either.
+    // Not connected, or the other side is too slow: even the newest message is not kept.
     if (!hello_ || unsent_.size() > kMaxStandinBytes) {
       return;
     }

@@ -10,7 +10,8 @@
 
 namespace orthonav::hl2ss {
 
-/// The client's end of the side channel to our own server. Thread-safe but for the conversation.
+/// The client's end of the side channel to our own server. Thread-safe except for the functions of
+/// Protocol.
 class StandinStream final : public Protocol {
  public:
   StandinStream(HeadsetTime& time, Inbox<ClickerEvent>& inbox, const net::WakeUp& wake_up)
@@ -22,10 +23,10 @@ class StandinStream final : public Protocol {
   void disconnected() override;
 
   void send(const StandinMessage& message);
-  /// Whether a pair of this time may be handed out: the server told what happened up to it. A pair
-  /// that may sets the clock of a paced server.
+  /// Whether a pair of this time may be handed out: the server has sent all events up to it. If so,
+  /// the clock of a paced server is set to it.
   bool admits(Timestamp pair_time);
-  /// No pair will come any more.
+  /// Whether there are no more pairs.
   [[nodiscard]] bool has_ended() const;
   [[nodiscard]] std::optional<Duration> display_latency() const;
 
@@ -35,7 +36,7 @@ class StandinStream final : public Protocol {
   HeadsetTime& time_;
   Inbox<ClickerEvent>& inbox_;
   const net::WakeUp& wake_up_;
-  // Of the protocol alone:
+  // Used by the protocol only:
   std::vector<std::uint8_t> buffer_;
   std::size_t have_ = 0;
 
@@ -43,7 +44,7 @@ class StandinStream final : public Protocol {
   std::vector<std::uint8_t> unsent_ ORTHONAV_GUARDED_BY(mutex_);
   /// Present while connected.
   std::optional<StandinHello> hello_ ORTHONAV_GUARDED_BY(mutex_);
-  /// Of pairs not handed out yet.
+  /// For pairs not handed out yet.
   std::deque<StandinUpTo> up_to_ ORTHONAV_GUARDED_BY(mutex_);
   bool ended_ ORTHONAV_GUARDED_BY(mutex_) = false;
 };

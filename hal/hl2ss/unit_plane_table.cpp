@@ -12,7 +12,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A line of `count` entries, `stride` apart, resampled half a step on (`ahead` 0.5) or back
 /// (-0.5): cubic through the four nearest (Lagrange), which is exact to 1e-9 for a lens, and
-/// carried on so past the ends. Between entries without a direction there is none.
+/// extrapolated past the ends. No direction next to entries without one.
 void shift_line(const Vec2* from, Vec2* to, std::size_t count, std::size_t stride, double ahead) {
   for (std::size_t i = 0; i < count; ++i) {
     const double place = static_cast<double>(i) + ahead;
@@ -29,8 +29,8 @@ void shift_line(const Vec2* from, Vec2* to, std::size_t count, std::size_t strid
   }
 }
 
-/// A headset leaves (0, 0) where its mapping failed, mostly at the edges. The one pixel that looks
-/// straight ahead may say the same, but so do its neighbours nearly.
+/// A headset leaves (0, 0) where its mapping failed, mostly at the edges. The pixel that looks
+/// straight ahead may hold the same value, but its neighbours are then close to it.
 void forget_unmapped(UnitPlaneTable& table) {
   constexpr double kFarther = 0.05;  // 18 pixels of the front cameras, 9 of AHaT
   const auto is_zero = [](Vec2 v) { return v.x == 0.0 && v.y == 0.0; };

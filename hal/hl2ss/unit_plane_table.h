@@ -14,17 +14,17 @@ struct UnitPlaneTable {
   std::vector<Vec2> entries;
 };
 
-/// From two tables of float32 as a headset sends them, x and y at integer pixel coordinates, which
-/// are the pixels' top-left corners; both spans must be long enough. Entries
-/// (0, 0) have no direction, unless they look straight ahead as those beside them do: a headset
-/// leaves zeros where its mapping failed. Others are as they came, which may be no number.
+/// From two tables of float32 as a headset sends them: x and y at integer pixel coordinates, which
+/// are the pixels' top-left corners; both spans must be long enough. Entries (0, 0) have no
+/// direction, unless their neighbours look straight ahead too: a headset leaves zeros where its
+/// mapping failed. Others are unchanged and may be NaN.
 [[nodiscard]] UnitPlaneTable read_unit_plane(int width_px, int height_px, Bytes x, Bytes y);
 
 /// From a pixel's corner to its centre.
 inline constexpr double kHalfPixel = 0.5;
 
 /// The table half a pixel to the right and down (`ahead` 0.5), or back (-0.5): cubic through the
-/// four nearest entries along each axis, carried on past the edges.
+/// four nearest entries along each axis, extrapolated past the edges.
 [[nodiscard]] UnitPlaneTable shifted(const UnitPlaneTable& table, double ahead);
 
 }  // namespace orthonav::hl2ss

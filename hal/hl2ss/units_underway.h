@@ -8,11 +8,11 @@
 
 namespace orthonav::hl2ss {
 
-/// What is known of access units that a decoder has not given back yet.
+/// Data about access units that are still in a decoder.
 template <class Known>
 class UnitsUnderway {
  public:
-  /// The number by which the decoder gives it back.
+  /// Returns the number with which the decoder will return it.
   std::int64_t add(Known known) {
     if (units_.size() == kMost) {
       units_.pop_front();
@@ -20,8 +20,8 @@ class UnitsUnderway {
     units_.emplace_back(next_, std::move(known));
     return next_++;
   }
-  /// What is known of a unit that came back; it and those before it are forgotten. Nothing where it
-  /// was forgotten already.
+  /// The data of a unit that came back; it and earlier ones are removed. Nothing if it was removed
+  /// before.
   std::optional<Known> take(std::int64_t unit) {
     const auto found = std::find_if(units_.begin(), units_.end(),
                                     [unit](const auto& each) { return each.first == unit; });
@@ -35,7 +35,7 @@ class UnitsUnderway {
   void clear() { units_.clear(); }
 
  private:
-  /// A decoder without delay holds none; more are the past of a damaged stream.
+  /// A decoder without delay holds none; more entries are left over from a damaged stream.
   static constexpr std::size_t kMost = 8;
   std::deque<std::pair<std::int64_t, Known>> units_;
   std::int64_t next_ = 0;

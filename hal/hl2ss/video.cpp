@@ -12,10 +12,10 @@ constexpr std::size_t kFixedRequestBytes = 9;
 constexpr std::size_t kOptionBytes = 16;
 /// A pose farther from the origin is damage.
 constexpr double kMaxWorldM = 1e4;
-/// Of the last column, after a device's own arithmetic in single precision.
+/// Tolerance of the last column, for a device's arithmetic in single precision.
 constexpr float kSlack = 1e-4f;
 
-/// Those that we know, where there are any.
+/// The known options, if there are any.
 std::optional<VideoOptions> read_options(Bytes bytes) {
   std::optional<VideoOptions> options;
   for (std::size_t at = 0; at + kOptionBytes <= bytes.size(); at += kOptionBytes) {
@@ -125,7 +125,7 @@ Result<std::optional<Transform<World, Rig>>> read_pose(Bytes pose) {
   if (m[15] == 0.0f) {
     return Answer{};
   }
-  // Row vectors: what stands there is the transpose.
+  // Row vectors: the matrix stored is the transpose.
   const auto is = [](float value, float expected) { return std::abs(value - expected) <= kSlack; };
   if (!is(m[15], 1.0f) || !is(m[3], 0.0f) || !is(m[7], 0.0f) || !is(m[11], 0.0f)) {
     return Error{"pose: last column must be 0 0 0 1"};

@@ -26,7 +26,7 @@ Status VideoStream::take(const Packet& packet, const Stamped& stamped) {
   if (!payload) {
     return {};
   }
-  // A pose that is none must not cost the image: the pair says that the head is not located.
+  // An invalid pose must not cost the image: the pair then states that the head is not located.
   const auto pose = read_pose(packet.pose);
   Status damage;
   if (!pose) {
@@ -72,7 +72,7 @@ Status VideoStream::take_raw(Bytes picture) {
 
 Result<bool> VideoStream::take_h264(Bytes access_unit, std::int64_t unit, bool in_order) {
   if (!in_order) {
-    // What came between is missing, and every picture after it stands on it.
+    // The pictures in between are missing, and all later ones depend on them.
     decoder_->restart();
     return Error{"H.264 pictures out of order"};
   }
@@ -87,7 +87,7 @@ Result<bool> VideoStream::take_h264(Bytes access_unit, std::int64_t unit, bool i
   image_.sensor_ticks = known->sensor_ticks;
   image_.time = known->time;
   image_.world_from_rig = known->world_from_rig;
-  // A picture with a wrong stamp is decoded, since those after it stand on it, and goes nowhere.
+  // A picture with a wrong stamp is decoded, since later ones depend on it, but not used.
   return known->is_trusted;
 }
 

@@ -11,7 +11,7 @@
 
 namespace orthonav::hl2ss {
 
-/// Who gets the pictures of the front cameras.
+/// Receives the pictures of the front cameras.
 class ImageSink {
  public:
   virtual ~ImageSink() = default;
@@ -36,7 +36,7 @@ class VideoStream final : public PacketStream {
   void disconnected() override;
 
  private:
-  /// What is known of an access unit that the decoder has not given back yet.
+  /// The data of an access unit that is still in the decoder.
   struct Underway {
     std::uint64_t sensor_ticks = 0;
     Timestamp time{};

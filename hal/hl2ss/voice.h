@@ -12,14 +12,14 @@ namespace orthonav::hl2ss {
 inline constexpr std::uint8_t kStopVoice = 0;
 inline constexpr std::uint8_t kPollVoice = 1;
 
-/// The words of the workflow, and changes of a screw by one step each way: what the headset is to
-/// listen for, unless told otherwise. A test holds them against the session's.
+/// The commands of the workflow, and changes of a screw by one step each way: the headset's default
+/// vocabulary. A test compares them with the session's.
 [[nodiscard]] std::vector<std::string> workflow_phrases();
 
 /// u16 count, then each phrase as u16 byte length and UTF-16LE. Phrases are ASCII, at most 64 of at
 /// most 256 letters.
 Result<std::vector<std::uint8_t>> vocabulary_bytes(const std::vector<std::string>& phrases);
-/// What a server reads of it, with the bytes taken; nothing while bytes are missing.
+/// A vocabulary as parsed by a server, with its size in bytes; nothing while bytes are missing.
 struct Vocabulary {
   std::vector<std::string> phrases;
   std::size_t bytes = 0;
@@ -33,11 +33,11 @@ struct VoiceResult {
   std::uint64_t start = 0;
   double raw_confidence = 0.0;
 
-  /// As `Phrase` has it: 0.9, 0.6, 0.3, 0; raw confidences are not calibrated.
+  /// On the scale of `Phrase`: 0.9, 0.6, 0.3, 0; raw confidences are not calibrated.
   [[nodiscard]] double confidence_of_phrase() const;
 };
-/// One whole answer to a poll, with the bytes taken; nothing while bytes are missing. Too many
-/// results or an unknown confidence: an Error, for what follows can't be trusted.
+/// One complete answer to a poll, with its size in bytes; nothing while bytes are missing. Too many
+/// results or an unknown confidence give an Error, since the rest can't be trusted.
 struct VoiceAnswer {
   std::vector<VoiceResult> results;
   std::size_t bytes = 0;

@@ -14,10 +14,10 @@
 
 namespace orthonav::igtl {
 
-/// Hands what a client says on to who listens: STRING of the devices `Command` and `Plan`.
+/// Passes a client's texts to the listener: STRING messages of the devices `Command` and `Plan`.
 class TextReader : public MessageReader {
  public:
-  /// A client that says more within a second is dropped.
+  /// A client that sends more texts within a second is dropped.
   static constexpr int kMostASecond = 20;
 
   TextReader(std::string client, TextListener& listener)
@@ -32,25 +32,26 @@ class TextReader : public MessageReader {
   net::RateLimit said_;
 };
 
-/// One connected client: what it sends is skipped, unless somebody listens; what it is sent waits
-/// until it takes it.
+/// One connected client: its messages are skipped, unless there is a listener; messages to it wait
+/// until it takes them.
 class Client {
  public:
-  /// `listener` is borrowed; null: nobody listens.
+  /// `listener` is borrowed; may be null.
   Client(net::Socket socket, HostTime now, TextListener* listener = nullptr);
 
   [[nodiscard]] int fd() const { return socket_.fd(); }
-  /// Nothing waits to be taken.
+  /// Whether no bytes are waiting.
   [[nodiscard]] bool idle() const { return sent_ == waiting_.size(); }
-  /// When it last took something, or was last idle.
+  /// When the client last took bytes, or was last idle.
   [[nodiscard]] HostTime taken() const { return taken_; }
 
-  /// Puts these bytes behind what waits.
+  /// Appends these bytes to those waiting.
   void add(std::span<const std::uint8_t> bytes, HostTime now);
-  /// Sends what it takes now. An Error when it is gone.
+  /// Sends as much as the client takes now. An Error if it is gone.
   Status write(HostTime now);
-  /// Reads what there is. An Error when it is gone (`ErrorCode::kLost` when it closed), or sends
-  /// what is no OpenIGTLink, or more than so many bytes within a second.
+  /// Reads the available bytes. An Error if the client is gone (`ErrorCode::kLost` if it closed the
+  /// connection), sends something other than OpenIGTLink, or more than this many bytes within a
+  /// second.
   Status read(HostTime now, std::size_t most_bytes_per_s);
 
  private:
@@ -58,7 +59,7 @@ class Client {
   std::vector<std::uint8_t> waiting_;
   std::size_t sent_ = 0;
   HostTime taken_;
-  std::unique_ptr<TextReader> reader_;  ///< null: nobody listens
+  std::unique_ptr<TextReader> reader_;  ///< null: no listener
   Incoming incoming_;
   net::RateLimit came_;
 };

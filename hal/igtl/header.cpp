@@ -17,8 +17,8 @@ std::uint16_t u16(Bytes bytes, std::size_t at) {
 
 std::string text_in(Bytes bytes) { return {bytes.begin(), bytes.end()}; }
 
-/// An index (how many; key, encoding and value of each by length), then keys and values. Empty
-/// where it is not said, or the index is broken.
+/// An index (the count; then each entry's key length, encoding and value length), followed by keys
+/// and values. Empty if it is missing or the index is invalid.
 std::string transform_status_in(Bytes index, Bytes text) {
   if (index.size() < 2) {
     return {};

@@ -10,30 +10,30 @@
 
 namespace orthonav::igtl {
 
-/// Who wants to know what some messages say.
+/// Receives the messages that it wants.
 class MessageReader {
  public:
   virtual ~MessageReader() = default;
   /// Whether the body that this header announces is wanted; the others are skipped.
   [[nodiscard]] virtual bool wants(const Header& header) const = 0;
-  /// A whole message that was wanted. An Error ends the stream: nothing may follow.
+  /// Takes a complete wanted message. An Error ends the stream.
   virtual Status read(const Header& header, Bytes body) = 0;
 };
 
-/// What the other side sends: message after message, of which the headers are read and the bodies
-/// skipped, or kept until they are whole where somebody wants them.
+/// The incoming stream of messages: headers are read, and bodies are skipped, or kept until
+/// complete if the reader wants them.
 class Incoming {
  public:
-  /// A body that is wanted and larger than this is skipped all the same.
+  /// A wanted body larger than this is skipped anyway.
   static constexpr std::uint64_t kLargestKept = 128u << 10u;
 
-  /// `reader` is borrowed; null: nobody wants anything, and no more than a header is ever held.
+  /// `reader` is borrowed; null: all bodies are skipped, and no more than a header is ever held.
   explicit Incoming(MessageReader* reader = nullptr) : reader_(reader) {}
 
-  /// Takes the next bytes, cut anywhere. An Error when they are no OpenIGTLink, or a body of more
-  /// than 16 MiB is announced; nothing may follow then.
+  /// Takes the next bytes, split anywhere. An Error if they are not OpenIGTLink, or if a body of
+  /// more than 16 MiB is announced; no more bytes may be passed after that.
   Status take(std::span<const std::uint8_t> bytes);
-  /// How many headers were read.
+  /// Number of headers read.
   [[nodiscard]] std::uint64_t messages() const { return messages_; }
 
  private:

@@ -12,7 +12,7 @@
 // wire.
 namespace orthonav::igtl {
 
-/// Which device a message is of, and when: what every header says.
+/// The device and time that every header states.
 struct Label {
   std::string device;           ///< at most 20 bytes; the rest is cut
   std::uint64_t timestamp = 0;  ///< seconds, 32 bits before the point and 32 after it
@@ -37,7 +37,7 @@ struct PointValues {
   std::string group;  ///< at most 32 bytes
   std::array<std::uint8_t, 4> rgba{};
   std::array<float, 3> position_mm{};
-  /// The field that the protocol calls diameter; it carries what Debian's library calls radius.
+  /// The field that the protocol calls diameter and Debian's library radius.
   float radius_mm = 0.0F;
   std::string owner;  ///< at most 20 bytes
 };
@@ -52,7 +52,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 [[nodiscard]] std::vector<std::uint8_t> packed(const Label& label,
                                                std::span<const std::array<float, 3>> points_mm,
                                                std::span<const Triangle> triangles);
-/// Text in ASCII or UTF-8; what is beyond 65,535 bytes is cut, as the length has 16 bits.
+/// Text in ASCII or UTF-8; cut at 65,535 bytes, since the length has 16 bits.
 [[nodiscard]] std::vector<std::uint8_t> packed_text(const Label& label, const std::string& text);
 
 }  // namespace orthonav::igtl

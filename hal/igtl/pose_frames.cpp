@@ -84,7 +84,7 @@ std::optional<PoseFrame> PoseFrames::next(Timestamp now) {
     close();
   }
   if (!done_ && !open_ && now - heard_at_ > kNobodyInSight) {
-    // Dated back, so that poses that are still under way do not come out of order.
+    // Dated back, so that poses still in transit are not out of order.
     const Timestamp then = now - kNobodyInSight;
     heard_at_ = now;
     if (!last_ || then > *last_) {

@@ -12,7 +12,7 @@
 
 namespace orthonav::igtl {
 
-/// A tool and the transform that another program sends of it.
+/// A tool and the name of the transform that another program sends for it.
 struct NamedTransform {
   std::string tool;
   std::string transform;
@@ -27,45 +27,46 @@ struct PoseFrame {
 struct PoseFramesOptions {
   std::vector<NamedTransform> tools;
   PoseCovariance covariance{};  ///< as stated for every tool
-  /// A pose that stays the same to the last bit for longer counts as lost: nobody measures it any
-  /// more. Zero: not checked.
+  /// A pose that is identical to the last bit for longer than this counts as lost, since it is
+  /// evidently not being measured any more. Zero: not checked.
   Duration frozen_after = std::chrono::seconds(1);
 };
 
-/// Groups poses that come one by one into frames, each of one moment.
+/// Groups poses that arrive one by one into frames, each of one moment.
 class PoseFrames {
  public:
-  /// Poses that are stamped no further apart are of one moment: at 250 mm/s half a millimetre.
+  /// Poses stamped no further apart than this belong to one moment: half a millimetre at 250 mm/s.
   static constexpr Duration kOneMoment = std::chrono::milliseconds(2);
-  /// How long a frame waits for tools, which may be out of sight.
+  /// How long a frame waits for tools that may be out of sight.
   static constexpr Duration kWaitForRest = std::chrono::milliseconds(10);
-  /// After so long without a pose no tool is in sight: frames without tools say so.
+  /// After this long without a pose no tool is in sight, which is reported by frames without tools.
   static constexpr Duration kNobodyInSight = std::chrono::milliseconds(100);
 
   explicit PoseFrames(PoseFramesOptions options);
 
-  /// A pose stamped at `time`, which is not past `now`.
+  /// Takes a pose stamped at `time`, which must not be later than `now`.
   void take(const SentPose& pose, Timestamp time, Timestamp now);
-  /// The newest frame that is complete by `now` and was not handed out yet: all tools are told, a
-  /// later moment has begun, or it has waited long enough. Times strictly increase.
+  /// The newest frame that is complete by `now` and was not handed out yet. A frame is complete
+  /// when all tools are in it, a later moment has begun, or it has waited long enough. Times
+  /// strictly increase.
   [[nodiscard]] std::optional<PoseFrame> next(Timestamp now);
-  /// The connection is new: what was begun is not completed any more.
+  /// The connection is new: an incomplete frame is dropped.
   void forget();
 
   [[nodiscard]] std::int64_t out_of_order() const { return out_of_order_; }
   [[nodiscard]] std::int64_t replaced() const { return replaced_; }
-  /// Transforms that were sent and are no tool's; the first few, each once.
+  /// Names of received transforms that belong to no tool; the first few, each once.
   [[nodiscard]] const std::vector<std::string>& others() const { return others_; }
-  /// Tools of which a pose came.
+  /// Number of tools with a pose so far.
   [[nodiscard]] std::size_t heard() const;
 
  private:
-  /// What was last told of a tool.
+  /// The last pose of a tool.
   struct Told {
     bool ever = false;
-    bool now = false;  ///< in the frame that is being put together
+    bool now = false;  ///< in the frame being assembled
     std::optional<Transform<Rig, Marker>> pose;
-    Timestamp since{};  ///< when it came first, the same to the bit
+    Timestamp since{};  ///< when this identical pose first arrived
   };
   [[nodiscard]] std::optional<std::size_t> tool_of(const std::string& transform);
   void close();
@@ -73,10 +74,10 @@ class PoseFrames {
 
   PoseFramesOptions options_;
   std::vector<Told> told_;
-  std::optional<Timestamp> open_;  ///< the moment that is being put together
+  std::optional<Timestamp> open_;  ///< the moment being assembled
   Timestamp opened_at_{};
   std::optional<PoseFrame> done_;
-  std::optional<Timestamp> last_;  ///< of the newest frame that is complete
+  std::optional<Timestamp> last_;  ///< of the newest complete frame
   Timestamp heard_at_{};
   std::int64_t out_of_order_ = 0;
   std::int64_t replaced_ = 0;

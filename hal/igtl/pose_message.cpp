@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMatrixBytes = 48;
 constexpr std::size_t kTdataBytes = 70;   ///< name, type, reserved, matrix
 constexpr std::size_t kQtdataBytes = 50;  ///< name, type, reserved, position, quaternion
-/// What a float does to a rotation is a thousandth of it.
+/// Rounding to float changes a rotation by a thousandth of this.
 constexpr double kMostSkew = 1e-3;
 constexpr double kFarthest_m = 20.0;
 

@@ -13,17 +13,17 @@ namespace orthonav::igtl {
 /// One pose that another program sends.
 struct SentPose {
   std::string name;  ///< `ProbeToTracker`, at most 20 bytes
-  /// Absent where the sender says that it does not know it: by its status, or by an exact
-  /// identity, as PlusServer sends for a tool out of sight.
+  /// Absent if the sender marks it as unknown: by its status, or by an exact identity, which
+  /// PlusServer sends for a tool out of sight.
   std::optional<Transform<Rig, Marker>> rig_from_marker;
 };
 
 /// Whether a message of this type holds poses: TRANSFORM, TDATA or QTDATA.
 [[nodiscard]] bool holds_poses(const std::string& type);
 
-/// The poses in such a message, from millimetres. An Error says what is wrong with it: a length
-/// that is not that of its type, a number that is not finite, a rotation that is none (rows
-/// further than 0.001 from orthonormal, mirrored), more than 20 m.
+/// The poses in such a message, from millimetres. An Error says what is wrong: a length that does
+/// not fit the type, a number that is not finite, an invalid rotation (rows more than 0.001 from
+/// orthonormal, or mirrored), a distance of more than 20 m.
 Result<std::vector<SentPose>> poses_in(const Header& header, Bytes body);
 
 }  // namespace orthonav::igtl

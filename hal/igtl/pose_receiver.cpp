@@ -11,12 +11,11 @@
 namespace orthonav::igtl {
 namespace {
 
-/// What is due by time is looked at this often.
+/// How often timed actions are checked.
 constexpr int kTurn_ms = 5;
 constexpr int kReadsATurn = 16;
 constexpr std::size_t kMostBytesPerSecond = std::size_t{32} << 20;
-/// Poses that are so much older than they could be are of no use; what makes them so is likely to
-/// be gone with a new connection.
+/// Poses delayed by more than this are useless; a new connection is likely to remove the cause.
 constexpr Duration kTooLate = std::chrono::seconds(1);
 constexpr Duration kTooLateFor = std::chrono::seconds(5);
 
@@ -55,8 +54,8 @@ void PoseReceiver::run() {
 void PoseReceiver::turn(short revents, HostTime now) {
   const bool is_new = link_.step(revents, now) == net::Link::Step::kConnected;
   if (is_new) {
-    // A tracker whose tools are all out of sight says nothing for as long as that lasts: silence
-    // alone is no loss.
+    // A tracker sends nothing while all tools are out of sight: silence alone does not mean a lost
+    // connection.
     net::keep_alive(link_.socket());
     incoming_ = Incoming(this);
     sender_.forget();
@@ -64,7 +63,7 @@ void PoseReceiver::turn(short revents, HostTime now) {
     late_since_.reset();
     const MutexLock lock(mutex_);
     ++stream_.connections;
-    // Nobody knows whether what it measures in is where it was before.
+    // The tracker's frame may no longer be where it was before.
     map_epoch_ += std::exchange(was_connected_, true) ? 1 : 0;
   }
   if (!link_.is_connected()) {
@@ -134,7 +133,7 @@ Status PoseReceiver::read(const Header& header, Bytes body) {
     }
   }
   if (!poses) {
-    return {};  // the stream goes on behind it
+    return {};  // the stream continues after it
   }
   const Timestamp time = sender_.time_of(header.timestamp, arrived_);
   for (const SentPose& pose : *poses) {
@@ -188,7 +187,7 @@ Result<Next> PoseReceiver::next(StereoFrame& frame) {
   frame.sequence = ++sequence_;
   frame.map_epoch = map_epoch_;
   frame.time = waiting_->time;
-  // What it measures in is World, and stands still.
+  // The tracker's frame is World and does not move.
   frame.world_from_rig = Transform<World, Rig>{};
   frame.head_covariance.reset();
   frame.tools.assign(waiting_->tools.begin(), waiting_->tools.end());

@@ -28,9 +28,9 @@ class SteadyClock : public Clock {
   HostTime zero_ = HostClock::now();
 };
 
-/// The thread that connects to a program that tracks, reads the poses that it sends, and keeps the
-/// newest frame of them. It always reads on, whoever takes frames or not, so that nothing queues
-/// on the network; what is no OpenIGTLink, or more than 32 MiB a second, ends a connection.
+/// The thread that connects to a tracking program, reads the poses that it sends, and keeps the
+/// newest frame. It keeps reading whether or not frames are taken, so that nothing queues on the
+/// network; data that is not OpenIGTLink, or more than 32 MiB a second, ends a connection.
 class PoseReceiver final : private MessageReader {
  public:
   PoseReceiver(const net::Endpoint& host, const TrackerOptions& options);
@@ -39,14 +39,14 @@ class PoseReceiver final : private MessageReader {
   PoseReceiver& operator=(const PoseReceiver&) = delete;
 
   [[nodiscard]] const Clock& clock() const { return clock_; }
-  /// As StereoCamera::do_next. An Error once for each connection that was lost, and at every
-  /// call once the receiver's thread has died.
+  /// As StereoCamera::do_next. An Error once for each lost connection, and at every call after the
+  /// receiver's thread has ended.
   Result<Next> next(StereoFrame& frame) ORTHONAV_EXCLUDES(mutex_);
-  /// Of the newest frame.
+  /// Time of the newest frame.
   [[nodiscard]] std::optional<Timestamp> newest() const ORTHONAV_EXCLUDES(mutex_);
-  /// Whether a pose of any tool came.
+  /// Whether a pose of any tool has arrived.
   [[nodiscard]] bool has_heard() const ORTHONAV_EXCLUDES(mutex_);
-  /// What keeps it from hearing of any tool.
+  /// Why no tool's pose has arrived.
   [[nodiscard]] std::string trouble() const ORTHONAV_EXCLUDES(mutex_);
   [[nodiscard]] ConnectionStatistics statistics() const ORTHONAV_EXCLUDES(mutex_);
 
@@ -67,12 +67,12 @@ class PoseReceiver final : private MessageReader {
   const net::WakeUp wake_up_;
   std::atomic<bool> stop_ = false;
 
-  // Of the thread.
+  // Used by the thread only.
   net::Link link_;
   Incoming incoming_{this};
   SenderClock sender_;
   PoseFrames frames_;
-  Timestamp arrived_{};  ///< what is being read
+  Timestamp arrived_{};  ///< arrival time of the bytes being read
   std::optional<Timestamp> late_since_;
   bool was_connected_ = false;  ///< ever
   net::RateLimit bytes_;
@@ -81,14 +81,14 @@ class PoseReceiver final : private MessageReader {
   std::optional<PoseFrame> waiting_ ORTHONAV_GUARDED_BY(mutex_);
   std::optional<Timestamp> newest_ ORTHONAV_GUARDED_BY(mutex_);
   std::optional<std::string> lost_ ORTHONAV_GUARDED_BY(mutex_);
-  Status died_ ORTHONAV_GUARDED_BY(mutex_);  ///< of what its thread did
+  Status died_ ORTHONAV_GUARDED_BY(mutex_);  ///< why its thread ended
   std::int64_t map_epoch_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::int64_t sequence_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::int64_t dropped_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::int64_t frames_out_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   StreamStatistics stream_ ORTHONAV_GUARDED_BY(mutex_);
   bool heard_ ORTHONAV_GUARDED_BY(mutex_) = false;
-  std::string others_ ORTHONAV_GUARDED_BY(mutex_);  ///< transforms that are no tool's
+  std::string others_ ORTHONAV_GUARDED_BY(mutex_);  ///< transforms that belong to no tool
   std::thread thread_;
 };
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::int64_t kDriftOneIn = 10'000;
 
-/// Less than 2^32 s, so that it fits.
+/// Below 2^32 s, so it fits.
 std::int64_t nanoseconds_of(std::uint64_t stamp) {
   constexpr std::uint64_t kPerSecond = 1'000'000'000;
   const std::uint64_t fraction = stamp & 0xffffffffu;

@@ -7,18 +7,19 @@
 
 namespace orthonav::igtl {
 
-/// When a message was stamped, by our own clock. The sender's clock is another one, and what is
-/// known of it is that no message arrives before it was stamped: the one that was under way for
-/// the shortest time so far tells the offset. Clocks drift by at most 100 parts in a million, so
-/// that the offset may not grow faster: messages that come later and later are old, not stamped by
-/// a slow clock. The shortest time under way itself is not known; it counts as none.
+/// Converts a message's stamp to our own clock. No message arrives before it was stamped, so the
+/// one with the shortest transit time so far gives the offset between the clocks. Clocks drift by
+/// at most 100 parts per million, so the offset may not grow faster than that: messages that arrive
+/// later and later are old, not stamped by a slow clock. The shortest transit time itself is
+/// unknown and taken as zero.
 class SenderClock {
  public:
-  /// Never past `arrived`, which never goes back. A stamp of zero says nothing: it is `arrived`.
+  /// Never later than `arrived`, which must never decrease. A stamp of zero means unknown and gives
+  /// `arrived`.
   [[nodiscard]] Timestamp time_of(std::uint64_t stamp, Timestamp arrived);
-  /// How much longer the last message was under way than the fastest one.
+  /// How much longer the last message took than the fastest one.
   [[nodiscard]] Duration late() const { return late_; }
-  /// Another sender, or the same one anew.
+  /// For another sender, or a restarted one.
   void forget() { *this = {}; }
 
  private:

@@ -12,10 +12,10 @@
 namespace orthonav::igtl {
 
 struct ServerOptions {
-  /// Of this machine, in numbers; loopback unless another one is named.
+  /// Numeric address of this machine to listen at; loopback by default.
   std::string address = "127.0.0.1";
   int port = 18944;  ///< 0: any free one
-  /// Networks whose machines may connect besides this one, as in "192.168.1.0/24,10.0.0.7". Must
+  /// Networks that may connect in addition to this machine, as in "192.168.1.0/24,10.0.0.7". Must
   /// not be empty unless the address is loopback.
   std::string allow;
   std::size_t most_clients = 8;
@@ -23,10 +23,11 @@ struct ServerOptions {
   int most_calls = 20;
   std::chrono::milliseconds calls_counted_for{1000};
   std::size_t most_bytes_per_s = std::size_t{32} << 20;  ///< a client that sends more is dropped
-  double most_hz = 60.0;  ///< frames a second; of those between, only the newest is kept
-  /// A client that takes nothing for so long is dropped.
+  double most_hz = 60.0;  ///< frames per second; of those in between, only the newest is kept
+  /// A client that takes nothing for this long is dropped.
   std::chrono::milliseconds longest_block{2000};
-  /// When there was no frame for so long, clients are told, and again after each such time.
+  /// If there is no frame for this long, clients are told so, and again after each further such
+  /// time.
   std::chrono::milliseconds longest_silence{1000};
 
   /// Every problem at once; empty when all is well.
@@ -36,14 +37,14 @@ struct ServerOptions {
 class ServerThread;
 
 /// Sends the same frames, bytes of whole messages (hal/igtl/message.h), to every client that
-/// connects. Of what clients send only the headers are read, of any version, unless somebody
-/// listens to what they say (`TextReader`); a client that sends something else, or announces more
-/// than 16 MiB, is dropped. A slow client misses frames, and one that does not read at all is
-/// dropped; the others never wait for it. A thread of its own reads and writes.
+/// connects. Only the headers of clients' messages are read, of any version, unless there is a
+/// listener (`TextReader`); a client that sends something else, or announces more than 16 MiB, is
+/// dropped. A slow client misses frames, and one that does not read at all is dropped; the others
+/// never wait for it. A thread of its own reads and writes.
 class Server {
  public:
-  /// An Error names address and port and why nobody can listen there.
-  /// `listener` must outlive it; null: nobody listens.
+  /// An Error names address and port and why listening there fails. `listener` must outlive it; may
+  /// be null.
   static Result<std::unique_ptr<Server>> start(const ServerOptions& options,
                                                TextListener* listener = nullptr);
   ~Server();
@@ -51,12 +52,12 @@ class Server {
   Server& operator=(const Server&) = delete;
 
   [[nodiscard]] int port() const;
-  /// From any thread; returns at once. Replaces a frame that was not sent yet.
+  /// Callable from any thread; returns at once. Replaces a frame that was not sent yet.
   void publish(std::vector<std::uint8_t> frame);
-  /// Sent once to every client that is connected then, in addition to the frames and never dropped
-  /// like them.
+  /// Sent once to every client connected at the time, in addition to the frames; never dropped like
+  /// them.
   void tell(std::vector<std::uint8_t> bytes);
-  /// What seldom changes: sent to all clients now, and to each later one when it connects.
+  /// Messages that seldom change: sent to all clients now, and to each later one when it connects.
   void set_standing(std::vector<std::uint8_t> standing);
 
   struct Counts {

@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Bytes that the kernel takes for a client before it is noticed that the client does not read.
+/// Bytes that the kernel buffers for a client before it shows that the client does not read.
 constexpr int kSendBuffer = 64 << 10;
 
 }  // namespace
@@ -87,7 +87,7 @@ void ServerThread::run() {
   }
 }
 
-/// Until somebody says something, may take something, or the time for a frame has come.
+/// Waits until a client sends or can take bytes, or a frame is due.
 void ServerThread::wait(HostTime now) {
   const bool may = may_call(now);
   std::vector<pollfd> watched = {{wake_up_.fd(), POLLIN, 0},
@@ -143,8 +143,8 @@ void ServerThread::accept_clients(HostTime now) {
   }
 }
 
-/// The newest frame, no more often than allowed; what stands, when it changes; or that there is
-/// nothing.
+/// Sends the newest frame, no more often than allowed; standing messages when they change; or a
+/// notice that there are no frames.
 void ServerThread::give_out(HostTime now) {
   std::optional<std::vector<std::uint8_t>> frame;
   bool stands_anew = false;
@@ -171,7 +171,7 @@ void ServerThread::give_out(HostTime now) {
     }
   }
   if (frame) {
-    // On average no more often: a frame that comes a little early does not wait for its slot.
+    // The limit applies on average: a slightly early frame does not wait for its slot.
     const auto period = std::chrono::duration_cast<HostClock::duration>(
         std::chrono::duration<double>(1.0 / options_.most_hz));
     next_frame_ = std::max(next_frame_ + period, now + period / 2);
@@ -185,7 +185,7 @@ void ServerThread::give_out(HostTime now) {
   }
 }
 
-/// Who has not taken the last one misses this one.
+/// A client that has not taken the last frame misses this one.
 void ServerThread::give_frame(std::span<const std::uint8_t> frame, HostTime now) {
   for (Client& client : clients_) {
     if (client.idle()) {

@@ -12,7 +12,7 @@
 
 namespace orthonav::igtl {
 
-/// The thread of a `Server`, and what it shares with those who publish.
+/// The thread of a `Server`, and the data it shares with publishers.
 class ServerThread {
  public:
   ServerThread(const ServerOptions& options, net::Allowed allowed, net::Socket socket,
@@ -41,7 +41,7 @@ class ServerThread {
   const ServerOptions options_;
   const net::Allowed allowed_;
   const net::Socket listener_;
-  TextListener* const hears_;  ///< what clients say; null: nobody does
+  TextListener* const hears_;  ///< receives clients' texts; may be null
   const net::WakeUp wake_up_;
   std::atomic<bool> stop_ = false;
 
@@ -51,10 +51,10 @@ class ServerThread {
   std::vector<std::uint8_t> to_tell_ ORTHONAV_GUARDED_BY(mutex_);
   Server::Counts counts_ ORTHONAV_GUARDED_BY(mutex_);
 
-  // The thread's own.
+  // Used by the thread only.
   std::list<Client> clients_;
   HostTime calls_since_{};
-  int calls_ = 0;  ///< since then
+  int calls_ = 0;  ///< since that time
   std::vector<std::uint8_t> standing_;
   HostTime next_frame_{};
   HostTime last_frame_{};

@@ -3,7 +3,7 @@
 namespace orthonav::igtl {
 namespace {
 
-// Numbers of IANA.
+// IANA's numbers of character sets.
 constexpr std::uint64_t kAscii = 3;
 constexpr std::uint64_t kUtf8 = 106;
 constexpr std::size_t kBeforeText = 4;  ///< encoding and length

@@ -7,15 +7,15 @@
 
 namespace orthonav::igtl {
 
-/// What a STRING says, in ASCII or UTF-8. An Error where its length is not what it states, or it
-/// is encoded in another way.
+/// The text of a STRING message, in ASCII or UTF-8. An Error if its length is wrong or it has
+/// another encoding.
 Result<std::string> text_in(const Header& header, Bytes body);
 
-/// Hears what clients say.
+/// Receives clients' texts.
 class TextListener {
  public:
   virtual ~TextListener() = default;
-  /// On the server's thread, which waits meanwhile. `client` is its address.
+  /// Called on the server's thread, which waits meanwhile. `client` is the client's address.
   virtual void said(const std::string& client, const std::string& device,
                     const std::string& text) = 0;
 };

@@ -10,7 +10,7 @@
 namespace orthonav::igtl {
 namespace {
 
-/// That of an ordinary monitor on which the operation is watched; a tracker displays nothing.
+/// Latency of an ordinary monitor on which the operation is watched; a tracker has no display.
 constexpr Duration kDisplayLatency = std::chrono::milliseconds(16);
 
 class Poses final : public StereoCamera {
@@ -27,11 +27,11 @@ class Poses final : public StereoCamera {
   Result<Next> do_next(StereoFrame& frame) override { return receiver_.next(frame); }
 
   PoseReceiver& receiver_;
-  StereoCalibration calibration_;  ///< of no cameras
+  StereoCalibration calibration_;  ///< without cameras
   std::vector<std::string> tools_;
 };
 
-/// The tracker stands still: its frame is Rig and World alike.
+/// The tracker does not move: its frame is both Rig and World.
 class StandingHead final : public HeadTracker {
  public:
   explicit StandingHead(const PoseReceiver& receiver) : receiver_(receiver) {}

@@ -8,10 +8,10 @@
 namespace orthonav::igtl {
 
 /// Tools that another program tracks and sends over OpenIGTLink (PlusServer, 3D Slicer), as a
-/// headset without cameras, display, button or voice. World and Rig are the frame that it measures
-/// in, which is taken to stand still; when its connection is lost and made anew, World is another
-/// one. Times are this machine's steady clock. Waits for the first pose of any of the tools; an
-/// Error says what came instead.
+/// headset without cameras, display, button or voice. World and Rig are both the tracker's frame,
+/// which is assumed not to move; after its connection was lost and made again, World is a new one.
+/// Times are those of this machine's steady clock. Waits for the first pose of any of the tools; an
+/// Error says what arrived instead.
 Result<std::unique_ptr<Headset>> open_tracker(const TrackerOptions& options);
 
 }  // namespace orthonav::igtl

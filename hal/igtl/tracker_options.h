@@ -13,20 +13,20 @@ namespace orthonav::igtl {
 
 inline constexpr int kUsualPort = 18944;
 
-/// A program that tracks tools and sends their poses.
+/// Options for a program that tracks tools and sends their poses.
 struct TrackerOptions {
   std::string host;
   int port = kUsualPort;
   std::vector<NamedTransform> tools;
-  /// RMS error of its poses in 3-D, as whoever sets it up states it: the protocol can't. The
+  /// RMS error of its poses in 3-D, from the configuration, since the protocol can't state it. The
   /// defaults are larger than an optical tracker's.
   double rms_m = 0.0005;
   double rms_rad = 0.5 * kRadiansPerDegree;
   Duration frozen_after = PoseFramesOptions{}.frozen_after;
-  /// Opening waits no longer for the first pose.
+  /// The longest wait for the first pose when opening.
   Duration open_within = std::chrono::seconds(8);
 
-  /// Of a pose: the same along (about) each axis.
+  /// Covariance of a pose: the same along (about) each axis.
   [[nodiscard]] PoseCovariance covariance() const;
 };
 

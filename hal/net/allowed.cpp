@@ -14,7 +14,7 @@ namespace {
 constexpr int kMappedBits = 96;  ///< in front of an IPv4 address mapped into IPv6
 constexpr int kFewestBits = 8;
 
-/// Absent where the text is anything but a whole number.
+/// Absent unless the text is a whole number.
 std::optional<int> whole_number(std::string_view text) {
   int value = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);

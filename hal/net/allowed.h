@@ -10,14 +10,14 @@
 
 namespace orthonav::net {
 
-/// Who may connect to a port whose protocol has no passwords: this machine and the networks named.
+/// Who may connect to a port whose protocol has no passwords: this machine and the given networks.
 /// Addresses can be forged: this keeps out strangers, not attackers.
 class Allowed {
  public:
-  /// This machine alone.
+  /// Only this machine.
   Allowed() = default;
-  /// From "192.168.1.0/24,10.0.0.7"; empty: this machine alone. An Error names what is not a
-  /// network or has fewer than 8 bits, which would let in everybody.
+  /// From "192.168.1.0/24,10.0.0.7"; empty: only this machine. An Error names an entry that is not
+  /// a network, or has fewer than 8 bits and would let in nearly everyone.
   static Result<Allowed> of(const std::string& networks);
 
   /// Not even this machine.
@@ -43,12 +43,12 @@ class Allowed {
 };
 
 [[nodiscard]] bool is_loopback(const Endpoint& endpoint);
-/// Refuses a port that other machines can reach where none of them is named.
+/// Refuses a port that other machines can reach if none of them is allowed.
 [[nodiscard]] Status check_who_may(const std::string& host, const Endpoint& address,
                                    const Allowed& allowed);
-/// In numbers: "192.168.1.20"; "?" where it is none.
+/// Numeric: "192.168.1.20"; "?" if it is not an IP address.
 [[nodiscard]] std::string text_of(const Endpoint& endpoint);
-/// The other side of a connection; of no family where it is gone already.
+/// The other side of a connection; without an address family if it is already gone.
 [[nodiscard]] Endpoint peer_of(const Socket& socket);
 
 }  // namespace orthonav::net

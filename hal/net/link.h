@@ -10,28 +10,28 @@
 
 namespace orthonav::net {
 
-/// A connection to a port of another machine, made anew whenever it is lost, after a pause that
-/// doubles up to two seconds until bytes come. Nothing here waits.
+/// A connection to a port of another machine, made again whenever it is lost, after a pause that
+/// doubles up to two seconds until bytes arrive. Nothing here waits.
 class Link {
  public:
-  /// What a step led to. kFailed: no connection came about, `trouble` says why.
+  /// The result of a step. kFailed: connecting failed, `trouble` says why.
   enum class Step : std::uint8_t { kNothing, kConnected, kFailed };
 
   Link(const Endpoint& host, int port) : host_(host), port_(port) {}
 
-  /// What poll() is to watch: -1 for nothing.
+  /// The descriptor that poll() should watch; -1 for none.
   [[nodiscard]] int fd() const { return socket_.fd(); }
   [[nodiscard]] short events() const;
-  /// Goes on connecting; `revents` is what poll() saw.
+  /// Continues connecting; `revents` comes from poll().
   Step step(short revents, HostTime now);
   [[nodiscard]] bool is_connected() const { return state_ == State::kConnected; }
   [[nodiscard]] const Socket& socket() const { return socket_; }
-  /// How long the other side took to answer the call.
+  /// How long the other side took to accept the connection.
   [[nodiscard]] HostClock::duration round_trip() const { return round_trip_; }
   /// As receive_some.
   Result<std::size_t> receive(std::span<std::uint8_t> room);
   void drop(const std::string& why, HostTime now);
-  /// Why it is not connected, or was not the last time.
+  /// Why it is not connected, or why the last attempt failed.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:
@@ -50,8 +50,7 @@ class Link {
   std::string trouble_;
 };
 
-/// The kernel asks a silent other side whether it is still there: one that is gone is found within
-/// ten seconds.
+/// Makes the kernel probe a silent peer, so that a dead one is detected within ten seconds.
 void keep_alive(const Socket& socket);
 
 }  // namespace orthonav::net

@@ -6,10 +6,11 @@
 
 namespace orthonav::net {
 
-/// How much may come within a second, which begins with the first to come after the last one ended.
+/// Limits an amount per second. A second begins with the first item after the previous second
+/// ended.
 class RateLimit {
  public:
-  /// Counts `amount` more; whether it is still within `most`.
+  /// Adds `amount`; returns whether the sum is still within `most`.
   [[nodiscard]] bool allows(std::size_t amount, std::size_t most, HostTime now) {
     if (now - since_ >= std::chrono::seconds(1)) {
       since_ = now;

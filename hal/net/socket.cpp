@@ -22,7 +22,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr auto kTryAgain = milliseconds(50);
-/// Where nobody listens for so long nobody will.
+/// If connections are refused for this long, the port is considered closed.
 constexpr auto kRefusedFor = std::chrono::seconds(1);
 
 std::string reason(int code) { return std::generic_category().message(code); }
@@ -42,7 +42,7 @@ Result<Socket> open_socket(const Endpoint& host) {
   if (!socket.is_open()) {
     return Error{"no socket: " + reason(errno)};
   }
-  // Small questions must not wait for company.
+  // Small requests must not be delayed (Nagle's algorithm).
   const int on = 1;
   (void)::setsockopt(socket.fd(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
   return socket;

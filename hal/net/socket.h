@@ -14,7 +14,8 @@
 
 namespace orthonav {
 
-/// This machine's own time: for deadlines, and to compare with a headset's clock. Never mixed.
+/// This machine's own time, for deadlines and for comparison with a headset's clock; the two are
+/// never mixed.
 using HostClock = std::chrono::steady_clock;
 using HostTime = HostClock::time_point;
 
@@ -25,7 +26,7 @@ namespace orthonav::net {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// A file descriptor that is closed when it goes.
+/// A file descriptor, closed on destruction.
 class Socket {
  public:
   Socket() = default;
@@ -45,40 +46,41 @@ class Socket {
   int fd_ = -1;
 };
 
-/// A host's address; the port is told with each connection.
+/// A host's address; the port is given with each connection.
 struct Endpoint {
   sockaddr_storage address{};
   socklen_t length = 0;
 };
-/// By name or number; asks the network's names and blocks for as long as that takes.
+/// By name or numeric address; a name lookup may block.
 Result<Endpoint> resolve(const std::string& host);
 
-/// Begins to connect without waiting.
+/// Starts connecting without waiting.
 Result<Socket> begin_connect(Endpoint host, int port);
-/// How a connection that was begun came out, once its socket can be written.
+/// The result of a started connection, once its socket is writable.
 Status connect_outcome(const Socket& socket);
-/// Listens at a port of `host`; so many clients may wait to be accepted. Port 0: any free one.
+/// Listens at a port of `host`; `waiting` clients may queue to be accepted. Port 0: any free one.
 Result<Socket> listen_at(Endpoint host, int port, int waiting = 4);
 /// The port at which a socket listens.
 int port_of(const Socket& listener);
 /// The waiting client, if there is one.
 std::optional<Socket> accept_one(const Socket& listener);
 
-/// How many bytes came at once; 0: none now. An Error when the other side closed
-/// (`ErrorCode::kLost`) or reset.
+/// Number of bytes received without waiting; 0: none now. An Error if the other side closed
+/// (`ErrorCode::kLost`) or reset the connection.
 Result<std::size_t> receive_some(const Socket& socket, std::span<std::uint8_t> room);
-/// How many bytes went at once.
+/// Number of bytes sent without waiting.
 Result<std::size_t> send_some(const Socket& socket, Bytes bytes);
 
-/// Closing the socket will discard what was not delivered; the other side sees a reset.
+/// Makes closing the socket discard undelivered data; the other side sees a reset.
 void cut_off(const Socket& socket);
-/// Ends our side and waits until the other has read everything and closes, or the deadline.
+/// Shuts down our side and waits until the other has read everything and closed, or until the
+/// deadline.
 void finish_sending(const Socket& socket, HostTime deadline);
 
 /// Connects and closes again. Blocks until `deadline` at most.
 Status reach(const Endpoint& host, int port, HostTime deadline);
-/// Connects, sends `request` and waits for `answer_bytes` bytes; tries again while the port is
-/// taken by somebody who leaves. Blocks until `deadline` at most.
+/// Connects, sends `request` and waits for `answer_bytes` bytes; retries while another client is
+/// still leaving the port. Blocks until `deadline` at most.
 Result<std::vector<std::uint8_t>> ask(const Endpoint& host, int port, Bytes request,
                                       std::size_t answer_bytes, HostTime deadline);
 
@@ -87,7 +89,7 @@ class WakeUp {
  public:
   WakeUp();
   void wake() const;
-  /// To be called once woken.
+  /// Call this once woken.
   void clear() const;
   [[nodiscard]] int fd() const { return event_.fd(); }
 

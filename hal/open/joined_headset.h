@@ -7,14 +7,14 @@
 
 namespace orthonav {
 
-/// Parts that take the place of a headset's own; null: its own.
+/// Parts that replace a headset's own; null: its own is used.
 struct OtherParts {
   std::unique_ptr<Clicker> clicker;
   std::unique_ptr<Voice> voice;
 };
 
 /// A headset with a clicker or a voice from elsewhere. Borrows the headset. Everything else is
-/// passed through, including the name, which tells a journal which cameras were used.
+/// passed through, including the name, which records in the journal which cameras were used.
 class JoinedHeadset : public ForwardingHeadset {
  public:
   JoinedHeadset(Headset& headset, OtherParts parts)

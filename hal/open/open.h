@@ -15,13 +15,13 @@ struct OpenOptions {
   sim::SimOptions sim;
 };
 
-/// What was opened.
+/// The opened headset with its room.
 struct OpenedHeadset {
   std::unique_ptr<Headset> headset;
-  /// The room that its cameras see, if it is simulated; null otherwise. Lives as long as the
-  /// headset. Gives access to the truth, which no headset reveals.
+  /// The room that its cameras see, if simulated; null otherwise. Exists as long as the headset.
+  /// Gives access to the ground truth, which a headset does not reveal.
   sim::SimHeadset* room = nullptr;
-  /// In one line, what was amiss and did not keep it from opening; empty: nothing.
+  /// In one line, a problem that did not prevent opening; empty: none.
   std::string warning;
 };
 
@@ -33,25 +33,25 @@ struct OpenedHeadset {
 Result<std::unique_ptr<Headset>> open_headset(const std::string& uri,
                                               const OpenOptions& options = {});
 
-/// Refuses what can't be opened by its text alone (scheme, keys, values), at once and without
-/// looking at any device; what follows `openxr:` is only read when it is opened.
+/// Refuses a URI that can't be opened judging by its text alone (scheme, keys, values), without
+/// touching any device; the part after `openxr:` is only parsed when it is opened.
 Status check_headset_uri(const std::string& uri);
 
 /// A device that lives outside of this library, opened by URIs of its own scheme.
 struct HeadsetScheme {
   std::string name;   ///< "mine" of "mine:REST": lower-case letters and digits
-  std::string usage;  ///< as refusals name it: "mine:SERIAL"
-  /// Refuses what can't be opened by its text alone, given what follows the colon. Null: nothing
-  /// is.
+  std::string usage;  ///< as named in error messages: "mine:SERIAL"
+  /// Refuses the part after the colon if its text alone shows that it can't be opened. Null:
+  /// nothing is refused.
   std::function<Status(const std::string& rest)> check;
   std::function<Result<std::unique_ptr<Headset>>(const std::string& rest)> open;
 };
 
-/// Everything above knows the scheme from now on. Refuses a name that is taken or malformed, and
-/// one without `open`. Thread-safe.
+/// All functions above know the scheme from now on. Refuses a name that is taken or malformed, and
+/// a scheme without `open`. Thread-safe.
 Status register_scheme(HeadsetScheme scheme);
 
-/// The same as `open_headset`, with the simulated room beside it.
+/// The same as `open_headset`, with the simulated room.
 Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& options = {});
 
 }  // namespace orthonav

@@ -69,7 +69,7 @@ bool is_mounted(std::string_view cameras) {
   return !cameras.starts_with("sim:") && !cameras.starts_with("replay:");
 }
 
-/// What follows "openxr:", taken apart.
+/// The parts after "openxr:".
 struct OpenxrUri {
   std::optional<std::string> rig_file;
   std::string cameras;  ///< the URI of the headset that lends its cameras

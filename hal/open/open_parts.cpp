@@ -22,7 +22,7 @@ constexpr const char* kClickerKeys =
     "known are keys=NAME,..., double_ms=N, hold_ms=N, debounce_ms=N and share";
 constexpr const char* kVoiceKeys = "known is wake=always, wake=noise or wake=never";
 
-/// "scheme:rest?key=value&key", cut up.
+/// The parts of "scheme:rest?key=value&key".
 struct PartUri {
   std::string scheme;
   std::string rest;

@@ -7,7 +7,7 @@
 
 namespace orthonav {
 
-/// The scheme of this name that was registered; none where nobody did.
+/// The registered scheme of this name, if there is one.
 [[nodiscard]] std::optional<HeadsetScheme> registered_scheme(const std::string& name);
 
 /// "known are sim:, replay:PATH, ... and mine:SERIAL".

@@ -62,7 +62,7 @@ class Head : public HeadTracker {
   bool mounted_;
 };
 
-/// Frames in words also go to the other headset, where a simulated wearer reads them.
+/// The described frames also go to the other headset, where a simulated wearer reads them.
 class Words : public Display {
  public:
   Words(Display& inner, const Clock& clock, const XrDisplay& display, bool mounted)

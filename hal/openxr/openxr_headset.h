@@ -12,7 +12,7 @@ namespace orthonav::openxr {
 /// from `cameras`, clicks from its clicker and the runtime's select button. Pixels go to the
 /// runtime.
 ///
-/// Mounted cameras get their poses from the runtime, and their own tracking is not asked. Cameras
+/// Mounted cameras get their poses from the runtime; their own tracking is not used. Cameras
 /// elsewhere keep their own world, and the display is placed in it. The map's epoch rises when the
 /// runtime's space moves and with each new session.
 class OpenxrHeadset : public ForwardingHeadset {

@@ -50,10 +50,10 @@ void WorldAnchor::move(XrTime from, const std::optional<Transform<Space, Space>>
   next.from = std::max(from, before.from);
   next.epoch = before.epoch + 1;
   if (placement_ == Placement::kMounted) {
-    // World becomes the new space; what was measured in the old one is lost.
+    // World becomes the new space; measurements in the old one are lost.
     next.world_from_space = Transform<World, Space>();
   } else if (before.world_from_space && old_from_new) {
-    // The wearer stays where they stood.
+    // The wearer stays at the same place.
     next.world_from_space = *before.world_from_space * *old_from_new;
   }
   stretches_.push_back(next);

@@ -25,9 +25,9 @@ class WorldAnchor {
  public:
   explicit WorldAnchor(Placement placement);
 
-  /// Nothing until World has been placed.
+  /// Empty until World has been placed.
   [[nodiscard]] std::optional<Transform<World, Space>> world_from_space(XrTime at) const;
-  /// Counts moves.
+  /// Number of moves.
   [[nodiscard]] std::int64_t epoch(XrTime at) const;
   /// Places World so that the viewer is at `world_from_viewer`, unless it has been placed already.
   void lay(XrTime at, const Transform<World, Viewer>& world_from_viewer,

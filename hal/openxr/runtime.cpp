@@ -93,9 +93,9 @@ VulkanVersion version_of(XrVersion version) {
 }  // namespace
 
 Result<std::unique_ptr<Runtime>> Runtime::connect() {
-  // The loader prints what goes wrong on standard error; here it becomes an Error instead. A user
-  // who has set the variable still gets the output.
-  ::setenv("XR_LOADER_DEBUG", "none", 0);  // NOLINT(concurrency-mt-unsafe): the only one of ours
+  // The loader prints errors on standard error; here they become an Error instead. A user who has
+  // set the variable still gets the output.
+  ::setenv("XR_LOADER_DEBUG", "none", 0);  // NOLINT(concurrency-mt-unsafe): our only call
   auto extensions = wanted_extensions();
   if (!extensions) {
     return extensions.error();

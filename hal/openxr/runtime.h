@@ -10,11 +10,11 @@
 
 namespace orthonav::openxr {
 
-/// The connection with the OpenXR runtime of this machine: an instance and, once it is found, the
-/// headset. Its calls are thread-safe, as the runtime's are; no call may run while it is destroyed.
+/// The connection to the OpenXR runtime of this machine: an instance and, once found, the headset.
+/// Its calls are thread-safe, as the runtime's are; no call may run while it is destroyed.
 class Runtime {
  public:
-  /// An Error when there is no runtime, or it lacks what is needed.
+  /// An Error if there is no runtime or it lacks a required feature.
   static Result<std::unique_ptr<Runtime>> connect();
   ~Runtime();
   Runtime(const Runtime&) = delete;

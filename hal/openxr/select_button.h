@@ -7,7 +7,7 @@
 
 namespace orthonav::openxr {
 
-/// The "select" of whatever controller the surgeon holds, or the pinch of a hand, as one button.
+/// The "select" of any controller that the surgeon holds, or the pinch of a hand, as one button.
 /// Without a controller it is never pressed.
 class SelectButton {
  public:
@@ -26,7 +26,7 @@ class SelectButton {
     bool down = false;
     XrTime time = 0;
   };
-  /// The change since the last call, if there was one. A controller that goes away releases the
+  /// The change since the last call, if there was one. A controller that disappears releases the
   /// button at once.
   Result<std::optional<Change>> poll(XrSession session, XrTime now);
   /// Releases the button: the session is gone or has lost the focus.

@@ -4,7 +4,7 @@
 
 namespace orthonav::openxr {
 
-/// What a change of the session's state asks for.
+/// The action that a change of the session's state requires.
 enum class SessionDuty {
   kNone,
   kBegin,    ///< xrBeginSession
@@ -13,15 +13,15 @@ enum class SessionDuty {
   kLeave     ///< the user has left: destroy it
 };
 
-/// The life cycle of a session after OpenXR 1.0, section 9.1. A pure table: `take` says what is to
-/// be done and assumes that it is.
+/// The life cycle of a session according to OpenXR 1.0, section 9.1. A pure table: `take` says what
+/// to do and assumes that it is done.
 class SessionState {
  public:
-  /// An unknown state asks for nothing.
+  /// An unknown state requires nothing.
   SessionDuty take(XrSessionState state);
-  /// Frames must be waited for, begun and ended.
+  /// Whether frames must be waited for, begun and ended.
   [[nodiscard]] bool running() const { return running_; }
-  /// Input reaches the application.
+  /// Whether input reaches the application.
   [[nodiscard]] bool focused() const { return running_ && state_ == XR_SESSION_STATE_FOCUSED; }
 
  private:

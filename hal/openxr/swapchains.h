@@ -16,15 +16,15 @@ class Swapchains {
   Swapchains(const Swapchains&) = delete;
   Swapchains& operator=(const Swapchains&) = delete;
 
-  /// In the format that suits the renderer best; an Error when none does. With depth if it is
-  /// wanted and the renderer can draw into a depth format that is offered.
+  /// Uses the format that suits the renderer best; an Error if none does. With depth if wanted and
+  /// if the renderer can draw into an offered depth format.
   Status create(XrSession session, const ViewSetup& setup, const FormatPreference& preference,
                 bool depth);
   void destroy();
   [[nodiscard]] const EyeImages& images() const { return images_; }
 
-  /// XR_TIMEOUT_EXPIRED when an image is not free in time: this frame goes without pixels, and the
-  /// next may ask again.
+  /// XR_TIMEOUT_EXPIRED if an image is not free in time: this frame is submitted without pixels,
+  /// and the next one may try again.
   XrResult acquire(std::vector<std::uint32_t>& indices);
   /// Releases every image that was acquired and waited for.
   XrResult release();
@@ -48,7 +48,7 @@ class Swapchains {
   [[nodiscard]] XrSwapchainSubImage part(std::size_t first_chain, std::size_t eye) const;
   XrResult acquire(Chain& chain);
 
-  std::vector<Chain> chains_;  ///< those of colour, then those of depth
+  std::vector<Chain> chains_;  ///< colour, then depth
   EyeImages images_;
 };
 

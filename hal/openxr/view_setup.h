@@ -10,7 +10,7 @@ namespace orthonav::openxr {
 
 inline constexpr XrViewConfigurationType kStereo = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
 
-/// How the headset shows pixels, as far as it says before there is a session.
+/// How the headset displays pixels, as known before there is a session.
 struct ViewSetup {
   XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   int width_px = 0;  ///< of each eye's image
@@ -20,14 +20,14 @@ struct ViewSetup {
 /// An Error when the headset does not have two eyes.
 [[nodiscard]] Result<ViewSetup> view_setup_of(const Runtime& runtime);
 
-/// Additive before alpha before opaque: the more of the world the surgeon sees, the better. Nothing
-/// if none of the three is offered.
+/// Prefers additive, then alpha, then opaque: the more of the world the surgeon sees, the better.
+/// Nothing if none of the three is offered.
 [[nodiscard]] std::optional<XrEnvironmentBlendMode> best_blend(
     std::span<const XrEnvironmentBlendMode> offered);
 [[nodiscard]] WorldBlend blend_of(XrEnvironmentBlendMode mode);
 /// The larger of the two eyes' recommended sizes, within what both allow.
 [[nodiscard]] ViewSetup sized(std::span<const XrViewConfigurationView> views);
-/// STAGE before LOCAL_FLOOR before LOCAL: recentring by the wearer does not move STAGE.
+/// Prefers STAGE, then LOCAL_FLOOR, then LOCAL: recentring by the wearer does not move STAGE.
 [[nodiscard]] XrReferenceSpaceType best_space(std::span<const XrReferenceSpaceType> offered);
 
 }  // namespace orthonav::openxr

@@ -210,8 +210,8 @@ XrDisplay::Located XrDisplay::locate_viewer(XrTime at) const {
       XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
   constexpr XrSpaceLocationFlags kTracked =
       XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
-  // With cameras elsewhere the position in the room is not needed: a headset that tracks rotation
-  // only is taken to stand still.
+  // With cameras elsewhere the position in the room is not needed: a headset that tracks only
+  // rotation is assumed not to move.
   if (mount_.placement == Placement::kElsewhere &&
       (location.locationFlags & kKnown) == XR_SPACE_LOCATION_ORIENTATION_VALID_BIT) {
     location.pose.position = {};

@@ -17,7 +17,7 @@
 
 namespace orthonav::openxr {
 
-/// What the display and the cameras must know about each other.
+/// How the display and the cameras are mounted relative to each other.
 struct Mount {
   Placement placement = Placement::kElsewhere;
   /// The pose of the head in the cameras' rig. With cameras elsewhere: where the wearer begins.
@@ -55,11 +55,11 @@ class XrDisplay : public PixelDisplay {
   void ask_to_end() override;
   void close() override;
 
-  // From any thread.
+  // Callable from any thread.
   /// "Monado(XRT) 21.0.0, Simulated HMD"; empty before the display is opened.
   [[nodiscard]] std::string name() const;
-  /// Where the mounted cameras were or will be. kPredicted if the runtime knows the pose without
-  /// tracking it, kLost if it knows none.
+  /// Where the mounted cameras were or will be. kPredicted if the runtime has a pose without
+  /// tracking, kLost if it has none.
   [[nodiscard]] Tracked<Transform<World, Rig>> world_from_rig(Timestamp at) const;
   /// Which map World belongs to at that time.
   [[nodiscard]] std::int64_t map_epoch(Timestamp at) const;
@@ -101,7 +101,7 @@ class XrDisplay : public PixelDisplay {
   bool take_eyes(const Transform<World, Space>& world_from_space, EyeViews& views) const;
   bool locate_in_world(EyeViews& views);
   [[nodiscard]] Located locate_viewer(XrTime at) const ORTHONAV_REQUIRES(mutex_);
-  // Between the runtime's clock and ours, both read now.
+  // Converts between the runtime's clock and ours, both read now.
   [[nodiscard]] std::optional<XrTime> xr_time(Timestamp at) const ORTHONAV_REQUIRES(mutex_);
   [[nodiscard]] std::optional<Timestamp> timestamp(XrTime at) const;
 

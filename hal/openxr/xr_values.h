@@ -10,7 +10,7 @@ namespace orthonav::openxr {
 struct Space;   ///< the reference space of the runtime: +y up, metres
 struct Viewer;  ///< the runtime's VIEW space: between the eyes, x right, y up, -z forward
 
-/// Refuses what is not a rotation: the length of a runtime's quaternion is 1 within 1 %.
+/// Refuses an invalid rotation: the length of a runtime's quaternion must be 1 within 1 %.
 template <class A, class B>
 [[nodiscard]] Result<Transform<A, B>> transform_of(const XrPosef& pose) {
   const double x = static_cast<double>(pose.orientation.x);

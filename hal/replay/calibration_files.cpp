@@ -20,10 +20,10 @@ static_assert(std::endian::native == std::endian::little, "look-up files are lit
 
 constexpr std::size_t kRayBytes = 3 * sizeof(float);
 constexpr std::size_t kExactBytes = 2 * sizeof(double);
-// A ray of single precision is a unit vector within 1e-7; more is no ray.
+// A single-precision ray is a unit vector within 1e-7; a larger deviation is not a ray.
 constexpr double kUnitTolerance = 1e-3;
-// Single-precision rays determine the unit plane to about 1e-7 (1 + r²) / z; ten times that is
-// another camera's table.
+// Single-precision rays determine the unit plane to about 1e-7 (1 + r²) / z; a much larger
+// difference means another camera's table.
 constexpr double kAgreement = 1e-5;
 
 /// How large a table is.
@@ -42,7 +42,7 @@ std::string pixel_text(std::size_t index, Size size) {
          ")";
 }
 
-/// A unit vector that points ahead, or what it is instead.
+/// Refuses a ray that is not a unit vector pointing ahead.
 Status check_ray(const DepthCalibration::Ray& single) {
   const Vec3 ray{single[0], single[1], single[2]};
   if (!ray.is_finite()) {
@@ -58,8 +58,8 @@ Status check_ray(const DepthCalibration::Ray& single) {
   return {};
 }
 
-/// Rays of pixels without a direction come back as zeros: beside z = 0 the recorder leaves whatever
-/// lay in its memory.
+/// Rays of pixels without a direction are returned as zeros: with z = 0 the recorder leaves x and y
+/// uninitialized.
 Result<std::vector<DepthCalibration::Ray>> read_rays(const std::filesystem::path& path, Size size) {
   const auto bytes = read_sized(path, size.pixels() * kRayBytes);
   if (!bytes) {
@@ -95,7 +95,7 @@ Result<std::vector<Vec2>> read_unit_plane(const std::filesystem::path& path) {
   return unit_plane;
 }
 
-/// The same table in double precision, which must say what the rays say.
+/// The same table in double precision, which must agree with the rays.
 Result<std::vector<Vec2>> read_exact(const std::filesystem::path& path,
                                      const std::vector<Vec2>& rays) {
   const auto bytes = read_sized(path, kExactBytes * kImageBytes);

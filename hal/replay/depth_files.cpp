@@ -14,11 +14,11 @@ namespace orthonav::replay {
 
 namespace {
 
-/// AHaT's mark is 4090 and more; HoloLens 1 counts its millimetres in 12 bits, so that what is
-/// there is none either.
+/// AHaT marks unmeasured pixels with 4090 and more; HoloLens 1 stores millimetres in 12 bits, so
+/// such values are not measurements there either.
 constexpr std::uint16_t kInvalidFromMm = 4090;
 
-/// A stream by the name that a recorder gives it.
+/// A stream with its name in a recorder.
 struct Sensor {
   const char* name;
   DepthStream stream;
@@ -40,7 +40,7 @@ ImageLayout layout_of(const Sensor& sensor) {
   return {"", PixelKind::kBigEndian16, 0, 0, true};
 }
 
-/// The frames of a recorder that lists none: the images in the order of time.
+/// The frames of a recorder that does not list them: the images in the order of time.
 Status add_images(const std::filesystem::path& path, std::int64_t epoch, RecordedDepth& depth) {
   for (const ImageMember& member : depth.images.members()) {
     const auto time = named_time(path, member.ticks, epoch);
@@ -89,7 +89,7 @@ Status add_listed(const std::filesystem::path& path, std::int64_t epoch, Recorde
   return {};
 }
 
-/// Each brightness to the frame of its time.
+/// Assigns each brightness image to the frame of its time.
 void add_brightness(RecordedDepth& depth) {
   const auto& images = depth.images.brightness();
   auto image = images.begin();

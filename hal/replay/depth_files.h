@@ -16,19 +16,19 @@ namespace orthonav::replay {
 struct RecordedDepthFrame {
   std::int64_t sequence = 0;
   Timestamp time{};
-  Timestamp clock{};  ///< what the device's clock showed once it was there
+  Timestamp clock{};  ///< the device's clock when it was available
   ImageMember range;
   std::optional<ImageMember> brightness;
   std::optional<Transform<World, Rig>> world_from_rig;
   std::int64_t map_epoch = 0;
 };
 
-/// One depth stream of a folder but for its pixels, checked.
+/// One checked depth stream of a folder, without its pixels.
 struct RecordedDepth {
   DepthCalibration calibration;
   ImageTar images;
   std::vector<RecordedDepthFrame> frames;  ///< at least one
-  std::uint16_t invalid_from_mm = 0;       ///< such ranges are no measurements; 0: all are
+  std::uint16_t invalid_from_mm = 0;       ///< ranges from this on are not measurements; 0: all are
   DepthSummary summary;
 
   /// Reads the pixels; the buffers of `frame` are reused.
@@ -37,11 +37,11 @@ struct RecordedDepth {
 
 struct RecordedDepths {
   std::vector<RecordedDepth> streams;
-  std::vector<DepthSummary> unreadable;  ///< with the trouble
+  std::vector<DepthSummary> unreadable;  ///< each with the reason
 };
 
-/// The depth streams of a folder, whichever recorder wrote it. They need no stereo pairs.
-/// `epoch_ticks`: what the recording's time zero is called; absent: as the folder says itself.
+/// The depth streams of a folder from any of the recorders. They need no stereo pairs.
+/// `epoch_ticks`: the ticks of the recording's time zero; absent: as stated in the folder.
 RecordedDepths read_depths(const std::filesystem::path& folder,
                            std::optional<std::int64_t> epoch_ticks = std::nullopt);
 

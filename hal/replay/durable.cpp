@@ -10,7 +10,7 @@ namespace orthonav::replay {
 
 namespace {
 
-/// A file's bytes, or the names in a folder.
+/// Syncs a file's content, or the names in a folder.
 Status sync(const std::filesystem::path& path) {
   const int error_number = sync_path(path.string()).error_number;
   return error_number == 0 ? Status{}

@@ -49,7 +49,7 @@ std::optional<Value> value_in(const std::array<std::pair<Value, std::string_view
   return std::nullopt;
 }
 
-/// A line holds one event, whatever was said.
+/// Escapes the text, so that every event is one line.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -221,7 +221,7 @@ void append_head_answer(std::string& line, std::int64_t sequence,
   append_number(line, std::int64_t{answer.time.time_since_epoch().count()});
   line += ',';
   line += name_in(kOrigins, answer.status);
-  // What is lost has no value; whatever lies there is not to be read.
+  // A lost pose has no value; its memory must not be read.
   const Transform<World, Rig> pose =
       answer.status == PoseStatus::kLost ? Transform<World, Rig>{} : answer.value;
   for (const double entry : pose.row_major()) {

@@ -9,8 +9,8 @@
 
 namespace orthonav::replay {
 
-/// An event and when the recorded device delivered it: at the time itself, unless it was late (a
-/// phrase is understood some time after it was spoken).
+/// An event and when the recorded device delivered it: at its own time, unless it was late (a
+/// phrase is recognized some time after it was spoken).
 template <class Event>
 struct Delivered {
   Event event;
@@ -27,7 +27,7 @@ Result<RecordedEvents> read_events(const std::filesystem::path& path);
 void append_event(std::string& line, const Delivered<ClickerEvent>& event);
 void append_event(std::string& line, const Delivered<Phrase>& event);
 
-/// head.csv: what the head tracker answered.
+/// head.csv: the head tracker's answers.
 Result<HeadAnswers> read_head_answers(const std::filesystem::path& path);
 void append_head_answer(std::string& line, std::int64_t sequence,
                         const Tracked<Transform<World, Rig>>& answer);

@@ -25,7 +25,7 @@ Status take_pose(std::string_view line, std::vector<std::string_view>& fields,
   if (!pose) {
     return Error{"world_from_rig: " + pose.error().message};
   }
-  // A frame that was written twice says the same twice; a contradiction is damage.
+  // A frame written twice must have the same pose; a contradiction is damage.
   const auto [entry, added] = poses.emplace(*ticks, *pose);
   if (!added && entry->second != *pose) {
     return Error{"ticks " + std::to_string(*ticks) + " have another pose already"};
@@ -207,8 +207,9 @@ std::int64_t epoch_of(std::int64_t first_ticks) {
 }
 
 std::optional<Timestamp> device_time(std::int64_t ticks, std::int64_t epoch_ticks) {
-  // The epoch is whatever a file says: compare before subtracting. Two numbers that are not
-  // negative have a difference; under a negative epoch both sides of the sum are within 9e18.
+  // The epoch comes from a file and may be any number, so compare before subtracting. Two
+  // non-negative numbers can't overflow; with a negative epoch, both terms of the sum are within
+  // 9e18.
   if (ticks < 0 || epoch_ticks < -kMaxNs) {
     return std::nullopt;
   }

@@ -16,7 +16,7 @@ using PosesByTicks = std::map<std::int64_t, Transform<World, Rig>>;
 Result<PosesByTicks> read_poses(const std::filesystem::path& path);
 void append_pose(std::string& line, std::int64_t ticks, const Transform<World, Rig>& pose);
 
-/// frames.csv: what ticks cannot hold of a pair.
+/// frames.csv: the data of a pair that ticks can't hold.
 struct FrameRow {
   std::int64_t sequence = 0;
   Timestamp time{};
@@ -26,7 +26,8 @@ struct FrameRow {
 Result<std::vector<FrameRow>> read_frames(const std::filesystem::path& path);
 void append_frame(std::string& line, const FrameRow& row);
 
-/// map.csv: the first pair of each map but the first; there is none while the map stays.
+/// map.csv: the first pair of each map except the first one; there is no such file if the map never
+/// changes.
 struct MapRow {
   std::int64_t sequence = 0;
   std::int64_t map_epoch = 0;
@@ -34,7 +35,7 @@ struct MapRow {
 Result<std::vector<MapRow>> read_map_moves(const std::filesystem::path& path);
 void append_map_move(std::string& line, const MapRow& row);
 
-/// Gives pairs or frames the maps of such a file, where there is one.
+/// Gives pairs or frames the maps from such a file, if there is one.
 template <class Frame>
 Status add_map_moves(const std::filesystem::path& path, std::vector<Frame>& frames) {
   if (!is_there(path)) {
@@ -58,14 +59,14 @@ Status add_map_moves(const std::filesystem::path& path, std::vector<Frame>& fram
 Result<RecordedDevice> read_device(const std::filesystem::path& path);
 std::string device_text(const RecordedDevice& device);
 
-/// The epoch of a recording that does not name it, and times since an epoch: nothing where they do
+/// The epoch of a recording that does not state it, and times since an epoch: nothing if they do
 /// not fit.
 [[nodiscard]] std::int64_t epoch_of(std::int64_t first_ticks);
 [[nodiscard]] std::optional<Timestamp> device_time(std::int64_t ticks, std::int64_t epoch_ticks);
-/// The same of a time that the file at `path` names, with an Error that says so.
+/// The same for a time stated in the file at `path`, which an Error names.
 Result<Timestamp> named_time(const std::filesystem::path& path, std::int64_t ticks,
                              std::int64_t epoch_ticks);
-/// Whether a row's exact time is that of its ticks.
+/// Checks that a row's exact time agrees with its ticks.
 Status check_row(const std::filesystem::path& path, const FrameRow& row, std::int64_t epoch_ticks);
 
 }  // namespace orthonav::replay

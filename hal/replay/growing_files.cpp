@@ -63,8 +63,8 @@ bool LineFile::is_open() const {
   return file_ != nullptr;
 }
 
-/// Without a `close` nothing is added: the library would fill a torn image up with zeros and write
-/// the end mark of an archive that is whole.
+/// Without `close` nothing is added: the library would pad an incomplete image with zeros and write
+/// the end mark of a complete archive.
 void ImageTarWriter::FreeArchive::operator()(archive* a) const {
   archive_write_fail(a);
   archive_write_free(a);
@@ -77,7 +77,7 @@ Status ImageTarWriter::open(const std::filesystem::path& path) {
   archive_.reset(archive_write_new());
   entry_.reset(archive_entry_new());
   archive_write_set_format_ustar(archive_.get());
-  archive_write_set_bytes_per_block(archive_.get(), 0);  // nothing waits in a buffer
+  archive_write_set_bytes_per_block(archive_.get(), 0);  // no buffering
   if (archive_write_open_filename(archive_.get(), path.c_str()) != ARCHIVE_OK) {
     return failed();
   }
@@ -87,7 +87,7 @@ Status ImageTarWriter::open(const std::filesystem::path& path) {
 Error ImageTarWriter::failed() const {
   const char* text = archive_error_string(archive_.get());
   const int number = archive_errno(archive_.get());
-  // The library's own text for a failed write says no more than that.
+  // The library's own message for a failed write says no more than this.
   return file_error(
       path_, "cannot be written: " + (number > 0 ? std::generic_category().message(number)
                                                  : std::string(text ? text : "unknown error")));

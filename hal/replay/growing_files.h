@@ -20,8 +20,8 @@ struct archive_entry;
 
 namespace orthonav::replay {
 
-/// A text file that grows by whole lines, each on the disk's side once written, so that a crash
-/// loses none. Thread-safe.
+/// A text file that grows by whole lines, each handed to the operating system once written, so that
+/// a crash of the program loses none. Thread-safe.
 class LineFile {
  public:
   Status open(const std::filesystem::path& path, const char* header);
@@ -65,14 +65,14 @@ class ImageTarWriter {
   [[nodiscard]] Error failed() const;
 };
 
-/// What stands beside a stream's images: which frames there were and when, where the headset was,
-/// in which map.
+/// The files that accompany a stream's images: the frames and their times, the headset's poses, and
+/// the maps.
 class FrameListWriter {
  public:
-  /// The poses go into each of the files named; the map's file is made by its first move.
+  /// The poses are written to each of the given files; the map's file is created at the first move.
   Status open(const std::filesystem::path& frames, std::filesystem::path map,
               const std::vector<std::filesystem::path>& poses);
-  /// Whether a frame of that time can be told from the one before it.
+  /// Whether a frame of that time can be distinguished from the one before it.
   [[nodiscard]] Status check(std::int64_t ticks) const;
   Status write(const FrameRow& row, std::int64_t map_epoch,
                const std::optional<Transform<World, Rig>>& world_from_rig);

@@ -15,9 +15,9 @@ struct HeadSample {
   std::int64_t map_epoch = 0;
 };
 
-/// The recorded poses of a head, strictly increasing in time, as a tracker that knows only the past
-/// would answer from them: measured between two of them, predicted at constant velocity beyond the
-/// newest, lost where they lie more than HeadTracker::kMaxHeadPrediction apart or in another map.
+/// The recorded poses of a head, strictly increasing in time. Answers as a tracker that knows only
+/// the past would: measured between two poses, predicted at constant velocity beyond the newest,
+/// lost where poses lie more than HeadTracker::kMaxHeadPrediction apart or in another map.
 class HeadHistory {
  public:
   HeadHistory() = default;
@@ -30,8 +30,8 @@ class HeadHistory {
   std::vector<HeadSample> samples_;
 };
 
-/// What the recorded device itself answered, by the newest frame's sequence number and the time
-/// asked for. A session that asks the same gets the same bits.
+/// The recorded device's own answers, by the newest frame's sequence number and the requested time.
+/// A session with the same requests gets the same bits.
 class HeadAnswers {
  public:
   void add(std::int64_t sequence, const Tracked<Transform<World, Rig>>& answer);
@@ -45,7 +45,7 @@ class HeadAnswers {
     std::size_t covariance = 0;
   };
   std::map<std::pair<std::int64_t, Timestamp>, Answer> answers_;
-  // Most devices know one covariance; each distinct one in a row is held once.
+  // Most devices state a single covariance; consecutive equal ones are stored once.
   std::vector<PoseCovariance> covariances_;
 };
 

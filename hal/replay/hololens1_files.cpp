@@ -18,7 +18,8 @@ constexpr std::uintmax_t kMaxCsvBytes = std::uintmax_t{1} << 30U;
 constexpr std::size_t kColumns = 50;  // time, image, three matrices
 constexpr std::size_t kOriginColumn = 2;
 constexpr std::size_t kViewColumn = 18;
-// Six significant digits of numbers up to 1; a camera that moves in its headset is damage.
+// Files have six significant digits of numbers up to 1; a camera that moves in its headset means
+// damage.
 constexpr double kSameCamera = 1e-3;
 constexpr double kRotationTolerance = 1e-2;
 
@@ -58,7 +59,7 @@ Result<std::optional<Transform<A, B>>> read_matrix(const std::vector<std::string
   return std::optional<Transform<A, B>>(*pose);
 }
 
-/// The camera in the headset, in vision axes: taken from the first row that has it, the same in
+/// The camera in the headset, in vision axes: from the first row that has it; must be the same in
 /// all.
 template <class Camera>
 Status take_view(const Transform<Camera, Rig>& view,
@@ -196,7 +197,7 @@ class CornerTable {
     }
     return {-double{pair[0]}, double{pair[1]}};
   }
-  /// Half a pixel on in both directions; past the last column and row as it went on before.
+  /// Half a pixel further in both directions; extrapolated past the last column and row.
   [[nodiscard]] Vec2 centre(int x, int y) const {
     const int x0 = std::min(x, width_px_ - 2);
     const int y0 = std::min(y, height_px_ - 2);

@@ -35,8 +35,8 @@ std::string error_of(archive* a) {
   return text ? text : "unknown error";
 }
 
-/// Hands over the members until one is refused or reaches past the file's end; libarchive's last
-/// answer.
+/// Passes on the members until one is refused or extends past the file's end; returns libarchive's
+/// last result.
 template <class Take>
 Result<int> for_each_member(archive* reader, std::uint64_t file_size, const Take& take) {
   archive_entry* entry = nullptr;
@@ -70,7 +70,7 @@ std::string size_text(std::int64_t width_px, std::int64_t height_px) {
   return std::to_string(width_px) + "x" + std::to_string(height_px);
 }
 
-/// By time, each time once; gives the number of those left out.
+/// Sorts by time and removes repeated times; returns how many were removed.
 std::int64_t sort_unique(std::vector<ImageMember>& members) {
   const auto by_time = [](const ImageMember& a, const ImageMember& b) { return a.ticks < b.ticks; };
   std::stable_sort(members.begin(), members.end(), by_time);
@@ -112,7 +112,7 @@ Status ImageTar::index() {
     return file_error(path_, "cannot be read: " + code.message());
   }
   if (file_size == 0) {
-    return no_whole_image(file_size);  // for libarchive it is no archive
+    return no_whole_image(file_size);  // libarchive does not recognize it
   }
   const ArchiveReader reader(archive_read_new());
   archive_read_support_format_tar(reader.get());
@@ -146,7 +146,7 @@ Status ImageTar::index() {
   return {};
 }
 
-/// Of "<prefix><digits>.pgm", or of "<prefix><digits>_ab.pgm" where there are such images.
+/// Parses "<prefix><digits>.pgm", or "<prefix><digits>_ab.pgm" if the layout has such images.
 std::optional<ImageTar::Name> ImageTar::parsed(std::string_view name) const {
   constexpr std::string_view kEnding = ".pgm";
   constexpr std::string_view kBrightness = "_ab";
@@ -191,7 +191,7 @@ Status ImageTar::index_member(const char* name_text, bool plain, std::uint64_t o
   return {};
 }
 
-/// The first image decides where the layout does not say how large they are.
+/// The first image decides if the layout does not state a size.
 Status ImageTar::check_image(const PgmHeader& header, std::uint64_t size) {
   if (layout_.width_px == 0) {
     const auto fits = [](std::int64_t side) {

@@ -24,39 +24,40 @@ struct ImageMember {
 
 enum class PixelKind { kGrey8, kBigEndian16, kLittleEndian16 };
 
-/// What the members of an archive are.
+/// The layout of an archive's members.
 struct ImageLayout {
   std::string prefix;  ///< before the ticks in a name; HoloLens 1 writes "vlc_lf" and a backslash
   PixelKind pixels = PixelKind::kGrey8;
-  int width_px = kImageWidthPx;  ///< 0: as large as the first image
+  int width_px = kImageWidthPx;  ///< 0: as in the first image
   int height_px = kImageHeightPx;
   bool with_brightness = false;  ///< `<ticks>_ab.pgm` beside `<ticks>.pgm`
 };
 
 /// The images of one sensor: a ustar archive of `<ticks>.pgm`. Only the index is held in memory;
-/// pixels are read where they lie.
+/// pixels are read on demand.
 class ImageTar {
  public:
-  /// Reads every header. Refuses an archive that holds no whole image or anything else than such
-  /// images, or goes on after its end mark. Of one that was cut off the whole images are there.
+  /// Reads every header. Refuses an archive without a whole image, with anything other than such
+  /// images, or with data after its end mark. From a truncated archive, the whole images are
+  /// available.
   static Result<ImageTar> open(const std::filesystem::path& path, ImageLayout layout = {});
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// By time, each time once.
   [[nodiscard]] const std::vector<ImageMember>& members() const { return members_; }
-  /// The same of the `_ab` images.
+  /// The same for the `_ab` images.
   [[nodiscard]] const std::vector<ImageMember>& brightness() const { return brightness_; }
   [[nodiscard]] int width_px() const { return layout_.width_px; }
   [[nodiscard]] int height_px() const { return layout_.height_px; }
-  /// In one line, where the archive was cut off; empty: it has its end mark.
+  /// In one line, where the archive was truncated; empty: it has its end mark.
   [[nodiscard]] const std::string& cut() const { return cut_; }
   /// Up to the end of its last whole image.
   [[nodiscard]] std::uint64_t whole_bytes() const { return whole_bytes_; }
   /// Up to the end of this one.
   [[nodiscard]] std::uint64_t end_of(const ImageMember& member) const;
-  /// Images left out because their time had come already.
+  /// Images left out because of a repeated time.
   [[nodiscard]] std::int64_t repeated() const { return repeated_; }
-  /// Reads a member of an archive of 8 or of 16 bits a pixel.
+  /// Reads a member of an archive with 8 or 16 bits per pixel.
   Status read(const ImageMember& member, GreyImage& image);
   Status read(const ImageMember& member, DepthImage& image);
 

@@ -12,7 +12,7 @@ using Pose = PosesByTicks::value_type;
 
 constexpr Duration kTick(100);
 
-/// Between two worlds there is nothing to interpolate.
+/// Poses in two different worlds can't be interpolated.
 bool is_one_motion(const Pose& a, const Pose& b) {
   const Duration apart = (b.first - a.first) * kTick;
   const double apart_s = seconds(apart);

@@ -13,19 +13,19 @@ namespace orthonav::replay {
 inline constexpr int kImageWidthPx = 640;
 inline constexpr int kImageHeightPx = 480;
 inline constexpr std::size_t kImageBytes = std::size_t{640} * 480;
-/// Depth images are of any size in these bounds: 512x512 (AHaT), 320x288 (long throw of HoloLens
-/// 2), 448x450 (HoloLens 1).
+/// Depth images may have any size within these bounds: 512x512 (AHaT), 320x288 (long throw of
+/// HoloLens 2), 448x450 (HoloLens 1).
 inline constexpr int kMinDepthSidePx = 2;
 inline constexpr int kMaxDepthSidePx = 2048;
-/// Cameras sit within a headset.
+/// Cameras lie within a headset.
 inline constexpr double kMaxExtrinsics_m = 1.0;
 inline constexpr const char* kLeftSensor = "VLC LF";
 inline constexpr const char* kRightSensor = "VLC RF";
 inline constexpr const char* kAhatSensor = "Depth AHaT";
 inline constexpr const char* kLongThrowSensor = "Depth Long Throw";
 inline constexpr const char* kShortThrowSensor = "Depth Short Throw";  ///< our own, of HoloLens 1
-/// The year 1970 in ticks of 100 ns since 1601. Ticks times 100 overflow from the year 1893 on, so
-/// that a recording with FILETIME ticks counts its nanoseconds from 1970.
+/// The year 1970 in ticks of 100 ns since 1601. In nanoseconds, such ticks overflow from the year
+/// 1893 on, so a recording with FILETIME ticks counts its nanoseconds from 1970.
 inline constexpr std::int64_t kUnixEpochTicks = 116444736000000000;
 
 /// Times 100 this still fits into 64 bits of nanoseconds.
@@ -34,7 +34,7 @@ inline constexpr std::int64_t kMaxNs = 100 * kMaxTicks;
 /// Poses farther from the origin than this are damage.
 inline constexpr double kMaxWorldM = 1e6;
 
-/// Ends the name of a recording that is not closed yet.
+/// The suffix of a recording that is not closed yet.
 inline constexpr std::string_view kUnfinished = ".part";
 /// "DIR/" and "DIR" are one folder.
 inline std::filesystem::path without_slash(const std::filesystem::path& folder) {

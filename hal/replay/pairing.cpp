@@ -7,7 +7,8 @@
 namespace orthonav::replay {
 namespace {
 
-/// The image nearest to a time; of two as near the earlier one. There is one at least.
+/// The image nearest to a time; the earlier one if two are equally near. There must be at least
+/// one.
 const ImageMember& nearest(const std::vector<ImageMember>& images, std::int64_t ticks) {
   const auto after =
       std::lower_bound(images.begin(), images.end(), ticks,

@@ -12,8 +12,8 @@ struct MemberPair {
   ImageMember right;
 };
 
-/// Two images that are each other's nearest in time and at most `within_ticks` apart; both lists by
-/// time, each time once. No image is in two pairs.
+/// Pairs of images that are each other's nearest in time and at most `within_ticks` apart; both
+/// lists are sorted by time, each time once. No image is in two pairs.
 std::vector<MemberPair> paired(const std::vector<ImageMember>& left,
                                const std::vector<ImageMember>& right, std::int64_t within_ticks);
 

@@ -8,7 +8,7 @@
 
 namespace orthonav::replay {
 
-/// What stands before the pixels of a binary PGM (P5); each number has at most nine digits.
+/// The header of a binary PGM (P5); each number has at most nine digits.
 struct PgmHeader {
   std::int64_t width_px = 0;
   std::int64_t height_px = 0;

@@ -14,7 +14,7 @@ Status add_paired(const std::filesystem::path& folder, const Sensors& sensors,
   const auto& left = recording.left.members();
   const auto& right = recording.right.members();
   const auto path = tar_of(folder, sensors.left);
-  // The lists are sorted: their ends tell whether every difference fits.
+  // The lists are sorted, so checking their ends is enough for every difference.
   for (const std::int64_t ticks :
        {left.front().ticks, left.back().ticks, right.front().ticks, right.back().ticks}) {
     if (auto time = named_time(path, ticks, recording.epoch_ticks_100ns); !time) {
@@ -43,8 +43,8 @@ Status add_listed(const std::filesystem::path& folder, Recording& recording) {
   }
   const auto& left = recording.left.members();
   const auto& right = recording.right.members();
-  // In a recording that was cut off, one file may hold more than another. A pair is whole where all
-  // of them hold it.
+  // In a truncated recording, one file may hold more than another. A pair is whole if all of them
+  // hold it.
   const std::size_t whole = std::min({rows->size(), left.size(), right.size()});
   if (whole == 0) {
     return file_error(folder, "holds no whole pair: it was cut off before its first one");
@@ -95,7 +95,7 @@ Status add_poses(const std::filesystem::path& path, const PosesByTicks& poses,
     if (!time) {
       return time.error();
     }
-    // A pose without a pair lies in the map of the pair after it, or of the last one.
+    // A pose without a pair belongs to the map of the next pair, or of the last one.
     const auto epoch = map_epochs.lower_bound(ticks);
     samples.push_back(
         {*time, pose, (epoch == map_epochs.end() ? std::prev(epoch) : epoch)->second});

@@ -19,13 +19,13 @@ class Tape {
  public:
   explicit Tape(std::unique_ptr<RecordingWriter> writer) : writer_(std::move(writer)) {}
 
-  /// Calls `write` with the writer while recording goes on.
+  /// Calls `write` with the writer while recording is on.
   template <class Write>
   void record(const Write& write) {
     if (!running_.load()) {
       return;
     }
-    // Another thread may have closed meanwhile: what comes too late is no failure.
+    // Another thread may have closed it meanwhile: a late write is not a failure.
     if (Status status = write(*writer_); !status && running_.load()) {
       fail(status);
     }
@@ -67,7 +67,7 @@ class RecordingDepth : public DepthCamera {
  public:
   RecordingDepth(Headset& headset, DepthCamera& inner, Tape& tape)
       : headset_(headset), inner_(inner), tape_(tape) {}
-  /// Records all that there is.
+  /// Records all available frames.
   void drain() {
     for (auto answer = next(unseen_); answer && *answer == Next::kFrame;) {
       answer = next(unseen_);
@@ -98,7 +98,7 @@ using RecordingDepths = std::vector<std::unique_ptr<RecordingDepth>>;
 
 class RecordingCamera : public StereoCamera {
  public:
-  /// Drains the depth cameras named at each call.
+  /// Drains the given depth cameras at each call.
   RecordingCamera(Headset& inner, Tape& tape, const RecordingDepths& drained)
       : inner_(inner), tape_(tape), drained_(drained) {}
 
@@ -138,8 +138,8 @@ class RecordingHead : public HeadTracker {
   }
 };
 
-/// Clicker and voice alike. An event was on time if it came with the first poll that asked for its
-/// time, and late otherwise: then the replay delivers it as late.
+/// For both clicker and voice. An event was on time if it came with the first poll that covered its
+/// time, and late otherwise: the replay then delivers it equally late.
 template <class Device, class Event>
 class RecordingEvents : public Device {
  public:
@@ -148,14 +148,14 @@ class RecordingEvents : public Device {
  private:
   Device& inner_;
   Tape& tape_;
-  /// Whoever asks for everything at once asks for no time that a file could hold.
+  /// The time of a poll for everything may not fit into a file.
   static constexpr Timestamp kLatest{Duration{kMaxNs}};
   std::optional<Timestamp> asked_until_;
   Timestamp available_ = Timestamp::min();
 
   Status do_poll(Timestamp until, std::vector<Event>& events) override {
     const std::size_t before = events.size();
-    // A poll that fails has asked too: what was due comes with a later one, and is late.
+    // A failed poll counts too: events due in it come with a later one and are late.
     const Status status = inner_.poll(until, events);
     for (std::size_t i = before; i < events.size(); ++i) {
       const bool late = asked_until_ && events[i].time <= *asked_until_;

@@ -10,21 +10,20 @@ namespace orthonav::replay {
 
 struct RecorderOptions {
   std::string tools_json;  ///< kept beside the recording as tools.json, if not empty
-  /// The depth cameras are read by the recorder itself, whenever it is asked for a pair, and nobody
-  /// else sees them: for a session that has no use for depth. False: what somebody reads is
-  /// recorded.
+  /// The recorder itself reads the depth cameras whenever it is asked for a pair, and hides them
+  /// from the session: for a session that does not use depth. False: only frames that the session
+  /// reads are recorded.
   bool takes_depth = false;
 };
 
-/// A headset that passes everything on to another one and records what went through: images, depth,
-/// head poses, answers of the head tracker, clicker and voice. It writes StreamRecorder's layout
-/// and a few files more (docs/recordings.md), so that ReplayHeadset delivers the same session to
-/// the bit.
+/// A headset that forwards everything to another one and records it: images, depth, head poses,
+/// answers of the head tracker, clicker and voice. It writes StreamRecorder's layout and a few more
+/// files (docs/recordings.md), so that ReplayHeadset delivers the same session to the bit.
 ///
-/// Writes into `folder` + ".part" and renames on close(); a recording that was cut off stays there.
-/// A recording that fails (a full disk) never disturbs the session: everything is passed on
-/// unchanged, recording stops, and recording_status() and close() say why. Each call writes on the
-/// thread that makes it; cameras, depth cameras and close() belong to one.
+/// Writes into `folder` + ".part" and renames on close(); an interrupted recording stays there. A
+/// recording that fails (a full disk) never disturbs the session: everything is passed on
+/// unchanged, recording stops, and recording_status() and close() say why. Each call writes on its
+/// own thread; cameras, depth cameras and close() must use the same one.
 class RecordingHeadset : public ForwardingHeadset {
  public:
   /// Refuses a folder that exists and is not empty, one left over under the temporary name, and
@@ -32,17 +31,17 @@ class RecordingHeadset : public ForwardingHeadset {
   static Result<std::unique_ptr<RecordingHeadset>> create(std::unique_ptr<Headset> inner,
                                                           const std::filesystem::path& folder,
                                                           const RecorderOptions& options = {});
-  /// The same around a headset that somebody else owns and keeps alive.
+  /// The same around a borrowed headset.
   static Result<std::unique_ptr<RecordingHeadset>> around(Headset& inner,
                                                           const std::filesystem::path& folder,
                                                           const RecorderOptions& options = {});
   /// The first failure of the recording so far.
   [[nodiscard]] virtual Status recording_status() const = 0;
-  /// Whether it failed, for whoever asks in each step, on any thread: waits for nobody.
+  /// Whether it failed: callable at every step from any thread, never waits.
   [[nodiscard]] virtual bool recording_failed() const = 0;
-  /// Finishes the files and gives the folder its name. Nothing is recorded from here on, while the
-  /// devices go on. A recording without a single pair is no recording: an error. The destructor
-  /// closes too, but cannot say whether that went well.
+  /// Finishes the files and gives the folder its name. Nothing is recorded after that, but the
+  /// devices continue. A recording without a single pair is an error. The destructor closes too,
+  /// but can't report whether that succeeded.
   virtual Status close() = 0;
 
  protected:

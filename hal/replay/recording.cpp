@@ -56,7 +56,7 @@ Status add_own_files(const std::filesystem::path& folder, Recording& recording) 
   return {};
 }
 
-/// A recording that does not say it began one nominal frame before its first pair.
+/// A recording that does not state its start began one nominal frame before its first pair.
 Timestamp nominal_start(const Recording& recording) {
   constexpr Duration kNominalFrame = std::chrono::nanoseconds(33'333'333);
   return recording.pairs.front().clock - kNominalFrame;
@@ -84,8 +84,8 @@ Status add_device(const std::filesystem::path& folder, RecordedStamps stamps,
   }
   const std::int64_t first_ticks = recording.left.members().front().ticks;
   recording.stamps_late = lateness(device, is_ours, stamps);
-  // The files' ticks are late. Time zero is moved by as much, so that each pair has its true time
-  // and keeps the name that the files give it.
+  // The files' ticks are late. Time zero is moved by the same amount, so that each pair has its
+  // true time and keeps its ticks in the files.
   recording.epoch_ticks_100ns = device.epoch_ticks_100ns.value_or(epoch_of(first_ticks)) +
                                 recording.stamps_late / Duration(100);
   recording.display_latency = device.display_latency;
@@ -102,13 +102,13 @@ Status add_device(const std::filesystem::path& folder, RecordedStamps stamps,
   return {};
 }
 
-/// Files that our recorder lets grow line by line, and the poses.
+/// Checks the files that our recorder writes line by line, and the poses.
 void note_torn_lines(const std::filesystem::path& folder, Recording& recording) {
   const bool is_ours = is_there(folder / kFramesFile);
   for (const std::filesystem::path& path :
        {folder / kFramesFile, folder / kMapFile, folder / kEventsFile, folder / kHeadFile,
         poses_of(folder, kLeftSensor), poses_of(folder, kRightSensor)}) {
-    // Other recorders may leave out the end of their last line.
+    // Other recorders may omit the end of their last line.
     if ((is_ours || !recording.summary.cut.empty()) && is_there(path) && is_torn_file(path)) {
       note_cut(path.filename().string() + " ends within a line", recording.summary.cut);
     }
@@ -137,8 +137,8 @@ Status open_archives(const std::filesystem::path& folder, const Sensors& sensors
   return {};
 }
 
-/// The rig's poses, by the left camera's file; the right one's says the same again and is read for
-/// its damage only.
+/// The rig's poses, from the left camera's file; the right one's holds the same and is read only to
+/// detect damage.
 Status add_camera_poses(const std::filesystem::path& folder, Recording& recording) {
   const auto path = poses_of(folder, kLeftSensor);
   const auto poses = read_poses(path);
@@ -148,7 +148,8 @@ Status add_camera_poses(const std::filesystem::path& folder, Recording& recordin
   if (auto same = read_poses(poses_of(folder, kRightSensor)); !same) {
     return same.error();
   }
-  // Ticks that are no valid time are damage, even of a pose that the correction would leave out.
+  // Ticks that are not a valid time are damage, even for a pose that the correction would leave
+  // out.
   if (!poses->empty()) {
     for (const std::int64_t ticks : {poses->begin()->first, poses->rbegin()->first}) {
       if (auto time = named_time(path, ticks, recording.epoch_ticks_100ns); !time) {

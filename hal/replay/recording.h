@@ -19,22 +19,22 @@ namespace orthonav::replay {
 struct RecordedPair {
   std::int64_t sequence = 0;
   Timestamp time{};
-  Timestamp clock{};  ///< what the device's clock showed once the pair was there
+  Timestamp clock{};  ///< the device's clock when the pair was available
   ImageMember left;
   ImageMember right;
   std::optional<Transform<World, Rig>> world_from_rig;
   std::int64_t map_epoch = 0;
 };
 
-/// What device.csv says; the defaults are those of a recording without it.
+/// The content of device.csv; the defaults are those of a recording without it.
 struct RecordedDevice {
   std::optional<std::int64_t> epoch_ticks_100ns;
   Duration display_latency{};
   std::optional<Timestamp> clock_start;
-  std::optional<Duration> stamps_late;  ///< of files that another recorder wrote
+  std::optional<Duration> stamps_late;  ///< in files from another recorder
 };
 
-/// A whole folder but for the pixels, checked.
+/// A checked folder, without the pixels.
 struct Recording {
   StereoCalibration calibration;
   ImageTar left;
@@ -44,7 +44,7 @@ struct Recording {
   HeadAnswers head_answers;
   RecordedEvents events;
   std::int64_t epoch_ticks_100ns = 0;
-  Duration stamps_late{};  ///< of the front cameras' files, corrected in all the rest
+  Duration stamps_late{};  ///< of the front cameras' files; corrected everywhere else
   Timestamp clock_start{};
   Duration display_latency{};
   std::string tools_json;

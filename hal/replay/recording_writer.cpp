@@ -33,7 +33,7 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(
     const std::filesystem::path& folder, const StereoCalibration& calibration,
     const RecordedDevice& device, const std::string& tools_json) {
   auto writer = std::make_unique<RecordingWriter>();
-  // Whose temporary name lies beside it.
+  // The temporary folder lies next to it.
   writer->folder_ = without_slash(folder);
   if (writer->folder_.empty()) {
     return file_error(folder, "is no name for a recording");

@@ -23,7 +23,7 @@ class RecordingWriter {
                                                          const RecordedDevice& device,
                                                          const std::string& tools_json);
   Status frame(const StereoFrame& frame, Timestamp clock);
-  /// A frame of one of the depth cameras, which has a file of its own from its first frame on.
+  /// A frame of one of the depth cameras, each of which has its own file from its first frame on.
   Status depth(const DepthCalibration& calibration, const DepthFrame& frame, Timestamp clock);
   Status event(const Delivered<ClickerEvent>& event);
   Status event(const Delivered<Phrase>& event);

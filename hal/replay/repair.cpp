@@ -31,7 +31,7 @@ Status end_archive(const std::filesystem::path& path, std::uint64_t whole_bytes)
   return resize(path, whole_bytes + kEndMarkBytes);
 }
 
-/// Keeps whole lines, so many at most.
+/// Keeps whole lines, at most `most`.
 Status keep_lines(const std::filesystem::path& path, std::size_t most) {
   if (!is_there(path)) {
     return {};
@@ -59,7 +59,7 @@ Status keep_frames(const std::filesystem::path& list, std::size_t whole) {
 }
 
 Status close_pairs(const std::filesystem::path& folder, const Recording& recording) {
-  // Our recorder writes in the order of time, and lists what is whole.
+  // Our recorder writes in the order of time, and lists the complete frames.
   const bool is_listed = is_there(folder / kFramesFile);
   const RecordedPair& last = recording.pairs.back();
   if (is_listed) {

@@ -8,14 +8,14 @@
 
 namespace orthonav::replay {
 
-/// How far a replay has come. Written by the cameras, read from any thread.
+/// Progress of a replay. Written by the cameras, read from any thread.
 struct Progress {
   std::atomic<Timestamp> clock{};
-  std::atomic<bool> pairs_over{false};  ///< who asked was told so
+  std::atomic<bool> pairs_over{false};  ///< and the caller was told so
   std::atomic<Timestamp> frame_time{Timestamp::min()};
   std::atomic<std::int64_t> sequence{-1};
 
-  /// Never back.
+  /// Never moves backwards.
   void advance_to(Timestamp time) {
     Timestamp now = clock.load();
     while (now < time && !clock.compare_exchange_weak(now, time)) {
@@ -23,7 +23,7 @@ struct Progress {
   }
 };
 
-/// The wall's clock from the recording's start on in real time, else where the cameras are.
+/// In real time, the wall clock from the recording's start on; otherwise the cameras' time.
 class ReplayClock : public Clock {
  public:
   ReplayClock(const Progress& progress, const ReplayOptions& options, Timestamp start)

@@ -17,7 +17,7 @@ Result<Next> ReplayDepth::do_next(DepthFrame& frame) {
   return Next::kFrame;
 }
 
-/// Whether the next frame may come; in real time the newest that is due becomes the next.
+/// Whether the next frame is due; in real time the newest due frame becomes the next one.
 bool ReplayDepth::due() {
   const auto& frames = depth_.frames;
   const Timestamp now = clock_.now();

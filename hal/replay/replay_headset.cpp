@@ -24,7 +24,7 @@ class ReplayCamera : public StereoCamera {
   Progress& progress_;
   const Clock& clock_;
   ReplayPace pace_;
-  std::atomic<std::int64_t> steps_{0};  ///< asked for and not taken yet
+  std::atomic<std::int64_t> steps_{0};  ///< requested and not taken yet
   std::size_t next_ = 0;
 
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
@@ -54,7 +54,7 @@ class ReplayCamera : public StereoCamera {
     progress_.sequence = pair.sequence;
     return Next::kFrame;
   }
-  /// Whether the next pair may come; in real time the newest that is due becomes the next.
+  /// Whether the next pair is due; in real time the newest due pair becomes the next one.
   bool due() {
     if (pace_ == ReplayPace::kFast) {
       return true;

@@ -17,7 +17,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// What a message shows of a field that may be any bytes of any length.
+/// A field, which may hold any bytes of any length, as shown in a message.
 std::string quoted(std::string_view field) {
   std::string shown = "\"";
   for (const char c : field.substr(0, 24)) {

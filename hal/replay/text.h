@@ -35,27 +35,28 @@ Status write_bytes(const std::filesystem::path& path, std::span<const char> byte
 Status for_each_line(const std::string& text,
                      const std::function<Status(std::size_t, std::string_view)>& take);
 
-/// The same of a file that was written line by line: a last line that lacks its end and can't be
-/// understood was cut off, and is passed over.
+/// The same for a file that was written line by line: a last line without an end that can't be
+/// parsed was truncated, and is skipped.
 Status for_each_whole_line(const std::string& text,
                            const std::function<Status(std::size_t, std::string_view)>& take);
 
 /// Whether a file ends within a line; only its end is read.
 [[nodiscard]] bool is_torn_file(const std::filesystem::path& path);
-/// Adds a place where a recording was cut off to those before it; nothing for an empty one.
+/// Appends a place where a recording was truncated to the earlier ones; does nothing for an empty
+/// one.
 void note_cut(const std::string& where, std::string& all);
 
 /// Calls `take` for each line after the header line of a CSV file, which must be `header`.
 Status for_each_row(const std::filesystem::path& path, std::uintmax_t max_bytes,
                     std::string_view header, const std::function<Status(std::string_view)>& take);
 
-/// The same of a file that our recorder wrote line by line: a last line that lacks its end was cut
-/// off, and is passed over; so is a header.
+/// The same for a file that our recorder wrote line by line: a last line without an end was
+/// truncated, and is skipped; so is a header.
 Status for_each_grown_row(const std::filesystem::path& path, std::uintmax_t max_bytes,
                           std::string_view header,
                           const std::function<Status(std::string_view)>& take);
 
-/// Shortest text that reads back to the same bits, whatever the locale.
+/// Shortest text that reads back to the same bits, in any locale.
 void append_number(std::string& text, double value);
 void append_number(std::string& text, std::int64_t value);
 
@@ -63,14 +64,14 @@ void append_number(std::string& text, std::int64_t value);
 std::optional<double> parse_double(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
 
-/// Cuts at the commas.
+/// Splits at the commas.
 void split(std::string_view line, std::vector<std::string_view>& fields);
 
 /// 16 row-major numbers of a rigid motion: finite, last row 0 0 0 1.
 Result<std::array<double, 16>> parse_matrix(const std::vector<std::string_view>& fields,
                                             std::size_t first_field);
 
-/// A pose as it lies in the files; its translation is at most `max_translation_m` long.
+/// A pose as stored in the files; its translation is at most `max_translation_m` long.
 template <class A, class B>
 Result<Transform<A, B>> parse_pose(const std::vector<std::string_view>& fields,
                                    std::size_t first_field, double max_translation_m) {

@@ -12,7 +12,7 @@ struct BoneSpot {
   Vec3 normal;  ///< unit
 };
 
-/// Answers queries by looking at every triangle, which is enough for a few per minute. The level
+/// Answers queries by testing every triangle, which is fast enough for a few per minute. The level
 /// must outlive it.
 class BoneSurface {
  public:

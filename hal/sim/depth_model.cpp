@@ -10,7 +10,7 @@ namespace {
 /// Between the front cameras, in Rig.
 constexpr Vec3 kPlaceInRig{0.048, 0.011, -0.006};
 
-/// Looks forward and down by `down_rad`; raw images stand upright but for a small turn.
+/// Looks forward and down by `down_rad`; raw images are upright except for a small turn.
 Transform<DepthSensor, Rig> looking_down(double down_rad, double roll_rad) {
   const double c = std::cos(down_rad);
   const double s = std::sin(down_rad);

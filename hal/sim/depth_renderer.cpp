@@ -50,7 +50,7 @@ double outside(const Capsule& rod, Vec3 p) {
   return (p - (rod.a + s * axis)).norm() - radius;
 }
 
-/// Steps along the ray by what is certainly free, to within 0.05 mm; 0 where it misses.
+/// Steps along the ray by distances that are certainly free, to within 0.05 mm; 0 if it misses.
 float range_to(const Capsule& rod, Vec3 ray) {
   constexpr int kMostSteps = 60;
   constexpr double kReachedM = 5e-5;
@@ -130,7 +130,7 @@ void DepthRenderer::see_bones(const Transform<LeftCamera, Spine>& camera_from_sp
 }
 
 DepthRenderer::Window DepthRenderer::window_around(Vec3 centre, double radius_m) const {
-  // A sphere's image is at most so much larger off the axis than on it.
+  // A sphere's image is at most this factor larger off the axis than on it.
   constexpr double kWider = 2.0;
   const int width = calibration_.width_px;
   const int height = calibration_.height_px;
@@ -150,7 +150,7 @@ DepthRenderer::Window DepthRenderer::window_around(Vec3 centre, double radius_m)
   return {from(at.x, width), to(at.x, width), from(at.y, height), to(at.y, height)};
 }
 
-/// `range_along` says at which range a ray meets the body, 0 where it does not.
+/// `range_along` returns the range at which a ray meets the body, 0 if it does not.
 template <class RangeAlong>
 void DepthRenderer::see_in(const Window& window, Material material, const RangeAlong& range_along,
                            std::vector<DepthSight>& sights) const {

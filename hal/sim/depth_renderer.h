@@ -11,7 +11,7 @@
 
 namespace orthonav::sim {
 
-/// What a pixel of a depth camera looks at.
+/// The material that a pixel of a depth camera sees.
 enum class Material : std::uint8_t {
   kNothing,
   kFloor,
@@ -31,8 +31,8 @@ struct DepthSight {
   Material material = Material::kNothing;
 };
 
-/// The room as a depth camera would see it if it measured without error. Deterministic: the answer
-/// depends on the arguments alone. One thread at a time.
+/// The room as seen by a depth camera without measurement errors. Deterministic: the result depends
+/// only on the arguments. One thread at a time.
 class DepthRenderer {
  public:
   DepthRenderer(const RoomDescription& room, const DepthModel& model);

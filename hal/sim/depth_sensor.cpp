@@ -9,8 +9,8 @@
 namespace orthonav::sim {
 namespace {
 
-/// What comes back from a material, and how far behind its surface it seems to lie: light that
-/// enters it comes back late, most of all where it is translucent.
+/// The light that a material returns, and how far behind its surface it appears: light that enters
+/// it returns late, most of all in translucent material.
 struct Return {
   double albedo = 0.0;
   double bias_m = 0.0;
@@ -32,9 +32,9 @@ constexpr double kLongThrowBias = 9.0 / 5.7;
 constexpr double kReferenceM = 0.5;
 /// Grazing light: 1/cos is limited to this.
 constexpr double kMostOblique = 3.0;
-/// Less than this is no measurement.
+/// Less light than this gives no measurement.
 constexpr double kDarkest = 0.004;
-/// From this much light down to none, the noise grows from its bright to its dim SD.
+/// Below this much light, the noise grows from its bright to its dim SD.
 constexpr double kBright = 0.5;
 /// A step of this much between neighbours is an edge.
 constexpr double kEdgeM = 0.015;
@@ -42,7 +42,7 @@ constexpr double kEdgeM = 0.015;
 constexpr double kBrightnessUnit = 2000.0;
 constexpr double kMostBrightness = 60000.0;
 
-/// What lies beside a pixel: where its surface faces, and whether an edge runs through it.
+/// The surroundings of a pixel: the normal of its surface, and whether an edge runs through it.
 struct Around {
   double cosine = 1.0;
   float across_m = 0.0F;  ///< the range beyond the edge; 0: there is none

@@ -6,14 +6,14 @@
 
 namespace orthonav::sim {
 
-/// Makes of what is there what a time-of-flight camera measures: biased by the material, noisy
-/// where little light comes back, wrapped, torn at edges, in whole millimetres. Deterministic: the
-/// picture depends on the arguments alone.
+/// Adds the errors of a time-of-flight camera: biased by the material, noisy where little light
+/// returns, wrapped, torn at edges, in whole millimetres. Deterministic: the picture depends only
+/// on the arguments.
 class DepthSensorErrors {
  public:
   DepthSensorErrors(const DepthModel& model, const DepthErrors& errors)
       : model_(model), errors_(errors) {}
-  /// Fills the two images of `frame`; `seed` is this picture's.
+  /// Fills the two images of `frame`; `seed` belongs to this picture.
   void measure(const DepthCalibration& calibration, const std::vector<DepthSight>& sights,
                std::uint64_t seed, DepthFrame& frame) const;
 

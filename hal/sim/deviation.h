@@ -7,18 +7,19 @@
 
 namespace orthonav::sim {
 
-/// What H5 to H7 show at a moment: the rotation vector (Room, rad) that takes the tool's axis onto
-/// the planned one.
+/// The deviation that H5 to H7 show at a moment: the rotation vector (Room, rad) that takes the
+/// tool's axis onto the planned one.
 struct Deviation {
   Timestamp seen_at{};
   Vec3 turn;
 };
 
-/// Reads it off the display. With both dots of the cross off its rim: from the filled to the hollow
-/// one, checked against the number. Farther off: where to by the triangle, less what the filled dot
-/// says of the tip, and how far by the number. The triangle alone does not tell: with the tip
-/// beside the entry it closes at another angle. Nothing when a part is missing or shows dashes, or
-/// when dots and number disagree by more than a degree.
+/// Reads it off the display. If neither dot of the cross is held at its rim, it is the line from
+/// the filled to the hollow one, checked against the number. Otherwise the triangle gives the
+/// direction, corrected for the tip's offset that the filled dot shows, and the number gives the
+/// size. The triangle alone is not enough: with the tip beside the entry it closes at another
+/// angle. Nothing if a part is missing or shows dashes, or if dots and number disagree by more than
+/// a degree.
 [[nodiscard]] std::optional<Deviation> read_deviation(const Eyes& eyes);
 
 /// The readings of the last seconds, one per displayed frame.
@@ -28,7 +29,7 @@ class DeviationMemory {
   void clear() { count_ = 0; }
   /// The newest seen at or before `until`.
   [[nodiscard]] std::optional<Deviation> newest(Timestamp until) const;
-  /// The mean rotation of those seen since; nothing when they don't reach back that far.
+  /// The mean rotation of the readings since then; nothing if they don't reach back that far.
   [[nodiscard]] std::optional<Vec3> mean_since(Timestamp since) const;
 
  private:

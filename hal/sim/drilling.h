@@ -10,48 +10,49 @@
 
 namespace orthonav::sim {
 
-/// So long a median surgeon drives a wire; the tool's tip advances by so much meanwhile.
+/// How long a median surgeon drives a wire, and how far the tool's tip advances meanwhile.
 inline constexpr double kDriving_s = 3.5;
 inline constexpr double kAdvance_m = 0.010;
-/// Visual reaction to a moving target (Jeannerod 1988: 0.2-0.3 s), and the share of the seen
-/// deviation taken out in a second: times the reaction well below 1, or the hand would swing.
+/// Visual reaction to a moving target (Jeannerod 1988: 0.2-0.3 s), and the fraction of the seen
+/// deviation corrected per second: its product with the reaction time must be well below 1, or the
+/// hand would oscillate.
 inline constexpr double kReaction_s = 0.25;
 inline constexpr double kGain_per_s = 1.6;
 
-/// A hand that drives a wire, at a moment.
+/// The state of a hand that drives a wire.
 struct Drilling {
   std::size_t level = 0;
   Side side = Side::kLeft;
   double way = 0.0;        ///< fraction of the advance, 0 to 1
-  Vec3 unseen_turn_rad{};  ///< by which the wire turns and the tool does not, in Room
+  Vec3 unseen_turn_rad{};  ///< turn of the wire that the tool does not share, in Room
 };
 
 /// How a hand turns while it drills: SDs about each direction across the tool.
 struct HandWhileDrilling {
-  double of_wire_rad = 0.0;  ///< what the hand's turn makes of the wire if nothing is corrected
-  double unseen_rad = 0.0;   ///< of the wire and not of the tool, so that no display shows it
+  double of_wire_rad = 0.0;  ///< of the wire from the hand's turn, without correction
+  double unseen_rad = 0.0;   ///< of the wire but not of the tool, so that no display shows it
 };
-/// By the two magnitudes of drilling hands, which are totals: of the wire's axis without a number,
-/// and with one. In a closed loop the hand turns as without a number and the surgeon takes part of
-/// that out; `unseen_rad` is what is then missing, in quadrature, from the second magnitude.
+/// From the two magnitudes of drilling hands, which are totals for the wire's axis without a number
+/// and with one. In a closed loop the hand turns as without a number and the surgeon corrects a
+/// part of it; `unseen_rad` makes up the difference, in quadrature, to the second magnitude.
 [[nodiscard]] HandWhileDrilling hand_while_drilling(const ErrorModel& error_model,
                                                     GuidanceProfile guidance);
-/// What correcting with that reaction and gain leaves of a hand's turn in the wire of a median
-/// surgeon: 0.46, from reaction, gain and `kDriving_s`.
+/// The fraction of a hand's turn that remains in the wire of a median surgeon after correction:
+/// 0.46, from reaction, gain and `kDriving_s`.
 [[nodiscard]] double left_by_correcting();
 
-/// A wire on its way into a bone. Its tip goes where the tool points at each moment, so its axis
-/// is the chord of its way: what the hand does early counts as much as what it does late.
+/// A wire advancing into a bone. Its tip moves where the tool points at each moment, so its axis is
+/// the chord of its path: early motion of the hand counts as much as late motion.
 class AdvancingWire {
  public:
   AdvancingWire(const Drilling& begun, Point<Vertebra> entry, Timestamp pierced = {})
       : newest_(begun), entry_(entry), pierced_(pierced) {}
-  /// The tool points along `inwards` (Vertebra, unit) as the wire gets to `way`.
+  /// The tool points along `inwards` (Vertebra, unit) when the wire has advanced to `way`.
   void follow(Vec3 inwards, const Drilling& now);
   [[nodiscard]] const Drilling& last() const { return newest_; }
   [[nodiscard]] Point<Vertebra> entry() const { return entry_; }
   [[nodiscard]] Timestamp pierced() const { return pierced_; }
-  /// Unit; `first` before it advanced at all.
+  /// Unit; `first` before it has advanced.
   [[nodiscard]] Vec3 direction(Vec3 first) const;
 
  private:

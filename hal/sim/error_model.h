@@ -8,13 +8,13 @@ namespace orthonav::sim {
 
 /// Every imperfection of the simulated operating room. `perfect()` has all of them at zero. Each
 /// line says where its default comes from: a measurement, a publication, or our own estimate
-/// ("estimate": nobody published it for this device or this hand). SD is per axis where a vector
-/// is meant. docs/accuracy.md discusses which of them decide the outcome.
+/// ("estimate": not published for this device or this hand). For vectors, SD is per axis.
+/// docs/accuracy.md discusses which of them decide the outcome.
 struct ErrorModel {
   // The camera: HoloLens 2 front cameras. Grey values are of 255.
 
-  /// Gaussian SD of lens and pixel cross-talk, besides the pixel's own square. Estimate: edges in
-  /// published frames of these cameras rise over about two pixels.
+  /// Gaussian SD of lens and pixel cross-talk, in addition to the pixel's own square. Estimate:
+  /// edges in published frames of these cameras rise over about two pixels.
   double blur_sigma_px = 0.7;
   /// Duration of the exposure, which decides motion blur. Estimate for a lit operating field.
   double exposure_s = 0.004;
@@ -49,59 +49,60 @@ struct ErrorModel {
   double head_pose_noise_m = 0.0005;
   double head_pose_noise_rad = 0.0003;
   /// Fraction of that variance that lasts for seconds instead of being new in every frame.
-  /// Estimate: a tracker smooths over many frames, so its error is anything but white.
+  /// Estimate: a tracker smooths over many frames, so its error is far from white.
   double head_pose_lasting = 0.5;
-  /// Random walk of World against the room: 1 mm and half a milliradian after 100 s. The low end of
-  /// what is reported (0.1 to 0.5 mm/sqrt(s)): with 0.3 the surfaces of the paper would not have
-  /// fitted as they did.
+  /// Random walk of World relative to the room: 1 mm and half a milliradian after 100 s. The low
+  /// end of what is reported (0.1 to 0.5 mm/sqrt(s)): with 0.3 the surfaces of the paper would not
+  /// have fitted as they did.
   double map_drift_m_per_sqrt_s = 0.0001;
   double map_drift_rad_per_sqrt_s = 0.00005;
-  /// Now and then the map corrects itself in one step: SD per axis, and how often. Estimate.
+  /// Occasionally the map corrects itself in one step: SD per axis, and how often. Estimate.
   double map_step_m = 0.0005;
   double map_steps_per_min = 0.5;
 
-  // The tools as the planning file describes them, compared with how they are.
+  // The tools as the planning file describes them, compared with the real ones.
 
-  /// SD of the tip: what a pivot calibration with such cameras leaves. Estimate.
+  /// SD of the tip after a pivot calibration with such cameras. Estimate.
   double tip_calibration_m = 0.0005;
   /// SD of the axis about the two directions across it: a printed tool, made by hand (0.005 to
   /// 0.017).
   double axis_calibration_rad = 0.010;
   /// Relative SD of a printed tag's size against the size that is stated (0.001 to 0.01).
   double tag_scale = 0.003;
-  /// SD of how far the edges of a tag stand over its middle: a print that is glued to a plate by
-  /// hand (0 to 0.3 mm). Estimate.
+  /// SD of the height of a tag's edges above its middle, for a print glued to a plate by hand (0 to
+  /// 0.3 mm). Estimate.
   double tag_bow_m = 0.0001;
-  /// What a tag mirrors of the lamp in the worst direction, beside what white paper scatters (0 to
-  /// 0.6). Estimate for a matt laser print; a laminated one mirrors more.
+  /// The light of the lamp that a tag mirrors in the worst direction, relative to what white paper
+  /// scatters (0 to 0.6). Estimate for a matt laser print; a laminated one mirrors more.
   double tag_gloss = 0.15;
 
   // The light.
 
-  /// Amplitude of the lamp's light at twice the mains frequency, of its mean. At most 0.08: what
-  /// IEEE 1789-2015 allows at 100 Hz; a surgical lamp on smoothed current has a fraction of it.
+  /// Amplitude of the lamp's light at twice the mains frequency, relative to its mean. IEEE
+  /// 1789-2015 allows at most 0.08 at 100 Hz; a surgical lamp on smoothed current has a fraction of
+  /// that.
   double light_flicker = 0.02;
 
-  // The model against the bone that it was made of.
+  // The model relative to the bone it was made from.
 
   /// RMS distance of the preoperative surface from the bone (0.3 to 0.8 mm).
   double model_error_m = 0.0005;
-  /// Over this length the distance is alike (5 to 10 mm).
+  /// Correlation length of that distance (5 to 10 mm).
   double model_error_length_m = 0.007;
 
   // The patient. All zero: a phantom on a table.
 
-  /// Mean thickness of the soft tissue left on what is stroked: thick in valleys, thin on ridges.
-  /// 1 mm: a spine that was dissected in a hurry.
+  /// Mean thickness of the soft tissue left on the stroked surface: thick in valleys, thin on
+  /// ridges. 1 mm: a spine that was dissected in a hurry.
   double tissue_m = 0.0;
-  /// How far the spine moves with a breath where it moves most, from end to end (1.96 +- 1.32 mm in
-  /// ten patients); other levels move less (spine_motion.h).
+  /// Peak-to-peak motion of the spine with a breath where it moves most (1.96 +- 1.32 mm in ten
+  /// patients); other levels move less (spine_motion.h).
   double breathing_m = 0.0;
   double breathing_hz = 0.0;
   /// How far it gives way under the instrument (1.55 +- 1.13 mm).
   double push_m = 0.0;
-  /// The part of such a push that the neighbouring vertebra, and a reference on it, moves by as
-  /// well (0.5 to 0.9); two levels away it is the square. Estimate.
+  /// The fraction of such a push by which the neighbouring vertebra, and a reference on it, moves
+  /// too (0.5 to 0.9); two levels away it is the square. Estimate.
   double push_reaching_reference = 0.7;
   /// Mean number of drops of blood on a tag (0 to 2), and how wide one is. Estimates.
   double drops_per_tag = 0.0;
@@ -117,62 +118,62 @@ struct ErrorModel {
   /// 7-30 mm of path; never below the bone. Uncertain; the published registration RMSE was matched
   /// with it (docs/accuracy.md).
   double stroke_lift_m = 0.0020;
-  /// Relative SD of that height over surgeons: one presses, another glides. Fitted to the SD of the
+  /// Relative SD of that height over surgeons: some press, others glide. Fitted to the SD of the
   /// published registration RMSE.
   double stroke_lift_sd = 0.18;
-  /// SD of the tip's height above the bone when a single place is touched: pressed through soft
-  /// tissue without hurry, it is a fraction of what stroking leaves; never below the bone.
-  /// Estimate.
+  /// SD of the tip's height above the bone when a single place is touched: pressed slowly through
+  /// soft tissue, it is a fraction of the height while stroking; never below the bone. Estimate.
   double touch_lift_m = 0.0003;
-  /// SD along an axis of the pointer's tip put into the same dimple of the bone again. Estimate:
-  /// the play of a 1 mm ball in what an awl leaves.
+  /// SD along each axis of the pointer's tip when it is put into the same dimple of the bone again.
+  /// Estimate: the play of a 1 mm ball in the hole of an awl.
   double dimple_seating_m = 0.0002;
   /// Relative SD of the stroking speed from region to region. Estimate.
   double stroke_pace_sd = 0.05;
   /// Fraction of strokes that slip off the bone, are noticed, deleted and repeated. Estimate.
   double bad_stroke_probability = 0.1;
   /// At its worst, such a stroke leaves the bone by half to all of this: far enough to be noticed
-  /// beside the height of every stroke. Estimate. It is always deleted, so it costs time only.
+  /// compared with the usual height of strokes. Estimate. It is always deleted, so it only costs
+  /// time.
   double bad_stroke_lift_m = 0.008;
-  /// By how much the recognizer's mean confidence in a command falls short of 1, and its SD.
-  /// Estimate for an offline recognizer with a small vocabulary.
+  /// How far the recognizer's mean confidence in a command is below 1, and its SD. Estimate for an
+  /// offline recognizer with a small vocabulary.
   double voice_doubt = 0.10;
   double voice_doubt_sd = 0.03;
   /// SD of placing the tip on the perceived entry. Estimate.
   double entry_pick_m = 0.0004;
-  /// The guide's first direction is off by half to all of this, before any reading: by eye, a hand
-  /// aligns a tool with a line in space to several degrees. Estimate. The surgeon corrects it
+  /// The guide's first direction is off by half to all of this, before any reading: by eye, a tool
+  /// is aligned with a line in space to several degrees. Estimate. The surgeon corrects it
   /// afterwards.
   double first_guess_rad = 0.14;
   /// SD of the pointer's tip relative to the middle of a screw head's top, which is a few
   /// millimetres wide. Estimate, the same as for picking an entry.
   double head_pick_m = 0.0008;
-  /// The surgeon pierces when the deviation seen stays within this, and misreads the rest with this
-  /// SD about each direction across the axis: 0.3°, three of the readout's last digits.
+  /// The surgeon pierces when the deviation seen stays within this, and misreads the remainder with
+  /// this SD about each direction across the axis: 0.3°, three steps of the readout's last digit.
   double angle_reading_rad = 0.005;
   /// SD of where a hologram is perceived across the line of sight, constant during one placement:
   /// vergence, focus and eye calibration (1.3 to 2.5 mm; Condino et al. 2020 measured 2.3 mm for
   /// touching a hologram with a tip, 0.9 mm for a real target).
   double overlay_perception_m = 0.0013;
-  /// By how much larger that error is along the line of sight. Vergence alone makes it 2 to 3
-  /// times; a tip that rests on the bone, seen while the head moves, leaves less. Fitted to the
+  /// Factor by which that error is larger along the line of sight. Vergence alone gives 2 to 3;
+  /// with a tip that rests on the bone, seen while the head moves, it is smaller. Fitted to the
   /// entry error of Liebmann 2019.
   double perception_depth_ratio = 1.25;
   /// SD of comparing model and bone when verifying: looking from more than one side reveals half of
-  /// what one view gets wrong. Estimate.
+  /// the error of a single view. Estimate.
   double overlay_comparison_m = 0.00065;
-  /// SD of the direction in which a tool is held along a hologram where no number tells, about each
-  /// direction across it. Estimate: the perceived places of the two ends of 100 mm.
+  /// SD of the direction in which a tool is held along a hologram without a number, about each
+  /// direction across it. Estimate: from the perceived places of two ends 100 mm apart.
   double overlay_aligning_rad = 0.02;
   /// How often a number is misread by a degree or a millimetre. Estimate.
   double misreading_probability = 0.01;
-  /// SD of what a hand that turns while it drills makes of the wire's axis, about each direction
-  /// across it: without a number that it corrects by (0.015 to 0.035), and in all with one (0.008
-  /// to 0.018). drilling.h says how the surgeon comes by the second from the first.
+  /// SD of the wire's axis, about each direction across it, from a hand that turns while it drills:
+  /// without a number to correct by (0.015 to 0.035), and in total with one (0.008 to 0.018).
+  /// drilling.h says how correction leads from the first to the second.
   double hand_drilling_rad = 0.028;
   double hand_drilling_corrected_rad = 0.014;
 
-  // The instrument. These are of a K-wire that nothing supports; `instruments.h` holds others.
+  // The instrument. These values are for an unsupported K-wire; `instruments.h` holds others.
 
   /// SD of the tip's slip along the cortex at piercing: a sharp tip, or one in a sleeve (0.2 to
   /// 0.6); a blunt one on a facet slips by 1.2 mm.
@@ -180,11 +181,11 @@ struct ErrorModel {
   /// SD of the bending about each direction across it while it is driven (0.02 to 0.04; in a
   /// cannula or as a drill in a sleeve 0.004 to 0.012).
   double wire_bending_rad = 0.03;
-  /// SD of the direction of a sleeve about that of a wire in it: the play of a long sleeve, 0.25°.
+  /// SD of a sleeve's direction relative to that of a wire in it: the play of a long sleeve, 0.25°.
   /// Estimate.
   double sleeve_play_rad = 0.0044;
-  /// SD of how badly a screw follows the hole that was made for it (0.02 to 0.06); zero for what
-  /// makes its own.
+  /// SD of how far a screw deviates from the hole made for it (0.02 to 0.06); zero for an
+  /// instrument that makes its own hole.
   double hole_following_rad = 0.0;
   /// Speed of the median surgeon; 1 is that of the publication (Liebmann et al. 2019: 125 s and
   /// 1,983 points per level), so it is an input here and not a finding.
@@ -193,8 +194,8 @@ struct ErrorModel {
   double pace_sd = 0.2;
 
   static ErrorModel perfect();
-  /// As documented up to what the headset shows; then the eye, the aiming hand and the wire do as
-  /// they are told. The errors of an operation that remain are navigation's.
+  /// The documented errors up to the headset's display; the eye, the aiming hand and the wire are
+  /// perfect. The remaining errors of an operation are those of navigation.
   static ErrorModel navigation_alone();
   /// Everything wrong with the numbers, one line each: name, value, limit. Empty: fine.
   [[nodiscard]] std::vector<std::string> check() const;

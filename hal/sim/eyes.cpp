@@ -30,7 +30,7 @@ void Eyes::light_up(const Transform<Room, Rig>& true_room_from_rig) {
   --count_;
   seen_ = true;
   if (view_.status) {
-    // While no picture comes the line asks for nothing; whoever reads it knows what it asked for.
+    // Without images the line asks for nothing; the reader remembers its last request.
     const bool silent = status_ && view_.status->notice == Notice::kNoImages;
     const ChecksAsked asked = silent ? status_->checks : view_.status->checks;
     status_ = view_.status;

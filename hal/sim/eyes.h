@@ -10,11 +10,11 @@
 
 namespace orthonav::sim {
 
-/// What a wearer sees of the display. A hologram hangs where the display drew it against the true
-/// head: at its world position taken back through the pose the headset believed in.
+/// What a wearer sees of the display. A hologram appears where the display drew it relative to the
+/// true head: at its world position, converted with the head pose that the headset assumed.
 class Eyes {
  public:
-  /// A frame that will light up at its display time, drawn for the believed head pose.
+  /// A frame that will light up at its display time, drawn for the assumed head pose.
   void show(const ShownFrame& frame, const Transform<World, Rig>& believed_world_from_rig);
   /// When the next frame lights up, if one is waiting.
   [[nodiscard]] std::optional<Timestamp> next_due() const;
@@ -25,16 +25,16 @@ class Eyes {
   [[nodiscard]] std::optional<Timestamp> seen_at() const;
   /// The first hologram of that kind in the frame in view, or null.
   [[nodiscard]] const ShownHologram* find(HologramKind kind) const;
-  /// The numbers on the holograms of that kind in the frame in view, in their order; how many there
-  /// are, at most as many as `out` holds.
+  /// The numbers on the holograms of that kind in the frame in view, in their order; returns how
+  /// many, at most the size of `out`.
   std::size_t readings(HologramKind kind, std::span<double> out) const;
   /// The entry point of that screw, or null.
   [[nodiscard]] const ShownHologram* find_entry(std::string_view level, Side side) const;
-  /// Where a hologram's point hangs in the room.
+  /// Where a hologram's point appears in the room.
   [[nodiscard]] Point<Room> place(Point<World> in_world) const {
     return room_from_world_ * in_world;
   }
-  /// The status line as it was last seen; absent before the first.
+  /// The status line last seen; absent before the first.
   [[nodiscard]] const std::optional<ShownStatus>& status() const { return status_; }
 
  private:

@@ -16,7 +16,7 @@ struct Grip {
                                            Vec3 towards_viewer);
 /// Where the hand is: on the shaft between tip and tag, so that it leaves the tag free.
 [[nodiscard]] Point<Room> hand_on(const RoomTool& tool, const Grip& grip);
-/// What of a vector lies across a unit axis.
+/// The component of a vector perpendicular to a unit axis.
 [[nodiscard]] inline Vec3 across_axis(Vec3 v, Vec3 axis) { return v - v.dot(axis) * axis; }
 /// Any unit vector perpendicular to a given one.
 [[nodiscard]] Vec3 perpendicular_to(Vec3 unit);

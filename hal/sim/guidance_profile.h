@@ -6,18 +6,18 @@
 
 namespace orthonav::sim {
 
-/// What a surgeon goes by on the display while placing an instrument.
+/// What a surgeon uses on the display while placing an instrument.
 enum class GuidanceProfile : std::uint8_t {
-  kOverlay,     ///< entry and trajectory as they hang over the bone; no number is read
-  kNumbers,     ///< the entry as it hangs there; the angle by number, triangle and cross
-  kClosedLoop,  ///< entry and angle by the numbers at the cross, and on while drilling
+  kOverlay,     ///< entry and trajectory as shown over the bone; no number is read
+  kNumbers,     ///< the entry as shown; the angle by number, triangle and cross
+  kClosedLoop,  ///< entry and angle by the numbers at the cross, also while drilling
 };
 
 struct NamedGuidance {
   std::string_view name;
   GuidanceProfile value;
 };
-/// As profiles and command lines call them.
+/// The names in profiles and on command lines.
 inline constexpr std::array<NamedGuidance, 3> kGuidanceNames = {{
     {"overlay", GuidanceProfile::kOverlay},
     {"numbers", GuidanceProfile::kNumbers},

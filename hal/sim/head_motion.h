@@ -12,14 +12,14 @@ struct HeadGoal {
   Vec3 from_gaze{0.64, 0.77, 0.0};
 };
 
-/// The head: follows its goal as a slow, critically damped mass, and sways.
+/// The head follows its goal like a slow, critically damped mass, and sways.
 class HeadMotion {
  public:
   /// `eyes_in_rig`: the point of the headset that is kept at arm's length, between its cameras.
   HeadMotion(const Random& random, const ErrorModel& error_model, Vec3 eyes_in_rig,
              const HeadGoal& start);
   void advance(double step_s, const HeadGoal& goal);
-  /// With the sway of that moment.
+  /// Includes the sway at that moment.
   [[nodiscard]] Transform<Room, Rig> pose(double time_s) const;
   static constexpr double kDistance_m = 0.47;
 

@@ -11,7 +11,7 @@
 namespace orthonav::sim {
 
 /// What the headset reports of its own pose: a noisy measurement at every frame, interpolated in
-/// between, and extrapolated from the newest with its velocity (an inertial sensor knows that
+/// between, and extrapolated from the newest with its velocity (which an inertial sensor measures
 /// well). Remembers 256 frames. Not thread-safe.
 class HeadTrack {
  public:
@@ -43,7 +43,7 @@ class HeadTrack {
   Random random_;
   double noise_m_;
   double noise_rad_;
-  double fresh_ = 1.0;  ///< of the noise's SD: what is new in every frame
+  double fresh_ = 1.0;  ///< the part of the noise's SD that is new in every frame
   SmoothNoise3 lasting_m_;
   SmoothNoise3 lasting_rad_;
   std::array<Node, kKept> nodes_;

@@ -24,7 +24,7 @@ BrownConrady hololens2_right() {
 
 StereoCalibration hololens2_calibration() {
   StereoCalibration calibration;
-  // Constants that the tests hold to be valid; a refusal here would be our own bug.
+  // Constants whose validity is tested; a refusal here would be our own bug.
   calibration.left = CameraModel::from_brown_conrady(hololens2_left()).value();
   calibration.right = CameraModel::from_brown_conrady(hololens2_right()).value();
   const Mat3 left_axes = {{{{0, 1, 0}, {1, 0, 0}, {0, 0, -1}}}};

@@ -64,7 +64,7 @@ Result<StereoCalibration> perturbed(const StereoCalibration& reported,
   if (rotation_rad == Vec3{} && offset_m == Vec3{}) {
     return actual;
   }
-  // About the right camera's own centre: its place moves by the offset alone.
+  // About the right camera's own centre, which only the offset moves.
   const Mat3 rotation = rotation_from_vector(rotation_rad) * nominal.rotation();
   const Vec3 centre = nominal.inverse().translation() + offset_m;
   actual.right_from_rig = {rotation, -(rotation * centre)};

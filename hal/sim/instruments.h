@@ -8,9 +8,9 @@
 
 namespace orthonav::sim {
 
-/// Sets what an instrument decides: bending, slip, how a screw follows its hole, and with a robot's
-/// arm the hand. Known are `wire` (a K-wire that nothing supports), `cannula`, `sleeved drill`,
-/// `screw` (in a hole made by a sleeved drill) and `robot arm`. Refuses any other name.
+/// Sets the values that depend on an instrument: bending, slip, how a screw follows its hole, and,
+/// with a robot's arm, the hand. Known are `wire` (an unsupported K-wire), `cannula`, `sleeved
+/// drill`, `screw` (in a hole made by a sleeved drill) and `robot arm`. Refuses any other name.
 Status use_instrument(std::string_view name, ErrorModel& error_model);
 
 }  // namespace orthonav::sim

@@ -14,11 +14,11 @@ struct Magnitude {
   std::string_view name;  ///< as the member
   std::string_view unit;
   double ErrorModel::*value = nullptr;
-  /// Beyond these it is refused: far from any real room, the scene leaves the cameras' view, or the
-  /// surgeon can't finish.
+  /// Limits beyond which it is refused: far from any real room, the scene leaves the cameras' view
+  /// or the surgeon can't finish.
   double lowest = 0.0;
   double highest = 0.0;
-  /// What may well be true: the range over which sensitivities are studied. Equal: not studied.
+  /// The plausible range, over which sensitivities are studied. Equal: not studied.
   double low = 0.0;
   double high = 0.0;
   std::string_view source;
@@ -26,7 +26,7 @@ struct Magnitude {
 
 /// All of them, in the order of the struct.
 [[nodiscard]] std::span<const Magnitude> magnitudes();
-/// Null for a name that is none.
+/// Null for an unknown name.
 [[nodiscard]] const Magnitude* magnitude_named(std::string_view name);
 
 }  // namespace orthonav::sim

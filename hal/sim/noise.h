@@ -45,8 +45,8 @@ struct MapSteps {
   double per_min = 0.0;
 };
 
-/// How a headset's map creeps: a random walk in position and rotation with a node every second,
-/// linear in between, and now and then a step within a second. Starts at zero.
+/// The drift of a headset's map: a random walk in position and rotation with a node every second,
+/// linear in between, and an occasional step within a second. Starts at zero.
 class MapDrift {
  public:
   MapDrift(Random random, double m_per_sqrt_s, double rad_per_sqrt_s, double length_s,

@@ -8,9 +8,8 @@
 
 namespace orthonav::sim {
 
-/// The directions that a surgeon means by the words beside the target cross, in Room: unit, at
-/// right angles to each other. They know the spine that lies before them; the axis is as they see
-/// it.
+/// The directions that the words beside the target cross mean to a surgeon, in Room: unit, at right
+/// angles to each other. The surgeon knows how the spine lies; the axis is the one perceived.
 struct SpokenDirections {
   Vec3 inward;
   Vec3 cranial;
@@ -19,13 +18,13 @@ struct SpokenDirections {
 [[nodiscard]] SpokenDirections spoken_directions(const Transform<Room, Vertebra>& lies, Side side,
                                                  Vec3 outwards);
 
-/// What H13 says at a moment, with its rounding: how far the tip is off the planned axis (Room, m),
-/// and the turn that would take out what the aim is off.
+/// The reading of H13 at a moment, with its rounding: the offset of the tip from the planned axis
+/// (Room, m), and the turn that would correct the aim.
 struct NumberReading {
   Vec3 tip_offset_m;
   Deviation deviation;
 };
-/// Nothing where not all four numbers are shown.
+/// Nothing unless all four numbers are shown.
 [[nodiscard]] std::optional<NumberReading> read_numbers(const Eyes& eyes,
                                                         const SpokenDirections& directions);
 

@@ -20,8 +20,8 @@ struct RoomLevel {
   std::vector<Vec3> vertices_m;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Transform<Spine, Vertebra> spine_from_vertebra;
-  /// The vertices that are extreme to posterior, left, right and superior in the model that was
-  /// made of the bone; where there is none, those of the bone itself.
+  /// The most posterior, left, right and superior vertices of the model made from the bone; if
+  /// there is none, those of the bone itself.
   std::optional<std::array<std::uint32_t, 4>> extremes = {};
 };
 
@@ -30,7 +30,7 @@ struct RoomLevel {
 
 using orthonav::ToolKind;
 
-/// A tool as it was manufactured. What the planning file says about it may be slightly off.
+/// A tool as it was manufactured. Its description in the planning file may be slightly off.
 using RoomTool = DescribedTool;
 
 /// A drop of blood on a tag's face, at x and y of its Marker.
@@ -39,21 +39,21 @@ struct TagDrop {
   double radius_m = 0.0;
 };
 
-/// What is wrong with a tag's face, besides its size.
+/// Flaws of a tag's face, apart from its size.
 struct TagFlaws {
-  double bow_m = 0.0;    ///< its edges over its middle; negative: its middle stands out
+  double bow_m = 0.0;    ///< height of its edges above its middle; negative: the middle protrudes
   double bow_rad = 0.0;  ///< across which direction it is bent, from x of Marker
   std::vector<TagDrop> drops;
 };
 
-/// How much of a bone lies open, and so can be stroked from behind.
+/// How much of a bone is exposed and can be stroked from behind.
 enum class Exposure : std::uint8_t {
   kLaminae,             ///< spinous process, laminae and facets, out to the roots of the
                         ///< transverse processes
-  kTransverseProcesses  ///< and these to their ends, as for a posterolateral fusion
+  kTransverseProcesses  ///< also these to their ends, as for a posterolateral fusion
 };
 
-/// What stands in the operating room; fixed for a session.
+/// The content of the operating room; fixed for a session.
 struct RoomDescription {
   std::vector<RoomLevel> levels;  ///< may be empty: a table and tools only
   std::vector<RoomTool> tools;
@@ -70,7 +70,7 @@ struct Room;
 struct RoomState {
   Timestamp time{};
   Transform<Room, Rig> room_from_rig;
-  Transform<Room, Spine> room_from_spine;  ///< as it is drawn: with the first level operated
+  Transform<Room, Spine> room_from_spine;  ///< as drawn: follows the first operated level
   /// Each level where it is, moved by breath and push; one for each of the description.
   std::vector<Transform<Room, Vertebra>> room_from_vertebra;
   std::vector<Transform<Room, Marker>> room_from_marker;  ///< one for each tool of the description
@@ -79,7 +79,7 @@ struct RoomState {
   Vec3 hand_axis{0, 1, 0};          ///< unit, along the forearm, away from the patient
 };
 
-/// Where a level of the room is at that moment; nothing where the room has none of that label.
+/// Where a level of the room is at that moment; nothing if the room has no such label.
 [[nodiscard]] inline std::optional<Transform<Room, Vertebra>> room_from_level(
     const RoomDescription& room, const RoomState& state, std::string_view label) {
   for (std::size_t i = 0; i < room.levels.size() && i < state.room_from_vertebra.size(); ++i) {

@@ -24,7 +24,7 @@ struct Box {
   [[nodiscard]] Vec3 middle() const { return 0.5 * (low + high); }
 };
 
-/// All of them where none is named.
+/// All of them if none is named.
 std::vector<std::size_t> operated_levels(const RoomDescription& room) {
   std::vector<std::size_t> operated;
   for (std::size_t i = 0; i < room.levels.size(); ++i) {

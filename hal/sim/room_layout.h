@@ -29,12 +29,12 @@ class RoomLayout {
   [[nodiscard]] std::size_t levels() const { return bones_.size(); }
   /// Index of a level by its label.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view label) const;
-  /// How many levels of the room lie above this one, and which has so many above it.
+  /// How many levels of the room lie above this one, and which level has a given number above it.
   [[nodiscard]] int rank(std::size_t level) const { return ranks_[level]; }
   [[nodiscard]] std::optional<std::size_t> of_rank(int rank) const;
   /// Where a surgeon works on a level: the middle of its posterior half.
   [[nodiscard]] Point<Room> site(std::size_t level) const { return sites_[level]; }
-  /// The middle of the whole operation; over the bare table when there is no level.
+  /// The middle of the whole operation; over the bare table if there is no level.
   [[nodiscard]] Point<Room> middle() const { return middle_; }
   /// Indices of the levels to be operated.
   [[nodiscard]] const std::vector<std::size_t>& operated() const { return operated_; }

@@ -147,7 +147,7 @@ void SoftwareRoomRenderer::render(std::span<const RoomState> states, const Camer
                                   std::uint64_t noise_seed, GreyImage& image) {
   image.width_px = camera.width_px();
   image.height_px = camera.height_px();
-  if (states.empty() || camera.lookup().empty()) {  // our caller's bug; a black image shows it
+  if (states.empty() || camera.lookup().empty()) {  // a bug of the caller; the image stays black
     image.pixels.assign(camera.lookup().size(), 0);
     return;
   }

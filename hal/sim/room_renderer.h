@@ -20,7 +20,7 @@ struct PinholeView {
   double tan_down = 0.3;
 };
 
-/// Renders the room as its cameras see it. Deterministic: the image depends on the arguments alone.
+/// Renders the room as its cameras see it. Deterministic: the image depends only on the arguments.
 /// No allocation after the first frame. One thread at a time.
 class RoomRenderer {
  public:

@@ -11,7 +11,7 @@ namespace {
 
 using Span = CoverageWindow::Span;
 
-/// The plate's rim is drawn in this many straight pieces per side; nobody measures it.
+/// The plate's rim is drawn in this many straight pieces per side; its shape is not measured.
 constexpr int kRimPieces = 4;
 constexpr int kArcPieces = 14;
 constexpr float kBackAlbedo = 0.35F;
@@ -197,7 +197,7 @@ void Layers::draw(const Capsule& capsule, Vec3 lamp_in_camera, const Lens& lens)
   shade(capsule, lamp_in_camera, a, b, ra, rb, *layer);
 }
 
-/// Of the front of the body, a radius nearer than its axis from `a` to `b` in the image.
+/// Depth of the front of the body, a radius nearer than its axis from `a` to `b` in the image.
 void Layers::set_depth(const Capsule& capsule, Vec2 a, Vec2 b, Layer& layer) {
   const Vec2 axis = b - a;
   const double near_a = 1.0 / std::max(capsule.a.z - capsule.radius_a_m, 0.01);

@@ -7,7 +7,7 @@
 namespace orthonav::sim {
 namespace {
 
-/// Bone this far under the tissue never shows.
+/// Bone this far under the tissue is never visible.
 constexpr double kBuriedM = 0.004;
 constexpr Vec3 kLampInSpine{0.30, 0.90, 0.30};
 
@@ -180,7 +180,7 @@ void BoneImage::draw(const ShownBones& bones, const Ground& ground,
     v.nearness = static_cast<float>(1.0 / p.z);
     v.lit = bones.lit[i];
     v.height = bones.height[i];
-    // Where the line of sight passes the skin it must be inside the wound.
+    // The line of sight must pass the skin inside the wound.
     const float skin = ground.skin_height(pz);
     const float s = py < skin && ey > py ? (skin - py) / (ey - py) : 0.0F;
     v.seen = 1.0F - ground.rim_at(px + s * (ex - px), pz + s * (ez - pz));

@@ -8,8 +8,8 @@
 
 namespace orthonav::sim {
 
-/// The part of the bones that may show: the triangles above the tissue, of every level, in Spine.
-/// With `cell_m` > 0 the surface is thinned by clustering vertices in cells of that size.
+/// The part of the bones that may be visible: the triangles above the tissue, of every level, in
+/// Spine. With `cell_m` > 0 the surface is thinned by clustering vertices in cells of that size.
 struct ShownBones {
   std::vector<float> x, y, z;
   std::vector<float> lit;     ///< light received, lamp and sky, 0 to about 1
@@ -19,8 +19,8 @@ struct ShownBones {
   ShownBones(const RoomDescription& room, const Ground& ground, double cell_m);
 };
 
-/// A depth-buffered image of the bones. A bone shows where it rises above the tissue and is seen
-/// through the wound.
+/// A depth-buffered image of the bones. A bone is visible where it rises above the tissue and is
+/// seen through the wound.
 class BoneImage {
  public:
   void reset(int width_px, int height_px);

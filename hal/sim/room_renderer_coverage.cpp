@@ -21,7 +21,7 @@ void CoverageWindow::touch(int row, int low, int high) {
 }
 
 void CoverageWindow::add_segment(Vec2 from, Vec2 to, double weight) {
-  // Anything that is not a number, or too far off to be clipped exactly, covers nothing.
+  // NaN, or a segment too far off to be clipped exactly, covers nothing.
   if (!(std::abs(from.x) + std::abs(from.y) + std::abs(to.x) + std::abs(to.y) < kFarPx)) {
     return;
   }

@@ -9,7 +9,7 @@ namespace orthonav::sim {
 namespace {
 
 constexpr float kSkinAboveTip = 0.003F;
-// Retracted past the facets, so that skin hides no entry point from a standing surgeon.
+// Retracted past the facets, so that the skin does not hide entry points from a standing surgeon.
 constexpr float kWoundHalfWidth = 0.056F;
 constexpr float kWoundPastTips = 0.034F;
 constexpr float kFloorBelow = 0.95F;
@@ -175,7 +175,7 @@ Ground::Ground(const RoomDescription& room) {
   half_length_ = static_cast<float>(0.5 * (wound.high - wound.low)) + kWoundPastTips;
 }
 
-/// Where the ray passes so far below the skin.
+/// Where the ray reaches this depth below the skin.
 void Ground::reach(const std::array<float, 3>& o, const std::array<float, 3>& d, float below_skin,
                    Hit& hit) const {
   // Two steps suffice: the skin's height changes slowly along the back.

@@ -33,8 +33,7 @@ class Blotches {
 };
 
 /// The patient's back under the drape with the open wound, in the frame of the spine: x left,
-/// y posterior (up, the patient lies prone), z superior. Where no spine is described, a draped
-/// table.
+/// y posterior (up, the patient lies prone), z superior. Without a spine, a draped table.
 class Ground {
  public:
   enum class Kind { kNothing, kFloor, kDrape, kSkin, kWall, kTissue };

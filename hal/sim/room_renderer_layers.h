@@ -31,7 +31,7 @@ class Layers {
  public:
   Layers();
   /// Draws one moment and adds it with its weight. `hidden_by`, if given, is the inverse depth of
-  /// the background in each pixel: what lies behind it is not drawn.
+  /// the background in each pixel, which hides bodies behind it.
   void add_moment(const Solids& solids, const Lens& lens, float weight, Foreground& sum,
                   const float* hidden_by = nullptr);
 
@@ -83,8 +83,8 @@ class Layers {
   [[nodiscard]] bool order_holds(int last, int y, bool grey) const;
   void merge_block(int y, int from, int to, float weight, Foreground& sum, const float* hidden_by);
   void merge_pixel(int x, int y, float weight, Foreground& sum, const float* hidden_by);
-  /// Adds columns [from, to) of a layer behind what is there; `left`, from column `block` on, is
-  /// the fraction of light that still gets through.
+  /// Adds columns [from, to) of a layer behind the existing content; `left`, from column `block`
+  /// on, is the fraction of light that still gets through.
   static void lay_under(const RowLayer& row, int y, int block, int from, int to, float* left,
                         Foreground& sum, const float* hidden_by);
   static void lay_block_under(const RowLayer& row, int y, int block, int from, int to, float* left,

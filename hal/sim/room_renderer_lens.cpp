@@ -15,7 +15,8 @@ CameraLens::CameraLens(const CameraModel& camera) : camera_(camera) {
   const Vec2 below = camera.lookup()[index(column, row - 1)];
   centre_ray_ = is_nan(here) ? Vec2{} : here;
   const Vec2 step{here.x - right.x, here.y - below.y};
-  // Even a camera that is blind in its centre needs a scale; only the look depends on it.
+  // Even a camera without a direction in its centre needs a scale; only the appearance depends on
+  // it.
   const bool usable = !is_nan(step) && step.x != 0.0 && step.y != 0.0;
   scale_px_ = usable ? Vec2{1.0 / step.x, 1.0 / step.y}
                      : Vec2{0.5 * camera.width_px(), 0.5 * camera.height_px()};

@@ -5,14 +5,14 @@
 
 namespace orthonav::sim {
 
-/// Where a point of the camera frame (x right, y down, z forward) falls on the image. Points past
-/// the image's edge are continued smoothly, so that what sticks out can be clipped.
+/// Where a point of the camera frame (x right, y down, z forward) falls on the image. The map
+/// continues smoothly past the image's edge, so that bodies that extend beyond it can be clipped.
 class Lens {
  public:
   virtual ~Lens() = default;
   /// `in_camera_m.z` must be positive.
   [[nodiscard]] virtual Vec2 pixel(Vec3 in_camera_m) const = 0;
-  /// Within about 0.1 px and many times faster: for shapes that nobody measures.
+  /// Within about 0.1 px and many times faster: for shapes that are not measured.
   [[nodiscard]] virtual Vec2 rough_pixel(Vec3 in_camera_m) const = 0;
   /// Pixels per radian at the centre, for sizes that need not be exact.
   [[nodiscard]] virtual double focal_px() const = 0;
@@ -71,7 +71,7 @@ class PinholeLens final : public Lens {
   Vec2 centre_;
 };
 
-/// A depth camera's lens, with what the bones' renderer calls.
+/// A depth camera's lens, with the functions that the bones' renderer calls.
 struct DepthLens {
   const BrownConrady& lens;
   [[nodiscard]] Vec2 rough_pixel(Vec3 in_camera_m) const {

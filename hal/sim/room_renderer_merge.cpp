@@ -62,7 +62,7 @@ void Layers::merge(float weight, Foreground& sum, const float* hidden_by) {
   }
 }
 
-/// The layers of a block, nearest first, by what holds at its left end.
+/// Orders the layers of a block, nearest first, by their depths at its left end.
 void Layers::order_block(int y, int from, int to) {
   active_.clear();
   for (const RowLayer& row : in_row_) {
@@ -78,9 +78,9 @@ void Layers::order_block(int y, int from, int to) {
   }
 }
 
-/// Whether the order of a block is the same at its right end: then it holds everywhere, depths
-/// being linear. In grey it does not matter within the hand: where its parts run into each other
-/// they look alike.
+/// Whether the order of a block is the same at its right end: then it holds throughout, since
+/// depths are linear. In grey the order within the hand does not matter, since its parts look alike
+/// where they intersect.
 bool Layers::order_holds(int last, int y, bool grey) const {
   for (std::size_t i = 1; i < active_.size(); ++i) {
     const Layer& before = *active_[i - 1]->layer;
@@ -114,7 +114,7 @@ void Layers::merge_block(int y, int from, int to, float weight, Foreground& sum,
     } else {
       lay_under(*row, y, from, low, high, through.data(), sum, hidden_by);
     }
-    float left = 0.0F;  // what is behind a closed surface need not be added up
+    float left = 0.0F;  // nothing behind an opaque surface needs to be added
     for (const float t : through) {
       left = std::max(left, t);
     }

@@ -18,7 +18,7 @@ constexpr float kBloodAlbedo = 0.10F;
 constexpr Tint kGown{0.42F, 0.78F, 0.80F};
 /// Nothing nearer to the camera than this is drawn.
 constexpr double kNearM = 0.06;
-/// Rank of what lies on the face of a plate.
+/// Rank of bodies on the face of a plate.
 constexpr int kOnTheFace = 2;
 
 Capsule rod(Vec3 a, Vec3 b, double radius_a, double radius_b, float albedo, float gloss,
@@ -76,7 +76,7 @@ float lit(Vec3 normal_in_room) {
   return static_cast<float>(0.90 + 0.12 * cosine);
 }
 
-/// Cuts off what lies nearer than kNearM; false when nothing is left.
+/// Cuts off the part nearer than kNearM; false if nothing is left.
 bool clip_near(Capsule& c) {
   if (!c.a.is_finite() || !c.b.is_finite()) {
     return false;

@@ -12,7 +12,7 @@ namespace orthonav::sim {
 
 using Tint = std::array<float, 3>;
 
-/// Fraction of the light that a surface returns, 0 to 1. The printed black and white give greys of
+/// Fraction of the light that a surface returns, 0 to 1. Printed black and white give greys of
 /// about 30 and 200 under the lamp.
 inline constexpr float kWhiteAlbedo = 0.80F;
 inline constexpr float kBlackAlbedo = 0.12F;
@@ -27,7 +27,7 @@ struct Plate {
   double half_m = 0.0;  ///< half the plate's width, quiet zone and margin included
   float light = 1.0F;
   int tool = 0;
-  float glare = 0.0F;               ///< what it mirrors, as a fraction of a white one's light
+  float glare = 0.0F;               ///< mirrored light, as a fraction of a white plate's
   const TagFlaws* flaws = nullptr;  ///< never null once gathered
   double size_m = 0.0;              ///< of the tag
 };

@@ -83,8 +83,8 @@ void RoomSimulation::step() {
   }
 }
 
-/// A breath moves each level by its share. What gives way under an instrument takes its neighbours
-/// along by less and less.
+/// A breath moves each level by its share. A level pushed by an instrument takes its neighbours
+/// along, by less with each level.
 void RoomSimulation::move_patient(RoomState& now) {
   const Vec3 breath_m = spine_.at(seconds_in(now.time));
   back_moved_m_ = breath_m + slipped_m_;
@@ -94,7 +94,7 @@ void RoomSimulation::move_patient(RoomState& now) {
     now.room_from_vertebra[i] = {at_rest.rotation(),
                                  at_rest.translation() + level_moved_m_[i] + pushed_m(i)};
   }
-  // The picture of the spine goes with the level that is operated first.
+  // The drawn spine moves with the first operated level.
   const Vec3 drawn_m =
       layout_.operated().empty() ? back_moved_m_ : level_moved_m_[layout_.operated().front()];
   now.room_from_spine = {layout_.room_from_spine().rotation(),
@@ -138,7 +138,8 @@ void RoomSimulation::let_surgeon_act(RoomState& now) {
   truth_.surgeon_gave_up = surgeon_->gave_up();
 }
 
-/// The reference is clamped to the patient, facing the head's initial position, and rides on them.
+/// The reference is clamped to the patient, facing the head's initial position, and moves with
+/// them.
 void RoomSimulation::leave_reference(RoomState& now) {
   constexpr Vec3 kBesideTheSite_m{-0.02, 0.0, 0.13};
   const auto reference = layout_.tool(ToolKind::kReference);
@@ -153,7 +154,7 @@ void RoomSimulation::leave_reference(RoomState& now) {
   if (is_due && (bump_.shift_m > 0.0 || bump_.turn_rad > 0.0)) {
     bump_reference();
   }
-  // On the vertebra above the first that is operated.
+  // On the vertebra above the first operated one.
   const std::size_t below = layout_.operated().empty() ? 0 : layout_.operated().front();
   const int rank = layout_.rank(below) - 1;
   const Vec3 moved_m = level_moved_m_[layout_.of_rank(rank).value_or(below)] +

@@ -16,8 +16,8 @@
 
 namespace orthonav::sim {
 
-/// What moves in the room, in steps of 1/120 s: head, map, tools, surgeon. Keeps the last second,
-/// so that moments between the steps can be asked for. Not thread-safe.
+/// Simulates everything that moves in the room, in steps of 1/120 s: head, map, tools, surgeon.
+/// Keeps the last second, so that moments between the steps can be queried. Not thread-safe.
 class RoomSimulation {
  public:
   /// `eyes_in_rig`: the middle between the cameras. The room must have passed `check_room`.
@@ -64,7 +64,7 @@ class RoomSimulation {
   void put(RoomState& state, std::size_t tool, const Grip& grip, std::optional<Vec3> contact,
            bool on_wire = false) const;
   void move_patient(RoomState& now);
-  /// By which a level gives way under the instrument, in Room.
+  /// How far a level is pushed by the instrument, in Room.
   [[nodiscard]] Vec3 pushed_m(std::size_t level) const;
   [[nodiscard]] Vec3 pushed_m_by(int levels_away) const;
   [[nodiscard]] int rank_at_hand() const;
@@ -74,11 +74,11 @@ class RoomSimulation {
   [[nodiscard]] Vec3 guide_inwards(std::size_t level) const;
   /// The tool as it is held by a hand that rests on the patient.
   [[nodiscard]] Grip on_patient(const Posture& posture) const;
-  /// Carries on what the surgeon's hand does with the wire.
+  /// Advances the wire with the surgeon's hand.
   void drive_wire();
   [[nodiscard]] AdvancingWire pierce(const Drilling& drilling);
   void leave_wire();
-  /// Another wire for a screw takes the place of one that was taken out.
+  /// Removes the wire of a screw that is replaced by another one.
   void take_wire_out(const std::string& label, Side side);
   [[nodiscard]] double seconds_in(Timestamp time) const { return seconds(time - start_); }
   [[nodiscard]] RoomState& kept(std::size_t number) { return states_[number % kKept]; }
@@ -95,13 +95,13 @@ class RoomSimulation {
   SmoothNoise3 tremor_m_;
   SmoothNoise3 tremor_rad_;
   SpineMotion spine_;
-  // With the breath and on the table, at the newest step, in Room.
+  // Motion with the breath and on the table, at the newest step, in Room.
   std::vector<Vec3> level_moved_m_;
   std::vector<double> breath_shares_;  ///< of each level; fixed
   Vec3 back_moved_m_{};
   std::optional<AdvancingWire> wire_;
-  Vec3 back_against_level_m_{};  ///< of the back against the bone, when the wire pierced it
-  /// Since the first step, with the patient at rest.
+  Vec3 back_against_level_m_{};  ///< of the back relative to the bone, when the wire pierced it
+  /// Set at the first step, with the patient at rest.
   std::optional<Transform<Room, Marker>> room_from_reference_;
   ReferenceBump bump_;
   Random bumping_;

@@ -6,7 +6,8 @@
 namespace orthonav::sim {
 namespace {
 
-/// Where the hand holds the tool, above the bone that its tip is in; it rests on the back.
+/// Height at which the hand holds the tool above the bone that its tip is in; the hand rests on the
+/// back.
 constexpr double kHandOverBone_m = 0.12;
 
 }  // namespace
@@ -85,7 +86,7 @@ Grip RoomSimulation::on_patient(const Posture& posture) const {
   Grip riding = posture.grip;
   riding.tip = riding.tip + level_moved_m_[posture.level] + posture.pushed_m;
   if (wire_) {
-    // The bone holds the tip, and the hand goes with the back: where they move apart the tool
+    // The bone holds the tip and the hand moves with the back: if they move differently, the tool
     // turns.
     const Vec3 apart_m = back_moved_m_ - level_moved_m_[posture.level] - back_against_level_m_;
     riding.axis = (kHandOverBone_m * riding.axis + apart_m).normalized();

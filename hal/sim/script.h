@@ -8,7 +8,7 @@ namespace orthonav::sim {
 
 /// Behaviour written from top to bottom, as a coroutine: it runs until it awaits the next tick, and
 /// continues there. Scripts can await scripts. Single-threaded. Trap: a script keeps arguments
-/// passed by reference as references; pass only what outlives it.
+/// passed by reference as references; pass only objects that outlive it.
 class [[nodiscard]] Script {
  public:
   struct promise_type;

@@ -4,7 +4,7 @@ namespace orthonav::sim {
 
 // How the target cross (H7) is drawn, as its wearer has learnt it (docs/holograms.md).
 
-/// It draws a millimetre as four.
+/// It magnifies by this: a millimetre is drawn as four.
 inline constexpr double kCrossScale = 4.0;
 /// The hollow dot is the tool's axis this far up from the tip.
 inline constexpr double kCrossReach_m = 0.080;

@@ -9,7 +9,7 @@ namespace {
 
 /// From mid-exposure to the images in memory, in addition to half the exposure.
 constexpr Duration kReadout = std::chrono::milliseconds(5);
-/// The stream ends so long after the surgeon is done.
+/// The stream ends this long after the surgeon is done.
 constexpr Duration kAfterDone = std::chrono::milliseconds(500);
 
 void resize(GreyImage& image, const CameraModel& camera) {
@@ -51,7 +51,7 @@ Result<Next> SimCameras::do_next(StereoFrame& frame) {
     if (delivery_of(number_) > now) {
       return Next::kNone;
     }
-    // A caller who comes late misses frames, as with a real camera.
+    // A late caller misses frames, as with a real camera.
     while (delivery_of(number_ + 1) <= now) {
       ++number_;
     }

@@ -8,8 +8,8 @@
 
 namespace orthonav::sim {
 
-/// The simulated headset's cameras. Each pair advances the room, or, at the wall's pace, is taken
-/// when it is due.
+/// The simulated headset's cameras. Each pair advances the room, or, in real time, is taken when it
+/// is due.
 class SimCameras final : public StereoCamera {
  public:
   /// The room must outlive it. The images are rendered with the actual calibration.

@@ -9,7 +9,7 @@
 namespace orthonav::sim {
 
 /// A depth camera of the simulated headset: renders the newest picture that is no later than the
-/// last pair, and only when asked for it. May be asked from a thread of its own.
+/// last pair, only on request. May be read by a separate thread.
 class SimDepth final : public DepthCamera {
  public:
   /// The room must outlive it.

@@ -117,7 +117,7 @@ class SimulatedHeadset final : public SimHeadset {
   [[nodiscard]] Display& display() override { return display_; }
   [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(depth_); }
 
-  // Only the thread that takes the pairs adds to the truth, and only that thread asks for it.
+  // Only the thread that takes the pairs adds to the truth, and only that thread reads it.
   [[nodiscard]] const Truth& truth() const override ORTHONAV_NO_THREAD_SAFETY_ANALYSIS {
     return room_.simulation.truth();
   }

@@ -15,18 +15,18 @@ namespace orthonav::sim {
 
 enum class Pace {
   kFast,  ///< the clock advances by one frame at each call of cameras().next(); as fast as possible
-  kRealtime  ///< the clock follows the wall; next() answers kNone until the next frame is due
+  kRealtime  ///< the clock follows wall time; next() returns kNone until the next frame is due
 };
 
-/// Somebody knocks against the clamped patient reference, once so many wires are in.
+/// The clamped patient reference is knocked after a number of wires.
 struct ReferenceBump {
   double shift_m = 0.0;   ///< in a random direction
   double turn_rad = 0.0;  ///< about a random axis through the reference's tag
   int after_wires = 1;
 };
 
-/// The patient slips on the table, for good, once so many wires are in: bones, hands on them and a
-/// clamped reference go along.
+/// The patient slips on the table after a number of wires and stays there: bones, hands on them and
+/// a clamped reference move along.
 struct PatientShift {
   double shift_m = 0.0;  ///< in a random direction
   int after_wires = 1;
@@ -45,31 +45,31 @@ struct SimOptions {
   double limit_s = 3600.0;  ///< the stream ends at the latest then (simulated time)
   /// False leaves the images black and costs nothing: for callers that need no pixels.
   bool render = true;
-  /// The depth cameras that it has, each once: kAhat, kLongThrow. None: nobody asked for depth.
+  /// The depth cameras that it has, each once: kAhat, kLongThrow. Empty: none.
   std::vector<DepthStream> depth = {};
   DepthErrors depth_errors;
 
-  /// Refuses values that make no sense; names every problem of the error model.
+  /// Refuses invalid values; names every problem of the error model.
   [[nodiscard]] Status check() const;
 };
 
-/// The simulated operating room as a headset. The same seed gives the same bits, as long as what is
-/// shown comes at the same moments. Parts may be used from different threads; `truth` may be read
-/// only while nobody calls `cameras().next`. Tools are described as a planning file would describe
-/// them: slightly off by the error model. The stream ends half a second after the surgeon has seen
-/// the last step (`done`).
+/// The simulated operating room as a headset. The same seed gives the same bits, provided frames
+/// are shown at the same moments. Parts may be used from different threads; `truth` may be read
+/// only while no thread calls `cameras().next`. Tools are described as a planning file would
+/// describe them: slightly off by the error model. The stream ends half a second after the surgeon
+/// has seen the last step (`done`).
 class SimHeadset : public Headset {
  public:
-  /// Refuses error models, options and rooms that make no sense, and a surgeon without pointer or
-  /// guide. Without levels there is nothing to operate: the tools hover, as without a surgeon.
+  /// Refuses invalid error models, options and rooms, and a surgeon without pointer or guide.
+  /// Without levels there is nothing to operate: the tools hover, as without a surgeon.
   static Result<std::unique_ptr<SimHeadset>> open(RoomDescription room, const SimOptions& options);
-  /// The truth so far. For the thread that takes the pairs, since it grows with them.
+  /// The truth so far. Only for the thread that takes the pairs, since it grows with them.
   [[nodiscard]] virtual const Truth& truth() const = 0;
   [[nodiscard]] virtual RoomState state() const = 0;
-  /// World (as the headset believes) from Room now.
+  /// World, as the headset assumes it, from Room, now.
   [[nodiscard]] virtual Transform<World, Room> world_from_room() const = 0;
   [[nodiscard]] virtual const RoomDescription& room() const = 0;
-  /// Its cameras as they are; `cameras().calibration()` is what the device says of them.
+  /// Its true cameras; `cameras().calibration()` is what the device reports.
   [[nodiscard]] virtual const StereoCalibration& actual_calibration() const = 0;
   /// What it was opened with.
   [[nodiscard]] virtual const SimOptions& options() const = 0;

@@ -12,10 +12,10 @@
 
 namespace orthonav::sim {
 
-/// When a simulated headset is opened: the device had been running for a while.
+/// The time at which a simulated headset is opened, as if the device had been running for a while.
 inline constexpr Timestamp kSimStart{std::chrono::seconds(100)};
 
-/// Follows the wall, or is set by the cameras.
+/// Follows wall time, or is set by the cameras.
 class SimClock final : public Clock {
  public:
   explicit SimClock(Pace pace) : pace_(pace), opened_(std::chrono::steady_clock::now()) {}
@@ -34,7 +34,7 @@ class SimClock final : public Clock {
   std::atomic<std::int64_t> now_ns_{kSimStart.time_since_epoch().count()};
 };
 
-/// What every part of the simulated headset shares.
+/// The state that all parts of the simulated headset share.
 struct SimRoom {
   Mutex mutex;
   SimClock clock;
@@ -47,7 +47,7 @@ struct SimRoom {
       : clock(options.pace),
         simulation(std::move(room), options, eyes_in_rig, kSimStart),
         head(Random(options.seed).fork("head tracker"), options.error_model) {}
-  /// What stands in it: the same from the first moment on.
+  /// The description of the room, which never changes.
   [[nodiscard]] const RoomDescription& described() const ORTHONAV_NO_THREAD_SAFETY_ANALYSIS {
     return simulation.room();
   }

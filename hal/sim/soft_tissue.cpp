@@ -6,11 +6,11 @@
 namespace orthonav::sim {
 namespace {
 
-/// A spot lies in a valley as far as the bone within this distance reaches higher.
+/// How deep a spot lies in a valley is measured relative to bone within this distance.
 constexpr double kAround_m = 0.012;
 /// Tissue fills a valley of this depth to twice the mean.
 constexpr double kDeep_m = 0.006;
-/// It is uneven over this length, by this fraction of itself.
+/// Its thickness varies over this length, by this fraction.
 constexpr double kUnevenOver_m = 0.020;
 constexpr double kUneven = 0.4;
 
@@ -20,7 +20,7 @@ struct CoveredSpot {
   double* tissue_m;
 };
 
-/// Those of all strokes, in order, with no tissue yet. They point into the regions.
+/// The spots of all strokes, in order, without tissue yet. They point into the regions.
 std::vector<CoveredSpot> covered_spots(std::vector<StrokeRegion>& regions) {
   std::vector<CoveredSpot> spots;
   for (StrokeRegion& region : regions) {

@@ -11,25 +11,25 @@ namespace orthonav::sim {
 
 struct Truth;
 
-/// A wire as it stands in a bone.
+/// A wire in a bone.
 struct StandingWire {
   Point<Vertebra> entry;
   Vec3 direction;  ///< unit, into the bone
 };
 
-/// A screw head as it stands in the room.
+/// A screw head in the room.
 struct StandingHead {
   std::string_view level;
   Point<Room> position;
 };
 
-/// The metal that stands in the bones, which anyone can see and touch: all that a surgeon knows of
-/// the truth.
+/// The metal in the bones, which anyone can see and touch: the only part of the truth that the
+/// surgeon knows.
 class StandingMetal {
  public:
   /// The truth must outlive it.
   explicit StandingMetal(const Truth& truth) : truth_(&truth) {}
-  /// The wire of a screw; nothing where there is none.
+  /// The wire of a screw, if there is one.
   [[nodiscard]] std::optional<StandingWire> wire(std::string_view level, Side side) const;
   [[nodiscard]] std::vector<StandingHead> heads(Side side) const;
 

@@ -38,7 +38,7 @@ void StereoRenderer::render(std::span<const RoomState> states, std::int64_t numb
 }
 
 void StereoRenderer::work() {
-  // The renderer takes any camera's pose under the left one's name.
+  // The renderer's type for any camera's pose is that of the left one.
   const Transform<LeftCamera, Rig> right_from_rig{cameras_.right_from_rig.rotation(),
                                                   cameras_.right_from_rig.translation()};
   for (;;) {

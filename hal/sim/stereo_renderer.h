@@ -11,7 +11,7 @@
 namespace orthonav::sim {
 
 /// Renders both cameras' images at the same time, the right one on a thread of its own. The images
-/// depend on the arguments alone.
+/// depend only on the arguments.
 class StereoRenderer {
  public:
   StereoRenderer(const RoomDescription& room, const ErrorModel& error_model,

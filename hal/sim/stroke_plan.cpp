@@ -19,7 +19,8 @@ constexpr double kSteepest = 0.42;             // cosine of 65° between normal 
 constexpr double kHalfMidline_m = 0.006;       // the crest's lines and the side lines meet here
 constexpr double kSpinousHalfWidth_m = 0.014;  // sides of the spinous process lie within
 
-/// How far out the strokes go: a share of half the width and a limit, for vertebrae of any size.
+/// How far out the strokes reach: a fraction of half the width and a limit, for vertebrae of any
+/// size.
 struct Outwards {
   double share;
   double most_m;
@@ -29,7 +30,7 @@ constexpr Outwards outwards(Exposure exposure) {
 }
 
 /// The part of a vertebra that a pointer reaches from behind: its posterior half, as far out as it
-/// lies open. The midline is the middle of the box: a model's origin is free.
+/// is exposed. The midline is the middle of the bounding box, since a model's origin is arbitrary.
 struct Reach {
   double lowest_y_m = 0.0;
   double midline_x_m = 0.0;
@@ -55,7 +56,7 @@ struct Reach {
     return spot.point.y > lowest_y_m && std::abs(lateral_m(spot)) < half_width_m &&
            spot.normal.y > -0.1;
   }
-  /// To the left of the midline.
+  /// Distance to the left of the midline.
   [[nodiscard]] double lateral_m(const BoneSpot& spot) const { return spot.point.x - midline_x_m; }
 };
 
@@ -126,7 +127,7 @@ class Sweep {
     return runs;
   }
 
-  /// The path over the bone from one place to another; nothing when it would leave the bone.
+  /// The path over the bone from one place to another; nothing if it would leave the bone.
   [[nodiscard]] std::optional<Run> bridge(Vec3 from, Vec3 to) const {
     const Vec2 start = map_.uv(from);
     const Vec2 way = map_.uv(to) - start;

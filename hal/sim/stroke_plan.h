@@ -11,7 +11,7 @@ namespace orthonav::sim {
 struct Stroke {
   std::vector<BoneSpot> spots;  ///< about half a millimetre apart
   std::vector<double> arc_m;    ///< length from the start to each spot
-  /// Thickness of the soft tissue over each spot; empty where there is none.
+  /// Thickness of the soft tissue over each spot; empty if there is none.
   std::vector<double> tissue_m;
 
   [[nodiscard]] double length_m() const { return arc_m.empty() ? 0.0 : arc_m.back(); }
@@ -23,22 +23,22 @@ struct Stroke {
   [[nodiscard]] BoneSpot on_tissue(double along_m, double left) const;
 };
 
-/// What is recorded before one "save": strokes close together, with the button released between
-/// them.
+/// The strokes recorded before one "save": close together, with the button released between them.
 struct StrokeRegion {
   std::vector<Stroke> strokes;
 
   [[nodiscard]] double length_m() const;
 };
 
-/// The strokes by which a surgeon covers what a pointer reaches of a vertebra from behind: laminae,
-/// facets and the roots of the transverse processes, or all of these, in lines along the spine, and
-/// the two sides and the crest of the spinous process. Empty when the mesh has no such surface.
+/// The strokes with which a surgeon covers the part of a vertebra that a pointer reaches from
+/// behind: laminae, facets and the roots of the transverse processes, or the whole transverse
+/// processes, in lines along the spine, and the two sides and the crest of the spinous process.
+/// Empty when the mesh has no such surface.
 [[nodiscard]] std::vector<StrokeRegion> plan_strokes(const RoomLevel& level,
                                                      Exposure exposure = Exposure::kLaminae);
 
-/// Lays soft tissue over what is stroked: `mean_m` thick on average, more in valleys than on
-/// ridges, uneven over some centimetres, never negative.
+/// Lays soft tissue over the strokes: `mean_m` thick on average, more in valleys than on ridges,
+/// uneven over some centimetres, never negative.
 void cover_with_tissue(std::vector<StrokeRegion>& regions, double mean_m, const Random& random);
 
 }  // namespace orthonav::sim

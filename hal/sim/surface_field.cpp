@@ -12,7 +12,7 @@ namespace orthonav::sim {
 SurfaceField::SurfaceField(Random random, double sd, double length_m)
     : amplitude_(length_m > 0.0 ? sd * std::sqrt(2.0 / static_cast<double>(kWaves)) : 0.0) {
   for (std::size_t i = 0; i < kWaves && amplitude_ != 0.0; ++i) {
-    // Alike over a length: correlated by exp(-1/2) there.
+    // The correlation at distance `length_m` is exp(-1/2).
     wave_[i] = normal_vector(random, 1.0 / length_m);
     phase_[i] = 2.0 * std::numbers::pi * random.uniform();
   }

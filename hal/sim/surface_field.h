@@ -10,8 +10,8 @@
 namespace orthonav::sim {
 
 /// A smooth random function of a place: a sum of plane waves with random directions and phases
-/// (Shinozuka 1971), their wavelengths about the length over which it is to be alike. Stationary,
-/// with the given SD over space.
+/// (Shinozuka 1971), with wavelengths of about the correlation length. Stationary, with the given
+/// SD over space.
 class SurfaceField {
  public:
   SurfaceField(Random random, double sd, double length_m);
@@ -24,8 +24,7 @@ class SurfaceField {
   std::array<double, kWaves> phase_{};
 };
 
-/// The bones as they are, where the models of them are what was segmented: off along the normal by
-/// a field of `model_error_m`.
+/// The true bones for segmented models: displaced along the normal by a field of `model_error_m`.
 [[nodiscard]] RoomDescription with_bones_off_their_models(RoomDescription models,
                                                           const ErrorModel& error_model,
                                                           const Random& random);

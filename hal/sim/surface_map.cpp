@@ -31,7 +31,7 @@ void SurfaceMap::draw(const RoomLevel& level, const std::array<std::uint32_t, 3>
   const Vec3 b = level.vertices_m[triangle[1]];
   const Vec3 c = level.vertices_m[triangle[2]];
   const Vec3 normal = (b - a).cross(c - a);
-  // Triangles seen edge-on show nothing; those facing away are hidden in a closed bone.
+  // Triangles seen edge-on are invisible; those facing away are hidden by a closed bone.
   if (!(normal.dot(from_) > 1e-3 * normal.norm())) {
     return;
   }

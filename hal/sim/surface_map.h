@@ -8,8 +8,8 @@
 
 namespace orthonav::sim {
 
-/// What is seen of a bone from one side: the nearest surface for each cell of a grid across the
-/// line of sight. Coordinates: `u` across, `v` along z (superior), `height` towards the eye.
+/// The visible surface of a bone from one side: the nearest surface for each cell of a grid across
+/// the line of sight. Coordinates: `u` across, `v` along z (superior), `height` towards the eye.
 class SurfaceMap {
  public:
   /// Seen from `from`, a unit vector in the x-y plane of the vertebra.

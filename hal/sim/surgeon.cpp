@@ -14,13 +14,13 @@ constexpr double kAcceptedOverlay_m = 0.006;
 constexpr double kComparing_s = 1.5;
 constexpr double kGlance_s = 0.1;
 
-/// Duration of everything against the median surgeon's; its mean over surgeons is 1 / pace.
+/// Factor on all durations relative to the median surgeon; its mean over surgeons is 1 / pace.
 double slowness_of(const ErrorModel& error_model, Random random) {
   const double sd = error_model.pace_sd;
   return std::exp(sd * random.normal() - 0.5 * sd * sd) / error_model.pace;
 }
 
-/// How high this surgeon glides over the bone, against the mean of surgeons.
+/// How high this surgeon glides over the bone, relative to the mean of surgeons.
 double lightness_of(const ErrorModel& error_model, Random random) {
   return std::max(0.0, 1.0 + error_model.stroke_lift_sd * random.normal());
 }
@@ -31,8 +31,8 @@ Posture standing_at(const RoomLayout& layout) {
   return posture;
 }
 
-/// Places that a surgeon who looks from behind can see on the bone itself: nothing of it lies over
-/// them. What hides behind the bone, a hologram shows all the same; nobody can compare it.
+/// Whether a surgeon who looks from behind can see a place on the bone itself, with no bone above
+/// it. A hologram also shows places hidden behind the bone, but they can't be compared.
 bool is_visible(const BoneSurface& bone, Vec3 place) {
   constexpr double kFrom_m = 0.1;
   constexpr double kSame_m = 0.003;
@@ -41,8 +41,8 @@ bool is_visible(const BoneSurface& bone, Vec3 place) {
   return hit && (hit->point - place).norm() < kSame_m;
 }
 
-/// The four places that H2 marks, on the bone: the extreme vertices to posterior, left, right and
-/// superior.
+/// The four places that H2 marks, on the bone: the most posterior, left, right and superior
+/// vertices.
 std::array<Vec3, 4> landmarks(const RoomLevel& level) {
   const auto extremes = level.extremes.value_or(extremes_of(level));
   std::array<Vec3, 4> found;
@@ -212,19 +212,19 @@ Script Surgeon::await_change(std::optional<StepOnDisplay> step, std::string phra
 Script Surgeon::verify(std::size_t level) {
   const StepOnDisplay step = step_now();
   body_.posture().contact_normal.reset();
-  // Once it may have been the touch; twice it is not where it was.
+  // Once may be due to the touch; twice means that it has moved.
   bool fits = !(told(Notice::kLandmarkMoved) && ++moved_[level] > 1);
   co_await body_.rest(1.0);
   bool asked_to_touch = asked(ChecksAsked::kTouchMore);
   if (fits && asked_to_touch) {
-    // What is touched may still move the picture.
+    // Touches may still move the displayed bone.
     co_await check_by_touch(level, fits);
   }
   if (fits && in_step(step)) {
     co_await compare_overlay(level, fits, asked_to_touch);
   }
   if (fits && asked_to_touch && in_step(step)) {
-    // Where the line said something else at first.
+    // In case the line showed something else at first.
     co_await check_by_touch(level, fits);
   }
   if (!in_step(step) || finished_) {

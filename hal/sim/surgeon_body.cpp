@@ -14,8 +14,8 @@ constexpr double kHover_m = 0.06;
 /// Eyes rest a little above the bone, between the site and the tool's tag.
 constexpr double kGazeOverSite_m = 0.05;
 constexpr double kReachForTool_s = 1.2;
-/// A click lasts 80 ms and two of them follow within 200 ms, well inside what a button timer
-/// takes for a double click.
+/// A click lasts 80 ms and two of them follow within 200 ms, well within the time of a double
+/// click.
 constexpr double kClickDown_s = 0.08;
 constexpr double kBetweenClicks_s = 0.10;
 
@@ -85,7 +85,7 @@ void SurgeonBody::release() { button_.button(false, now_, clicks); }
 
 Script SurgeonBody::click() {
   press();
-  // A thumb is as quick as ever in a slow surgeon.
+  // A slow surgeon's thumb is as fast as any.
   co_await rest(kClickDown_s / slowness_);
   release();
 }

@@ -13,27 +13,27 @@
 
 namespace orthonav::sim {
 
-/// What the surgeon's body is doing at a tick, tremor apart.
+/// What the surgeon's body is doing at a tick, without tremor.
 struct Posture {
   std::optional<ToolKind> in_hand;
   Grip grip;
   /// Outward normal of the bone that the tip rests on.
   std::optional<Vec3> contact_normal;
-  bool on_wire = false;  ///< a wire stands in the tool's sleeve: it turns no more, and slides along
-  std::size_t level = 0;             ///< index of the one that hands work on, and go with
+  bool on_wire = false;   ///< a wire is in the tool's sleeve: it no longer turns, and slides along
+  std::size_t level = 0;  ///< index of the one that the hands work on and move with
   std::optional<Drilling> drilling;  ///< while a wire is driven
-  Vec3 pushed_m{};                   ///< by which the instrument has pushed the bone, in Room
+  Vec3 pushed_m{};                   ///< how far the instrument has pushed the bone, in Room
   HeadGoal head;
 };
 
-/// Hand, head, voice and thumb, with the movements that every task is made of. Durations are those
-/// of a surgeon of median pace; `slowness` stretches them.
+/// Hand, head, voice and thumb, with the movements from which every task is composed. Durations are
+/// those of a surgeon of median pace; `slowness` stretches them.
 class SurgeonBody {
  public:
   /// The error model must outlive it.
   SurgeonBody(Random random, const ErrorModel& error_model, double slowness, const Posture& start);
 
-  /// A tick of the simulation: the script awaiting it goes on.
+  /// A tick of the simulation: the script awaiting it continues.
   void tick(Timestamp now);
   [[nodiscard]] Metronome::NextTick next_tick() { return metronome_.next_tick(); }
   [[nodiscard]] Timestamp now() const { return now_; }
@@ -46,7 +46,7 @@ class SurgeonBody {
   Script rest(double duration_s);
   /// Moves the tool with a minimum-jerk profile (Flash and Hogan 1985), lifted on the way.
   Script move(Grip goal, double duration_s, double lift_m = 0.0);
-  /// Lays away what is in hand and brings the tool wanted over `site`.
+  /// Puts the current tool away and brings the wanted one over `site`.
   Script take(ToolKind tool, Point<Room> site);
   void look(Point<Room> site, std::optional<Vec3> from = std::nullopt);
 
@@ -56,14 +56,14 @@ class SurgeonBody {
   Script double_click();
   void say(const std::string& phrase);
 
-  /// What was done since, for the devices to deliver.
+  /// Actions since the last tick, for the devices to deliver.
   std::vector<ClickerEvent> clicks;
   std::vector<Phrase> phrases;
 
-  /// How the pointer is held over a place: leaning away from the head, so that its tag shows.
+  /// How the pointer is held over a place: leaning away from the head, so that its tag is visible.
   [[nodiscard]] Vec3 pointer_axis(Vec3 surface_normal) const;
-  /// The head's place from which a tool along `axis` shows its tag well, while the surgeon still
-  /// stands at the side of the table.
+  /// The direction from which the tag of a tool along `axis` is seen well while the surgeon stays
+  /// at the side of the table.
   [[nodiscard]] static Vec3 best_view(Vec3 axis);
 
  private:

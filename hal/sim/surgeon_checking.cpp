@@ -8,32 +8,32 @@ namespace orthonav::sim {
 namespace {
 
 constexpr double kReach_s = 1.5;
-/// From one place of the bone to the next, the tip not looked for anew: to start and to set down,
-/// and the way at the pace of a hand that taps.
+/// From one place on the bone to the next, without searching for the tip again: time to start and
+/// set down, and the speed of a tapping hand in between.
 constexpr double kDab_s = 0.4;
 constexpr double kDabPace_m_per_s = 0.08;
 constexpr double kDabLift_m = 0.008;
-/// What is left of soft tissue under a tip that is pressed through it. Estimate.
+/// Fraction of soft tissue that remains under a pressed tip. Estimate.
 constexpr double kPressedTissue = 0.08;
 constexpr double kTouchLift_m = 0.02;
 constexpr double kSettle_s = 1.0;
 constexpr double kDabSettle_s = 0.6;
 constexpr double kReadLine_s = 0.5;
-/// Whether the line took it is seen beside the tip.
+/// A glance at the line, near the tip, shows whether the touch was taken.
 constexpr double kDabGlance_s = 0.15;
-/// A vertebra is no wider.
+/// Upper bound on the width of a vertebra.
 constexpr double kAcross_m = 0.10;
-/// The first ones are as far apart as they can be; those that follow where the line asks for more,
-/// at least so far.
+/// The first places are as far apart as possible; further ones, if the line asks for more, at least
+/// this far.
 constexpr double kApart_m = 0.005;
-/// One that does not fit is taken back where at least so many others do, twice at most; then the
-/// registration goes.
+/// A touch that does not fit is deleted if at least this many others fit, at most twice; after that
+/// the registration is rejected.
 constexpr std::size_t kKnown = 8;
 constexpr std::size_t kMostTakenBack = 2;
 constexpr double kTakeBack_s = 1.5;
-/// As many as count, where the line goes on asking.
+/// The largest number of places that count, if the line keeps asking.
 constexpr std::size_t kMostPlaces = 48;
-/// Nobody touches the very ends of what is stroked: there the tip slips off.
+/// The very ends of strokes are not touched, since the tip would slip off.
 constexpr double kFromEnd = 0.2;
 
 }  // namespace
@@ -116,11 +116,11 @@ Script Surgeon::check_by_touch(std::size_t level, bool& fits) {
   const StepOnDisplay step = step_now();
   const std::vector<BoneSpot> places = places_to_check(level);
   std::size_t taken_back = 0;
-  // Where the line asks for more than there are, a place is pressed a second time.
+  // If the line asks for more places than there are, a place is pressed a second time.
   for (std::size_t touch = 0; !places.empty() && touch < 2 * kMostPlaces; ++touch) {
     if (in_step(step) && asked(ChecksAsked::kReject) && touch >= kKnown &&
         taken_back < kMostTakenBack) {
-      // The others agree: it slipped, or lies where the model is not the bone.
+      // The others agree: the touch slipped, or the model deviates from the bone there.
       ++taken_back;
       body_.say("delete");
       co_await body_.rest(kTakeBack_s);
@@ -132,7 +132,7 @@ Script Surgeon::check_by_touch(std::size_t level, bool& fits) {
     const auto& room_from_vertebra = layout_->room_from_vertebra(level);
     co_await touch_place(step, {(room_from_vertebra * Point<Vertebra>{place.point}).v,
                                 (room_from_vertebra * Direction<Vertebra>{place.normal}).v});
-    // A message goes after a while, and the line asks again or is content.
+    // A message disappears after a while; the line then asks again, or does not.
     const Timestamp end = body_.now() + from_seconds(kPatience_s);
     while (in_step(step) && told(Notice::kTouchNotRecorded) && body_.now() < end) {
       co_await body_.next_tick();

@@ -17,13 +17,13 @@ constexpr double kSettling = 0.10;
 constexpr double kLookingBack = 0.15;
 constexpr double kAfterWord = 0.35;
 constexpr double kHop_s = 0.8;          // from one stroke of a region to the next
-constexpr double kLeastAround_s = 1.5;  // there is always time for a word
+constexpr double kLeastAround_s = 1.5;  // there is always time for a command
 constexpr double kLift_m = 0.015;
-/// Soft tissue lifts the tip along some millimetres of way.
+/// Soft tissue lifts the tip along a few millimetres of path.
 constexpr double kLongestLift_m = 0.030;
 constexpr double kShortestLift_m = 0.007;
 constexpr double kVerdict_s = 1.5;
-/// Whoever is refused presses harder the next time. Estimate.
+/// After a refusal the surgeon presses harder. Estimate.
 constexpr double kHarder = 0.7;
 
 /// Where and how far the tip leaves the bone in a stroke that slips.
@@ -112,7 +112,7 @@ Script Surgeon::slide(std::size_t level, const Stroke& stroke, double duration_s
     t = std::min(1.0, seconds(body_.now() - begin) / length_s);
     const double along_m = length_m * minimum_jerk(t);
     const BoneSpot spot = in_room(room_from_vertebra, stroke.at(along_m));
-    // The bone stops the tip, so it is lifted off only.
+    // The bone stops the tip, so it can only be lifted off.
     const double lift_m =
         std::abs(lift.at(along_m)) + stroke.tissue_at(along_m) + slip.lift_m(along_m);
     body_.posture().grip.tip = {spot.point + lift_m * spot.normal};
@@ -121,7 +121,7 @@ Script Surgeon::slide(std::size_t level, const Stroke& stroke, double duration_s
 }
 
 Script Surgeon::await_verdict(std::size_t level, StepOnDisplay step) {
-  // The line may still say why the last attempt was refused.
+  // The line may still show why the last attempt was refused.
   co_await body_.rest(kVerdict_s / body_.slowness());
   for (int repeat = 0; repeat <= kRepeats; ++repeat) {
     const Timestamp end = body_.now() + from_seconds(kPatience_s);

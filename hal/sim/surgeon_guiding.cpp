@@ -45,7 +45,7 @@ Script Surgeon::set_on(const Aim& aim) {
   co_await body_.move({tip + kOverBone_m * axis, axis, 0.0}, 1.2);
   co_await body_.move({tip, axis, 0.0}, 1.2);
   body_.posture().contact_normal = aim.on_bone.normal;
-  // The bone gives way to the instrument for as long as it is pressed on.
+  // The bone yields to the instrument while it is pressed.
   body_.posture().pushed_m =
       std::abs(body_.random().normal(0.0, error_model_->push_m)) * Vec3{0, -1, 0};
 }
@@ -82,7 +82,7 @@ Script Surgeon::find_entry(const StepOnDisplay& step, std::size_t level, Side si
   const Vec3 perceived_shift =
       misperceived(layout_->site(level), error_model_->overlay_perception_m) +
       normal_vector(body_.random(), error_model_->entry_pick_m);
-  // First a glance for the direction, to stand right; then a look for the place.
+  // First a glance for the direction, to stand correctly; then a look for the place.
   for (const double look_s : {kQuickLook_s, kLook_s}) {
     bool found = false;
     Vec3 entry;
@@ -176,7 +176,7 @@ Script Surgeon::drill(const Aim& aim, Vec3 turn_of_wire) {
     before = body_.now();
     const double way = minimum_jerk(t);
     Grip& grip = body_.posture().grip;
-    // The axis of the wire is the chord of its way, which turns by half of what the hand does.
+    // The axis of the wire is the chord of its path, which turns by half as much as the hand.
     grip.axis =
         (rotation_from_vector(corrected + 2.0 * way * turn_of_wire) * pierced.axis).normalized();
     grip.tip = pierced.tip - way * kAdvance_m * grip.axis;

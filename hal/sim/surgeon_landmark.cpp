@@ -24,7 +24,7 @@ Script Surgeon::touch_landmark(std::size_t level) {
     const Vec3 off = normal_vector(seating_, error_model_->dimple_seating_m);
     co_await touch_at(step, room_from_vertebra * Point<Vertebra>{spot.point} + off,
                       (room_from_vertebra * Direction<Vertebra>{spot.normal}).v);
-    // A place that is not taken, as too near to the reference, is left for another one.
+    // A refused place, for example too near to the reference, is replaced by another one.
     place = told(Notice::kTouchNotRecorded) ? (place + 1) % places.size() : place;
     const Timestamp end = body_.now() + from_seconds(kPatience_s);
     while (in_step(step) && told(Notice::kTouchNotRecorded) && body_.now() < end) {
@@ -54,7 +54,7 @@ Script Surgeon::consent_to_corrections(const StepOnDisplay& step) {
     }
     body_.say("accept");
     co_await body_.rest(1.0);
-    // What was done is said for a while; then the line offers the next one, or none.
+    // The line reports the correction for a while; then it offers the next one, or none.
     const Timestamp end = body_.now() + from_seconds(kPatience_s);
     while (in_step(step) && (told(Notice::kTipCorrected) || told(Notice::kAxisCorrected)) &&
            body_.now() < end) {

@@ -9,13 +9,13 @@ namespace {
 constexpr double kAligning_s = 3.0;
 /// A tip this near to the axis is on it.
 constexpr double kCentred_m = 0.0004;
-/// The numbers are read for this long, then the tip is moved; nobody goes on for ever.
+/// The numbers are read for this long, then the tip is moved; the total time is limited.
 constexpr double kReading_s = 0.6;
 constexpr double kMoving_s = 0.5;
 constexpr int kMostMoves = 6;
 constexpr double kPatienceForNumbers_s = 20.0;
 constexpr int kFewestNumbers = 5;
-/// One digit taken for another.
+/// One digit misread as another.
 constexpr double kMisread_m = 0.001;
 
 }  // namespace

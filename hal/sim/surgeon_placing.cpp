@@ -9,13 +9,14 @@ constexpr double kSleeveOverBone_m = 0.004;
 constexpr double kOverWire_m = 0.050;
 constexpr double kSetOver_s = 2.0;
 constexpr double kAtRest_s = 1.0;
-/// The sleeve is turned to and fro about the wire by so much to either side, fingers only.
+/// The sleeve is turned to and fro about the wire by this much to either side, with the fingers
+/// only.
 constexpr double kSleeveTurn_rad = 1.0;
 constexpr double kSleeveTurn_s = 0.8;
 constexpr int kSleeveTurns = 6;
 constexpr double kReadNumbers_s = 1.0;
-/// An instrument that bends by more (SD an axis) does so again: surgeons know which they hold, and
-/// keep what a wire without support has come to.
+/// An instrument that bends by more (SD per axis) will do so again: surgeons know their instrument,
+/// and keep the result of an unsupported wire.
 constexpr double kBendsAgain_rad = 0.02;
 
 }  // namespace
@@ -32,7 +33,7 @@ Script Surgeon::look_at_wire(std::size_t level, Side side) {
       redone_.insert(guiding).second) {
     body_.say("delete");
     co_await body_.rest(kReadNumbers_s);
-    // The line goes on to the landmark, or says that nothing but keeping is left.
+    // The line moves on to the landmark, or says that the wire can only be kept.
     if (!in_step(step)) {
       driven_.erase(guiding);
       co_return;
@@ -60,7 +61,7 @@ Script Surgeon::set_sleeve_over(const StepOnDisplay& step, std::size_t level,
   co_await body_.move({entry + kOverWire_m * outwards, axis, 0.0}, kSetOver_s);
   co_await body_.move({entry + kSleeveOverBone_m * outwards, axis, 0.0}, kSetOver_s);
   body_.posture().on_wire = true;
-  // The sleeve's play lets it lie differently at each turn.
+  // Because of its play, the sleeve lies differently after each turn.
   for (int turn = 0; turn < kSleeveTurns && in_step(step); ++turn) {
     const Vec3 lies = normal_vector(sleeving_, error_model_->sleeve_play_rad);
     const double roll_rad = turn + 1 == kSleeveTurns ? 0.0

@@ -9,22 +9,22 @@ namespace orthonav::sim {
 namespace {
 
 constexpr double kSteady_s = 0.7;
-/// So long a number is watched before the last correction.
+/// How long a number is watched before the last correction.
 constexpr double kHold_s = 0.7;
-/// An average further off than this is no last correction: they turn on.
+/// If the average is further off than this, turning continues.
 constexpr double kLastCorrection_rad = 1.0 * kRadiansPerDegree;
 constexpr int kFewestReadings = 5;
-/// One digit of the number taken for another.
+/// One digit of the number misread as another.
 constexpr double kMisread_rad = 1.0 * kRadiansPerDegree;
 constexpr double kLastMove_s = 0.4;
-/// Half the last digit of the readout: a zero can't be told from this.
+/// Half the last digit of the readout: indistinguishable from zero.
 constexpr double kReadoutFloor_rad = 0.05 * kRadiansPerDegree;
-/// Nobody turns for ever: after a while the surgeon is content with more.
+/// After this long the surgeon accepts a larger deviation.
 constexpr double kStrict_s = 6.0;
 constexpr double kDoublesEvery_s = 4.0;
-/// Without a reading for this long the surgeon does something about it.
+/// Without a reading for this long the surgeon acts.
 constexpr double kLost_s = 1.0;
-/// For so long they lean only a little to either side.
+/// For this long they lean only a little to either side.
 constexpr double kLeans_s = 6.0;
 
 }  // namespace
@@ -96,7 +96,7 @@ bool Surgeon::regain_reading(const Aim& aim, double lost_s, double tick_s) {
 
 void Surgeon::show_tag(const Aim& aim, double since_s, double tick_s) {
   body_.posture().grip.roll_rad += tick_s * 0.7 * std::cos(2.0 * since_s);
-  // A tag that was hidden for so long stays hidden from here: they lean further aside.
+  // A tag hidden for this long stays hidden from here: the surgeon leans further aside.
   const double reach_rad = std::clamp(0.25 * (since_s - kLeans_s) / kLeans_s, 0.25, 1.0);
   const double lean = reach_rad * std::sin(0.5 * since_s);
   body_.look({aim.on_bone.point},

@@ -10,9 +10,9 @@ namespace {
 
 /// How sharply a matt print mirrors: half of it within 15 degrees. Estimate.
 constexpr double kSharpness = 80.0;
-/// Lamps on mains light up twice in each of its 50 periods a second.
+/// Mains lamps peak twice in each of the 50 periods per second.
 constexpr double kFlicker_hz = 100.0;
-/// A drop lies anywhere on the plate, which is a little larger than the tag.
+/// A drop may lie anywhere on the plate, which is a little larger than the tag.
 constexpr double kPlateOverTag = 1.3;
 constexpr int kMostDrops = 20;
 

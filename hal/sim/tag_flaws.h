@@ -11,18 +11,18 @@ namespace orthonav::sim {
 
 /// Towards the lamp, in Room; unit.
 [[nodiscard]] Vec3 lamp_in_room();
-/// Height of a place of a tag's face over the plane of its Marker: bent about an axis in its plane,
-/// as paper and foils bend. Its mean over the tag is zero.
+/// Height of a point on a tag's face above the plane of its Marker: the face is bent about an axis
+/// in its plane, as paper and foils are. The mean over the tag is zero.
 [[nodiscard]] double height_m(const TagFlaws& flaws, double size_m, Vec2 place_m);
-/// What a glossy face adds to its grey, as a fraction of a white one's under the lamp: most where
+/// The grey that gloss adds to a face, as a fraction of a white one's under the lamp: largest where
 /// lamp and viewer mirror each other. Both directions unit, in one frame.
 [[nodiscard]] double glare(double gloss, Vec3 normal, Vec3 to_lamp, Vec3 to_viewer);
-/// What flickering light is of its mean, averaged over an exposure about a time.
+/// Flickering light relative to its mean, averaged over an exposure about a time.
 [[nodiscard]] double flicker(const ErrorModel& error_model, double time_s);
 /// Whether a drop lies on one of the four corners of a tag.
 [[nodiscard]] bool covers_a_corner(const TagFlaws& flaws, double size_m);
 
-/// The room with its tags as the error model makes them: bent, with drops of blood on them.
+/// The room with tags flawed according to the error model: bent, with drops of blood.
 [[nodiscard]] RoomDescription with_flawed_tags(RoomDescription room, const ErrorModel& error_model,
                                                const Random& random);
 

@@ -25,7 +25,7 @@ struct TagPattern {
 [[nodiscard]] int tag_count(const std::string& family);
 /// The families that can be drawn, for messages: "tag36h11, ...".
 [[nodiscard]] std::string tag_families();
-/// The pattern out of libapriltag's own tables; nothing for a family or id it does not know.
+/// The pattern from libapriltag's own tables; nothing for an unknown family or id.
 [[nodiscard]] std::optional<TagPattern> tag_pattern(const std::string& family, int id);
 
 }  // namespace orthonav::sim

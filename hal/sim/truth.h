@@ -8,25 +8,25 @@
 
 namespace orthonav::sim {
 
-/// A wire as it was actually driven, in its vertebra's frame; of each screw the last.
+/// A wire as it was actually driven, in its vertebra's frame; the last one of each screw.
 struct DrivenWire {
   std::string level;
-  Side side = Side::kLeft;  ///< as the surgeon read it off the display
+  Side side = Side::kLeft;  ///< as read off the display by the surgeon
   Point<Vertebra> entry;
   Vec3 direction;       ///< unit, into the bone
   Timestamp time{};     ///< when it was in
   Timestamp pierced{};  ///< when its tip went through the cortex
 };
 
-/// A screw head where it actually stands.
+/// The actual position of a screw head.
 struct PlacedHead {
   std::string level;
   Side side = Side::kLeft;
   Point<Room> position;
 };
 
-/// What actually happened; filled while the session runs, read afterwards by the evaluation alone
-/// (engine/study/evaluation.h). Nothing that navigates may know it.
+/// What actually happened; filled while the session runs, read afterwards only by the evaluation
+/// (engine/study/evaluation.h). Navigation must not use it.
 struct Truth {
   std::vector<DrivenWire> wires;
   std::vector<PlacedHead> heads;

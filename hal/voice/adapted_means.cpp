@@ -18,7 +18,7 @@ std::uint64_t hash_of_means(const AcousticMeans& means) {
                                 means.values.size() * sizeof(float)));
 }
 
-/// Calls `each(value's index, component)`, components counted over all streams.
+/// Calls `each(value's index, component)`, with components counted over all streams.
 template <class Each>
 void for_each_value(const AcousticMeans& means, Each each) {
   std::size_t at = 0;
@@ -35,7 +35,7 @@ void for_each_value(const AcousticMeans& means, Each each) {
   }
 }
 
-/// One step of a change for each component.
+/// The size of one step of a change, for each component.
 std::vector<float> steps_of(const AcousticMeans& means) {
   std::size_t components = 0;
   for (const int width : means.stream_widths) {

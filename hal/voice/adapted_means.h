@@ -11,8 +11,7 @@
 
 namespace orthonav::voice {
 
-/// Means of an acoustic model: what PocketSphinx calls "means" (Sphinx-3 format), without its
-/// header.
+/// Means of an acoustic model: PocketSphinx's file "means" (Sphinx-3 format), without its header.
 struct AcousticMeans {
   int codebooks = 0;               ///< one for each sound
   std::vector<int> stream_widths;  ///< cepstra, their differences, and the differences of those
@@ -26,7 +25,7 @@ Result<AcousticMeans> read_means(const std::filesystem::path& path);
 /// The content of such a file, as PocketSphinx reads it.
 [[nodiscard]] std::string means_file(const AcousticMeans& means);
 
-/// The change from the means of one model to those of another, small enough to be kept with the
+/// The change from the means of one model to those of another, small enough to be stored with the
 /// code: 8 bits each, in steps of `kStepOfSpread` of the component's spread over all means.
 inline constexpr float kStepOfSpread = 1.0F / 32.0F;
 [[nodiscard]] std::string means_change(const AcousticMeans& from, const AcousticMeans& to);

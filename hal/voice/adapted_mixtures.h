@@ -10,7 +10,7 @@
 namespace orthonav::voice {
 
 /// The weight of each Gaussian in each senone (a third of a sound, given its neighbours) of an
-/// acoustic model: what PocketSphinx calls "sendump".
+/// acoustic model: PocketSphinx's file "sendump".
 struct MixtureWeights {
   int streams = 0;
   int densities = 0;  ///< Gaussians of each stream

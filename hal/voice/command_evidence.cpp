@@ -10,11 +10,11 @@ namespace orthonav::voice {
 
 namespace {
 
-// In frames of 10 ms: what is shorter was hurried, or was another word; a wake word that is longer
-// was drawn out.
+// In frames of 10 ms: a shorter word was hurried, or was another word; a longer wake word was drawn
+// out.
 constexpr double kHurried = 35.0;
 constexpr double kDrawn = 60.0;
-// With less evidence for silence around the words than this, more was said than a command. In a
+// With less evidence for silence around the words than this, more than a command was said. In a
 // noisy room the noise counts against silence too.
 constexpr double kLeastAroundInQuiet = -90.0;
 constexpr double kLeastAroundInNoise = -300.0;

@@ -10,19 +10,19 @@
 
 namespace orthonav::voice {
 
-/// What speaks for a command having been said: how well the recogniser's words fit a stretch of
-/// speech, and how far it stands out from the background.
+/// The evidence that a command was said: how well the recogniser's words fit a stretch of speech,
+/// and how far it stands out from the background.
 struct CommandEvidence {
   std::string command;
   double evidence = 0.0;  ///< mean of the command's own words, as `RecognizedWord::evidence`
-  int frames = 0;         ///< of 10 ms, that these words take
-  std::optional<RecognizedWord> wake;  ///< the wake word, where one came before them
+  int frames = 0;         ///< of 10 ms, over all these words
+  std::optional<RecognizedWord> wake;  ///< the wake word, if one preceded them
   double evidence_around = 0.0;        ///< `Recognition::evidence_around`
   double above_background_db = 0.0;    ///< of the loudest 50 ms
 };
 
-/// Separates the wake word from the command. Nothing where no command was heard, or where more
-/// than a command was said.
+/// Separates the wake word from the command. Nothing if no command was heard, or if more than a
+/// command was said.
 [[nodiscard]] std::optional<CommandEvidence> evidence_of(const Recognition& heard,
                                                          const std::string& wake_word,
                                                          double above_background_db);
@@ -30,18 +30,19 @@ struct CommandEvidence {
 inline constexpr std::size_t kEvidenceFeatures = 13;
 using EvidenceFeatures = std::array<double, kEvidenceFeatures>;
 
-/// What the log odds are a weighted sum of, whichever command it is; the first is the constant 1.
+/// The features of which the log odds are a weighted sum, for any command; the first is the
+/// constant 1.
 [[nodiscard]] EvidenceFeatures features_of(const CommandEvidence& evidence);
 
-/// What one command adds to the sum by itself.
+/// The additional term of one command.
 struct CommandWeight {
   std::string_view command;
   double after_wake_word = 0.0;
   double alone = 0.0;
 };
 
-/// What training found (tools/voice/voice_weights.cpp): one logistic regression for commands after
-/// the wake word and one for single words. The vocabulary is its own: `commands` borrows its rows.
+/// The result of training (tools/voice/voice_weights.cpp): one logistic regression for commands
+/// after the wake word and one for single words. `commands` borrows its rows.
 struct EvidenceWeights {
   std::span<const CommandWeight> commands;
   EvidenceFeatures after_wake_word{};

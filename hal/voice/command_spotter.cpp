@@ -100,7 +100,7 @@ double CommandSpotter::confidence_of(const CommandEvidence& evidence) const {
   const bool quiet = evidence.above_background_db >= options_.quiet_above_db;
   const bool counts = evidence.wake || options_.waking == Waking::kNever ||
                       (options_.waking == Waking::kInNoise && quiet);
-  // It was heard but is not acted upon; the status line says so.
+  // It was heard but is not executed; the status line says so.
   return counts ? confidence : std::min(confidence, 0.49);
 }
 

@@ -20,7 +20,7 @@ namespace orthonav::voice {
 /// When a command needs the wake word before it.
 enum class Waking {
   kAlways,   ///< every command needs it
-  kInNoise,  ///< not needed where the voice stands out clearly from the background
+  kInNoise,  ///< not needed if the voice stands out clearly from the background
   kNever     ///< no command needs it
 };
 
@@ -30,12 +30,12 @@ struct SpotterOptions {
   /// Single words still cause more than one false accept in ten minutes of talk, even in a silent
   /// room (docs/voice.md).
   Waking waking = Waking::kAlways;
-  /// A room is quiet where the loudest syllable is this much above the background.
+  /// A room counts as quiet if the loudest syllable is this much above the background.
   double quiet_above_db = 26.0;
-  /// The trained weights. A command that they were not trained for still works, with the strictest
-  /// of the others' weights.
+  /// The trained weights. A command without trained weights still works, with the strictest of the
+  /// others' weights.
   EvidenceWeights weights = kTrainedWeights;
-  /// Above this a command counts (`log_odds`).
+  /// A command counts above this (`log_odds`).
   double least_log_odds = 0.0;
   /// "delete" destroys data and needs more.
   double more_log_odds_to_delete = 1.0;
@@ -43,14 +43,14 @@ struct SpotterOptions {
   CleanerOptions cleaner;
   std::filesystem::path acoustic_model = default_acoustic_model();
 
-  /// The phrases of the commands' grammar: each with the wake word and alone, whichever counts,
-  /// since a grammar without single words takes "save" for "ortho save".
+  /// The phrases of the commands' grammar: each with the wake word and alone, regardless of which
+  /// count, since a grammar without single words would take "save" for "ortho save".
   [[nodiscard]] std::vector<std::string> phrases() const;
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// Cleans a segment and recognises it; nothing where it holds no command.
+/// Cleans a segment and recognises it; nothing if it contains no command.
 [[nodiscard]] std::optional<CommandEvidence> evidence_in(const SpeechSegment& segment,
                                                          const SpotterOptions& options,
                                                          PhraseRecognizer& recognizer);
@@ -58,7 +58,7 @@ struct SpotterOptions {
 /// A command as it was spoken.
 struct SpokenCommand {
   std::string text;         ///< one of the commands, without the wake word
-  double confidence = 0.0;  ///< in [0, 1]; below 0.5 it was more likely something else
+  double confidence = 0.0;  ///< in [0, 1]; below 0.5, something else is more likely
   std::int64_t begin = 0;   ///< samples at `kSpeechRateHz` since the stream began
   std::int64_t end = 0;
 };
@@ -68,7 +68,7 @@ struct SpokenCommand {
 /// split into calls. One thread at a time.
 class CommandSpotter {
  public:
-  /// Refuses options with problems, a model that is not there, and words without a pronunciation.
+  /// Refuses invalid options, a missing model, and words without a pronunciation.
   static Result<std::unique_ptr<CommandSpotter>> create(const SpotterOptions& options);
   /// Takes samples at `kSpeechRateHz` and appends the commands that ended in them; very unlikely
   /// ones are left out. Does up to 0.1 s of work a tenth of a second before a segment ends, so that

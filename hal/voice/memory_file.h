@@ -7,7 +7,7 @@
 
 namespace orthonav::voice {
 
-/// A file that lives in memory, for libraries that read from a path only.
+/// A file in memory, for libraries that can only read from a path.
 class MemoryFile {
  public:
   static Result<MemoryFile> create(std::string_view content);

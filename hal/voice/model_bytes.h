@@ -10,12 +10,12 @@
 
 namespace orthonav::voice {
 
-/// Empty where there is no such file.
+/// Empty if there is no such file.
 [[nodiscard]] std::string model_file(const std::filesystem::path& path);
 
 /// The beginning of a file of sphinxtrain's: a header in lines, and a number for the byte order.
 [[nodiscard]] std::string sphinx_file_start();
-/// What follows that beginning; nothing where a file begins differently.
+/// The content after that beginning; nothing if a file begins differently.
 [[nodiscard]] std::optional<std::string_view> after_sphinx_file_start(std::string_view file);
 
 [[nodiscard]] Error made_for_another_model();

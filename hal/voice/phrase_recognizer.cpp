@@ -122,7 +122,7 @@ Status PhraseRecognizer::open(const std::filesystem::path& model) {
   if (!mixtures) {
     return mixtures.error();
   }
-  // Noises that the model knows would explain what follows a word in a sentence; silence does not.
+  // The model's noise words could explain the rest of a sentence after a word; silence can't.
   const auto silences = MemoryFile::create("<s> SIL\n</s> SIL\n<sil> SIL\n");
   if (!silences) {
     return silences.error();
@@ -214,7 +214,7 @@ Recognition PhraseRecognizer::recognize(std::span<const std::int16_t> samples) {
   std::vector<Cepstrum> cepstra = cepstra_of(ps_get_fe(decoder_.get()), samples);
   const auto frames = static_cast<int>(cepstra.size());
   const std::vector<Part> phrase = decode(kCommands, cepstra);
-  // Where no phrase fits to the end, the decoder returns one that ended earlier.
+  // If no phrase fits to the end, the decoder returns one that ended earlier.
   if (phrase.empty() || phrase.back().last < frames - 1) {
     return {};
   }
@@ -231,8 +231,8 @@ Recognition PhraseRecognizer::recognize(std::span<const std::int16_t> samples) {
       evidence -= anything[static_cast<std::size_t>(t)];
     }
     const int length = part.last - part.first + 1;
-    // Silences are "<sil>", what joins the parts of a grammar is "(NULL)", and "save(2)" is
-    // another way to say "save".
+    // Silences are "<sil>", joints in a grammar are "(NULL)", and "save(2)" is another
+    // pronunciation of "save".
     if (part.word.find_first_of("<(") == 0) {
       recognition.evidence_around += evidence;
     } else {

@@ -21,29 +21,29 @@ namespace orthonav::voice {
 struct RecognizedWord {
   std::string word;
   int frames = 0;  ///< of 10 ms
-  /// How much better the word explains its stretch of sound than any other sounds do: the natural
+  /// How much better the word explains its stretch of sound than any other sounds: the natural
   /// logarithm of the likelihood ratio per 10 ms. Well below zero: something else was said.
   double evidence = 0.0;
 };
 
 /// The phrase that a segment of speech, from one silence to the next, sounds most like.
 struct Recognition {
-  std::vector<RecognizedWord> words;  ///< in their order; none where no phrase fits at all
-  /// How much better silence explains the rest of the segment than other sounds do: the natural
-  /// logarithm of the likelihood ratio. Far below zero: more was said than the phrase.
+  std::vector<RecognizedWord> words;  ///< in their order; empty if no phrase fits at all
+  /// How much better silence explains the rest of the segment than other sounds: the natural
+  /// logarithm of the likelihood ratio. Far below zero: more than the phrase was said.
   double evidence_around = 0.0;
 };
 
 /// Decides which of a few phrases a segment of speech is: PocketSphinx with a grammar of the
 /// phrases, compared with a second grammar in which any sounds, and words that resemble a phrase,
-/// may follow one another. The acoustic model's means are moved to where words in noise lie after
-/// cleaning (data/voice_means.bin, tools/voice/train). One thread at a time.
+/// may follow one another. The acoustic model's means are adapted to words in noise after cleaning
+/// (data/voice_means.bin, tools/voice/train). One thread at a time.
 class PhraseRecognizer {
  public:
   /// Refuses a missing model, and phrases with a word whose pronunciation is not known.
   static Result<std::unique_ptr<PhraseRecognizer>> create(const std::vector<std::string>& phrases,
                                                           const std::filesystem::path& model);
-  /// Of samples at `kSpeechRateHz`.
+  /// Takes samples at `kSpeechRateHz`.
   [[nodiscard]] Recognition recognize(std::span<const std::int16_t> samples);
 
  private:

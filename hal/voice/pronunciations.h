@@ -61,7 +61,7 @@ inline constexpr Pronunciation kSpoken[] = {
     {"ortho(5)", "AO F OW"},
 };
 
-/// Words that resemble a command but are none.
+/// Words that resemble a command but are not one.
 inline constexpr Pronunciation kOthers[] = {
     {"safe", "S EY F"},
     {"saved", "S EY V D"},

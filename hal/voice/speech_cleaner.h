@@ -6,19 +6,19 @@
 
 namespace orthonav::voice {
 
-/// How a segment is made to sound like what the acoustic model was trained on.
+/// How a segment is made to sound like the acoustic model's training data.
 struct CleanerOptions {
   double over_subtraction = 1.5;  ///< times the background's power
-  double least_gain = 0.1;        ///< of any frequency, so that gaps do not ring
+  double least_gain = 0.1;        ///< of any frequency, to avoid ringing in gaps
   double speech_rms = 3000.0;     ///< of the loudest frames
   double masking_db = -30.0;  ///< level of the white noise that is added, relative to the speech
 };
 
-/// Takes the background out of a segment (Wiener filter, its spectrum from the segment's first
-/// `background_samples`), brings the speech to one loudness and lays white noise under it: the
-/// model knows speech in rooms, and digital silence between words is farther from that than noise
-/// is. What comes back begins where the background's samples end, for a recogniser that hears a
-/// long silence takes it for sounds. The same samples give the same result.
+/// Removes the background from a segment (Wiener filter with the spectrum of the segment's first
+/// `background_samples`), brings the speech to a fixed loudness and adds white noise: the model was
+/// trained on speech in rooms, and digital silence between words is farther from that than noise.
+/// The result begins where the background's samples end, since a recogniser takes a long silence
+/// for sounds. The same samples give the same result.
 [[nodiscard]] std::vector<std::int16_t> cleaned(std::span<const std::int16_t> samples,
                                                 std::size_t background_samples,
                                                 const CleanerOptions& options = {});

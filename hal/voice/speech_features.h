@@ -9,11 +9,11 @@ struct fe_s;
 
 namespace orthonav::voice {
 
-/// What PocketSphinx derives from 10 ms of sound.
+/// PocketSphinx's features of 10 ms of sound.
 using Cepstrum = std::array<float, 13>;
 
-/// From cleaned samples at `kSpeechRateHz`, by PocketSphinx's front end; empty where there are too
-/// few. Their zero point is fixed: the mean over one word says more about the word than about the
+/// From cleaned samples at `kSpeechRateHz`, by PocketSphinx's front end; empty if there are too
+/// few. Their zero point is fixed: the mean over one word depends more on the word than on the
 /// microphone, and the acoustic model was adapted to different microphones.
 [[nodiscard]] std::vector<Cepstrum> cepstra_of(fe_s* front_end,
                                                std::span<const std::int16_t> samples);

@@ -16,14 +16,14 @@ constexpr double kSilenceDb = -80.0;
 constexpr double kSmoothing = 0.3;
 // The background is the median level of this many frames.
 constexpr std::int64_t kHistoryFrames = 600;
-// Even someone who speaks all the time pauses, though: the background is at most this far above the
-// level that a tenth of these frames stay below (or of the newest frames, where a noise began).
+// Even continuous speech has pauses, though: the background is at most this far above the level
+// that a tenth of these frames stay below (or a tenth of the newest frames, if a noise began).
 constexpr std::int64_t kShortFrames = 150;
 constexpr double kPauses = 0.1;
 constexpr double kAbovePausesDb = 3.0;
 constexpr double kThresholdStepDb = 1.0;
-// For each step above the least threshold, more quiet must follow a stretch, since a word's weaker
-// sounds may lie below it; little more where even what is this much below the loudest sound lies
+// For each step above the lowest threshold, more quiet must follow a stretch, since a word's weaker
+// sounds may lie below it; only slightly more if even sounds this much below the loudest one lie
 // above it.
 constexpr int kMoreQuietFrames = 9;
 constexpr int kLittleMoreQuietFrames = 5;
@@ -128,7 +128,7 @@ void SpeechSegmenter::keep_level(double level_db) {
     short_.remove(this->level_db(frames_ - kShortFrames));
   }
   levels_db_[static_cast<std::size_t>(frames_ % kHistoryFrames)] = static_cast<float>(level_db);
-  // As it is stored, so that it can be found again.
+  // In the stored form, so that it can be removed again.
   long_.add(this->level_db(frames_));
   short_.add(this->level_db(frames_));
   ++frames_;
@@ -151,7 +151,7 @@ int SpeechSegmenter::quiet_frames(double above_background_db) const {
 }
 
 /// The newest stretch of frames above a threshold: pauses within it are shorter than the one before
-/// it. Nothing where it is too long.
+/// it. Nothing if it is too long.
 std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::stretch_above(double threshold_db) const {
   const std::int64_t oldest = std::max<std::int64_t>(0, frames_ - kHistoryFrames);
   const std::int64_t pause = options_.quiet_before_ms / kFrameMs;
@@ -170,7 +170,7 @@ std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::stretch_above(double th
       return std::nullopt;
     }
   }
-  // Before the stream began, nobody spoke.
+  // The time before the stream counts as silent.
   if (at < oldest && oldest > 0) {
     return std::nullopt;
   }

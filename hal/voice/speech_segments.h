@@ -7,25 +7,25 @@
 
 namespace orthonav::voice {
 
-/// The rate that speech is recognised at, one channel: that of the acoustic model's training.
+/// Sampling rate for speech recognition, one channel: that of the acoustic model's training.
 inline constexpr int kSpeechRateHz = 16000;
 
 /// When sound counts as speech. Levels are those of 50 ms of sound between 200 and 3500 Hz.
 struct SegmentOptions {
-  /// A segment is what is louder than a threshold so far above the background; the least at which
-  /// nothing else is, for a while before it and after it.
+  /// A segment is the sound above a threshold that lies at least this far above the background: the
+  /// lowest threshold at which, for a while before and after it, no other sound exceeds it.
   double least_above_background_db = 6.0;
   double most_above_background_db = 14.0;
-  double above_threshold_db = 6.0;  ///< the loudest part of it, at least
-  double below_loudest_db = 30.0;   ///< the threshold, at most: a word's last sound fades away
+  double above_threshold_db = 6.0;  ///< the least level of its loudest part
+  double below_loudest_db = 30.0;   ///< the highest threshold, since a word's last sound fades away
   int least_ms = 200;
-  /// Quiet of this length ends it. In noise the last sounds of a word can't be told from the
-  /// background, so the word seems to end earlier than it does.
+  /// Quiet of this length ends it. In noise the last sounds of a word can't be distinguished from
+  /// the background, so the word seems to end early.
   int end_ms = 240;
   int end_in_noise_ms = 300;
-  int quiet_before_ms = 500;  ///< a command follows such a pause; a word within a sentence does not
+  int quiet_before_ms = 500;  ///< pause before a command; a word within a sentence has none
   int margin_ms = 400;        ///< kept before the loud part
-  int max_ms = 1900;          ///< longer speech is no command
+  int max_ms = 1900;          ///< longer speech is not a command
 };
 
 /// A stretch of sound between two silences.
@@ -35,7 +35,7 @@ struct SpeechSegment {
   std::int64_t end = 0;               ///< one past the last loud sample
   double above_background_db = 0.0;   ///< of the loudest 50 ms
   /// Whether it is over. A segment that may be over soon is announced in advance, with all its
-  /// samples, so that it can be recognised meanwhile; it then ends unchanged, or goes on.
+  /// samples, so that it can be recognised meanwhile; it then ends unchanged or continues.
   bool ended = false;
 };
 
@@ -61,7 +61,7 @@ class LevelHistogram {
   LevelHistogram();
   void add(double level_db);
   void remove(double level_db);
-  /// The level that this fraction of the frames stays below.
+  /// The level below which this fraction of the frames stays.
   [[nodiscard]] double level_above(double fraction) const;
 
  private:
@@ -70,8 +70,8 @@ class LevelHistogram {
 };
 
 /// Cuts a stream of sound into stretches of speech: sound that stands out from the half second
-/// before it and the quarter second or more after it. These may lie somewhat above the background
-/// (the median of the last seconds), which leaves room for other people's voices. Bounded memory.
+/// before it and the quarter second or more after it. Those may lie somewhat above the background
+/// (the median of the last seconds), which allows for other people's voices. Bounded memory.
 class SpeechSegmenter {
  public:
   explicit SpeechSegmenter(const SegmentOptions& options = {});
@@ -105,7 +105,7 @@ class SpeechSegmenter {
   void end_frame(std::vector<SpeechSegment>& segments);
   void forget();
   void keep_level(double level_db);
-  /// With what was kept of its sound, where it has not ended yet.
+  /// With the sound kept so far, if it has not ended yet.
   [[nodiscard]] SpeechSegment segment_of(const Stretch& stretch, bool ended) const;
   [[nodiscard]] double level_db(std::int64_t frame) const;
   [[nodiscard]] double background_db() const;

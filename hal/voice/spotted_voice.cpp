@@ -29,7 +29,7 @@ class Listener {
         spotter_(std::move(spotter)),
         resampler_(std::move(resampler)) {}
 
-  /// Reads a block of sound and appends the phrases in it; false where no sound has come.
+  /// Reads a block of sound and appends the phrases in it; false if there is no sound yet.
   Result<bool> listen(std::vector<Phrase>& phrases) {
     std::array<std::int16_t, 4096> block;
     const auto count = microphone_->read(block);
@@ -72,7 +72,7 @@ class Listener {
   }
 };
 
-/// Passes on what was spoken before the time asked for.
+/// Passes on the phrases spoken up to the requested time.
 Status deliver(std::vector<Phrase>& heard, Timestamp until, std::vector<Phrase>& phrases) {
   const auto due = std::find_if(heard.begin(), heard.end(),
                                 [&](const Phrase& phrase) { return phrase.time > until; });
@@ -128,8 +128,8 @@ class VoiceOnItsOwnThread : public Voice {
   std::vector<Phrase> heard_ ORTHONAV_GUARDED_BY(mutex_);
   Status trouble_ ORTHONAV_GUARDED_BY(mutex_);
   Status died_ ORTHONAV_GUARDED_BY(mutex_);
-  std::atomic<std::uint64_t> blocks_ = 0;  ///< that its thread listened to, empty ones too
-  // Of whoever polls.
+  std::atomic<std::uint64_t> blocks_ = 0;  ///< processed by its thread, including empty ones
+  // Used by the polling thread only.
   std::unique_ptr<const Clock> wall_;
   std::uint64_t seen_blocks_ = 0;
   std::optional<Timestamp> alive_at_;
@@ -158,7 +158,8 @@ class VoiceOnItsOwnThread : public Voice {
       }
     }
   }
-  /// Its thread has done nothing for `kStallsAfter`: the microphone hangs, or the recognizer.
+  /// Whether its thread has done nothing for `kStallsAfter`: the microphone or the recognizer
+  /// hangs.
   bool stalled() {
     const Timestamp now = wall_->now();
     const std::uint64_t blocks = blocks_;

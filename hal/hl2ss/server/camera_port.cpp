@@ -12,7 +12,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// The most pictures from one key frame to the next that an encoder takes.
+/// The largest distance between key frames that an encoder accepts.
 constexpr std::uint64_t kMaxGopSize = 3000;
 constexpr Duration kStall = std::chrono::milliseconds(300);
 constexpr Duration kHalfPause = std::chrono::milliseconds(40);
@@ -123,7 +123,7 @@ bool CameraPort::strikes(double probability) {
   return strike;
 }
 
-/// What becomes of a packet; unless it is untouched, `chunks` is what is sent instead.
+/// The fate of a packet; unless it is untouched, `chunks` is sent instead.
 CameraPort::Fate CameraPort::spoil(std::vector<std::uint8_t>& packet, std::vector<Chunk>& chunks) {
   const auto half = packet.begin() + static_cast<std::ptrdiff_t>(packet.size() / 2);
   if (strikes(faults_.lose)) {
@@ -169,7 +169,7 @@ void CameraPort::corrupt(std::vector<std::uint8_t>& packet) {
       return overwrite(packet, pose_at + 12 * 4, std::numeric_limits<float>::quiet_NaN());
     case 1:
       return overwrite(packet, kSizeAt, std::numeric_limits<std::uint32_t>::max());
-    case 2: {  // an image that lacks a row, in a packet that is whole
+    case 2: {  // an image that lacks a row, in a complete packet
       packet.erase(packet.begin() + kPacketHeaderBytes,
                    packet.begin() + kPacketHeaderBytes +
                        std::min<std::ptrdiff_t>(

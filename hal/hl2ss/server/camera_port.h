@@ -13,7 +13,7 @@
 
 namespace orthonav::hl2ss {
 
-/// What one front camera's port is made of.
+/// Options of one front camera's port.
 struct CameraPortOptions {
   std::vector<std::uint8_t> calibration;  ///< the whole answer in mode 2
   Faults faults;
@@ -21,8 +21,9 @@ struct CameraPortOptions {
   int slices = 1;  ///< of an H.264 picture
 };
 
-/// A front camera's port: answers with the calibration, or streams what it is given, spoiled as the
-/// faults say. It stamps late, as research mode does, and corrects that as its client asks.
+/// A front camera's port: answers with the calibration, or streams the images it is given, with
+/// faults as configured. It stamps late, as research mode does, and corrects that as its client
+/// requests.
 class CameraPort {
  public:
   explicit CameraPort(CameraPortOptions options)
@@ -37,14 +38,14 @@ class CameraPort {
     std::int64_t ticks = 0;          ///< when it was taken
     std::uint64_t sensor_ticks = 0;  ///< of 1 ns
     const GreyImage* picture = nullptr;
-    /// Where the headset was so long after the image.
+    /// Where the headset was this long after the image.
     std::function<std::optional<Transform<World, Rig>>(Duration)> world_from_rig_after;
-    bool spoil = true;  ///< faults may strike it
+    bool spoil = true;  ///< faults may be applied to it
   };
-  /// Sends it; answers whether it will arrive whole and in its turn.
+  /// Sends it; returns whether it will arrive complete and in order.
   Result<bool> send(const Image& image);
   [[nodiscard]] std::int64_t faults_done() const { return faults_done_; }
-  /// Of the exposure, as it is told with each image.
+  /// Exposure time sent with each image.
   static constexpr std::uint64_t kExposureNs = 4'000'000;
 
  private:

@@ -63,7 +63,7 @@ struct PngEncoder : LibavCodec {
     context->pix_fmt = AV_PIX_FMT_RGBA;
     frame->format = AV_PIX_FMT_RGBA;
     context->time_base = {1, 5};
-    context->log_level_offset = 64;  // a library does not print
+    context->log_level_offset = 64;  // prevents printing by the library
     if (avcodec_open2(context, png, nullptr) < 0 || av_frame_get_buffer(frame, 0) < 0) {
       return Error{"PNG encoder: refused " + std::to_string(width) + "x" + std::to_string(height)};
     }
@@ -92,7 +92,7 @@ std::vector<std::uint8_t> depth_answer_bytes(const DepthCalibration& camera) {
   if (camera.stream == DepthStream::kAhat) {
     append(bytes, static_cast<float>(camera.wraps_at_m) * kUnitsAMetre);
   }
-  // Maps and focal lengths of the undistorted image: zeros, which no client of ours reads.
+  // Maps and focal lengths of the undistorted image: zeros, which our clients do not read.
   bytes.resize(bytes.size() + sizeof(float) * (2 * camera.rays.size() + 4));
   return bytes;
 }

@@ -10,18 +10,18 @@
 namespace orthonav::hl2ss {
 
 /// A depth camera's answer in mode 2, written from the protocol's description: directions at the
-/// pixels' corners, (0, 0) where it has none, millimetres as its unit; for AHaT also where it
+/// pixels' corners, (0, 0) for none, units of millimetres; for AHaT also the distance at which it
 /// wraps.
 [[nodiscard]] std::vector<std::uint8_t> depth_answer_bytes(const DepthCalibration& camera);
 
-/// A picture as the device holds it: nothing measured is 4095 for AHaT, 0 for long throw. Depth,
-/// then brightness.
+/// A picture as the device stores it: depth, then brightness. Unmeasured depth is 4095 for AHaT, 0
+/// for long throw.
 [[nodiscard]] std::vector<std::uint8_t> raw_depth_bytes(DepthStream stream,
                                                         const DepthFrame& frame);
 
-/// One picture of AHaT as its encoder is given it: luma is a quarter of the depth in 8 bits, 0
-/// where nothing was measured; the chroma planes together are the root of every other pair of
-/// brightness.
+/// One AHaT picture as given to the encoder: luma is a quarter of the depth in 8 bits, 0 where
+/// nothing was measured; the chroma planes together hold the square root of every other pair of
+/// brightness values.
 struct PackedAhat {
   GreyImage luma;
   std::vector<std::uint8_t> chroma;

@@ -79,7 +79,7 @@ Status DepthPort::send(const DepthFrame& frame) {
   std::vector<std::uint8_t> payload;
   payload.reserve(picture->size() + 24);
   if (stream_ == DepthStream::kAhat) {
-    append(payload, std::uint32_t{0});  // of a depth that is coded apart
+    append(payload, std::uint32_t{0});  // size of a separately coded depth
     append(payload, static_cast<std::uint32_t>(picture->size()));
   }
   payload.insert(payload.end(), picture->begin(), picture->end());

@@ -12,17 +12,17 @@
 
 namespace orthonav::hl2ss {
 
-/// A depth camera's port: answers with the calibration, or streams what it is given. Without a
-/// calibration it hangs up on whoever asks: this headset has no such camera.
+/// A depth camera's port: answers with the calibration, or streams the pictures it is given.
+/// Without a calibration, the headset has no such camera and every client is disconnected.
 class DepthPort {
  public:
-  /// `calibration`: the whole answer in mode 2.
+  /// `calibration`: the complete answer in mode 2.
   DepthPort(DepthStream stream, std::vector<std::uint8_t> calibration)
       : stream_(stream), calibration_(std::move(calibration)) {}
   [[nodiscard]] Port& port() { return port_; }
   [[nodiscard]] DepthStream stream() const { return stream_; }
   [[nodiscard]] bool is_streaming() const;
-  /// Sends a picture; its pose is the client's.
+  /// Sends a picture; its pose is in the client's World.
   Status send(const DepthFrame& frame);
 
  private:

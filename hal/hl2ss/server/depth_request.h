@@ -9,19 +9,19 @@
 
 namespace orthonav::hl2ss {
 
-/// What a client wants of a depth port, as the server understands it: written from the protocol's
+/// A client's request to a depth port, as the server parses it: written from the protocol's
 /// description, not from what our own client sends.
 struct DepthAsked {
   enum class What : std::uint8_t { kPictures, kPicturesWithPoses, kCalibration };
   What what = What::kPicturesWithPoses;
-  int every = 1;       ///< every how many pictures one is sent
+  int every = 1;       ///< one of this many pictures is sent
   bool coded = false;  ///< H.264 or PNG
   std::uint32_t bitrate = 1;
   int gop_size = 45;
   std::size_t bytes = 0;  ///< of the request
 };
 
-/// Nothing while bytes are missing; an Error for what is no request, and for HEVC and Zdepth, which
+/// Nothing while bytes are missing; an Error for an invalid request, and for HEVC and Zdepth, which
 /// this server can't encode.
 Result<std::optional<DepthAsked>> understand_depth_request(DepthStream stream, Bytes said);
 

@@ -11,11 +11,11 @@
 
 namespace orthonav::hl2ss {
 
-/// The depth cameras of the headset that is served, each through its port. Pictures that no client
-/// asks for are not taken.
+/// The depth cameras of the served headset, each with its port. Pictures that no client wants are
+/// not taken.
 class DepthSender {
  public:
-  /// `calibrations`: the answers in mode 2, empty where there is no such camera.
+  /// The arguments are the answers in mode 2, empty if there is no such camera.
   DepthSender(std::vector<std::uint8_t> ahat, std::vector<std::uint8_t> long_throw)
       : ahat_(DepthStream::kAhat, std::move(ahat)),
         long_throw_(DepthStream::kLongThrow, std::move(long_throw)) {}
@@ -27,13 +27,13 @@ class DepthSender {
   [[nodiscard]] DepthPort& long_throw() { return long_throw_; }
   /// Converts poses from the headset's world to the client's, which may have jumped.
   using ClientFromWorld = std::function<Transform<World, World>()>;
-  /// `follows_pairs`: pictures are taken when `send_newest` is called; else on a thread of its own,
-  /// since a picture of a simulated room takes a while.
+  /// `follows_pairs`: pictures are taken when `send_newest` is called; otherwise on a separate
+  /// thread, since a picture of a simulated room takes a while.
   void start(ClientFromWorld client_from_world, bool follows_pairs);
-  /// A session with this headset begins; it must live until it ends.
+  /// A session with this headset begins; the headset must exist until the session ends.
   void begin(Headset& headset);
   void end();
-  /// Sends each stream its newest picture, where a client wants it.
+  /// Sends the newest picture of each stream that a client wants.
   void send_newest();
 
  private:

@@ -27,7 +27,7 @@ constexpr std::array<std::pair<std::string_view, double Faults::*>, 12> kProbabi
 constexpr const char* kKnown =
     "known are gap, lose, unlocated, reorder, stall, half, cut, misstamp, corrupt, "
     "scene_stall, scene_refuse, scene_cut (probabilities), jump=PAIR and all";
-/// Of each fault where all are asked for.
+/// Probability of each fault if all are requested.
 constexpr double kALittle = 0.01;
 
 Status apply(std::string_view item, Faults& faults) {

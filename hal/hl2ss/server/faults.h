@@ -10,22 +10,22 @@
 
 namespace orthonav::hl2ss {
 
-/// What goes wrong on purpose: probabilities for each pair, drawn from the seed.
+/// Intentional faults: probabilities per pair, drawn from the seed.
 struct Faults {
   double gap = 0.0;        ///< the pair is never sent
   double lose = 0.0;       ///< one of its two images is never sent
   double unlocated = 0.0;  ///< it is sent without a pose
-  double reorder = 0.0;    ///< one of its images comes after the next one
-  double stall = 0.0;      ///< nothing comes for 0.3 s after it
+  double reorder = 0.0;    ///< one of its images is sent after the next one
+  double stall = 0.0;      ///< nothing is sent for 0.3 s after it
   double half = 0.0;       ///< half a packet, a pause, the other half
   double cut = 0.0;        ///< half a packet, then the connection is closed
   double misstamp = 0.0;   ///< one of its images is stamped 0.1 s early or 1 s late
   double corrupt = 0.0;    ///< one of: NaN pose, size of 4 GiB, short image, stamp far off, noise
-  // For each frame of the headset's scene in which it has something to do.
+  // Per frame of the headset's scene in which there is something to do.
   double scene_stall = 0.0;   ///< it does nothing for a second
   double scene_refuse = 0.0;  ///< a command is refused
   double scene_cut = 0.0;     ///< its connection is closed
-  /// World jumps by this much with the pairs of these numbers.
+  /// World jumps by the amounts below at the pairs with these numbers.
   std::vector<std::int64_t> jump_at;
   Vec3 jump_m{0.3, 0.05, -0.2};
   double jump_rad = 0.4;  ///< about +y

@@ -21,7 +21,7 @@ Error failed(const char* what, int code) {
   return Error{std::string("H.264 encoder ") + what + ": " + libav_reason(code)};
 }
 
-/// At once, a picture at a time, as the headset's own encoder does.
+/// Without delay, one picture at a time, as the headset's own encoder does.
 void describe_stream(const H264Encoder::Options& options, AVCodecContext& context) {
   context.width = options.width_px;
   context.height = options.height_px;
@@ -34,7 +34,7 @@ void describe_stream(const H264Encoder::Options& options, AVCodecContext& contex
   context.max_b_frames = 0;
   context.thread_count = 1;
   context.bit_rate = std::int64_t{options.bitrate};
-  context.log_level_offset = 64;  // a library does not print
+  context.log_level_offset = 64;  // prevents printing by the library
 }
 
 void fill_plane(const std::uint8_t* from, int width, int height, AVFrame& frame, int plane) {

@@ -9,8 +9,8 @@
 
 namespace orthonav::hl2ss {
 
-/// Pictures to H.264 access units in Annex B, one in, one out, by libx264. The same pictures give
-/// the same bytes.
+/// Encodes pictures as H.264 access units in Annex B, one in, one out, with libx264. The same
+/// pictures give the same bytes.
 class H264Encoder {
  public:
   struct Options {
@@ -22,7 +22,7 @@ class H264Encoder {
   };
   static Result<std::unique_ptr<H264Encoder>> create(const Options& options);
   ~H264Encoder();
-  /// `chroma`: the two other planes one after the other, half as wide and high each; none: grey.
+  /// `chroma`: the two other planes one after the other, each half as wide and high; empty: grey.
   Result<std::vector<std::uint8_t>> encode(const GreyImage& luma,
                                            const std::vector<std::uint8_t>* chroma = nullptr);
 

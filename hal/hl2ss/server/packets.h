@@ -15,7 +15,7 @@ namespace orthonav::hl2ss {
 /// `image`: a raw picture or an access unit.
 [[nodiscard]] std::vector<std::uint8_t> image_packet(std::int64_t ticks, Bytes image,
                                                      const ImageTrailer& trailer);
-/// Two channels of a tone of 440 Hz, the right one half as loud, from `first` on.
+/// Two channels of a 440 Hz tone, the right one half as loud, from sample `first` on.
 [[nodiscard]] std::vector<std::uint8_t> tone_bytes(std::int64_t first, int count);
 
 }  // namespace orthonav::hl2ss

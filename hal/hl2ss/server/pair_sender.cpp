@@ -9,13 +9,13 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// Sensor ticks are another clock than the stamps, and the cameras differ a little in both.
+/// Sensor ticks are on a different clock than the stamps, and the cameras differ slightly in both.
 constexpr Duration kSensorAhead(765'432'100);
 constexpr Duration kRightSensorAhead(10);
 constexpr std::int64_t kRightLaterTicks = 1'500;
 constexpr std::int64_t kHalfPairTicks = 166'667;
 constexpr int kSamplesAPair = kMicrophoneHz / 30;
-/// The first pairs open the connection: they come as they are.
+/// The first pairs open the connection and have no faults.
 constexpr std::int64_t kUntouchedPairs = 3;
 
 }  // namespace
@@ -73,14 +73,14 @@ Result<bool> PairSender::send(Headset& headset, const StereoFrame& frame) {
   return *left && *right;
 }
 
-/// As the client sees it: in its own world.
+/// The pose in the client's world.
 std::optional<Transform<World, Rig>> PairSender::world_from_rig(Headset& headset,
                                                                 const StereoFrame& frame,
                                                                 Duration after) const {
   if (!frame.world_from_rig) {
     return std::nullopt;
   }
-  // To the bit what the pair itself says, where that is asked for.
+  // For the pair's own time, exactly the pair's pose.
   if (after == Duration::zero()) {
     return jumped_from_world() * *frame.world_from_rig;
   }
@@ -98,7 +98,8 @@ void PairSender::send_events(Headset& headset, const StereoFrame& frame) {
   (void)headset.voice().poll(frame.time, phrases);
   sides_.tell(clicks, phrases, {frame.time, headset.clock().now()});
   const std::int64_t ticks = ticks_100ns(frame.time);
-  // Two packets a pair, as on the headset. The head is the rig here: nobody navigates by it.
+  // Two packets per pair, as on the headset. The head is the rig here, since it is not used for
+  // navigation.
   std::optional<Transform<World, Eye>> head;
   if (frame.world_from_rig) {
     const auto pose = jumped_from_world() * *frame.world_from_rig;

@@ -12,8 +12,8 @@
 
 namespace orthonav::hl2ss {
 
-/// Sends what a headset said up to one pair, through every port, in a world that may jump. One
-/// thread, but for `world_from_jumped`.
+/// Sends a headset's data up to a pair through all ports, in a world that may jump. For one thread,
+/// except `world_from_jumped`.
 class PairSender {
  public:
   PairSender(const Faults& faults, std::uint64_t seed, CameraPort& left, CameraPort& right,
@@ -25,11 +25,11 @@ class PairSender {
         sides_(sides) {}
   /// A new session begins.
   void restart();
-  /// Whether all of it will arrive whole and in its turn.
+  /// Whether all of it will arrive complete and in order.
   Result<bool> send(Headset& headset, const StereoFrame& frame);
-  /// What takes the client's positions back to the headset's own.
+  /// Converts the client's positions back to the headset's own.
   [[nodiscard]] Transform<World, World> world_from_jumped() const;
-  /// Done on purpose so far, by the cameras' ports too.
+  /// Number of intentional faults so far, including those of the cameras' ports.
   [[nodiscard]] std::int64_t faults_done() const;
 
  private:

@@ -16,31 +16,31 @@ namespace orthonav::hl2ss {
 /// Bytes to be sent, and what happens after them.
 struct Chunk {
   std::vector<std::uint8_t> bytes;
-  Duration pause{};    ///< nothing is sent for so long afterwards
+  Duration pause{};    ///< nothing is sent for this long afterwards
   bool close = false;  ///< the connection is closed afterwards
 };
 
 /// One port of the server: one client at a time, as on the headset. Runs on the server's network
-/// thread; `send` and the questions may come from any.
+/// thread; `send` and const functions may be called from any.
 class Port {
  public:
   struct Talk {
-    /// Takes what the client said: how many bytes were understood, 0 when more are needed. An Error
+    /// Parses the client's bytes; returns how many were consumed, 0 if more are needed. An Error
     /// ends the connection.
     std::function<Result<std::size_t>(Bytes)> understand;
     std::function<void()> came = [] {};
     std::function<void()> left = [] {};
   };
   explicit Port(Talk talk) : talk_(std::move(talk)) {}
-  /// Hangs up on whoever is not `allowed`.
+  /// Disconnects clients that are not `allowed`.
   Status listen(const net::Endpoint& host, int port, const net::Allowed& allowed = {});
 
   [[nodiscard]] int fd() const;
   [[nodiscard]] short events() const;
   void step(short revents, HostTime now);
 
-  /// All of these chunks in this order, or none of them where too much waits already: a client that
-  /// is too slow misses whole packets.
+  /// Sends all of these chunks in this order, or none of them if too much is waiting already: a
+  /// client that is too slow misses whole packets.
   void send(std::vector<Chunk> chunks);
   [[nodiscard]] bool has_client() const { return has_client_.load(); }
 

@@ -30,7 +30,7 @@ void ScenePort::left() {
   gone_ = true;
 }
 
-/// What goes wrong on purpose, drawn once a frame in which there is something to do.
+/// Intentional faults, drawn once per frame in which there is something to do.
 void ScenePort::inject(HostTime now) {
   if (scene_.is_idle()) {
     return;

@@ -10,18 +10,18 @@
 
 namespace orthonav::hl2ss {
 
-/// The scene's port: what a client says goes to a `UnityScene`, which runs 60 frames a second. Runs
-/// on the server's network thread; the scene may be read from any.
+/// The scene's port: a client's messages go to a `UnityScene`, which runs at 60 frames per second.
+/// Runs on the server's network thread; the scene may be read from any.
 class ScenePort {
  public:
   ScenePort(const Faults& faults, Random random) : faults_(faults), random_(random) {}
   /// Runs the frames that are due.
   void run(HostTime now) ORTHONAV_EXCLUDES(mutex_);
   [[nodiscard]] UnityObjects objects() const ORTHONAV_EXCLUDES(mutex_);
-  /// Whether the next client may come: the last one's queue is worked off.
+  /// Whether the next client may connect: the last one's queue has been processed.
   [[nodiscard]] bool is_free() const ORTHONAV_EXCLUDES(mutex_);
-  // Faults asked for by name, from any thread: the application is suspended; refuses so many
-  // commands; cuts the connection; answers 7 to everything.
+  // Individual faults, from any thread: the application is suspended; refuses a number of commands;
+  // closes the connection; answers 7 to everything.
   void suspend(bool suspended) { suspended_ = suspended; }
   void refuse(int commands) ORTHONAV_EXCLUDES(mutex_);
   void cut() { cut_ = true; }
@@ -42,7 +42,7 @@ class ScenePort {
   std::atomic<bool> nonsense_ = false;
   mutable Mutex mutex_;
   UnityScene scene_ ORTHONAV_GUARDED_BY(mutex_);
-  bool gone_ ORTHONAV_GUARDED_BY(mutex_) = false;  ///< its last client's queue is being worked off
+  bool gone_ ORTHONAV_GUARDED_BY(mutex_) = false;  ///< its last client's queue is being processed
 
  public:
   Port port{{[this](Bytes said) { return understand(said); }, [] {}, [this] { left(); }}};

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kTurnMs = 5;
 constexpr auto kIdle = std::chrono::milliseconds(1);
-/// A client that is not done with a pair by then missed it.
+/// A client that is not done with a pair by then has missed it.
 constexpr auto kPatience = std::chrono::seconds(10);
 constexpr auto kImpatience = std::chrono::milliseconds(20);
 constexpr int kFirstFreePort = 20000;
@@ -114,7 +114,7 @@ class RunningServer final : public Server {
     return {};
   }
 
-  /// The network's thread.
+  /// The network thread.
   void serve() {
     std::vector<pollfd> watched;
     const auto all = ports();
@@ -133,7 +133,7 @@ class RunningServer final : public Server {
       show();
     }
   }
-  /// What the client shows, the wearer sees.
+  /// Passes the client's frames to the wearer.
   void show() {
     const Transform<World, World> back = sender_.world_from_jumped();
     for (ShownFrame& frame : sides_.take_shown()) {
@@ -186,7 +186,7 @@ class RunningServer final : public Server {
     StereoFrame frame;
     auto gone_since = HostClock::now();
     while (!stop_) {
-      // A client may come back; for one that does not, nothing goes on.
+      // A client may reconnect; without one, nothing continues.
       if (left_.port().has_client() || right_.port().has_client()) {
         gone_since = HostClock::now();
       }
@@ -209,8 +209,8 @@ class RunningServer final : public Server {
       wait_for_client(whole ? std::optional(frame.time) : std::nullopt);
     }
   }
-  /// Until it is done with the pair, or is back. After a fault it may need more to go on (a key
-  /// frame, a new connection), so that it is not waited for long until it follows again.
+  /// Waits until the client is done with the pair or has reconnected. After a fault it may need
+  /// more data first (a key frame, a new connection), so the wait is short until it follows again.
   void wait_for_client(std::optional<Timestamp> pair_time) {
     const auto deadline = HostClock::now() + (follows_ && pair_time ? kPatience : kImpatience);
     while (!stop_ && pair_time && is_wanted() && !sides_.took(*pair_time) &&
@@ -256,7 +256,7 @@ class RunningServer final : public Server {
   int first_port_ = 0;
   std::atomic<bool> stop_ = false;
 
-  bool follows_ = true;  ///< the client took the last pair; of the headset's thread
+  bool follows_ = true;  ///< whether the client took the last pair; used by the headset's thread
 
   mutable Mutex report_mutex_;
   ServerReport report_ ORTHONAV_GUARDED_BY(report_mutex_);

@@ -3,7 +3,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// A slice holds a row of macroblocks at least; with fewer pixels there is little to see by.
+/// A slice has at least one row of macroblocks; images need enough pixels with a direction.
 constexpr int kMaxSlices = 30;
 constexpr int kMaxUnmappedPx = 100;
 

@@ -11,27 +11,27 @@
 
 namespace orthonav::hl2ss {
 
-/// The ports beside the cameras: configuration, microphone, spatial input, voice, and the side
+/// The other ports than the cameras': configuration, microphone, spatial input, voice, and the side
 /// channel to our own client.
 class SidePorts {
  public:
   explicit SidePorts(std::int64_t utc_offset_ticks) : utc_offset_ticks_(utc_offset_ticks) {}
 
-  /// A session begins, or our own client comes into one.
+  /// A session begins, or our own client joins one.
   void greet(const StandinHello& hello);
   void end();
-  /// What happened up to a pair. Phrases wait until they are asked for.
+  /// Sends the events up to a pair. Phrases wait until they are polled.
   void tell(const std::vector<ClickerEvent>& clicks, const std::vector<Phrase>& phrases,
             const StandinUpTo& up_to);
-  /// What the client showed since the last question.
+  /// The frames that the client showed since the last call.
   std::vector<ShownFrame> take_shown();
-  /// Whether the client is done with the pair of this time; waiting ends when it says something.
+  /// Whether the client is done with the pair of this time.
   [[nodiscard]] bool took(Timestamp pair_time) const;
   void wait_for_took();
-  /// What was shown has been passed on: who waits may go on.
+  /// The frames shown have been passed on: waiting threads may continue.
   void publish_took();
 
-  std::atomic<bool> hears = false;  ///< somebody listens to the microphone
+  std::atomic<bool> hears = false;  ///< a client listens to the microphone
 
  private:
   Result<std::size_t> configure(Bytes said);

@@ -80,7 +80,7 @@ void UnityScene::run_frame(std::vector<std::uint32_t>& answers) {
     queue_.pop_front();
     if (message.leaves) {
       in_list_ = targets_last_ = false;
-      answers.clear();  // whoever asked is gone
+      answers.clear();  // the client is gone
       return;
     }
     answers.push_back(execute(message));

@@ -13,7 +13,7 @@
 
 namespace orthonav::hl2ss {
 
-/// One object as the application has it, in our axes: right-handed, -z forward.
+/// One object in the application, in our axes: right-handed, -z forward.
 struct UnityObject {
   bool is_text = false;
   Primitive primitive = Primitive::kQuad;
@@ -28,18 +28,18 @@ struct UnityObject {
 };
 using UnityObjects = std::map<std::uint32_t, UnityObject>;
 
-/// What the application for Unity does with its messages: they wait in a queue, one is worked off
-/// each frame, and within a display list as many as are there. No sockets, no clock.
+/// Simulates how the Unity application processes its messages: they wait in a queue; each frame
+/// processes one, or, within a display list, all that have arrived. No sockets, no clock.
 class UnityScene {
  public:
   void add(const SceneMessage& message);
-  /// The client left: what it sent is worked off, then the modes are reset.
+  /// The client disconnected: its messages are processed, then the modes are reset.
   void client_left();
-  /// Works off what one frame does and appends the answers.
+  /// Processes one frame and appends the answers.
   void run_frame(std::vector<std::uint32_t>& answers);
   [[nodiscard]] bool is_idle() const { return queue_.empty(); }
   [[nodiscard]] const UnityObjects& objects() const { return objects_; }
-  /// The next so many commands that need an object are answered 0 and do nothing.
+  /// The next commands that need an object, this many, are answered 0 and do nothing.
   void refuse_next(int commands) { to_refuse_ += commands; }
 
  private:
@@ -58,7 +58,7 @@ class UnityScene {
   bool in_list_ = false;
   bool targets_last_ = false;
   std::uint32_t last_created_ = 0;
-  std::uint32_t next_id_ = 0xFFFF'F000u;  ///< Unity gives negative ids to what is made at run time
+  std::uint32_t next_id_ = 0xFFFF'F000u;  ///< Unity gives negative ids to objects made at run time
   int to_refuse_ = 0;
 };
 
