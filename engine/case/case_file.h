@@ -13,11 +13,11 @@ Result<CaseLevel> load_level(const std::string& model, const Plan& plan);
 
 /// Reads a case folder: `case.json` with `{"name", "units"?, "levels": [{"label", "model", "plan"?,
 /// "spine_from_model"?}]}`, and the models and plans that it names. A model is read in the unit and
-/// frame that its plan declares, without a plan in the case's unit and LPS, unless the model's file
-/// declares its own axes. `spine_from_model`
-/// (4×4 by rows, mm unless `units` says m) is in the same axes as the model. Where no level has
-/// one, models that lie apart are taken as they are (one scan), and models that lie in one another
-/// are stacked in the order of the file, the first on top. Files outside the folder are refused.
+/// frame that its plan declares, or, without a plan, in the case's unit and LPS, unless the model's
+/// file declares its own axes. `spine_from_model` (4×4 by rows, mm unless `units` says m) is in the
+/// same axes as the model. If no level has one, models that do not overlap are taken as they are
+/// (one scan), and models that overlap are stacked in the order of the file, the first on top.
+/// Files outside the folder are refused.
 Result<Case> load_case(const std::string& folder, CaseUse use = CaseUse::kOperation);
 
 }  // namespace orthonav::engine

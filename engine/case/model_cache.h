@@ -10,19 +10,19 @@
 
 namespace orthonav::engine {
 
-/// Vertebrae prepared for registration, kept in files (engine/case/prepared_parts_file.h) so that
-/// the next session has them at once: in a folder, one for each mesh, named by its checksums. A
-/// file that is not what it should be (damaged, foreign, of another version) is replaced and causes
-/// only a note. The result is the same to the bit, whether from a file or not.
+/// Vertebrae prepared for registration, stored in files (engine/case/prepared_parts_file.h) so that
+/// the next session has them at once: in a folder, one per mesh, named by its checksums. An invalid
+/// file (damaged, foreign, of another version) is replaced and causes only a note. The result is
+/// the same to the bit, whether from a file or not.
 class ModelCache {
  public:
-  /// Without a folder nothing is kept. The folder is created when there is something to keep.
+  /// Without a folder nothing is stored. The folder is created when there is something to store.
   explicit ModelCache(std::string folder = {}) : folder_(std::move(folder)) {}
 
-  /// Loads or prepares; an Error means that the mesh is no vertebra. Writes nothing.
+  /// Loads or prepares; an Error means that the mesh is not a vertebra. Writes nothing.
   Result<std::shared_ptr<const nav::VertebraModel>> prepared(const nav::TriangleMesh& mesh);
-  /// Writes what had to be prepared. A separate step, so that a command that is refused in between
-  /// leaves nothing.
+  /// Writes the newly prepared models. A separate step, so that a command refused in between leaves
+  /// no files.
   void keep();
 
   /// Where the mesh's file is or would be.

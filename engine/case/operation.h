@@ -9,8 +9,8 @@
 
 namespace orthonav::engine {
 
-/// Another vertebra of the patient, next to one that is operated: strokes of it must not pass for
-/// strokes of that one.
+/// Another vertebra of the patient, whose strokes must not be taken for strokes of the operated
+/// one.
 struct NeighbouringLevel {
   std::string label;
   std::shared_ptr<const nav::VertebraModel> model;
@@ -28,10 +28,10 @@ struct OperatedLevel {
 /// A vertebra of the case, operated or not.
 struct SpineLevel {
   std::string label;
-  double height_m = 0.0;  ///< of its middle along the spine, towards the head
+  double height_m = 0.0;  ///< position of its middle along the spine, towards the head
 };
 
-/// What the surgeon is going to do. Levels in the order in which they are operated.
+/// The planned operation, with its levels in the order in which they are operated.
 struct Operation {
   std::string case_name;
   std::vector<OperatedLevel> levels;

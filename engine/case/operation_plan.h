@@ -9,7 +9,7 @@
 
 namespace orthonav::engine {
 
-/// Refuses a label that the case does not have, with those it has.
+/// Refuses a label that the case does not have, and lists those it has.
 Status check_level(const Case& source, const std::string& label);
 
 /// The labels that would be operated, in the order of the case; refuses as `plan_operation` does,
@@ -18,10 +18,10 @@ Result<std::vector<std::string>> levels_to_operate(const Case& source,
                                                    const std::vector<std::string>& labels = {});
 
 /// Prepares levels of a case for an operation, in the order of the case. `labels` empty: the two
-/// lowest of the spine that have screws. Refuses a label that the case does not have, that has no
-/// screws or that is named twice, and a screw that breaks through its cortex without a reason
-/// (engine/case/screw_breach.h). `cache` may have them from an earlier time; what it hadn't, it can
-/// `keep` afterwards.
+/// lowest levels of the spine with screws. Refuses a label that the case does not have, that has no
+/// screws or that is given twice, and a screw that breaks through its cortex without a stated
+/// reason (engine/case/screw_breach.h). `cache` may hold them from earlier; new ones it can `keep`
+/// afterwards.
 Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels,
                                  ModelCache& cache);
 Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels = {});

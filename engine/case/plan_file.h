@@ -12,20 +12,21 @@
 
 namespace orthonav::engine {
 
-/// A screw as its file states it. On which side it lies is for the bone to say (`screws_on`).
+/// A screw as its file states it. The bone decides on which side it lies (`screws_on`).
 struct StatedScrew {
   std::string where;              ///< file and place in it: `L4.json: screws[1]`
-  std::optional<nav::Side> side;  ///< as the file or the line's name says; none: it says nothing
+  std::optional<nav::Side> side;  ///< as stated by the file or the line's name; none: not stated
   Point<Vertebra> entry;
   Point<Vertebra> target;
   double radius_m = 0.0;             ///< 0: none is stated
-  std::string accepted_breach = {};  ///< why the screw may leave the cortex; empty: it may not
+  std::string accepted_breach = {};  ///< reason why the screw may leave the cortex; empty: it may
+                                     ///< not
 };
 
-/// What a file plans for one level, in metres and LPS; `axes` and `metres_per_unit` are what the
-/// file used, and what the model beside it uses.
+/// A file's plan for one level, in metres and LPS; `axes` and `metres_per_unit` are those of the
+/// file, which its model uses too.
 struct Plan {
-  std::string level;  ///< "L4" where the file says so, else empty
+  std::string level;  ///< "L4" if the file states it, otherwise empty
   Axes axes = Axes::kLps;
   double metres_per_unit = 1e-3;
   std::vector<StatedScrew> screws;
@@ -38,18 +39,17 @@ struct Plan {
 /// list and entry; `diameter=5.5` in name or description, `accept_breach=` and the reason up to the
 /// end of its line in the description). Refuses plans without unit or frame, without screws, names
 /// that say both sides, screws shorter than 10 mm or longer than 120 mm, radii outside 1-6 mm, and
-/// the legacy
-/// `.fcsv`, which knows no lines.
+/// the legacy `.fcsv`, which has no lines.
 Result<Plan> load_plan(const std::string& path);
 /// The same from a plan's JSON; `name` stands for the file in messages.
 Result<Plan> parse_plan(const std::string& text, const std::string& name);
 /// Several files as one plan: of one level, in one frame and unit.
 Result<Plan> load_plan(std::span<const std::string> paths);
 
-/// The screws with the side on which each lies on its bone (`OffMidline::side`). What the file says
-/// only confirms it, and decides where the place leaves it open. Refuses, with file and screw, a
-/// screw that is not of this bone or written in other axes (`misplaced`), a side that contradicts
-/// the place, a side that neither tells, and two screws on one side.
+/// The screws with the side on which each lies on its bone (`OffMidline::side`). The side stated in
+/// the file only confirms it, and decides if the position is ambiguous. Refuses, with file and
+/// screw, a screw that does not belong to this bone or is written in other axes (`misplaced`), a
+/// side that contradicts the position, a side that neither determines, and two screws on one side.
 Result<std::vector<nav::ScrewPlan>> screws_on(const nav::TriangleMesh& bone, const Plan& plan);
 
 /// Writes a plan in millimetres and LPS.

@@ -10,17 +10,18 @@
 
 namespace orthonav::engine {
 
-/// Digitized points as a file holds them, in its own unit and axes.
+/// Digitized points from a file, in its own unit and axes.
 struct PointsFile {
   std::vector<Vec3> points;
-  std::vector<std::string> regions;       ///< one a point, or empty where the file names none
-  std::optional<double> metres_per_unit;  ///< where the file declares its unit (markups)
-  std::optional<Axes> axes;               ///< where the file declares its axes (markups)
+  std::vector<std::string> regions;       ///< one per point, or empty if the file names none
+  std::optional<double> metres_per_unit;  ///< if the file declares its unit (markups)
+  std::optional<Axes> axes;               ///< if the file declares its axes (markups)
 };
 
 /// Reads CSV (`x,y,z` with an optional `region`; columns by the header's names, or the first three
 /// of a file without header), PLY (ascii or binary vertices), or 3D Slicer markups (`.mrk.json`,
-/// `.fcsv`). Refuses files without points and anything that is no finite number, naming the line.
+/// `.fcsv`). Refuses files without points and anything that is not a finite number, naming the
+/// line.
 Result<PointsFile> load_points(const std::string& path);
 
 }  // namespace orthonav::engine

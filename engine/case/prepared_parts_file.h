@@ -9,7 +9,7 @@
 
 namespace orthonav::engine {
 
-/// Which mesh parts were made of: its size and CRC-32s of its numbers.
+/// Identifies the mesh that parts were made from: its size and CRC-32s of its numbers.
 struct MeshKey {
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
@@ -32,11 +32,11 @@ struct MeshKey {
 ///        u32 CRC-32 of everything before
 [[nodiscard]] std::string encoded(const MeshKey& key, const nav::PreparedParts& parts);
 
-/// The parts, or in a few words why the bytes are not those of this mesh by this version: damaged,
-/// of another mesh, version or kind. No size is trusted before the content is as large as it says.
+/// The parts, or briefly why the bytes do not belong to this mesh and version: damaged, or of
+/// another mesh, version or kind. No size is trusted before the content is known to be that large.
 Result<nav::PreparedParts> decoded(std::string_view bytes, const MeshKey& key);
 
-/// No file of parts is larger: a mesh has at most 250 mm.
+/// Upper bound on the size of such a file: a mesh has at most 250 mm.
 inline constexpr std::uint64_t kMostPartsBytes = 64u << 20u;
 
 }  // namespace orthonav::engine

@@ -18,13 +18,13 @@ struct OffMidline {
   /// The target lies on the other side than the entry, and farther off: a translaminar screw, which
   /// is named after the lamina that it ends in.
   [[nodiscard]] bool crosses() const;
-  /// Where the entry lies. None where that is within 5 mm of the midline, or the screw crosses.
+  /// The side of the entry. None if it lies within 5 mm of the midline, or the screw crosses.
   [[nodiscard]] std::optional<nav::Side> side() const;
 };
 
-/// The entry's distance from the midline that tells the side. The middle of the box, which stands
-/// for the midline, misses it by up to 3.5 mm where the transverse processes differ in length;
-/// entries into lumbar pedicles lie 16 mm and more off it.
+/// The entry's distance from the midline from which the side is certain. The middle of the box,
+/// which is used as the midline, is off by up to 3.5 mm if the transverse processes differ in
+/// length; entries into lumbar pedicles lie 16 mm or more from it.
 inline constexpr double kLeastOffMidline_m = 0.005;
 
 /// The midline is the middle of the box around the bone.
@@ -34,13 +34,13 @@ inline constexpr double kLeastOffMidline_m = 0.005;
 /// "20.9 mm to the left".
 [[nodiscard]] std::string to_the_side(double left_m);
 
-/// What no pedicle screw is, such as "has radius 8.0 mm, must be 1.0 mm to 6.0 mm"; none when it
-/// may be. A radius of 0: none is stated.
+/// Why it can't be a pedicle screw, such as "has radius 8.0 mm, must be 1.0 mm to 6.0 mm"; none if
+/// it can. A radius of 0: not stated.
 [[nodiscard]] std::optional<std::string> ill_sized(Point<Vertebra> entry, Point<Vertebra> target,
                                                    double radius_m);
 
-/// What tells that a screw is not of this bone, or is written in other axes (+y is posterior), such
-/// as "entry lies 15.0 mm off the bone, limit 10.0 mm"; none when it may be.
+/// Why a screw can't belong to this bone, or is written in other axes (+y is posterior), such as
+/// "entry lies 15.0 mm off the bone, limit 10.0 mm"; none if it can.
 [[nodiscard]] std::optional<std::string> misplaced(const nav::SurfaceIndex& bone,
                                                    Point<Vertebra> entry, Point<Vertebra> target,
                                                    double radius_m);

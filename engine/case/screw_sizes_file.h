@@ -7,12 +7,12 @@
 
 namespace orthonav::engine {
 
-/// Reads the screws that there are: `{"screws": [{"diameter_mm", "lengths_mm": [...],
-/// "head_to_seat_mm"?}]}`. Order does not matter. Refuses in one line, with file and field, what is
-/// missing, of the wrong type or no finite number, a diameter or length that is given twice, and
-/// what `ScrewSizes::check` finds.
+/// Reads the available screws: `{"screws": [{"diameter_mm", "lengths_mm": [...],
+/// "head_to_seat_mm"?}]}`. Order does not matter. Refuses in one line, with file and field, fields
+/// that are missing, of the wrong type or not finite numbers, a diameter or length that is given
+/// twice, and problems that `ScrewSizes::check` finds.
 Result<ScrewSizes> load_screw_sizes(const std::string& path);
-/// The same of its content; `name` stands for the file in messages.
+/// The same from its content; `name` stands for the file in messages.
 Result<ScrewSizes> parse_screw_sizes(const std::string& text, const std::string& name);
 
 }  // namespace orthonav::engine

@@ -9,8 +9,8 @@
 namespace orthonav::engine {
 
 /// Trial bends of a rod on its bender: CSV with the header `set_deg,kept_deg` (in either order),
-/// one trial a line, `#` before a remark. Refuses, with file and line, what is no number; whether
-/// the trials make a curve is for nav::RodSpringBack.
+/// one trial per line, `#` before a remark. Refuses, with file and line, a value that is not a
+/// number; nav::RodSpringBack checks whether the trials form a curve.
 Result<std::vector<nav::SpringBackTrial>> load_spring_back(const std::string& path);
 
 }  // namespace orthonav::engine

@@ -9,7 +9,7 @@
 
 namespace orthonav::engine {
 
-/// Whether each tool needs a tag, as cameras do to find it.
+/// Whether each tool needs a tag, which cameras need to find it.
 enum class ToolTags { kNeeded, kOptional };
 
 /// Reads tool definitions:
@@ -18,19 +18,19 @@ enum class ToolTags { kNeeded, kOptional };
 ///   "marker": {"family", "id", "size_mm"}, "tip_mm": [x,y,z], "axis": [x,y,z],
 ///   "markers": [...], "level": "L4"}]}
 /// ```
-/// The axis may have any length but zero and is +y where absent; a reference needs no tip and may
-/// say the level that it is clamped to. `markers` lists further tags of the body, each as `marker`
-/// with a `pose`: marker_from_tag, 4×4 by rows, mm. A guide may have `sleeve_length_mm` and
-/// `stop_mm` (nav/tracking/tool.h). Refuses, naming file and field, whatever is missing, of the
-/// wrong type, no rigid pose, or a problem in the sense of `nav::problems_of`. A tool without
-/// `marker`, where that may be, is one that the headset measures itself.
+/// The axis may have any length but zero and defaults to +y; a reference needs no tip and may state
+/// the level that it is clamped to. `markers` lists further tags of the body, each as `marker` with
+/// a `pose`: marker_from_tag, 4×4 by rows, mm. A guide may have `sleeve_length_mm` and `stop_mm`
+/// (nav/tracking/tool.h). Refuses, naming file and field, anything missing or of the wrong type, an
+/// invalid pose, and any problem in the sense of `nav::problems_of`. A tool without `marker`, if
+/// allowed, is one that the headset measures itself.
 Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path,
                                                   ToolTags tags = ToolTags::kNeeded);
 
 /// One tool of such a file, by its name.
 Result<nav::ToolGeometry> load_tool(const std::string& path, const std::string& name);
 
-/// Writes what `load_tools` reads back to the same numbers.
+/// Writes a file that `load_tools` reads back to the same numbers.
 Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>& tools);
 
 /// The same without a file; `name` stands for it in messages.
@@ -38,7 +38,7 @@ Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>&
 Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text,
                                                    const std::string& name);
 
-/// What a calibration found out about a tool.
+/// The result of a calibration of a tool.
 struct ToolChange {
   std::optional<Point<Marker>> tip_in_marker;
   std::optional<Direction<Marker>> axis_in_marker;
@@ -51,7 +51,7 @@ struct ToolChange {
 Result<std::string> changed_tools(const std::string& path, const std::string& tool,
                                   const ToolChange& change);
 
-/// The tool of this name; names what there is when none has it.
+/// The tool of this name; if there is none, the Error lists the names.
 Result<nav::ToolGeometry> tool_named(const std::vector<nav::ToolGeometry>& tools,
                                      const std::string& name);
 

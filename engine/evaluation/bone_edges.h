@@ -13,15 +13,14 @@ struct SurfaceSample {
   Vec3 normal;
 };
 
-/// At most `wanted` vertices spread evenly over a surface: one for each cube of a grid that holds
-/// any.
+/// At most `wanted` vertices spread evenly over a surface: one for each occupied cube of a grid.
 [[nodiscard]] std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh,
                                                          std::size_t wanted);
 
-/// The neighbourhood of metal, where no edge of bone is looked for.
+/// The neighbourhood of metal, which is excluded from the search for edges of bone.
 class MetalMask {
  public:
-  /// A box about each voxel of metal that reaches at least `margin_m` to every side.
+  /// Masks a box about each voxel of metal, at least `margin_m` to every side.
   MetalMask(const ScanField& scan, double margin_m);
   [[nodiscard]] bool covers(Vec3 place_m) const;
 

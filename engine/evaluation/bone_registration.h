@@ -5,11 +5,11 @@
 
 namespace orthonav::engine {
 
-/// A vertebra laid on its bone in the scan.
+/// A vertebra registered to its bone in the scan.
 struct BoneRegistration {
   Transform<Scan, Vertebra> scan_from_vertebra;
-  /// How far the edges lie outside the surface as a whole, at most 1 mm; taken off them before the
-  /// figures below are computed.
+  /// Mean distance of the edges outside the surface, at most 1 mm; subtracted before the figures
+  /// below are computed.
   double offset_m = 0.0;
   double residual_m = 0.0;   ///< median distance of an edge in the scan from the surface
   double coverage = 0.0;     ///< share of the samples, clear of metal, whose edge lies within 1 mm
@@ -18,9 +18,8 @@ struct BoneRegistration {
   nav::PoseUncertainty uncertainty;  ///< in the model's frame
 };
 
-/// Beyond these a fit is refused. Another vertebra of the same spine fits with
-/// 0.37 mm and more, and with a coverage of 0.90 at most; the right one with 0.06 to 0.14 mm and
-/// 0.93 or more.
+/// Limits beyond which a fit is refused. Another vertebra of the same spine fits with 0.37 mm and
+/// more, and with a coverage of 0.90 at most; the right one with 0.06 to 0.14 mm and 0.93 or more.
 struct BoneLimits {
   double most_residual_m = 0.00025;
   double least_coverage = 0.85;
@@ -28,16 +27,16 @@ struct BoneLimits {
   double least_edges = 150;
 };
 
-/// Lays the surface on the edges of bone in the scan from a start some millimetres and degrees off:
-/// point to plane (Chen and Medioni 1992) with Tukey's weights. Each round searches the edges anew,
-/// within a distance along the normals that shrinks from `within_m` to 1.5 mm. Does not judge the
-/// fit: `refusal` does. Where the edges do not determine the pose, the coverage is 0.
+/// Fits the surface to the edges of bone in the scan from a start within some millimetres and
+/// degrees: point to plane (Chen and Medioni 1992) with Tukey's weights. Each round searches the
+/// edges anew, within a distance along the normals that shrinks from `within_m` to 1.5 mm. Does not
+/// judge the fit: `refusal` does. If the edges do not determine the pose, the coverage is 0.
 [[nodiscard]] BoneRegistration laid_on_bone(const ScanField& scan, const MetalMask& mask,
                                             const std::vector<SurfaceSample>& samples,
                                             const Transform<Scan, Vertebra>& start,
                                             double within_m);
 
-/// Why the fit is refused, in one line; empty where it is accepted.
+/// Why the fit is refused, in one line; empty if it is accepted.
 [[nodiscard]] std::string refusal(const BoneRegistration& found, const BoneLimits& limits = {});
 
 }  // namespace orthonav::engine

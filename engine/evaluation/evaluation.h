@@ -12,34 +12,34 @@
 
 namespace orthonav::engine {
 
-/// Which definitions the figures below have, for reports (docs/evaluation.md).
+/// The definitions of the figures below, for reports (docs/evaluation.md).
 inline constexpr const char* kEvaluationDefinitions =
     "entry: where the axis meets the bone; entry (axis): the point of the axis nearest to the "
     "planned entry; depth: length in the bone less the planned length; clearance: least depth "
     "below the bone's surface of side and flat tip from 6 mm past the entry on; a bent wire's "
     "axis is its chord from entry to tip";
 
-/// A planned screw as it lies in the scan.
+/// A planned screw as found in the scan.
 struct ScrewInScan {
   std::size_t shaft = 0;  ///< among those found
   nav::ScrewCylinder
-      cylinder;            ///< as it lies: entry, axis, length in the bone, radius it is judged by
+      cylinder;            ///< as placed: entry, axis, length in the bone, radius it is judged by
   double angle_rad = 0.0;  ///< between planned and placed axis
   double angle_sd_rad = 0.0;
   double entry_m = 0.0;       ///< planned entry to where the axis meets the bone
   double entry_axis_m = 0.0;  ///< planned entry to the nearest point of the axis
   double entry_axis_sd_m = 0.0;
   double target_m = 0.0;  ///< planned target to the tip
-  double depth_m = 0.0;   ///< length in the bone less the planned length
+  double depth_m = 0.0;   ///< length in the bone minus the planned length
   double measured_radius_m = 0.0;
   bool radius_as_planned = false;  ///< measured as planned, so that it is judged by the planned one
-  /// Its tip and another shaft touch: where it ends is not seen, so that target, depth and a
-  /// clearance at the tip are not reliable.
+  /// Its tip touches another shaft: its end can't be seen, so target, depth and a clearance at the
+  /// tip are unreliable.
   bool touched = false;
   double bow_m = 0.0;                       ///< of a bent wire, from its chord
-  std::optional<nav::Clearance> clearance;  ///< none where 6 mm or less lie in the bone
+  std::optional<nav::Clearance> clearance;  ///< none if 6 mm or less lie in the bone
   std::optional<nav::ClearanceSpread> spread;
-  /// Of a wire: what the planned screw would have along its axis.
+  /// For a wire: the clearance of the planned screw along its axis.
   std::optional<nav::Clearance> as_planned_screw;
 };
 
@@ -55,7 +55,7 @@ struct EvaluatedLevel {
   std::vector<EvaluatedScrew> screws;
 };
 
-/// Metal that is no planned screw.
+/// Metal that is not a planned screw.
 struct UnassignedMetal {
   Point<Scan> place;  ///< a shaft's tip, or the middle
   std::optional<std::size_t> shaft;
@@ -69,11 +69,11 @@ struct Evaluation {
   std::vector<UnassignedMetal> unassigned;
 };
 
-/// Finds wires and screws in a post-operative scan, lays each vertebra with planned screws on its
-/// bone with the metal masked, and compares in the vertebra's frame. A planned screw gets the shaft
-/// within 15 mm and 30° of it that runs in that bone, at most one each; what lies farther off is
-/// reported as unassigned, and the screw as not found. Refuses what `check_scan` refuses, a case
-/// without planned screws, and a scan that the spine fits in two ways.
+/// Finds wires and screws in a post-operative scan, registers each vertebra with planned screws to
+/// its bone with the metal masked, and compares in the vertebra's frame. A planned screw is
+/// assigned the shaft within 15 mm and 30° of it that runs in that bone, at most one each; a shaft
+/// farther off is reported as unassigned, and the screw as not found. Refuses what `check_scan`
+/// refuses, a case without planned screws, and a scan that the spine fits in two ways.
 Result<Evaluation> evaluate(const Case& subject, const Volume& scan);
 
 }  // namespace orthonav::engine

@@ -6,14 +6,14 @@
 
 namespace orthonav::engine {
 
-/// The voxels of metal that are not taken for anything yet.
+/// The voxels of metal that are not assigned yet.
 class MetalCloud {
  public:
   explicit MetalCloud(const ScanField& scan);
 
   [[nodiscard]] const std::vector<Vec3>& places_m() const { return places_m_; }
   [[nodiscard]] double voxel_m3() const { return spacing_m_.x * spacing_m_.y * spacing_m_.z; }
-  /// Of a voxel, along a unit vector.
+  /// Half the extent of a voxel along a unit vector.
   [[nodiscard]] double half_extent_m(Vec3 direction) const;
   template <class Taken>
   void take(const Taken& taken) {
@@ -32,8 +32,7 @@ struct MetalSection {
   Vec2 middle_m;  ///< across and athwart
 };
 
-/// The cross sections about a line, from its middle to either side as far as the metal goes on
-/// without a gap of more than 3 mm.
+/// The cross sections about a line, from its middle to either side until a gap of more than 3 mm.
 struct MetalSections {
   static constexpr double kStep_m = 0.001;
   double first_s_m = 0.0;  ///< middle of the first slab
@@ -45,7 +44,7 @@ struct MetalSections {
   [[nodiscard]] double radius_m(std::size_t slab) const;
 };
 
-/// Of the metal no farther than `within_m` from the line.
+/// The sections of the metal within `within_m` of the line.
 [[nodiscard]] MetalSections sections_about(const MetalCloud& cloud, const Centreline& line,
                                            double within_m);
 

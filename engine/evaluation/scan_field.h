@@ -8,18 +8,18 @@
 
 namespace orthonav::engine {
 
-/// A post-operative scan: axes LPS, origin as its file has it.
+/// A post-operative scan: axes LPS, origin as in its file.
 struct Scan;
 
 /// Metal is at least this dense; bone and contrast agent are below it.
 inline constexpr double kMetal_hu = 2000.0;
 
-/// Refuses what can't be a CT with metal in it: several values a voxel, values that are not finite,
-/// no value below -30 (so not in HU: even muscle has noise and fat), no metal, or more of it than
-/// 5 % of the scan.
+/// Refuses a volume that can't be a CT with metal: several values per voxel, values that are not
+/// finite, no value below -30 (so not in HU: even muscle has noise and fat), no metal, or more than
+/// 5 % of it.
 [[nodiscard]] Status check_scan(const Volume& scan);
 
-/// A scan read between its voxels. Borrows the volume.
+/// A scan with interpolation between its voxels. Borrows the volume.
 class ScanField {
  public:
   explicit ScanField(const Volume& scan) : scan_(scan) {}

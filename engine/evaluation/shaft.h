@@ -8,8 +8,8 @@
 
 namespace orthonav::engine {
 
-/// The middle of a shaft: a straight line, or a parabola where a wire is bent. `s` runs from
-/// -half_m to half_m, metres along `direction`.
+/// The centreline of a shaft: a straight line, or a parabola for a bent wire. `s` runs from -half_m
+/// to half_m, metres along `direction`.
 struct Centreline {
   Vec3 middle_m;
   Vec3 direction;  ///< unit
@@ -44,19 +44,19 @@ inline constexpr double kWire_m = 0.0018;
 /// A straight piece of metal in a scan: a screw without its head, a wire, a piece of a rod.
 struct Shaft {
   Centreline line;
-  double from_s_m = 0.0;  ///< where it begins, or its head ends
+  double from_s_m = 0.0;  ///< where it begins, or where its head ends
   double to_s_m = 0.0;    ///< its other end: the one further to the front (LPS), taken for the tip
   double radius_m = 0.0;
   bool headed = false;     ///< thicker metal before `from_s_m`
   bool cut = false;        ///< the scan ends before the tip does
-  double misfit_hu = 0.0;  ///< RMS, what the model leaves of the voxels at its border
-  /// Of the errors of its middle across and athwart (m²), then of its direction towards the same
+  double misfit_hu = 0.0;  ///< RMS residual of the voxels at its border
+  /// Of the errors of its middle across and athwart (m²), then of its direction towards these
   /// (rad²), by rows.
   std::array<double, 16> covariance{};
 
-  /// Whether the tip lies at another shaft, so that where either ends is not seen.
+  /// Whether the tip lies at another shaft, so that the end of neither can be seen.
   bool touched = false;
-  /// Whether metal goes on behind `from_s_m`, so that it is no end.
+  /// Whether metal continues before `from_s_m`, so that it is not an end.
   bool goes_on = false;
 
   [[nodiscard]] Point<Scan> tip() const { return {line.at(to_s_m)}; }

@@ -19,10 +19,10 @@ struct MetalPieces {
 
 /// Straight shafts among the voxels of metal: the line through two of them that runs through the
 /// longest unbroken metal (RANSAC, Fischler and Bolles 1981; its seed is fixed), then the middles
-/// of the cross sections about it, as far as those are of one size; what is thicker at one end is a
-/// head. A shaft that was found is taken out, with its head, and the next one is sought. Shafts are
-/// 12 mm long or more, at least 2.2 times as long as thick, and 1 to 10 mm thick. What is left is
-/// grouped by nearness; groups of less than 20 mm³ are dropped.
+/// of the cross sections about it, as far as these have the same size; a thicker part at one end is
+/// a head. A shaft found is removed, with its head, and the next one is searched for. Shafts are at
+/// least 12 mm long, at least 2.2 times as long as thick, and 1 to 10 mm thick. The remaining metal
+/// is grouped by proximity; groups of less than 20 mm³ are dropped.
 [[nodiscard]] MetalPieces straight_metal(const ScanField& scan);
 
 }  // namespace orthonav::engine

@@ -8,10 +8,11 @@
 
 namespace orthonav::engine {
 
-/// Where the spine of the case may lie in the scan, most likely first: two planned screws laid on
-/// two shafts (all pairs of both), or one on one with the least turn, ranked by how many planned
-/// screws then have a shaft beside them; last, as it lies in the case. The patient is turned by up
-/// to 45° against the case. Of starts that are nearly alike one is given; at most `most` in all.
+/// Possible poses of the case's spine in the scan, most likely first: two planned screws aligned
+/// with two shafts (all pairs of both), or one with one by the smallest turn, ranked by how many
+/// planned screws then have a shaft nearby; last, the pose in the case. The patient may be turned
+/// by up to 45° relative to the case. Of nearly equal starts only one is returned; at most `most`
+/// in all.
 [[nodiscard]] std::vector<Transform<Scan, Spine>> spine_starts(const Case& subject,
                                                                std::span<const Shaft> shafts,
                                                                std::size_t most);

@@ -13,23 +13,23 @@
 
 namespace orthonav::engine {
 
-/// What a scene looks like; views side by side.
+/// The images of a scene, with views side by side.
 struct GoldenImages {
   LabelImage labels;
   RgbaImage additive;  ///< on black, as a headset shows it
   RgbaImage over;      ///< over golden_background
 };
 
-/// Draws golden scenes. Keeps a renderer a size, so that many scenes cost little.
+/// Draws golden scenes. Keeps one renderer per size, so that many scenes cost little.
 class GoldenPainter {
  public:
-  /// The goldens were taken on this rasterizer; another rounds differently.
+  /// The goldens were made with this rasterizer; others round differently.
   static constexpr const char* kPinnedDevice = "llvmpipe";
   /// With validation, its lines go to `messages` too, which may outlive the painter.
   explicit GoldenPainter(std::string device = kPinnedDevice, bool validation = false,
                          render::MessageSink messages = nullptr);
   Result<GoldenImages> paint(const GoldenScene& scene);
-  /// Of all renderers used so far.
+  /// The messages of all renderers used so far.
   [[nodiscard]] const std::vector<std::string>& validation_messages() const { return *messages_; }
 
  private:
@@ -46,11 +46,11 @@ class GoldenPainter {
 
 Result<GoldenImages> read_goldens(const std::filesystem::path& folder,
                                   const std::string& scene_name);
-/// All three, each whole or not at all.
+/// Writes all three, each completely or not at all.
 Status write_goldens(const std::filesystem::path& folder, const std::string& scene_name,
                      const GoldenImages& images);
 
-/// What differs between what is expected and what is drawn; empty when nothing does.
+/// The differences between expected and drawn images; empty if there are none.
 [[nodiscard]] std::vector<std::string> differences(const GoldenImages& expected,
                                                    const GoldenImages& actual);
 

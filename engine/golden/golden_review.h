@@ -8,7 +8,7 @@
 
 namespace orthonav::engine {
 
-/// One scene as it is expected, as it is now, and what follows.
+/// One scene: the expected images, the current ones, and the problems.
 struct GoldenVerdict {
   GoldenScene scene;
   std::optional<GoldenImages> expected;  ///< absent: there is no golden, or it can't be read
@@ -16,12 +16,12 @@ struct GoldenVerdict {
   std::vector<std::string> problems;  ///< empty: alike
 };
 
-/// Draws a scene and holds it against its golden. An error when it can't be drawn.
+/// Draws a scene and compares it with its golden. An Error if it can't be drawn.
 Result<GoldenVerdict> judge(GoldenPainter& painter, const GoldenScene& scene,
                             const std::filesystem::path& folder);
 
-/// One page without any outside file: expected, actual and difference × 16 side by side, what
-/// differs first.
+/// One self-contained page: expected, actual and difference × 16 side by side, differing scenes
+/// first.
 Result<std::string> review_page(const std::vector<GoldenVerdict>& verdicts,
                                 const std::vector<std::string>& orphans);
 

@@ -8,19 +8,19 @@
 
 namespace orthonav::engine {
 
-/// A point of a hologram whose place in the image is asserted as a number.
+/// A point of a hologram whose position in the image is asserted as a number.
 struct GoldenPoint {
   render::Label label = 0;
   render::Float3 in_world;
 };
 
-/// What lies behind the holograms of an `over` picture.
+/// The background behind the holograms of an `over` picture.
 enum class GoldenBehind {
   kSite,        ///< drapes, and a wound in the middle
   kFourGrounds  ///< wound, drape above, bone, glove below: as the simulated room shows them
 };
 
-/// A picture that is kept: what is drawn, from where, and how large.
+/// A golden picture: what is drawn, from where, and how large.
 struct GoldenScene {
   std::string name;
   std::string what;  ///< what a reviewer should see, one line
@@ -29,17 +29,17 @@ struct GoldenScene {
   GoldenBehind behind = GoldenBehind::kSite;
   render::Scene scene;
   std::vector<render::View> views;
-  std::vector<GlarePatch> papers;  ///< that labels make way for; not drawn
+  std::vector<GlarePatch> papers;  ///< tags that labels avoid; not drawn
   /// Points that the hologram must cover.
   std::vector<GoldenPoint> covered;
-  /// Centres of holograms that are alike on all sides of them, text left out.
+  /// Centres of holograms that are symmetric about them, without text.
   std::vector<GoldenPoint> centred;
 };
 
 /// Every golden scene, in a fixed order; the same values at every call.
 [[nodiscard]] std::vector<GoldenScene> golden_scenes();
 
-/// What lies behind the holograms in the `over` pictures, a little uneven.
+/// The background of the `over` pictures, slightly uneven.
 [[nodiscard]] RgbaImage golden_background(int width_px, int height_px,
                                           GoldenBehind behind = GoldenBehind::kSite);
 

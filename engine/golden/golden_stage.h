@@ -22,7 +22,7 @@ inline constexpr render::Float3 kOtherTarget = {-0.0080f, -0.0110f, 0.0040f};
 inline constexpr render::Float3 kNormal = {0.25f, 0.95f, 0.15f};
 inline constexpr render::Float3 kOtherNormal = {-0.25f, 0.95f, 0.15f};
 
-// The labels of what the scenes show.
+// The labels of the holograms in the scenes.
 inline constexpr render::Label kPathLabel = label_of(HologramKind::kPath, 1);
 inline constexpr render::Label kOtherPathLabel = label_of(HologramKind::kPath, 2);
 inline constexpr render::Label kVertebraLabel = label_of(HologramKind::kVertebra, 1);
@@ -54,17 +54,17 @@ inline constexpr std::array<render::Float3, 3> kPlacesToCheck = {
 [[nodiscard]] render::Float3 planned_direction();
 /// The point C of the deviation triangle.
 [[nodiscard]] render::Float3 planned_point();
-/// The point B of a tool that is off by the angle, towards the patient's left and head, its tip in
-/// the entry.
+/// The point B of a tool that is off by the angle, towards the patient's left and head, with its
+/// tip in the entry.
 [[nodiscard]] render::Float3 tool_point(double angle_deg);
-/// The screw of a side; the vertebra lies as the world does.
+/// The screw of a side; the vertebra's frame is the world.
 [[nodiscard]] nav::ScrewPlan plan_of(Side side);
-/// What the product makes of a tool that is off by the angle, its tip so far beside the planned
-/// axis to the same side, and so deep (< 0: before the entry).
+/// The guidance for a tool that is off by the angle, with its tip beside the planned axis to the
+/// same side and at this depth (< 0: before the entry).
 [[nodiscard]] nav::ScrewGuidance guided(double angle_deg, double beside_m, double depth_m);
 
-/// What is written of a tool at the plan of a side, where the errors of its pose have these SDs
-/// along and about each axis.
+/// The numbers of a tool at the plan of a side, if the errors of its pose have these SDs along and
+/// about each axis.
 struct NumberSds {
   double shift_m = 0.0003;
   double turn_rad = 0.005;
@@ -72,20 +72,21 @@ struct NumberSds {
 [[nodiscard]] nav::ScrewNumbers numbers_of(const nav::ScrewGuidance& tool, const NumberSds& sds,
                                            Side side = Side::kLeft);
 
-/// Strokes over lamina and spinous process, as a surgeon lays them.
+/// Strokes over lamina and spinous process, as a surgeon makes them.
 [[nodiscard]] std::vector<render::Float3> stroke();
 
 /// Near enough to judge one hologram: 14° wide.
 [[nodiscard]] std::vector<render::View> close_view(render::Float3 target);
-/// The surgeon's own, both eyes, a HoloLens 2's 43°: from so far, the head rolled to the right.
+/// The surgeon's views, both eyes, a HoloLens 2's 43°, from this distance, with the head rolled to
+/// the right.
 [[nodiscard]] std::vector<render::View> surgeon_views(float distance_m = 0.4263f,
                                                       float roll_deg = 0.0f);
-/// Between those eyes.
+/// The point between those eyes.
 [[nodiscard]] Viewer surgeon(float distance_m = 0.4263f, float roll_deg = 0.0f);
 
 [[nodiscard]] GoldenScene start(std::string name, std::string what,
                                 std::vector<render::View> views);
-/// As large as a surgeon's view needs it.
+/// A scene with the size of a surgeon's view.
 [[nodiscard]] GoldenScene start_wide(std::string name, std::string what,
                                      std::vector<render::View> views);
 

@@ -7,7 +7,7 @@
 
 namespace orthonav::engine {
 
-/// A kind of text as its hologram draws it.
+/// A kind of text, drawn by its hologram.
 struct TextKind {
   std::string name;
   render::TextItem text;

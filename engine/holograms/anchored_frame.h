@@ -9,8 +9,8 @@
 
 namespace orthonav::engine {
 
-// What was built in the anchored World (nav/tracking/anchored_tracker.h), taken to the headset's
-// map in place. What hangs on the head stays. Nothing allocates.
+// Converts a scene or frame built in the anchored World (nav/tracking/anchored_tracker.h) to the
+// headset's map, in place. Items fixed to the head stay. Nothing allocates.
 
 void take_to_map(const Transform<World, World>& world_from_anchored, render::Scene& scene);
 void take_to_map(const Transform<World, World>& world_from_anchored, ShownFrame& frame);

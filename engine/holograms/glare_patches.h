@@ -8,11 +8,11 @@
 
 namespace orthonav::engine {
 
-/// A flat patch of the world on which no label can be read, such as a printed tag: its corners in
+/// A flat patch of the world on which labels are unreadable, such as a printed tag: its corners in
 /// order, metres.
 using GlarePatch = std::array<render::Float3, 4>;
 
-/// The paper of the tags that are tracked, in place of what `patches` held.
+/// Replaces `patches` by the paper of the tracked tags.
 void write_patches(const Guidance& guidance, std::vector<GlarePatch>& patches);
 
 }  // namespace orthonav::engine

@@ -9,13 +9,13 @@
 
 namespace orthonav::engine {
 
-/// The eyes' place and the head's up, as the holograms that face the eyes need them.
+/// The eyes' position and the head's up direction, for holograms that face the eyes.
 struct Viewer {
   render::Float3 eye;
   render::Float3 up{0, 1, 0};  ///< unit
 };
 
-/// Where the tool stands against the planned axis, at right angles to it, in the world.
+/// The tool's offset from the planned axis, perpendicular to it, in the world.
 struct CrossReading {
   render::Float3 tip_offset;
   render::Float3 top_offset;  ///< of the tool's axis, 80 mm up
@@ -23,15 +23,14 @@ struct CrossReading {
 };
 
 /// H7: a target that faces the eyes, above the site as they see it and to a side, clear of the tool
-/// and of the number beside it. Its rings are at 1, 2 and 5 mm, drawn larger than life: 1 mm takes
-/// 4.
+/// and of the number beside it. Its rings are at 1, 2 and 5 mm, magnified four times.
 struct TargetCross {
   render::Float3 site;
   render::Float3 outward;  ///< unit, along the planned axis out of the bone
   Viewer viewer;
   LabelSide side = LabelSide::kLeft;    ///< of the site, as the eyes see it
   std::optional<CrossReading> reading;  ///< absent: rings without dots
-  bool lost = false;                    ///< says so in the place of the dots
+  bool lost = false;                    ///< the cross says so in place of the dots
 };
 
 inline constexpr float kCrossAbove_m = 0.060f;
@@ -39,8 +38,8 @@ inline constexpr float kCrossAside_m = 0.065f;
 inline constexpr float kCrossScale = 4.0f;
 inline constexpr std::array<float, 3> kCrossRings_m = {0.001f, 0.002f, 0.005f};
 
-/// Where the parts of the cross hang: its middle, the filled and the hollow dot (without a reading
-/// the middle). A dot past the rings stays at their rim.
+/// Where the parts of the cross are: its middle, the filled and the hollow dot (at the middle
+/// without a reading). A dot past the rings stays at their rim.
 struct CrossPlaces {
   render::Float3 middle;
   render::Float3 right;  ///< unit, of the disc
@@ -50,7 +49,8 @@ struct CrossPlaces {
   std::array<bool, 2> outside = {};         ///< past the rim
   std::array<render::Float3, 2> towards{};  ///< unit, from the middle to the dot
 };
-/// The side that the planned axis does not lean to; kept while it hardly leans, lest it jump.
+/// The side away from which the planned axis leans; unchanged while it hardly leans, so that it
+/// does not jump.
 [[nodiscard]] LabelSide clear_side(render::Float3 site, render::Float3 outward,
                                    const Viewer& viewer, LabelSide until_now);
 [[nodiscard]] CrossPlaces places_of(const TargetCross& cross);
@@ -60,14 +60,13 @@ void add_target_cross(render::Scene& scene, const TargetCross& cross, render::La
 /// Takes the dots off a drawn cross and says that the tool is lost.
 void take_dots_off(render::Scene& scene, render::Label label);
 
-/// H9: `12.3 mm to entry`, `31.0 mm to target`, `1.2 mm past target`; absent for what is no depth.
+/// H9: `12.3 mm to entry`, `31.0 mm to target`, `1.2 mm past target`; absent for an invalid depth.
 [[nodiscard]] std::optional<std::string> depth_text(double depth_m, double to_target_m);
-/// The same into a text that is there already; false and empty for what is no depth.
+/// The same into an existing text; false and empty for an invalid depth.
 [[nodiscard]] bool write_depth_text(double depth_m, double to_target_m, std::string& text);
-/// From the angle's baseline down to the depth's, cap heights of the depth.
+/// From the angle's baseline down to the depth's, in cap heights of the depth.
 inline constexpr float kDepthBelowAngle = 1.9f;
-/// H9: under H6, which stands beside `b` (as `add_angle_readout`); past the target it has a red
-/// rim.
+/// H9: under H6, which is beside `b` (see `add_angle_readout`); past the target it has a red rim.
 void add_depth(render::Scene& scene, render::Float3 a, render::Float3 b, std::string_view text,
                bool past_target, render::Label label);
 

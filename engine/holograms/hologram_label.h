@@ -8,7 +8,7 @@
 
 namespace orthonav::engine {
 
-// An item's label tells its hologram: 100·n + k for the k-th instance of Hn (render/scene.h).
+// An item's label identifies its hologram: 100·n + k for the k-th instance of Hn (render/scene.h).
 
 inline constexpr render::Label kInstancesOfAKind = 100;
 /// Instances beyond this one share its label.

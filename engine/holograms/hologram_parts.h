@@ -9,7 +9,7 @@
 
 namespace orthonav::engine {
 
-// What holograms are put together from.
+// Parts from which holograms are composed.
 
 [[nodiscard]] render::Colour faded(render::Colour colour, float opacity);
 
@@ -30,12 +30,12 @@ inline void add_line(render::Scene& scene, std::initializer_list<render::Float3>
 void add_ring(render::Scene& scene, render::Float3 centre, render::Float3 normal, float radius_m,
               float width_m, render::Colour colour, render::Label label, int points = 48);
 
-/// A text beside a place, its middle as high: to the right by so many of its heights, or to the
-/// left where that is negative. Its words are added to what comes back.
+/// A text beside a place, vertically centred on it: offset to the right by this many of its
+/// heights, or to the left if negative. The caller adds its words to the returned item.
 render::TextItem& add_text_beside(render::Scene& scene, render::Float3 place, float offset_right,
                                   float height_m, float min_height_deg, render::Label label);
 void add_run(render::TextItem& item, std::string_view text, render::Colour colour);
-/// A run that is still to be written.
+/// Adds an empty run, to be filled by the caller.
 [[nodiscard]] std::string& add_run(render::TextItem& item, render::Colour colour);
 
 }  // namespace orthonav::engine

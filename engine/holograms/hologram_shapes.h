@@ -11,13 +11,13 @@
 
 namespace orthonav::engine {
 
-// What each hologram looks like, as pure functions from plain world values (metres) to items of a
-// render::Scene. Nothing here decides what is shown when; that is the scene builder's work.
-// Labels follow the scene's convention, 100·n + k for the k-th instance of hologram Hn.
+// The appearance of each hologram, as pure functions from plain world values (metres) to items of a
+// render::Scene. What is shown when is decided by the scene builder. Labels follow the scene's
+// convention, 100·n + k for the k-th instance of hologram Hn.
 
 /// Linear colours of the holograms, tuned for an additive display. Text is white, since light can't
-/// darken what is behind it and red light alone is read on nothing bright (docs/holograms.md has
-/// the contrasts); colour stands in a rim or in the mark beside it.
+/// darken its background and red light alone is unreadable on anything bright (docs/holograms.md
+/// has the contrasts); colour appears in a rim or in the mark beside it.
 namespace look {
 inline constexpr render::Colour kYellow{1.0f, 0.78f, 0.04f, 1};
 inline constexpr render::Colour kOrange{1.0f, 0.30f, 0.02f, 1};
@@ -35,7 +35,7 @@ inline constexpr render::Colour kRing{0.30f, 0.30f, 0.30f, 1};
 inline constexpr render::Colour kTitanium{0.46f, 0.48f, 0.52f, 1};
 }  // namespace look
 
-/// How far the tool is from the plan, as colours say it.
+/// How far the tool is from the plan, as shown by colours.
 enum class Grade { kGood, kFair, kPoor };
 
 struct GradeLimits {
@@ -53,7 +53,7 @@ struct GradeLimits {
 /// `12.4°`, one decimal; `--.-°` for a value that is absent, not finite, negative or over 99.9°.
 [[nodiscard]] std::string angle_text(std::optional<double> angle_rad);
 
-/// What is read off that text (rad); absent where it shows dashes.
+/// The value that this text shows (rad); absent if it shows dashes.
 [[nodiscard]] std::optional<double> read_angle_rad(std::optional<double> angle_rad);
 
 enum class PathState { kRecording, kSaved };
@@ -63,15 +63,15 @@ void add_sampled_path(render::Scene& scene, std::span<const render::Float3> samp
                       PathState state, render::Label label, float opacity = 1.0f);
 
 /// H1 once it is registered: green where a sample lies within 1 mm of the surface, amber within 2,
-/// red beyond. One distance a sample; samples without one are left out.
+/// red beyond. One distance per sample; samples without one are left out.
 void add_residual_path(render::Scene& scene, std::span<const render::Float3> samples,
                        std::span<const float> distances_m, render::Label label,
                        float opacity = 1.0f);
-/// Of a path while there are check points: these are what to look at.
+/// Opacity of a path while there are check points, which need the attention.
 inline constexpr float kPathBehindChecks = 0.10f;
 
 /// H2: the registered surface, bright where it turns away from the eye; in `look::kUnstroked` where
-/// its tints say that no stroke came near.
+/// its tints mark unstroked surface.
 void add_vertebra(render::Scene& scene, std::shared_ptr<const render::MeshData> mesh,
                   const render::Matrix4& world_from_model, render::Label label);
 
@@ -87,7 +87,7 @@ struct EntryHologram {
 };
 void add_entry(render::Scene& scene, const EntryHologram& entry, render::Label label);
 
-/// How far H4 stands out of the bone.
+/// How far H4 extends out of the bone.
 inline constexpr float kTrajectoryOutside_m = 0.060f;
 /// The outer end of H4.
 [[nodiscard]] render::Float3 trajectory_outer_end(render::Float3 entry, render::Float3 target);
@@ -95,8 +95,8 @@ inline constexpr float kTrajectoryOutside_m = 0.060f;
 void add_planned_trajectory(render::Scene& scene, render::Float3 entry, render::Float3 target,
                             render::Label label);
 
-/// Beside H4: a wire as it was measured, solid from its outer end to as deep as planned, and
-/// `text` at the outer end; cyan, or red and in a red rim where it lies beyond a limit.
+/// Beside H4: a measured wire, solid from its outer end to the planned depth, with `text` at the
+/// outer end; cyan, or red and in a red rim if it is beyond a limit.
 void add_placed_wire(render::Scene& scene, render::Float3 outside, render::Float3 deep,
                      std::string_view text, bool within, render::Label label);
 
@@ -108,10 +108,10 @@ void add_deviation_triangle(render::Scene& scene, render::Float3 a, render::Floa
 void add_angle_readout(render::Scene& scene, render::Float3 a, render::Float3 b,
                        std::string_view text, Grade grade, render::Label label);
 
-/// The number off a readout that was drawn: dashes in its place.
+/// Replaces the number of a drawn readout by dashes.
 void take_angle_off(render::TextItem& readout);
 
-/// Where H6 stands for a tool's axis from A to B.
+/// The position of H6 for a tool's axis from A to B.
 [[nodiscard]] render::Float3 readout_place(render::Float3 a, render::Float3 b);
 
 struct RodBendMark {
@@ -126,7 +126,7 @@ struct RodHologram {
   std::shared_ptr<const render::MeshData> tube;  ///< world coordinates before `shift`
   std::span<const render::Float3> heads;
   std::span<const RodBendMark> bends;
-  std::optional<double> length_m;  ///< absent: the heads make no rod
+  std::optional<double> length_m;  ///< absent: the heads do not allow a rod
   render::Float3 shift;            ///< `move rod`: added to everything
 };
 void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
@@ -134,7 +134,7 @@ void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
 /// `0.4 mm`, without a sign, one decimal; `-- mm` for a distance that is not finite.
 [[nodiscard]] std::string distance_text(double distance_m);
 /// H12: a diamond in a halo at a place touched to check the registration, with its distance from
-/// the surface; green and a tick where near enough, else red and a cross.
+/// the surface; green with a tick if near enough, otherwise red with a cross.
 void add_check_point(render::Scene& scene, render::Float3 position, std::string_view text,
                      bool within, render::Label label);
 

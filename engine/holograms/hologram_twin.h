@@ -4,9 +4,10 @@
 
 namespace orthonav::engine {
 
-/// H8: a copy of what lies about a site, beside it and twice as large, turned as the patient lies.
+/// H8: a copy of the surroundings of a site, beside it and twice as large, in the patient's
+/// orientation.
 struct VirtualTwin {
-  render::Float3 site;    ///< stays where it is but for the shift
+  render::Float3 site;    ///< not moved apart from the shift
   render::Float3 beside;  ///< unit, which way the twin is shifted
 };
 

@@ -10,15 +10,15 @@
 
 namespace orthonav::engine {
 
-// Where labels and what they must not cover lie for the eyes. Lengths are tangents of visual
-// angles in an eye's view: x to its right, y up, straight ahead at the origin.
+// Where labels, and the things they must not cover, appear to the eyes. Lengths are tangents of
+// visual angles in an eye's view: x to its right, y up, straight ahead at the origin.
 
 struct SeenPoint {
   float x = 0;
   float y = 0;
 };
 
-/// An upright rectangle; empty where it is not in front of the eye.
+/// An upright rectangle; empty if it is not in front of the eye.
 struct SeenBox {
   float left = 1;
   float bottom = 1;
@@ -29,7 +29,7 @@ struct SeenBox {
 [[nodiscard]] SeenBox grown(const SeenBox& box, float by);
 
 /// The convex hull of up to four points, grown by a radius: a disc, a line, a triangle, a patch.
-/// Without points where it is not in front of the eye.
+/// Without points if it is not in front of the eye.
 struct SeenOutline {
   std::array<SeenPoint, 4> corners;
   std::size_t count = 0;
@@ -41,7 +41,7 @@ struct SeenOutline {
 /// The same; round corners count as square ones.
 [[nodiscard]] bool overlap(const SeenOutline& outline, const SeenBox& box);
 
-/// What each eye sees; of one eye, only the first.
+/// The box for each eye; with one eye, only the first.
 using BoxInEyes = std::array<SeenBox, 2>;
 using OutlineInEyes = std::array<SeenOutline, 2>;
 [[nodiscard]] bool overlap(const BoxInEyes& a, const BoxInEyes& b);
@@ -63,7 +63,7 @@ class Eyes {
   explicit Eyes(const std::vector<render::View>& views);
   [[nodiscard]] const render::Head& head() const { return head_; }
   [[nodiscard]] BoxInEyes box(const render::Matrix4& world_from_caps, const CapsBox& box) const;
-  /// Whether every eye sees all of what lies before it.
+  /// Whether every eye sees the whole box.
   [[nodiscard]] bool in_view(const BoxInEyes& boxes) const;
   /// Up to four corners in the world, metres.
   [[nodiscard]] OutlineInEyes outline(std::span<const render::Float3> corners,

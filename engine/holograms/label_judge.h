@@ -13,36 +13,36 @@
 
 namespace orthonav::engine {
 
-/// A text of a scene that is to be placed; the angle takes the depth under it along.
+/// A text of a scene to be placed; the depth is placed together with the angle above it.
 struct LabelSubject {
   std::size_t text = 0;  ///< an index into the scene's texts
   std::optional<std::size_t> below;
-  float below_caps = 0;  ///< cap height of that one, by the cap height of `text`
+  float below_caps = 0;  ///< cap height of that one, relative to that of `text`
   LabelRank rank = LabelRank::kFixed;
   std::uint32_t instance = 0;  ///< among the texts of its label and rank
   LabelExtent extent;          ///< of both
   render::Matrix4 world_from_caps{};
 };
 
-/// The least harm of a place where a text can't be read, or another one there.
+/// The least harm of a place where this or another text becomes unreadable.
 inline constexpr int kTextLost = 8;
 
 /// How good a place is.
 struct LabelVerdict {
-  int blocked = 0;  ///< the harm of covering what lies there; 0: the place is free
-  int cost = 0;     ///< less is better; whatever is blocked costs more than all that is free
+  int blocked = 0;  ///< the harm of covering other things; 0: the place is free
+  int cost = 0;     ///< less is better; any blocked place costs more than all free ones
 };
 
-/// How near is too near, tangents of visual angles.
+/// Minimum distances, tangents of visual angles.
 struct LabelMargins {
-  float others = 0;  ///< to other texts and to what they name
-  float own = 0;     ///< to what the label names itself
+  float others = 0;  ///< to other texts and the things they name
+  float own = 0;     ///< to the thing that the label itself names
 };
 
-/// Says of one frame what a label would cover at a place. Keeps its buffers between frames.
+/// Judges what a label would cover at a place in one frame. Keeps its buffers between frames.
 class LabelJudge {
  public:
-  /// The eyes, what is in the way, and the texts that are not to be moved.
+  /// Sets the eyes, the obstacles, and the texts that must not be moved.
   void begin(const render::Scene& scene, const std::vector<render::View>& views,
              std::span<const GlarePatch> patches);
   /// The texts to be placed, the most important first. Valid until `begin`.
@@ -50,9 +50,9 @@ class LabelJudge {
 
   [[nodiscard]] LabelVerdict judge(const render::Scene& scene, const LabelSubject& subject,
                                    std::size_t place, const LabelMargins& margins) const;
-  /// From now on others make way for it there.
+  /// From now on, other labels avoid it there.
   void occupy(const render::Scene& scene, const LabelSubject& subject, std::size_t place);
-  /// From what is named to the label, metres in the world.
+  /// The line from the named thing to the label, metres in the world.
   [[nodiscard]] static std::array<render::Float3, 2> leader(const LabelSubject& subject,
                                                             const LabelPlace& place);
 

@@ -11,26 +11,26 @@
 
 namespace orthonav::engine {
 
-/// Moves the texts of a scene so that, for either eye, none lies over another, over what another
-/// names, or over a printed tag. The most important is placed first (LabelRank). A label that finds
-/// no room nearby stands farther off with a thin line; an incidental one is left out.
+/// Moves the texts of a scene so that, for either eye, none covers another one, the thing that
+/// another one names, or a printed tag. The most important is placed first (LabelRank). A label
+/// without room nearby is placed farther off with a thin line; an incidental one is left out.
 ///
-/// Places change with hysteresis: one that is blocked is left at once, any other only after a
-/// better one has been free for `kSettled`. A label moves from one frame to the next: on its way it
-/// would cross others. Deterministic; once warm it allocates nothing. One thread at a time.
+/// Places change with hysteresis: a blocked one is left at once, any other only after a better one
+/// has been free for `kSettled`. A label jumps from one frame to the next, since it would cross
+/// others on its way. Deterministic; once warm it allocates nothing. One thread at a time.
 class LabelLayout {
  public:
-  /// For so long a better place must have been free before a label takes it, and a label does not
-  /// go back to the place that it left while there is another.
+  /// How long a better place must have been free before a label takes it. For as long, a label does
+  /// not return to the place that it left if there is another.
   static constexpr Duration kSettled = std::chrono::seconds(1);
 
-  /// Of a scene as the builder wrote it, once. `shown_at` says how long a place has been free; what
-  /// was shown later than that, or more than two seconds before it, is forgotten.
+  /// Lays out a scene from the builder; call once per scene. `shown_at` measures how long a place
+  /// has been free; history later than that, or more than two seconds before it, is forgotten.
   void lay_out(render::Scene& scene, const std::vector<render::View>& views,
                std::span<const GlarePatch> patches, Timestamp shown_at);
 
  private:
-  /// What became of a label in the frames before.
+  /// A label's history in earlier frames.
   struct Kept {
     render::Label label = 0;
     LabelRank rank = LabelRank::kFixed;

@@ -9,13 +9,14 @@
 
 namespace orthonav::engine {
 
-/// Something that labels make way for.
+/// Something that labels avoid.
 struct LabelObstacle {
   enum class Kind {
-    kNamed,   ///< what labels name: none may cover it
-    kGlare,   ///< no number that guides may lie on it, and others only if what they name does
-    kLine,    ///< labels rather stand elsewhere
-    kWound,   ///< no number that guides may cover it
+    kNamed,   ///< named by a label: no label may cover it
+    kGlare,   ///< guiding numbers must not lie on it, and other labels only if the thing they name
+              ///< does
+    kLine,    ///< labels prefer other places
+    kWound,   ///< guiding numbers must not cover it
     kLeader,  ///< leads to a label
   };
   Kind kind = Kind::kNamed;
@@ -23,11 +24,11 @@ struct LabelObstacle {
   OutlineInEyes seen;
 };
 
-/// The entry that is being guided to, and what lies around it.
+/// The entry being guided to, with its surroundings.
 inline constexpr float kWoundRadius_m = 0.012f;
 
-/// What a scene's labels must not cover, in place of what `obstacles` held: the anchors of all
-/// labels, target cross, rods, planned trajectory and triangle, patches. Texts are no part of it.
+/// Replaces `obstacles` by the things that a scene's labels must not cover: the anchors of all
+/// labels, target cross, rods, planned trajectory and triangle, patches. Texts are not included.
 void find_obstacles(const render::Scene& scene, std::span<const GlarePatch> patches,
                     const Eyes& eyes, std::vector<LabelObstacle>& obstacles);
 

@@ -13,7 +13,7 @@ namespace orthonav::engine {
 /// the display's light on top of it.
 struct OpticalModel {
   double display_cd_m2 = 500.0;     ///< of full white, at the eye
-  double ambient_lux = 1000.0;      ///< on what is behind; an operating field takes 10,000 and more
+  double ambient_lux = 1000.0;      ///< on the background; an operating field has 10,000 and more
   double combiner_fraction = 0.40;  ///< of the world's light that passes
 
   /// Luminance behind the combiner of a white, matte surface.
@@ -22,8 +22,8 @@ struct OpticalModel {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// How a hologram stands out: luminance with it by luminance without it, over the pixels of its
-/// label; 1 is invisible.
+/// The contrast of a hologram: luminance with it divided by luminance without it, over the pixels
+/// of its label; 1 is invisible.
 struct HologramContrast {
   render::Label label = 0;
   int pixels = 0;
@@ -34,16 +34,16 @@ struct HologramContrast {
 /// Text and lines below this are hard to make out (WCAG 2.1, 1.4.11: graphical objects).
 inline constexpr double kLegibleContrast = 3.0;
 
-/// Of the holograms as drawn additively on black (`light`), before a background whose linear grey
-/// is taken for its reflectance; all three of one size. In order of the labels.
+/// The contrasts of the holograms drawn additively on black (`light`) over a background whose
+/// linear grey is its reflectance; all three images have one size. In the order of labels.
 [[nodiscard]] std::vector<HologramContrast> contrasts(const RgbaImage& light,
                                                       const LabelImage& labels,
                                                       const RgbaImage& background,
                                                       const OpticalModel& model);
 
-/// The world as it passes the combiner, exposed so that the display's full white over a white sheet
-/// is white. Pictures for people show their background so: at its own brightness no light on top of
-/// it would stand out as it does in the display.
+/// The world seen through the combiner, exposed so that the display's full white over a white sheet
+/// is white. Pictures for people use it as their background: at its own brightness, light on top of
+/// it would not stand out as it does in the display.
 class WorldBehindCombiner {
  public:
   explicit WorldBehindCombiner(const OpticalModel& model = {});
@@ -53,7 +53,7 @@ class WorldBehindCombiner {
   std::array<std::uint8_t, 256> seen_{};
 };
 
-/// What the eye sees, exposed so that the brightest of display and background together is white.
+/// The image seen by the eye, exposed so that the brightest sum of display and background is white.
 [[nodiscard]] RgbaImage through_combiner(const RgbaImage& light, const RgbaImage& background,
                                          const OpticalModel& model);
 

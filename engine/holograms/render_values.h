@@ -10,12 +10,12 @@
 
 namespace orthonav::engine {
 
-// What nav and hal hold in double, as the renderer takes it, and back.
+// Converts double values of nav and hal to the renderer's types and back.
 
 [[nodiscard]] render::Float3 to_float3(Vec3 v);
 [[nodiscard]] Vec3 to_vec3(render::Float3 v);
 [[nodiscard]] render::Matrix4 to_matrix(const std::array<double, 16>& row_major);
-/// What an eye sees in a HoloLens 2.
+/// The view of an eye in a HoloLens 2.
 [[nodiscard]] render::View hololens2_view(const Transform<World, Eye>& world_from_eye);
 /// With smooth normals.
 [[nodiscard]] std::shared_ptr<const render::MeshData> mesh_data(const nav::TriangleMesh& mesh);

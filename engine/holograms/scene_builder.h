@@ -15,15 +15,15 @@
 
 namespace orthonav::engine {
 
-/// The only place where guidance becomes something visible: a scene of values for the renderer and
-/// the same frame in words for the display. What is shown when is decided in visibility.cpp, how it
-/// looks in hologram_shapes.cpp. One thread at a time.
+/// The only place where guidance becomes visible: as a scene of values for the renderer and as the
+/// same frame in words for the display. visibility.cpp decides what is shown, hologram_shapes.cpp
+/// how it looks. One thread at a time.
 class SceneBuilder {
  public:
   explicit SceneBuilder(const VisibilityRules& rules = {}) : rules_(rules) {}
 
-  /// Decides what this guidance shows in a frame shown when it expects, or later; the two
-  /// below then show exactly that.
+  /// Decides what this guidance shows in a frame displayed at the expected time or later; the two
+  /// functions below then show exactly that.
   void update(const Guidance& guidance) { update(guidance, guidance.display_time); }
   void update(const Guidance& guidance, Timestamp display_time);
   void write_shown(const Guidance& guidance, ShownFrame& frame);
@@ -32,7 +32,7 @@ class SceneBuilder {
 
  private:
   struct Tube {
-    std::vector<Point<World>> heads;  ///< that the tube was made for
+    std::vector<Point<World>> heads;  ///< for which the tube was made
     std::shared_ptr<const render::MeshData> mesh;
   };
 
@@ -54,7 +54,7 @@ class SceneBuilder {
   VisibilityRules rules_;
   Visibility visible_;
   ShownFrameWriter shown_;
-  // The renderer keeps its copies by pointer: one surface a level, one tube a rod, made once.
+  // The renderer keeps its copies by pointer: one surface per level, one tube per rod, made once.
   std::map<const nav::VertebraModel*, std::shared_ptr<const render::MeshData>> surfaces_;
   std::vector<Tube> tubes_;
   std::shared_ptr<const render::MeshData> tinted_;  ///< of the registration shown last
@@ -69,16 +69,15 @@ class SceneBuilder {
   render::Scene parts_;  ///< of the twin
 };
 
-/// Whether what has this label came from a tool's pose, where one is shown: it is wrong once that
-/// is too old.
+/// Whether items with this label depend on a tool's pose and become wrong once it is too old.
 [[nodiscard]] bool hangs_on_tool(render::Label label);
 
-/// Takes the deviation triangle out of a scene and the number off its readout: the pose they came
-/// from has grown too old before they were drawn.
+/// Removes the deviation triangle from a scene and the number from its readout, if the pose they
+/// depend on became too old before they were drawn.
 void hide_tool_guidance(render::Scene& scene);
 
-/// What is left of a scene that nobody can vouch for: the status line, which hangs on the head, and
-/// above it why there is nothing else.
+/// Reduces a scene that is no longer reliable to the status line, which is fixed to the head, with
+/// the reason above it.
 void write_notice_alone(const render::Scene& scene, std::string_view why, render::Scene& left);
 /// The same while the head is not located.
 inline void write_head_lost(const render::Scene& scene, render::Scene& left) {

@@ -8,7 +8,7 @@
 
 namespace orthonav::engine {
 
-/// Holograms as others script them (docs/scene-files.md), and the eyes that see them.
+/// Holograms scripted by users (docs/scene-files.md), and the eyes that see them.
 struct SceneFile {
   render::Scene scene;
   std::vector<render::View> eyes;  ///< left, right
@@ -16,11 +16,12 @@ struct SceneFile {
   int height_px = 720;
 };
 
-/// Reads a scene file and the meshes that it names. Refuses what it can't draw by file, place,
-/// value and limit: unknown holograms, numbers that are not finite, widths that are not positive.
+/// Reads a scene file and the meshes that it names. Refuses, with file, place, value and limit,
+/// anything it can't draw: unknown holograms, numbers that are not finite, widths that are not
+/// positive.
 Result<SceneFile> load_scene(const std::string& path);
-/// The same of a file's text; `name` stands for the file in messages, `folder` is where its meshes
-/// lie.
+/// The same from a file's text; `name` stands for the file in messages, `folder` is the folder of
+/// its meshes.
 Result<SceneFile> parse_scene(const std::string& text, const std::string& name,
                               const std::string& folder);
 

@@ -11,9 +11,9 @@
 
 namespace orthonav::engine {
 
-// What scene files state, read from one of their nodes; problems are noted in its document.
+// Reads values from a node of a scene file; problems are noted in its document.
 
-/// A number between limits, which its refusal names.
+/// A number between limits, which an error message names.
 [[nodiscard]] double number_between(const JsonNode& node, const char* key, double low, double high,
                                     const char* unit);
 /// A length in millimetres between limits, in metres.
@@ -24,14 +24,14 @@ namespace orthonav::engine {
 [[nodiscard]] std::vector<render::Float3> places_from(const JsonNode& node, const char* key);
 /// Of unit length.
 [[nodiscard]] render::Float3 direction_from(const JsonNode& node, const char* key);
-/// One of the words, by its place among them; the first where the key is absent.
+/// The index of one of the words; the first if the key is absent.
 [[nodiscard]] std::size_t word_from(const JsonNode& node, const char* key,
                                     std::span<const char* const> words);
-/// `angle_deg`, absent where it is.
+/// `angle_deg`, if present.
 [[nodiscard]] std::optional<double> angle_from(const JsonNode& node);
-/// Of that angle; poor where it is absent.
+/// The grade of that angle; poor if it is absent.
 [[nodiscard]] Grade grade_from(const JsonNode& node);
-/// `colour`, linear; white where it is absent.
+/// `colour`, linear; white if absent.
 [[nodiscard]] render::Colour colour_from(const JsonNode& node);
 
 }  // namespace orthonav::engine

@@ -7,7 +7,7 @@
 
 namespace orthonav::engine {
 
-// What the holograms of the selected screw are made of, for whoever draws or tells them.
+// Geometry of the selected screw's holograms, for drawing and for the frame in words.
 
 /// The planned trajectory in the world: its outer end, the entry, the target.
 struct TrajectoryLine {
@@ -17,25 +17,26 @@ struct TrajectoryLine {
 };
 [[nodiscard]] TrajectoryLine trajectory_of(const PlacedScrew& screw);
 
-/// A wire as it was measured, in the world: its outer end, abreast of the entry, as deep as
-/// planned.
+/// A measured wire in the world: its outer end, its point abreast of the entry, and its point at
+/// the planned depth.
 [[nodiscard]] TrajectoryLine line_of(const PlacedWire& wire, const PlacedScrew& screw);
-/// That, beside H4; `text` is room for its words.
+/// Adds it beside H4; `text` is a buffer for its words.
 void add_wire(render::Scene& scene, const PlacedScrew& screw, const PlacedWire& wire,
               std::string& text);
 
-/// Of a visible H5 and its H6. What is only predicted has no number and is never called good.
+/// The grade of a visible H5 and its H6. A merely predicted tool has no number and is never graded
+/// good.
 [[nodiscard]] Grade grade_of_tool(const Visibility& visible, const VisibilityRules& rules);
 
 /// H7 over the level's site.
 [[nodiscard]] TargetCross cross_of(const PlacedScrew& screw, const VisibleCross& visible,
                                    const VisibilityRules& rules);
 
-/// The side of the site on which H7 hangs clear of the tool.
+/// The side of the site on which H7 is clear of the tool.
 [[nodiscard]] LabelSide clear_side_of(const PlacedScrew& screw, const Transform<World, Rig>& head,
                                       LabelSide until_now);
 
-/// H8 on the side that the screw is not on, clear of the hand.
+/// H8 on the side opposite to the screw, clear of the hand.
 [[nodiscard]] VirtualTwin twin_of(const PlacedScrew& screw);
 
 }  // namespace orthonav::engine

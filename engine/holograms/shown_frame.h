@@ -11,8 +11,8 @@
 
 namespace orthonav::engine {
 
-/// Says what a frame shows in words and points: what a person wearing the display reads off it.
-/// Reuses the frame's buffers; in the steady state it allocates nothing.
+/// Describes a frame in words and points: what a person wearing the display reads off it. Reuses
+/// the frame's buffers; in the steady state it allocates nothing.
 class ShownFrameWriter {
  public:
   void write(const Guidance& guidance, const Visibility& visible, const VisibilityRules& rules,
@@ -36,7 +36,7 @@ class ShownFrameWriter {
 
   std::size_t used_ = 0;
   std::string text_;
-  /// By which a person compares the hologram with the bone; found once for a model.
+  /// Landmarks by which a person compares the hologram with the bone; found once per model.
   std::map<const nav::VertebraModel*, std::array<Vec3, 4>> landmarks_m_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace orthonav::engine {
 
-/// How long what is shown stays true is the session's to say: it comes with the guidance.
+/// How long guidance stays valid is decided by the session and stated in the guidance.
 struct VisibilityRules {
   double triangle_within_m = 0.040;  ///< of the tip from the entry
   double rod_moved_away_m = 0.150;
@@ -19,7 +19,7 @@ struct VisibilityRules {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// A level with a registration, so that what belongs to its vertebra has a place in the world.
+/// A registered level, whose vertebra has a pose in the world.
 struct PlacedLevel {
   const LevelState* level = nullptr;  ///< never null
   Transform<World, Vertebra> world_from_vertebra;
@@ -40,37 +40,37 @@ struct VisibleCross {
   bool lost = false;                         ///< it says that the tool is lost
 };
 
-/// Which holograms one frame shows, each with what it needs: what is there to be shown is there to
-/// be read. Computed once, so that what is drawn and what the display is told can't differ. Points
-/// into the guidance that it was made from: valid as long as that.
+/// Which holograms a frame shows, each with the data it needs. Computed once, so that the drawn
+/// scene and the frame in words can't differ. Points into the guidance that it was made from, and
+/// is valid as long as that.
 struct Visibility {
   bool paths = false;                               ///< H1
   std::optional<PlacedLevel> vertebra;              ///< H2 and H12, of the current level
   std::vector<PlacedLevel> entries_of;              ///< H3: the levels whose entry points are shown
   bool entry_labels = false;                        ///< their names too
   std::optional<PlacedScrew> trajectory;            ///< H4 of the selected screw
-  const PlacedWire* wire = nullptr;                 ///< beside H4, as it was measured; or null
+  const PlacedWire* wire = nullptr;                 ///< the measured wire beside H4, or null
   const nav::ScrewGuidance* triangle = nullptr;     ///< H5, predicted to the display time; or null
   const nav::ScrewGuidance* measurement = nullptr;  ///< the numbers of H6 and H9; or null
-  /// H13 and its row of the status line: of the pair of `measurement`, or null.
+  /// H13 and its row of the status line, from the pair of `measurement`; or null.
   const nav::ScrewNumbers* numbers = nullptr;
   const nav::ShownClearance* clearance = nullptr;  ///< under them; or null
   nav::DrillView drill;                            ///< with the cross
   bool angle_lost = false;                         ///< H6 without a number
   std::optional<VisibleCross> cross;               ///< H7
-  LabelSide cross_side = LabelSide::kLeft;         ///< on which it hung last
+  LabelSide cross_side = LabelSide::kLeft;         ///< the side on which it was last
   bool twin = false;                               ///< H8 of the selected screw
   bool rods = false;                               ///< H10
-  /// Of the pair that H5 and the dots of H7 rest on; absent where neither is shown.
+  /// Time of the pair on which H5 and the dots of H7 are based; absent if neither is shown.
   std::optional<Timestamp> pose_time;
 };
 
-/// For a frame shown at `display_time`, which may be later than the guidance expected.
+/// Decides for a frame shown at `display_time`, which may be later than the guidance expected.
 void decide_visibility(const Guidance& guidance, const VisibilityRules& rules,
                        Timestamp display_time, Visibility& out);
 
-/// From where to where the rods are shifted while they are moved away: sideways off the patient,
-/// as a rigid body, each to its own side.
+/// The shift of the rods while they are moved away: sideways off the patient, as a rigid body, each
+/// to its own side.
 [[nodiscard]] Vec3 rod_shift_m(const Guidance& guidance, const RodState& rod,
                                const VisibilityRules& rules);
 

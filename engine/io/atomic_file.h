@@ -8,16 +8,16 @@
 
 namespace orthonav::engine {
 
-/// Where what is not whole yet lies.
+/// Where an incomplete file is kept.
 enum class Staging : std::uint8_t {
-  /// In a file without a name (O_TMPFILE), which goes away with the process however that ends.
-  /// Where the file system has no such files, kBeside.
+  /// In a file without a name (O_TMPFILE), which disappears with the process however that ends. If
+  /// the file system does not support this, kBeside.
   kNameless,
   kBeside,  ///< in the same folder, as STEM.part-PROCESS-N.EXTENSION
 };
 
 /// A file that appears completely or not at all: `commit` gives it its name; without a commit
-/// nothing is left. A name that is no regular file (a terminal, a pipe) is written in place; a
+/// nothing is left. A path that is not a regular file (a terminal, a pipe) is written in place; a
 /// symbolic link is followed, not replaced.
 class AtomicFile {
  public:
@@ -27,12 +27,12 @@ class AtomicFile {
   AtomicFile& operator=(AtomicFile&& other) noexcept;
   ~AtomicFile();
 
-  /// Where to write until the commit: to be opened by this process alone.
+  /// Where to write until the commit; only this process may open it.
   [[nodiscard]] const std::string& temporary_path() const { return temporary_path_; }
   [[nodiscard]] const std::string& final_path() const { return final_path_; }
-  /// Leaves what was written where it is; false where that has no name. No commit may follow.
+  /// Leaves the temporary file where it is; false if it has no name. No commit may follow.
   bool keep();
-  /// Makes what was written durable, gives the file its name, and makes the name durable.
+  /// Makes the content durable, gives the file its name, and makes the name durable.
   Status commit();
 
  private:

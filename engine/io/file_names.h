@@ -6,10 +6,10 @@
 
 namespace orthonav::engine {
 
-/// The folder that a path names a file in.
+/// The folder of a path's file.
 [[nodiscard]] std::string folder_of(const std::string& path);
 
-/// What earlier files of a name are called: PATH-N, N from 1 on, before the extension.
+/// The name of an earlier file: PATH-N, N from 1 on, before the extension.
 [[nodiscard]] std::string earlier_name(const std::string& path, int number);
 inline constexpr int kMostEarlier = 1000;
 /// "PATH: 1000 earlier ones lie beside it, move them away".

@@ -8,13 +8,14 @@
 
 namespace orthonav::engine {
 
-/// Reads any PNG as 8-bit RGBA. Refuses a file that is absent, truncated or no PNG, by name.
+/// Reads any PNG as 8-bit RGBA. Refuses, by name, a file that is absent, truncated or not a PNG.
 Result<RgbaImage> read_png(const std::filesystem::path& path);
 
 /// The image as the bytes of a PNG file.
 Result<std::string> png_bytes(const RgbaImage& image);
 
-/// Writes beside `path` first and then renames, so that nobody ever sees a half-written image.
+/// Writes to a temporary file and then renames it to `path`, so that a partly written image is
+/// never visible.
 Status write_png(const std::filesystem::path& path, const RgbaImage& image);
 
 /// A label image as a picture and back, without loss: the label's three low bytes as red, green,

@@ -7,9 +7,10 @@
 namespace orthonav::engine {
 
 /// The path of the file `name` in `folder`, for names that come from files made elsewhere. Refuses
-/// names that lead out of the folder (absolute, with `..`, through a symbolic link) and whatever is
-/// there but is not a regular file: a device or a pipe has no end. A link that stays inside is
-/// followed. No defence against somebody who changes the folder between this check and the opening.
+/// names that lead out of the folder (absolute, with `..`, through a symbolic link) and anything
+/// that is not a regular file, since a device or a pipe has no end. A link that stays inside is
+/// followed. Does not protect against changes of the folder between this check and opening the
+/// file.
 Result<std::string> path_inside(const std::string& folder, const std::string& name);
 
 /// Whether `text` can be part of a file's name: 1 to 64 bytes, no '/', no control character, no '.'

@@ -7,9 +7,9 @@
 
 namespace orthonav::engine {
 
-/// Decodes a JPEG in memory to grey, row by row, with libjpeg, whose errors jump out of it: after a
-/// failure the reader only tells why. A file that libjpeg merely warns about (truncated, damaged
-/// codes) counts as failed too; libjpeg would fill it with grey.
+/// Decodes a JPEG in memory to grey, row by row, with libjpeg, which reports errors by longjmp:
+/// after a failure the reader can only say why. A file about which libjpeg merely warns (truncated,
+/// damaged codes) counts as failed too, since libjpeg would fill it with grey.
 class JpegReader {
  public:
   /// `content` must outlive the reader.

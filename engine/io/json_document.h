@@ -12,17 +12,18 @@
 
 namespace orthonav::engine {
 
-/// The text of a file; refuses what can't be read, folders, and more than `max_bytes`.
+/// The text of a file; refuses unreadable files, folders, and more than `max_bytes`.
 Result<std::string> read_text(const std::string& path, std::size_t max_bytes = 64u << 20u);
 
-/// A value inside a JSON document together with the path to it. Reading what is missing or of the
-/// wrong type returns a plain default and notes the problem in the document; only the first problem
-/// is kept. Readers therefore read everything, then look at `JsonDocument::status` before they use
-/// any of it. Must not outlive its document.
+/// A value inside a JSON document together with the path to it. Reading a value that is missing or
+/// of the wrong type returns a plain default and notes the problem in the document; only the first
+/// problem is kept. Readers therefore read everything, then check `JsonDocument::status` before
+/// they use any of it. Must not outlive its document.
 class JsonNode {
  public:
   [[nodiscard]] bool has(const char* key) const;
-  /// The names in an object, sorted, so that unknown ones can be refused; none where it is none.
+  /// The names in an object, sorted, so that unknown ones can be refused; empty if it is not an
+  /// object.
   [[nodiscard]] std::vector<std::string> keys() const;
   [[nodiscard]] std::string text(const char* key) const;
   [[nodiscard]] std::string text_or(const char* key, const std::string& fallback) const;
@@ -33,11 +34,11 @@ class JsonNode {
   [[nodiscard]] std::uint64_t unsigned_integer(const char* key) const;
   /// A list of texts.
   [[nodiscard]] std::vector<std::string> texts(const char* key) const;
-  /// The same, or a text that stands alone.
+  /// The same, or a single text.
   [[nodiscard]] std::vector<std::string> text_or_texts(const char* key) const;
   /// Exactly `count` finite numbers; nested lists (a matrix by rows) are flattened.
   [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count) const;
-  /// At most so many finite numbers, one after another.
+  /// At most `most` finite numbers.
   [[nodiscard]] std::vector<double> number_list(const char* key, std::size_t most) const;
   [[nodiscard]] Vec3 vec3(const char* key) const;
   /// A list of vectors, at most 1,000,000.
@@ -68,7 +69,7 @@ class JsonNode {
 class JsonDocument {
  public:
   static Result<JsonDocument> read(const std::string& path);
-  /// `name` stands for the file in messages. Refuses what is no JSON object.
+  /// `name` stands for the file in messages. Refuses text that is not a JSON object.
   static Result<JsonDocument> parse(std::string_view text, const std::string& name);
   [[nodiscard]] JsonNode root() const;
   [[nodiscard]] Status status() const;

@@ -7,16 +7,16 @@
 
 namespace orthonav::engine {
 
-/// The numbers of a pose in a file: 4×4 by rows, its lengths turned from units of the file into
+/// The numbers of a pose in a file: 4×4 by rows, with lengths converted from the file's units to
 /// metres. Notes a last row that is not 0 0 0 1.
 [[nodiscard]] std::array<double, 16> pose_rows(const JsonNode& node, const char* key,
                                                double metres_per_unit);
 
-/// The rigid pose of such rows. Notes what is none; the identity then.
+/// The rigid pose of such rows. If it is invalid, notes the problem and returns the identity.
 template <class To, class From>
 [[nodiscard]] Transform<To, From> rigid_pose(const JsonNode& node, const char* key,
                                              const std::array<double, 16>& rows) {
-  // The file's numbers are meant to be rigid; what is rounded to four digits still is.
+  // Numbers rounded to four digits still count as rigid.
   constexpr double kMaxShear = 1e-3;
   const auto pose = Transform<To, From>::from_row_major(rows, kMaxShear);
   if (!pose) {

@@ -9,13 +9,13 @@
 
 namespace orthonav::engine {
 
-/// A vector in metres as files have it: a list of three numbers, in millimetres.
+/// A vector in metres as written to files: a list of three numbers, in millimetres.
 [[nodiscard]] nlohmann::ordered_json vector_mm(Vec3 v_m);
 
-/// A pose by rows in metres as files have it: a list of four rows, in millimetres.
+/// A pose by rows in metres as written to files: a list of four rows, in millimetres.
 [[nodiscard]] nlohmann::ordered_json rows_mm(std::array<double, 16> row_major);
 
-/// Writes the whole file, a line for each value; what is no UTF-8 in a text is replaced.
+/// Writes the whole file, one line per value; invalid UTF-8 in texts is replaced.
 Status write_json(const std::string& path, const nlohmann::ordered_json& root);
 
 }  // namespace orthonav::engine

@@ -11,32 +11,32 @@
 
 namespace orthonav::engine {
 
-/// A text file that grows by whole lines as PATH.part and is named PATH by `finish`. A thread of
-/// its own writes, each line in one piece: no disk stalls whoever tells it, and a process that is
-/// killed leaves whole lines. Nothing that lay there before is overwritten: it gets another name,
-/// PATH-1, PATH-2, ... before the extension.
+/// A text file that grows by whole lines as PATH.part and is named PATH by `finish`. A separate
+/// thread writes each line in one piece, so a slow disk does not stall the caller, and a killed
+/// process leaves whole lines. Existing files are not overwritten but renamed to PATH-1, PATH-2,
+/// ... (before the extension).
 class LineLog {
  public:
   /// Refuses a missing or unwritable folder, and a PATH.part that another process is writing. The
-  /// new name is durable; where the disk fails at that, `finish` tells.
+  /// new name is durable; if that fails, `finish` reports it.
   static Result<std::unique_ptr<LineLog>> create(const std::string& path);
-  /// Without `finish`, what was written stays as PATH.part, unless only the first line was: then
-  /// nothing stays.
+  /// Without `finish`, the file stays as PATH.part, unless only the first line was written: then it
+  /// is removed.
   ~LineLog();
   LineLog(const LineLog&) = delete;
   LineLog& operator=(const LineLog&) = delete;
 
   /// Whether the line must survive a loss of power as well.
   enum class Keep { kWritten, kDurable };
-  /// Hands over a line, without its end. It is in the file when this returns, unless the disk takes
+  /// Adds a line, given without its end. It is in the file when this returns, unless the disk takes
   /// longer than a millisecond.
   void add(std::string line, Keep keep = Keep::kWritten);
-  /// Waits until every line is on the disk and names the file. An Error when a line could not be
-  /// written, or may not outlast a loss of power since a sync failed; what was written is still
+  /// Waits until every line is on the disk and names the file. An Error if a line could not be
+  /// written, or may not survive a loss of power because a sync failed; the lines written are still
   /// there.
   Status finish();
 
-  /// Where an earlier file of these names was put; empty: there was none.
+  /// The new name of an earlier file; empty: there was none.
   [[nodiscard]] const std::string& earlier_kept_as() const { return earlier_kept_as_; }
 
  private:
@@ -55,7 +55,7 @@ class LineLog {
   int file_ = -1;  ///< written by the thread alone
   std::string earlier_kept_as_;
   bool finished_ = false;
-  bool sync_failed_ = false;  ///< of the thread, while there is one
+  bool sync_failed_ = false;  ///< used by the thread, while there is one
 
   Mutex mutex_;
   ConditionVariable changed_;

@@ -10,7 +10,7 @@
 namespace orthonav::engine {
 
 /// The axes that a mesh file itself declares: `SPACE=LPS` or `SPACE=RAS` in an STL header or a
-/// comment, as 3D Slicer writes. Nothing also for unknown axes (`load_mesh` refuses them).
+/// comment, as written by 3D Slicer. Also nothing for unknown axes (`load_mesh` refuses them).
 [[nodiscard]] std::optional<Axes> declared_axes(const std::string& path);
 
 /// Reads a vertebra from STL, PLY or OBJ (by the extension) into metres and LPS axes: corners at

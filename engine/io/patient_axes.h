@@ -8,7 +8,7 @@
 namespace orthonav::engine {
 
 /// Patient axes that a file may use: LPS (+x left, +y posterior, +z superior) or RAS (+x right, +y
-/// anterior). One is the other turned by 180° about z, so both are right-handed.
+/// anterior). They differ by a turn of 180° about z, so both are right-handed.
 enum class Axes { kLps, kRas };
 
 [[nodiscard]] constexpr Vec3 to_lps(Vec3 v, Axes axes) {

@@ -11,19 +11,19 @@
 
 namespace orthonav::engine {
 
-/// What a PLY file holds of a surface, in its own unit and axes.
+/// The surface in a PLY file, in its own unit and axes.
 struct PlyFile {
   std::vector<Vec3> vertices;
-  std::vector<std::uint32_t> corners;        ///< of all faces, one behind another: vertices
+  std::vector<std::uint32_t> corners;        ///< vertex indices of all faces, one after another
   std::vector<std::uint32_t> corner_counts;  ///< of each face; sum: all corners
 };
 
 /// Reads `text` (ascii, binary little or big endian; Turk 1994, "The PLY Polygon File Format").
 /// x, y and z of the vertices must be float or double and finite; a face may have any number of
 /// corners, all of which must be vertices of the file. Other elements and properties are skipped.
-/// Refuses whatever ends too early. `name` is for messages.
+/// Refuses truncated files. `name` is for messages.
 Result<PlyFile> read_ply(const std::string& text, const std::string& name);
-/// The vertices alone.
+/// Only the vertices.
 Result<std::vector<Vec3>> ply_points(const std::string& text, const std::string& name);
 
 /// Points as a PLY file, binary little-endian, single precision; `comment` becomes a line of it.

@@ -7,7 +7,7 @@
 
 #include "base/result.h"
 
-/// How the data of a PLY file lie behind its header.
+/// The layout of the data after a PLY file's header.
 namespace orthonav::engine::ply {
 
 enum class Encoding : std::uint8_t { kAscii, kLittle, kBig };
@@ -21,7 +21,7 @@ struct Type {
 struct Property {
   std::string name;
   Type type;
-  std::optional<Type> count;  ///< of a list: what says how many values follow
+  std::optional<Type> count;  ///< for a list: the type of its count
 };
 
 struct Element {
@@ -36,7 +36,7 @@ struct Header {
   std::size_t end = 0;  ///< where the data begin
 };
 
-/// Refuses whatever is no header of version 1.0 to its end.
+/// Refuses anything but a complete header of version 1.0.
 Result<Header> read_header(const std::string& text);
 
 }  // namespace orthonav::engine::ply

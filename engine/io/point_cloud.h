@@ -10,8 +10,7 @@
 
 namespace orthonav::engine {
 
-/// Points on surfaces that were measured again and again: only the first point in each cube of
-/// space is kept.
+/// Points on repeatedly measured surfaces: only the first point in each cube of space is kept.
 class PointCloud {
  public:
   using Single = std::array<float, 3>;  ///< metres

@@ -14,7 +14,7 @@ namespace orthonav::engine {
 /// A file of records that only grows. One thread at a time.
 class RecordLog {
  public:
-  /// What is to be recorded; the log gives it its number.
+  /// An entry to be recorded; the log assigns its number.
   struct Entry {
     std::uint16_t type = 0;
     std::uint16_t version = 0;
@@ -30,16 +30,16 @@ class RecordLog {
                                                    Earlier earlier = Earlier::kKept);
 
   struct Reopened;
-  /// Continues a file that has at least one record. Bytes after its last whole record are put into
-  /// PATH.dropped, then cut off. `kNotFound` where there is no such file.
+  /// Continues a file that has at least one record. Bytes after its last whole record are copied to
+  /// PATH.dropped, then cut off. `kNotFound` if there is no such file.
   static Result<Reopened> reopen(Env& env, const std::string& path);
-  /// A log of `durable` records that can't be written to, because of `why`.
+  /// A log of `durable` records that is closed for writing because of `why`.
   static std::unique_ptr<RecordLog> closed(const std::string& path, std::uint64_t durable,
                                            const Error& why);
 
   /// The record is durable when this succeeds. The first Error is final: nothing is written after
-  /// it, and every further call returns it. A failed sync is not tried again, since a second one
-  /// may succeed without what the first one lost.
+  /// it, and every further call returns it. A failed sync is not retried, since a second one may
+  /// succeed although the first one lost data.
   Status append(const Entry& entry);
 
   /// The number of the last record that is durable.
@@ -47,7 +47,7 @@ class RecordLog {
   /// Why nothing is written any more; absent while the log works.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
   [[nodiscard]] const std::string& path() const { return path_; }
-  /// What an earlier file was renamed to; empty: there was none.
+  /// The new name of an earlier file; empty: there was none.
   [[nodiscard]] const std::string& earlier_kept_as() const { return earlier_kept_as_; }
 
  private:
@@ -70,7 +70,7 @@ struct RecordLog::Reopened {
 };
 
 /// The file that holds the last operation begun under this name: PATH, or the newest of PATH-1,
-/// PATH-2, ... where a crash came before the new PATH. Nothing where there is none.
+/// PATH-2, ... if a crash came before the new PATH was made. Nothing if there is none.
 Result<std::optional<std::string>> newest_log(Env& env, const std::string& path);
 
 /// Reads a log and changes nothing.

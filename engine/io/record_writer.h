@@ -10,26 +10,27 @@
 
 namespace orthonav::engine {
 
-/// Writes to a log on a thread of its own, so that no disk stalls whoever records something.
+/// Writes to a log on a separate thread, so that a slow disk does not stall the caller.
 class RecordWriter {
  public:
   enum class Waits : std::uint8_t {
     kNot,          ///< `add` returns at once
-    kUntilDurable  ///< `add` waits for the disk: for simulations, whose time stands still meanwhile
+    kUntilDurable  ///< `add` waits for the disk: for simulations, whose time does not advance
+                   ///< meanwhile
   };
   RecordWriter(std::unique_ptr<RecordLog> log, Waits waits);
-  /// Writes whatever was added.
+  /// Writes everything added before.
   ~RecordWriter();
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
   /// Returns the record's number.
   std::uint64_t add(RecordLog::Entry entry);
-  /// Until all that was added is durable, or the log has failed.
+  /// Waits until everything added is durable, or the log has failed.
   Status finish();
 
   // From any thread, without waiting.
-  /// Number of the newest record that is durable.
+  /// Number of the newest durable record.
   [[nodiscard]] std::uint64_t durable() const { return durable_.load(std::memory_order_acquire); }
   [[nodiscard]] bool failed() const { return failed_.load(std::memory_order_acquire); }
 
@@ -40,7 +41,7 @@ class RecordWriter {
   void work();
   void wait_until_written(std::uint64_t number) ORTHONAV_REQUIRES(mutex_);
 
-  std::unique_ptr<RecordLog> log_;  ///< of the thread alone, but for its names
+  std::unique_ptr<RecordLog> log_;  ///< used only by the thread, except for its names
   Waits waits_;
   std::atomic<std::uint64_t> durable_;
   std::atomic<bool> failed_;

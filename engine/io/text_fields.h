@@ -13,7 +13,7 @@ namespace orthonav::engine {
 [[nodiscard]] std::vector<std::string> split(std::string_view line, char separator);
 /// The lines of a text, with or without carriage returns.
 [[nodiscard]] std::vector<std::string> lines_of(std::string_view text);
-/// A finite number and nothing else, with a decimal point whatever the locale.
+/// A finite number and nothing else, with a decimal point in any locale.
 [[nodiscard]] std::optional<double> number_from(std::string_view text);
 [[nodiscard]] std::string lower_case(std::string text);
 

@@ -18,8 +18,8 @@ struct VideoOptions {
 
 /// H.264 in an MP4 that browsers play, by libavcodec. `finish` gives the file its name; until then
 /// it lies in the same folder as STEM.part-PROCESS-N.mp4. That file stays and plays up to its end
-/// where the disk is full (the Error names it) or the process is killed. A writer that is dropped
-/// without either leaves nothing behind.
+/// where the disk is full (the Error names it) or the process is killed. A writer destroyed in any
+/// other way leaves nothing behind.
 class VideoWriter {
  public:
   static Result<std::unique_ptr<VideoWriter>> create(const std::string& path,
@@ -29,7 +29,7 @@ class VideoWriter {
   VideoWriter& operator=(const VideoWriter&) = delete;
   /// Appends one picture of the agreed size; its alpha is ignored.
   Status write(const RgbaImage& picture);
-  /// Flushes the encoder, completes the file and puts it in place.
+  /// Flushes the encoder, completes the file and gives it its name.
   Status finish();
   [[nodiscard]] std::int64_t frames() const;
 

@@ -11,14 +11,14 @@
 
 namespace orthonav::engine {
 
-/// How the parts of an operation work together.
+/// Options for assembling an operation.
 struct AssemblyOptions {
-  /// Tools in sight are searched for around their predictions, and the whole image only every tenth
+  /// Visible tools are searched for around their predictions, and the whole image only every tenth
   /// pair.
   nav::TrackerOptions tracker{.full_search_interval = 10};
   SessionOptions session;
-  /// Everything hangs on the patient reference among the tools instead of the headset's map. The
-  /// published method has none and is refused.
+  /// Everything is relative to the patient reference among the tools instead of the headset's map.
+  /// The published method has no reference and is refused with this option.
   bool use_reference = false;
   nav::ReferenceLimits reference;
   /// Where references lie in the World of a resumed operation.
@@ -31,8 +31,8 @@ struct AssemblyOptions {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// An operation on a headset, ready to run: the session, the look of its guidance, and the loop
-/// that feeds it pairs. All that it is given is borrowed and must outlive it.
+/// An operation on a headset, ready to run: the session, the appearance of its guidance, and the
+/// loop that feeds it pairs. All arguments are borrowed and must outlive it.
 class AssembledOperation {
  public:
   AssembledOperation(Headset& headset, std::unique_ptr<Session> session,
@@ -40,23 +40,24 @@ class AssembledOperation {
   AssembledOperation(const AssembledOperation&) = delete;
   AssembledOperation& operator=(const AssembledOperation&) = delete;
 
-  /// Observes the session from now on, after those added before; null: nobody.
+  /// Adds an observer of the session, called after those added before; null is ignored.
   void observe(SessionObserver* observer) { observers_.add(observer); }
-  /// Observes each pair and what is made of it, after those added before; null: nobody.
+  /// Adds an observer of each pair and its results, called after those added before; null is
+  /// ignored.
   void observe(LoopObserver* observer) { loop_.observe(observer); }
   /// As `Session::resume`; before `run`.
   Status resume(const LoggedOperation& logged) { return session_->resume(logged); }
-  /// What the status line says of saving; null: nothing.
+  /// Sets the source of what the status line says about saving; null: nothing.
   void show_saving(const SaveWatch* saving) { session_->show_saving(saving); }
   void draw_into(SnapshotSink* sink) { loop_.draw_into(sink); }
-  /// What other programs ask, besides clicker and voice; null: nothing. Borrowed.
+  /// Requests from other programs, in addition to clicker and voice; null: none. Borrowed.
   void hear(Requests* requests) { loop_.hear(requests); }
-  /// From now on everything goes through `wrapper`, which forwards to the headset given first. For
-  /// a recorder, which must start only once nothing else can fail, since the files it starts stay.
-  /// Call it before `run`.
+  /// From now on everything goes through `wrapper`, which forwards to the original headset. For a
+  /// recorder, which must start only when nothing else can fail, since its files stay. Call it
+  /// before `run`.
   void go_through(Headset& wrapper) { loop_.use(wrapper); }
 
-  /// As `FrameLoop::run`. Once.
+  /// As `FrameLoop::run`. Call it only once.
   Result<LoopReport> run() { return loop_.run(); }
   /// Ends early, from any thread.
   void stop() { loop_.stop(); }
@@ -70,10 +71,10 @@ class AssembledOperation {
   FrameLoop loop_;
 };
 
-/// The only way to put an operation together: the method's tracker for the headset's cameras (or
-/// the poses of tools that the headset measures itself), a session with it, and a loop between the
-/// two. `tools` are as described, which differs a little
-/// from the real ones. An Error names what is wrong with the options, the tools or the operation.
+/// The only way to assemble an operation: the method's tracker for the headset's cameras (or the
+/// poses of tools that the headset measures itself), a session, and a loop between the two. `tools`
+/// are as described, which differs slightly from the real ones. An Error names what is wrong with
+/// the options, the tools or the operation.
 Result<std::unique_ptr<AssembledOperation>> assemble_operation(
     Headset& headset, Operation operation, const Method& method,
     const std::vector<nav::ToolGeometry>& tools, const AssemblyOptions& options = {});

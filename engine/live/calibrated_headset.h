@@ -9,27 +9,27 @@
 
 namespace orthonav::engine {
 
-/// What `orthonav calibrate stereo` found.
+/// The result of `orthonav calibrate stereo`.
 struct CalibrationFile {
   struct Lenses {
     CameraModel left;
     CameraModel right;
   };
   std::string name;              ///< of the file
-  std::optional<Lenses> lenses;  ///< absent: as the device has them, a recording does not tell
+  std::optional<Lenses> lenses;  ///< absent: the device's, since a recording does not determine
+                                 ///< them
   Transform<RightCamera, LeftCamera> right_from_left;
 };
 
-/// Reads the JSON of `calibrate stereo`. Refuses, naming file and field, what is missing or of the
-/// wrong type, a pose that is not rigid, lenses that fold over, and a calibration whose verdict was
-/// fail.
+/// Reads the JSON of `calibrate stereo`. Refuses, naming file and field, missing fields and wrong
+/// types, a pose that is not rigid, lenses that fold over, and a calibration with the verdict fail.
 Result<CalibrationFile> load_calibration(const std::string& path);
 
 /// A headset with its cameras as calibrated, not as the device describes them. The left camera
 /// keeps its place in the rig; the right one is placed relative to it. Borrows the headset.
 class CalibratedHeadset : public ForwardingHeadset {
  public:
-  /// Refuses lenses of images of another size than the device's.
+  /// Refuses lenses for a different image size than the device's.
   static Result<std::unique_ptr<CalibratedHeadset>> create(Headset& headset,
                                                            const CalibrationFile& file);
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }

@@ -9,7 +9,7 @@
 namespace orthonav::engine {
 
 /// A renderer on the device that the display's runtime makes, drawing into the display's images.
-/// The only place where the two meet: neither knows the other.
+/// The only connection between the two: neither knows the other.
 class DisplayRenderer {
  public:
   /// Opens the display and starts it. `options` as for HostedRenderer, except that the display
@@ -21,13 +21,13 @@ class DisplayRenderer {
   DisplayRenderer(const DisplayRenderer&) = delete;
   DisplayRenderer& operator=(const DisplayRenderer&) = delete;
 
-  /// Draws a scene into a frame that was begun. While the head is not located, only what is fixed
-  /// to the head is drawn; if it is also unknown where the eyes are on the head, nothing is drawn
-  /// and the answer is false. The eyes are located as late as possible: only layout, recording and
-  /// submission come after that.
+  /// Draws a scene into a begun frame. While the head is not located, only items fixed to the head
+  /// are drawn; if the eyes' places on the head are also unknown, nothing is drawn and the result
+  /// is false. The eyes are located as late as possible: only layout, recording and submission come
+  /// after that.
   Result<bool> draw(const render::Scene& scene);
   [[nodiscard]] const render::HostedRenderer& renderer() const { return *renderer_; }
-  /// What was drawn last (the scene given, or the part of it that is fixed to the head) and its
+  /// The scene drawn last (the given one, or the part of it that is fixed to the head) and its
   /// views.
   [[nodiscard]] const render::Scene& drawn() const { return *drawn_; }
   [[nodiscard]] const std::vector<render::View>& views() const { return views_; }
@@ -40,7 +40,7 @@ class DisplayRenderer {
   PixelDisplay& display_;
   std::unique_ptr<render::HostedRenderer> renderer_;
   std::vector<render::View> views_;
-  render::Scene head_lost_;  ///< what is drawn while the head is not located
+  render::Scene head_lost_;  ///< drawn while the head is not located
   const render::Scene* drawn_ = &head_lost_;
 };
 

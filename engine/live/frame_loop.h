@@ -14,7 +14,7 @@
 
 namespace orthonav::engine {
 
-/// Sees, on the tracking thread, what came in with every stereo pair and what was made of it.
+/// Observes, on the tracking thread, the inputs of every stereo pair and the results.
 class LoopObserver {
  public:
   virtual ~LoopObserver() = default;
@@ -22,7 +22,7 @@ class LoopObserver {
                        const Guidance& /*guidance*/) {}
   /// A snapshot was filled and is about to go to the rendering thread.
   virtual void captured(const Snapshot& /*snapshot*/) {}
-  /// The tracking thread hangs in that part, once each time. Called on the rendering thread, where
+  /// The tracking thread hangs in that part; called once per stall, on the rendering thread, if
   /// snapshots are drawn in real time.
   virtual void part_stalled(Part /*part*/) {}
 };
@@ -32,26 +32,27 @@ class SnapshotSink {
  public:
   virtual ~SnapshotSink() = default;
   virtual Status draw(const Snapshot& snapshot) = 0;
-  /// Whether it draws on a thread of its own that hangs. From any thread.
+  /// Whether it has its own drawing thread and that hangs. Callable from any thread.
   [[nodiscard]] virtual bool stalled() const { return false; }
 };
 
-/// A part that is at one thing for longer has stalled; it is named within half a second.
+/// A part that works on one thing for longer than this has stalled; it is named within half a
+/// second.
 inline constexpr Duration kStallAfter = std::chrono::milliseconds(400);
 
 struct LoopOptions {
   /// Every n-th displayed frame goes to the sink; 0: none. Counted, not timed, so that the same
-  /// frames are drawn however fast the machine is.
+  /// frames are drawn regardless of the machine's speed.
   int draw_every = 1;
   /// Real time: only the newest snapshot is drawn and tracking never waits. Otherwise every one is
   /// drawn.
   bool drop_late_snapshots = false;
   std::int64_t max_frames = 0;  ///< ends after this many displayed frames; 0: no limit
-  /// Ends once the pairs span so much of the device's clock; 0: no limit.
+  /// Ends once the pairs span this much of the device's clock; 0: no limit.
   Duration max_time = Duration::zero();
-  Duration after_done = std::chrono::seconds(1);  ///< how long it goes on once the rod is done
+  Duration after_done = std::chrono::seconds(1);  ///< how long it continues once the rod is done
   int max_errors_in_a_row = 30;  ///< of one device or the sink; beyond it the run ends
-  /// A camera pair that delivers nothing for this long, by the device's clock, is gone for good.
+  /// Cameras that deliver nothing for this long, by the device's clock, count as gone for good.
   Duration longest_silence = std::chrono::seconds(60);
 
   /// Every problem at once; empty when all is well.
@@ -64,7 +65,7 @@ struct LoopReport {
   std::int64_t displayed = 0;
   std::int64_t failures = 0;  ///< of any device, with the reason of the last
   std::string last_failure;
-  std::int64_t blanked = 0;  ///< times that guidance was taken back because pairs stopped
+  std::int64_t blanked = 0;  ///< times that guidance was removed because pairs stopped
   std::int64_t stalls = 0;   ///< times that guidance was hidden because a part stalled
   std::int64_t drawn = 0;
   std::int64_t draw_failures = 0;  ///< of the sink; each with its reason in `last_failure`
@@ -80,10 +81,10 @@ struct LoopReport {
   std::vector<double> draw_wall_ms;  ///< wall time of the sink, per snapshot
 };
 
-/// From stereo pairs to what is shown: tracking on the calling thread, drawing on a thread of its
-/// own. Drawing takes snapshots and gives nothing back, so it can't influence a result; only when
-/// it stalls, by the device's clock, is guidance hidden. An exception in either thread ends the run
-/// in order, with an Error that names the part.
+/// From stereo pairs to the display: tracking on the calling thread, drawing on a separate thread.
+/// Drawing only takes snapshots, so it can't influence a result; only if it stalls, by the device's
+/// clock, is guidance hidden. An exception in either thread ends the run in an orderly way, with an
+/// Error that names the part.
 class FrameLoop {
  public:
   FrameLoop(Headset& headset, Session& session, SceneBuilder& builder, const LoopOptions& options)
@@ -91,21 +92,21 @@ class FrameLoop {
 
   /// Replaces the headset; not while it runs.
   void use(Headset& headset) { headset_ = &headset; }
-  /// From now on, after those added before; null: nobody. Borrowed.
+  /// Adds an observer, called after those added before; null is ignored. Borrowed.
   void observe(LoopObserver* observer) {
     if (observer != nullptr) {
       observers_.push_back(observer);
     }
   }
   void draw_into(SnapshotSink* sink) { sink_ = sink; }
-  /// What other programs ask, besides clicker and voice; null: nothing. Borrowed.
+  /// Requests from other programs, in addition to clicker and voice; null: none. Borrowed.
   void hear(Requests* requests) { requests_ = requests; }
   /// Ends the run early, from any thread.
   void stop() { stop_ = true; }
 
-  /// Runs until the stream ends, the operation is done, or the limit is reached. An Error when a
-  /// device or the sink fails for good, or an option has a problem. However it ends, the last frame
-  /// shown guides nobody.
+  /// Runs until the stream ends, the operation is done, or the limit is reached. An Error if a
+  /// device or the sink fails for good, or an option is invalid. However it ends, the last frame
+  /// shown contains no guidance.
   Result<LoopReport> run();
 
  private:
@@ -151,7 +152,7 @@ class FrameLoop {
   ShownFrame shown_;
   std::optional<Timestamp> last_display_;           ///< of a pair's frame, for the intervals
   Timestamp last_display_time_ = Timestamp::min();  ///< of any frame
-  Timestamp heard_at_{};                            ///< when the last pair came, or the loop began
+  Timestamp heard_at_{};                    ///< when the last pair arrived, or the loop began
   std::optional<Timestamp> guiding_since_;  ///< mid-exposure of the pair that is being shown
   std::optional<Timestamp> done_since_;
   std::optional<Timestamp> first_frame_;  ///< mid-exposure of the first pair

@@ -9,20 +9,21 @@
 
 namespace orthonav::engine {
 
-/// When each part began what it is at, by the device's clock. The tracking thread and the drawing
-/// thread watch each other by it (docs/watchdogs.md). From any thread; never waits.
+/// When each part began its current work, by the device's clock. The tracking thread and the
+/// drawing thread watch each other with it (docs/watchdogs.md). Callable from any thread; never
+/// waits.
 class Heartbeats : public WorkWatch {
  public:
-  /// A part that is at one thing for longer than `limit` has stalled.
+  /// A part that works on one thing for longer than `limit` has stalled.
   Heartbeats(const Clock& clock, Duration limit);
   void begins(Part part) override;
   void ends(Part part) override;
 
-  /// The part that the tracking thread hangs in: the innermost one at work. Absent while it does
-  /// not hang.
+  /// The part in which the tracking thread hangs: the innermost one at work. Absent if it does not
+  /// hang.
   [[nodiscard]] std::optional<Part> tracking_stalled() const;
   [[nodiscard]] bool drawing_stalled() const { return stalled(Part::kRenderer, clock_.now()); }
-  /// The innermost part at work on the tracking thread, however long it has been.
+  /// The innermost part at work on the tracking thread, for however long.
   [[nodiscard]] std::optional<Part> tracking() const;
 
  private:

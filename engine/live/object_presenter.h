@@ -10,9 +10,8 @@
 
 namespace orthonav::engine {
 
-/// Hands every snapshot, as objects, to a display that draws on its own. Called on the drawing
-/// thread; waits for nothing. While the head was never located, only what hangs on the head is
-/// shown.
+/// Passes every snapshot, as objects, to a display that draws them itself. Called on the drawing
+/// thread; never waits. Until the head is first located, only items fixed to the head are shown.
 class ObjectPresenter : public SnapshotSink {
  public:
   /// Both must outlive it. `rig_from_eyes` is where the point between the wearer's eyes is.

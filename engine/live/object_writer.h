@@ -10,16 +10,16 @@
 
 namespace orthonav::engine {
 
-/// Adds objects to a list, each with a key that it has in the next list too: the hologram's label,
-/// what it is a part of, and its number among these.
+/// Adds objects to a list, each with a key that stays the same from list to list: the hologram's
+/// label, the kind of part, and its number among these.
 class ObjectWriter {
  public:
-  /// What an object is made of; part of its key.
+  /// The kind of object; part of its key.
   enum class Part : std::uint8_t { kBall, kPiece, kText, kBar };
 
-  /// Fills `list` from now on; what it holds stays.
+  /// Appends to `list` from now on; its content stays.
   void begin(ObjectList& list);
-  /// What is added from now on has this label.
+  /// Objects added from now on have this label.
   void label(render::Label label);
   /// A ball, or a cube on its corner, by its radius.
   void add_ball(render::Float3 centre, float radius_m, render::Colour colour, ObjectShape shape);
@@ -31,7 +31,7 @@ class ObjectWriter {
   void end();
 
  private:
-  /// How a text lay when it was last sent: a head that hardly moves moves no text.
+  /// A text's pose when it was last sent: texts do not follow small motions of the head.
   struct Lying {
     Vec3 position_m{};
     Quaternion rotation{};

@@ -14,7 +14,7 @@
 
 namespace orthonav::engine {
 
-/// What the surgeon was shown.
+/// Statistics of the frames shown to the surgeon.
 struct PresentReport {
   std::int64_t frames = 0;  ///< frames that the display asked for
   std::int64_t drawn = 0;
@@ -28,9 +28,10 @@ struct PresentReport {
 
 struct PresenterOptions {
   render::RendererOptions renderer;
-  /// The device's: `stalled` tells by it that the presenting thread hangs. Null: it never does.
+  /// The device's clock, by which `stalled` detects that the presenting thread hangs. Null: not
+  /// detected.
   const Clock* clock = nullptr;
-  /// Wall time to wait before looking again for a display that went away.
+  /// Wall time to wait before looking again for a lost display.
   Duration look_again_after = std::chrono::seconds(1);
   /// Called on the presenting thread once the user has ended the session.
   std::function<void()> on_over;
@@ -38,9 +39,8 @@ struct PresenterOptions {
   std::function<void(const render::Scene&, const std::vector<render::View>&)> on_drawn;
 };
 
-/// Draws the newest snapshot for every frame that the display asks for, in a thread of its own and
-/// for the head's newest pose. A display that goes away is looked for again; tracking goes on
-/// meanwhile.
+/// Draws the newest snapshot for every frame that the display asks for, on a separate thread and
+/// for the head's newest pose. A lost display is looked for again while tracking continues.
 class Presenter : public SnapshotSink {
  public:
   /// An Error when the display can't be opened. `display` must outlive it.
@@ -50,10 +50,10 @@ class Presenter : public SnapshotSink {
   Presenter& operator=(const Presenter&) = delete;
 
   /// Shows it from the next frame on. An Error is the last problem since the previous call; each is
-  /// told once.
+  /// reported once.
   Status draw(const Snapshot& snapshot) override;
   [[nodiscard]] bool stalled() const override { return beats_ && beats_->drawing_stalled(); }
-  /// Ends the session in order; nothing is shown after that.
+  /// Ends the session in an orderly way; nothing is shown after that.
   PresentReport stop();
 
  private:
@@ -87,11 +87,11 @@ class Presenter : public SnapshotSink {
   Snapshot incoming_ ORTHONAV_GUARDED_BY(mutex_);
   bool fresh_ ORTHONAV_GUARDED_BY(mutex_) = false;
   PresentReport report_ ORTHONAV_GUARDED_BY(mutex_);
-  /// The last problem, if `draw` has not told it yet.
+  /// The last problem, if `draw` has not reported it yet.
   std::string untold_ ORTHONAV_GUARDED_BY(mutex_);
   Status died_ ORTHONAV_GUARDED_BY(mutex_);
 
-  // Of the presenting thread.
+  // Used by the presenting thread only.
   std::unique_ptr<DisplayRenderer> renderer_;
   Snapshot shown_;
   bool has_snapshot_ = false;

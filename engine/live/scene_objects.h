@@ -12,18 +12,17 @@ struct SceneObjectOptions {
   BoneLineOptions bone;
 };
 
-/// Makes of each scene the objects of a display that draws on its own (ObjectDisplay). Lines become
-/// round pieces, thinned; spheres, diamonds and tubes what they are; a surface of bone its contours
-/// as the head sees it; texts face the head. What such a display can't show is left out: the fill
-/// of the deviation triangle, rims of halos. One thread at a time.
+/// Converts each scene to objects for a display that draws them itself (ObjectDisplay). Lines
+/// become thinned round pieces; spheres, diamonds and tubes stay; a bone surface becomes its
+/// contours as seen from the head; texts face the head. Items that such a display can't show are
+/// left out: the fill of the deviation triangle, rims of halos. One thread at a time.
 class SceneObjects {
  public:
   explicit SceneObjects(const SceneObjectOptions& options = {})
       : options_(options), bone_(options.bone) {}
 
-  /// In place of the objects that `list` holds; its map and time of the tool are the caller's, and
-  /// must be there already: without a tool's time nothing counts as hanging on it. `head` is where
-  /// the wearer's eyes are when it is shown, at `shown_at`.
+  /// Replaces the objects in `list`; the caller must set its map and tool time before: without a
+  /// tool time, no object follows a tool. `head` is where the wearer's eyes are at `shown_at`.
   void write(const render::Scene& scene, const render::Head& head, Timestamp shown_at,
              ObjectList& list);
 

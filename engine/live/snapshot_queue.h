@@ -14,42 +14,42 @@
 
 namespace orthonav::engine {
 
-/// What the rendering thread receives of one displayed frame.
+/// The data of one displayed frame for the rendering thread.
 struct Snapshot {
   std::int64_t frame = 0;  ///< counts displayed frames from 0
   std::size_t slot = 0;  ///< index of this buffer, so that a caller can keep its own data for each
   Timestamp display_time{};
   StepOnDisplay step;
-  /// When shown later than this, tool guidance is too old to be seen; absent when there is none.
+  /// After this time, tool guidance is too old to be shown; absent if there is none.
   std::optional<Timestamp> expires;
-  /// Mid-exposure of the pair that tool guidance in the scene is of; absent when there is none.
+  /// Mid-exposure of the pair from which the scene's tool guidance comes; absent if there is none.
   std::optional<Timestamp> tool_time;
   std::int64_t map_epoch = 0;  ///< of the scene's World (StereoFrame::map_epoch)
   bool blank = false;          ///< the loop has ended: only the status line is shown
-  render::Scene scene;  ///< labels stand where they were built; whoever draws it lays them out
-  std::vector<GlarePatch> patches;  ///< where they would not be read
+  render::Scene scene;  ///< with labels at their original places; the drawing thread lays them out
+  std::vector<GlarePatch> patches;  ///< where labels would be unreadable
 };
 
-/// A few snapshots that go round between two threads. The buffers are made once and reused.
+/// A few snapshots that circulate between two threads. The buffers are made once and reused.
 class SnapshotQueue {
  public:
   enum class WhenFull {
-    kWait,       ///< every snapshot is drawn, so what is drawn does not depend on speed
+    kWait,       ///< every snapshot is drawn, independently of speed
     kDropOldest  ///< the newest counts: tracking never waits for rendering
   };
   static constexpr std::size_t kSlots = 4;
 
   explicit SnapshotQueue(WhenFull when_full);
-  /// A buffer to fill; give it back by `publish`. Null once closed.
+  /// A buffer to fill; return it with `publish`. Null once closed.
   Snapshot* acquire();
   void publish(Snapshot* filled);
   /// The next to draw. Under kWait the oldest one waiting; under kDropOldest the newest, and those
   /// before it are dropped. Blocks until there is one. Null once closed and empty.
   Snapshot* take();
-  /// The same, but blocks no longer than `until`; absent where there was none by then.
+  /// The same, but blocks no longer than `until`; absent if there was none by then.
   std::optional<Snapshot*> take_until(std::chrono::steady_clock::time_point until);
   void release(Snapshot* drawn);
-  /// No more will be published; the taker still gets what is left.
+  /// No more will be published; the taker still gets the remaining ones.
   void close();
   [[nodiscard]] std::int64_t dropped() const;
 
@@ -59,7 +59,7 @@ class SnapshotQueue {
   void drop_oldest() ORTHONAV_REQUIRES(mutex_);
 
   WhenFull when_full_;
-  std::vector<Snapshot> slots_;  ///< each belongs to whoever acquired or took it
+  std::vector<Snapshot> slots_;  ///< each belongs to the thread that acquired or took it
   mutable Mutex mutex_;
   ConditionVariable changed_;
   std::vector<Snapshot*> free_ ORTHONAV_GUARDED_BY(mutex_);

@@ -42,8 +42,8 @@ class SurfaceContours {
   render::Float3 middle_;
 };
 
-/// A line with those of its points that are needed to be nowhere farther off than `within_m`. What
-/// is kept does not change when points are added at its end, except the last.
+/// A line reduced to the points needed to stay within `within_m` of it. The kept points, except the
+/// last, do not change when points are added at its end.
 [[nodiscard]] SurfaceContours::Line thinned(const SurfaceContours::Line& line, float within_m);
 
 [[nodiscard]] float length_of(const SurfaceContours::Line& line);

@@ -9,7 +9,7 @@
 
 namespace orthonav::engine {
 
-/// What data/phantom.json holds.
+/// The content of data/phantom.json.
 struct PhantomParameters {
   std::string name;
   std::vector<VertebraMorphometry> levels;  ///< from the top down
@@ -17,7 +17,7 @@ struct PhantomParameters {
   double screw_diameter_m = 0;
 };
 
-/// Reads the parameters (mm and degrees in the text); refuses what is missing or not positive.
+/// Reads the parameters (mm and degrees in the text); refuses missing or non-positive values.
 Result<PhantomParameters> phantom_parameters(std::string_view json, const std::string& name);
 
 }  // namespace orthonav::engine

@@ -35,12 +35,12 @@ struct Board {
 [[nodiscard]] std::string to_text(BoardKind kind);
 
 /// Every problem at once, each with value and limit: counts outside 1-50 (squares: 3-50), sizes
-/// outside 2-500 mm, ids that are unknown, twice or of the wrong number, gaps of less than a cell
-/// of white between tags or over 500 mm, borders that the kind or the family does not have.
+/// outside 2-500 mm, ids that are unknown, repeated or wrong in number, gaps between tags of less
+/// than one white cell or over 500 mm, borders that the kind or the family does not have.
 [[nodiscard]] std::vector<std::string> problems_of(const Board& board);
 
-/// Ids as they are numbered by default: by rows, from the bottom row for an AprilGrid (Kalibr),
-/// from the top row for other tags; none for a chessboard.
+/// Default numbering of ids: by rows, from the bottom row for an AprilGrid (Kalibr), from the top
+/// row for other tags; none for a chessboard.
 [[nodiscard]] std::vector<int> consecutive_ids(BoardKind kind, int columns, int rows, int first_id);
 
 /// The outer corners of a tag's border in the order of `nav::MarkerCorners`: bottom left, bottom

@@ -7,17 +7,17 @@
 
 namespace orthonav::engine {
 
-/// Reads a board as `print board` writes it beside its PDF: `{"format": "orthonav board", "kind":
-/// "aprilgrid"|"tags"|"chessboard", "columns", "rows", "size_mm"}`, and for tags `"family"`,
-/// `"ids"` (lists by rows, the top row first), `"gap_mm"`, `"border_cells"`. Refuses, naming file
-/// and field, whatever is missing, of the wrong type, or a problem in the sense of `problems_of`.
+/// Reads a board file, as `print board` writes it next to its PDF: `{"format": "orthonav board",
+/// "kind": "aprilgrid"|"tags"|"chessboard", "columns", "rows", "size_mm"}`, and for tags
+/// `"family"`, `"ids"` (lists by rows, the top row first), `"gap_mm"`, `"border_cells"`. Refuses,
+/// naming file and field, missing fields, wrong types, and problems in the sense of `problems_of`.
 Result<Board> load_board(const std::string& path);
 
 /// The same without a file; `name` stands for it in messages.
 Result<Board> parse_board(const std::string& text, const std::string& name);
-/// What `parse_board` reads back.
+/// The text that `parse_board` reads back.
 [[nodiscard]] std::string board_text(const Board& board);
-/// Writes what `load_board` reads back.
+/// Writes a file that `load_board` reads back.
 Status save_board(const std::string& path, const Board& board);
 
 }  // namespace orthonav::engine

@@ -20,7 +20,7 @@ struct PageSize {
 inline constexpr std::array<PageSize, 3> kPageSizes = {
     {{"A4", 210.0, 297.0}, {"Letter", 215.9, 279.4}, {"A3", 297.0, 420.0}}};
 
-/// A page as chosen.
+/// The chosen page.
 struct Page {
   std::string name = "A4";
   double width_mm = 210.0;
@@ -29,7 +29,7 @@ struct Page {
 /// Refuses names that are not in `kPageSizes`.
 Result<Page> page_named(const std::string& name, bool landscape);
 
-/// What is left between the margins, the heading and the rulers.
+/// The area between the margins, the heading and the rulers.
 [[nodiscard]] SheetRect content_of(const Page& page);
 /// Where the rulers' zeros are: the one along the page's width, and the one along its height.
 [[nodiscard]] SheetRect horizontal_ruler(const Page& page);

@@ -7,7 +7,7 @@
 
 namespace orthonav::engine {
 
-/// What stands on the page beside the instructions.
+/// Text on the page in addition to the instructions.
 struct RodSheetNotes {
   std::string title;     ///< "heads.csv", "left"; may be empty
   std::string material;  ///< as stated

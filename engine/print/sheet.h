@@ -16,12 +16,12 @@ struct SheetRect {
   double height_mm = 0.0;
 };
 
-/// Rectangles filled black in one go, so that no seam shows where they touch.
+/// Rectangles filled black together, so that no seam is visible where they touch.
 struct SheetShape {
   std::vector<SheetRect> rects;
 };
 
-/// Where to cut: thin, dashed, light enough to be no edge of a tag.
+/// A cutting line: thin, dashed, light enough not to be taken for a tag's edge.
 struct SheetCut {
   std::vector<Vec2> corners_mm;  ///< of a closed outline
 };
@@ -43,7 +43,7 @@ struct SheetText {
   double height_mm = 3.0;  ///< of the font
   std::string text;
   SheetAlign align = SheetAlign::kLeft;
-  bool upward = false;  ///< read from below to above
+  bool upward = false;  ///< read upwards
   bool white = false;
 };
 

@@ -9,8 +9,8 @@
 
 namespace orthonav::engine {
 
-/// The sheets as the pages of a PDF file, each of its own size, all edges as vectors; the same
-/// bytes whenever it is made. Refuses no sheets at all.
+/// The sheets as the pages of a PDF file, each of its own size, all edges as vectors; the bytes are
+/// reproducible. Refuses an empty list.
 Result<std::string> pdf_of(std::span<const Sheet> sheets, const std::string& title);
 
 /// The same drawing as an image; the page's corner is the image's. Refuses more than 200

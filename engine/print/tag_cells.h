@@ -22,10 +22,10 @@ struct TagCells {
   [[nodiscard]] int overhang_cells() const;
 };
 
-/// The pattern of one tag out of the AprilTag library's tables. With `border_width` 2 its black
-/// border is two cells wide, as on Kalibr's AprilGrid: the bits stay, the size counts two cells
-/// more. Refuses unknown families and ids, other widths, and two cells for a family whose border is
-/// white or is surrounded by bits.
+/// The pattern of one tag from the AprilTag library's tables. With `border_width` 2 its black
+/// border is two cells wide, as on Kalibr's AprilGrid: the bits stay, and the size has two more
+/// cells. Refuses unknown families and ids, other widths, and two cells for a family whose border
+/// is white or is surrounded by bits.
 Result<TagCells> tag_cells(const std::string& family, int id, int border_width = 1);
 
 }  // namespace orthonav::engine

@@ -10,8 +10,8 @@
 namespace orthonav::engine {
 
 /// A tag and the paper that is cut out with it. Above its quiet zone the paper has a notch in the
-/// middle of the edge and says which way is up; below it, which tag this is and how large: whoever
-/// finds the cut tag beside the tool can still mount the right one the right way round.
+/// middle of the edge and says which way is up; below it, it states the tag and its size, so that a
+/// cut-out tag can still be identified and mounted the right way round.
 struct TagPatch {
   TagCells cells;
   double size_mm = 0.0;
@@ -36,7 +36,7 @@ struct TagPatch {
 /// Refuses unknown families and ids, and sizes outside 5-200 mm.
 Result<TagPatch> tag_patch(const PrintedTag& tag, double quiet_cells, const PrintFont& font);
 
-/// Draws it with the top left corner of the paper that it takes there; gives the tag's centre.
+/// Draws it with the top left corner of its paper at this place; returns the tag's centre.
 Vec2 add_patch(Sheet& sheet, const TagPatch& patch, double x_mm, double y_mm);
 
 }  // namespace orthonav::engine

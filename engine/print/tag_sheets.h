@@ -16,11 +16,11 @@ struct PrintedTag {
 
 struct TagSheetOptions {
   Page page;
-  /// White around the tag in cells of the tag, 1-4; text stays outside of it.
+  /// White around the tag, in cells of the tag, 1-4; text stays outside it.
   double quiet_cells = 1.0;
 };
 
-/// Where a tag came to lie: its centre in millimetres on sheet number `sheet`.
+/// Where a tag was placed: its centre in millimetres on sheet number `sheet`.
 struct PlacedTag {
   std::size_t sheet = 0;
   double x_mm = 0.0;

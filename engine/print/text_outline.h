@@ -28,7 +28,7 @@ class PrintFont {
   PrintFont(PrintFont&&) noexcept;
   PrintFont& operator=(PrintFont&&) noexcept;
   ~PrintFont();
-  /// Of UTF-8; bytes that are none, and letters that the font lacks, are drawn as its box.
+  /// From UTF-8; invalid bytes, and letters that the font lacks, are drawn as its box.
   [[nodiscard]] TextOutline outline(std::string_view text) const;
 
  private:

@@ -5,9 +5,8 @@
 
 namespace orthonav::engine {
 
-/// A section of the report's page, of the figures in report.json: each screw's clearance to the
-/// cortex as planned, as tracked and against the truth, with bounds and grades. Empty where no
-/// screw has one.
+/// A section of the report's page, from the figures in report.json: each screw's planned, tracked
+/// and true clearance to the cortex, with bounds and grades. Empty if no screw has one.
 [[nodiscard]] std::string clearance_section(const nlohmann::json& report);
 
 }  // namespace orthonav::engine

@@ -18,7 +18,7 @@ struct Viewpoint {
   Vec3 up;
   Vec3 toward;
 
-  /// Millimetres to the right of and below the model's origin, as drawings count.
+  /// Millimetres to the right of and below the model's origin, as in drawings.
   [[nodiscard]] Vec2 on_page_mm(Vec3 place_m) const {
     return {place_m.dot(right) * 1e3, -place_m.dot(up) * 1e3};
   }
@@ -43,8 +43,8 @@ struct SurfacePaint {
   double limit = 0.0;
   Rgb near;
   Rgb far;
-  /// Where given: the colours of values from 0 to the limit, in equal steps, the last one beyond;
-  /// `far` where the value is not a number.
+  /// If given: the colours of values from 0 to the limit, in equal steps, with the last one beyond;
+  /// `far` where the value is NaN.
   std::span<const Rgb> steps{};
 };
 
@@ -52,13 +52,13 @@ struct SurfacePaint {
 /// one thread: the same surfaces give the same bytes, with or without a graphics device.
 class DepthPicture {
  public:
-  /// At the resolution asked for, unless a side would exceed 1,200 pixels.
+  /// At the requested resolution, unless a side would exceed 1,200 pixels.
   DepthPicture(const Viewpoint& view, const PageArea& area, double pixels_per_mm);
-  /// Where depths are equal, it covers what was drawn before.
+  /// At equal depths, it covers earlier surfaces.
   void draw(const nav::TriangleMesh& mesh, const SurfacePaint& paint);
   /// Whether a surface lies in front of the place by more than `by_m`.
   [[nodiscard]] bool hides(Vec3 place_m, double by_m) const;
-  /// Transparent where nothing is.
+  /// Transparent where there is no surface.
   [[nodiscard]] RgbaImage image() const;
 
  private:

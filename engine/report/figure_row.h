@@ -6,7 +6,7 @@ namespace orthonav::engine {
 
 enum class Bound { kNone, kAtMost, kAtLeast };
 
-/// A figure of a registration beside its limit, both in the unit shown.
+/// A figure of a registration with its limit, both in the displayed unit.
 struct JudgedFigure {
   double value = 0.0;
   int decimals = 2;
@@ -14,16 +14,16 @@ struct JudgedFigure {
   double limit = 0.0;
   int limit_decimals = 1;
 
-  /// False for what is not a number, too.
+  /// Also false for NaN.
   [[nodiscard]] bool keeps_limit() const;
 };
 
-/// The figure's own cell: a tick where it keeps its limit; a cross and "over the limit" or "below
-/// the limit" where it does not, with the decimals that tell it from the limit. Colour follows.
+/// The figure's cell: a tick if it keeps its limit; otherwise a cross and "over the limit" or
+/// "below the limit", with enough decimals to tell it from the limit. The colour matches.
 [[nodiscard]] std::string judged_cell(const JudgedFigure& figure);
-/// For tables of many columns: the cross without the words.
+/// For tables with many columns: the cross without the words.
 [[nodiscard]] std::string narrow_judged_cell(const JudgedFigure& figure);
-/// The same of a text that is judged already.
+/// The same for an already judged text.
 [[nodiscard]] std::string judged_cell(const std::string& text, Bound bound, bool keeps_limit);
 
 /// A row of a table: name, figure, limit, meaning. The name may hold HTML.

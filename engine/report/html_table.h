@@ -5,15 +5,15 @@
 
 namespace orthonav::engine {
 
-/// What a column is called, and the unit of its figures; plain text.
+/// The name of a column, and the unit of its figures; plain text.
 struct TableColumn {
   std::string name;
   std::string unit = {};
-  bool is_text = false;  ///< reads from the left, unlike figures
+  bool is_text = false;  ///< aligned left, unlike figures
 };
 
 /// A table of a page. Each cell carries the name of its column, so that a narrow screen can show
-/// each row as a card (data/report.css) instead of a table that runs off the screen.
+/// each row as a card (data/report.css) instead of a table wider than the screen.
 class HtmlTable {
  public:
   explicit HtmlTable(std::vector<TableColumn> columns);
@@ -23,8 +23,7 @@ class HtmlTable {
   /// A line of its own below the row.
   void below(const std::string& content, const char* kind = "");
   [[nodiscard]] bool empty() const { return rows_.empty(); }
-  /// The whole element. The last row is complete: anything else is a bug.
-  /// `kind` is a further class of it.
+  /// The whole element. The last row must be complete. `kind` is an additional class of it.
   [[nodiscard]] std::string html(const char* kind = "") const;
 
  private:

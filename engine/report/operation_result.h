@@ -16,41 +16,41 @@
 
 namespace orthonav::engine {
 
-/// The guide as it was tracked and registered against how it was, in its vertebra's frame.
+/// The tracked and registered guide compared with the true one, in its vertebra's frame.
 struct GuidedError {
   double tip_m = 0.0;      ///< distance of the two tips
-  double across_m = 0.0;   ///< of that, across the planned axis
+  double across_m = 0.0;   ///< its component across the planned axis
   double angle_rad = 0.0;  ///< between the two axes
-  /// `across_m` in SDs of the two offsets as they were shown: 68 % of them are to lie within 1.51,
-  /// 95 % within 2.45. Absent: no SD was shown.
+  /// `across_m` in displayed SDs of the two offsets: 68 % should lie within 1.51, 95 % within 2.45.
+  /// Absent: no SD was shown.
   std::optional<double> across_sds = {};
   bool sure = false;  ///< both offsets were shown as sure, not greyed
 };
 
 struct ScrewOutcome {
   nav::Side side = nav::Side::kLeft;
-  bool done = false;                      ///< as the surgeon declared it
-  std::optional<double> angle_error_rad;  ///< against the truth, where there is one
-  std::optional<double> entry_error_m;    ///< absent too when the wire misses the bone
-  std::string accepted_breach = {};       ///< why the plan may leave the cortex, where it says so
-  /// As planned, and what the registration leaves open of a screw that is guided there exactly;
-  /// absent where the plan states no radius.
+  bool done = false;                      ///< as declared by the surgeon
+  std::optional<double> angle_error_rad;  ///< relative to the truth, if known
+  std::optional<double> entry_error_m;    ///< also absent if the wire misses the bone
+  std::string accepted_breach = {};       ///< why the plan may leave the cortex, if stated
+  /// As planned, with the spread that the registration leaves for an exactly guided screw; absent
+  /// if the plan states no radius.
   std::optional<nav::ScrewClearance> planned = {};
-  /// How it was planned in surgery, against how it was before; absent: as before.
+  /// How the plan was changed in surgery, relative to the earlier one; absent: unchanged.
   std::optional<nav::ScrewDifference> planned_in_surgery = {};
-  /// Of that, the least depth every 2 mm or so from 6 mm past the entry to the tip.
+  /// The least depth of the planned screw about every 2 mm from 6 mm past the entry to the tip.
   std::vector<double> planned_profile_m = {};
-  /// Along the tool as it was tracked at depth, with what registration and tracking leave open.
+  /// Along the tool as tracked at depth, with the spread from registration and tracking.
   std::optional<nav::ScrewClearance> tracked = {};
-  /// Of the planned screw along the executed axis, against the truth.
+  /// True clearance of the planned screw along the executed axis.
   std::optional<nav::Clearance> executed = {};
-  /// Where its tool went, as tracked; absent of a screw that is done: not measured.
+  /// Where its tool went, as tracked; absent for a finished screw: not measured.
   std::optional<nav::ExecutedTrajectory> trajectory = {};
-  WireOutcome wire = {};  ///< as it was measured where it stood
-  int redone = 0;         ///< so often through another entry
-  /// When the wire pierced the bone, where there is a truth.
+  WireOutcome wire = {};  ///< as measured in place
+  int redone = 0;         ///< number of times through another entry
+  /// At the moment the wire pierced the bone, if the truth is known.
   std::optional<GuidedError> guided = {};
-  /// Of a screw that was planned anew in surgery, against the plan before surgery.
+  /// For a screw replanned in surgery, relative to the plan before surgery.
   std::optional<double> preoperative_angle_error_rad = {};
   std::optional<double> preoperative_entry_error_m = {};
   std::optional<nav::ScrewCylinder> size = {};  ///< as planned; absent: the plan states no radius
@@ -65,17 +65,18 @@ struct LevelOutcome {
   int attempts = 0;
   std::optional<double> rmse_m;  ///< absent without an accepted registration
   std::optional<double> tre_m;   ///< mean over the entries and targets of the level's screws
-  /// Of each of these places, screw by screw: from the true one to the registered one, in the
+  /// For each of these places, screw by screw: from the true to the registered one, in the
   /// vertebra's axes (LPS).
   std::vector<Vec3> errors_m;
   /// Root mean square error to expect at the worst of the screws' entries and targets.
   std::optional<double> predicted_tre_m;
-  bool registration_only = false;  ///< that and the clearances' bounds lack what all strokes share
+  bool registration_only = false;  ///< that and the clearances' bounds do not include common errors
+                                   ///< of all strokes
   /// Used by that registration; absent without one, as the time is.
   std::optional<std::size_t> points;
   std::optional<double> digitization_s;
   std::vector<double> check_points_m;  ///< signed distances, in the order of touching
-  /// The newest registration that found a pose, passed or not.
+  /// The newest registration that found a pose, whether it passed or not.
   std::optional<RegisteredLevel> registered;
   std::vector<ScrewOutcome> screws;
 };
@@ -84,32 +85,33 @@ struct RodOutcome {
   nav::Side side = nav::Side::kLeft;
   std::size_t heads = 0;
   std::optional<double> length_m;
-  std::optional<double> length_error_m;  ///< template against the spline through the true heads
+  std::optional<double> length_error_m;  ///< template relative to the spline through the true heads
   std::optional<double> head_error_m;    ///< mean distance of a touched head from the true one
 };
 
-/// One operation, measured. What depends on the machine's speed stays in `loop`.
+/// The measured result of one operation. Values that depend on the machine's speed are only in
+/// `loop`.
 struct OperationResult {
   std::string method;
-  std::optional<std::uint64_t> seed;  ///< absent where nothing was drawn by lot: a real headset
+  std::optional<std::uint64_t> seed;  ///< absent without random draws: a real headset
   std::string case_name;
-  bool patient_reference = false;  ///< World hung on one instead of on the headset's map
+  bool patient_reference = false;  ///< World was relative to one instead of the headset's map
   bool completed = false;          ///< every level accepted, every screw done, the rods too
-  /// Where it ended instead, and the last refusal: "ended at digitize L4: registration RMSE 3.4 mm,
-  /// limit 3.0 mm". Empty when it completed.
+  /// If not completed, where it ended and the last refusal: "ended at digitize L4: registration
+  /// RMSE 3.4 mm, limit 3.0 mm". Empty when it completed.
   std::string why_not;
   std::vector<LevelOutcome> levels;
-  std::optional<CalibrationInUse> calibration;  ///< absent: nobody asked
-  std::vector<RodOutcome> rods;                 ///< none where no side has two screws
+  std::optional<CalibrationInUse> calibration;  ///< absent: not requested
+  std::vector<RodOutcome> rods;                 ///< empty if no side has two screws
   LoopReport loop;
-  Status recording;  ///< why the session's recording is incomplete, where one was asked for
+  Status recording;  ///< why the session's recording is incomplete, if one was requested
 };
 
-/// What the session itself knows, without the truth.
+/// The outcome from the session alone, without the truth.
 [[nodiscard]] OperationResult outcome_of(std::span<const LevelState> levels,
                                          std::span<const RodState> rods, LoopReport loop);
 
-/// Remembers where an operation stands and why its last registration was refused.
+/// Remembers the current step of an operation and why its last registration was refused.
 class EndNote : public SessionObserver {
  public:
   void happened(Timestamp time, Step from, Event event, Cell answer) override;

@@ -5,8 +5,8 @@
 
 namespace orthonav::engine {
 
-/// The figures of a report.json beside the published ones, each with how many it is the mean of.
-/// In a simulation, what was put into it is said to be an input.
+/// The figures of a report.json beside the published ones, each with the number of values in its
+/// mean. In a simulation, values that were inputs are marked as such.
 [[nodiscard]] std::string paper_section(const nlohmann::json& report);
 
 }  // namespace orthonav::engine

@@ -15,7 +15,7 @@ struct PaperRow {
   double mean = 0.0;
   double sd = 0.0;
   int decimals = 2;
-  bool input = false;  ///< in a simulation: chosen with the scripted surgeon, not found out
+  bool input = false;  ///< in a simulation: an input of the scripted surgeon, not a result
 };
 
 inline constexpr std::array<PaperRow, 5> kPaperTable = {{

@@ -7,7 +7,7 @@
 
 namespace orthonav::engine {
 
-/// One of the three views: where from, and what lies at its edges.
+/// One of the three views: its direction, and the anatomy at its edges.
 struct RegistrationView {
   const char* name;  ///< "from behind"
   Viewpoint from;
@@ -15,10 +15,10 @@ struct RegistrationView {
   const char* right;
   const char* top;
   const char* bottom;
-  const char* remark = "";  ///< behind the name in the caption
+  const char* remark = "";  ///< after the name in the caption
 };
 
-/// From behind, as the surgeon stands; from the patient's left; from above, with the back below.
+/// From behind, as seen by the surgeon; from the patient's left; from above, with the back below.
 [[nodiscard]] std::array<RegistrationView, 3> registration_views();
 
 /// An SVG element, millimetres.
@@ -29,15 +29,15 @@ struct RegistrationDrawing {
 
 [[nodiscard]] std::string hex(Rgb colour);
 
-/// The shaded bone alone, its touchable surface painted, with what lies at the view's edges; the
-/// element is still open for what is drawn over it.
+/// Only the shaded bone with its touchable surface painted, and the names at the view's edges; the
+/// element is left open for further drawing.
 Result<RegistrationDrawing> bone_drawing(const RegisteredLevel& level,
                                          const RegistrationScene& scene,
                                          const RegistrationView& view, const SurfacePaint& paint);
 
-/// The vertebra at the registered pose, the digitized points coloured by their distance to it, what
-/// was stroked of it, and the screws with their predicted errors, with the shaded bone as an
-/// embedded picture.
+/// The vertebra at the registered pose, the digitized points coloured by their distance to it, its
+/// stroked surface, and the screws with their predicted errors, with the shaded bone as an embedded
+/// picture.
 Result<RegistrationDrawing> registration_drawing(const RegisteredLevel& level,
                                                  const RegistrationScene& scene,
                                                  const RegistrationView& view);

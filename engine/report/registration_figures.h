@@ -14,10 +14,10 @@
 
 namespace orthonav::engine {
 
-/// A registration with everything that it was made of, for reports and drawings.
+/// A registration with all its inputs, for reports and drawings.
 struct RegisteredLevel {
-  std::string label;   ///< empty where none is known
-  std::string method;  ///< empty where that is told elsewhere
+  std::string label;   ///< empty if unknown
+  std::string method;  ///< empty if stated elsewhere
   std::shared_ptr<const nav::VertebraModel> model;
   std::vector<nav::ScrewPlan> screws;
   std::vector<Point<World>> points;  ///< in the order of time
@@ -26,8 +26,8 @@ struct RegisteredLevel {
   std::vector<nav::CheckPoint> check_points;  ///< touched to verify it; not used in the fit
 };
 
-/// What a registration leaves uncertain at one place. Infinite, without covariance, where the
-/// points leave a motion of the bone open.
+/// The uncertainty of a registration at one place. Infinite, without covariance, if the points
+/// leave a motion of the bone undetermined.
 struct PlaceError {
   double rms_m = 0.0;
   double within_95_m = 0.0;                            ///< 95 of 100 errors are smaller
@@ -42,28 +42,28 @@ struct ScrewErrors {
 
 /// One for each screw, in their order.
 [[nodiscard]] std::vector<ScrewErrors> errors_at_screws(const RegisteredLevel& level);
-/// The worst at any entry or target; the registration's own value where no screw is known.
+/// The worst at any entry or target; the registration's own value if no screw is known.
 [[nodiscard]] double worst_rms_m(const RegisteredLevel& level);
-/// Absent where it is not known: `paper` without screws.
+/// Absent if unknown: `paper` without screws.
 [[nodiscard]] std::optional<double> worst_within_95_m(const RegisteredLevel& level);
 
 /// How far the next best pose is from the accepted one.
 struct RunnerUpDistance {
-  double apart_m = 0.0;     ///< at the worst of the entries and targets, or else of the surface
+  double apart_m = 0.0;     ///< at the worst entry or target, or, without any, of the surface
   double turned_rad = 0.0;  ///< the angle between the two
 };
-/// Nothing when no other pose was left to compare with.
+/// Nothing if there was no other pose to compare with.
 [[nodiscard]] std::optional<RunnerUpDistance> runner_up_distance(const RegisteredLevel& level);
 
-/// Whether another pose could be meant, in words.
+/// Whether another pose is possible, in words.
 [[nodiscard]] std::string ambiguity_of(const RegisteredLevel& level);
-/// What is in the errors to expect beside the registration's own.
+/// The sources of expected errors in addition to the registration's own.
 [[nodiscard]] std::string sources_of(const nav::CommonErrors& common);
-/// How certain the registration is, in plain sentences: what 95 of 100 errors are below, the motion
-/// known worst, and where to stroke to know it better.
+/// How certain the registration is, in plain sentences: the error that 95 of 100 stay below, the
+/// least certain motion, and where to stroke to improve it.
 [[nodiscard]] std::string certainty_of(const RegisteredLevel& level);
 
-/// How the numbers of a JSON file are to be read.
+/// The axes and units of the numbers in a JSON file.
 struct FigureFrame {
   Axes model_axes = Axes::kLps;  ///< of the model's file
   double points_unit_m = 1e-3;   ///< of the points, and of the matrices
@@ -73,7 +73,7 @@ struct FigureFrame {
 [[nodiscard]] std::array<double, 16> model_to_points(const Transform<World, Vertebra>& pose,
                                                      const FigureFrame& frame);
 
-/// Every figure as docs/file-formats.md describes them.
+/// All figures in the form that docs/file-formats.md describes.
 [[nodiscard]] nlohmann::ordered_json registration_json(const RegisteredLevel& level,
                                                        const FigureFrame& frame);
 

@@ -15,8 +15,7 @@ Result<std::string> registration_section(const RegisteredLevel& level);
 /// One section for each level, with all drawings and all error ellipsoids at one scale.
 Result<std::string> registration_sections(std::span<const RegisteredLevel> levels);
 
-/// That section as a page of its own; loads nothing from outside. `source` says what was
-/// registered: "points.csv".
+/// That section as a separate self-contained page. `source` names the input: "points.csv".
 Result<std::string> registration_page(const RegisteredLevel& level, const std::string& source);
 
 }  // namespace orthonav::engine

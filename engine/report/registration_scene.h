@@ -11,31 +11,31 @@ namespace orthonav::engine {
 /// A digitized point at the registered pose.
 struct PlacedPoint {
   Vec3 place_m;  ///< in the model's frame
-  /// Distance to the surface that can be touched, less the mean height of the tip above it where
-  /// the registration is certain of one; negative inside.
+  /// Distance to the touchable surface, minus the mean height of the tip above it if that is
+  /// certain; negative inside.
   double residual_m = 0.0;
-  bool off_bone = false;  ///< farther than the scatter of the others explains
+  bool off_bone = false;  ///< farther off than the scatter of the others explains
 };
 
-/// What a drawing of a registration needs besides the model, worked out once for all views.
+/// The data for drawing a registration, in addition to the model, computed once for all views.
 struct RegistrationScene {
-  /// At most a few thousand, evenly chosen: a drawing of a million is no clearer.
+  /// At most a few thousand, evenly chosen: a drawing of a million would be no clearer.
   std::vector<PlacedPoint> points;
   std::size_t off_bone = 0;         ///< of those
   std::vector<PlacedPoint> checks;  ///< touched to verify the registration
   /// How far each vertex of the touchable surface is from the nearest stroke on the bone.
   std::vector<double> from_strokes_m;
-  /// Height of the tip above each vertex of the touchable surface, as strokes nearby tell: soft
-  /// tissue. Not a number where none is near. Empty where nothing tells of tissue.
+  /// Height of the tip above each vertex of the touchable surface, from nearby strokes: soft
+  /// tissue. NaN where none is near. Empty if there is no evidence of tissue.
   std::vector<double> tissue_m;
   std::optional<Vec3> scrape_m;  ///< the place to press to the bone next
-  double full_colour_m = 0.0;    ///< the residual that gets the last colour
+  double full_colour_m = 0.0;    ///< the residual with the last colour
   /// By how much the predicted errors are magnified when drawn.
   double magnified = 1.0;
-  bool one_scale = false;  ///< all levels of the report are magnified alike
+  bool one_scale = false;  ///< all levels of the report are magnified equally
 };
 
-/// What is no farther from a stroke counts as stroked.
+/// Surface within this distance of a stroke counts as stroked.
 inline constexpr double kStroked_m = 0.005;
 
 [[nodiscard]] RegistrationScene registration_scene(const RegisteredLevel& level);

@@ -7,8 +7,8 @@
 
 namespace orthonav::engine {
 
-/// How a screw was planned in surgery, as numbers and as text, into its part of a report; nothing
-/// where it was not.
+/// Adds to a screw's part of a report how it was replanned in surgery, as numbers and as text;
+/// nothing if it was not.
 void put_planned_in_surgery(nlohmann::ordered_json& screw_json,
                             const std::optional<nav::ScrewDifference>& difference);
 

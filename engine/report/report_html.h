@@ -36,8 +36,8 @@ struct ReportPlot {
   std::string y_axis;
   std::vector<ReportCurve> curves;
   std::vector<ReportLine> lines = {};
-  /// The axis ends here where that is positive: what lies above is drawn at its edge and marked, so
-  /// that a tool on its way through the room does not flatten what matters.
+  /// If positive, the axis ends here: values above are drawn at its edge and marked, so that a tool
+  /// moving through the room does not flatten the relevant part.
   double y_max = 0.0;
 };
 
@@ -48,9 +48,9 @@ struct ReportTiming {
 };
 
 struct ReportContent {
-  std::string report_json;  ///< the text of report.json: the page shows exactly those figures
-  /// When the operation began, for people: "2026-11-25 10:04 UTC"; empty: not known. Told by the
-  /// command, since a report reads no clock.
+  std::string report_json;  ///< the text of report.json; the page shows exactly its figures
+  /// When the operation began, for people: "2026-11-25 10:04 UTC"; empty: not known. Provided by
+  /// the command, since a report reads no clock.
   std::string date;
   std::string video;                 ///< file name beside the page; empty: none
   std::vector<std::uint8_t> poster;  ///< a PNG to show while the film is not played; empty: none
@@ -58,13 +58,13 @@ struct ReportContent {
   std::vector<ReportPicture> pictures;
   std::vector<ReportPlot> plots;
   std::vector<ReportTiming> timings;
-  std::vector<std::string> notes;  ///< sentences under the table: what was simulated, limits
+  std::vector<std::string> notes;  ///< sentences under the table: simulated parts, limits
 };
 
-/// The report as one self-contained HTML page, what a surgeon asks first: verdict and screws, then
-/// registrations, rods, film and pictures, the paper's table beside this run, plots, frame times.
-/// The same content gives the same bytes. Fails only on a report_json that is not what `demo`
-/// writes.
+/// The report as one self-contained HTML page, in the order in which a surgeon needs it: verdict
+/// and screws, then registrations, rods, film and pictures, the paper's table beside this run,
+/// plots, frame times. The same content gives the same bytes. Fails only if report_json is not in
+/// the format that `demo` writes.
 Result<std::string> report_html(const ReportContent& content);
 
 }  // namespace orthonav::engine

@@ -6,9 +6,9 @@
 
 namespace orthonav::engine {
 
-/// What a report counts as on target, whatever limits the operation ran with, so that reports can
-/// be compared: the angle at which the triangle turns red, and the distance at which a placed wire
-/// is questioned.
+/// The limits for "on target" in reports, independent of the operation's own limits, so that
+/// reports can be compared: the angle at which the triangle turns red, and the distance at which a
+/// placed wire is questioned.
 inline constexpr double kOnTarget_rad = GradeLimits{}.poor_rad;
 inline constexpr double kOnTarget_m = PlacedWireRules{}.entry_limit_m;
 

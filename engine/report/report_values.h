@@ -9,7 +9,7 @@
 
 namespace orthonav::engine {
 
-/// A figure of report.json: where it stands, and how it is shown.
+/// A figure of report.json: its key, and how it is displayed.
 struct ReportQuantity {
   std::string_view name;
   std::string_view unit;
@@ -19,7 +19,7 @@ struct ReportQuantity {
 
 /// A number of an object; nothing where it is absent or of another type.
 [[nodiscard]] std::optional<double> value_of(const nlohmann::json& object, std::string_view key);
-/// The same as a person reads it; a dash where it is absent.
+/// The same for people; a dash if it is absent.
 [[nodiscard]] std::string figure(const nlohmann::json& object, std::string_view key, int decimals);
 /// A text of an object; empty where it is absent or of another type.
 [[nodiscard]] std::string text_in(const nlohmann::json& object, std::string_view key);
@@ -32,8 +32,7 @@ struct ReportQuantity {
 void for_each_screw(const nlohmann::json& report,
                     const std::function<void(const nlohmann::json& level, const std::string& name,
                                              const nlohmann::json& screw)>& take);
-/// Probabilities by grade as HTML, "A 97 %, B 3 %"; what is less likely than half a percent is left
-/// out.
+/// Probabilities by grade as HTML, "A 97 %, B 3 %"; grades below half a percent are left out.
 [[nodiscard]] std::string likely_grades(const nlohmann::json& probabilities);
 
 /// `key` of every screw, or of every level, in a report; absent ones are left out.

@@ -5,8 +5,8 @@
 
 namespace orthonav::engine {
 
-/// Every screw of a report.json, placed or not: its planned size, how far it is from the plan, its
-/// depth and clearance, and its wire as placed.
+/// Every screw of a report.json, placed or not: its planned size, its deviation from the plan, its
+/// depth and clearance, and its placed wire.
 [[nodiscard]] std::string screws_section(const nlohmann::json& report);
 
 }  // namespace orthonav::engine

@@ -6,12 +6,12 @@
 
 namespace orthonav::engine {
 
-/// What a journal tells, with the keys of report.json where they mean the same, and `session`: how
-/// it ended (docs/file-formats.md). What the journal does not hold is absent.
+/// The content of a journal, with the keys of report.json for the same values, and `session`: how
+/// it ended (docs/file-formats.md). Values that the journal does not hold are absent.
 [[nodiscard]] std::string session_json(const SessionRecord& session);
 
-/// The same as one self-contained HTML page. A session that was cut off is said so at the top, and
-/// when; what the journal does not hold is "not recorded". `source` names the journal. The same
+/// The same as one self-contained HTML page. If the session was cut off, the top says so and when;
+/// values that the journal does not hold are "not recorded". `source` names the journal. The same
 /// record gives the same bytes.
 [[nodiscard]] std::string session_page(const SessionRecord& session, const std::string& source);
 

@@ -6,7 +6,7 @@
 
 namespace orthonav::engine {
 
-/// What stands where a journal holds no figure.
+/// Shown where a journal has no figure.
 inline constexpr const char* kNotRecorded = "<small>not recorded</small>";
 
 /// The rods of a journal as a section of its page; empty where there are none.

@@ -4,8 +4,8 @@
 
 namespace orthonav::engine {
 
-/// From behind, as HTML: how high the tip stood above the bone, where to press it to the bone next,
-/// and what the colours mean. Empty where nothing tells of tissue.
+/// A view from behind, as HTML: the height of the tip above the bone, where to press it to the bone
+/// next, and a legend. Empty if there is no evidence of tissue.
 Result<std::string> tissue_figure(const RegisteredLevel& level, const RegistrationScene& scene);
 
 }  // namespace orthonav::engine

@@ -5,9 +5,9 @@
 
 namespace orthonav::engine {
 
-/// What was measured without a truth, of a report of an operation or of a journal: where each tool
-/// went with its SDs, the probability of each grade, and what was found out in use about tags and
-/// cameras. What was not measured is said as that, what an older journal does not hold as not
+/// Measurements that need no ground truth, from an operation's report or a journal: where each tool
+/// went with its SDs, the probability of each grade, and the calibration found in use for tags and
+/// cameras. Values not measured are marked as such, values missing from an older journal as not
 /// recorded.
 [[nodiscard]] std::string tracked_section(const nlohmann::json& report);
 

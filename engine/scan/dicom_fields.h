@@ -5,7 +5,7 @@
 
 namespace orthonav::engine {
 
-/// The numbers of a DICOM field, separated by backslashes; what is none becomes 0.
+/// The numbers of a DICOM field, separated by backslashes; an invalid one becomes 0.
 [[nodiscard]] std::vector<double> dicom_numbers(const std::string& text);
 
 /// A DICOM text without the padding that makes its length even, and without control characters.

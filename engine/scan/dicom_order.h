@@ -10,7 +10,7 @@
 
 namespace orthonav::engine {
 
-/// What the header of a slice says about its place, metres, LPS.
+/// The position of a slice from its header, metres, LPS.
 struct SliceHeader {
   std::string file;
   std::string series;       ///< SeriesInstanceUID
@@ -22,12 +22,12 @@ struct SliceHeader {
   std::array<int, 2> size{};          ///< columns, rows
 };
 
-/// The slices of one series; `wanted` picks it where there are several. Refuses several series
-/// without one being wanted, with a list of them, and a series that is not there.
+/// The slices of one series; `wanted` picks it if there are several. Refuses several series if none
+/// is picked, with a list of them, and a missing series.
 Result<std::vector<SliceHeader>> one_series(std::span<const SliceHeader> slices,
                                             const std::string& wanted);
 
-/// A stack of slices in the order of their places along the normal; never by number or name.
+/// A stack of slices ordered by position along the normal, never by number or name.
 struct SliceStack {
   std::vector<SliceHeader> slices;
   VolumeGrid grid;

@@ -6,12 +6,12 @@
 
 namespace orthonav::engine {
 
-/// About the signed distance to the surface of a label, metres: negative inside, smooth, and at
-/// each voxel's middle on the side that the label says. See `label_surface` for the method.
+/// Approximately the signed distance to the surface of a label, metres: negative inside, smooth,
+/// and with the sign of the label at each voxel's middle. See `label_surface` for the method.
 class LabelField {
  public:
   explicit LabelField(const LabelPart& part);
-  /// At a place in the frame of the scan; outside of the part's grid as at its border.
+  /// The value at a place in the scan's frame; outside the part's grid, that at its border.
   [[nodiscard]] double value_m(Vec3 place_m) const;
 
  private:

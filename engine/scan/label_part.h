@@ -26,21 +26,22 @@ void for_each_voxel(const Volume& labels, const LabelledLevel& level, const Visi
   }
 }
 
-/// One vertebra cut out of a label map, with free voxels all around.
+/// One vertebra extracted from a label map, with free voxels all around.
 struct LabelPart {
   VolumeGrid grid;
   std::vector<std::uint8_t> inside;  ///< 1: bone
   std::size_t voxels = 0;            ///< of the label
-  std::size_t dropped = 0;           ///< that do not hang together with the rest
-  std::size_t at_border = 0;         ///< of the label on the border of the scan: it is cut there
+  std::size_t dropped = 0;           ///< not connected with the rest
+  std::size_t at_border = 0;         ///< of the label at the border of the scan, where it is cut
 };
 
-/// The largest connected part (faces touch) of a label, its cavities filled: a mesh has one
-/// surface. `margin` free voxels are put around it. Refuses a label of fewer than 100 voxels.
+/// The largest connected part (by faces) of a label, with its cavities filled, since a mesh has a
+/// single surface. `margin` free voxels are put around it. Refuses a label of fewer than 100
+/// voxels.
 Result<LabelPart> label_part(const Volume& labels, const LabelledLevel& level, int margin);
 
-/// Numbers the connected parts of what is at least that dense, from the largest on, as a label map
-/// with values 1, 2, ...; parts smaller than `least_m3` are left out. Refuses a scan without any.
+/// Numbers the connected parts of at least that density, from the largest on, as a label map with
+/// values 1, 2, ...; parts smaller than `least_m3` are left out. Refuses a scan without any.
 Result<Volume> dense_parts(const Volume& scan, double threshold_hu, double least_m3);
 
 }  // namespace orthonav::engine

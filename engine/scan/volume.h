@@ -13,12 +13,12 @@
 
 namespace orthonav::engine {
 
-/// Where the voxels of a scan lie, metres, LPS. Index 0 runs fastest in memory.
+/// The grid of a scan's voxels, metres, LPS. Index 0 runs fastest in memory.
 struct VolumeGrid {
   std::array<int, 3> size{};
   Vec3 origin_m;                       ///< centre of the voxel (0, 0, 0)
   Vec3 spacing_m;                      ///< along the three indices
-  Mat3 directions = Mat3::identity();  ///< its columns: unit, where the indices lead
+  Mat3 directions = Mat3::identity();  ///< columns: unit directions of the indices
 
   [[nodiscard]] std::size_t voxels() const {
     return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
@@ -30,7 +30,7 @@ struct VolumeGrid {
                static_cast<std::size_t>(size[0]) +
            static_cast<std::size_t>(i);
   }
-  /// Of an index, which may lie between voxels.
+  /// The place of an index, which may lie between voxels.
   [[nodiscard]] Vec3 place_m(Vec3 index) const {
     return origin_m +
            directions * Vec3{index.x * spacing_m.x, index.y * spacing_m.y, index.z * spacing_m.z};
@@ -61,13 +61,13 @@ struct VolumeGrid {
 /// and an origin that is not finite.
 [[nodiscard]] Status check_grid(const VolumeGrid& grid);
 
-/// A scan (HU) or a label map, as its file holds it. Several layers lie one after another, voxel by
-/// voxel: value = values[voxel * layers + layer].
+/// A scan (HU) or a label map, as stored in its file. Several layers lie one after another, voxel
+/// by voxel: value = values[voxel * layers + layer].
 struct Volume {
   VolumeGrid grid;
   std::size_t layers = 1;
   std::vector<float> values;                  ///< whole numbers up to 2^24 exactly
-  std::map<std::string, std::string> fields;  ///< text beside the voxels (`Segment0_Name`)
+  std::map<std::string, std::string> fields;  ///< text in the file (`Segment0_Name`)
 };
 
 }  // namespace orthonav::engine

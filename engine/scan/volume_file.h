@@ -9,9 +9,9 @@ namespace orthonav::engine {
 
 /// Reads a volume: NIfTI (`.nii`, `.nii.gz`), NRRD (`.nrrd`, `.seg.nrrd`), or a folder of DICOM
 /// slices of one series (`series`: its UID, where the folder holds several), in HU. DICOM slices
-/// are ordered by place (engine/scan/dicom_order.h); files that are no DICOM are passed over.
-/// Refuses in one line what can't be read, has no three dimensions, more than 2^30 voxels, axes
-/// that are not at right angles or spacings outside 0.05-20 mm. Needs the Insight Toolkit; its
+/// are ordered by position (engine/scan/dicom_order.h); files that are not DICOM are skipped.
+/// Refuses in one line unreadable files, those without three dimensions, more than 2^30 voxels,
+/// axes that are not at right angles or spacings outside 0.05-20 mm. Needs the Insight Toolkit; its
 /// exceptions end here.
 Result<Volume> load_volume(const std::string& path, const std::string& series = {});
 

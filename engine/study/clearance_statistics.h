@@ -7,9 +7,11 @@
 
 namespace orthonav::engine {
 
-/// How honest a study's clearances are: bounds and grades against the truth, screw by screw.
+/// How reliable a study's clearances are: bounds and grades compared with the truth, screw by
+/// screw.
 struct ClearanceQuality {
-  /// Screws of which a bound and the truth are known, and of how many the truth lies above it.
+  /// The number of screws with a known bound and truth, and for how many the truth lies above the
+  /// bound.
   struct Bound {
     int screws = 0;
     int held = 0;
@@ -25,7 +27,7 @@ struct ClearanceQuality {
 };
 /// Adds a run's report.
 void add_run(const nlohmann::ordered_json& run, ClearanceQuality& sum);
-/// As the study's JSON has it.
+/// In the form of the study's JSON.
 [[nodiscard]] nlohmann::ordered_json clearance_json(const ClearanceQuality& quality);
 
 }  // namespace orthonav::engine

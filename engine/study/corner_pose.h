@@ -12,12 +12,13 @@ namespace orthonav::engine {
 struct CornerPose {
   Transform<Rig, Marker> rig_from_marker;
   PoseCovariance covariance{};  ///< in the rig
-  /// Where both cameras saw it: what the corners say about the calibration.
+  /// If both cameras saw it: the equations for the calibration from the corners.
   std::optional<nav::CalibrationEquations> calibration;
 };
 
-/// Gauss-Newton on the unit planes of the cameras as described, from a pose that is right to a few
-/// pixels on. Nothing when a corner has no direction or a motion stays open. `sd_px`: of a corner.
+/// Gauss-Newton on the unit planes of the described cameras, starting from a pose that is right to
+/// a few pixels. Nothing if a corner has no direction or a motion is undetermined. `sd_px`: of a
+/// corner.
 [[nodiscard]] std::optional<CornerPose> corner_pose(const ModelledSighting& seen,
                                                     const Transform<Rig, Marker>& start,
                                                     const StereoCalibration& cameras, double size_m,

@@ -11,9 +11,9 @@
 
 namespace orthonav::engine {
 
-/// Observes a session from outside and notes what was true in the simulated room at the moments
-/// that count. Nothing flows back: the session only calls it. The map drifts, so a truth in World
-/// holds only at its moment.
+/// Observes a session from outside and records the truth in the simulated room at the relevant
+/// moments. Nothing flows back: the session only calls it. The map drifts, so a truth in World is
+/// valid only at its moment.
 class GroundTruthRecorder : public SessionObserver {
  public:
   /// Both must outlive it.
@@ -26,8 +26,8 @@ class GroundTruthRecorder : public SessionObserver {
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
   void head_dropped(Timestamp time, nav::Side side) override;
 
-  /// Adds the errors to what the session knows: the TRE of each accepted registration at its
-  /// screws' entries and targets; the angle and entry error of each driven wire; the rods'.
+  /// Adds the true errors to the result: the TRE of each accepted registration at its screws'
+  /// entries and targets; the angle and entry error of each driven wire; the rods'.
   void evaluate(std::span<const LevelState> levels, OperationResult& result) const;
 
  private:
@@ -43,7 +43,7 @@ class GroundTruthRecorder : public SessionObserver {
   void note(const LevelState& level, const Transform<World, Vertebra>& estimated);
   void evaluate_level(const LevelState& state, LevelOutcome& level) const;
   void evaluate_rod(RodOutcome& rod) const;
-  /// From the World of the session, which may hang on a patient reference, to the headset's map.
+  /// From the session's World, which may be relative to a patient reference, to the headset's map.
   [[nodiscard]] Transform<World, World> map_from_session() const;
 
   const sim::SimHeadset& headset_;

@@ -10,10 +10,10 @@
 
 namespace orthonav::engine {
 
-/// How far the guide was from where it was shown when each wire pierced the bone: tip and axis as
-/// tracked and registered against the true ones, both in their vertebra's frame. It holds all that
-/// the navigation gets wrong at once (registration, map, head, tracking, the tool's description)
-/// and nothing of the surgeon or the wire. Observes from outside; nothing flows back.
+/// The deviation of the guide from its displayed pose when each wire pierced the bone: tip and axis
+/// as tracked and registered, compared with the true ones, both in their vertebra's frame. It
+/// contains all errors of navigation together (registration, map, head, tracking, the tool's
+/// description) and none of the surgeon or the wire. Observes from outside; nothing flows back.
 class GuideTruth : public LoopObserver {
  public:
   /// Headset and session must outlive it.
@@ -22,7 +22,7 @@ class GuideTruth : public LoopObserver {
 
   void stepped(const StereoFrame& frame, const Inputs& inputs, const Guidance& guidance) override;
 
-  /// Adds what was found to the screws.
+  /// Adds the deviations to the screws.
   void evaluate(OperationResult& result) const;
 
  private:

@@ -5,27 +5,26 @@
 
 namespace orthonav::engine {
 
-/// Of a study's runs: how far off the guide was shown when wires pierced the bone, screws guided
-/// more than `kSilent_mm` off across the plan without anybody being told, neither by a warning
-/// (ScrewOutcome::warned) nor by offsets shown greyed as unsure, and breaches of the cortex without
-/// a warning.
+/// Over a study's runs: the guide's display error when wires pierced the bone; screws guided more
+/// than `kSilent_mm` off, across the plan, without a warning (ScrewOutcome::warned) and without
+/// offsets greyed as unsure; and breaches of the cortex without a warning.
 struct GuidedQuality {
   static constexpr double kSilent_mm = 2.0;
 
   std::vector<double> across_mm;
   std::vector<double> tip_mm;
   std::vector<double> angle_deg;
-  std::vector<double> across_sds;  ///< of those that were shown with SDs
+  std::vector<double> across_sds;  ///< of those shown with SDs
   int silent = 0;
-  int unwarned = 0;  ///< as far off and without a warning, however the offsets were shown
+  int unwarned = 0;  ///< as far off and without a warning, regardless of how the offsets were shown
   int unsure = 0;    ///< shown with an offset greyed
   int executed = 0;
   int breaches = 0;
   int unwarned_breaches = 0;
 };
 void add_run(const nlohmann::ordered_json& run, GuidedQuality& sum);
-/// As the study's JSON has it: each count with the upper limit of its fraction (95 %, Clopper and
-/// Pearson 1934). Null where no screw has these figures.
+/// In the form of the study's JSON: each count with the upper limit of its fraction (95 %, Clopper
+/// and Pearson 1934). Null if no screw has these figures.
 [[nodiscard]] nlohmann::ordered_json guided_json(const GuidedQuality& quality);
 
 }  // namespace orthonav::engine

@@ -12,11 +12,10 @@ struct MeanInterval {
   double high = 0.0;
 };
 
-/// Of values that are independent of each other. Without an interval (both NaN) for fewer than
-/// three.
+/// For independent values. Without an interval (both NaN) for fewer than three.
 [[nodiscard]] MeanInterval mean_interval(std::span<const double> values);
 
-/// The same of a mean of `count` values, or groups of them, whose standard error is known.
+/// The same for a mean of `count` values, or groups of values, with a known standard error.
 [[nodiscard]] MeanInterval mean_interval(double mean, double standard_error, std::size_t count);
 
 /// The 97.5 % quantile of Student's t: exact for two degrees of freedom, from the normal one

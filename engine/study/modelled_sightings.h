@@ -10,25 +10,25 @@
 
 namespace orthonav::engine {
 
-/// A tag's corners in the image of a camera; nothing where it can't be found there.
+/// A tag's corners in the image of each camera; nothing if it can't be found there.
 struct ModelledSighting {
   std::optional<nav::TagCorners> left_px;
   std::optional<nav::TagCorners> right_px;
 };
 
-/// Where the two cameras of a simulated room see its tools: the true corners through the cameras as
-/// they are, with the errors of a measurement model. Draws from a stream of its own, by pair and
-/// tool, so that what is asked when changes nothing.
+/// Where the two cameras of a simulated room see its tools: the true corners through the true
+/// cameras, with the errors of a measurement model. Draws from a separate stream per pair and tool,
+/// so that the order of queries does not matter.
 class ModelledSightings {
  public:
   /// The room must outlive it.
   ModelledSightings(const sim::SimHeadset& room, const MeasurementModel& model);
 
-  /// The state of the room is that of the pair.
+  /// Looks at a pair; the state of the room must be that of the pair.
   void look(const StereoFrame& frame);
   /// In the order of the room's tools.
   [[nodiscard]] const std::vector<ModelledSighting>& seen() const { return seen_; }
-  /// Where the tool is, for a solver to start from; nothing where neither camera sees it.
+  /// Where the tool is, as a start for a solver; nothing if neither camera sees it.
   [[nodiscard]] std::optional<Transform<Rig, Marker>> near(std::size_t tool) const;
 
  private:
@@ -44,7 +44,7 @@ class ModelledSightings {
   void look_at(std::size_t tool, const StereoFrame& frame, const sim::RoomState& now);
   /// Whether it mirrors the lamp into the cameras.
   [[nodiscard]] bool is_blinded(std::size_t tool, const sim::RoomState& now) const;
-  /// `worse`: by how much a drop on the tag makes its errors grow.
+  /// `worse`: factor on the errors from a drop on the tag.
   std::optional<nav::TagCorners> with_errors(const std::optional<nav::TagCorners>& exact,
                                              nav::TagCorners& lasting,
                                              std::optional<nav::TagCorners>& before, Random& random,

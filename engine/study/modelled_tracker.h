@@ -9,12 +9,12 @@
 
 namespace orthonav::engine {
 
-/// A tracker for simulated rooms that looks at no pixel: the corners of the tags are drawn by the
-/// measurement model of the method (`measurement_model.h`), and all that follows is the method's
-/// own. `paper`: its filters and triangulation on these corners. `best`: the pose that explains
-/// them best in both cameras as they are described, its filter of poses, and its estimate of how
-/// the cameras are turned and, unless told otherwise, how large tags are. The room must outlive it,
-/// and be the one that the frames come from.
+/// A tracker for simulated rooms that uses no pixels: the corners of the tags are drawn from the
+/// measurement model of the method (`measurement_model.h`), and everything after that is the
+/// method's own. `paper`: its filters and triangulation on these corners. `best`: the pose that
+/// explains them best in both cameras as described, its filter of poses, and its estimate of the
+/// cameras' rotation and, by default, of tag sizes. The room must outlive it, and must be the
+/// source of the frames.
 Result<std::unique_ptr<nav::ToolTracker>> create_modelled_tracker(
     std::string_view method, const sim::SimHeadset& room, const StereoCalibration& calibration,
     std::vector<nav::ToolGeometry> tools, const nav::TrackerOptions& options,

@@ -6,7 +6,7 @@
 
 namespace orthonav::engine {
 
-/// Calls `work` on so many threads at once, the calling one among them, and waits for all of them.
+/// Calls `work` on this many threads at once, including the calling one, and waits for all of them.
 inline void on_threads(int count, const std::function<void()>& work) {
   std::vector<std::thread> threads;
   for (int i = 1; i < count; ++i) {

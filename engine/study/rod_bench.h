@@ -13,22 +13,21 @@
 
 namespace orthonav::engine {
 
-/// Draws of heads or touches that give no rod are made anew; with options that pass their check
-/// almost none does.
+/// Draws of heads or touches that do not allow a rod are repeated; with valid options this is rare.
 inline constexpr int kMostRodDraws = 1000;
 
 /// A factor of mean 1.
 [[nodiscard]] double rod_log_normal(Random& random, double relative_sd);
 
-/// Where one rod has to lie, and whose hands bend it.
+/// Where one rod has to lie, and the skills of the person who bends it.
 struct RodTask {
   std::vector<Vec3> heads_m;
   std::vector<Vec3> to_bone;
-  nav::RodCut cut;  ///< the true seats, the length that is right
+  nav::RodCut cut;  ///< the true seats and the right length
   double hands = 1.0;
 };
 
-/// What is done to one rod, by whom, and the time it takes. One bench per rod.
+/// The work on one rod, and the time it takes. One bench per rod.
 class RodBench {
  public:
   RodBench(const RodExperimentOptions& options, const RodTask& task, Random random)
@@ -36,7 +35,7 @@ class RodBench {
 
   [[nodiscard]] BentRod with_template();
   [[nodiscard]] BentRod by_eye();
-  /// As instructed (nav/guidance/rod_bends.h); where there are no instructions, with the template.
+  /// Bent as instructed (nav/guidance/rod_bends.h); without instructions, with the template.
   [[nodiscard]] InstructedRod with_instructions();
 
  private:
@@ -46,7 +45,7 @@ class RodBench {
   /// Cut and bent against the hologram.
   [[nodiscard]] BentRod matched(const nav::RodCut& shown);
   void bend(RodInHand& rod, std::size_t joint, Vec3 wanted_rad, double relative_sd);
-  /// Measured off the length that is shown, and cut.
+  /// Measured off by the displayed length, and cut.
   [[nodiscard]] double cut_to(double shown_m);
   using WorstBend = RodCorrection (RodInHand::*)(std::span<const Vec3> seats_m) const;
   [[nodiscard]] BentRod finished(RodInHand rod, double length_m, WorstBend worst_bend);

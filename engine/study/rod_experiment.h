@@ -31,14 +31,14 @@ struct RodStepDurations {
   double scatter = 0.3;
 };
 
-/// Whose rods, and how well the hand, the eye and the hologram do. Every line says where its value
-/// comes from; "estimate": nobody published it. SD is per axis where a vector is meant.
+/// The rods, and the accuracy of hand, eye and hologram. Every line states the source of its value;
+/// "estimate": not published. For vectors, SD is per axis.
 ///
-/// Two values are fitted, both to the *control* arm of the publication alone: `pace` to its 465 s
-/// and `eye_length_sd` to its 4 of 18 rods of the right length. What the arm with the template does
-/// is a prediction, and nothing may be tuned by it. It was made once, over 10,000 rods: 93 % of the
-/// right length (published: 15 of 18, 83 %) in 478 s (published: 374 s). The model agrees on the
-/// length; it does not explain the shorter time.
+/// Two values are fitted, both only to the *control* arm of the publication: `pace` to its 465 s
+/// and `eye_length_sd` to its 4 of 18 rods of the right length. The result of the arm with the
+/// template is a prediction, and nothing may be tuned to it. It was made once, over 10,000 rods: 93
+/// % of the right length (published: 15 of 18, 83 %) in 478 s (published: 374 s). The model agrees
+/// on the length; it does not explain the shorter time.
 struct RodExperimentOptions {
   std::size_t rods = 18;  ///< in each arm, as published
 
@@ -46,7 +46,8 @@ struct RodExperimentOptions {
   /// heads 35 mm apart that turn by 10° from one to the next, set off sideways by 2.5 mm and in
   /// depth by 1.5 mm (SD; estimates).
   std::vector<Vec3> heads_m;
-  /// From the heads to the vertebrae. Each screw is taken to point there, square to the rod.
+  /// From the heads to the vertebrae. Each screw is assumed to point there, perpendicular to the
+  /// rod.
   Vec3 to_bone{0.0, -1.0, 0.0};
   /// From the touched top to the rod's middle. Estimate: half of a tulip of 12 mm.
   double head_to_seat_m = 0.006;
@@ -58,7 +59,7 @@ struct RodExperimentOptions {
   double modulus_pa = 114e9;
   double bend_width_m = 0.020;  ///< of the rod that a bender curves
 
-  // What a right length is. The publication does not say: our definition.
+  // The definition of a right length; ours, since the publication does not state one.
 
   double overhang_m = 0.005;  ///< wanted beyond the middle of the end seats
   double shortest_overhang_m = 0.002;
@@ -68,42 +69,42 @@ struct RodExperimentOptions {
 
   double head_pick_m = sim::ErrorModel{}.head_pick_m;  ///< SD of touching the middle of a head
   double navigation_m = 0.001;                         ///< SD of where the pointer is. Estimate
-  /// SD of where the bender sees the hologram beside the rod, one for each place of it. 1.3 mm is
-  /// the low end of 1.3 to 2.3 mm (error_model.h).
+  /// SD of where the bender perceives the hologram beside the rod, one draw for each place of it.
+  /// 1.3 mm is the low end of 1.3 to 2.3 mm (error_model.h).
   double perception_m = sim::ErrorModel{}.overlay_perception_m;
-  /// A place that seems nearer to the hologram than this is left as it is. Estimate: the SD of
-  /// seeing it, rounded up.
+  /// A place that appears nearer to the hologram than this is left as it is. Estimate: the SD of
+  /// perceiving it, rounded up.
   double matched_m = 0.0015;
   int most_matching_bends = 3;  ///< for one place. Estimate
-  /// Where the template takes the rod to lie below the heads; 0 is a template through the heads.
+  /// How far below the heads the template assumes the rod to lie; 0 is a template through the
+  /// heads.
   double assumed_head_to_seat_m = 0.006;
-  double length_reading_m = 0.0005;  ///< SD of laying off the length that is read. Estimate
+  double length_reading_m = 0.0005;  ///< SD of laying off the length read. Estimate
 
   // The eye.
 
-  /// Relative SD of the length that is estimated at the heads. Fitted to 4 of 18.
+  /// Relative SD of the length estimated at the heads. Fitted to 4 of 18.
   double eye_length_sd = 0.13;
-  /// How much too far a rod is bent at first, per metre of it. Ten surgeons, without template, bent
+  /// How much too far a rod is bent at first, per metre of it. Ten surgeons without a template bent
   /// rods of 125 mm by 18.9° too far, whether 40°, 60° or 80° were wanted (Sardi et al. 2023,
-  /// Global Spine J 13:425). With them it was 0.2° too little, so none in the arm with the
-  /// template.
+  /// Global Spine J 13:425). With templates it was 0.2° too little, so none is assumed in the arm
+  /// with the template.
   double eye_overbend_rad_per_m = 2.64;
-  /// Relative SD of a bend that is made after a look at the heads, in its plane and across.
-  /// Estimate.
+  /// Relative SD of a bend made after a look at the heads, in its plane and across it. Estimate.
   double eye_bend_sd = 0.3;
   double eye_place_m = 0.002;  ///< SD of where along the rod a bend is set. Estimate
 
-  // The instructions; none of it is fitted.
+  // The instructions; none of these values is fitted.
 
   /// Relative error of the stated spring-back, SD over rods; the same for all bends of a rod.
   double spring_back_error = 0.10;
   /// SD of setting the bender. Estimate: half of a division of 2°.
   double bender_setting_rad = 1.0 * kRadiansPerDegree;
-  /// SD of turning the rod to a roll. Estimate: 0.15 mm beside the line on 5.5 mm.
+  /// SD of turning the rod to a roll. Estimate: 0.15 mm off the line on a 5.5 mm rod.
   double roll_setting_rad = 3.0 * kRadiansPerDegree;
   /// SD along an axis of one point of a stroke: noise and tremor at the pointer's end, which
-  /// scatter by up to 2.5 mm over three pairs (session_options.h). What tracking has in common from
-  /// place to place comes on top: `navigation_m` / √2, varying over 50 mm. Estimate.
+  /// scatter by up to 2.5 mm over three pairs (session_options.h). Tracking errors common to
+  /// neighbouring places are added: `navigation_m` / √2, varying over 50 mm. Estimate.
   double stroke_noise_m = 0.0015;
   int stroke_points = 300;  ///< ten seconds of pairs
   bool remeasured = true;   ///< by a stroke after each bend but the last
@@ -113,13 +114,13 @@ struct RodExperimentOptions {
   /// Relative error in judging the elastic recovery of a bend, SD. Estimate.
   double recovery_error = 0.25;
   double cutting_m = 0.0005;  ///< SD of the cut at its mark. Estimate
-  double placing_m = 0.001;   ///< SD of laying the rod so that both ends stand out alike. Estimate
-  /// Across the rod; a head that is farther off is missed. Half of the 5 mm by which a rod must not
-  /// be forced down (Paik et al. 2013, Spine J 13:1617).
+  double placing_m = 0.001;   ///< SD of laying the rod so that both ends overhang equally. Estimate
+  /// Across the rod; a head farther off than this is missed. Half of the 5 mm by which a rod must
+  /// not be forced down (Paik et al. 2013, Spine J 13:1617).
   double missed_m = 0.0025;
   int most_rebends = 8;  ///< Estimate
-  /// Multiplies the estimated durations. Fitted to 465 s: either the steps are longer than
-  /// estimated, or there are more of them than we model.
+  /// Multiplies the estimated durations. Fitted to 465 s: either the steps take longer than
+  /// estimated, or there are more of them than modelled.
   double pace = 2.16;
   /// Relative SD of the pace over rods, the same for a rod in both arms.
   double pace_sd = sim::ErrorModel{}.pace_sd;
@@ -129,11 +130,11 @@ struct RodExperimentOptions {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// By how much a bend springs back: the recovered curvature of a round rod in plastic bending,
-/// 1.70 · 2σ_y / (E d), over the width of the bend; 4.7° by default.
+/// The spring-back of a bend: the recovered curvature of a round rod in plastic bending, 1.70 ·
+/// 2σ_y / (E d), over the width of the bend; 4.7° by default.
 [[nodiscard]] double elastic_recovery_rad(const RodExperimentOptions& options);
 
-/// One rod, as it lies in the heads in the end. It is cut once: too long or too short stays so.
+/// One finished rod in the heads. It is cut only once, so a wrong length stays.
 struct BentRod {
   std::size_t heads = 0;
   double length_m = 0.0;
@@ -156,7 +157,8 @@ struct RodArm {
   double mean_head_distance_m = 0.0;
 };
 
-/// Two arms over the same spines, and with the template less without, pair by pair.
+/// Two arms over the same spines, and the differences with minus without the template, pair by
+/// pair.
 struct RodExperiment {
   RodArm with_template;
   RodArm control;
@@ -166,16 +168,16 @@ struct RodExperiment {
   MeanInterval right_length;  ///< of the fractions
 };
 
-/// One rod that was bent as instructed. Heads are missed by so much at the first try, before
-/// anything is bent again by eye.
+/// One rod bent as instructed, with its distances from the heads at the first try, before any
+/// bending by eye.
 struct InstructedRod {
   BentRod rod;
-  std::optional<std::size_t> bends;  ///< absent: no instructions, so it was bent with the template
-  double off_touched_m = 0.0;        ///< the farthest seat, of those that were touched
-  double off_heads_m = 0.0;          ///< the farthest seat, of the true ones
+  std::optional<std::size_t> bends;  ///< absent: no instructions, so bent with the template
+  double off_touched_m = 0.0;        ///< the farthest seat, as touched
+  double off_heads_m = 0.0;          ///< the farthest true seat
 };
 
-/// What instructions should reach at every head.
+/// The accuracy that instructions should reach at every head.
 inline constexpr double kInstructedLimit_m = 0.001;
 
 struct InstructedRods {
@@ -188,19 +190,18 @@ struct InstructedRods {
 };
 
 /// Bends `rods` rods with a template (heads touched, length and bends from `nav::rod_template` and
-/// `nav::rod_cut`, every bend compared with the hologram) and as many by eye, for the same heads.
-/// In both arms the rod is then tried in the heads and the worst bend bent again by eye, while a
-/// head is missed. The experiment of Wanivenhaus et al. (2019,
-/// Spine J 19:1687) with our magnitudes. The same options
-/// and seed give the same result; rod k is the same however many there are. `options.check()` must
-/// find nothing.
+/// `nav::rod_cut`, every bend compared with the hologram) and the same number by eye, for the same
+/// heads. In both arms the rod is then tried in the heads and the worst bend bent again by eye, as
+/// long as a head is missed. The experiment of Wanivenhaus et al. (2019, Spine J 19:1687) with our
+/// magnitudes. The same options and seed give the same result; rod k is the same however many there
+/// are. `options.check()` must find nothing.
 [[nodiscard]] RodExperiment run_rod_experiment(const RodExperimentOptions& options,
                                                std::uint64_t seed);
 
-/// The same rods, touched alike, bent as `nav::rod_instructions` tells, on a bender with a scale:
-/// each rod springs back by `spring_back_error` more or less than stated. After each bend but the
-/// last the rod is stroked with the pointer and the rest is instructed anew. It is then tried in
-/// the heads, and bent again by eye as in the other arms.
+/// The same rods with the same touches, bent according to `nav::rod_instructions` on a bender with
+/// a scale: each rod springs back by `spring_back_error` (SD) more or less than stated. After each
+/// bend except the last the rod is stroked with the pointer and the remaining instructions are
+/// updated. It is then tried in the heads, and bent again by eye as in the other arms.
 [[nodiscard]] InstructedRods run_instructed_rods(const RodExperimentOptions& options,
                                                  std::uint64_t seed);
 

@@ -27,11 +27,11 @@ struct RodCorrection {
 /// A rod while it is bent: straight between its bends, which are as many as the inner heads.
 class RodInHand {
  public:
-  /// Not bent yet; its places are as far apart as the seats. It begins at the first of them and
-  /// points to the second. At least two.
+  /// Not bent yet; its places are as far apart as the seats. It begins at the first seat and points
+  /// to the second. Needs at least two.
   static RodInHand straight(std::span<const Vec3> seats_m);
 
-  /// As it is: straight from each of these places to the next. At least two.
+  /// A given shape: straight from each of these places to the next. Needs at least two.
   static RodInHand along(std::vector<Vec3> places_m);
 
   [[nodiscard]] const std::vector<Vec3>& places_m() const { return places_m_; }
@@ -39,16 +39,16 @@ class RodInHand {
   [[nodiscard]] Vec3 chord_m(std::size_t i) const { return places_m_[i + 1] - places_m_[i]; }
   /// Moves all beyond place `i` along the rod.
   void lengthen(std::size_t i, double by_m);
-  /// Turns all beyond the joint about it. A rod is not twisted by a bender: that part of the turn
-  /// which goes about the rod itself is left out.
+  /// Turns everything beyond the joint about it. A bender does not twist a rod, so the component of
+  /// the turn about the rod itself is left out.
   void bend(std::size_t joint, Vec3 turn_rad);
-  /// Moves the rod as a whole to where its axis, prolonged at both ends, lies nearest to the seats
-  /// (least squares, closest points).
+  /// Moves the whole rod to where its axis, extended at both ends, lies nearest to the seats (least
+  /// squares, closest points).
   RodLie lay_on(std::span<const Vec3> seats_m);
-  /// Which bend is the most wrong as the rod lies now, and by how much. At least three seats.
+  /// The worst bend of the rod as it lies now, and its error. Needs at least three seats.
   [[nodiscard]] RodCorrection worst_bend(std::span<const Vec3> seats_m) const;
-  /// The same of a rod whose places are not those of the seats: at the place that is nearest to the
-  /// seat where the rod turns most wrongly.
+  /// The same for a rod whose places do not correspond to the seats: at the place nearest to the
+  /// seat where the rod's turn is most wrong.
   [[nodiscard]] RodCorrection worst_bend_near(std::span<const Vec3> seats_m) const;
 
  private:

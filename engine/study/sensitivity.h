@@ -10,7 +10,7 @@
 
 namespace orthonav::engine {
 
-/// How much a magnitude moves the mean error of a screw when it goes through its plausible range.
+/// How much the mean error of a screw changes when a magnitude goes through its plausible range.
 struct Sensitivity {
   std::string magnitude;
   std::string unit;
@@ -20,24 +20,25 @@ struct Sensitivity {
   /// range.
   double entry_mm = 0.0;
   double angle_deg = 0.0;
-  /// SD of the effects: large where it acts with others, or not in proportion. Regressed: half
-  /// width of the 95 % interval.
+  /// SD of the effects: large for interactions or a nonlinear effect. Regressed: half width of the
+  /// 95 % interval.
   double entry_spread_mm = 0.0;
   double angle_spread_deg = 0.0;
 };
 
 struct SensitivityOptions {
-  OperationOptions operation;  ///< its seed and the magnitudes that are studied are replaced
+  OperationOptions operation;  ///< its seed and the studied magnitudes are replaced
   int trajectories = 4;        ///< of the method
-  /// Above 0: regressed over so many random places, with one operation at each, in place of it.
+  /// Above 0: instead of that method, a regression over this many random places, with one operation
+  /// at each.
   int points = 0;
   int runs = 3;  ///< operations at each point, the same seeds everywhere
   std::uint64_t seed = 1;
   int jobs = 1;
 };
 
-/// The magnitudes with a range, but for those in which a room differs from `ErrorModel{}`: its
-/// profile has decided them (a cannula's bending, what stated navigation holds).
+/// The magnitudes with a range, except those in which a room differs from `ErrorModel{}`: these are
+/// fixed by its profile (a cannula's bending, stated navigation).
 [[nodiscard]] std::vector<const sim::Magnitude*> studied_magnitudes(const sim::ErrorModel& own);
 
 /// The method of elementary effects (Morris 1991; mu*: Campolongo 2007) over the ranges of the
@@ -47,7 +48,7 @@ Result<std::vector<Sensitivity>> sensitivities(const Case& source,
                                                const SensitivityOptions& options,
                                                const std::function<void(int, int)>& progress = {});
 
-/// What decides entry and angle most comes first.
+/// Puts the magnitudes with the largest effect on entry and angle first.
 void sort_by_effect(std::vector<Sensitivity>& found);
 
 /// A table in Markdown.

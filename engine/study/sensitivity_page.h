@@ -6,7 +6,7 @@
 
 namespace orthonav::engine {
 
-/// What `sensitivities` found as one HTML page: bars of mu* with the SD of the effects, and the
+/// The result of `sensitivities` as one HTML page: bars of mu* with the SD of the effects, and the
 /// table.
 [[nodiscard]] std::string sensitivity_html(const std::vector<Sensitivity>& found,
                                            const SensitivityOptions& options);

@@ -11,13 +11,13 @@
 
 namespace orthonav::engine {
 
-/// The simulated operating room of a case: every level lies in it, and those of the operation are
-/// operated, in its order. The tools are made exactly as `tools` says.
+/// The simulated operating room of a case: it contains every level, and those of the operation are
+/// operated in its order. The tools are made exactly as in `tools`.
 [[nodiscard]] sim::RoomDescription room_of(const Case& source, const Operation& operation,
                                            const std::vector<nav::ToolGeometry>& tools);
 
-/// Tells an operation in this room of the errors that all strokes share: the SDs that the room
-/// draws them by, not what it drew.
+/// Sets the common errors of all strokes for an operation in this room: the SDs from which the room
+/// draws them, not the drawn values.
 void tell_common_errors(const sim::ErrorModel& room, SessionOptions& session);
 
 }  // namespace orthonav::engine

@@ -6,7 +6,7 @@
 
 namespace orthonav::engine {
 
-/// How far a published system's navigation is said to be off.
+/// The stated error of a published system's navigation.
 struct StatedNavigation {
   double target_m = 0.0;   ///< root mean square error of a target, in 3-D
   double angle_rad = 0.0;  ///< SD of the rotation about each axis

@@ -9,8 +9,8 @@
 namespace orthonav::engine {
 
 /// Goes through the operations of several files in the order of their numbers, each once, and keeps
-/// one report a file in memory. Refuses files of different studies, and operations of which two
-/// files hold different results. Returns the definition of the study; `take` may refuse as well.
+/// one report per file in memory. Refuses files of different studies, and an operation with
+/// different results in two files. Returns the definition of the study; `take` may refuse as well.
 Result<std::string> for_each_operation(std::span<const std::string> paths,
                                        const std::function<Status(const StoredOperation&)>& take);
 

@@ -13,7 +13,7 @@
 
 namespace orthonav::engine {
 
-/// What two studies are compared by.
+/// The quantities by which two studies are compared.
 inline constexpr std::array<ReportQuantity, 5> kCompared = {{
     {"Trajectory error", "°", "angle_error_deg", true},
     {"Entry point error", "mm", "entry_error_mm", true},
@@ -38,14 +38,15 @@ struct ComparedQuantity {
   std::vector<PairedOperation> operations;
   double first_mean = 0.0;
   double second_mean = 0.0;
-  MeanInterval difference;  ///< first less second, over the operations
-  /// Of two one-sided tests: that the true difference is no smaller than the margin (`margin_of`).
+  MeanInterval difference;  ///< first minus second, over the operations
+  /// From two one-sided tests of the hypothesis that the true difference is at least the margin
+  /// (`margin_of`).
   double equivalent_p = 1.0;
 };
 
 /// Two studies over the same cases and seeds.
 struct StudyComparison {
-  std::string first;  ///< the methods; the names where both have the same
+  std::string first;  ///< the methods; the names if both have the same
   std::string second;
   std::size_t operations = 0;  ///< in both: same case, same seed
   std::size_t only_first = 0;
@@ -56,16 +57,17 @@ struct StudyComparison {
 };
 
 /// Pairs by case, seed, level and side. `texts`: the JSON of two studies; `names` stand for them in
-/// messages. Refuses in one line what is no study, and studies without an operation in common.
+/// messages. Refuses in one line texts that are not studies, and studies without a common
+/// operation.
 Result<StudyComparison> compare_studies(const std::array<std::string, 2>& texts,
                                         const std::array<std::string, 2>& names);
 
-/// Within which two studies are called equivalent: half a degree, half a millimetre; 5 s.
+/// The margin within which two studies count as equivalent: half a degree, half a millimetre; 5 s.
 [[nodiscard]] double margin_of(const ReportQuantity& quantity);
 
 /// A table in Markdown.
 [[nodiscard]] std::string comparison_table(const StudyComparison& comparison);
-/// docs/file-formats.md says what is in it.
+/// In the form described in docs/file-formats.md.
 [[nodiscard]] nlohmann::ordered_json comparison_json(const StudyComparison& comparison);
 
 }  // namespace orthonav::engine

@@ -8,9 +8,8 @@
 
 namespace orthonav::engine {
 
-/// What a study and its definition carry as its method: the method's name, with the patient
-/// reference where one is used, or "stated" where a published system's stated error stands in its
-/// place.
+/// The method in a study and its definition: the method's name, with the patient reference if one
+/// is used, or "stated" for a published system's stated error.
 [[nodiscard]] std::string method_label(const OperationOptions& operation);
 
 /// Everything that decides the results of a study, as one line of JSON: the version of the program,
@@ -19,14 +18,14 @@ namespace orthonav::engine {
 [[nodiscard]] std::string definition_of(std::span<const Case> cases, const StudyOptions& options);
 
 /// Joins shards in SQLite files as if they had been one study. Refuses shards of different studies,
-/// and files that are none. Operations that are in none of them count as not made.
+/// and other files. Missing operations count as not made.
 Result<std::string> merge_stores(std::span<const std::string> paths);
 
-/// The same, written as it goes: it keeps a few numbers of each operation in memory and one report
-/// a file, so that a million fit.
+/// The same, written incrementally: it keeps a few numbers per operation and one report per file in
+/// memory, so that a million operations fit.
 Status merge_stores(std::span<const std::string> paths, std::ostream& out);
 
-/// Which operations of the study are in none of these files; all of them where there is no file.
+/// The operations of the study that are in none of these files; all of them without files.
 Result<std::vector<int>> missing_operations(const std::string& definition,
                                             std::span<const std::string> paths);
 

@@ -7,8 +7,8 @@
 
 namespace orthonav::engine {
 
-/// A study's JSON, whoever wrote it: a method, and runs of which each has case, seed and levels.
-/// Refuses anything else in one line; `name` stands for it there.
+/// A study's JSON from any source: a method, and runs that each have case, seed and levels. Refuses
+/// anything else in one line; `name` stands for it in the message.
 Result<nlohmann::ordered_json> parse_study(const std::string& text, const std::string& name);
 
 }  // namespace orthonav::engine

@@ -4,7 +4,7 @@
 
 namespace orthonav::engine {
 
-/// What a study says of its accepted registrations.
+/// Statistics of a study's accepted registrations.
 struct RegistrationQuality {
   int levels = 0;
   int places = 0;          ///< entries and targets with an error and a covariance
@@ -26,7 +26,7 @@ struct RegistrationCounts {
 /// Adds a run's report.
 void add_run(const nlohmann::ordered_json& run, RegistrationCounts& counts);
 
-/// The one-sided 95 % upper limit of a fraction of which `hits` of `of` were seen, exact.
+/// The exact one-sided 95 % upper limit of a fraction, given `hits` out of `of`.
 [[nodiscard]] double upper_limit_95(int hits, int of);
 
 }  // namespace orthonav::engine

@@ -11,22 +11,22 @@
 
 namespace orthonav::engine {
 
-/// One operation of a study as it is kept.
+/// One stored operation of a study.
 struct StoredOperation {
   int index = 0;  ///< in the study, from 0
   std::string case_name;
   std::uint64_t seed = 0;
-  std::string report;  ///< report.json; empty where it could not be made
-  std::string why;     ///< then: why not
+  std::string report;  ///< report.json; empty if the operation failed
+  std::string why;     ///< why it failed
 };
 
 /// The operations of a study, or of a shard of it, in an SQLite file. Each is durable once `add`
-/// returns. While it grows, the file is named `PATH.part`; `finish` gives it its name. What is
-/// there already is resumed, so that a worker that was killed loses only what was under way.
+/// returns. While it grows, the file is named `PATH.part`; `finish` gives it its name. An existing
+/// file is resumed, so a killed worker loses only unfinished operations.
 class StudyStore {
  public:
-  /// `definition`: the text that says all that decides the results (docs/cohorts.md). Refuses a
-  /// file of another study, or that is no study, and leaves it alone.
+  /// `definition`: the text with everything that decides the results (docs/cohorts.md). Refuses a
+  /// file of another study, or one that is not a study, and leaves it unchanged.
   static Result<StudyStore> open(const std::string& path, const std::string& definition);
   /// A finished one or a part of one, to be read.
   static Result<StudyStore> read(const std::string& path);
@@ -36,11 +36,11 @@ class StudyStore {
 
   [[nodiscard]] const std::string& definition() const { return definition_; }
   [[nodiscard]] Result<std::vector<StoredOperation>> operations() const;
-  /// Those of its operations, in order, without reading them.
+  /// The numbers of its operations, in order, without reading the operations.
   [[nodiscard]] Result<std::vector<int>> numbers() const;
-  /// The one with the least number above `number`; nothing where there is none.
+  /// The one with the smallest number above `number`, if there is one.
   [[nodiscard]] Result<std::optional<StoredOperation>> next_after(int number) const;
-  /// An operation that is there already stays as it is: a task that ran twice made the same.
+  /// An existing operation is left unchanged, since a task that ran twice has the same result.
   Status add(const StoredOperation& operation);
   Status finish();
 

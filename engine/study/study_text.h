@@ -6,12 +6,12 @@
 
 namespace orthonav::engine {
 
-/// The JSON of a study (docs/file-formats.md). `planned`: how many runs there were to be; more than
-/// there are where it was stopped.
+/// The JSON of a study (docs/file-formats.md). `planned`: the number of planned runs; larger than
+/// the actual number if it was stopped.
 [[nodiscard]] std::string study_text(const std::string& method, const nlohmann::ordered_json& runs,
                                      const nlohmann::ordered_json& failed, std::size_t planned);
 
-/// JSON as a study's file writes it: indented by one space.
+/// JSON in the format of a study's file: indented by one space.
 [[nodiscard]] std::string text_of(const nlohmann::ordered_json& part);
 
 }  // namespace orthonav::engine

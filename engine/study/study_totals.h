@@ -13,13 +13,13 @@
 
 namespace orthonav::engine {
 
-/// What a study says over all its runs, added up run by run: it keeps a few numbers of each, not
+/// A study's totals over all its runs, added up run by run: it keeps a few numbers of each run, not
 /// its report.
 class StudyTotals {
  public:
   void add(const nlohmann::ordered_json& run);
-  /// The JSON of a study (docs/file-formats.md) with `runs` in its place. `planned`: how many there
-  /// were to be; more than there are where it was stopped.
+  /// The JSON of a study (docs/file-formats.md) with `runs` in its place. `planned`: the number of
+  /// planned runs; larger than the actual number if it was stopped.
   [[nodiscard]] nlohmann::ordered_json study(const std::string& method,
                                              const nlohmann::ordered_json& runs,
                                              const nlohmann::ordered_json& failed,

@@ -9,23 +9,23 @@
 
 namespace orthonav::engine {
 
-/// What a publication reports of one quantity.
+/// A publication's figures for one quantity.
 struct PublishedFigure {
   double mean = 0.0;
   std::optional<double> sd;
 };
 
-/// A published system as the simulated room can stand for it, and what it reached.
+/// A published system, as the simulated room can represent it, and its results.
 struct SystemProfile {
   std::string name;
   std::string title;
   std::string conditions;
   bool fitted = false;  ///< its figures were looked at when magnitudes were chosen
   std::string method = "best";
-  std::optional<StatedNavigation> navigation;  ///< in place of a method of ours
+  std::optional<StatedNavigation> navigation;  ///< replaces our own method
   sim::GuidanceProfile guidance = sim::GuidanceProfile::kNumbers;
   std::string instrument;
-  bool reference = false;            ///< everything hangs on the patient reference
+  bool reference = false;            ///< everything is relative to the patient reference
   std::vector<std::string> without;  ///< steps of the method (left_out.h)
   sim::Exposure exposure = sim::Exposure::kLaminae;
   sim::ErrorModel magnitudes;
@@ -37,8 +37,8 @@ struct SystemProfile {
 
   /// Its settings, for operations.
   void apply(OperationOptions& options) const;
-  /// Whether the preview can show all that an operation with it is: what its cameras see, with the
-  /// whole method, on the map and on the documented exposure.
+  /// Whether the preview can show an operation with it completely: camera images, the whole method,
+  /// relative to the map, with the documented exposure.
   [[nodiscard]] bool can_be_previewed() const;
 };
 
@@ -46,8 +46,7 @@ struct SystemProfile {
 Result<std::vector<SystemProfile>> parse_systems(std::string_view text, const std::string& name);
 /// Those of data/systems.json, which is part of the program.
 [[nodiscard]] const std::vector<SystemProfile>& published_systems();
-/// One of them by its name, or the only one in a file. Refuses in one line that names what there
-/// is.
+/// One of them by its name, or the only one in a file. An Error lists the known names in one line.
 Result<SystemProfile> system_named(const std::string& name_or_file);
 
 }  // namespace orthonav::engine

@@ -16,15 +16,16 @@ struct ClusteredMean {
   std::size_t operations = 0;
   double mean = 0.0;
   double sd = 0.0;
-  /// Of the mean, from the means of operations: the screws of one operation share their errors.
+  /// Standard error of the mean, from the means of operations, since the screws of one operation
+  /// share errors.
   double standard_error = 0.0;
   std::vector<std::vector<double>> by_operation;
 };
-/// `key` of every screw, or of every level, in a study; nothing where there is no value.
+/// The mean of `key` over every screw, or every level, in a study; nothing if there is no value.
 [[nodiscard]] std::optional<ClusteredMean> mean_over(const nlohmann::json& study,
                                                      std::string_view key, bool per_screw);
 
-/// What the room predicts of a published figure.
+/// The room's prediction of a published figure.
 struct Prediction {
   std::string quantity;  ///< "entry", "angle", "RMSE"
   std::string unit;
@@ -32,23 +33,23 @@ struct Prediction {
   double published_error = 0.0;  ///< standard error of the published mean
   bool assumed_error = false;    ///< the publication gives no SD or no number of screws
   ClusteredMean predicted;
-  double z = 0.0;  ///< difference of the means by their standard error
+  double z = 0.0;  ///< difference of the means divided by its standard error
   /// Two-sided, of the means (Welch's t; the operations count, not the screws) and of the SDs
-  /// (resampled at the published number); the second absent where no SD was published.
+  /// (resampled at the published number); the second is absent if no SD was published.
   double mean_p = 1.0;
   std::optional<double> sd_p;
-  int screws = 0;  ///< the published number, or the one that is assumed
+  int screws = 0;  ///< the published number, or an assumed one
   /// Within two standard errors.
   [[nodiscard]] bool agrees() const { return z >= -2.0 && z <= 2.0; }
-  /// SDs within a factor of 1.5; nothing where none was published.
+  /// Whether the SDs agree within a factor of 1.5; nothing if none was published.
   [[nodiscard]] std::optional<bool> spread_agrees() const;
 };
 
-/// Every figure that the system published and the study holds.
+/// Every figure that is both published for the system and in the study.
 [[nodiscard]] std::vector<Prediction> predictions_of(const SystemProfile& system,
                                                      const nlohmann::json& study);
 
-/// The table of docs/accuracy.md: a line a figure.
+/// The table of docs/accuracy.md: one line per figure.
 [[nodiscard]] std::string system_table_heading();
 [[nodiscard]] std::string system_table_rows(const SystemProfile& system,
                                             const std::vector<Prediction>& predictions);
