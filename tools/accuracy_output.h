@@ -7,7 +7,7 @@
 
 namespace orthonav::tools {
 
-/// What was tested.
+/// The subject of an accuracy test.
 struct AccuracySubject {
   std::string pointer;
   std::string method;

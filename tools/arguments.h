@@ -10,31 +10,31 @@
 
 namespace orthonav::tools {
 
-// Checks of the command line. The library on its own would take hexadecimal digits, a minus sign
+// Checks of the command line. The library itself would accept hexadecimal digits, a minus sign
 // before an unsigned number, infinities, and empty text as a number.
 
 /// A whole number in decimal digits and nothing else, from `low` to `high`.
 [[nodiscard]] CLI::Validator whole_number(
     std::int64_t low, std::int64_t high = std::numeric_limits<std::int64_t>::max());
-/// What a generator can be started from: 0 to 2^64 - 1.
+/// A seed of a random generator: 0 to 2^64 - 1.
 [[nodiscard]] CLI::Validator seed_number();
 /// A finite number with a decimal point and nothing else, from `low` to `high`.
 [[nodiscard]] CLI::Validator finite_number(double low, double high);
 /// Any text but an empty one: an unset variable in a script must not mean a default.
 [[nodiscard]] CLI::Validator some_text();
 
-// Options that mean the same wherever they are.
+// Options with the same meaning in every command.
 
 /// `-c,--case`: a case folder, or the case.json in it.
 CLI::Option* add_case_option(CLI::App& command, std::string& folder);
-/// `-m,--method`: best or paper. `what` says of what.
+/// `-m,--method`: best or paper. `what` says what the method is for.
 CLI::Option* add_method_option(CLI::App& command, std::string& method,
                                const std::string& what = "best, or paper: the published one");
 /// `-l,--levels`: labels between commas; `what` says what they are for.
 CLI::Option* add_levels_option(
     CLI::App& command, std::vector<std::string>& levels,
     const std::string& what = "levels to operate (default: the two lowest)");
-/// `-t,--tools` of commands that can do without.
+/// `-t,--tools` of commands that do not require it.
 CLI::Option* add_tools_option(CLI::App& command, std::string& file);
 /// `--reference`, of every command that runs operations.
 void add_reference_flag(CLI::App& command, bool& reference);

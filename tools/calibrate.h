@@ -17,9 +17,9 @@ void add_calibrate_tool(CLI::App& calibrate, Action& action);
 
 /// Adds the verdict and its reasons to JSON output.
 void add_judgement(const nav::Judgement& judgement, nlohmann::ordered_json& out);
-/// "pass: every figure is within its limit", a line.
+/// Prints one line: "pass: every figure is within its limit".
 void print_judgement(const nav::Judgement& judgement);
-/// Says on standard error why there is no result; returns the exit code for "no".
+/// Prints on standard error why there is no result; returns the exit code for "no".
 int refused(const std::string& reason);
 
 }  // namespace orthonav::tools

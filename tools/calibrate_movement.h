@@ -10,7 +10,7 @@
 
 namespace orthonav::tools {
 
-/// What the calibrations of a tool from a recording of it moving have in common: `calibrate pivot`
+/// The common part of calibrations of a tool from a recording of its movement: `calibrate pivot`
 /// and `calibrate axis`.
 struct MovementArguments {
   std::string recording;
@@ -30,14 +30,14 @@ struct ToolMovement {
   MeasuredPoses seen;
   std::vector<Transform<World, Marker>> poses;
 };
-/// Makes sure first that the results can be written: that must be known before the work.
+/// First checks that the results can be written, before the work is done.
 Result<ToolMovement> movement_of(const MovementArguments& arguments);
 
-/// What every such JSON begins with.
+/// The common beginning of their JSON.
 [[nodiscard]] nlohmann::ordered_json movement_json(const MovementArguments& arguments,
                                                    const ToolMovement& movement);
 
-/// Writes the tools with that change to --out, where it was asked for.
+/// Writes the changed tools to --out, if given.
 Status write_change(const MovementArguments& arguments, const engine::ToolChange& change);
 
 }  // namespace orthonav::tools

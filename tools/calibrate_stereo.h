@@ -7,8 +7,7 @@
 
 namespace orthonav::tools {
 
-/// What `calibrate stereo` was asked for: images of a chessboard, or a recording of a board of
-/// tags.
+/// The arguments of `calibrate stereo`: images of a chessboard, or a recording of a board of tags.
 struct StereoArguments {
   std::string chessboard;
   double square_mm = 25.0;

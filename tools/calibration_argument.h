@@ -8,13 +8,13 @@
 
 namespace orthonav::tools {
 
-/// `--calibration FILE`: what `orthonav calibrate stereo` found takes the place of the device's
-/// own.
+/// `--calibration FILE`: the result of `orthonav calibrate stereo` replaces the device's own
+/// calibration.
 class CalibrationArgument {
  public:
   void add_to(CLI::App& command);
-  /// The headset with that calibration, or as it is where none was named. This owns what is new:
-  /// it must outlive its use, and so must the headset.
+  /// The headset with that calibration, or unchanged if none was given. This object owns the new
+  /// headset and must outlive its use, and so must the original headset.
   Result<Headset*> on(Headset& headset);
 
  private:

@@ -13,16 +13,16 @@
 
 namespace orthonav::tools {
 
-/// What the left camera sees with the holograms over it, for somebody who looks on. It stands
-/// between the loop and the surgeon's display, which comes first and is never waited for; it draws
-/// on a thread and a device of its own, at most twice a second, and only while somebody looks.
+/// The left camera's image with the holograms over it, for onlookers. It sits between the loop and
+/// the surgeon's display, which has priority and is never delayed; it draws on its own thread and
+/// device, at most twice a second, and only while someone is looking.
 class CameraView : public engine::LoopObserver, public engine::SnapshotSink {
  public:
   struct Onlooker {
-    std::function<bool()> looks;                  ///< now; from any thread
+    std::function<bool()> looks;  ///< whether someone is looking now; from any thread
     std::function<void(const RgbaImage&)> shown;  ///< on the drawing thread
   };
-  /// `display` draws for the surgeon, borrowed; null: nothing does.
+  /// `display` draws for the surgeon; borrowed, may be null.
   CameraView(const StereoCalibration& cameras, engine::SnapshotSink* display, Onlooker onlooker);
   ~CameraView() override;
 
@@ -35,7 +35,7 @@ class CameraView : public engine::LoopObserver, public engine::SnapshotSink {
   [[nodiscard]] std::string problem() const;
 
  private:
-  /// What is behind the holograms of a snapshot.
+  /// The background of a snapshot's holograms.
   struct Behind {
     bool wanted = false;
     GreyImage left;

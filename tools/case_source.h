@@ -6,7 +6,7 @@
 
 namespace orthonav::tools {
 
-/// The case in that folder, checked; the built-in phantom where none is named.
+/// The checked case in that folder; the built-in phantom if none is given.
 Result<engine::Case> load_checked_case(const std::string& folder,
                                        engine::CaseUse use = engine::CaseUse::kOperation);
 

@@ -19,8 +19,8 @@ class StopSignals;
 /// One line on standard error, then the exit code for bad input.
 int bad_input(const std::string& message);
 
-// Each adds its subcommand to `app`; one file a subcommand. Those that take the signals finish what
-// they are at when they are to stop; the others end at once.
+// Each adds its subcommand to `app`; one file per subcommand. Those that take the signals finish
+// their current work when asked to stop; the others end at once.
 void add_calibrate_command(CLI::App& app, Action& action);
 void add_accuracy_command(CLI::App& app, Action& action);
 void add_case_command(CLI::App& app, Action& action);

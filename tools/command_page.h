@@ -6,13 +6,13 @@
 
 namespace orthonav::tools {
 
-/// One option or argument of a command, as it is told to people.
+/// One option or argument of a command, as described to people.
 struct OptionRow {
   std::vector<std::string> names;  ///< "-o", "--out"; of an argument "RECORDING"
-  std::string value;               ///< what follows it: "FILE", "best|paper"; empty: a flag
+  std::string value;               ///< its value: "FILE", "best|paper"; empty: a flag
   std::vector<std::string> choices;
   std::string text;
-  std::string default_value;  ///< empty: none, or the text says it
+  std::string default_value;  ///< empty: none, or stated in the text
   std::vector<std::string> excludes;
   std::vector<std::string> needs;
   bool required = false;
@@ -23,7 +23,7 @@ struct OptionRow {
   [[nodiscard]] bool is_flag() const { return value.empty(); }
 };
 
-/// The table of a command, from which its help, its manual page and what shells complete are made.
+/// The table of a command, from which its help, its manual page and shell completion are made.
 struct CommandPage {
   std::string way;  ///< "orthonav case make"
   std::string text;
@@ -36,12 +36,12 @@ struct CommandPage {
   [[nodiscard]] std::string usage() const;
 };
 
-/// Of a command and all below it; `way` is that of what it belongs to.
+/// The page of a command and all its subcommands; `way` is that of its parent.
 [[nodiscard]] CommandPage page_of(const CLI::App& command, const std::string& way = "");
 
-/// Those names of a row and its value: "-o, --out FILE".
+/// The names of a row and its value: "-o, --out FILE".
 [[nodiscard]] std::string heading(const OptionRow& row);
-/// Its text with what else must be known: default, what it excludes, what it needs.
+/// Its text with its default, the options it excludes and those it needs.
 [[nodiscard]] std::string explained(const OptionRow& row);
 
 }  // namespace orthonav::tools

@@ -6,7 +6,7 @@
 
 namespace orthonav::tools {
 
-/// What all strokes share, as far as the user knows it: SDs along an axis. 0: not known.
+/// Common errors of all strokes, as far as the user knows them: SDs along each axis. 0: not known.
 struct CommonErrorArguments {
   double tip_sd_mm = 0.0;
   double cameras_sd_mm = 0.0;

@@ -8,7 +8,7 @@
 
 namespace orthonav::tools {
 
-/// A key of the configuration: the option of those commands that have it.
+/// A key of the configuration: an option of the commands that have it.
 struct ConfigKey {
   const char* section;
   const char* key;
@@ -16,11 +16,11 @@ struct ConfigKey {
   bool is_file = false;  ///< relative names start from the folder of the configuration
 };
 
-/// Every key there is, by section.
+/// All keys, by section.
 [[nodiscard]] const std::vector<ConfigKey>& config_keys();
 
-/// What a configuration file (TOML) says, each key checked against the table: sections and keys
-/// that are not in it are refused by name and line, and so are values that are neither text, number
+/// The content of a configuration file (TOML), with each key checked against the table: unknown
+/// sections and keys are refused by name and line, and so are values that are neither text, number
 /// nor true or false.
 class ConfigFile {
  public:
@@ -32,8 +32,8 @@ class ConfigFile {
     int line;
   };
   [[nodiscard]] const std::vector<Value>& values() const { return values_; }
-  /// Gives the command what it has an option for and what the command line left open; keys of other
-  /// commands wait for those.
+  /// Sets the command's options that the command line did not give; keys of other commands are
+  /// ignored here.
   Status apply_to(CLI::App& command) const;
 
  private:

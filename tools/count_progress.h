@@ -8,7 +8,7 @@
 
 namespace orthonav::tools {
 
-/// How many of a known number are done, on standard error: a bar on a terminal, otherwise a plain
+/// Progress of a known number of items, on standard error: a bar on a terminal, otherwise a plain
 /// line at each quarter.
 class CountProgress {
  public:
@@ -22,8 +22,8 @@ class CountProgress {
   ProgressBar bar_;
 };
 
-/// For what tells how many are done, of how many: counts its calls, and begins with the first. Its
-/// bar ends with the last copy of it.
+/// A callback that takes the number done and the total; the bar begins with the first call and ends
+/// with the last copy of the callback.
 [[nodiscard]] std::function<void(int done, int all)> counted(const std::string& what);
 
 }  // namespace orthonav::tools

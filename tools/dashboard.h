@@ -13,28 +13,28 @@ namespace orthonav::tools {
 
 struct DashboardArguments {
   std::string at;          ///< "PORT" or "ADDRESS:PORT", port 0: any; empty: nothing is served
-  std::string token_file;  ///< with the token that a browser must bring; empty: none
+  std::string token_file;  ///< with the token that a browser must send; empty: none
 
   void add_to(CLI::App& command);
 };
 
-/// A page in a browser that shows an operation while it runs: step, numbers, levels, tools,
-/// messages and the view: what `show` was given lately, or else what the left camera sees. Served
-/// on this machine, or elsewhere to those who bring a token (`WebAccess`), and read only: nothing
-/// that a browser sends reaches the operation.
+/// A page in a browser that shows a running operation: step, numbers, levels, tools, messages and
+/// the view, which is the latest picture given to `show` or else the left camera's image. Served on
+/// this machine, or elsewhere with a token (`WebAccess`), and read-only: nothing that a browser
+/// sends reaches the operation.
 class Dashboard : public engine::LoopObserver {
  public:
   Dashboard();
   ~Dashboard() override;
-  /// Serves at the port from now on, and says where on standard error.
+  /// Starts serving at the port, and prints the address on standard error.
   Status open(const DashboardArguments& arguments);
-  /// From now on what happens in this operation, which must outlive the run.
+  /// From now on shows this operation, which must outlive the run.
   void watch(engine::AssembledOperation& operation, const engine::GradeLimits& limits);
   void watch(const engine::Session& session, const engine::GradeLimits& limits);
-  /// Whether anybody is served, and whether somebody looks at the view now. From any thread.
+  /// Whether the page is served, and whether someone looks at the view now. From any thread.
   [[nodiscard]] bool is_open() const { return server_ != nullptr; }
   [[nodiscard]] bool looked_at() const;
-  /// A picture with the holograms, shown until it is old. `what` says what it is. From any thread.
+  /// Shows a picture with the holograms until it is old. `what` describes it. From any thread.
   void show(const RgbaImage& picture, const std::string& what);
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
@@ -46,7 +46,7 @@ class Dashboard : public engine::LoopObserver {
 
   void note_changes();
 
-  std::unique_ptr<Server> server_;  ///< null: nobody looks on
+  std::unique_ptr<Server> server_;  ///< null: nothing is served
   const engine::Session* session_ = nullptr;
   engine::GradeLimits limits_;
   std::optional<Timestamp> told_at_;

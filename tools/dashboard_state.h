@@ -8,9 +8,9 @@
 
 namespace orthonav::tools {
 
-/// What somebody who looks on is told after a pair, as JSON: step, status line, the numbers as the
-/// surgeon reads them, how sure they are, levels with their screws, tools, and the newest messages.
-/// Numbers are there only where the surgeon is shown them.
+/// The state for onlookers after a pair, as JSON: step, status line, the numbers as displayed to
+/// the surgeon, their certainty, levels with their screws, tools, and the newest messages. It
+/// contains only numbers that are shown to the surgeon.
 [[nodiscard]] std::string dashboard_state(const engine::Session& session,
                                           const engine::Guidance& guidance,
                                           const engine::GradeLimits& limits, double time_s,

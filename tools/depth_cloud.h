@@ -7,14 +7,14 @@
 
 namespace orthonav::tools {
 
-/// How much of a depth stream became points, and how much did not.
+/// Statistics of a point cloud from a depth stream.
 struct CloudReport {
   std::int64_t frames_used = 0;
   std::int64_t frames_without_pose = 0;
   std::int64_t frames_in_other_maps = 0;  ///< positions in one map mean nothing in another
 };
 
-/// Appends what a frame measured, in the world; the frame must have a pose.
+/// Appends a frame's points in the world; the frame must have a pose.
 void add_points(const DepthCalibration& camera, const DepthFrame& frame, std::uint16_t max_mm,
                 engine::PointCloud& cloud);
 

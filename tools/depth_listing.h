@@ -7,8 +7,8 @@
 
 namespace orthonav::tools {
 
-/// What a recording holds of a depth stream, in words: "320x288 px, 120 frames in 24.3 s, 3 without
-/// a pose"; or why it can't be read.
+/// A depth stream of a recording, in words: "320x288 px, 120 frames in 24.3 s, 3 without a pose";
+/// or why it can't be read.
 [[nodiscard]] std::string in_words(const replay::DepthSummary& summary);
 /// The same figures as JSON.
 [[nodiscard]] nlohmann::ordered_json as_json(const replay::DepthSummary& summary);

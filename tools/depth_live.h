@@ -11,7 +11,7 @@ inline constexpr int kMostLiveFrames = 100000;
 /// Whether it is a headset's URI and not a folder.
 [[nodiscard]] bool names_headset(const std::string& source);
 
-/// `depth` of a headset that is connected: takes frames as they come. Answers with the exit code.
+/// `depth` of a connected headset: takes frames as they arrive. Returns the exit code.
 int depth_of_headset(const DepthArguments& arguments);
 
 }  // namespace orthonav::tools

@@ -11,7 +11,7 @@ namespace orthonav::tools {
 
 inline constexpr int kMaxRangeMm = 65535;
 
-/// What `depth` was asked for.
+/// The arguments of `depth`.
 struct DepthArguments {
   std::string source;  ///< a recording's folder, or a headset's URI
   std::string stream;
@@ -24,11 +24,11 @@ struct DepthArguments {
   JsonOutput json;
 
   [[nodiscard]] bool wants_picture() const { return out.ends_with(".png"); }
-  /// Of the cubes of which each keeps one point.
+  /// Side of the cubes, each of which keeps one point.
   [[nodiscard]] double cell_or_default_mm() const;
 };
 
-/// Writes one frame as a picture, or a cloud, and says so; answers with the command's exit code.
+/// Writes one frame as a picture, or a cloud, and reports it; returns the command's exit code.
 int write_picture(const DepthArguments& arguments, DepthStream stream, std::int64_t index,
                   const DepthImage& range_mm);
 int write_cloud(const DepthArguments& arguments, DepthStream stream,

@@ -6,8 +6,8 @@
 
 namespace orthonav::tools {
 
-/// Removes what an earlier demo left here: its pictures of steps or its film would pass for this
-/// run's. Only files with the names that a demo gives.
+/// Removes files of an earlier demo, whose pictures or film could be taken for this run's. Only
+/// files with names that a demo uses.
 Status remove_earlier_results(const std::filesystem::path& folder);
 
 }  // namespace orthonav::tools

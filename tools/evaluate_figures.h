@@ -7,7 +7,7 @@
 
 namespace orthonav::tools {
 
-/// SDs of a normal error to either side that hold 95 % of them.
+/// Number of SDs to either side that contain 95 % of normal errors.
 inline constexpr double k95 = 1.96;
 
 /// Words that the table and the page have in common.
@@ -27,7 +27,7 @@ void print(const engine::Evaluation& evaluation);
 [[nodiscard]] std::string text_of(const engine::UnassignedMetal& metal,
                                   const engine::Evaluation& evaluation);
 
-/// Whether every vertebra was laid on its bone and every planned screw found.
+/// Whether every vertebra was registered to its bone and every planned screw found.
 [[nodiscard]] bool is_complete(const engine::Evaluation& evaluation);
 
 }  // namespace orthonav::tools

@@ -21,14 +21,14 @@ struct EventLogArguments {
   void add_to(CLI::App& command);
 };
 
-/// A log for people: steps, messages to the surgeon and what the headset failed to do, a line each
-/// with the wall clock and the headset's. Verbose: also which tool was lost and found and what was
-/// heard, and all of it on standard error too. What became of the patient is in the journal.
+/// A log for people: steps, messages to the surgeon and failures of the headset, one line each with
+/// wall time and headset time. Verbose: also which tools were lost and found and which commands
+/// were heard, and everything on standard error too. The clinical record is the journal.
 class EventLog : public engine::LoopObserver {
  public:
   EventLog();
   ~EventLog() override;
-  /// A file that is there is continued. Nothing is asked for: nothing is opened.
+  /// Appends to an existing file. Opens nothing if no log is requested.
   Status open(const EventLogArguments& arguments);
   void say(const std::string& line);
   void warn(const std::string& line);
@@ -38,11 +38,11 @@ class EventLog : public engine::LoopObserver {
   void ended(const engine::LoopReport& report);
 
  private:
-  std::shared_ptr<spdlog::logger> log_;  ///< null: nobody reads it
+  std::shared_ptr<spdlog::logger> log_;  ///< null: no log is requested
   StatusChanges changes_;
   std::string heard_;
   bool lost_ = false;
-  engine::Saved not_kept_ = engine::Saved::kNothingNew;  ///< as was told last
+  engine::Saved not_kept_ = engine::Saved::kNothingNew;  ///< as last reported
 };
 
 }  // namespace orthonav::tools

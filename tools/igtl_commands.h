@@ -14,27 +14,26 @@
 
 namespace orthonav::tools {
 
-/// What clients of OpenIGTLink ask of an operation: a STRING `Command` with what one would say, or
-/// a STRING `Plan` with a plan's text, one screw of one level. Both go the way of what is said, to
-/// the same table and the same limits, and are journalled with the client's address. What is
-/// neither is refused, with a line in the log. Everything is answered.
+/// Requests of OpenIGTLink clients to an operation: a STRING `Command` with a spoken command, or a
+/// STRING `Plan` with a plan's text, one screw of one level. Both are handled like speech, with the
+/// same table and the same limits, and are journalled with the client's address. Anything else is
+/// refused, with a line in the log. Every request is answered.
 class IgtlCommands : public igtl::TextListener,
                      public engine::Requests,
                      public engine::SessionObserver {
  public:
-  /// Further ones are refused until these were heard.
+  /// Further requests are refused until these have been handled.
   static constexpr std::size_t kMostWaiting = 16;
 
   explicit IgtlCommands(EventLog& log) : log_(log) {}
 
-  /// From now on they are asked of this operation, which must outlive its run. Those that came
-  /// before were not meant for it.
+  /// From now on requests go to this operation, which must outlive its run. Earlier requests are
+  /// dropped.
   void watch(engine::AssembledOperation& operation) ORTHONAV_EXCLUDES(mutex_);
-  /// Whether something was asked that was not answered yet. After each pair, on the tracking
-  /// thread.
+  /// Whether a request is unanswered. Called after each pair, on the tracking thread.
   [[nodiscard]] bool owe_answers() const ORTHONAV_EXCLUDES(mutex_);
-  /// Answers to what was asked since, as whole messages; on the same thread.
-  /// `status` is what the surgeon is told by now.
+  /// Answers to new requests, as whole messages; called on the same thread. `status` is the current
+  /// status line.
   [[nodiscard]] std::vector<std::uint8_t> answers(const std::string& status, std::uint64_t stamp)
       ORTHONAV_EXCLUDES(mutex_);
 
@@ -54,25 +53,25 @@ class IgtlCommands : public igtl::TextListener,
     engine::Request request;
     Stopwatch since;
   };
-  /// What became of one that was asked.
+  /// The outcome of a request.
   struct Outcome {
     std::string client;
     std::string asked;
     bool taken = false;
-    std::string why;  ///< where it did not get to the session
+    std::string why;  ///< set if it did not reach the session
   };
   void finish();
 
   EventLog& log_;
   mutable Mutex mutex_;
-  bool watching_ ORTHONAV_GUARDED_BY(mutex_) = false;  ///< there is an operation
+  bool watching_ ORTHONAV_GUARDED_BY(mutex_) = false;  ///< whether there is an operation
   std::deque<Waiting> waiting_ ORTHONAV_GUARDED_BY(mutex_);
   std::optional<Timestamp> taken_until_ ORTHONAV_GUARDED_BY(mutex_);
   std::vector<Outcome> refused_ ORTHONAV_GUARDED_BY(mutex_);
 
-  // Of the tracking thread.
-  std::optional<Outcome> asking_;  ///< what happens next comes of it
-  bool decided_ = false;           ///< and has happened
+  // Used by the tracking thread only.
+  std::optional<Outcome> asking_;  ///< the request being handled
+  bool decided_ = false;           ///< whether it has been decided
   std::vector<Outcome> heard_;
 };
 

@@ -17,20 +17,20 @@ namespace orthonav::tools {
 /// A time as OpenIGTLink stamps it.
 [[nodiscard]] std::uint64_t igtl_stamp(Timestamp time);
 
-/// A pose as OpenIGTLink has it, mm.
+/// A pose in OpenIGTLink's form, mm.
 [[nodiscard]] igtl::TransformValues igtl_values(const Mat3& rotation, Vec3 translation_m);
 
-/// What every pair tells: a TRANSFORM for each tool that this pair measures and for each level that
-/// is registered and accepted, and the numbers of the guidance as a STRING.
+/// The messages for every pair: a TRANSFORM for each tool measured in this pair and for each
+/// registered and accepted level, and the numbers of the guidance as a STRING.
 ///
 /// Tools have their origin at their tip and their marker's axes. `LABELModel` is the model in RAS
-/// and millimetres, as 3D Slicer holds it. All of them lead to `Reference` where a patient
-/// reference is in use, else to `World`, the headset's map. Tools that are not measured are left
-/// out: version 1 can't say that a pose is old.
+/// and millimetres, as in 3D Slicer. All are relative to `Reference` if a patient reference is in
+/// use, otherwise to `World`, the headset's map. Tools that are not measured are left out, since
+/// version 1 can't mark a pose as old.
 [[nodiscard]] std::vector<std::uint8_t> igtl_frame(const engine::Session& session,
                                                    const engine::Guidance& guidance);
 
-/// Of that, the levels.
+/// Only the levels of that.
 [[nodiscard]] std::vector<std::uint8_t> igtl_models(const engine::Guidance& guidance);
 
 /// The step, the status line, and which tools are lost.

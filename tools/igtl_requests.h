@@ -7,8 +7,8 @@
 
 namespace orthonav::tools {
 
-/// What a client's text asks for, by the device that it is of: `Command` or `Plan`; still without
-/// time and client. An Error in one line where it is neither.
+/// The request in a client's text, by its device: `Command` or `Plan`; without time and client. An
+/// Error in one line for any other device.
 [[nodiscard]] Result<engine::Request> request_of(const std::string& device,
                                                  const std::string& text);
 

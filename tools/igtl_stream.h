@@ -15,7 +15,7 @@ namespace orthonav::tools {
 /// `--igtl`, of the commands that run an operation.
 struct IgtlArguments {
   std::string at;         ///< "PORT" or "ADDRESS:PORT"; empty: nothing is served
-  std::string allow;      ///< networks that may connect besides this machine
+  std::string allow;      ///< networks that may connect in addition to this machine
   bool commands = false;  ///< clients may command and plan
 
   void add_to(CLI::App& command);
@@ -25,24 +25,23 @@ struct IgtlArguments {
 /// open.
 class IgtlStream : public engine::LoopObserver {
  public:
-  /// What clients ask and what becomes of it is told to `log`, which is borrowed.
+  /// Requests of clients and their outcomes are written to `log`, which is borrowed.
   explicit IgtlStream(EventLog& log) : commands_(log) {}
-  /// Listens where the arguments say, and says so on standard error; nowhere where they say
-  /// nothing.
+  /// Starts listening if the arguments say where, and reports it on standard error.
   Status open(const IgtlArguments& arguments);
-  /// From now on what happens in this operation, which must outlive its run; it takes the place of
-  /// an earlier one, which has ended.
+  /// From now on serves this operation, which must outlive its run; it replaces an earlier one,
+  /// which must have ended.
   void watch(engine::AssembledOperation& operation);
 
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
-  /// Says on standard error how many clients there were, and why any was dropped.
+  /// Reports on standard error how many clients there were, and why any was dropped.
   void tell() const;
 
  private:
   IgtlCommands commands_;
   bool hears_ = false;                    ///< clients may command and plan
-  std::unique_ptr<igtl::Server> server_;  ///< null: nobody is served
+  std::unique_ptr<igtl::Server> server_;  ///< null: not serving
   const engine::Session* session_ = nullptr;
   std::vector<nav::ScrewPlan> told_;  ///< the screws that stand
   std::optional<Timestamp> last_status_;

@@ -21,8 +21,8 @@ struct PairedImages {
 Result<std::vector<std::string>> expanded(const std::vector<std::string>& names);
 
 /// Pairs left and right images by the numbers in their names ("left07.jpg" and "right07.jpg"), so
-/// that an image missing on one side shifts nothing. Where the names hold no numbers, or one number
-/// twice, they are paired by their order; then the counts must be equal.
+/// that an image missing on one side does not shift the others. If the names have no numbers, or a
+/// repeated one, they are paired by order; then the counts must be equal.
 Result<PairedImages> paired(const std::vector<std::string>& left,
                             const std::vector<std::string>& right);
 

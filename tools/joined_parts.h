@@ -8,7 +8,7 @@
 
 namespace orthonav::tools {
 
-/// A headset with the clicker and the voice that were asked for. It must outlive the result.
+/// The headset with the requested clicker and voice. It must outlive the result.
 Result<std::unique_ptr<JoinedHeadset>> join_parts(Headset& headset, const std::string& clicker,
                                                   const std::string& voice);
 

@@ -20,11 +20,11 @@ class JsonOutput {
   void add_to(CLI::App& command);
   /// Standard output carries the JSON and nothing else.
   [[nodiscard]] bool on_stdout() const;
-  /// Refuses a place that can't be written, before the work is done.
+  /// Refuses a destination that can't be written, before the work is done.
   [[nodiscard]] Status check() const;
   [[nodiscard]] Status write(const nlohmann::ordered_json& content) const;
-  /// The same for text that `make` writes piece by piece. Where that fails, no file is left;
-  /// standard output has what was written until then.
+  /// The same for text that `make` writes piece by piece. If that fails, no file is left, but
+  /// output already on standard output stays.
   [[nodiscard]] Status stream(const std::function<Status(std::ostream&)>& make) const;
   /// The same for text that is JSON already.
   [[nodiscard]] Status write_text(const std::string& text) const;

@@ -14,7 +14,7 @@ namespace orthonav::tools {
 /// The log of the operation that a command runs, in the folder of its results.
 class KeptOperation {
  public:
-  /// What the operation itself does not know of it.
+  /// Facts that the operation itself does not know.
   struct About {
     std::string case_name;
     std::string method;
@@ -24,32 +24,32 @@ class KeptOperation {
     bool time_stands_still = false;  ///< simulated time, while the disk writes
     bool replaces_earlier = false;   ///< overwrites the folder's earlier log
 
-    /// The patient is the simulated one of this seed.
+    /// Marks the patient as the simulated one with this seed.
     void simulate(std::uint64_t seed) {
       room = "seed " + std::to_string(seed);
       time_stands_still = true;
     }
   };
-  /// Looks for the last operation of the folder, which is then locked. An Error in one line: there
-  /// is none, it was done, or it can't be read.
+  /// Looks for the last operation in the folder and locks the folder. An Error in one line: there
+  /// is none, it was completed, or it can't be read.
   Status find(const std::string& folder);
-  /// Whether one was found that is not gone on with yet.
+  /// Whether one was found that has not been resumed yet.
   [[nodiscard]] bool found() const { return found_.has_value(); }
   /// Where patient references lie in the World of the operation found.
   [[nodiscard]] std::vector<nav::ReferencePlace> reference_places() const;
-  /// Refuses the operation found if it is not this one: another patient, plan, tool or method.
-  /// Nothing in the folder was changed by then.
+  /// Refuses the operation found if it differs in patient, plan, tool or method. Does not change
+  /// the folder.
   [[nodiscard]] Status check(const engine::Session& session, const About& about) const;
-  /// Begins the log, or goes on with the operation found and says what is left of it. From now on
-  /// the operation's status line says what is saved.
+  /// Begins the log, or resumes the operation found and reports its remainder. From now on the
+  /// operation's status line says what is saved.
   Status begin(engine::AssembledOperation& operation, const std::string& folder,
                const About& about);
   /// Null: none.
   [[nodiscard]] engine::OperationLog* log() const { return log_.get(); }
-  /// When the operation began, for people, by this machine's clock: of one that was resumed, when
-  /// it began first. Empty before `begin`.
+  /// When the operation began, for people, by this machine's clock; for a resumed one, when it
+  /// first began. Empty before `begin`.
   [[nodiscard]] const std::string& begun() const { return begun_; }
-  /// Closes it; an Error when not all was saved.
+  /// Closes the log; an Error if not everything was saved.
   Status finish(bool done, const std::string& reason);
 
  private:

@@ -13,21 +13,21 @@ namespace orthonav::tools {
 /// `--keep` and `--resume`, of the preview.
 struct KeepArguments {
   std::string keep;    ///< folder; empty: nothing is kept
-  std::string resume;  ///< folder with the operation to go on with; empty: a new one
+  std::string resume;  ///< folder with the operation to resume; empty: a new one
 
   void add_to(CLI::App& command);
 };
 
-/// Keeps the operations of a preview, which can be started again and again, in a folder: the last
-/// one under the name that `--resume` looks for.
+/// Keeps the operations of a preview, which can be restarted any number of times, in a folder: the
+/// last one under the name that `--resume` looks for.
 class KeptPreviews {
  public:
   /// Looks for the operation to be resumed, or makes the folder.
   Status open(const KeepArguments& arguments);
-  /// Goes on with that operation, the first time, or begins another.
+  /// Resumes that operation the first time, or begins another one.
   Status begin(engine::AssembledOperation& operation, const std::string& case_name,
                const std::string& method, const sim::SimHeadset* room);
-  /// After `begin`, once it has ended; says on standard error what was not saved.
+  /// Call after the operation has ended; reports on standard error what was not saved.
   void ended(const Result<engine::LoopReport>& report);
 
  private:

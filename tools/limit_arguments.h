@@ -6,7 +6,7 @@
 
 namespace orthonav::tools {
 
-/// Where a deviation is called good, poor or too much.
+/// The limits at which a deviation is called good, poor or too large.
 struct LimitArguments {
   double good_deg = 2.0;
   double poor_deg = 5.0;

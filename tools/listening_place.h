@@ -12,8 +12,8 @@ struct ListeningPlace {
   int port = 0;
 };
 
-/// From "PORT", which is of this machine alone, or "ADDRESS:PORT". `option` stands in front of an
-/// Error, as in "--web".
+/// From "PORT", which is for this machine only, or "ADDRESS:PORT". `option`, such as "--web",
+/// begins an Error.
 Result<ListeningPlace> listening_place(const std::string& option, const std::string& text);
 
 }  // namespace orthonav::tools

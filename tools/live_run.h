@@ -37,8 +37,8 @@ struct RunArguments {
   bool stats = false;
 };
 
-/// Runs an operation on the headset asked for, from opening it to the files left at the end.
-/// Returns the exit code.
+/// Runs an operation on the given headset, from opening it to writing the results. Returns the exit
+/// code.
 int run_live(const RunArguments& arguments, StopSignals& signals);
 
 }  // namespace orthonav::tools

@@ -8,7 +8,7 @@ namespace orthonav::tools {
 enum class Finding {
   kFound,
   kMissing,   ///< needed by the demo
-  kOptional,  ///< absent, and needed only by something else than the demo
+  kOptional,  ///< absent, but not needed by the demo
 };
 
 /// Something that a machine may provide.

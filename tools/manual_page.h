@@ -13,7 +13,7 @@ struct ManualPage {
   std::string roff;
 };
 
-/// Of a command and all below it. `release` is what the foot of each page says.
+/// The pages of a command and all its subcommands. `release` goes into the footer of each page.
 [[nodiscard]] std::vector<ManualPage> manual_pages(const CommandPage& page,
                                                    const std::string& release);
 

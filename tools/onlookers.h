@@ -19,28 +19,28 @@ struct OnlookerArguments {
   void add_to(CLI::App& command);
 };
 
-/// Whoever looks on while an operation runs, and has no part in it: the log, the dashboard, the
-/// clients of OpenIGTLink.
+/// Observers of a running operation that have no part in it: the log, the dashboard, the
+/// OpenIGTLink clients.
 class Onlookers {
  public:
   Status open(const OnlookerArguments& arguments);
-  /// From now on they see this operation, which must outlive its run. `limits` decide what is
+  /// From now on they observe this operation, which must outlive its run. `limits` decide what is
   /// green.
   void watch(engine::AssembledOperation& operation, const engine::GradeLimits& limits);
-  /// For a run that has no picture of its own: draws the holograms over the left camera for the
-  /// dashboard. `display` is where the operation draws for the surgeon; null: nowhere.
+  /// For a run without its own picture: draws the holograms over the left camera's image for the
+  /// dashboard. `display` draws for the surgeon; may be null.
   void draw_over_camera(engine::AssembledOperation& operation, const StereoCalibration& cameras,
                         engine::SnapshotSink* display);
   /// Whether they want snapshots.
   [[nodiscard]] bool draw() const { return web_.is_open(); }
   /// Takes pictures of what the surgeon sees, for the dashboard.
   [[nodiscard]] PictureSink* pictures() { return &pictures_; }
-  /// The run is over; null: it failed. Says on standard error who was served.
+  /// The run is over; null: it failed. Reports on standard error which clients were served.
   void ended(const engine::LoopReport* report);
   [[nodiscard]] EventLog& log() { return log_; }
 
  private:
-  /// Hands pictures on while somebody looks.
+  /// Passes on pictures while someone is looking.
   class Pictures : public PictureSink {
    public:
     explicit Pictures(Dashboard& web) : web_(web) {}

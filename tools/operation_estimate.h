@@ -4,11 +4,11 @@
 
 namespace orthonav::tools {
 
-/// How much of an operation is done, by the time that its parts usually take.
+/// The fraction of an operation that is done, from the usual duration of its parts.
 class OperationEstimate {
  public:
-  /// In [0, 1]; it grows with every moment that a step lasts, and never falls: a level that is
-  /// stroked again takes longer, nothing is undone.
+  /// In [0, 1]; it grows during every step and never falls: stroking a level again takes longer but
+  /// undoes nothing.
   [[nodiscard]] double fraction(Timestamp time, const engine::Guidance& guidance);
 
  private:

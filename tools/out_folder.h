@@ -9,10 +9,11 @@
 namespace orthonav::tools {
 
 /// A folder for results. Folders that it made and that are still empty at the end are removed, so
-/// that a command that is refused leaves nothing.
+/// that a refused command leaves nothing.
 class OutFolder {
  public:
-  /// Makes the folder and those above it, durable. `option` stands for it in a refusal: "--out".
+  /// Makes the folder and its parents, durably. `option`, such as "--out", stands for it in an
+  /// error message.
   static Result<OutFolder> create(const std::string& option, const std::string& path);
   OutFolder(OutFolder&& other) noexcept;
   OutFolder& operator=(OutFolder&& other) = delete;
@@ -26,7 +27,7 @@ class OutFolder {
       : path_(std::move(path)), made_(std::move(made)) {}
 
   std::filesystem::path path_;
-  std::vector<std::filesystem::path> made_;  ///< by this, the innermost first
+  std::vector<std::filesystem::path> made_;  ///< by this object, the innermost first
 };
 
 }  // namespace orthonav::tools

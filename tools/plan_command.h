@@ -10,7 +10,7 @@
 
 namespace orthonav::tools {
 
-/// What `plan auto` and `plan check` have in common.
+/// The common arguments of `plan auto` and `plan check`.
 struct PlanArguments {
   std::string case_folder;          ///< empty: the built-in phantom
   std::vector<std::string> levels;  ///< empty: all

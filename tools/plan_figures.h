@@ -10,15 +10,15 @@
 
 namespace orthonav::tools {
 
-/// A screw of a plan, as it is judged.
+/// A judged screw of a plan.
 struct JudgedScrew {
   nav::ScrewPlan plan;
   std::optional<nav::Clearance> clearance;  ///< none: the plan states no radius
   bool listed = true;                       ///< its size is in the list of screws
-  /// Of a planned one: how it was found.
+  /// For a screw from `plan auto`: how it was found.
   std::optional<nav::PlannedScrew> found;
 
-  /// It leaves the bone, and the plan does not say why it may.
+  /// Whether it leaves the bone without a stated reason.
   [[nodiscard]] bool breaks_through() const;
 };
 
@@ -37,7 +37,7 @@ struct JudgedLevel {
 [[nodiscard]] JudgedScrew judged(const nav::SurfaceIndex& bone, const nav::ScrewPlan& screw,
                                  const engine::ScrewSizes& sizes);
 
-/// A line a screw on standard output, lengths in mm and angles in degrees.
+/// Prints one line per screw on standard output, lengths in mm and angles in degrees.
 void print(const std::vector<JudgedLevel>& levels);
 
 [[nodiscard]] nlohmann::ordered_json as_json(const std::vector<JudgedLevel>& levels);

@@ -8,10 +8,10 @@
 
 namespace orthonav::tools {
 
-/// Shows an operation on the headset's own display, where it takes pixels or objects.
+/// Shows an operation on the headset's own display, if it takes pixels or objects.
 class Presenting {
  public:
-  /// Whether there is anything to draw for.
+  /// Whether the headset has such a display.
   [[nodiscard]] static bool is_possible(Headset& headset) {
     return headset.pixels() != nullptr || headset.objects() != nullptr;
   }
@@ -19,7 +19,7 @@ class Presenting {
   Status begin(Headset& headset, engine::AssembledOperation& operation);
   /// Where the operation draws; null: nowhere.
   [[nodiscard]] engine::SnapshotSink* sink() const { return sink_; }
-  /// Says what went wrong, and, if asked, what frames took, on standard error.
+  /// Reports problems and, if requested, frame times on standard error.
   void end(bool stats);
 
  private:

@@ -5,7 +5,7 @@
 
 namespace orthonav::tools {
 
-/// On what paper, and where the PDF goes.
+/// The paper, and where the PDF goes.
 struct PageArguments {
   std::string page = "A4";
   bool landscape = false;

@@ -12,7 +12,7 @@ namespace orthonav::tools {
 /// terminal, otherwise a plain line at each step of the workflow.
 class OperationProgress : public engine::LoopObserver {
  public:
-  /// Also passes on what it hears. `next` is borrowed and may be null.
+  /// Also forwards everything to `next`, which is borrowed and may be null.
   explicit OperationProgress(engine::LoopObserver* next) : next_(next) {}
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;

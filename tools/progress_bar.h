@@ -19,7 +19,7 @@ class ProgressBar {
   [[nodiscard]] bool on_terminal() const { return terminal_; }
   /// Draws, unless it did so a moment ago; `now` draws regardless. `fraction` is in [0, 1].
   void draw(double fraction, const std::string& what, bool now = false);
-  /// Leaves the line to what is printed next.
+  /// Clears the line for other output.
   void clear();
   [[nodiscard]] double elapsed_s() const;
 
@@ -29,8 +29,8 @@ class ProgressBar {
   std::optional<Stopwatch> since_drawn_;  ///< absent until the first time
 };
 
-/// What is drawn: a bar, per cent and text, within the columns; of a narrow terminal the text
-/// alone, cut off.
+/// The drawn text: a bar, per cent and text, within the columns; on a narrow terminal only the
+/// text, cut off.
 [[nodiscard]] std::string bar_text(double fraction, const std::string& what, std::size_t columns);
 
 }  // namespace orthonav::tools

@@ -9,8 +9,8 @@
 
 namespace orthonav::tools {
 
-/// Records what the surgeon could read while each screw was guided: the angle, and how far the tip
-/// was from the entry. Passes on what it hears.
+/// Records the readings shown while each screw was guided: the angle, and the distance of the tip
+/// from the entry. Forwards everything it observes.
 class ReadingCurves : public engine::LoopObserver {
  public:
   /// Borrowed, may be null.

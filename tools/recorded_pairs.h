@@ -21,7 +21,7 @@ struct MeasuredPoses {
   std::int64_t pairs = 0;  ///< of the recording
   std::vector<nav::TrackedPose> world_from_marker;
 };
-/// Tracks one tool through a recording; refuses an unknown method and what can't be read.
+/// Tracks one tool through a recording; refuses an unknown method and unreadable files.
 Result<MeasuredPoses> measured_poses(const std::string& recording, const std::string& method,
                                      const nav::ToolGeometry& tool,
                                      const nav::TrackerOptions& options = {});

@@ -8,13 +8,13 @@
 
 namespace orthonav::tools {
 
-/// Tells at once that the recording of a running operation has stopped: on its status line, in its
+/// Reports at once if the recording of a running operation has stopped: on its status line, in its
 /// log and on standard error.
 class RecordingWatch : public engine::SaveWatch, public engine::LoopObserver {
  public:
   /// `log` must outlive it.
   explicit RecordingWatch(EventLog& log) : log_(log) {}
-  /// From now on. `saving` is what the status line said of saving until then; null: nothing. All
+  /// Starts watching. `saving` is the status line's source for saving until then; may be null. All
   /// must outlive the operation's run.
   void watch(engine::AssembledOperation& operation, const replay::RecordingHeadset& recorder,
              const engine::SaveWatch* saving);

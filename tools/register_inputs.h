@@ -14,8 +14,8 @@ namespace orthonav::tools {
 struct RegisterArguments {
   std::string model;
   std::string points;
-  std::string units;  ///< empty: what the files say, else mm
-  std::string frame;  ///< empty: what the files say, else LPS
+  std::string units;  ///< empty: as stated by the files, or else mm
+  std::string frame;  ///< empty: as stated by the files, or else LPS
   std::vector<std::string> plans;
   std::string case_folder;
   std::string level;  ///< of the case; with neither a folder nor a model, of the built-in phantom
@@ -25,9 +25,9 @@ struct RegisterArguments {
   std::string cache;  ///< folder of prepared models; empty: nothing is kept
 };
 
-/// What is registered to what.
+/// The points and the level to be registered.
 struct RegisterInputs {
-  engine::OperatedLevel level;  ///< its label is empty where no case names it
+  engine::OperatedLevel level;  ///< its label is empty if no case names it
   std::vector<Point<World>> points;
   engine::FigureFrame frame;
 };

@@ -9,18 +9,18 @@
 
 namespace orthonav::tools {
 
-/// The heads of a rod as a command is told of them.
+/// The arguments for a rod's heads.
 struct RodHeadArguments {
   std::string heads;
   std::string units = "mm";
   double diameter_mm = 5.5;
 
   void add_to(CLI::App& command);
-  /// A message names the file.
+  /// An error message names the file.
   [[nodiscard]] Result<nav::RodTemplate> rod() const;
 };
 
-/// With what it is bent, and where it lies below the heads.
+/// The bender and rod, and where the rod lies below the heads.
 struct RodBendingArguments {
   std::string to_bone;  ///< empty: the heads' points are the seats
   double seat_mm = 6.0;

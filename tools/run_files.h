@@ -15,22 +15,23 @@
 
 namespace orthonav::tools {
 
-/// Says on standard error where journals of earlier sessions in the same folder are, if there were.
+/// Reports on standard error where earlier journals in the same folder were moved, if there were
+/// any.
 void tell_of_earlier(const engine::Journal& journal);
 
-/// What `run` leaves behind: journal and reports in one folder, a recording in another, each only
-/// where it was asked for.
+/// The files that `run` writes: journal and reports in one folder, a recording in another, each
+/// only if requested.
 class RunFiles {
  public:
-  /// Makes the folder and opens the journal in it. An operation that is resumed goes on without a
-  /// journal where none can be made, and says so.
+  /// Makes the folder and opens the journal in it. A resumed operation continues without a journal
+  /// if none can be made, and reports that.
   Status open_journal(const std::string& folder, const engine::JournalHeader& header);
   /// The operation to be resumed, which is looked for before anything else.
   [[nodiscard]] KeptOperation& kept() { return kept_; }
-  /// Begins the log of the operation in that folder, or goes on with the one that was found.
+  /// Begins the log of the operation in that folder, or resumes the one found.
   Status keep(engine::AssembledOperation& operation, const KeptOperation::About& about);
-  /// Lets the operation go on through a recorder of `headset`; all, and `log`, must outlive this.
-  /// Last of all, since the files of a recording that was begun stay.
+  /// Routes the operation through a recorder of `headset`; all arguments, including `log`, must
+  /// outlive this. Call it last, since the files of a begun recording stay.
   Status record(engine::AssembledOperation& operation, const std::string& folder, Headset& headset,
                 const std::vector<nav::ToolGeometry>& tools, EventLog& log);
   /// Null: none.
@@ -39,7 +40,8 @@ class RunFiles {
   /// Writes the reports first, so that no later failure can lose the measurements, then closes the
   /// rest. Returns the first failure.
   Status finish(const engine::OperationResult& result, const std::string& report, bool simulated);
-  /// Closes what was written before a run failed for `reason`; returns it with what failed here.
+  /// Closes the files of a run that failed for `reason`; returns the reason, with any failures
+  /// here.
   [[nodiscard]] std::string close(std::string reason);
 
  private:

@@ -26,8 +26,8 @@ struct DrawnCylinder {
 };
 
 /// The slice as an SVG with the scan embedded as PNG (from -250 HU black to 2,000 HU white), the
-/// outline of the bone as it was laid there, and the cylinders: as rectangles where they lie along
-/// it, as circles where it cuts across them.
+/// outline of the registered bone, and the cylinders: as rectangles if they lie along the slice, as
+/// circles if it cuts across them.
 Result<std::string> slice_svg(const engine::ScanField& scan, const nav::TriangleMesh& bone,
                               const Transform<engine::Scan, Vertebra>& scan_from_vertebra,
                               const SlicePlane& plane, std::span<const DrawnCylinder> cylinders);

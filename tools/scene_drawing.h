@@ -12,16 +12,16 @@
 
 namespace orthonav::tools {
 
-/// The label of whatever the headset's scene shows: it knows nothing of holograms.
+/// The single label of everything in the headset's scene, which does not distinguish holograms.
 inline constexpr render::Label kRemoteLabel = 1;
 
-/// What a stand-in's scene shows, for our renderer. Cylinders become lines as wide, which face the
-/// eye as cylinders seem to; texts are written in our font, upright to the head.
+/// A stand-in's scene for our renderer. Cylinders become lines of the same width, which face the
+/// eye; texts are drawn in our font, upright to the head.
 [[nodiscard]] render::Scene drawn_scene(const hl2ss::UnityObjects& objects,
                                         const render::Head& head);
 
-/// Writes pictures of what a stand-in's scene shows, from between the wearer's eyes, with a
-/// HoloLens 2's field of view and pixels.
+/// Writes pictures of a stand-in's scene, seen from between the wearer's eyes, with a HoloLens 2's
+/// field of view and pixels.
 class ScenePictures {
  public:
   /// An Error when the folder can't be made, or no Vulkan device is suitable.

@@ -7,7 +7,7 @@
 
 namespace orthonav::tools {
 
-/// The screws that there are, as a command is told of them.
+/// The argument for the available screws.
 struct ScrewArguments {
   std::string file;  ///< empty: the built-in list
 

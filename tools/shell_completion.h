@@ -6,7 +6,7 @@
 
 namespace orthonav::tools {
 
-/// What bash completes of a command and all below it; zsh reads the same with `bashcompinit`.
+/// The bash completion of a command and all its subcommands; zsh reads it with `bashcompinit`.
 [[nodiscard]] std::string bash_completion(const CommandPage& page);
 
 }  // namespace orthonav::tools

@@ -8,16 +8,16 @@
 
 namespace orthonav::tools {
 
-/// What became new with a pair, for those who tell of an operation line by line. Allocates nothing
-/// where nothing is new.
+/// The changes with a pair, for line-by-line reports of an operation. Allocates nothing if nothing
+/// changed.
 class StatusChanges {
  public:
   void look(Timestamp time, const engine::StatusLine& status);
   /// Since the first pair.
   [[nodiscard]] double time_s() const { return time_s_; }
-  /// The step, where it is another one; else empty.
+  /// The step, if it changed; otherwise empty.
   [[nodiscard]] const std::string& new_step() const { return new_step_; }
-  /// The message to the surgeon, where it is another one; else empty.
+  /// The message to the surgeon, if it changed; otherwise empty.
   [[nodiscard]] const std::string& new_message() const { return new_message_; }
 
  private:

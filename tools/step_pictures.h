@@ -22,7 +22,7 @@ class StepPictures : public PictureSink {
  public:
   explicit StepPictures(std::filesystem::path folder) : folder_(std::move(folder)) {}
   Status picture(const RgbaImage& image, const engine::Snapshot& snapshot) override;
-  /// Writes what is still kept.
+  /// Writes the last picture.
   Status finish();
   [[nodiscard]] const std::vector<StepPicture>& written() const { return written_; }
 
@@ -35,7 +35,7 @@ class StepPictures : public PictureSink {
   Status failure_;  ///< the first picture that could not be written
 };
 
-/// Every picture into the video.
+/// Writes every picture into the video.
 class VideoPictures : public PictureSink {
  public:
   explicit VideoPictures(engine::VideoWriter& writer) : writer_(writer) {}

@@ -10,11 +10,10 @@
 
 namespace orthonav::tools {
 
-/// What SIGINT (Ctrl-C) and SIGTERM do to a command. They end it at once: files that it had not
-/// finished have no name yet and go with it. A command that would rather finish what it is at says
-/// so
-/// (`let_finish`, `on_stop`): then the first signal asks for an end, and the second ends it at
-/// once. Made by main before any other thread, since threads inherit that the signals are blocked.
+/// How SIGINT (Ctrl-C) and SIGTERM affect a command. By default they end it at once: unfinished
+/// files have no name yet and disappear with it. A command that needs to finish its work says so
+/// (`let_finish`, `on_stop`): then the first signal asks it to end, and the second ends it at once.
+/// Made by main before any other thread, since threads inherit the blocked signals.
 class StopSignals {
  public:
   StopSignals();
@@ -22,15 +21,15 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  /// From now on the first signal only asks; the command looks at `caught`.
+  /// From now on the first signal only asks; the command checks `caught`.
   void let_finish();
-  /// The same, and calls `stop` at the first signal, on a thread of its own; at once, where that
-  /// was already. Null: nobody is to be asked any more.
+  /// The same, and calls `stop` at the first signal, on a separate thread, or at once if the signal
+  /// came already. Null: no function is called any more.
   void on_stop(std::function<void()> stop);
   /// "SIGINT" or "SIGTERM"; absent before the first.
   [[nodiscard]] std::optional<std::string> caught() const;
-  /// What a command returns that a signal stopped, as a shell has it: 128 and the signal's number.
-  /// 0 before the first signal.
+  /// The exit code of a command stopped by a signal, as in a shell: 128 plus the signal's number. 0
+  /// before the first signal.
   [[nodiscard]] int exit_code() const;
 
  private:

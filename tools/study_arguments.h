@@ -12,7 +12,7 @@
 
 namespace orthonav::tools {
 
-/// What `study` was asked for.
+/// The arguments of `study`.
 struct StudyArguments {
   std::string cases;
   std::string method = "best";
@@ -37,7 +37,7 @@ struct StudyArguments {
   int slurm_tasks = 0;
   std::string report;  ///< HTML page; empty: none
   std::vector<std::string> merged;
-  std::string merged_report;  ///< HTML page of what was joined; empty: none
+  std::string merged_report;  ///< HTML page of the joined study; empty: none
   JsonOutput merged_json{JsonOutput::Unasked::kStdout};
 };
 
@@ -45,27 +45,27 @@ void add_options(CLI::App& study, StudyArguments& arguments);
 /// A case folder, or a folder of case folders in the order of their names; the phantom without one.
 Result<std::vector<engine::Case>> cases_in(const std::string& folder);
 Result<engine::StudyOptions> options_of(const StudyArguments& arguments);
-/// The words of the command line that say what an operation is: all but how many, which seeds, and
-/// where they go. For a shell, with folders as absolute paths.
+/// The words of the command line that define an operation: all except number, seeds and output. For
+/// a shell, with folders as absolute paths.
 [[nodiscard]] std::string operation_words(const StudyArguments& arguments,
                                           const std::string& cases);
 
-/// How many operations at once: as asked for, or as many as there are cores.
+/// Number of simultaneous operations: as given, or the number of cores.
 [[nodiscard]] int jobs_or_cores(int jobs);
 /// An operation of a study: the built-in tools, no pictures.
 [[nodiscard]] engine::OperationOptions study_operation();
-/// The same of a published system, in the measurement model.
+/// The same for a published system, in the measurement model.
 [[nodiscard]] engine::OperationOptions modelled_operation(const engine::SystemProfile& system);
-/// A path that holds wherever a command is called.
+/// The path made absolute.
 [[nodiscard]] std::string absolute_path(const std::string& path);
-/// A profile the same way: its name, or its file by an absolute path.
+/// The same for a profile: its name, or the absolute path of its file.
 [[nodiscard]] std::string profile_word(const std::string& name_or_file);
 /// A text as one word of a shell; in quotes where it needs them.
 [[nodiscard]] std::string quoted(const std::string& text);
-/// Writes a study as JSON and, where `page` names one, as a page; the exit code.
+/// Writes a study as JSON and, if `page` is not empty, as a page; returns the exit code.
 int write_study(const JsonOutput& json, const std::string& page, const std::string& study,
                 const engine::ReplayCommand& replay = {});
-/// The same of shards in SQLite files; without a page, none of them is held in memory.
+/// The same for shards in SQLite files; without a page, none of them is held in memory.
 int write_joined(const JsonOutput& json, const std::string& page,
                  std::span<const std::string> files, const engine::ReplayCommand& replay = {});
 

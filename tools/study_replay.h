@@ -8,7 +8,7 @@ namespace orthonav::tools {
 
 /// The command that repeats an operation of this study. On pixels the preview shows it. In the
 /// measurement model it is a study of that one operation, with the preview of the same room on
-/// pixels as a comment. It is that study alone, on pixels too, where the preview can't show the
+/// pixels as a comment. It is only that study, also on pixels, if the preview can't show the
 /// operation: with stated navigation, a reference, steps left out, another exposure, or guidance,
 /// instrument, tools or magnitudes other than the profile's.
 [[nodiscard]] engine::ReplayCommand replay_of(const StudyArguments& arguments,

@@ -4,7 +4,7 @@
 
 namespace orthonav::tools {
 
-/// `study rods`: rods bent with the template beside rods bent by eye.
+/// `study rods`: rods bent with the template compared with rods bent by eye.
 void add_rods_command(CLI::App& study, Action& action);
 
 }  // namespace orthonav::tools

@@ -4,7 +4,7 @@
 
 namespace orthonav::tools {
 
-/// `study systems`: what the simulated room predicts of published systems, as a table.
+/// `study systems`: the simulated room's predictions for published systems, as a table.
 void add_systems_command(CLI::App& study, Action& action);
 
 }  // namespace orthonav::tools

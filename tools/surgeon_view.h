@@ -28,10 +28,10 @@ struct SurgeonViewOptions {
   std::string device;            ///< part of a Vulkan device's name; empty: the best
 };
 
-/// What the surgeon's right eye sees of a simulated room: the site with the holograms added to it,
-/// as in an optical see-through display. The room is drawn from where the head truly is, the
-/// holograms from where the headset believes it is: tracking error and map drift appear as they
-/// would in reality. It only observes; nothing from it reaches the engine.
+/// The surgeon's right eye's view of a simulated room: the site with the holograms added to it, as
+/// in an optical see-through display. The room is drawn from where the head truly is, the holograms
+/// from where the headset believes it is: tracking error and map drift appear as they would in
+/// reality. It only observes; nothing from it reaches the engine.
 class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
  public:
   /// An Error when no Vulkan device is suitable.
@@ -39,7 +39,8 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
 
   /// Before the loop starts. Borrowed.
   void look_at(sim::SimHeadset& headset, const sim::ErrorModel& error_model);
-  /// One that fails, as on a full disk, gets no more: that is said on standard error.
+  /// A sink that fails, as on a full disk, gets no more pictures; this is reported on standard
+  /// error.
   void send_to(PictureSink* sink) { sinks_.push_back(sink); }
 
   void captured(const engine::Snapshot& snapshot) override;
@@ -74,7 +75,7 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
   render::Scene drawn_;
   engine::LabelLayout labels_;
   engine::WorldBehindCombiner combiner_;
-  render::Scene head_lost_;  ///< what is left to draw then
+  render::Scene head_lost_;  ///< drawn while the head is not located
 };
 
 }  // namespace orthonav::tools

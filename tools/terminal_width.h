@@ -5,7 +5,8 @@
 
 namespace orthonav::tools {
 
-/// Columns of the terminal that a file descriptor is; nothing where it is none, or does not say.
+/// Columns of a file descriptor's terminal; nothing if it is not a terminal or the width is
+/// unknown.
 [[nodiscard]] std::optional<std::size_t> terminal_columns(int fd);
 
 }  // namespace orthonav::tools

@@ -7,28 +7,28 @@
 
 namespace orthonav::tools {
 
-/// Where a page is served, and who may read it. At an address that other machines reach, a request
-/// must bring a token; the protocol is plain HTTP, so whoever is on the way can read it.
+/// Where a page is served, and who may read it. At an address that other machines can reach, a
+/// request needs a token; the protocol is plain HTTP, so anyone on the network path can read it.
 class WebAccess {
  public:
-  /// `at`: "PORT" of this machine alone, or "ADDRESS:PORT". `token_file` holds the token, 16 to 128
-  /// letters, digits, '-' and '_', and must be readable by its owner alone; where there is no such
-  /// file, it is made with a token at random. Empty: whoever reaches the port may read. Refuses an
-  /// address of other machines without a token.
+  /// `at`: "PORT" for this machine only, or "ADDRESS:PORT". `token_file` holds the token, 16 to 128
+  /// letters, digits, '-' and '_', and must be readable only by its owner; if it does not exist, it
+  /// is made with a random token. Empty: anyone who reaches the port may read. Refuses an address
+  /// that other machines can reach without a token.
   static Result<WebAccess> of(const std::string& at, const std::string& token_file);
 
   [[nodiscard]] const std::string& host() const { return host_; }
   [[nodiscard]] int port() const { return port_; }  ///< 0: any that is free
   [[nodiscard]] bool asks_for_a_token() const { return !token_.empty(); }
-  /// Where a browser goes first, with the token. What is served at every address of this machine
-  /// is found by the machine's name.
+  /// The first URL for a browser, with the token. If served at all addresses of this machine, the
+  /// machine's name is used.
   [[nodiscard]] std::string url(int port) const;
-  /// In constant time for every text of the right length.
+  /// Compares in constant time for every text of the right length.
   [[nodiscard]] bool is_token(std::string_view text) const;
-  /// Whether a request with these headers may read: it has the token as a cookie, or, where none is
-  /// asked for, it comes from a page of this machine itself, and of no site whose name leads here.
+  /// Whether a request with these headers may read: it has the token as a cookie, or, without a
+  /// token, its Host is this machine itself, not another site's name that resolves to it.
   [[nodiscard]] bool lets_in(std::string_view host, std::string_view cookies) const;
-  /// What a browser that brought the token keeps: for this site alone, and out of scripts' reach.
+  /// The cookie for a browser that sent the token: only for this site, and inaccessible to scripts.
   [[nodiscard]] std::string cookie() const;
 
  private:

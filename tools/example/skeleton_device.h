@@ -12,8 +12,8 @@ namespace mine {
 
 using namespace orthonav;
 
-/// The least that a headset must do. It shows an empty room at 30 pairs a second for as many pairs
-/// as its URI says: "skeleton:90".
+/// A minimal headset. It shows an empty room at 30 pairs a second for as many pairs as its URI
+/// says: "skeleton:90".
 class SkeletonDevice : public Headset, Clock, StereoCamera, HeadTracker, Clicker, Voice, Display {
  public:
   SkeletonDevice(StereoCalibration calibration, int pairs)
@@ -51,7 +51,7 @@ class SkeletonDevice : public Headset, Clock, StereoCamera, HeadTracker, Clicker
   [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
     return {{}, at, at <= now() ? PoseStatus::kMeasured : PoseStatus::kPredicted};
   }
-  /// Past it a pose is predicted, for a short time; then the head is lost.
+  /// After it, a pose is predicted for a short time; then the head is lost.
   [[nodiscard]] std::optional<Timestamp> do_newest_measurement() const override { return now(); }
   Status do_poll(Timestamp, std::vector<ClickerEvent>&) override { return {}; }
   Status do_poll(Timestamp, std::vector<Phrase>&) override { return {}; }

@@ -17,7 +17,7 @@ struct ErrorSource {
   double least = 0.0;
 };
 
-/// The ones that a person would change, in groups.
+/// The ones that users may want to change, in groups.
 [[nodiscard]] std::span<const ErrorSource> error_sources();
 
 }  // namespace orthonav::preview

@@ -8,9 +8,9 @@
 
 namespace orthonav::preview {
 
-/// Decides when the next camera pair may come: paused, step by step, at some speed relative to wall
-/// time, or as fast as possible. Where the headset's clock follows its pairs, as in the simulated
-/// room and in a recording, a closed gate stops that clock. Thread-safe.
+/// Decides when the next camera pair may pass: paused, step by step, at some speed relative to wall
+/// time, or as fast as possible. If the headset's clock follows its pairs, as in the simulated room
+/// and in a recording, a closed gate stops that clock. Thread-safe.
 class Gate {
  public:
   /// `wall` must outlive it.
@@ -27,7 +27,7 @@ class Gate {
   void run_to(std::int64_t pairs);
   /// Pairs that passed since the start.
   [[nodiscard]] std::int64_t passed() const;
-  /// Paused, and no pair is on its way either.
+  /// Whether it is paused and no pair is on its way.
   [[nodiscard]] bool at_rest() const;
   /// Another stream begins: counts from 0 and forgets any goal.
   void restart();
@@ -37,7 +37,7 @@ class Gate {
   [[nodiscard]] bool may_pass();
   /// A pair with this time went through.
   void pass(Timestamp time);
-  /// None came.
+  /// There was no pair.
   void none_came();
 
  private:

@@ -9,9 +9,9 @@
 
 namespace orthonav::preview {
 
-/// What was typed since the devices were last asked: one thread types, another asks. It has no
-/// times: what is typed happens at the moment for which the devices are asked next, by the
-/// headset's own clock, so that nothing happens while that clock stands still.
+/// Input typed since the devices were last polled: one thread types, another polls. It has no
+/// times: input takes effect at the time of the next poll, by the headset's own clock, so nothing
+/// happens while that clock stands still.
 class Keyboard {
  public:
   void button(bool down);
@@ -47,7 +47,7 @@ class SharedClicker : public Clicker {
   std::vector<ClickerEvent> offered_;
 };
 
-/// Both voices; what is typed comes after what was heard.
+/// Both voices; typed phrases come after heard ones.
 class SharedVoice : public Voice {
  public:
   SharedVoice(Voice& inner, Keyboard& keyboard) : inner_(inner), keyboard_(keyboard) {}

@@ -15,22 +15,22 @@
 
 namespace orthonav::preview {
 
-/// What is to be previewed; made once, used for every start.
+/// The previewed operation; made once, used for every start.
 struct OperationSource {
   std::string headset = "sim:";
   engine::Case source;
   engine::Method method;
   engine::Operation operation;  ///< its models are shared by all starts
   engine::ScrewSizes screw_sizes = engine::ScrewSizes::built_in();
-  std::string tools_file;  ///< empty: what the headset itself knows of its tools
+  std::string tools_file;  ///< empty: the headset's own description of its tools
   /// Called with the operation of every start before it runs, and with the simulated room, if there
-  /// is one; an Error refuses the start. Null: nobody looks on.
+  /// is one; an Error refuses the start. May be null.
   std::function<Status(engine::AssembledOperation&, const sim::SimHeadset*)> assembled;
-  /// Called with how each of them ended, on its thread, while the operation is still there.
+  /// Called with the outcome of each operation, on its thread, while it still exists.
   std::function<void(const Result<engine::LoopReport>&)> ended;
 };
 
-/// An operation that runs in a thread of its own: pairs come through the gate, moments go into the
+/// An operation that runs in its own thread: pairs come through the gate, moments go into the
 /// timeline. Only these and the keyboard connect to it.
 class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink {
  public:
@@ -43,12 +43,12 @@ class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink
   LiveOperation& operator=(const LiveOperation&) = delete;
 
   void start();
-  /// Nothing more will come.
+  /// Whether it has ended.
   [[nodiscard]] bool ended() const { return ended_; }
-  /// How it ended; read once it has.
+  /// How it ended; valid once it has.
   [[nodiscard]] const Status& outcome() const { return outcome_; }
   [[nodiscard]] std::string name() const { return headset_->name(); }
-  /// Null where the headset is no simulated one.
+  /// Null unless the headset is simulated.
   [[nodiscard]] const sim::SimHeadset* room() const { return room_; }
 
  private:
@@ -68,7 +68,7 @@ class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink
   Timeline& timeline_;
   std::unique_ptr<engine::AssembledOperation> operation_;
   Moment moment_;  ///< of the pair being worked on
-  /// Here and not where pictures are drawn: moments are looked at in any order.
+  /// Kept here rather than with the drawing, since moments may be viewed in any order.
   engine::LabelLayout labels_;
   std::vector<render::View> eye_;
   std::function<void(const Result<engine::LoopReport>&)> tell_end_;

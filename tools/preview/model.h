@@ -12,7 +12,7 @@
 
 namespace orthonav::preview {
 
-/// How a moment is looked at. While neither moment nor look changes, the picture doesn't either.
+/// How a moment is viewed. The picture changes only with the moment or the look.
 struct Look {
   Camera camera;
   HologramFilter holograms;
@@ -20,7 +20,7 @@ struct Look {
   friend bool operator==(const Look&, const Look&) = default;
 };
 
-/// What only the surrounding program can do.
+/// Requests that only the surrounding program can fulfil.
 struct Wishes {
   bool screenshot = false;
   bool video = false;  ///< begin, or end
@@ -28,9 +28,9 @@ struct Wishes {
   bool quit = false;
 };
 
-/// What keys, mouse and panel do, without a window: all of them and scripts make the same calls.
-/// Time advances through the gate, clicks and words go to the keyboard, and the timeline shows the
-/// past. One thread.
+/// The actions of keys, mouse and panel, without a window: these and scripts make the same calls.
+/// Time advances through the gate, clicks and phrases go to the keyboard, and the timeline shows
+/// the past. One thread.
 class PreviewModel {
  public:
   /// All three must outlive it.
@@ -49,7 +49,7 @@ class PreviewModel {
   void set_speed(double speed) { gate_.set_speed(speed); }
   void orbit(bool orbits);
   void mute(bool muted) { keyboard_.mute(muted); }
-  /// As the surgeon says it; an empty phrase is none.
+  /// Says a phrase as the surgeon; an empty phrase is ignored.
   void say(const std::string& phrase);
   /// Where the newest picture was seen from; an orbit begins there.
   void seen_from(const Transform<sim::Room, Eye>& stage_from_eye) { eye_ = stage_from_eye; }
@@ -58,7 +58,8 @@ class PreviewModel {
 
   /// The moment to be shown; null before the first.
   [[nodiscard]] std::shared_ptr<const Moment> shown() const;
-  /// Paused, and nothing that has passed is still being worked on: two pictures of it are the same.
+  /// Whether it is paused and no passed pair is still being processed, so that the picture no
+  /// longer changes.
   [[nodiscard]] bool at_rest() const;
   /// Whether another moment than the newest is shown.
   [[nodiscard]] bool looks_back() const;

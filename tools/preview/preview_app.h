@@ -22,7 +22,7 @@ struct PreviewOptions {
   StageOptions stage;
   std::string out = "orthonav-preview";  ///< folder of screenshots and videos
   bool paused = false;                   ///< from the first pair on
-  double speed = 1.0;                    ///< 0: as fast as it goes
+  double speed = 1.0;                    ///< 0: as fast as possible
 };
 
 /// The window, the operation in it, and everything in between. Main thread.

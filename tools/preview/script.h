@@ -14,7 +14,7 @@
 
 namespace orthonav::preview {
 
-/// What a script asks of the program that runs it.
+/// What a script needs from the program that runs it.
 struct ScriptStage {
   std::function<void(int width_px, int height_px)> resize;
   std::function<void(const std::string& name)> screenshot;
@@ -34,12 +34,13 @@ struct ScriptLine {
 /// the same calls as keys and mouse.
 class Script {
  public:
-  /// Refuses what it does not know, with file and line.
+  /// Refuses unknown lines, with file and line number.
   static Result<Script> load(const std::filesystem::path& path);
   static Result<Script> parse(const std::string& text, const std::string& name);
 
-  /// Performs the lines that are due, up to the first that must wait; the next call goes on there.
-  /// `now` is wall time: a line that waits too long is an Error. `ended`: nothing more will come.
+  /// Performs the lines that are due, up to the first one that must wait; the next call continues
+  /// there. `now` is wall time: a line that waits too long is an Error. `ended`: nothing more will
+  /// come.
   Status go_on(PreviewModel& model, const ScriptStage& stage, Timestamp now, bool ended);
   [[nodiscard]] bool done() const { return next_ == lines_.size(); }
 
@@ -48,7 +49,7 @@ class Script {
       : name_(std::move(name)), lines_(std::move(lines)) {}
   [[nodiscard]] Status check(const ScriptLine& line) const;
   [[nodiscard]] Error error(const ScriptLine& line, const std::string& why) const;
-  /// False: it waits, and is to be asked again.
+  /// False: it must wait and be tried again.
   bool perform(const ScriptLine& line, PreviewModel& model, const ScriptStage& stage);
   bool reaches_pair(std::int64_t pair, bool absolute, PreviewModel& model);
 

@@ -31,7 +31,7 @@ class StageView {
   /// An Error when no Vulkan device is suitable.
   static Result<std::unique_ptr<StageView>> create(const StageOptions& options);
 
-  /// What is behind the holograms from now on.
+  /// Sets the background of the holograms from now on.
   void look_at_room(const sim::SimHeadset& headset);
   void look_at_recording(RecordedImages images);
 

@@ -17,7 +17,7 @@
 
 namespace orthonav::preview {
 
-/// What was measured of a tool.
+/// A tool's state.
 struct ToolSeen {
   std::string name;
   PoseStatus status = PoseStatus::kLost;

@@ -11,7 +11,7 @@ namespace orthonav::bench {
 /// One weight for each command of the workflow, and after them one for each shared feature.
 using Weights = std::vector<double>;
 
-/// An example as the regression sees it.
+/// An example for the regression.
 struct Row {
   std::vector<double> inputs;  ///< as many as there are weights
   bool command = false;
@@ -25,8 +25,8 @@ struct Row {
 /// constant, whose index is `constant`.
 [[nodiscard]] Weights fit(const std::vector<Row>& rows, std::size_t constant);
 
-/// Lowers the constant until no more than `allowed` of the other sayings pass, and prints what
-/// passes then.
+/// Lowers the constant until at most `allowed` of the other sayings pass, and prints which pass
+/// then.
 void draw_line(const std::vector<Row>& rows, std::size_t allowed, std::size_t constant,
                Weights& weights);
 

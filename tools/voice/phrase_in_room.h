@@ -25,7 +25,7 @@ inline PhraseInRoom phrase_in_room(std::span<const std::int16_t> said, test::Noi
   return {track.with_noise(noise, snr_db, random, babble), end};
 }
 
-/// The segments that a fresh segmenter cuts out, each with its sound.
+/// The segments that a new segmenter finds, each with its sound.
 inline std::vector<voice::SpeechSegment> cut_out(std::span<const std::int16_t> sound) {
   voice::SpeechSegmenter segmenter;
   std::vector<voice::SpeechSegment> told;

@@ -11,8 +11,8 @@ namespace orthonav::bench {
 /// logarithms, senones first.
 [[nodiscard]] std::string sphinx_mixture_weights(const voice::MixtureWeights& own);
 
-/// The change that leads from a model's own weights by this fraction of the way to sphinxtrain's
-/// results at `path`: the weights, or counts of them, in the same order. Refuses another model's.
+/// The change from a model's own weights by this fraction of the way to sphinxtrain's results at
+/// `path`: the weights, or their counts, in the same order. Refuses results of another model.
 [[nodiscard]] Result<std::string> sphinx_mixture_change(const voice::MixtureWeights& own,
                                                         const std::string& path, double fraction);
 

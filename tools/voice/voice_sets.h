@@ -9,7 +9,7 @@ namespace orthonav::bench {
 inline constexpr std::string_view kTestVoices[] = {
     "en-us",     "en-us+f2", "gmw/en+m3", "en-gb-x-rp+f1", "en-gb-scotland+m1",
     "en-029+f3", "en-us+m7"};
-/// Chosen before they were heard; nothing was tuned on them.
+/// Chosen before listening to them; nothing was tuned on them.
 inline constexpr std::string_view kFreshVoices[] = {
     "en-us+john",   "gmw/en+m8",        "en-gb-x-rp+iven",        "en-gb-scotland+gustave",
     "en-029+pedro", "en-us-nyc+miguel", "en-gb-x-gbclan+grandma", "en-gb-x-gbcwmd+announcer"};

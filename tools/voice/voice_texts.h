@@ -4,8 +4,8 @@
 
 namespace orthonav::bench {
 
-/// What people say in an operating room without commanding anything. Two sets that share no
-/// sentence: thresholds were chosen on the first, the second is what is reported.
+/// Talk in an operating room without commands. Two sets without common sentences: thresholds were
+/// chosen on the first, and results are reported on the second.
 inline constexpr std::string_view kTuningTalk[] = {
     "We saved the scan from yesterday in the same folder.",
     "Could you pass me the small retractor, please?",
