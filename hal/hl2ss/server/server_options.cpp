@@ -3,7 +3,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// A slice has at least one row of macroblocks; images need enough pixels with a direction.
+/// A slice has at least one row of macroblocks, and enough pixels must keep a direction.
 constexpr int kMaxSlices = 30;
 constexpr int kMaxUnmappedPx = 100;
 
