@@ -66,7 +66,7 @@ std::vector<std::string> Case::check(CaseUse use) const {
     if (level.label.empty()) {
       problems.push_back(which + " has no label");
     } else if (!is_part_of_a_file_name(level.label)) {
-      // Files are written that are called by it.
+      // Files are named after the label.
       problems.push_back("label \"" + level.label +
                          "\" must have 64 characters at most, no / and no . in front");
     }

@@ -37,7 +37,7 @@ void stack_if_they_overlap(Case& subject) {
   }
 }
 
-/// The matrix of one level in metres and LPS; the node notes what is wrong with it.
+/// The matrix of one level in metres and LPS; problems are noted on the node.
 Transform<Spine, Vertebra> spine_from_model(const JsonNode& node, double metres_per_unit,
                                             Axes axes) {
   std::array<double, 16> rows = pose_rows(node, "spine_from_model", metres_per_unit);
@@ -50,7 +50,7 @@ Transform<Spine, Vertebra> spine_from_model(const JsonNode& node, double metres_
   return rigid_pose<Spine, Vertebra>(node, "spine_from_model", rows);
 }
 
-/// Of the case's own numbers; the node notes what is wrong with them.
+/// Metres per unit of the case's own numbers; problems are noted on the node.
 std::optional<double> declared_metres_per_unit(const JsonNode& root) {
   const std::string units = root.text_or("units", "mm");
   const auto metres_per_unit = metres_per_unit_from(units);

@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 
 std::string plan_name(const std::string& label) { return label + ".plan.json"; }
 
-/// Labels become names of files.
+/// Labels become file names.
 Status check_label(const std::string& label) {
   const bool plain = !label.empty() && std::all_of(label.begin(), label.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '-' || c == '_';
@@ -32,7 +32,7 @@ std::string in(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
 }
 
-/// Whether the value under the key is a text, or not there.
+/// Whether the value under the key is a text or absent.
 bool may_be_text(const ordered_json& object, const char* key) {
   return !object.contains(key) || object[key].is_string();
 }
@@ -45,7 +45,7 @@ bool is_case(const ordered_json& root) {
          });
 }
 
-/// What `case.json` says, with the names of the plans that are to come.
+/// The content of `case.json`, with the names of the plans that will be written.
 Result<ordered_json> with_plan_names(const std::string& path, const Case& planned) {
   const auto text = read_text(path);
   if (!text) {

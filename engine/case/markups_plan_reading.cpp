@@ -11,7 +11,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// The radius that `diameter=5.5` states, in the file's unit; 0 where it does not.
+/// The radius from `diameter=5.5`, in the file's unit; 0 if none is stated.
 double stated_radius(const Markup& markup) {
   for (const std::string& text : {lower_case(markup.description), lower_case(markup.name)}) {
     std::size_t at = text.find("diameter");
@@ -32,7 +32,7 @@ double stated_radius(const Markup& markup) {
   return 0.0;
 }
 
-/// What `accept_breach=` in the description says, up to the end of the line.
+/// The text after `accept_breach=` in the description, up to the end of the line.
 std::string accepted_breach(const Markup& markup) {
   constexpr std::string_view kKey = "accept_breach=";
   const std::size_t key = markup.description.find(kKey);
@@ -44,7 +44,7 @@ std::string accepted_breach(const Markup& markup) {
   return reason;
 }
 
-/// A name may be of any length and hold anything; a message is one line.
+/// A name may have any length and content; a message is one line.
 std::string quoted(const std::string& name) {
   constexpr std::size_t kMost = 60;
   std::string shown = name.size() <= kMost ? name : name.substr(0, kMost) + "...";
@@ -64,11 +64,11 @@ std::optional<nav::Side> side_of(const LineName& name) {
 struct Pair {
   const Markup* markup = nullptr;
   std::string where;
-  std::string name;  ///< tells side and level
+  std::string name;  ///< gives side and level
   std::vector<MarkupPoint> points;
 };
 
-/// Lines; where there are none, the points of lists in pairs.
+/// The lines; if there are none, the points of the lists in pairs.
 std::vector<Pair> pairs_of(const MarkupsFile& file) {
   std::vector<Pair> pairs;
   for (const Markup& markup : file.markups) {

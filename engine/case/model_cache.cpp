@@ -13,14 +13,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The whole file; nothing when there is none, an Error when it can't be read.
+/// The whole file; empty if there is none, an Error if it can't be read.
 Result<std::optional<std::string>> content_of(const std::string& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (status.type() == fs::file_type::not_found) {
     return std::optional<std::string>();
   }
-  // Whoever reads a pipe may wait for ever.
+  // Reading a pipe might never return.
   if (!fs::is_regular_file(status)) {
     return Error{"is no file"};
   }

@@ -41,7 +41,7 @@ Result<Plan> checked(const std::string& path, Plan plan) {
   return plan;
 }
 
-/// Why two files can't be one plan, up to the other's name; nothing where they can.
+/// Why two files can't form one plan, up to the other's name; empty if they can.
 std::optional<std::string> unlike(const Plan& one, const Plan& other) {
   if (!one.level.empty() && !other.level.empty() && one.level != other.level) {
     return "plans " + other.level + ", must be " + one.level + " as in";
@@ -67,7 +67,7 @@ void read_frame(const JsonNode& root, Plan& plan) {
   plan.axes = axes.value_or(Axes::kLps);
 }
 
-/// The reason stands where a report shows it: one line.
+/// The reason must be one line, since reports show it in one.
 std::string accepted_breach(const JsonNode& screw) {
   constexpr std::size_t kMost = 200;
   constexpr const char* kKey = "accept_breach";
@@ -120,7 +120,7 @@ Result<Plan> plan_from_json(const Result<JsonDocument>& document) {
   return plan;
 }
 
-/// The place tells the side; what the file says may only confirm it, unless the place leaves it
+/// The screw's place decides the side; the file can only confirm it, unless the place leaves it
 /// open.
 Result<nav::Side> side_on(const nav::TriangleMesh& bone, const StatedScrew& screw) {
   const OffMidline off = off_midline(bone, screw.entry, screw.target);
@@ -144,7 +144,7 @@ Result<nav::Side> side_on(const nav::TriangleMesh& bone, const StatedScrew& scre
 }  // namespace
 
 Result<Plan> load_plan(const std::string& path) {
-  // The legacy format holds points without lines: nothing says which of them make a screw.
+  // The legacy format holds points without lines, so it does not say which of them form a screw.
   if (lower_case(path).ends_with(".fcsv")) {
     return Error{path + ": an .fcsv file holds no lines; save the screws as .mrk.json lines"};
   }

@@ -10,7 +10,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// Where x, y, z and, if any, the region stand in a line.
+/// The columns of x, y, z and, if any, the region.
 struct Columns {
   std::array<std::size_t, 3> coordinate = {0, 1, 2};
   std::optional<std::size_t> region;

@@ -18,7 +18,7 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double) && std::is_trivially_copyable_v
 constexpr std::string_view kMagic = "ORTHONAV-MODEL\r\n";
 constexpr std::uint32_t kLayout = 1;
 
-/// Numbers alone, without gaps between them: in the file as in memory.
+/// Only numbers, without gaps between them: the same in the file as in memory.
 struct Header {
   char magic[16] = {};
   std::uint32_t layout = kLayout;
@@ -44,7 +44,7 @@ void append(std::string& out, std::span<const T> numbers) {
   out.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
 }
 
-/// Moves `from` behind what was read.
+/// Moves `from` past the bytes that were read.
 template <class T>
 std::vector<T> take(std::string_view& from, std::uint64_t count) {
   std::vector<T> numbers(count);
@@ -69,7 +69,7 @@ Status check(const Header& header, std::size_t size, const MeshKey& key) {
       key) {
     return Error{"is of another mesh"};
   }
-  // Each alone first, so that the sum can't overflow.
+  // Each is checked on its own first, so that the sum can't overflow.
   if (header.reachable > size || header.closest > size || header.distances > size ||
       sizeof(Header) + header.reachable * sizeof(std::uint32_t) + header.closest * sizeof(Vec3) +
               header.distances * sizeof(float) + kCrcBytes !=

@@ -18,7 +18,7 @@ Spine::const_iterator named(const Spine& spine, const std::string& label) {
                       [&label](const SpineLevel& level) { return level.label == label; });
 }
 
-/// Both are there.
+/// Both must be in the spine.
 int levels_between(const Spine& spine, const std::string& one, const std::string& other) {
   const auto a = named(spine, one);
   const auto b = named(spine, other);

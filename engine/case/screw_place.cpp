@@ -10,7 +10,7 @@ namespace orthonav::engine {
 namespace {
 
 constexpr double kMaxEntryOffBone_m = 0.010;
-/// A tip may stand out of the front by its radius, or by this where the plan states less.
+/// A tip may stick out of the front by its radius, or by this if the radius is smaller.
 constexpr double kMinTargetOutside_m = 0.003;
 constexpr double kMinScrewLength_m = 0.010;
 constexpr double kMaxScrewLength_m = 0.120;

@@ -13,7 +13,7 @@ constexpr double kSameDiameter_m = 0.00005;
 constexpr double kSameLength_m = 0.0005;
 constexpr double kAnotherLength_m = 0.00005;
 
-/// The nearest value beyond `from`, by more than `apart`; none where there is none.
+/// The nearest value that is more than `apart` beyond `from`, if any.
 std::optional<double> next_of(const std::vector<double>& ascending, double from, bool up,
                               double apart) {
   std::optional<double> found;

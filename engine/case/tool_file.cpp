@@ -68,7 +68,7 @@ nav::ToolGeometry tool_from(const JsonNode& node, ToolTags tags) {
       tool.more_markers.push_back(attached_from(more));
     }
   }
-  // A reference is nothing but its marker.
+  // A reference consists only of its marker.
   if (tool.role != nav::ToolRole::kReference || node.has("tip_mm")) {
     tool.tip_in_marker = {node.vec3("tip_mm") * kMetresPerMm};
   }

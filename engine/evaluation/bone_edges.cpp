@@ -12,11 +12,11 @@ namespace orthonav::engine {
 namespace {
 
 constexpr double kStep_m = 0.0003;
-constexpr double kHalfWidth_m = 0.00075;  ///< of the difference that tells a slope
+constexpr double kHalfWidth_m = 0.00075;  ///< of the difference that gives a slope
 constexpr double kLeastFall_hu = 120.0;
 constexpr double kLeastBone_hu = 150.0;
 
-/// One vertex of each cube that has one with a normal.
+/// One vertex with a normal from each cube that has one.
 std::vector<std::size_t> one_in_each_cube(const nav::TriangleMesh& mesh,
                                           const std::vector<Vec3>& areas_m2, double side_m) {
   std::map<std::array<int, 3>, std::size_t> cubes;
@@ -35,7 +35,7 @@ std::vector<std::size_t> one_in_each_cube(const nav::TriangleMesh& mesh,
   return out;
 }
 
-/// The values along a normal, from -reach to reach; nothing where metal or the border is near.
+/// The values along a normal, from -reach to reach; empty if metal or the border is near.
 struct Profile {
   std::vector<double> hu;
   bool masked = false;
@@ -56,7 +56,7 @@ void read_profile(const ScanField& scan, const MetalMask& mask, Vec3 place_m, Ve
   }
 }
 
-/// The steepest fall outward, to a part of a step.
+/// The steepest fall outward, to a fraction of a step.
 std::optional<double> steepest_fall_m(const Profile& profile, int reach, double within_m) {
   const int half = static_cast<int>(std::lround(kHalfWidth_m / kStep_m));
   const auto fall = [&](int step) {
@@ -71,7 +71,7 @@ std::optional<double> steepest_fall_m(const Profile& profile, int reach, double 
     const double f = fall(step);
     const double off = step * kStep_m / within_m;
     const double score = f * (1.0 - 0.5 * off * off);
-    // What is not a number compares false.
+    // NaN compares false.
     if (f >= kLeastFall_hu && score > best_score &&
         profile.hu[static_cast<std::size_t>(step + reach - half)] >= kLeastBone_hu) {
       best = step;
@@ -89,7 +89,7 @@ std::optional<double> steepest_fall_m(const Profile& profile, int reach, double 
   return std::isfinite(part) ? std::optional((*best + part) * kStep_m) : std::nullopt;
 }
 
-/// Widens what is masked along one line of voxels by `far` to either side.
+/// Widens the masked voxels along one line by `far` to either side.
 void spread(std::size_t start, std::size_t stride, std::size_t count, std::size_t far,
             std::vector<bool>& masked) {
   std::vector<bool> line(count);
@@ -129,7 +129,7 @@ MetalMask::MetalMask(const ScanField& scan, double margin_m)
   for (std::size_t voxel = 0; voxel < masked_.size(); ++voxel) {
     masked_[voxel] = scan.value(voxel) >= kMetal_hu;
   }
-  // Spread along one index after another, a voxel becomes a box.
+  // Spreading along one index after another turns a voxel into a box.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto far =
         static_cast<std::size_t>(std::ceil(margin_m / grid_.spacing_m[static_cast<int>(axis)]));

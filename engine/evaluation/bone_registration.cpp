@@ -24,7 +24,7 @@ Vec3 centre_of(const std::vector<SurfaceSample>& samples) {
   return sum / static_cast<double>(samples.size());
 }
 
-/// How an edge's distance falls with a motion (t, w) of the vertebra about its centre, in its
+/// How an edge's distance decreases with a motion (t, w) of the vertebra about its centre, in its
 /// frame.
 Vector7 gradient_of(const SurfaceSample& sample, Vec3 centre_m) {
   const Vec3 arm = (sample.place_m - centre_m).cross(sample.normal);
@@ -81,7 +81,7 @@ nav::PoseUncertainty uncertainty_of(const Equations& equations, Vec3 centre_m) {
 }
 
 bool is_determined(const Equations& equations) {
-  // Metres and radians are alike at a lever of 20 mm.
+  // Metres and radians count alike at a lever of 20 mm.
   Vector7 scale;
   scale << 1.0, 1.0, 1.0, 50.0, 50.0, 50.0, 1.0;
   const Matrix7 scaled = scale.asDiagonal() * equations.information * scale.asDiagonal();
@@ -89,7 +89,7 @@ bool is_determined(const Equations& equations) {
   return equations.weights > 20.0 && eigen.eigenvalues()(0) > 0.003 * equations.weights;
 }
 
-/// What is seen at the end.
+/// Fills in the figures at the end and judges them.
 void judge(const BoneEdges& seen, std::size_t samples, BoneRegistration& out) {
   constexpr double kNear_m = 0.001;
   std::vector<double> off_m;

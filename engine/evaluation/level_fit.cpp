@@ -9,8 +9,8 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr double kFirst_m = 0.007;  ///< how far along a normal an edge is sought to start with
-constexpr double kNext_m = 0.0035;  ///< and from a start that is good already
+constexpr double kFirst_m = 0.007;  ///< how far along a normal an edge is searched at first
+constexpr double kNext_m = 0.0035;  ///< and from a start that is already good
 
 using Poses = std::vector<Transform<Scan, Vertebra>>;
 
@@ -45,7 +45,7 @@ bool same_place(const Hypothesis& a, const Hypothesis& b, std::span<const LevelS
   return false;
 }
 
-/// The best start and what it gives.
+/// The best start and its result.
 Result<Hypothesis> best_start(const ScanField& scan, const MetalMask& mask,
                               std::span<const LevelSurface> levels,
                               std::span<const Transform<Scan, Spine>> starts) {
@@ -88,7 +88,7 @@ void keep_better(const ScanField& scan, const MetalMask& mask, const LevelSurfac
   }
 }
 
-/// A refused level that an accepted one puts outside the scan is refused for that reason.
+/// If an accepted level shows that a refused one lies outside the scan, that becomes the reason.
 void say_what_lies_outside(const ScanField& scan, std::span<const LevelSurface> levels,
                            std::vector<LaidLevel>& laid) {
   for (std::size_t i = 0; i < laid.size(); ++i) {
@@ -111,7 +111,7 @@ void say_what_lies_outside(const ScanField& scan, std::span<const LevelSurface> 
   }
 }
 
-/// How far a level lies from where another one puts it, per level between them.
+/// How far a level lies from where another one predicts it, per level between them.
 struct Step {
   double shift_m = 0.0;
   double turn_rad = 0.0;

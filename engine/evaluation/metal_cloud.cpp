@@ -8,10 +8,9 @@ namespace orthonav::engine {
 namespace {
 
 constexpr int kFarthest = 150;  ///< slabs to either side
-constexpr int kGap = 3;         ///< slabs without metal that do not end it yet
+constexpr int kGap = 3;         ///< slabs without metal that do not yet end it
 
-/// A voxel counts in each slab by how much of it lies there: voxels are not much smaller than
-/// slabs.
+/// A voxel counts in each slab by its share in it, because voxels are not much smaller than slabs.
 void add_voxel(const MetalCloud& cloud, double s_m, double half_voxel_m, Vec2 off_m,
                std::vector<MetalSection>& all) {
   const double low = (s_m - half_voxel_m) / MetalSections::kStep_m;

@@ -18,7 +18,7 @@ bool has_planned_radius(const Shaft& shaft, const nav::ScrewPlan& plan) {
   return plan.radius_m > 0.0 && std::abs(2.0 * (shaft.radius_m - plan.radius_m)) < kSameDiameter_m;
 }
 
-/// Metal that looks too thick reaches too far at the tip by as much.
+/// Metal that looks too thick also reaches too far at the tip, by the same amount.
 Vec3 tip_in_scan(const Shaft& shaft, const nav::ScrewPlan& plan) {
   const double too_large_m =
       has_planned_radius(shaft, plan) && !shaft.cut ? shaft.radius_m - plan.radius_m : 0.0;
@@ -46,7 +46,7 @@ nav::PoseUncertainty total_uncertainty(const Shaft& shaft, const BoneRegistratio
   const Vec3 athwart = vertebra_from_scan.rotation() * shaft.line.athwart;
   const Vec3 middle_m = (vertebra_from_scan * Point<Scan>{shaft.line.middle_m}).v;
   const Vec3 lever_arm_m = bone.uncertainty.centre_m() - middle_m;
-  // A turn about the middle of the shaft is one about the centre, and a shift.
+  // A turn about the middle of the shaft is a turn about the centre plus a shift.
   const std::array<std::array<Vec3, 2>, 4> motions = {{{across, {}},
                                                        {athwart, {}},
                                                        {athwart.cross(lever_arm_m), athwart},

@@ -21,7 +21,7 @@ constexpr double kNoise_hu = 80.0;  ///< SD of a voxel's misfit, as assumed
 constexpr double kUsualBlur_m = 0.0005;
 constexpr double kMostMoved_m = 0.003;  ///< from where the search put it
 
-/// What is sought, in the order of the parameters; metres and radians.
+/// The unknowns, in the order of the parameters; metres and radians.
 enum Parameter : std::size_t {
   kAcross,
   kAthwart,
@@ -67,7 +67,7 @@ double share_at(const Shaft& shaft, double blur_m, Vec3 place_m) {
   if (!shaft.cut) {
     share *= normal_cdf((shaft.to_s_m - s) / blur_m);
   }
-  // A flat border would have all of its height; a thin cylinder is blurred away from all sides.
+  // A flat border would keep its full height; a thin cylinder is blurred from all sides.
   const double q = shaft.radius_m / blur_m;
   return share * (1.0 - std::exp(-0.5 * q * q)) / normal_cdf(q);
 }
@@ -143,9 +143,9 @@ void write_misfits(const std::vector<BorderVoxel>& voxels, const Rendering& how,
   }
 }
 
-/// Of place and direction. Neighbouring voxels share their noise and their streaks: a voxel counts
-/// for a sixth of one; and what streaks do to a whole side no misfit shows: in computed scans they
-/// move an axis by 0.06 mm and turn it by 0.075° over 40 mm (SD, each way).
+/// The covariance of place and direction. Neighbouring voxels share noise and streaks, so a voxel
+/// counts for a sixth of one; and what streaks do to a whole side does not show in any misfit: in
+/// computed scans they move an axis by 0.06 mm and turn it by 0.075° over 40 mm (SD, each way).
 std::array<double, 16> axis_covariance(const nav::LeastSquares& found, std::size_t voxels,
                                        double half_m) {
   constexpr double kSharing = 6.0;
@@ -164,7 +164,7 @@ std::array<double, 16> axis_covariance(const nav::LeastSquares& found, std::size
   return out;
 }
 
-/// The part of a shaft that is fitted: of a long wire its front, since it may bend in any way
+/// The part of a shaft that is fitted: only the front of a long wire, since it may bend in any way
 /// behind the bone.
 Shaft front_part(const Shaft& shaft) {
   constexpr double kFront_m = 0.055;
@@ -188,7 +188,7 @@ Shaft front_part(const Shaft& shaft) {
   return out;
 }
 
-/// The shaft with these parameters, in their limits.
+/// The shaft with these parameters, clamped to their limits.
 Shaft limited(const Shaft& shaft, std::span<const double> p) {
   Parameters used{};
   std::copy(p.begin(), p.end(), used.begin());
@@ -213,7 +213,7 @@ Result<nav::LeastSquares> best_parameters(const Shaft& shaft, const Rendering& h
       start,
       [&](std::span<const double> p, std::vector<double>& out) {
         write_misfits(voxels, how, limited(shaft, p), std::clamp(p[kBlur], 2e-4, 1.5e-3), out);
-        // Of clipped metal, a blurred thin shaft looks much like a sharp thick one.
+        // When metal is clipped, a blurred thin shaft looks much like a sharp thick one.
         out.push_back(kBlurWeight * (p[kBlur] - kUsualBlur_m) / kBlurSpread_m);
       },
       kRounds);
@@ -234,7 +234,7 @@ std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& found_shaf
   if (!best) {
     return std::nullopt;
   }
-  // An end that runs away was not seen, as where two tips touch: it stays where the search put it.
+  // An end that moves far was not seen, as where two tips touch: it stays where the search put it.
   for (const std::size_t end : {kTip, kRear}) {
     if (std::abs(best->parameters[end]) > 0.9 * kMostMoved_m) {
       best->parameters[end] = 0.0;

@@ -19,13 +19,13 @@ constexpr double kThickest_m = 0.005;
 constexpr double kHeadReach_m = 0.009;
 constexpr double kHeadLength_m = 0.020;
 
-/// Some of the metal, for the search; the fits take all of it.
+/// A part of the metal, for the search; the fits use all of it.
 std::vector<Vec3> thinned(std::span<const Vec3> all) {
   constexpr std::size_t kMost = 9000;
   return nav::every_nth(all, all.size() / kMost + 1);
 }
 
-/// How long the metal about a line through `middle_m` is unbroken, and where its middle is.
+/// The length of the unbroken metal about a line through `middle_m`, and its middle.
 struct Run {
   double length_m = 0.0;
   double middle_s_m = 0.0;
@@ -65,7 +65,7 @@ std::optional<Centreline> longest_line(const std::vector<Vec3>& places_m, Random
   for (int round = 0; round < kRounds; ++round) {
     const Vec3 from = any();
     Vec3 way = any() - from;
-    // Far enough apart to tell a direction, near enough to be of one shaft.
+    // Far enough apart to give a direction, near enough to belong to one shaft.
     for (int again = 0; again < 20 && (way.norm() < 0.010 || way.norm() > 0.040); ++again) {
       way = any() - from;
     }
@@ -186,7 +186,8 @@ bool has_head(const MetalSections& sections, double end_s_m, double radius_m) {
   return thick >= 3;
 }
 
-/// Sections and line in turn until the line stays as long; its radius, 0 where it leads nowhere.
+/// Fits sections and line in turn until the line's length is stable. Returns its radius, 0 on
+/// failure.
 double settle(const MetalCloud& cloud, Centreline& line) {
   constexpr int kFewestRounds = 5;
   constexpr int kMostRounds = 16;
@@ -198,7 +199,7 @@ double settle(const MetalCloud& cloud, Centreline& line) {
     if (stretch.last <= stretch.first + 3) {
       return 0.0;
     }
-    // A wire may be bent; a screw is not. The bow tells where it goes on.
+    // A wire may be bent; a screw is not. The bow shows where the wire continues.
     const double last_half_m = line.half_m;
     radius_m = stretch.radius_m;
     line = refitted(line, sections, stretch, radius_m < kWire_m && round > 1);
@@ -230,7 +231,7 @@ std::optional<Shaft> shaft_about(const MetalCloud& cloud, Centreline line) {
   return out;
 }
 
-/// Takes a shaft and its head out of the metal.
+/// Removes a shaft and its head from the metal.
 void take_out(const Shaft& shaft, MetalCloud& cloud) {
   const double margin_m = 0.0012 + cloud.half_extent_m({0, 0, 1});
   cloud.take([&](const Vec3& place) {
@@ -244,7 +245,7 @@ void take_out(const Shaft& shaft, MetalCloud& cloud) {
   });
 }
 
-/// What is left, grouped by nearness.
+/// The remaining metal, grouped by nearness.
 std::vector<OtherMetal> others_of(const MetalCloud& cloud) {
   constexpr double kNear_m = 0.010;
   constexpr double kLeast_m3 = 20e-9;

@@ -15,7 +15,7 @@ constexpr double kPairs_m = 0.014;          ///< by how much distances within tw
 constexpr double kMisfit_m = 0.006;         ///< RMS of two screws on two shafts
 constexpr double kMostTurned_rad = 0.7854;  ///< patient against case
 
-/// A planned screw or a shaft as two places: its tip, and one as far behind as screws are long.
+/// A planned screw or a shaft as two points: its tip, and one a screw's length behind it.
 struct Line {
   Vec3 tip_m;
   Vec3 rear_m;
@@ -78,7 +78,7 @@ std::optional<Start> of_pairs(const Line& plan_a, const Line& plan_b, const Line
   return Start{{fit->rotation, fit->translation_m}, 0, fit->rmse_m};
 }
 
-/// One screw on one shaft, turned as little as can be.
+/// One screw on one shaft, turned as little as possible.
 Start of_one(const Line& plan, const Line& shaft) {
   const Vec3 axis = plan.direction().cross(shaft.direction());
   const double angle = angle_between_rad(plan.direction(), shaft.direction());

@@ -10,7 +10,7 @@ namespace {
 
 using render::Float3;
 
-constexpr render::Label kPaperLabel = 9001;  // of no hologram
+constexpr render::Label kPaperLabel = 9001;  // belongs to no hologram
 constexpr std::array<ToolDot, 2> kToolDots = {
     {{"guide", ToolState::kMeasured}, {"reference", ToolState::kPredicted}}};
 
@@ -37,7 +37,7 @@ GoldenScene names() {
   return golden;
 }
 
-/// A tag begins where the angle would stand.
+/// A tag begins where the angle would be.
 GoldenScene off_the_tag() {
   GoldenScene golden = start_wide(
       "labels_off_tag", "angle and depth beside a tag's outline, not on it", surgeon_views());

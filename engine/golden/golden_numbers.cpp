@@ -92,7 +92,7 @@ GoldenScene drilled(const std::string& name, const std::string& what, double off
   return golden;
 }
 
-/// A pose that is too old takes all but the stop.
+/// With a pose that is too old, only the stop remains.
 GoldenScene stop_unseen() {
   GoldenScene golden = drilled("h13_stop_late", "tool lost in the outer ring, stop below it",
                                0.0002, nav::DrillAlarm::kStop);

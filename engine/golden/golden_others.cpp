@@ -30,7 +30,7 @@ GoldenScene rod(const std::string& name, const std::string& what, Float3 shift) 
   GoldenScene golden = start_rod(name, what);
   std::vector<Float3> centre_line;
   for (int i = 0; i <= 48; ++i) {
-    // The parabola through the heads; the rod's own spline is not this picture's matter.
+    // The parabola through the heads; the rod's own spline does not matter for this picture.
     const float t = static_cast<float>(i) / 24.0f;
     const float a = 0.5f * (t - 1) * (t - 2);
     const float b = t * (2 - t);
@@ -53,7 +53,7 @@ GoldenScene rod(const std::string& name, const std::string& what, Float3 shift) 
   return golden;
 }
 
-/// Heads that make no rod yet.
+/// Too few heads for a rod.
 GoldenScene heads(const std::string& name, const std::string& what, std::size_t count) {
   GoldenScene golden = start_rod(name, what);
   RodHologram hologram;
@@ -74,7 +74,7 @@ GoldenScene status(const std::string& name, const std::string& what, const std::
   return golden;
 }
 
-/// A whole scene of which only what hangs on the head is left.
+/// A whole scene of which only the head-fixed holograms are left.
 GoldenScene head_lost() {
   GoldenScene golden =
       status("h11_head_lost", "status line, a line with a red rim above it, nothing else",

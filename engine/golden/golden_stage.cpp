@@ -16,7 +16,7 @@ using render::Float3;
 
 constexpr float kToolLength_m = 0.080f;
 constexpr Float3 kLooked = {0, 0.045f, 0};
-/// From the patient's left and above, as far as `surgeon` says.
+/// From the patient's left and above, at the distance given by `surgeon`.
 constexpr Float3 kFrom = {0.19f, 0.325f, -0.20f};
 
 /// Across the planned axis, towards the patient's left and head.

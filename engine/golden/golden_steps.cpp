@@ -23,7 +23,7 @@ const StepOnDisplay kAccepted{Step::kAccepted, "L4", {}};
 const StepOnDisplay kGuide{Step::kGuide, "L4", Side::kLeft};
 const StepOnDisplay kGuideNext{Step::kGuide, "L5", Side::kLeft};
 
-/// `detail` is what the status line says after the step; empty: nothing.
+/// `detail` is the text after the step on the status line; may be empty.
 GoldenScene step(const std::string& name, const std::string& what, const StepOnDisplay& at,
                  const std::string& detail, ToolState tool = ToolState::kMeasured) {
   GoldenScene golden = start_wide(name, what + ", both eyes", surgeon_views());
@@ -64,7 +64,7 @@ void add_entries(GoldenScene& golden, bool left_done, bool right_done) {
 
 constexpr nav::ShownClearance kClearance{24, 11, "medial"};
 
-/// What does not depend on the tool.
+/// Everything that does not depend on the tool.
 GoldenScene guiding(const std::string& name, const std::string& what, const std::string& detail,
                     ToolState tool = ToolState::kMeasured) {
   GoldenScene golden = step(name, what, kGuide, detail, tool);

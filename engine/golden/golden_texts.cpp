@@ -56,7 +56,7 @@ TextKind check(const char* name, double distance_m, bool within, Label label) {
   });
 }
 
-/// The length is written behind all bends.
+/// The length is written after all bends.
 TextKind rod(const char* name, bool bend, Label label) {
   const std::array<render::Float3, 2> heads = {golden::kEntry, golden::kOtherEntry};
   const std::array<RodBendMark, 1> bends = {{{kEntry, 6.2 * kRadiansPerDegree, 0.0271}}};

@@ -9,7 +9,8 @@ render::Float3 taken(const Transform<World, World>& by, render::Float3 p) {
   return to_float3((by * Point<World>{{p.x, p.y, p.z}}).v);
 }
 
-/// Of a model that is placed in the scene already; column-major, as `render::Matrix4` is.
+/// The matrix of a model that is already placed in the scene; column-major, as `render::Matrix4`
+/// is.
 render::Matrix4 taken(const Transform<World, World>& by, const render::Matrix4& model) {
   render::Matrix4 out = model;
   for (std::size_t column = 0; column < 4; ++column) {

@@ -12,7 +12,7 @@ namespace {
 constexpr float kDiamond_m = 0.004f;  // from tip to tip
 constexpr float kHaloRadius_m = 0.005f;
 
-/// The halo is a bubble of which the rim shows: a ring from wherever it is seen.
+/// The halo is a bubble of which only the rim shows: a ring from every side.
 void add_diamond_in_halo(render::Scene& scene, render::Float3 centre, render::Colour colour,
                          render::Label label) {
   static const auto diamond =

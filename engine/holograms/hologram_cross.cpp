@@ -22,7 +22,7 @@ constexpr float kDotRadius_m = 0.0014f;
 constexpr float kHollowRadius_m = 0.0021f;
 constexpr float kHollowWidth_m = 0.0007f;
 constexpr float kArrow_m = 0.0030f;
-/// Past the outermost ring by so much of it a dot is held at the rim.
+/// A dot beyond this multiple of the outermost ring's radius is held at the rim.
 constexpr float kRim = 1.12f;
 constexpr float kDiagonal = 0.70710678f;
 constexpr double kDeepest_m = 0.9995;
@@ -38,7 +38,7 @@ Float3 right_of(const Viewer& viewer, Float3 towards_eye) {
                          render::any_perpendicular(towards_eye));
 }
 
-/// The offset from the planned axis as the eyes see it on the disc: across, up.
+/// The offset from the planned axis as the eyes see it on the disc: across and up.
 std::array<float, 2> on_disc(const TargetCross& cross, Float3 right, Float3 towards_eye,
                              Float3 offset) {
   const Float3 axis = dot(cross.outward, towards_eye) < 0 ? -1.0f * cross.outward : cross.outward;
@@ -69,7 +69,7 @@ void add_dots(Scene& scene, const TargetCross& cross, const CrossPlaces& places,
   }
 }
 
-/// By turns on the right and on the left, or 1 and 2 would read as 12.
+/// Alternately on the right and on the left, otherwise 1 and 2 would read as 12.
 void add_ring_text(Scene& scene, const CrossPlaces& places, float ring_m, Label label) {
   char text[16];
   std::snprintf(text, sizeof(text), ring_m == kCrossRings_m.back() ? "%.0f mm" : "%.0f",
@@ -133,7 +133,7 @@ CrossPlaces places_of(const TargetCross& cross) {
 
 void add_target_cross(Scene& scene, const TargetCross& cross, Label label) {
   const CrossPlaces places = places_of(cross);
-  // Nothing to be read where there is no tool: the outer ring says what the words are about.
+  // Without a tool there is nothing to read: the outer ring alone shows what the words are about.
   const std::span<const float> rings_m =
       cross.lost ? std::span(kCrossRings_m).last(1) : std::span(kCrossRings_m);
   for (const float ring_m : rings_m) {
@@ -199,7 +199,7 @@ void add_depth(Scene& scene, Float3 a, Float3 b, std::string_view text, bool pas
   item.label = label;
   item.position = readout_place(a, b);
   item.align = render::TextAlign::kLeft;
-  // Under the angle, whose height it follows down to the least that is read.
+  // Under the angle, whose height it follows down to the smallest legible one.
   item.offset_right = 1.6f;
   item.offset_up = -kDepthBelowAngle;
   item.height_m = 0.004f;

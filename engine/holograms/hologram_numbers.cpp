@@ -16,28 +16,28 @@ using render::TextItem;
 
 constexpr float kCaps_m = 0.0040f;
 constexpr float kLeastCaps_deg = 0.55f;
-/// Of what is not sure, and of the words beside the numbers. A paler text alone would not do: by
-/// the contrast that every text needs it is hardly paler.
+/// The size of unsure numbers and of the words beside the numbers. A paler text alone would not do:
+/// with the contrast that every text needs, it is hardly paler.
 constexpr float kSmaller = 0.8f;
 constexpr float kRow_caps = 1.7f;
 /// From the rim of the cross down to the first row's baseline.
 constexpr float kBelowRim_caps = 4.2f;
-/// Text keeps its visual angle, so it grows in the world with the distance: it grows away from the
-/// site, from that edge of the cross that is nearer to it. From there to where the numbers begin:
-/// as wide as they get, or as the words before them.
+/// Text keeps its visual angle, so it grows in the world with the distance; it grows away from the
+/// site, starting at the edge of the cross that is nearer to it. This is the width from there to
+/// where the numbers begin: the largest width of the numbers, or of the words before them.
 constexpr float kNumbersWidth_caps = 9.0f;
 constexpr float kHeadingsWidth_caps = 5.2f;
 constexpr float kNearerToSite_m = 0.004f;
 constexpr float kBetweenColumns_caps = 0.6f;
 
-/// Of the row about the drill, above the numbers.
+/// Height of the drill's row above the numbers.
 constexpr float kAboveNumbers_caps = 2.0f;
 constexpr float kStopLarger = 1.6f;
 
-/// Below the numbers and what may be said of their SDs.
+/// Below the numbers and the remark on their SDs.
 constexpr float kClearanceAfter_rows = 5.1f;
 
-/// Where the rows of a block hang, in cap heights of its numbers from one place.
+/// Places the rows of a block, in cap heights of its numbers from one place.
 class Block {
  public:
   Block(Scene& scene, const TargetCross& cross, Label label) : scene_(scene), label_(label) {
@@ -55,14 +55,14 @@ class Block {
   void heading(std::string_view words) {
     add(TextAlign::kRight, column_ - kBetweenColumns_caps, false) = words;
   }
-  /// As long as it is, smaller, white in a red rim.
+  /// A long text, therefore smaller; white with a red rim.
   std::string& warning() {
     std::string& text = add(left_of_site_ ? TextAlign::kRight : TextAlign::kLeft, 0, false);
     scene_.texts.back().rim = look::kRed;
     scene_.texts.back().runs.front().colour = look::kWhite;
     return text;
   }
-  /// Above the numbers, as much larger.
+  /// Above the numbers, larger by this factor.
   TextItem& above(float larger) {
     TextItem& item = scene_.texts.emplace_back();
     item.label = label_;

@@ -61,13 +61,13 @@ void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, La
   add_run(text, in_mm(bend.arc_length_m), look::kSoftWhite);
 }
 
-/// In degrees; absent where there is nothing to read.
+/// In degrees; absent if there is no angle.
 std::optional<std::array<char, 16>> angle_digits(std::optional<double> angle_rad) {
   const double angle_deg = angle_rad ? *angle_rad * kDegreesPerRadian : std::nan("");
   if (!(angle_deg >= 0.0 && angle_deg < 99.95)) {
     return std::nullopt;
   }
-  // Adding 0 makes a positive zero of a negative one.
+  // Adding 0 turns a negative zero into a positive one.
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "%.1f", angle_deg + 0.0);
   return text;

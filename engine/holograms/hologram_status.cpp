@@ -30,7 +30,7 @@ TextItem& add_row(Scene& scene, float row, Label label) {
   return item;
 }
 
-/// The shape says it as well as the colour does.
+/// The shape shows it as well as the colour.
 std::string_view dot_of(ToolState state) {
   constexpr std::array<std::string_view, 3> kDots = {"●", "◐", "○"};
   return kDots[static_cast<std::size_t>(state)];
@@ -50,9 +50,9 @@ float tools_width_caps(std::span<const ToolDot> tools, float name_caps) {
   return width;
 }
 
-/// How wide a tool's name may be: all of it, or as much as leaves room for a step so wide.
+/// How wide a tool's name may be: its full width, or whatever leaves room for a step of this width.
 float name_room_caps(std::span<const ToolDot> tools, float step_caps) {
-  constexpr float kLeast = 3.0f;  // of a name that still tells something
+  constexpr float kLeast = 3.0f;  // of a name that is still recognisable
   constexpr float kLongest = 20.0f;
   float name = kLongest;
   while (name >= kLeast && step_caps + tools_width_caps(tools, name) > kStatusWidth_caps) {

@@ -8,7 +8,7 @@ namespace {
 
 using render::Float3;
 
-/// In front of the eye and where; z is how far.
+/// The direction of a point in front of the eye; z is its distance.
 std::optional<Float3> seen(const render::Matrix4& eye_from_world, Float3 in_world) {
   const Float3 in_eye = render::transformed(eye_from_world, in_world);
   const float depth_m = -in_eye.z;
@@ -18,7 +18,7 @@ std::optional<Float3> seen(const render::Matrix4& eye_from_world, Float3 in_worl
   return Float3{in_eye.x / depth_m, in_eye.y / depth_m, depth_m};
 }
 
-/// Whether a line at right angles to (x, y) keeps outline and box apart.
+/// Whether a line at right angles to (x, y) separates outline and box.
 bool apart(const SeenOutline& outline, const SeenBox& box, float x, float y) {
   float least = 0;
   float most = 0;

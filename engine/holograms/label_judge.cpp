@@ -14,8 +14,7 @@ namespace {
 using render::Float3;
 using render::TextItem;
 
-// Harm, where there is no free place: two texts are lost, a place is hidden, a text is hard to
-// read.
+// The harm where no place is free: two texts are lost, a place is hidden, a text is hard to read.
 constexpr int kOverNamed = 4;
 constexpr int kOverPaper = 2;
 constexpr int kOverLeader = 1;
@@ -23,9 +22,9 @@ constexpr int kBlocked = 1000;  // times the harm
 constexpr int kOverLine = 10;   // more than any place nearby costs
 constexpr int kOutOfView = 12;
 constexpr int kLed = 20;
-constexpr int kGuidingOutOfView = 60;  // more than to be led there
+constexpr int kGuidingOutOfView = 60;  // more than a leader costs
 constexpr float kLeaderRadius_m = 0.0003f;
-// Of the depth, beside an angle that has none at the moment: its place stays free.
+// Height of the depth's place, kept free under an angle that has no depth at the moment.
 constexpr float kDepthCaps = 4.0f / 7.0f;
 constexpr float kDepthWidth = 9.0f;
 
@@ -124,7 +123,7 @@ int LabelJudge::harm(const LabelObstacle& obstacle, render::Label label, LabelRa
   return 0;
 }
 
-/// Labels that a leader would run through.
+/// The number of labels that a leader would cross.
 int LabelJudge::crossed(const OutlineInEyes& leader, float margin) const {
   const auto count = std::count_if(placed_.begin(), placed_.end(), [&](const BoxInEyes& box) {
     return overlap(leader, grown(box, margin));

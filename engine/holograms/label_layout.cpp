@@ -9,8 +9,8 @@
 namespace orthonav::engine {
 namespace {
 
-// Between the two lies more than a tracked head trembles.
-constexpr LabelMargins kToStay = {0.0010f, -0.0008f};  // within what is left free around ink
+// The difference between the two is more than a tracked head trembles.
+constexpr LabelMargins kToStay = {0.0010f, -0.0008f};  // within the free margin around ink
 constexpr LabelMargins kToCome = {0.0035f, 0.0f};
 
 constexpr Duration kForgetAfter = std::chrono::seconds(2);
@@ -73,8 +73,8 @@ LabelLayout::Best LabelLayout::best_of(const render::Scene& scene, const LabelSu
   return *best;
 }
 
-/// Where to go at once: not to the place that it just left, unless a text would be lost everywhere
-/// else.
+/// Where to move at once: not to the place that it just left, unless a text would be lost
+/// everywhere else.
 LabelLayout::Best LabelLayout::refuge_of(const render::Scene& scene, const LabelSubject& subject,
                                          const Kept& kept, const Best& best) const {
   if (kept.before != best.place || now_ - kept.left_at >= kSettled) {

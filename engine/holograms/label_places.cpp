@@ -11,7 +11,7 @@ namespace {
 using render::TextAlign;
 using render::TextItem;
 
-/// From the middle of what is named, as seen on a label whose own side is the right.
+/// From the middle of the named object, for a label whose own side is the right.
 struct Direction2 {
   float across;
   float up;
@@ -21,7 +21,8 @@ constexpr std::array<Direction2, 8> kAround = {
 constexpr std::array<float, 5> kFartherOff = {0.0f, 2.2f, 4.8f, 8.0f, 12.0f};
 constexpr float kDiagonally = 0.8f;
 
-/// Of a readout beside the tool: clear of a printed tag above it, of the shaft, of the other side.
+/// For a readout beside the tool: clear of a printed tag above it, of the shaft, and on the other
+/// side.
 struct BesideTool {
   float across;
   float up;
@@ -48,7 +49,7 @@ LabelPlace beside_tool(std::size_t place) {
   return {align_for(at.across), at.across, at.up, at.led, false};
 }
 
-/// Its near edge, corner or end so far from the middle of what it names.
+/// Puts its near edge, corner or end at a distance from the middle of the object it names.
 LabelPlace around(const TextItem& as_built, const LabelExtent& extent, std::size_t place) {
   const bool mirrored = as_built.align == TextAlign::kRight;
   const float beside =
@@ -83,7 +84,7 @@ LabelRank rank_of(const TextItem& text) {
     case HologramKind::kCheckPoint:
       return LabelRank::kMeasured;
     case HologramKind::kRod:
-      // The length stands at the rod's end, the bends beside it.
+      // The length is at the rod's end, the bends are beside it.
       return text.align == TextAlign::kCentre ? LabelRank::kMeasured : LabelRank::kIncidental;
     case HologramKind::kEntry:
       return LabelRank::kNamed;

@@ -37,7 +37,7 @@ double grey_at(const RgbaImage& image, std::size_t pixel) {
   return sum;
 }
 
-/// Not even a dark room is without light.
+/// Even a dark room has some light.
 constexpr double kDarkest_cd_m2 = 0.01;
 
 }  // namespace

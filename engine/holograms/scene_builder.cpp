@@ -117,7 +117,7 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
     }
   }
   if (visible_.paths && guidance.dropped) {
-    // A deleted region fades, so that the surgeon sees which one went.
+    // A deleted region fades, so that the surgeon sees which one it was.
     const double age_s = seconds(guidance.display_time - guidance.dropped->dropped_at);
     const double left = 1.0 - age_s / seconds(guidance.fade);
     if (left > 0.0) {
@@ -197,14 +197,14 @@ void SceneBuilder::add_screw(const PlacedScrew& screw, render::Scene& scene) {
     add_virtual_twin(screw, scene);
   }
   if (visible_.angle_lost && !visible_.triangle) {
-    // Where the number would be with the tool on the plan.
+    // The place of the number if the tool were on the plan.
     add_angle_readout(scene, to_float3(line.entry.v), to_float3(line.outside.v),
                       angle_text(std::nullopt), Grade::kPoor, label_of(HologramKind::kAngle, 1));
   }
 }
 
 /// The overlay is where the tool will be at the display time; the numbers and their colour come
-/// from one stereo pair. What is only predicted has no number and is never called good.
+/// from one stereo pair. A predicted pose has no number and is never shown as good.
 void SceneBuilder::add_tool_guidance(const nav::ScrewGuidance& shown, render::Scene& scene) {
   const nav::ScrewGuidance* measured = visible_.measurement;
   const Grade grade = grade_of_tool(visible_, rules_);

@@ -146,7 +146,7 @@ void add_rod_through(const JsonNode& node, Label label, Scene& scene) {
 
 void add_status(const JsonNode& node, Label label, Scene& scene) {
   constexpr std::array<const char*, 3> kStates = {"measured", "predicted", "lost"};
-  std::deque<std::string> names;  // that stay where they are
+  std::deque<std::string> names;  // a deque, so that they do not move in memory
   std::vector<ToolDot> tools;
   if (node.has("tools")) {
     for (const JsonNode& tool : node.list("tools")) {

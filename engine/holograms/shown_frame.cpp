@@ -13,10 +13,10 @@
 namespace orthonav::engine {
 namespace {
 
-/// Of a path the newest samples are enough to see where the pen is.
+/// The newest samples of a path are enough to see where the tip is.
 constexpr std::size_t kLatestSamples = 8;
 
-/// The four that stand out: behind, to either side, above.
+/// The four outermost points: behind, to either side, above.
 std::array<Vec3, 4> landmarks_m(const nav::TriangleMesh& mesh) {
   constexpr std::array<Vec3, 4> kDirections = {{{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}};
   std::array<Vec3, 4> found{};

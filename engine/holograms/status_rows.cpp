@@ -19,7 +19,7 @@ const render::Font& embedded_font() {
   return font;
 }
 
-/// What is left of a text when some of its parts are dropped.
+/// A text with some of its parts dropped.
 class Candidate {
  public:
   Candidate(std::string_view text, const StatusParts& parts) : text_(text), parts_(parts) {
@@ -28,7 +28,7 @@ class Candidate {
   }
   [[nodiscard]] std::string_view text() const { return {bytes_.data(), size_}; }
 
-  /// False: only one part is left.
+  /// False if only one part is left.
   bool drop_least() {
     std::size_t least = parts_.count;
     std::size_t kept = 0;
@@ -86,7 +86,7 @@ class Candidate {
   std::size_t size_ = 0;
 };
 
-/// As many whole words as fit; the first word even where it does not.
+/// As many whole words as fit; at least the first word, even if it does not.
 std::string_view first_row(std::string_view text) {
   std::size_t end = std::min(text.find(' '), text.size());
   while (end < text.size()) {

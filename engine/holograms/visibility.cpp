@@ -26,12 +26,12 @@ std::optional<PlacedLevel> placed(const LevelState& level) {
   return PlacedLevel{&level, level.registration->world_from_vertebra};
 }
 
-/// What may be guided on.
+/// The level's placement, if it may be guided on.
 std::optional<PlacedLevel> usable(const LevelState& level) {
   return level.usable() ? placed(level) : std::nullopt;
 }
 
-/// H4 depends on the registration alone, so a lost tool leaves it.
+/// H4 depends on the registration alone, so it stays when the tool is lost.
 std::optional<PlacedScrew> selected_screw(const Guidance& g) {
   const bool at_screw = g.step == Step::kGuide || g.step == Step::kPlaced;
   if (!at_screw || g.level >= g.levels.size()) {
@@ -58,13 +58,12 @@ void decide_tool(const ToolGuidance* fresh, const VisibilityRules& rules, Visibi
       out.pose_time = fresh->pose_time;
     }
   }
-  // A lost value says so in the place of the number, never with the last number, nor with one that
-  // was predicted.
+  // A lost value is shown as lost in place of the number, never as the last or a predicted number.
   out.angle_lost = !out.measurement && (out.triangle || !fresh);
 }
 
 /// H7: with the trajectory that it measures against, once it is known where the eyes are. Its dots
-/// are numbers in another shape: of one stereo pair, never of a prediction.
+/// are numbers in another shape: they come from one stereo pair, never from a prediction.
 void decide_cross(const PlacedScrew& screw, const Transform<World, Rig>& head,
                   const ToolGuidance* fresh, Visibility& out) {
   VisibleCross cross;
@@ -104,7 +103,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   // H1: the surgeon still compares the paths with the hologram while verifying; after acceptance
   // they would only cover the bone.
   out.paths = g.step == Step::kDigitize || g.step == Step::kVerify;
-  // H2, H12: what is to be verified, and only that; gone with a rejected registration.
+  // H2, H12: only the level that is to be verified; gone with a rejected registration.
   if (g.step == Step::kVerify && g.level < g.levels.size()) {
     out.vertebra = placed(g.levels[g.level]);
   }
@@ -112,8 +111,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   // Once every screw is in, the names would only cover the rod's lengths.
   out.entry_labels = g.step != Step::kRod && g.step != Step::kDone;
   out.trajectory = selected_screw(g);
-  // What is measured of a wire that stands in the bone is as old as its registration, not as a
-  // pose.
+  // The measurement of a wire in the bone is as old as its registration, not as a pose.
   out.wire = out.trajectory && g.step == Step::kPlaced ? g.wire : nullptr;
   if (out.trajectory && g.step == Step::kGuide) {
     const bool fresh = g.tool && display_time - g.tool->pose_time <= g.stale_after;
@@ -141,8 +139,8 @@ Vec3 rod_shift_m(const Guidance& guidance, const RodState& rod, const Visibility
   if (side.norm() < 1e-6) {
     side = {1, 0, 0};
   }
-  // Right-handed: which way `side` points depends on the order of touching, so take the way that
-  // leads off the other rod.
+  // Right-handed: the direction of `side` depends on the order of touching, so take the one that
+  // leads away from the other rod.
   Vec3 centre_of_rods{};
   double count = 0.0;
   for (const RodState& other : guidance.rods) {

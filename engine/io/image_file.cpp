@@ -22,7 +22,7 @@ Error error_of(const std::filesystem::path& path, const std::string& reason) {
 }
 
 Result<std::vector<char>> bytes_of(const std::filesystem::path& path) {
-  // Reading a folder throws, and a pipe may never end.
+  // Reading a folder throws, and reading a pipe may never end.
   std::error_code absent;
   if (!std::filesystem::is_regular_file(path, absent)) {
     return error_of(path, "can't be read");

@@ -157,7 +157,7 @@ std::vector<std::string> JsonNode::texts(const char* key) const {
 
 namespace {
 
-/// False when any element is no finite number.
+/// False if any element is not a finite number.
 bool flatten(const json& value, int depth, std::vector<double>& out) {
   if (value.is_number()) {
     out.push_back(value.get<double>());

@@ -19,7 +19,7 @@ namespace orthonav::engine {
 namespace fs = std::filesystem;
 namespace {
 
-/// A disk that takes longer stalls no frame.
+/// The frame loop waits no longer than this for a slow disk.
 constexpr auto kMostWait = std::chrono::milliseconds(1);
 
 Error log_error(const std::string& path, int error_number) {
@@ -59,7 +59,7 @@ Result<std::string> moved_aside(const std::string& file, const std::string& path
   return too_many_earlier(path);
 }
 
-/// Whoever writes a log holds a lock on it as long as it lives.
+/// A process that writes a log holds a lock on it as long as it runs.
 Status refuse_if_written(const std::string& part) {
   const int file = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
@@ -174,7 +174,8 @@ void LineLog::work() {
   }
 }
 
-/// After one that failed none is tried: it could succeed without what the first one lost.
+/// After a failed sync no other is tried: it could succeed without the data that the first one
+/// lost.
 void LineLog::sync(int (*how)(int)) {
   if (!sync_failed_ && how(file_) != 0) {
     sync_failed_ = true;
@@ -182,7 +183,7 @@ void LineLog::sync(int (*how)(int)) {
   }
 }
 
-/// Keeps the first failure, which `finish` tells.
+/// Keeps the first failure, which `finish` returns.
 void LineLog::note(const char* what, const Status& done) {
   const MutexLock lock(mutex_);
   if (!done && !failure_) {
@@ -209,7 +210,8 @@ Status LineLog::take_its_name() {
       return moved.error();
     }
     earlier_kept_as_ += (earlier_kept_as_.empty() ? "" : ", ") + *moved;
-    // Durable before this one takes the name: or a crash could leave it alone.
+    // This must be durable before the new file takes the name, otherwise a crash could leave only
+    // the new one.
     if (Status durable = sync_folder(folder_of(path_)); !durable) {
       return durable;
     }

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = 256u << 20u;
 constexpr std::size_t kStlHeaderBytes = 80;
-constexpr std::size_t kCommentBytes = 4096;  ///< where Slicer's comment stands in PLY and OBJ
+constexpr std::size_t kCommentBytes = 4096;  ///< within which Slicer's comment is in PLY and OBJ
 
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -55,8 +55,8 @@ Status readable(const std::string& path) {
   return {};
 }
 
-/// Appends one of assimp's meshes, without merging corners. assimp's own way of making triangles
-/// of faces ends the program where corners lie in one another or in a line.
+/// Appends one of assimp's meshes, without merging corners. assimp's own triangulation of faces
+/// ends the program if corners coincide or lie on a line.
 Status append(const aiMesh& part, nav::TriangleMesh& mesh) {
   const std::size_t first = mesh.vertices_m.size();
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
@@ -72,7 +72,7 @@ Status append(const aiMesh& part, nav::TriangleMesh& mesh) {
   return {};
 }
 
-/// Opens this one file: an OBJ may name others (mtllib), anywhere on the machine.
+/// Opens only this one file, because an OBJ may name others (mtllib) anywhere on the machine.
 class OneFile : public Assimp::DefaultIOSystem {
  public:
   explicit OneFile(std::string path) : path_(std::move(path)) {}
@@ -96,7 +96,7 @@ std::string one_line(std::string text) {
 Result<nav::TriangleMesh> imported(const std::string& path) {
   try {
     Assimp::Importer importer;
-    importer.SetIOHandler(new OneFile(path));  // which the importer owns
+    importer.SetIOHandler(new OneFile(path));  // the importer owns it
     const aiScene* scene = importer.ReadFile(path, 0);
     if (scene == nullptr) {
       return Error{path + ": cannot be read (" + one_line(importer.GetErrorString()) + ")"};
@@ -113,7 +113,7 @@ Result<nav::TriangleMesh> imported(const std::string& path) {
   }
 }
 
-/// Not by assimp, which crashes or never returns where a PLY file is damaged.
+/// Not with assimp, which crashes or never returns on a damaged PLY file.
 Result<nav::TriangleMesh> from_ply(const std::string& path) {
   const auto text = read_text(path, kMaxFileBytes);
   if (!text) {
@@ -185,7 +185,7 @@ Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_u
     return apart;
   }
   // Files repeat a vertex for each of its triangles with the same digits, so exactly equal ones are
-  // one.
+  // merged.
   nav::TriangleMesh mesh = nav::welded(*apart);
   const Axes used = declared_axes(path).value_or(axes);
   for (Vec3& v : mesh.vertices_m) {

@@ -17,12 +17,12 @@ using ply::Kind;
 using ply::Property;
 using ply::Type;
 
-/// The numbers behind the header, one after another.
+/// The numbers after the header, one after another.
 class Values {
  public:
   Values(std::string_view data, Encoding encoding) : data_(data), encoding_(encoding) {}
 
-  /// Nothing where the file ends, or where no number stands.
+  /// Nothing at the end of the file, or if there is no number.
   std::optional<double> next(Type type) {
     return encoding_ == Encoding::kAscii ? next_word() : next_bytes(type);
   }
@@ -64,13 +64,13 @@ class Values {
   bool ended_ = false;
 };
 
-/// A row of an element: its single values by property, and the list of the property that is wanted.
+/// A row of an element: its single values by property, and the list of the wanted property.
 struct Row {
   std::vector<double> values;
   std::vector<double> list;
 };
 
-/// False where the file ends, or where no number stands.
+/// False at the end of the file, or if there is no number.
 bool read_row(const Element& element, std::size_t wanted_list, Values& values, Row& row) {
   row.values.assign(element.properties.size(), 0.0);
   row.list.clear();
@@ -94,7 +94,7 @@ bool read_row(const Element& element, std::size_t wanted_list, Values& values, R
   return true;
 }
 
-/// The index of the property with this name; the number of properties where there is none.
+/// The index of the property with this name; the number of properties if there is none.
 std::size_t property_named(const Element& element, std::string_view name) {
   const auto found = std::find_if(element.properties.begin(), element.properties.end(),
                                   [&](const Property& p) { return p.name == name; });

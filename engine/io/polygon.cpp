@@ -12,8 +12,8 @@ constexpr std::size_t kMostCorners = 64;
 /// Twice the area of a triangle, along its normal.
 Vec3 area_m2(Vec3 a, Vec3 b, Vec3 c) { return (b - a).cross(c - a); }
 
-/// A corner from which all others are seen, so that no triangle from there is turned over: any
-/// corner of a triangle or of a convex face. `corner(i)` is the place of the i-th of n.
+/// A corner from which all others are visible, so that no triangle of a fan from there is flipped:
+/// any corner of a triangle or of a convex face. `corner(i)` is the place of the i-th of n.
 template <class Corner>
 std::optional<std::size_t> corner_that_sees_all(std::size_t n, const Corner& corner) {
   Vec3 whole;

@@ -10,7 +10,7 @@ namespace {
 constexpr double kDarkest = 40.0;
 constexpr double kWhite = 255.0;
 
-/// The value that this fraction of the numbers lie below.
+/// The value below which this fraction of the numbers lies.
 std::uint16_t quantile(std::vector<std::uint16_t>& numbers, double fraction) {
   const auto at = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(numbers.size() - 1));
   std::nth_element(numbers.begin(), numbers.begin() + at, numbers.end());
@@ -20,7 +20,7 @@ std::uint16_t quantile(std::vector<std::uint16_t>& numbers, double fraction) {
 }  // namespace
 
 RangePicture picture_of_ranges(const DepthImage& range_mm) {
-  // A few stray pixels must not take the contrast from all the others.
+  // A few stray pixels must not reduce the contrast of all the others.
   constexpr double kStray = 0.005;
   RangePicture picture;
   std::vector<std::uint16_t> measured;

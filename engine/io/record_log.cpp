@@ -23,7 +23,7 @@ Status removed_if_there(Env& env, const std::string& path) {
   return !removed && removed.error().code == ErrorCode::kNotFound ? Status{} : removed;
 }
 
-/// Moves a file of that name aside; returns its new name, empty where there was none.
+/// Moves a file of that name aside; returns its new name, empty if there was none.
 Result<std::string> moved_aside(Env& env, const std::string& path) {
   const auto names = env.list(folder_of(path));
   if (!names) {
@@ -40,7 +40,8 @@ Result<std::string> moved_aside(Env& env, const std::string& path) {
     if (const Status moved = env.rename(path, name); !moved) {
       return moved.error();
     }
-    // Durable before another file takes the name: or a crash could leave that one alone.
+    // This must be durable before another file takes the name, otherwise a crash could leave only
+    // the other one.
     const Status durable = env.sync_folder(folder_of(path));
     return durable ? Result<std::string>(name) : durable.error();
   }
@@ -52,7 +53,7 @@ Status written(AppendFile& file, std::string_view bytes) {
   return appended ? file.sync() : appended;
 }
 
-/// What lies behind the last whole record is kept beside, then cut off.
+/// Bytes after the last whole record are saved in a file beside the log, then cut off.
 Status cut_off(Env& env, const std::string& path, std::string_view dropped, std::size_t whole) {
   auto beside = env.open_append(path + ".dropped");
   if (!beside) {
@@ -96,7 +97,7 @@ Result<std::unique_ptr<RecordLog>> RecordLog::create(Env& env, const std::string
   if (const Status durable = env.sync_folder(folder_of(path)); !durable) {
     return durable.error();
   }
-  // Under its own name, which is what errors tell.
+  // Reopened under its own name, which is what errors show.
   file = env.open_append(path);
   if (!file) {
     return file.error();
@@ -128,8 +129,8 @@ Result<RecordLog::Reopened> RecordLog::reopen(Env& env, const std::string& path)
   if (!file) {
     return file.error();
   }
-  // What a process that was killed had written, but not made durable, is read here and will be
-  // built upon: it must be durable first.
+  // A killed process may have written records without making them durable. They are read here and
+  // will be built upon, so they must be made durable first.
   if (const Status durable = (*file)->sync(); !durable) {
     return durable.error();
   }

@@ -21,7 +21,7 @@ std::uint32_t check_of(std::string_view length, std::string_view rest, std::uint
   return crc32c(rest, crc32c(length, crc32c(chained)));
 }
 
-/// The record that `bytes` begin with, and its check; nothing where it is not whole.
+/// The record at the start of `bytes`, and its check; nothing if it is incomplete.
 std::optional<Record> whole_record(std::string_view bytes, std::uint64_t number,
                                    std::uint32_t& check) {
   if (bytes.size() < kHeadBytes) {

@@ -67,7 +67,7 @@ std::optional<Axes> fcsv_axes(const std::string& value) {
   return axes_from(value);
 }
 
-/// A remark may say how the points are written: `CoordinateSystem = ...` or `columns = ...`.
+/// A comment may say how the points are written: `CoordinateSystem = ...` or `columns = ...`.
 Status read_remark(const std::string& remark, const std::string& where, std::optional<Axes>& axes) {
   const std::vector<std::string> parts = split(remark, '=');
   if (parts.size() != 2) {

@@ -77,7 +77,7 @@ class Remux {
     if (const int code = av_write_trailer(out_); code < 0) {
       return av_error(name_, "cannot be completed", code);
     }
-    // Closing writes what is still buffered: a full disk shows here.
+    // Closing writes the buffered rest, so a full disk is noticed here.
     const int code = avio_closep(&out_->pb);
     return code < 0 ? Status(av_error(name_, "cannot be completed", code)) : Status{};
   }

@@ -52,7 +52,7 @@ struct VideoWriter::Encoder {
   SwsContext* scaler = nullptr;
   std::int64_t frames = 0;
   bool finished = false;
-  bool kept = false;  ///< cut off, and left in its temporary place
+  bool kept = false;  ///< cut off, and left under its temporary name
 
   ~Encoder() {
     sws_freeContext(scaler);
@@ -71,7 +71,7 @@ struct VideoWriter::Encoder {
   Status open_frame();
   Status drain();
   Status put_in_place();
-  /// Leaves what was written, which plays, where it is; the Error says where.
+  /// Leaves the written part, which can be played, where it is; the Error says where.
   Error cut_off(const Error& why);
 };
 
@@ -197,8 +197,8 @@ Error VideoWriter::Encoder::cut_off(const Error& why) {
               : why;
 }
 
-/// Copies the film once more with its index in front, which tells players its length. Where there
-/// is no room for a copy, the film in fragments becomes the file as it is.
+/// Copies the film once more with its index in front, so that players know its length. If there is
+/// no room for a copy, the fragmented film becomes the file as it is.
 Status VideoWriter::Encoder::put_in_place() {
   if (file.temporary_path() == file.final_path()) {  // a pipe
     return file.commit();
@@ -218,7 +218,7 @@ Result<std::unique_ptr<VideoWriter>> VideoWriter::create(const std::string& path
   if (const Status status = check(path, options); !status) {
     return status.error();
   }
-  // The library must not print: what matters comes back as an Error.
+  // The library must not print; problems are returned as an Error.
   av_log_set_level(AV_LOG_QUIET);
   auto file = AtomicFile::create(path, Staging::kBeside);
   if (!file) {
@@ -283,7 +283,7 @@ Status VideoWriter::finish() {
   if (const int code = av_write_trailer(e.format); code < 0) {
     return e.cut_off(av_error(e.path, "cannot be completed", code));
   }
-  // Closing writes what is still buffered: a full disk shows here.
+  // Closing writes the buffered rest, so a full disk is noticed here.
   if (const int code = avio_closep(&e.format->pb); code < 0) {
     return e.cut_off(av_error(e.path, "cannot be completed", code));
   }

@@ -54,7 +54,7 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
   }
   SessionOptions session_options = options.session;
   if (options.use_reference) {
-    // Nothing hangs on the map, so its drift is no error of what is shown.
+    // Nothing is fixed to the map, so its drift causes no error in what is shown.
     session_options.map_drift_m_per_sqrt_s = 0.0;
     if (!method.anchors) {
       return Error{"method '" + method.name + "': uses no patient reference"};

@@ -9,7 +9,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// Forwards what the renderer asks of its host.
+/// Forwards the renderer's calls to its host.
 class Host : public render::VulkanHost {
  public:
   Host(PixelDisplay& display, const GraphicsNeeds& needs) : display_(display), needs_(needs) {}
@@ -90,7 +90,7 @@ Result<std::unique_ptr<DisplayRenderer>> DisplayRenderer::start(PixelDisplay& di
 
 DisplayRenderer::~DisplayRenderer() {
   if (renderer_) {
-    // A lost device has no frames in flight, and there is nobody left to tell.
+    // A lost device has no frames in flight, and the error can no longer be reported.
     static_cast<void>(renderer_->finish());
   }
   display_.close();

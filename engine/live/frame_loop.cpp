@@ -43,7 +43,7 @@ Status FrameLoop::loop(SnapshotQueue* queue, LoopReport& report) {
   } catch (...) {
     ended = ended_by_exception(std::string(word_of(beats_->tracking().value_or(Part::kTracker))));
   }
-  // However it ended: a display that goes on showing its last frame must not go on guiding.
+  // However the loop ended, a display that keeps showing its last frame must not keep guiding.
   const Status taken_back = guarded("tracker", [&] {
     if (last_display_time_ > Timestamp::min()) {
       take_back(session_.end(next_display_time()), queue, report);
@@ -69,7 +69,7 @@ Status FrameLoop::loop_until_over(SnapshotQueue* queue, LoopReport& report) {
   return {};
 }
 
-/// A device that fails now and then must not end an operation; one that fails for good must.
+/// Occasional failures of a device must not end an operation; a permanent one must.
 Status FrameLoop::tolerate(const Status& status, int& in_a_row, LoopReport& report) {
   if (status.ok()) {
     in_a_row = 0;
@@ -131,8 +131,8 @@ Timestamp FrameLoop::next_display_time() const {
   return headset_->display().predicted_display_time(headset_->clock().now());
 }
 
-/// Shows, by the usual way of every frame, guidance that no longer guides. If the display fails
-/// here it may keep showing the old frame; all that can be done then is to report it.
+/// Shows, in the same way as every frame, guidance that no longer guides. If the display fails here
+/// it may keep showing the old frame, which can then only be reported.
 void FrameLoop::take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report) {
   builder_.update(guidance);
   builder_.write_shown(guidance, shown_);
@@ -165,7 +165,7 @@ Status FrameLoop::poll_commands(LoopReport& report) {
   return voice_stalled_ ? Status{} : tolerate(heard, voice_errors_, report);
 }
 
-/// The part outside of this thread that hangs.
+/// The hanging part outside this thread, if any.
 std::optional<Part> FrameLoop::stalled() const {
   if (voice_stalled_) {
     return Part::kVoice;
@@ -191,7 +191,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   inputs.requests = asked_;
   inputs.stalled = stalled();
   count_stall(inputs.stalled, report);
-  // Submitted from now on; the images were under way for a while.
+  // A frame will be submitted from now on; the images took a while to arrive.
   inputs.display_time = headset_->display().predicted_display_time(heard_at_);
   const Guidance& guidance = session_.step(frame_, inputs);
   report.last_frame = frame_.time;

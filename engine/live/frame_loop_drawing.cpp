@@ -11,14 +11,15 @@
 namespace orthonav::engine {
 namespace {
 
-/// While no snapshot comes, the drawing thread looks this often whether the tracking thread hangs.
+/// While no snapshot arrives, the drawing thread checks this often whether the tracking thread
+/// hangs.
 constexpr auto kLookEvery = std::chrono::milliseconds(50);
 static_assert(kStallAfter + kLookEvery <= std::chrono::milliseconds(500),
               "what stalls is named within half a second");
 
 }  // namespace
 
-/// The loop, with a thread beside it that draws. Where both fail, the loop's Error counts.
+/// The loop, with a thread beside it that draws. If both fail, the loop's Error is returned.
 Status FrameLoop::loop_and_draw(LoopReport& report) {
   SnapshotQueue queue(options_.drop_late_snapshots ? SnapshotQueue::WhenFull::kDropOldest
                                                    : SnapshotQueue::WhenFull::kWait);
@@ -73,8 +74,8 @@ Status FrameLoop::draw_into_sink(const Snapshot& snapshot) {
   return sink_->draw(snapshot);
 }
 
-/// Draws a notice in place of everything else: the part that the tracking thread hangs in. Before
-/// the first snapshot there is nothing else.
+/// Draws a notice in place of everything else, naming the part in which the tracking thread hangs.
+/// Before the first snapshot it stands alone.
 void FrameLoop::warn_of_stall(const Snapshot* last, std::optional<Part>& warned,
                               LoopReport& drawing) {
   const std::optional<Part> stalled = beats_->tracking_stalled();
@@ -101,8 +102,7 @@ void FrameLoop::warn_of_stall(const Snapshot* last, std::optional<Part>& warned,
   }
 }
 
-/// The next snapshot in place of the last one, which warnings are made of meanwhile; null at the
-/// end.
+/// Waits for the next snapshot, and meanwhile makes warnings from the last one; null at the end.
 Snapshot* FrameLoop::await_snapshot(SnapshotQueue& queue, Snapshot* last, LoopReport& drawing) {
   std::optional<Part> warned;
   std::optional<Snapshot*> next;
@@ -122,8 +122,8 @@ Status FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing) {
   Status status;
   int in_a_row = 0;
   Snapshot* last = nullptr;
-  // Where every snapshot is drawn, the pictures are for later, and the device's clock runs ahead of
-  // them: it tells neither what is too old nor what hangs.
+  // If every snapshot is drawn, the pictures are for later, and the device's clock runs ahead of
+  // them, so it shows neither what is too old nor what hangs.
   const bool real_time = options_.drop_late_snapshots;
   while (Snapshot* snapshot = real_time ? await_snapshot(queue, last, drawing) : queue.take()) {
     if (real_time && snapshot->expires && next_display_time() > *snapshot->expires) {

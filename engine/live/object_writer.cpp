@@ -14,12 +14,12 @@ namespace {
 
 using render::Float3;
 
-// A text stays as it lies while the difference can't be read: off by less than 1.5 px of a HoloLens
-// 2 at arm's length, not turned about the line of sight, and as large.
+// A text is not moved while the difference is imperceptible: off by less than 1.5 px of a HoloLens
+// 2 at arm's length, not turned about the line of sight, and of the same size.
 constexpr double kTextMoved_m = 0.0003;
 constexpr double kTextTurned_rad = 0.05;
 constexpr double kTextGrown = 0.03;
-/// Of the bars that stand for a rim, in cap heights.
+/// Offset of the bars that stand for a rim, in cap heights.
 constexpr double kBarAside_caps = 0.35;
 constexpr double kBarWidth_caps = 0.12;
 
@@ -51,7 +51,7 @@ Vec3 column(const render::Matrix4& m, std::size_t c) {
 render::TextItem trimmed(const render::TextItem& item, const render::Font& font,
                          float& front_caps) {
   render::TextItem line;
-  line.rim = item.rim;  // its letters stand farther apart
+  line.rim = item.rim;  // its letters are farther apart
   render::TextRun& run = line.runs.emplace_back();
   for (const render::TextRun& part : item.runs) {
     run.text += part.text;
@@ -70,7 +70,7 @@ render::TextItem trimmed(const render::TextItem& item, const render::Font& font,
   return line;
 }
 
-/// From the anchor to the middle of what is written, in cap heights to the right.
+/// From the anchor to the middle of the text, in cap heights to the right.
 float middle_caps(const render::TextItem& item, float whole, float front, float written) {
   const float begins = item.align == render::TextAlign::kLeft     ? 0.0f
                        : item.align == render::TextAlign::kCentre ? -0.5f * whole
@@ -107,7 +107,7 @@ void ObjectWriter::add_ball(Float3 centre, float radius_m, render::Colour colour
                             ObjectShape shape) {
   DisplayObject& object = add(Part::kBall, shape, colour);
   object.position_m = to_vec3(centre);
-  // A cube's corners as far out as the octahedron's.
+  // Makes a cube's corners reach as far out as the octahedron's.
   const double size_m = shape == ObjectShape::kCube ? 2.0 / std::sqrt(3.0) : 2.0;
   object.scale = size_m * static_cast<double>(radius_m) * Vec3{1, 1, 1};
   if (shape == ObjectShape::kCube) {
@@ -161,14 +161,14 @@ void ObjectWriter::add_text(const render::TextItem& item, const render::Head& he
   }
 }
 
-/// Keeps how the text lay before where the difference can't be read.
+/// Keeps the text's previous pose if the difference is imperceptible.
 void ObjectWriter::steady(std::uint64_t key, Lying& lying) {
   const auto [found, is_new] = lying_.try_emplace(key, lying);
   Lying& before = found->second;
   before.used = true;
   const Mat3 was = rotation_from_quaternion(before.rotation);
   const Mat3 is = rotation_from_quaternion(lying.rotation);
-  // What turns a text about its line of sight moves its ends.
+  // Turning a text about the line of sight moves its ends.
   const Vec3 right = is.column(0);
   const Vec3 up = was.column(1);
   const bool same =

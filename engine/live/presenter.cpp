@@ -10,11 +10,11 @@
 namespace orthonav::engine {
 namespace {
 
-/// How long to wait before asking again while nobody is looking at the display.
+/// How long to wait before asking again while the display is not in use.
 constexpr auto kIdlePause = std::chrono::milliseconds(5);
-/// How long a runtime may take to end a session before it is no longer waited for.
+/// How long to wait for a runtime to end a session.
 constexpr auto kLongestGoodbye = std::chrono::seconds(2);
-// More of them would tell nothing new.
+// More would not add information.
 constexpr std::size_t kMostProblems = 20;
 constexpr std::size_t kMostLatches = 100'000;
 
@@ -149,8 +149,8 @@ void Presenter::present(const DisplayFrame& frame) {
   }
 }
 
-/// Labels are laid out for the eyes of the frame before: by the time that this frame's are known it
-/// must be drawn, and a head hardly moves from one frame to the next.
+/// Labels are laid out for the eyes of the frame before: once this frame's are known, it must be
+/// drawn at once, and a head hardly moves from one frame to the next.
 void Presenter::take_newest() {
   {
     const MutexLock lock(mutex_);

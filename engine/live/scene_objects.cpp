@@ -16,7 +16,7 @@ namespace {
 
 using render::Float3;
 
-/// What matters most comes first: what exceeds the display's limits is left out at the end.
+/// The most important first, because objects beyond the display's limits are left out from the end.
 constexpr std::array<HologramKind, 13> kOrder = {
     HologramKind::kTriangle,   HologramKind::kAngle,  HologramKind::kDepth,
     HologramKind::kNumbers,    HologramKind::kStatus, HologramKind::kCross,
@@ -29,9 +29,9 @@ constexpr float kPathWithin_m = 0.0007f;
 constexpr float kPathCoarser = 2.0f;
 constexpr float kCoarsestPath_m = 0.012f;
 constexpr float kTubeWithin_m = 0.0002f;
-/// More dashes of one line would tell nothing new.
+/// More dashes of one line would not add information.
 constexpr float kMostDashes = 24;
-/// A round end covers as much as a flat one that ends so much sooner, in widths.
+/// A round end covers as much area as a flat one that ends this much sooner, in line widths.
 constexpr float kRoundEnd = 0.5f - std::numbers::pi_v<float> / 8;
 /// 1.5 px of a HoloLens 2 at 0.5 m, the least width the renderer draws too.
 constexpr float kThinnest_m = 0.0004f;
@@ -39,8 +39,8 @@ constexpr float kOutline_m = 0.0005f;
 constexpr float kBoneLine_m = 0.0006f;
 constexpr float kFaintest = 0.02f;
 
-/// Cuts dashes out of a line: first a dash, then a gap as long. What is shorter than wide is left
-/// out.
+/// Cuts a line into dashes: first a dash, then a gap of the same length. Dashes shorter than the
+/// width are left out.
 void cut_dashes(std::vector<StraightPiece>& pieces, float dash_m, float width_m) {
   float total_m = 0;
   for (const StraightPiece& piece : pieces) {

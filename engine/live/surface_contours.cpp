@@ -13,13 +13,13 @@ namespace {
 using render::Float3;
 using Line = SurfaceContours::Line;
 
-/// A point of the contour lies on the surface: what hides it is sought from a little outside.
+/// A point of the contour lies on the surface, so occluders are searched from a little outside.
 constexpr float kOffSurface_m = 0.0008f;
-/// What is hidden for no longer is shown, and what is seen for no longer is not: such pieces come
-/// from the triangles, not from the bone.
+/// Hidden pieces no longer than this are shown, and visible ones no longer than this are not: such
+/// pieces come from the triangles, not from the bone.
 constexpr float kHiddenGap_m = 0.002f;
 constexpr float kShortest_m = 0.004f;
-/// At most so many points in a row are left out: bounds the work.
+/// At most this many points in a row are left out, which bounds the work.
 constexpr std::size_t kLongestRun = 63;
 
 nav::TriangleMesh to_nav(const render::MeshData& mesh) {
@@ -33,7 +33,7 @@ nav::TriangleMesh to_nav(const render::MeshData& mesh) {
   return out;
 }
 
-/// The parts of a line whose pieces are seen: `seen[i]` is that from point i to the next.
+/// The visible parts of a line: `seen[i]` tells about the piece from point i to the next.
 void append_seen(const Line& line, std::vector<bool> seen, std::vector<Line>& lines) {
   const auto for_runs = [&](const auto& visit) {
     for (std::size_t first = 0; first < seen.size();) {
@@ -69,7 +69,7 @@ class Chains {
     auto& both = at_edge_.try_emplace(edge, std::array<std::size_t, 2>{kNone, kNone}).first->second;
     (both[0] == kNone ? both[0] : both[1]) = segment;
   }
-  /// Takes the segment at this edge that is not taken yet; `kNone` where there is none.
+  /// Takes the segment at this edge that is not taken yet; `kNone` if there is none.
   [[nodiscard]] std::size_t take_at(std::uint64_t edge) {
     const auto found = at_edge_.find(edge);
     for (const std::size_t segment : found->second) {
@@ -150,7 +150,7 @@ std::vector<Line> SurfaceContours::seen_from(Float3 eye) const {
     if (!chains.take(first)) {
       continue;
     }
-    // On a closed surface every contour closes: one way is enough.
+    // On a closed surface every contour is closed, so following it one way is enough.
     Line line = {segments[first][0].point, segments[first][1].point};
     std::vector<bool> seen = {is_seen(segments[first], eye)};
     std::uint64_t edge = segments[first][1].edge;

@@ -58,7 +58,7 @@ Transform<Spine, Vertebra> below(const Transform<Spine, Vertebra>& spine_from_up
   return {middle.rotation() * tilted(half_turn), (middle * Point<Vertebra>{{0, 0, -drop}}).v};
 }
 
-/// Where each level lies, with the reference level at the origin.
+/// The place of each level, with the reference level at the origin.
 std::vector<Transform<Spine, Vertebra>> places(const std::vector<VertebraMorphometry>& levels) {
   std::vector<Transform<Spine, Vertebra>> spine_from_vertebra(levels.size());
   std::size_t reference = 0;

@@ -16,7 +16,8 @@ constexpr int kMostAcross = 50;
 constexpr int kFewestSquares = 3;
 constexpr double kSmallestM = 0.002;
 constexpr double kLargestM = 0.5;
-// Sizes and gaps come as decimal millimetres: their ratio may miss a whole cell by a rounding.
+// Sizes and gaps come as decimal millimetres, so their ratio may miss a whole number of cells by
+// rounding.
 constexpr double kRounding = 1e-9;
 
 std::string in_mm(double metres) {
@@ -125,7 +126,7 @@ std::string to_text(BoardKind kind) {
 std::vector<std::string> problems_of(const Board& board) {
   std::vector<std::string> problems;
   check_counts(board, problems);
-  // What follows divides and multiplies by these.
+  // The code below divides and multiplies by these.
   if (!problems.empty()) {
     return problems;
   }

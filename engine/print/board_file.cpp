@@ -13,7 +13,7 @@ namespace orthonav::engine {
 namespace {
 
 constexpr const char* kFormat = "orthonav board";
-// Beyond it no count is worth a list.
+// Larger counts are refused without reading the list.
 constexpr int kMostInFile = 1000;
 
 std::optional<BoardKind> kind_from(const std::string& text) {
@@ -75,7 +75,7 @@ Result<Board> board_from(const JsonDocument& document, const std::string& name) 
   return Error{name + ": " + joined(problems)};
 }
 
-/// Millimetres whose digits were not made longer by the way through metres.
+/// Millimetres without the extra digits from the conversion to metres.
 double mm_of(double metres) { return std::round(metres * 1e9) / 1e6; }
 
 }  // namespace

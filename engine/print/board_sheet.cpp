@@ -27,7 +27,7 @@ std::string heading_of(const Board& board) {
          std::to_string(board.border_cells) + (board.border_cells == 1 ? " cell" : " cells");
 }
 
-/// What has to stay free or black around the outermost edges.
+/// The margin that has to stay free or black around the outermost edges.
 double surround_mm(const Board& board) {
   if (board.kind == BoardKind::kChessboard) {
     return board.size_m * 1e3 / 2;

@@ -18,10 +18,10 @@ constexpr double kRodRowMm = 17.0;
 constexpr double kDialMm = 4.0;  ///< radius
 constexpr double kRodGapMm = 6.0;
 constexpr double kHalfRodMm = 2.75;
-/// Of the table's columns, from the left of the page's content.
+/// Places of the table's columns, from the left of the page's content.
 constexpr std::array<double, 7> kColumnsMm = {0, 14, 48, 74, 100, 130, 160};
 
-/// Writes down the page from the top.
+/// Fills the page from top to bottom.
 class RodPage {
  public:
   RodPage(Sheet& sheet, const SheetRect& content) : sheet_(sheet), content_(content) {}
@@ -91,7 +91,7 @@ void add_table(RodPage& page, const nav::RodInstructions& told) {
   page.skip(kDialMm);
 }
 
-/// The straight rod with its bends, in as many rows as it takes.
+/// The straight rod with its bends, in as many rows as needed.
 void add_straight_rod(RodPage& page, const nav::RodInstructions& told) {
   const double length_mm = told.cut_length_m() * 1e3;
   const double row_mm = 10.0 * std::floor(page.width_mm() / 10.0);

@@ -6,7 +6,7 @@
 namespace orthonav::engine {
 namespace {
 
-// The detector's name for the one with the borders of the other two cells wide.
+// The detector's name for the family whose border is two cells wide.
 constexpr const char* kWideFamily = "tag36h11b2";
 constexpr const char* kNarrowFamily = "tag36h11";
 

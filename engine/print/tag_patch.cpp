@@ -13,8 +13,8 @@ constexpr double kCaptionPitchMm = 3.2;
 // Room for the captions under a small tag.
 constexpr double kLeastWidthMm = 34.0;
 
-// Text inside the cut: as large as the paper allows, in one row where that stays easy to read, and
-// never smaller than a printer can print and an eye can read.
+// Text inside the cut: as large as the paper allows, in one row if that stays easy to read, and
+// never too small to print and read.
 constexpr double kLargestTextMm = 2.4;
 constexpr double kOneRowTextMm = 1.6;
 constexpr double kSmallestTextMm = 1.2;

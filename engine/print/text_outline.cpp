@@ -26,10 +26,10 @@ struct PrintFont::Library {
 
 namespace {
 
-/// What the font has no letter for.
+/// A character that the font lacks.
 constexpr char32_t kUnknown = 0xFFFFFFFF;
 
-/// The letter that begins at `at`, which goes on to the next; `kUnknown` for what is no UTF-8.
+/// The letter that begins at `at`, which advances to the next; `kUnknown` if it is not valid UTF-8.
 char32_t next_letter(std::string_view text, std::size_t& at) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t first = byte(at++);

@@ -19,7 +19,7 @@ std::string word_of(const json& object, const char* key) {
   return text.empty() ? kAbsent : html_escaped(text);
 }
 
-/// `beside`: what stands behind the number, where there is one.
+/// `beside`: the text after the number, if any.
 void millimetre_cell(HtmlTable& table, const json& object, const char* key,
                      const char* beside = "") {
   const auto value = value_of(object, key);
@@ -38,7 +38,7 @@ std::string grades_text(const json& object) {
   return text.empty() ? kAbsent : text;
 }
 
-/// The bound, and that it lacks what all strokes share.
+/// The bound, with a remark that it lacks the errors that all strokes share.
 void bound_cell(HtmlTable& table, const json& object, bool registration_only) {
   millimetre_cell(table, object, "clearance_95_mm", registration_only ? kRegistrationOnlyHtml : "");
 }

@@ -18,7 +18,7 @@ bool JudgedFigure::keeps_limit() const {
 
 namespace {
 
-/// With the decimals that tell it from the limit.
+/// With as many decimals as distinguish it from the limit.
 std::string text_of_figure(const JudgedFigure& figure) {
   return figure.bound == Bound::kNone
              ? html_number(figure.value, figure.decimals)

@@ -8,7 +8,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// Without its screws.
+/// The level's outcome without its screws.
 LevelOutcome outcome_of(const LevelState& state) {
   LevelOutcome level;
   level.label = state.plan.label;

@@ -19,7 +19,7 @@ constexpr double kMargin_mm = 5.0;
 constexpr double kShaftOutside_mm = 14.0;
 /// Points farther off the bone are left outside the picture.
 constexpr double kShownOff_m = 0.012;
-/// Points no farther than this behind the surface are seen through it.
+/// Points no farther than this behind the surface are shown through it.
 constexpr double kHidden_m = 0.002;
 constexpr Rgb kUntouchable{214, 208, 197};
 constexpr Rgb kStrokedBone{170, 205, 178};
@@ -55,7 +55,7 @@ PageArea area_of(const RegisteredLevel& level, const RegistrationScene& scene,
   return {area.low_mm - log_likelihood_ratio, area.high_mm + log_likelihood_ratio};
 }
 
-/// Points of one kind as paths, one per colour: a dot is a line of no length with round caps.
+/// Points of one kind as paths, one per colour: a dot is a line of zero length with round caps.
 class PointPaths {
  public:
   PointPaths(const RegistrationScene& scene, const Viewpoint& view) : scene_(scene), view_(view) {}
@@ -209,7 +209,7 @@ std::string hex(Rgb c) {
 
 namespace {
 
-/// The picture itself, for those who must know what it hides.
+/// The picture itself, for callers that must know what it hides.
 DepthPicture shaded_bone(const RegisteredLevel& level, const PageArea& area, const Viewpoint& from,
                          const SurfacePaint& paint) {
   DepthPicture bone(from, area, kPixelsPerMm);
@@ -218,7 +218,7 @@ DepthPicture shaded_bone(const RegisteredLevel& level, const PageArea& area, con
   return bone;
 }
 
-/// Still open.
+/// The SVG element is still open.
 Result<RegistrationDrawing> framed(const DepthPicture& bone, const PageArea& area,
                                    const RegistrationView& view) {
   const auto png = png_bytes(bone.image());

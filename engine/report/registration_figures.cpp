@@ -23,7 +23,8 @@ PlaceError error_at(const nav::Registration& r, Point<Vertebra> place) {
           r.uncertainty->covariance_at(place)};
 }
 
-/// Where poses are compared: at the screws, or else at the extremes of what can be touched.
+/// The points where poses are compared: at the screws, or else at the extremes of the reachable
+/// surface.
 std::vector<Point<Vertebra>> places_of(const RegisteredLevel& level) {
   std::vector<Point<Vertebra>> places = nav::entries_and_targets(level.screws);
   if (places.empty()) {
@@ -145,7 +146,7 @@ std::string certainty_of(const RegisteredLevel& level) {
         formatted("An error of %.2f mm (root mean square) is to be expected at the model's centre.",
                   r.predicted_tre_m * 1e3);
   } else if (std::isfinite(*within)) {
-    // For a pose that may be the wrong one, its own scatter says nothing.
+    // The scatter about a pose that may be wrong means nothing.
     out =
         std::string(r.accepted ? "95 of 100 errors " : "Were this pose right, 95 of 100 errors ") +
         where +

@@ -75,7 +75,7 @@ void put_fit(Json& out, const nav::Registration& r) {
   out["iterations"] = r.iterations;
   out["rmse_mm"] = mm_or_null(r.rmse_m);
   if (!(r.noise_m > 0.0)) {
-    return;  // `paper` knows no more
+    return;  // `paper` has no more figures
   }
   out["noise_mm"] = mm_or_null(r.noise_m);
   out["lift_mm"] = mm_or_null(r.standoff_m);
@@ -85,7 +85,7 @@ void put_fit(Json& out, const nav::Registration& r) {
   out["swept_share"] = r.shaft_collision_fraction;
 }
 
-/// Errors to expect, and what is in them.
+/// Expected errors, and what they include.
 void put_expected(Json& out, const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
   out["predicted_tre_mm"] = mm_or_null(worst_rms_m(level));

@@ -54,12 +54,12 @@ std::string caption(const RegisteredLevel& level, const RegistrationScene& scene
          sources_of(level.registration.common) + "</p>";
 }
 
-/// A level with all that is drawn of it.
+/// A level with all its drawings.
 struct DrawnLevel {
   const RegisteredLevel& level;
   RegistrationScene scene;
   std::vector<RegistrationDrawing> drawings;  ///< in the order of the views
-  /// Of the two views side by side, from behind and from the left.
+  /// The width of the two views side by side, from behind and from the left.
   [[nodiscard]] double width_mm() const { return drawings[0].size_mm.x + drawings[1].size_mm.x; }
 };
 
@@ -81,7 +81,7 @@ Result<DrawnLevel> drawn(const RegisteredLevel& level, std::optional<double> mag
 
 /// As in a technical drawing: from behind; beside it from the left; below it from above; all to one
 /// scale. The legend and the screws take the remaining corner. `widest_mm` of all levels fills the
-/// page, so that levels too are to one scale.
+/// page, so that all levels have the same scale.
 std::string views(const DrawnLevel& drawn, double widest_mm) {
   std::string figures;
   for (std::size_t i = 0; i < drawn.drawings.size(); ++i) {

@@ -8,7 +8,7 @@ namespace orthonav::engine {
 namespace {
 
 constexpr std::size_t kMostPoints = 4000;
-/// The same rule by which the registration tells points on the bone from others.
+/// The same limit with which the registration separates points on the bone from others.
 constexpr double kOffBoneSd = 3.5;
 constexpr double kLeastFullColour_m = 0.0005;
 /// Predicted errors are drawn on a scale up to this, unless they are larger.
@@ -57,7 +57,7 @@ std::vector<double> distances_from_strokes_m(const nav::TriangleMesh& mesh,
         least = std::min(least, (p.place_m - vertex).squared_norm());
       }
     }
-    // Beyond what is drawn all distances look alike, and infinity can't be interpolated.
+    // Larger distances are drawn alike, and infinity can't be interpolated.
     out.push_back(std::min(std::sqrt(least), 4.0 * kStroked_m));
   }
   return out;
@@ -68,13 +68,13 @@ bool shows_tissue(const nav::Registration& r) {
   return std::max(r.standoff_m, r.field_sd_m) > kTissue_m;
 }
 
-/// Refused, and soft tissue is behind it; "press here" is then what helps most.
+/// Refused because of soft tissue; "press here" is then the most helpful advice.
 bool asks_to_scrape(const nav::Registration& r) {
   return !r.accepted && r.stroke_next && shows_tissue(r);
 }
 
-/// What the registration made of the strokes; where it made nothing of them, what the points show.
-/// `paper` has neither.
+/// The heights that the registration estimated from the strokes, or else those that the points
+/// show. `paper` has neither.
 std::vector<nav::EstimatedHeight> heights_of(const RegisteredLevel& level,
                                              const std::vector<PlacedPoint>& points) {
   const nav::Registration& r = level.registration;
@@ -131,7 +131,7 @@ double common_magnification(std::span<const RegisteredLevel> levels) {
   for (const RegisteredLevel& level : levels) {
     for (const ScrewErrors& screw : errors_at_screws(level)) {
       for (const PlaceError* error : {&screw.entry, &screw.target}) {
-        // What is not known is not drawn either, and must not shrink what is.
+        // An unknown error is not drawn, and must not shrink the others.
         const double drawn_m = std::isfinite(error->rms_m) ? ellipsoid_scale() * error->rms_m : 0.0;
         largest_m = std::max(largest_m, drawn_m);
       }

@@ -10,7 +10,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// No limit is set on it.
+/// A figure without a limit.
 JudgedFigure plain(double value, int decimals) { return {value, decimals, Bound::kNone, 0.0, 0}; }
 JudgedFigure at_most(double value, int decimals, double limit, int limit_decimals) {
   return {value, decimals, Bound::kAtMost, limit, limit_decimals};
@@ -71,7 +71,7 @@ std::string rows_of_best(const RegisteredLevel& level) {
          rows_of_hypotheses(r, limits);
 }
 
-/// `paper` judges by the residuals and by the error to expect at the model's centre.
+/// `paper` judges by the residuals and by the expected error at the model's centre.
 std::string rows_of_paper(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
   const nav::RegistrationOptions limits;
@@ -98,7 +98,7 @@ JudgedFigure within_99_figure(double within_m) {
 
 bool is_best(const RegisteredLevel& level) { return level.registration.noise_m > 0.0; }
 
-/// Whether errors to expect hold more than the registration's own, which the limits are about.
+/// Whether expected errors include more than the registration's own, to which the limits apply.
 bool holds_common(const RegisteredLevel& level) { return level.registration.common.sd_m() > 0.0; }
 
 std::string rows_of_error(const RegisteredLevel& level) {
@@ -190,7 +190,7 @@ std::string screws_table(const RegisteredLevel& level) {
                     "</thead><tbody>";
   for (const ScrewErrors& e : errors_at_screws(level)) {
     const std::string side = name_of(e.side);
-    // A small error of a pose that is refused is no good news.
+    // A small error of a refused pose must not look like good news.
     const auto row = [&](const char* end, const PlaceError& error) {
       const bool tells = accepted || !rms_figure(error.rms_m, judged).keeps_limit();
       return place_row(side + end, error, judged && tells);

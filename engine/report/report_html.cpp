@@ -28,7 +28,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What lies above the axis is put at its edge, and what it was is kept.
+/// Values above the axis are drawn at its edge, and their true values are kept.
 json curve_json(const ReportCurve& curve, double y_max) {
   json points = json::array();
   for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
@@ -123,7 +123,7 @@ json plot_json(const ReportPlot& plot, const char* place) {
           {"curves", std::move(curves)}};
 }
 
-/// Each with the id of the element that it belongs in.
+/// Each plot with the id of its element.
 json plots_json(const ReportContent& content) {
   json out = json::array();
   for (const ReportPlot& plot : content.plots) {
@@ -135,7 +135,7 @@ json plots_json(const ReportContent& content) {
   return out;
 }
 
-/// What the page's script draws as bars: every screw with its errors, beside the published rows.
+/// The bars that the page's script draws: every screw with its errors, beside the published rows.
 json error_bars(const json& report) {
   json rows = json::array();
   for (const PaperRow& row : kPaperTable) {
@@ -184,7 +184,7 @@ std::string notes_section(const std::vector<std::string>& notes) {
   return notes.empty() ? "" : html + "</ul></section>";
 }
 
-/// What is plotted, and the scripts that plot it.
+/// The data of the plots, and the scripts that draw them.
 std::string scripts(const json& report, const ReportContent& content) {
   std::string html = "<script type=\"application/json\" id=plot-data>" +
                      script_json(plots_json(content)) +

@@ -25,7 +25,7 @@ void put_quantile(Json& object, const char* key, const std::vector<double>& valu
   }
 }
 
-/// Nothing where nobody was asked to measure it.
+/// Nothing if no measurement was asked for.
 void put_wire(Json& out, const ScrewOutcome& screw) {
   if (!screw.wire.asked) {
     return;
@@ -43,7 +43,7 @@ void put_wire(Json& out, const ScrewOutcome& screw) {
   out["redone"] = screw.redone;
 }
 
-/// What only a truth can tell of how it was guided.
+/// The guide's errors, known only where there is a ground truth.
 void put_guided(Json& out, const ScrewOutcome& screw) {
   if (screw.preoperative_angle_error_rad) {
     out["preoperative_angle_error_deg"] = degrees(*screw.preoperative_angle_error_rad);

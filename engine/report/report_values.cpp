@@ -8,7 +8,7 @@ namespace orthonav::engine {
 
 namespace {
 
-/// Null where the key is absent, or the object none.
+/// Null if the key is absent or the value is not an object.
 const nlohmann::json* find_in(const nlohmann::json& object, std::string_view key) {
   if (!object.is_object()) {
     return nullptr;

@@ -27,7 +27,7 @@ std::string size_of(const json& screw) {
              : "not stated";
 }
 
-/// Of an error against the truth, with its limit.
+/// A cell with an error against the truth, and its limit.
 void error_cell(HtmlTable& table, const std::optional<double>& value, double limit) {
   table.cell(value ? html_number_beside(*value, limit, 1) : kNone,
              value && *value > limit ? "bad" : "");

@@ -17,7 +17,7 @@ void put_length_mm(Json& object, const char* key, const std::optional<double>& l
   }
 }
 
-/// Nothing where nobody was asked to measure it.
+/// Nothing if no measurement was asked for.
 void put_recorded_wire(Json& out, const RecordedScrew& screw) {
   if (!screw.wire_asked && !screw.wire) {
     return;

@@ -75,12 +75,12 @@ std::string touches_of_landmark(const RecordedLevel& level) {
   return text.empty() ? "\u2013" : text;
 }
 
-/// An error or a bound in mm, and beside it that it lacks what all strokes share.
+/// An error or a bound in mm, with a remark if it lacks the errors that all strokes share.
 std::string bound_text(const std::optional<double>& value_m, bool registration_only) {
   return recorded(value_m, 1e3, 2) + (value_m && registration_only ? kRegistrationOnlyHtml : "");
 }
 
-/// Whether a bound on a screw's place lacks it.
+/// Whether a bound on a screw's place lacks those errors.
 bool registration_only(const SessionRecord& session, const RecordedLevel& level) {
   return level.registration &&
          session.registrations[*level.registration].registration_only.value_or(false);

@@ -18,7 +18,7 @@ constexpr std::array<Rgb, 7> kThickness = {{{255, 255, 212},
                                             {140, 45, 4}}};
 constexpr Rgb kNotStroked{214, 208, 197};
 
-/// A readable number that hardly any place exceeds.
+/// A round number that hardly any place exceeds.
 double full_scale_m(const RegistrationScene& scene) {
   constexpr double kStep_m = 0.0005;
   constexpr double kLeast_m = 0.001;  // a few tenths must not look like thick tissue

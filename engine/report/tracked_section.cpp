@@ -17,7 +17,7 @@ using nlohmann::json;
 constexpr const char* kNoMeasurement = "not measured";
 constexpr const char* kNoRecord = "not recorded";
 
-/// Why there is no such figure.
+/// Why this figure is missing.
 const char* why_none(const json& screw, const char* what) {
   const auto names = screw.find("not_measured");
   const bool known = names != screw.end() && names->is_array() &&
@@ -25,7 +25,7 @@ const char* why_none(const json& screw, const char* what) {
   return known ? kNoMeasurement : kNoRecord;
 }
 
-/// The root mean square SD over `axes` of a 3x3 by rows; nothing where it is none.
+/// The root mean square SD over `axes` of a 3x3 matrix by rows; nothing if the value is not one.
 std::optional<double> axis_sd_of(const json& object, const char* key, double axes) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_array() || found->size() != 9) {

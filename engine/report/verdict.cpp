@@ -27,9 +27,9 @@ std::string limits_in_words() {
 struct Counts {
   std::size_t screws = 0;
   std::size_t placed = 0;
-  std::size_t known = 0;  ///< with a truth
+  std::size_t known = 0;  ///< with a known truth
   std::size_t on_target = 0;
-  std::size_t wires = 0;  ///< measured where they stood
+  std::size_t wires = 0;  ///< measured in the bone
   std::size_t wires_within = 0;
 };
 
@@ -47,7 +47,7 @@ Counts counts_of(const json& report) {
   return n;
 }
 
-/// How far the screws are from the plan, as far as anybody knows.
+/// How far the screws are from the plan, as far as known.
 std::string accuracy_text(const Counts& n) {
   if (n.placed == 0) {
     return "";
@@ -63,7 +63,7 @@ std::string accuracy_text(const Counts& n) {
                             (n.wires == 1 ? "" : "s") + " within the limits";
 }
 
-/// What the truth says of a screw that is not as it should be; empty: all well, or no truth.
+/// What is wrong with a screw according to the truth; empty if nothing is, or there is no truth.
 std::string missed_text(const json& screw) {
   const auto clearance = value_of(screw, "clearance_mm");
   const auto angle = value_of(screw, "angle_error_deg");
@@ -112,7 +112,7 @@ std::string planned_warning(const json& screw) {
   return reason.empty() ? "" : "planned to leave the cortex: " + reason;
 }
 
-/// By gravity: what the truth says, then what was measured, then what was planned.
+/// By severity: first from the truth, then from measurements, then from the plan.
 std::vector<std::string> warnings_of(const json& report) {
   std::vector<std::string> out;
   for (const auto& warning : {missed_text, wire_warning, bound_warning, planned_warning}) {
@@ -156,7 +156,7 @@ Verdict verdict_of(const json& report) {
   if (!completed && !why.empty()) {
     out.line += " (" + why + ")";
   }
-  // A journal without its plan does not tell how many there were to be.
+  // A journal without its plan does not show how many were planned.
   const json& session = object_in(report, "session");
   const bool planned = !session.contains("plan_recorded") || is_true(session, "plan_recorded");
   const std::size_t all = planned ? n.screws : n.placed;

@@ -89,7 +89,7 @@ std::string field_of(const Volume& labels, const std::string& key) {
   return found == labels.fields.end() ? std::string() : found->second;
 }
 
-/// The segments of a file of 3D Slicer in whose names a level stands.
+/// The segments of a 3D Slicer file whose names contain a level.
 Result<std::vector<LabelledLevel>> named_levels(const Volume& labels) {
   constexpr int kMostSegments = 1000;
   const std::vector<std::string> known = spine_labels();
@@ -182,7 +182,7 @@ double usual_distance_m(const std::string& upper, const std::string& lower) {
         return 0.035;
     }
   };
-  // Few have a T13 or an L6: one that is not there is no step.
+  // Few spines have a T13 or an L6; a missing one does not count as a step.
   std::vector<std::string> order = spine_labels();
   std::erase_if(order, [&](const std::string& label) {
     return (label == "T13" || label == "L6") && label != upper && label != lower;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr float kFar_m2 = 1.0F;  // (1 m)^2
 constexpr int kSmoothings = 4;
-/// Least value at a voxel's middle, as a share of the spacing, so that it stays on its side.
+/// Least value at a voxel's middle, as a share of the spacing, so that the voxel stays on its side
+/// of the surface.
 constexpr float kKept = 0.02F;
 
 /// The lower envelope of parabolas along one line: squared distances become those with one more
@@ -66,7 +67,7 @@ class Envelope {
   std::vector<double> starts_;
 };
 
-/// Squared distances from each voxel's middle to that of the nearest one with this value.
+/// Squared distances from each voxel's middle to the middle of the nearest voxel with this value.
 std::vector<float> squared_distances_m2(const LabelPart& part, std::uint8_t to) {
   std::vector<float> f(part.inside.size());
   std::transform(part.inside.begin(), part.inside.end(), f.begin(),

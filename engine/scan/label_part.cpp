@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kLeastVoxels = 100;
 using Index = std::array<int, 3>;
 
-/// The voxels of a grid in the parts that hang together by faces.
+/// The parts of a grid whose voxels are connected by faces.
 class Parts {
  public:
   /// Voxels whose `member` is 1 belong to a part.
@@ -27,7 +27,7 @@ class Parts {
       }
     }
   }
-  /// From 1 on; 0: of none.
+  /// Counted from 1; 0: in no part.
   [[nodiscard]] std::uint32_t part_of(std::size_t voxel) const { return part_[voxel]; }
   [[nodiscard]] std::size_t size_of(std::uint32_t part) const { return sizes_[part - 1]; }
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(sizes_.size()); }
@@ -75,7 +75,7 @@ struct Extent {
   Index high{-1, -1, -1};
 };
 
-/// Bone is what the outside does not reach.
+/// Everything that the outside does not reach becomes bone.
 void fill_cavities(LabelPart& part) {
   std::vector<std::uint8_t> free(part.inside.size());
   std::transform(part.inside.begin(), part.inside.end(), free.begin(),

@@ -12,7 +12,7 @@ namespace {
 constexpr double kFinestStep_m = 0.0010;
 constexpr double kCoarsestStep_m = 0.0015;
 
-/// The part of a mesh with the most triangles; vertices that only others use go.
+/// The connected part of a mesh with the most triangles; vertices used only by others are removed.
 nav::TriangleMesh largest_piece(const nav::TriangleMesh& mesh) {
   const auto part = nav::parts_of(mesh, std::vector<bool>(mesh.triangles.size(), true));
   std::vector<std::size_t> triangles(mesh.vertices_m.size(), 0);

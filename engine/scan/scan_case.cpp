@@ -11,7 +11,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// Cubic metres of the least part that is looked at: a lumbar vertebra has 40 to 80 cm3.
+/// Volume of the smallest part that is considered, m³: a lumbar vertebra has 40 to 80 cm³.
 constexpr double kLeastPart_m3 = 5e-6;
 constexpr double kMostOutside = 0.1;
 constexpr double kLeastBone_hu = 50.0;
@@ -21,7 +21,7 @@ bool made_unasked(const std::string& label) { return label[0] == 'T' || label[0]
 
 enum class Cut { kRefused, kClosed };
 
-/// `cut`: what becomes of a label that goes on beyond the border of the scan.
+/// `cut`: what to do with a label that is cut by the border of the scan.
 Result<ScanLevel> level_of(const Volume& labels, const LabelledLevel& labelled, Cut cut) {
   const auto part = label_part(labels, labelled, kSurfaceMargin);
   if (!part) {

@@ -2,7 +2,7 @@
 
 #ifdef __clang__
 // Debian's ITK was configured for GCC and refuses other compilers. Clang reads this file for its
-// checks; of what is skipped here it needs these two.
+// checks; of the skipped definitions it needs these two.
 #define ITK_COMPILER_DETECTION_H
 #define ITK_NOEXCEPT noexcept
 #define ITK_NOEXCEPT_EXPR(X) noexcept(X)
@@ -105,7 +105,7 @@ Status read_voxels(itk::ImageIOBase& io, std::vector<float>& values) {
 
 Vec3 vector_of(const std::vector<double>& v) { return {v.at(0), v.at(1), v.at(2)}; }
 
-/// The grid as the file states it; what is wrong with it.
+/// The grid as the file states it, or what is wrong with it.
 Result<VolumeGrid> grid_of(const itk::ImageIOBase& io) {
   const unsigned dimensions = io.GetNumberOfDimensions();
   bool flat = dimensions < 3;
@@ -182,7 +182,7 @@ Result<Volume> load_file(itk::ImageIOBase& io, const std::string& path) {
   }
 }
 
-/// What a slice says about its place; nothing of a file that is no DICOM slice with a place.
+/// The place of a slice from its header; nothing if the file is not a DICOM slice with a place.
 std::optional<SliceHeader> header_of(const std::string& path) {
   const auto io = itk::GDCMImageIO::New();
   try {
@@ -228,7 +228,7 @@ Status append_slice(const SliceHeader& slice, std::vector<float>& values) {
   }
 }
 
-/// Of every DICOM slice in the folder, in the order of the names.
+/// The headers of all DICOM slices in the folder, ordered by file name.
 std::vector<SliceHeader> headers_in(const std::string& folder) {
   std::vector<std::string> files;
   std::error_code code;
@@ -248,7 +248,7 @@ std::vector<SliceHeader> headers_in(const std::string& folder) {
 }
 
 Result<Volume> load_folder(const std::string& folder, const std::string& series) {
-  // What it has to say comes back as an error; the library prints nothing.
+  // Problems are returned as errors; the library must not print.
   gdcm::Trace::DebugOff();
   gdcm::Trace::WarningOff();
   gdcm::Trace::ErrorOff();

@@ -23,7 +23,7 @@ void count(const ReportPart& screw, const char* which, ClearanceQuality::Bound& 
   }
 }
 
-/// The likeliest, A to E; the better one of two that are alike.
+/// The likeliest grade, A to E; of two equally likely ones the better.
 std::size_t likeliest_of(const ReportPart& probabilities) {
   std::size_t best = 0;
   double most = -1.0;

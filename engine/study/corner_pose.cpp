@@ -6,7 +6,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// The tag's motion in the rig (m, rad about its centre), then what the calibration is off by.
+/// The tag's motion in the rig (m, rad about its centre), then the errors of the calibration.
 constexpr int kPose = 6;
 constexpr int kCalibration = nav::kCalibrationUnknowns;
 constexpr int kAll = kPose + kCalibration;

@@ -7,10 +7,10 @@
 namespace orthonav::engine {
 namespace {
 
-/// The measurement before a wire pierced the bone is no older than that.
+/// The last measurement before a wire pierced the bone must not be older than this.
 constexpr Duration kNewest = std::chrono::milliseconds(500);
 
-/// What was shown of how sure the two offsets are.
+/// The shown certainty of the two offsets.
 void add_shown(const nav::ScrewNumbers& shown, Vec3 apart_m, const nav::ScrewPlan& plan,
                GuidedError& error) {
   error.sure = shown.tip_cranial.sure && shown.tip_medial.sure;

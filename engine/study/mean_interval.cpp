@@ -22,7 +22,7 @@ double student_t_975(double freedom) {
 
 namespace {
 
-/// Of the standard error on either side of the mean of so many values.
+/// Half-width of the interval of a mean of `count` values, in standard errors.
 double factor_of(std::size_t count) {
   return count < 3 ? std::numeric_limits<double>::quiet_NaN()
                    : student_t_975(static_cast<double>(count) - 1.0);

@@ -11,10 +11,10 @@
 namespace orthonav::engine {
 namespace {
 
-/// A library's detector tells how well it read a tag; drawn corners are always well read.
+/// A real detector reports how well it read a tag; drawn corners always count as well read.
 constexpr double kReadWell = 100.0;
-/// A tool that is lost is looked for beside its last place and, every few pairs, everywhere: as
-/// often as this it is found.
+/// Like a real tracker, it finds a lost tool near its last place, and elsewhere only every few
+/// pairs.
 constexpr int kLookEvery = 5;
 
 /// Finds tags where a search plan looks for them.
@@ -69,7 +69,8 @@ class ModelledFinder final : public nav::TagFinder {
   std::vector<nav::MarkerCorners> right_;
 };
 
-/// Without sizes, tags are known to be as large as stated: what differs goes elsewhere.
+/// Without size estimation, tags count as large as stated, and differences are attributed to other
+/// parameters.
 nav::CalibrationOptions calibration_options(bool correct_tag_sizes) {
   constexpr double kKnown = 1e-6;
   nav::CalibrationOptions out;

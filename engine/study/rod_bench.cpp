@@ -93,7 +93,7 @@ BentRod RodBench::by_eye() {
   return finished(std::move(rod), length_m, &RodInHand::worst_bend);
 }
 
-/// Tried in the heads and bent again until none is missed.
+/// Tries the rod in the heads and bends it again until it fits all of them.
 BentRod RodBench::finished(RodInHand rod, double length_m, WorstBend worst_bend) {
   BentRod result;
   const std::vector<Vec3>& seats_m = task_.cut.seats_m;

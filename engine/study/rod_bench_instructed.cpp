@@ -95,7 +95,7 @@ std::vector<Vec3> RodBench::stroked(std::span<const nav::RodArc> rod, double len
   return points_m;
 }
 
-/// `rod` becomes what was made; what comes back are the instructions as they were in the end.
+/// `rod` becomes the bent rod; returns the final instructions.
 nav::RodInstructions RodBench::followed(nav::RodInstructions told, const nav::RodBending& bending,
                                         double length_m, std::vector<nav::RodArc>& rod) {
   const nav::RodSpringBack spring_back =
@@ -109,7 +109,7 @@ nav::RodInstructions RodBench::followed(nav::RodInstructions told, const nav::Ro
       continue;
     }
     const auto points_m = stroked(rod, length_m);
-    // A stroke that shows nothing leaves the bend as it was instructed.
+    // If a stroke shows nothing, the bend is taken as instructed.
     const auto measured =
         nav::measured_bend(known, told.cut_length_m(), bending.diameter_m, points_m);
     known.back() = measured ? measured->arc : known.back();

@@ -109,7 +109,8 @@ InstructedRods run_instructed_rods(const RodExperimentOptions& options, std::uin
   InstructedRods out;
   for (std::size_t k = 0; k < options.rods; ++k) {
     const auto [task, random] = drawn_rod(options, seed, k);
-    // The stream of the arm with the template: its heads are touched, its surgeon touches them.
+    // Uses the random stream of the arm with the template, so that the same surgeon touches the
+    // same heads.
     const InstructedRod rod = RodBench(options, task, random.fork("template")).with_instructions();
     out.arm.rods.push_back(rod.rod);
     out.rods.push_back(rod);

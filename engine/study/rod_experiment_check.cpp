@@ -17,7 +17,7 @@ struct RodRange {
   double highest;
 };
 
-/// Heads must be so far apart that touching them with the errors allowed still gives a rod.
+/// Heads must be far enough apart that touching them with the allowed errors still gives a rod.
 constexpr double kClosestHeads_m = 0.015;
 /// Cosine of 45°; its heads lie one above the other.
 constexpr double kAlongBuiltInSpine = 0.7071;

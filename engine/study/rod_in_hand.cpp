@@ -18,10 +18,10 @@ constexpr double kLordosisOfLevel_rad = 10.0 * kRadiansPerDegree;
 constexpr double kLordosisOfLevelSd_rad = 3.0 * kRadiansPerDegree;
 constexpr double kHeadSidewaysSd_m = 0.0025;
 constexpr double kHeadDepthSd_m = 0.0015;
-/// No head is set farther off than so many SD.
+/// No head is set farther off than this many SDs.
 constexpr double kFarthestHead_sd = 2.5;
 
-/// Closest points settle within a few rounds; beyond these the rest is nanometres.
+/// Closest points settle within a few rounds; after these the rest is nanometres.
 constexpr int kLayingRounds = 15;
 
 struct RodFoot {

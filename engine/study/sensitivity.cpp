@@ -28,7 +28,8 @@ struct Effects {
   std::vector<double> angle_deg;
 };
 
-/// The mean errors of a screw at a point of the ranges; nothing where no operation got to a screw.
+/// The mean errors of a screw at a point of the ranges; nothing if no operation got as far as a
+/// screw.
 Result<std::optional<MeanErrors>> errors_at(const Case& source, const SensitivityOptions& options,
                                             const std::vector<const sim::Magnitude*>& magnitudes,
                                             const std::vector<double>& place) {
@@ -73,7 +74,7 @@ std::vector<std::size_t> shuffled(Random& random, std::size_t count) {
   return order;
 }
 
-/// Of the absolute effects.
+/// The mean of the absolute effects.
 double mean_size(std::vector<double> effects) {
   for (double& effect : effects) {
     effect = std::abs(effect);
@@ -81,7 +82,7 @@ double mean_size(std::vector<double> effects) {
   return nav::summarize(effects).mean;
 }
 
-/// Those that decide entry and angle first.
+/// The magnitudes with the largest effect on entry and angle first.
 std::vector<Sensitivity> ranked(const std::vector<const sim::Magnitude*>& magnitudes,
                                 const std::vector<Effects>& effects) {
   std::vector<Sensitivity> out;

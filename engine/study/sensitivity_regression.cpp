@@ -34,7 +34,7 @@ Regressed least_squares(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
   return {slopes, covariance.diagonal().cwiseSqrt()};
 }
 
-/// The mean errors of its screws; false where it has none.
+/// Notes the mean errors of the operation's screws; false if it has none.
 bool note_errors(const OperationResult& result, RandomPoint& point) {
   const auto report = nlohmann::json::parse(report_json(result), nullptr, false);
   const auto entries = values_of(report, "entry_error_mm", true);
@@ -114,7 +114,7 @@ class Points {
   const std::function<void(int, int)>& progress_;
   std::atomic<std::size_t> next_ = 0;
   Mutex mutex_;
-  std::vector<std::optional<RandomPoint>> points_;  ///< each written by whoever works on it
+  std::vector<std::optional<RandomPoint>> points_;  ///< each written by the thread that works on it
   Status failed_ ORTHONAV_GUARDED_BY(mutex_);
   int done_ ORTHONAV_GUARDED_BY(mutex_) = 0;
 };

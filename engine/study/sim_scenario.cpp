@@ -7,7 +7,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// None of a tool that the simulated surgeon does not use.
+/// None for a tool that the simulated surgeon does not use.
 std::optional<sim::ToolKind> kind_of(nav::ToolRole role) {
   switch (role) {
     case nav::ToolRole::kPointer:
@@ -48,9 +48,9 @@ sim::RoomDescription room_of(const Case& source, const Operation& operation,
 }
 
 void tell_common_errors(const sim::ErrorModel& room, SessionOptions& session) {
-  // At arm's length. The tag's known size and the rotation that is estimated take most of a wrong
-  // rotation and centre away in depth; what stays is the scale, by focal length, baseline and by
-  // how large the tags were printed: cameras that are turned towards each other look the same.
+  // At arm's length. The tag's known size and the estimated rotation remove most of the depth error
+  // from a wrong rotation and centre; what remains is the scale, from focal length, baseline and
+  // the printed size of the tags: cameras that are turned towards each other look the same.
   constexpr double kReach_m = 0.45;
   constexpr double kFocal_px = 365.0;
   constexpr double kBaseline_m = 0.1;

@@ -14,7 +14,7 @@ namespace orthonav::engine {
 
 namespace {
 
-/// Null where nothing is to be recorded.
+/// Null if nothing is to be recorded.
 Result<std::unique_ptr<replay::RecordingHeadset>> recorder_of(
     Headset& room, const std::string& folder, const std::vector<nav::ToolGeometry>& tools) {
   if (folder.empty()) {
@@ -23,7 +23,7 @@ Result<std::unique_ptr<replay::RecordingHeadset>> recorder_of(
   return replay::RecordingHeadset::around(room, folder, {tools_text(tools)});
 }
 
-/// Whoever watches an operation to its end: what is true in the room, and what was said last.
+/// The observers of an operation: they record the truth in the room and the last status line.
 class Watchers {
  public:
   /// Headset and operation must outlive them; the hooks hear everything after them.
@@ -41,7 +41,7 @@ class Watchers {
   Watchers(const Watchers&) = delete;
   Watchers& operator=(const Watchers&) = delete;
 
-  /// Adds what they found.
+  /// Adds their results.
   void evaluate(std::span<const LevelState> levels, OperationResult& result) const {
     ground_truth_.evaluate(levels, result);
     guide_truth_.evaluate(result);
@@ -59,7 +59,7 @@ Status tell_opened(const OperationHooks& hooks, sim::SimHeadset& room, const Met
   return hooks.opened ? hooks.opened(room, method, session) : Status();
 }
 
-/// Runs it; meanwhile it can be stopped from outside.
+/// Runs the operation, which can be stopped from outside meanwhile.
 Result<LoopReport> run_until_done(const OperationHooks& hooks, AssembledOperation& live) {
   if (hooks.can_stop) {
     hooks.can_stop([&live] { live.stop(); });
@@ -71,7 +71,7 @@ Result<LoopReport> run_until_done(const OperationHooks& hooks, AssembledOperatio
   return report;
 }
 
-/// The room's headset as the engine gets it, put together with everything else.
+/// Assembles the operation around the room's headset as the engine sees it.
 Result<std::unique_ptr<AssembledOperation>> assembled_in(
     sim::SimHeadset& room, const Method& method, Operation operation,
     const std::vector<nav::ToolGeometry>& tools, const OperationOptions& options,
@@ -146,7 +146,7 @@ Result<Method> method_in(const sim::SimHeadset& room, const Operation& operation
                               &room](const auto&... given) {
       return create_modelled_tracker(name, room, given..., sizes);
     };
-    method->coaching = false;  // the simulated surgeon does not read it, and it is not for free
+    method->coaching = false;  // the simulated surgeon does not read it, and it costs time
   }
   return method;
 }

@@ -10,7 +10,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// Which level of the room a model is of.
+/// The level of the room to which a model belongs.
 struct KnownModel {
   const nav::VertebraModel* model = nullptr;
   std::string label;

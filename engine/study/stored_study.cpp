@@ -8,8 +8,8 @@
 namespace orthonav::engine {
 namespace {
 
-/// A process may have some 1000 files open. Of more than this each is opened anew for its next
-/// operation.
+/// A process may have some 1000 files open. If there are more files than this, each is reopened for
+/// its next operation.
 constexpr std::size_t kMostOpen = 256;
 
 /// Files of one study, each at its next operation.
@@ -25,7 +25,7 @@ class Files {
     }
     return {};
   }
-  /// That of all of them.
+  /// The definition that all files share.
   [[nodiscard]] const std::string& definition() const { return definition_; }
 
   /// Nothing at the end.

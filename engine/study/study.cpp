@@ -50,7 +50,7 @@ class Workers {
         store_(std::move(store)),
         reports_(jobs_.size()) {}
 
-  /// Takes what the store holds already.
+  /// Takes over the operations that the store already holds.
   Status resume() {
     const MutexLock lock(mutex_);
     if (!store_) {
@@ -80,7 +80,7 @@ class Workers {
     return keep_and_tell();
   }
 
-  /// Begins no further run and ends those under way; from any thread.
+  /// Begins no further run and ends the running ones; may be called from any thread.
   void stop() {
     const MutexLock lock(mutex_);
     stop_all();
@@ -99,7 +99,7 @@ class Workers {
       OperationOptions operation = options_.operation;
       operation.sim.seed = jobs_[i].seed;
       operation.tracker.parallel = options_.jobs < 2;
-      operation.session.live_clearance = false;  // nobody reads it there
+      operation.session.live_clearance = false;  // it is not read there
       OperationHooks hooks;
       hooks.can_stop = [this, i](std::function<void()> end) { set_under_way(i, std::move(end)); };
       const auto planned = planned_on(*jobs_[i].source);
@@ -150,7 +150,7 @@ class Workers {
     return stopped_;
   }
 
-  /// Null: it has ended.
+  /// Null once it has ended.
   void set_under_way(std::size_t run, std::function<void()> end) {
     const MutexLock lock(mutex_);
     if (!end) {
@@ -167,7 +167,7 @@ class Workers {
     auto report = result ? Result<std::string>(report_json(*result)) : result.error();
     const MutexLock lock(mutex_);
     if (stopped_ && result && !result->completed) {
-      return;  // it may well have been ended for that
+      return;  // the run may have been ended for that reason
     }
     reports_[i] = std::move(report);
     ++done_;
@@ -192,7 +192,7 @@ class Workers {
     const MutexLock lock(mutex_);
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
       if (!reports_[i]) {
-        continue;  // stopped before it was made
+        continue;  // stopped before it was run
       }
       if (*reports_[i]) {
         runs.push_back(Json::parse(**reports_[i]));

@@ -15,7 +15,7 @@ namespace {
 
 /// The operations of a study by case and seed.
 using Operations = std::map<std::pair<std::string, std::uint64_t>, nlohmann::json>;
-/// A quantity of an operation by level and side; the side is empty for what a level has once.
+/// A quantity of an operation by level and side; the side is empty for quantities of a whole level.
 using Places = std::map<std::pair<std::string, std::string>, double>;
 
 struct ReadStudy {
@@ -104,7 +104,7 @@ ComparedQuantity compared(const ReportQuantity& quantity, const Operations& firs
   return out;
 }
 
-/// Counts the operations that both have, and what became of them.
+/// Counts the operations that both have, and how many were completed.
 void count_operations(const Operations& first, const Operations& second, StudyComparison& out) {
   for (const auto& [key, run] : first) {
     if (const auto other = second.find(key); other != second.end()) {

@@ -90,7 +90,7 @@ void add_registrations(const nlohmann::json& study, std::string& html) {
           html_number(100.0 * silent["upper_95"].get<double>(), 1) + " %.</p></section>";
 }
 
-/// As the guide was shown when the wires pierced the bone, against how it was.
+/// The guide as shown when the wires pierced the bone, against its true pose.
 void add_guided(const nlohmann::json& study, std::string& html) {
   if (!study.contains("guided")) {
     return;
@@ -117,7 +117,7 @@ void add_guided(const nlohmann::json& study, std::string& html) {
 
 TableColumn to_repeat() { return {"to repeat it", "", true}; }
 
-/// A command that is broken before its options only, so that it reads well and is copied whole.
+/// A command with line breaks only before its options, so that it reads well and is copied whole.
 std::string command_html(const std::string& command) {
   std::string html = "<code>";
   std::size_t from = 0;

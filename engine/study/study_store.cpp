@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "ONST": tells our files from others' (PRAGMA application_id).
+/// "ONST": marks our files (PRAGMA application_id).
 constexpr int kApplication = 0x4f4e5354;
 constexpr int kLayout = 1;
 constexpr int kBusy_ms = 10'000;

@@ -18,7 +18,7 @@ Json row_json(const PaperRow& row, const std::vector<double>& values) {
           {"max", summary.max},   {"paper_mean", row.mean}, {"paper_sd", row.sd}};
 }
 
-/// How the errors of accepted registrations lie in what was predicted of them.
+/// How the errors of accepted registrations compare with their predictions.
 Json registrations_json(const RegistrationQuality& quality) {
   return {{"levels", quality.levels},
           {"coverage",

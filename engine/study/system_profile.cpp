@@ -23,7 +23,7 @@ constexpr std::array<NamedExposure, 2> kExposure = {{
     {"transverse processes", sim::Exposure::kTransverseProcesses},
 }};
 
-/// What `key` names among `known`, or refuses it.
+/// The one of `known` that `key` names; refuses other names.
 template <class Named, std::size_t N>
 void read_name(const JsonNode& system, const char* key, const std::array<Named, N>& known,
                decltype(Named::value)& out) {
@@ -51,7 +51,7 @@ std::optional<PublishedFigure> read_figure(const JsonNode& published, const char
   return out;
 }
 
-/// What a published system states about its navigation holds all of these.
+/// The stated navigation error of a published system already includes all of these.
 void leave_to_navigation(sim::ErrorModel& model) {
   for (double sim::ErrorModel::*stated :
        {&sim::ErrorModel::calibration_focal_ratio, &sim::ErrorModel::calibration_centre_px,
