@@ -15,11 +15,11 @@
 namespace orthonav::tools {
 namespace {
 
-// Whole images are searched in every other pair, and only while the pointer is not seen.
+// Whole images are searched only in every other pair, and only while the pointer is not seen.
 constexpr int kFullSearchEvery = 2;
 
-/// Limits of one figure on the command line: up to which it passes, up to which it is noted;
-/// millimetres.
+/// Limits of one figure on the command line, in millimetres: up to the first it passes, up to the
+/// second it is noted.
 struct LimitArgument {
   const char* option;
   const char* what;

@@ -90,7 +90,7 @@ ordered_json distances_json(const nav::DistancePart& part) {
   return out;
 }
 
-/// With as many digits as tell the figure from the limits that it lies between.
+/// With as many digits as distinguish the figure from the limits on either side.
 void append_judged(const nav::Judged& figure, std::string& text) {
   const double value = millimetres(figure.value_m);
   const double pass = millimetres(figure.limits.pass_m);

@@ -10,7 +10,7 @@
 namespace orthonav::tools {
 namespace {
 
-/// The command that was asked for, as far as it is known, and the words that lead to it.
+/// The command that was meant, as far as known, and the words that lead to it.
 struct Asked {
   const CLI::App* command;
   std::string way;
@@ -25,7 +25,7 @@ Asked asked_of(const CLI::App& app) {
   return asked;
 }
 
-/// What may stand after these words: commands, or options where the word is to be one.
+/// What may follow these words: commands, or options if the word should be one.
 std::vector<std::string> possible(const CLI::App& command, bool option) {
   std::vector<std::string> names;
   if (!option) {
@@ -42,7 +42,7 @@ std::vector<std::string> possible(const CLI::App& command, bool option) {
   return names;
 }
 
-/// Names the word that nobody expected, and what was probably meant.
+/// Names the unexpected word, and what was probably meant.
 std::string about_word(const std::string& word, const Asked& asked) {
   const bool option = word.size() > 1 && word.front() == '-';
   const bool command = !option && !asked.command->get_subcommands({}).empty();
@@ -53,8 +53,8 @@ std::string about_word(const std::string& word, const Asked& asked) {
          word + (meant.empty() ? "" : "; did you mean " + meant + "?");
 }
 
-/// The parser leaves the name of an option that no help shows out of its message, which then begins
-/// with the colon behind it.
+/// The parser omits the name of a hidden option from its message, which then begins with the colon
+/// after it.
 std::string with_hidden_name(std::string message, const CLI::App& command) {
   const auto is_told_of = [&message](const CLI::Option* option) {
     const std::vector<std::string>& given = option->results();
@@ -75,7 +75,7 @@ std::string with_hidden_name(std::string message, const CLI::App& command) {
 int bad_command_line(const CLI::App& app, const CLI::ParseError& error) {
   const Asked asked = asked_of(app);
   std::string message = with_hidden_name(error.what(), *asked.command);
-  // Without a known command the library reports a missing one; what was written instead says more.
+  // Without a known command the library reports a missing one; the word that was written says more.
   const std::vector<std::string> unknown = app.remaining(true);
   const auto option = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {
     return !word.empty() && word.front() == '-';

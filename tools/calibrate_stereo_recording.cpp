@@ -14,7 +14,7 @@
 namespace orthonav::tools {
 namespace {
 
-/// The family as the detector knows it: with a border two cells wide it is another one.
+/// The family by the detector's name, which differs for a border two cells wide.
 Result<std::string> detected_family(const std::string& path, const engine::Board& board) {
   if (board.kind == engine::BoardKind::kChessboard) {
     return Error{path + ": is a chessboard, must be a board of tags"};

@@ -73,7 +73,7 @@ Result<std::vector<nav::MarkerDefinition>> tags_from(const ToolArguments& argume
   return tags;
 }
 
-/// The tool of the tools file that is to get these tags; none without such a file.
+/// The tool of the tools file to which these tags are to be added; none without such a file.
 Result<std::optional<nav::ToolGeometry>> described_tool(const ToolArguments& arguments) {
   if (arguments.tools_file.empty()) {
     return std::optional<nav::ToolGeometry>();
@@ -85,7 +85,7 @@ Result<std::optional<nav::ToolGeometry>> described_tool(const ToolArguments& arg
   return std::optional<nav::ToolGeometry>(*tool);
 }
 
-/// A tool that is to get its tags must have the first one as its marker.
+/// The tool must have the first tag as its marker.
 Status check_marker(const ToolArguments& arguments, const std::optional<nav::ToolGeometry>& tool,
                     const nav::MarkerDefinition& first) {
   if (!tool) {
@@ -107,8 +107,8 @@ const char* turn_text(int quarter_turns) {
                               : "90° clockwise";
 }
 
-/// Poses of tags that were glued on the wrong way round would be right, but not what the file's
-/// owner believes: the tip and the axis are described by how the tags should sit.
+/// The measured poses of tags that were glued on turned would be right, but the file's tip and axis
+/// assume the intended mounting.
 Status check_mounting(const ToolArguments& arguments, const std::optional<nav::ToolGeometry>& tool,
                       const nav::TagBody& body) {
   if (!tool) {
@@ -164,13 +164,13 @@ Result<std::string> tools_with(const ToolArguments& arguments, const nav::TagBod
   return text;
 }
 
-/// What the arguments name, before the recording is read.
+/// The inputs that the arguments name, before the recording is read.
 struct ToolInput {
   std::vector<nav::MarkerDefinition> tags;
   std::optional<nav::ToolGeometry> tool;  ///< as described; none without a tools file
 };
 
-/// The results must have a place, too.
+/// Checks that the results can be written, too.
 Result<ToolInput> tool_input(const ToolArguments& arguments) {
   auto tags = tags_from(arguments);
   if (!tags) {
@@ -192,7 +192,7 @@ Result<ToolInput> tool_input(const ToolArguments& arguments) {
   return ToolInput{std::move(*tags), std::move(*tool)};
 }
 
-/// Refused also where a tag is not mounted as described.
+/// Also refuses a tag that is not mounted as described.
 Result<nav::TagBody> calibrated(const ToolArguments& arguments, const ToolInput& input,
                                 const RecordedSightings& seen) {
   auto body = nav::calibrate_tag_body(seen.calibration, input.tags, seen.pairs);

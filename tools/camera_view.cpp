@@ -16,11 +16,10 @@ namespace {
 
 constexpr int kWidth_px = 800;
 constexpr Duration kTakeEvery = std::chrono::milliseconds(500);
-/// Behind the holograms where the camera sees nothing.
+/// The background behind holograms where the camera sees nothing.
 constexpr std::array<std::uint8_t, 4> kEmpty = {34, 37, 42, 255};
 
-/// As wide as the camera's image is at its middle, no higher than wide, upright in the headset's
-/// axes.
+/// As wide as the camera's image at its middle, no higher than wide, upright in the headset's axes.
 render::View view_of(const StereoCalibration& cameras) {
   const double width = cameras.left.width_px();
   const double height = cameras.left.height_px();
@@ -119,7 +118,7 @@ class CameraView::Drawing {
 CameraView::CameraView(const StereoCalibration& cameras, engine::SnapshotSink* display,
                        Onlooker onlooker)
     : onlooker_(std::move(onlooker)), display_(display), cameras_(cameras) {
-  // Now, so that nothing is allocated while pairs come; images go round between these.
+  // Allocated now, so that nothing is allocated while pairs arrive; images circulate between these.
   for (Behind& behind : behind_) {
     behind.left = empty_image(cameras);
   }
@@ -194,7 +193,8 @@ bool CameraView::take_next(Moment& moment) {
 }
 
 Status CameraView::draw_what_comes() {
-  std::optional<Drawing> drawing;  // only once somebody looks: a device takes a while to start
+  std::optional<Drawing> drawing;  // created only once somebody looks, since a device takes a while
+                                   // to start
   Moment moment;
   moment.behind.left = empty_image(cameras_);
   while (take_next(moment)) {

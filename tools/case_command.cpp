@@ -66,7 +66,7 @@ Result<engine::ScanLevels> levels_of_threshold(const CaseArguments& arguments) {
               : Result<engine::ScanLevels>(in_file(arguments.volume, made.error()));
 }
 
-/// What does not go together.
+/// Refuses arguments that do not go together.
 Status check(const CaseArguments& arguments) {
   const bool labels = !arguments.labels.empty();
   if (labels == arguments.threshold_hu.has_value()) {
@@ -128,7 +128,7 @@ void warn(const engine::ScanLevels& made) {
   }
 }
 
-/// As `--name` says, else that of the folder, however its path is written.
+/// The name from `--name`, or else that of the folder, however its path is written.
 std::string case_name(const CaseArguments& arguments) {
   if (!arguments.name.empty()) {
     return arguments.name;

@@ -3,8 +3,8 @@
 #include "tools/memory_reserve.h"
 
 // Some C libraries use what malloc returns without checking it (libapriltag). With these functions
-// in place of libc's, the first allocation of theirs that fails gets the memory that was set aside,
-// and the command ends in order instead of crashing. Otherwise libc's own do the work.
+// in place of libc's, their first failing allocation gets the memory that was set aside, and the
+// command ends in order instead of crashing. All other calls are passed to libc.
 extern "C" {
 
 void* libc_malloc(std::size_t bytes) noexcept __asm__("__libc_malloc");

@@ -23,7 +23,8 @@ std::vector<std::string> split(const std::string& text, char at) {
   return parts;
 }
 
-/// The library's "TEXT:{a,b}" and our own "a|b" are choices; its words for numbers are not ours.
+/// The library's "TEXT:{a,b}" and our own "a|b" are choices; its words for numbers differ from
+/// ours.
 void read_value(const CLI::Option& option, OptionRow& row) {
   if (option.get_type_size() == 0) {
     return;

@@ -43,7 +43,7 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-/// Numbers, true and false stand as they are.
+/// Numbers, true and false are written without quotes.
 std::string value_text(const std::string& text) {
   const bool number = !text.empty() && text.find_first_not_of("+-.0123456789") == std::string::npos;
   return number || text == "true" || text == "false" ? text : quoted(text);

@@ -59,7 +59,7 @@ std::string number_text(double value) {
   return {text, end.ptr};
 }
 
-/// As it would be typed; empty: it is none of them.
+/// The value as it would be typed; empty if it is of another type.
 std::string text_of(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     return text->get();

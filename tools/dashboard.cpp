@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kMostMessages = 50;
 /// Browsers ask five times a second.
 constexpr Duration kTellEvery = std::chrono::milliseconds(100);
-/// What is older is not shown any more: the camera is.
+/// An older view is no longer shown; the camera's image is shown instead.
 constexpr auto kViewLasts = std::chrono::seconds(2);
 /// Browsers ask for the view twice a second.
 constexpr auto kLookLasts = std::chrono::seconds(2);
@@ -43,7 +43,7 @@ RgbaImage picture_of(const GreyImage& grey) {
 
 }  // namespace
 
-/// Answers on a thread of its own from what it was told last.
+/// Answers requests on its own thread from the latest state.
 class Dashboard::Server {
  public:
   explicit Server(WebAccess access) : access_(std::move(access)) {}
@@ -69,7 +69,7 @@ class Dashboard::Server {
       server_.listen_after_bind();
       ended_ = true;
     });
-    // Before it listens nobody could stop it.
+    // It can't be stopped before it listens.
     while (!server_.is_running() && !ended_) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -101,7 +101,7 @@ class Dashboard::Server {
 
  private:
   void limit_what_is_taken() {
-    // The library would share its port with whoever asks for it as well.
+    // By default the library would share its port with other programs.
     server_.set_socket_options([](int socket) {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -124,7 +124,7 @@ class Dashboard::Server {
     });
   }
 
-  /// Whoever brings the token gets a cookie instead, and an address without it.
+  /// A request with the token gets a cookie, and a redirect to the address without the token.
   void answer_stranger(const httplib::Request& request, httplib::Response& answer) const {
     answer.set_header("Referrer-Policy", "no-referrer");
     if (request.method == "GET" && access_.is_token(request.get_param_value("token"))) {
@@ -157,7 +157,7 @@ class Dashboard::Server {
     since_look_ = Stopwatch();
   }
 
-  /// With its age: what is old must not pass for new.
+  /// The state with its age, so that an old one is not taken for new.
   std::string state() {
     const MutexLock lock(mutex_);
     const auto ms =

@@ -30,7 +30,7 @@ const char* grade_name(engine::Grade grade) {
   return "poor";
 }
 
-/// Null where the surgeon is shown no number.
+/// Null if the surgeon is shown no number.
 Json guidance_of(const engine::Guidance& g, const engine::GradeLimits& limits) {
   if (g.blank || !g.tool || !g.tool->measured || g.level >= g.levels.size()) {
     return nullptr;

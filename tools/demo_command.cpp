@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 /// Frames of the film in a second.
 constexpr int kVideoRate = 20;
 
-/// Everything that a demo needs besides the operation itself; made before anything is written.
+/// Everything that a demo needs besides the operation itself; created before anything is written.
 class Demo {
  public:
   Demo(DemoArguments arguments, StopSignals& signals)
@@ -91,8 +91,8 @@ class Demo {
     }
   }
 
-  /// What was written until then stays: the journal says how it ended. What never began leaves
-  /// nothing.
+  /// Anything already written stays, and the journal says how the run ended. An operation that
+  /// never began leaves nothing.
   int ended(std::string reason) {
     if (!began_) {
       return bad_input(reason);

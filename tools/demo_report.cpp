@@ -49,7 +49,7 @@ std::vector<std::string> notes_of(const DemoReport& report) {
   return notes;
 }
 
-/// A picture in which a screw is guided says best what the film is of; the last one else.
+/// A picture in which a screw is guided shows best what the film is about; otherwise the last one.
 std::vector<std::uint8_t> poster_of(const engine::ReportContent& content) {
   if (content.video.empty() || content.pictures.empty()) {
     return {};

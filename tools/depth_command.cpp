@@ -67,7 +67,7 @@ Result<replay::RecordedDepth*> chosen(const DepthArguments& arguments,
                names_of(depths.streams)};
 }
 
-/// The frame asked for, or the first, for a cloud the first with a pose.
+/// The requested frame, or else the first, or for a cloud the first with a pose.
 Result<std::size_t> frame_index(const DepthArguments& arguments, const replay::RecordedDepth& depth,
                                 bool with_pose) {
   const auto count = static_cast<std::int64_t>(depth.frames.size());

@@ -17,7 +17,7 @@ namespace orthonav::tools {
 namespace {
 
 constexpr std::int64_t kDefaultFrames = 30;
-/// Long throw may send but one a second.
+/// Long throw may send only one frame a second.
 constexpr auto kNoFrameFor = std::chrono::seconds(10);
 constexpr auto kPause = std::chrono::milliseconds(2);
 
@@ -52,7 +52,7 @@ Result<DepthCamera*> chosen_camera(const DepthArguments& arguments, const Opened
   return Error{"--stream: the headset has no " + arguments.stream + ", it has " + names};
 }
 
-/// What a headset's connection says of its depth stream.
+/// The state of the depth stream according to the headset's connection.
 std::string trouble_of(const Headset& headset) {
   const auto connection = headset.connection();
   if (!connection) {
@@ -66,7 +66,7 @@ std::string trouble_of(const Headset& headset) {
   return "";
 }
 
-/// Takes what a headset sends and keeps what is asked for.
+/// Reads a headset's frames and keeps those asked for.
 class LiveDepth {
  public:
   LiveDepth(const DepthArguments& arguments, Headset& headset, DepthCamera& camera)
@@ -75,7 +75,7 @@ class LiveDepth {
         camera_(camera),
         cloud_(1e-3 * arguments.cell_or_default_mm()) {}
 
-  /// Until there are enough frames or the headset ends; an Error when none comes for long.
+  /// Until there are enough frames or the headset ends; an Error if none arrives for too long.
   Status take_frames() {
     const std::int64_t enough = frames_wanted();
     Stopwatch since_last;
@@ -89,8 +89,8 @@ class LiveDepth {
         take();
         continue;
       }
-      // Taking the pairs advances the clock of a headset that waits for its client, and tells the
-      // map.
+      // Taking the pairs advances the clock of a headset that waits for its client, and gives the
+      // map's epoch.
       const auto pair = headset_.cameras().next(pair_);
       if (since_last.elapsed() > kNoFrameFor) {
         return Error{arguments_.source + ": no frame of " + name_of(camera_.calibration().stream) +
@@ -183,7 +183,7 @@ class LiveDepth {
   DepthFrame frame_;
   StereoFrame pair_;
   std::int64_t taken_ = 0;
-  bool found_ = false;  ///< what one frame is enough for
+  bool found_ = false;  ///< the single requested frame was found
   std::optional<std::int64_t> map_;
   engine::PointCloud cloud_;
   CloudReport report_;

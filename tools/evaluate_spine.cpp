@@ -27,7 +27,7 @@ std::string packed(const std::vector<Value>& values) {
   return engine::base64({first, values.size() * sizeof(Value)});
 }
 
-/// Places are told from `middle`, so that they fit into 16 bits: 0.3 m to either side.
+/// Places are relative to `middle`, so that they fit into 16 bits: 0.3 m to either side.
 json bone_json(const nav::TriangleMesh& mesh, const ScanFromVertebra& pose,
                Point<engine::Scan> middle) {
   std::vector<std::int16_t> places;

@@ -42,8 +42,8 @@ void IgtlCommands::said(const std::string& client, const std::string& device,
 void IgtlCommands::take(Timestamp until, std::vector<engine::Request>& requests) {
   const MutexLock lock(mutex_);
   for (Waiting& each : waiting_) {
-    // Dated back by its age, since pairs are under way for a while; but not to before the last
-    // pair, with which it would have been taken.
+    // Dated back by its age, since pairs take a while to arrive; but not to before the last pair,
+    // with which it would have been taken.
     const auto age = std::chrono::duration_cast<Duration>(each.since.elapsed());
     each.request.time = std::max(until - age, taken_until_.value_or(until - age));
     requests.push_back(std::move(each.request));
@@ -60,7 +60,7 @@ void IgtlCommands::asked_from_outside(const engine::Request& request) {
 
 void IgtlCommands::happened(Timestamp /*time*/, engine::Step /*from*/, engine::Event event,
                             engine::Cell answer) {
-  // What follows in the same step is not asked for.
+  // Later events of the same step do not belong to this request.
   if (!asking_ || std::exchange(decided_, true)) {
     return;
   }

@@ -30,16 +30,16 @@ std::array<float, 3> in_mm(Vec3 v_m) {
           static_cast<float>(v_m.z * 1e3)};
 }
 
-/// Of a model's point, which is in LPS.
+/// Converts a model's point from LPS.
 Vec3 ras_of(Vec3 lps) { return {-lps.x, -lps.y, lps.z}; }
 
 /// Half a turn about z: LPS from RAS, and back.
 Mat3 half_turn() { return Mat3::from_columns({-1, 0, 0}, {0, -1, 0}, {0, 0, 1}); }
 
-/// What everything is relative to.
+/// The frame to which everything is relative.
 struct Base {
   std::string name = "World";
-  Transform<Marker, World> base_from_world;  ///< the identity where World is the base
+  Transform<Marker, World> base_from_world;  ///< the identity if World is the base
 };
 
 Base base_of(const engine::Guidance& guidance) {

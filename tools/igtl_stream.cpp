@@ -104,7 +104,7 @@ void IgtlStream::stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*i
     told_ = std::move(screws);
   }
   std::vector<std::uint8_t> frame = igtl_frame(*session_, guidance);
-  // Only the newest frame is sent: the status goes along until a frame has gone.
+  // Only the newest frame is sent, so the status is added to each frame until one has been sent.
   const std::int64_t sent = server_->counts().frames;
   const bool due = !last_status_ || guidance.frame_time - *last_status_ >= kStatusEvery;
   if (due || sent == sent_at_status_) {

@@ -28,7 +28,7 @@ std::string numbers_in(const std::string& path) {
   return numbers;
 }
 
-/// By number; nothing where a number is missing or there twice.
+/// By number; nothing if a number is missing or appears twice.
 std::optional<std::map<std::string, std::string>> by_number(const std::vector<std::string>& names) {
   std::map<std::string, std::string> found;
   for (const std::string& name : names) {

@@ -63,7 +63,7 @@ void KeptPreviews::ended(const Result<engine::LoopReport>& report) {
   if (const Status kept = kept_->finish(report && report->done, reason); !kept) {
     std::fprintf(stderr, "orthonav: %s\n", kept.error().message.c_str());
   }
-  kept_.reset();  // a start after this one is an operation of its own
+  kept_.reset();  // a later start is a separate operation
 }
 
 }  // namespace orthonav::tools

@@ -30,7 +30,7 @@
 namespace orthonav::tools {
 namespace {
 
-/// Opens everything, then runs; members stand in the order in which they borrow from one another.
+/// Opens everything, then runs; members are in the order in which they borrow from one another.
 class LiveRun {
  public:
   LiveRun(RunArguments arguments, StopSignals& signals)
@@ -117,7 +117,7 @@ class LiveRun {
     return start(std::move(*operation));
   }
 
-  /// With the clicker and the voice that are joined to it.
+  /// Opens the headset with the clicker and voice joined to it.
   Status open_headset(const OpenOptions& options) {
     auto opened = open_with_room(arguments_.headset, options);
     if (!opened) {
@@ -145,7 +145,7 @@ class LiveRun {
     return {};
   }
 
-  /// What can be told before the models are prepared, which takes seconds.
+  /// Checks everything possible before the models are prepared, which takes seconds.
   Status check_arguments() {
     if (const Status good = check_headset_uri(arguments_.headset); !good) {
       return good;
@@ -277,7 +277,7 @@ class LiveRun {
   std::unique_ptr<Headset> headset_;
   std::unique_ptr<JoinedHeadset> joined_;  ///< with the clicker and the voice asked for
   RunFiles files_;
-  const sim::SimHeadset* room_ = nullptr;  ///< that the cameras see, where it is simulated
+  const sim::SimHeadset* room_ = nullptr;  ///< that the cameras see, if it is simulated
   std::optional<engine::GroundTruthRecorder> ground_truth_;
   engine::EndNote end_note_;
   Onlookers onlookers_;

@@ -23,7 +23,7 @@ std::string environment(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-/// The first of these files that exists; empty when none does.
+/// The first of these files that exists; empty if none does.
 std::string first_existing(const std::vector<fs::path>& candidates) {
   std::error_code ignored;
   for (const fs::path& path : candidates) {
@@ -75,7 +75,7 @@ Offer openxr_runtime(const fs::path& root) {
             "install the headset's (or Monado) and name its manifest in XR_RUNTIME_JSON or "
             "~/.config/openxr/1/active_runtime.json"};
   }
-  // Only the machine we run on can be asked.
+  // Only the machine we run on can be queried.
   if (root != "/") {
     return {"OpenXR runtime", Finding::kFound, found, ""};
   }
@@ -123,7 +123,7 @@ Offer microphone(const fs::path& root) {
           "plug one in; the kernel lists it in /proc/asound/pcm"};
 }
 
-/// What `--voice mic:` and `wav:` recognise words with.
+/// The model with which `--voice mic:` and `wav:` recognise words.
 Offer voice_model(const fs::path& root) {
   const fs::path model = root / voice::default_acoustic_model().relative_path();
   if (!first_existing({model / "mdef"}).empty()) {

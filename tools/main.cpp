@@ -28,7 +28,7 @@ int bad_input(const std::string& message) {
 
 namespace {
 
-/// A full disk behind standard output shows only when it is flushed.
+/// A full disk under standard output is noticed only when it is flushed.
 int with_output_written(int code) {
   errno = 0;
   std::cout.flush();
@@ -87,7 +87,7 @@ int run(int argc, char** argv) {
   return with_output_written(action ? action() : kBadInput);
 }
 
-/// An exception left a thread that nobody guards. Whatever was to be kept is on the disk by then.
+/// Called when an exception leaves an unguarded thread. Journal and log are on the disk by then.
 void end_in_one_line() {
   bad_input(orthonav::ended_by_exception("a thread").message);
   std::_Exit(kBadInput);
@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return orthonav::tools::bad_input("out of memory");
   } catch (const std::system_error& error) {
-    // What a thread gets that there is no memory for: its stack counts.
+    // Thrown when there is no memory for a thread's stack.
     return orthonav::tools::bad_input(error.code() == std::errc::resource_unavailable_try_again
                                           ? "out of memory, or of threads: one could not be started"
                                           : error.what());

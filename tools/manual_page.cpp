@@ -12,7 +12,7 @@ std::string dashed(std::string way) {
   return way;
 }
 
-/// Escaped for roff: no text becomes an escape or a request, and a hyphen stays one.
+/// Escaped for roff, so that no text becomes an escape or a request, and hyphens stay hyphens.
 std::string roff(const std::string& text) {
   std::string out;
   bool line_begins = true;

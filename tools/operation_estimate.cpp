@@ -6,7 +6,7 @@
 namespace orthonav::tools {
 namespace {
 
-// What each part takes in the simulated room, about, in seconds.
+// The approximate time of each part in the simulated room, in seconds.
 constexpr double kDigitize_s = 150.0;
 constexpr double kVerify_s = 30.0;
 constexpr double kScrew_s = 45.0;
@@ -28,7 +28,7 @@ double usual_s(Step step) {
   }
 }
 
-/// Of a step that usually takes that long: all of it never.
+/// The done fraction of a step that usually takes this long; never reaches 1.
 double done_of_s(double usual_s, double since_s) {
   return usual_s > 0.0 ? 0.95 * usual_s * (1.0 - std::exp(-since_s / usual_s)) : 0.0;
 }

@@ -29,7 +29,7 @@ struct AutoArguments {
   [[nodiscard]] bool in_place() const { return out.empty() && !common.case_folder.empty(); }
 };
 
-/// Plans one level; its screws replace those that it has.
+/// Plans one level; the new screws replace its old ones.
 JudgedLevel planned(const nav::PlanningRules& rules, const engine::ScrewSizes& sizes,
                     engine::CaseLevel& level) {
   const nav::SurfaceIndex bone(level.mesh);
@@ -54,7 +54,7 @@ JudgedLevel planned(const nav::PlanningRules& rules, const engine::ScrewSizes& s
   return out;
 }
 
-/// Refuses, before anything is planned, a case in which there is no place for a plan.
+/// Refuses, before anything is planned, a case to which no plan can be written.
 Status check_place(const AutoArguments& arguments, const engine::Case& subject) {
   for (const engine::CaseLevel& level : subject.levels) {
     if (arguments.in_place() && arguments.common.wants(level.label) && !level.screws.empty()) {
@@ -65,7 +65,7 @@ Status check_place(const AutoArguments& arguments, const engine::Case& subject) 
   return {};
 }
 
-/// Into a new case folder, or beside the models of the case; of the phantom nothing is written.
+/// Writes a new case folder, or plans beside the models of the case; nothing for the phantom.
 Status write_plans(const AutoArguments& arguments, engine::Case subject) {
   if (arguments.in_place()) {
     std::erase_if(subject.levels, [&](const engine::CaseLevel& level) {

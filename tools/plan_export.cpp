@@ -22,7 +22,7 @@ struct ExportArguments {
 
 std::string markups_name(const engine::CaseLevel& level) { return level.label + ".mrk.json"; }
 
-/// Model and screws of each level, which must not be there yet.
+/// Writes model and screws of each level, to files that must not exist yet.
 Status write_scene(const engine::Case& subject, const OutFolder& folder) {
   std::error_code code;
   for (const engine::CaseLevel& level : subject.levels) {

@@ -36,8 +36,8 @@ struct PreviewArguments {
   preview::PreviewOptions options;
 };
 
-/// The room, the guidance and the method of a published system. Refuses one of which this would
-/// not be all.
+/// Takes the room, the guidance and the method of a published system. Refuses a system that
+/// consists of more.
 Status take_profile(PreviewArguments& arguments) {
   if (arguments.profile.empty()) {
     return {};
@@ -58,7 +58,7 @@ Status take_profile(PreviewArguments& arguments) {
   return {};
 }
 
-/// What is to be previewed, still without the prepared models.
+/// The operation to be previewed, still without the prepared models.
 Result<preview::OperationSource> source_of(const PreviewArguments& arguments) {
   preview::OperationSource source;
   source.headset = arguments.headset;
@@ -218,7 +218,7 @@ void add_window_options(CLI::App& preview, const std::shared_ptr<PreviewArgument
                      "part of the name of the Vulkan device");
 }
 
-/// What the room is like, and whose hands work in it.
+/// Options of the room and of the simulated surgeon.
 void add_room_options(CLI::App& preview, PreviewArguments& arguments) {
   auto* seed =
       preview.add_option("-s,--seed", arguments.options.room.seed, "seed of every random number");

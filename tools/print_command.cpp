@@ -129,7 +129,7 @@ Result<engine::Board> board_of(const BoardArguments& arguments) {
   return board;
 }
 
-/// Beside the PDF, unless told otherwise.
+/// Beside the PDF unless `--json` names another place.
 std::string json_place(const BoardArguments& arguments) {
   if (!arguments.json.empty()) {
     return arguments.json;
@@ -159,7 +159,7 @@ int run_board(const BoardArguments& arguments) {
   if (!pdf) {
     return bad_input(pdf.error().message);
   }
-  // Before anything gets its name, so that an unwritable place leaves neither file.
+  // Checked before either file gets its name, so that an unwritable place leaves neither.
   if (auto place = engine::AtomicFile::create(arguments.page.out); !place) {
     return bad_input(place.error().message);
   }

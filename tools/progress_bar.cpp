@@ -16,7 +16,7 @@ namespace {
 constexpr auto kRedrawEvery = std::chrono::milliseconds(200);
 constexpr std::size_t kLeastCells = 10;
 constexpr std::size_t kMostCells = 40;
-/// Before this much is done, an estimate of the rest means nothing.
+/// Before this much is done, an estimate of the remaining time is meaningless.
 constexpr double kLeastFractionForEstimate = 0.05;
 
 /// "40 s", "3 min".

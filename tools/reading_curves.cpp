@@ -31,7 +31,7 @@ void ReadingCurves::captured(const engine::Snapshot& snapshot) {
 }
 
 std::vector<engine::ReportPlot> ReadingCurves::plots(const engine::GradeLimits& limits) const {
-  // Where the values are that matter; a tool on its way to the bone reads 90°.
+  // The range that matters; a tool on its way to the bone reads 90°.
   constexpr double kAxis_deg = 6.0;
   const double good_deg = degrees(limits.good_rad);
   const double poor_deg = degrees(limits.poor_rad);
@@ -46,7 +46,7 @@ std::vector<engine::ReportPlot> ReadingCurves::plots(const engine::GradeLimits& 
   engine::ReportPlot distance{
       "Distance of the tool's tip from the planned entry, as tracked", time, "mm", {}};
   for (const Screw& screw : screws_) {
-    // "guide L4 left": the step's first word says nothing here.
+    // "guide L4 left": the step's first word adds nothing here.
     const std::string name = screw.name.substr(screw.name.find(' ') + 1);
     angle.curves.push_back({name, screw.time_s, screw.angle_deg});
     distance.curves.push_back({name, screw.time_s, screw.distance_mm});

@@ -15,8 +15,9 @@ namespace {
 
 using engine::Axes;
 
-/// A model's unit is that of its plan. Without a plan it is the unit given, or millimetres where
-/// only they make it a vertebra: digitized points in metres with a model in millimetres are common.
+/// A model's unit is that of its plan. Without a plan it is the given unit, or millimetres if only
+/// then it has the size of a vertebra: digitized points in metres with a model in millimetres are
+/// common.
 Result<nav::TriangleMesh> load_model(const RegisterArguments& arguments,
                                      const std::optional<engine::Plan>& plan, Axes axes) {
   if (plan) {
@@ -80,7 +81,7 @@ Status load_single_level(const RegisterArguments& arguments, engine::ModelCache&
   return {};
 }
 
-/// A case has its models in LPS, whatever its files are written in.
+/// A loaded case has its models in LPS, whatever the axes of its files.
 Status load_level_of_case(const RegisterArguments& arguments, engine::ModelCache& models,
                           RegisterInputs& inputs) {
   const auto source = load_checked_case(arguments.case_folder);

@@ -41,7 +41,7 @@ Status read_size(const std::string& text, engine::SceneFile& file) {
     return Error{"--size: is \"" + text + "\", must be WIDTHxHEIGHT in px, as 1268x720"};
   }
   const auto [width, height] = *size;
-  // The horizontal field of view stays; another shape shows more or less above and below.
+  // The horizontal field of view stays; another aspect ratio shows more or less above and below.
   for (render::View& view : file.eyes) {
     const float shape = static_cast<float>(height) / static_cast<float>(std::max(width, 1));
     view.tan_up = view.tan_down = 0.5f * (view.tan_left + view.tan_right) * shape;

@@ -74,7 +74,7 @@ void print(const nav::RodInstructions& told) {
   print_text("farthest head %.2f mm off\n", told.fit.worst_off_m * 1e3);
 }
 
-/// Writes template and instructions; 1 where no instructions lead to the heads.
+/// Writes template and instructions; returns 1 if no instructions reach the heads.
 int run_instructions(const RodArguments& arguments, const nav::RodTemplate& rod) {
   const auto bending = arguments.bending.bending(arguments.heads.diameter_mm);
   if (!bending) {

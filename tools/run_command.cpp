@@ -10,7 +10,7 @@
 namespace orthonav::tools {
 namespace {
 
-/// When the run ends, and what stays of it.
+/// Options for when the run ends and what it leaves.
 void add_ends_and_results(CLI::App& run, RunArguments& arguments) {
   run.add_option("--frames", arguments.frames, "end after so many displayed frames (0: no limit)")
       ->check(whole_number(0));

@@ -27,7 +27,7 @@ Status RunFiles::open_journal(const std::string& folder, const engine::JournalHe
     journal_ = std::move(*journal);
     return {};
   }
-  // A disk that takes nothing more must not keep a surgeon from going on: the status line says that
+  // A disk that can no longer be written must not stop the operation: the status line says that
   // nothing is saved.
   if (!kept_.found()) {
     return journal.error();

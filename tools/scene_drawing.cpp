@@ -23,7 +23,7 @@ using render::Float3;
 constexpr int kWidth_px = 1440;
 constexpr int kHeight_px = 936;
 
-/// Of Unity's plane, at scale 1.
+/// Edge of Unity's plane at scale 1.
 constexpr double kPlaneEdge = 10.0;
 
 render::Colour light_of(const ObjectColour& colour) {
@@ -76,8 +76,8 @@ void add_cube(render::Scene& scene, const Placed& placed, render::Colour colour)
   }
 }
 
-/// Our texts face the eye from where they are anchored. One that is turned is anchored where the
-/// eye looks upon its plane at right angles, far aside as that may be.
+/// Our texts face the eye from their anchor. A turned text is anchored at the point of its plane
+/// that the eye sees at right angles, however far aside that is.
 void add_text(render::Scene& scene, const hl2ss::UnityObject& object, Vec3 eye,
               render::Colour colour) {
   const Mat3 rotation = rotation_from_quaternion(object.rotation);
@@ -117,7 +117,7 @@ void add_object(render::Scene& scene, const hl2ss::UnityObject& object, const re
     case Primitive::kCylinder: {
       render::LineItem& line = scene.lines.emplace_back();
       line.label = kRemoteLabel;
-      // A line's ends are round: they begin inside, so that it covers as much.
+      // A line's ends are round, so they begin further inside, to cover the same area.
       const double inside = std::min(0.98, std::numbers::pi / 8 * object.scale.x / object.scale.y);
       line.points = {placed.at({0, inside - 1, 0}), placed.at({0, 1 - inside, 0})};
       line.width_m = static_cast<float>(object.scale.x);

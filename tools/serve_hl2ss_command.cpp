@@ -86,7 +86,7 @@ class SceneWatch {
   int looks_ = 0;
 };
 
-/// Reports the beginning and end of each session, until there were enough.
+/// Reports the beginning and end of each session, until the given number is reached.
 int watch(hl2ss::Server& server, ScenePictures* pictures, std::int64_t sessions,
           const StopSignals& signals) {
   SceneWatch scene(pictures);
@@ -156,7 +156,7 @@ int serve(ServeArguments arguments, StopSignals& signals) {
   return watch(**server, pictures.get(), arguments.sessions, signals);
 }
 
-/// What a real headset does wrong, and the stand-in only when asked.
+/// Options for faults that real headsets have, and the stand-in only on request.
 void add_faults(CLI::App& serve, ServeArguments& arguments) {
   serve
       .add_option(

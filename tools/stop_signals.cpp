@@ -8,9 +8,9 @@
 namespace orthonav::tools {
 namespace {
 
-/// Tells the waiting thread that it is over; nobody else sends or waits for it.
+/// Tells the waiting thread to end; not used for anything else.
 constexpr int kOver = SIGUSR1;
-/// As a shell says it of a program that a signal ended.
+/// The exit code by which shells report a program that a signal ended.
 constexpr int kEndedBySignal = 128;
 
 const char* name_of_signal(int signal) { return signal == SIGINT ? "SIGINT" : "SIGTERM"; }

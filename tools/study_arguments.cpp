@@ -56,7 +56,7 @@ Result<std::vector<engine::Case>> cases_in(const std::string& folder) {
 
 namespace {
 
-/// What the words of the command line choose beside method and profile.
+/// Applies the options other than method and profile.
 Status choose(const StudyArguments& arguments, engine::OperationOptions& operation) {
   for (const auto& [name, guidance] : sim::kGuidanceNames) {
     operation.sim.guidance = arguments.guidance == name ? guidance : operation.sim.guidance;
@@ -222,7 +222,7 @@ std::vector<std::string> guidance_names() {
   return names;
 }
 
-/// How many, and where.
+/// Options for how many operations, and where.
 void add_cohort_options(CLI::App& study, StudyArguments& arguments) {
   study.add_option("-n,--runs", arguments.runs, "operations a case")
       ->check(whole_number(1, 1'000'000))

@@ -24,7 +24,7 @@
 namespace orthonav::tools {
 namespace {
 
-/// What was made until a signal came is kept, if it is anything.
+/// Keeps the operations completed before a signal, if any.
 int stopped(const StudyArguments& arguments, const engine::Study& study, StopSignals& signals) {
   const std::string how_far = "orthonav: stopped by " + signals.caught().value_or("") + " after " +
                               std::to_string(study.made) + " of " + std::to_string(study.planned) +
@@ -67,7 +67,7 @@ int run_on(const StudyArguments& arguments, const engine::StudyOptions& options,
   return study->failure ? bad_input(study->failure->message) : kDone;
 }
 
-/// Somebody at a terminal who did not say how many operations they want may not know what it takes.
+/// A user at a terminal who did not give the number of operations may not know how long they take.
 bool wants_so_many(const StudyArguments& arguments) {
   if (arguments.runs_given || ::isatty(STDIN_FILENO) == 0 || ::isatty(STDERR_FILENO) == 0) {
     return true;

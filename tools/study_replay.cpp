@@ -7,8 +7,8 @@
 namespace orthonav::tools {
 namespace {
 
-/// Whether the preview can show an operation of the study: all that it is must be the room, the
-/// guidance and the method of its profile, by what its cameras see.
+/// Whether the preview can show an operation of the study: it must consist only of the room, the
+/// guidance and the method of its profile, measured on pixels.
 bool can_be_shown(const StudyArguments& arguments) {
   if (arguments.navigation_alone || arguments.reference || !arguments.without.empty() ||
       !arguments.guidance.empty() || !arguments.instrument.empty() || !arguments.tools.empty()) {

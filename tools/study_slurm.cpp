@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kOperationsATask = 60;
-/// A task that fails so often fails for a reason.
+/// A task that fails this often will not succeed.
 constexpr int kRounds = 8;
 
 std::string shard_file(const std::string& folder, int shard) {
@@ -30,7 +30,7 @@ std::string shard_file(const std::string& folder, int shard) {
   return (fs::path(folder) / name).string();
 }
 
-/// What a task runs: this program, for the shard that has the task's number.
+/// The script of a task: it runs this program for the shard with the task's number.
 std::string script_of(const StudyArguments& arguments, int tasks) {
   std::error_code code;
   const std::string command = quoted(fs::read_symlink("/proc/self/exe", code).string()) + " study" +
@@ -77,7 +77,7 @@ std::string ranges(const std::set<int>& numbers) {
   return out;
 }
 
-/// Shards with operations that no file holds.
+/// Shards with operations that are in no file yet.
 Result<std::set<int>> unfinished(const std::string& definition, const std::string& folder,
                                  int tasks) {
   const auto missing = engine::missing_operations(definition, files_of(folder, tasks));
@@ -110,7 +110,7 @@ int shell(const std::string& command) {
   return answer;
 }
 
-/// Whether the shell would find a program.
+/// Whether the shell can find a program.
 bool is_there(const std::string& program) {
   return shell("command -v " + quoted(program) + " >/dev/null 2>&1") == 0;
 }

@@ -45,8 +45,9 @@ void SurgeonView::look_at(sim::SimHeadset& headset, const sim::ErrorModel& error
 void SurgeonView::captured(const engine::Snapshot& snapshot) {
   Moment& moment = moments_[snapshot.slot];
   moment.room = headset_->state();
-  // At the moment of the room's state, so that the bone and what is fixed to it coincide. What
-  // follows the tool is predicted to the display time, some 30 ms ahead of the room behind it.
+  // At the time of the room's state, so that the bone and holograms fixed to it coincide. Holograms
+  // that follow the tool are predicted to the display time, some 30 ms ahead of the room behind
+  // them.
   moment.world_from_rig = headset_->head().world_from_rig(moment.room.time);
 }
 

@@ -57,7 +57,7 @@ Result<TrackSummary> track_all(replay::ReplayHeadset& headset, nav::ToolTracker&
   summary.measured.resize(tracker.tools().size());
   const Status read = for_each_pair(headset, [&](const StereoFrame& frame) {
     for (const nav::ToolState& state : tracker.track(frame)) {
-      // A predicted pose is no measurement and gets no row.
+      // A predicted pose is not a measurement and gets no row.
       if (state.world_from_marker.status != PoseStatus::kMeasured) {
         continue;
       }
@@ -191,7 +191,7 @@ nav::TrackerOptions options_of(const TrackArguments& arguments) {
   return options;
 }
 
-/// The poses, as the arguments say; on standard output they stand alone.
+/// Writes the poses as the arguments say; standard output then holds nothing else.
 Status write_poses(const TrackArguments& arguments, const std::string& csv) {
   if (is_stdout(arguments)) {
     std::fwrite(csv.data(), 1, csv.size(), stdout);

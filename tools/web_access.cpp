@@ -27,7 +27,7 @@ bool may_be_in_a_token(char c) {
          c == '_';
 }
 
-/// 128 bits from the system.
+/// 128 random bits from the system.
 Result<std::string> token_at_random() {
   std::array<std::uint8_t, 16> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
@@ -42,7 +42,7 @@ Result<std::string> token_at_random() {
   return token;
 }
 
-/// Nobody else can read it at any moment.
+/// At no moment is the file readable by others.
 Status write_for_owner_alone(const std::string& path, const std::string& text) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
   if (file < 0) {
@@ -88,7 +88,7 @@ Result<std::string> token_of(const std::string& path) {
   return token;
 }
 
-/// 0.0.0.0 and :: are where to listen, and nowhere to go to.
+/// 0.0.0.0 and :: are addresses to listen on, not to connect to.
 std::string name_for_browsers(const std::string& host, const net::Endpoint& address) {
   std::array<char, 256> name{};
   const std::string numbers = net::text_of(address);

@@ -7,7 +7,7 @@
 namespace orthonav::preview {
 namespace {
 
-/// A wound lies this far in front of the eyes.
+/// The wound is this far in front of the eyes.
 constexpr double kArm_m = 0.45;
 constexpr double kNearest_m = 0.05;
 constexpr double kFarthest_m = 5.0;
@@ -15,7 +15,7 @@ constexpr double kMostMagnification = 6.0;
 constexpr double kZoomStep = 1.1;
 /// Dragging by the picture's height turns by this angle.
 constexpr double kTurnPerHeight_rad = std::numbers::pi;
-/// Looking straight down there is no upright.
+/// When looking straight down, no direction is upright.
 constexpr double kSteepest_rad = 1.55;
 
 }  // namespace

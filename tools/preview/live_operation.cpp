@@ -15,7 +15,7 @@ namespace {
 
 engine::LoopOptions loop_options() {
   engine::LoopOptions options;
-  // A headset that is paused while its clock goes on is not lost.
+  // A headset that is paused while its clock runs on is not lost.
   options.longest_silence = std::chrono::hours(24);
   // Nothing is drawn in the loop: the newest moment counts.
   options.drop_late_snapshots = true;
@@ -136,7 +136,7 @@ void LiveOperation::stepped(const StereoFrame& frame, const engine::Inputs& /*in
   moment_.detail = engine::detail_text(guidance.status);
 }
 
-/// For the eye that a surgeon, or the recording's left camera, has there.
+/// Lays labels out for the surgeon's eye, or for the recording's left camera.
 void LiveOperation::lay_out_labels(const engine::Snapshot& snapshot) {
   if (moment_.world_from_rig.status == PoseStatus::kLost) {
     return;

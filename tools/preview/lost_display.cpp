@@ -8,7 +8,7 @@ extern "C" Display* glfwGetX11Display(void);  // NOLINT(readability-identifier-n
 namespace orthonav::preview {
 namespace {
 
-// Xlib's handlers belong to the process, and so does this flag.
+// Xlib's handlers are per process, so this flag is too.
 bool lost = false;
 
 }  // namespace

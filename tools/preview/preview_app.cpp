@@ -90,7 +90,7 @@ Status PreviewApp::start_operation() {
 Status PreviewApp::run() {
   counted_since_ = wall_.now();
   const Status watched = watch();
-  // However it ended, what was recorded is worth keeping.
+  // However it ended, the recorded video is kept.
   const Status stopped = stop_video();
   if (!watched) {
     return watched;

@@ -53,7 +53,7 @@ std::optional<std::array<double, 2>> numbers(const std::string& text, int count)
   return values;
 }
 
-/// The words that change what is seen and wait for nothing.
+/// The words that change the view without waiting.
 void change_view(const ScriptLine& line, Look& look, const ScriptStage& stage) {
   const auto two = numbers(line.rest, 2).value_or(std::array<double, 2>{});
   const double one = numbers(line.rest, 1).value_or(std::array<double, 2>{})[0];
@@ -171,7 +171,7 @@ Status Script::go_on(PreviewModel& model, const ScriptStage& stage, Timestamp no
     wait_for_pair_.reset();
     waited_ = 0;
     ++next_;
-    // A picture shows what was done before it, so a call takes no more than one.
+    // A picture shows the result of everything before it, so a call takes at most one.
     if (line.word == "screenshot" || line.word == "resize") {
       return {};
     }

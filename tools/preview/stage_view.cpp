@@ -12,7 +12,7 @@
 namespace orthonav::preview {
 namespace {
 
-/// Behind the holograms where nothing is known: a dark grey on which every hologram is legible.
+/// The background where nothing is known: a dark grey on which every hologram is legible.
 constexpr std::array<std::uint8_t, 4> kEmpty = {34, 37, 42, 255};
 
 }  // namespace
@@ -56,7 +56,8 @@ Transform<sim::Room, Eye> StageView::eye_of(const Moment& moment) const {
   if (moment.room) {
     return moment.room->room_from_rig * tools::rig_from_eye();
   }
-  // Without a room the stage is the map itself, and the eye is the camera whose image is behind.
+  // Without a room the stage is the map itself, and the eye is the camera whose image is the
+  // background.
   const Transform<sim::Room, World> stage_from_world;
   const Vec3 eye = recording_ ? recording_->eye_in_rig() : Vec3{};
   return stage_from_world * moment.world_from_rig.value *

@@ -17,7 +17,7 @@
 namespace orthonav::preview {
 namespace {
 
-/// Keys that have a character are named by it.
+/// Keys with a character are named after it.
 std::optional<Key> key_of_glfw(int key) {
   switch (key) {
     case GLFW_KEY_TAB:
@@ -112,14 +112,14 @@ Window::Window(std::unique_ptr<Glfw> glfw, WindowInput input)
   poll(0.0);
 }
 
-/// Keys and mouse, where Dear ImGui does not want them.
+/// Handles keys and mouse when Dear ImGui does not want them.
 void Window::watch_input() {
   GLFWwindow* window = glfw_->window;
   glfwSetWindowUserPointer(window, this);
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(w));
     const auto known = key_of_glfw(key);
-    // A key that goes up was released, wherever the focus is now.
+    // A key release always counts, wherever the focus is now.
     const bool ours = action == GLFW_RELEASE || !ImGui::GetIO().WantTextInput;
     if (known && ours && action != GLFW_REPEAT) {
       self->input_.key(*known, action == GLFW_PRESS);
@@ -180,7 +180,7 @@ void Window::upload(const RgbaImage& picture) {
   glBindTexture(GL_TEXTURE_2D, texture_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  // Otherwise the upper edge shows through at the lower one.
+  // Otherwise the upper edge would bleed into the lower one.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -214,7 +214,8 @@ void Window::draw(int panel_px, const std::function<void()>& panels) {
   }
   ImGui_ImplOpenGL2_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-  // A display that goes away in this call leaves a size that Dear ImGui would end the program for.
+  // If the display disappears in this call, Dear ImGui would end the program because of the size
+  // that is left.
   if (lost()) {
     return;
   }

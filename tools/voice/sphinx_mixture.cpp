@@ -14,7 +14,7 @@ namespace {
 
 using namespace orthonav::voice;
 
-/// sphinxtrain moves the weights of a senone that nothing was said in by half of this.
+/// sphinxtrain moves the weights of a senone without training data by half of this.
 constexpr double kUntouched = 1e-3;
 
 /// The weights of one stream of a senone.

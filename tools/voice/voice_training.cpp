@@ -32,12 +32,12 @@ using namespace orthonav::test;
 
 struct Options {
   std::string folder;
-  std::string means;            ///< to align with; the model's own where empty
-  std::string mixture;          ///< where the model's mixture weights go
-  std::string change;           ///< where the change goes that leads to `means`
+  std::string means;            ///< to align with; empty: the model's own
+  std::string mixture;          ///< output file for the model's mixture weights
+  std::string change;           ///< output file for the change that leads to `means`
   double fraction = 0.6;        ///< of the way
   std::string adapted_mixture;  ///< an adapted model's mixture weights
-  std::string mixture_change;   ///< where the change goes that leads to them
+  std::string mixture_change;   ///< output file for the change that leads to them
   double mixture_fraction = 0.6;
 };
 
@@ -53,7 +53,7 @@ void write_file(const std::string& path, const std::string& content) {
   }
 }
 
-/// Finds, with the model itself, which pronunciation of a phrase was used.
+/// Finds with the model which pronunciation of a phrase was used.
 class Aligner {
  public:
   explicit Aligner(const Options& options) {
@@ -61,7 +61,7 @@ class Aligner {
     const std::string model = default_acoustic_model().string();
     const std::string means = options.means.empty() ? model + "/means" : options.means;
     write_file(options.folder + "/fillers", "<s> SIL\n</s> SIL\n<sil> SIL\n");
-    // The phrase is known: no beam may lose it.
+    // The phrase is known, so no beam may lose it.
     config_ = cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", model.c_str(), "-mean", means.c_str(),
                           "-fdict", (options.folder + "/fillers").c_str(), "-cmn", "none",
                           "-remove_silence", "no", "-remove_noise", "no", "-bestpath", "no",
@@ -77,7 +77,7 @@ class Aligner {
   }
   [[nodiscard]] fe_t* front_end() const { return ps_get_fe(decoder_.get()); }
 
-  /// As a line of sphinxtrain's transcription, "ortho(2) save(4)"; empty where nothing fits.
+  /// As a line of sphinxtrain's transcription, "ortho(2) save(4)"; empty if nothing fits.
   std::string words_of(const std::string& phrase, std::vector<Cepstrum>& cepstra) {
     ps_decoder_t* decoder = decoder_.get();
     const std::string grammar = "#JSGF V1.0; grammar g; public <phrase> = " + phrase + ";";
@@ -150,12 +150,12 @@ std::vector<std::int16_t> heard(const std::string& phrase, const std::string& vo
   return cleaned(segments.front().samples, kBackgroundSamples);
 }
 
-/// What the recogniser hears, phrase by phrase, as sphinxtrain wants it.
+/// The recogniser's input, phrase by phrase, in sphinxtrain's format.
 class Corpus {
  public:
   explicit Corpus(const Options& options) : folder_(options.folder), aligner_(options) {}
 
-  /// Leaves out what no pronunciation fits.
+  /// Leaves out phrases that no pronunciation fits.
   void add(const std::string& phrase, const std::string& voice) {
     std::vector<Cepstrum> cepstra = cepstra_of(aligner_.front_end(), heard(phrase, voice, random_));
     const std::string words = cepstra.empty() ? "" : aligner_.words_of(phrase, cepstra);

@@ -1,6 +1,6 @@
 // Trains the weights of a command's evidence (hal/voice/command_weights.h): speaks commands and
 // other sentences in noise, in the voices and texts kept for tuning, and fits a logistic regression
-// to what the recogniser makes of them. Takes one core a quarter of an hour.
+// to the recogniser's results. Takes one core a quarter of an hour.
 #include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -39,7 +39,7 @@ struct Examples {
 struct Options {
   std::string out;
   int every = 1;
-  /// Of the sayings that are no command, the fraction that may pass for one.
+  /// The fraction of phrases other than commands that may pass for one.
   double false_fraction = 0.0045;
   /// The same for single words, which are harder to tell from commands.
   double false_fraction_alone = 0.02;
@@ -191,7 +191,7 @@ void add_others(Listener& listener, const Options& options, Examples& examples) 
   for (std::string& text : random_words(random)) {
     texts.emplace_back(std::move(text), 1.0);
   }
-  // What nobody could tell from a command weighs little.
+  // Phrases that cannot be told from a command weigh little.
   for (std::string& text : near_phrases()) {
     texts.emplace_back(std::move(text), 0.3);
   }
@@ -234,7 +234,7 @@ std::string shared_row(const Weights& weights) {
   return text + "},\n";
 }
 
-/// The file hal/voice/command_weights.h, which clang-format still has to lay out.
+/// The text of hal/voice/command_weights.h, still to be formatted by clang-format.
 std::string header(const std::vector<std::string>& commands, const Weights& after_wake_word,
                    const Weights& alone) {
   std::string text =
