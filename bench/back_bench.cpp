@@ -1,6 +1,7 @@
-// How soon a surgeon is back: from the start of `orthonav run --resume` to its first pair, with the
-// operation restored. bench_back ORTHONAV [FOLDER] [TIMES, default 20]. The operation was killed at
-// its second screw, on a patient reference. Prints a table; nothing is left in the folder.
+// How soon an operation is back: the time from the start of `orthonav run --resume` to its first
+// pair, with the operation restored. bench_back ORTHONAV [FOLDER] [TIMES, default 20]. The
+// operation was killed at its second screw, on a patient reference. Prints a table; nothing is left
+// in the folder.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -76,7 +77,7 @@ Status operate(const std::string& folder) {
   return result ? log->finish(false, "killed") : Status(result.error());
 }
 
-/// Reads what the command says until it tells of its first pair. Everything it said.
+/// Reads the command's output until it reports its first pair. Returns all of it.
 std::string said_until_first_pair(int from) {
   std::string said;
   std::array<char, 4096> room{};
@@ -129,7 +130,7 @@ int measure(const std::string& orthonav, const fs::path& folder, int times) {
     std::fprintf(stderr, "bench_back: %s\n", operated.error().message.c_str());
     return 1;
   }
-  // The first one prepares the models, which the command that was killed would have left there.
+  // The first run prepares the models, which the killed command would have left there.
   const double cold_ms = time_back_ms(orthonav, folder.string());
   std::vector<double> back_ms;
   for (int i = 0; i < times; ++i) {
@@ -140,7 +141,7 @@ int measure(const std::string& orthonav, const fs::path& folder, int times) {
     return 1;
   }
   std::printf("back without prepared models                     1  %.2f s\n", cold_ms / 1e3);
-  // Of fewer than a hundred, the 99th percentile is the longest.
+  // With fewer than a hundred runs, the 99th percentile is the longest one.
   const double p99_ms = quantile(back_ms, back_ms.size() < 100 ? 1.0 : 0.99);
   std::printf("back, from start to the first pair           %5zu  median %.2f s  p99 %.2f s\n",
               back_ms.size(), quantile(back_ms, 0.5) / 1e3, p99_ms / 1e3);

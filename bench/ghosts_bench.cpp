@@ -1,5 +1,5 @@
-// Tools that nobody holds: pairs of images full of texture, and what the trackers claim to see in
-// them. A claim is a ghost; there must be none.
+// Pairs of images full of texture but without tools, and the tools that the trackers claim to see
+// in them. Each claim is a ghost; there must be none.
 //   bench_ghosts [IMAGES]     20,000 by default, half of them left, half right
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
-/// The right image is the left one shifted, as for near things, so that what fits in one fits in
-/// the other.
+/// The right image is the left one shifted, as for near objects, so that a false match in one also
+/// fits the other.
 constexpr int kShiftPx = 60;
 
 /// Smooth noise of one scale, added.
@@ -43,7 +43,7 @@ void add_clouds(Random& random, int cell_px, double strength, std::vector<float>
   }
 }
 
-/// Dark squares full of black and white cells, which is what a tag is from afar.
+/// Dark squares full of black and white cells, which look like tags from afar.
 void add_boards(Random& random, std::vector<float>& grey, int width) {
   for (int board = 0; board < 6; ++board) {
     const double cell = random.uniform(3.0, 8.0);

@@ -1,5 +1,6 @@
-// Half an hour of a headset over TCP, as fast as it goes: the cost of a pair from its last byte on,
-// and whether memory grows. Usage: bench_hl2ss [SECONDS of headset time, default 1800] [raw|h264]
+// Half an hour of a headset over TCP, as fast as possible: the cost of a pair from its last byte
+// on, and whether memory grows. Usage: bench_hl2ss [SECONDS of headset time, default 1800]
+// [raw|h264]
 
 #include <unistd.h>
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How surely a landmark that is touched before each screw shows that something moved: simulated
+// How reliably a landmark that is touched before each screw shows that something moved: simulated
 // operations of one level in the measurement model, up to the touch before the second screw. With
 // the first wire in, the patient reference is bumped, or the patient slips, or nothing happens.
 //   bench_landmark --operations 200 --reference --bump-mm 2 > touches.csv
@@ -24,10 +24,10 @@ struct Outcome {
   std::uint64_t seed = 0;
   std::optional<engine::LandmarkTouch> touch;  ///< before the second screw
   double apart_s = 0.0;                        ///< the two touches
-  double moved_m = 0.0;                        ///< truly, of the landmark in the session's World
-  double entry_moved_m = 0.0;                  ///< and of the second screw's entry
+  double moved_m = 0.0;        ///< true motion of the landmark in the session's World
+  double entry_moved_m = 0.0;  ///< true motion of the second screw's entry
   double turned_rad = 0.0;
-  bool guided = false;  ///< the second screw was, after that touch
+  bool guided = false;  ///< whether the second screw was guided after that touch
 };
 
 /// Listens until the second screw is guided, or refused.
@@ -69,7 +69,7 @@ class Listener : public engine::SessionObserver {
   }
 
  private:
-  /// The true bone in what the session hangs on.
+  /// The true pose of the bone in the session's World.
   [[nodiscard]] Transform<World, Vertebra> world_from_bone(const engine::LevelState& level) const {
     const sim::RoomState state = room_->state();
     const auto& levels = room_->room().levels;

@@ -16,7 +16,7 @@ struct Lens {
   double p1 = 0.0, p2 = 0.0;
 
   [[nodiscard]] Vec2 pixel(Vec2 unit_plane) const;
-  /// Its inverse, to 1e-12.
+  /// The inverse, exact to 1e-12.
   [[nodiscard]] Vec2 unit_plane(Vec2 pixel_px) const;
 };
 

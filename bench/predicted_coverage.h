@@ -11,7 +11,7 @@ class PredictedCoverage {
   /// Whether an error lies in the ellipsoid that holds a fraction (0.68 or 0.95) of all errors.
   /// False without a covariance.
   [[nodiscard]] bool in_ellipsoid(Vec3 error_m, double fraction) const;
-  /// Whether an error is no longer than that fraction of all errors are.
+  /// Whether an error is within the length that this fraction of all errors does not exceed.
   [[nodiscard]] bool no_longer(Vec3 error_m, double fraction) const;
 
  private:

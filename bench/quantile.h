@@ -6,7 +6,8 @@
 
 namespace orthonav {
 
-/// The value that `fraction` of the values lie at or below, without interpolation; 0 for none.
+/// The value that a `fraction` of the values does not exceed, without interpolation; 0 if there are
+/// none.
 inline double quantile(std::vector<double> values, double fraction) {
   if (values.empty()) {
     return 0.0;

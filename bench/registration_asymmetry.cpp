@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMostVertices = 1500;
 constexpr double kFarthest_m = 0.005;
 
-/// As it is, and turned and shifted to every side: nothing says where the best one is.
+/// The unchanged pose, and poses turned and shifted to every side, since the best start is unknown.
 std::vector<nav::CentredPose> starts(Vec3 centre_m) {
   constexpr double kTurned_rad = 0.15;
   constexpr double kAside_m = 0.003;

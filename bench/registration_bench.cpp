@@ -64,7 +64,7 @@ void summarize(const std::vector<BenchLevel>& levels,
   }
 }
 
-/// The same, of bones that are their own mirror image and of others.
+/// The same, separately for bones that are their own mirror image and for others.
 void summarize_mirrored(const std::vector<BenchLevel>& levels,
                         const std::vector<RegistrationMethod>& methods,
                         const Arguments& arguments) {

@@ -10,7 +10,7 @@
 namespace orthonav::bench {
 namespace {
 
-/// The bone as the model has it.
+/// The model of the bone, with the errors asked for.
 nav::TriangleMesh modelled(nav::TriangleMesh mesh, const LevelOptions& options) {
   if (options.segmented_m > 0.0) {
     mesh = test::segmented(mesh, options.segmented_m, 1);

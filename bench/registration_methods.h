@@ -12,7 +12,7 @@
 
 namespace orthonav::bench {
 
-/// A vertebra prepared once, and where it is measured.
+/// A vertebra prepared once, and the places where errors are measured.
 struct BenchLevel {
   std::string case_name;
   std::string label;
@@ -25,7 +25,7 @@ struct BenchLevel {
   [[nodiscard]] std::string name() const { return case_name + "/" + label; }
 };
 
-/// What a method makes of one set of strokes.
+/// The result of a method for one set of strokes.
 struct Fitted {
   bool found = false;
   Transform<World, Vertebra> world_from_vertebra;
@@ -33,7 +33,7 @@ struct Fitted {
   std::string reason;  ///< why it was not accepted
   double rmse_m = 0.0;
   std::string fits_better;  ///< label of another level that the points fit as well or better
-  /// For methods that say how sure they are: covariance of the error at a place, by rows, m².
+  /// For methods that predict their errors: covariance of the error at a place, by rows, m².
   std::function<Mat3(Point<Vertebra>)> covariance;
 };
 
@@ -42,15 +42,15 @@ using Fit = std::function<Fitted(std::span<const Point<World>>)>;
 
 struct RegistrationMethod {
   std::string name;
-  /// Does all the work that need not wait for the strokes.
+  /// Does all the work that is possible before the strokes are known.
   std::function<Fit(const BenchLevel&)> prepare;
   /// Peers do not judge their own result: theirs count as accepted by the published method's rule,
   /// the RMSE alone.
   bool judges = false;
 };
 
-/// Ours, then the peers found when the build was configured. `common_m`: what `best` is told of a
-/// shift that all points share, SD along an axis.
+/// Ours, then the peers found when the build was configured. `common_m`: the SD along an axis,
+/// given to `best`, of a shift that all points share.
 [[nodiscard]] std::vector<RegistrationMethod> registration_methods(double common_m);
 
 }  // namespace orthonav::bench

@@ -88,7 +88,8 @@ Fit prepared(const BenchLevel& level) {
   icp->setMaxCorrespondenceDistance(kFarthestPair_mm);
   icp->setMaximumIterations(kMostIterations);
   icp->setTransformationEpsilon(1e-8);
-  // What PCL computes from the target alone (its tree, GICP's covariances) is no part of a run.
+  // Data that PCL computes from the target alone (its tree, GICP's covariances) is not part of a
+  // timed run.
   icp->setInputSource(target);
   Cloud aligned;
   icp->align(aligned);

@@ -19,12 +19,12 @@ struct SurfaceSample {
   Vec3 point_m;
   Vec3 normal;
 };
-/// Points on a surface with the same density everywhere: all that peers which take points see of
-/// the model. The same in every call.
+/// Points on a surface with uniform density, which peers that take points use as the model. The
+/// same in every call.
 [[nodiscard]] std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh,
                                                          std::size_t count);
-/// The part of them that such an operation exposes, out to a little beyond the entry points: the
-/// published method trims its model to it by hand.
+/// The part of these points that such an operation exposes, out to a little beyond the entry
+/// points: the published method trims its model to it by hand.
 [[nodiscard]] std::vector<SurfaceSample> exposed(const std::vector<SurfaceSample>& samples,
                                                  const std::vector<nav::ScrewPlan>& screws);
 
@@ -34,7 +34,7 @@ struct SurfaceSample {
 [[nodiscard]] std::vector<Transform<Vertebra, World>> published_starts(
     std::span<const SurfaceSample> model, std::span<const Point<World>> points);
 
-/// How many of them a model gets: about one per square millimetre.
+/// The number of points per model: about one per square millimetre.
 inline constexpr std::size_t kPeerModelPoints = 8000;
 
 }  // namespace orthonav::bench

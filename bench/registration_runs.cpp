@@ -45,14 +45,14 @@ double rmse_m(const nav::VertebraModel& model, const Transform<World, Vertebra>&
   return std::sqrt(sum_m2 / static_cast<double>(points.size()));
 }
 
-/// What this thread has had of a core: others that want it too do not count.
+/// CPU time of this thread, so that other load does not count.
 double own_time_ms() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-/// Fits, and judges on behalf of peers that don't.
+/// Fits, and judges the result of peers that don't judge it themselves.
 Fitted fitted_by(const RegistrationMethod& method, const Fit& fit, const BenchLevel& level,
                  std::span<const Point<World>> points, double& ms) {
   const double before_ms = own_time_ms();
@@ -114,7 +114,7 @@ void measure_level(const BenchLevel& level, const std::vector<RegistrationMethod
   }
 }
 
-/// Strokes of a level, and what a method makes of them there.
+/// Strokes of a level, and a method's result for them there.
 struct OnOwnLevel {
   test::StrokeVariant variant{};
   std::vector<Point<World>> points;

@@ -22,9 +22,10 @@ struct Run {
   double rmse_m = 0.0;
   double error_m = 0.0;  ///< the largest at any entry or target
   double ms = 0.0;       ///< of one core
-  std::string named;     ///< the level that the points are said to fit better
-  /// For each entry and target with a predicted error: whether the error lies in the ellipsoid that
-  /// is to hold 68 (95) % of all errors, and whether it is no longer than 68 (95) % are to be.
+  std::string named;     ///< the level that the points fit better, according to the method
+  /// For each entry and target with a predicted error: whether the error lies in the ellipsoid
+  /// predicted to hold 68 (95) % of all errors, and whether it is within the length predicted for
+  /// 68 (95) %.
   struct Honest {
     bool in_68 = false, in_95 = false, within_68 = false, within_95 = false;
   };
@@ -60,7 +61,7 @@ struct WrongLevelRun {
   bool right_fits_better = false;  ///< on their own level the same strokes have a smaller RMSE
 
   [[nodiscard]] bool right_named() const { return named == right; }
-  /// A level that was not stroked; several that fit alike are none.
+  /// Whether a level that was not stroked was named; several that fit alike do not count.
   [[nodiscard]] bool wrong_named() const;
 };
 

@@ -30,8 +30,8 @@ std::string counted(std::size_t count, std::size_t all) {
   return text;
 }
 
-/// What of the places of the accepted runs is `in`. The places of one run are wrong together: the
-/// interval counts the runs.
+/// The share of the places of accepted runs that are `in`. The places of one run have a common
+/// error, so the interval counts runs.
 std::string share_of_places(const std::vector<Run>& runs, bool Run::Honest::*in) {
   double sum = 0.0;
   std::size_t accepted = 0;

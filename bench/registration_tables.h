@@ -10,8 +10,7 @@ namespace orthonav::bench {
 /// Markdown, to standard output: how often each method is right, what it accepts, errors, times.
 void print_success(const std::vector<Run>& runs, const std::vector<RegistrationMethod>& methods,
                    const std::vector<test::StrokeVariant>& variants);
-/// A row for each method and kind of strokes, with 95 % intervals (Wilson), under a head of its
-/// own.
+/// A row for each method and kind of strokes, with 95 % intervals (Wilson), under its own header.
 void print_summary_head();
 void print_summary(const std::string& truth, const std::vector<Run>& runs,
                    const std::vector<RegistrationMethod>& methods,
@@ -20,7 +19,7 @@ void print_summary(const std::string& truth, const std::vector<Run>& runs,
 void print_against_first(const std::vector<Run>& runs,
                          const std::vector<RegistrationMethod>& methods,
                          const std::vector<test::StrokeVariant>& variants);
-/// How many errors lie within what was predicted, for the methods that predict.
+/// How many errors lie within their predictions, for the methods that predict errors.
 void print_honesty(const std::vector<Run>& runs, const std::vector<RegistrationMethod>& methods,
                    const std::vector<test::StrokeVariant>& variants);
 void print_wrong_levels(const std::vector<WrongLevelRun>& runs,

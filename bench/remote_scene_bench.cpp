@@ -1,6 +1,6 @@
-// The headset's own scene (docs/hl2ss.md): how exactly a bone is drawn there with lines, and what
-// becomes of guidance on a link with a delay and losses, whose time is counted, not waited for.
-// Usage: bench_remote_scene [SECONDS of the link, default 600]
+// The headset's own scene (docs/hl2ss.md): how exactly a bone is drawn there with lines, and how
+// guidance fares on a link with delay and losses, in simulated time. Usage: bench_remote_scene
+// [SECONDS of the link, default 600]
 
 #include <algorithm>
 #include <cstdio>
@@ -40,7 +40,7 @@ void measure_contours() {
     return;
   }
   auto bone = *engine::mesh_data(operation->levels[0].model->mesh());
-  // The middle to the origin, and posterior (+y of LPS) upwards, where the heads are.
+  // Moves the middle to the origin, and turns posterior (+y of LPS) upwards, towards the heads.
   const render::Float3 middle = engine::SurfaceContours(bone).middle();
   for (render::Float3& p : bone.positions) {
     p = p - middle;
@@ -80,10 +80,10 @@ ObjectList guidance(Timestamp tool_time, Random& random) {
 struct LinkFigures {
   std::int64_t frames = 0;
   std::int64_t with_guidance = 0;
-  double oldest_ms = 0;  ///< guidance that was seen
+  double oldest_ms = 0;  ///< age of the oldest guidance that was seen
 };
 
-/// Of the number that is seen, if any.
+/// Notes the age of the number that is seen, if any.
 void look(const test::SceneLink& link, LinkFigures& figures) {
   ++figures.frames;
   for (const auto& [id, thing] : link.peer.things) {

@@ -1,4 +1,4 @@
-// What durability costs a click, and how soon an operation is resumed, on the disk of a folder:
+// The cost of durability per click, and how soon an operation is resumed, on the disk of a folder:
 // bench_resume [FOLDER]. Prints a table; nothing is left in the folder.
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr int kClicks = 500;
 constexpr int kResumes = 100;
-/// A region that is stroked for 20 s.
+/// The samples of a region that is stroked for 20 s.
 constexpr int kSamples = 600;
 
 double ms_of(const std::function<void()>& work) {
@@ -53,7 +53,7 @@ void measure_clicks(const fs::path& folder, std::size_t bytes, const char* what)
   fs::remove(folder / "clicks.log");
 }
 
-/// What a session itself waits for: the record is made and handed over.
+/// The part for which the session itself waits: the record is made and handed over.
 void measure_handing_over(const fs::path& folder) {
   engine::PosixEnv env;
   auto s = test::touched_operation(true);

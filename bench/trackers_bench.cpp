@@ -1,6 +1,6 @@
-// Every way of tracking on the same pairs, one thread each: time, what was seen and what is not
-// there, errors against the truth, honesty of the covariance, and the Cramér-Rao bound. Prints a
-// table in Markdown.
+// Every way of tracking on the same pairs, one thread each: time, detections and ghosts, errors
+// against the truth, honesty of the covariance, and the Cramér-Rao bound. Prints a table in
+// Markdown.
 //   bench_trackers [PAIRS] [--other] [--only SEQUENCE,...] [--methods METHOD,...] [--pictures
 //   FOLDER]
 //     PAIRS      pairs a sequence, 300 by default, at least 70; 100 of --other

@@ -12,7 +12,7 @@
 namespace orthonav {
 namespace {
 
-/// Hands on what a tracker says, and prints it beside the truth.
+/// Passes a tracker's results on, and prints them beside the truth.
 class Watched final : public nav::ToolTracker {
  public:
   Watched(std::unique_ptr<nav::ToolTracker> tracker, const sim::SimHeadset& room)

@@ -14,13 +14,13 @@ namespace {
 
 /// A tag counts as visible when at least this fraction of it is free in both images.
 constexpr double kVisible = 0.9;
-/// From this fraction on it may be seen: seeing it is no ghost.
+/// From this visible fraction on, seeing the tag does not count as a ghost.
 constexpr double kGlimpsed = 0.02;
 /// Acquisition is not part of the accuracy.
 constexpr std::size_t kWarmUp = 5;
 /// By then a tool at rest has been averaged.
 constexpr std::size_t kSettled = 60;
-/// Fewer poses say nothing about jitter.
+/// Fewer poses are not enough to measure jitter.
 constexpr std::size_t kFewestAtRest = 10;
 /// A tip that stays within this of one place in World is at rest.
 constexpr double kRestM = 1e-6;

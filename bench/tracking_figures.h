@@ -8,7 +8,7 @@
 
 namespace orthonav::bench {
 
-/// How a method did on a sequence. Sums of squares over `count` poses, the first pairs left out.
+/// Results of a method on a sequence. Sums of squares over `count` poses, without the first pairs.
 struct Figures {
   std::vector<double> ms;
   double visible = 0;  ///< tags that both cameras see nearly whole
@@ -18,7 +18,7 @@ struct Figures {
   /// from its place; and sightings in one image of an absent id, or at a place where the tag is
   /// not.
   int ghosts = 0;
-  double count = 0;  ///< poses that are no ghosts
+  double count = 0;  ///< poses other than ghosts
   double position = 0, rotation = 0, tip = 0, nees = 0, nees_count = 0;
   double jitter = 0, jitters = 0;  ///< of tips at rest in World, from the third second on
 };
@@ -28,7 +28,8 @@ struct Figures {
 /// A table in Markdown.
 void print_head();
 void print_row(const Sequence& sequence, const std::string& method, const Figures& figures);
-/// The Cramér-Rao bound of the visible tags of ten pairs; nothing for a sequence that has none.
+/// Prints the Cramér-Rao bound of the visible tags of ten pairs; nothing for a sequence without
+/// one.
 void print_bound(const Sequence& sequence);
 
 }  // namespace orthonav::bench

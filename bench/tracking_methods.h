@@ -24,7 +24,8 @@ struct Sighting {
   Vec2 centre_px;
 };
 
-/// What a method finds in a pair: one entry per tool, and what it saw in each image, if it says so.
+/// A method's results for a pair: one entry per tool and, if it reports them, the sightings in each
+/// image.
 struct Claims {
   std::vector<Seen> tools;
   std::vector<Sighting> sightings;

@@ -1,6 +1,7 @@
 // Commands and other speech, spoken by espeak-ng, against noise: how many commands are heard, how
-// many are heard that nobody said, and how long it takes. With --tuning, uses the voices and texts
-// on which the thresholds were chosen; otherwise those that had no part in that. Nothing is stored.
+// many are heard without having been said, and how long it takes. With --tuning, uses the voices
+// and texts on which the thresholds were chosen; otherwise those not used for that. Nothing is
+// stored.
 #include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -65,7 +66,8 @@ struct Figures {
   Tally all;
 };
 
-/// CPU time of this thread: what the work takes on a free core, however busy the machine is.
+/// CPU time of this thread: the time that the work takes on a free core, however busy the machine
+/// is.
 double worked_ms() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -1,5 +1,5 @@
-// Writes a post-operative scan computed from a case, and the truth beside it: to try orthonav
-// evaluate on. It shares no code with what finds the screws.
+// Writes a post-operative scan computed from a case, and the truth beside it, for trying out
+// `orthonav evaluate`. It shares no code with the search for screws.
 #include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdint>

@@ -17,7 +17,8 @@ struct VtkTiming {
 };
 
 /// VTK drawing a scene: the same surfaces, tubes where we have wide lines, one renderer per eye,
-/// side by side in one window that no screen shows. The scene never changes, only the cameras do.
+/// side by side in one window that is not on a screen. The scene never changes, only the cameras
+/// do.
 class VtkWindow {
  public:
   static std::unique_ptr<VtkWindow> create(const render::Scene& scene, std::size_t eyes,

@@ -6,7 +6,7 @@
 
 namespace orthonav {
 
-/// An interval of a share that was counted.
+/// An interval for a counted share.
 struct ShareInterval {
   double low = 0.0;
   double high = 1.0;
