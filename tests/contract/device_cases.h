@@ -15,15 +15,15 @@ namespace orthonav::test {
 struct DeviceCase {
   std::string name;
   std::function<std::unique_ptr<Headset>()> open;
-  bool has_events = true;  ///< clicker and voice say something
-  bool has_images = true;  ///< false: they stay black, as nobody looks at them
-  /// How far past the newest pair the head may have been measured already.
+  bool has_events = true;  ///< clicker and voice deliver events
+  bool has_images = true;  ///< false: they stay black, as nothing uses them
+  /// How far past the newest pair the head may already have been measured.
   Duration head_ahead{};
   std::size_t depth_cameras = 0;
 };
 inline void PrintTo(const DeviceCase& device, std::ostream* out) { *out << device.name; }
 
-/// Every implementation there is.
+/// All implementations.
 std::vector<DeviceCase> device_cases();
 
 }  // namespace orthonav::test

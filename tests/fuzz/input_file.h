@@ -31,12 +31,12 @@ class InputFile {
   int file_;
 };
 
-/// Of a file that a reader finds by its name.
+/// The text of a file that a reader finds by its name.
 inline std::string text_of(std::span<const std::uint8_t> input) {
   return {input.begin(), input.end()};
 }
 
-/// What a reader let through must hold, or its word is worth nothing.
+/// A property that must hold for everything that a reader accepted.
 inline void insist(bool holds) {
   if (!holds) {
     std::abort();

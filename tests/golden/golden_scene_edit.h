@@ -18,7 +18,7 @@ struct PixelStep {
   float right = 0;
   float down = 0;
 };
-/// So far that the first view shows each point aside by the step.
+/// Moved so far that each point shifts by the step in the first view.
 [[nodiscard]] GoldenScene moved(GoldenScene golden, render::Label label, PixelStep step);
 /// A fifth less light.
 [[nodiscard]] GoldenScene dimmed(GoldenScene golden, render::Label label);

@@ -10,8 +10,9 @@
 
 namespace orthonav::render {
 
-/// What the validation layer says, which must be nothing: otherwise the test fails when this goes.
-/// Declare it before whatever reports to it, so that it hears of objects left behind as well.
+/// Collects messages of the validation layer; the test fails when this is destroyed after any
+/// message. Declare it before the objects that report to it, so that it also notices objects left
+/// behind.
 class SilentValidation {
  public:
   SilentValidation() = default;

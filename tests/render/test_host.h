@@ -9,18 +9,18 @@
 
 namespace orthonav::render {
 
-/// A host that makes what it is asked for, on the software rasterizer.
+/// A host that creates the requested objects on the software rasterizer.
 class TestHost : public VulkanHost {
  public:
   std::array<VulkanVersion, 2> allowed = {VulkanVersion{1, 0}, VulkanVersion{1, 3}};
-  /// Answers so instead of making a device.
+  /// If set, answers with this instead of making a device.
   std::string refusal;
 
   [[nodiscard]] std::array<VulkanVersion, 2> versions() const override { return allowed; }
   Result<void*> create_instance(VulkanFunction get, const void* info) override;
   Result<void*> physical_device(void* instance) override;
   Result<void*> create_device(void* physical, VulkanFunction get, const void* info) override;
-  /// What the renderer asked the instance to be of.
+  /// The version that the renderer requested for the instance.
   std::uint32_t asked_version = 0;
 };
 
@@ -30,7 +30,7 @@ class TestImages {
   TestImages(const VulkanObjects& objects, VkFormat format, int width_px, int height_px,
              std::uint32_t layers);
   [[nodiscard]] const EyeImages& targets() const { return targets_; }
-  /// What an eye sees in image `image` of its chain.
+  /// The pixels of an eye in image `image` of its chain.
   [[nodiscard]] std::vector<std::uint8_t> read(std::size_t eye, std::size_t image);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace orthonav::soak {
 
-/// What goes wrong, pair by pair.
+/// The possible faults of a pair.
 enum class Trouble { kDrop, kStall, kReconnect, kNoPose, kVoiceStall, kMapJump, kDeviceLoss };
 inline constexpr std::array<std::string_view, 7> kTroubles = {
     "drops", "stalls", "reconnects", "unlocated", "voice_stalls", "map_jumps", "device_losses"};
@@ -19,19 +19,19 @@ inline std::int64_t device_losses(const Troubles& troubles) {
   return troubles[static_cast<std::size_t>(Trouble::kDeviceLoss)];
 }
 
-/// Chances, at every pair.
+/// Probabilities of the faults at every pair.
 struct Chances {
   double any = 1.0 / 500.0;  ///< of a drop, a stall, a lost connection, a lost head, a mute voice
   double map_jump = 0.0;
   double device_loss = 0.0;
 };
 
-/// What a headset's parts share: the troubles of the moment, and the map that jumped.
+/// The state that a headset's parts share: the current faults, and the map that jumped.
 struct Weather {
   Random random;
   Chances chances;
   Troubles done{};
-  int silent_pairs = 0;  ///< swallowed: as if none had come
+  int silent_pairs = 0;  ///< swallowed, as if none had arrived
   int failing_pairs = 0;
   int unlocated_pairs = 0;
   int mute_polls = 0;
@@ -40,8 +40,8 @@ struct Weather {
   Transform<World, World> jumped_from_world{};
 };
 
-/// A simulated headset in bad weather. As with a real device, the room goes on while pairs are
-/// lost. Borrows the headset.
+/// A simulated headset with injected faults. As with a real device, the room goes on while pairs
+/// are lost. Borrows the headset.
 class FlakyHeadset : public ForwardingHeadset {
  public:
   FlakyHeadset(Headset& inner, Random random, const Chances& chances);

@@ -13,29 +13,29 @@
 
 namespace orthonav::soak {
 
-/// What is counted of what an operation has to keep.
+/// The kinds of events that an operation has to keep.
 enum class Kind { kRegion, kRegistration, kAcceptance, kCheckPoint, kLandmark, kScrew, kRod };
 inline constexpr std::array<std::string_view, 7> kKinds = {
     "regions", "registrations", "acceptances", "check_points", "landmarks", "screws", "rods"};
 using Counts = std::array<std::int64_t, kKinds.size()>;
 
-/// Something that happened, told apart from everything else that did.
+/// An event, distinguishable from all others.
 struct KeptEvent {
   std::int64_t time_ns = 0;
   Kind kind = Kind::kRegion;
-  std::string what;          ///< "L5 left"; of a region also a hash of where its samples lie
+  std::string what;          ///< "L5 left"; for a region also a hash of its samples' places
   std::int64_t samples = 0;  ///< of a region
 
   auto operator<=>(const KeptEvent&) const = default;
 };
 
-/// Hears what happens in a session, as its log should have it.
+/// Collects the events of a session, as its log should have them.
 class ToldEvents : public engine::SessionObserver {
  public:
   [[nodiscard]] std::span<const KeptEvent> all() const { return events_; }
   /// Those that happened before "saved" was last shown.
   [[nodiscard]] std::span<const KeptEvent> shown_saved() const { return all().first(saved_); }
-  /// "saved" is in the status line.
+  /// Call when "saved" is in the status line.
   void saved_is_shown() { saved_ = events_.size(); }
 
   void region_saved(Timestamp time, const engine::LevelState& level,
@@ -59,15 +59,15 @@ class ToldEvents : public engine::SessionObserver {
 /// The same from the records of a log. Records that can't be read are not among them.
 std::vector<KeptEvent> kept_events(std::span<const engine::Record> records);
 
-/// How what was told differs from what was kept.
+/// How the observed events differ from the kept ones.
 struct Differences {
-  Counts lost{};  ///< told, not kept
+  Counts lost{};  ///< observed, not kept
   std::int64_t lost_samples = 0;
-  std::int64_t doubled = 0;  ///< kept, and not told, or not as often
+  std::int64_t doubled = 0;  ///< kept, but not observed, or not as often
 };
 Differences differences(std::span<const KeptEvent> told, std::span<const KeptEvent> kept);
 
-/// Screws that were done again though nobody had asked for them to be redone.
+/// Screws that were done again without a request to redo them.
 std::int64_t screws_done_twice(std::span<const engine::Record> records);
 
 Counts counts_of(std::span<const KeptEvent> events);

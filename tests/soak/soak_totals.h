@@ -12,7 +12,7 @@ namespace orthonav::soak {
 /// Operations until caches and the heap have their final size.
 inline constexpr std::size_t kWarmUp = 8;
 
-/// What all operations came to.
+/// The totals of all operations.
 class SoakTotals {
  public:
   /// `resident_kib`: memory of the process after it.
@@ -21,7 +21,7 @@ class SoakTotals {
   [[nodiscard]] double simulated_s() const { return simulated_s_; }
   /// The memory curve as a drawing.
   [[nodiscard]] std::string picture() const;
-  /// Prints what was counted; whether everything is as it must be.
+  /// Prints the totals; returns whether everything is as it must be.
   [[nodiscard]] bool verdict() const;
 
  private:
@@ -48,7 +48,7 @@ class SoakTotals {
   std::vector<std::string> problems_;
 };
 
-/// A row an operation.
+/// One row per operation.
 void write_head(std::FILE* csv);
 void write_row(std::FILE* csv, std::size_t number, const SoakRow& row, double wall_s,
                std::int64_t resident_kib);

@@ -8,7 +8,7 @@ namespace orthonav::test {
 /// malloc are not counted. Link `orthonav_allocation_count`.
 std::size_t allocation_count();
 
-/// While one lives, an allocation of more than so many bytes fails with std::bad_alloc.
+/// While one exists, an allocation of more than this many bytes fails with std::bad_alloc.
 class AllocationLimit {
  public:
   explicit AllocationLimit(std::size_t bytes);

@@ -29,12 +29,12 @@ struct StrokeRegions {
   bool facets = true;
 };
 
-/// Pointer tips of strokes over the posterior surface, without noise, in the model's frame: what is
-/// seen straight from behind at the laminae and the facets (out to a little beyond the entry
+/// Pointer tips of strokes over the posterior surface, without noise, in the model's frame: the
+/// parts seen straight from behind at the laminae and the facets (out to a little beyond the entry
 /// points) and from both sides at the spinous process. 0.7 mm apart: 20 mm/s at 30 Hz.
 std::vector<Vec3> strokes(const AnatomyLevel& level, const StrokeRegions& regions, Random& random);
 
-/// Any orientation with the same density.
+/// A uniformly distributed random orientation.
 Mat3 random_rotation(Random& random);
 
 }  // namespace orthonav::test

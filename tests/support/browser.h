@@ -9,7 +9,7 @@
 
 namespace orthonav::test {
 
-/// What a command says on its standard output; empty where it can't be run.
+/// A command's standard output; empty if it can't be run.
 inline std::string said_by(const std::string& command) {
   std::string said;
   std::FILE* pipe = ::popen((command + " 2>/dev/null").c_str(), "r");
@@ -24,12 +24,12 @@ inline std::string said_by(const std::string& command) {
   return said;
 }
 
-/// For tests that skip without one: it is not among what the build needs.
+/// For tests that skip without a browser, which the build does not require.
 inline bool has_browser() { return !said_by("command -v chromium").empty(); }
 inline constexpr const char* kNoBrowser = "chromium is not installed: the page was not opened";
 
-/// The page at an address as it is once its scripts have run for so long; empty where the browser
-/// fails, or takes more than a minute.
+/// The page at an address after its scripts have run for this long; empty if the browser fails or
+/// takes more than a minute.
 inline std::string page_in_browser(const std::string& address, int script_ms) {
   const TemporaryFolder profile;
   return said_by(
@@ -41,8 +41,8 @@ inline std::string page_in_browser(const std::string& address, int script_ms) {
 
 inline constexpr int kPhone_px = 390;
 
-/// What an expression of JavaScript about the document `d` says of a page on a phone's screen, once
-/// it is laid out; "?" where the browser failed.
+/// The value of a JavaScript expression about the document `d` for a page laid out on a phone's
+/// screen; "?" if the browser failed.
 inline std::string on_a_phone(const std::string& page, const std::string& expression) {
   const TemporaryFolder folder;
   std::ofstream(folder.file("page.html")) << page;
@@ -59,8 +59,8 @@ inline std::string on_a_phone(const std::string& page, const std::string& expres
              : seen.substr(from + begin.size(), seen.find(';', from) - from - begin.size());
 }
 
-/// Tables, drawings and charts of a page that run off a phone's screen, by their classes; empty
-/// where all fit.
+/// Tables, drawings and charts of a page that run off a phone's screen, by their classes; empty if
+/// all fit.
 inline std::string too_wide_for_a_phone(const std::string& page) {
   return on_a_phone(page,
                     "[...d.querySelectorAll('table,svg,canvas')].filter(t=>"

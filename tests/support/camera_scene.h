@@ -10,8 +10,8 @@
 
 namespace orthonav::sim::scene {
 
-/// A vertebra in the roughest sense: a body, and a process that points backwards. `rings` sets the
-/// number of triangles: 8 · rings² or so.
+/// A very rough vertebra: a body, and a process that points backwards. `rings` sets the number of
+/// triangles: 8 · rings² or so.
 inline RoomLevel vertebra(const std::string& label, double z_m, int rings) {
   RoomLevel level;
   level.label = label;

@@ -4,9 +4,9 @@
 
 namespace orthonav::test {
 
-/// From now on this machine's wall clock is told this much earlier to this program, until it is
-/// destroyed. The program links the object orthonav_clock_step, whose functions take the place of
-/// the C library's; steady clocks go on as ever.
+/// While it exists, this program sees the machine's wall clock set back by this much. The program
+/// links the object orthonav_clock_step, whose functions take the place of the C library's; steady
+/// clocks are not affected.
 class ClockSetBack {
  public:
   explicit ClockSetBack(std::chrono::seconds by);

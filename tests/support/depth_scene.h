@@ -18,12 +18,12 @@
 
 namespace orthonav::test {
 
-/// A depth camera that looks at a plane, and both recorders' files of what it sees, written from
-/// the formats' facts alone: nothing of the readers is used. Nothing about it is square, centred or
+/// A depth camera that looks at a plane, and both recorders' files of its frames, written from the
+/// formats' descriptions alone, without the readers' code. Nothing about it is square, centred or
 /// axis-parallel, so that no convention can be mistaken for another.
 struct DepthScene {
   struct Picture {
-    std::int64_t ticks = 0;  ///< after the folder's start
+    std::int64_t ticks = 0;  ///< since the folder's start
     std::optional<Transform<World, Rig>> world_from_rig;
   };
   int width_px = 44;
@@ -37,7 +37,7 @@ struct DepthScene {
   double offset_m = 1.1;
   std::vector<Picture> pictures;
 
-  /// Where a rig of the test stands at a picture.
+  /// The pose of the test's rig at a picture.
   static Transform<World, Rig> pose(int index) {
     return {rotation_from_vector({0.05 * index, 0.1, -1.3}), {0.2, 0.1 * index, 0.3}};
   }
@@ -53,7 +53,7 @@ struct DepthScene {
   [[nodiscard]] Vec2 unit_plane(double x_px, double y_px) const {
     return {(x_px - centre_px.x) / focal_px, (y_px - centre_px.y) / focal_px};
   }
-  /// No ray, in the files, outside a circle.
+  /// Outside a circle, the files have no ray.
   [[nodiscard]] bool mapped(double x_px, double y_px) const {
     return unit_plane(x_px, y_px).norm() < 0.75;
   }
@@ -136,7 +136,7 @@ struct DepthScene {
         const Vec2 p = unit_plane(x + 0.5, y + 0.5);
         const Vec3 ray = Vec3{p.x, p.y, 1.0}.normalized();
         const bool seen = mapped(x + 0.5, y + 0.5);
-        // Beside a z of 0 there may lie anything.
+        // With a z of 0 the other values may be anything.
         for (int i = 0; i < 3; ++i) {
           append_float(rays, seen ? ray[i] : (i == 2 ? 0.0 : NAN));
         }

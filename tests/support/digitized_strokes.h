@@ -12,7 +12,7 @@
 
 namespace orthonav::test {
 
-/// What a surgeon delivers for a registration, well and badly.
+/// Good and bad strokes of a surgeon for a registration.
 enum class StrokeVariant {
   kFull,      ///< all that can be reached from behind
   kPartial,   ///< only a part of it, which one the seed decides
@@ -25,13 +25,13 @@ inline constexpr StrokeVariant kStrokeVariants[] = {StrokeVariant::kFull, Stroke
                                                     StrokeVariant::kSparse};
 [[nodiscard]] const char* name_of(StrokeVariant variant);
 
-/// How many and how badly.
+/// The number of samples and their errors.
 struct StrokeErrorModel {
   int fewest_samples = 1800;
   int most_samples = 2200;
   double white_noise_m = 0.0003;    ///< standard deviation along each axis, every sample anew
-  double correlated_noise_m = 0.0;  ///< another one, that wanders along a stroke
-  double correlation_s = 0.3;       ///< after which 1/e of it is left
+  double correlated_noise_m = 0.0;  ///< a further one, which wanders along a stroke
+  double correlation_s = 0.3;       ///< time after which the correlation is 1/e
   double outlier_fraction = 0.0;    ///< of the samples
   double least_outlier_m = 0.001;   ///< distance from the bone
   double largest_outlier_m = 0.010;

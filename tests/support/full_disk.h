@@ -6,8 +6,8 @@
 
 namespace orthonav::test {
 
-/// While it lives, no file of this process grows beyond so many bytes: writes fail as on a disk
-/// that is full.
+/// While it exists, no file of this process can grow beyond this many bytes: writes fail as on a
+/// full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : signal_before_(std::signal(SIGXFSZ, SIG_IGN)) {

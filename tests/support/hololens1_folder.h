@@ -12,8 +12,8 @@
 
 namespace orthonav::test {
 
-/// A folder as HoloLensForCV's recorder leaves it on a HoloLens 1, written from the format's facts
-/// alone: nothing of the reader is used. Times count from FILETIME ticks `kStart`.
+/// A folder as HoloLensForCV's recorder leaves it on a HoloLens 1, written from the format's
+/// description alone, without the reader's code. Times count from FILETIME ticks `kStart`.
 class Hololens1Folder {
  public:
   static constexpr std::int64_t kStart = 132000000000000000;

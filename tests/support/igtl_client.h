@@ -35,7 +35,7 @@ class IgtlClient {
   void send(const std::vector<std::uint8_t>& bytes) const {
     (void)!::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   }
-  /// So many bytes; fewer where the server hung up.
+  /// This many bytes; fewer if the server hung up.
   [[nodiscard]] std::vector<std::uint8_t> receive(std::size_t count) const {
     std::vector<std::uint8_t> out(count);
     const ssize_t got = count == 0 ? 0 : ::recv(fd_, out.data(), count, MSG_WAITALL);

@@ -9,8 +9,8 @@
 
 namespace orthonav::test {
 
-/// A ring of images on a device that somebody else draws with, as a runtime hands them out, which
-/// are read back one by one. Aborts when Vulkan fails: there is no test to be failed everywhere.
+/// A ring of images on another owner's device, as a runtime hands them out, which are read back one
+/// by one. Aborts when Vulkan fails, because it is also used outside tests.
 class ImageChain {
  public:
   ImageChain(const VulkanObjects& objects, VkFormat format, int width_px, int height_px,

@@ -8,7 +8,7 @@
 
 namespace orthonav::test {
 
-/// For EXPECT_TRUE of a Status or a Result: a failure says what the Error says.
+/// For EXPECT_TRUE of a Status or a Result: a failure prints the Error's message.
 template <class Answer>
 [[nodiscard]] ::testing::AssertionResult is_ok(const Answer& answer) {
   return answer.ok() ? ::testing::AssertionSuccess()

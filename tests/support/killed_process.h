@@ -11,8 +11,8 @@
 
 namespace orthonav::test {
 
-/// Another process does `work` and is killed by SIGKILL once it has called what it is given so many
-/// times. False where it ended before that.
+/// Another process does `work` and is killed by SIGKILL once it has called the given function this
+/// many times. False if it ended before that.
 inline bool kill_after(int times, const std::function<void(const std::function<void()>&)>& work) {
   std::array<int, 2> pipe{};
   EXPECT_EQ(::pipe(pipe.data()), 0);

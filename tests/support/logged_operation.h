@@ -18,7 +18,7 @@ inline engine::OperationIdentity identity_of(ScriptedOperation& s, bool referenc
                              reference);
 }
 
-/// Begins the log of a scripted operation; its status line says what is saved.
+/// Begins the log of a scripted operation, whose status line then shows when it is saved.
 inline std::unique_ptr<engine::OperationLog> log_of(ScriptedOperation& s, engine::Env& env,
                                                     bool reference = false) {
   auto log = engine::OperationLog::begin(

@@ -15,9 +15,8 @@ struct LinearImage {
   std::vector<float> light;
 };
 
-/// What a scene looks like with `grid` by `grid` samples in each pixel, one picture a view: the
-/// mean of as many frames of `hard`, which draws with Edges::kHard, each seen a part of a pixel
-/// aside.
+/// A scene with `grid` by `grid` samples in each pixel, one picture per view: the mean of that many
+/// frames of `hard`, which draws with Edges::kHard, each shifted by a fraction of a pixel.
 [[nodiscard]] Result<std::vector<LinearImage>> many_samples(Renderer& hard, const Scene& scene,
                                                             const std::vector<View>& views,
                                                             int grid);
@@ -30,8 +29,8 @@ struct EdgeError {
   [[nodiscard]] double rms() const;
 };
 
-/// Over the channels of pixels that an edge cuts: there `hard`, drawn with one sample, differs from
-/// the reference by more than two levels.
+/// Adds the errors in the channels of pixels that an edge cuts, where `hard`, drawn with one
+/// sample, differs from the reference by more than two levels.
 void add_error(const LinearImage& reference, const RgbaImage& hard, const RgbaImage& picture,
                EdgeError& error);
 

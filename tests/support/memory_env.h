@@ -12,10 +12,10 @@
 
 namespace orthonav::test {
 
-/// Files by name. Folders are what comes before a name's last slash.
+/// Files by name. The part before a name's last slash is its folder.
 using Files = std::map<std::string, std::string>;
 
-/// A call that changes something, as far as it got.
+/// A call that changes something, as far as it was executed.
 struct EnvCall {
   enum class What { kOpen, kAppend, kSync, kRename, kTruncate, kRemove, kSyncFolder };
   What what = What::kOpen;
@@ -26,16 +26,17 @@ struct EnvCall {
   bool failed = false;
 };
 
-/// A file system in memory that remembers every change, and fails where it is told to.
+/// A file system in memory that remembers every change, and fails on request.
 class MemoryEnv : public engine::Env {
  public:
   MemoryEnv() : MemoryEnv(Files{}) {}
   explicit MemoryEnv(Files files);
 
-  /// The n-th change from 0 fails like this; `from_then_on`: so do all after it. Of an append that
-  /// fails, half of the bytes are written.
+  /// The n-th change, counted from 0, fails with this error, and with `from_then_on` all later ones
+  /// too. A failing append writes half of its bytes.
   void fail_at(std::size_t n, int error_number, bool from_then_on);
-  /// So does the n-th look from 0: a `read`, a `list` or a `lock`. Those after it are well again.
+  /// The same for the n-th look, counted from 0: a `read`, a `list` or a `lock`. Later ones work
+  /// again.
   void fail_look_at(std::size_t n, int error_number);
   [[nodiscard]] std::size_t looks() const { return looks_; }
   [[nodiscard]] const std::vector<EnvCall>& calls() const { return calls_; }
@@ -70,14 +71,14 @@ class MemoryEnv : public engine::Env {
   std::shared_ptr<std::set<std::string>> locked_;
 };
 
-/// What was there when a process was killed after these calls: the kernel writes the rest.
+/// The files after a process was killed after these calls: the kernel writes the rest.
 [[nodiscard]] Files after_kill(const Files& before, std::span<const EnvCall> calls);
 
-/// What may lie on the disk when power is lost after these calls. Whatever was not synced may be
-/// there or not: each name, and each block of 512 bytes of each write, in any order; a block that
-/// is missing in the middle holds zeros, or what an old block of the same file held. Every
-/// combination of few such changes; of many, those that are torn anywhere, each that lacks one or
-/// has one alone, and some at random.
+/// All states of the disk that are possible when power is lost after these calls. Anything not
+/// synced may be there or not: each name, and each block of 512 bytes of each write, in any order;
+/// a block that is missing in the middle holds zeros, or what an old block of the same file held.
+/// With few such changes, every combination; with many, those torn anywhere, those that lack one or
+/// have only one, and some at random.
 [[nodiscard]] std::vector<Files> after_power_loss(const Files& before,
                                                   std::span<const EnvCall> calls);
 

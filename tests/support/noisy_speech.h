@@ -13,8 +13,8 @@ namespace orthonav::test {
 enum class Noise { kWhite, kPink, kBabble };
 [[nodiscard]] const char* name_of(Noise noise);
 
-/// Whose babble: voices and texts that no other babble has, so that what was learned or chosen in
-/// one is measured in another.
+/// The source of babble: each has its own voices and texts, so that choices made with one are
+/// measured with another.
 enum class Babble { kMeasured, kTuning, kTraining };
 
 /// `count` samples of unit power. Babble: six voices that read at once, none of which says a
@@ -22,11 +22,11 @@ enum class Babble { kMeasured, kTuning, kTraining };
 [[nodiscard]] std::vector<double> noise_of(Noise noise, std::size_t count, Random& random,
                                            Babble babble = Babble::kMeasured);
 
-/// Root mean square over the 10 ms frames within 30 dB of the loudest: what a signal-to-noise ratio
-/// is a ratio to.
+/// Root mean square over the 10 ms frames within 30 dB of the loudest: the level to which
+/// signal-to-noise ratios refer.
 [[nodiscard]] double active_rms(std::span<const std::int16_t> samples);
 
-/// Sound that grows: silence, speech, and at last noise under all of it.
+/// Sound that is assembled: silence, speech, and finally noise under all of it.
 class Soundtrack {
  public:
   static constexpr double kSpeechRms = 3000.0;

@@ -8,7 +8,7 @@
 
 namespace orthonav::test {
 
-/// How an operation goes.
+/// The errors of an operation.
 struct OperationSettings {
   double entry_sd_m = 0.0015;  ///< across the planned axis, each way
   double angle_sd_rad = 0.05;
@@ -17,14 +17,14 @@ struct OperationSettings {
   bool wires = false;       ///< of 1.6 to 2 mm instead of screws with heads
   double bow_m = 0.0;       ///< of each wire, from its chord
   bool rods = false;        ///< join the heads of each side
-  double missing = 0.0;     ///< share of planned screws that are not there
+  double missing = 0.0;     ///< share of planned screws that are missing
   double turn_rad = 0.3;    ///< at most, of the patient in the scanner
   double shift_m = 0.03;
   double level_turn_rad = 0.06;  ///< at most, of each vertebra by itself
   double level_shift_m = 0.003;
 };
 
-/// A screw as it truly lies, in the model's frame.
+/// The true place of a screw, in the model's frame.
 struct TrueScrew {
   std::size_t level = 0;
   std::size_t screw = 0;  ///< of the plan

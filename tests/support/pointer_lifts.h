@@ -23,9 +23,9 @@ struct LiftOptions {
   double tip_radius_m = 0.0;
 };
 
-/// Takes exactly a share of the places off the bone: most in bursts, as when the pointer comes down
+/// Moves exactly a share of the places off the bone: most in bursts, as when the pointer comes down
 /// late, is lifted early or hops in between; the others one by one, outwards or into the soft
-/// tissue beside. Every place so moved is outside the bone, its distance between the two limits.
+/// tissue beside. Every moved place is outside the bone, at a distance between the two limits.
 void lift_some(const nav::SurfaceIndex& surface, const LiftOptions& options, Random& random,
                std::vector<TipPlace>& places);
 

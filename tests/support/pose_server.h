@@ -13,10 +13,10 @@
 
 namespace orthonav::test {
 
-/// A program that tracks tools and sends their poses over OpenIGTLink, as a lab has it.
+/// A program that tracks tools and sends their poses over OpenIGTLink, as used in labs.
 class PoseServer {
  public:
-  /// At a port of its own, or again at one.
+  /// At a free port, or again at a given one.
   explicit PoseServer(int port = 0) {
     igtl::ServerOptions options;
     options.port = port;
@@ -27,7 +27,7 @@ class PoseServer {
     server_ = std::move(*server);
   }
   [[nodiscard]] int port() const { return server_->port(); }
-  /// "igtl://127.0.0.1:PORT?" and what follows.
+  /// "igtl://127.0.0.1:PORT?" followed by the keys.
   [[nodiscard]] std::string uri(const std::string& keys) const {
     return "//127.0.0.1:" + std::to_string(port()) + "?" + keys;
   }
@@ -35,7 +35,7 @@ class PoseServer {
     return wait_until([this] { return server_->counts().clients > 0; });
   }
 
-  /// Adds a tool to what is sent next.
+  /// Adds a tool to the next message.
   void add(const std::string& name, const Transform<Rig, Marker>& pose, double stamp_s) {
     igtl::TransformValues values{};
     for (std::size_t column = 0; column < 3; ++column) {

@@ -5,7 +5,7 @@
 
 namespace orthonav::test {
 
-/// Where a vertebra's posterior arch lies, measured on the mesh by rays (axes LPS, metres).
+/// The place of a vertebra's posterior arch, measured on the mesh by rays (axes LPS, metres).
 struct PosteriorLandmarks {
   double midline_x_m = 0.0;         ///< middle of the canal
   double canal_half_width_m = 0.0;  ///< from the midline to the pedicles' inner walls

@@ -8,10 +8,10 @@
 
 namespace orthonav::test {
 
-/// What a pointer that errs by 0.9 mm (standard deviation, each axis) gives.
+/// The error of a noisy pointer: 0.9 mm (standard deviation, each axis).
 inline constexpr double kPointerNoise_m = 0.0009;
 
-/// A vertebra somewhere in the world and what was digitized on it.
+/// A vertebra somewhere in the world, and the points digitized on it.
 struct Digitization {
   Transform<World, Vertebra> truth;
   std::vector<Point<World>> points;

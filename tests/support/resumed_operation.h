@@ -9,7 +9,7 @@
 
 namespace orthonav::test {
 
-/// How the scripted operations that are resumed are done: two levels, verified by touch.
+/// The scripted operations that are resumed: two levels, verified by touch.
 inline std::unique_ptr<ScriptedOperation> touched_operation(bool reference) {
   auto s = std::make_unique<ScriptedOperation>(std::vector<std::string>{"L4", "L5"}, three_places(),
                                                engine::Verification::kByTouch, false, reference);
@@ -21,7 +21,7 @@ inline std::unique_ptr<ScriptedOperation> touched_operation(bool reference) {
   return s;
 }
 
-/// The same operation in another program, from what a crash left of its log.
+/// The same operation in another program, from the log that a crash left.
 struct ResumedOperation {
   explicit ResumedOperation(engine::Env& env, bool reference,
                             const std::string& folder = kLogFolder)
@@ -41,7 +41,7 @@ struct ResumedOperation {
   }
 
   std::unique_ptr<ScriptedOperation> operation;
-  engine::LoggedOperation before;  ///< as the log had it
+  engine::LoggedOperation before;  ///< according to the log
   Status resumed;
   std::unique_ptr<engine::OperationLog> log;
 };

@@ -7,9 +7,9 @@
 
 namespace orthonav::test {
 
-// What a session says, as data.
+// The texts of a session, as data.
 
-/// "guide L4 left", whatever the display makes of it.
+/// "guide L4 left", independent of the display.
 inline std::string step_of(const engine::Guidance& guidance) {
   return engine::name_of(guidance.status.at);
 }
@@ -19,24 +19,24 @@ inline Notice notice_of(const engine::Guidance& guidance) {
   return message ? engine::notice_of(*message) : Notice::kNone;
 }
 
-/// The message, where it is of that kind, or null.
+/// The message if it is of that kind, or null.
 template <class Kind>
 const Kind* said(const engine::Guidance& guidance) {
   return guidance.status.message ? std::get_if<Kind>(guidance.status.message) : nullptr;
 }
 
-/// How the step stands, where it is told so, or null.
+/// The state of the step if it is of that kind, or null.
 template <class State>
 const State* state(const engine::Guidance& guidance) {
   return std::get_if<State>(&guidance.status.state);
 }
 
-/// Why a touch was not recorded; fails the test by an exception where that was not said.
+/// Why a touch was not recorded; fails the test by an exception if no refusal was shown.
 inline engine::TouchRefusal touch_refusal(const engine::Guidance& guidance) {
   return std::get<engine::TouchNotRecorded>(*guidance.status.message).why;
 }
 
-/// What is still to be done about check points, as `verify` says it beside a registration.
+/// The advice about check points that `verify` shows beside a registration.
 inline nav::CheckAdvice advice(const engine::Guidance& guidance) {
   return std::get<engine::ChecksSoFar>(guidance.status.state).verdict->advice;
 }

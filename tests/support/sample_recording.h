@@ -26,7 +26,7 @@ struct SampleRecording {
   [[nodiscard]] const TruthRow* find(Timestamp time, int id) const;
 };
 
-/// Nothing where the sample is absent.
+/// Empty if the sample is absent.
 std::optional<SampleRecording> load_sample();
 
 }  // namespace orthonav::test

@@ -22,7 +22,7 @@ inline std::map<std::string, int> screws_done(const std::vector<engine::Record>&
   return done;
 }
 
-/// Of an operation on two levels.
+/// The expected counts of an operation on two levels.
 inline const std::map<std::string, int> kEveryScrewOnce = {
     {"L4 left", 1}, {"L4 right", 1}, {"L5 left", 1}, {"L5 right", 1}};
 

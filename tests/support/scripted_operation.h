@@ -11,15 +11,15 @@
 
 namespace orthonav::test {
 
-/// A closed box, finely divided, 60 × 40 × 50 mm: a bone as far as the session is concerned.
+/// A closed box, finely divided, 60 × 40 × 50 mm: a sufficient bone for the session.
 nav::TriangleMesh box_bone();
 
-/// One screw a side on top of that box (its posterior face, +y), pointing straight in (-y).
+/// One screw on each side on top of that box (its posterior face, +y), pointing straight in (-y).
 std::vector<nav::ScrewPlan> two_screws();
 
 engine::Operation operation_of(const std::vector<std::string>& labels);
 
-/// Where a tool is for the next pairs; absent: not seen.
+/// A tracker whose tool poses for the next pairs are set by the test; absent: not seen.
 class ScriptedTracker : public nav::ToolTracker {
  public:
   ScriptedTracker();
@@ -28,18 +28,18 @@ class ScriptedTracker : public nav::ToolTracker {
 
   std::optional<Transform<World, Marker>> pointer;
   std::optional<Transform<World, Marker>> guide;
-  /// How the poses above came about.
+  /// The status of the poses above.
   PoseStatus pointer_origin = PoseStatus::kMeasured;
   PoseStatus guide_origin = PoseStatus::kMeasured;
-  /// From now on there is a patient reference, seen in every pair until it is said otherwise.
+  /// From now on there is a patient reference, seen in every pair until the test changes that.
   void hang_on_reference();
   bool reference_seen = true;
-  std::optional<Transform<World, Marker>> reference_pose;  ///< absent: not told
-  nav::Anchor reference;                                   ///< what is said of it
+  std::optional<Transform<World, Marker>> reference_pose;  ///< absent: not reported
+  nav::Anchor reference;                                   ///< its reported state
   std::optional<nav::TagSize> size;                        ///< of every tool
-  /// A further tool, the last; before the session is made.
+  /// Adds a further tool, after the others; call before the session is made.
   void add_other(const nav::ToolGeometry& tool);
-  std::optional<Transform<World, Marker>> other;  ///< where that one is
+  std::optional<Transform<World, Marker>> other;  ///< the pose of that tool
   [[nodiscard]] nav::ToolGeometry& guide_tool() { return tools_[1]; }
   [[nodiscard]] std::optional<nav::TagSize> tag_size(std::size_t /*tool*/) const override {
     return size;
@@ -59,14 +59,16 @@ class ScriptedTracker : public nav::ToolTracker {
   bool hangs_on_reference_ = false;
 };
 
-/// With a patient reference many more places would be asked for; tests of other things touch three.
+/// With a patient reference many more places would be asked for; tests of other matters touch
+/// three.
 [[nodiscard]] inline engine::SessionOptions three_places() {
   engine::SessionOptions options;
   options.check_points.enough = 3;
   return options;
 }
 
-/// A session whose surgeon, tools and registrations are said line by line. Pairs come every 33 ms.
+/// A session whose surgeon, tools and registrations are scripted line by line. Pairs come every 33
+/// ms.
 class ScriptedOperation {
  public:
   explicit ScriptedOperation(std::vector<std::string> labels = {"L4", "L5"},
@@ -79,15 +81,15 @@ class ScriptedOperation {
   const engine::Guidance& pairs(int n);
   const engine::Guidance& says(const std::string& phrase, double confidence = 1.0);
   const engine::Guidance& does(std::vector<ClickerAction> actions);
-  /// Another program asks; the time is the next pair's.
+  /// Another program makes a request, at the time of the next pair.
   const engine::Guidance& asks(engine::Request request);
-  /// Comes with the next pair, beside what is said or done then.
+  /// The phrase comes with the next pair, beside anything said or done then.
   void hears_at(Timestamp time, const std::string& phrase, double confidence = 1.0);
   /// Presses, holds over `n` pairs, releases.
   const engine::Guidance& strokes(int n);
   /// A click of two pairs with the pointer's tip at `tip`.
   const engine::Guidance& touches(Vec3 tip);
-  /// The next registrations leave a shift of this SD along each axis open, and no turn.
+  /// The next registrations are uncertain by a shift of this SD along each axis, and by no turn.
   void registers_within(double sd_m);
   /// From setup to `verify` of the first level.
   const engine::Guidance& registers_first_level();
@@ -95,13 +97,13 @@ class ScriptedOperation {
   const engine::Guidance& accepts();
   /// From setup to `accepted` of the first level.
   const engine::Guidance& accepts_first_level();
-  /// Touches three places of the box's back that bear a registration out.
+  /// Touches three places of the box's back that confirm a registration.
   const engine::Guidance& checks_by_touch();
   /// From setup to `accepted` of the first level, where registrations are verified by touch.
   const engine::Guidance& accepts_first_by_touch();
-  /// Where its landmark may be touched then: on the box's back.
+  /// A place for its landmark: on the box's back.
   static constexpr Vec3 kDimple{0.012, 0.020, 0.015};
-  /// As often as its place takes, so far off.
+  /// Touches the dimple with this offset, as often as its measurement needs.
   const engine::Guidance& touches_dimple(Vec3 off_m = {});
   /// From setup to the end of the last level's last screw: to `rod`, or `done` with one level.
   const engine::Guidance& finishes_every_screw();
@@ -110,10 +112,10 @@ class ScriptedOperation {
   [[nodiscard]] ScriptedTracker& tracker() { return *tracker_; }
   [[nodiscard]] Timestamp now() const { return now_; }
 
-  nav::Registration registration;              ///< what the next registration says
+  nav::Registration registration;              ///< the next registration's result
   std::optional<std::string> unusable;         ///< or why there is none
   std::vector<std::size_t> registered_points;  ///< of each registration asked for
-  std::function<void()> before_registering;    ///< null: nothing; the coach's, on its thread
+  std::function<void()> before_registering;    ///< may be null; for the coach, called on its thread
   Duration latency = std::chrono::milliseconds(16);
   std::int64_t map_epoch = 0;           ///< of the next pairs
   std::optional<engine::Part> stalled;  ///< in the next pairs
@@ -128,8 +130,8 @@ class ScriptedOperation {
   std::unique_ptr<engine::Session> session_;
 };
 
-/// SD along an axis by which the tip of a guide that was never held against the pointer's is off
-/// where the pointer's would be, with tags of known sizes.
+/// SD along an axis of the difference between the guide's tip and the pointer's if the two were
+/// never compared, with tags of known sizes.
 double guide_sd_m();
 
 /// A guide whose tip is at `tip` and whose shaft leaves the bone at `angle_rad` from +y, about z.

@@ -36,7 +36,7 @@ inline GreyImage scripted_image(std::uint64_t seed) {
   return image;
 }
 
-/// Times that are no whole ticks of 100 ns, as a nanosecond clock gives them.
+/// Times that are not whole ticks of 100 ns, as a nanosecond clock gives them.
 inline Timestamp scripted_time(int index) {
   return Timestamp(Duration(1'000'000'007 + std::int64_t{33'333'333} * index));
 }
@@ -57,7 +57,7 @@ inline StereoFrame scripted_frame(int index) {
   return frame;
 }
 
-/// A small depth camera whose pixels all differ; the corners of its image see nothing.
+/// A small depth camera whose pixels all differ; the corners of its image have no rays.
 inline DepthCalibration scripted_depth_camera(DepthStream stream, int width_px, int height_px) {
   DepthCalibration made;
   made.stream = stream;
@@ -74,8 +74,8 @@ inline DepthCalibration scripted_depth_camera(DepthStream stream, int width_px, 
   return made;
 }
 
-/// A depth camera of its own pace beside the pairs of scripted_session, from before the first to
-/// after the last: a call without news, a frame without a pose, a map that moves.
+/// A depth camera with its own frame rate beside the pairs of scripted_session, from before the
+/// first to after the last: a call without news, a frame without a pose, a map that moves.
 inline fake::DepthScript scripted_depth(DepthCalibration camera, bool bright, int frames,
                                         Duration interval) {
   fake::DepthScript script;
@@ -107,7 +107,7 @@ inline fake::DepthScript scripted_depth(DepthCalibration camera, bool bright, in
   return script;
 }
 
-/// A short session with what happens to a device: a call without news, a missing pair (5), a pair
+/// A short session with typical events of a device: a call without news, a missing pair (5), a pair
 /// without a pose (7), two depth cameras, presses, clicks, a double click, a hold and phrases.
 inline fake::Script scripted_session(int frames = 12) {
   fake::Script script;

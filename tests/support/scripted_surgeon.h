@@ -7,7 +7,7 @@
 
 namespace orthonav::test {
 
-/// What happens besides the plain course.
+/// The course of the operation.
 enum class Story {
   kPlain,
   /// The second level's first registration is refused; the first level's right screw is moved
@@ -16,18 +16,18 @@ enum class Story {
   kEventful
 };
 
-/// Does the next thing that the session asks for, whatever was done before: an operation that was
-/// resumed goes on by the same rules. Registrations are verified by touch.
+/// Does the next thing that the session asks for, whatever was done before, so a resumed operation
+/// continues by the same rules. Registrations are verified by touch.
 class ScriptedSurgeon {
  public:
-  /// Strokes take so many pairs each.
+  /// Each stroke takes this many pairs.
   explicit ScriptedSurgeon(ScriptedOperation& operation, int stroke = 5,
                            Story story = Story::kPlain)
       : s_(operation), stroke_(stroke), eventful_(story == Story::kEventful) {
     s_.pair();
   }
 
-  /// One thing; false once the operation is done.
+  /// Does one thing; false once the operation is done.
   bool act() {
     switch (s_.session().current_step()) {
       case Step::kSetup:
@@ -58,7 +58,7 @@ class ScriptedSurgeon {
     }
     return false;
   }
-  /// To the end; how many things it took.
+  /// Goes on to the end; returns how many things it took.
   int finish() {
     int acts = 0;
     while (acts < kMostActs && act()) {

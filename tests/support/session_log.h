@@ -11,7 +11,7 @@
 
 namespace orthonav::test {
 
-/// Everything that a headset said while it was asked in the manner of a frame loop.
+/// Everything that a headset delivered while it was polled as by a frame loop.
 struct SessionLog {
   struct Moment {
     StereoFrame frame;
@@ -33,7 +33,7 @@ struct SessionLog {
   bool ended = false;
 };
 
-/// Takes what the depth cameras have by now.
+/// Takes all frames that the depth cameras have by now.
 inline void take_depth(Headset& headset, SessionLog& log, int max_calls = 2000) {
   const auto cameras = headset.depth_cameras();
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -106,7 +106,7 @@ inline void expect_same(const SessionLog::DepthMoment& a, const SessionLog::Dept
   EXPECT_EQ(a.frame.world_from_rig, b.frame.world_from_rig);
 }
 
-/// The same bits throughout.
+/// Expects the same bits throughout.
 inline void expect_same(const SessionLog& a, const SessionLog& b) {
   EXPECT_EQ(a.ended, b.ended);
   EXPECT_EQ(a.errors, b.errors);
@@ -143,7 +143,7 @@ inline void expect_same(const DepthCalibration& a, const DepthCalibration& b) {
   EXPECT_EQ(a.sensor_from_rig, b.sensor_from_rig);
 }
 
-/// The same bits of table and extrinsics, NaN equal to NaN.
+/// Expects the same bits of table and extrinsics, NaN equal to NaN.
 inline void expect_same(const StereoCalibration& a, const StereoCalibration& b) {
   EXPECT_EQ(a.left_from_rig, b.left_from_rig);
   EXPECT_EQ(a.right_from_rig, b.right_from_rig);

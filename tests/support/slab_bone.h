@@ -14,9 +14,9 @@ namespace orthonav::test {
 /// oriented; as symmetric as its height is.
 nav::TriangleMesh slab_bone(const std::function<double(double, double)>& height_m);
 
-/// A back with an oblique crest and two unequal knobs: no motion leaves it as it is.
+/// A back with an oblique crest and two unequal knobs: no motion maps it onto itself.
 double crooked_back(double x, double z);
-/// The same after half a turn about y: two poses fit.
+/// A back that is the same after half a turn about y, so two poses fit.
 double twofold_back(double x, double z);
 
 /// Places on the surface itself, as strokes from left to right and back pass over them: seen
@@ -30,14 +30,15 @@ struct CentredPoints {
 };
 CentredPoints centred_somewhere(std::span<const Vec3> in_vertebra_m, Random& random);
 
-/// The pose moved by so much along and about random axes.
+/// The pose moved by these amounts along and about random axes.
 nav::CentredPose moved(const nav::CentredPose& pose, double shift_m, double turn_rad,
                        Random& random);
 
-/// How far two poses put the farthest corner of a box of 60 mm about the points from one another.
+/// The largest distance, over the corners of a box of 60 mm about the points, between their places
+/// by the two poses.
 double apart_m(const nav::CentredPose& a, const nav::CentredPose& b);
 
-/// Of correlated noise with SD 1, from one of the points 1/30 s apart to the next; starts anew.
+/// A new sequence of correlated noise with SD 1, for points 1/30 s apart.
 std::vector<double> wandering(std::size_t count, double correlation_s, Random& random);
 
 }  // namespace orthonav::test

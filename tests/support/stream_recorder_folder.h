@@ -64,7 +64,7 @@ class HandmadeTar {
   std::string bytes_;
 };
 
-/// A folder as StreamRecorder leaves it, with FILETIME ticks; pixels tell left (even greys) from
+/// A folder as StreamRecorder leaves it, with FILETIME ticks; pixels encode left (even greys) or
 /// right (odd ones) and the image's number in its list.
 class StreamRecorderFolder {
  public:

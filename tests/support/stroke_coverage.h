@@ -8,19 +8,19 @@
 
 namespace orthonav::test {
 
-/// Which movements were made, and what they cover in words.
+/// The movements made, and their coverage in words.
 struct StrokeCoverage {
   std::vector<Walk> walks;
   std::string words;
 };
 
-/// Everything that is reached from behind, `length_m` altogether or as near as lanes between 1.5
-/// and 6 mm apart come to it.
+/// Everything that is reachable from behind, with a total length of `length_m`, or as near as
+/// possible with lanes between 1.5 and 6 mm apart.
 [[nodiscard]] StrokeCoverage cover_all(const TouchableBone& bone, const PosteriorLandmarks& marks,
                                        double length_m, Random& random);
 
-/// A part of it, drawn: one side and the spinous process, the laminae, the spinous process and one
-/// lamina or facet, or all but the upper or lower third of one side.
+/// A randomly chosen part of it: one side and the spinous process, the laminae, the spinous process
+/// and one lamina or facet, or all but the upper or lower third of one side.
 [[nodiscard]] StrokeCoverage cover_part(const TouchableBone& bone, const PosteriorLandmarks& marks,
                                         double length_m, Random& random);
 

@@ -8,7 +8,7 @@
 
 namespace orthonav::test {
 
-/// What of the bone a stroke goes over.
+/// The part of the bone that a stroke covers.
 enum class BoneRegion {
   kLeftLamina,
   kRightLamina,
@@ -26,8 +26,8 @@ inline constexpr int kBoneRegions = 9;
 /// +1 for the patient's left, -1 for the right, 0 for the crest.
 [[nodiscard]] int side_of(BoneRegion region);
 
-/// A movement of the hand: what the pointer is aimed at, and from where its handle comes. The way
-/// sways across, the handle slants as it goes.
+/// A movement of the hand: the points at which the pointer is aimed, and the direction of its
+/// handle. The path sways sideways, and the handle tilts on the way.
 struct Lane {
   BoneRegion region = BoneRegion::kCrest;
   Vec3 from_m;

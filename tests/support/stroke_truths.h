@@ -7,9 +7,9 @@
 
 namespace orthonav::test {
 
-/// How soft tissue lies on the bone that is stroked.
+/// How soft tissue covers the stroked bone.
 enum class Tissue {
-  kUniform,  ///< as thick everywhere
+  kUniform,  ///< equally thick everywhere
   kSmooth,   ///< uneven: a smooth field over the bone, SD half its mean
   kAreas,    ///< each region of the bone has a thickness of its own, SD half their mean
   kStrokes,  ///< each stroke presses as it likes, SD half their mean
@@ -19,23 +19,23 @@ inline constexpr Tissue kTissues[] = {Tissue::kUniform, Tissue::kSmooth, Tissue:
                                       Tissue::kStrokes, Tissue::kValleys};
 [[nodiscard]] const char* name_of(Tissue tissue);
 
-/// What is true of strokes besides the tracker's noise.
+/// Errors of strokes other than the tracker's noise.
 struct StrokeTruths {
   Tissue tissue = Tissue::kSmooth;
   double mean_tissue_m = 0.0;
-  /// Of a shift that all points share (calibration, tip), SD along each axis.
+  /// SD along each axis of a shift that all points share (calibration, tip).
   double common_sd_m = 0.0;
   int copies = 1;  ///< of every sample, one after the other
-  /// Of a copy's place about the sample's, SD along an axis: the same place sent again, resampled.
+  /// SD along an axis of a copy's place about the sample's: the same place sent again, resampled.
   double copy_jitter_m = 0.0;
   bool shuffled = false;  ///< samples in any order, as a file may hold them
-  /// Points of a left-handed frame: their x changes sign. Nothing rigid maps the bone to them.
+  /// Points of a left-handed frame: their x changes sign. No rigid motion maps the bone to them.
   bool left_handed = false;
 };
 
-/// Moves the tips off the bone and all points together. Samples that had left the bone stay. The
-/// fields are lattice noise (a value at each node of a 14 mm grid, blended by quintic polynomials,
-/// below zero cut off): no Gaussian process. The same seed gives the same tissue.
+/// Moves the tips off the bone, and shifts all points together. Samples already off the bone stay.
+/// The fields are lattice noise (a value at each node of a 14 mm grid, blended by quintic
+/// polynomials, below zero cut off): no Gaussian process. The same seed gives the same tissue.
 void apply_truths(const StrokeTruths& truths, const nav::TriangleMesh& mesh, std::uint64_t seed,
                   DigitizedStrokes& strokes);
 
@@ -44,7 +44,7 @@ void apply_truths(const StrokeTruths& truths, const nav::TriangleMesh& mesh, std
 [[nodiscard]] nav::TriangleMesh segmented(const nav::TriangleMesh& mesh, double sd_m,
                                           std::uint64_t seed);
 [[nodiscard]] nav::TriangleMesh scaled(const nav::TriangleMesh& mesh, double factor);
-/// Left for right.
+/// The mirror image, left and right swapped.
 [[nodiscard]] nav::TriangleMesh mirrored(const nav::TriangleMesh& mesh);
 
 }  // namespace orthonav::test

@@ -24,9 +24,9 @@ struct Walk {
   std::vector<double> arc_m;  ///< length from the start to each place
 
   [[nodiscard]] double length_m() const { return arc_m.empty() ? 0.0 : arc_m.back(); }
-  /// The place nearest to `along_m` of it: one of its own, so that it lies on the bone.
+  /// The walk's own place nearest to the length `along_m`, so that it lies on the bone.
   [[nodiscard]] const Touch& at(double along_m) const;
-  /// What lies between two lengths.
+  /// The part between two lengths.
   [[nodiscard]] Walk part(double from_m, double to_m) const;
 };
 
@@ -37,8 +37,8 @@ struct Pointer {
   double deepest_aside = 1.1;
 };
 
-/// The bone as a straight pointer meets it that comes in along a line, without any idea of what a
-/// registration thinks reachable.
+/// The bone as met by a straight pointer that approaches along a line, independently of what a
+/// registration considers reachable.
 class TouchableBone {
  public:
   TouchableBone(const nav::SurfaceIndex& surface, const PosteriorLandmarks& landmarks,

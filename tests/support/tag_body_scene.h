@@ -8,10 +8,10 @@
 
 namespace orthonav::test {
 
-/// A rigid body of tags as corners alone: what a detector with this noise would say of it.
+/// A rigid body of tags, as the corners that a detector with this noise would report.
 struct TagBodyScene {
-  StereoCalibration seen_by = test_calibration();      ///< how the cameras really lie
-  StereoCalibration calibration = test_calibration();  ///< what the device says of them
+  StereoCalibration seen_by = test_calibration();      ///< the true calibration
+  StereoCalibration calibration = test_calibration();  ///< the calibration that the device reports
   std::vector<nav::MarkerDefinition> tags;
   std::vector<Transform<Marker, Tag>> marker_from_tag;
   double noise_px = 0.05;

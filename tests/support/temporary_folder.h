@@ -11,7 +11,7 @@
 
 namespace orthonav::test {
 
-/// A new empty folder that goes away with its owner.
+/// A new empty folder that is deleted with its owner.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

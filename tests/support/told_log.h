@@ -14,7 +14,7 @@ namespace orthonav::test {
 
 inline const std::string kToldLog = "out/operation.log";
 
-/// What is recorded, with lengths on both sides of a block's.
+/// Records with lengths both below and above a block's.
 inline std::vector<std::string> long_story() {
   std::vector<std::string> payloads = {"begin", "", "a"};
   for (std::size_t i = 0; i < 36; ++i) {
@@ -24,7 +24,7 @@ inline std::vector<std::string> long_story() {
   return payloads;
 }
 
-/// Tells it; returns after how many calls each record was said to be durable.
+/// Writes them; returns after how many calls each record was reported durable.
 inline std::vector<std::size_t> tell(
     MemoryEnv& env, const std::vector<std::string>& payloads,
     engine::RecordLog::Earlier earlier = engine::RecordLog::Earlier::kKept) {
@@ -39,13 +39,13 @@ inline std::vector<std::size_t> tell(
   return durable_after;
 }
 
-/// How many records had been said to be durable after so many calls.
+/// How many records had been reported durable after this many calls.
 inline std::size_t durable_by(const std::vector<std::size_t>& durable_after, std::size_t calls) {
   return static_cast<std::size_t>(std::count_if(durable_after.begin(), durable_after.end(),
                                                 [&](std::size_t after) { return after <= calls; }));
 }
 
-/// How many records the newest log holds; each must be as it was told.
+/// How many records the newest log holds; each must be as it was written.
 inline std::size_t records_left(const Files& files, const std::vector<std::string>& payloads) {
   MemoryEnv env(files);
   const auto path = engine::newest_log(env, kToldLog);

@@ -25,7 +25,7 @@ struct MetalPiece {
   double hu = 8000.0;  ///< titanium at 120 kV; steel has twice as much
 };
 
-/// A bone where it lies in the scanner.
+/// A bone at its place in the scanner.
 struct BodyBone {
   nav::TriangleMesh mesh;
   Motion scanner_from_model;
@@ -50,10 +50,10 @@ struct Cells {
   }
 };
 
-/// What lies in the scanner, on a fine grid of `step_m`: bone with a cortex over cancellous bone,
-/// soft tissue with some texture, metal by its share of each cell. Shares no method with what finds
-/// metal in scans (engine/evaluation): bones are filled between the crossings of columns with the
-/// surface, the cortex comes from a chamfer distance, and metal is analytic.
+/// The contents of the scanner, on a fine grid of `step_m`: bone with a cortex over cancellous
+/// bone, soft tissue with some texture, metal by its share of each cell. Shares no method with the
+/// search for metal in scans (engine/evaluation): bones are filled between the crossings of columns
+/// with the surface, the cortex comes from a chamfer distance, and metal is analytic.
 struct FineBody : Cells {
   double step_m = 0.0;
   Vec3 origin_m;  ///< middle of the first cell

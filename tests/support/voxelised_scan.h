@@ -7,7 +7,7 @@ namespace orthonav::test {
 
 struct ScannerSettings {
   Vec3 spacing_m{0.0006, 0.0006, 0.0006};
-  double slice_m = 0.0;        ///< thickness of a slice; 0: as they are apart
+  double slice_m = 0.0;        ///< thickness of a slice; 0: the same as their distance
   double blur_m = 0.00045;     ///< SD of the point spread, in every direction
   double noise_hu = 25.0;      ///< SD
   double streaks = 1.0;        ///< 0: none
@@ -15,9 +15,9 @@ struct ScannerSettings {
   std::uint64_t seed = 1;
 };
 
-/// Scans it: point spread, slices of some thickness, streaks between metal (what beam hardening and
-/// starved rays leave of parallel projections, filtered and projected back, slice by slice), noise,
-/// whole numbers, clipped. The voxels start a random part of a voxel off the body's grid.
+/// Scans it: point spread, slices of some thickness, streaks between metal (from parallel
+/// projections with beam hardening and starved rays, filtered and projected back slice by slice),
+/// noise, whole numbers, clipped. The voxels start a random part of a voxel off the body's grid.
 [[nodiscard]] engine::Volume scanned(const FineBody& body, const ScannerSettings& settings);
 
 }  // namespace orthonav::test

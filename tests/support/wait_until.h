@@ -7,13 +7,13 @@
 
 namespace orthonav::test {
 
-/// How long a test waits for what must come before it fails: far longer than any wait takes, even
-/// on a loaded machine under a sanitizer.
+/// How long a test waits before it fails: far longer than any wait takes, even on a loaded machine
+/// under a sanitizer.
 inline constexpr auto kLongestWait = std::chrono::seconds(30);
 
-/// Asks `done` until it is true; false after `kLongestWait`. Devices never block (hal/api): what
-/// another thread or process brings can't be waited on there, only asked for again. The pause
-/// leaves the core to that thread; a test's outcome must not depend on its length.
+/// Asks `done` until it is true; false after `kLongestWait`. Devices never block (hal/api), so
+/// results of another thread or process must be polled for. The pause leaves the core to that
+/// thread; a test's outcome must not depend on its length.
 template <class Done>
 [[nodiscard]] bool wait_until(const Done& done) {
   constexpr auto kPause = std::chrono::microseconds(200);

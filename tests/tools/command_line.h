@@ -11,7 +11,7 @@
 
 namespace orthonav::test {
 
-/// What a call of the command left behind.
+/// The results of a call of the command.
 struct Called {
   int code = -1;  ///< exit code; -1 when it ended by a signal
   std::string out;
@@ -21,7 +21,7 @@ struct Called {
 /// Runs the built `orthonav` with these arguments, as they are (no shell expands them).
 Called orthonav(const std::vector<std::string>& arguments);
 
-/// An empty folder that goes away again.
+/// An empty folder that is deleted again.
 class ScratchFolder {
  public:
   ScratchFolder();
@@ -42,20 +42,20 @@ using orthonav::test::content_of;
 /// A file or folder of the test data; empty when it is absent.
 std::string shared(const std::string& name);
 
-/// The built `orthonav` at work, for tests that do something to it meanwhile.
+/// The built `orthonav`, running, for tests that do something to it meanwhile.
 class StartedCommand {
  public:
   /// `prepare` is called in the process before the command takes its place: for its environment and
   /// its limits.
   explicit StartedCommand(const std::vector<std::string>& arguments,
                           const std::function<void()>& prepare = {});
-  ~StartedCommand();  ///< ends it at once, where nobody waited for it
+  ~StartedCommand();  ///< ends it at once if it was not waited for
   StartedCommand(const StartedCommand&) = delete;
   StartedCommand& operator=(const StartedCommand&) = delete;
 
   void send(int signal) const;
   [[nodiscard]] pid_t process() const { return child_; }
-  /// It is so far that SIGTERM no longer ends it as if nobody cared.
+  /// Whether it already handles SIGTERM instead of being killed by it.
   [[nodiscard]] bool takes_signals() const;
   /// What it has written on standard error until now.
   [[nodiscard]] std::string err_so_far() const;

@@ -16,7 +16,7 @@ struct NamedPlace {
   std::string name;
   render::Float3 at;
   float radius_m = 0;
-  bool wound = false;  ///< of numbers that guide only
+  bool wound = false;  ///< only for numbers that guide
 };
 
 /// A scene of labels close together, and what they must leave clear.
@@ -33,28 +33,28 @@ struct OperatingField {
 OperatingField guided_levels(int levels, float lean_rad);
 /// The same without a tool.
 OperatingField entry_points(int levels);
-/// A rod a side through so many heads, with a bend between each two.
+/// A rod on each side through this many heads, with a bend between each two.
 OperatingField rods(int heads);
-/// So many places that were touched, some close together.
+/// This many touched places, some close together.
 OperatingField checked_places(int count);
 
 /// Both eyes at arm's length from any side above the patient, the head rolled.
 std::vector<render::View> any_head(Random& random);
-/// From so far to the patient's left.
+/// Seen from this far to the patient's left.
 std::vector<render::View> head_at(float left_m, float above_m = 0.45f, float roll_rad = 0);
 
-/// What is unreadable in any of the views, one line each: ink over ink, over a place, numbers that
-/// guide over paper. (What lies behind a tag has its name there too.)
+/// Unreadable texts in any of the views, one line each: ink over ink, ink over a place, numbers
+/// that guide over paper. (The name of a place behind a tag may lie there too.)
 std::vector<std::string> faults(const OperatingField& field,
                                 const std::vector<render::View>& views);
 
-/// Where a label stands about what it names, by its scene's texts.
+/// Where a label is relative to the place it names, by its scene's texts.
 struct Standing {
   render::TextAlign align = render::TextAlign::kLeft;
   float right = 0;
   float up = 0;
   bool shown = true;
-  /// In cap heights; the depth follows the angle, whose heights are others.
+  /// In cap heights; the depth follows the angle, which has a different height.
   friend bool operator==(const Standing& a, const Standing& b) {
     return a.align == b.align && std::abs(a.right - b.right) < 0.1f &&
            std::abs(a.up - b.up) < 0.1f && a.shown == b.shown;

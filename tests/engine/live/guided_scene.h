@@ -34,7 +34,7 @@ class GuidedScene {
   Snapshot snapshot_;
 };
 
-/// Who looks down at it from arm's length.
+/// A view down at it from arm's length.
 inline render::View view_from(render::Float3 eye) {
   return render::look_at(eye, {0, 0.03f, 0}, {0, 0.3f, 1}, 0.39f, 0.26f);
 }

@@ -51,7 +51,7 @@ class EventfulCamera : public StereoCamera {
   }
 };
 
-/// Hears nothing; a function decides how each poll ends.
+/// A voice without commands; a function decides how each poll ends.
 class ToldVoice : public Voice {
  public:
   explicit ToldVoice(std::function<Status(Timestamp)> answer) : answer_(std::move(answer)) {}
@@ -75,7 +75,7 @@ class EventfulHeadset : public ForwardingHeadset {
   ToldVoice voice_;
 };
 
-/// Keeps the texts that it was given to draw, and can hang or throw from a snapshot on.
+/// Keeps the texts that it was given to draw, and can hang or throw from a given snapshot on.
 class WatchedSink : public SnapshotSink {
  public:
   Status draw(const Snapshot& snapshot) override {
@@ -134,7 +134,7 @@ class WatchedLoop : public GuidingLoop {
   Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr) {
     return GuidingLoop::run(headset, observer, &sink);
   }
-  /// Hangs the part that calls it: from when guidance is drawn, for longer than a part may take,
+  /// Hangs the part that calls it, for longer than a part may take: from when guidance is drawn
   /// until `text` is drawn.
   void hang_until_drawn(fake::FakeHeadset& headset, const char* text) {
     EXPECT_TRUE(test::wait_until([&] { return sink.drew("guide"); }));

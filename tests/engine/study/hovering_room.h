@@ -15,7 +15,7 @@ inline sim::RoomDescription hovering_tools() {
   return room;
 }
 
-/// A room in which nothing is wrong but the head's pose, with tools that hover; no images.
+/// A room in which only the head's pose has errors, with tools that hover; no images.
 inline std::unique_ptr<sim::SimHeadset> hovering_room(double lasting) {
   sim::SimOptions options;
   options.error_model = sim::ErrorModel::perfect();

@@ -21,8 +21,8 @@
 
 namespace orthonav::hl2ss {
 
-/// A server whose every port says what a test wants, over and over: one turn every 5 ms, whose
-/// stamps are 33 ms apart.
+/// A server whose ports send what a test wants, over and over: one turn every 5 ms, with stamps 33
+/// ms apart.
 class HostileServer {
  public:
   using Words = std::function<std::vector<std::uint8_t>(std::int64_t turn)>;
@@ -35,7 +35,7 @@ class HostileServer {
   Words depth = [](std::int64_t turn) {
     return turn % 4 == 0 ? good_depth(turn) : std::vector<std::uint8_t>();
   };
-  std::vector<std::uint8_t> depth_calibration;  ///< empty: it answers nothing
+  std::vector<std::uint8_t> depth_calibration;  ///< empty: it does not answer
   Words voice = [](std::int64_t) { return voice_answer_bytes({}); };
 
   static std::int64_t ticks_of(std::int64_t turn) { return 1'000'000'000 + turn * 333'333; }
@@ -162,7 +162,7 @@ class HostileServer {
   std::thread thread_;
 };
 
-/// Looks on until there was enough to see, or far too long; how many pairs came.
+/// Takes pairs until there are enough or too much time has passed; returns how many came.
 inline int pairs_until(Hl2ssHeadset& headset,
                        const std::function<bool(int, const ConnectionStatistics&)>& enough) {
   StereoFrame frame;

@@ -13,7 +13,7 @@
 
 namespace orthonav::test {
 
-/// A client and the application at the two ends of a link whose time is counted, not waited for.
+/// A client and the application at the two ends of a link in simulated time.
 class SceneLink {
  public:
   static constexpr Duration kStep = std::chrono::microseconds(1000);
@@ -22,14 +22,15 @@ class SceneLink {
   explicit SceneLink(const hl2ss::SceneBudget& budget = {}) : client(budget) {
     client.connected(now_.host);
   }
-  /// From now on everything takes so long, each way.
+  /// From now on everything takes this long each way.
   void delay(Duration one_way) { one_way_ = one_way; }
-  /// What is said next, and all that follows it, arrives no sooner than `late` later than it would.
+  /// The next message, and all that follow it, arrive at least `late` later than they would.
   void lose_next(Duration late) { lost_for_ = late; }
   [[nodiscard]] Timestamp now() const { return now_.headset; }
   [[nodiscard]] HostTime host() const { return now_.host; }
 
-  /// A millisecond passes: what may be said is said, and every 17th the application does a frame.
+  /// A millisecond passes: messages that are due are delivered, and every 17th time the application
+  /// makes a frame.
   void step() {
     now_.host += kStep;
     now_.headset += kStep;
@@ -59,7 +60,7 @@ class SceneLink {
     }
     ++frames;
   }
-  /// The client gives the connection up, which loses what is on its way, and comes back at once.
+  /// The client gives the connection up, which loses everything on its way, and reconnects at once.
   void reconnect() {
     to_peer_.clear();
     to_client_.clear();
@@ -78,7 +79,7 @@ class SceneLink {
     }
     return count;
   }
-  /// Whether the text of a tool is to be seen.
+  /// Whether the text of a tool is visible.
   [[nodiscard]] bool shows(const std::string& words) const {
     for (const auto& [id, thing] : peer.things) {
       if (thing.visible && thing.words == words) {

@@ -44,7 +44,7 @@ class ScenePeer {
     }
     return answers;
   }
-  /// The client left: what is whole is worked off, and the modes are reset.
+  /// The client left: complete commands are executed, and the modes are reset.
   void left() {
     while (!frame().empty()) {
     }
@@ -54,7 +54,7 @@ class ScenePeer {
 
   std::map<std::uint32_t, Thing> things;
   int commands = 0;
-  int refuse = 0;  ///< so many commands from now on
+  int refuse = 0;  ///< this many commands from now on
 
  private:
   [[nodiscard]] std::uint32_t word(std::size_t at) const {

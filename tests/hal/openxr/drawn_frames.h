@@ -11,8 +11,8 @@
 
 namespace orthonav::test {
 
-/// Compares what the compositor got with what the renderer of images draws for the same scene and
-/// views; no picture needs to be kept.
+/// Compares the frames that the compositor got with those that the image renderer draws for the
+/// same scene and views, so that no reference pictures are needed.
 class FrameComparison {
  public:
   FrameComparison(int width_px, int height_px, render::Blend blend,

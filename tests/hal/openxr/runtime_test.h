@@ -36,13 +36,13 @@ inline RuntimeDouble& runtime_double() {
   return *kRuntime;
 }
 
-/// A scene as it was drawn, and for which views.
+/// A scene as it was drawn, and its views.
 struct DrawnScene {
   render::Scene scene;
   std::vector<render::View> views;
 };
 
-/// Nothing of it has a place in the world.
+/// Whether no part of the scene has a place in the world.
 inline bool hangs_on_head(const render::Scene& scene) {
   return scene.meshes.empty() && scene.lines.empty() && scene.triangles.empty() &&
          std::all_of(scene.texts.begin(), scene.texts.end(), [](const render::TextItem& text) {
@@ -117,9 +117,9 @@ class RuntimeTest : public ::testing::Test {
     return drawn_.size();
   }
 
-  /// True once it is so; false when it takes too long.
+  /// True once the condition holds; false if that takes too long.
   static bool eventually(const std::function<bool()>& so) { return wait_until(so); }
-  /// True once that many more frames were ended.
+  /// True once this many more frames were ended.
   static bool frames_pass(std::int64_t count) {
     const std::int64_t until = runtime().ended_frames() + count;
     return eventually([&] { return runtime().ended_frames() >= until; });

@@ -10,7 +10,7 @@
 
 namespace orthonav::sim {
 
-/// What a level's digitization looked like from outside.
+/// A level's digitization as seen from outside.
 struct DigitizedLevel {
   double duration_s = 0.0;  ///< from the first press to the double click
   int saved_samples = 0;
@@ -27,26 +27,26 @@ struct EngineOptions {
   Vec3 registration_error_m;  ///< shifts every hologram of the bone, in Room
   /// Turns them about the vertebra's origin, before the shift; a rotation vector in Room.
   Vec3 registration_turn_rad;
-  /// A leak, planted: the surgeon perceives the bones as they are, whatever the engine knows.
+  /// A deliberate leak: the surgeon perceives the true bones, whatever the engine knows.
   bool peeks = false;
   double blind_from_s = 0.0;  ///< the tools are lost in this span of time
   double blind_to_s = 0.0;
   bool deaf = false;            ///< hears no voice
   int lost_touches = 0;         ///< the first touches are not recorded
   int check_points = 0;         ///< asked for in `verify`
-  bool off = false;             ///< what is touched then turns out too far off
-  bool landmark = false;        ///< is asked for in `accepted`, before every screw
-  bool wire = false;            ///< is looked at in `placed`, after every screw
-  int wires_off = 0;            ///< so many of them are told to lie beyond a limit
-  bool no_other_entry = false;  ///< through which they could be redone
-  int landmark_moves = 0;       ///< so many touches before a level's second screw find it elsewhere
+  bool off = false;             ///< the touched places turn out too far off
+  bool landmark = false;        ///< asked for in `accepted`, before every screw
+  bool wire = false;            ///< measured in `placed`, after every screw
+  int wires_off = 0;            ///< this many of them are reported beyond a limit
+  bool no_other_entry = false;  ///< there is no other entry through which they could be redone
+  int landmark_moves = 0;  ///< this many touches before a level's second screw find it elsewhere
 };
 
-/// For a simulation that renders nothing: who only talks to the engine needs no images.
+/// For a simulation that renders nothing, for tests that need no images.
 SimOptions without_pixels(std::uint64_t seed, const ErrorModel& error_model = {});
 
-/// Stands in for the engine: walks through the workflow as clicker and voice say and draws the
-/// holograms that an engine without any error would draw, from the truth.
+/// Stands in for the engine: follows the workflow by clicker and voice, and draws from the truth
+/// the holograms that an engine without errors would draw.
 class FakeEngine {
  public:
   FakeEngine(SimHeadset& headset, const TestCase& test_case, EngineOptions options = {});
@@ -60,7 +60,7 @@ class FakeEngine {
   [[nodiscard]] const std::vector<std::string>& events() const { return events_; }
   [[nodiscard]] const std::vector<Phrase>& phrases() const { return phrases_; }
   [[nodiscard]] const std::vector<Point<World>>& heads() const { return heads_; }
-  /// Where a level is, as its holograms show it, in the frame of the level as it is.
+  /// The pose of a level as its holograms show it, in the true level's frame.
   [[nodiscard]] Transform<Vertebra, Vertebra> vertebra_from_shown(const std::string& label) const;
 
  private:
@@ -77,7 +77,7 @@ class FakeEngine {
   void look_at_wire();
   void next_screw();
   void draw(const StereoFrame& frame);
-  /// H13 of a tip off the entry and an axis out of the bone, all in World.
+  /// H13 for a tip off the entry and an axis out of the bone, all in World.
   void draw_numbers(ShownFrame& shown, const TestScrew& screw, Vec3 tip_m, Vec3 axis) const;
   void draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const;
   [[nodiscard]] std::string level_label() const { return order_[level_]; }

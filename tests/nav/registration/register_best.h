@@ -19,7 +19,7 @@ namespace orthonav::nav::registration_best_test {
 
 using Points = std::vector<Point<World>>;
 
-/// What a screw's place leaves room for: more is a silent failure when accepted.
+/// The largest tolerable error at a screw; a larger one that is accepted is a silent failure.
 inline constexpr double kSilent_m = 0.002;
 
 struct Level {
@@ -67,9 +67,9 @@ class RegisterBest : public ::testing::Test {
     }
     return worst;
   }
-  /// Refused since the points lie on no part of the bone, and since the screws would be off for it:
-  /// neither alone, and nothing else but the height over the bone that goes with the first, and
-  /// that what fits nowhere may fit elsewhere as well.
+  /// Expects a refusal because the points lie on no part of the bone and the screws would therefore
+  /// be off. No other reasons are allowed, except the height over the bone, which goes with the
+  /// first, and ambiguity, since points that fit nowhere may fit elsewhere as well.
   static void expect_off_the_bone(const Points& points, const std::string& what) {
     using Kind = RefusalReason::Kind;
     const auto r = registered(points);

@@ -15,7 +15,7 @@ namespace orthonav::nav::residual_field_test {
 
 using test::CentredPoints;
 
-/// Where screws end, seen from the back: the error there is what matters.
+/// The screws' targets, where the error matters.
 inline const Point<Vertebra> kTargets[] = {
     {{0.012, -0.030, 0.004}}, {{-0.012, -0.030, 0.004}}, {{0.020, 0.000, 0.000}}};
 inline constexpr int kTrials = 60;
@@ -29,7 +29,7 @@ struct Noise {
   double pressed_m = 0.0;  ///< SD of each stroke's own height
 };
 
-/// Root mean square errors at the targets: as they were, and as predicted.
+/// Root mean square errors at the targets: true and predicted.
 struct Compared {
   double empirical_m = 0.0;
   double predicted_m = 0.0;
@@ -47,7 +47,7 @@ inline CentredPose after(CentredPose pose, const std::array<double, 6>& step) {
 
 class ResidualFieldTest : public ::testing::Test {
  protected:
-  /// Many times the same strokes with other noise.
+  /// Repeats the same strokes many times with new noise.
   Compared compare(const Noise& noise, std::size_t lanes) const {
     const std::vector<Vec3> places = test::strokes_over(surface_, lanes);
     const std::size_t a_stroke = places.size() / lanes;
@@ -92,7 +92,7 @@ class ResidualFieldTest : public ::testing::Test {
       const PoseUncertainty uncertainty(fit->pose.centre_m, field->covariance);
       const CentredPose pose = after(fit->pose, field->step);
       for (const Point<Vertebra>& target : kTargets) {
-        // Where the fit puts what lies at the target.
+        // Where the fit puts the target.
         const Vec3 local = cloud.truth.rotation.transposed() * (target.v - cloud.truth.centre_m);
         sum2 += (pose.rotation * local + pose.centre_m - target.v).squared_norm();
         predicted2 += std::pow(uncertainty.predicted_tre_m(target), 2);
@@ -134,8 +134,8 @@ class ResidualFieldTest : public ::testing::Test {
   const SurfaceIndex surface_{mesh_};
 };
 
-/// 60 trials with three targets know an RMS to 8 %. The prediction has 7 % in reserve by design;
-/// the rest is for what it estimates from one set of heights.
+/// 60 trials with three targets determine an RMS to 8 %. The prediction is 7 % larger by design;
+/// the rest allows for estimates from a single set of heights.
 inline constexpr double kHonest = 0.25;
 
 }  // namespace orthonav::nav::residual_field_test

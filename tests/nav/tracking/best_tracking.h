@@ -14,7 +14,7 @@
 
 namespace orthonav::nav::tracking_best_test {
 
-/// A hundredth of what corners give.
+/// A hundredth of the error with corners.
 inline constexpr double kTipM = 0.00025;
 
 inline ToolGeometry tool(const std::string& name, int id, double size_m) {

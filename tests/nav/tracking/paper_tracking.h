@@ -14,8 +14,8 @@ namespace orthonav::nav::tracking_paper_test {
 
 using test::PlacedTag;
 
-/// What the library's corners of a noise-free picture leave at 0.4 m: 0.05 px RMS are 0.1 mm in
-/// depth of a corner and 0.4° of tilt of a 50 mm tag; three SD.
+/// The error left by the library's corners of a noise-free picture at 0.4 m: 0.05 px RMS are 0.1 mm
+/// in depth of a corner and 0.4° of tilt of a 50 mm tag; three SD.
 inline constexpr double kPoseM = 0.0003;
 inline constexpr double kPoseRad = 0.02;
 inline constexpr int kFrameMs = 33;

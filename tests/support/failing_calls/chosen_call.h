@@ -2,8 +2,8 @@
 
 #include <dlfcn.h>
 
-// Calls of libc that change a disk, taken over to count them and to let one of them fail. All of it
-// is told by environment variables:
+// Calls of libc that change a disk, taken over to count them and to let one of them fail. It is
+// controlled by environment variables:
 //   FAILING_CALLS_FOLDER  calls on files below it count, no others
 //   FAILING_CALLS_LIST    a file outside of it: gets a line "KIND PATH" for each that counts
 //   FAILING_CALLS_KIND    open, write, sync, rename, mkdir, truncate or close; empty: any

@@ -30,8 +30,8 @@ struct DoubleSession {
   bool running = false;
   bool exit_requested = false;
   bool lost = false;
-  bool waited = false;  ///< a frame was waited for and not begun
-  bool begun = false;   ///< a frame was begun and not ended
+  bool waited = false;  ///< a frame was waited for but not begun
+  bool begun = false;   ///< a frame was begun but not ended
   bool should_render = false;
   XrTime predicted = 0;
   VulkanObjects objects;
@@ -40,14 +40,14 @@ struct DoubleSession {
   bool attached = false;
 };
 
-/// What moved the space, and when.
+/// A move of the space, and its time.
 struct SpaceMove {
   XrTime from = 0;
   XrPosef old_from_new{};
 };
 
-/// The one runtime of the process. C functions of OpenXR's reach it through `the_double`; every one
-/// of them holds the mutex but while it waits.
+/// The one runtime of the process. C functions of OpenXR's reach it through `the_double`; each of
+/// them holds the mutex except while it waits.
 class Double : public RuntimeDouble {
  public:
   void reset(const RuntimeTraits& traits) override;
@@ -66,14 +66,14 @@ class Double : public RuntimeDouble {
   [[nodiscard]] int instances() const override;
   [[nodiscard]] std::vector<std::string> violations() const override;
 
-  /// Writes it down and answers with the error.
+  /// Records the violation and answers with the error.
   XrResult violated(const std::string& what, XrResult result);
   [[nodiscard]] XrTime now() const;
   void enter(DoubleSession& session, XrSessionState state);
   [[nodiscard]] bool is_session(XrSession handle) const;
-  /// XR_SUCCESS, or why the session answers nothing.
+  /// XR_SUCCESS, or why the session does not answer.
   [[nodiscard]] XrResult alive() const;
-  /// Of the viewer in the space as it is at that time.
+  /// The pose of the viewer in the space as it is at that time.
   [[nodiscard]] XrPosef viewer_at(XrTime time) const;
   [[nodiscard]] XrSpaceLocationFlags flags() const;
 
@@ -118,7 +118,7 @@ void add_session_functions(std::map<std::string, PFN_xrVoidFunction>& table);
 void add_frame_functions(std::map<std::string, PFN_xrVoidFunction>& table);
 void add_input_functions(std::map<std::string, PFN_xrVoidFunction>& table);
 
-/// Reads ORTHONAV_XR_SCRIPT, if there is one, into the double; writes what it says to be reported.
+/// Reads ORTHONAV_XR_SCRIPT, if there is one, into the double; writes the reports that it asks for.
 void take_script(Double& runtime);
 void write_report(const Double& runtime);
 

@@ -18,7 +18,7 @@
 
 namespace orthonav::test {
 
-/// What the runtime is like. Set before the application connects.
+/// The properties of the runtime. Set before the application connects.
 struct RuntimeTraits {
   std::vector<std::int64_t> formats = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_SRGB,
                                        VK_FORMAT_R8G8B8A8_UNORM};
@@ -39,9 +39,10 @@ struct RuntimeTraits {
   XrVersion least_vulkan = XR_MAKE_VERSION(1, 0, 0);
   XrVersion most_vulkan = XR_MAKE_VERSION(1, 3, 0);
   std::int64_t period_ns = 10'000'000;
-  /// True: time goes on by a period with each frame that is waited for, and stands still otherwise.
+  /// True: time advances by a period with each frame that is waited for, and otherwise stands
+  /// still.
   bool stepped = true;
-  int frames_without_render = 1;  ///< that shouldRender is false for in the beginning
+  int frames_without_render = 1;  ///< at the beginning, for which shouldRender is false
   std::size_t frames_kept = 64;   ///< read back, the newest
 };
 
@@ -59,13 +60,13 @@ struct SubmittedFrame {
   std::array<XrFovf, 2> fovs{};
   /// Left and right as the images hold them, four bytes a pixel, row by row; empty without a layer.
   std::array<std::vector<std::uint8_t>, 2> pixels;
-  /// How far away along the view's axis, where it was told; infinite where nothing is.
+  /// Distance along the view's axis, where depth was submitted; infinite where nothing is.
   std::array<std::vector<float>, 2> depth_m;
 };
 
 /// An OpenXR runtime for tests: a library that the Khronos loader loads through XR_RUNTIME_JSON. It
-/// implements what the product calls, answers as the specification says, and writes down every use
-/// that a strict runtime would not have. All of this may be called from any thread.
+/// implements what the product calls, answers as the specification says, and records every use that
+/// a strict runtime would not accept. All of this may be called from any thread.
 class RuntimeDouble {
  public:
   virtual ~RuntimeDouble() = default;
@@ -76,11 +77,12 @@ class RuntimeDouble {
   virtual void set_head(std::function<XrPosef(XrTime)> head) = 0;
   virtual void set_tracked(bool valid, bool position_tracked) = 0;
   virtual void press(bool down) = 0;
-  /// What the session is told next. STOPPING makes the application end it; READY may follow.
+  /// The session's next state. STOPPING makes the application end it; READY may follow.
   virtual void tell(XrSessionState state) = 0;
-  /// The space moves so many frames from now; `old_from_new` as told to the application if `known`.
+  /// The space moves this many frames from now; `old_from_new` is given to the application if
+  /// `known`.
   virtual void recentre(const XrPosef& old_from_new, bool known, int frames_ahead) = 0;
-  /// Announced by an event, or found out by the next call.
+  /// The loss is announced by an event, or noticed at the next call.
   virtual void lose_session(bool announced) = 0;
   virtual void lose_instance(bool announced) = 0;
   /// How many more attempts to connect fail after a loss.
@@ -97,5 +99,5 @@ class RuntimeDouble {
 
 }  // namespace orthonav::test
 
-/// Of the library that is loaded; the symbol that tests ask for.
+/// The double of the loaded library; the symbol that tests look up.
 extern "C" orthonav::test::RuntimeDouble* orthonav_runtime_double();

@@ -10,26 +10,27 @@
 namespace orthonav::test {
 
 /// A case of one level named L5, which is read in a fraction of the time that the phantom takes.
-/// With another bone it is another patient's.
+/// With another bone it is a case of another patient.
 void write_one_level_case(const std::filesystem::path& folder, const std::string& bone = "L5");
 
 /// Preparing the model of that bone takes longer than a short run: the first run of all tests does
-/// it, the others get it from there. Makes the folder `out` of a run with it.
+/// it, and the others copy the result. Makes the folder `out` of a run with it.
 void bring_prepared_model(const std::string& out);
 
-/// `orthonav run` of three recorded pairs that keeps all that a run can keep.
+/// `orthonav run` of three recorded pairs that writes everything a run can write.
 class ShortRun {
  public:
   ShortRun();
 
-  /// In new folders; the new process calls `prepare` first. -1 where it crashed or hung for a
-  /// minute.
+  /// Runs in new folders; the new process calls `prepare` first. Code -1 if it crashed or hung for
+  /// a minute.
   Called run(const std::function<void()>& prepare);
 
-  /// All that the run writes lies below it.
+  /// Everything that the run writes is below this folder.
   [[nodiscard]] const std::string& written() const { return written_; }
   [[nodiscard]] std::string out() const { return written_ + "/out"; }
-  /// Where the recording is: under its name or, cut off, under the temporary one; empty: nowhere.
+  /// The path of the recording: under its name or, cut off, under the temporary one; empty if there
+  /// is none.
   [[nodiscard]] std::string recording() const;
   [[nodiscard]] std::string log() const { return written_ + "/log.txt"; }
   [[nodiscard]] std::string list() const { return folder_.file("calls"); }
@@ -41,11 +42,11 @@ class ShortRun {
   std::string written_ = folder_.file("written");
 };
 
-/// Every result is there, whole, and tells the whole run.
+/// Whether every result exists, is complete, and covers the whole run.
 [[nodiscard]] bool all_is_kept(const ShortRun& run);
 
-/// Whatever there is can be read: reports are whole or absent, journal, log and recording are read
-/// to their last whole line, record and pair.
+/// Expects everything that exists to be readable: reports are whole or absent, journal, log and
+/// recording are read to their last whole line, record and pair.
 void expect_readable(const ShortRun& run);
 
 }  // namespace orthonav::test

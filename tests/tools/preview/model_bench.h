@@ -5,7 +5,7 @@
 
 namespace orthonav::preview {
 
-/// A model with what it drives, on a clock of the test's own.
+/// A model with the parts that it drives, on the test's own clock.
 struct ModelBench {
   fake::ManualClock wall;
   Gate gate{wall};
