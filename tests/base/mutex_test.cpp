@@ -7,7 +7,7 @@
 namespace orthonav {
 namespace {
 
-/// What two threads hand to and fro.
+/// A turn that two threads hand back and forth.
 class Turn {
  public:
   void pass(int from) {

@@ -36,7 +36,7 @@ TEST(Result, CarriesACodeToBranchOn) {
   EXPECT_EQ(Error{"width 3 px, limit 4 px"}.code, ErrorCode::kInvalid);
 }
 
-// Release builds included: what is absent is never read.
+// Also in release builds an absent value is never read.
 TEST(ResultDeathTest, EndsTheProgramWhereTheAbsentSideIsRead) {
   const Result<int> error = Error{"width 3 px, limit 4 px"};
   const Result<int> value = 7;

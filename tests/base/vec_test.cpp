@@ -46,7 +46,7 @@ TEST(Rotation, GoesThroughVectorAndQuaternionAndBack) {
   constexpr int kDraws = 500;
   for (int i = 0; i < kDraws; ++i) {
     const Vec3 axis = Vec3{random.normal(), random.normal(), random.normal()}.normalized();
-    // Up to just below a half turn, where the vector's sign becomes a matter of taste.
+    // Up to just below a half turn, where the vector's sign becomes arbitrary.
     const double angle = random.uniform() * (kPi - 1e-3);
     const Mat3 rotation = rotation_from_vector(angle * axis);
     constexpr double kNearHalfTurn = 1e-12;  // digits lost where the sine is small

@@ -26,7 +26,7 @@ TEST(VertexAreas, AreTwiceThoseOfTheTrianglesAroundAVertex) {
 TEST(VertexNormals, AreTheMeanByAreaAndOfUnitLength) {
   const std::vector<Vec3> normals = vertex_normals(kCorner_m, kSides);
   ASSERT_EQ(normals.size(), kCorner_m.size());
-  // Not (1, 1, 1) / sqrt(3), which is what the three sides give where they count alike.
+  // Not (1, 1, 1) / sqrt(3), the result if all three sides had equal weight.
   EXPECT_LT((normals[0] - Vec3{6.0 / 7.0, 3.0 / 7.0, 2.0 / 7.0}).norm(), kNormalRounding);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(normals[i].norm(), 1.0, kNormalRounding) << i;

@@ -14,7 +14,8 @@ using orthonav::test::expect_same;
 using orthonav::test::play;
 using orthonav::test::SessionLog;
 
-/// What every device promises, whatever it is. Nothing here knows in which order a device is asked.
+/// The promises of every device. Nothing here depends on the order in which a device's parts are
+/// called.
 class DeviceContract : public ::testing::TestWithParam<DeviceCase> {
  protected:
   void SetUp() override { ASSERT_NE(headset_, nullptr); }
@@ -68,7 +69,7 @@ TEST_P(DeviceContract, EndsForGood) {
 }
 
 TEST_P(DeviceContract, GivesTheSameBitsWhenOpenedAgain) {
-  // One after the other: a device that is live does not wait while another is opened.
+  // One after the other, because a live device does not wait while another is opened.
   const SessionLog first = play(*headset_);
   const auto again = GetParam().open();
   ASSERT_NE(again, nullptr);
@@ -111,7 +112,7 @@ TEST_P(DeviceContract, HasAClockThatNeverGoesBackAndKnowsItsPairs) {
 }
 
 TEST_P(DeviceContract, ProjectsWhatItUnprojects) {
-  constexpr double kInversePx = 1e-6;  // the camera model's own promise
+  constexpr double kInversePx = 1e-6;  // promised by the camera model
   const StereoCalibration& calibration = headset_->cameras().calibration();
   for (const CameraModel* camera : {&calibration.left, &calibration.right}) {
     int seen = 0;
@@ -143,7 +144,7 @@ TEST_P(DeviceContract, HasTwoCamerasOfOneHead) {
 }
 
 TEST_P(DeviceContract, KnowsTheHeadWhereAPairKnewIt) {
-  // Both are measurements of one pose: noise of a few SD apart at most.
+  // Both are measurements of one pose, so they differ by a few SDs of noise at most.
   constexpr double kNoiseM = 0.005;
   constexpr double kNoiseRad = 0.01;
   int compared = 0;

@@ -1,4 +1,4 @@
-// What every depth camera promises.
+// The promises of every depth camera.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What the public call does with a depth camera that breaks its word.
+// How the public call handles a depth camera that breaks its promises.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Else nothing would show that a pixel without a direction is allowed.
+// Otherwise no test would show that a pixel without a direction is allowed.
 TEST(DepthCases, SeeNothingInTheirCorners) {
   for (const auto& device : orthonav::test::device_cases()) {
     if (device.depth_cameras == 0) {

@@ -27,7 +27,7 @@ namespace orthonav::test {
 
 namespace {
 
-/// A headset and what must outlive it.
+/// A headset and the objects that must outlive it.
 template <class Kept>
 class Keeping : public ForwardingHeadset {
  public:
@@ -44,7 +44,7 @@ std::unique_ptr<Headset> keeping(Kept kept, std::unique_ptr<Headset> headset) {
   return std::make_unique<Keeping<Kept>>(std::move(kept), std::move(headset));
 }
 
-/// Shows a step of the workflow to the wearer with each pair, whatever it is asked to show itself.
+/// Shows a step of the workflow with each pair, regardless of what it is asked to show.
 class Prompting : public ForwardingHeadset {
  public:
   Prompting(std::unique_ptr<Headset> inner, StepOnDisplay step)
@@ -104,15 +104,15 @@ std::unique_ptr<Headset> open_fake() {
   return std::make_unique<fake::FakeHeadset>(scripted_session());
 }
 
-/// A pass through the failing doubles without a fault must keep every promise too.
+/// The failing doubles without a fault must keep every promise too.
 std::unique_ptr<Headset> open_faultless() {
   auto inner = open_fake();
   auto failing = std::make_unique<fake::FailingHeadset>(*inner, fake::Faults{});
   return keeping(std::move(inner), std::move(failing));
 }
 
-/// What may happen to a device without breaking its word: pairs that are lost, late, unlocated or
-/// spoiled, a head that is lost for a moment, a phrase that nobody heard.
+/// Faults that a device may have without breaking its promises: pairs that are lost, late,
+/// unlocated or spoiled, a head that is lost for a moment, a phrase that was not heard.
 std::unique_ptr<Headset> open_with_allowed_faults() {
   auto inner = open_fake();
   fake::Faults faults;
@@ -120,7 +120,7 @@ std::unique_ptr<Headset> open_with_allowed_faults() {
                    {2, fake::CameraFault::kDrop},
                    {4, fake::CameraFault::kDelay},
                    {6, fake::CameraFault::kNoise}};
-  faults.head = {{1, fake::HeadFault::kLost}};  // asked for the time of display
+  faults.head = {{1, fake::HeadFault::kLost}};  // the call for the display time
   faults.voice = {{1, fake::EventFault::kDrop}};
   auto failing = std::make_unique<fake::FailingHeadset>(*inner, std::move(faults));
   return keeping(std::move(inner), std::move(failing));
@@ -132,7 +132,7 @@ std::unique_ptr<Headset> open_recorder() {
   return keeping(std::move(folder), std::move(recorder));
 }
 
-/// Another headset's cameras beside a display that nobody has opened.
+/// Another headset's cameras beside a display that is not open.
 std::unique_ptr<Headset> open_openxr() {
   return openxr::OpenxrHeadset::around(open_fake(), openxr::RigOnHead{});
 }
@@ -166,7 +166,7 @@ std::unique_ptr<Headset> open_sim_with_depth() {
   return checked(open_headset("sim:?seed=11&depth", options));
 }
 
-/// Waits for the next frame: one that comes over a network comes in its own time.
+/// Waits for the next frame, since frames over a network arrive with delay.
 class Waiting : public ForwardingHeadset {
  public:
   explicit Waiting(std::unique_ptr<Headset> inner)
@@ -243,8 +243,7 @@ std::unique_ptr<Headset> open_joined() {
   return keeping(std::make_pair(std::move(folder), std::move(inner)), std::move(joined));
 }
 
-/// The scripted headset has two, and so has whatever stands before it; StreamRecorder's folder two
-/// of its own.
+/// The scripted headset and its wrappers have two, and so has StreamRecorder's folder.
 std::size_t depth_cameras_of(const std::string& name) {
   const std::set<std::string> with_depth = {"fake",     "faultless",       "allowed_faults",
                                             "recorder", "joined",          "openxr",

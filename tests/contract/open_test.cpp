@@ -19,7 +19,7 @@ std::string refusal(const std::string& uri) {
   return headset.ok() ? "accepted" : headset.error().message;
 }
 
-/// A moment of simulated time is enough here.
+/// A short simulated time is enough here.
 OpenOptions brief() {
   OpenOptions options;
   options.sim.surgeon = false;

@@ -12,7 +12,7 @@
 namespace orthonav::test {
 namespace {
 
-/// A headset that tells all that can be asked of one.
+/// A headset with an answer to every optional query.
 class TellingHeadset : public fake::FakeHeadset {
  public:
   TellingHeadset() : FakeHeadset(scripted_session()) {}

@@ -1,4 +1,4 @@
-// What the public calls do with devices that break their promises.
+// How the public calls handle devices that break their promises.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(Every, BrokenHead,
 
 class EventsUnderFault : public ::testing::TestWithParam<EventFault> {
  protected:
-  /// One poll for everything; the events come or nothing of them does.
+  /// One poll for everything: either all events come or none.
   static Status poll(std::vector<ClickerEvent>& events, EventFault fault, std::int64_t at) {
     ScriptedClicker inner(scripted_session().clicker);
     FailingClicker clicker(inner, {{at, fault}});

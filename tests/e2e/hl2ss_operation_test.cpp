@@ -155,7 +155,7 @@ TEST(OverTcp, RawIsAsExactAsTheDirectRunThroughEveryFaultAndAJumpWhileGuiding) {
   expect_wires_within(kPerfectAngle_deg, kPerfectEntry_m, done.wires);
 }
 
-/// What the headset is told to listen for is what a session understands.
+/// The words that the headset is told to listen for are those that a session understands.
 TEST(OverTcp, TheHeadsetListensForTheWordsOfTheWorkflow) {
   const Case spine = phantom();
   ModelCache models;

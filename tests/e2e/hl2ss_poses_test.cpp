@@ -36,7 +36,8 @@ struct Apart {
   double worst_deg = 0.0;
 };
 
-/// Tracks the same second directly and over TCP; how far the tools' poses lie apart.
+/// Tracks the same second directly and over TCP; returns the largest differences of the tools'
+/// poses.
 Apart compare(hl2ss::VideoProfile profile, const sim::ErrorModel& error_model = {}) {
   sim::SimOptions sim;
   sim.error_model = error_model;
@@ -103,8 +104,8 @@ TEST(PosesOverTcp, RawAreThoseOfTheDirectRun) {
 }
 
 TEST(PosesOverTcp, H264AreThoseOfTheDirectRunWithinTheCodecsNoise) {
-  // What is bounded is the codec alone: bent and glossy tags under light that flickers make more of
-  // its noise (up to 1.5 mm and 1°).
+  // Only the codec is bounded here: bent and glossy tags under flickering light amplify its noise
+  // (up to 1.5 mm and 1°).
   sim::ErrorModel plain;
   plain.tag_bow_m = 0.0;
   plain.tag_gloss = 0.0;

@@ -1,5 +1,5 @@
 // A whole operation whose tools another program tracks: their poses come as messages over TCP, and
-// no image is looked at.
+// no image is used.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,16 +18,16 @@
 namespace orthonav::engine::igtl_operation_test {
 namespace {
 
-/// What the tracker's noise leaves of a perfect world; the surgeon's hands are perfect.
+/// The errors due to the tracker's noise in an otherwise perfect world, with a perfect surgeon.
 constexpr double kEntry_m = 0.0010;
 constexpr double kAngle_rad = 0.0175;  // 1 degree
 /// SD of the tracker's noise along (about) each axis.
 constexpr double kNoise_m = 0.0001;
 constexpr double kNoise_rad = 0.001;
-/// The tracker's own frame, as it stands in the room.
+/// The pose of the tracker's own frame in the room.
 const Transform<World, Rig> kStand(rotation_from_vector({0.3, -1.2, 0.4}), {0.7, 1.1, -0.9});
 
-/// The simulated room, of which an optical tracker sees the tools and nobody the images.
+/// The simulated room, whose tools an optical tracker sees and whose images are not used.
 class TrackedRoom : public ForwardingHeadset, private StereoCamera {
  public:
   TrackedRoom(sim::SimHeadset& room, const std::vector<nav::ToolGeometry>& tools)
@@ -47,7 +47,7 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
     first.join();
   }
   [[nodiscard]] StereoCamera& cameras() override { return *this; }
-  /// Tools that the tracker does not see from now on.
+  /// Whether the tracker sees no tools from now on.
   void hide(bool hidden) { hidden_ = hidden; }
 
  private:
@@ -77,7 +77,7 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
     return Next::kFrame;
   }
 
-  /// How many tools are seen. Of the others an identity is sent, as PlusServer does.
+  /// Returns how many tools are seen. An identity is sent for the others, as PlusServer does.
   std::size_t send() {
     const sim::RoomState state = room_.state();
     stamp_s_ += 0.033;

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the chain may lose without any source of error: 8-bit images and the exact geometry of a tag
-// leave the method's own resolution, with a margin.
+// The error allowed without any source of error: the method's own resolution with 8-bit images and
+// exact tag geometry, with a margin.
 constexpr double kPerfectAngle_deg = 0.4;
 constexpr double kPerfectEntry_m = 0.0003;
 
@@ -86,7 +86,7 @@ double most_angle_rad(const sim::ErrorModel& m) {
 double most_entry_m(const sim::ErrorModel& m) {
   // From stroking to piercing, for a hasty surgeon.
   constexpr double kBetween_s = 60.0;
-  // Of depth at arm's length, by all errors of the calibration (error_model.h).
+  // Depth error at arm's length from all errors of the calibration (error_model.h).
   constexpr double kDepth_m = 0.0015;
   return kRayleighSds *
          quadrature({m.overlay_perception_m * m.perception_depth_ratio, m.entry_pick_m,
@@ -95,8 +95,8 @@ double most_entry_m(const sim::ErrorModel& m) {
                      m.head_pose_noise_m, kDepth_m});
 }
 
-/// Both screws within what the error model allows, and beyond what a perfect world leaves: errors
-/// that were not applied would be noticed too.
+/// Expects both screws within the bounds of the error model and beyond those of a perfect world, so
+/// that errors that were not applied are noticed too.
 void expect_errors_as_documented(const OperationResult& result, const sim::ErrorModel& model) {
   ASSERT_EQ(result.levels.size(), 1u);
   ASSERT_EQ(result.levels[0].screws.size(), 2u);
@@ -114,7 +114,7 @@ void expect_errors_as_documented(const OperationResult& result, const sim::Error
   EXPECT_GT(worst_m, kPerfectEntry_m);
 }
 
-/// The twin: a wire that went along the plan of the other side would be past both bounds.
+/// The control: a wire along the plan of the other side would exceed both bounds.
 TEST(Operation, TheBoundsOfItsDocumentedErrorsTellOneSideFromTheOther) {
   const sim::ErrorModel model;
   const Operation planned = plan_operation(lumbar_spine(), {"L5"}).value();
@@ -177,7 +177,7 @@ TEST(Operation, AtItsDocumentedErrorsGivesTheSamePosesAndStepsWithOneAndTwoThrea
   ASSERT_TRUE(two_threads.result.ok()) << two_threads.result.error().message;
   EXPECT_TRUE(two_threads.result->completed);
   expect_errors_as_documented(*two_threads.result, options.sim.error_model);
-  // Up to the middle of guidance: what follows is more of the same.
+  // Up to the middle of guidance; the rest would not add anything.
   const auto guided = std::find_if(two_threads.poses.begin(), two_threads.poses.end(),
                                    [](const auto& line) { return line.step.starts_with("guide"); });
   ASSERT_NE(guided, two_threads.poses.end());
@@ -190,7 +190,7 @@ TEST(Operation, AtItsDocumentedErrorsGivesTheSamePosesAndStepsWithOneAndTwoThrea
   ASSERT_LT(one_thread.poses.size(), two_threads.poses.size());
   EXPECT_TRUE(
       std::equal(one_thread.poses.begin(), one_thread.poses.end(), two_threads.poses.begin()));
-  // Not because nothing ever differs.
+  // The control: another seed does differ.
   options.sim.seed = 2;
   options.loop.max_frames = 45;
   const LoggedOperation other_seed = logged(options);
@@ -230,7 +230,7 @@ TEST(Operation, ARecordingReplaysToIdenticalPosesAndSteps) {
     EXPECT_TRUE(again.lines[i] == live.poses[i]) << "line " << i;
     measured += live.poses[i].status == PoseStatus::kMeasured ? 1 : 0;
   }
-  // A comparison of nothing with nothing would pass too.
+  // A comparison of empty results would pass too.
   EXPECT_GT(measured, 100u);
   EXPECT_EQ(live.poses.back().step, "digitize L5");
 }

@@ -44,7 +44,7 @@ const Operation& planned_operation() {
   return planned;
 }
 
-/// Tells of each pair.
+/// Calls a function with each pair.
 class EachPair : public LoopObserver {
  public:
   explicit EachPair(std::function<void(const Guidance&)> then) : then_(std::move(then)) {}
@@ -60,7 +60,7 @@ OperationIdentity identity_of(const Session& session) {
   return identity_of("phantom", session.levels(), session.tracker().tools(), "best", true);
 }
 
-/// A program: begins an operation in the folder, or goes on with the one that it holds.
+/// A program that begins an operation in the folder, or resumes the one in it.
 struct Program {
   explicit Program(const std::string& path) : folder(path) {
     if (auto last = OperationLog::find(env, folder)) {
@@ -109,7 +109,7 @@ struct Program {
 
   PosixEnv env;
   std::string folder;
-  LoggedOperation before;  ///< what the folder held
+  LoggedOperation before;  ///< the operation found in the folder
   std::size_t records_before = 0;
 
  private:
@@ -117,7 +117,7 @@ struct Program {
   std::unique_ptr<OperationLog> log;
 };
 
-/// Another process operates until it is killed at that moment. Whether it came.
+/// Another process operates until it is killed at that moment. Returns whether the moment came.
 bool kill_at(const std::string& folder, const std::function<bool(const Guidance&)>& moment) {
   std::ignore = planned_operation();
   return test::kill_after(1, [&](const std::function<void()>& tell) {
@@ -130,7 +130,8 @@ bool kill_at(const std::string& folder, const std::function<bool(const Guidance&
   });
 }
 
-/// Where the first record of that type stands among those of the second program; none: its end.
+/// The index of the first record of that type among those of the second program; their end if there
+/// is none.
 std::size_t first_of(OperationRecord type, const std::vector<Record>& records, std::size_t from) {
   while (from < records.size() && records[from].type != static_cast<std::uint16_t>(type)) {
     ++from;
@@ -173,7 +174,7 @@ TEST(ResumedOperation, KilledTwiceEndsWithEveryScrewOnceVerifiedBeforeItGuides) 
   EXPECT_EQ(test::screws_done(records), test::kEveryScrewOnce);
   expect_untouched(last.before, found->operation);
   using enum OperationRecord;
-  // The bone of a new room has its dimple elsewhere: check points verify what was restored.
+  // In a new room the bone's dimple is elsewhere, so check points verify the restored registration.
   EXPECT_LT(first_of(kLandmark, records, first_kill), first_of(kCheckPoint, records, first_kill));
   EXPECT_LT(first_of(kCheckPoint, records, first_kill), first_of(kAccepted, records, first_kill));
   EXPECT_LT(first_of(kAccepted, records, first_kill), first_of(kScrew, records, first_kill));

@@ -30,7 +30,7 @@ std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path) {
 
 class Corpus : public ::testing::TestWithParam<Fuzzer> {};
 
-/// What once broke a reader, or leads far into it, must pass through it for ever.
+/// Inputs that once broke a reader, or that lead far into it, must always pass.
 TEST_P(Corpus, PassesThrough) {
   const auto files = corpus_of(GetParam().name);
   ASSERT_FALSE(files.empty());

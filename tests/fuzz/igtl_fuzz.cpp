@@ -51,8 +51,8 @@ class Reader : public igtl::MessageReader {
 
 }  // namespace
 
-/// What a stranger sends to the OpenIGTLink port, or a tracker to us. However the network cuts it,
-/// the same comes of it.
+/// Bytes that a stranger sends to the OpenIGTLink port, or a tracker to us. However the network
+/// splits them, the result is the same.
 void fuzz_igtl(std::span<const std::uint8_t> input) {
   Reader all;
   igtl::Incoming whole(&all);

@@ -5,7 +5,8 @@
 namespace orthonav::fuzz {
 namespace {
 
-/// As an operation: it may be refused, in one line; what is taken can be gone on with.
+/// Reads the records as an operation: it may be refused in one line; an accepted one can be
+/// resumed.
 void insist_on_operation(const std::vector<engine::Record>& records) {
   auto operation = engine::LoggedOperation::from(records, "log");
   if (!operation) {
@@ -20,8 +21,8 @@ void insist_on_operation(const std::vector<engine::Record>& records) {
 
 }  // namespace
 
-/// Logs of operations: what is read is what writing it again gives. The checks keep changed bytes
-/// from what is inside, so that the input is taken for a record of each sort as well.
+/// Logs of operations: writing what was read gives the same. The checksums keep changed bytes from
+/// the parsers inside, so the input is also taken as a record of each type.
 void fuzz_operation_log(std::span<const std::uint8_t> input) {
   const std::string bytes(input.begin(), input.end());
   const auto read = engine::read_records(bytes, "log");

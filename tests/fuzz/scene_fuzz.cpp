@@ -39,7 +39,7 @@ DisplayObject object_of(std::uint8_t byte) {
   return object;
 }
 
-/// Anything may be answered, whatever is wanted: what the client then says is whole messages.
+/// Answers may be anything; the client must still send whole messages.
 void answer_client(Bytes input) {
   hl2ss::SceneClient client;
   hl2ss::SceneMoment now{HostTime(std::chrono::seconds(9)), Timestamp(std::chrono::seconds(5))};

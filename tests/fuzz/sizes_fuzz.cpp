@@ -3,7 +3,7 @@
 
 namespace orthonav::fuzz {
 
-/// Lists of screw sizes: what is let through has no problem, and a size of each of its screws.
+/// Lists of screw sizes: an accepted list has no problem, and a size for each of its screws.
 void fuzz_sizes(std::span<const std::uint8_t> input) {
   const auto sizes = engine::parse_screw_sizes(text_of(input), "sizes");
   if (!sizes) {

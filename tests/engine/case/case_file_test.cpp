@@ -224,7 +224,7 @@ TEST_F(CaseFile, RefusesAPlanThatNamesTheOtherSide) {
                         "left of the bone's midline, must lie to the right"));
 }
 
-/// A laminar screw, or one beside the midline, has the side that it was given.
+/// A laminar screw, or one beside the midline, has the side stated in the plan.
 TEST_F(CaseFile, LeavesTheSideToThePlanWhereThePlaceDoesNotTell) {
   std::ignore =
       folder_.with("L4.plan.json", R"({"units": "mm", "frame": "LPS", "screws": [{"side": "right",
@@ -234,7 +234,7 @@ TEST_F(CaseFile, LeavesTheSideToThePlanWhereThePlaceDoesNotTell) {
   EXPECT_EQ(loaded->levels[0].screws[0].side, nav::Side::kRight);
 }
 
-/// One screw on the box of 80 x 60 x 40 mm: what `check` says of it.
+/// The answer of `check` for one screw on the box of 80 x 60 x 40 mm.
 std::string said_of(nav::Side side, Vec3 entry, Vec3 target, double radius = 0.003) {
   Case subject;
   subject.levels = {{"L4", box_mesh(), {{side, {entry}, {target}, radius}}, {}}};

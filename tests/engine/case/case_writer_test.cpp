@@ -19,7 +19,7 @@ using orthonav::test::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// A float has so many digits for some 60 mm.
+/// The precision of a float at some 60 mm.
 constexpr double kFloat_m = 1e-8;
 
 /// Two boxes, one above the other.

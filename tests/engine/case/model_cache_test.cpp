@@ -52,7 +52,7 @@ bool same(const VertebraModel& a, const VertebraModel& b) {
          a.search_field().cells().cost == b.search_field().cells().cost;
 }
 
-/// CRC-32 by its definition (ISO 3309), bit by bit: the file's must be that, whoever computes it.
+/// CRC-32 by its definition (ISO 3309), bit by bit, to compare with the file's.
 std::uint32_t crc32_by_hand(std::string_view bytes) {
   std::uint32_t crc = 0xffffffffu;
   for (const char c : bytes) {
@@ -64,7 +64,7 @@ std::uint32_t crc32_by_hand(std::string_view bytes) {
   return ~crc;
 }
 
-/// The same bytes with another number in the header and a checksum that is right again.
+/// The same bytes with another number in the header and a corrected checksum.
 template <class T>
 std::string with_number(std::string bytes, std::size_t at, T number) {
   std::memcpy(bytes.data() + at, &number, sizeof number);
@@ -82,8 +82,8 @@ class ModelFiles : public ::testing::Test {
   }
   static void TearDownTestSuite() { fresh_.reset(), bytes_.clear(); }
 
-  /// With `content` in the place of the file: the fresh model and a note that says `why`, and a
-  /// file that is right the next time.
+  /// With `content` in place of the file, expects a fresh model, a note that says `why`, and a
+  /// correct file the next time.
   void expect_made_anew(const std::string& content, const std::string& why) {
     SCOPED_TRACE(why);
     const TemporaryFolder folder;
@@ -194,7 +194,7 @@ TEST_F(ModelFiles, OfAnotherMeshUnderThisNameAreMadeAnew) {
   other.vertices_m[7].y += 0.0005;
   const auto parts = VertebraModel::prepare(other).value()->parts();
   expect_made_anew(encoded(MeshKey::of(other), parts), "another mesh");
-  // Were the checksums of both meshes the same, the samples would still tell.
+  // Even if the checksums of both meshes were equal, the samples would differ.
   expect_made_anew(encoded(MeshKey::of(bone_), parts), "does not fit its mesh");
 }
 
@@ -231,7 +231,7 @@ std::string damaged(std::string bytes, Random& random) {
   const auto any = [&](std::size_t below) {
     return static_cast<std::size_t>(random.uniform() * static_cast<double>(below));
   };
-  // Every other damage strikes the header, which would otherwise hardly ever be hit.
+  // Half of the damages are in the header, which would otherwise hardly ever be hit.
   const std::size_t at = random.uniform() < 0.5 ? any(80) : any(bytes.size());
   const std::size_t length = std::min(1 + any(200), bytes.size() - at);
   switch (any(7)) {
@@ -280,7 +280,7 @@ TEST_F(ModelFiles, DamagedInTwoThousandWaysGiveTheSamePartsOrNone) {
     }
     refused += parts.ok() ? 0 : 1;
   }
-  // Zeros where zeros were and the like leave the file whole.
+  // Some damages, such as zeros over zeros, leave the file unchanged.
   EXPECT_GT(refused, 1700);
 }
 
@@ -296,8 +296,8 @@ TEST_F(ModelFiles, DamagedOnDiskAreMadeAnew) {
   }
 }
 
-/// A checksum does not protect from a program that writes nonsense: parts of any numbers are
-/// refused or searched without harm.
+/// A checksum does not protect against a program that writes nonsense: parts with arbitrary numbers
+/// are refused or searched without harm.
 TEST_F(ModelFiles, WithWrongNumbersAndARightChecksumNeverCrash) {
   std::vector<Vec3> strokes;
   for (int i = 0; i < 200; ++i) {
@@ -343,9 +343,9 @@ TEST_F(ModelFiles, WithWrongNumbersAndARightChecksumNeverCrash) {
   EXPECT_GT(refused, 60) << "wrong counts and what is not finite";
 }
 
-/// What the preparation of a known bone gives, summed up. When this fails the same mesh is prepared
-/// otherwise than before: raise nav::kPreparationVersion, so that no file of earlier ones is taken,
-/// and put the new figures here.
+/// A summary of the prepared data of a known bone. When this fails, the same mesh is prepared
+/// differently than before: raise nav::kPreparationVersion, so that earlier files are not used, and
+/// put the new figures here.
 TEST(PreparationVersion, IsRaisedWithEveryChangeOfThePreparation) {
   const auto model = VertebraModel::prepare(phantom({"L4"}).levels.at(0).mesh).value();
   const PreparedParts parts = model->parts();
@@ -365,7 +365,8 @@ TEST(PreparationVersion, IsRaisedWithEveryChangeOfThePreparation) {
   EXPECT_EQ(parts.reachable.size(), 9675u);
   EXPECT_EQ(parts.closest_m.size(), 35588u);
   EXPECT_EQ(parts.distance_m.size(), 84952u);
-  // The same to the bit with every compiler so far; this much is left to libraries' sines.
+  // The same to the bit with every compiler so far; this tolerance allows for other libraries'
+  // sines.
   constexpr double kRelative = 1e-9;
   EXPECT_NEAR(faces, 79674415.0, kRelative * faces);
   EXPECT_NEAR(closest_m, 1696.4018681262553, kRelative * closest_m);

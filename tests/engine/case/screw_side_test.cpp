@@ -5,7 +5,7 @@
 #include "engine/case/plan_file.h"
 #include "tests/support/test_meshes.h"
 
-// On which side a planned screw is: the bone says it, a name only confirms it.
+// The side of a planned screw follows from the bone; a name only confirms it.
 namespace orthonav::engine::screw_side_test {
 namespace {
 
@@ -55,7 +55,7 @@ TEST(LineName, SaysASideInWholeWordsAlone) {
       {"R_1", "right"},
       {"rt", "right"},
       {"L4 rechts", "right"},
-      // Words that only hold one.
+      // Words that merely contain a side.
       {"leftover", ""},
       {"upright", ""},
       {"L4 cleft", ""},
@@ -172,7 +172,7 @@ TEST(ScrewSide, OfSeveralScrewsIsTakenOneByOne) {
             "L4.mrk.json: line \"L_1\" is the second one on the left, one is the limit");
 }
 
-/// Axes that are taken wrongly swap the sides too: nothing may be read from such a plan.
+/// Wrongly interpreted axes swap the sides too, so such a plan must be refused.
 TEST(ScrewSide, OfAPlanInOtherAxesIsRefused) {
   StatedScrew turned = screw("L", {20, 8});
   turned.entry.v.y *= -1;

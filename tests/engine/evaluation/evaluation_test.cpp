@@ -47,7 +47,7 @@ void expect_true(const test::TrueScrew& truth, const EvaluatedScrew& found) {
   EXPECT_LT(angle_between_rad(direction, axis.direction) * kDegreesPerRadian, kAxis_deg);
   EXPECT_NEAR(found.placed->depth_m,
               direction.norm() - (found.plan.target - found.plan.entry).norm(), 0.0006);
-  // As far off the plan as it truly is, by either definition of the entry.
+  // As far off the plan as in truth, by either definition of the entry.
   EXPECT_NEAR(
       found.placed->angle_rad * kDegreesPerRadian,
       angle_between_rad(direction, found.plan.target - found.plan.entry) * kDegreesPerRadian,
@@ -91,7 +91,7 @@ TEST(Evaluation, GradesByTheSurfaceOfTheScrewFromSixMillimetresOn) {
 }
 
 TEST(Evaluation, InventsNoScrewAndReportsWhatLiesElsewhere) {
-  // The left screw is not there; another one was driven askew through the body's side.
+  // The left screw is missing; another one was driven askew through the body's side.
   test::OperatedSpine spine = operated_l4().spine;
   const test::Motion& pose = spine.bones[0].scanner_from_model;
   const nav::ScrewPlan& left = operated_l4().subject.levels[0].screws[0];

@@ -11,7 +11,7 @@ namespace {
 /// A box of soft tissue with this metal in it, scanned.
 Volume scan_of(const std::vector<test::MetalPiece>& metal, double slice_m) {
   test::FineBody body;
-  nav::TriangleMesh box;  // bounds alone: nothing of it is bone
+  nav::TriangleMesh box;  // only for its bounds; none of it is bone
   box.vertices_m = {{-0.02, -0.035, -0.02}, {0.02, 0.035, 0.02}, {0.02, -0.035, 0.02}};
   test::BodySettings settings;
   settings.step_m = 0.0004;

@@ -22,8 +22,8 @@ constexpr Duration kFrame = std::chrono::milliseconds(33);
 
 Timestamp frame_time(int frame) { return Timestamp{} + frame * kFrame; }
 
-/// Two names side by side: the first one's stands on the right, towards the second entry, which
-/// can come so near that it is in the way.
+/// Two names side by side: the first one's stands on the right, towards the second entry, which can
+/// come so near that it gets in the way.
 OperatingField two_names(float apart_m) {
   OperatingField field;
   add_entry(field.scene, {{0, 0.045f, -0.05f}, {0, 1, 0}, "L4 left", false, LabelSide::kRight},
@@ -34,7 +34,7 @@ OperatingField two_names(float apart_m) {
   return field;
 }
 
-/// What became of a field's labels in one more frame.
+/// The places of a field's labels after one more frame.
 class Frames {
  public:
   std::vector<Standing> next(OperatingField field,
@@ -79,7 +79,7 @@ TEST(LabelLayout, CountsTheSecondAnewWhenTheRoomIsTakenAgain) {
   frames.next(kRoomy);
   const Standing aside = frames.next(kNarrow)[0];
   for (int i = 0; i < 200; ++i) {
-    // Now free, now taken: nobody could read a label that follows.
+    // The place is alternately free and taken; a label that followed would be unreadable.
     EXPECT_EQ(frames.next(i % 10 < 9 ? kRoomy : kNarrow)[0], aside) << i;
   }
 }
@@ -163,7 +163,7 @@ TEST(LabelLayout, IsTheSameEveryTime) {
   EXPECT_EQ(run(), run());
 }
 
-/// What changed place, label by label, over a run of frames.
+/// The changes of place, label by label, over a run of frames.
 class Changes {
  public:
   void note(const std::vector<Standing>& now, int frame) {
@@ -244,7 +244,8 @@ TEST_P(LabelsInMotion, ChangePlacesRarelyAndNeverBackWithinASecond) {
     for (const float way : {0.30f, -0.30f}) {
       const Changes changes = changes_over(
           {-0.5f * way, 0.5f * way, tremble * kTremble_m, tremble * kTremble_rad}, GetParam());
-      // Six levels have 15 to 16 labels; a way of 30 cm turns what is beside what by 37 degrees.
+      // Six levels have 15 to 16 labels; a path of 30 cm changes the viewing direction by 37
+      // degrees.
       EXPECT_LE(changes.count, 24);
       EXPECT_EQ(changes.reverted, 0);
     }

@@ -86,7 +86,7 @@ std::vector<HologramKind> drawn(const Guidance& guidance) {
   return ids;
 }
 
-/// The same of what the display is told.
+/// The same for the frame that the display is told.
 std::vector<HologramKind> told(const Guidance& guidance) {
   std::vector<HologramKind> ids{kStatus};
   for (const ShownHologram& h : shown(guidance).holograms) {
@@ -208,7 +208,7 @@ TEST_F(PlacedWireShown, IsHiddenWithTheReferenceAndGoneWithItsRegistration) {
 TEST(SceneBuilder, DrawsCheckPointsWhereTheyWereTouchedGreenOrRed) {
   ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
   s.registers_first_level();
-  // What was stroked there says where the bone is bare.
+  // Strokes there show that the bone is bare.
   EXPECT_EQ(touched(shown(s.pair())).size(), 0u) << "none yet";
   s.touches({0.0, 0.0204, 0.0});
   const Guidance& g = s.touches({0.02, 0.0231, 0.0});
@@ -236,7 +236,7 @@ TEST(SceneBuilder, DrawsCheckPointsWhereTheyWereTouchedGreenOrRed) {
   const auto open = static_cast<render::Label>(g.to_check.size());
   EXPECT_EQ(colour(1201 + open), look::kGreen);
   EXPECT_EQ(colour(1202 + open), look::kRed);
-  // They go with the surface that they checked.
+  // They disappear with the surface that they checked.
   EXPECT_THAT(drawn(s.says("reject")), ::testing::Not(::testing::Contains(kCheckPoint)));
 }
 
@@ -368,7 +368,7 @@ TEST_F(Guiding, TheCrossHasADotForTheTipAndOneForTheToolFartherUp) {
   EXPECT_NEAR((points[1] - points[0]).norm(), drawn_m, 1e-6);
   EXPECT_NEAR((points[2] - points[1]).norm(), 0.0, 1e-6) << "parallel";
   EXPECT_EQ(find(frame, kCross)->text, "");
-  // Turned about its tip: the tip's dot stays, the other goes.
+  // Turned about its tip: the tip's dot stays, the other moves.
   s.tracker().guide = guide_at(kLeftEntry + Vec3{0.002, 0.010, 0}, 0.02);
   const ShownFrame turned = shown(s.pairs(2));
   const auto& after = find(turned, kCross)->points_in_world;
@@ -437,7 +437,7 @@ TEST_F(Guiding, ALostToolHidesTheTriangleAndTheNumberSaysSo) {
 }
 
 TEST_F(Guiding, AFrameThatLightsUpTooLateShowsNoTriangle) {
-  // Fresh when it was computed; the display is what makes it old.
+  // Fresh when it was computed; the display's latency makes it old.
   s.latency = std::chrono::milliseconds(101);
   EXPECT_EQ(find(shown(s.pair()), kTriangle), nullptr);
   s.latency = std::chrono::milliseconds(99);

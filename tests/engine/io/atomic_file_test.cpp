@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Every, StagedFile, ::testing::Values(Staging::kNameless
                            return each.param == Staging::kNameless ? "Nameless" : "Beside";
                          });
 
-/// However a process ends, nothing that it had not finished lies about.
+/// However a process ends, it leaves no unfinished files.
 TEST(AtomicFile, HasNoNameBeforeTheCommit) {
   const TemporaryFolder folder;
   auto file = AtomicFile::create(folder.file("report.json"));
@@ -72,7 +72,7 @@ TEST(AtomicFile, IsVisibleWhereItHasANameBeforeTheCommit) {
   EXPECT_THAT(name, ::testing::EndsWith(".mp4"));
 }
 
-/// Its content before its name, and its name before the commit is said to be done.
+/// First its content is durable, then its name, and only then is the commit reported as done.
 TEST(AtomicFile, IsDurableInTheOrderThatACrashNeeds) {
   const TemporaryFolder folder;
   auto nameless = AtomicFile::create(folder.file("report.json"));

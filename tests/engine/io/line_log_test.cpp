@@ -131,7 +131,7 @@ TEST(LineLog, TellsOfTheLastSyncAndOfANameThatIsNotDurable) {
   }
 }
 
-/// A failing disk is no reason to have no journal, as long as it can be written.
+/// A failing sync must not prevent a journal that can still be written.
 TEST(LineLog, TellsAtItsEndThatItsNewNameIsNotDurable) {
   const TemporaryFolder folder;
   for (const char* earlier : {"", "cut off\n"}) {
@@ -161,7 +161,7 @@ TEST(LineLog, TakesNoNameWhoseEarlierOwnerIsNotDurableElsewhere) {
   EXPECT_EQ(content_of(folder.file("a.log.part")), "one\n");
 }
 
-/// A line that the disk had no room for is told of, and tears no other.
+/// A line for which the disk had no room is reported, and damages no other.
 TEST(LineLogDeathTest, KeepsWholeLinesOnAFullDisk) {
   const TemporaryFolder folder;
   const std::string path = folder.file("session.orthonav");

@@ -21,8 +21,8 @@ using orthonav::test::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 
-/// What the kernel is really asked for when a log is made durable, and in which order. What each of
-/// these calls is needed for, the tests of the double show (CrashOfALog).
+/// The calls to the kernel that make a log durable, and their order. The tests of the double show
+/// why each is needed (CrashOfALog).
 class PosixLog : public ::testing::Test {
  protected:
   std::unique_ptr<RecordLog> created(RecordLog::Earlier earlier = RecordLog::Earlier::kKept) {

@@ -20,7 +20,7 @@ using orthonav::test::records_left;
 using orthonav::test::tell;
 using ::testing::HasSubstr;
 
-/// Of a log that is there, another process goes on with.
+/// If there is a log, another process continues it.
 void expect_goes_on(const Files& files) {
   MemoryEnv env(files);
   auto again = RecordLog::reopen(env, kToldLog);
@@ -90,7 +90,7 @@ TEST(CrashOfALog, NeverLosesTheOperationBefore) {
   }
 }
 
-/// `demo` keeps no earlier log: one of the two is there whenever power is lost, and whole.
+/// `demo` keeps no earlier log: whenever power is lost, one of the two exists and is complete.
 TEST(CrashOfALog, ThatReplacesAnEarlierOneLeavesTheOneOrTheOther) {
   MemoryEnv first;
   const std::vector<std::string> earlier = {"earlier", std::string(700, 's'), "screw"};
@@ -125,7 +125,7 @@ TEST(CrashOfALog, ThatReplacesAnEarlierOneLeavesTheOneOrTheOther) {
   EXPECT_GT(replaced, 10u);
 }
 
-/// What was behind the last whole record is there still, or beside.
+/// Whether the bytes after the last whole record are still there, or in the file beside the log.
 bool keeps(const Files& files, const std::string& torn) {
   const auto ends = [&](const std::string& name) {
     const auto file = files.find(name);

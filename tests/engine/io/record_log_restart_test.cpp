@@ -1,5 +1,5 @@
-// A process dies, another goes on with its log, and then power is lost: what the first had written
-// but not made durable is still on its way to the disk by then.
+// A process dies, another continues its log, and then power is lost while data that the first had
+// written but not made durable are still on their way to the disk.
 #include <gtest/gtest.h>
 
 #include "tests/support/told_log.h"
@@ -26,7 +26,8 @@ struct Tried {
   std::size_t lost = 0;
 };
 
-/// After the log said how much of it there is: all of that survives, and what was torn lies beside.
+/// After the log reported its size, all of that survives, and the torn end is kept in a file beside
+/// it.
 void expect_left(const Files& files, const std::string& path, std::size_t records,
                  const std::string& torn, Tried& tried) {
   MemoryEnv disk(files);
@@ -91,7 +92,8 @@ TEST(RestartOfALog, LosesNothingThatWasReadWhenPowerIsLostAfterAKill) {
   EXPECT_GT(tried.disks, 500);
 }
 
-/// What lay torn on the disk is there at every moment of going on: behind the log, or beside it.
+/// The torn end exists at every moment of resuming: at the end of the log, or in the file beside
+/// it.
 TEST(RestartOfALog, KeepsATornEndWheneverPowerIsLost) {
   MemoryEnv first;
   const std::vector<std::string> payloads = {"begin", std::string(700, 'a')};

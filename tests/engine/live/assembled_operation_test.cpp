@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Whose tracker sees nothing and keeps what it was asked for.
+/// A method whose tracker sees nothing and keeps its options.
 Method blind(nav::TrackerOptions& asked) {
   Method method;
   method.name = "blind";
@@ -135,7 +135,7 @@ TEST_F(AssembledOperationTest, SaysWhyThereIsNoTracker) {
   EXPECT_EQ(refused.error().message, "no tools");
 }
 
-/// Tells of its tools what it was given.
+/// Describes the tools that it was given.
 class TalkativeHeadset : public fake::FakeHeadset {
  public:
   explicit TalkativeHeadset(DescribedTools tools)
@@ -169,7 +169,7 @@ TEST(ToolsKnownTo, AHeadsetAreTheValuesThatItTells) {
   EXPECT_EQ(tool.axis_in_marker.v, (Vec3{0.0, 0.0, 1.0}));
 }
 
-/// Measures a pointer itself, and says nothing of it.
+/// Measures a pointer itself, without describing it.
 class MeasuringHeadset : public fake::FakeHeadset, private StereoCamera {
  public:
   MeasuringHeadset() : FakeHeadset(test::pairs(1)) {}

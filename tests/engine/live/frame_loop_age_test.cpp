@@ -163,7 +163,7 @@ TEST_F(GuidingLoop, HidesWhatGrewTooOldWhileItWasTracked) {
   }
 }
 
-/// Keeps of which pair the tool guidance was that it was given to draw.
+/// Keeps the pairs of the tool guidance that it was given to draw.
 class PairsOfGuidance : public SnapshotSink {
  public:
   Status draw(const Snapshot& snapshot) override {

@@ -42,7 +42,7 @@ class CountingSink : public SnapshotSink {
   }
   std::vector<std::int64_t> frames;
   std::int64_t fail_at = -1;
-  /// Draws nothing before so many frames were shown.
+  /// Draws nothing before this many frames were shown.
   fake::RememberingDisplay* display = nullptr;
   std::size_t wait_for_shown = 0;
 };

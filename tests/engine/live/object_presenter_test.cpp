@@ -11,7 +11,7 @@ namespace {
 using std::chrono::milliseconds;
 using test::SceneLink;
 
-/// The head as it is said to be.
+/// A head whose pose is set by the test.
 class SaidHead : public HeadTracker {
  public:
   std::optional<Transform<World, Rig>> pose = Transform<World, Rig>{};
@@ -25,7 +25,7 @@ class SaidHead : public HeadTracker {
   }
 };
 
-/// What is shown goes to a client of the headset's scene.
+/// Passes the objects to a client of the headset's scene.
 class LinkedDisplay : public ObjectDisplay {
  public:
   void show(const ObjectList& list) override {
@@ -83,7 +83,7 @@ TEST_F(PresentedObjects, CostLittleWhileNothingMoves) {
   present(30);
   const std::size_t before = display.link.sent_bytes;
   present(30);
-  // What hangs on the tool is shown and hidden again with each pair; nothing else is sent.
+  // Objects attached to the tool are shown and hidden again with each pair; nothing else is sent.
   std::size_t of_tool = 0;
   for (const DisplayObject& object : display.newest.objects) {
     of_tool += object.follows_tool ? 1 : 0;

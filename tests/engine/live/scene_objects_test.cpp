@@ -133,7 +133,7 @@ TEST_F(GuidedObjects, ThatAreTextsFaceTheHeadUpright) {
       continue;
     }
     ++in_world;
-    // They stand a little aside of what they name, which is what faces the head.
+    // They are a little beside the named object, which itself faces the head.
     EXPECT_GT(axis_of(text, {0, 0, 1}).dot((eye - text.position_m).normalized()), 0.97);
     EXPECT_GT(axis_of(text, {0, 1, 0}).dot({head.up.x, head.up.y, head.up.z}), 0.9);
     EXPECT_GT(text.cap_height_m, 0.002);

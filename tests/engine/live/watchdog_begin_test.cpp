@@ -1,4 +1,4 @@
-// What hangs before anything was shown, and what hangs beside the frame loop.
+// Parts that hang before anything was shown, and parts that hang beside the frame loop.
 #include <gmock/gmock.h>
 
 #include "engine/session/coach.h"
@@ -12,7 +12,7 @@ using test::pairs;
 using test::wait_until;
 using ::testing::ElementsAre;
 
-/// Hears which parts were named.
+/// Records which parts were named.
 class Told : public LoopObserver {
  public:
   void part_stalled(Part part) override {

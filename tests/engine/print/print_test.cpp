@@ -21,8 +21,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 constexpr double kPxPerMm = 10.0;
-// A tag is of use when it lies and measures what its text says; the detector itself is good to
-// some hundredths of these pixels.
+// A tag is usable if its place and size are as its text says; the detector itself is exact to some
+// hundredths of these pixels.
 constexpr double kPlaceToleranceMm = 0.1;
 // A ruler's tick is 1.5 pixels wide: its centre of mass is exact but for the grey levels.
 constexpr double kRulerToleranceMm = 0.02;
@@ -432,7 +432,7 @@ TEST(PrintedBoard, HasBordersOfTwoCellsOnAnAprilGrid) {
   const GreyImage image = drawn(sheet->sheet);
   expect_every_tag_in_place(detected_with_wide_borders(image), board, *sheet);
   expect_every_tag_in_place(detected(image, "tag36h11b2"), board, *sheet);
-  // The other way round: each border is read as what it is.
+  // The other way round: each border is read correctly.
   EXPECT_THAT(detected(image, "tag36h11"), IsEmpty());
   const auto plain = board_sheet(board_of(BoardKind::kTags), a4());
   ASSERT_TRUE(plain);

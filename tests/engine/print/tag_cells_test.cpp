@@ -7,7 +7,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// Whether what is printed is what is tracked, cell by cell.
+/// Expects the printed tag to equal the tracked one, cell by cell.
 void expect_alike(const TagCells& printed, const nav::TagTemplate& tracked) {
   ASSERT_EQ(printed.cells, tracked.cells);
   EXPECT_EQ(printed.border_cells, tracked.border_cells);

@@ -78,7 +78,7 @@ TEST(ClearanceReport, SaysWhereABoundLacksWhatAllStrokesShare) {
   result.levels[0].registration_only = true;
   const std::string html = clearance_section(nlohmann::json::parse(report_json(result)));
   EXPECT_THAT(html, HasSubstr("\u22120.20 <small>registration only</small></td>"));
-  // What has no bound has nothing beside it.
+  // A figure without a bound has no remark beside it.
   EXPECT_THAT(html, Not(HasSubstr("\u2013 <small>registration only")));
 }
 

@@ -178,7 +178,7 @@ TEST(ReportHtml, SaysWhatWasAnInputAndHowManyWereMeasured) {
   EXPECT_THAT(html, HasSubstr(">2 screws</td>"));
   EXPECT_THAT(html, HasSubstr(">1 level</td>"));
   EXPECT_THAT(html, HasSubstr(">an input: how the scripted surgeon strokes</td>"));
-  // A real headset has no seed, and nobody put in how its surgeon strokes.
+  // A real headset has no seed, and its surgeon's strokes are not an input.
   EXPECT_THAT(report_html({.report_json = R"({"levels":[{"label":"L4","points":9}]})"}).value(),
               Not(HasSubstr("an input")));
 }

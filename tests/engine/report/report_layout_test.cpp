@@ -13,7 +13,7 @@
 namespace orthonav::engine::report_layout_test {
 namespace {
 
-/// A page of everything, its texts as long as they come.
+/// A page with everything, with the longest texts.
 ReportContent full_content() {
   nlohmann::json screw = nlohmann::json::parse(R"({"side":"right","done":true,
     "angle_error_deg":7.5,"entry_error_mm":2.5,"clearance_mm":-1.25,"grade":"B","arc_mm":18.0,
@@ -87,7 +87,8 @@ TEST(ReportLayout, FitsAPhone) {
       << "a page that does not fit is seen";
 }
 
-/// Every table of both pages: a row that is no card runs off the screen or needs a second finger.
+/// Every table of both pages: a row that is not a card would run off the screen or have to be
+/// zoomed.
 TEST(ReportLayout, HasNoTableThatAPhoneHasToScroll) {
   if (!test::has_browser()) {
     GTEST_SKIP() << test::kNoBrowser;

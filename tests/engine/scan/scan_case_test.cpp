@@ -200,7 +200,7 @@ TEST(ScanCase, RefusesLabelsBesideTheBoneOfTheScan) {
 }
 
 TEST(ScanCase, JudgesTheVertebraeAloneWhereAMapHoldsMore) {
-  // All that is no vertebra is lung.
+  // Everything except vertebrae is lung.
   Volume labels = verse_spine();
   for (float& v : labels.values) {
     v = v > 0.0F ? v : 60.0F;

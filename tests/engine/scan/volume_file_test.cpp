@@ -136,7 +136,7 @@ TEST_F(SharedScan, RefusesASeriesWithAMissingSlice) {
 }
 
 TEST_F(SharedScan, RefusesAMapThatIsCutOff) {
-  // The reader itself takes the missing voxels for zeros: half a vertebra would look whole.
+  // The reader itself would take missing voxels as zeros, so half a vertebra would look whole.
   const TemporaryFolder folder;
   const std::string whole = test::content_of(folder_ / "labels.nii.gz");
   for (const std::size_t bytes : {whole.size() / 2, whole.size() - 4}) {

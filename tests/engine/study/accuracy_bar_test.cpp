@@ -13,15 +13,17 @@
 namespace orthonav::engine {
 namespace {
 
-// The table of README.md ("`best` beside `paper`" in docs/accuracy.md), at reduced n: whoever
-// changes what these 16 operations give beyond chance has to measure the table anew.
+// The table of README.md ("`best` beside `paper`" in docs/accuracy.md), at reduced n: a change that
+// moves the results of these 16 operations by more than chance requires the table to be measured
+// again.
 
-/// Of each method, seeds from 1, on L5 of the phantom: one of the ten bones behind the table, for
-/// half of the time that two levels take. Bones differ, so its means may lie off to one side.
+/// Operations of each method, seeds from 1, on L5 of the phantom: one of the ten bones behind the
+/// table, for half of the time that two levels take. Bones differ, so its means may lie off to one
+/// side.
 constexpr int kOperations = 8;
-/// Of each method behind the table.
+/// Operations of each method behind the table.
 constexpr double kOperationsOfTable = 100.0;
-/// An operation without any screw tells nothing; so many must tell something.
+/// An operation without any screw gives no figures; this many must give some.
 constexpr std::size_t kFewestOperations = 3;
 
 struct TableRow {
@@ -48,13 +50,13 @@ struct TableDifference {
 constexpr std::array<TableDifference, 4> kDifferences = {
     {{-0.18, 0.28}, {-0.64, 0.32}, {-1.91, 0.22}, {-0.18, 0.04}}};
 
-/// Two standard errors to either side hold 95 % of what chance gives.
+/// Two standard errors to either side hold 95 % of random results.
 constexpr double kStandardErrors = 2.0;
 
-/// The bar of a mean over n operations. The screws of an operation share a part of their errors
-/// that the table does not tell; if they shared all of it, n operations would say no more than n
-/// screws, so SD / sqrt(n) is the most that the standard error can be. That of the table's own mean
-/// adds to it. For the angle of `paper`: 2 * 1.81 * sqrt(1/8 + 1/100) = 1.33 degrees.
+/// The bar of a mean over n operations. The screws of an operation share a part of their errors,
+/// which the table does not state; if they shared all of it, n operations would count only as n
+/// screws, so SD / sqrt(n) is the largest possible standard error. That of the table's own mean is
+/// added. For the angle of `paper`: 2 * 1.81 * sqrt(1/8 + 1/100) = 1.33 degrees.
 double bar_of(double sd, std::size_t operations) {
   return kStandardErrors * sd *
          std::sqrt(1.0 / static_cast<double>(operations) + 1.0 / kOperationsOfTable);
@@ -105,7 +107,7 @@ class AccuracyBar : public ::testing::Test {
   }
 };
 
-/// Every row whose mean lies out of its bar, a line each; empty when all is well.
+/// Every row whose mean lies outside its bar, one line each; empty if there is none.
 std::string out_of_bars(const nlohmann::json& study, const std::array<TableRow, 4>& rows) {
   std::string out;
   for (const TableRow& row : rows) {
@@ -144,7 +146,7 @@ TEST_F(AccuracyBar, TheMeansAreThoseOfTheReadme) {
   EXPECT_EQ(out_of_bars(nlohmann::json::parse(best(), nullptr, false), kBestRows), "");
 }
 
-// So few operations can't show it in every row: the bars of angle and entry are as wide as that.
+// So few operations can't show it in every row: the bars of angle and entry are too wide.
 TEST_F(AccuracyBar, DoubledErrorsFail) {
   const auto of_paper = doubled(nlohmann::json::parse(paper(), nullptr, false));
   EXPECT_NE(out_of_bars(of_paper, kPaperRows), "");

@@ -1,4 +1,4 @@
-// The covariance of a tool in World knows of the head's own error, where the device states it.
+// The covariance of a tool in World includes the head's own error if the device states it.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -14,8 +14,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 constexpr int kPairs = 300;
 
 /// Mean over pairs of the squared error of the tag's place over its covariance, by its three
-/// degrees of freedom: 1 where the covariance is honest. What a tracker believes of a tag's
-/// rotation, beside which the head's is small, is tested where it comes from.
+/// degrees of freedom: 1 where the covariance is honest. The tracker's covariance of a tag's
+/// rotation, compared with which the head's is small, is tested elsewhere.
 double normalised(const std::string& method, double lasting, bool stated) {
   auto room = hovering_room(lasting);
   auto tracker =

@@ -86,7 +86,7 @@ OperationOptions modelled() {
   return options;
 }
 
-/// The mean over the screws of what the guide was off across the plan; each has a figure.
+/// The mean over the screws of the guide's error across the plan; each screw has a figure.
 double mean_across_m(const OperationOptions& options) {
   const Case spine = phantom({"L5"});
   const auto result = run_operation(spine, options);
@@ -105,11 +105,11 @@ TEST(GuidedError, IsThatOfTheNavigationAlone) {
   OperationOptions options = modelled();
   const double nothing_m = mean_across_m(options);
   EXPECT_LT(nothing_m, 0.0006);
-  // The surgeon's hand and the wire have no part in it.
+  // The surgeon's hand and the wire do not affect it.
   options.sim.error_model.wire_skiving_m = 0.004;
   options.sim.error_model.wire_bending_rad = 0.05;
   EXPECT_LT(mean_across_m(options), nothing_m + 0.0003);
-  // What the tool's description gets wrong has.
+  // Errors of the tool's description do.
   options = modelled();
   options.session.steps.tips = false;
   options.sim.error_model.tip_calibration_m = 0.003;

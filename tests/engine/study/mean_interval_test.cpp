@@ -8,7 +8,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// What the series of Abramowitz & Stegun leaves out, at three degrees of freedom the most.
+/// The truncation error of the series of Abramowitz & Stegun, largest at three degrees of freedom.
 constexpr double kSeriesError = 0.03;
 
 TEST(MeanInterval, KnowsTheTableOfStudentsT) {

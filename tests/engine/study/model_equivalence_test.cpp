@@ -1,5 +1,5 @@
-// The measurement model against pixels, at the n that continuous integration can pay: tools that
-// hover, pair by pair, in the same rooms. docs/cohorts.md has whole operations.
+// The measurement model against pixels, with as few operations as continuous integration can
+// afford: tools that hover, pair by pair, in the same rooms. docs/cohorts.md has whole operations.
 #include <gtest/gtest.h>
 
 #include <string>

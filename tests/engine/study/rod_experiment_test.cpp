@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// Nobody errs and every step takes its mean.
+/// No errors, and every step takes its mean time.
 RodExperimentOptions flawless_bending() {
   RodExperimentOptions o;
   o.head_pick_m = o.navigation_m = o.perception_m = o.length_reading_m = 0.0;
@@ -111,7 +111,7 @@ TEST(RodExperiment, TemplateGivesTheRightLengthMoreOftenAndABetterFirstTry) {
   EXPECT_LT(experiment.first_try_m.high, 0.0);
   EXPECT_LT(experiment.right_length.low, experiment.right_length.mean);
   EXPECT_LT(experiment.right_length.mean, experiment.right_length.high);
-  // With the length by eye as good as a ruler the interval finds nothing of the kind.
+  // If the length by eye is as good as with a ruler, the interval shows no such difference.
   RodExperimentOptions ruler;
   ruler.rods = 300;
   ruler.eye_length_sd = 0.005;
@@ -131,14 +131,15 @@ TEST(RodExperiment, HasAnIntervalFromThreeRodsOn) {
   EXPECT_FALSE(std::isnan(rods_bent(3, 1).time_s.low));
 }
 
-/// Nobody errs in following instructions either.
+/// No errors in following instructions either.
 RodExperimentOptions flawless_following() {
   RodExperimentOptions o = flawless_bending();
   o.spring_back_error = o.bender_setting_rad = o.roll_setting_rad = o.stroke_noise_m = 0.0;
   return o;
 }
 
-/// What the instructions promise at a seat, and the sagitta of the chords that arcs are drawn by.
+/// The tolerance of the instructions at a seat, plus the sagitta of the chords that approximate
+/// arcs.
 constexpr double kPromised_m = 0.3e-3 + 0.03e-3;
 
 TEST(InstructedRods, ReachEveryHeadWithoutFlawsInTheTimeOfTheirSteps) {

@@ -189,7 +189,7 @@ TEST_F(StudyStoreTest, ADatabaseThatIsDamagedIsNamedInOneLine) {
   EXPECT_THAT(joined.error().message, Not(HasSubstr("\n")));
 }
 
-/// So few files may be open while it lives.
+/// While it exists, only this many files may be open.
 class FewOpenFiles {
  public:
   explicit FewOpenFiles(rlim_t most) {
@@ -225,7 +225,7 @@ TEST_F(StudyStoreTest, JoinsMoreFilesThanMayBeOpen) {
   EXPECT_THAT(*missing, SizeIs(0));
 }
 
-/// No file may grow beyond this while it lives, as on a full disk.
+/// While it exists, no file may grow beyond this size, as on a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : before_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -60,7 +60,7 @@ TEST(SystemProfile, ExposesTheLaminaeUnlessItSaysMore) {
   EXPECT_EQ(options.exposure, sim::Exposure::kTransverseProcesses);
 }
 
-// The preview would show another operation than the study made.
+// Otherwise the preview would show a different operation from the study's.
 TEST(SystemProfile, IsPreviewedWhereThePreviewShowsAllOfIt) {
   const auto shown = [](const char* key, const json& value) {
     json system = system_json();

@@ -20,7 +20,7 @@ TEST(StudentP, IsThatOfTheTables) {
 TEST(WelchP, WeighsBothErrorsAndTheirDegreesOfFreedom) {
   // Two samples of ten with the same SD: the t test of 18 degrees of freedom.
   EXPECT_NEAR(welch_p({2.101 * std::sqrt(2.0), 1.0, 9.0}, {0.0, 1.0, 9.0}), 0.05, 1e-4);
-  // One that is exact leaves the other's.
+  // An exact sample leaves the other's standard error.
   EXPECT_NEAR(welch_p({2.262, 1.0, 9.0}, {0.0, 0.0, 1e9}), 0.05, 1e-4);
   EXPECT_EQ(welch_p({1.0, 0.0, 9.0}, {1.0, 0.0, 9.0}), 1.0);
   EXPECT_EQ(welch_p({1.0, 0.0, 9.0}, {2.0, 0.0, 9.0}), 0.0);
