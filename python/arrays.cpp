@@ -8,7 +8,7 @@
 namespace orthonav::python {
 namespace {
 
-/// Nothing that is navigated lies farther off; past it squares of lengths lose their meaning.
+/// Nothing that is navigated is farther away; beyond it squares of lengths become meaningless.
 constexpr double kFarthest_m = 1e4;
 
 std::string text_of(const py::object& value) { return py::str(value).cast<std::string>(); }

@@ -13,8 +13,8 @@
 #include "base/transform.h"
 #include "nav/geometry/mesh.h"
 
-// What comes from Python and goes back to it. Everything is copied: no array shares memory with the
-// engine. What can't be used is refused by the name of the argument, value and limit.
+// Conversion of values from and to Python. Everything is copied: no array shares memory with the
+// engine. Unusable arguments are refused with name, value and limit.
 namespace orthonav::python {
 
 namespace py = pybind11;
@@ -24,7 +24,7 @@ struct Refused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The value, or the reason why there is none as orthonav.Error.
+/// The value, or orthonav.Error with the reason why there is none.
 template <class T>
 T value_of(Result<T> result) {
   if (!result) {
@@ -44,7 +44,7 @@ enum class Nan { kRefused, kMeansNothing };
 [[nodiscard]] double number_from(double value, const std::string& name);
 [[nodiscard]] Vec3 vec3_from(const py::object& value, const std::string& name);
 [[nodiscard]] std::vector<Vec3> vec3s_from(const py::object& value, const std::string& name);
-/// Whole numbers that are indices of corners.
+/// Whole numbers: indices of vertices.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_from(const py::object& value,
                                                                        const std::string& name);
 /// uint8, rows by columns.

@@ -10,14 +10,14 @@
 namespace orthonav::python {
 namespace {
 
-/// A tool against a screw, as the session has it.
+/// A tool against a screw, as in the session.
 struct GuidedTool {
   nav::ScrewGuidance against_plan;
   std::optional<nav::AnatomicalDeviation> deviation;
   std::optional<nav::ScrewClearance> clearance;
 };
 
-/// A registration, or the pose that stands for one without any uncertainty.
+/// A registration, or a pose that stands for one without uncertainty.
 nav::Registration registration_from(const py::object& registration) {
   if (py::isinstance<RegisteredBone>(registration)) {
     const auto& bone = registration.cast<const RegisteredBone&>();
@@ -59,11 +59,11 @@ GuidedTool guide(const Model& model, const nav::ScrewPlan& screw, const py::obje
           engine::Guiding().clearance_along(level, measured, tool)};
 }
 
-/// Members of what the session has, as properties.
+/// Members of the session's value, as properties.
 auto against_plan(double nav::ScrewGuidance::*member) {
   return [member](const GuidedTool& g) { return g.against_plan.*member; };
 }
-/// (value, SD), the SD infinite where nobody knows it.
+/// (value, SD), the SD infinite if unknown.
 auto deviation(nav::NumberWithSd nav::AnatomicalDeviation::*member) {
   return [member](const GuidedTool& g) {
     return g.deviation ? std::optional(std::pair((g.deviation.value().*member).value,

@@ -12,7 +12,7 @@
 namespace orthonav::python {
 namespace {
 
-/// Nanoseconds hold no more.
+/// The largest time that nanoseconds can hold.
 constexpr double kLongest_s = 9e9;
 
 CameraModel camera_from_lookup(const py::object& unit_plane) {
@@ -32,8 +32,8 @@ StereoCalibration rig_from(const CameraModel& left, const CameraModel& right,
           transform_from<RightCamera, Rig>(right_from_rig, "right_from_rig")};
 }
 
-/// Pairs as Python gives them. They pass the contract of every device, so that a tracker gets none
-/// that it does not expect.
+/// Pairs as Python gives them. They pass the contract of all devices, so that a tracker gets only
+/// pairs that it expects.
 class GivenPairs : public StereoCamera {
  public:
   explicit GivenPairs(StereoCalibration rig) : rig_(std::move(rig)) {}
@@ -105,7 +105,7 @@ class Recording {
   std::unique_ptr<replay::ReplayHeadset> headset_;
 };
 
-/// None where the tool is lost: what it was is not what it is.
+/// None if the tool is lost, since its last pose is not its present one.
 template <class Read>
 auto unless_lost(Read read) {
   return [read](const TrackedTool& tool) -> py::object {

@@ -8,7 +8,7 @@
 #include "nav/registration/registration.h"
 #include "nav/tracking/tool_tracker.h"
 
-// What one part of the module makes and another one takes.
+// Values that one part of the module creates and another uses.
 namespace orthonav::python {
 
 /// A prepared vertebra.
@@ -29,7 +29,7 @@ struct TrackedTool {
   [[nodiscard]] bool lost() const { return pose().status == PoseStatus::kLost; }
 };
 
-/// Refuses a screw that is not of this bone.
+/// Refuses a screw that does not belong to this bone.
 void check_screw(const nav::VertebraModel& model, const nav::ScrewPlan& screw);
 
 }  // namespace orthonav::python

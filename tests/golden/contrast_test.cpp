@@ -189,12 +189,12 @@ double bright_luminance(const RgbaImage& image, const std::vector<std::size_t>& 
 
 double ratio(double text, double behind) { return (text + 0.05) / (behind + 0.05); }
 
-/// How a text stands out: in a picture, or to the eye behind the combiner.
+/// The contrast of a text: in a picture, or to the eye behind the combiner.
 struct Contrasts {
   Painter additive{render::Blend::kAdditive};
   Painter over{render::Blend::kOver};
 
-  /// The least of headset, film and preview.
+  /// The lowest contrast of headset, film and preview.
   double least(const render::Scene& scene, const Background& behind) {
     const RgbaImage light = additive.draw(scene, nullptr);
     const Ink ink = ink_of(light);

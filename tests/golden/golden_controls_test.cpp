@@ -10,7 +10,7 @@ namespace {
 
 using render::Label;
 
-/// How many of the spoilt pictures the comparison noticed, of how many.
+/// How many of the spoilt pictures the comparison noticed, and how many there were.
 struct Caught {
   int all = 0;
   int noticed = 0;

@@ -22,7 +22,7 @@ constexpr double kCentreTolerance_px = 0.5;
 // from the last centre that it covers.
 constexpr double kEdgeTolerance_px = 0.9;
 
-// Far enough that no hologram still covers its points.
+// Far enough that no hologram covers its points any more.
 constexpr PixelStep kAstray = {60, 60};
 
 TEST_P(Golden, LooksAsApproved) {

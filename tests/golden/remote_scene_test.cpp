@@ -35,8 +35,8 @@ constexpr double kOff_px = 1.5;
 /// While the head goes around the site at arm's length by 30 degrees a second.
 constexpr double kLag_px = 4;
 
-/// What the headset shows of a list once all of it was said: the client and the stand-in's scene,
-/// back to back.
+/// What the headset shows of a list once all of it was sent: the client and the stand-in's scene,
+/// connected directly.
 hl2ss::UnityObjects told(const ObjectList& list) {
   hl2ss::SceneClient client;
   hl2ss::UnityScene scene;
@@ -63,8 +63,8 @@ hl2ss::UnityObjects told(const ObjectList& list) {
   return scene.objects();
 }
 
-/// Without what is shown in another way on purpose, or not at all: characters that a headset's font
-/// lacks, rims, halos, a text of two colours, the triangle's fill.
+/// Without the parts that are deliberately shown differently or not at all: characters that a
+/// headset's font lacks, rims, halos, a text of two colours, the triangle's fill.
 GoldenScene as_shown(GoldenScene golden) {
   for (render::TextItem& text : golden.scene.texts) {
     text.rim.a = 0;
@@ -81,7 +81,7 @@ GoldenScene as_shown(GoldenScene golden) {
   return golden;
 }
 
-/// What a hologram consists of, each by itself: light of different parts is not compared.
+/// The parts of a hologram, each separately, since light of different parts is not compared.
 enum class Part { kTexts, kLines, kSurfaces };
 
 render::Scene part_of(render::Scene scene, Part part) {
@@ -145,7 +145,7 @@ class RemoteScene : public ::testing::Test {
     return render::PixelPoint{static_cast<float>(extent->centre_x_px),
                               static_cast<float>(extent->centre_y_px), 0};
   }
-  /// Strokes of glyphs are thinner than a pixel: which pixels' centres they cover is chance.
+  /// Strokes of glyphs are thinner than a pixel, so it is random which pixel centres they cover.
   std::optional<render::PixelPoint> centroid_of_light(const render::Scene& scene) {
     EXPECT_TRUE(test::is_ok(renderer_->draw(scene, views_, {}, images_)));
     double sum = 0;
@@ -162,8 +162,8 @@ class RemoteScene : public ::testing::Test {
     }
     return render::PixelPoint{static_cast<float>(x / sum), static_cast<float>(y / sum), 0};
   }
-  /// How far the centroid of a scene is off on the headset, in its pixels; absent where nothing of
-  /// it is to be seen. It was told for a head that has turned since.
+  /// How far the centroid of a scene is off on the headset, in its pixels; absent if nothing of it
+  /// is visible. It was sent for a head that has turned since.
   std::optional<double> off_px(const render::Scene& scene, const render::View& view,
                                double turned_rad = 0, Vec3 aside_m = {}) {
     views_ = {view};
@@ -229,7 +229,7 @@ TEST_F(RemoteScene, HologramsLieWhereTheLocalPictureHasThem) {
 }
 
 TEST_F(RemoteScene, HologramsLagLittleWhileTheHeadGoesAround) {
-  // 30 degrees a second, and what is shown is of 87 ms ago: it turns to where the eyes were.
+  // 30 degrees a second, and the shown scene is 87 ms old: texts face where the eyes were.
   const PartsOff off = compare(std::array<std::string_view, 1>{"guidance"}, 0.0456, kLag_px);
   EXPECT_GT(off.parts, 10);
   RecordProperty("worst_px", std::to_string(off.worst_px));

@@ -58,7 +58,7 @@ RegistrationRefused refused_for_everything() {
   return refused;
 }
 
-/// The longest of every kind.
+/// The longest message of every kind.
 std::vector<Message> messages() {
   using What = TouchNotRecorded::What;
   using Advice = nav::CheckAdvice::Kind;
@@ -94,7 +94,7 @@ std::vector<Message> messages() {
       Message(Ended{})};
 }
 
-/// Beyond both limits, by so little that it takes decimals to tell.
+/// Beyond both limits by so little that only decimals show it.
 const PlacedWire& far_off() {
   static const PlacedWire kWire = [] {
     PlacedWire wire;
@@ -242,7 +242,7 @@ TEST(StatusLineOnDisplays, ShowsTheLongestMessageOfEveryKindWhole) {
 }
 
 TEST(StatusLineOnDisplays, IsCutWhereNothingShortensIt) {
-  // The rule's must-fail twin: the whole text on one row.
+  // The control that must fail: the whole text on one row.
   const ShownOn display = displays()[1];
   const Message message = refused_for_everything();
   StatusLine line;

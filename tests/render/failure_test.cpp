@@ -7,7 +7,7 @@
 namespace orthonav::render {
 namespace {
 
-/// What a renderer's public call makes of what is thrown beneath it.
+/// How a renderer's public call handles exceptions thrown beneath it.
 template <class Thrown>
 Error caught(const Thrown& thrown) {
   try {

@@ -1,4 +1,4 @@
-// Operation after operation in one process, in bad weather (docs/watchdogs.md, tools/soak).
+// Operation after operation in one process, under injected faults (docs/watchdogs.md, tools/soak).
 
 #include <unistd.h>
 
@@ -28,7 +28,7 @@ struct Arguments {
   std::string csv;
 };
 
-/// At least so many operations, however slow the machine: fewer tell nothing of growth.
+/// At least this many operations, however slow the machine, since fewer do not show growth.
 bool enough(const Arguments& asked, const SoakTotals& totals, const Stopwatch& watch) {
   return totals.operations() >= std::max(asked.operations, 2 * kWarmUp) &&
          totals.simulated_s() >= asked.hours * 3600.0 && watch.elapsed_ms() >= asked.minutes * 60e3;

@@ -20,7 +20,7 @@ using engine::OperationLog;
 using engine::RecordLog;
 using engine::RecordWriter;
 
-/// For one attempt: a simulated surgeon who gets nowhere would go on for ever.
+/// Limit for one attempt: a simulated surgeon who makes no progress would continue for ever.
 constexpr Duration kLongest = std::chrono::minutes(45);
 constexpr int kMostResumes = 4;
 
@@ -213,11 +213,11 @@ class Attempt {
     row_.recorded = row_.recorded || found.ok();
     compare(records, saved.ok());
   }
-  /// What this attempt told with what it added to the log.
+  /// Compares the events of this attempt with the records that it added to the log.
   void compare(std::span<const engine::Record> records, bool saved) {
     const auto added =
         kept_events(records.subspan(std::min<std::size_t>(records_before_, records.size())));
-    // What came after the disk failed may be gone, but nothing that "saved" was shown for.
+    // Events after the disk failed may be lost, but none for which "saved" was shown.
     const Differences must = differences(saved ? told_.all() : told_.shown_saved(), added);
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
       row_.lost[kind] += must.lost[kind];

@@ -27,7 +27,8 @@ void* operator new(std::size_t size) {
   throw std::bad_alloc();
 }
 void* operator new[](std::size_t size) { return operator new(size); }
-// std::stable_sort asks this way; what one pair of functions gives only that pair may take back.
+// std::stable_sort asks this way; memory from one pair of functions may be freed only by the same
+// pair.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
 void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
 void operator delete(void* memory) noexcept { std::free(memory); }

@@ -39,7 +39,7 @@ TEST(Config, RefusesWhatItDoesNotKnowByNameAndLine) {
 }
 
 TEST(Config, NamesFilesFromWhereItLiesAndAFlagWins) {
-  // The case that is not there is refused once the settings were taken.
+  // The missing case is refused only after the settings were read.
   expect_refusal("[tools]\nfile = \"absent.json\"\n", "/absent.json");
   expect_refusal("[rig]\nheadset = \"holo:\"\n", "unknown scheme");
   expect_refusal("[rig]\nheadset = \"holo:\"\n", "/none", {"--headset", "sim:"});

@@ -202,7 +202,7 @@ TEST_P(RegisterCase, TakesTheBallAtThePointersEndIntoAccount) {
   const json right = json::parse(with.out);
   EXPECT_LT(error_mm(right, "L4", stroked.world_from_vertebra), kRight_mm);
   EXPECT_NEAR(right["lift_mm"].get<double>(), 0.0, 0.1);
-  // Who says nothing of the ball has it found: all points lie as high above the bone.
+  // If the ball's radius is not given, it is found: all points are equally high above the bone.
   const json untold = json::parse(registered("L4", stroked.tips()).out);
   EXPECT_NEAR(untold["lift_mm"].get<double>(), kBall_m * 1e3, 0.1);
   EXPECT_LT(error_mm(untold, "L4", stroked.world_from_vertebra), kRight_mm);

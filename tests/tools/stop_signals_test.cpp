@@ -95,7 +95,8 @@ TEST(StopSignals, TerminationIsTakenLikeCtrlC) {
   expect_a_whole_end(run, "SIGTERM");
 }
 
-/// What nobody can catch leaves what was written in plain sight, and it can be read.
+/// After a signal that can't be caught, the written files are under their temporary names and can
+/// be read.
 TEST(StopSignals, AKilledRunLeavesAJournalAndARecordingThatCanBeRead) {
   LongRun run;
   constexpr std::uintmax_t kThreeImages = 3 * 640 * 480;

@@ -85,7 +85,7 @@ TEST(StudySlurm, SaysInOneLineThatThereIsNone) {
   EXPECT_EQ(called.err, "orthonav: --slurm: sbatch was not found (Debian: slurm-wlm)\n");
 }
 
-// What is done already needs no Slurm: the shard is there, and only the joining is left.
+// Completed work needs no Slurm: the shard exists, and only merging is left.
 TEST(StudySlurm, WritesThePageOfWhatItsTasksMade) {
   const ScratchFolder folder;
   const std::vector<std::string> study = {

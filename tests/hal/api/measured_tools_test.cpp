@@ -37,7 +37,7 @@ MeasuredTool tool(std::size_t index) {
   return out;
 }
 
-/// What a frame with these tools is refused with; empty: it is passed on.
+/// The error with which a frame with these tools is refused; empty if it is passed on.
 std::string refusal(const std::vector<MeasuredTool>& tools) {
   Tracker tracker;
   tracker.tools = tools;

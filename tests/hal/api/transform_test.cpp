@@ -10,7 +10,7 @@
 namespace orthonav {
 namespace {
 
-// What composes and what does not, decided by the compiler: a mix-up of frames cannot be built.
+// Which transforms compose is decided by the compiler: a mix-up of frames does not compile.
 template <class Left, class Right>
 concept Composes = requires(Left left, Right right) {
   left* right;

@@ -142,7 +142,7 @@ TEST_F(RecordedClicker, WaitsForTheRestOfAnEvent) {
   ASSERT_TRUE((*clicker)->poll(ms(20000), events).ok());
   ::close(writer);
   ASSERT_FALSE(events.empty());
-  // As old as it is by the kernel's clock, by the headset's.
+  // On the headset's clock it is as old as on the kernel's.
   EXPECT_LE(events.front().time, clock_.now());
   EXPECT_GT(events.front().time, clock_.now() - std::chrono::seconds(5));
 }
@@ -169,7 +169,7 @@ TEST(EvdevKeys, RefusesWhatIsNoEventDevice) {
   EXPECT_THAT(keys.error().message, HasSubstr("/dev/null: is no event device"));
 }
 
-/// A device that appears after the clicker was opened, and goes again.
+/// A device that appears after the clicker was opened, and disappears again.
 TEST(EvdevClicker, TakesUpADeviceThatIsPluggedIn) {
   if (::access("/dev/uinput", W_OK) != 0) {
     GTEST_SKIP() << "no /dev/uinput that may be written";

@@ -74,8 +74,9 @@ struct Served {
   std::vector<DepthFrame> frames;
 };
 
-/// All that the stand-in sends of a depth stream while the pairs are taken. A pair is taken only
-/// when every picture that is due has come: what is not taken in time is replaced by newer ones.
+/// Everything that the stand-in sends of a depth stream while the pairs are taken. A pair is taken
+/// only when every picture that is due has arrived, because pictures not taken in time are replaced
+/// by newer ones.
 Served served_depth(const sim::SimOptions& sim, const DepthWish& wish, std::size_t enough,
                     const Direct& direct) {
   Served all;
@@ -178,7 +179,7 @@ TEST(Depth, OfLongThrowRawComesAsItWas) { expect_exact({DepthStream::kLongThrow,
 
 TEST(Depth, OfLongThrowAsPngComesAsItWas) { expect_exact({DepthStream::kLongThrow, true}, 1.5, 3); }
 
-/// H.264 of a quarter of the depth: its steps of 4 mm, and what the codec makes of them.
+/// H.264 of a quarter of the depth: steps of 4 mm, and the codec's errors.
 TEST(Depth, OfAhatAsH264ComesWithinItsSteps) {
   const sim::SimOptions sim = depth_session(0.6);
   const Direct direct(sim, DepthStream::kAhat);
@@ -188,13 +189,13 @@ TEST(Depth, OfAhatAsH264ComesWithinItsSteps) {
     const DepthFrame& same = direct.frames.at(frame.time);
     std::size_t both = 0;
     std::size_t off = 0;
-    std::size_t ghosts = 0;  // something where nothing was measured
+    std::size_t ghosts = 0;  // a value where nothing was measured
     double sum_mm = 0.0;
     for (std::size_t i = 0; i < frame.range_mm.pixels.size(); ++i) {
       const int told = frame.range_mm.pixels[i];
       const int true_mm = same.range_mm.pixels[i];
       ghosts += told != 0 && true_mm == 0 ? 1 : 0;
-      // Past 1,023 mm eight bits begin anew.
+      // Past 1,023 mm eight bits wrap around.
       if (told == 0 || true_mm == 0 || true_mm > 1000) {
         continue;
       }
@@ -240,7 +241,7 @@ TEST(Depth, IsNotThereWhereNobodyAsksForIt) {
   EXPECT_EQ(headset->depth_trouble(), "");
 }
 
-/// A headset without such a camera hangs up: it is opened all the same, and says why.
+/// A headset without such a camera hangs up: it is opened anyway, and reports why.
 TEST(Depth, ThatIsRefusedLeavesTheRest) {
   sim::SimOptions sim = depth_session(0.5);
   sim.depth = {DepthStream::kLongThrow};

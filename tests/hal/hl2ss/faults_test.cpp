@@ -26,7 +26,7 @@ struct Seen {
   std::int64_t map_epoch = 0;
   bool ended = false;
   bool ordered = true;
-  bool sound = true;  ///< every pose is one that the room had, or none
+  bool sound = true;  ///< every pose is one that the room had, or absent
 };
 
 /// Goes through a session to its end; every pair is compared with the direct run.
@@ -86,7 +86,8 @@ TEST_P(UnderFault, PairsStayInOrderAndTrueAndTheSessionComesToItsEnd) {
     EXPECT_TRUE(seen.ended);
     EXPECT_TRUE(seen.ordered);
     EXPECT_TRUE(seen.sound);
-    // What stands on a lost H.264 picture comes with the next key frame, a second later at most.
+    // Pictures that depend on a lost H.264 picture resume with the next key frame, at most a second
+    // later.
     const bool raw = profile == VideoProfile::kRaw;
     EXPECT_GE(seen.pairs, raw ? GetParam().fewest_pairs : 20);
     EXPECT_LT(seen.pairs, 150) << "the fault never struck";
@@ -141,7 +142,7 @@ TEST(UnderFault, AWrongStampMovesNoMapAndIsRefusedAlone) {
                                ::testing::HasSubstr("limit 10.0 ms")));
 }
 
-/// What real encoders and real calibrations are like: several slices, edges without a direction.
+/// As from real encoders and calibrations: several slices, edges without a direction.
 TEST(AUnit, WithSlicesAndUnmappedEdgesIsFollowed) {
   ServerOptions options = paced({});
   options.slices = 4;

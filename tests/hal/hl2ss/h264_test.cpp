@@ -36,7 +36,7 @@ double rms(const GreyImage& a, const GreyImage& b) {
   return std::sqrt(squares / static_cast<double>(a.pixels.size()));
 }
 
-// What the encoder itself leaves at this rate; the picture beside the right one is 15 off.
+// The encoder's own error at this rate; a neighbouring picture is 15 off.
 constexpr double kCodecNoise = 4.0;
 
 std::vector<std::vector<std::uint8_t>> encoded(int count, int slices) {
@@ -95,7 +95,7 @@ TEST(H264, EveryPictureComesOutAtOnce) {
   EXPECT_GT(rms(picture(3), picture(4)), kCodecNoise) << "the twin: a picture late would be caught";
 }
 
-/// A wrong picture is worse than none: what stands on a lost one must not come out.
+/// A wrong picture is worse than none: pictures that depend on a lost one must not be delivered.
 TEST(H264, AfterALostPictureNothingComesUntilTheNextKeyFrame) {
   auto units = numbered(40);
   units.erase(units.begin() + 10);

@@ -57,8 +57,8 @@ TEST(DepthCalibration, OfTheWrongSizeIsRefused) {
   EXPECT_FALSE(read_depth_calibration(DepthStream::kLongThrow, ahat_answer()).ok());
 }
 
-/// A pixel that is no number has no direction, and those whose centre needs it; all of them: no
-/// camera.
+/// A NaN pixel has no direction, and neither have those whose centre needs it; if all are NaN,
+/// there is no camera.
 TEST(DepthCalibration, WithoutDirectionsIsNoCamera) {
   auto answer = ahat_answer();
   const float nothing = std::numeric_limits<float>::quiet_NaN();
@@ -158,7 +158,7 @@ std::unique_ptr<Hl2ssHeadset> open_with_depth(HostileServer& server) {
   return headset ? std::move(*headset) : nullptr;
 }
 
-/// What is known of the depth stream, which comes last.
+/// The statistics of the depth stream, which comes last.
 const StreamStatistics& depth_of(const ConnectionStatistics& statistics) {
   return statistics.streams.back();
 }
@@ -255,7 +255,7 @@ TEST(HostileDepth, StampsTeachNobodyTheTime) {
   EXPECT_THAT(depth_of(headset->statistics()).last_trouble,
               ::testing::ContainsRegex("ahead of the headset's clock|10 s from the cameras'"));
   EXPECT_EQ(headset->statistics().clock_restarts, 0);
-  // The newest pair is still of now: the clock was not carried 5 s ahead.
+  // The newest pair still counts as current: the clock was not carried 5 s ahead.
   EXPECT_TRUE(orthonav::test::wait_until([&] {
     const auto next = headset->cameras().next(pair);
     return next && *next == Next::kFrame;

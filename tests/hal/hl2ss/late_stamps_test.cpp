@@ -1,4 +1,5 @@
-// Research mode's late stamps, and what they cost at a pointer's tip while the head turns.
+// Research mode's late stamps, and the error that they cause at a pointer's tip while the head
+// turns.
 #include <gmock/gmock.h>
 
 #include "base/angle.h"
@@ -59,7 +60,7 @@ Result<std::unique_ptr<Headset>> turning_headset() {
     frame.right = frame.left;
     frame.world_from_rig = head_at(frame.time);
     script.camera.emplace_back(std::move(frame));
-    // The server looks again a millisecond after each: nobody else paces it.
+    // The server looks again a millisecond after each, since nothing else paces it.
     script.camera.insert(script.camera.end(), 10, Next::kNone);
   }
   return std::unique_ptr<Headset>(
@@ -73,7 +74,7 @@ struct Errors {
   Duration late{};  ///< of the last pair's time
 };
 
-/// Where the tip seen in each image is put, against where it was.
+/// The computed place of the tip seen in each image, compared with the true one.
 Errors tip_errors(Duration asked_for) {
   ServerOptions served;
   served.first_port = 0;
@@ -107,7 +108,7 @@ TEST(LateStamps, AreCorrectedByTheServerAsTheClientAsks) {
   EXPECT_LT(errors.worst_m, kSingleM);
 }
 
-/// The must-fail twin: who does not ask gets late stamps, and poses as late.
+/// The control that must fail: a client that does not ask gets late stamps and equally late poses.
 TEST(LateStamps, CostThreeMillimetresWhereNobodyAsks) {
   const Errors errors = tip_errors(Duration::zero());
   EXPECT_GE(errors.pairs, kPairs / 2);

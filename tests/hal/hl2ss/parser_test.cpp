@@ -61,7 +61,7 @@ TEST(Requests, AreReadByAServer) {
   EXPECT_EQ((*read)->request.divisor, 3);
   EXPECT_EQ((*read)->request.profile, VideoProfile::kH264High);
   EXPECT_EQ((*read)->request.bitrate, 77u);
-  // Options that nobody knows are passed over, once they are all there.
+  // Unknown options are skipped once they have arrived completely.
   std::vector<std::uint8_t> with_options = bytes;
   with_options[8] = 2;
   with_options.resize(9 + 31);

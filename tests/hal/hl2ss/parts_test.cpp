@@ -167,7 +167,7 @@ TEST(MapWatch, FindsAShiftOfSixCentimetres) {
   }
 }
 
-/// A head that goes on as ever, by stamps that leap: the poses tell that the map stayed.
+/// A head that moves on steadily while stamps leap: the poses show that the map stayed.
 TEST(MapWatch, IsNotMovedByAStamp) {
   MapWatch watch;
   for (int n = 0; n < 300; ++n) {

@@ -10,7 +10,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// Of a pair when its guidance is handed over: exposure, transfer, tracking.
+/// Age of a pair when its guidance is handed over: exposure, transfer, tracking.
 constexpr Duration kAge = milliseconds(50);
 /// 33 ms, in steps of the link.
 constexpr int kStepsAPair = 33;
@@ -105,8 +105,8 @@ TEST(SceneFuse, GuidanceTooOldIsNotSent) {
 TEST(SceneFuse, OfAListCutAnywhereOnlyAShortTailCanFreeze) {
   SceneLink link;
   run_with_pairs(link, 520);
-  // What freezes is a list cut between the first object shown and the last one hidden: named here
-  // so that nobody makes it longer unawares.
+  // Guidance freezes if a list is cut between the first object shown and the last one hidden. The
+  // length is stated here so that it does not grow unnoticed.
   constexpr std::size_t kLongestTail = 100;
   ASSERT_TRUE(link.shows("12.4"));
   const ScenePeer before = link.peer;
@@ -151,7 +151,7 @@ TEST(SceneFuse, WhatArrivesTooLateIsCutOffBeforeItDoes) {
   SceneLink link;
   run_with_pairs(link, 520);
   ASSERT_TRUE(link.shows("12.4"));
-  link.lose_next(milliseconds(230));  // as TCP takes to notice
+  link.lose_next(milliseconds(230));  // the time that TCP takes to notice
   const Timestamp lost = link.now();
   while (link.client.overdue(link.host())) {
     run_with_pairs(link, 1);

@@ -62,7 +62,7 @@ TEST(SoundOfAHeadset, IsDroppedWhereNobodyReads) {
   bool dropped = false;
   for (int pairs = 0; pairs < 900 && !dropped; ++pairs) {
     ASSERT_EQ(next_pair(*headset, frame), Next::kFrame);
-    // A read at times, so that the test sees the loss and not more.
+    // Reads only now and then, so that the test sees the loss and nothing else.
     if (pairs % 100 == 99) {
       dropped = !microphone.read(samples).ok();
     }

@@ -9,7 +9,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
 
-/// Frame `n` of a camera whose ticks are so many nanoseconds, stamped so much too late.
+/// Frame `n` of a camera with ticks of this many nanoseconds, stamped too late by this amount.
 Status check(StampCheck& stamps, int n, Duration off = {}, std::int64_t tick_ns = 1) {
   const Duration at = Duration(33'333'333) * n;
   return stamps.check(Timestamp(seconds(500)) + at + off,
@@ -63,7 +63,7 @@ TEST(StampCheck, BelievesAClockThatWasSet) {
   EXPECT_EQ(refused, 19);
 }
 
-/// Nothing tells that the first image of all is the wrong one; and wrong ones go on between.
+/// Nothing shows at first that the very first image is wrong, and other wrong ones follow.
 TEST(StampCheck, FindsItsWayFromAWrongBeginning) {
   StampCheck stamps;
   EXPECT_TRUE(check(stamps, 0, seconds(-3)));

@@ -137,7 +137,7 @@ constexpr Duration kRounding = microseconds(1);
 TEST(IgtlSenderClock, TheMessageThatWasFastestTellsTheOffset) {
   SenderClock clock;
   EXPECT_EQ(clock.time_of(stamp(kStart_s), at(milliseconds(30))), at(milliseconds(30)));
-  // 20 ms faster: this one, and from now on all, count from it.
+  // 20 ms faster: this message and all later ones count from it.
   EXPECT_EQ(clock.time_of(stamp(kStart_s + 0.1), at(milliseconds(110))), at(milliseconds(110)));
   const Timestamp late = clock.time_of(stamp(kStart_s + 0.2), at(milliseconds(350)));
   EXPECT_LT(std::chrono::abs(late - at(milliseconds(210))), milliseconds(1));
@@ -148,7 +148,7 @@ TEST(IgtlSenderClock, MessagesThatComeLaterAndLaterAreOldHoweverLongItLasts) {
   SenderClock clock;
   Timestamp time;
   for (int i = 0; i <= 6000; ++i) {
-    // Of 10 minutes each message is later than the one before by 0.1 ms: a queue that grows.
+    // For 10 minutes each message is 0.1 ms later than the one before: a growing queue.
     time = clock.time_of(stamp(kStart_s + 0.1 * i), at(microseconds(100'100) * i));
   }
   EXPECT_GT(at(microseconds(100'100) * 6000) - time, milliseconds(500)) << "of 600 ms";

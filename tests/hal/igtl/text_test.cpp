@@ -110,7 +110,7 @@ TEST(IgtlListening, DropsWhoSaysTooMuchOrWhatIsNoText) {
   EXPECT_THAT(server->counts().last_drop, HasSubstr("checksum"));
 }
 
-/// Whoever is told may throw: the server's thread ends in order, and says of what.
+/// A listener may throw: the server's thread then ends in order, and reports why.
 class Dying : public TextListener {
  public:
   void said(const std::string&, const std::string&, const std::string&) override {
@@ -125,7 +125,7 @@ TEST(IgtlListening, AServerWhoseListenerThrowsEndsInOrder) {
   client.send(packed_text({"Command", 0}, "next"));
   ASSERT_TRUE(wait_until([&] { return server->counts().dropped == 1; }));
   EXPECT_EQ(server->counts().last_drop, "server: out of memory");
-  server->publish({1, 2, 3});  // whoever publishes notices nothing
+  server->publish({1, 2, 3});  // the publisher does not notice
 }
 
 TEST(IgtlListening, KeepsNoBodyLargerThanAText) {

@@ -56,12 +56,12 @@ TEST(IgtlTrackerUri, RefusesWhatItCantMean) {
   EXPECT_THAT(refusal("//h?a=AToB&frozen_ms=-1"), HasSubstr("frozen_ms \"-1\" must lie"));
 }
 
-/// A tracker that sends, and the headset that it is to us.
+/// A tracker that sends, and the headset that represents it.
 class IgtlTracker : public ::testing::Test {
  protected:
   void open(const std::string& keys = "pointer=ProbeToTracker&reference=ReferenceToTracker") {
     const auto options = tracker_options_of(server_->uri(keys)).value();
-    // Whoever opens waits for the first pose.
+    // Opening waits for the first pose.
     std::thread first([this] {
       if (server_->wait_for_client()) {
         send(0.001);
@@ -159,7 +159,7 @@ TEST_F(IgtlTracker, HangsUpOnWhatIsNoOpenIgtLinkAndCallsAgain) {
   EXPECT_EQ(lost_, 1);
 }
 
-/// What opening says in the end; it is tried again where the machine was too busy to say that.
+/// The final result of opening; it is tried again if the machine was too busy.
 bool is_refused_with(TrackerOptions options, const std::string& why) {
   options.open_within = std::chrono::milliseconds(100);
   return wait_until([&] {

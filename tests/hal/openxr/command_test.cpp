@@ -44,7 +44,7 @@ Ran run(const std::string& arguments, const std::string& script, bool validated 
   return ran;
 }
 
-/// A control that must fail: the layer does speak when it finds something.
+/// A control that must fail: the layer does report when it finds something.
 TEST(RunOnOpenxr, WouldHearTheValidationLayer) {
   runtime_double().reset({});
   ::setenv("XR_ENABLE_API_LAYERS", "XR_APILAYER_LUNARG_core_validation", 1);

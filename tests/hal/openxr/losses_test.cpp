@@ -63,7 +63,7 @@ TEST_F(LossTest, ALostRuntimeIsSurvivedWithOneLine) {
   runtime().lose_instance(false);
   ASSERT_TRUE(eventually([&] { return runtime().instances() == 2; }));
   EXPECT_TRUE(draws());
-  // Whoever draws is told once.
+  // The drawing side is told once.
   const Status told = show(some_scene());
   ASSERT_FALSE(told.ok());
   EXPECT_THAT(told.error().message, HasSubstr("XR_ERROR_INSTANCE_LOST"));
@@ -228,7 +228,7 @@ class SelectTest : public RuntimeTest {
     ASSERT_TRUE(present().ok());
     ASSERT_TRUE(frames_pass(5));
   }
-  /// What happens until the cameras' clock has gone on by so much.
+  /// Runs until the cameras' clock has advanced by this much.
   std::vector<Action> events_of(Duration pause) {
     EXPECT_TRUE(frames_pass(5));
     cameras_->manual_clock().advance(pause);
@@ -280,7 +280,7 @@ TEST_F(SelectTest, SharesTheButtonWithTheOtherClicker) {
       {Action::kPress, at(100)}, {Action::kRelease, at(900)}, {Action::kClick, at(900)}};
   begin({}, std::move(script));
   EXPECT_THAT(events_of(std::chrono::milliseconds(200)), ElementsAre(Action::kPress));
-  runtime().press(true);  // while the other one is down: nobody's
+  runtime().press(true);  // while the other one is down: ignored
   EXPECT_THAT(events_of(std::chrono::milliseconds(100)), IsEmpty());
   runtime().press(false);
   EXPECT_THAT(events_of(std::chrono::milliseconds(1000)),

@@ -24,7 +24,7 @@ const engine::GoldenScene& golden(const std::string& name) {
   return kScenes.front();
 }
 
-/// Where the head is that sees a golden scene as its picture does.
+/// The head pose that sees a golden scene as in its picture.
 Transform<World, Rig> head_of(const engine::GoldenScene& scene) {
   std::array<double, 16> rows{};
   for (std::size_t r = 0; r < 4; ++r) {
@@ -93,7 +93,7 @@ std::vector<Variant> runtimes() {
          t.blends = {XR_ENVIRONMENT_BLEND_MODE_OPAQUE, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND};
        })});
   all.back().mode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
-  // Both leave over black what is drawn over black.
+  // Both give the same over black.
   for (auto variant = all.end() - 2; variant != all.end(); ++variant) {
     variant->blend = render::Blend::kOver;
   }
@@ -219,7 +219,7 @@ TEST_F(RuntimeTest, SubmitsNothingWhereNothingIsToBeRendered) {
   EXPECT_FALSE(frames[0].should_render);
 }
 
-/// What hangs on the head is drawn in the viewer's space, and says why there is nothing else.
+/// Head-fixed holograms are drawn in the viewer's space, and say why there is nothing else.
 TEST_F(RuntimeTest, DrawsTheStatusLineAloneWhileTheHeadIsNotLocated) {
   open();
   runtime().set_tracked(false, false);

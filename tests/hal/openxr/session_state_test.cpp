@@ -5,7 +5,7 @@
 namespace orthonav::openxr {
 namespace {
 
-/// Takes states one after the other; what the last one asks for.
+/// Takes states one after the other; returns what the last one asks for.
 SessionDuty after(SessionState& state, std::initializer_list<XrSessionState> states) {
   SessionDuty duty = SessionDuty::kNone;
   for (const XrSessionState next : states) {

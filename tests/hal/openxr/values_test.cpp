@@ -103,7 +103,7 @@ TEST(WorldAnchor, LaysWorldsElsewhereSoThatTheWearerBeginsThere) {
   anchor.lay(5, kBegin, kViewer);
   const Vec3 off = (*anchor.world_from_space(5) * kViewer).translation() - kBegin.translation();
   EXPECT_LT(off.norm(), 1e-12);
-  // Laid once: the wearer is free to walk from there.
+  // Placed once: the wearer is then free to walk.
   anchor.lay(6, kBegin, Transform<Space, Viewer>());
   EXPECT_EQ(*anchor.world_from_space(6), *anchor.world_from_space(5));
 }

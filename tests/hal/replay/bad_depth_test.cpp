@@ -158,7 +158,7 @@ std::vector<Damage> damages() {
 
 class BadDepth : public ::testing::TestWithParam<Damage> {};
 
-/// Pairs make a session without it.
+/// The pairs are a session even without it.
 TEST_P(BadDepth, IsLeftOutInOneLineThatSaysWhy) {
   const StreamRecorderFolder folder({0, kFrame}, {0, kFrame});
   scene().write_stream_recorder(folder.path(), "Depth AHaT");

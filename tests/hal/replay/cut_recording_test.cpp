@@ -37,7 +37,7 @@ class Unfinished {
         std::make_unique<fake::FakeHeadset>(scripted_session(kPairs)), folder_ / "walk");
     EXPECT_TRUE(recorder.ok());
     log_ = play(**recorder);
-    // What a killed program leaves: the files as they are before anybody closes them.
+    // The files as a killed program leaves them, before they are closed.
     std::filesystem::copy(folder_ / "walk.part", folder_ / "killed.part");
   }
   [[nodiscard]] std::filesystem::path path() const { return folder_ / "killed.part"; }

@@ -23,7 +23,7 @@ std::string refusal(const std::filesystem::path& path) {
   return headset.ok() ? "accepted" : headset.error().message;
 }
 
-/// A recording of our own with every file there is, to be damaged byte by byte.
+/// A recording of our own with all kinds of files, to be damaged byte by byte.
 class DamagedBytes : public ::testing::Test {
  protected:
   void SetUp() override {

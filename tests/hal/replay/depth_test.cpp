@@ -33,7 +33,7 @@ std::unique_ptr<ReplayHeadset> opened(const std::filesystem::path& folder) {
   return headset ? std::move(*headset) : nullptr;
 }
 
-/// How far a frame's points lie from where the scene has them, at worst.
+/// The largest distance of a frame's points from their places in the scene.
 struct Deviation {
   double from_place_m = 0.0;
   double from_plane_m = 0.0;

@@ -1,4 +1,5 @@
-// StreamRecorder's late stamps, and what they cost at a pointer's tip while the head turns.
+// StreamRecorder's late stamps, and the error that they cause at a pointer's tip while the head
+// turns.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -87,7 +88,7 @@ TEST(LateStamps, AreCorrectedInStreamRecordersFiles) {
   EXPECT_LT(recording.tip_errors_m(RecordedStamps::kByRecorder).first, kNineDigitsM);
 }
 
-/// The must-fail twin: as it was recorded the tip is 3 mm off.
+/// The control that must fail: as recorded, the tip is 3 mm off.
 TEST(LateStamps, CostThreeMillimetresWhereTheyAreTakenAsExact) {
   const TurningRecording recording;
   const auto [most_m, least_m] = recording.tip_errors_m(RecordedStamps::kExact);
@@ -143,7 +144,7 @@ TEST(LatePoses, KeepWhatStandsAndLeaveOutWhatStandsAlone) {
   EXPECT_EQ(taken.at(kFrame), still);
 }
 
-/// Where World jumps, the pose after it is told by those of its own world.
+/// Where World jumps, the pose after it is computed from those of its own world.
 TEST(LatePoses, NeverMixTwoWorlds) {
   const Transform<World, World> jump(Mat3::identity(), {0.5, 0.0, 0.0});
   PosesByTicks at_stamps;

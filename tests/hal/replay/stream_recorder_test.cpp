@@ -23,7 +23,7 @@ using ::testing::ElementsAre;
 constexpr std::int64_t kFrame = 333'333;  // ticks of 100 ns at 30 Hz
 constexpr std::int64_t kMillisecond = 10'000;
 
-/// With the times and poses that stand in the files: that those are late is tested by itself.
+/// With the times and poses as in the files; that they are late is tested separately.
 std::unique_ptr<ReplayHeadset> opened(const std::filesystem::path& path,
                                       RecordedStamps stamps = RecordedStamps::kExact) {
   ReplayOptions options;
@@ -65,7 +65,7 @@ TEST(StreamRecorder, PairsWithinAThirdOfAFrameAndNotPastIt) {
       ElementsAre(std::pair(0, 0), std::pair(1, 1)));
 }
 
-/// Stamps of real recordings tremble by milliseconds: all of 90 pairs remain.
+/// Stamps of real recordings jitter by milliseconds: all 90 pairs remain.
 TEST(StreamRecorder, PairsThroughJitter) {
   Random random(3);
   std::vector<ImageMember> left;

@@ -9,7 +9,8 @@
 #include "tests/support/camera_scene.h"
 #include "tests/support/tag_detection.h"
 
-// Tags must be where geometry says, to a hundredth of a pixel: every accuracy figure rests on it.
+// Tags must be where geometry puts them to a hundredth of a pixel, because every accuracy figure
+// depends on it.
 namespace orthonav::sim {
 namespace {
 

@@ -18,7 +18,7 @@ constexpr double kRounding_rad = 1e-12;
 constexpr Vec3 kEntry{0.1, 0.2, -0.3};
 constexpr Vec3 kPlanned{0, 1, 0};
 
-/// A tool that leans towards x, its tip beside the entry, and what the number says of it.
+/// A tool that leans towards x, its tip beside the entry, and the number shown for it.
 struct Tool {
   double lean_rad = 0.0;
   Vec3 beside_m;  ///< across the planned axis
@@ -59,7 +59,7 @@ double angle_of_triangle_rad(const ShownFrame& frame) {
 }
 
 TEST(ReadDeviation, IsThatOfTheDirectionsWhereverTheTipStands) {
-  // Near, with both dots off the rim, and far, where the way is the triangle's.
+  // Near, with both dots off the rim, and far, where the direction is the triangle's.
   for (const double lean_deg : {0.5, 2.0, 8.0}) {
     for (const Vec3 beside_m : {Vec3{}, Vec3{0, 0, 0.003}, Vec3{-0.002, 0, 0.001}}) {
       const Tool tool{lean_deg * kDeg, beside_m, lean_deg * kDeg};

@@ -22,7 +22,7 @@ TEST(HandWhileDrilling, KeepsBothMagnitudesAsTotalsOfTheWire) {
   EXPECT_EQ(closed.of_wire_rad, 0.028);
   EXPECT_NEAR(std::hypot(left_by_correcting() * closed.of_wire_rad, closed.unseen_rad), 0.014,
               1e-12);
-  model.hand_drilling_corrected_rad = 0.008;  // more than correcting takes out: a steadier hand
+  model.hand_drilling_corrected_rad = 0.008;  // a steadier hand, more than correction removes
   const auto steady = hand_while_drilling(model, GuidanceProfile::kClosedLoop);
   EXPECT_NEAR(left_by_correcting() * steady.of_wire_rad, 0.008, 1e-12);
   EXPECT_EQ(steady.unseen_rad, 0.0);
@@ -80,7 +80,8 @@ TEST(DrillingSurgeon, TurnsTheWireByTheMagnitudeWhereNothingIsCorrected) {
 TEST(DrillingSurgeon, CorrectsByTheNumbersWhileTheWireGoesIn) {
   const double rms = rms_rad(turning_hands(), GuidanceProfile::kClosedLoop, kSeeds);
   EXPECT_NEAR(rms, 0.014, kWithin * 0.014);
-  // Nothing unseen: correcting alone leaves 0.46 of the hand's turn, however large that is.
+  // With everything visible, correcting alone leaves 0.46 of the hand's turn, however large that
+  // is.
   ErrorModel seen = turning_hands();
   seen.hand_drilling_corrected_rad = left_by_correcting() * seen.hand_drilling_rad;
   const double corrected = rms_rad(seen, GuidanceProfile::kClosedLoop, kSeeds);

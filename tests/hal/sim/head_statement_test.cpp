@@ -1,4 +1,4 @@
-// What a device says of its head pose's own error.
+// A device's statement of its head pose's own error.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -28,7 +28,7 @@ TEST(HeadStatement, OfTheSimulatedHeadsetIsItsNoise) {
   EXPECT_FALSE(frame.head_covariance.has_value());
 }
 
-/// A camera pair that says one thing of its head.
+/// A camera pair with one statement about its head.
 class Stating final : public StereoCamera {
  public:
   explicit Stating(const PoseCovariance& covariance) : covariance_(covariance) {}

@@ -1,5 +1,5 @@
-// The truth stays on the other side of the glass: with holograms that are off, every wire is off
-// with them, whatever the surgeon goes by. A surgeon who peeks is caught.
+// The truth does not leak: when holograms are off, every wire is off with them, whatever guidance
+// the surgeon uses. A surgeon who sees the truth is detected.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Misses {
   double from_shown_rad = 0.0;
 };
 
-/// The most that the wires lie off what the holograms showed.
+/// The largest distance of the wires from the shown holograms.
 Misses of_holograms(GuidanceProfile guidance, bool peeks) {
   const TestCase test_case = synthetic_case();
   SimOptions options = without_pixels(4, ErrorModel::perfect());

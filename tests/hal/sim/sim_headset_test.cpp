@@ -268,7 +268,7 @@ TEST(SimHeadset, TrueCamerasDifferFromTheReportedOnesByTheSeed) {
 }
 
 TEST(SimHeadset, PartsMayBeUsedFromDifferentThreads) {
-  // Nothing to compare: a race is the thread sanitizer's to find.
+  // Nothing to compare: the thread sanitizer would find a race.
   SimOptions options;
   options.render = false;
   const TestCase test_case = synthetic_case();

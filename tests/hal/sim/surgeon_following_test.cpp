@@ -1,4 +1,4 @@
-// What the surgeon does with holograms that are off.
+// The surgeon's behaviour with holograms that are off.
 #include <gmock/gmock.h>
 
 #include <numbers>
@@ -33,11 +33,11 @@ ShownScrew shown(const FakeEngine& engine, const BoneSurface& bone, const TestSc
 struct OffBy {
   Vec3 shift_m;
   Vec3 turn_rad;
-  double least_entry_m;    ///< by which every wire misses its plan
+  double least_entry_m;    ///< the least distance by which every wire misses its plan
   double least_angle_rad;  ///< likewise; a turn tilts what is not parallel to it
 };
 
-/// Held against where the holograms are, and, as the twin, against the plan.
+/// Compared with the holograms and, as the control, with the plan.
 void expect_followed(const FakeEngine& engine, const TestCase& test_case, const Truth& truth,
                      const OffBy& off) {
   ASSERT_EQ(truth.wires.size(), test_case.screws.size());
@@ -90,7 +90,7 @@ const std::vector<std::string> kRejectedThreeTimes = {"setup",       "digitize L
                                                       "verify L4",   "digitize L4"};
 
 TEST(Surgeon, RejectsAModelThatIsNotWhereTheBoneIs) {
-  // 15 mm, 2.5 times the limit: whatever errors the surgeon makes, no bone is drilled.
+  // 15 mm, 2.5 times the limit: whatever the surgeon's errors, no bone is drilled.
   std::size_t wires = 0;
   EXPECT_EQ(history_with_model_off({0.015, 0.0, 0.0}, {}, wires), kRejectedThreeTimes);
   EXPECT_EQ(wires, 0U);

@@ -48,10 +48,10 @@ constexpr double kPublishedSd_s = 27.0;
 constexpr double kPublishedPoints = 1983.0;
 constexpr double kPublishedSdPoints = 404.0;
 constexpr double kFrameRate_hz = 30.0;
-/// The surgeon of the simulation slips in one region of ten and repeats it; who never slips needs
-/// this much less time. Points of a region that slipped are deleted, so their number stays.
+/// The simulated surgeon slips in one region of ten and repeats it; one who never slips needs this
+/// much less time. Points of a region that slipped are deleted, so their number stays.
 constexpr double kSlips = 0.1;
-/// What the simulation's own steps leave: a tick of a press, the hops from stroke to stroke.
+/// The tolerance for the simulation's own steps: a tick of a press, the hops from stroke to stroke.
 constexpr double kDurationOff = 0.02;
 constexpr double kPointsOff = 0.005;
 
@@ -61,7 +61,7 @@ bool at_published_pace(const Digitized& d) {
          std::abs(d.samples / kPublishedPoints - 1.0) < kPointsOff;
 }
 
-/// Whatever its size and shape and however many strokes it takes: strokes without any chance.
+/// For any size, shape and number of strokes, with strokes without randomness.
 TEST(Surgeon, KeepsThePaperPaceOnEveryRealVertebra) {
   for (const char* label : {"L1", "L2", "L3", "L4", "L5"}) {
     const auto test_case = visible_human_case({label});
@@ -74,7 +74,7 @@ TEST(Surgeon, KeepsThePaperPaceOnEveryRealVertebra) {
     EXPECT_EQ(d.deleted, 0);
     // A point a frame, and only while the button is pressed: one more or less for each press.
     EXPECT_NEAR(d.samples, kFrameRate_hz * d.pressed_s, d.presses) << label;
-    // The twin: who works 3 % faster does not keep the pace.
+    // The control: a surgeon who works 3 % faster does not keep the pace.
     model.pace = 1.03;
     EXPECT_FALSE(at_published_pace(digitized(*test_case, 1, model))) << label;
   }
@@ -138,7 +138,7 @@ TEST(Surgeon, KeepsThePaperPaceOnARealVertebra) {
       static_cast<double>(kSeeds * plan_strokes(test_case->room.levels.at(3)).size());
   EXPECT_NEAR(all.deleted, regions * kSlips / (1.0 - kSlips),
               3.0 * std::sqrt(regions * kSlips) / (1.0 - kSlips));
-  // The twin: the spread is that of surgeons. Of one and the same it is far below the bounds.
+  // The control: the spread is that between surgeons; for a single one it is far below the bounds.
   ErrorModel same;
   same.pace_sd = 0.0;
   const Surgeons one = many(*test_case, 10, same);

@@ -8,7 +8,7 @@
 namespace orthonav::sim {
 namespace {
 
-/// A sleeve without play that stands on a wire: arithmetic and the step of the simulation alone.
+/// The tolerance for a sleeve without play on a wire: only rounding and the simulation's step.
 constexpr double kExact_m = 1e-6;
 /// Tremor slides it along its own axis, a fraction of a degree off the wire's.
 constexpr double kSliding_m = 3e-5;
@@ -19,7 +19,7 @@ std::size_t count_of(const std::vector<Phrase>& phrases, const std::string& text
       phrases.begin(), phrases.end(), [&](const Phrase& phrase) { return phrase.text == text; }));
 }
 
-/// An operation whose wires are looked at.
+/// An operation whose wires are measured.
 struct Operated {
   explicit Operated(const EngineOptions& options, const ErrorModel& model = ErrorModel::perfect(),
                     std::uint64_t seed = 1)

@@ -1,5 +1,4 @@
-// What is wrong with a tag besides its size: bent, glossy, under flickering light, with blood on
-// it.
+// Flaws of a tag besides its size: bent, glossy, under flickering light, with blood on it.
 #include "hal/sim/tag_flaws.h"
 
 #include <gmock/gmock.h>

@@ -85,7 +85,7 @@ TEST(CommandSpotter, HearsTheSurestOfSingleWordsInAQuietRoom) {
   EXPECT_THAT(sure_texts(commands), ::testing::ElementsAre("save", "accept", "next", "move rod"));
 }
 
-/// A small part of bench_voice: what its table says of a silent room must not get worse unseen.
+/// A small part of bench_voice: its figures for a silent room must not get worse unnoticed.
 TEST(CommandSpotter, HearsMostCommandsOfSeveralVoices) {
   // 98 % of seven voices there; two standard deviations of 27 draws are 5 %.
   constexpr int kLeastHeard = 25;

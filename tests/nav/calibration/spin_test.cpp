@@ -58,7 +58,7 @@ TEST(SpinCalibration, PredictsItsOwnError) {
     squared += off * off;
     predicted += found->axis_sigma_rad * found->axis_sigma_rad;
   }
-  // As for the tip: the larger of two estimates is told, which is above the truth in the mean.
+  // As for the tip, the larger of two estimates is reported, which is above the truth on average.
   EXPECT_NEAR(squared / predicted, 0.85, 0.3);
 }
 

@@ -34,7 +34,7 @@ Vec2 seen(const BrownConrady& camera, Vec3 p) { return camera.distort({p.x / p.z
 
 bool inside(Vec2 p) { return p.x > 2 && p.y > 2 && p.x < 638 && p.y < 478; }
 
-/// What both cameras see of a board in this pose; nothing when a corner is outside.
+/// The corners of a board in this pose in both cameras; nothing if a corner is outside.
 std::optional<BoardView> view_of(const Chessboard& board, const Cameras& cameras,
                                  const Transform<LeftCamera, Board>& left_from_board,
                                  double noise_px, Random& random) {
@@ -201,7 +201,7 @@ TEST(StereoBoard, RefusesWhatCannotBeCalibrated) {
   EXPECT_THAT(bad.check(), SizeIs(4));
   EXPECT_THAT(refusal(kBoard, all, bad), HasSubstr("min_views 1"));
   EXPECT_THAT(StereoBoardOptions{}.check(), IsEmpty());
-  // Four times the same view says nothing of the lens.
+  // Four times the same view gives no information about the lens.
   const std::vector<BoardView> same(4, all[0]);
   const auto found = calibrate_stereo(kBoard, kSize, same);
   EXPECT_TRUE(!found || found->judgement.verdict != Verdict::kPass);
@@ -283,7 +283,7 @@ TEST(FindChessboard, FindsNothingWhereThereIsNoBoard) {
   EXPECT_FALSE(find_chessboard(other, kBoard).has_value()) << "another board";
 }
 
-// What interpolation in the camera's table is off by.
+// The interpolation error of the camera's table.
 constexpr double kTablePx = 1e-4;
 
 TEST(Epipolar, MeasuresInPixelsOfTheRightImage) {
@@ -301,7 +301,7 @@ TEST(Epipolar, MeasuresInPixelsOfTheRightImage) {
           .value();
     };
     EXPECT_NEAR(off({}), 0.0, kTablePx);
-    // The baseline runs down the images: only what goes across counts, by its whole length.
+    // The baseline runs down the images: only the part across it counts, with its whole length.
     EXPECT_NEAR(std::hypot(off({0.5, 0}), off({0, 0.5})), 0.5, 0.01);
   }
   EXPECT_FALSE(

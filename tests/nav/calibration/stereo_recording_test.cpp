@@ -26,7 +26,7 @@ std::vector<BoardTag> board() {
   return tags;
 }
 
-/// Cameras of which the right one is not quite as the device says.
+/// Cameras whose right one differs slightly from the device's calibration.
 test::TagBodyScene scene(Vec3 rotation_rad, Vec3 translation_m = {}) {
   test::TagBodyScene made;
   const Transform<RightCamera, RightCamera> wrong(rotation_from_vector(rotation_rad),

@@ -159,7 +159,7 @@ TEST(TagBody, RefusesTagsThatMoveAgainstEachOther) {
 TEST(TagBody, RefusesASizeThatTheImagesContradict) {
   test::TagBodyScene scene = test::prism();
   const auto pairs = seen(scene, 40, 7);
-  // 36 mm are given for all of them; the corners say 40.
+  // 36 mm are given for all of them; by the corners it is 40.
   auto wrong = pairs;
   const TagGeometry geometry(scene.calibration);
   for (PairSightings& pair : wrong) {

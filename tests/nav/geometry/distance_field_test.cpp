@@ -23,7 +23,7 @@ constexpr double kCell_m = 0.002;
 constexpr double kMargin_m = 0.014;
 /// To this depth the field is negative.
 constexpr double kSigned_m = 0.008;
-/// A cell that reaches across that depth mixes both signs: so far from it nothing is asked.
+/// A cell that reaches across that depth mixes both signs, so nothing is tested this close to it.
 const double kMixed_m = std::sqrt(3.0) * kCell_m;
 
 Vec3 anywhere_in(const Bounds& box, Random& random) {
@@ -97,7 +97,7 @@ TEST(DistanceField, IsNegativeInsideAsDeepAsItSays) {
     const Vec3 p = anywhere_in(field.bounds(), random);
     const double distance_m = s.index.nearest(p)->distance_m;
     DistanceField::Value value;
-    // Nearer to the surface than the error the sign is nobody's.
+    // Nearer to the surface than the error, either sign is right.
     if (distance_m < 0.5 * kCell_m || !field.at(p, value)) {
       continue;
     }
@@ -171,7 +171,7 @@ TEST(DistanceField, IsNothingOutsideAndForWhatIsNoNumber) {
   }
 }
 
-/// As a vertebra has it: distances to the part that can be reached, the sign by the whole bone.
+/// As for a vertebra: distances to the reachable part, signs by the whole bone.
 TEST(DistanceField, TakesTheDistanceToOneSurfaceAndTheSignByAnother) {
   const Surface bone(slab_bone(crooked_back));
   const Surface back(reachable_from_behind(bone.mesh, bone.index));

@@ -14,7 +14,7 @@ namespace {
 
 /// Of the standard normal distribution.
 constexpr double kQuantile95 = 1.6448536;
-/// Of 1024 motions: what the quantile is off by, in SDs.
+/// The error of the quantile from 1024 motions, in SDs.
 constexpr double kMotions = 0.05;
 
 PoseUncertainty with_sds(Vec3 centre_m, double shift_m, double turn_rad) {
@@ -134,8 +134,8 @@ TEST(WithTool, MovesTheToolsCovarianceToTheBonesCentre) {
   EXPECT_NEAR(at_marker[4], 4e-8, 1e-12);
 }
 
-/// How often the truth lies above the bound: screws of real plans, moved by motions drawn from the
-/// covariance that the bound is made of, and by `more` times as much as it says.
+/// How often the truth lies above the bound: screws of real plans are moved by motions drawn from
+/// the bound's covariance, enlarged by the factor `more`.
 struct Honesty {
   int draws = 0;
   int above = 0;
@@ -190,7 +190,7 @@ TEST(ClearanceSpread, BoundHoldsIn95Of100DrawsOnRealVertebrae) {
   EXPECT_LE(honest.share(), 0.97);
   EXPECT_NEAR(honest.grade_as_expected / static_cast<double>(honest.draws),
               honest.expected / honest.draws, 0.03);
-  // The twins: a covariance that says too little, or too much.
+  // The controls: a covariance that is too small, or too large.
   EXPECT_LT(honesty(1.3).share(), 0.93);
   EXPECT_GT(honesty(0.7).share(), 0.97);
 }

@@ -41,7 +41,7 @@ TEST(Guide, MeasuresTheAngleDownToAMillionthOfADegree) {
     const double a = degrees * kDegree;
     const Vec3 axis = 3.0 * Vec3{std::sin(a), std::cos(a), 0};
     const auto g = guide(s.world_from_vertebra, s.plan, s.at({0, 0, 0}), s.turned(axis));
-    // acos would give 0 or 1.2e-6 degrees for the first.
+    // For the first, acos would give 0 or 1.2e-6 degrees.
     EXPECT_NEAR(g.angle_rad / kDegree, degrees, 1e-12 * degrees + 1e-13);
   }
 }

@@ -11,7 +11,7 @@ namespace orthonav::nav::dabs_test {
 namespace {
 
 constexpr double kTissue_m = 0.0015;
-/// What a press leaves beneath the tip: SD before it is cut off at 0.
+/// The gap beneath a pressed tip: SD before it is cut off at 0.
 constexpr double kPress_m = 0.0003;
 constexpr double kTracked_m = 0.00015;
 constexpr double kApart_m = 0.005;
@@ -58,7 +58,7 @@ class DabbedBone : public StrokedBone {
                                     const PressModel& press = {}) const {
     return join_places(*model_, registration, places, options, press).value();
   }
-  /// By which the first planned axis is turned.
+  /// The angle by which the first planned axis is turned.
   [[nodiscard]] double turn_deg(const Registration& r) const {
     const Vec3 axis = (options.targets[1] - options.targets[0]).normalized();
     return degrees(angle_between_rad((r.world_from_vertebra * Direction<Vertebra>{axis}).v,
@@ -68,7 +68,7 @@ class DabbedBone : public StrokedBone {
   std::vector<Vec3> normals;  ///< in World, of the bone beneath each dab
 };
 
-/// What two bones come to after so many dabs, on average.
+/// The mean result of two bones after this many dabs.
 struct Outcome {
   double turned_before_deg = 0.0;
   double turned_deg = 0.0;
@@ -114,7 +114,8 @@ TEST(Dabs, OneThatSlippedStandsOutAndDoesNotPassForABadModel) {
   }
 }
 
-/// Of so many places that agree with each other, whether each passes that far off the surface.
+/// Whether each of this many places, which agree with each other, passes at that distance from the
+/// surface.
 bool all_within(std::size_t places, double distance_m) {
   JoinedPlaces joined;
   joined.off_m.assign(places, 0.0);
@@ -171,7 +172,7 @@ TEST(Dabs, OnAMapThatWalksTheNewestCountMost) {
   EXPECT_GT(off_m({}), 0.0008) << "the twin: on a map that is said to stay";
 }
 
-/// What the eighth place that is proposed leaves of the error, and how far it lies from the others.
+/// The error left after the eighth proposed place, and how far that place lies from the others.
 struct Eighth {
   double left = 0.0;
   double nearest_m = 1.0;

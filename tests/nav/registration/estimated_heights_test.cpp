@@ -1,4 +1,4 @@
-// What the heights of strokes tell besides the pose.
+// Results from the heights of strokes besides the pose.
 #include "nav/registration/estimated_heights.h"
 
 #include <gtest/gtest.h>

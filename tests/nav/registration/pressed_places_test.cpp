@@ -14,7 +14,7 @@ using ::testing::Each;
 using ::testing::SizeIs;
 
 constexpr double kRightWithin_m = 0.002;
-/// What a press leaves beneath the tip, as the simulated surgeon's: SD before it is cut off at 0.
+/// The gap beneath a pressed tip, as for the simulated surgeon: SD before it is cut off at 0.
 constexpr double kPress_m = 0.0003;
 
 /// Stroked, then pressed in places; the model is exact.
@@ -28,7 +28,7 @@ class PressedBone : public StrokedBone {
     const Vec3 tip = nearest.point_m + std::abs(random_.normal(0.0, kPress_m)) * nearest.normal;
     return {strokes_.world_from_vertebra * Point<Vertebra>{tip}, 0.0001};
   }
-  /// Places one after the other, each where it tells most.
+  /// Places one after the other, each where it adds most information.
   std::vector<PressedPlace> press(std::size_t count) {
     std::vector<PressedPlace> places;
     while (places.size() < count) {
@@ -120,7 +120,7 @@ TEST(PressedPlaces, AreOfNoUseWhereTheStrokesLeaveAMotionOpen) {
   EXPECT_FALSE(join_places(bone.model(), bone.registration, {&nowhere, 1}, bone.options));
 }
 
-/// What pressed places do not see still stands against it.
+/// Objections that pressed places cannot settle remain.
 TEST(PressedPlaces, TakeNoOtherReasonAway) {
   PressedBone bone(2, 0.0);
   Registration refused = bone.registration;

@@ -66,7 +66,7 @@ TEST_F(RegisterBest, NeverMirrorsToFit) {
     EXPECT_NEAR(r->runner_up.rotation().determinant(), 1.0, 1e-9);
     EXPECT_GT(r->noise_m, kNotItsOwnMirror * own_noise_m) << "axis " << axis;
     EXPECT_THAT(kinds_of(*r), ElementsAre(Kind::kMirrored)) << "axis " << axis;
-    // The twin: what a mirrored fit would look like. It is accepted, and past the bound.
+    // The control: the result of a mirrored fit, which is accepted and exceeds the bound.
     const auto fitted = register_by_pose_search(**mirror_model, mirrored, {});
     ASSERT_TRUE(fitted.ok()) << fitted.error().message;
     EXPECT_TRUE(fitted->accepted) << "axis " << axis;
@@ -91,19 +91,20 @@ TEST_F(RegisterBest, RefusesABoneThatLooksTheSameFromTwoSides) {
   EXPECT_FALSE(twofold.accepted);
   EXPECT_THAT(kinds_of(twofold), Contains(RefusalReason::Kind::kLogLikelihoodRatio));
   EXPECT_LT(std::abs(twofold.log_likelihood_ratio), 6.0);
-  // The rival is the other one: half a turn away.
+  // The rival is the other pose, half a turn away.
   EXPECT_NEAR(
       rotation_angle_rad(twofold.runner_up.rotation(), twofold.world_from_vertebra.rotation()),
       std::acos(-1.0), 0.02);
-  // The same strokes on a bone without the symmetry are taken: that alone is what was refused.
+  // The same strokes on a bone without the symmetry are accepted, so the symmetry alone was
+  // refused.
   const Registration crooked = slab_verdict(test::crooked_back, false);
   EXPECT_TRUE(crooked.accepted) << crooked.reasons.size() << " reasons";
 }
 
-/// The few points that candidates are told apart by lie for the wrong pose, all together for the
-/// right one: it takes the first one's place.
+/// The few points by which candidates are compared favour the wrong pose, all points together the
+/// right one, which then takes its place.
 TEST_F(RegisterBest, SwapsInARunnerUpThatIsBetter) {
-  constexpr std::size_t kFew = 300;  // every so many are looked at first
+  constexpr std::size_t kFew = 300;  // one in this many is looked at first
   const auto model = VertebraModel::prepare(test::slab_bone(test::crooked_back)).value();
   Random random(5);
   std::vector<Vec3> places = test::strokes_over(model->surface(), 14);
@@ -123,7 +124,7 @@ TEST_F(RegisterBest, SwapsInARunnerUpThatIsBetter) {
     }
     return points;
   };
-  // The twin: as many points that lie as wrong, but none of them among the few.
+  // The control: equally many points that are equally wrong, but none of them among the few.
   for (const std::size_t first : {std::size_t{0}, step - 1}) {
     const auto r = register_by_pose_search(*model, points_of(first, step)).value();
     EXPECT_LT(rotation_angle_rad(r.world_from_vertebra.rotation(), Mat3::identity()), 0.02)

@@ -1,4 +1,4 @@
-// Registration `best` on what it must refuse, and what it then says.
+// Registration `best` on strokes that it must refuse, and its reasons.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST_F(RegisterBest, RefusesAPoseAtWhichThePointerGoesThroughBone) {
   const auto through = register_by_pose_search(*l4().model, tips, o).value();
   EXPECT_FALSE(through.accepted);
   EXPECT_THAT(kinds_of(through), Contains(RefusalReason::Kind::kShaftCollision));
-  // Nothing is said of shafts that nobody knows.
+  // Without known shafts, no reason mentions them.
   EXPECT_EQ(shaft_collision_fraction(*l4().model, full_.world_from_vertebra, tips, {}), 0.0);
   const std::vector<Vec3> unknown(tips.size());
   EXPECT_EQ(shaft_collision_fraction(*l4().model, full_.world_from_vertebra, tips, unknown), 0.0);
@@ -89,7 +89,7 @@ TEST_F(RegisterBest, RefusesWhatIsNoBone) {
   expect_off_the_bone(ball, "a ball");
   expect_off_the_bone(plane, "a plane");
   expect_off_the_bone(cylinder, "half a cylinder");
-  // The twin: as many points of the bone are refused for none of it.
+  // The control: equally many points on the bone are refused for none of these reasons.
   const Points tips = full_.tips();
   ASSERT_GE(tips.size(), 1500u);
   const auto bone = registered(Points(tips.begin(), tips.begin() + 1500));
@@ -133,7 +133,7 @@ TEST_F(RegisterBest, RefusesBadInputInOneLine) {
   EXPECT_THAT(refused(in_millimetres), HasSubstr("unit"));
 }
 
-/// Within this of what was named lies what is stroked next.
+/// The next strokes lie within this distance of the named part.
 constexpr double kAround_m = 0.010;
 
 TEST_F(RegisterBest, RefusesTooSmallAPartAndSaysWhatToStroke) {
@@ -150,14 +150,14 @@ TEST_F(RegisterBest, RefusesTooSmallAPartAndSaysWhatToStroke) {
   const auto r = registered(stroked);
   ASSERT_TRUE(r.ok()) << r.error().message;
   EXPECT_FALSE(r->accepted);
-  // It fits, as it does in many places: what is wrong is what it leaves open at the screws.
+  // It fits, as it does in many places; the reason is the uncertainty at the screws.
   EXPECT_THAT(kinds_of(*r), ElementsAre(Kind::kTreAtScrews, Kind::kSoftTissue));
   EXPECT_GT(r->reasons.front().value, r->reasons.front().limit);
   EXPECT_EQ(r->reasons.front().value, r->predicted_tre_m);
   EXPECT_TRUE(r->reasons.front().motion.has_value()) << "it names the motion";
   ASSERT_TRUE(r->weakest.has_value());
   ASSERT_TRUE(r->stroke_next.has_value());
-  // What it says to stroke is what was missing: a hundred points there are enough.
+  // The advice names the missing part: a hundred points there are enough.
   for (const auto& s : full_.samples) {
     if ((s.true_tip.v - r->stroke_next_at.v).norm() < kAround_m) {
       EXPECT_LT(s.true_tip.v.y, hind_m - 0.012) << "that was stroked before";

@@ -1,4 +1,4 @@
-// Registration `best` on what it should take: how right it is, and how sure.
+// Registration `best` on strokes that it should accept: its errors, and its predictions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ TEST_F(RegisterBest, AcceptsFullStrokesAndSaysHowSureItIs) {
   EXPECT_GE(r->runner_up_rmse_m, r->rmse_m);
 }
 
-/// Tissue of uneven thickness: what is accepted is right; what is refused says why and where to
+/// Tissue of uneven thickness: accepted registrations are right; refused ones say why and where to
 /// scrape.
 TEST_F(RegisterBest, IsNeverSilentlyWrongOverSoftTissue) {
   int refused = 0;

@@ -22,7 +22,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// What the paper's screws leave room for; a pose in the wrong place is off by 10 mm and more.
+/// The tolerance for the paper's screws; a pose in the wrong place is off by 10 mm and more.
 constexpr double kRightPose_m = 0.002;
 /// 0.9 mm in space are 0.9 mm across the surface; curvature and fitting move that a little.
 constexpr double kNoiseRmseLow_m = 0.00080;

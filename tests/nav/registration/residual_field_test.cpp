@@ -10,7 +10,7 @@ namespace {
 TEST_F(ResidualFieldTest, PredictsTheErrorsOfStrokesWithCorrelatedNoise) {
   const Compared c = compare({}, 10);
   EXPECT_NEAR(c.ratio(), 1.0, kHonest);
-  // Were all points taken for independent, the same check would tell.
+  // If all points were taken as independent, the same check would fail.
   EXPECT_LT(c.ratio() * std::sqrt(c.effective_points / 850.0), 1.0 - 2.0 * kHonest);
   EXPECT_LT(c.field_m, 0.00025) << "noise is no tissue";
 }
@@ -29,7 +29,7 @@ TEST_F(ResidualFieldTest, PredictsTheErrorsOfPointsInNoOrder) {
   EXPECT_LT(c.effective_points, 400.0) << "neighbours in space count as one";
 }
 
-/// Tissue as waves over the bone, which the model of the field knows nothing of.
+/// Tissue as waves over the bone, which the field's model does not include.
 TEST_F(ResidualFieldTest, PredictsTheErrorsOfTissueOfUnevenThickness) {
   const Compared c = compare({0.0002, 0.0, 0.3, false, 0.001}, 12);
   EXPECT_GT(c.ratio(), 1.0 - kHonest);
@@ -93,8 +93,8 @@ TEST_F(ResidualFieldTest, AStandoffIsFoundAndNeverNegative) {
   }
 }
 
-/// A fit of noisy places to a surface, from the pose that is true. Never nothing: its damping holds
-/// a motion that is open where it was.
+/// A fit of noisy places to a surface, from the true pose. It always has a result, since damping
+/// holds undetermined motions.
 SurfaceFit fit_from_truth(const SurfaceIndex& surface, std::vector<Vec3> places) {
   Random random(4);
   for (Vec3& p : places) {
@@ -106,7 +106,8 @@ SurfaceFit fit_from_truth(const SurfaceIndex& surface, std::vector<Vec3> places)
   return fit.value_or(SurfaceFit{});
 }
 
-/// Far more units than the fewest, 12, so that their number is no reason for nothing.
+/// Far more units than the minimum of 12, so that their number is not the reason for a missing
+/// result.
 constexpr std::size_t kEnoughUnits = 40;
 constexpr std::size_t kManyUnits = 1000;
 
@@ -127,12 +128,12 @@ TEST_F(ResidualFieldTest, IsNoneWhenAMotionIsOpen) {
   const SurfaceFit on_crest = fit_from_truth(crest, test::strokes_over(crest, 10));
   EXPECT_GE(residual_units(on_crest, kManyUnits).all.size(), kEnoughUnits);
   EXPECT_FALSE(residual_field(on_crest).has_value());
-  // The twin: the same strokes over a back on which no motion is open.
+  // The control: the same strokes over a back on which no motion is undetermined.
   EXPECT_TRUE(residual_field(fit_from_truth(surface_, test::strokes_over(surface_, 10))));
 }
 
 TEST_F(ResidualFieldTest, IsNoneOfTooFewPoints) {
-  // Spread over a back on which no motion is open: only their number is wanting.
+  // Spread over a back on which no motion is undetermined: only their number is too small.
   const std::vector<Vec3> places = test::strokes_over(surface_, 10);
   const auto spread = [&](std::size_t count) {
     std::vector<Vec3> some;

@@ -80,7 +80,7 @@ TEST_F(SurfaceFitTest, TrustsPointsByHowExactlyTheyWereTracked) {
     without_m2 += std::pow(apart_m(alike->pose, cloud.truth), 2);
   }
   EXPECT_LT(with_m2, 0.8 * without_m2);
-  // Told that all are alike it does what it does when it is told nothing.
+  // With equal SDs for all it does the same as without SDs.
   Random again(32);
   const CentredPoints cloud = test::centred_somewhere(places_, again);
   const CentredPose start = test::moved(cloud.truth, kStartShift_m, kStartTurn_rad, again);

@@ -20,7 +20,7 @@ class LinearWorld {
  public:
   explicit LinearWorld(std::vector<Unknowns> truth) : left_(std::move(truth)) {}
 
-  /// What is left to correct once `by` was corrected for a tool.
+  /// The remaining correction once `by` was corrected for a tool.
   void correct(std::size_t tool, const Unknowns& by) { left_[tool] -= by; }
   CalibrationEquations pair(std::size_t tool) {
     CalibrationEquations out;

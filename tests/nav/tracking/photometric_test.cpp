@@ -12,7 +12,7 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kTagM = 0.05;
-/// What whole greys, 64 rays a pixel and the caster's square blur leave: corners do ten times
+/// The error from whole greys, 64 rays a pixel and the caster's square blur; corners are ten times
 /// worse.
 constexpr double kExactTipM = 0.00008;
 constexpr double kExactRotationRad = 0.0006;
@@ -81,7 +81,7 @@ TEST(PhotometricPose, IsExactWhereTheImagesAre) {
   EXPECT_LT(tip_error_m(fit->rig_from_marker, tilted()), kExactTipM);
   EXPECT_LT(rotation_angle_rad(fit->rig_from_marker.rotation(), tilted().rotation()),
             kExactRotationRad);
-  // The twin: where it started from would not do.
+  // The control: the starting pose is beyond the bound.
   EXPECT_GT(tip_error_m(roughly(tilted()), tilted()), 10.0 * kExactTipM);
 }
 

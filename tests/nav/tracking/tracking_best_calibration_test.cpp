@@ -1,4 +1,4 @@
-// What the tracker `best` finds wrong with the calibration and with the sizes of the tags.
+// The errors of calibration and tag sizes that the tracker `best` finds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace orthonav::nav::tracking_best_test {
 namespace {
 
-/// The worst tip late in a sequence of which the cameras are not as reported.
+/// The worst tip late in a sequence whose cameras are not as reported.
 double worst_late_tip_m(const StereoCalibration& truth, const StereoCalibration& reported,
                         std::optional<StereoAlignment>& found) {
   auto tracker =
@@ -58,7 +58,7 @@ TEST(BestTracker, LeavesAGoodCalibrationAlone) {
   }
 }
 
-/// What a tracker ends with that sees tags of other sizes than are stated.
+/// The final state of a tracker that sees tags of other sizes than stated.
 struct AtOtherSizes {
   std::unique_ptr<ToolTracker> tracker;
   double apart_error_m = 0.0;  ///< of one tag from the other, mean over the last pairs
@@ -99,7 +99,7 @@ TEST(BestTracker, FindsHowTheSizesOfTagsDiffer) {
   const auto pointer = found.tracker->tag_size(0);
   const auto guide = found.tracker->tag_size(1);
   ASSERT_TRUE(pointer && guide);
-  // Their mean is taken to be as stated; 0.7 % of difference was 3 mm at the distance of a hand.
+  // Their mean is taken as stated; a difference of 0.7 % was 3 mm at the working distance.
   EXPECT_NEAR(pointer->applied - guide->applied, 0.007, 0.001);
   EXPECT_FALSE(pointer->disagrees || guide->disagrees);
   EXPECT_LT(found.apart_error_m, 0.0006);

@@ -26,8 +26,8 @@ TEST(BestTracker, SeesEveryToolInEveryPairFromTheFirstOn) {
   }
 }
 
-/// What one camera leaves of a tip, three times what six pairs of both tools and either camera
-/// show: the worst of the 24 was 0.39 mm off, the root mean square 0.09 mm.
+/// The tip errors allowed with one camera: three times those of six pairs of both tools with either
+/// camera, of which the worst of 24 was 0.39 mm and the root mean square 0.09 mm.
 constexpr double kOneCameraWorst_m = 0.0012;
 constexpr double kOneCameraRms_m = 0.0003;
 /// One camera knows depth by the tag's size alone: its SD was 4.2 and 4.7 times that of two.
@@ -62,7 +62,7 @@ TEST(BestTracker, GoesOnWithOneCameraAndSaysSo) {
         EXPECT_LT(std::abs(off.z), kHonestSds * depth_sd_m(states[i])) << "pair " << k;
       }
       EXPECT_GT(depth_sd_m(states[0]), kLessSure * sure_m) << "pair " << k;
-      // The twin: the pose of one pair before is past the bound.
+      // The control: the pose of the previous pair exceeds the bound.
       EXPECT_GT(tip_error_m(states[0], tags_at(k - 1)[0]), kOneCameraWorst_m) << "pair " << k;
     }
   }

@@ -1,4 +1,4 @@
-// The tracker `paper`: its poses, and what it makes of pairs that show too little.
+// The tracker `paper`: its poses, and its results for pairs that show too little.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -167,7 +167,7 @@ TEST(PaperTracker, SurvivesTimeStandingStill) {
         EXPECT_EQ(again[i].world_from_marker.covariance, first[i].world_from_marker.covariance);
       }
     }
-    // The twin: with the clock still stopped, other pictures give another pose, the right one.
+    // The control: with the clock still stopped, other pictures give another, correct pose.
     StereoFrame moved = shown(stroke()[1], 0);
     const ToolState other = t->track(moved)[0];
     expect_measured_at(other, pointer_at(1));

@@ -65,7 +65,7 @@ XrResult XRAPI_CALL destroy_instance(XrInstance) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
   d.instance = false;
-  // An instance takes its children with it; an order that can be kept is kept by whoever is tidy.
+  // Destroying an instance destroys its children; a tidy application destroys them first.
   if (d.session && !d.instance_lost) {
     d.violated("the instance went before its session", XR_SUCCESS);
   }

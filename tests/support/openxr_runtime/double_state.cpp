@@ -197,7 +197,7 @@ XrTime Double::now() const {
   }
   timespec time = {};
   ::clock_gettime(CLOCK_MONOTONIC, &time);
-  // Far from CLOCK_MONOTONIC, so that who takes one for the other is found out.
+  // Far from CLOCK_MONOTONIC, so that confusing the two is noticed.
   return 3'000'000'000'000'000 + time.tv_sec * 1'000'000'000 + time.tv_nsec;
 }
 

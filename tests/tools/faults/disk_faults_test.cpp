@@ -19,7 +19,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// What a run without a fault does to the disk, in its order.
+/// The calls on the disk of a run without faults, in order.
 std::vector<DiskCall> calls_of(ShortRun& run) {
   const Called whole = run.run([&run] { fail_disk(run.written(), {}, run.list()); });
   EXPECT_EQ(whole.code, 0) << whole.err;
@@ -65,7 +65,7 @@ std::vector<DiskFault> few_faults(const std::vector<DiskCall>& calls) {
   return faults;
 }
 
-/// Not all is kept, and it says so; or all is.
+/// Either everything is kept, or the run reports that something is not.
 void expect_told(const ShortRun& run, const Called& called) {
   EXPECT_NE(called.code, -1) << "it crashed or hung: " << called.err;
   if (!all_is_kept(run)) {

@@ -82,13 +82,13 @@ TEST(PreviewModel, LooksBackAndComesBack) {
   EXPECT_TRUE(bench.gate.paused());
   bench.model.key(Key::kRight, true);
   EXPECT_EQ(bench.shown(), 9);
-  bench.pass(10);  // Looking on in what was is no step of the operation.
+  bench.pass(10);  // Looking at the past is not a step of the operation.
   EXPECT_EQ(bench.gate.passed(), 10);
   bench.model.key(Key::kRight, true);
   EXPECT_FALSE(bench.model.looks_back());
   bench.model.scrub_to(3);
   EXPECT_EQ(bench.shown(), 3);
-  // Nor does the newest slip away while it is looked at, until it is left.
+  // The newest moment also stays while it is looked at.
   bench.model.scrub_to(10);
   EXPECT_FALSE(bench.model.looks_back());
   bench.gate.step();
