@@ -1,9 +1,9 @@
 #include "tools/demo_report.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
-#include <map>
 
 #include "engine/io/atomic_file.h"
 
@@ -18,19 +18,18 @@ Result<std::vector<std::uint8_t>> bytes_of(const std::filesystem::path& path) {
   return std::vector<std::uint8_t>(std::istreambuf_iterator<char>(file), {});
 }
 
-/// What to look at in a step; the key is the step's first word.
-std::string caption_of(const std::string& step) {
-  static const std::map<std::string, std::string> kCaptions = {
-      {"setup", "The tools are found in both cameras; nothing is registered yet."},
-      {"digitize", "The pointer strokes the bone: yellow while recording, orange once saved."},
-      {"verify", "The registered vertebra is laid over the bone to be judged before use."},
-      {"accepted", "The registration was accepted: entry points appear."},
-      {"guide", "Entry, planned trajectory, the triangle towards the tool's axis, and the angle."},
-      {"placed", "The sleeve is set over the wire: the line beside the plan is how it stands."},
-      {"rod", "The heads are touched one by one; the rod follows as a spline through them."},
-      {"done", "The operation is over."}};
-  const auto found = kCaptions.find(step.substr(0, step.find(' ')));
-  return found == kCaptions.end() ? "" : found->second;
+/// What to look at in a step.
+const char* caption_of(Step step) {
+  constexpr std::array<const char*, kStepCount> kCaptions = {
+      "The tools are found in both cameras; nothing is registered yet.",
+      "The pointer strokes the bone: yellow while recording, orange once saved.",
+      "The registered vertebra is laid over the bone to be judged before use.",
+      "The registration was accepted: entry points appear.",
+      "Entry, planned trajectory, the triangle towards the tool's axis, and the angle.",
+      "The sleeve is set over the wire: the line beside the plan is how it stands.",
+      "The heads are touched one by one; the rod follows as a spline through them.",
+      "The operation is over."};
+  return kCaptions[static_cast<std::size_t>(step)];
 }
 
 std::vector<std::string> notes_of(const DemoReport& report) {
@@ -49,15 +48,18 @@ std::vector<std::string> notes_of(const DemoReport& report) {
   return notes;
 }
 
-/// A picture in which a screw is guided shows best what the film is about; otherwise the last one.
-std::vector<std::uint8_t> poster_of(const engine::ReportContent& content) {
-  if (content.video.empty() || content.pictures.empty()) {
+/// A picture in which a screw is guided says best what the film is of; the last one else.
+std::vector<std::uint8_t> poster_of(const DemoReport& report,
+                                    const engine::ReportContent& content) {
+  if (!report.video || content.pictures.empty()) {
     return {};
   }
-  const auto guided = std::find_if(
-      content.pictures.begin(), content.pictures.end(),
-      [](const engine::ReportPicture& picture) { return picture.title.starts_with("guide"); });
-  return guided != content.pictures.end() ? guided->png : content.pictures.back().png;
+  const auto guided =
+      std::find_if(report.pictures.begin(), report.pictures.end(),
+                   [](const StepPicture& picture) { return picture.at.step == Step::kGuide; });
+  return guided != report.pictures.end()
+             ? content.pictures[static_cast<std::size_t>(guided - report.pictures.begin())].png
+             : content.pictures.back().png;
 }
 
 }  // namespace
@@ -87,9 +89,10 @@ Status write_demo_report(const std::filesystem::path& folder, const engine::Oper
     if (!png) {
       return png.error();
     }
-    content.pictures.push_back({picture.step, caption_of(picture.step), std::move(*png)});
+    content.pictures.push_back(
+        {engine::name_of(picture.at), caption_of(picture.at.step), std::move(*png)});
   }
-  content.poster = poster_of(content);
+  content.poster = poster_of(report, content);
   const auto page = engine::report_html(content);
   if (!page) {
     return page.error();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/angle.h"
+#include "engine/session/wording.h"
 
 namespace orthonav::tools {
 
@@ -14,9 +15,9 @@ void ReadingCurves::stepped(const StereoFrame& frame, const engine::Inputs& inpu
   if (guidance.step != engine::Step::kGuide || !guidance.tool || !guidance.tool->measured) {
     return;
   }
-  const std::string name = engine::name_of(guidance.status.at);
-  if (screws_.empty() || screws_.back().name != name) {
-    screws_.push_back({name, frame.time, {}, {}, {}});
+  const StepOnDisplay& at = guidance.status.at;
+  if (screws_.empty() || screws_.back().at != at) {
+    screws_.push_back({at, frame.time, {}, {}, {}});
   }
   Screw& screw = screws_.back();
   screw.time_s.push_back(seconds(frame.time - screw.begin));
@@ -46,8 +47,8 @@ std::vector<engine::ReportPlot> ReadingCurves::plots(const engine::GradeLimits& 
   engine::ReportPlot distance{
       "Distance of the tool's tip from the planned entry, as tracked", time, "mm", {}};
   for (const Screw& screw : screws_) {
-    // "guide L4 left": the step's first word adds nothing here.
-    const std::string name = screw.name.substr(screw.name.find(' ') + 1);
+    std::string name;
+    engine::append_screw(name, screw.at.level, screw.at.side.value_or(Side::kLeft));
     angle.curves.push_back({name, screw.time_s, screw.angle_deg});
     distance.curves.push_back({name, screw.time_s, screw.distance_mm});
   }

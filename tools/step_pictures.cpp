@@ -30,8 +30,8 @@ Status StepPictures::finish() {
   if (!held_step_) {
     return failure_;
   }
-  const std::string step = engine::name_of(*held_step_);
-  std::string name = step;
+  const StepOnDisplay at = *held_step_;
+  std::string name = engine::name_of(at);
   for (char& c : name) {
     if (c == ' ' || c == '/') {
       c = '-';
@@ -45,7 +45,7 @@ Status StepPictures::finish() {
     failure_ = saved;
     return saved;
   }
-  written_.push_back({step, path});
+  written_.push_back({at, path});
   return failure_;
 }
 

@@ -12,7 +12,7 @@ namespace orthonav::tools {
 
 /// The surgeon's view at one step, as a file.
 struct StepPicture {
-  std::string step;  ///< "guide L4 left"
+  StepOnDisplay at;
   std::filesystem::path path;
 };
 

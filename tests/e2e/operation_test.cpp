@@ -135,13 +135,13 @@ class PoseLog : public LoopObserver {
   const Session* session = nullptr;
   void stepped(const StereoFrame& frame, const Inputs&, const Guidance& guidance) override {
     for (const nav::ToolState& tool : session->tool_states()) {
-      lines.push_back({frame.time, engine::name_of(guidance.status.at),
-                       tool.world_from_marker.status, tool.world_from_marker.value.row_major()});
+      lines.push_back({frame.time, guidance.status.at, tool.world_from_marker.status,
+                       tool.world_from_marker.value.row_major()});
     }
   }
   struct Line {
     Timestamp time{};
-    std::string step;
+    StepOnDisplay at;
     PoseStatus status = PoseStatus::kLost;
     std::array<double, 16> pose{};
     friend bool operator==(const Line&, const Line&) = default;
@@ -179,7 +179,7 @@ TEST(Operation, AtItsDocumentedErrorsGivesTheSamePosesAndStepsWithOneAndTwoThrea
   expect_errors_as_documented(*two_threads.result, options.sim.error_model);
   // Up to the middle of guidance; the rest would not add anything.
   const auto guided = std::find_if(two_threads.poses.begin(), two_threads.poses.end(),
-                                   [](const auto& line) { return line.step.starts_with("guide"); });
+                                   [](const auto& line) { return line.at.step == Step::kGuide; });
   ASSERT_NE(guided, two_threads.poses.end());
   constexpr std::int64_t kTools = 3;
   options.loop.max_frames = (guided - two_threads.poses.begin()) / kTools + 60;
@@ -232,7 +232,7 @@ TEST(Operation, ARecordingReplaysToIdenticalPosesAndSteps) {
   }
   // A comparison of empty results would pass too.
   EXPECT_GT(measured, 100u);
-  EXPECT_EQ(live.poses.back().step, "digitize L5");
+  EXPECT_EQ(live.poses.back().at, (StepOnDisplay{Step::kDigitize, "L5", {}}));
 }
 
 }  // namespace

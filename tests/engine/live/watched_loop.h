@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/mutex.h"
+#include "engine/session/part_wording.h"
 #include "hal/api/forwarding_headset.h"
 #include "hal/fake/scripted.h"
 #include "tests/engine/live/guiding_loop.h"
@@ -16,14 +19,21 @@
 
 namespace orthonav::engine {
 
-inline std::string text_of(const render::Scene& scene) {
+/// The part whose stall is drawn, if one is.
+inline std::optional<Part> stall_in(const render::Scene& scene) {
   std::string text;
   for (const render::TextItem& item : scene.texts) {
     for (const render::TextRun& run : item.runs) {
       text += run.text + " ";
     }
   }
-  return text;
+  for (std::size_t k = 0; k < kPartCount; ++k) {
+    if (const Part part{static_cast<std::uint8_t>(k)};
+        text.find(stalled_text(part)) != std::string::npos) {
+      return part;
+    }
+  }
+  return std::nullopt;
 }
 
 /// What happens just before a certain pair comes; by default nothing.
@@ -75,15 +85,19 @@ class EventfulHeadset : public ForwardingHeadset {
   ToldVoice voice_;
 };
 
-/// Keeps the texts that it was given to draw, and can hang or throw from a given snapshot on.
+/// Keeps what it was given to draw, and can hang or throw from a snapshot on.
 class WatchedSink : public SnapshotSink {
  public:
   Status draw(const Snapshot& snapshot) override {
+    const std::optional<Part> stalled = stall_in(snapshot.scene);
     {
       const MutexLock lock(mutex_);
-      texts_.push_back(text_of(snapshot.scene));
+      guided_ = guided_ || (snapshot.step.step == Step::kGuide && !stalled);
+      if (stalled) {
+        stalls_.insert(*stalled);
+      }
     }
-    if (text_of(snapshot.scene).find("stalled") != std::string::npos && !warns) {
+    if (stalled && !warns) {
       return Error{"no warnings"};
     }
     // In real time any snapshot may be skipped.
@@ -97,12 +111,15 @@ class WatchedSink : public SnapshotSink {
     return {};
   }
   [[nodiscard]] bool stalled() const override { return hangs_by_itself; }
-  [[nodiscard]] bool drew(const std::string& text) const {
+  [[nodiscard]] bool drew_guidance() const {
     const MutexLock lock(mutex_);
-    return std::any_of(texts_.begin(), texts_.end(), [&](const std::string& drawn) {
-      return drawn.find(text) != std::string::npos;
-    });
+    return guided_;
   }
+  [[nodiscard]] std::set<Part> stalls() const {
+    const MutexLock lock(mutex_);
+    return stalls_;
+  }
+  [[nodiscard]] bool drew_stall_of(Part part) const { return stalls().contains(part); }
   bool warns = true;  ///< false: a notice of a stall can't be drawn
   std::int64_t hangs_at = -1;
   std::int64_t dies_at = -1;
@@ -112,7 +129,8 @@ class WatchedSink : public SnapshotSink {
 
  private:
   mutable Mutex mutex_;
-  std::vector<std::string> texts_ ORTHONAV_GUARDED_BY(mutex_);
+  bool guided_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  std::set<Part> stalls_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
 /// Calls something once the guidance of a pair is known.
@@ -134,12 +152,12 @@ class WatchedLoop : public GuidingLoop {
   Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr) {
     return GuidingLoop::run(headset, observer, &sink);
   }
-  /// Hangs the part that calls it, for longer than a part may take: from when guidance is drawn
-  /// until `text` is drawn.
-  void hang_until_drawn(fake::FakeHeadset& headset, const char* text) {
-    EXPECT_TRUE(test::wait_until([&] { return sink.drew("guide"); }));
+  /// Hangs the part that calls it: from when guidance is drawn, for longer than a part may take,
+  /// until its stall is drawn.
+  void hang_until_drawn(fake::FakeHeadset& headset, Part part) {
+    EXPECT_TRUE(test::wait_until([&] { return sink.drew_guidance(); }));
     headset.manual_clock().advance(kStallAfter + Duration(1));
-    EXPECT_TRUE(test::wait_until([&] { return sink.drew(text); }));
+    EXPECT_TRUE(test::wait_until([&] { return sink.drew_stall_of(part); }));
   }
   WatchedSink sink;
 };

@@ -18,8 +18,6 @@ std::size_t tool_of(const RoomDescription& room, ToolKind kind) {
   return 0;
 }
 
-std::string time_text(Timestamp time) { return std::to_string(time.time_since_epoch().count()); }
-
 }  // namespace
 
 SimOptions without_pixels(std::uint64_t seed, const ErrorModel& error_model) {
@@ -67,7 +65,7 @@ int FakeEngine::run() {
     }
     draw(frame);
     if (on_frame) {
-      on_frame(frame, name_of(step_));
+      on_frame(frame, step_);
     }
   }
 }
@@ -80,8 +78,7 @@ void FakeEngine::enter(const StepOnDisplay& step) {
 }
 
 void FakeEngine::take(const ClickerEvent& event) {
-  events_.push_back(time_text(event.time) + " click " +
-                    std::to_string(static_cast<int>(event.action)));
+  clicks_.push_back(event);
   const bool digitizing = (step_.step == Step::kDigitize);
   if (event.action == ClickerAction::kPress) {
     pressed_ = true;
@@ -192,7 +189,6 @@ void FakeEngine::double_clicked(Timestamp time) {
 }
 
 void FakeEngine::take(const Phrase& phrase) {
-  events_.push_back(time_text(phrase.time) + " " + phrase.text);
   phrases_.push_back(phrase);
   if (options_.deaf) {
     return;

@@ -51,13 +51,13 @@ class FakeEngine {
  public:
   FakeEngine(SimHeadset& headset, const TestCase& test_case, EngineOptions options = {});
   /// Called after each frame with the step of the workflow.
-  std::function<void(const StereoFrame&, const std::string&)> on_frame;
+  std::function<void(const StereoFrame&, const StepOnDisplay&)> on_frame;
   /// Runs the headset to the end of its stream; the number of frames.
   int run();
 
   [[nodiscard]] const std::map<std::string, DigitizedLevel>& levels() const { return levels_; }
   [[nodiscard]] const std::vector<std::string>& history() const { return history_; }
-  [[nodiscard]] const std::vector<std::string>& events() const { return events_; }
+  [[nodiscard]] const std::vector<ClickerEvent>& clicks() const { return clicks_; }
   [[nodiscard]] const std::vector<Phrase>& phrases() const { return phrases_; }
   [[nodiscard]] const std::vector<Point<World>>& heads() const { return heads_; }
   /// The pose of a level as its holograms show it, in the true level's frame.
@@ -103,7 +103,7 @@ class FakeEngine {
   std::map<std::string, DigitizedLevel> levels_;
   std::vector<Point<World>> heads_;
   std::vector<std::string> history_{"setup"};
-  std::vector<std::string> events_;
+  std::vector<ClickerEvent> clicks_;
   std::vector<Phrase> phrases_;
 };
 

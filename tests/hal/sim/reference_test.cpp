@@ -17,7 +17,7 @@ TEST(Reference, StaysOnThePatientAllTheOperation) {
   std::optional<Transform<Spine, Marker>> first;
   double head_turned_rad = 0.0;
   std::optional<Mat3> first_head;
-  engine.on_frame = [&](const StereoFrame&, const std::string&) {
+  engine.on_frame = [&](const StereoFrame&, const StepOnDisplay&) {
     const RoomState state = (*headset)->state();
     ASSERT_TRUE(state.tool_present[2]);
     const auto spine_from_marker = state.room_from_spine.inverse() * state.room_from_marker[2];

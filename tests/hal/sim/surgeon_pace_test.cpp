@@ -24,18 +24,15 @@ Digitized digitized(const TestCase& test_case, int seed, const ErrorModel& error
   EXPECT_EQ(engine.history().back(), "done") << "seed " << seed;
   const DigitizedLevel& level = engine.levels().at(test_case.room.operated.at(0));
   Digitized out{level.duration_s, 0.0, 0, level.saved_samples, level.deleted_regions};
-  const auto action = [](const std::string& event, ClickerAction what) {
-    return event.ends_with(" click " + std::to_string(static_cast<int>(what)));
-  };
   double pressed_at_s = 0.0;
-  for (const std::string& event : engine.events()) {
-    const double time_s = 1e-9 * std::stod(event);
-    if (action(event, ClickerAction::kPress)) {
+  for (const ClickerEvent& click : engine.clicks()) {
+    const double time_s = seconds(click.time.time_since_epoch());
+    if (click.action == ClickerAction::kPress) {
       pressed_at_s = time_s;
       ++out.presses;
-    } else if (action(event, ClickerAction::kRelease)) {
+    } else if (click.action == ClickerAction::kRelease) {
       out.pressed_s += time_s - pressed_at_s;
-    } else if (action(event, ClickerAction::kDoubleClick)) {
+    } else if (click.action == ClickerAction::kDoubleClick) {
       break;
     }
   }

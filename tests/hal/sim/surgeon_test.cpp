@@ -135,8 +135,8 @@ TEST(Surgeon, GivesUpWhenNobodyListens) {
   // Six minutes of patience: said once, repeated five times.
   EXPECT_GT(frames, 360 * 30);
   EXPECT_LT(frames, 400 * 30);
-  EXPECT_EQ(std::count_if(engine.events().begin(), engine.events().end(),
-                          [](const std::string& event) { return event.ends_with(" start"); }),
+  EXPECT_EQ(std::count_if(engine.phrases().begin(), engine.phrases().end(),
+                          [](const Phrase& phrase) { return phrase.text == "start"; }),
             6);
 }
 
@@ -150,9 +150,9 @@ TEST(Surgeon, WaitsWhileTheToolIsLostAndLooksFromFurtherAndFurtherAside) {
   FakeEngine engine(**headset, test_case, blind);
   Vec3 least{1, 1, 1};
   Vec3 most{-1, -1, -1};
-  engine.on_frame = [&](const StereoFrame& frame, const std::string& step) {
+  engine.on_frame = [&](const StereoFrame& frame, const StepOnDisplay& at) {
     const double time_s = seconds(frame.time.time_since_epoch()) - 100.0;
-    if (step.starts_with("guide") && time_s > 110.0 && time_s < blind.blind_to_s) {
+    if (at.step == Step::kGuide && time_s > 110.0 && time_s < blind.blind_to_s) {
       const Vec3 view = (*headset)->state().room_from_rig.rotation() * Vec3{0, 0, 1};
       for (int axis = 0; axis < 3; ++axis) {
         least[axis] = std::min(least[axis], view[axis]);
@@ -179,18 +179,18 @@ TEST(Surgeon, WaitsWhileTheToolIsLostAndLooksFromFurtherAndFurtherAside) {
 
 TEST(Surgeon, DoesTheSameAgainWithTheSameSeed) {
   const TestCase test_case = synthetic_case();
-  std::vector<std::vector<std::string>> events;
+  std::vector<std::pair<std::vector<ClickerEvent>, std::vector<Phrase>>> events;
   std::vector<Truth> truths;
   for (const std::uint64_t seed : {7U, 7U, 8U}) {
     auto headset = SimHeadset::open(test_case.room, without_pixels(seed));
     ASSERT_TRUE(headset.ok());
     FakeEngine engine(**headset, test_case);
     ASSERT_GT(engine.run(), 0);
-    events.push_back(engine.events());
+    events.emplace_back(engine.clicks(), engine.phrases());
     truths.push_back((*headset)->truth());
   }
-  EXPECT_EQ(events[0], events[1]);
-  EXPECT_NE(events[0], events[2]);
+  EXPECT_TRUE(events[0] == events[1]);
+  EXPECT_FALSE(events[0] == events[2]);
   ASSERT_EQ(truths[0].wires.size(), truths[1].wires.size());
   for (std::size_t i = 0; i < truths[0].wires.size(); ++i) {
     EXPECT_EQ(truths[0].wires[i].entry, truths[1].wires[i].entry);

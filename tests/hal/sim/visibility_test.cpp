@@ -75,20 +75,21 @@ std::map<std::string, Count> count_tags(const TestCase& test_case, std::uint64_t
   TagFinder finder;
   GreyImage image;
   std::map<std::string, Count> counts;
-  std::string last_step;
+  StepOnDisplay last;
   int in_step = 0;
   const char* dump = std::getenv("ORTHONAV_DUMP");
-  engine.on_frame = [&](const StereoFrame& frame, const std::string& step) {
-    in_step = step == last_step ? in_step + 1 : 0;
-    last_step = step;
+  engine.on_frame = [&](const StereoFrame& frame, const StepOnDisplay& at) {
+    in_step = at == last ? in_step + 1 : 0;
+    last = at;
     // Three seconds pass before a tool that was swapped is in use.
-    const bool used = step.starts_with("digitize") || step.starts_with("guide");
-    const int every = step.starts_with("digitize") ? 240 : 60;
+    const bool digitizes = at.step == Step::kDigitize;
+    const bool used = digitizes || at.step == Step::kGuide;
+    const int every = digitizes ? 240 : 60;
     if (!used || in_step < 150 || in_step % every != 0) {
       return;
     }
     const RoomState state = (*headset)->state();
-    const int id = step.starts_with("digitize") ? 3 : 5;
+    const int id = digitizes ? 3 : 5;
     renderer->render({&state, 1}, cameras.left, cameras.left_from_rig,
                      static_cast<std::uint64_t>(frame.sequence), image);
     const bool left = finder.find(image).contains(id);
@@ -99,6 +100,7 @@ std::map<std::string, Count> count_tags(const TestCase& test_case, std::uint64_t
                      {cameras.right_from_rig.rotation(), cameras.right_from_rig.translation()},
                      static_cast<std::uint64_t>(frame.sequence) + 1, image);
     const bool right = finder.find(image).contains(id);
+    const std::string step = name_of(at);
     Count& count = counts[step];
     ++count.looked;
     if (left && right) {
