@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "tools/eye_in_rig.h"
+#include "tools/support/eye_in_rig.h"
 #include "tools/run_stats.h"
 
 namespace orthonav::tools {

@@ -11,7 +11,7 @@
 #include "hal/hl2ss/scene_command.h"
 #include "render/float3.h"
 #include "render/shapes.h"
-#include "tools/eye_in_rig.h"
+#include "tools/support/eye_in_rig.h"
 
 namespace orthonav::tools {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
-#include "tools/eye_in_rig.h"
+#include "tools/support/eye_in_rig.h"
 
 namespace orthonav::tools {
 Result<std::unique_ptr<SurgeonView>> SurgeonView::create(const SurgeonViewOptions& options) {

@@ -8,7 +8,7 @@
 #include "engine/live/known_tools.h"
 #include "engine/session/wording.h"
 #include "engine/study/sim_scenario.h"
-#include "tools/eye_in_rig.h"
+#include "tools/support/eye_in_rig.h"
 
 namespace orthonav::preview {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "engine/holograms/render_values.h"
-#include "tools/eye_in_rig.h"
+#include "tools/support/eye_in_rig.h"
 #include "tools/preview/outlines.h"
 
 namespace orthonav::preview {
