@@ -121,8 +121,8 @@ class Transform {
 template <class A, class B>
 [[nodiscard]] Transform<A, B> interpolated(const Transform<A, B>& a, const Transform<A, B>& b,
                                            double fraction) {
-  const Vec3 turn = vector_from_rotation(a.rotation().transposed() * b.rotation());
-  return {a.rotation() * rotation_from_vector(fraction * turn),
+  const Vec3 rotation_rad = vector_from_rotation(a.rotation().transposed() * b.rotation());
+  return {a.rotation() * rotation_from_vector(fraction * rotation_rad),
           a.translation() + fraction * (b.translation() - a.translation())};
 }
 

@@ -11,7 +11,7 @@ constexpr std::array<std::size_t, 4> kTheirs{1, 0, 3, 2};
 
 /// What to add to OpenCV's corners: our first pixel's centre is at (0.5, 0.5), OpenCV's at (0, 0),
 /// except for quads that it takes over from AprilTag unchanged (OpenCV 4.6).
-double shift_px(cv::aruco::CornerRefineMethod refinement) {
+double corner_offset_px(cv::aruco::CornerRefineMethod refinement) {
   return refinement == cv::aruco::CORNER_REFINE_APRILTAG ? 0.0 : 0.5;
 }
 
@@ -33,8 +33,8 @@ bool detect(const cv::Ptr<cv::aruco::Dictionary>& dictionary,
     nav::MarkerCorners tag;
     tag.family = "tag36h11";
     tag.id = ids[i];
-    const double offset_px =
-        shift_px(static_cast<cv::aruco::CornerRefineMethod>(parameters->cornerRefinementMethod));
+    const double offset_px = corner_offset_px(
+        static_cast<cv::aruco::CornerRefineMethod>(parameters->cornerRefinementMethod));
     for (std::size_t k = 0; k < 4; ++k) {
       const cv::Point2f theirs = corners[i][kTheirs[k]];
       tag.corners_px[k] = {static_cast<double>(theirs.x) + offset_px,

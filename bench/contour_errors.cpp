@@ -23,17 +23,17 @@ constexpr int kFrames = 120;
 
 /// A place of the head 0.5 m from the bone: turned about the patient's long axis (z), tilted
 /// towards the patient's head.
-Float3 head_at(double turn_rad, double tilt_rad = 0.3) {
-  return kAway_m * Float3{static_cast<float>(std::sin(turn_rad) * std::cos(tilt_rad)),
-                          static_cast<float>(std::cos(turn_rad) * std::cos(tilt_rad)),
+Float3 head_at(double yaw_rad, double tilt_rad = 0.3) {
+  return kAway_m * Float3{static_cast<float>(std::sin(yaw_rad) * std::cos(tilt_rad)),
+                          static_cast<float>(std::cos(yaw_rad) * std::cos(tilt_rad)),
                           static_cast<float>(std::sin(tilt_rad))};
 }
 
 std::vector<Float3> sides() {
   std::vector<Float3> heads;
-  for (int turn = -4; turn <= 4; ++turn) {
+  for (int yaw = -4; yaw <= 4; ++yaw) {
     for (int tilt = -1; tilt <= 1; ++tilt) {
-      heads.push_back(head_at(0.2 * turn, 0.4 * tilt));
+      heads.push_back(head_at(0.2 * yaw, 0.4 * tilt));
     }
   }
   return heads;
@@ -136,16 +136,16 @@ ContourErrors ContourBench::at_rest(bool on_a_quad) const {
   return errors;
 }
 
-ContourErrors ContourBench::in_motion(double turn_rad_s, bool on_a_quad) const {
+ContourErrors ContourBench::in_motion(double rotation_rad_s, bool on_a_quad) const {
   ContourErrors errors;
   engine::BoneLines lines;
   std::vector<StraightPiece> drawn;
   Float3 drawn_for;
   for (int frame = 0; frame < kFrames; ++frame) {
     const double time_s = frame * kFrame_s;
-    const double begin_rad = -0.5 * turn_rad_s * kFrames * kFrame_s;
+    const double begin_rad = -0.5 * rotation_rad_s * kFrames * kFrame_s;
     if (frame % kFramesAPair == 0) {
-      const Float3 then = head_at(begin_rad + turn_rad_s * (time_s - kShownAfter_s));
+      const Float3 then = head_at(begin_rad + rotation_rad_s * (time_s - kShownAfter_s));
       const auto& found = lines.pieces(item_, then, Timestamp(from_seconds(time_s)));
       if (found != drawn) {
         drawn = found;
@@ -154,7 +154,7 @@ ContourErrors ContourBench::in_motion(double turn_rad_s, bool on_a_quad) const {
     }
     if (frame % 4 == 0) {
       judge(on_a_quad ? flattened(drawn, drawn_for) : drawn,
-            head_at(begin_rad + turn_rad_s * time_s), errors);
+            head_at(begin_rad + rotation_rad_s * time_s), errors);
     }
   }
   return errors;

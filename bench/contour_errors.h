@@ -25,8 +25,8 @@ class ContourBench {
   [[nodiscard]] ContourErrors at_rest(bool on_a_quad) const;
   /// The head goes around the bone at this speed; the drawing was made for its place
   /// `kShownAfter_s` ago.
-  [[nodiscard]] ContourErrors in_motion(double turn_rad_s, bool on_a_quad) const;
-  /// Mean number of pieces over those sides.
+  [[nodiscard]] ContourErrors in_motion(double rotation_rad_s, bool on_a_quad) const;
+  /// Mean number of pieces from those sides.
   [[nodiscard]] double pieces() const;
 
  private:

@@ -28,11 +28,11 @@ std::string quantiles(std::vector<double> v) {
 }
 
 /// With Wilson's interval.
-std::string share(int k, int n) {
+std::string fraction(int k, int n) {
   if (n == 0) {
     return "-";
   }
-  const ShareInterval interval = wilson(k, static_cast<std::size_t>(n));
+  const FractionInterval interval = wilson(k, static_cast<std::size_t>(n));
   return printed("%d of %d = %.1f %% (%.1f to %.1f)", k, n, 1e2 * (double(k) / n),
                  1e2 * interval.low, 1e2 * interval.high);
 }
@@ -173,10 +173,10 @@ void print(const Errors& e, double slice_mm) {
   std::printf("  bone, deg           %s\n", quantiles(e.bone_deg).c_str());
   std::printf("  angle, stated SDs   %s\n", quantiles(e.angle_sds).c_str());
   std::printf("  clearance, SDs      %s\n", quantiles(e.clearance_sds).c_str());
-  std::printf("  grades right        %s\n", share(e.right_grades, e.grades).c_str());
-  std::printf("  above lower 95      %s\n", share(e.lower_held, e.grades).c_str());
+  std::printf("  grades right        %s\n", fraction(e.right_grades, e.grades).c_str());
+  std::printf("  above lower 95      %s\n", fraction(e.lower_held, e.grades).c_str());
   std::printf("  angle within 95     %s\n",
-              share(e.angle_held, static_cast<int>(e.angle_deg.size())).c_str());
+              fraction(e.angle_held, static_cast<int>(e.angle_deg.size())).c_str());
 }
 
 }  // namespace orthonav

@@ -17,9 +17,9 @@ namespace {
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
-/// The right image is the left one shifted, as for near objects, so that a false match in one also
-/// fits the other.
-constexpr int kShiftPx = 60;
+/// The right image is the left one shifted, as for near things, so that what fits in one fits in
+/// the other.
+constexpr int kOffset_px = 60;
 
 /// Smooth noise of one scale, added.
 void add_clouds(Random& random, int cell_px, double strength, std::vector<float>& grey, int width) {
@@ -73,7 +73,7 @@ void add_boards(Random& random, std::vector<float>& grey, int width) {
 
 void make_pair(std::uint64_t seed, StereoFrame& frame) {
   Random random(seed);
-  const int width = kWidth + kShiftPx;
+  const int width = kWidth + kOffset_px;
   std::vector<float> grey(static_cast<std::size_t>(width * kHeight), 0.0F);
   for (const int cell : {64, 24, 9, 4}) {
     add_clouds(random, cell, 45.0, grey, width);
@@ -93,7 +93,7 @@ void make_pair(std::uint64_t seed, StereoFrame& frame) {
       };
       frame.left.at(x, y) = at(x);
       // The right camera is mounted turned by 180°.
-      frame.right.at(kWidth - 1 - x, kHeight - 1 - y) = at(x + kShiftPx);
+      frame.right.at(kWidth - 1 - x, kHeight - 1 - y) = at(x + kOffset_px);
     }
   }
 }

@@ -24,10 +24,10 @@ struct Outcome {
   std::uint64_t seed = 0;
   std::optional<engine::LandmarkTouch> touch;  ///< before the second screw
   double apart_s = 0.0;                        ///< the two touches
-  double moved_m = 0.0;        ///< true motion of the landmark in the session's World
-  double entry_moved_m = 0.0;  ///< true motion of the second screw's entry
-  double turned_rad = 0.0;
-  bool guided = false;  ///< whether the second screw was guided after that touch
+  double moved_m = 0.0;                        ///< truly, of the landmark in the session's World
+  double entry_moved_m = 0.0;                  ///< and of the second screw's entry
+  double rotation_rad = 0.0;
+  bool guided = false;  ///< the second screw was, after that touch
 };
 
 /// Listens until the second screw is guided, or refused.
@@ -58,7 +58,7 @@ class Listener : public engine::SessionObserver {
     };
     outcome_.moved_m = moved(level.landmark->in_vertebra);
     outcome_.entry_moved_m = moved(level.plan.screws.back().entry);
-    outcome_.turned_rad = rotation_angle_rad(now.rotation(), at_record_->rotation());
+    outcome_.rotation_rad = rotation_angle_rad(now.rotation(), at_record_->rotation());
   }
   void happened(Timestamp /*time*/, Step /*from*/, engine::Event /*event*/,
                 engine::Cell answer) override {
@@ -155,8 +155,8 @@ double quantile(std::vector<double> values, double q) {
              : values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
-void print_share(const char* name, std::size_t k, std::size_t n) {
-  const ShareInterval interval = wilson(static_cast<double>(k), n);
+void print_fraction(const char* name, std::size_t k, std::size_t n) {
+  const FractionInterval interval = wilson(static_cast<double>(k), n);
   std::fprintf(stderr, "%-42s %zu of %zu = %.1f %% (95 %%: %.1f to %.1f)\n", name, k, n,
                100.0 * static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(n, 1)),
                100.0 * interval.low, 100.0 * interval.high);
@@ -187,8 +187,8 @@ void summarize(const std::vector<Outcome>& outcomes) {
   }
   const std::size_t n = off.size();
   std::fprintf(stderr, "operations %zu, with a second touch %zu\n", outcomes.size(), n);
-  print_share("noticed before the second screw", alarms, n);
-  print_share("guided on", guided, n);
+  print_fraction("noticed before the second screw", alarms, n);
+  print_fraction("guided on", guided, n);
   std::fprintf(stderr, "guided on although noticed: %zu\n", guided_against);
   std::fprintf(stderr,
                "off mm: SD along an axis %.3f, median %.2f, 99.5 %% %.2f; limit mm: median %.2f, "
@@ -199,7 +199,7 @@ void summarize(const std::vector<Outcome>& outcomes) {
   std::fprintf(
       stderr,
       "worst that was guided on: entry %.2f mm, landmark %.2f mm, turned %.2f deg, seed %llu\n",
-      1e3 * worst.entry_moved_m, 1e3 * worst.moved_m, degrees(worst.turned_rad),
+      1e3 * worst.entry_moved_m, 1e3 * worst.moved_m, degrees(worst.rotation_rad),
       static_cast<unsigned long long>(worst.seed));
 }
 
@@ -227,8 +227,8 @@ int run_all(engine::OperationOptions options, std::uint64_t first, int operation
     std::printf("%llu,%d,%.4f,%.4f,%d,%.2f,%.4f,%.4f,%.4f,%d\n",
                 static_cast<unsigned long long>(outcome->seed), outcome->touch ? 1 : 0,
                 touch.off_m * 1e3, touch.limit_m * 1e3, touch.held() ? 1 : 0, outcome->apart_s,
-                outcome->moved_m * 1e3, outcome->entry_moved_m * 1e3, degrees(outcome->turned_rad),
-                outcome->guided ? 1 : 0);
+                outcome->moved_m * 1e3, outcome->entry_moved_m * 1e3,
+                degrees(outcome->rotation_rad), outcome->guided ? 1 : 0);
     std::fflush(stdout);
   }
   summarize(outcomes);

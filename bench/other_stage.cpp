@@ -137,8 +137,8 @@ Transform<World, Marker> OtherStage::tool_at(std::size_t tool, double t) const {
   const double lean = middle + swing * std::sin(kTurn * (0.21 * time + 0.3 * side) + w(3));
   const double axis = side + 2.5 * w(4) + 0.3 * time;
   const Mat3 leaning = rotation_from_vector(lean * Vec3{std::cos(axis), std::sin(axis), 0.0});
-  const Mat3 turned = rotation_from_vector({0.0, 0.0, 0.5 * side + 0.4 * w(5)});
-  return {facing * leaning * turned, place};
+  const Mat3 rotated = rotation_from_vector({0.0, 0.0, 0.5 * side + 0.4 * w(5)});
+  return {facing * leaning * rotated, place};
 }
 
 Moment OtherStage::at(double t) const {

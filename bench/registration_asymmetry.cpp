@@ -15,14 +15,14 @@ constexpr double kFarthest_m = 0.005;
 
 /// The unchanged pose, and poses turned and shifted to every side, since the best start is unknown.
 std::vector<nav::CentredPose> starts(Vec3 centre_m) {
-  constexpr double kTurned_rad = 0.15;
+  constexpr double kRotation_rad = 0.15;
   constexpr double kAside_m = 0.003;
   std::vector<nav::CentredPose> out{{Mat3::identity(), centre_m}};
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
       Vec3 along;
       along[axis] = side;
-      out.push_back({rotation_from_vector(kTurned_rad * along), centre_m});
+      out.push_back({rotation_from_vector(kRotation_rad * along), centre_m});
       out.push_back({Mat3::identity(), centre_m + kAside_m * along});
     }
   }

@@ -27,13 +27,13 @@ std::vector<Transform<Vertebra, World>> published_starts(std::span<const Surface
     strokes.push_back(point.v);
   }
   const auto extremes = extremes_of(strokes);
-  constexpr bool kTurned[4][3] = {
+  constexpr bool kRotated[4][3] = {
       {false, false, false}, {false, true, true}, {true, false, true}, {true, true, false}};
   std::vector<nav::RigidFit> fits;
-  for (const auto& turned : kTurned) {
+  for (const auto& rotated : kRotated) {
     std::array<Vec3, 6> from = extremes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (turned[axis]) {
+      if (rotated[axis]) {
         std::swap(from[2 * axis], from[2 * axis + 1]);
       }
     }

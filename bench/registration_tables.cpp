@@ -23,16 +23,16 @@ double quantile(std::vector<double> v, double q) {
 
 /// "3 (0.2–1.4 %)": of so many, with the interval.
 std::string counted(std::size_t count, std::size_t all) {
-  const ShareInterval interval = wilson(static_cast<double>(count), all);
+  const FractionInterval interval = wilson(static_cast<double>(count), all);
   char text[64];
   std::snprintf(text, sizeof text, "%zu (%.1f–%.1f %%)", count, 100.0 * interval.low,
                 100.0 * interval.high);
   return text;
 }
 
-/// The share of the places of accepted runs that are `in`. The places of one run have a common
-/// error, so the interval counts runs.
-std::string share_of_places(const std::vector<Run>& runs, bool Run::Honest::*in) {
+/// What of the places of the accepted runs is `in`. The places of one run are wrong together: the
+/// interval counts the runs.
+std::string fraction_of_places(const std::vector<Run>& runs, bool Run::Honest::*in) {
   double sum = 0.0;
   std::size_t accepted = 0;
   for (const Run& run : runs) {
@@ -47,7 +47,7 @@ std::string share_of_places(const std::vector<Run>& runs, bool Run::Honest::*in)
   if (accepted == 0) {
     return "–";
   }
-  const ShareInterval interval = wilson(sum, accepted);
+  const FractionInterval interval = wilson(sum, accepted);
   char text[64];
   std::snprintf(text, sizeof text, "%.1f (%.1f–%.1f)", 100.0 * sum / static_cast<double>(accepted),
                 100.0 * interval.low, 100.0 * interval.high);
@@ -125,8 +125,8 @@ void print_summary(const std::string& truth, const std::vector<Run>& runs, const
                          counted(accepted, chosen.size()).c_str(),
                          counted(silent, accepted).c_str(),
                          quantile(values(chosen, accepted_error_mm), 0.5),
-                         share_of_places(chosen, &Run::Honest::in_68).c_str(),
-                         share_of_places(chosen, &Run::Honest::in_95).c_str(), named,
+                         fraction_of_places(chosen, &Run::Honest::in_68).c_str(),
+                         fraction_of_places(chosen, &Run::Honest::in_95).c_str(), named,
                          quantile(ms, 0.5), quantile(ms, 0.99));
            });
   std::fflush(stdout);

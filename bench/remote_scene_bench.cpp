@@ -22,9 +22,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr double kTurn_rad_s = 0.5236;  // 30 degrees
+constexpr double kRotation_rad_s = 0.5236;  // 30 degrees
 /// Around a bone 0.5 m away, when the head turns about a neck 0.1 m behind the eyes.
-constexpr double kByTurning = 0.2;
+constexpr double kByRotation = 0.2;
 
 void print(const char* what, const ContourErrors& errors) {
   std::printf("%-44s %6zu  %5.2f %5.2f %5.2f   %5.2f %5.2f %5.2f\n", what, errors.drawn_mm.size(),
@@ -53,11 +53,11 @@ void measure_contours() {
       triangles, bench.pieces(), "", "points", "drawn to true", "true to drawn");
   print("at rest, lines", bench.at_rest(false));
   print("at rest, picture on a quad", bench.at_rest(true));
-  print("head turns by 30 deg/s, lines", bench.in_motion(kByTurning * kTurn_rad_s, false));
+  print("head turns by 30 deg/s, lines", bench.in_motion(kByRotation * kRotation_rad_s, false));
   print("head turns by 30 deg/s, picture on a quad",
-        bench.in_motion(kByTurning * kTurn_rad_s, true));
-  print("head circles the bone at 30 deg/s, lines", bench.in_motion(kTurn_rad_s, false));
-  print("head circles it, picture on a quad", bench.in_motion(kTurn_rad_s, true));
+        bench.in_motion(kByRotation * kRotation_rad_s, true));
+  print("head circles the bone at 30 deg/s, lines", bench.in_motion(kRotation_rad_s, false));
+  print("head circles it, picture on a quad", bench.in_motion(kRotation_rad_s, true));
 }
 
 /// As while guiding: 41 objects stay in place, 15 hang on a tool and move with each pair.

@@ -53,7 +53,7 @@ class Watched final : public nav::ToolTracker {
     const auto truth = now.room_from_rig.inverse() * now.room_from_marker[i];
     const Vec3 off =
         left_from_rig.rotation() * (state.rig_from_marker.translation() - truth.translation());
-    const Vec3 turn =
+    const Vec3 rotation =
         left_from_rig.rotation() *
         vector_from_rotation(state.rig_from_marker.rotation() * truth.rotation().transposed());
     const Point<Marker> made = room_.room().tools[i].tip_in_marker;
@@ -74,9 +74,10 @@ class Watched final : public nav::ToolTracker {
         "%.3f,%.3f,%.3f\n",
         static_cast<long long>(frame.sequence), seconds(frame.time.time_since_epoch()), i,
         now.tool_present[i] ? 1 : 0, static_cast<int>(state.world_from_marker.status),
-        state.cameras, off.x * 1e3, off.y * 1e3, off.z * 1e3, turn.x * 1e3, turn.y * 1e3,
-        turn.z * 1e3, tip.x * 1e3, tip.y * 1e3, tip.z * 1e3, translation_sigma_m(covariance) * 1e3,
-        rotation_sigma_rad(covariance) * 1e3, facing, in_left.translation().norm(), speed);
+        state.cameras, off.x * 1e3, off.y * 1e3, off.z * 1e3, rotation.x * 1e3, rotation.y * 1e3,
+        rotation.z * 1e3, tip.x * 1e3, tip.y * 1e3, tip.z * 1e3,
+        translation_sigma_m(covariance) * 1e3, rotation_sigma_rad(covariance) * 1e3, facing,
+        in_left.translation().norm(), speed);
   }
 
   std::unique_ptr<nav::ToolTracker> tracker_;

@@ -29,7 +29,7 @@ Track tracker(const Sequence& sequence, auto create) {
       const auto rig_from_world = frame.world_from_rig->inverse();
       claims.tools[state.tool] = {
           true, rig_from_world * state.world_from_marker.value,
-          nav::turned(state.world_from_marker.covariance, rig_from_world.rotation()), true};
+          nav::rotated(state.world_from_marker.covariance, rig_from_world.rotation()), true};
     }
   };
 }

@@ -101,7 +101,7 @@ Status check_marker(const ToolArguments& arguments, const std::optional<nav::Too
   return {};
 }
 
-const char* turn_text(int quarter_turns) {
+const char* rotation_text(int quarter_turns) {
   return quarter_turns == 1   ? "90° counter-clockwise"
          : quarter_turns == 2 ? "180°"
                               : "90° clockwise";
@@ -115,9 +115,9 @@ Status check_mounting(const ToolArguments& arguments, const std::optional<nav::T
     return {};
   }
   std::vector<std::string> problems;
-  for (const nav::TurnedTag& tag : nav::turned_tags(body.tags, tool->more_markers)) {
+  for (const nav::RotatedTag& tag : nav::rotated_tags(body.tags, tool->more_markers)) {
     problems.push_back("tag " + tag.definition.family + " id " + std::to_string(tag.definition.id) +
-                       " is mounted turned by " + turn_text(tag.quarter_turns));
+                       " is mounted turned by " + rotation_text(tag.quarter_turns));
   }
   if (problems.empty()) {
     return {};

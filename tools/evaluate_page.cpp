@@ -227,7 +227,7 @@ Result<std::string> evaluate_page(const engine::Case& subject, const engine::Vol
           "</b></p></header><main>" + table_of(evaluation) +
           "<p class=key><b style=\"color:#4cc2ff\"></b>planned<b style=\"color:#ffb000\"></b>placed"
           "<b style=\"color:#37c26b\"></b>surface of the case’s model, laid on the scan</p>" +
-          turning_spine(subject, evaluation);
+          rotating_spine(subject, evaluation);
   const engine::ScanField field(scan);
   for (const engine::EvaluatedLevel& level : evaluation.levels) {
     const engine::CaseLevel* const source_level = subject.find(level.label);

@@ -99,7 +99,7 @@ json scene_of(const engine::Case& subject, const engine::Evaluation& evaluation)
 
 }  // namespace
 
-std::string turning_spine(const engine::Case& subject, const engine::Evaluation& evaluation) {
+std::string rotating_spine(const engine::Case& subject, const engine::Evaluation& evaluation) {
   const json scene = scene_of(subject, evaluation);
   if (scene["bones"].empty()) {
     return "";

@@ -6,10 +6,10 @@
 
 namespace orthonav::tools {
 
-/// A section of the page with the rotating spine and its planned and placed screws, as in the scan
-/// (data/evaluation.js). A vertebra whose mesh has more than 65,535 vertices is left out; empty
-/// where none remains.
-[[nodiscard]] std::string turning_spine(const engine::Case& subject,
-                                        const engine::Evaluation& evaluation);
+/// A section of the page in which the spine turns with its planned and placed screws, as it lay in
+/// the scan (data/evaluation.js). A vertebra whose mesh has more than 65,535 vertices is left out;
+/// empty where none remains.
+[[nodiscard]] std::string rotating_spine(const engine::Case& subject,
+                                         const engine::Evaluation& evaluation);
 
 }  // namespace orthonav::tools

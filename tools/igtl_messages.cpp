@@ -139,8 +139,8 @@ igtl::TransformValues igtl_values(const Mat3& rotation, Vec3 translation_m) {
     values[3 * column + 1] = static_cast<float>(v.y);
     values[3 * column + 2] = static_cast<float>(v.z);
   }
-  const auto shift = in_mm(translation_m);
-  std::copy(shift.begin(), shift.end(), values.begin() + 9);
+  const auto translation_mm = in_mm(translation_m);
+  std::copy(translation_mm.begin(), translation_mm.end(), values.begin() + 9);
   return values;
 }
 

@@ -81,8 +81,8 @@ std::optional<std::string> misplaced(const nav::SurfaceIndex& bone, Point<Verteb
 std::optional<std::string> misplaced(const nav::SurfaceIndex& bone, Point<Vertebra> entry,
                                      Point<Vertebra> target, double radius_m, Axes stated) {
   const auto problem = misplaced(bone, entry, target, radius_m);
-  const auto turned = [](Point<Vertebra> p) { return Point<Vertebra>{to_lps(p.v, Axes::kRas)}; };
-  if (!problem || misplaced(bone, turned(entry), turned(target), radius_m)) {
+  const auto rotated = [](Point<Vertebra> p) { return Point<Vertebra>{to_lps(p.v, Axes::kRas)}; };
+  if (!problem || misplaced(bone, rotated(entry), rotated(target), radius_m)) {
     return problem;
   }
   const bool lps = stated == Axes::kLps;

@@ -61,9 +61,10 @@ Equations equations_of(const std::vector<SurfaceSample>& samples, Vec3 centre_m,
 
 Transform<Scan, Vertebra> moved(const Transform<Scan, Vertebra>& pose, Vec3 centre_m,
                                 const Vector7& step) {
-  const Mat3 turn = rotation_from_vector({step[3], step[4], step[5]});
-  const Vec3 shift = centre_m + Vec3{step[0], step[1], step[2]} - turn * centre_m;
-  return {orthonormalized(pose.rotation() * turn), pose.rotation() * shift + pose.translation()};
+  const Mat3 rotation = rotation_from_vector({step[3], step[4], step[5]});
+  const Vec3 translation = centre_m + Vec3{step[0], step[1], step[2]} - rotation * centre_m;
+  return {orthonormalized(pose.rotation() * rotation),
+          pose.rotation() * translation + pose.translation()};
 }
 
 /// The pose's covariance. Neighbouring edges share streaks, blur and the model's own error: an edge

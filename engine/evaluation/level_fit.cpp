@@ -113,8 +113,8 @@ void say_what_lies_outside(const ScanField& scan, std::span<const LevelSurface> 
 
 /// How far a level lies from where another one predicts it, per level between them.
 struct Step {
-  double shift_m = 0.0;
-  double turn_rad = 0.0;
+  double translation_m = 0.0;
+  double rotation_rad = 0.0;
 };
 
 Step step_between(std::span<const LevelSurface> levels, const std::vector<LaidLevel>& laid,
@@ -130,8 +130,8 @@ Step step_between(std::span<const LevelSurface> levels, const std::vector<LaidLe
 /// A vertebra laid on another one's bone fits badly and contradicts its neighbours: of two levels
 /// that contradict each other the one that fits worse is refused.
 void refuse_displaced(std::span<const LevelSurface> levels, std::vector<LaidLevel>& laid) {
-  constexpr double kMostShift_m = 0.012;
-  constexpr double kMostTurn_rad = 0.35;
+  constexpr double kMostTranslation_m = 0.012;
+  constexpr double kMostRotation_rad = 0.35;
   for (std::size_t i = 0; i < laid.size(); ++i) {
     for (std::size_t j = 0; j < laid.size(); ++j) {
       if (i == j || !laid[i].refusal.empty() || !laid[j].refusal.empty() ||
@@ -139,12 +139,13 @@ void refuse_displaced(std::span<const LevelSurface> levels, std::vector<LaidLeve
         continue;
       }
       const Step step = step_between(levels, laid, j, i);
-      if (step.shift_m > kMostShift_m || step.turn_rad > kMostTurn_rad) {
+      if (step.translation_m > kMostTranslation_m || step.rotation_rad > kMostRotation_rad) {
         laid[i].refusal = printed(
             "it fits best %.0f mm and %.0f° a level from where %s puts it, "
             "limits %.0f mm and %.0f°",
-            step.shift_m * 1e3, step.turn_rad * kDegreesPerRadian, levels[j].level->label.c_str(),
-            kMostShift_m * 1e3, kMostTurn_rad * kDegreesPerRadian);
+            step.translation_m * 1e3, step.rotation_rad * kDegreesPerRadian,
+            levels[j].level->label.c_str(), kMostTranslation_m * 1e3,
+            kMostRotation_rad * kDegreesPerRadian);
       }
     }
   }

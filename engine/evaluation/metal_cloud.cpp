@@ -18,8 +18,8 @@ void add_voxel(const MetalCloud& cloud, double s_m, double half_voxel_m, Vec2 of
   const double first = std::max(std::round(low), -static_cast<double>(kFarthest));
   const double last = std::min(std::round(high), static_cast<double>(kFarthest));
   for (double slab = first; slab <= last; ++slab) {
-    const double share = (std::min(high, slab + 0.5) - std::max(low, slab - 0.5)) / (high - low);
-    const double area_m2 = std::max(0.0, share) * cloud.voxel_m3() / MetalSections::kStep_m;
+    const double fraction = (std::min(high, slab + 0.5) - std::max(low, slab - 0.5)) / (high - low);
+    const double area_m2 = std::max(0.0, fraction) * cloud.voxel_m3() / MetalSections::kStep_m;
     MetalSection& here = all[static_cast<std::size_t>(slab + kFarthest)];
     here.area_m2 += area_m2;
     here.middle_m = here.middle_m + area_m2 * off_m;

@@ -53,8 +53,9 @@ nav::PoseUncertainty total_uncertainty(const Shaft& shaft, const BoneRegistratio
                                                        {(-across).cross(lever_arm_m), -across}}};
   Eigen::Matrix<double, 6, 4> motion;
   for (Eigen::Index c = 0; c < 4; ++c) {
-    const auto& [shift, turn] = motions[static_cast<std::size_t>(c)];
-    motion.col(c) << shift.x, shift.y, shift.z, turn.x, turn.y, turn.z;
+    const auto& [translation, rotation] = motions[static_cast<std::size_t>(c)];
+    motion.col(c) << translation.x, translation.y, translation.z, rotation.x, rotation.y,
+        rotation.z;
   }
   const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> own(shaft.covariance.data());
   const Eigen::Matrix<double, 6, 6> axis = motion * own * motion.transpose();

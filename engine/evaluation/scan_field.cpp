@@ -50,10 +50,10 @@ Status check_scan(const Volume& scan) {
     return Error{printed("no metal in the scan: its largest value is %.0f HU, limit %.0f",
                          static_cast<double>(most), kMetal_hu)};
   }
-  const double share = static_cast<double>(metal) / static_cast<double>(scan.values.size());
-  if (share > kMostMetal) {
+  const double fraction = static_cast<double>(metal) / static_cast<double>(scan.values.size());
+  if (fraction > kMostMetal) {
     return Error{printed("%.0f %% of the scan has %.0f HU or more, limit %.0f %%: no CT of a spine",
-                         share * 1e2, kMetal_hu, kMostMetal * 1e2)};
+                         fraction * 1e2, kMetal_hu, kMostMetal * 1e2)};
   }
   return {};
 }

@@ -25,8 +25,8 @@ constexpr double kMostMoved_m = 0.003;  ///< from where the search put it
 enum Parameter : std::size_t {
   kAcross,
   kAthwart,
-  kTurnAcross,
-  kTurnAthwart,
+  kRotationAcross,
+  kRotationAthwart,
   kRadius,
   kBlur,
   kTip,
@@ -43,7 +43,8 @@ Shaft changed(const Shaft& start, std::span<const double> p) {
   Centreline& line = out.line;
   line.middle_m += p[kAcross] * line.across + p[kAthwart] * line.athwart;
   line.direction =
-      (line.direction + p[kTurnAcross] * line.across + p[kTurnAthwart] * line.athwart).normalized();
+      (line.direction + p[kRotationAcross] * line.across + p[kRotationAthwart] * line.athwart)
+          .normalized();
   line.across = (line.across - line.across.dot(line.direction) * line.direction).normalized();
   line.athwart = line.direction.cross(line.across);
   out.radius_m = p[kRadius];
@@ -57,19 +58,19 @@ Shaft changed(const Shaft& start, std::span<const double> p) {
 double normal_cdf(double x) { return 0.5 * std::erfc(-x * 0.70710678118654752); }
 
 /// The share of metal that a blurred shaft has at a place.
-double share_at(const Shaft& shaft, double blur_m, Vec3 place_m) {
+double fraction_at(const Shaft& shaft, double blur_m, Vec3 place_m) {
   const double s = shaft.line.s_of(place_m);
   const double off_m = (place_m - shaft.line.at(s)).norm();
-  double share = normal_cdf((shaft.radius_m - off_m) / blur_m);
+  double fraction = normal_cdf((shaft.radius_m - off_m) / blur_m);
   if (!shaft.goes_on) {
-    share *= normal_cdf((s - shaft.from_s_m) / blur_m);
+    fraction *= normal_cdf((s - shaft.from_s_m) / blur_m);
   }
   if (!shaft.cut) {
-    share *= normal_cdf((shaft.to_s_m - s) / blur_m);
+    fraction *= normal_cdf((shaft.to_s_m - s) / blur_m);
   }
   // A flat border would keep its full height; a thin cylinder is blurred from all sides.
   const double q = shaft.radius_m / blur_m;
-  return share * (1.0 - std::exp(-0.5 * q * q)) / normal_cdf(q);
+  return fraction * (1.0 - std::exp(-0.5 * q * q)) / normal_cdf(q);
 }
 
 /// Where the model is sampled in a voxel, from its middle: more places along its longer sides.
@@ -132,11 +133,11 @@ void write_misfits(const std::vector<BorderVoxel>& voxels, const Rendering& how,
   out.clear();
   const double parts = static_cast<double>(how.places_m.size());
   for (const BorderVoxel& voxel : voxels) {
-    double share = 0.0;
+    double fraction = 0.0;
     for (const Vec3& part : how.places_m) {
-      share += share_at(shaft, blur_m, voxel.place_m + part);
+      fraction += fraction_at(shaft, blur_m, voxel.place_m + part);
     }
-    const double model_hu = kAround_hu + share / parts * (how.metal_hu - kAround_hu);
+    const double model_hu = kAround_hu + fraction / parts * (how.metal_hu - kAround_hu);
     const double misfit_hu = std::clamp(voxel.hu, kLow_hu, how.highest_hu) -
                              std::clamp(model_hu, kLow_hu, how.highest_hu);
     out.push_back(soft(misfit_hu / kNoise_hu));
@@ -224,7 +225,7 @@ Result<nav::LeastSquares> best_parameters(const Shaft& shaft, const Rendering& h
 std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& found_shaft,
                                   std::span<const Shaft> others) {
   constexpr std::size_t kFewest = 40;
-  constexpr double kMostTurned_rad = 0.15;
+  constexpr double kMostRotation_rad = 0.15;
   const Shaft shaft = front_part(found_shaft);
   const std::vector<BorderVoxel> voxels = border_voxels(scan, shaft, others);
   if (voxels.size() < kFewest) {
@@ -242,7 +243,7 @@ std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& found_shaf
   }
   Shaft out = limited(shaft, best->parameters);
   if ((out.line.middle_m - shaft.line.middle_m).norm() > kMostMoved_m ||
-      angle_between_rad(out.line.direction, shaft.line.direction) > kMostTurned_rad) {
+      angle_between_rad(out.line.direction, shaft.line.direction) > kMostRotation_rad) {
     return std::nullopt;
   }
   const auto count = static_cast<double>(voxels.size());

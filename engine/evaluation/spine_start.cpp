@@ -9,11 +9,11 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr double kNear_m = 0.015;           ///< of a shaft's tip from a planned target
-constexpr double kNear_rad = 0.45;          ///< of its direction from the planned one
-constexpr double kPairs_m = 0.014;          ///< by how much distances within two pairs may differ
-constexpr double kMisfit_m = 0.006;         ///< RMS of two screws on two shafts
-constexpr double kMostTurned_rad = 0.7854;  ///< patient against case
+constexpr double kNear_m = 0.015;             ///< of a shaft's tip from a planned target
+constexpr double kNear_rad = 0.45;            ///< of its direction from the planned one
+constexpr double kPairs_m = 0.014;            ///< by how much distances within two pairs may differ
+constexpr double kMisfit_m = 0.006;           ///< RMS of two screws on two shafts
+constexpr double kMostRotation_rad = 0.7854;  ///< patient against case
 
 /// A planned screw or a shaft as two points: its tip, and one a screw's length behind it.
 struct Line {
@@ -82,15 +82,15 @@ std::optional<Start> of_pairs(const Line& plan_a, const Line& plan_b, const Line
 Start of_one(const Line& plan, const Line& shaft) {
   const Vec3 axis = plan.direction().cross(shaft.direction());
   const double angle = angle_between_rad(plan.direction(), shaft.direction());
-  const Mat3 turn =
+  const Mat3 rotation =
       axis.norm() > 1e-9 ? rotation_from_vector(angle * axis.normalized()) : Mat3::identity();
-  return {{turn, shaft.tip_m - turn * plan.tip_m}, 0, kMisfit_m};
+  return {{rotation, shaft.tip_m - rotation * plan.tip_m}, 0, kMisfit_m};
 }
 
 std::vector<Start> all_starts(const std::vector<Line>& planned, const std::vector<Line>& shafts) {
   std::vector<Start> out;
   const auto keep = [&](const Start& start) {
-    if (rotation_angle_rad(start.pose.rotation(), Mat3::identity()) <= kMostTurned_rad) {
+    if (rotation_angle_rad(start.pose.rotation(), Mat3::identity()) <= kMostRotation_rad) {
       out.push_back(start);
       out.back().screws = screws_beside(start.pose, planned, shafts);
     }

@@ -14,11 +14,11 @@ constexpr render::Label kPaperLabel = 9001;  // belongs to no hologram
 constexpr std::array<ToolDot, 2> kToolDots = {
     {{"guide", ToolState::kMeasured}, {"reference", ToolState::kPredicted}}};
 
-void add_names(GoldenScene& golden, const std::string& level, Float3 shift, render::Label label) {
+void add_names(GoldenScene& golden, const std::string& level, Float3 offset, render::Label label) {
   const auto add = [&](Float3 place, Float3 normal, const char* side, bool done, LabelSide beside) {
     const std::string name = level + side;
-    add_entry(golden.scene, {place + shift, normal, name, done, beside}, label);
-    golden.covered.push_back({label++, place + shift});
+    add_entry(golden.scene, {place + offset, normal, name, done, beside}, label);
+    golden.covered.push_back({label++, place + offset});
   };
   add(kEntry, kNormal, " left", true, LabelSide::kLeft);
   add(kOtherEntry, kOtherNormal, " right", true, LabelSide::kRight);

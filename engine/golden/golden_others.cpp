@@ -26,7 +26,7 @@ GoldenScene start_rod(const std::string& name, const std::string& what) {
   return golden;
 }
 
-GoldenScene rod(const std::string& name, const std::string& what, Float3 shift) {
+GoldenScene rod(const std::string& name, const std::string& what, Float3 offset) {
   GoldenScene golden = start_rod(name, what);
   std::vector<Float3> centre_line;
   for (int i = 0; i <= 48; ++i) {
@@ -45,10 +45,10 @@ GoldenScene rod(const std::string& name, const std::string& what, Float3 shift) 
   hologram.heads = kHeads;
   hologram.bends = bends;
   hologram.length_m = 0.0820;
-  hologram.shift = shift;
+  hologram.offset = offset;
   add_rod(golden.scene, hologram, kRodLabel);
   for (const Float3 head : kHeads) {
-    golden.covered.push_back({kRodLabel, head + shift});
+    golden.covered.push_back({kRodLabel, head + offset});
   }
   return golden;
 }

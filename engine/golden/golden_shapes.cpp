@@ -72,15 +72,15 @@ GoldenScene bare_vertebra() {
   return golden;
 }
 
-GoldenScene turned_vertebra() {
+GoldenScene rotated_vertebra() {
   GoldenScene golden =
       start("h2_vertebra_turned", "the same, from the side: rim where it turns away",
             close_view({0, 0.02f, 0}));
-  render::Matrix4 turn = render::kIdentity;
-  turn[0] = turn[10] = std::cos(0.4f);
-  turn[8] = std::sin(0.4f);
-  turn[2] = -turn[8];
-  add_vertebra(golden.scene, make_golden_vertebra(), turn, kVertebraLabel);
+  render::Matrix4 rotation = render::kIdentity;
+  rotation[0] = rotation[10] = std::cos(0.4f);
+  rotation[8] = std::sin(0.4f);
+  rotation[2] = -rotation[8];
+  add_vertebra(golden.scene, make_golden_vertebra(), rotation, kVertebraLabel);
   return golden;
 }
 
@@ -137,7 +137,7 @@ void add_shape_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(residuals());
   scenes.push_back(vertebra());
   scenes.push_back(bare_vertebra());
-  scenes.push_back(turned_vertebra());
+  scenes.push_back(rotated_vertebra());
   scenes.push_back(
       entry("h3_entry", "blue sphere in a ring, L4 left", "L4 left", false, LabelSide::kLeft));
   scenes.push_back(entry("h3_entry_done", "blue sphere in a ring, L4 left with a green tick",

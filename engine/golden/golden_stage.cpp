@@ -66,8 +66,8 @@ nav::ScrewGuidance guided(double angle_deg, double beside_m, double depth_m) {
 nav::ScrewNumbers numbers_of(const nav::ScrewGuidance& tool, const NumberSds& sds, Side side) {
   std::array<double, 36> covariance{};
   for (std::size_t i = 0; i < 3; ++i) {
-    covariance[7 * i] = sds.shift_m * sds.shift_m;
-    covariance[7 * (i + 3)] = sds.turn_rad * sds.turn_rad;
+    covariance[7 * i] = sds.translation_m * sds.translation_m;
+    covariance[7 * (i + 3)] = sds.rotation_rad * sds.rotation_rad;
   }
   const nav::PoseUncertainty uncertainty(tool.tip.v, covariance);
   const auto deviation =
@@ -79,9 +79,9 @@ std::vector<Float3> stroke() {
   std::vector<Float3> samples;
   for (int i = 0; i < 120; ++i) {
     const float t = static_cast<float>(i) / 119.0f;
-    const float turn = t * 3.0f * 2.0f * std::numbers::pi_v<float>;
-    samples.push_back({-0.020f + 0.016f * t + 0.0035f * std::cos(turn), 0.038f + 0.004f * t,
-                       0.004f - 0.010f * t + 0.005f * std::sin(turn)});
+    const float angle_rad = t * 3.0f * 2.0f * std::numbers::pi_v<float>;
+    samples.push_back({-0.020f + 0.016f * t + 0.0035f * std::cos(angle_rad), 0.038f + 0.004f * t,
+                       0.004f - 0.010f * t + 0.005f * std::sin(angle_rad)});
   }
   return samples;
 }

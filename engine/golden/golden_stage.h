@@ -66,8 +66,8 @@ inline constexpr std::array<render::Float3, 3> kPlacesToCheck = {
 /// The numbers of a tool at the plan of a side, if the errors of its pose have these SDs along and
 /// about each axis.
 struct NumberSds {
-  double shift_m = 0.0003;
-  double turn_rad = 0.005;
+  double translation_m = 0.0003;
+  double rotation_rad = 0.005;
 };
 [[nodiscard]] nav::ScrewNumbers numbers_of(const nav::ScrewGuidance& tool, const NumberSds& sds,
                                            Side side = Side::kLeft);

@@ -69,11 +69,11 @@ TextKind rod(const char* name, bool bend, Label label) {
   return {name, bend ? scene.texts.front() : scene.texts.back()};
 }
 
-TextKind numbers(const char* name, double shift_m, Label label) {
+TextKind numbers(const char* name, double translation_m, Label label) {
   return last_of(name, [&](Scene& s) {
     TargetCross target;
     target.viewer = golden::surgeon();
-    const golden::NumberSds sds{shift_m, 10.0 * shift_m};
+    const golden::NumberSds sds{translation_m, 10.0 * translation_m};
     add_numbers(s, target, golden::numbers_of(golden::guided(2.0, 0.001, 0.0), sds), false, label);
   });
 }

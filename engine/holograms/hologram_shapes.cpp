@@ -224,23 +224,23 @@ void take_angle_off(render::TextItem& readout) {
 
 void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   if (rod.tube && !rod.tube->indices.empty()) {
-    add_mesh(scene, rod.tube, render::placed_at(rod.shift), look::kTitanium, label);
+    add_mesh(scene, rod.tube, render::placed_at(rod.offset), look::kTitanium, label);
   }
   for (const Float3 head : rod.heads) {
-    add_sphere(scene, head + rod.shift, kHeadRadius_m, look::kBlue, label);
+    add_sphere(scene, head + rod.offset, kHeadRadius_m, look::kBlue, label);
   }
   const Float3 along = rod.heads.empty()
                            ? Float3{0, 1, 0}
                            : render::unit_or(rod.heads.back() - rod.heads.front(), {0, 1, 0});
   for (const RodBendMark& bend : rod.bends) {
-    add_bend(scene, bend, bend.position + rod.shift, along, label);
+    add_bend(scene, bend, bend.position + rod.offset, along, label);
   }
   if (rod.heads.size() < 2 || !rod.length_m) {
     return;
   }
   render::TextItem& text = scene.texts.emplace_back();
   text.label = label;
-  text.position = rod.heads.back() + 0.012f * along + rod.shift;
+  text.position = rod.heads.back() + 0.012f * along + rod.offset;
   text.height_m = 0.005f;
   text.min_height_deg = 0.6f;
   add_run(text, in_mm(*rod.length_m), look::kWhite);

@@ -123,11 +123,11 @@ struct RodBendMark {
 /// H10. Make `tube` with render::make_tube once per rod and keep it: the renderer caches by
 /// pointer.
 struct RodHologram {
-  std::shared_ptr<const render::MeshData> tube;  ///< world coordinates before `shift`
+  std::shared_ptr<const render::MeshData> tube;  ///< world coordinates before `offset`
   std::span<const render::Float3> heads;
   std::span<const RodBendMark> bends;
-  std::optional<double> length_m;  ///< absent: the heads do not allow a rod
-  render::Float3 shift;            ///< `move rod`: added to everything
+  std::optional<double> length_m;  ///< absent: the heads make no rod
+  render::Float3 offset;           ///< `move rod`: added to everything
 };
 void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
 

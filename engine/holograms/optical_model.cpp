@@ -81,10 +81,10 @@ std::vector<HologramContrast> contrasts(const RgbaImage& light, const LabelImage
 }
 
 WorldBehindCombiner::WorldBehindCombiner(const OpticalModel& model) {
-  const double share =
+  const double fraction =
       model.white_sheet_cd_m2() / (model.display_cd_m2 + model.white_sheet_cd_m2());
   for (std::size_t i = 0; i < seen_.size(); ++i) {
-    seen_[i] = encoded(share * linear_table()[i]);
+    seen_[i] = encoded(fraction * linear_table()[i]);
   }
 }
 

@@ -261,7 +261,7 @@ void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
       hologram.length_m = rod.rod->length_m;
     }
     hologram.bends = bends_;
-    hologram.shift = to_float3(rod_shift_m(guidance, rod, rules_));
+    hologram.offset = to_float3(rod_offset_m(guidance, rod, rules_));
     add_rod(scene, hologram, label_of(HologramKind::kRod, i + 1));
   }
 }

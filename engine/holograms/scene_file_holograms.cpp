@@ -62,8 +62,8 @@ void add_bone(const JsonNode& node, const std::string& folder, Label label, Scen
   if (node.has("world_from_vertebra")) {
     std::array<double, 16> rows{};
     std::ranges::copy(node.numbers("world_from_vertebra", rows.size()), rows.begin());
-    for (const std::size_t shift : {3U, 7U, 11U}) {
-      rows[shift] *= 1e-3;
+    for (const std::size_t offset : {3U, 7U, 11U}) {
+      rows[offset] *= 1e-3;
     }
     place = to_matrix(rows);
   }
@@ -139,7 +139,7 @@ void add_rod_through(const JsonNode& node, Label label, Scene& scene) {
   hologram.heads = heads;
   hologram.bends = bends;
   if (node.has("shift_mm")) {
-    hologram.shift = place_from(node, "shift_mm");
+    hologram.offset = place_from(node, "shift_mm");
   }
   add_rod(scene, hologram, label);
 }

@@ -207,10 +207,10 @@ void ShownFrameWriter::write_rods(const Guidance& guidance, const VisibilityRule
     if (!rod.visible()) {
       continue;
     }
-    const Vec3 shift = rod_shift_m(guidance, rod, rules);
+    const Vec3 offset = rod_offset_m(guidance, rod, rules);
     ShownHologram& hologram = add(frame, HologramKind::kRod);
     for (const Point<World>& head : rod.heads) {
-      hologram.points_in_world.push_back(head + shift);
+      hologram.points_in_world.push_back(head + offset);
     }
   }
 }

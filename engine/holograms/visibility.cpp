@@ -129,7 +129,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   out.rods = g.step == Step::kRod || g.step == Step::kDone;
 }
 
-Vec3 rod_shift_m(const Guidance& guidance, const RodState& rod, const VisibilityRules& rules) {
+Vec3 rod_offset_m(const Guidance& guidance, const RodState& rod, const VisibilityRules& rules) {
   if (!guidance.rods_moved_away || !rod.visible()) {
     return {};
   }

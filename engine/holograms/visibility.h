@@ -69,9 +69,9 @@ struct Visibility {
 void decide_visibility(const Guidance& guidance, const VisibilityRules& rules,
                        Timestamp display_time, Visibility& out);
 
-/// The shift of the rods while they are moved away: sideways off the patient, as a rigid body, each
-/// to its own side.
-[[nodiscard]] Vec3 rod_shift_m(const Guidance& guidance, const RodState& rod,
-                               const VisibilityRules& rules);
+/// From where to where the rods are shifted while they are moved away: sideways off the patient,
+/// as a rigid body, each to its own side.
+[[nodiscard]] Vec3 rod_offset_m(const Guidance& guidance, const RodState& rod,
+                                const VisibilityRules& rules);
 
 }  // namespace orthonav::engine

@@ -52,9 +52,9 @@ bool BoneLines::will_do(const Drawn& drawn, const render::MeshItem& item, Float3
   const Float3 middle = transformed(item.world_from_model, drawn.contours.middle());
   const Float3 before = drawn.eye - middle;
   const Float3 after = eye - middle;
-  const float turned_rad = std::atan2(length(cross(before, after)), dot(before, after));
-  return drawn.world_from_model == item.world_from_model && turned_rad < options_.turned_rad &&
-         std::abs(length(before) - length(after)) < options_.turned_rad * length(before);
+  const float rotation_rad = std::atan2(length(cross(before, after)), dot(before, after));
+  return drawn.world_from_model == item.world_from_model && rotation_rad < options_.rotation_rad &&
+         std::abs(length(before) - length(after)) < options_.rotation_rad * length(before);
 }
 
 void BoneLines::find(Drawn& drawn, const render::MeshItem& item, Float3 eye) const {

@@ -22,9 +22,9 @@ void append_pieces(const SurfaceContours::Line& line, std::vector<StraightPiece>
 struct BoneLineOptions {
   std::size_t most_pieces = 130;
   float within_m = 0.00035f;  ///< of the contour, while there are not too many pieces
-  /// Lines are updated once the eye has moved this far around the surface, or the surface has moved
-  /// at all, but no sooner than after `at_most_every`, since nearly all pieces move each time.
-  float turned_rad = 0.0175f;
+  /// Lines are found anew once the eye has moved so far around the surface, or the surface has
+  /// moved at all, but no sooner than after `at_most_every`: each time nearly all pieces move.
+  float rotation_rad = 0.0175f;
   Duration at_most_every = std::chrono::milliseconds(100);
 };
 

@@ -17,7 +17,7 @@ using render::Float3;
 // A text is not moved while the difference is imperceptible: off by less than 1.5 px of a HoloLens
 // 2 at arm's length, not turned about the line of sight, and of the same size.
 constexpr double kTextMoved_m = 0.0003;
-constexpr double kTextTurned_rad = 0.05;
+constexpr double kTextRotation_rad = 0.05;
 constexpr double kTextGrown = 0.03;
 /// Offset of the bars that stand for a rim, in cap heights.
 constexpr double kBarAside_caps = 0.35;
@@ -173,8 +173,8 @@ void ObjectWriter::steady(std::uint64_t key, Lying& lying) {
   const Vec3 up = was.column(1);
   const bool same =
       (lying.position_m - before.position_m).norm() < kTextMoved_m &&
-      rotation_angle_rad(was, is) < kTextTurned_rad &&
-      std::abs(right.dot(up)) < 0.1 * kTextTurned_rad &&
+      rotation_angle_rad(was, is) < kTextRotation_rad &&
+      std::abs(right.dot(up)) < 0.1 * kTextRotation_rad &&
       std::abs(lying.cap_height_m - before.cap_height_m) < kTextGrown * before.cap_height_m;
   if (is_new || !same) {
     before = lying;

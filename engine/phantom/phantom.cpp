@@ -49,13 +49,13 @@ Mat3 tilted(double angle_rad) { return rotation_from_vector({angle_rad, 0, 0}); 
 Transform<Spine, Vertebra> below(const Transform<Spine, Vertebra>& spine_from_upper,
                                  const VertebraMorphometry& upper,
                                  const VertebraMorphometry& lower) {
-  const double half_turn =
+  const double half_angle_rad =
       0.5 * (0.5 * upper.wedge_rad() + upper.disc_wedge_rad + 0.5 * lower.wedge_rad());
   const double drop = 0.5 * upper.height_m() + upper.disc_height_m + 0.5 * lower.height_m();
   // On an arc, both halves of the tilt meet in the disc's middle: go down along the mean direction.
-  const Transform<Spine, Vertebra> middle(spine_from_upper.rotation() * tilted(half_turn),
+  const Transform<Spine, Vertebra> middle(spine_from_upper.rotation() * tilted(half_angle_rad),
                                           spine_from_upper.translation());
-  return {middle.rotation() * tilted(half_turn), (middle * Point<Vertebra>{{0, 0, -drop}}).v};
+  return {middle.rotation() * tilted(half_angle_rad), (middle * Point<Vertebra>{{0, 0, -drop}}).v};
 }
 
 /// The place of each level, with the reference level at the origin.
@@ -71,9 +71,10 @@ std::vector<Transform<Spine, Vertebra>> places(const std::vector<VertebraMorphom
     }
   }
   const Transform<Spine, Vertebra> origin = spine_from_vertebra[reference];
-  const Transform<Spine, Spine> turned(origin.inverse().rotation(), origin.inverse().translation());
+  const Transform<Spine, Spine> rotated(origin.inverse().rotation(),
+                                        origin.inverse().translation());
   for (auto& place : spine_from_vertebra) {
-    place = turned * place;
+    place = rotated * place;
   }
   return spine_from_vertebra;
 }

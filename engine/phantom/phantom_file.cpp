@@ -62,12 +62,12 @@ void read_facets(const JsonNode& level, VertebraMorphometry& m) {
   m.superior_distance_m = size(superior, "distance");
   m.superior_height_m = size(superior, "height");
   m.superior_width_m = size(superior, "width");
-  m.superior_turn_rad = angle(superior, "turn_deg");
+  m.superior_rotation_rad = angle(superior, "turn_deg");
   const JsonNode inferior = level.child("inferior_facets");
   m.inferior_distance_m = size(inferior, "distance");
   m.inferior_height_m = size(inferior, "height");
   m.inferior_width_m = size(inferior, "width");
-  m.inferior_turn_rad = angle(inferior, "turn_deg");
+  m.inferior_rotation_rad = angle(inferior, "turn_deg");
   m.inferior_drop_m = size(inferior, "drop");
 }
 

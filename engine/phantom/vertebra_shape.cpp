@@ -107,7 +107,8 @@ void VertebraShape::add_pedicle_and_transverse_process() {
 void VertebraShape::add_articular_processes() {
   const double canal_back = back_of_body_m_ + m_.canal_depth_m;
   const Vec3 waist = pedicle_waist_;
-  const Vec3 upper_normal = {-std::sin(m_.superior_turn_rad), std::cos(m_.superior_turn_rad), 0.1};
+  const Vec3 upper_normal = {-std::sin(m_.superior_rotation_rad),
+                             std::cos(m_.superior_rotation_rad), 0.1};
   const Vec3 upper_facet = {0.5 * m_.superior_distance_m + 0.0042, canal_back - 0.0035,
                             waist.z + 0.5 * m_.superior_height_m + 0.0015};
   left_bars_.push_back(bar({waist.x, waist.y + 0.009, waist.z - 0.003}, upper_facet, upper_normal,
@@ -117,7 +118,8 @@ void VertebraShape::add_articular_processes() {
   left_bars_.push_back(bar(upper_facet + Vec3{0.0010, 0.0005, -0.0060},
                            upper_facet + Vec3{0.0030, 0.0065, -0.0025}, {1, 0, 0}, {0.0120, 0.0105},
                            {0.0080, 0.0065}));
-  const Vec3 lower_normal = {std::sin(m_.inferior_turn_rad), -std::cos(m_.inferior_turn_rad), 0};
+  const Vec3 lower_normal = {std::sin(m_.inferior_rotation_rad),
+                             -std::cos(m_.inferior_rotation_rad), 0};
   const Vec3 lower_tip = {0.5 * m_.inferior_distance_m - 0.001, canal_back + 0.0035,
                           waist.z - m_.inferior_drop_m + 0.5 * m_.inferior_height_m - 0.0025};
   const Vec3 isthmus = {mix(waist.x, lower_tip.x, 0.45), canal_back - 0.0010, waist.z - 0.009};

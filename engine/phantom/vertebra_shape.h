@@ -30,9 +30,9 @@ struct VertebraMorphometry {
   /// Distance between the middles of the left and right facet, their size, and the angle by which
   /// they are turned from facing straight back (0) to facing the middle (π/2).
   double superior_distance_m = 0, superior_height_m = 0, superior_width_m = 0;
-  double superior_turn_rad = 0;
+  double superior_rotation_rad = 0;
   double inferior_distance_m = 0, inferior_height_m = 0, inferior_width_m = 0;
-  double inferior_turn_rad = 0;
+  double inferior_rotation_rad = 0;
   double inferior_drop_m = 0;  ///< of the lower tips below the middle of the pedicles
   double disc_height_m = 0, disc_wedge_rad = 0;  ///< of the disc below
 

@@ -91,7 +91,7 @@ std::optional<RunnerUpDistance> runner_up_distance(const RegisteredLevel& level)
     out.apart_m =
         std::max(out.apart_m, (r.runner_up * place - r.world_from_vertebra * place).norm());
   }
-  out.turned_rad = rotation_angle_rad(r.runner_up.rotation(), r.world_from_vertebra.rotation());
+  out.rotation_rad = rotation_angle_rad(r.runner_up.rotation(), r.world_from_vertebra.rotation());
   return out;
 }
 
@@ -113,7 +113,7 @@ std::string ambiguity_of(const RegisteredLevel& level) {
                     ? "%.0f mm away on the surface and turned"
                       " by %.0f degrees, explains the points "
                     : "%.0f mm away at the screws and turned by %.0f degrees, explains the points ",
-                other->apart_m * 1e3, degrees(other->turned_rad));
+                other->apart_m * 1e3, degrees(other->rotation_rad));
   const std::string by =
       tells_log_likelihood_ratio(r)
           ? formatted(" (margin %.0f, at least %.0f)", r.log_likelihood_ratio,

@@ -49,8 +49,8 @@ struct ScrewErrors {
 
 /// How far the next best pose is from the accepted one.
 struct RunnerUpDistance {
-  double apart_m = 0.0;     ///< at the worst entry or target, or, without any, of the surface
-  double turned_rad = 0.0;  ///< the angle between the two
+  double apart_m = 0.0;       ///< at the worst of the entries and targets, or else of the surface
+  double rotation_rad = 0.0;  ///< the angle between the two
 };
 /// Nothing if there was no other pose to compare with.
 [[nodiscard]] std::optional<RunnerUpDistance> runner_up_distance(const RegisteredLevel& level);

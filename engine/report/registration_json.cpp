@@ -64,7 +64,7 @@ void put_runner_up(Json& out, const RegisteredLevel& level, const FigureFrame& f
       out["runner_up_margin"] = r.log_likelihood_ratio;
     }
     out["runner_up_distance_mm"] = mm_or_null(distance->apart_m);
-    out["runner_up_angle_deg"] = degrees(distance->turned_rad);
+    out["runner_up_angle_deg"] = degrees(distance->rotation_rad);
     out["runner_up_model_to_points"] = matrix_json(r.runner_up, frame);
   }
   out["ambiguity"] = ambiguity_of(level);

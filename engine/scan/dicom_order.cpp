@@ -17,7 +17,7 @@ constexpr double kSame_m = 1e-5;
 constexpr double kSameDirection = 1e-3;
 constexpr double kGapTolerance_m = 0.00002;
 
-constexpr double kGapShare = 0.02;
+constexpr double kGapFraction = 0.02;
 constexpr double kMostTilt_deg = 0.2;
 
 std::string name_of(const SliceHeader& slice) {
@@ -63,7 +63,7 @@ Result<double> even_distance_m(const std::vector<SliceHeader>& slices, Vec3 norm
     if (gaps_m[i] < kSame_m) {
       return Error{between + " lie at the same place"};
     }
-    if (std::abs(gaps_m[i] - usual_m) > std::max(kGapTolerance_m, kGapShare * usual_m)) {
+    if (std::abs(gaps_m[i] - usual_m) > std::max(kGapTolerance_m, kGapFraction * usual_m)) {
       return Error{between + printed(" are %.2f mm apart, the others %.2f mm: slices are missing",
                                      gaps_m[i] * 1e3, usual_m * 1e3)};
     }

@@ -65,8 +65,8 @@ SurfaceDeviation deviation_of(const LabelPart& part, const nav::TriangleMesh& me
     }
   }
   std::sort(off_m.begin(), off_m.end());
-  const auto at = [&](double share) {
-    return off_m[static_cast<std::size_t>(share * static_cast<double>(off_m.size() - 1))];
+  const auto at = [&](double fraction) {
+    return off_m[static_cast<std::size_t>(fraction * static_cast<double>(off_m.size() - 1))];
   };
   return {at(0.5), at(0.95), off_m.back()};
 }

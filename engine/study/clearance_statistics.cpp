@@ -37,7 +37,7 @@ std::size_t likeliest_of(const ReportPart& probabilities) {
 }
 
 ReportPart bound_json(const ClearanceQuality::Bound& bound) {
-  return {{"screws", bound.screws}, {"held", bound.held}, {"share", bound.share()}};
+  return {{"screws", bound.screws}, {"held", bound.held}, {"share", bound.fraction()}};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ struct ClearanceQuality {
   struct Bound {
     int screws = 0;
     int held = 0;
-    [[nodiscard]] double share() const {
+    [[nodiscard]] double fraction() const {
       return screws > 0 ? static_cast<double>(held) / screws : 0.0;
     }
   };

@@ -142,9 +142,9 @@ class ModelledTracker final : public nav::ToolTracker {
     if (fit->calibration) {
       online_.add(i, *fit->calibration);
     }
-    const nav::TrackedPose measured{*frame.world_from_rig * fit->rig_from_marker, frame.time,
-                                    PoseStatus::kMeasured,
-                                    nav::turned(fit->covariance, frame.world_from_rig->rotation())};
+    const nav::TrackedPose measured{
+        *frame.world_from_rig * fit->rig_from_marker, frame.time, PoseStatus::kMeasured,
+        nav::rotated(fit->covariance, frame.world_from_rig->rotation())};
     if (!is_followed(i, frame.time)) {
       filters_[i].stop();
     }
@@ -171,7 +171,7 @@ class ModelledTracker final : public nav::ToolTracker {
 
   void calibrate() {
     if (online_.correct()) {
-      nav::turn_right_camera(calibration_, online_.turn_rad());
+      nav::rotate_right_camera(calibration_, online_.rotation_rad());
     }
   }
 

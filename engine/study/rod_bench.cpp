@@ -63,7 +63,7 @@ BentRod RodBench::matched(const nav::RodCut& shown) {
   RodInHand rod = RodInHand::straight(seen_m);
   for (std::size_t i = 1; i + 1 < seen_m.size(); ++i) {
     for (int bends = 0; bends < options_.most_matching_bends; ++bends) {
-      bend(rod, i, rod_turn_rad(rod.chord_m(i), seen_m[i + 1] - rod.places_m()[i]), 0.0);
+      bend(rod, i, rod_rotation_rad(rod.chord_m(i), seen_m[i + 1] - rod.places_m()[i]), 0.0);
       if ((rod.places_m()[i + 1] - seen_m[i + 1]).norm() <= options_.matched_m) {
         break;
       }
@@ -84,10 +84,11 @@ BentRod RodBench::by_eye() {
     rod.lengthen(i, random_.normal(0.0, options_.eye_place_m));
   }
   for (std::size_t i = 1; i + 1 < seats_m.size(); ++i) {
-    const Vec3 turn_rad = rod_turn_rad(seats_m[i] - seats_m[i - 1], seats_m[i + 1] - seats_m[i]);
+    const Vec3 rotation_rad =
+        rod_rotation_rad(seats_m[i] - seats_m[i - 1], seats_m[i + 1] - seats_m[i]);
     const double over_rad = options_.eye_overbend_rad_per_m * rod.chord_m(i - 1).norm();
-    const double angle_rad = turn_rad.norm();
-    bend(rod, i, angle_rad > 0.0 ? (1.0 + over_rad / angle_rad) * turn_rad : turn_rad,
+    const double angle_rad = rotation_rad.norm();
+    bend(rod, i, angle_rad > 0.0 ? (1.0 + over_rad / angle_rad) * rotation_rad : rotation_rad,
          options_.eye_bend_sd);
   }
   return finished(std::move(rod), length_m, &RodInHand::worst_bend);
@@ -104,19 +105,19 @@ BentRod RodBench::finished(RodInHand rod, double length_m, WorstBend worst_bend)
          result.rebends < options_.most_rebends) {
     work(options_.durations.take_out_s);
     const RodCorrection worst = (rod.*worst_bend)(seats_m);
-    bend(rod, worst.joint, worst.turn_rad, options_.eye_bend_sd);
+    bend(rod, worst.joint, worst.rotation_rad, options_.eye_bend_sd);
     work(options_.durations.try_s);
     lie = rod.lay_on(seats_m);
     ++result.rebends;
   }
-  const double shift_m = random_.normal(0.0, options_.placing_m);
+  const double offset_m = random_.normal(0.0, options_.placing_m);
   const auto right = [&](double overhang_m) {
     return overhang_m >= options_.shortest_overhang_m && overhang_m <= options_.longest_overhang_m;
   };
   result.heads = seats_m.size();
   result.length_m = length_m;
-  result.first_overhang_m = 0.5 * (length_m - lie.span_m) + shift_m;
-  result.last_overhang_m = 0.5 * (length_m - lie.span_m) - shift_m;
+  result.first_overhang_m = 0.5 * (length_m - lie.span_m) + offset_m;
+  result.last_overhang_m = 0.5 * (length_m - lie.span_m) - offset_m;
   result.right_length = right(result.first_overhang_m) && right(result.last_overhang_m);
   result.head_distance_m = lie.mean_m;
   result.time_s = time_s_;

@@ -57,7 +57,7 @@ double drawn_within(Random& random, double sd) {
 
 }  // namespace
 
-Vec3 rod_turn_rad(Vec3 from, Vec3 to) {
+Vec3 rod_rotation_rad(Vec3 from, Vec3 to) {
   const Vec3 axis = from.cross(to);
   const double sine = axis.norm();
   return sine > 0.0 ? (angle_between_rad(from, to) / sine) * axis : Vec3{};
@@ -75,17 +75,17 @@ RodInHand RodInHand::straight(std::span<const Vec3> seats_m) {
 }
 
 void RodInHand::lengthen(std::size_t i, double by_m) {
-  const Vec3 shift_m = by_m * chord_m(i).normalized();
+  const Vec3 offset_m = by_m * chord_m(i).normalized();
   for (std::size_t j = i + 1; j < places_m_.size(); ++j) {
-    places_m_[j] += shift_m;
+    places_m_[j] += offset_m;
   }
 }
 
-void RodInHand::bend(std::size_t joint, Vec3 turn_rad) {
+void RodInHand::bend(std::size_t joint, Vec3 rotation_rad) {
   const Vec3 axis = (places_m_[joint] - places_m_[joint - 1]).normalized();
-  const Mat3 turn = rotation_from_vector(turn_rad - turn_rad.dot(axis) * axis);
+  const Mat3 rotation = rotation_from_vector(rotation_rad - rotation_rad.dot(axis) * axis);
   for (std::size_t j = joint + 1; j < places_m_.size(); ++j) {
-    places_m_[j] = places_m_[joint] + turn * (places_m_[j] - places_m_[joint]);
+    places_m_[j] = places_m_[joint] + rotation * (places_m_[j] - places_m_[joint]);
   }
 }
 
@@ -116,10 +116,10 @@ RodLie RodInHand::lay_on(std::span<const Vec3> seats_m) {
 RodCorrection RodInHand::worst_bend(std::span<const Vec3> seats_m) const {
   RodCorrection worst{1, {}};
   for (std::size_t i = 1; i + 1 < seats_m.size(); ++i) {
-    const Vec3 turn_rad = rod_turn_rad(chord_m(i), seats_m[i + 1] - seats_m[i]) -
-                          rod_turn_rad(chord_m(i - 1), seats_m[i] - seats_m[i - 1]);
-    if (turn_rad.norm() > worst.turn_rad.norm()) {
-      worst = {i, turn_rad};
+    const Vec3 rotation_rad = rod_rotation_rad(chord_m(i), seats_m[i + 1] - seats_m[i]) -
+                              rod_rotation_rad(chord_m(i - 1), seats_m[i] - seats_m[i - 1]);
+    if (rotation_rad.norm() > worst.rotation_rad.norm()) {
+      worst = {i, rotation_rad};
     }
   }
   return worst;

@@ -10,7 +10,7 @@
 namespace orthonav::engine {
 
 /// The smallest turn that takes direction `from` to `to`, as a rotation vector.
-[[nodiscard]] Vec3 rod_turn_rad(Vec3 from, Vec3 to);
+[[nodiscard]] Vec3 rod_rotation_rad(Vec3 from, Vec3 to);
 
 /// How a rod lies in the heads.
 struct RodLie {
@@ -21,7 +21,7 @@ struct RodLie {
 
 struct RodCorrection {
   std::size_t joint = 0;
-  Vec3 turn_rad;
+  Vec3 rotation_rad;
 };
 
 /// A rod while it is bent: straight between its bends, which are as many as the inner heads.
@@ -39,11 +39,11 @@ class RodInHand {
   [[nodiscard]] Vec3 chord_m(std::size_t i) const { return places_m_[i + 1] - places_m_[i]; }
   /// Moves all beyond place `i` along the rod.
   void lengthen(std::size_t i, double by_m);
-  /// Turns everything beyond the joint about it. A bender does not twist a rod, so the component of
-  /// the turn about the rod itself is left out.
-  void bend(std::size_t joint, Vec3 turn_rad);
-  /// Moves the whole rod to where its axis, extended at both ends, lies nearest to the seats (least
-  /// squares, closest points).
+  /// Turns all beyond the joint about it. A rod is not twisted by a bender: that part of the turn
+  /// which goes about the rod itself is left out.
+  void bend(std::size_t joint, Vec3 rotation_rad);
+  /// Moves the rod as a whole to where its axis, prolonged at both ends, lies nearest to the seats
+  /// (least squares, closest points).
   RodLie lay_on(std::span<const Vec3> seats_m);
   /// The worst bend of the rod as it lies now, and its error. Needs at least three seats.
   [[nodiscard]] RodCorrection worst_bend(std::span<const Vec3> seats_m) const;

@@ -47,9 +47,9 @@ Result<nav::Registration> registered(const StatedNavigation& stated, const sim::
   const auto truth = room.world_from_room() * *room_from_vertebra;
   Random random = Random(room.options().seed).fork("stated navigation").fork(known->label);
   const Vec3 off_m = sim::normal_vector(random, stated.target_m / std::sqrt(3.0));
-  const Mat3 turn = rotation_from_vector(sim::normal_vector(random, stated.angle_rad));
+  const Mat3 rotation = rotation_from_vector(sim::normal_vector(random, stated.angle_rad));
   const Vec3 middle = middle_of(request.screws);
-  const Transform<Vertebra, Vertebra> error{turn, middle + off_m - turn * middle};
+  const Transform<Vertebra, Vertebra> error{rotation, middle + off_m - rotation * middle};
   nav::Registration out;
   out.accepted = true;
   out.world_from_vertebra = out.runner_up = truth * error;

@@ -37,7 +37,7 @@ std::optional<StampReader::Heard> StampReader::heard_at(std::uint64_t ticks, Hos
 }
 
 std::optional<Timestamp> StampReader::time_of(const Heard& heard) const {
-  const std::int64_t time_ticks = heard.ticks - base_ticks_ + shift_ticks_;
+  const std::int64_t time_ticks = heard.ticks - base_ticks_ + offset_ticks_;
   if (time_ticks < -kMaxTicks || time_ticks > kMaxTicks) {
     return std::nullopt;
   }
@@ -60,7 +60,7 @@ std::optional<Timestamp> StampReader::time_of(std::uint64_t ticks, HostTime at) 
       return std::nullopt;
     }
     const std::int64_t passed = duration_cast<Duration>(at - last_->at).count() / 100;
-    shift_ticks_ += last_->ticks + passed - now->ticks;
+    offset_ticks_ += last_->ticks + passed - now->ticks;
     ++restarts_;
   }
   doubted_in_a_row_ = 0;

@@ -35,7 +35,7 @@ class StampReader {
   [[nodiscard]] std::optional<Timestamp> time_of(const Heard& heard) const;
 
   std::int64_t base_ticks_ = 0;
-  std::int64_t shift_ticks_ = 0;
+  std::int64_t offset_ticks_ = 0;
   std::optional<Heard> last_;
   std::optional<Heard> doubted_;
   int doubted_in_a_row_ = 0;

@@ -27,7 +27,7 @@ Result<CameraCalibration<A>> read_calibration(Bytes answer) {
     return extrinsics.error();
   }
   auto camera = CameraModel::from_lookup(kImageWidthPx, kImageHeightPx,
-                                         shifted(unit_plane, kHalfPixel).entries);
+                                         resampled(unit_plane, kHalfPixel).entries);
   if (!camera) {
     return Error{"calibration: " + camera.error().message};
   }
@@ -50,8 +50,8 @@ std::vector<std::uint8_t> calibration_bytes(const CameraModel& camera,
   bytes.reserve(kCalibrationBytes);
   const UnitPlaneTable centres{
       camera.width_px(), camera.height_px(), {camera.lookup().begin(), camera.lookup().end()}};
-  const UnitPlaneTable corners = shifted(centres, -kHalfPixel);
-  // A headset reports (0, 0) where there is no direction.
+  const UnitPlaneTable corners = resampled(centres, -kHalfPixel);
+  // Where there is no direction a headset says (0, 0).
   const auto told = [](Vec2 v, double entry) {
     return std::isnan(v.x) || std::isnan(v.y) ? 0.0f : static_cast<float>(entry);
   };

@@ -64,7 +64,7 @@ Result<DepthDescription> read_depth_calibration(DepthStream stream, Bytes answer
   if (const Status s = format.wraps ? check_alias(alias) : Status(); !s) {
     return s.error();
   }
-  const UnitPlaneTable centres = shifted(
+  const UnitPlaneTable centres = resampled(
       read_unit_plane(format.width_px, format.height_px, answer, answer.subspan(table_bytes)),
       kHalfPixel);
   DepthCalibration& camera = described.camera;

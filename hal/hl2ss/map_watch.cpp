@@ -7,10 +7,10 @@
 namespace orthonav::hl2ss {
 namespace {
 
-// A surgeon's head stays below these too. A false alarm costs a registration, and a missed move
-// shows a wrong hologram: at 30 Hz a move of more than 5 cm or 9 degrees is detected.
-constexpr double kMaxAcceleration = 30.0;       // m/s²
-constexpr double kMaxTurnAcceleration = 100.0;  // rad/s²
+// A head at work stays below these as well. A false alarm costs a registration, a missed move a
+// wrong hologram: at 30 Hz a move of more than 5 cm or 9 degrees is found.
+constexpr double kMaxAcceleration = 30.0;          // m/s²
+constexpr double kMaxAngularAcceleration = 100.0;  // rad/s²
 constexpr double kNoiseM = 0.010;
 constexpr double kNoiseRad = 0.020;
 /// Two poses farther apart in time than this give no speed.
@@ -50,7 +50,7 @@ bool MapWatch::is_possible(const Seen& next) const {
   // The speed is one of the past interval's middle.
   const double lever_s2 = dt_s * 0.5 * (dt_s + before_s);
   return within(expected, kNoiseM + kMaxAcceleration * lever_s2,
-                kNoiseRad + kMaxTurnAcceleration * lever_s2);
+                kNoiseRad + kMaxAngularAcceleration * lever_s2);
 }
 
 bool MapWatch::moved(Timestamp time, const Transform<World, Rig>& world_from_rig) {

@@ -12,8 +12,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A line of `count` entries, `stride` apart, resampled half a step on (`ahead` 0.5) or back
 /// (-0.5): cubic through the four nearest (Lagrange), which is exact to 1e-9 for a lens, and
-/// extrapolated past the ends. No direction next to entries without one.
-void shift_line(const Vec2* from, Vec2* to, std::size_t count, std::size_t stride, double ahead) {
+/// carried on so past the ends. Between entries without a direction there is none.
+void resample_line(const Vec2* from, Vec2* to, std::size_t count, std::size_t stride,
+                   double ahead) {
   for (std::size_t i = 0; i < count; ++i) {
     const double place = static_cast<double>(i) + ahead;
     const double first = std::clamp(std::floor(place) - 1.0, 0.0, static_cast<double>(count - 4));
@@ -69,16 +70,16 @@ UnitPlaneTable read_unit_plane(int width_px, int height_px, Bytes x, Bytes y) {
   return table;
 }
 
-UnitPlaneTable shifted(const UnitPlaneTable& table, double ahead) {
+UnitPlaneTable resampled(const UnitPlaneTable& table, double ahead) {
   std::vector<Vec2> by_rows(table.entries.size());
   UnitPlaneTable both{table.width_px, table.height_px, std::vector<Vec2>(table.entries.size())};
   const auto columns = static_cast<std::size_t>(table.width_px);
   const auto rows = static_cast<std::size_t>(table.height_px);
   for (std::size_t row = 0; row < rows; ++row) {
-    shift_line(&table.entries[row * columns], &by_rows[row * columns], columns, 1, ahead);
+    resample_line(&table.entries[row * columns], &by_rows[row * columns], columns, 1, ahead);
   }
   for (std::size_t column = 0; column < columns; ++column) {
-    shift_line(&by_rows[column], &both.entries[column], rows, columns, ahead);
+    resample_line(&by_rows[column], &both.entries[column], rows, columns, ahead);
   }
   return both;
 }

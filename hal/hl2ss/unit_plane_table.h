@@ -24,7 +24,7 @@ struct UnitPlaneTable {
 inline constexpr double kHalfPixel = 0.5;
 
 /// The table half a pixel to the right and down (`ahead` 0.5), or back (-0.5): cubic through the
-/// four nearest entries along each axis, extrapolated past the edges.
-[[nodiscard]] UnitPlaneTable shifted(const UnitPlaneTable& table, double ahead);
+/// four nearest entries along each axis, carried on past the edges.
+[[nodiscard]] UnitPlaneTable resampled(const UnitPlaneTable& table, double ahead);
 
 }  // namespace orthonav::hl2ss

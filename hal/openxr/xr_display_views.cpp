@@ -14,11 +14,11 @@ void stand_still(std::array<XrView, 2>& views) {
   for (std::size_t eye = 0; eye < 2; ++eye) {
     XrPosef& pose = views[eye].pose;
     pose.position = {};
-    const auto turned = transform_of<Space, Eye>(pose);
-    if (!turned) {
+    const auto rotated = transform_of<Space, Eye>(pose);
+    if (!rotated) {
       continue;
     }
-    const Vec3 at = (*turned * Direction<Eye>{{eye == 0 ? -kHalfApart_m : kHalfApart_m, 0, 0}}).v;
+    const Vec3 at = (*rotated * Direction<Eye>{{eye == 0 ? -kHalfApart_m : kHalfApart_m, 0, 0}}).v;
     pose.position = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
   }
 }

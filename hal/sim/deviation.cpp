@@ -25,7 +25,7 @@ Vec3 from_first(const Eyes& eyes, const ShownHologram& shown, std::size_t to) {
   return eyes.place(shown.points_in_world[to]) - eyes.place(shown.points_in_world[0]);
 }
 
-Vec3 turn_of(Vec3 lean, Vec3 planned, double angle_rad) {
+Vec3 rotation_of(Vec3 lean, Vec3 planned, double angle_rad) {
   const Vec3 axis = lean.cross(planned);
   return axis.norm() > 0.0 ? angle_rad * axis.normalized() : Vec3{};
 }
@@ -50,7 +50,7 @@ std::optional<Deviation> read_deviation(const Eyes& eyes) {
     if (!lean.is_finite()) {
       return std::nullopt;
     }
-    return Deviation{*eyes.seen_at(), turn_of(lean, planned, *number->reading)};
+    return Deviation{*eyes.seen_at(), rotation_of(lean, planned, *number->reading)};
   }
   const Vec3 lean = top - tip;
   const double angle_rad = std::asin(std::min(1.0, lean.norm() / kCrossReach_m));
@@ -58,7 +58,7 @@ std::optional<Deviation> read_deviation(const Eyes& eyes) {
   if (!(std::abs(angle_rad - *number->reading) <= kDisagreement_rad)) {
     return std::nullopt;
   }
-  return Deviation{*eyes.seen_at(), turn_of(lean, planned, angle_rad)};
+  return Deviation{*eyes.seen_at(), rotation_of(lean, planned, angle_rad)};
 }
 
 void DeviationMemory::add(const Deviation& reading) {
@@ -81,7 +81,7 @@ std::optional<Vec3> DeviationMemory::mean_since(Timestamp since) const {
   Vec3 sum;
   std::size_t used = 0;
   while (used < size() && back(used).seen_at >= since) {
-    sum += back(used++).turn;
+    sum += back(used++).rotation_rad;
   }
   if (used == 0 || used == size()) {
     return std::nullopt;

@@ -11,7 +11,7 @@ namespace orthonav::sim {
 /// tool's axis onto the planned one.
 struct Deviation {
   Timestamp seen_at{};
-  Vec3 turn;
+  Vec3 rotation_rad;
 };
 
 /// Reads it off the display. If neither dot of the cross is held at its rim, it is the line from

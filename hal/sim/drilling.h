@@ -23,8 +23,8 @@ inline constexpr double kGain_per_s = 1.6;
 struct Drilling {
   std::size_t level = 0;
   Side side = Side::kLeft;
-  double way = 0.0;        ///< fraction of the advance, 0 to 1
-  Vec3 unseen_turn_rad{};  ///< turn of the wire that the tool does not share, in Room
+  double way = 0.0;            ///< fraction of the advance, 0 to 1
+  Vec3 unseen_rotation_rad{};  ///< by which the wire turns and the tool does not, in Room
 };
 
 /// How a hand turns while it drills: SDs about each direction across the tool.

@@ -21,7 +21,7 @@ Vec3 perpendicular_to(Vec3 unit) {
   return unit.cross(helper).normalized();
 }
 
-Vec3 turned_towards(Vec3 from, Vec3 to, double fraction) {
+Vec3 rotated_towards(Vec3 from, Vec3 to, double fraction) {
   const Vec3 axis = from.cross(to);
   const double angle = angle_between_rad(from, to);
   if (axis.norm() < 1e-12) {

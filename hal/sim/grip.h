@@ -21,6 +21,6 @@ struct Grip {
 /// Any unit vector perpendicular to a given one.
 [[nodiscard]] Vec3 perpendicular_to(Vec3 unit);
 /// `from` turned towards `to` by this fraction of the angle between them; unit vectors.
-[[nodiscard]] Vec3 turned_towards(Vec3 from, Vec3 to, double fraction);
+[[nodiscard]] Vec3 rotated_towards(Vec3 from, Vec3 to, double fraction);
 
 }  // namespace orthonav::sim

@@ -28,7 +28,7 @@ HeadMotion::HeadMotion(const Random& random, const ErrorModel& error_model, Vec3
 
 void HeadMotion::advance(double step_s, const HeadGoal& goal) {
   follow(now_.gaze.v, gaze_speed_, goal.gaze.v, step_s);
-  follow(now_.from_gaze, turn_speed_, goal.from_gaze, step_s);
+  follow(now_.from_gaze, angular_speed_, goal.from_gaze, step_s);
 }
 
 Transform<Room, Rig> HeadMotion::pose(double time_s) const {

@@ -27,7 +27,7 @@ class HeadMotion {
   Vec3 eyes_in_rig_;
   HeadGoal now_;
   Vec3 gaze_speed_;
-  Vec3 turn_speed_;
+  Vec3 angular_speed_;
   SmoothNoise3 sway_m_;
   SmoothNoise3 sway_rad_;
 };

@@ -10,7 +10,7 @@ constexpr double kBaselineM = 0.099;
 constexpr double kRightForwardM = 0.003;
 /// In real units the cameras are turned by one or two degrees relative to each other about each
 /// axis.
-constexpr Vec3 kRightTurnRad{0.010, -0.008, 0.020};
+constexpr Vec3 kRightRotation_rad{0.010, -0.008, 0.020};
 
 }  // namespace
 
@@ -30,7 +30,7 @@ StereoCalibration hololens2_calibration() {
   const Mat3 left_axes = {{{{0, 1, 0}, {1, 0, 0}, {0, 0, -1}}}};
   const Mat3 right_axes = {{{{0, -1, 0}, {-1, 0, 0}, {0, 0, -1}}}};
   calibration.left_from_rig = {left_axes, {}};
-  const Mat3 right_rotation = rotation_from_vector(kRightTurnRad) * right_axes;
+  const Mat3 right_rotation = rotation_from_vector(kRightRotation_rad) * right_axes;
   const Vec3 right_in_rig{kBaselineM, 0.0, -kRightForwardM};
   calibration.right_from_rig = {right_rotation, -(right_rotation * right_in_rig)};
   return calibration;

@@ -28,9 +28,9 @@ std::optional<NumberReading> read_numbers(const Eyes& eyes, const SpokenDirectio
                    std::tan(aim_medial_rad) * directions.medial;
   const Vec3 about = aim.cross(directions.inward);
   const double angle_rad = std::atan2(about.norm(), aim.dot(directions.inward));
-  const Vec3 turn = about.norm() > 0.0 ? angle_rad * about.normalized() : Vec3{};
+  const Vec3 rotation_rad = about.norm() > 0.0 ? angle_rad * about.normalized() : Vec3{};
   return NumberReading{tip_cranial_m * directions.cranial + tip_medial_m * directions.medial,
-                       {*eyes.seen_at(), turn}};
+                       {*eyes.seen_at(), rotation_rad}};
 }
 
 }  // namespace orthonav::sim

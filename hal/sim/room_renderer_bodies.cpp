@@ -140,19 +140,19 @@ void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, doubl
   // Counter-clockwise in Marker like the rim: right along a black cell's lower edge, up its right.
   for (int row = 0; row <= n; ++row) {
     for (int column = 0; column < n; ++column) {
-      const int turn = static_cast<int>(pattern.is_black(row - 1, column)) -
+      const int edge = static_cast<int>(pattern.is_black(row - 1, column)) -
                        static_cast<int>(pattern.is_black(row, column));
-      if (turn != 0) {
-        light.add_segment(corner_px(row, column), corner_px(row, column + 1), sign * step * turn);
+      if (edge != 0) {
+        light.add_segment(corner_px(row, column), corner_px(row, column + 1), sign * step * edge);
       }
     }
   }
   for (int row = 0; row < n; ++row) {
     for (int column = 0; column <= n; ++column) {
-      const int turn = static_cast<int>(pattern.is_black(row, column - 1)) -
+      const int edge = static_cast<int>(pattern.is_black(row, column - 1)) -
                        static_cast<int>(pattern.is_black(row, column));
-      if (turn != 0) {
-        light.add_segment(corner_px(row + 1, column), corner_px(row, column), sign * step * turn);
+      if (edge != 0) {
+        light.add_segment(corner_px(row + 1, column), corner_px(row, column), sign * step * edge);
       }
     }
   }

@@ -18,8 +18,8 @@ void Foreground::reset(int width, int height, int channel_count) {
       const auto to = static_cast<std::ptrdiff_t>(row(y)) + span.high;
       std::fill(opacity.begin() + from, opacity.begin() + to, 0.0F);
       for (int c = 0; c < channels; ++c) {
-        const auto shift = static_cast<std::ptrdiff_t>(plane()) * c;
-        std::fill(light.begin() + shift + from, light.begin() + shift + to, 0.0F);
+        const auto offset = static_cast<std::ptrdiff_t>(plane()) * c;
+        std::fill(light.begin() + offset + from, light.begin() + offset + to, 0.0F);
       }
       span = {};
     }

@@ -41,7 +41,7 @@ RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, 
   nothing.room_from_vertebra.resize(layout_.levels());
   level_moved_m_.resize(layout_.levels());
   for (const RoomLevel& level : room_.levels) {
-    breath_shares_.push_back(share_of_breath(level.label));
+    breath_fractions_.push_back(fraction_of_breath(level.label));
   }
   states_.resize(kKept, nothing);
   if (options.surgeon && layout_.levels() > 0) {
@@ -89,7 +89,7 @@ void RoomSimulation::move_patient(RoomState& now) {
   const Vec3 breath_m = spine_.at(seconds_in(now.time));
   back_moved_m_ = breath_m + slipped_m_;
   for (std::size_t i = 0; i < layout_.levels(); ++i) {
-    level_moved_m_[i] = breath_shares_[i] * breath_m + slipped_m_;
+    level_moved_m_[i] = breath_fractions_[i] * breath_m + slipped_m_;
     const auto& at_rest = layout_.room_from_vertebra(i);
     now.room_from_vertebra[i] = {at_rest.rotation(),
                                  at_rest.translation() + level_moved_m_[i] + pushed_m(i)};
@@ -151,7 +151,7 @@ void RoomSimulation::leave_reference(RoomState& now) {
     room_from_reference_ = now.room_from_marker[*reference];
   }
   const bool is_due = wires_driven_ >= bump_.after_wires;
-  if (is_due && (bump_.shift_m > 0.0 || bump_.turn_rad > 0.0)) {
+  if (is_due && (bump_.translation_m > 0.0 || bump_.rotation_rad > 0.0)) {
     bump_reference();
   }
   // On the vertebra above the first operated one.
@@ -168,8 +168,8 @@ void RoomSimulation::bump_reference() {
   const Vec3 way = normal_vector(bumping_, 1.0).normalized();
   const Vec3 about = normal_vector(bumping_, 1.0).normalized();
   *room_from_reference_ = {
-      rotation_from_vector(bump_.turn_rad * about) * room_from_reference_->rotation(),
-      room_from_reference_->translation() + bump_.shift_m * way};
+      rotation_from_vector(bump_.rotation_rad * about) * room_from_reference_->rotation(),
+      room_from_reference_->translation() + bump_.translation_m * way};
   bump_ = {};
 }
 

@@ -97,7 +97,7 @@ class RoomSimulation {
   SpineMotion spine_;
   // Motion with the breath and on the table, at the newest step, in Room.
   std::vector<Vec3> level_moved_m_;
-  std::vector<double> breath_shares_;  ///< of each level; fixed
+  std::vector<double> breath_fractions_;  ///< of each level; fixed
   Vec3 back_moved_m_{};
   std::optional<AdvancingWire> wire_;
   Vec3 back_against_level_m_{};  ///< of the back relative to the bone, when the wire pierced it

@@ -62,7 +62,7 @@ void RoomSimulation::leave_wire() {
   const Vec3 straight = wire_->direction(guide_inwards(driven.level));
   const Vec3 bend = normal_vector(physics_, error_model_.wire_bending_rad) +
                     normal_vector(physics_, error_model_.hole_following_rad) +
-                    (room_from_vertebra.inverse() * Direction<Room>{driven.unseen_turn_rad}).v;
+                    (room_from_vertebra.inverse() * Direction<Room>{driven.unseen_rotation_rad}).v;
   const Vec3 direction =
       (rotation_from_vector(across_axis(bend, straight)) * straight).normalized();
   const std::string& label = room_.levels[driven.level].label;

@@ -20,8 +20,8 @@ enum class Pace {
 
 /// The clamped patient reference is knocked after a number of wires.
 struct ReferenceBump {
-  double shift_m = 0.0;   ///< in a random direction
-  double turn_rad = 0.0;  ///< about a random axis through the reference's tag
+  double translation_m = 0.0;  ///< in a random direction
+  double rotation_rad = 0.0;   ///< about a random axis through the reference's tag
   int after_wires = 1;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLongest_s = 86400.0;
 constexpr double kFastestRate_hz = 240.0;
-constexpr double kFarthestShift_m = 0.05;
+constexpr double kFarthest_m = 0.05;
 
 }  // namespace
 
@@ -29,9 +29,9 @@ Status SimOptions::check() const {
     return Error{"simulated exposure of " + printed("%f", error_model.exposure_s) +
                  " s is longer than a frame at " + printed("%f", frame_rate_hz) + " Hz"};
   }
-  for (const double shift_m : {reference_bump.shift_m, patient_shift.shift_m}) {
-    if (!(shift_m >= 0.0 && shift_m <= kFarthestShift_m)) {
-      return Error{"simulated shift of the reference or the patient is " + printed("%f", shift_m) +
+  for (const double moved_m : {reference_bump.translation_m, patient_shift.shift_m}) {
+    if (!(moved_m >= 0.0 && moved_m <= kFarthest_m)) {
+      return Error{"simulated shift of the reference or the patient is " + printed("%f", moved_m) +
                    " m, must lie in [0, 0.05]"};
     }
   }

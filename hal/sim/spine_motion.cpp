@@ -28,7 +28,7 @@ Vec3 SpineMotion::at(double time_s) const {
   return extent_m_ * (std::pow(wave, 4) - kMean) * kWay;
 }
 
-double share_of_breath(std::string_view label) {
+double fraction_of_breath(std::string_view label) {
   constexpr double kGreatest_mm = 1.96;
   constexpr double kFirstLumbar = 1.6 / kGreatest_mm;
   constexpr double kLastLumbar = 1.3 / kGreatest_mm;

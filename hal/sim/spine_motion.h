@@ -22,10 +22,10 @@ class SpineMotion {
   double phase_ = 0.0;
 };
 
-/// The fraction of that motion at a level: all at T10 to T12, where breath moves the spine most;
-/// 1.6 of 1.96 mm at L1 falling to 1.3 at L5 (lumbar levels of the same ten patients); half at the
-/// sacrum and 0.6 at T1, falling evenly from T9 (estimates). Labels that do not name a level get
-/// all of it.
-[[nodiscard]] double share_of_breath(std::string_view label);
+/// Which part of that a level moves by: all at T10 to T12, where breath moves the spine most; 1.6
+/// of 1.96 mm at L1 falling to 1.3 at L5 (lumbar levels of the same ten patients); half at the
+/// sacrum and 0.6 at T1, falling evenly from T9 (estimates). Labels without a level's name move by
+/// all.
+[[nodiscard]] double fraction_of_breath(std::string_view label);
 
 }  // namespace orthonav::sim

@@ -22,7 +22,7 @@ constexpr double kSpinousHalfWidth_m = 0.014;  // sides of the spinous process l
 /// How far out the strokes reach: a fraction of half the width and a limit, for vertebrae of any
 /// size.
 struct Outwards {
-  double share;
+  double fraction;
   double most_m;
 };
 constexpr Outwards outwards(Exposure exposure) {
@@ -50,7 +50,7 @@ struct Reach {
     lowest_y_m = 0.5 * (front + back);
     midline_x_m = 0.5 * (right + left);
     const Outwards out = outwards(exposure);
-    half_width_m = std::min(out.share * 0.5 * (left - right), out.most_m);
+    half_width_m = std::min(out.fraction * 0.5 * (left - right), out.most_m);
   }
   [[nodiscard]] bool holds(const BoneSpot& spot) const {
     return spot.point.y > lowest_y_m && std::abs(lateral_m(spot)) < half_width_m &&

@@ -71,10 +71,10 @@ struct OverlayComparison {
       apart_m[i] += (kGlance_s / kComparing_s) * (eyes.place(model.points_in_world[i]) - bone);
     }
   }
-  [[nodiscard]] bool fits(Vec3 perceived_shift_m) const {
+  [[nodiscard]] bool fits(Vec3 perceived_offset_m) const {
     for (std::size_t i = 0; i < visible.size(); ++i) {
       // Negated, so that NaN does not fit.
-      if (visible[i] && !((apart_m[i] + perceived_shift_m).norm() <= kAcceptedOverlay_m)) {
+      if (visible[i] && !((apart_m[i] + perceived_offset_m).norm() <= kAcceptedOverlay_m)) {
         return false;
       }
     }

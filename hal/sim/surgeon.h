@@ -121,9 +121,8 @@ class Surgeon {
   /// Aims the tool by what the guidance profile lets the surgeon go by.
   Script aim_tool(const StepOnDisplay& step, std::size_t level, const Aim& aim);
   Script drive_wire(std::size_t level, Side side, const Aim& aim);
-  /// Moves hand and wire in together, with the turning of a hand; in a closed loop, corrected by
-  /// the readings.
-  Script drill(const Aim& aim, Vec3 turn_of_wire);
+  /// Moves hand and wire in together, turning as hands do; in a closed loop, by what is read.
+  Script drill(const Aim& aim, Vec3 rotation_of_wire);
   [[nodiscard]] BoneSpot put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) const;
 
   // surgeon_perceiving.cpp
@@ -144,15 +143,14 @@ class Surgeon {
 
   // surgeon_turning.cpp
   /// Turns the tool about its tip until the readings are small and steady.
-  Script turn_tool(const StepOnDisplay& step, const Aim& aim);
-  /// Holds still, reads the average and corrects the rest if it is small.
+  Script rotate_tool(const StepOnDisplay& step, const Aim& aim);
+  /// Holds still, reads the average and takes out what is left of it, if that is little.
   Script settle(const Aim& aim, double content_rad, bool& settled);
-  /// How the tool has to be turned: by the numbers in a closed loop, otherwise by cross and
-  /// triangle.
-  [[nodiscard]] std::optional<Deviation> read_turn(const Aim& aim) const;
-  void turn_by(Vec3 turn);
-  /// What the surgeon does without a reading; true if it has been missing for so long that earlier
-  /// readings are out of date.
+  /// How the tool has to be turned: by the numbers in a closed loop, else by cross and triangle.
+  [[nodiscard]] std::optional<Deviation> read_rotation(const Aim& aim) const;
+  void rotate_by(Vec3 rotation_rad);
+  /// What they do where there is no reading; true when it has been away for so long that those
+  /// before it are out of date.
   bool regain_reading(const Aim& aim, double lost_s, double tick_s);
   /// Turns the tag to and fro and leans over, so that the cameras find it again.
   void show_tag(const Aim& aim, double since_s, double tick_s);

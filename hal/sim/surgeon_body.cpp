@@ -48,7 +48,7 @@ Script SurgeonBody::move(Grip goal, double duration_s, double lift_m) {
     const double way = minimum_jerk(t);
     const double lift = lift_m * std::sin(std::numbers::pi * way);
     posture_.grip.tip = start.tip + way * (goal.tip - start.tip) + lift * kUp;
-    posture_.grip.axis = turned_towards(start.axis, goal.axis, way);
+    posture_.grip.axis = rotated_towards(start.axis, goal.axis, way);
     posture_.grip.roll_rad = start.roll_rad + way * (goal.roll_rad - start.roll_rad);
   }
   posture_.grip = goal;

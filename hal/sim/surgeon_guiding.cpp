@@ -56,11 +56,11 @@ Script Surgeon::aim_tool(const StepOnDisplay& step, std::size_t level, const Aim
       co_await align_by_eye(step, aim);
       break;
     case GuidanceProfile::kNumbers:
-      co_await turn_tool(step, aim);
+      co_await rotate_tool(step, aim);
       break;
     case GuidanceProfile::kClosedLoop:
       co_await centre_tip(step, level, aim);
-      co_await turn_tool(step, aim);
+      co_await rotate_tool(step, aim);
       co_await centre_tip(step, level, aim);
       break;
   }
@@ -79,7 +79,7 @@ BoneSpot Surgeon::put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) cons
 }
 
 Script Surgeon::find_entry(const StepOnDisplay& step, std::size_t level, Side side, Aim& aim) {
-  const Vec3 perceived_shift =
+  const Vec3 perceived_offset =
       misperceived(layout_->site(level), error_model_->overlay_perception_m) +
       normal_vector(body_.random(), error_model_->entry_pick_m);
   // First a glance for the direction, to stand correctly; then a look for the place.
@@ -90,7 +90,7 @@ Script Surgeon::find_entry(const StepOnDisplay& step, std::size_t level, Side si
     if (!found) {
       co_return;
     }
-    aim.on_bone = put_on_bone(level, entry + perceived_shift, aim.outwards);
+    aim.on_bone = put_on_bone(level, entry + perceived_offset, aim.outwards);
     aim.directions = spoken_directions(layout_->room_from_vertebra(level), side, aim.outwards);
     body_.look({aim.on_bone.point}, body_.best_view(aim.outwards));
     if (look_s == kQuickLook_s) {
@@ -140,11 +140,11 @@ Script Surgeon::look_at_entry(const StepOnDisplay& step, std::size_t level, Side
 Script Surgeon::drive_wire(std::size_t level, Side side, const Aim& aim) {
   const HandWhileDrilling hand = hand_while_drilling(*error_model_, guidance_);
   const Vec3 axis = body_.posture().grip.axis;
-  const Vec3 turn = across_axis(normal_vector(body_.random(), hand.of_wire_rad), axis);
+  const Vec3 rotation_rad = across_axis(normal_vector(body_.random(), hand.of_wire_rad), axis);
   const Vec3 unseen = across_axis(normal_vector(body_.random(), hand.unseen_rad), axis);
   body_.posture().contact_normal.reset();
   body_.posture().drilling = Drilling{level, side, 0.0, unseen};
-  co_await drill(aim, turn);
+  co_await drill(aim, rotation_rad);
   co_await body_.rest(0.3);
   body_.posture().drilling.reset();
   co_await body_.next_tick();
@@ -154,7 +154,7 @@ Script Surgeon::drive_wire(std::size_t level, Side side, const Aim& aim) {
   co_await body_.move(out, 1.0);
 }
 
-Script Surgeon::drill(const Aim& aim, Vec3 turn_of_wire) {
+Script Surgeon::drill(const Aim& aim, Vec3 rotation_of_wire) {
   const Grip pierced = body_.posture().grip;
   const double length_s = body_.slowness() * kDriving_s;
   const Timestamp begin = body_.now();
@@ -165,20 +165,20 @@ Script Surgeon::drill(const Aim& aim, Vec3 turn_of_wire) {
     co_await body_.next_tick();
     t = std::min(1.0, seconds(body_.now() - begin) / length_s);
     if (guidance_ == GuidanceProfile::kClosedLoop) {
-      if (const auto reading = read_turn(aim)) {
+      if (const auto reading = read_rotation(aim)) {
         memory.add(*reading);
         if (const auto acted_on = memory.newest(body_.now() - from_seconds(kReaction_s))) {
           const double part = kGain_per_s * seconds(body_.now() - before);
-          corrected += part * across_axis(acted_on->turn + misread_rad_, pierced.axis);
+          corrected += part * across_axis(acted_on->rotation_rad + misread_rad_, pierced.axis);
         }
       }
     }
     before = body_.now();
     const double way = minimum_jerk(t);
     Grip& grip = body_.posture().grip;
-    // The axis of the wire is the chord of its path, which turns by half as much as the hand.
-    grip.axis =
-        (rotation_from_vector(corrected + 2.0 * way * turn_of_wire) * pierced.axis).normalized();
+    // The axis of the wire is the chord of its way, which turns by half of what the hand does.
+    grip.axis = (rotation_from_vector(corrected + 2.0 * way * rotation_of_wire) * pierced.axis)
+                    .normalized();
     grip.tip = pierced.tip - way * kAdvance_m * grip.axis;
     body_.posture().drilling->way = way;
   }

@@ -9,9 +9,8 @@ constexpr double kSleeveOverBone_m = 0.004;
 constexpr double kOverWire_m = 0.050;
 constexpr double kSetOver_s = 2.0;
 constexpr double kAtRest_s = 1.0;
-/// The sleeve is turned to and fro about the wire by this much to either side, with the fingers
-/// only.
-constexpr double kSleeveTurn_rad = 1.0;
+/// The sleeve is turned to and fro about the wire by so much to either side, fingers only.
+constexpr double kSleeveRotation_rad = 1.0;
 constexpr double kSleeveTurn_s = 0.8;
 constexpr int kSleeveTurns = 6;
 constexpr double kReadNumbers_s = 1.0;
@@ -65,8 +64,8 @@ Script Surgeon::set_sleeve_over(const StepOnDisplay& step, std::size_t level,
   for (int turn = 0; turn < kSleeveTurns && in_step(step); ++turn) {
     const Vec3 lies = normal_vector(sleeving_, error_model_->sleeve_play_rad);
     const double roll_rad = turn + 1 == kSleeveTurns ? 0.0
-                            : turn % 2 == 0          ? kSleeveTurn_rad
-                                                     : -kSleeveTurn_rad;
+                            : turn % 2 == 0          ? kSleeveRotation_rad
+                                                     : -kSleeveRotation_rad;
     co_await body_.move({entry + kSleeveOverBone_m * outwards,
                          (rotation_from_vector(lies) * outwards).normalized(), roll_rad},
                         kSleeveTurn_s);

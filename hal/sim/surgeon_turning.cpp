@@ -29,17 +29,17 @@ constexpr double kLeans_s = 6.0;
 
 }  // namespace
 
-Script Surgeon::turn_tool(const StepOnDisplay& step, const Aim& aim) {
+Script Surgeon::rotate_tool(const StepOnDisplay& step, const Aim& aim) {
   DeviationMemory memory;
   const double strict_rad = std::max(error_model_->angle_reading_rad, kReadoutFloor_rad);
   Timestamp last_seen = body_.now();
   Timestamp before = body_.now();
-  double turning_s = 0.0;
+  double rotating_s = 0.0;
   while (in_step(step) && !finished_) {
     co_await body_.next_tick();
     const double tick_s = seconds(body_.now() - before);
     before = body_.now();
-    const auto reading = read_turn(aim);
+    const auto reading = read_rotation(aim);
     if (!reading) {
       if (regain_reading(aim, seconds(body_.now() - last_seen), tick_s)) {
         memory.clear();
@@ -48,12 +48,12 @@ Script Surgeon::turn_tool(const StepOnDisplay& step, const Aim& aim) {
     }
     memory.add(*reading);
     last_seen = body_.now();
-    turning_s += tick_s;
+    rotating_s += tick_s;
     if (const auto acted_on = memory.newest(body_.now() - from_seconds(kReaction_s))) {
-      turn_by(kGain_per_s * tick_s * acted_on->turn);
+      rotate_by(kGain_per_s * tick_s * acted_on->rotation_rad);
     }
     const double content_rad =
-        strict_rad * std::exp2(std::max(0.0, turning_s - kStrict_s) / kDoublesEvery_s);
+        strict_rad * std::exp2(std::max(0.0, rotating_s - kStrict_s) / kDoublesEvery_s);
     const auto mean = memory.mean_since(body_.now() - from_seconds(kSteady_s));
     if (!mean || mean->norm() > content_rad) {
       continue;
@@ -68,7 +68,7 @@ Script Surgeon::turn_tool(const StepOnDisplay& step, const Aim& aim) {
   }
 }
 
-std::optional<Deviation> Surgeon::read_turn(const Aim& aim) const {
+std::optional<Deviation> Surgeon::read_rotation(const Aim& aim) const {
   if (!sees_now()) {
     return std::nullopt;
   }
@@ -79,9 +79,9 @@ std::optional<Deviation> Surgeon::read_turn(const Aim& aim) const {
   return numbers ? std::optional(numbers->deviation) : std::nullopt;
 }
 
-void Surgeon::turn_by(Vec3 turn) {
+void Surgeon::rotate_by(Vec3 rotation_rad) {
   Grip& grip = body_.posture().grip;
-  grip.axis = (rotation_from_vector(turn) * grip.axis).normalized();
+  grip.axis = (rotation_from_vector(rotation_rad) * grip.axis).normalized();
 }
 
 bool Surgeon::regain_reading(const Aim& aim, double lost_s, double tick_s) {
@@ -111,12 +111,12 @@ Script Surgeon::settle(const Aim& aim, double content_rad, bool& settled) {
   int readings = 0;
   for (double done = 0.0; done < 1.0; done = seconds(body_.now() - start) / kHold_s) {
     co_await body_.next_tick();
-    const auto reading = read_turn(aim);
+    const auto reading = read_rotation(aim);
     if (!reading || reading->seen_at == last) {
       continue;
     }
     last = reading->seen_at;
-    sum += reading->turn;
+    sum += reading->rotation_rad;
     ++readings;
   }
   const double limit_rad = std::max(2.0 * content_rad, kLastCorrection_rad);

@@ -46,8 +46,8 @@ double glare(double gloss, Vec3 normal, Vec3 to_lamp, Vec3 to_viewer) {
 }
 
 double flicker(const ErrorModel& error_model, double time_s) {
-  const double turn = std::numbers::pi * kFlicker_hz * error_model.exposure_s;
-  const double kept = turn > 0.0 ? std::sin(turn) / turn : 1.0;
+  const double phase_rad = std::numbers::pi * kFlicker_hz * error_model.exposure_s;
+  const double kept = phase_rad > 0.0 ? std::sin(phase_rad) / phase_rad : 1.0;
   return 1.0 +
          error_model.light_flicker * kept * std::sin(2.0 * std::numbers::pi * kFlicker_hz * time_s);
 }

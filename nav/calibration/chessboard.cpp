@@ -72,7 +72,7 @@ void put_in_order(const GreyImage& image, const Chessboard& board, std::vector<V
                    corners_px.begin() + static_cast<long>(start + a_row));
     }
   }
-  if (!board.looks_the_same_turned() && first_colour(image, board, corners_px) > 0) {
+  if (!board.looks_the_same_rotated() && first_colour(image, board, corners_px) > 0) {
     std::reverse(corners_px.begin(), corners_px.end());
   }
 }

@@ -22,7 +22,7 @@ struct Chessboard {
   }
   /// Half a turn swaps the colours of most boards; if both counts are odd, or both even, it goes
   /// unnoticed.
-  [[nodiscard]] bool looks_the_same_turned() const { return (columns + rows) % 2 == 0; }
+  [[nodiscard]] bool looks_the_same_rotated() const { return (columns + rows) % 2 == 0; }
   /// Place of a corner on the board, counted by rows: x along the columns, y down the rows.
   [[nodiscard]] Vec2 corner_m(std::size_t index) const;
 };

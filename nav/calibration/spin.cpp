@@ -22,10 +22,10 @@ constexpr std::size_t kSpinSample = 2;
 // Half of the axes that scatter normally with SD s in each of two directions lie within 1.177 s.
 constexpr double kMedianOfRayleigh = 1.177;
 constexpr double kLeastInlierRad = 1e-3;
-// Least rotation between the two poses of a sample: a smaller one has no clear axis, and neither
-// has about half a turn.
-constexpr double kLeastTurnRad = 0.35;
-constexpr double kMostTurnRad = 2.8;
+// Two poses of a sample are turned so far against each other: a smaller turn has no clear axis, and
+// about half a turn has none either.
+constexpr double kLeastRotation_rad = 0.35;
+constexpr double kMostRotation_rad = 2.8;
 
 Error spin_refused(const char* format, double value, double limit) {
   return Error{"axis calibration: " + with_numbers(format, value, limit)};
@@ -41,12 +41,12 @@ std::optional<SpinFit> sampled_spin(SpinPoses poses, Vec3 given, double most_off
   };
   const Mat3& first = poses[any()].rotation();
   const Mat3& second = poses[any()].rotation();
-  const Vec3 turn = vector_from_rotation(first.transposed() * second);
-  if (!(turn.norm() >= kLeastTurnRad && turn.norm() <= kMostTurnRad)) {
+  const Vec3 rotation_rad = vector_from_rotation(first.transposed() * second);
+  if (!(rotation_rad.norm() >= kLeastRotation_rad && rotation_rad.norm() <= kMostRotation_rad)) {
     return std::nullopt;
   }
   SpinFit fit;
-  fit.axis_in_marker = on_the_side_of(given, turn.normalized());
+  fit.axis_in_marker = on_the_side_of(given, rotation_rad.normalized());
   fit.axis_in_world = first * fit.axis_in_marker;
   if (angle_between_rad(fit.axis_in_marker, given) > most_off_rad) {
     return std::nullopt;

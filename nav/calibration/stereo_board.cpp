@@ -48,7 +48,7 @@ BoardViews aligned(const Chessboard& board, std::span<const BoardView> views) {
   for (const BoardView& view : views) {
     split.left.push_back(view.left_px);
     split.right.push_back(view.right_px);
-    if (!board.looks_the_same_turned()) {
+    if (!board.looks_the_same_rotated()) {
       continue;
     }
     BoardCorners& right = split.right.back();

@@ -13,8 +13,8 @@ namespace {
 /// The tool may be hand-made and differ from its description; a quarter turn is still far beyond
 /// this.
 constexpr double kMaxTilt_rad = 30.0 * kRadiansPerDegree;
-constexpr double kMaxShift_m = 0.030;
-/// Converts an angle to a length, so that both can be weighed: tags of a tool lie some 50 mm apart.
+constexpr double kMaxTranslation_m = 0.030;
+/// Makes an angle a length, to weigh both: tags of a tool lie some 50 mm apart.
 constexpr double kMountingLever_m = 0.05;
 /// A turn of the marker must explain the places by this factor better than no turn: if all tags lie
 /// on the marker's axis, it explains them equally well, and turns of the tags themselves are the
@@ -50,26 +50,27 @@ std::vector<Pair> in_both(std::span<const BodyTag> measured,
 struct Reading {
   int turns = 0;
   double tilt_rad = 0.0;
-  double shift_m = 0.0;
+  double translation_m = 0.0;
 
-  [[nodiscard]] double misfit_m() const { return shift_m + kMountingLever_m * tilt_rad; }
+  [[nodiscard]] double misfit_m() const { return translation_m + kMountingLever_m * tilt_rad; }
 };
 
 Reading reading_of(const Pair& pair, int marker_turns) {
-  const Mat3 turned_from_marker = quarter_turns_about_z(-marker_turns);
+  const Mat3 rotated_from_marker = quarter_turns_about_z(-marker_turns);
   const Transform<Marker, Tag>& described = pair.described->marker_from_tag;
   const Transform<Marker, Tag>& measured = pair.measured->marker_from_tag;
   Reading best;
   best.tilt_rad = std::numeric_limits<double>::max();
   for (int turns = 0; turns < 4; ++turns) {
-    const Mat3 expected = turned_from_marker * described.rotation() * quarter_turns_about_z(turns);
+    const Mat3 expected = rotated_from_marker * described.rotation() * quarter_turns_about_z(turns);
     const double tilt_rad = rotation_angle_rad(expected, measured.rotation());
     if (tilt_rad < best.tilt_rad) {
       best.turns = turns;
       best.tilt_rad = tilt_rad;
     }
   }
-  best.shift_m = (turned_from_marker * described.translation() - measured.translation()).norm();
+  best.translation_m =
+      (rotated_from_marker * described.translation() - measured.translation()).norm();
   return best;
 }
 
@@ -96,24 +97,24 @@ int turns_of_marker(std::span<const Pair> pairs) {
 
 }  // namespace
 
-std::vector<TurnedTag> turned_tags(std::span<const BodyTag> measured,
-                                   std::span<const AttachedMarker> described) {
+std::vector<RotatedTag> rotated_tags(std::span<const BodyTag> measured,
+                                     std::span<const AttachedMarker> described) {
   const std::vector<Pair> pairs = in_both(measured, described);
   const int of_marker = turns_of_marker(pairs);
-  std::vector<TurnedTag> turned;
+  std::vector<RotatedTag> rotated;
   if (of_marker != 0) {
-    turned.push_back({measured.front().definition, of_marker});
+    rotated.push_back({measured.front().definition, of_marker});
   }
   for (const Pair& pair : pairs) {
     const Reading reading = reading_of(pair, of_marker);
-    if (reading.tilt_rad > kMaxTilt_rad || reading.shift_m > kMaxShift_m) {
+    if (reading.tilt_rad > kMaxTilt_rad || reading.translation_m > kMaxTranslation_m) {
       return {};
     }
     if (reading.turns != 0) {
-      turned.push_back({pair.measured->definition, reading.turns});
+      rotated.push_back({pair.measured->definition, reading.turns});
     }
   }
-  return turned;
+  return rotated;
 }
 
 }  // namespace orthonav::nav

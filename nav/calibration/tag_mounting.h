@@ -8,19 +8,18 @@
 
 namespace orthonav::nav {
 
-/// A tag that is mounted on its tool turned about its own middle, compared with the tool's
-/// description.
-struct TurnedTag {
+/// A tag that sits on its tool turned about its own middle, against the tool's description.
+struct RotatedTag {
   MarkerDefinition definition;
   int quarter_turns = 0;  ///< 1, 2 or 3 times 90°, counter-clockwise as one looks at its face
 };
 
-/// Which tags of a measured body, including the marker, were glued on turned by quarter turns: tags
-/// are square, so mounting mistakes are quarter turns. The marker's own turn shows in the places of
-/// the other tags relative to it. Tags that `described` does not hold are left out. If no quarter
-/// turns bring the layout within 30° and 30 mm of the described one, it is a different layout, and
-/// the result is empty.
-[[nodiscard]] std::vector<TurnedTag> turned_tags(std::span<const BodyTag> measured,
-                                                 std::span<const AttachedMarker> described);
+/// Which tags of a measured body were glued on turned by quarters, the marker itself included: tags
+/// are square, so a hand that mounts them errs by quarters. The marker's own turn shows in where
+/// the other tags lie from it. Tags that `described` does not hold are left out; a layout that
+/// quarters do not bring within 30° and 30 mm of the described one is another layout, and gives
+/// none.
+[[nodiscard]] std::vector<RotatedTag> rotated_tags(std::span<const BodyTag> measured,
+                                                   std::span<const AttachedMarker> described);
 
 }  // namespace orthonav::nav

@@ -63,8 +63,8 @@ FixedPointOptions fixed_point_options(const AccuracyOptions& options) {
 }
 
 /// The point about which the pointer turned in the dimple.
-Result<FixedPoint> turned_about(const PointerTrack& track, Point<Marker> tip,
-                                const AccuracyOptions& options) {
+Result<FixedPoint> rotated_about(const PointerTrack& track, Point<Marker> tip,
+                                 const AccuracyOptions& options) {
   const auto found =
       longest_fixed_point(track.world_from_marker, tip, fixed_point_options(options));
   if (!found) {
@@ -166,7 +166,7 @@ Result<AccuracyReport> test_tip_accuracy(std::span<const TrackedPose> world_from
   if (!track) {
     return track.error();
   }
-  const auto found = turned_about(*track, pointer.tip_in_marker, options);
+  const auto found = rotated_about(*track, pointer.tip_in_marker, options);
   if (!found) {
     return found.error();
   }

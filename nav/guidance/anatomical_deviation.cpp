@@ -29,7 +29,7 @@ double sd_along(const std::array<double, 9>& covariance_m2, Vec3 direction) {
 /// small turn of the tool changes the angle, scaled by the amount of change.
 struct AngleInPlane {
   double angle_rad = 0.0;
-  Vec3 by_turn;
+  Vec3 by_rotation;
 };
 
 AngleInPlane angle_in_plane(Vec3 tool, Vec3 inward, Vec3 across) {
@@ -48,8 +48,8 @@ NumberWithSd angle_with_sd(const AngleInPlane& angle, const PoseUncertainty* unc
   double variance = 0.0;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      variance +=
-          angle.by_turn[i] * c[static_cast<std::size_t>(6 * (i + 3) + j + 3)] * angle.by_turn[j];
+      variance += angle.by_rotation[i] * c[static_cast<std::size_t>(6 * (i + 3) + j + 3)] *
+                  angle.by_rotation[j];
     }
   }
   return {angle.angle_rad, sd_of_variance(variance)};

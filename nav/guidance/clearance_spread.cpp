@@ -73,8 +73,8 @@ Root root_of(const std::array<double, 36>& covariance) {
 
 /// How a place's depth changes with each standard normal component.
 Six change(const Root& root, Vec3 deeper, Vec3 from_centre_m) {
-  const Vec3 turned = from_centre_m.cross(deeper);
-  const Six by_motion = {deeper.x, deeper.y, deeper.z, turned.x, turned.y, turned.z};
+  const Vec3 by_rotation = from_centre_m.cross(deeper);
+  const Six by_motion = {deeper.x, deeper.y, deeper.z, by_rotation.x, by_rotation.y, by_rotation.z};
   Six out{};
   for (std::size_t k = 0; k < kSix; ++k) {
     for (std::size_t r = k; r < kSix; ++r) {

@@ -76,14 +76,14 @@ std::optional<ExecutedTrajectory> TrajectoryAtDepth::mean() const {
     auto point = uncertainty_->covariance_at(out.axis.point);
     add_of_mean(point, point_squares_, points_m_, n);
     out.point_covariance_m2 = point;
-    std::array<double, 9> turn{};
+    std::array<double, 9> rotation_rad2{};
     for (std::size_t r = 0; r < 3; ++r) {
       for (std::size_t c = 0; c < 3; ++c) {
-        turn[3 * r + c] = uncertainty_->covariance()[6 * (r + 3) + c + 3];
+        rotation_rad2[3 * r + c] = uncertainty_->covariance()[6 * (r + 3) + c + 3];
       }
     }
-    add_of_mean(turn, direction_squares_, first_direction_.cross(directions_), n);
-    out.direction_covariance_rad2 = turn;
+    add_of_mean(rotation_rad2, direction_squares_, first_direction_.cross(directions_), n);
+    out.direction_covariance_rad2 = rotation_rad2;
   }
   return out;
 }

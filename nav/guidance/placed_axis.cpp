@@ -40,14 +40,14 @@ void add_across(Covariance& covariance, Vec3 axis, double variance) {
   }
 }
 
-Covariance turn_of(const PoseUncertainty& pose) {
-  Covariance turn{};
+Covariance rotation_of(const PoseUncertainty& pose) {
+  Covariance rotation_rad2{};
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
-      turn[3 * r + c] = pose.covariance()[6 * (r + 3) + c + 3];
+      rotation_rad2[3 * r + c] = pose.covariance()[6 * (r + 3) + c + 3];
     }
   }
-  return turn;
+  return rotation_rad2;
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ PlacedAxis placed_axis(const ScrewPlan& plan, const Axis<Vertebra>& sleeve,
   PlacedAxis out;
   out.line = {sleeve.point + way_m * direction, direction};
   const double axis_variance = errors.axis_rad * errors.axis_rad;
-  out.direction_covariance_rad2 = turn_of(pose);
+  out.direction_covariance_rad2 = rotation_of(pose);
   add_across(out.direction_covariance_rad2, direction, axis_variance);
   out.point_covariance_m2 = pose.covariance_at(out.line.point);
   add_across(out.point_covariance_m2, direction,

@@ -175,12 +175,12 @@ RodGuess guess_from_seats(const RodFitTask& task) {
   for (std::size_t k = 0; k < task.gaps.size(); ++k) {
     const Vec3 across = directions[k].cross(directions[k + 1]);
     const double angle_rad = angle_between_rad(directions[k], directions[k + 1]);
-    const Vec3 turn_rad = across.norm() > 0.0 ? angle_rad * across.normalized() : Vec3{};
-    const Vec3 towards_rad = turn_rad.cross(directions[k]);
+    const Vec3 rotation_rad = across.norm() > 0.0 ? angle_rad * across.normalized() : Vec3{};
+    const Vec3 towards_rad = rotation_rad.cross(directions[k]);
     const double centre_m = 0.5 * (places_m[task.gaps[k]] + places_m[task.gaps[k] + 1]);
     guess.parameters.insert(guess.parameters.end(), {towards_rad.dot(frame.column(0)),
                                                      towards_rad.dot(frame.column(1)), centre_m});
-    frame = rotation_from_vector(turn_rad) * frame;
+    frame = rotation_from_vector(rotation_rad) * frame;
   }
   return guess;
 }
@@ -202,16 +202,16 @@ RodGuess guess_from_plan(const RodFitTask& task, const RodFit& before) {
 /// Puts the first end `overhang_m` before the first seat, and the drawn line on the side to which
 /// the first bend goes: both can be chosen on a rod not yet begun.
 void settle_ends_and_line(const RodFitTask& task, RodFit& rod) {
-  const double shift_m = rod.seats.front().at_m - task.overhang_m;
+  const double offset_m = rod.seats.front().at_m - task.overhang_m;
   const double roll_rad = rod.arcs.empty() ? 0.0 : rod.arcs.front().roll_rad;
   for (SeatOnRod& seat : rod.seats) {
-    seat.at_m -= shift_m;
+    seat.at_m -= offset_m;
   }
   for (RodArc& arc : rod.arcs) {
-    arc.centre_m -= shift_m;
+    arc.centre_m -= offset_m;
     arc.roll_rad = wrapped_rad(arc.roll_rad - roll_rad);
   }
-  rod.rod_in_seats_m += shift_m * rod.seats_from_rod.column(2);
+  rod.rod_in_seats_m += offset_m * rod.seats_from_rod.column(2);
   rod.seats_from_rod = rod.seats_from_rod * rotation_from_vector({0.0, 0.0, roll_rad});
 }
 

@@ -24,9 +24,9 @@ RodPlace beyond_arc(const RodPlace& from, double width_m, double angle_rad, doub
   const double forward =
       straight ? 1.0 - angle_rad * angle_rad / 6.0 : std::sin(angle_rad) / angle_rad;
   const double aside = straight ? 0.5 * angle_rad : (1.0 - std::cos(angle_rad)) / angle_rad;
-  const Mat3 turn = rotation_from_vector(angle_rad * from.along.cross(towards));
-  return {from.at_m + width_m * (forward * from.along + aside * towards), turn * from.line,
-          turn * from.beside, turn * from.along};
+  const Mat3 rotation = rotation_from_vector(angle_rad * from.along.cross(towards));
+  return {from.at_m + width_m * (forward * from.along + aside * towards), rotation * from.line,
+          rotation * from.beside, rotation * from.along};
 }
 
 }  // namespace

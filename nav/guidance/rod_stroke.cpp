@@ -19,11 +19,10 @@ namespace {
 
 /// Points within this length of the rod form one block when their common error is estimated.
 constexpr double kStrokeBlock_m = 0.01;
-// The turn of a nearly straight rod about its axis is undetermined: the SD is far larger than any
-// misfit.
-constexpr double kPoseTurnSd_rad = 1.0;
-constexpr double kPoseShiftSd_m = 0.05;
-// A few steps show which side of the rod was stroked.
+// A rod that is nearly straight may lie anywhere about its axis: far beyond any misfit.
+constexpr double kPoseRotationSd_rad = 1.0;
+constexpr double kPoseTranslationSd_m = 0.05;
+// A few steps tell which side of the rod was stroked.
 constexpr int kFirstIterations = 6;
 constexpr int kAllIterations = 40;
 constexpr std::size_t kStrokeAngle = 6;
@@ -65,8 +64,8 @@ class StrokedRod {
         rules_(rules),
         tip_sd_m_(rules.tip_sd_m) {}
 
-  void begin_at(const Mat3& turn) { start_ = turn; }
-  [[nodiscard]] Mat3 turn(std::span<const double> p) const {
+  void begin_at(const Mat3& rotation) { start_ = rotation; }
+  [[nodiscard]] Mat3 rotation(std::span<const double> p) const {
     return rotation_from_vector({p[0], p[1], p[2]}) * start_;
   }
   void set_tip_sd_m(double sd_m) { tip_sd_m_ = sd_m; }
@@ -80,7 +79,7 @@ class StrokedRod {
     std::vector<RodArc> arcs = arcs_;
     arcs.back() = bend(p);
     const std::vector<Vec3> chain_m = rod_axis(arcs, length_m_);
-    const Mat3 back = turn(p).transposed();
+    const Mat3 back = rotation(p).transposed();
     std::vector<StrokeFoot> feet;
     feet.reserve(points_m_.size());
     for (const Vec3& point_m : points_m_) {
@@ -96,8 +95,8 @@ class StrokedRod {
     out.push_back((p[kStrokeAngle] - arcs_.back().angle_rad) / rules_.angle_sd_rad);
     out.push_back((p[kStrokeRoll] - arcs_.back().roll_rad) / rules_.roll_sd_rad);
     for (std::size_t i = 0; i < 3; ++i) {
-      out.push_back(p[i] / kPoseTurnSd_rad);
-      out.push_back((p[i + 3] - middle_m_[static_cast<int>(i)]) / kPoseShiftSd_m);
+      out.push_back(p[i] / kPoseRotationSd_rad);
+      out.push_back((p[i + 3] - middle_m_[static_cast<int>(i)]) / kPoseTranslationSd_m);
     }
   }
   [[nodiscard]] Result<LeastSquares> fitted(const std::vector<double>& start, int iterations) {
@@ -206,10 +205,10 @@ Result<LeastSquares> first_fit(StrokedRod& rod, const RigidFit& laid, const RodA
                                double radius_m) {
   const Vec3 x = radius_m * laid.rotation.column(0);
   const Vec3 y = radius_m * laid.rotation.column(1);
-  const std::array<Vec3, 5> shifts_m = {Vec3{}, x, -x, y, -y};
+  const std::array<Vec3, 5> offsets_m = {Vec3{}, x, -x, y, -y};
   Result<LeastSquares> best = Error{"stroke of the rod can't be fitted"};
-  for (const Vec3& shift_m : shifts_m) {
-    const Vec3 at_m = laid.translation_m + shift_m;
+  for (const Vec3& offset_m : offsets_m) {
+    const Vec3 at_m = laid.translation_m + offset_m;
     auto fit = rod.fitted({0, 0, 0, at_m.x, at_m.y, at_m.z, bend.angle_rad, bend.roll_rad},
                           kFirstIterations);
     if (fit && (!best || fit->sum_of_squares < best->sum_of_squares)) {
@@ -259,7 +258,7 @@ MeasuredBend bend_of(const StrokedRod& rod, const LeastSquares& fit, double rms_
           .angle_se_rad = std::sqrt(fit.covariance[kStrokeAngle * n + kStrokeAngle]),
           .roll_se_rad = std::sqrt(fit.covariance[kStrokeRoll * n + kStrokeRoll]),
           .rms_m = rms_m,
-          .points_from_rod = rod.turn(p),
+          .points_from_rod = rod.rotation(p),
           .rod_in_points_m = {p[3], p[4], p[5]}};
 }
 

@@ -146,11 +146,11 @@ void LeastDepth::close_steps() {
   for (double step_m = 0.1 * kFirstStep_m; step_m > kLastStep_m; step_m *= 0.5) {
     const double along_m = best_along_m_;
     const double around_rad = best_around_rad_;
-    const double turn_rad = step_m / screw_.radius_m();
+    const double step_rad = step_m / screw_.radius_m();
     take(std::max(along_m - step_m, 0.0), around_rad);
     take(std::min(along_m + step_m, screw_.length_m()), around_rad);
-    take(along_m, around_rad - turn_rad);
-    take(along_m, around_rad + turn_rad);
+    take(along_m, around_rad - step_rad);
+    take(along_m, around_rad + step_rad);
   }
 }
 

@@ -14,8 +14,8 @@ namespace {
 constexpr double kFromBehind_m = 0.060;
 /// An entry nearer to the pedicle's plane lies on the side of the body, not behind the pedicle.
 constexpr double kLeastBehind_m = 0.006;
-/// A screw ends at least this fraction of the way, and at least this far, before the far cortex.
-constexpr double kShareBeforeFront = 0.15;
+/// A screw ends this share of the way, and this far, before the far cortex.
+constexpr double kFractionBeforeFront = 0.15;
 constexpr double kLeastBeforeFront_m = 0.005;
 
 double outward(Side side) { return side == Side::kLeft ? 1.0 : -1.0; }
@@ -81,7 +81,7 @@ std::optional<PedicleSearch::Way> PedicleSearch::way(Side side, const PedicleAxi
 }
 
 double PedicleSearch::safe_length_m(const Way& way) {
-  return way.to_front_m - std::max(kLeastBeforeFront_m, kShareBeforeFront * way.to_front_m);
+  return way.to_front_m - std::max(kLeastBeforeFront_m, kFractionBeforeFront * way.to_front_m);
 }
 
 std::optional<PedicleAxis> PedicleSearch::coarse(Side side, double longest_m) const {

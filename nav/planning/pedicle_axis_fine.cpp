@@ -119,12 +119,12 @@ std::optional<PedicleSearch::Found> PedicleSearch::fine(Side side,
   }
   for (double step_m = kWidestStep_m; search.best() && step_m > kFinestStep_m;) {
     const PedicleAxis here = search.best()->axis;
-    const double turn = step_m * kRadPerMetre;
+    const double step_rad = step_m * kRadPerMetre;
     bool better = false;
     for (const auto& move : kMoves) {
-      better |=
-          search.take({here.lateral_m + step_m * move[0], here.up_m + step_m * move[1],
-                       here.convergence_rad + turn * move[2], here.cranial_rad + turn * move[3]});
+      better |= search.take({here.lateral_m + step_m * move[0], here.up_m + step_m * move[1],
+                             here.convergence_rad + step_rad * move[2],
+                             here.cranial_rad + step_rad * move[3]});
     }
     step_m = better ? step_m : 0.5 * step_m;
   }

@@ -59,7 +59,7 @@ Cloud mirrored_cloud(const Cloud& cloud, const CentredPose& pose) {
 /// The pose itself, and shifted and turned to every side: a crooked bone's mirror image lies askew.
 std::vector<CentredPose> poses_about(const CentredPose& pose) {
   constexpr double kAside_m = 0.003;
-  constexpr double kTurned_rad = 0.15;
+  constexpr double kRotated_rad = 0.15;
   std::vector<CentredPose> out{pose};
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
@@ -69,7 +69,7 @@ std::vector<CentredPose> poses_about(const CentredPose& pose) {
       if (axis != 1) {
         out.push_back({pose.rotation, pose.centre_m + kAside_m * along});
       }
-      out.push_back({rotation_from_vector(kTurned_rad * along) * pose.rotation, pose.centre_m});
+      out.push_back({rotation_from_vector(kRotated_rad * along) * pose.rotation, pose.centre_m});
     }
   }
   return out;

@@ -158,7 +158,7 @@ double PoseUncertainty::tre_quantile_m(Point<Vertebra> target, double probabilit
 double CommonErrors::sd_m() const { return std::hypot(tip_m, cameras_m, map_m); }
 
 namespace {
-PoseUncertainty shifted_by(const PoseUncertainty& uncertainty, double variance_m2) {
+PoseUncertainty with_position_variance(const PoseUncertainty& uncertainty, double variance_m2) {
   auto covariance = uncertainty.covariance();
   for (std::size_t k = 0; k < 3; ++k) {
     covariance[7 * k] += variance_m2;
@@ -168,7 +168,7 @@ PoseUncertainty shifted_by(const PoseUncertainty& uncertainty, double variance_m
 }  // namespace
 
 PoseUncertainty with_common(const PoseUncertainty& own, const CommonErrors& common) {
-  return shifted_by(own, common.sd_m() * common.sd_m());
+  return with_position_variance(own, common.sd_m() * common.sd_m());
 }
 PoseUncertainty with_turn(const PoseUncertainty& own, Point<Vertebra> about, Vec3 axis,
                           double sd_rad) {
@@ -177,9 +177,10 @@ PoseUncertainty with_turn(const PoseUncertainty& own, Point<Vertebra> about, Vec
   auto covariance = own.covariance();
   const Vec3 any = std::abs(axis[0]) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 across = axis.cross(any).normalized();
-  for (const Vec3 turn : {across, axis.cross(across)}) {
-    const Vec3 shift = turn.cross(own.centre_m() - about.v);
-    const std::array<double, 6> column = {shift[0], shift[1], shift[2], turn[0], turn[1], turn[2]};
+  for (const Vec3 rotation : {across, axis.cross(across)}) {
+    const Vec3 translation = rotation.cross(own.centre_m() - about.v);
+    const std::array<double, 6> column = {translation[0], translation[1], translation[2],
+                                          rotation[0],    rotation[1],    rotation[2]};
     for (std::size_t r = 0; r < 6; ++r) {
       for (std::size_t c = 0; c < 6; ++c) {
         covariance[6 * r + c] += sd_rad * sd_rad * column[r] * column[c];
@@ -190,7 +191,7 @@ PoseUncertainty with_turn(const PoseUncertainty& own, Point<Vertebra> about, Vec
 }
 
 PoseUncertainty without_common(const PoseUncertainty& all, const CommonErrors& common) {
-  return shifted_by(all, -common.sd_m() * common.sd_m());
+  return with_position_variance(all, -common.sd_m() * common.sd_m());
 }
 
 }  // namespace orthonav::nav

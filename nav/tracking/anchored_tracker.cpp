@@ -106,8 +106,8 @@ class AnchoredTracker final : public ToolTracker {
       if (!other.anchored_from_marker) {
         learn(other,
               {here, frame.time, PoseStatus::kMeasured,
-               turned(relative_covariance(*pair, *seen[best.tool].pair),
-                      anchored_from_rig.rotation())},
+               rotated(relative_covariance(*pair, *seen[best.tool].pair),
+                       anchored_from_rig.rotation())},
               pair->exposure_s);
         continue;
       }
@@ -166,7 +166,7 @@ class AnchoredTracker final : public ToolTracker {
           is_anchor ? pair->covariance : relative_covariance(*pair, reference);
       const TrackedPose measured{anchored_from_rig * pair->rig_from_marker, frame.time,
                                  PoseStatus::kMeasured,
-                                 turned(in_rig, anchored_from_rig.rotation())};
+                                 rotated(in_rig, anchored_from_rig.rotation())};
       if (is_anchor || !tracker_->follows_tools()) {
         states_[i].world_from_marker = measured;
         continue;

@@ -151,7 +151,7 @@ class PaperTracker final : public ToolTracker {
     states_[i].cameras = 2;
     states_[i].world_from_marker = {*frame.world_from_rig * pose->rig_from_marker, frame.time,
                                     PoseStatus::kMeasured,
-                                    turned(*covariance, frame.world_from_rig->rotation())};
+                                    rotated(*covariance, frame.world_from_rig->rotation())};
     add_head(states_[i], frame);
     trail.older = trail.newer;
     trail.newer = states_[i].world_from_marker;

@@ -90,8 +90,8 @@ bool OnlineCalibration::correct() {
   }
   Camera cameras{};
   Eigen::Map<CamerasVector>(cameras.data()) = found->cameras;
-  const Vec3 turn_rad{cameras[0], cameras[1], cameras[2]};
-  bool matters = turn_rad.norm() > options_.min_rotation_rad;
+  const Vec3 rotation_rad{cameras[0], cameras[1], cameras[2]};
+  bool matters = rotation_rad.norm() > options_.min_rotation_rad;
   for (const Tool& tool : tools_) {
     const double change = size_change(tool, cameras);
     matters = matters || std::abs(change) > options_.min_size;
@@ -99,7 +99,7 @@ bool OnlineCalibration::correct() {
       return false;
     }
   }
-  if (!matters || !((applied_rad_ + turn_rad).norm() < options_.max_rotation_rad)) {
+  if (!matters || !((applied_rad_ + rotation_rad).norm() < options_.max_rotation_rad)) {
     return false;
   }
   apply(cameras);
@@ -120,8 +120,8 @@ void OnlineCalibration::apply(const Camera& cameras) {
     tool.right -= tool.information * change + cross.dot(x);
     tool.applied += change;
   }
-  turn_rad_ = {cameras[0], cameras[1], cameras[2]};
-  applied_rad_ = applied_rad_ + turn_rad_;
+  rotation_rad_ = {cameras[0], cameras[1], cameras[2]};
+  applied_rad_ = applied_rad_ + rotation_rad_;
   applied_ = true;
 }
 

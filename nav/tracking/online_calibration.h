@@ -62,7 +62,7 @@ class OnlineCalibration {
   /// without a correction, while it is not certain, too small to matter, or beyond the limits.
   bool correct();
   /// The rotation (rad) by which the right camera is to be turned, by the last `correct()`.
-  [[nodiscard]] Vec3 turn_rad() const { return turn_rad_; }
+  [[nodiscard]] Vec3 rotation_rad() const { return rotation_rad_; }
   /// The factor of a tool's stated tag sizes by all corrections so far.
   [[nodiscard]] double size_factor(std::size_t tool) const;
   /// The SD of that factor; that of the prior before the first pair.
@@ -91,7 +91,7 @@ class OnlineCalibration {
   Camera right_{};
   std::vector<Tool> tools_;
   Vec3 applied_rad_{};
-  Vec3 turn_rad_{};
+  Vec3 rotation_rad_{};
   bool applied_ = false;
   std::int64_t pairs_ = 0;
 };

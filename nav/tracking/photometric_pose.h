@@ -65,7 +65,9 @@ class PhotometricSolver {
     return right ? right_rays_.focal_px : left_rays_.focal_px;
   }
   /// Turns the right camera by a rotation vector in its own frame.
-  void turn_right_camera(Vec3 rotation_rad) { nav::turn_right_camera(calibration_, rotation_rad); }
+  void rotate_right_camera(Vec3 rotation_rad) {
+    nav::rotate_right_camera(calibration_, rotation_rad);
+  }
   [[nodiscard]] const StereoCalibration& calibration() const { return calibration_; }
   /// Camera from tag for a sighting of a tool at a pose.
   [[nodiscard]] CameraFromTag camera_from_tag(const TagView& view,

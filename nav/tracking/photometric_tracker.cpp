@@ -91,7 +91,7 @@ void PhotometricTracker::calibrate() {
   if (may_be_of_wrong_size() || !calibration_.correct()) {
     return;
   }
-  solver_.turn_right_camera(calibration_.turn_rad());
+  solver_.rotate_right_camera(calibration_.rotation_rad());
   geometry_ = TagGeometry(solver_.calibration());
   for (std::size_t i = 0; i < trails_.size(); ++i) {
     trails_[i].follower.set_size_factor(calibration_.size_factor(i));
@@ -150,7 +150,7 @@ bool PhotometricTracker::take(std::size_t i, const StereoFrame& frame,
   }
   TrackedPose measured{*frame.world_from_rig * fit->rig_from_marker, frame.time,
                        PoseStatus::kMeasured,
-                       turned(fit->covariance_in_rig, frame.world_from_rig->rotation())};
+                       rotated(fit->covariance_in_rig, frame.world_from_rig->rotation())};
   trail.filter.update(measured, trail.follower.exposure_s());
   ToolState& state = states_[i];
   state.world_from_marker = trail.filter.state();

@@ -2,7 +2,7 @@
 
 namespace orthonav::nav {
 
-void turn_right_camera(StereoCalibration& calibration, Vec3 rotation_rad) {
+void rotate_right_camera(StereoCalibration& calibration, Vec3 rotation_rad) {
   const Transform<RightCamera, RightCamera> correction(rotation_from_vector(rotation_rad), {});
   calibration.right_from_rig = correction * calibration.right_from_rig;
 }

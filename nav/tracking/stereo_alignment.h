@@ -24,6 +24,6 @@ struct StereoAlignment {
 };
 
 /// Turns the right camera by a rotation vector (rad) in its own frame.
-void turn_right_camera(StereoCalibration& calibration, Vec3 rotation_rad);
+void rotate_right_camera(StereoCalibration& calibration, Vec3 rotation_rad);
 
 }  // namespace orthonav::nav

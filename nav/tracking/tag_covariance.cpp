@@ -68,7 +68,7 @@ std::optional<PoseCovariance> TagGeometry::covariance(const Transform<Rig, Marke
   return symmetrized(Matrix6(inverse * spread * inverse));
 }
 
-PoseCovariance turned(const PoseCovariance& covariance, const Mat3& b_from_a) {
+PoseCovariance rotated(const PoseCovariance& covariance, const Mat3& b_from_a) {
   Matrix6 both = Matrix6::Zero();
   both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = eigen_of(b_from_a);
   const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> in_a(covariance.data());

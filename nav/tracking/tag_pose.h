@@ -73,7 +73,7 @@ template <class CameraFrame>
 }
 
 /// A covariance in frame A expressed in frame B, given A's axes in B.
-[[nodiscard]] PoseCovariance turned(const PoseCovariance& covariance, const Mat3& b_from_a);
+[[nodiscard]] PoseCovariance rotated(const PoseCovariance& covariance, const Mat3& b_from_a);
 
 /// A pose's own covariance plus that of the pose it is relative to, propagated over the lever arm.
 [[nodiscard]] PoseCovariance plus_carried(const PoseCovariance& own, const PoseCovariance& other,

@@ -47,18 +47,18 @@ CellMatch TagSearch::at(const GreyImage& image, int dx, int dy) const {
     all.add(image, cell.x_px + dx, cell.y_px + dy, cell.white);
   }
   CellMatch match;
-  match.shift_px = {static_cast<double>(dx), static_cast<double>(dy)};
+  match.offset_px = {static_cast<double>(dx), static_cast<double>(dy)};
   match.fraction = all.n / static_cast<double>(all_cells_);
   match.correlation = all.value();
   return match;
 }
 
-double TagSearch::code_at(const GreyImage& image, Vec2 shift_px) const {
+double TagSearch::code_at(const GreyImage& image, Vec2 offset_px) const {
   Correlation code;
   for (const Cell& cell : cells_) {
     if (cell.code) {
-      code.add(image, cell.x_px + static_cast<int>(shift_px.x),
-               cell.y_px + static_cast<int>(shift_px.y), cell.white);
+      code.add(image, cell.x_px + static_cast<int>(offset_px.x),
+               cell.y_px + static_cast<int>(offset_px.y), cell.white);
     }
   }
   return code.value();
@@ -87,7 +87,7 @@ CellMatch TagSearch::match(const GreyImage& image, const CameraModel& camera, co
   return here;
 }
 
-CellMatch TagSearch::best_shift(const GreyImage& image, int radius_px) const {
+CellMatch TagSearch::best_offset(const GreyImage& image, int radius_px) const {
   const int radius = std::clamp(radius_px, 1, kLargestRadiusPx);
   const int step = radius > kFineRadiusPx ? 2 : 1;
   CellMatch best = at(image, 0, 0);
@@ -102,14 +102,14 @@ CellMatch TagSearch::best_shift(const GreyImage& image, int radius_px) const {
       look(x, y);
     }
   }
-  const int x0 = static_cast<int>(best.shift_px.x);
-  const int y0 = static_cast<int>(best.shift_px.y);
+  const int x0 = static_cast<int>(best.offset_px.x);
+  const int y0 = static_cast<int>(best.offset_px.y);
   for (int y = y0 - 1; step > 1 && y <= y0 + 1; ++y) {
     for (int x = x0 - 1; x <= x0 + 1; ++x) {
       look(x, y);
     }
   }
-  best.code = code_at(image, best.shift_px);
+  best.code = code_at(image, best.offset_px);
   return best;
 }
 

@@ -11,7 +11,7 @@ namespace orthonav::nav {
 
 /// How well an image agrees with a tag at a position, judged at the middles of its cells.
 struct CellMatch {
-  Vec2 shift_px{};           ///< from where the pose puts the tag
+  Vec2 offset_px{};          ///< from where the pose puts the tag
   double correlation = 0.0;  ///< of grey and template, over the cells in the image
   double code = 0.0;         ///< the same over the cells that distinguish ids
   double fraction = 0.0;     ///< of the cells that lie in the image
@@ -25,11 +25,11 @@ class TagSearch {
   [[nodiscard]] CellMatch match(const GreyImage& image, const CameraModel& camera,
                                 const BlurredTag& tag, const CameraFromTag& pose);
   /// The best whole-pixel shift within `radius_px` (at most 40) of the pose last matched.
-  [[nodiscard]] CellMatch best_shift(const GreyImage& image, int radius_px) const;
+  [[nodiscard]] CellMatch best_offset(const GreyImage& image, int radius_px) const;
 
  private:
   [[nodiscard]] CellMatch at(const GreyImage& image, int dx, int dy) const;
-  [[nodiscard]] double code_at(const GreyImage& image, Vec2 shift_px) const;
+  [[nodiscard]] double code_at(const GreyImage& image, Vec2 offset_px) const;
 
   struct Cell {
     int x_px = 0;

@@ -26,8 +26,8 @@ constexpr double kLeastFraction = 0.5;
 /// A tag tilted by more than 80° is practically a line.
 constexpr double kLeastCosine = 0.17;
 constexpr double kFarthestDoubtPx = 24.0;
-/// If the search found no shift, the pose is off by less than this fraction of a cell.
-constexpr double kUnshiftedCells = 0.3;
+/// Where the search found nothing to shift, the pose is off by less than this fraction of a cell.
+constexpr double kUndisplacedCells = 0.3;
 
 const GreyImage& image_of(const StereoFrame& frame, const TagView& view) {
   return view.right ? frame.right : frame.left;
@@ -54,7 +54,7 @@ std::optional<CellMatch> match_near(const StereoFrame& frame, const TagView& vie
   }
   if (match.correlation < kFoundHere) {
     const double px = solver.focal_px(view.right) * doubt_m / seen.translation_m.z;
-    match = search.best_shift(image, static_cast<int>(std::ceil(std::min(px, kFarthestDoubtPx))));
+    match = search.best_offset(image, static_cast<int>(std::ceil(std::min(px, kFarthestDoubtPx))));
     if (match.correlation < kFoundNear) {
       return std::nullopt;
     }
@@ -68,10 +68,10 @@ struct TranslationInSpace {
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
 
   void add(const CameraModel& camera, const Mat3& camera_from_rig, Vec3 in_camera_m,
-           Vec2 shift_px) {
+           Vec2 offset_px) {
     const Vec2 u{in_camera_m.x / in_camera_m.z, in_camera_m.y / in_camera_m.z};
     const auto from = camera.project(u);
-    const auto to = from ? camera.unproject(*from + shift_px) : std::nullopt;
+    const auto to = from ? camera.unproject(*from + offset_px) : std::nullopt;
     if (!to) {
       return;
     }
@@ -151,7 +151,7 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
                                 double doubt_m, const PhotometricSolver& solver,
                                 TagSearch& search) {
   TranslationInSpace translation;
-  bool shifted = false;
+  bool displaced = false;
   bool any = false;
   for (std::size_t i = 0; i < views_.size(); ++i) {
     TagView& view = views_[i];
@@ -166,16 +166,16 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
     if (!match) {
       continue;
     }
-    shifted = shifted || match->shift_px.norm() > 0.0;
+    displaced = displaced || match->offset_px.norm() > 0.0;
     const Mat3& camera_from_rig = view.right ? solver.calibration().right_from_rig.rotation()
                                              : solver.calibration().left_from_rig.rotation();
-    translation.add(camera_of(solver, view), camera_from_rig, seen.translation_m, match->shift_px);
+    translation.add(camera_of(solver, view), camera_from_rig, seen.translation_m, match->offset_px);
     view.used = any = true;
   }
   if (!any) {
     return false;
   }
-  if (shifted) {
+  if (displaced) {
     pose = {pose.rotation(), pose.translation() + translation.solved()};
   }
   return true;
@@ -208,7 +208,8 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
     return std::nullopt;
   }
   const double cell_m = tags_.front().cell_m();
-  const auto fit = solver.solve(frame, start, std::min(doubt_m, kUnshiftedCells * cell_m), views_);
+  const auto fit =
+      solver.solve(frame, start, std::min(doubt_m, kUndisplacedCells * cell_m), views_);
   if (!fit || !looks_right(frame, *fit, solver, search)) {
     return std::nullopt;
   }
@@ -218,7 +219,7 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
     }
   }
   learn_exposure(frame, fit->rig_from_marker, solver);
-  return ToolFit{fit->rig_from_marker, turned(fit->covariance, fit->rig_from_marker.rotation()),
+  return ToolFit{fit->rig_from_marker, rotated(fit->covariance, fit->rig_from_marker.rotation()),
                  fit->left, fit->right, solver.calibration_equations(*fit, views_)};
 }
 
@@ -267,14 +268,14 @@ std::optional<SizeEvidence> ToolFollower::measured_size(const StereoFrame& frame
   for (std::size_t k = 0; k < 2; ++k) {
     alone_ = views_[2 * tag + k];
     const auto fit =
-        solver.solve(frame, pose, kUnshiftedCells * alone_.tag->cell_m(), {&alone_, 1});
+        solver.solve(frame, pose, kUndisplacedCells * alone_.tag->cell_m(), {&alone_, 1});
     if (!fit) {
       return std::nullopt;
     }
     const Transform<Rig, Tag> rig_from_tag = fit->rig_from_marker * alone_.marker_from_tag;
     alone[k] = rig_from_tag.translation();
     const Vec3 sight = alone[k] - eyes[k];
-    const PoseCovariance in_rig = turned(fit->covariance, fit->rig_from_marker.rotation());
+    const PoseCovariance in_rig = rotated(fit->covariance, fit->rig_from_marker.rotation());
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t b = 0; b < 3; ++b) {
         variance += 0.25 * sight[static_cast<int>(a)] * in_rig[6 * a + b] *

@@ -33,9 +33,9 @@ TEST(Vec3, KnowsWhenItIsNotFinite) {
 
 TEST(Angle, KeepsItsDigitsNearZeroAndNearAHalfTurn) {
   for (const double angle : {1e-9, 1e-5, 0.3, kPi / 2, kPi - 1e-9}) {
-    const Vec3 turned{std::cos(angle), std::sin(angle), 0};
+    const Vec3 rotated{std::cos(angle), std::sin(angle), 0};
     constexpr double kRelative = 1e-12;
-    EXPECT_NEAR(angle_between_rad({2, 0, 0}, turned), angle, kRelative * std::max(angle, 1e-3));
+    EXPECT_NEAR(angle_between_rad({2, 0, 0}, rotated), angle, kRelative * std::max(angle, 1e-3));
   }
   EXPECT_EQ(angle_between_rad({1, 0, 0}, {5, 0, 0}), 0.0);
   EXPECT_NEAR(angle_between_rad({1, 0, 0}, {-5, 0, 0}), kPi, kRounding);

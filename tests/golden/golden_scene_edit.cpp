@@ -95,10 +95,10 @@ GoldenScene moved(GoldenScene golden, render::Label label, PixelStep step) {
       continue;
     }
     render::Matrix4& m = item.world_from_model;
-    const Float3 shift = step_at(golden, {m[12], m[13], m[14]}, step);
-    m[12] += shift.x;
-    m[13] += shift.y;
-    m[14] += shift.z;
+    const Float3 offset = step_at(golden, {m[12], m[13], m[14]}, step);
+    m[12] += offset.x;
+    m[13] += offset.y;
+    m[14] += offset.z;
   }
   for (auto& item : golden.scene.lines) {
     if (item.label != label) {

@@ -99,9 +99,9 @@ render::Scene part_of(render::Scene scene, Part part) {
 }
 
 /// A head that has gone around the site, about the vertical.
-render::Head turned(const render::Head& head, double by_rad) {
-  const Mat3 turn = rotation_from_vector({0, by_rad, 0});
-  const auto around = [&](render::Float3 v) { return to_float3(turn * Vec3{v.x, v.y, v.z}); };
+render::Head rotated(const render::Head& head, double by_rad) {
+  const Mat3 rotation = rotation_from_vector({0, by_rad, 0});
+  const auto around = [&](render::Float3 v) { return to_float3(rotation * Vec3{v.x, v.y, v.z}); };
   return {around(head.position), around(head.right), around(head.up), around(head.back)};
 }
 
@@ -165,12 +165,12 @@ class RemoteScene : public ::testing::Test {
   /// How far the centroid of a scene is off on the headset, in its pixels; absent if nothing of it
   /// is visible. It was sent for a head that has turned since.
   std::optional<double> off_px(const render::Scene& scene, const render::View& view,
-                               double turned_rad = 0, Vec3 aside_m = {}) {
+                               double rotation_rad = 0, Vec3 aside_m = {}) {
     views_ = {view};
     const auto local = centroid(scene);
     ObjectList list;
     const render::Head head = render::head_of(views_);
-    SceneObjects().write(scene, turned(head, turned_rad), {}, list);
+    SceneObjects().write(scene, rotated(head, rotation_rad), {}, list);
     for (DisplayObject& object : list.objects) {
       object.position_m = object.position_m + aside_m;
     }
@@ -186,7 +186,7 @@ class RemoteScene : public ::testing::Test {
   }
 
   /// Every part of every hologram of these scenes.
-  PartsOff compare(std::span<const std::string_view> names, double turned_rad, double limit_px) {
+  PartsOff compare(std::span<const std::string_view> names, double rotation_rad, double limit_px) {
     PartsOff all;
     for (const GoldenScene& golden : golden_scenes()) {
       if (std::find(names.begin(), names.end(), golden.name) == names.end()) {
@@ -197,7 +197,7 @@ class RemoteScene : public ::testing::Test {
         for (const Part part : {Part::kTexts, Part::kLines, Part::kSurfaces}) {
           const auto off = is_bone(label)
                                ? std::nullopt
-                               : off_px(part_of(one.scene, part), golden.views[0], turned_rad);
+                               : off_px(part_of(one.scene, part), golden.views[0], rotation_rad);
           EXPECT_LE(off.value_or(0), limit_px) << golden.name << ", label " << label;
           all.worst_px = std::max(all.worst_px, off.value_or(0));
           all.parts += off ? 1 : 0;

@@ -101,8 +101,8 @@ TEST(Coverage, OfATranslucentLineIsItsOpacityOnceHoweverItCrossesItself) {
 Scene square_scene(float x_m, float y_m) {
   auto mesh = std::make_shared<MeshData>();
   for (int corner = 0; corner < 4; ++corner) {
-    const float turn = 0.5f * std::numbers::pi_v<float> * (static_cast<float>(corner) + 0.2f);
-    mesh->positions.push_back({0.1414f * std::cos(turn), 0.1414f * std::sin(turn), 0});
+    const float angle_rad = 0.5f * std::numbers::pi_v<float> * (static_cast<float>(corner) + 0.2f);
+    mesh->positions.push_back({0.1414f * std::cos(angle_rad), 0.1414f * std::sin(angle_rad), 0});
     mesh->normals.push_back({0, 0, 1});
   }
   mesh->indices = {0, 1, 2, 0, 2, 3};

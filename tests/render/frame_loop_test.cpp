@@ -9,22 +9,22 @@
 namespace orthonav::render {
 namespace {
 
-Scene moving_scene(float shift) {
+Scene moving_scene(float offset) {
   static const auto mesh = std::make_shared<const MeshData>(make_sphere(0.05f));
   Scene scene;
   MeshItem item;
   item.label = 201;
   item.mesh = mesh;
   item.style = MeshStyle::kRim;
-  item.world_from_model = placed_at({shift, 0, -1});
+  item.world_from_model = placed_at({offset, 0, -1});
   scene.meshes.push_back(item);
   LineItem line;
-  line.points = {{shift, 0, -1}, {0.2f, 0.1f, -1}, {0.1f, 0.2f, -1}};
+  line.points = {{offset, 0, -1}, {0.2f, 0.1f, -1}, {0.1f, 0.2f, -1}};
   line.dash_m = 0.01f;
   scene.lines.push_back(line);
-  scene.triangles.push_back({501, {Float3{shift, 0, -1}, {0.1f, 0, -1}, {0, 0.1f, -1}}, {}});
+  scene.triangles.push_back({501, {Float3{offset, 0, -1}, {0.1f, 0, -1}, {0, 0.1f, -1}}, {}});
   TextItem text;
-  text.position = {shift, 0, -1};
+  text.position = {offset, 0, -1};
   text.runs = {{"12.4°", {}}};
   scene.texts.push_back(text);
   return scene;

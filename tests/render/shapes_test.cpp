@@ -69,8 +69,8 @@ TEST(Cylinder, IsClosedOutwardAndAsLargeAsTold) {
 TEST(Tube, KeepsItsSectionAroundABend) {
   std::vector<Float3> path;
   for (int i = 0; i <= 60; ++i) {
-    const float turn = static_cast<float>(i) / 60 * std::numbers::pi_v<float>;
-    path.push_back({0.05f * std::cos(turn), 0.05f * std::sin(turn), 0.01f * turn});
+    const float angle_rad = static_cast<float>(i) / 60 * std::numbers::pi_v<float>;
+    path.push_back({0.05f * std::cos(angle_rad), 0.05f * std::sin(angle_rad), 0.01f * angle_rad});
   }
   const MeshData tube = make_tube(path, 0.00275f, 32);
   EXPECT_TRUE(is_closed(tube));

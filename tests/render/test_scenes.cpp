@@ -48,14 +48,14 @@ Scene crowded_scene() {
   scene.lines[1].colour = {0.07f, 0.43f, 0.11f, 0.6f};
   scene.lines[1].label = 402;
   for (Label k = 0; k < 3; ++k) {
-    const float shift = 0.05f * static_cast<float>(k);
+    const float offset = 0.05f * static_cast<float>(k);
     scene.triangles.push_back(
         {501 + k,
-         {Float3{-0.2f + shift, -0.1f, -1}, {0.2f, -0.1f, -1}, {0, 0.15f, -1}},
+         {Float3{-0.2f + offset, -0.1f, -1}, {0.2f, -0.1f, -1}, {0, 0.15f, -1}},
          {0.21f, 0.13f * static_cast<float>(k), 0.3f, 0.3f}});
     TextItem text;
     text.label = 601 + k;
-    text.position = {0.01f * static_cast<float>(k), shift - 0.05f, -1};
+    text.position = {0.01f * static_cast<float>(k), offset - 0.05f, -1};
     text.height_m = 0.05f;
     text.runs = {{"12.4°", {0.3f, 0.4f, 0.2f * static_cast<float>(k), 0.8f}}};
     text.rim = {0.5f, 0.1f, 0, 0.9f};

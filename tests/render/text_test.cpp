@@ -79,8 +79,8 @@ TEST(Text, FixedToTheHeadStaysPutWhenTheHeadTurns) {
   text.runs = {{"done", {}}};
   scene.texts.push_back(text);
   const auto ahead = extent_of(renderer.labels(scene, TestRenderer::straight_ahead()), 1101);
-  View turned = look_at({0.3f, 0.5f, 0.2f}, {1, -1, 0.4f}, {0.2f, 1, 0}, 0.5f, 0.3f);
-  const auto elsewhere = extent_of(renderer.labels(scene, turned), 1101);
+  View rotated = look_at({0.3f, 0.5f, 0.2f}, {1, -1, 0.4f}, {0.2f, 1, 0}, 0.5f, 0.3f);
+  const auto elsewhere = extent_of(renderer.labels(scene, rotated), 1101);
   ASSERT_TRUE(ahead && elsewhere);
   EXPECT_NEAR(ahead->centre_x_px, elsewhere->centre_x_px, 0.3);
   EXPECT_NEAR(ahead->centre_y_px, elsewhere->centre_y_px, 0.3);

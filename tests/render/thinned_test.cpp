@@ -17,8 +17,8 @@ std::vector<Float3> spiral(int points) {
   std::vector<Float3> out;
   for (int i = 0; i < points; ++i) {
     const float t = static_cast<float>(i) / static_cast<float>(points);
-    const float turn = 6 * 2 * std::numbers::pi_v<float> * t;
-    out.push_back({0.1f * t * std::cos(turn), 0.1f * t * std::sin(turn), -0.5f});
+    const float angle_rad = 6 * 2 * std::numbers::pi_v<float> * t;
+    out.push_back({0.1f * t * std::cos(angle_rad), 0.1f * t * std::sin(angle_rad), -0.5f});
   }
   return out;
 }

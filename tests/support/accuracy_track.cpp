@@ -21,12 +21,13 @@ class Writer {
   void pose(Vec3 tip_m, const Mat3& rotation) {
     const double p = options_.position_noise_m;
     const double r = options_.rotation_noise_rad;
-    const Vec3 turn{random_.normal(0, r), random_.normal(0, r), random_.normal(0, r)};
-    const Vec3 shift{random_.normal(0, p), random_.normal(0, p), random_.normal(0, p)};
+    const Vec3 rotation_vector{random_.normal(0, r), random_.normal(0, r), random_.normal(0, r)};
+    const Vec3 offset{random_.normal(0, p), random_.normal(0, p), random_.normal(0, p)};
     const Vec3 true_tip_m = options_.tip_m + options_.tip_error_m;
     nav::TrackedPose out;
     // The tracker errs in where the tag is and how it is turned.
-    out.value = Pose(rotation_from_vector(turn) * rotation, tip_m - rotation * true_tip_m + shift);
+    out.value = Pose(rotation_from_vector(rotation_vector) * rotation,
+                     tip_m - rotation * true_tip_m + offset);
     out.time = Timestamp(from_seconds(10.0 + static_cast<double>(count_++) / options_.rate_hz));
     out.status = PoseStatus::kMeasured;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -59,9 +60,9 @@ class Writer {
       const double around = 6.0 * std::numbers::pi * t;
       // Out from upright and back again.
       const double tilt = options_.tilt_rad * std::sin(std::numbers::pi * t);
-      const Mat3 turned = rotation_from_vector(
+      const Mat3 rotated = rotation_from_vector(
           {tilt * std::cos(around), 0.3 * std::sin(around), tilt * std::sin(around)});
-      pose(2 * i < steps ? at_m : at_m + slip_m, turned * held(0.0));
+      pose(2 * i < steps ? at_m : at_m + slip_m, rotated * held(0.0));
     }
   }
   [[nodiscard]] std::vector<nav::TrackedPose> take() { return std::move(poses_); }
@@ -70,7 +71,7 @@ class Writer {
   [[nodiscard]] int count_of(double duration_s) const {
     return static_cast<int>(std::lround(duration_s * options_.rate_hz));
   }
-  static Mat3 held(double turned) { return rotation_from_vector({0.2, 0.3 + turned, -0.1}); }
+  static Mat3 held(double rotated) { return rotation_from_vector({0.2, 0.3 + rotated, -0.1}); }
 
   AccuracyTrackOptions options_;
   Random random_;
@@ -112,9 +113,9 @@ std::vector<nav::TrackedPose> accuracy_track(const AccuracyTrackOptions& options
     writer.rest(kAside, 2.0);
   }
   // The board lies on the table, turned a little.
-  const Mat3 turned = rotation_from_vector({-std::numbers::pi / 2, 0.0, 0.3});
+  const Mat3 rotated = rotation_from_vector({-std::numbers::pi / 2, 0.0, 0.3});
   for (const Vec3& point : touched) {
-    const Vec3 at_m = kBoardOrigin + turned * (options.board_scale * point);
+    const Vec3 at_m = kBoardOrigin + rotated * (options.board_scale * point);
     writer.move_to(at_m);
     writer.rest(at_m, options.touch_s);
   }

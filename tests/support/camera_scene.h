@@ -22,9 +22,9 @@ inline RoomLevel vertebra(const std::string& label, double z_m, int rings) {
     for (int r = 0; r <= rings; ++r) {
       for (int a = 0; a < around; ++a) {
         const double polar = std::numbers::pi * r / rings;
-        const double turn = 2.0 * std::numbers::pi * a / around;
-        level.vertices_m.push_back(centre + Vec3{radii.x * std::sin(polar) * std::cos(turn),
-                                                 radii.y * std::sin(polar) * std::sin(turn),
+        const double angle_rad = 2.0 * std::numbers::pi * a / around;
+        level.vertices_m.push_back(centre + Vec3{radii.x * std::sin(polar) * std::cos(angle_rad),
+                                                 radii.y * std::sin(polar) * std::sin(angle_rad),
                                                  radii.z * std::cos(polar)});
       }
     }

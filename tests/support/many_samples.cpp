@@ -23,7 +23,7 @@ float linear_of_level(std::uint8_t level) {
 }
 
 /// Seen so many pixels to the right and down of where it was.
-View shifted(View view, double right_px, double down_px, const LinearImage& image) {
+View displaced(View view, double right_px, double down_px, const LinearImage& image) {
   const auto across =
       static_cast<float>(right_px * (view.tan_left + view.tan_right) / image.width_px);
   const auto down = static_cast<float>(down_px * (view.tan_up + view.tan_down) / image.height_px);
@@ -51,8 +51,8 @@ Result<std::vector<LinearImage>> many_samples(Renderer& hard, const Scene& scene
   for (int sample = 0; sample < grid * grid; ++sample) {
     std::vector<View> aside = views;
     for (View& view : aside) {
-      view = shifted(view, (sample % grid + 0.5) / grid - 0.5, (sample / grid + 0.5) / grid - 0.5,
-                     sum.front());
+      view = displaced(view, (sample % grid + 0.5) / grid - 0.5, (sample / grid + 0.5) / grid - 0.5,
+                       sum.front());
     }
     if (const Status drawn = hard.draw(scene, aside, {}, frame); !drawn) {
       return drawn.error();

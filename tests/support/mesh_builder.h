@@ -21,7 +21,7 @@ inline nav::TriangleMesh vertebra_sized_box() {
 }
 
 /// The mesh turned about the origin.
-inline nav::TriangleMesh turned(nav::TriangleMesh mesh, const Mat3& rotation) {
+inline nav::TriangleMesh rotated(nav::TriangleMesh mesh, const Mat3& rotation) {
   for (Vec3& v : mesh.vertices_m) {
     v = rotation * v;
   }

@@ -15,11 +15,11 @@ Vec3 any_direction(Random& random) {
   return v.normalized();
 }
 
-Motion any_motion(double turn_rad, double shift_m, Vec3 about_m, Random& random) {
-  const Mat3 turn =
-      rotation_from_vector(random.uniform(0.3, 1.0) * turn_rad * any_direction(random));
-  const Vec3 shift = random.uniform(0.3, 1.0) * shift_m * any_direction(random);
-  return {turn, about_m + shift - turn * about_m};
+Motion any_motion(double rotation_rad, double translation_m, Vec3 about_m, Random& random) {
+  const Mat3 rotation =
+      rotation_from_vector(random.uniform(0.3, 1.0) * rotation_rad * any_direction(random));
+  const Vec3 translation = random.uniform(0.3, 1.0) * translation_m * any_direction(random);
+  return {rotation, about_m + translation - rotation * about_m};
 }
 
 Motion after(const Motion& second, const Motion& first) {
@@ -44,13 +44,13 @@ TrueScrew driven(const nav::SurfaceIndex& bone, const nav::ScrewPlan& plan,
                  const OperationSettings& settings, Random& random) {
   const Vec3 planned = (plan.target - plan.entry).normalized();
   const double length_m = (plan.target - plan.entry).norm();
-  const double far = random.uniform() < settings.share_far ? 2.5 : 1.0;
+  const double far = random.uniform() < settings.far_fraction ? 2.5 : 1.0;
   const Vec3 across = any_across(planned, random);
   const Vec3 off = far * settings.entry_sd_m *
                    (random.normal() * across + random.normal() * planned.cross(across));
-  const Vec3 turn = far * settings.angle_sd_rad *
-                    (random.normal() * across + random.normal() * planned.cross(across));
-  const Vec3 direction = rotation_from_vector(turn) * planned;
+  const Vec3 rotation = far * settings.angle_sd_rad *
+                        (random.normal() * across + random.normal() * planned.cross(across));
+  const Vec3 direction = rotation_from_vector(rotation) * planned;
   const double depth_m = length_m + settings.depth_sd_m * random.normal();
   TrueScrew out;
   const auto entry = entry_of(bone, plan.entry.v + off, direction);
@@ -135,12 +135,13 @@ OperatedSpine operated(const engine::Case& subject, const OperationSettings& set
                        Random random) {
   OperatedSpine out;
   const Motion patient =
-      any_motion(settings.turn_rad, settings.shift_m,
+      any_motion(settings.rotation_rad, settings.translation_m,
                  subject.levels.front().spine_from_vertebra.translation(), random);
   for (std::size_t l = 0; l < subject.levels.size(); ++l) {
     const engine::CaseLevel& level = subject.levels[l];
     const nav::SurfaceIndex bone(level.mesh);
-    const Motion own = any_motion(settings.level_turn_rad, settings.level_shift_m, {}, random);
+    const Motion own =
+        any_motion(settings.level_rotation_rad, settings.level_translation_m, {}, random);
     const Motion before{level.spine_from_vertebra.rotation(),
                         level.spine_from_vertebra.translation()};
     out.bones.push_back({level.mesh, after(patient, after(before, own))});

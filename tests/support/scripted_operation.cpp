@@ -291,8 +291,8 @@ double guide_sd_m() {
 }
 
 Transform<World, Marker> guide_at(Vec3 tip, double angle_rad) {
-  const Mat3 turn = rotation_from_vector({0, 0, angle_rad});
-  return {turn, tip - turn * Vec3{0, -kTip_m, 0}};
+  const Mat3 rotation = rotation_from_vector({0, 0, angle_rad});
+  return {rotation, tip - rotation * Vec3{0, -kTip_m, 0}};
 }
 
 Transform<World, Marker> pointer_at(Vec3 tip) { return guide_at(tip, 0.0); }

@@ -110,10 +110,10 @@ CentredPoints centred_somewhere(std::span<const Vec3> in_vertebra_m, Random& ran
   return out;
 }
 
-nav::CentredPose moved(const nav::CentredPose& pose, double shift_m, double turn_rad,
+nav::CentredPose moved(const nav::CentredPose& pose, double translation_m, double rotation_rad,
                        Random& random) {
-  return {rotation_from_vector(turn_rad * unit(random)) * pose.rotation,
-          pose.centre_m + shift_m * unit(random)};
+  return {rotation_from_vector(rotation_rad * unit(random)) * pose.rotation,
+          pose.centre_m + translation_m * unit(random)};
 }
 
 double apart_m(const nav::CentredPose& a, const nav::CentredPose& b) {

@@ -30,8 +30,8 @@ struct CentredPoints {
 };
 CentredPoints centred_somewhere(std::span<const Vec3> in_vertebra_m, Random& random);
 
-/// The pose moved by these amounts along and about random axes.
-nav::CentredPose moved(const nav::CentredPose& pose, double shift_m, double turn_rad,
+/// The pose moved by so much along and about random axes.
+nav::CentredPose moved(const nav::CentredPose& pose, double translation_m, double rotation_rad,
                        Random& random);
 
 /// The largest distance, over the corners of a box of 60 mm about the points, between their places

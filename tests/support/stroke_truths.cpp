@@ -163,9 +163,10 @@ const char* name_of(Tissue tissue) {
 void apply_truths(const StrokeTruths& truths, const nav::TriangleMesh& mesh, std::uint64_t seed,
                   DigitizedStrokes& strokes) {
   const Random random = Random(seed).fork("truths");
-  Random shift = random.fork("common");
-  const Vec3 common_m{shift.normal(0.0, truths.common_sd_m), shift.normal(0.0, truths.common_sd_m),
-                      shift.normal(0.0, truths.common_sd_m)};
+  Random common = random.fork("common");
+  const Vec3 common_m{common.normal(0.0, truths.common_sd_m),
+                      common.normal(0.0, truths.common_sd_m),
+                      common.normal(0.0, truths.common_sd_m)};
   std::vector<double> uneven(strokes.samples.size(), 0.0);
   if (truths.mean_tissue_m > 0.0) {
     uneven = unevenness(truths.tissue, mesh, random.fork(name_of(truths.tissue)), strokes);

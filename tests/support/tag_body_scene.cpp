@@ -60,12 +60,12 @@ TagBodyScene prism() {
   constexpr double kSide = 1.0471975511965976;  // 60°
   for (int side = 0; side < 3; ++side) {
     scene.tags.push_back({"tag36h11", 3 + side, 0.04});
-    const double turn = kSide * (side == 2 ? -1 : side);
-    const Mat3 rotation =
-        rotation_from_vector({0, turn, 0}) * rotation_from_vector({0.05 * side, 0, 0.1 * side});
+    const double angle_rad = kSide * (side == 2 ? -1 : side);
+    const Mat3 rotation = rotation_from_vector({0, angle_rad, 0}) *
+                          rotation_from_vector({0.05 * side, 0, 0.1 * side});
     // Far enough from the axis, which is behind the first face, for white borders to have room.
     const Vec3 axis{0, 0, -0.05};
-    const Vec3 out = rotation_from_vector({0, turn, 0}) * Vec3{0, 0, 0.05};
+    const Vec3 out = rotation_from_vector({0, angle_rad, 0}) * Vec3{0, 0, 0.05};
     scene.marker_from_tag.emplace_back(side == 0 ? Mat3::identity() : rotation,
                                        axis + out + Vec3{0, 0.003 * side, 0});
   }
@@ -76,13 +76,13 @@ std::vector<Transform<Rig, Marker>> turning(int pairs) {
   std::vector<Transform<Rig, Marker>> poses;
   for (int i = 0; i < pairs; ++i) {
     const double t = static_cast<double>(i) / pairs;
-    const Mat3 turn = rotation_from_vector({0.35 * std::sin(23.0 * t), 0, 0}) *
-                      rotation_from_vector({0, 0.9 * std::sin(14.0 * t), 0}) *
-                      rotation_from_vector({0, 0, 0.5 * std::sin(31.0 * t)});
-    const Vec3 shift{0.02 * std::sin(9.0 * t), 0.03 * std::cos(11.0 * t),
-                     0.03 * std::sin(17.0 * t)};
-    poses.push_back(facing(shift));
-    poses.back() = {turn, poses.back().translation()};
+    const Mat3 rotation = rotation_from_vector({0.35 * std::sin(23.0 * t), 0, 0}) *
+                          rotation_from_vector({0, 0.9 * std::sin(14.0 * t), 0}) *
+                          rotation_from_vector({0, 0, 0.5 * std::sin(31.0 * t)});
+    const Vec3 offset{0.02 * std::sin(9.0 * t), 0.03 * std::cos(11.0 * t),
+                      0.03 * std::sin(17.0 * t)};
+    poses.push_back(facing(offset));
+    poses.back() = {rotation, poses.back().translation()};
   }
   return poses;
 }

@@ -98,7 +98,7 @@ void draw(const Camera& camera, const PlacedTag& tag, std::vector<double>& sums,
           std::vector<double>& covered) {
   const TagPicture cells = tag_picture(tag.family, tag.id);
   const Mat3 marker_from_rig = tag.rig_from_marker.rotation().transposed();
-  const Mat3 turn = marker_from_rig * camera.rig_from_camera.rotation();
+  const Mat3 rotation = marker_from_rig * camera.rig_from_camera.rotation();
   const Vec3 eye =
       marker_from_rig * (camera.rig_from_camera.translation() - tag.rig_from_marker.translation());
   if (eye.z < 0.0) {
@@ -111,7 +111,7 @@ void draw(const Camera& camera, const PlacedTag& tag, std::vector<double>& sums,
     if (!unit) {
       return -1.0;
     }
-    const Vec3 direction = turn * Vec3{unit->x, unit->y, 1.0};
+    const Vec3 direction = rotation * Vec3{unit->x, unit->y, 1.0};
     const double along = -eye.z / direction.z;
     if (!(along > 0.0)) {
       return -1.0;
@@ -217,8 +217,8 @@ StereoCalibration test_calibration() {
   calibration.left = CameraModel::from_brown_conrady(left).value();
   calibration.right = CameraModel::from_brown_conrady(right).value();
   calibration.left_from_rig = {{{{{0, 1, 0}, {1, 0, 0}, {0, 0, -1}}}}, {}};
-  const Mat3 right_turn = {{{{0, -1, 0}, {-1, 0, 0}, {0, 0, -1}}}};
-  calibration.right_from_rig = {right_turn * rotation_from_vector({0.005, -0.01, 0.008}),
+  const Mat3 right_rotation = {{{{0, -1, 0}, {-1, 0, 0}, {0, 0, -1}}}};
+  calibration.right_from_rig = {right_rotation * rotation_from_vector({0.005, -0.01, 0.008}),
                                 {0.0, 0.099, 0.004}};
   return calibration;
 }
@@ -264,9 +264,9 @@ std::array<Vec2, 4> right_corners(const StereoCalibration& calibration, const Pl
   return corners_seen(calibration.right, calibration.right_from_rig, tag);
 }
 
-Transform<Rig, Marker> facing(Vec3 offset_m, Vec3 turn_rad) {
+Transform<Rig, Marker> facing(Vec3 offset_m, Vec3 rotation_rad) {
   // The rig looks along -z, so an unturned marker faces it.
-  return {rotation_from_vector(turn_rad), Vec3{0.05, 0.0, -0.4} + offset_m};
+  return {rotation_from_vector(rotation_rad), Vec3{0.05, 0.0, -0.4} + offset_m};
 }
 
 GreyImage april_grid_picture(int columns, int rows, double cell_px, double spacing) {

@@ -38,7 +38,7 @@ std::array<Vec2, 4> left_corners(const StereoCalibration& calibration, const Pla
 std::array<Vec2, 4> right_corners(const StereoCalibration& calibration, const PlacedTag& tag);
 
 /// In front of both cameras at a comfortable distance, turned as given, its face to the cameras.
-Transform<Rig, Marker> facing(Vec3 offset_m = {}, Vec3 turn_rad = {});
+Transform<Rig, Marker> facing(Vec3 offset_m = {}, Vec3 rotation_rad = {});
 
 /// A flat picture: the tag magnified to `cell_px` a cell with its outer edge's top left corner at
 /// (x, y) in continuous pixels, on white.

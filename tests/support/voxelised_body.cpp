@@ -23,7 +23,7 @@ double outside_m(const MetalPiece& piece, Vec3 p) {
   return std::max({across - piece.radius_m, -s, s - length});
 }
 
-double share_of(const MetalPiece& piece, Vec3 middle, double step) {
+double fraction_of(const MetalPiece& piece, Vec3 middle, double step) {
   const double outside = outside_m(piece, middle);
   if (std::abs(outside) > 0.87 * step) {
     return outside < 0.0 ? 1.0 : 0.0;
@@ -37,7 +37,7 @@ double share_of(const MetalPiece& piece, Vec3 middle, double step) {
   return double(inside) / (kParts * kParts * kParts);
 }
 
-void put_metal(const MetalPiece& piece, FineBody& body, std::vector<float>& shares) {
+void put_metal(const MetalPiece& piece, FineBody& body, std::vector<float>& fractions) {
   std::array<int, 3> first{};
   std::array<int, 3> last{};
   for (int a = 0; a < 3; ++a) {
@@ -51,12 +51,12 @@ void put_metal(const MetalPiece& piece, FineBody& body, std::vector<float>& shar
   for (int k = first[2]; k <= last[2]; ++k) {
     for (int j = first[1]; j <= last[1]; ++j) {
       for (int i = first[0]; i <= last[0]; ++i) {
-        const double share = share_of(piece, body.place_m(i, j, k), body.step_m);
-        if (share > 0.0) {
+        const double fraction = fraction_of(piece, body.place_m(i, j, k), body.step_m);
+        if (fraction > 0.0) {
           const std::size_t cell = body.at(i, j, k);
           body.hu[cell] +=
-              static_cast<float>(share) * (static_cast<float>(piece.hu) - body.hu[cell]);
-          shares[cell] = std::max(shares[cell], static_cast<float>(share));
+              static_cast<float>(fraction) * (static_cast<float>(piece.hu) - body.hu[cell]);
+          fractions[cell] = std::max(fractions[cell], static_cast<float>(fraction));
         }
       }
     }
@@ -104,13 +104,13 @@ FineBody fine_body(const std::vector<BodyBone>& bones, const std::vector<MetalPi
   for (const BodyBone& bone : bones) {
     put_bone(bone, settings, body);
   }
-  std::vector<float> shares(body.count(), 0.0F);
+  std::vector<float> fractions(body.count(), 0.0F);
   for (const MetalPiece& piece : metal) {
-    put_metal(piece, body, shares);
+    put_metal(piece, body, fractions);
   }
-  for (std::size_t cell = 0; cell < shares.size(); ++cell) {
-    if (shares[cell] > 0.0F) {
-      body.metal.push_back({cell, shares[cell]});
+  for (std::size_t cell = 0; cell < fractions.size(); ++cell) {
+    if (fractions[cell] > 0.0F) {
+      body.metal.push_back({cell, fractions[cell]});
     }
   }
   return body;

@@ -60,7 +60,7 @@ struct FineBody : Cells {
   std::vector<float> hu;
   struct MetalCell {
     std::size_t cell = 0;
-    float share = 0.0F;
+    float fraction = 0.0F;
   };
   std::vector<MetalCell> metal;
 

@@ -51,7 +51,7 @@ void add_triangle(const FineBody& body, const Triangle& t, Columns& columns) {
 /// A bone in its own box of the grid.
 struct Filled : Cells {
   std::array<int, 3> first{};  ///< cell of the grid
-  std::vector<float> share;
+  std::vector<float> fraction;
   std::vector<std::uint8_t> depth;  ///< chamfer distance in thirds of a step, capped
 };
 
@@ -74,9 +74,9 @@ void lower(Filled& bone, int i, int j, int k, int sign) {
 
 void chamfer(Filled& bone) {
   constexpr std::uint8_t kCap = 120;
-  bone.depth.resize(bone.share.size());
-  std::transform(bone.share.begin(), bone.share.end(), bone.depth.begin(),
-                 [](float share) { return share > 0.5F ? kCap : std::uint8_t{0}; });
+  bone.depth.resize(bone.fraction.size());
+  std::transform(bone.fraction.begin(), bone.fraction.end(), bone.depth.begin(),
+                 [](float fraction) { return fraction > 0.5F ? kCap : std::uint8_t{0}; });
   for (const int sign : {1, -1}) {
     const auto ordered = [&](int n, std::size_t a) { return sign > 0 ? n : bone.size[a] - 1 - n; };
     for (int k = 0; k < bone.size[2]; ++k) {
@@ -101,7 +101,7 @@ Filled box_about(const FineBody& body, const std::vector<Vec3>& vertices_m) {
     out.first[n] = static_cast<int>(std::floor(cell(*low))) - 2;
     out.size[n] = static_cast<int>(std::ceil(cell(*high))) + 3 - out.first[n];
   }
-  out.share.assign(out.count(), 0.0F);
+  out.fraction.assign(out.count(), 0.0F);
   return out;
 }
 
@@ -114,7 +114,7 @@ void fill_column(const std::vector<double>& crossings, int i, int j, Filled& out
     for (int k = static_cast<int>(std::floor(from)); k <= std::ceil(to); ++k) {
       const double overlap = std::min(to, k + 0.5) - std::max(from, k - 0.5);
       if (overlap > 0.0) {
-        out.share[out.at(i, j, k)] += static_cast<float>(overlap);
+        out.fraction[out.at(i, j, k)] += static_cast<float>(overlap);
       }
     }
   }
@@ -158,14 +158,14 @@ void put_bone(const BodyBone& bone, const BodySettings& settings, FineBody& body
         const int x = in.first[0] + i;
         const int y = in.first[1] + j;
         const int z = in.first[2] + k;
-        if (in.share[n] <= 0.0F || !body.holds(x, y, z)) {
+        if (in.fraction[n] <= 0.0F || !body.holds(x, y, z)) {
           continue;
         }
         const bool cortex = in.depth[n] / 3.0 <= cells;
         const double hu =
             cortex ? kCortex_hu : kCancellous_hu + 60.0 * texture.at(body.place_m(x, y, z));
         float& here = body.hu[body.at(x, y, z)];
-        here += in.share[n] * (static_cast<float>(hu) - here);
+        here += in.fraction[n] * (static_cast<float>(hu) - here);
       }
     }
   }

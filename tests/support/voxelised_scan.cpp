@@ -92,7 +92,8 @@ class Streaks {
           static_cast<double>(in_plane % static_cast<std::size_t>(body_.size[0])) * cell_mm);
       const auto y = static_cast<int>(
           static_cast<double>(in_plane / static_cast<std::size_t>(body_.size[0])) * cell_mm);
-      metal[static_cast<std::size_t>(y * size_[0] + x)] += weight * static_cast<double>(m->share);
+      metal[static_cast<std::size_t>(y * size_[0] + x)] +=
+          weight * static_cast<double>(m->fraction);
       any = true;
     }
     return any ? projected_back(metal) : std::vector<double>{};

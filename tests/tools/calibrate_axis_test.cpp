@@ -23,8 +23,8 @@ std::vector<std::vector<PlacedTag>> spinning(double side_rad) {
   std::vector<std::vector<PlacedTag>> pairs;
   const Vec3 tip_in_rig = (facing() * Point<Marker>{{0, -0.05, 0}}).v;
   for (int i = 0; i < kPairs; ++i) {
-    const Mat3 turn = rotation_from_vector(side_rad * std::sin(0.31 * i) * kAxis);
-    pairs.push_back({{"tag36h11", 5, 0.05, {turn, tip_in_rig - turn * Vec3{0, -0.05, 0}}}});
+    const Mat3 rotation = rotation_from_vector(side_rad * std::sin(0.31 * i) * kAxis);
+    pairs.push_back({{"tag36h11", 5, 0.05, {rotation, tip_in_rig - rotation * Vec3{0, -0.05, 0}}}});
   }
   return pairs;
 }

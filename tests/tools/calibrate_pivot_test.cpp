@@ -30,10 +30,10 @@ std::vector<std::vector<PlacedTag>> pivoting(double lean_rad, Vec3 slip_m = {}) 
   for (int i = 0; i < kPairs; ++i) {
     const double around = 0.7 * i;
     const double lean = lean_rad * (0.6 + 0.4 * std::sin(1.3 * i));
-    const Mat3 turn = rotation_from_vector(
+    const Mat3 rotation = rotation_from_vector(
         {lean * std::cos(around), 0.5 * lean * std::sin(0.45 * i), lean * std::sin(around)});
     const Vec3 pivot = pivot_in_rig + (i >= kPairs / 2 ? slip_m : Vec3{});
-    pairs.push_back({{"tag36h11", 3, 0.05, {turn, pivot - turn * kTip}}});
+    pairs.push_back({{"tag36h11", 3, 0.05, {rotation, pivot - rotation * kTip}}});
   }
   return pairs;
 }

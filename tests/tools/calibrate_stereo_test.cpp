@@ -151,15 +151,17 @@ TEST(CalibrateStereoFromARecording, SaysByHowMuchTheDeviceIsOff) {
   std::vector<std::vector<PlacedTag>> pairs;
   Random random(4);
   for (int i = 0; i < 24; ++i) {
-    const Mat3 turn = rotation_from_vector(
+    const Mat3 rotation = rotation_from_vector(
         {random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)});
     const Vec3 place{random.uniform(-0.05, 0.1), random.uniform(-0.08, 0.08), -0.45};
     pairs.emplace_back();
     for (std::size_t tag = 0; tag < printed.ids.size(); ++tag) {
       const auto corners = engine::tag_corners_m(printed, tag);
       const Vec2 centre = 0.5 * (corners[0] + corners[2]) - Vec2{0.07, 0.045};
-      pairs.back().push_back(
-          {"tag36h11", printed.ids[tag], 0.04, {turn, place + turn * Vec3{centre.x, centre.y, 0}}});
+      pairs.back().push_back({"tag36h11",
+                              printed.ids[tag],
+                              0.04,
+                              {rotation, place + rotation * Vec3{centre.x, centre.y, 0}}});
     }
   }
   const auto off_px = [&](const std::string& name, const StereoCalibration& cameras) {

@@ -21,18 +21,18 @@ using ::testing::IsEmpty;
 
 // Rendered corners err by 0.03 px, alike in pairs that are alike; measured 0.03 mm, 0.05°.
 constexpr double kPlaceM = 0.0001;
-constexpr double kTurnRad = 0.003;
+constexpr double kRotation_rad = 0.003;
 constexpr int kPairs = 40;
 
 /// A tag of the scene turned on its face, counter-clockwise.
-struct Turned {
+struct Rotated {
   std::size_t tag = 0;
   int quarters = 0;
 };
 
 /// The prism turning; without a tag in it, if given, or with one that was glued on turned.
 void record_prism(const std::string& folder, int count = kPairs, std::size_t without = 99,
-                  Turned turned = {}) {
+                  Rotated rotated = {}) {
   const TagBodyScene scene = prism();
   std::vector<std::vector<PlacedTag>> pairs;
   for (const auto& rig_from_marker : turning(count)) {
@@ -41,9 +41,9 @@ void record_prism(const std::string& folder, int count = kPairs, std::size_t wit
       if (i == without) {
         continue;
       }
-      const double turn_rad = i == turned.tag ? turned.quarters * std::numbers::pi / 2 : 0.0;
+      const double rotation_rad = i == rotated.tag ? rotated.quarters * std::numbers::pi / 2 : 0.0;
       const auto rig_from_tag = rig_from_marker * scene.marker_from_tag[i] *
-                                Transform<Tag, Tag>{rotation_from_vector({0, 0, turn_rad}), {}};
+                                Transform<Tag, Tag>{rotation_from_vector({0, 0, rotation_rad}), {}};
       pairs.back().push_back({scene.tags[i].family,
                               scene.tags[i].id,
                               scene.tags[i].size_m,
@@ -65,7 +65,7 @@ void expect_prism(const nav::ToolGeometry& tool) {
               kPlaceM);
     EXPECT_LT(
         rotation_angle_rad(more.marker_from_tag.rotation(), scene.marker_from_tag[i].rotation()),
-        kTurnRad);
+        kRotation_rad);
   }
 }
 
@@ -129,7 +129,7 @@ TEST(CalibrateTool, RefusesATagThatIsMountedTurnedAndSaysWhichWay) {
   const std::string own = folder.with("own.json", described_prism());
   const std::string out = folder.file("out.json");
   struct Case {
-    Turned turned;
+    Rotated rotated;
     std::string expected;
   };
   const std::vector<Case> cases = {
@@ -140,7 +140,7 @@ TEST(CalibrateTool, RefusesATagThatIsMountedTurnedAndSaysWhichWay) {
   for (const Case& c : cases) {
     const std::string recording = folder.file("recording");
     std::filesystem::remove_all(recording);
-    record_prism(recording, 20, 99, c.turned);
+    record_prism(recording, 20, 99, c.rotated);
     const Called called = calibrated_against(own, recording, out);
     EXPECT_EQ(called.code, 1) << c.expected;
     EXPECT_THAT(called.err, HasSubstr("refused: tool calibration: " + c.expected +

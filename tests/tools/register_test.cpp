@@ -224,15 +224,15 @@ TEST_P(RegisterCommand, GivesTheMatrixInThePointsUnit) {
 }
 
 TEST_P(RegisterCommand, TakesAModelInRas) {
-  const nav::TriangleMesh turned =
-      test::turned(mesh_, Mat3::from_columns({-1, 0, 0}, {0, -1, 0}, {0, 0, 1}));
+  const nav::TriangleMesh rotated =
+      test::rotated(mesh_, Mat3::from_columns({-1, 0, 0}, {0, -1, 0}, {0, 0, 1}));
   std::string obj;
   char row[120];
-  for (const Vec3& v : turned.vertices_m) {
+  for (const Vec3& v : rotated.vertices_m) {
     std::snprintf(row, sizeof row, "v %.9g %.9g %.9g\n", v.x * 1e3, v.y * 1e3, v.z * 1e3);
     obj += row;
   }
-  for (const auto& t : turned.triangles) {
+  for (const auto& t : rotated.triangles) {
     obj += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " +
            std::to_string(t[2] + 1) + "\n";
   }

@@ -14,8 +14,8 @@ constexpr double kFarthest_m = 5.0;
 constexpr double kMostMagnification = 6.0;
 constexpr double kZoomStep = 1.1;
 /// Dragging by the picture's height turns by this angle.
-constexpr double kTurnPerHeight_rad = std::numbers::pi;
-/// When looking straight down, no direction is upright.
+constexpr double kRotationPerHeight_rad = std::numbers::pi;
+/// Looking straight down there is no upright.
 constexpr double kSteepest_rad = 1.55;
 
 }  // namespace
@@ -29,12 +29,13 @@ void Camera::start_orbit(const Transform<sim::Room, Eye>& stage_from_eye) {
   pitch_rad_ = std::clamp(std::asin(std::clamp(-gaze.y, -1.0, 1.0)), -kSteepest_rad, kSteepest_rad);
 }
 
-void Camera::turn(Vec2 by) {
+void Camera::orbit(Vec2 by) {
   if (!orbits_) {
     return;
   }
-  yaw_rad_ = std::remainder(yaw_rad_ - kTurnPerHeight_rad * by.x, 2.0 * std::numbers::pi);
-  pitch_rad_ = std::clamp(pitch_rad_ + kTurnPerHeight_rad * by.y, -kSteepest_rad, kSteepest_rad);
+  yaw_rad_ = std::remainder(yaw_rad_ - kRotationPerHeight_rad * by.x, 2.0 * std::numbers::pi);
+  pitch_rad_ =
+      std::clamp(pitch_rad_ + kRotationPerHeight_rad * by.y, -kSteepest_rad, kSteepest_rad);
 }
 
 void Camera::pan(Vec2 by) {

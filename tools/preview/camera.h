@@ -16,7 +16,7 @@ class Camera {
 
   /// Turns around the site for a drag by this fraction of the picture's height, to the right and
   /// down. Only while orbiting.
-  void turn(Vec2 by);
+  void orbit(Vec2 by);
   /// Moves the point looked at with the mouse.
   void pan(Vec2 by);
   /// Orbiting: moves closer; with the eye: magnifies.

@@ -27,7 +27,7 @@ Status PreviewApp::open_window() {
   WindowInput input;
   input.key = [this](Key key, bool down) { model_.key(key, down); };
   input.drag = [this](Vec2 by, bool pan) {
-    pan ? model_.look().camera.pan(by) : model_.look().camera.turn(by);
+    pan ? model_.look().camera.pan(by) : model_.look().camera.orbit(by);
   };
   input.scroll = [this](double steps) { model_.look().camera.zoom(steps); };
   auto window = Window::open("orthonav preview", options_.stage.width_px + kPanel_px,

@@ -58,7 +58,7 @@ void change_view(const ScriptLine& line, Look& look, const ScriptStage& stage) {
   const auto two = numbers(line.rest, 2).value_or(std::array<double, 2>{});
   const double one = numbers(line.rest, 1).value_or(std::array<double, 2>{})[0];
   if (line.word == "drag") {
-    look.camera.turn(0.01 * Vec2{two[0], two[1]});
+    look.camera.orbit(0.01 * Vec2{two[0], two[1]});
   } else if (line.word == "zoom") {
     look.camera.zoom(one);
   } else if (line.word == "hide" || line.word == "show") {

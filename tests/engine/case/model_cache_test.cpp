@@ -144,10 +144,10 @@ TEST_F(ModelFiles, AreOfOneMeshEach) {
   ModelCache cache(folder.path().string());
   TriangleMesh moved = bone_;
   moved.vertices_m[3].x += 1e-12;  // any digit counts
-  TriangleMesh turned = bone_;
-  std::swap(turned.triangles[0], turned.triangles[1]);
+  TriangleMesh rotated = bone_;
+  std::swap(rotated.triangles[0], rotated.triangles[1]);
   EXPECT_NE(cache.file_of(bone_), cache.file_of(moved));
-  EXPECT_NE(cache.file_of(bone_), cache.file_of(turned));
+  EXPECT_NE(cache.file_of(bone_), cache.file_of(rotated));
 }
 
 TEST_F(ModelFiles, RefuseAMeshThatIsNoVertebraAsPreparingDoes) {

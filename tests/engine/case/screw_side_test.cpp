@@ -174,10 +174,10 @@ TEST(ScrewSide, OfSeveralScrewsIsTakenOneByOne) {
 
 /// Wrongly interpreted axes swap the sides too, so such a plan must be refused.
 TEST(ScrewSide, OfAPlanInOtherAxesIsRefused) {
-  StatedScrew turned = screw("L", {20, 8});
-  turned.entry.v.y *= -1;
-  turned.target.v.y *= -1;
-  EXPECT_EQ(on_the_box({turned}).error().message,
+  StatedScrew rotated = screw("L", {20, 8});
+  rotated.entry.v.y *= -1;
+  rotated.target.v.y *= -1;
+  EXPECT_EQ(on_the_box({rotated}).error().message,
             "L4.mrk.json: line \"L\" entry lies 40.0 mm in front of its target, must lie behind it "
             "(posterior)");
 }

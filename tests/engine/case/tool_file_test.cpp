@@ -172,11 +172,11 @@ std::string with_second_tag(const std::string& rows, const std::string& fields =
                                                             "size_mm": 40)") {
   return tool(kMarker + kTip + R"(, "markers": [{)" + fields + R"(, "pose": )" + rows + "}]");
 }
-const std::string kTurned = "[[0,0,1,20], [0,1,0,1.5], [-1,0,0,-20], [0,0,0,1]]";
+const std::string kRotated = "[[0,0,1,20], [0,1,0,1.5], [-1,0,0,-20], [0,0,0,1]]";
 
 TEST(ToolFile, ReadsAndWritesFurtherTags) {
   const TemporaryFolder folder;
-  const auto tools = load_tools(folder.with("tools.json", with_second_tag(kTurned)));
+  const auto tools = load_tools(folder.with("tools.json", with_second_tag(kRotated)));
   ASSERT_TRUE(tools.ok()) << tools.error().message;
   ASSERT_EQ(tools->front().more_markers.size(), 1u);
   const nav::AttachedMarker& second = tools->front().more_markers.front();
@@ -212,11 +212,11 @@ TEST(ToolFile, RefusesFurtherTagsThatAreNoRigidPart) {
 }
 
 TEST(ToolFile, RefusesFurtherTagsThatAreIncompleteOrTwice) {
-  EXPECT_THAT(refusal(with_second_tag(kTurned, R"("family": "tag36h11", "id": 4)")),
+  EXPECT_THAT(refusal(with_second_tag(kRotated, R"("family": "tag36h11", "id": 4)")),
               HasSubstr("tools[0].markers[0].size_mm is missing"));
-  EXPECT_THAT(refusal(with_second_tag(kTurned, R"("id": 4, "size_mm": 40)")),
+  EXPECT_THAT(refusal(with_second_tag(kRotated, R"("id": 4, "size_mm": 40)")),
               HasSubstr("tools[0].markers[0].family is missing"));
-  EXPECT_THAT(refusal(with_second_tag(kTurned, R"("family": "tag36h11", "id": 3, "size_mm": 4)")),
+  EXPECT_THAT(refusal(with_second_tag(kRotated, R"("family": "tag36h11", "id": 3, "size_mm": 4)")),
               AllOf(HasSubstr("id 3 is already on tool 'pointer'"), HasSubstr("4 mm")));
   EXPECT_THAT(refusal(tool(kMarker + kTip + R"(, "markers": {})")),
               HasSubstr("tools[0].markers must be a list"));

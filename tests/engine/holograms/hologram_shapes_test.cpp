@@ -123,7 +123,7 @@ TEST(Rod, ShowsTheRodWithoutHeadsAndHeadsWithoutARod) {
   const std::vector<Float3> heads = {{0, 0, 0}};
   RodHologram rod;
   rod.heads = heads;
-  rod.shift = {0.1f, 0, 0};
+  rod.offset = {0.1f, 0, 0};
   add_rod(scene, rod, 1001);
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_FLOAT_EQ(scene.meshes[0].world_from_model[12], 0.1f);

@@ -212,9 +212,9 @@ OperatingField rods(int heads) {
 OperatingField checked_places(int count) {
   OperatingField field;
   for (int i = 0; i < count; ++i) {
-    const auto turn = 2.4f * static_cast<float>(i);
+    const auto angle_rad = 2.4f * static_cast<float>(i);
     const float away_m = 0.008f * std::sqrt(static_cast<float>(i));
-    const Float3 at{away_m * std::cos(turn), 0.04f, away_m * std::sin(turn)};
+    const Float3 at{away_m * std::cos(angle_rad), 0.04f, away_m * std::sin(angle_rad)};
     engine::add_check_point(field.scene, at, "0." + std::to_string(i) + " mm", i % 3 != 0,
                             label_of(HologramKind::kCheckPoint, static_cast<std::size_t>(i + 1)));
     field.places.push_back({"check " + std::to_string(i + 1), at, 0.0020f, false});
@@ -234,11 +234,12 @@ std::vector<render::View> any_head(Random& random) {
   const auto within = [&](double low, double high) {
     return static_cast<float>(random.uniform(low, high));
   };
-  const float turn = within(-1.2, 1.2);  // about the patient's long axis
-  const float nod = within(-0.7, 0.7);   // towards head or feet
+  const float angle_rad = within(-1.2, 1.2);  // about the patient's long axis
+  const float nod = within(-0.7, 0.7);        // towards head or feet
   const float roll = within(-0.35, 0.35);
   const Float3 looked{within(-0.02, 0.02), 0.045f, within(-0.12, 0.02)};
-  const Float3 away{std::sin(turn) * std::cos(nod), std::cos(turn) * std::cos(nod), std::sin(nod)};
+  const Float3 away{std::sin(angle_rad) * std::cos(nod), std::cos(angle_rad) * std::cos(nod),
+                    std::sin(nod)};
   const Float3 eye = looked + within(0.35, 0.70) * away;
   const Float3 up{std::sin(roll), 0.1f, std::cos(roll)};
   return render::stereo_pair(render::look_at(eye, looked, up, 0.394f, 0.2561f));

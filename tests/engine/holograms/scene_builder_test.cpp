@@ -378,8 +378,8 @@ TEST_F(Guiding, TheCrossHasADotForTheTipAndOneForTheToolFartherUp) {
   EXPECT_EQ(find(frame, kCross)->text, "");
   // Turned about its tip: the tip's dot stays, the other moves.
   s.tracker().guide = guide_at(kLeftEntry + Vec3{0.002, 0.010, 0}, 0.02);
-  const ShownFrame turned = shown(s.pairs(2));
-  const auto& after = find(turned, kCross)->points_in_world;
+  const ShownFrame rotated = shown(s.pairs(2));
+  const auto& after = find(rotated, kCross)->points_in_world;
   EXPECT_NEAR((after[1] - points[1]).norm(), 0.0, 1e-6);
   EXPECT_GT((after[2] - points[2]).norm(), 0.003);
 }

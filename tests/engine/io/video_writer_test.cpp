@@ -151,11 +151,11 @@ TEST(VideoWriter, FilmsPlayUpToWhereverTheyWereCut) {
   EXPECT_LE(all, 200);
   const auto size = fs::file_size(cut);
   int last = all;
-  for (const double share : {0.9, 0.5, 0.25}) {
-    fs::resize_file(cut, static_cast<std::uintmax_t>(share * static_cast<double>(size)));
+  for (const double fraction : {0.9, 0.5, 0.25}) {
+    fs::resize_file(cut, static_cast<std::uintmax_t>(fraction * static_cast<double>(size)));
     const int left = pictures_in(cut);
-    EXPECT_GT(left, static_cast<int>(0.5 * share * all)) << share;
-    EXPECT_LT(left, last) << share;
+    EXPECT_GT(left, static_cast<int>(0.5 * fraction * all)) << fraction;
+    EXPECT_LT(left, last) << fraction;
     last = left;
   }
 }

@@ -9,7 +9,7 @@
 namespace orthonav::engine {
 
 /// Errs by 0.1, 0.2 and 0.3 mm along the axes of the model, the same everywhere.
-inline nav::PoseUncertainty shifts_only() {
+inline nav::PoseUncertainty translation_only() {
   std::array<double, 36> covariance{};
   covariance[0] = 0.1e-3 * 0.1e-3;
   covariance[7] = 0.2e-3 * 0.2e-3;
@@ -29,7 +29,7 @@ inline RegisteredLevel exact() {
   level.registration.world_from_vertebra = {rotation_from_vector({0.3, 0.1, -2.0}), {1, 2, 3}};
   level.registration.runner_up = level.registration.world_from_vertebra;
   level.registration.noise_m = 0.0002;
-  level.registration.uncertainty = shifts_only();
+  level.registration.uncertainty = translation_only();
   const auto& vertices = level.model->reachable().vertices_m;
   for (std::size_t i = 0; i < vertices.size(); i += 5) {
     level.points.push_back(level.registration.world_from_vertebra * Point<Vertebra>{vertices[i]});

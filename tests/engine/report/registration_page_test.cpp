@@ -114,7 +114,7 @@ TEST(RegistrationPage, SaysWhatAllStrokesShareBesideTheLimit) {
   level.registration.predicted_tre_m = 0.0004;
   EXPECT_THAT(registration_section(level).value(), HasSubstr("Of the registration alone"));
   level.registration.common = {0.0005, 0.0003, 0.0012};
-  level.registration.uncertainty = with_common(shifts_only(), level.registration.common);
+  level.registration.uncertainty = with_common(translation_only(), level.registration.common);
   const std::string page = registration_section(level).value();
   EXPECT_THAT(row_of(page, "Error at the worst"), HasSubstr("0.40 ✓"));
   EXPECT_THAT(row_of(page, "With what all strokes share"),
@@ -207,8 +207,8 @@ TEST(RegistrationFigures, MeasureTheRunnerUpAtTheWorstScrew) {
   RegisteredLevel level = exact();
   const Transform<World, Vertebra>& pose = level.registration.world_from_vertebra;
   // Half round the spine: the left screws lie where the right ones were.
-  const Transform<Vertebra, Vertebra> turn(rotation_from_vector({0, 0, 3.14159265358979}), {});
-  level.registration.runner_up = pose * turn;
+  const Transform<Vertebra, Vertebra> half_turn(rotation_from_vector({0, 0, 3.14159265358979}), {});
+  level.registration.runner_up = pose * half_turn;
   level.registration.runner_up_rmse_m = 0.002;
   level.registration.log_likelihood_ratio = 3.0;
   double worst = 0.0;
@@ -220,7 +220,7 @@ TEST(RegistrationFigures, MeasureTheRunnerUpAtTheWorstScrew) {
   const auto distance = runner_up_distance(level);
   ASSERT_TRUE(distance.has_value());
   EXPECT_NEAR(distance->apart_m, worst, 1e-9);
-  EXPECT_NEAR(distance->turned_rad, 3.14159265, 1e-6);
+  EXPECT_NEAR(distance->rotation_rad, 3.14159265, 1e-6);
   EXPECT_THAT(ambiguity_of(level), StartsWith("ambiguous: another pose, "));
   level.registration.log_likelihood_ratio = 50.0;
   EXPECT_THAT(ambiguity_of(level), StartsWith("unambiguous: the next best pose, "));

@@ -76,10 +76,11 @@ TEST(LabelSurface, IsSmootherThanTheStairs) {
 
 TEST(LabelSurface, LiesWhereAnObliqueScanSaysInAnyHandedness) {
   Volume labels = test::voxelised(test::sphere({}, 0.02, 40), {0.001, 0.001, 0.0015});
-  const Mat3 turn = rotation_from_vector({0.3, -0.2, 0.5});
+  const Mat3 rotation = rotation_from_vector({0.3, -0.2, 0.5});
   const Vec3 middle_index = labels.grid.index_of({});
   // The first index runs backwards: a left-handed grid, as in many NIfTI files.
-  labels.grid.directions = turn * Mat3::from_columns(Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1});
+  labels.grid.directions =
+      rotation * Mat3::from_columns(Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1});
   labels.grid.origin_m = {0.3, -0.2, 1.0};
   const Vec3 middle_m = labels.grid.place_m(middle_index);
   const auto part = label_part(labels, {"L3", 0, 1}, kSurfaceMargin);

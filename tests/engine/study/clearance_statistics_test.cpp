@@ -23,12 +23,12 @@ TEST(ClearanceQuality, CountsBoundsThatHeldAndGradesAgainstTheTruth) {
   EXPECT_EQ(quality.planned.held, 2);
   EXPECT_EQ(quality.tracked.screws, 2);
   EXPECT_EQ(quality.tracked.held, 1);
-  EXPECT_DOUBLE_EQ(quality.tracked.share(), 0.5);
+  EXPECT_DOUBLE_EQ(quality.tracked.fraction(), 0.5);
   EXPECT_EQ(quality.grades[0][0], 1);
   EXPECT_EQ(quality.grades[1][2], 1) << "expected B, in truth C";
   const auto json = clearance_json(quality);
   EXPECT_EQ(json["true_grades_by_likeliest"]["B"][2], 1);
-  EXPECT_EQ(ClearanceQuality{}.tracked.share(), 0.0);
+  EXPECT_EQ(ClearanceQuality{}.tracked.fraction(), 0.0);
 }
 
 }  // namespace

@@ -218,7 +218,7 @@ std::vector<float> floats_of(const std::string& path) {
 
 /// The device's table stands at integer pixel coordinates, ours at centres half a pixel on: the
 /// mean of the four around a centre; the last row and column are continued linearly.
-std::vector<Vec2> shifted_to_centres(const std::vector<float>& uv2xy, int width, int height) {
+std::vector<Vec2> moved_to_centres(const std::vector<float>& uv2xy, int width, int height) {
   const auto at = [&](int u, int v) {
     const auto i = 2 * static_cast<std::size_t>(v * width + u);
     return Vec2{static_cast<double>(uv2xy[i]), static_cast<double>(uv2xy[i + 1])};
@@ -245,7 +245,7 @@ TEST(CameraModel, TakesTheFactoryTableOfARealDevice) {
     }
     const std::vector<float> uv2xy = floats_of(path + "/uv2xy.bin");
     ASSERT_EQ(uv2xy.size(), 640u * 480u * 2u);
-    const auto model = CameraModel::from_lookup(640, 480, shifted_to_centres(uv2xy, 640, 480));
+    const auto model = CameraModel::from_lookup(640, 480, moved_to_centres(uv2xy, 640, 480));
     ASSERT_TRUE(model) << model.error().message;
     EXPECT_LT(worst_round_trip_px(*model), kInversePx);
     // Integer pixel (320, 240) of the device is the continuous pixel (320, 240) of ours.

@@ -56,7 +56,7 @@ constexpr double kRounding = 1e-14;  // a handful of double operations on number
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-const Transform<World, Rig> kTurned(rotation_from_vector({0.3, -1.1, 0.7}), {0.1, -2.0, 3.0});
+const Transform<World, Rig> kRotated(rotation_from_vector({0.3, -1.1, 0.7}), {0.1, -2.0, 3.0});
 
 std::array<double, 16> with(std::array<double, 16> matrix, std::size_t index, double value) {
   matrix[index] = value;
@@ -73,23 +73,23 @@ TEST(Transform, TakesCoordinatesInBToCoordinatesInA) {
 TEST(Transform, ComposesLikeItsPartsOneAfterTheOther) {
   const Transform<Rig, Marker> second(rotation_from_vector({-0.2, 0.5, 2.0}), {0.3, 0.2, -0.4});
   const Point<Marker> p{{0.7, -0.1, 0.2}};
-  EXPECT_LT(((kTurned * second) * p - kTurned * (second * p)).norm(), kRounding);
+  EXPECT_LT(((kRotated * second) * p - kRotated * (second * p)).norm(), kRounding);
 }
 
 TEST(Transform, InverseUndoesIt) {
-  const Transform<World, World> nothing = kTurned * kTurned.inverse();
+  const Transform<World, World> nothing = kRotated * kRotated.inverse();
   EXPECT_LT(rotation_angle_rad(nothing.rotation(), Mat3::identity()), kRounding);
   EXPECT_LT(nothing.translation().norm(), kRounding);
 }
 
 TEST(Transform, SurvivesRowMajorToTheBit) {
-  const auto back = Transform<World, Rig>::from_row_major(kTurned.row_major());
+  const auto back = Transform<World, Rig>::from_row_major(kRotated.row_major());
   ASSERT_TRUE(back.ok());
-  EXPECT_EQ(*back, kTurned);
+  EXPECT_EQ(*back, kRotated);
 }
 
 TEST(Transform, RefusesMirroredNonFiniteAndNonRigidNumbers) {
-  const auto good = kTurned.row_major();
+  const auto good = kRotated.row_major();
   const auto message = [](const std::array<double, 16>& matrix) {
     const auto result = Transform<World, Rig>::from_row_major(matrix);
     return result.ok() ? std::string("accepted") : result.error().message;
@@ -116,7 +116,7 @@ TEST(Transform, RefusesMirroredNonFiniteAndNonRigidNumbers) {
 }
 
 TEST(Transform, OrthonormalizesWhatAFileRoundedAndKeepsWhatIsExact) {
-  auto rounded = kTurned.row_major();
+  auto rounded = kRotated.row_major();
   for (double& entry : rounded) {
     entry = std::round(entry * 1e6) * 1e-6;
   }
@@ -124,8 +124,8 @@ TEST(Transform, OrthonormalizesWhatAFileRoundedAndKeepsWhatIsExact) {
   ASSERT_TRUE(result.ok());
   EXPECT_LT(orthonormality_error(result->rotation()), kRounding);
   constexpr double kSixDigits = 2e-6;
-  EXPECT_LT(rotation_angle_rad(result->rotation(), kTurned.rotation()), kSixDigits);
-  EXPECT_GT(rotation_angle_rad(result->rotation(), kTurned.rotation()), kRounding);
+  EXPECT_LT(rotation_angle_rad(result->rotation(), kRotated.rotation()), kSixDigits);
+  EXPECT_GT(rotation_angle_rad(result->rotation(), kRotated.rotation()), kRounding);
 }
 
 TEST(Transform, InterpolatesAtConstantVelocity) {

@@ -16,7 +16,7 @@ namespace {
 using orthonav::test::next_pair;
 
 constexpr int kPairs = 20;
-constexpr double kTurnRadPerS = 30.0 / kDegreesPerRadian;
+constexpr double kRotation_rad_s = 30.0 / kDegreesPerRadian;
 /// Where a pointer's tip is held: 0.45 m ahead of the head.
 constexpr Point<Rig> kTipInRig{{0.0, 0.0, -0.45}};
 /// 12.5 ms at 30 degrees a second are 6.5 mrad.
@@ -25,31 +25,31 @@ constexpr double kLateTipM = 0.00294;
 constexpr double kSingleM = 1e-6;
 
 Transform<World, Rig> head_at(Timestamp time) {
-  return {rotation_from_vector({0.0, kTurnRadPerS * seconds(time.time_since_epoch()), 0.0}),
+  return {rotation_from_vector({0.0, kRotation_rad_s * seconds(time.time_since_epoch()), 0.0}),
           {0.0, 1.6, 0.0}};
 }
 
 Timestamp pair_time(int n) { return Timestamp(std::chrono::seconds(1)) + Duration(33'333'300) * n; }
 
 /// A head that turns steadily and knows where it is at any time.
-class TurningHead final : public HeadTracker {
+class RotatingHead final : public HeadTracker {
   [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
     return {head_at(at), at, PoseStatus::kMeasured, {}};
   }
 };
 
-class TurningHeadset final : public ForwardingHeadset {
+class RotatingHeadset final : public ForwardingHeadset {
  public:
-  explicit TurningHeadset(std::unique_ptr<fake::FakeHeadset> inner)
+  explicit RotatingHeadset(std::unique_ptr<fake::FakeHeadset> inner)
       : ForwardingHeadset(*inner), inner_(std::move(inner)) {}
   [[nodiscard]] HeadTracker& head() override { return head_; }
 
  private:
   std::unique_ptr<fake::FakeHeadset> inner_;
-  TurningHead head_;
+  RotatingHead head_;
 };
 
-Result<std::unique_ptr<Headset>> turning_headset() {
+Result<std::unique_ptr<Headset>> rotating_headset() {
   fake::Script script;
   script.calibration = orthonav::test::scripted_calibration();
   for (int n = 0; n < kPairs; ++n) {
@@ -64,7 +64,7 @@ Result<std::unique_ptr<Headset>> turning_headset() {
     script.camera.insert(script.camera.end(), 10, Next::kNone);
   }
   return std::unique_ptr<Headset>(
-      std::make_unique<TurningHeadset>(std::make_unique<fake::FakeHeadset>(std::move(script))));
+      std::make_unique<RotatingHeadset>(std::make_unique<fake::FakeHeadset>(std::move(script))));
 }
 
 struct Errors {
@@ -79,7 +79,7 @@ Errors tip_errors(Duration asked_for) {
   ServerOptions served;
   served.first_port = 0;
   served.standin = false;  // as any other server
-  const auto server = Server::start(served, turning_headset);
+  const auto server = Server::start(served, rotating_headset);
   EXPECT_TRUE(server.ok()) << server.error().message;
   Hl2ssOptions options = (*server)->client_options();
   options.stamps_late = asked_for;

@@ -157,13 +157,13 @@ TEST(MapWatch, FindsAJumpOnceAndGoesOn) {
 }
 
 TEST(MapWatch, FindsAShiftOfSixCentimetres) {
-  for (const double shift_m : {0.06, 0.02}) {
+  for (const double translation_m : {0.06, 0.02}) {
     MapWatch watch;
     int moves = 0;
     for (int n = 0; n < 20; ++n) {
-      moves += watch.moved(pair_time(n), {Mat3::identity(), {n < 10 ? 0.0 : shift_m, 0, 0}});
+      moves += watch.moved(pair_time(n), {Mat3::identity(), {n < 10 ? 0.0 : translation_m, 0, 0}});
     }
-    EXPECT_EQ(moves, shift_m > 0.05 ? 1 : 0) << "the smaller one may be a head's start";
+    EXPECT_EQ(moves, translation_m > 0.05 ? 1 : 0) << "the smaller one may be a head's start";
   }
 }
 

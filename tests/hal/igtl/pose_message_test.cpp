@@ -21,7 +21,7 @@ using Buffer = std::vector<std::uint8_t>;
 constexpr double kFloat = 1e-6;
 
 /// A third of a turn about the diagonal: x to y, y to z, z to x; 100, 200, 300 mm away.
-constexpr TransformValues kTurned = {0, 1, 0, 0, 0, 1, 1, 0, 0, 100, 200, 300};
+constexpr TransformValues kRotated = {0, 1, 0, 0, 0, 1, 1, 0, 0, 100, 200, 300};
 
 Header header_of(const Buffer& message) {
   return parsed_header(std::span<const std::uint8_t, kHeaderBytes>(message.data(), kHeaderBytes))
@@ -40,7 +40,7 @@ std::string refusal(const Buffer& message) {
 
 Buffer transform(const TransformValues& values) { return packed({"ProbeToTracker", 0}, values); }
 
-void expect_turned(const SentPose& pose) {
+void expect_rotated(const SentPose& pose) {
   ASSERT_TRUE(pose.rig_from_marker);
   const Vec3 there = (*pose.rig_from_marker * Point<Marker>{{0.001, 0.002, 0.003}}).v;
   EXPECT_LT((there - Vec3{0.103, 0.201, 0.302}).norm(), kFloat);
@@ -74,11 +74,11 @@ Buffer with_metadata(Buffer message, const std::string& key, const std::string& 
 }
 
 TEST(IgtlPoses, ATransformIsReadByColumnsAndFromMillimetres) {
-  const auto poses = read(transform(kTurned));
+  const auto poses = read(transform(kRotated));
   ASSERT_TRUE(poses.ok()) << poses.error().message;
   ASSERT_EQ(poses->size(), 1u);
   EXPECT_EQ(poses->front().name, "ProbeToTracker");
-  expect_turned(poses->front());
+  expect_rotated(poses->front());
 }
 
 TEST(IgtlPoses, TrackingDataOfDebiansLibraryAreRead) {
@@ -95,7 +95,7 @@ TEST(IgtlPoses, TrackingDataOfDebiansLibraryAreRead) {
   ASSERT_TRUE(poses.ok()) << poses.error().message;
   ASSERT_EQ(poses->size(), 2u);
   EXPECT_EQ(poses->back().name, "ReferenceToTracker");
-  expect_turned(poses->back());
+  expect_rotated(poses->back());
 }
 
 TEST(IgtlPoses, QuaternionsOfDebiansLibraryAreRead) {
@@ -111,7 +111,7 @@ TEST(IgtlPoses, QuaternionsOfDebiansLibraryAreRead) {
   const auto poses = read(bytes);
   ASSERT_TRUE(poses.ok()) << poses.error().message;
   ASSERT_EQ(poses->size(), 1u);
-  expect_turned(poses->front());
+  expect_rotated(poses->front());
 
   element->SetQuaternion(0.5F, 0.5F, 0.5F, 0.9F);
   const auto longer = ::igtl::QuaternionTrackingDataMessage::New();
@@ -129,27 +129,27 @@ TEST(IgtlPoses, AnIdentityIsALostTool) {
 }
 
 TEST(IgtlPoses, MetadataSayThatAToolIsLost) {
-  const auto seen = read(with_metadata(transform(kTurned), "TransformStatus", "OK"));
+  const auto seen = read(with_metadata(transform(kRotated), "TransformStatus", "OK"));
   ASSERT_TRUE(seen.ok()) << seen.error().message;
-  expect_turned(seen->front());
-  const auto lost = read(with_metadata(transform(kTurned), "TransformStatus", "MISSING"));
+  expect_rotated(seen->front());
+  const auto lost = read(with_metadata(transform(kRotated), "TransformStatus", "MISSING"));
   ASSERT_TRUE(lost.ok());
   EXPECT_FALSE(lost->front().rig_from_marker);
-  const auto other = read(with_metadata(transform(kTurned), "ToolStatus", "MISSING"));
+  const auto other = read(with_metadata(transform(kRotated), "ToolStatus", "MISSING"));
   ASSERT_TRUE(other.ok());
   EXPECT_TRUE(other->front().rig_from_marker);
 }
 
 TEST(IgtlPoses, WhatIsNoRigidMotionIsRefusedByName) {
-  TransformValues values = kTurned;
+  TransformValues values = kRotated;
   values[6] = -1;
   EXPECT_THAT(refusal(transform(values)), HasSubstr("ProbeToTracker: transform mirrors"));
-  values = kTurned;
+  values = kRotated;
   values[1] = 1.002F;
   EXPECT_THAT(refusal(transform(values)), HasSubstr("is not rigid"));
   values[1] = 1.0001F;
   EXPECT_TRUE(read(transform(values)).ok()) << "a float's rounding";
-  values = kTurned;
+  values = kRotated;
   values[9] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT(refusal(transform(values)), HasSubstr("not finite"));
   values[9] = 20001.0F;
@@ -157,7 +157,7 @@ TEST(IgtlPoses, WhatIsNoRigidMotionIsRefusedByName) {
 }
 
 TEST(IgtlPoses, AMessageThatIsCutOrChangedIsRefused) {
-  Buffer changed = transform(kTurned);
+  Buffer changed = transform(kRotated);
   changed.back() ^= 1u;
   EXPECT_THAT(refusal(changed), HasSubstr("checksum"));
   std::fill(changed.begin() + 50, changed.begin() + kHeaderBytes, 0);
@@ -165,7 +165,7 @@ TEST(IgtlPoses, AMessageThatIsCutOrChangedIsRefused) {
   Buffer shorter = changed;
   shorter.pop_back();
   EXPECT_THAT(refusal(shorter), HasSubstr("47 bytes"));
-  Buffer broken = with_metadata(transform(kTurned), "TransformStatus", "OK");
+  Buffer broken = with_metadata(transform(kRotated), "TransformStatus", "OK");
   broken[kHeaderBytes + 4] = 0xff;  // metadata of gigabytes
   EXPECT_THAT(refusal(broken), HasSubstr("not within"));
 }

@@ -137,8 +137,8 @@ Transform<World, Eye> expected_viewer(const XrPosef& pose) {
   const auto& q = pose.orientation;
   const Vec3 v = {static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z)};
   const double angle = 2.0 * std::atan2(v.norm(), static_cast<double>(q.w));
-  const Vec3 turn = v.norm() > 0.0 ? v * (angle / v.norm()) : Vec3{};
-  return {rotation_from_vector(turn),
+  const Vec3 rotation_rad = v.norm() > 0.0 ? v * (angle / v.norm()) : Vec3{};
+  return {rotation_from_vector(rotation_rad),
           {static_cast<double>(pose.position.x), static_cast<double>(pose.position.y),
            static_cast<double>(pose.position.z)}};
 }

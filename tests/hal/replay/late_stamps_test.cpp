@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 
 constexpr std::int64_t kFrame = 333'333;  // ticks of 100 ns at 30 Hz
 constexpr std::int64_t kLate = 125'000;
-constexpr double kTurnRadPerS = 30.0 / kDegreesPerRadian;
+constexpr double kRotation_rad_s = 30.0 / kDegreesPerRadian;
 constexpr Point<Rig> kTipInRig{{0.0, 0.0, -0.45}};
 /// 12.5 ms at 30 degrees a second are 6.5 mrad.
 constexpr double kLateTipM = 0.00294;
@@ -31,7 +31,7 @@ constexpr double kNineDigitsM = 1e-6;
 
 /// So many ticks after the recording's start.
 Transform<World, Rig> head_at(std::int64_t ticks) {
-  return {rotation_from_vector({0.0, kTurnRadPerS * 1e-7 * static_cast<double>(ticks), 0.0}),
+  return {rotation_from_vector({0.0, kRotation_rad_s * 1e-7 * static_cast<double>(ticks), 0.0}),
           {0.0, 1.6, 0.0}};
 }
 
@@ -46,9 +46,9 @@ std::string pose_line(std::int64_t ticks) {
 }
 
 /// A head that turns by 30 degrees a second; each image was taken 12.5 ms before its stamp.
-class TurningRecording {
+class RotatingRecording {
  public:
-  TurningRecording() {
+  RotatingRecording() {
     std::string poses;
     for (int n = 0; n < 5; ++n) {
       poses += pose_line(kFrame * n);
@@ -84,20 +84,20 @@ class TurningRecording {
 };
 
 TEST(LateStamps, AreCorrectedInStreamRecordersFiles) {
-  const TurningRecording recording;
+  const RotatingRecording recording;
   EXPECT_LT(recording.tip_errors_m(RecordedStamps::kByRecorder).first, kNineDigitsM);
 }
 
 /// The control that must fail: as recorded, the tip is 3 mm off.
 TEST(LateStamps, CostThreeMillimetresWhereTheyAreTakenAsExact) {
-  const TurningRecording recording;
+  const RotatingRecording recording;
   const auto [most_m, least_m] = recording.tip_errors_m(RecordedStamps::kExact);
   EXPECT_NEAR(most_m, kLateTipM, 0.00002);
   EXPECT_NEAR(least_m, kLateTipM, 0.00002);
 }
 
 TEST(LateStamps, AreWhatTheFolderSays) {
-  const TurningRecording recording;
+  const RotatingRecording recording;
   recording.folder().write("device.csv", "key,value\nstamps_late_ns,0\n");
   EXPECT_NEAR(recording.tip_errors_m(RecordedStamps::kByRecorder).first, kLateTipM, 0.00002);
   recording.folder().write("device.csv", "key,value\nstamps_late_ns,12500000\n");
@@ -110,7 +110,7 @@ TEST(LateStamps, AreWhatTheFolderSays) {
 
 /// Depth cameras are not late: a picture stamped with a pair was taken 12.5 ms after it.
 TEST(LateStamps, AreTheFrontCamerasAlone) {
-  const TurningRecording recording;
+  const RotatingRecording recording;
   orthonav::test::DepthScene scene;
   scene.pictures = orthonav::test::DepthScene::located({kFrame});
   scene.write_stream_recorder(recording.folder().path(), "Depth AHaT");

@@ -63,14 +63,14 @@ struct TagScene {
 };
 
 /// A tag that faces the camera, upright in the image, then turned.
-Mat3 facing(Vec3 turn_rad) {
+Mat3 facing(Vec3 rotation_rad) {
   const Mat3 upright = {{{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}};
-  return rotation_from_vector(turn_rad) * upright;
+  return rotation_from_vector(rotation_rad) * upright;
 }
 
 /// The mean offset, outwards, of one side of the border in the image from where it should be;
-/// `shift_px` moves the expectation (for must-fail twins). Side k runs from corner k to k + 1.
-double side_offset_px(const TagScene& s, const GreyImage& image, int side, double shift_px = 0.0) {
+/// `offset_px` moves the expectation (for must-fail twins). Side k runs from corner k to k + 1.
+double side_offset_px(const TagScene& s, const GreyImage& image, int side, double offset_px = 0.0) {
   const double h = s.room.tools[0].size_m / 2;
   const std::array<Vec2, 5> corners = {{{-h, -h}, {h, -h}, {h, h}, {-h, h}, {-h, -h}}};
   const Vec2 a = corners[static_cast<std::size_t>(side)];
@@ -111,14 +111,14 @@ double side_offset_px(const TagScene& s, const GreyImage& image, int side, doubl
       dark_px += (white - grey(i)) / (white - black);
     }
     const double measured = outward > 0 ? centre - kReach + dark_px : centre + kReach + 1 - dark_px;
-    sum += outward * (measured - expected) - shift_px;
+    sum += outward * (measured - expected) - offset_px;
     ++count;
   }
   return sum / count;
 }
 
 struct EdgePose {
-  Vec3 turn_rad;
+  Vec3 rotation_rad;
   Vec3 at_m;
 };
 
@@ -129,7 +129,7 @@ const std::vector<EdgePose> kEdgePoses = {{{0, 0, 0.10}, {0.01, 0.02, 0.42}},
 
 TEST(RenderedTag, EdgesLieWhereTheyProject) {
   for (const EdgePose& pose : kEdgePoses) {
-    const TagScene s(0.07, facing(pose.turn_rad), pose.at_m);
+    const TagScene s(0.07, facing(pose.rotation_rad), pose.at_m);
     const GreyImage image = s.left(perfect_camera());
     for (int side = 0; side < 4; ++side) {
       EXPECT_LT(std::abs(side_offset_px(s, image, side)), kEdgeBiasPx)
@@ -139,7 +139,7 @@ TEST(RenderedTag, EdgesLieWhereTheyProject) {
 }
 
 TEST(RenderedTag, EdgesTwoHundredthsOffAreCaught) {
-  const TagScene s(0.07, facing(kEdgePoses[1].turn_rad), kEdgePoses[1].at_m);
+  const TagScene s(0.07, facing(kEdgePoses[1].rotation_rad), kEdgePoses[1].at_m);
   const GreyImage image = s.left(perfect_camera());
   for (int side = 0; side < 4; ++side) {
     EXPECT_GT(std::abs(side_offset_px(s, image, side, 0.02)), kEdgeBiasPx);
@@ -159,7 +159,7 @@ TEST(RenderedTag, BlurLeavesEdgesInPlace) {
 
 TEST(RenderedTag, AprilTagFindsItsCornersWhereTheyAre) {
   for (const EdgePose& pose : kEdgePoses) {
-    const TagScene s(0.07, facing(pose.turn_rad), pose.at_m);
+    const TagScene s(0.07, facing(pose.rotation_rad), pose.at_m);
     const auto found = scene::detect(s.left(ErrorModel{}));
     ASSERT_EQ(found.size(), 1u);
     ASSERT_TRUE(found.contains(3));

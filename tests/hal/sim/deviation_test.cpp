@@ -66,7 +66,8 @@ TEST(ReadDeviation, IsThatOfTheDirectionsWhereverTheTipStands) {
       const auto reading = read(frame_of(tool));
       ASSERT_TRUE(reading) << lean_deg;
       // About the axis that takes the tool, which leans towards x, onto y.
-      EXPECT_LT((reading->turn - Vec3{0, 0, lean_deg * kDeg}).norm(), kRounding_rad) << lean_deg;
+      EXPECT_LT((reading->rotation_rad - Vec3{0, 0, lean_deg * kDeg}).norm(), kRounding_rad)
+          << lean_deg;
     }
   }
 }
@@ -75,7 +76,7 @@ TEST(ReadDeviation, IsNotTheAngleOfTheTriangle) {
   const ShownFrame frame = frame_of({0.0, {0.003, 0, 0}, 0.0});
   const auto reading = read(frame);
   ASSERT_TRUE(reading);
-  EXPECT_LT(reading->turn.norm(), kRounding_rad);
+  EXPECT_LT(reading->rotation_rad.norm(), kRounding_rad);
   EXPECT_GT(angle_of_triangle_rad(frame), 2.0 * kDeg) << "or this shows nothing";
 }
 
@@ -104,7 +105,7 @@ TEST(ReadDeviation, IsNothingWhereAPartIsMissingOrNoNumber) {
       broken.holograms[hologram].points_in_world[point].v.x =
           std::numeric_limits<double>::quiet_NaN();
       const auto reading = read(broken);
-      EXPECT_TRUE(!reading || reading->turn.is_finite()) << hologram << " " << point;
+      EXPECT_TRUE(!reading || reading->rotation_rad.is_finite()) << hologram << " " << point;
     }
   }
 }

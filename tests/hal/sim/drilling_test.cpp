@@ -61,7 +61,7 @@ double rms_rad(const ErrorModel& model, GuidanceProfile guidance, int seeds) {
   return std::sqrt(squares / count);
 }
 
-ErrorModel turning_hands() {
+ErrorModel rotating_hands() {
   ErrorModel model = ErrorModel::perfect();
   model.hand_drilling_rad = 0.028;
   model.hand_drilling_corrected_rad = 0.014;
@@ -73,19 +73,18 @@ constexpr int kSeeds = 8;
 constexpr double kWithin = 0.27;
 
 TEST(DrillingSurgeon, TurnsTheWireByTheMagnitudeWhereNothingIsCorrected) {
-  const double rms = rms_rad(turning_hands(), GuidanceProfile::kNumbers, kSeeds);
+  const double rms = rms_rad(rotating_hands(), GuidanceProfile::kNumbers, kSeeds);
   EXPECT_NEAR(rms, 0.028, kWithin * 0.028);
 }
 
 TEST(DrillingSurgeon, CorrectsByTheNumbersWhileTheWireGoesIn) {
-  const double rms = rms_rad(turning_hands(), GuidanceProfile::kClosedLoop, kSeeds);
+  const double rms = rms_rad(rotating_hands(), GuidanceProfile::kClosedLoop, kSeeds);
   EXPECT_NEAR(rms, 0.014, kWithin * 0.014);
-  // With everything visible, correcting alone leaves 0.46 of the hand's turn, however large that
-  // is.
-  ErrorModel seen = turning_hands();
+  // Nothing unseen: correcting alone leaves 0.46 of the hand's turn, however large that is.
+  ErrorModel seen = rotating_hands();
   seen.hand_drilling_corrected_rad = left_by_correcting() * seen.hand_drilling_rad;
   const double corrected = rms_rad(seen, GuidanceProfile::kClosedLoop, kSeeds);
-  EXPECT_LT(corrected, 0.7 * rms_rad(turning_hands(), GuidanceProfile::kNumbers, kSeeds));
+  EXPECT_LT(corrected, 0.7 * rms_rad(rotating_hands(), GuidanceProfile::kNumbers, kSeeds));
 }
 
 TEST(DrillingSurgeon, AHandOnABackThatBreathesTurnsTheToolInABoneThatBreathesLess) {

@@ -261,7 +261,7 @@ Transform<Room, Vertebra> FakeEngine::room_from_vertebra(const std::string& labe
 
 Transform<Room, Vertebra> FakeEngine::room_from_shown(const std::string& label) const {
   const Transform<Room, Vertebra> truth = room_from_vertebra(label);
-  return {rotation_from_vector(options_.registration_turn_rad) * truth.rotation(),
+  return {rotation_from_vector(options_.registration_rotation_rad) * truth.rotation(),
           truth.translation() + options_.registration_error_m};
 }
 

@@ -26,8 +26,8 @@ struct EngineOptions {
   int refusals = 0;           ///< of each level, before it is accepted
   Vec3 registration_error_m;  ///< shifts every hologram of the bone, in Room
   /// Turns them about the vertebra's origin, before the shift; a rotation vector in Room.
-  Vec3 registration_turn_rad;
-  /// A deliberate leak: the surgeon perceives the true bones, whatever the engine knows.
+  Vec3 registration_rotation_rad;
+  /// A leak, planted: the surgeon perceives the bones as they are, whatever the engine knows.
   bool peeks = false;
   double blind_from_s = 0.0;  ///< the tools are lost in this span of time
   double blind_to_s = 0.0;

@@ -29,8 +29,8 @@ TEST(PerturbedCalibration, IsOffByItsMagnitudes) {
   only_rig.calibration_rotation_rad = 0.0008;
   only_rig.calibration_baseline_m = 0.0002;
   double centre = 0.0;
-  double turn = 0.0;
-  double shift = 0.0;
+  double rotation = 0.0;
+  double translation = 0.0;
   constexpr int kSeeds = 40;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const auto moved = perturbed(reported, only_centre, Random(seed));
@@ -38,19 +38,19 @@ TEST(PerturbedCalibration, IsOffByItsMagnitudes) {
     const auto pixel = moved->left.project(forward);
     ASSERT_TRUE(pixel.has_value());
     centre += (*pixel - *middle).dot(*pixel - *middle);
-    const auto turned = perturbed(reported, only_rig, Random(seed));
-    ASSERT_TRUE(turned.ok());
-    turn += std::pow(
-        rotation_angle_rad(turned->right_from_rig.rotation(), reported.right_from_rig.rotation()),
+    const auto erring = perturbed(reported, only_rig, Random(seed));
+    ASSERT_TRUE(erring.ok());
+    rotation += std::pow(
+        rotation_angle_rad(erring->right_from_rig.rotation(), reported.right_from_rig.rotation()),
         2);
-    shift += (turned->right_from_rig.inverse().translation() -
-              reported.right_from_rig.inverse().translation())
-                 .squared_norm();
+    translation += (erring->right_from_rig.inverse().translation() -
+                    reported.right_from_rig.inverse().translation())
+                       .squared_norm();
   }
   // Four standard errors of an SD from 40 draws of two or three axes.
   EXPECT_NEAR(std::sqrt(centre / kSeeds / 2), 0.3, 0.1);
-  EXPECT_NEAR(std::sqrt(turn / kSeeds / 3), 0.0008, 0.00021);
-  EXPECT_NEAR(std::sqrt(shift / kSeeds / 3), 0.0002, 0.000052);
+  EXPECT_NEAR(std::sqrt(rotation / kSeeds / 3), 0.0008, 0.00021);
+  EXPECT_NEAR(std::sqrt(translation / kSeeds / 3), 0.0002, 0.000052);
 }
 
 TEST(PerturbedCalibration, ZoomMovesTheEdgeAndKeepsTheMiddle) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kOff_m = 0.003;
-constexpr double kTurned_rad = 3.0 * kDeg;
+constexpr double kRotation_rad = 3.0 * kDeg;
 /// The numbers of a closed loop are rounded up to tenths, and a tip within 0.4 mm is left.
 constexpr double kFollowed_m = 0.0008;
 constexpr double kFollowed_rad = 0.3 * kDeg;
@@ -30,7 +30,7 @@ Misses of_holograms(GuidanceProfile guidance, bool peeks) {
   auto headset = SimHeadset::open(test_case.room, options);
   EngineOptions wrong;
   wrong.registration_error_m = {0.0, 0.0, kOff_m};
-  wrong.registration_turn_rad = {0.0, 0.0, kTurned_rad};
+  wrong.registration_rotation_rad = {0.0, 0.0, kRotation_rad};
   wrong.peeks = peeks;
   FakeEngine engine(**headset, test_case, wrong);
   EXPECT_GT(engine.run(), 0);

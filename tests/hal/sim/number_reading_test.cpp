@@ -35,10 +35,10 @@ SpokenDirections straight_in(Side side) {
 TEST(SpokenDirections, PointToTheMidlineFromEitherSideOfATurnedPatient) {
   EXPECT_LT((straight_in(Side::kLeft).medial - Vec3{-1, 0, 0}).norm(), kRounding);
   EXPECT_LT((straight_in(Side::kRight).medial - Vec3{1, 0, 0}).norm(), kRounding);
-  const Mat3 turned = rotation_from_vector({0.4, 1.9, -0.7});
-  const auto d = spoken_directions({turned, {}}, Side::kLeft, turned * Vec3{0, 1, 0});
-  EXPECT_LT((d.medial - turned * Vec3{-1, 0, 0}).norm(), kRounding);
-  EXPECT_LT((d.cranial - turned * Vec3{0, 0, 1}).norm(), kRounding);
+  const Mat3 rotated = rotation_from_vector({0.4, 1.9, -0.7});
+  const auto d = spoken_directions({rotated, {}}, Side::kLeft, rotated * Vec3{0, 1, 0});
+  EXPECT_LT((d.medial - rotated * Vec3{-1, 0, 0}).norm(), kRounding);
+  EXPECT_LT((d.cranial - rotated * Vec3{0, 0, 1}).norm(), kRounding);
 }
 
 TEST(ReadNumbers, SaysWhereTheTipIsAndWhichTurnTakesTheAimBack) {
@@ -47,8 +47,9 @@ TEST(ReadNumbers, SaysWhereTheTipIsAndWhichTurnTakesTheAimBack) {
   ASSERT_TRUE(reading);
   EXPECT_LT((reading->tip_offset_m - Vec3{0.0008, 0, 0.0012}).norm(), kRounding);
   const Vec3 aim{0, -std::cos(3.0 * kDeg), std::sin(3.0 * kDeg)};
-  EXPECT_LT((rotation_from_vector(reading->deviation.turn) * aim - d.inward).norm(), kRounding);
-  EXPECT_EQ(read({0, 0, 0, 0}, d)->deviation.turn.norm(), 0.0);
+  EXPECT_LT((rotation_from_vector(reading->deviation.rotation_rad) * aim - d.inward).norm(),
+            kRounding);
+  EXPECT_EQ(read({0, 0, 0, 0}, d)->deviation.rotation_rad.norm(), 0.0);
 }
 
 TEST(ReadNumbers, IsNothingWhereOneIsMissing) {

@@ -125,13 +125,13 @@ TEST(SpineMotion, GoesItsWholeWayAboutItsMean) {
 }
 
 TEST(SpineMotion, IsGreatestInTheLowerThoracicSpineAndLessInLumbarLevels) {
-  EXPECT_EQ(share_of_breath("T11"), 1.0);
-  EXPECT_NEAR(share_of_breath("L1"), 1.6 / 1.96, 1e-12);
-  EXPECT_NEAR(share_of_breath("L3"), 1.45 / 1.96, 1e-12);
-  EXPECT_NEAR(share_of_breath("L5"), 1.3 / 1.96, 1e-12);
-  EXPECT_EQ(share_of_breath("S1"), 0.5);
-  EXPECT_LT(share_of_breath("T1"), share_of_breath("T9"));
-  EXPECT_EQ(share_of_breath("bone"), 1.0);
+  EXPECT_EQ(fraction_of_breath("T11"), 1.0);
+  EXPECT_NEAR(fraction_of_breath("L1"), 1.6 / 1.96, 1e-12);
+  EXPECT_NEAR(fraction_of_breath("L3"), 1.45 / 1.96, 1e-12);
+  EXPECT_NEAR(fraction_of_breath("L5"), 1.3 / 1.96, 1e-12);
+  EXPECT_EQ(fraction_of_breath("S1"), 0.5);
+  EXPECT_LT(fraction_of_breath("T1"), fraction_of_breath("T9"));
+  EXPECT_EQ(fraction_of_breath("bone"), 1.0);
 }
 
 TEST(MapDrift, StepsAsOftenAndAsFarAsToldAndLeavesTheWalkAsItWas) {

@@ -15,7 +15,7 @@ TEST(Reference, StaysOnThePatientAllTheOperation) {
   ASSERT_TRUE(headset.ok()) << headset.error().message;
   FakeEngine engine(**headset, test_case);
   std::optional<Transform<Spine, Marker>> first;
-  double head_turned_rad = 0.0;
+  double head_rotation_rad = 0.0;
   std::optional<Mat3> first_head;
   engine.on_frame = [&](const StereoFrame&, const StepOnDisplay&) {
     const RoomState state = (*headset)->state();
@@ -32,11 +32,11 @@ TEST(Reference, StaysOnThePatientAllTheOperation) {
     }
     EXPECT_LT((spine_from_marker.translation() - first->translation()).norm(), 1e-12);
     EXPECT_LT(rotation_angle_rad(spine_from_marker.rotation(), first->rotation()), 1e-7);
-    head_turned_rad =
-        std::max(head_turned_rad, rotation_angle_rad(state.room_from_rig.rotation(), *first_head));
+    head_rotation_rad = std::max(head_rotation_rad,
+                                 rotation_angle_rad(state.room_from_rig.rotation(), *first_head));
   };
   ASSERT_GT(engine.run(), 0);
-  EXPECT_GT(head_turned_rad, 0.3) << "the head must have moved, or this shows nothing";
+  EXPECT_GT(head_rotation_rad, 0.3) << "the head must have moved, or this shows nothing";
 }
 
 /// The tip of the wires' truth in the bone, and where reference and bone came to lie.

@@ -104,18 +104,18 @@ TEST(SimHeadset, ReportedHeadPoseHasTheNoiseOfItsMagnitudes) {
   options.error_model.head_pose_noise_m = 0.001;
   options.error_model.head_pose_noise_rad = 0.002;
   const auto headset = opened(options);
-  double shift = 0.0;
-  double turn = 0.0;
+  double translation = 0.0;
+  double rotation = 0.0;
   constexpr int kFrames = 3000;
   for (int i = 0; i < kFrames; ++i) {
     const StereoFrame frame = next_frame(*headset);
     const auto truth = headset->world_from_room() * headset->state().room_from_rig;
-    shift += (frame.world_from_rig->translation() - truth.translation()).squared_norm();
-    turn += std::pow(rotation_angle_rad(frame.world_from_rig->rotation(), truth.rotation()), 2);
+    translation += (frame.world_from_rig->translation() - truth.translation()).squared_norm();
+    rotation += std::pow(rotation_angle_rad(frame.world_from_rig->rotation(), truth.rotation()), 2);
   }
   // Five standard errors of a variance from 9,000 draws: 5·sqrt(2/9000) = 7.5 %, half of it here.
-  EXPECT_NEAR(std::sqrt(shift / kFrames / 3), 0.001, 0.00004);
-  EXPECT_NEAR(std::sqrt(turn / kFrames / 3), 0.002, 0.00008);
+  EXPECT_NEAR(std::sqrt(translation / kFrames / 3), 0.001, 0.00004);
+  EXPECT_NEAR(std::sqrt(rotation / kFrames / 3), 0.002, 0.00008);
 }
 
 TEST(SimHeadset, HeadSwaysAndMapDriftsByTheirMagnitudes) {

@@ -9,7 +9,7 @@
 namespace orthonav::sim {
 namespace {
 
-RoomLevel shifted(RoomLevel level, Vec3 by) {
+RoomLevel translated(RoomLevel level, Vec3 by) {
   for (Vec3& vertex : level.vertices_m) {
     vertex += by;
   }
@@ -53,7 +53,7 @@ void expect_the_same_strokes(const RoomLevel& level, Vec3 by) {
   // Rounding may move a line's end by a cell of the map or two.
   constexpr double kCells_m = 0.001;
   const auto here = plan_strokes(level);
-  const auto there = plan_strokes(shifted(level, by));
+  const auto there = plan_strokes(translated(level, by));
   ASSERT_GT(length_m(here), 0.5);
   EXPECT_EQ(there.size(), here.size());
   EXPECT_NEAR(length_m(there), length_m(here), 0.01 * length_m(here));
@@ -103,7 +103,7 @@ TEST(StrokePlan, DoesNotDependOnARealModelsOrigin) {
 TEST(StrokePlan, CoversBothSidesOfAModelAwayFromItsOrigin) {
   double left = -1.0;
   double right = 1.0;
-  const auto regions = plan_strokes(shifted(synthetic_level("L4", 0.0), {0.090, 0.0, 0.0}));
+  const auto regions = plan_strokes(translated(synthetic_level("L4", 0.0), {0.090, 0.0, 0.0}));
   for (const Vec3 spot : spots_of(regions)) {
     left = std::max(left, spot.x - 0.090);
     right = std::min(right, spot.x - 0.090);

@@ -31,9 +31,9 @@ ShownScrew shown(const FakeEngine& engine, const BoneSurface& bone, const TestSc
 }
 
 struct OffBy {
-  Vec3 shift_m;
-  Vec3 turn_rad;
-  double least_entry_m;    ///< the least distance by which every wire misses its plan
+  Vec3 translation_m;
+  Vec3 rotation_rad;
+  double least_entry_m;    ///< by which every wire misses its plan
   double least_angle_rad;  ///< likewise; a turn tilts what is not parallel to it
 };
 
@@ -64,8 +64,8 @@ TEST(Surgeon, FollowsTheHologramsAndNotThePlan) {
     auto headset = SimHeadset::open(test_case.room, without_pixels(2, ErrorModel::perfect()));
     ASSERT_TRUE(headset.ok()) << headset.error().message;
     EngineOptions options;
-    options.registration_error_m = off.shift_m;
-    options.registration_turn_rad = off.turn_rad;
+    options.registration_error_m = off.translation_m;
+    options.registration_rotation_rad = off.rotation_rad;
     FakeEngine engine(**headset, test_case, options);
     ASSERT_GT(engine.run(), 0);
     expect_followed(engine, test_case, (*headset)->truth(), off);

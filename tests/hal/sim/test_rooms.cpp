@@ -85,9 +85,9 @@ RoomLevel synthetic_level(const std::string& label, double z_in_spine_m) {
   level.spine_from_vertebra = {rotation_from_vector({0.1, 0.0, 0.0}), {0, 0, z_in_spine_m}};
   const auto vertex = [](double ring, double slice) {
     const double polar = std::numbers::pi * ring / kRings;
-    const double turn = 2.0 * std::numbers::pi * slice / kSlices;
-    const Vec3 direction{std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn),
-                         std::cos(polar)};
+    const double angle_rad = 2.0 * std::numbers::pi * slice / kSlices;
+    const Vec3 direction{std::sin(polar) * std::cos(angle_rad),
+                         std::sin(polar) * std::sin(angle_rad), std::cos(polar)};
     return radius_m(direction) * direction;
   };
   level.vertices_m.push_back(vertex(0, 0));

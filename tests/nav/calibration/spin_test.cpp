@@ -23,10 +23,11 @@ std::vector<Pose> spinning(double range_rad, double noise_rad, Random& random, i
   const Mat3 first = rotation_from_vector({0.3, 0.2, -0.5});
   std::vector<Pose> poses;
   for (int i = 0; i < count; ++i) {
-    const double turn = range_rad * (std::abs(std::fmod(0.037 * i, 2.0) - 1.0) - 0.5);
+    const double angle_rad = range_rad * (std::abs(std::fmod(0.037 * i, 2.0) - 1.0) - 0.5);
     const Vec3 noise{random.normal(0, noise_rad), random.normal(0, noise_rad),
                      random.normal(0, noise_rad)};
-    const Mat3 rotation = rotation_from_vector(noise) * first * rotation_from_vector(turn * kAxis);
+    const Mat3 rotation =
+        rotation_from_vector(noise) * first * rotation_from_vector(angle_rad * kAxis);
     poses.emplace_back(rotation, Vec3{0.4, 1.1, -0.6} - rotation * kTip.v);
   }
   return poses;

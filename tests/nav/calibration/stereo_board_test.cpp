@@ -58,24 +58,25 @@ std::vector<BoardView> views(int count, Random& random, double noise_px = kNoise
                              const Chessboard& board = kBoard, const Cameras& cameras = {}) {
   std::vector<BoardView> all;
   while (static_cast<int>(all.size()) < count) {
-    const Mat3 turn = rotation_from_vector(
+    const Mat3 rotation = rotation_from_vector(
         {random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), random.uniform(-0.4, 0.4)});
     const Vec3 middle{random.uniform(-0.25, 0.25), random.uniform(-0.2, 0.2),
                       random.uniform(0.25, 0.5)};
     const Vec3 half{0.5 * board.square_m * (board.columns - 1),
                     0.5 * board.square_m * (board.rows - 1), 0};
-    if (const auto view = view_of(board, cameras, {turn, middle - turn * half}, noise_px, random)) {
+    if (const auto view =
+            view_of(board, cameras, {rotation, middle - rotation * half}, noise_px, random)) {
       all.push_back(*view);
     }
   }
   return all;
 }
 
-double turned_rad(const StereoBoardCalibration& found, const Cameras& cameras) {
+double rotation_off_rad(const StereoBoardCalibration& found, const Cameras& cameras) {
   return rotation_angle_rad(found.right_from_left.rotation(), cameras.right_from_left.rotation());
 }
 
-double shifted_m(const StereoBoardCalibration& found, const Cameras& cameras) {
+double translation_off_m(const StereoBoardCalibration& found, const Cameras& cameras) {
   return (found.right_from_left.translation() - cameras.right_from_left.translation()).norm();
 }
 
@@ -90,14 +91,14 @@ TEST(StereoBoard, FindsCamerasExactlyWithoutNoise) {
   EXPECT_NEAR(found->left.cx_px, 324.0, 0.01);
   EXPECT_NEAR(found->right.cy_px, 243.0, 0.01);
   EXPECT_NEAR(found->right.k1, -0.038, 1e-3);
-  EXPECT_LT(turned_rad(*found, cameras), 1e-4);
-  EXPECT_LT(shifted_m(*found, cameras), 1e-5);
+  EXPECT_LT(rotation_off_rad(*found, cameras), 1e-4);
+  EXPECT_LT(translation_off_m(*found, cameras), 1e-5);
 }
 
 TEST(StereoBoard, PredictsItsOwnErrors) {
   const Cameras cameras;
-  double turned = 0.0;
-  double turned_sigma = 0.0;
+  double rotation_off = 0.0;
+  double rotation_sigma = 0.0;
   double baseline = 0.0;
   double baseline_sigma = 0.0;
   constexpr int kTrials = 8;
@@ -109,14 +110,14 @@ TEST(StereoBoard, PredictsItsOwnErrors) {
     EXPECT_NEAR(found->epipolar_rms_px, kNoisePx * std::sqrt(2.0), 0.03);
     EXPECT_EQ(found->judgement.verdict, Verdict::kPass) << found->judgement.reason;
     ASSERT_TRUE(found->sigma.has_value());
-    turned += std::pow(turned_rad(*found, cameras), 2);
-    turned_sigma += std::pow(found->sigma->rotation_rad, 2);
+    rotation_off += std::pow(rotation_off_rad(*found, cameras), 2);
+    rotation_sigma += std::pow(found->sigma->rotation_rad, 2);
     baseline += std::pow(found->baseline_m() - cameras.right_from_left.translation().norm(), 2);
     baseline_sigma += std::pow(found->sigma->baseline_m, 2);
   }
   // Eight draws of few numbers, and a jackknife that is itself rough: within a factor of two.
-  EXPECT_GT(turned / turned_sigma, 0.25);
-  EXPECT_LT(turned / turned_sigma, 4.0);
+  EXPECT_GT(rotation_off / rotation_sigma, 0.25);
+  EXPECT_LT(rotation_off / rotation_sigma, 4.0);
   EXPECT_GT(baseline / baseline_sigma, 0.25);
   EXPECT_LT(baseline / baseline_sigma, 4.0);
 }
@@ -136,7 +137,7 @@ TEST(StereoBoard, LeavesOutViewsWithMistakesAndNamesThem) {
     EXPECT_EQ(found->views[i].used, i != 4 && i != 9) << i;
   }
   EXPECT_GT(found->views[4].right_rms_px, 1.0);
-  EXPECT_LT(turned_rad(*found, cameras), 0.004);
+  EXPECT_LT(rotation_off_rad(*found, cameras), 0.004);
   EXPECT_EQ(found->judgement.verdict, Verdict::kNote);
   EXPECT_THAT(found->judgement.reason, HasSubstr("2 views left out"));
 
@@ -176,7 +177,7 @@ TEST(StereoBoard, TakesABoardThatLooksTheSameTurned) {
   const auto found = calibrate_stereo(even, kSize, all);
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_LT(found->stereo_rms_px, 0.2);
-  EXPECT_LT(turned_rad(*found, upright), 0.005);
+  EXPECT_LT(rotation_off_rad(*found, upright), 0.005);
 }
 
 TEST(StereoBoard, RefusesWhatCannotBeCalibrated) {
@@ -256,12 +257,13 @@ TEST(FindChessboard, GivesTheSameCornersFirstHoweverTheBoardIsTurned) {
   // to be found, would be 0.7 px.
   constexpr double kCornerRmsPx = 0.06;
   const Cameras cameras;
-  for (const double turn_rad : {0.0, 1.2, 3.0, -1.8}) {
-    const Mat3 turn = rotation_from_vector({0.3, 0, 0}) * rotation_from_vector({0, -0.2, turn_rad});
+  for (const double rotation_rad : {0.0, 1.2, 3.0, -1.8}) {
+    const Mat3 rotation =
+        rotation_from_vector({0.3, 0, 0}) * rotation_from_vector({0, -0.2, rotation_rad});
     const Vec3 half{0.1, 0.0625, 0};
-    const Transform<LeftCamera, Board> pose{turn, Vec3{0.01, -0.01, 0.35} - turn * half};
+    const Transform<LeftCamera, Board> pose{rotation, Vec3{0.01, -0.01, 0.35} - rotation * half};
     const auto found = find_chessboard(picture_of_board(kBoard, cameras.left, pose), kBoard);
-    ASSERT_TRUE(found.has_value()) << turn_rad;
+    ASSERT_TRUE(found.has_value()) << rotation_rad;
     ASSERT_THAT(*found, SizeIs(54));
     double squared = 0.0;
     for (std::size_t i = 0; i < 54; ++i) {
@@ -270,7 +272,7 @@ TEST(FindChessboard, GivesTheSameCornersFirstHoweverTheBoardIsTurned) {
           found->at(i) - seen(cameras.left, (pose * Point<Board>{{place.x, place.y, 0}}).v);
       squared += off.dot(off) / 54;
     }
-    EXPECT_LT(std::sqrt(squared), kCornerRmsPx) << "turned by " << turn_rad;
+    EXPECT_LT(std::sqrt(squared), kCornerRmsPx) << "turned by " << rotation_rad;
   }
 }
 
@@ -278,8 +280,9 @@ TEST(FindChessboard, FindsNothingWhereThereIsNoBoard) {
   EXPECT_FALSE(find_chessboard(GreyImage(320, 240, 128), kBoard).has_value());
   EXPECT_FALSE(find_chessboard(GreyImage(), kBoard).has_value());
   EXPECT_FALSE(find_chessboard(GreyImage(1, 1), kBoard).has_value());
-  const Mat3 turn = rotation_from_vector({0.3, 0, 0});
-  const auto other = picture_of_board({7, 5, 0.025}, Cameras{}.left, {turn, {-0.08, -0.05, 0.4}});
+  const Mat3 rotation = rotation_from_vector({0.3, 0, 0});
+  const auto other =
+      picture_of_board({7, 5, 0.025}, Cameras{}.left, {rotation, {-0.08, -0.05, 0.4}});
   EXPECT_FALSE(find_chessboard(other, kBoard).has_value()) << "another board";
 }
 

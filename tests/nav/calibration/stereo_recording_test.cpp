@@ -55,12 +55,12 @@ std::vector<PairSightings> seen(const test::TagBodyScene& cameras, int pairs, st
 
 TEST(StereoRecording, FindsByHowMuchTheRightCameraIsOff) {
   // 0.6 px across the lines, as a real unit was.
-  const Vec3 turn{0.0004, 0.6 / 360.0, -0.0003};
-  const Vec3 shift{0.0001, -0.0002, 0.00005};
-  double turn_off = 0.0;
-  double turn_sigma = 0.0;
+  const Vec3 rotation{0.0004, 0.6 / 360.0, -0.0003};
+  const Vec3 translation{0.0001, -0.0002, 0.00005};
+  double rotation_off = 0.0;
+  double rotation_sigma = 0.0;
   constexpr int kTrials = 6;
-  const test::TagBodyScene cameras = scene(turn, shift);
+  const test::TagBodyScene cameras = scene(rotation, translation);
   for (int trial = 0; trial < kTrials; ++trial) {
     const auto found = calibrate_stereo(cameras.calibration, board(),
                                         seen(cameras, 40, static_cast<std::uint64_t>(trial)));
@@ -75,15 +75,15 @@ TEST(StereoRecording, FindsByHowMuchTheRightCameraIsOff) {
     EXPECT_GT(found->epipolar_before_px, 0.5);
     // One coordinate of the right corner, and the left corner's along with it.
     EXPECT_NEAR(found->epipolar_after_px, std::sqrt(2.0) * kNoisePx, 0.01);
-    EXPECT_LT((found->translation_m - shift).norm(), 4.0 * found->translation_sigma_m);
+    EXPECT_LT((found->translation_m - translation).norm(), 4.0 * found->translation_sigma_m);
     EXPECT_EQ(found->judgement.verdict, Verdict::kNote);
     EXPECT_THAT(found->judgement.reason, HasSubstr("the device's calibration is off by 0."));
-    turn_off += (found->rotation_rad - turn).squared_norm();
-    turn_sigma += found->rotation_sigma_rad * found->rotation_sigma_rad;
+    rotation_off += (found->rotation_rad - rotation).squared_norm();
+    rotation_sigma += found->rotation_sigma_rad * found->rotation_sigma_rad;
   }
   // 18 numbers, and the larger of two estimates is told: within a factor of two.
-  EXPECT_LT(turn_off / turn_sigma, 2.0);
-  EXPECT_GT(turn_off / turn_sigma, 0.2);
+  EXPECT_LT(rotation_off / rotation_sigma, 2.0);
+  EXPECT_GT(rotation_off / rotation_sigma, 0.2);
 }
 
 TEST(StereoRecording, LeavesAGoodCalibrationAlone) {

@@ -37,11 +37,11 @@ std::string refusal(const test::TagBodyScene& scene, std::span<const PairSightin
   return body ? std::string() : body.error().message;
 }
 
-double shift_m(const BodyTag& tag, const Transform<Marker, Tag>& truth) {
+double translation_off_m(const BodyTag& tag, const Transform<Marker, Tag>& truth) {
   return (tag.marker_from_tag.translation() - truth.translation()).norm();
 }
 
-double turn_rad(const BodyTag& tag, const Transform<Marker, Tag>& truth) {
+double rotation_off_rad(const BodyTag& tag, const Transform<Marker, Tag>& truth) {
   return rotation_angle_rad(tag.marker_from_tag.rotation(), truth.rotation());
 }
 
@@ -54,8 +54,8 @@ TEST(TagBody, FindsThePosesExactlyWithoutNoise) {
   EXPECT_EQ(body->tags[0].marker_from_tag, (Transform<Marker, Tag>{}));
   for (std::size_t i = 1; i < 3; ++i) {
     // The camera's table is inverted to 1e-6 px.
-    EXPECT_LT(shift_m(body->tags[i], scene.marker_from_tag[i]), 1e-7);
-    EXPECT_LT(turn_rad(body->tags[i], scene.marker_from_tag[i]), 1e-6);
+    EXPECT_LT(translation_off_m(body->tags[i], scene.marker_from_tag[i]), 1e-7);
+    EXPECT_LT(rotation_off_rad(body->tags[i], scene.marker_from_tag[i]), 1e-6);
   }
   EXPECT_LT(body->rms_px, 1e-4);
   EXPECT_EQ(body->judgement.verdict, Verdict::kPass) << body->judgement.reason;
@@ -63,10 +63,10 @@ TEST(TagBody, FindsThePosesExactlyWithoutNoise) {
 
 TEST(TagBody, PredictsItsOwnErrors) {
   const test::TagBodyScene scene = test::prism();
-  double shift = 0.0;
-  double shift_sigma = 0.0;
-  double turn = 0.0;
-  double turn_sigma = 0.0;
+  double translation = 0.0;
+  double translation_sigma = 0.0;
+  double rotation = 0.0;
+  double rotation_sigma = 0.0;
   constexpr int kTrials = 15;
   for (int trial = 0; trial < kTrials; ++trial) {
     const auto body = calibrated(scene, seen(scene, 60, static_cast<std::uint64_t>(50 + trial)));
@@ -74,18 +74,18 @@ TEST(TagBody, PredictsItsOwnErrors) {
     // Of forty numbers a pair, six are fitted: 8 % less than the noise.
     EXPECT_NEAR(body->rms_px, 0.92 * scene.noise_px * std::sqrt(2.0), 0.003);
     for (std::size_t i = 1; i < 3; ++i) {
-      shift += std::pow(shift_m(body->tags[i], scene.marker_from_tag[i]), 2);
-      turn += std::pow(turn_rad(body->tags[i], scene.marker_from_tag[i]), 2);
-      shift_sigma += std::pow(body->tags[i].sigma_m, 2);
-      turn_sigma += std::pow(body->tags[i].sigma_rad, 2);
+      translation += std::pow(translation_off_m(body->tags[i], scene.marker_from_tag[i]), 2);
+      rotation += std::pow(rotation_off_rad(body->tags[i], scene.marker_from_tag[i]), 2);
+      translation_sigma += std::pow(body->tags[i].sigma_m, 2);
+      rotation_sigma += std::pow(body->tags[i].sigma_rad, 2);
     }
   }
   // 90 numbers: the ratio of variances lies within 45 % (3 SD); the larger of two estimates is
   // told.
-  EXPECT_GT(shift / shift_sigma, 0.4);
-  EXPECT_LT(shift / shift_sigma, 1.3);
-  EXPECT_GT(turn / turn_sigma, 0.4);
-  EXPECT_LT(turn / turn_sigma, 1.3);
+  EXPECT_GT(translation / translation_sigma, 0.4);
+  EXPECT_LT(translation / translation_sigma, 1.3);
+  EXPECT_GT(rotation / rotation_sigma, 0.4);
+  EXPECT_LT(rotation / rotation_sigma, 1.3);
 }
 
 TEST(TagBody, BearsTagsThatWereSeenWrongly) {
@@ -107,7 +107,7 @@ TEST(TagBody, BearsTagsThatWereSeenWrongly) {
   ASSERT_TRUE(body.ok()) << body.error().message;
   EXPECT_GT(body->outlier_fraction, 0.01);
   for (std::size_t i = 1; i < 3; ++i) {
-    EXPECT_LT(shift_m(body->tags[i], scene.marker_from_tag[i]), 0.0001);
+    EXPECT_LT(translation_off_m(body->tags[i], scene.marker_from_tag[i]), 0.0001);
   }
 }
 
@@ -123,7 +123,7 @@ TEST(TagBody, ConnectsTagsThroughOthers) {
   const auto body = calibrated(scene, pairs);
   ASSERT_TRUE(body.ok()) << body.error().message;
   for (std::size_t i = 1; i < 3; ++i) {
-    EXPECT_LT(shift_m(body->tags[i], scene.marker_from_tag[i]), 0.0002);
+    EXPECT_LT(translation_off_m(body->tags[i], scene.marker_from_tag[i]), 0.0002);
   }
 }
 
@@ -204,12 +204,13 @@ TEST(MedianPose, HardlyMovesWithAThirdOfThemWrong) {
   Vec3 mean;
   for (int i = 0; i < 90; ++i) {
     const bool wrong = i % 3 == 0;
-    const double turn = wrong ? 0.8 : 0.01;
-    const double shift = wrong ? 0.05 : 0.0002;
-    poses.emplace_back(rotation_from_vector({random.normal(0, turn), turn * (wrong ? 1 : 0),
-                                             random.normal(0, turn)}) *
-                           truth.rotation(),
-                       truth.translation() + Vec3{random.normal(0, shift), wrong ? shift : 0, 0});
+    const double rotation = wrong ? 0.8 : 0.01;
+    const double translation = wrong ? 0.05 : 0.0002;
+    poses.emplace_back(
+        rotation_from_vector(
+            {random.normal(0, rotation), rotation * (wrong ? 1 : 0), random.normal(0, rotation)}) *
+            truth.rotation(),
+        truth.translation() + Vec3{random.normal(0, translation), wrong ? translation : 0, 0});
     mean += poses.back().translation() / 90.0;
   }
   const Transform<Tag, Tag> found = median_pose(poses);

@@ -47,7 +47,7 @@ TEST(TagMounting, FindsEveryQuarterTurnOfEveryTag) {
       for (int third = 0; third < 4; ++third) {
         const std::vector<int> turns = {first, second, third};
         std::vector<int> found(3, 0);
-        for (const TurnedTag& tag : turned_tags(mounted(scene, turns), described(scene))) {
+        for (const RotatedTag& tag : rotated_tags(mounted(scene, turns), described(scene))) {
           found[static_cast<std::size_t>(tag.definition.id - 3)] = tag.quarter_turns;
         }
         EXPECT_EQ(found, turns);
@@ -58,9 +58,9 @@ TEST(TagMounting, FindsEveryQuarterTurnOfEveryTag) {
 
 TEST(TagMounting, SaysNothingOfTagsThatTheDescriptionLacks) {
   const test::TagBodyScene scene = test::prism();
-  EXPECT_THAT(turned_tags(mounted(scene, {0, 1, 2}), {}), IsEmpty());
+  EXPECT_THAT(rotated_tags(mounted(scene, {0, 1, 2}), {}), IsEmpty());
   const auto both = described(scene);
-  const auto found = turned_tags(mounted(scene, {0, 1, 2}), std::span(both).first(1));
+  const auto found = rotated_tags(mounted(scene, {0, 1, 2}), std::span(both).first(1));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].definition.id, 4);
 }
@@ -72,7 +72,7 @@ TEST(TagMounting, SaysNothingOfAnotherLayout) {
     tag.marker_from_tag = {tag.marker_from_tag.rotation(),
                            tag.marker_from_tag.translation() + Vec3{0, 0.08, 0}};
   }
-  EXPECT_THAT(turned_tags(mounted(scene, {0, 1, 0}), layout), IsEmpty());
+  EXPECT_THAT(rotated_tags(mounted(scene, {0, 1, 0}), layout), IsEmpty());
 }
 
 /// With one tag behind the other, turns of the marker and of the tag look alike.
@@ -81,7 +81,7 @@ TEST(TagMounting, BlamesTheOtherTagWhereTheMarkersAxisGoesThroughIt) {
   scene.tags.resize(2);
   scene.marker_from_tag.resize(2);
   scene.marker_from_tag[1] = {rotation_from_vector({0, std::numbers::pi, 0}), {0, 0, -0.02}};
-  const auto found = turned_tags(mounted(scene, {0, 1}), described(scene));
+  const auto found = rotated_tags(mounted(scene, {0, 1}), described(scene));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].definition.id, 4);
   EXPECT_EQ(found[0].quarter_turns, 1);

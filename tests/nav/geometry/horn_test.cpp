@@ -29,10 +29,10 @@ std::vector<Vec3> random_points(Random& random, std::size_t count) {
   return points;
 }
 
-std::vector<Vec3> moved(const std::vector<Vec3>& points, const Mat3& rotation, Vec3 shift) {
+std::vector<Vec3> moved(const std::vector<Vec3>& points, const Mat3& rotation, Vec3 translation) {
   std::vector<Vec3> out;
   for (const Vec3& p : points) {
-    out.push_back(rotation * p + shift);
+    out.push_back(rotation * p + translation);
   }
   return out;
 }
@@ -57,11 +57,11 @@ TEST(AbsoluteOrientation, RecoversRandomRigidMotions) {
   for (int trial = 0; trial < 1000; ++trial) {
     const auto from = random_points(random, 3 + static_cast<std::size_t>(trial % 20));
     const Mat3 rotation = rotation_from_vector(random_vector(random, 3.0));
-    const Vec3 shift = random_vector(random, 1.0);
-    const auto fit = absolute_orientation(from, moved(from, rotation, shift));
+    const Vec3 translation = random_vector(random, 1.0);
+    const auto fit = absolute_orientation(from, moved(from, rotation, translation));
     ASSERT_TRUE(fit.ok()) << fit.error().message;
     EXPECT_LT(rotation_angle_rad(fit->rotation, rotation), kExactRad);
-    EXPECT_LT((fit->translation_m - shift).norm(), kExactM);
+    EXPECT_LT((fit->translation_m - translation).norm(), kExactM);
     EXPECT_LT(fit->rmse_m, kExactM);
   }
 }

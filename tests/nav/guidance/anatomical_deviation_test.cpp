@@ -29,11 +29,11 @@ Axis<Vertebra> on_plan(const ScrewPlan& plan) {
 }
 
 /// SDs of the tool's pose relative to the bone, independent, about the origin.
-PoseUncertainty uncertain(Vec3 shift_m, Vec3 turn_rad) {
+PoseUncertainty uncertain(Vec3 translation_m, Vec3 rotation_rad) {
   std::array<double, 36> c{};
   for (int i = 0; i < 3; ++i) {
-    c[static_cast<std::size_t>(7 * i)] = shift_m[i] * shift_m[i];
-    c[static_cast<std::size_t>(7 * (i + 3))] = turn_rad[i] * turn_rad[i];
+    c[static_cast<std::size_t>(7 * i)] = translation_m[i] * translation_m[i];
+    c[static_cast<std::size_t>(7 * (i + 3))] = rotation_rad[i] * rotation_rad[i];
   }
   return {{0, 0, 0}, c};
 }
@@ -117,15 +117,16 @@ TEST(AnatomicalDeviation, MeasuresEachAngleInItsOwnPlane) {
 
 TEST(AnatomicalDeviation, DoesNotChangeWithThePatientsPose) {
   const ScrewPlan plan = plan_of(Side::kRight, 18.0, -5.0);
-  const Transform<World, Vertebra> turned{rotation_from_vector({0.7, -1.9, 0.4}), {1.0, -0.3, 2.0}};
+  const Transform<World, Vertebra> rotated{rotation_from_vector({0.7, -1.9, 0.4}),
+                                           {1.0, -0.3, 2.0}};
   Axis<Vertebra> tool = on_plan(plan);
   tool.point = tool.point + Vec3{0.002, 0.001, -0.0015};
   tool.direction = (rotation_from_vector({0.03, 0.02, -0.05}) * tool.direction).normalized();
   const auto still = anatomical_deviation(plan, tool, nullptr);
   // Through World and back, as a tracked tool comes.
-  const Point<World> tip = turned * tool.point;
-  const Vec3 direction = turned.rotation() * tool.direction;
-  const auto back = turned.inverse();
+  const Point<World> tip = rotated * tool.point;
+  const Vec3 direction = rotated.rotation() * tool.direction;
+  const auto back = rotated.inverse();
   const auto moved = anatomical_deviation(plan, {back * tip, back.rotation() * direction}, nullptr);
   constexpr double kThereAndBack = 1e-15;
   EXPECT_NEAR(moved->tip_cranial_m.value, still->tip_cranial_m.value, kThereAndBack);
@@ -136,23 +137,23 @@ TEST(AnatomicalDeviation, DoesNotChangeWithThePatientsPose) {
 
 TEST(AnatomicalDeviation, CarriesThePosesUncertaintyIntoEachNumber) {
   const ScrewPlan plan = plan_of(Side::kLeft, 0.0, 0.0);  // medial -x, cranial +z, inward -y
-  const auto shifted = anatomical_deviation(plan, on_plan(plan), nullptr);
-  EXPECT_TRUE(std::isinf(shifted->tip_cranial_m.sd)) << "nobody knows it";
-  EXPECT_TRUE(std::isinf(shifted->aim_medial_rad.sd));
-  const PoseUncertainty shift = uncertain({0.0004, 0.0006, 0.0009}, {});
-  const auto by_shift = anatomical_deviation(plan, on_plan(plan), &shift);
-  EXPECT_NEAR(by_shift->tip_medial_m.sd, 0.0004, kRounding_m);
-  EXPECT_NEAR(by_shift->depth_m.sd, 0.0006, kRounding_m);
-  EXPECT_NEAR(by_shift->tip_cranial_m.sd, 0.0009, kRounding_m);
-  EXPECT_EQ(by_shift->aim_medial_rad.sd, 0.0);
+  const auto without = anatomical_deviation(plan, on_plan(plan), nullptr);
+  EXPECT_TRUE(std::isinf(without->tip_cranial_m.sd)) << "nobody knows it";
+  EXPECT_TRUE(std::isinf(without->aim_medial_rad.sd));
+  const PoseUncertainty translation = uncertain({0.0004, 0.0006, 0.0009}, {});
+  const auto by_translation = anatomical_deviation(plan, on_plan(plan), &translation);
+  EXPECT_NEAR(by_translation->tip_medial_m.sd, 0.0004, kRounding_m);
+  EXPECT_NEAR(by_translation->depth_m.sd, 0.0006, kRounding_m);
+  EXPECT_NEAR(by_translation->tip_cranial_m.sd, 0.0009, kRounding_m);
+  EXPECT_EQ(by_translation->aim_medial_rad.sd, 0.0);
   // Turned about z by 0.01: the entry at (0.02, 0.03, 0.005) swings by 0.01 · (-0.03, 0.02, 0).
-  const PoseUncertainty turn = uncertain({}, {0, 0, 0.01});
-  const auto by_turn = anatomical_deviation(plan, on_plan(plan), &turn);
-  EXPECT_NEAR(by_turn->tip_medial_m.sd, 0.0003, kRounding_m);
-  EXPECT_NEAR(by_turn->depth_m.sd, 0.0002, kRounding_m);
-  EXPECT_NEAR(by_turn->tip_cranial_m.sd, 0.0, kRounding_m);
-  EXPECT_NEAR(by_turn->aim_medial_rad.sd, 0.01, kRounding_rad);
-  EXPECT_NEAR(by_turn->aim_cranial_rad.sd, 0.0, kRounding_rad);
+  const PoseUncertainty rotation = uncertain({}, {0, 0, 0.01});
+  const auto by_rotation = anatomical_deviation(plan, on_plan(plan), &rotation);
+  EXPECT_NEAR(by_rotation->tip_medial_m.sd, 0.0003, kRounding_m);
+  EXPECT_NEAR(by_rotation->depth_m.sd, 0.0002, kRounding_m);
+  EXPECT_NEAR(by_rotation->tip_cranial_m.sd, 0.0, kRounding_m);
+  EXPECT_NEAR(by_rotation->aim_medial_rad.sd, 0.01, kRounding_rad);
+  EXPECT_NEAR(by_rotation->aim_cranial_rad.sd, 0.0, kRounding_rad);
 }
 
 TEST(AnatomicalDeviation, IsNoneForAToolThatIsNotFinite) {

@@ -17,11 +17,11 @@ constexpr double kQuantile95 = 1.6448536;
 /// The error of the quantile from 1024 motions, in SDs.
 constexpr double kMotions = 0.05;
 
-PoseUncertainty with_sds(Vec3 centre_m, double shift_m, double turn_rad) {
+PoseUncertainty with_sds(Vec3 centre_m, double translation_m, double rotation_rad) {
   std::array<double, 36> covariance{};
   for (std::size_t k = 0; k < 3; ++k) {
-    covariance[7 * k] = shift_m * shift_m;
-    covariance[7 * (k + 3)] = turn_rad * turn_rad;
+    covariance[7 * k] = translation_m * translation_m;
+    covariance[7 * (k + 3)] = rotation_rad * rotation_rad;
   }
   return {centre_m, covariance};
 }
@@ -82,11 +82,11 @@ TEST(ClearanceSpread, GradesAreAsLikelyAsTheNormalDistributionSays) {
   const double sd_m = 0.001;
   const auto spread = spread_of(one_wall(), screw, with_sds(kMiddle, sd_m, 0.0));
   const auto below = [](double sds) { return 0.5 * std::erfc(-sds / std::sqrt(2.0)); };
-  constexpr double kShare = 0.006;  // of 1024 motions
-  EXPECT_NEAR(spread.probability(PedicleGrade::kA), below(-1.5), kShare);
-  EXPECT_NEAR(spread.probability(PedicleGrade::kB), below(0.5) - below(-1.5), kShare);
-  EXPECT_NEAR(spread.probability(PedicleGrade::kC), below(2.5) - below(0.5), kShare);
-  EXPECT_NEAR(spread.probability(PedicleGrade::kD), below(4.5) - below(2.5), kShare);
+  constexpr double kFraction = 0.006;  // of 1024 motions
+  EXPECT_NEAR(spread.probability(PedicleGrade::kA), below(-1.5), kFraction);
+  EXPECT_NEAR(spread.probability(PedicleGrade::kB), below(0.5) - below(-1.5), kFraction);
+  EXPECT_NEAR(spread.probability(PedicleGrade::kC), below(2.5) - below(0.5), kFraction);
+  EXPECT_NEAR(spread.probability(PedicleGrade::kD), below(4.5) - below(2.5), kFraction);
   double sum = 0.0;
   for (const double p : spread.grade_probability) {
     sum += p;
@@ -141,7 +141,7 @@ struct Honesty {
   int above = 0;
   int grade_as_expected = 0;  ///< the truth has the likeliest grade
   double expected = 0.0;      ///< the sum of that grade's probabilities
-  [[nodiscard]] double share() const { return static_cast<double>(above) / draws; }
+  [[nodiscard]] double fraction() const { return static_cast<double>(above) / draws; }
 };
 
 Honesty honesty(double more) {
@@ -153,20 +153,22 @@ Honesty honesty(double more) {
     const SurfaceIndex bone(levels[i].mesh);
     for (const ScrewPlan& plan : levels[i].screws) {
       const auto screw = *cylinder_of(plan);
-      const double shift_m = random.uniform(0.0003, 0.0015);
-      const double turn_rad = random.uniform(0.003, 0.03);
+      const double translation_m = random.uniform(0.0003, 0.0015);
+      const double rotation_rad = random.uniform(0.003, 0.03);
       const Vec3 centre = 0.5 * (plan.entry.v + plan.target.v) + Vec3{0, 0.02, 0};
-      const auto spread = spread_of(bone, screw, with_sds(centre, shift_m, turn_rad));
+      const auto spread = spread_of(bone, screw, with_sds(centre, translation_m, rotation_rad));
       const auto likeliest = static_cast<PedicleGrade>(
           std::max_element(spread.grade_probability.begin(), spread.grade_probability.end()) -
           spread.grade_probability.begin());
       for (int k = 0; k < kDraws; ++k) {
-        const Vec3 shift = more * shift_m * Vec3{random.normal(), random.normal(), random.normal()};
-        const Vec3 turn = more * turn_rad * Vec3{random.normal(), random.normal(), random.normal()};
-        const Mat3 turned = rotation_from_vector(turn);
+        const Vec3 translation =
+            more * translation_m * Vec3{random.normal(), random.normal(), random.normal()};
+        const Vec3 rotation_vector =
+            more * rotation_rad * Vec3{random.normal(), random.normal(), random.normal()};
+        const Mat3 rotation = rotation_from_vector(rotation_vector);
         ScrewCylinder real = screw;
-        real.entry.v = centre + turned * (screw.entry.v - centre) + shift;
-        real.direction = turned * screw.direction;
+        real.entry.v = centre + rotation * (screw.entry.v - centre) + translation;
+        real.direction = rotation * screw.direction;
         const double clearance_m = least_clearance(bone, real)->clearance_m;
         ++out.draws;
         out.above += clearance_m > spread.lower_95_m ? 1 : 0;
@@ -184,15 +186,15 @@ TEST(ClearanceSpread, BoundHoldsIn95Of100DrawsOnRealVertebrae) {
   }
   const Honesty honest = honesty(1.0);
   RecordProperty("draws", honest.draws);
-  RecordProperty("share", std::to_string(honest.share()));
+  RecordProperty("share", std::to_string(honest.fraction()));
   ASSERT_GE(honest.draws, 400);
-  EXPECT_GE(honest.share(), 0.93);
-  EXPECT_LE(honest.share(), 0.97);
+  EXPECT_GE(honest.fraction(), 0.93);
+  EXPECT_LE(honest.fraction(), 0.97);
   EXPECT_NEAR(honest.grade_as_expected / static_cast<double>(honest.draws),
               honest.expected / honest.draws, 0.03);
-  // The controls: a covariance that is too small, or too large.
-  EXPECT_LT(honesty(1.3).share(), 0.93);
-  EXPECT_GT(honesty(0.7).share(), 0.97);
+  // The twins: a covariance that says too little, or too much.
+  EXPECT_LT(honesty(1.3).fraction(), 0.93);
+  EXPECT_GT(honesty(0.7).fraction(), 0.97);
 }
 
 }  // namespace

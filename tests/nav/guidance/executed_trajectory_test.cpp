@@ -19,11 +19,11 @@ Axis<Vertebra> tool(double depth_m, double beside_m = 0.0, double lean_rad = 0.0
   return {{entry + depth_m / std::cos(lean_rad) * direction}, direction};
 }
 
-PoseUncertainty uncertain(double shift_m, double turn_rad) {
+PoseUncertainty uncertain(double translation_m, double rotation_rad) {
   std::array<double, 36> c{};
   for (std::size_t i = 0; i < 3; ++i) {
-    c[7 * i] = shift_m * shift_m;
-    c[7 * (i + 3)] = turn_rad * turn_rad;
+    c[7 * i] = translation_m * translation_m;
+    c[7 * (i + 3)] = rotation_rad * rotation_rad;
   }
   return {kPlan.entry.v, c};
 }

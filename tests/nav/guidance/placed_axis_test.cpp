@@ -20,11 +20,11 @@ Axis<Vertebra> sleeve(double out_m, double beside_m, double lean_rad) {
   return {{nearest - out_m * direction}, direction};
 }
 
-PoseUncertainty uncertain(double shift_m, double turn_rad) {
+PoseUncertainty uncertain(double translation_m, double rotation_rad) {
   std::array<double, 36> c{};
   for (std::size_t i = 0; i < 3; ++i) {
-    c[7 * i] = shift_m * shift_m;
-    c[7 * (i + 3)] = turn_rad * turn_rad;
+    c[7 * i] = translation_m * translation_m;
+    c[7 * (i + 3)] = rotation_rad * rotation_rad;
   }
   return {kPlan.entry.v, c};
 }
@@ -60,11 +60,12 @@ TEST(PlacedAxis, AnErrorOfTheAxisCountsAtTheEntryByTheWayToIt) {
 TEST(PlacedAxis, TheSdsAreThoseOfDraws) {
   constexpr int kDraws = 4000;
   constexpr double kSampling = 0.05;  // of an SD from so many draws, more than four of its SDs
-  constexpr double kShift_m = 0.0004;
-  constexpr double kTurn_rad = 0.004;
+  constexpr double kTranslation_m = 0.0004;
+  constexpr double kRotation_rad = 0.004;
   const SleeveErrors errors{0.006, 0.0003};
   const Axis<Vertebra> actual = sleeve(0.02, 0.006, 0.08);
-  const PlacedAxis told = placed_axis(kPlan, actual, uncertain(kShift_m, kTurn_rad), errors);
+  const PlacedAxis told =
+      placed_axis(kPlan, actual, uncertain(kTranslation_m, kRotation_rad), errors);
   Random random(3);
   const auto draw = [&random](double sd) {
     return Vec3{random.normal(0, sd), random.normal(0, sd), random.normal(0, sd)};
@@ -72,9 +73,9 @@ TEST(PlacedAxis, TheSdsAreThoseOfDraws) {
   double angle_squares = 0.0;
   double entry_squares = 0.0;
   for (int i = 0; i < kDraws; ++i) {
-    const Vec3 shift = draw(kShift_m) + draw(errors.tip_m);
-    const Mat3 pose = rotation_from_vector(draw(kTurn_rad));
-    const Vec3 tip = kPlan.entry.v + pose * (actual.point - kPlan.entry) + shift;
+    const Vec3 translation = draw(kTranslation_m) + draw(errors.tip_m);
+    const Mat3 pose = rotation_from_vector(draw(kRotation_rad));
+    const Vec3 tip = kPlan.entry.v + pose * (actual.point - kPlan.entry) + translation;
     const Vec3 direction = pose * (rotation_from_vector(draw(errors.axis_rad)) * actual.direction);
     const PlacedAxis seen = placed_axis(kPlan, {{tip}, direction}, uncertain(0, 0), {});
     angle_squares += std::pow(seen.angle_rad.value - told.angle_rad.value, 2);

@@ -27,13 +27,13 @@ double rad(double degrees) { return degrees * kRadiansPerDegree; }
 
 /// Where places along a rod's axis lie, all on its straights, moved and turned.
 std::vector<Vec3> seats_on(const std::vector<RodArc>& arcs, const std::vector<double>& places_m) {
-  const Mat3 turn = rotation_from_vector({0.4, -0.9, 1.7});
+  const Mat3 rotation = rotation_from_vector({0.4, -0.9, 1.7});
   const auto straights = rod_straights(arcs, 1.0);
   std::vector<Vec3> seats;
   for (const double at_m : places_m) {
     for (const RodStraight& s : straights) {
       if (at_m >= s.begin_m && at_m <= s.end_m) {
-        seats.push_back(turn * (s.from_m + (at_m - s.begin_m) * s.direction) + Vec3{1, -2, 3});
+        seats.push_back(rotation * (s.from_m + (at_m - s.begin_m) * s.direction) + Vec3{1, -2, 3});
       }
     }
   }

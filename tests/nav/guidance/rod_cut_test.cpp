@@ -88,17 +88,17 @@ TEST(RodCut, IsLongerOnTheOutsideOfACircleByDepthTimesAngle) {
 
 TEST(RodCut, KeepsItsLengthWhenEverythingIsTurnedAndMoved) {
   const Arc arc = arc_of(0.2, 0.15, 4);
-  const Mat3 turn = rotation_from_vector({0.3, -1.1, 0.7});
+  const Mat3 rotation = rotation_from_vector({0.3, -1.1, 0.7});
   RodTemplate moved = arc.rod;
   std::vector<Vec3> outwards;
   for (std::size_t i = 0; i < moved.heads_m.size(); ++i) {
-    moved.heads_m[i] = turn * moved.heads_m[i] + Vec3{1.0, -2.0, 0.5};
-    outwards.push_back(turn * arc.outwards[i]);
+    moved.heads_m[i] = rotation * moved.heads_m[i] + Vec3{1.0, -2.0, 0.5};
+    outwards.push_back(rotation * arc.outwards[i]);
   }
   const auto cut = rod_cut(arc.rod, arc.outwards);
-  const auto turned = rod_cut(moved, outwards);
-  ASSERT_TRUE(cut.ok() && turned.ok());
-  EXPECT_NEAR(turned->cut_length_m, cut->cut_length_m, kCutTolerance_m);
+  const auto rotated = rod_cut(moved, outwards);
+  ASSERT_TRUE(cut.ok() && rotated.ok());
+  EXPECT_NEAR(rotated->cut_length_m, cut->cut_length_m, kCutTolerance_m);
 }
 
 TEST(RodCut, TakesItsLimitsAndRefusesWhatIsJustBeyond) {

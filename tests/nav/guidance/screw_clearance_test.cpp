@@ -249,9 +249,9 @@ TEST(ScrewClearance, StandsASmallDefectOfTheMesh) {
   const auto whole = *least_clearance(SurfaceIndex(level->mesh), screw);
   // A face that is turned over, and one that is missing, far from the screw and beside it.
   for (const std::size_t face : {std::size_t{0}, level->mesh.triangles.size() / 2}) {
-    TriangleMesh turned = level->mesh;
-    std::swap(turned.triangles[face][0], turned.triangles[face][1]);
-    EXPECT_NEAR(least_clearance(SurfaceIndex(turned), screw)->clearance_m, whole.clearance_m,
+    TriangleMesh inverted = level->mesh;
+    std::swap(inverted.triangles[face][0], inverted.triangles[face][1]);
+    EXPECT_NEAR(least_clearance(SurfaceIndex(inverted), screw)->clearance_m, whole.clearance_m,
                 kTolerance_m);
     TriangleMesh open = level->mesh;
     open.triangles.erase(open.triangles.begin() + static_cast<std::ptrdiff_t>(face));

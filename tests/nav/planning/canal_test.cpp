@@ -33,7 +33,7 @@ TEST(Canal, LiesBehindTheBodyAndIsFree) {
 TEST(Canal, FollowsAVertebraThatIsTiltedInItsScan) {
   for (const double tilt_deg : {-30.0, 25.0}) {
     const Mat3 tilt = rotation_from_vector(tilt_deg * kRadiansPerDegree * Vec3{1, 0, 0});
-    const TriangleMesh mesh = test::turned(phantom_l3(), tilt);
+    const TriangleMesh mesh = test::rotated(phantom_l3(), tilt);
     const auto canal = find_canal(mesh, SurfaceIndex(mesh));
     ASSERT_TRUE(canal) << tilt_deg;
     const Vec3 up = tilt * Vec3{0, 0, 1};

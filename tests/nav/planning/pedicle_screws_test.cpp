@@ -128,7 +128,7 @@ TEST(PedicleScrews, AreRefusedWhereNoLengthReachesTheBodyAndEndsSafely) {
 TEST(PedicleScrews, FollowAVertebraThatIsTiltedInItsScan) {
   constexpr double kSame_m = 0.0003;  // both searches give up a little
   const auto upright = plan_pedicle_screws(phantom_l4().mesh, phantom_l4().surface, sizes());
-  const TriangleMesh mesh = test::turned(
+  const TriangleMesh mesh = test::rotated(
       phantom_l4().mesh, rotation_from_vector(-30.0 * kRadiansPerDegree * Vec3{1, 0, 0}));
   const auto tilted = plan_pedicle_screws(mesh, SurfaceIndex(mesh), sizes());
   ASSERT_TRUE(tilted.ok());

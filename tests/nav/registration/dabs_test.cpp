@@ -58,8 +58,8 @@ class DabbedBone : public StrokedBone {
                                     const PressModel& press = {}) const {
     return join_places(*model_, registration, places, options, press).value();
   }
-  /// The angle by which the first planned axis is turned.
-  [[nodiscard]] double turn_deg(const Registration& r) const {
+  /// By which the first planned axis is turned.
+  [[nodiscard]] double rotation_off_deg(const Registration& r) const {
     const Vec3 axis = (options.targets[1] - options.targets[0]).normalized();
     return degrees(angle_between_rad((r.world_from_vertebra * Direction<Vertebra>{axis}).v,
                                      (strokes_.world_from_vertebra * Direction<Vertebra>{axis}).v));
@@ -70,8 +70,8 @@ class DabbedBone : public StrokedBone {
 
 /// The mean result of two bones after this many dabs.
 struct Outcome {
-  double turned_before_deg = 0.0;
-  double turned_deg = 0.0;
+  double rotation_before_deg = 0.0;
+  double rotation_deg = 0.0;
   double model_sd_m = 0.0;
   int beyond_99 = 0;
 };
@@ -82,8 +82,8 @@ Outcome outcome(double model_sd_m, std::size_t dabs) {
   for (int seed = 1; seed <= kBones; ++seed) {
     DabbedBone bone(static_cast<std::uint64_t>(seed), model_sd_m);
     const auto joined = bone.joined(bone.dab(dabs));
-    out.turned_before_deg += bone.turn_deg(bone.registration) / kBones;
-    out.turned_deg += bone.turn_deg(joined.registration) / kBones;
+    out.rotation_before_deg += bone.rotation_off_deg(bone.registration) / kBones;
+    out.rotation_deg += bone.rotation_off_deg(joined.registration) / kBones;
     out.model_sd_m += joined.model.sd_m / kBones;
     out.beyond_99 += bone.error_m(joined.registration) > joined.registration.tre_99_m ? 1 : 0;
   }
@@ -94,8 +94,8 @@ TEST(Dabs, TurnTheBoneRightAndTellHowGoodTheModelIs) {
   const Outcome exact = outcome(0.0, 40);
   const Outcome usual = outcome(0.0005, 40);
   const Outcome bad = outcome(0.0008, 40);
-  EXPECT_LT(exact.turned_deg, 0.7 * exact.turned_before_deg);
-  EXPECT_LT(usual.turned_deg, 0.8 * usual.turned_before_deg);
+  EXPECT_LT(exact.rotation_deg, 0.7 * exact.rotation_before_deg);
+  EXPECT_LT(usual.rotation_deg, 0.8 * usual.rotation_before_deg);
   EXPECT_LT(exact.model_sd_m, 0.00030);
   EXPECT_GT(bad.model_sd_m, 0.00055);
   EXPECT_LT(exact.model_sd_m, usual.model_sd_m);

@@ -42,10 +42,10 @@ TEST(Digitizer, KnowsHowExactlyEachTipWasTracked) {
   }
   EXPECT_TRUE(digitizer.add(sure, kTip));
   // A turn of 2 mrad about x and about z moves a tip 150 mm below by 0.3 mm each.
-  TrackedPose turning = pose(66);
-  turning.covariance[7 * 3] = turning.covariance[7 * 5] = 4e-6;
-  turning.covariance[7 * 4] = 1.0;  // about the shaft: nothing moves
-  EXPECT_TRUE(digitizer.add(turning, kTip));
+  TrackedPose rotating = pose(66);
+  rotating.covariance[7 * 3] = rotating.covariance[7 * 5] = 4e-6;
+  rotating.covariance[7 * 4] = 1.0;  // about the shaft: nothing moves
+  EXPECT_TRUE(digitizer.add(rotating, kTip));
   EXPECT_TRUE(digitizer.add(pose(99), kTip));
   digitizer.save();
   const auto sds_m = digitizer.saved_point_sds_m();

@@ -113,14 +113,14 @@ TEST_F(RegisterBest, SwapsInARunnerUpThatIsBetter) {
     places.insert(places.end(), once.begin(), once.end());
   }
   const std::size_t step = places.size() / kFew;
-  const Mat3 half_a_turn = rotation_from_vector({0.0, std::acos(-1.0), 0.0});
+  const Mat3 half_turn = rotation_from_vector({0.0, std::acos(-1.0), 0.0});
   const auto points_of = [&](std::size_t first, std::size_t every) {
     Points points;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const bool turned = i % every == first;
+      const bool rotated = i % every == first;
       const Vec3 noise{random.normal(0, 0.0003), random.normal(0, 0.0003),
                        random.normal(0, 0.0003)};
-      points.push_back({(turned ? half_a_turn * places[i] : places[i]) + noise});
+      points.push_back({(rotated ? half_turn * places[i] : places[i]) + noise});
     }
     return points;
   };

@@ -263,14 +263,16 @@ TEST(PoseUncertainty, ATurnAboutAPlaceMovesWhatLiesBesideIt) {
   const Vec3 centre{0.01, -0.02, 0.03};
   const Vec3 axis = Vec3{1.0, -2.0, 0.5}.normalized();
   const Point<Vertebra> about{{0.02, 0.0, 0.01}};
-  constexpr double kTurn_rad = 0.01;
-  const PoseUncertainty turned = with_turn(PoseUncertainty(centre, {}), about, axis, kTurn_rad);
+  constexpr double kRotation_rad = 0.01;
+  const PoseUncertainty rotated =
+      with_turn(PoseUncertainty(centre, {}), about, axis, kRotation_rad);
   constexpr double kBits = 1e-10;  ///< the root of what a double leaves of the variance
-  EXPECT_NEAR(turned.predicted_tre_m(about), 0.0, kBits);
-  EXPECT_NEAR(turned.predicted_tre_m(about + 0.05 * axis), 0.05 * kTurn_rad * std::sqrt(2.0), kBits)
+  EXPECT_NEAR(rotated.predicted_tre_m(about), 0.0, kBits);
+  EXPECT_NEAR(rotated.predicted_tre_m(about + 0.05 * axis), 0.05 * kRotation_rad * std::sqrt(2.0),
+              kBits)
       << "along the axis, in both directions across it";
   const Vec3 across = axis.cross(Vec3{0, 0, 1}).normalized();
-  EXPECT_NEAR(turned.predicted_tre_m(about + 0.05 * across), 0.05 * kTurn_rad, kBits)
+  EXPECT_NEAR(rotated.predicted_tre_m(about + 0.05 * across), 0.05 * kRotation_rad, kBits)
       << "beside it only along it: it does not turn about the axis itself";
 }
 

@@ -93,11 +93,11 @@ TEST(Trimming, RefusesAModelThatCannotBePrepared) {
 
 TEST(PrincipalAxes, AreRightHandedAndSortedBySpread) {
   Random random(4);
-  const Mat3 turn = test::random_rotation(random);
+  const Mat3 rotation = test::random_rotation(random);
   std::vector<Vec3> points;
   for (int i = 0; i < 20000; ++i) {
     points.push_back(
-        turn * Vec3{random.normal(0, 0.03), random.normal(0, 0.02), random.normal(0, 0.01)} +
+        rotation * Vec3{random.normal(0, 0.03), random.normal(0, 0.02), random.normal(0, 0.01)} +
         Vec3{1, 2, 3});
   }
   const PrincipalAxes axes = principal_axes(points);
@@ -107,7 +107,7 @@ TEST(PrincipalAxes, AreRightHandedAndSortedBySpread) {
   const std::array<double, 3> spread = {0.03, 0.02, 0.01};
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(axes.deviation_m[k], spread[k], 0.02 * spread[k]);  // 4 sigma of 20000 draws
-    EXPECT_GT(std::abs(axes.axes[k].dot(turn.column(k))), 0.999);
+    EXPECT_GT(std::abs(axes.axes[k].dot(rotation.column(k))), 0.999);
   }
 }
 

@@ -16,8 +16,8 @@ using test::CentredPoints;
 /// Without noise nothing is left but rounding and the last step.
 constexpr double kExact_m = 1e-6;
 /// What a search leaves.
-constexpr double kStartShift_m = 0.002;
-constexpr double kStartTurn_rad = 0.05;
+constexpr double kStartTranslation_m = 0.002;
+constexpr double kStartRotation_rad = 0.05;
 constexpr int kStarts = 6;
 
 SurfaceFitOptions to_the_end() {
@@ -31,12 +31,12 @@ class SurfaceFitTest : public ::testing::Test {
  protected:
   /// The largest error from several starts.
   double worst_m(const std::vector<Vec3>& in_vertebra, const SurfaceFitOptions& options,
-                 double shift_m = kStartShift_m) const {
+                 double translation_m = kStartTranslation_m) const {
     double worst = 0.0;
     for (std::uint64_t seed = 0; seed < kStarts; ++seed) {
       Random random(seed);
       const CentredPoints cloud = test::centred_somewhere(in_vertebra, random);
-      const CentredPose start = test::moved(cloud.truth, shift_m, kStartTurn_rad, random);
+      const CentredPose start = test::moved(cloud.truth, translation_m, kStartRotation_rad, random);
       const auto fit = fit_to_surface(surface_, cloud.points_m, start, options);
       if (!fit) {
         return 1.0;
@@ -83,7 +83,8 @@ TEST_F(SurfaceFitTest, TrustsPointsByHowExactlyTheyWereTracked) {
   // With equal SDs for all it does the same as without SDs.
   Random again(32);
   const CentredPoints cloud = test::centred_somewhere(places_, again);
-  const CentredPose start = test::moved(cloud.truth, kStartShift_m, kStartTurn_rad, again);
+  const CentredPose start =
+      test::moved(cloud.truth, kStartTranslation_m, kStartRotation_rad, again);
   SurfaceFitOptions options;
   const auto untold = fit_to_surface(surface_, cloud.points_m, start, options);
   const std::vector<double> same(places_.size(), 1e-5);
@@ -108,8 +109,8 @@ TEST_F(SurfaceFitTest, EndsAtTheSamePoseFromWhereverItStarts) {
   EXPECT_GT(apart_m(once->pose, cloud.truth), 1e-5) << "noise moves it: the start is not the end";
   for (int i = 0; i < kStarts; ++i) {
     const auto again = fit_to_surface(
-        surface_, cloud.points_m, test::moved(cloud.truth, kStartShift_m, kStartTurn_rad, random),
-        to_the_end());
+        surface_, cloud.points_m,
+        test::moved(cloud.truth, kStartTranslation_m, kStartRotation_rad, random), to_the_end());
     ASSERT_TRUE(again.has_value());
     EXPECT_LT(apart_m(again->pose, once->pose), kExact_m);
     EXPECT_NEAR(again->noise_m, 0.0004, 0.00006) << "along the normal, as along any axis";

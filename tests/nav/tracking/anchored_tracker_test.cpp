@@ -175,8 +175,8 @@ TEST(AnchoredTracker, ASecondReferenceThatWasNeverLearntDoesNotCount) {
 
 /// By how much one of two references moves, and whether that must be noticed.
 struct Knock {
-  double shift_m;
-  double turn_rad;
+  double translation_m;
+  double rotation_rad;
   bool noticed;
 };
 class OneOfTwoMoves : public ::testing::TestWithParam<Knock> {};
@@ -184,10 +184,10 @@ class OneOfTwoMoves : public ::testing::TestWithParam<Knock> {};
 TEST_P(OneOfTwoMoves, IsNoticedBeyondTheLimits) {
   Room room(2);
   room.pairs(40);
-  const auto& [shift_m, turn_rad, noticed] = GetParam();
+  const auto& [translation_m, rotation_rad, noticed] = GetParam();
   auto& knocked = *room.tools->world_from[2];
-  knocked = {rotation_from_vector({0.0, turn_rad, 0.0}) * knocked.rotation(),
-             knocked.translation() + Vec3{0.0, 0.0, shift_m}};
+  knocked = {rotation_from_vector({0.0, rotation_rad, 0.0}) * knocked.rotation(),
+             knocked.translation() + Vec3{0.0, 0.0, translation_m}};
   room.pairs(ReferenceLimits{}.pairs - 1);
   EXPECT_EQ(room.tracker->anchor()->moves, 0) << "a few pairs may be wrong";
   room.pairs(1);

@@ -62,9 +62,9 @@ int run(OnlineCalibration& calibration, LinearWorld& world, int pairs) {
     const std::array<double, 2> before = {calibration.size_factor(0), calibration.size_factor(1)};
     if (calibration.correct()) {
       ++corrections;
-      const Vec3 turn = calibration.turn_rad();
+      const Vec3 rotation_rad = calibration.rotation_rad();
       for (std::size_t tool = 0; tool < 2; ++tool) {
-        world.correct(tool, unknowns(turn.x, turn.y, turn.z, 0, 0,
+        world.correct(tool, unknowns(rotation_rad.x, rotation_rad.y, rotation_rad.z, 0, 0,
                                      std::log(calibration.size_factor(tool) / before[tool])));
       }
     }

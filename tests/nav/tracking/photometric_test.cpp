@@ -62,10 +62,11 @@ double tip_error_m(const Transform<Rig, Marker>& pose, const Transform<Rig, Mark
 
 double nees(const PhotometricFit& fit, const Transform<Rig, Marker>& truth) {
   const Transform<Marker, Marker> error = truth.inverse() * fit.rig_from_marker;
-  const Vec3 shift = error.translation();
-  const Vec3 turn = vector_from_rotation(error.rotation());
+  const Vec3 translation_m = error.translation();
+  const Vec3 rotation_rad = vector_from_rotation(error.rotation());
   Eigen::Matrix<double, 6, 1> e;
-  e << shift.x, shift.y, shift.z, turn.x, turn.y, turn.z;
+  e << translation_m.x, translation_m.y, translation_m.z, rotation_rad.x, rotation_rad.y,
+      rotation_rad.z;
   const Eigen::Map<const Eigen::Matrix<double, 6, 6>> covariance(fit.covariance.data());
   return e.dot(covariance.ldlt().solve(e));
 }

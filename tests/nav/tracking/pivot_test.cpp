@@ -69,9 +69,9 @@ TEST(PivotCalibration, RefusesTooLittleTurning) {
 }
 
 // Moves the tip at some of the poses, as when it is lifted off or the tag is seen wrongly.
-void disturb(std::vector<Pose>& poses, std::size_t from, std::size_t to, Vec3 shift_m) {
+void disturb(std::vector<Pose>& poses, std::size_t from, std::size_t to, Vec3 translation_m) {
   for (std::size_t i = from; i < to; ++i) {
-    poses[i] = {poses[i].rotation(), poses[i].translation() + shift_m};
+    poses[i] = {poses[i].rotation(), poses[i].translation() + translation_m};
   }
 }
 

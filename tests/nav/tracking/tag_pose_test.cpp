@@ -64,12 +64,13 @@ TEST(TagGeometry, CovarianceMatchesWhatCornerNoiseDoes) {
     }
     const auto pose = geometry.pose(seen, tag.size_m);
     ASSERT_TRUE(pose);
-    const Vec3 shift = pose->rig_from_marker.translation() - tag.rig_from_marker.translation();
-    const Vec3 turn = vector_from_rotation(pose->rig_from_marker.rotation() *
-                                           tag.rig_from_marker.rotation().transposed());
+    const Vec3 translation_m =
+        pose->rig_from_marker.translation() - tag.rig_from_marker.translation();
+    const Vec3 rotation_rad = vector_from_rotation(pose->rig_from_marker.rotation() *
+                                                   tag.rig_from_marker.rotation().transposed());
     for (int i = 0; i < 3; ++i) {
-      squared[static_cast<std::size_t>(i)] += shift[i] * shift[i] / kDraws;
-      squared[static_cast<std::size_t>(i + 3)] += turn[i] * turn[i] / kDraws;
+      squared[static_cast<std::size_t>(i)] += translation_m[i] * translation_m[i] / kDraws;
+      squared[static_cast<std::size_t>(i + 3)] += rotation_rad[i] * rotation_rad[i] / kDraws;
     }
   }
   // 2000 draws know a variance to 3 % (1 SD); to first order only, so 15 %.
@@ -83,7 +84,7 @@ TEST(TagGeometry, TurnedCovarianceIsThatOfTheTurnedPose) {
   covariance[0] = 4.0;   // along x
   covariance[35] = 9.0;  // about z
   const Mat3 quarter = {{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}};
-  const PoseCovariance seen = turned(covariance, quarter);
+  const PoseCovariance seen = rotated(covariance, quarter);
   EXPECT_NEAR(seen[0], 0.0, 1e-12);
   EXPECT_NEAR(seen[7], 4.0, 1e-12);
   EXPECT_NEAR(seen[35], 9.0, 1e-12);

@@ -108,7 +108,7 @@ TEST(BestTracker, FindsHowTheSizesOfTagsDiffer) {
 TEST(BestTracker, FindsSizesBesideATurnedCamera) {
   const StereoCalibration truth = test::test_calibration();
   StereoCalibration reported = truth;
-  turn_right_camera(reported, {-0.001, 0.0007, -0.0008});
+  rotate_right_camera(reported, {-0.001, 0.0007, -0.0008});
   const auto found = tracked_at_sizes(truth, reported, {0.997, 1.003});
   const auto pointer = found.tracker->tag_size(0);
   const auto guide = found.tracker->tag_size(1);

@@ -241,7 +241,7 @@ TEST(MarkerDetector, ABoxGivesTheSameCornersAsTheWholeImage) {
     ASSERT_TRUE(d.detect(image, whole));
     ASSERT_THAT(whole, SizeIs(3)) << decimate;
     for (const MarkerCorners& marker : whole) {
-      for (int shift = 0; shift < 4; ++shift) {
+      for (int offset = 0; offset < 4; ++offset) {
         Vec2 low{1e9, 1e9};
         Vec2 high{-1e9, -1e9};
         for (const Vec2 c : marker.corners_px) {
@@ -249,7 +249,7 @@ TEST(MarkerDetector, ABoxGivesTheSameCornersAsTheWholeImage) {
           high = {std::max(high.x, c.x), std::max(high.y, c.y)};
         }
         const PixelBox box{
-            static_cast<int>(low.x) - 16 - shift, static_cast<int>(low.y) - 19 + shift,
+            static_cast<int>(low.x) - 16 - offset, static_cast<int>(low.y) - 19 + offset,
             static_cast<int>(high.x - low.x) + 36, static_cast<int>(high.y - low.y) + 38};
         ASSERT_TRUE(d.detect(image, box, boxed));
         ASSERT_THAT(boxed, SizeIs(1)) << marker.id << " decimated by " << decimate;

@@ -9,9 +9,9 @@ constexpr Duration kCoast = std::chrono::milliseconds(100);
 
 Timestamp at_ms(int ms) { return Timestamp(std::chrono::milliseconds(ms)); }
 
-TrackedPose measured(int ms, Vec3 position, Vec3 turn) {
+TrackedPose measured(int ms, Vec3 position, Vec3 rotation_rad) {
   TrackedPose pose;
-  pose.value = {rotation_from_vector(turn), position};
+  pose.value = {rotation_from_vector(rotation_rad), position};
   pose.time = at_ms(ms);
   pose.status = PoseStatus::kMeasured;
   for (std::size_t i = 0; i < 6; ++i) {

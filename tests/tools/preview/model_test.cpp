@@ -211,7 +211,7 @@ TEST(Camera, GoesRoundWhatItLooksAt) {
   const auto focus = [&camera] { return camera.stage_from_eye() * Point<Eye>{{0.0, 0.0, -0.45}}; };
   const Vec3 before = focus().v;
   for (int i = 0; i < 50; ++i) {
-    camera.turn({0.07, 0.05});
+    camera.orbit({0.07, 0.05});
   }
   EXPECT_LT((focus().v - before).norm(), 1e-9);
   // However far it is dragged, up stays up.
@@ -224,7 +224,7 @@ TEST(Camera, GoesRoundWhatItLooksAt) {
 
 TEST(Camera, MagnifiesOnlyWithTheEye) {
   Camera camera;
-  camera.turn({0.3, 0.3});
+  camera.orbit({0.3, 0.3});
   EXPECT_EQ(camera, Camera());
   camera.zoom(2.0);
   EXPECT_GT(camera.magnification(), 1.1);

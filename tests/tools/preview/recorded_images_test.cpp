@@ -37,12 +37,12 @@ RgbaImage dark() {
 
 /// Pearson's, of the red channels, the second one shifted to the right.
 double correlation(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b,
-                   int shift_px) {
+                   int offset_px) {
   double n = 0, sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
   for (int y = 0; y < kHeight_px; ++y) {
-    for (int x = shift_px; x < kWidth_px; ++x) {
+    for (int x = offset_px; x < kWidth_px; ++x) {
       const double va = a[static_cast<std::size_t>(4 * (y * kWidth_px + x))];
-      const double vb = b[static_cast<std::size_t>(4 * (y * kWidth_px + x - shift_px))];
+      const double vb = b[static_cast<std::size_t>(4 * (y * kWidth_px + x - offset_px))];
       n += 1;
       sum_a += va;
       sum_b += vb;
