@@ -62,8 +62,9 @@ class Dashboard::Server {
             : server_.bind_to_port(host, access_.port()) ? access_.port()
                                                          : -1;
     if (port_ < 0) {
-      return Error{"--web " + std::to_string(access_.port()) + ": the port cannot be had at " +
-                   host};
+      return Error{
+          "--web " + std::to_string(access_.port()) + ": the port cannot be had at " + host,
+          ErrorCode::kUnavailable};
     }
     thread_ = std::thread([this] {
       server_.listen_after_bind();

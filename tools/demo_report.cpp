@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/file_code.h"
 #include "engine/io/atomic_file.h"
 
 namespace orthonav::tools {
@@ -13,7 +14,7 @@ namespace {
 Result<std::vector<std::uint8_t>> bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    return Error{path.string() + ": cannot be read"};
+    return Error{path.string() + ": cannot be read", code_of_unopened(path)};
   }
   return std::vector<std::uint8_t>(std::istreambuf_iterator<char>(file), {});
 }

@@ -2,6 +2,8 @@
 
 #include <regex>
 
+#include "base/file_code.h"
+
 namespace orthonav::tools {
 
 Status remove_earlier_results(const std::filesystem::path& folder) {
@@ -17,11 +19,12 @@ Status remove_earlier_results(const std::filesystem::path& folder) {
       std::filesystem::remove(entry.path(), code);
     }
     if (code) {
-      return Error{entry.path().string() + ": cannot be replaced: " + code.message()};
+      return Error{entry.path().string() + ": cannot be replaced: " + code.message(),
+                   file_code(code)};
     }
   }
   if (code) {
-    return Error{folder.string() + ": cannot be read: " + code.message()};
+    return Error{folder.string() + ": cannot be read: " + code.message(), file_code(code)};
   }
   return {};
 }

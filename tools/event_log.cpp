@@ -28,7 +28,7 @@ Status EventLog::open(const EventLogArguments& arguments) {
       sinks.push_back(std::make_shared<spdlog::sinks::basic_file_sink_mt>(arguments.file));
     }
   } catch (const spdlog::spdlog_ex& error) {
-    return Error{"--log: " + arguments.file + ": " + error.what()};
+    return Error{"--log: " + arguments.file + ": " + error.what(), ErrorCode::kIo};
   }
   if (arguments.verbose) {
     sinks.push_back(std::make_shared<spdlog::sinks::stderr_sink_mt>());

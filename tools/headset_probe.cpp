@@ -22,7 +22,7 @@ Result<std::vector<Offer>> offers_of_ports(std::string_view address) {
   }
   const auto ports = hl2ss::probe(*options);
   if (!ports) {
-    return Error{"--headset: " + ports.error().message};
+    return Error{"--headset: " + ports.error().message, ports.error().code};
   }
   std::vector<Offer> offers;
   for (const hl2ss::ProbedPort& port : *ports) {

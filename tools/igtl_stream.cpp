@@ -76,7 +76,7 @@ Status IgtlStream::open(const IgtlArguments& arguments) {
   hears_ = arguments.commands;
   auto server = igtl::Server::start(*options, hears_ ? &commands_ : nullptr);
   if (!server) {
-    return Error{"--igtl, --igtl-allow: " + server.error().message};
+    return Error{"--igtl, --igtl-allow: " + server.error().message, server.error().code};
   }
   server_ = std::move(*server);
   std::fprintf(stderr, "OpenIGTLink at %s:%d%s\n", options->address.c_str(), server_->port(),

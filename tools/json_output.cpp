@@ -58,7 +58,7 @@ Status JsonOutput::stream(const std::function<Status(std::ostream&)>& make) cons
     return made;
   }
   out.close();
-  return out ? file->commit() : Status(Error{place_ + ": cannot be written"});
+  return out ? file->commit() : Status(Error{place_ + ": cannot be written", ErrorCode::kIo});
 }
 
 }  // namespace orthonav::tools

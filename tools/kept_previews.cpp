@@ -26,7 +26,7 @@ Status KeptPreviews::open(const KeepArguments& arguments) {
   }
   if (resumes) {
     if (const Status found = kept_.emplace().find(arguments.resume); !found) {
-      return Error{"--resume: " + found.error().message};
+      return Error{"--resume: " + found.error().message, found.error().code};
     }
   }
   auto folder = OutFolder::create(resumes ? "--resume" : "--keep",

@@ -9,7 +9,7 @@ namespace orthonav::tools {
 Result<OutFolder> OutFolder::create(const std::string& option, const std::string& path) {
   auto made = engine::make_folders(path);
   if (!made) {
-    return Error{option + " " + made.error().message};
+    return Error{option + " " + made.error().message, made.error().code};
   }
   return OutFolder(path, std::move(*made));
 }

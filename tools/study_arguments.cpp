@@ -41,7 +41,8 @@ Result<std::vector<engine::Case>> cases_in(const std::string& folder) {
     std::sort(folders.begin(), folders.end());
   }
   if (folders.empty()) {
-    return Error{"--cases " + folder + ": no case.json in it or one level below"};
+    return Error{"--cases " + folder + ": no case.json in it or one level below",
+                 ErrorCode::kNotFound};
   }
   std::vector<engine::Case> cases;
   for (const std::string& path : folders) {

@@ -121,7 +121,9 @@ Status submit(const std::string& folder, const std::set<int>& shards) {
       "sbatch --wait --requeue --job-name=orthonav-study --array=" + ranges(shards) +
       " --output=" + quoted(log) + " " + quoted((fs::path(folder) / "task.sh").string()) + " 1>&2";
   const int answer = shell(command);
-  return answer == -1 ? Status(Error{"--slurm: sbatch could not be started"}) : Status();
+  return answer == -1
+             ? Status(Error{"--slurm: sbatch could not be started", ErrorCode::kUnavailable})
+             : Status();
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "base/file_code.h"
 #include "hal/net/allowed.h"
 #include "tools/listening_place.h"
 
@@ -46,12 +47,13 @@ Result<std::string> token_at_random() {
 Status write_for_owner_alone(const std::string& path, const std::string& text) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
   if (file < 0) {
-    return Error{path + ": cannot be made (" + std::generic_category().message(errno) + ")"};
+    return Error{path + ": cannot be made (" + std::generic_category().message(errno) + ")",
+                 file_code(errno)};
   }
   const bool written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   if (::close(file) != 0 || !written) {
     ::unlink(path.c_str());
-    return Error{path + ": cannot be written"};
+    return Error{path + ": cannot be written", ErrorCode::kIo};
   }
   return {};
 }
@@ -111,7 +113,7 @@ Result<WebAccess> WebAccess::of(const std::string& at, const std::string& token_
   access.port_ = place->port;
   const auto address = net::resolve(access.host_);
   if (!address) {
-    return Error{"--web \"" + at + "\": " + address.error().message};
+    return Error{"--web \"" + at + "\": " + address.error().message, address.error().code};
   }
   if (token_file.empty() && !net::is_loopback(*address)) {
     return Error{"--web \"" + at + "\": other machines reach this address: needs --token FILE"};
@@ -120,7 +122,7 @@ Result<WebAccess> WebAccess::of(const std::string& at, const std::string& token_
   if (!token_file.empty()) {
     auto token = token_of(token_file);
     if (!token) {
-      return Error{"--token " + token.error().message};
+      return Error{"--token " + token.error().message, token.error().code};
     }
     access.token_ = std::move(*token);
   }

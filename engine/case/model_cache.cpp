@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/file_code.h"
 #include "engine/io/atomic_file.h"
 
 namespace orthonav::engine {
@@ -26,7 +27,7 @@ Result<std::optional<std::string>> content_of(const std::string& path) {
   }
   const std::uintmax_t size = fs::file_size(path, code);
   if (code) {
-    return Error{"cannot be read: " + code.message()};
+    return Error{"cannot be read: " + code.message(), file_code(code)};
   }
   if (size > kMostPartsBytes) {
     return Error{"is damaged: " + std::to_string(size) + " bytes long"};
@@ -34,7 +35,7 @@ Result<std::optional<std::string>> content_of(const std::string& path) {
   std::string bytes(size, '\0');
   std::ifstream in(path, std::ios::binary);
   if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    return Error{"cannot be read"};
+    return Error{"cannot be read", ErrorCode::kIo};
   }
   return std::optional(std::move(bytes));
 }

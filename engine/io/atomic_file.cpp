@@ -79,7 +79,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, Staging staging) 
   }
   const fs::path folder = folder_of(target.string());
   if (!fs::is_directory(folder, ignored)) {
-    return Error{path + ": folder " + folder.string() + " does not exist"};
+    return Error{path + ": folder " + folder.string() + " does not exist", ErrorCode::kNotFound};
   }
   if (staging == Staging::kNameless) {
     if (const int file = nameless_file(folder); file >= 0) {
@@ -188,7 +188,7 @@ Status write_file(const std::string& path, std::string_view content) {
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   out.close();
   if (!out) {
-    return Error{path + ": cannot be written whole (disk full?)"};
+    return Error{path + ": cannot be written whole (disk full?)", ErrorCode::kIo};
   }
   return file->commit();
 }

@@ -1,8 +1,9 @@
 #include "engine/io/file_names.h"
 
-#include <cerrno>
 #include <filesystem>
 #include <system_error>
+
+#include "base/file_code.h"
 
 namespace orthonav::engine {
 namespace fs = std::filesystem;
@@ -25,8 +26,8 @@ Error too_many_earlier(const std::string& path) {
 }
 
 Error file_error(const std::string& path, const std::string& doing, int error_number) {
-  const ErrorCode code = error_number == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo;
-  return {path + ": " + doing + ": " + std::generic_category().message(error_number), code};
+  return {path + ": " + doing + ": " + std::generic_category().message(error_number),
+          file_code(error_number)};
 }
 
 }  // namespace orthonav::engine

@@ -4,6 +4,7 @@
 
 #include <system_error>
 
+#include "base/file_code.h"
 #include "base/sync_path.h"
 #include "engine/io/file_names.h"
 
@@ -30,7 +31,7 @@ Status made(const std::string& path) {
   if (!code && !fs::is_directory(path, code)) {
     code = std::make_error_code(std::errc::not_a_directory);
   }
-  return code ? Status(Error{path + ": " + code.message()}) : Status{};
+  return code ? Status(Error{path + ": " + code.message(), file_code(code)}) : Status{};
 }
 
 }  // namespace

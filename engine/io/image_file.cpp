@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/file_code.h"
 #include "engine/io/atomic_file.h"
 
 namespace orthonav::engine {
@@ -17,23 +18,24 @@ namespace {
 // No picture of ours is larger; refusing it here keeps a forged header from allocating memory.
 constexpr png_uint_32 kLargestSide_px = 16384;
 
-Error error_of(const std::filesystem::path& path, const std::string& reason) {
-  return {path.string() + ": " + reason};
+Error error_of(const std::filesystem::path& path, const std::string& reason,
+               ErrorCode code = ErrorCode::kInvalid) {
+  return {path.string() + ": " + reason, code};
 }
 
 Result<std::vector<char>> bytes_of(const std::filesystem::path& path) {
   // Reading a folder throws, and reading a pipe may never end.
   std::error_code absent;
   if (!std::filesystem::is_regular_file(path, absent)) {
-    return error_of(path, "can't be read");
+    return error_of(path, "can't be read", code_of_unopened(path));
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    return error_of(path, "can't be read");
+    return error_of(path, "can't be read", code_of_unopened(path));
   }
   std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (file.bad()) {
-    return error_of(path, "can't be read");
+    return error_of(path, "can't be read", ErrorCode::kIo);
   }
   return bytes;
 }

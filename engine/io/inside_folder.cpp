@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/file_code.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -37,7 +39,7 @@ Result<std::string> path_inside(const std::string& folder, const std::string& na
   }
   const fs::path real = fs::weakly_canonical(path, problem);
   if (problem) {
-    return Error{path.string() + ": cannot be followed: " + problem.message()};
+    return Error{path.string() + ": cannot be followed: " + problem.message(), file_code(problem)};
   }
   if (!lies_in(home, real)) {
     return Error{path.string() + ": is a link that leads out of " + folder};

@@ -14,6 +14,7 @@
 #include <span>
 #include <utility>
 
+#include "base/file_code.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/json_document.h"
 #include "engine/io/ply_file.h"
@@ -40,7 +41,7 @@ Status readable(const std::string& path) {
   }
   const std::uintmax_t size = std::filesystem::file_size(path, problem);
   if (problem || !std::ifstream(path)) {
-    return Error{path + ": cannot be opened"};
+    return Error{path + ": cannot be opened", code_of_unopened(path)};
   }
   if (size == 0) {
     return Error{path + ": is empty"};

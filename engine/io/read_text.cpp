@@ -2,6 +2,7 @@
 #include <fstream>
 #include <vector>
 
+#include "base/file_code.h"
 #include "engine/io/json_document.h"
 
 namespace orthonav::engine {
@@ -13,7 +14,7 @@ Result<std::string> read_text(const std::string& path, std::size_t max_bytes) {
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) {
-    return Error{path + ": cannot be opened"};
+    return Error{path + ": cannot be opened", code_of_unopened(path)};
   }
   std::string text;
   std::vector<char> block(1u << 16u);
@@ -24,7 +25,7 @@ Result<std::string> read_text(const std::string& path, std::size_t max_bytes) {
     }
   }
   if (in.bad()) {
-    return Error{path + ": cannot be read"};
+    return Error{path + ": cannot be read", ErrorCode::kIo};
   }
   return text;
 }

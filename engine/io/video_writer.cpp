@@ -15,12 +15,6 @@ extern "C" {
 
 namespace orthonav::engine {
 
-Error av_error(const std::string& path, const std::string& what, int code) {
-  char text[AV_ERROR_MAX_STRING_SIZE] = {};
-  av_strerror(code, text, sizeof(text));
-  return Error{path + ": " + what + " (" + text + ")"};
-}
-
 namespace {
 
 Status check(const std::string& path, const VideoOptions& o) {

@@ -81,7 +81,8 @@ Status FrameLoop::tolerate(const Status& status, int& in_a_row, LoopReport& repo
     return {};
   }
   return Error{headset_->name() + ": " + std::to_string(in_a_row) + " failures in a row (limit " +
-               std::to_string(options_.max_errors_in_a_row) + "): " + report.last_failure};
+                   std::to_string(options_.max_errors_in_a_row) + "): " + report.last_failure,
+               status.error().code};
 }
 
 /// False at the end of the stream. While no pair comes, guidance on the last one is taken back.

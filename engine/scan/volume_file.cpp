@@ -162,7 +162,7 @@ Result<Volume> load_file(itk::ImageIOBase& io, const std::string& path) {
           check_whole(path, kNiftiHeader + static_cast<std::uint64_t>(io.GetImageSizeInBytes()));
     }
     if (!checked) {
-      return Error{path + ": " + checked.error().message};
+      return Error{path + ": " + checked.error().message, checked.error().code};
     }
     volume.grid = *grid;
     volume.layers = io.GetNumberOfComponents();

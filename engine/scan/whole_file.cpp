@@ -4,13 +4,15 @@
 
 #include <vector>
 
+#include "base/file_code.h"
+
 namespace orthonav::engine {
 
 Status check_whole(const std::string& path, std::uint64_t least_bytes) {
   constexpr unsigned kAtOnce = 1u << 20u;
   const gzFile file = ::gzopen(path.c_str(), "rb");
   if (file == nullptr) {
-    return Error{"can't be opened", ErrorCode::kIo};
+    return Error{"can't be opened", code_of_unopened(path)};
   }
   std::vector<char> room(kAtOnce);
   std::uint64_t bytes = 0;

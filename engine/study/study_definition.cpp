@@ -52,13 +52,15 @@ Status write_merged(const std::string& text, std::span<const std::string> paths,
     for (const char c : text_of(Json::parse(operation.report))) {
       out << c << (c == '\n' ? "  " : "");
     }
-    return out ? Status() : Status(Error{"study merge: what was joined cannot be written"});
+    return out ? Status()
+               : Status(Error{"study merge: what was joined cannot be written", ErrorCode::kIo});
   });
   if (!written) {
     return written.error();
   }
   out << (*before == ',' ? "\n " : "") << text.substr(place) << "\n" << std::flush;
-  return out ? Status() : Status(Error{"study merge: what was joined cannot be written"});
+  return out ? Status()
+             : Status(Error{"study merge: what was joined cannot be written", ErrorCode::kIo});
 }
 
 }  // namespace

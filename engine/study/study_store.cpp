@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/file_code.h"
 #include "engine/io/bit_hash.h"
 #include "engine/io/file_names.h"
 #include "engine/io/posix_env.h"
@@ -86,7 +87,21 @@ struct StudyStore::Database {
   ~Database() { sqlite3_close(handle); }
 
   [[nodiscard]] Error failed(const std::string& path) const {
-    return Error{path + ": " + (handle ? sqlite3_errmsg(handle) : "out of memory")};
+    return Error{path + ": " + (handle ? sqlite3_errmsg(handle) : "out of memory"), code(path)};
+  }
+  [[nodiscard]] ErrorCode code(const std::string& path) const {
+    switch (handle ? sqlite3_errcode(handle) & 0xff : SQLITE_NOMEM) {
+      case SQLITE_CANTOPEN:
+        return code_of_unopened(path);
+      case SQLITE_FULL:
+      case SQLITE_IOERR:
+      case SQLITE_READONLY:
+        return ErrorCode::kIo;
+      case SQLITE_BUSY:
+        return ErrorCode::kUnavailable;
+      default:
+        return ErrorCode::kInvalid;
+    }
   }
   Status execute(const std::string& path, const char* text) const {
     return sqlite3_exec(handle, text, nullptr, nullptr, nullptr) == SQLITE_OK
@@ -266,7 +281,7 @@ Status StudyStore::finish() {
   std::error_code code;
   fs::rename(path_ + ".part", path_, code);
   if (code) {
-    return Error{path_ + ": " + code.message()};
+    return Error{path_ + ": " + code.message(), file_code(code)};
   }
   growing_ = false;
   return sync_folder_of(path_);

@@ -193,8 +193,9 @@ Result<SystemProfile> system_named(const std::string& name_or_file) {
   }
   std::error_code code;
   if (!std::filesystem::is_regular_file(name_or_file, code)) {
-    return Error{"--profile " + name_or_file +
-                 ": neither a file nor a known system (known: " + known + ")"};
+    return Error{
+        "--profile " + name_or_file + ": neither a file nor a known system (known: " + known + ")",
+        ErrorCode::kNotFound};
   }
   const auto text = read_text(name_or_file);
   if (!text) {

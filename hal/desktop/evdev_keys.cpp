@@ -7,6 +7,7 @@
 #include <ctime>
 #include <system_error>
 
+#include "base/file_code.h"
 #include "hal/desktop/key_events.h"
 
 namespace orthonav::desktop {
@@ -16,8 +17,9 @@ namespace {
 // A hand presses a few keys per second; more in one call means a device that floods.
 constexpr int kMaxEventsPerPoll = 256;
 
-Error device_error(const std::string& path, const std::string& why) {
-  return Error{"clicker " + path + ": " + why};
+Error device_error(const std::string& path, const std::string& why,
+                   ErrorCode code = ErrorCode::kInvalid) {
+  return Error{"clicker " + path + ": " + why, code};
 }
 
 class FileDescriptor {
@@ -58,9 +60,11 @@ class EvdevKeys : public KeyEvents {
 
   Status start() {
     if (file_.number() < 0) {
-      return device_error(path_, std::string("cannot be opened: ") +
-                                     std::generic_category().message(errno) +
-                                     (errno == EACCES ? " (usermod -aG input $USER)" : ""));
+      return device_error(path_,
+                          std::string("cannot be opened: ") +
+                              std::generic_category().message(errno) +
+                              (errno == EACCES ? " (usermod -aG input $USER)" : ""),
+                          file_code(errno));
     }
     libevdev* device = nullptr;
     if (const int code = libevdev_new_from_fd(file_.number(), &device); code < 0) {
@@ -83,7 +87,8 @@ class EvdevKeys : public KeyEvents {
     }
     if (const int code = libevdev_grab(device_.get(), LIBEVDEV_GRAB); code < 0) {
       return device_error(
-          path_, std::string("cannot be grabbed: ") + std::generic_category().message(-code));
+          path_, std::string("cannot be grabbed: ") + std::generic_category().message(-code),
+          ErrorCode::kUnavailable);
     }
     return {};
   }
@@ -108,7 +113,8 @@ class EvdevKeys : public KeyEvents {
       }
       if (code < 0) {
         return device_error(path_,
-                            std::string("is gone: ") + std::generic_category().message(-code));
+                            std::string("is gone: ") + std::generic_category().message(-code),
+                            ErrorCode::kLost);
       }
       syncing_ = code == LIBEVDEV_READ_STATUS_SYNC;
       if (event.type == EV_KEY && event.value != kRepeat) {

@@ -9,18 +9,22 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/file_code.h"
+
 namespace orthonav::desktop {
 
 Result<InputFolder> InputFolder::watch(const std::string& folder) {
   const int watch = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
   if (watch < 0) {
-    return Error{std::string("clicker: inotify: ") + std::generic_category().message(errno)};
+    return Error{std::string("clicker: inotify: ") + std::generic_category().message(errno),
+                 ErrorCode::kUnavailable};
   }
   InputFolder made(folder, watch);
   if (::inotify_add_watch(watch, folder.c_str(), IN_CREATE | IN_ATTRIB | IN_DELETE | IN_MOVED_TO) <
       0) {
     return Error{"clicker: " + folder +
-                 " cannot be watched for devices: " + std::generic_category().message(errno)};
+                     " cannot be watched for devices: " + std::generic_category().message(errno),
+                 file_code(errno)};
   }
   return made;
 }

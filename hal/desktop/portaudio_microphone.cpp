@@ -131,8 +131,9 @@ class PortAudioMicrophone : public Microphone {
     if (code == paNoError) {
       return {};
     }
-    return Error{"microphone \"" + std::string(info->name) +
-                 "\" cannot be opened: " + Pa_GetErrorText(code)};
+    return Error{
+        "microphone \"" + std::string(info->name) + "\" cannot be opened: " + Pa_GetErrorText(code),
+        ErrorCode::kUnavailable};
   }
 
  private:
@@ -159,7 +160,7 @@ class PortAudioMicrophone : public Microphone {
       return Error{"microphone: not read in time, sound was dropped"};
     }
     if (count == 0 && Pa_IsStreamActive(stream_) != 1) {
-      return Error{"microphone: is gone"};
+      return Error{"microphone: is gone", ErrorCode::kLost};
     }
     return count;
   }
@@ -195,7 +196,7 @@ Result<std::unique_ptr<Microphone>> open_portaudio_microphone(const std::string&
                                                               const Clock& clock) {
   const PortAudio port_audio;
   if (!port_audio.ok()) {
-    return Error{"microphone: PortAudio cannot be started"};
+    return Error{"microphone: PortAudio cannot be started", ErrorCode::kUnavailable};
   }
   std::optional<PaDeviceIndex> found;
   if (name.empty() && Pa_GetDefaultInputDevice() != paNoDevice) {
@@ -212,7 +213,8 @@ Result<std::unique_ptr<Microphone>> open_portaudio_microphone(const std::string&
       known += (known.empty() ? "" : ", ") + other;
     }
     return Error{"microphone \"" + name + "\" is not there; there " +
-                 (known.empty() ? std::string("is none") : "are " + known)};
+                     (known.empty() ? std::string("is none") : "are " + known),
+                 ErrorCode::kNotFound};
   }
   auto microphone = std::make_unique<PortAudioMicrophone>(clock);
   if (Status started = microphone->start(*found); !started) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <system_error>
 
+#include "base/file_code.h"
 #include "hal/desktop/key_events.h"
 
 namespace orthonav::desktop {
@@ -32,8 +33,9 @@ class RecordedKeys : public KeyEvents {
     std::array<char, kMaxEventsPerRead * sizeof(input_event)> bytes;
     const ssize_t count = ::read(file_, bytes.data(), bytes.size() - rest_size_);
     if (count < 0 && errno != EAGAIN && errno != EINTR) {
-      return Error{"clicker " + path_ +
-                   ": cannot be read: " + std::generic_category().message(errno)};
+      return Error{
+          "clicker " + path_ + ": cannot be read: " + std::generic_category().message(errno),
+          ErrorCode::kIo};
     }
     for (ssize_t i = 0; i < count; ++i) {
       rest_[rest_size_++] = bytes[static_cast<std::size_t>(i)];
@@ -83,7 +85,8 @@ class RecordedKeys : public KeyEvents {
 Result<std::unique_ptr<KeyEvents>> open_recorded_keys(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
-    return Error{"clicker " + path + ": " + std::generic_category().message(errno)};
+    return Error{"clicker " + path + ": " + std::generic_category().message(errno),
+                 file_code(errno)};
   }
   const bool fifo = S_ISFIFO(status.st_mode);
   if (!fifo && !S_ISREG(status.st_mode)) {
@@ -91,8 +94,9 @@ Result<std::unique_ptr<KeyEvents>> open_recorded_keys(const std::string& path) {
   }
   const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) {
-    return Error{"clicker " + path +
-                 ": cannot be opened: " + std::generic_category().message(errno)};
+    return Error{
+        "clicker " + path + ": cannot be opened: " + std::generic_category().message(errno),
+        file_code(errno)};
   }
   return std::unique_ptr<KeyEvents>(std::make_unique<RecordedKeys>(path, file, fifo));
 }

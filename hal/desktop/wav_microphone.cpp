@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/file_code.h"
+
 namespace orthonav::desktop {
 
 namespace {
@@ -59,7 +61,11 @@ Result<std::unique_ptr<Microphone>> open_wav_microphone(const std::filesystem::p
   SF_INFO info{};
   const std::unique_ptr<SNDFILE, CloseSound> file(sf_open(path.c_str(), SFM_READ, &info));
   if (!file) {
-    return file_error(path, std::string("is no sound file: ") + sf_strerror(nullptr));
+    Error error = file_error(path, std::string("is no sound file: ") + sf_strerror(nullptr));
+    if (sf_error(nullptr) == SF_ERR_SYSTEM) {
+      error.code = code_of_unopened(path);
+    }
+    return error;
   }
   constexpr int kMaxChannels = 16;
   constexpr std::int64_t kMaxSeconds = 3600;

@@ -56,7 +56,7 @@ Status SoundStream::take(const Packet& packet, const Stamped& stamped) {
 void SoundStream::disconnected() {
   PacketStream::disconnected();
   const MutexLock lock(mutex_);
-  trouble_ = Error{"microphone: disconnected"};
+  trouble_ = Error{"microphone: disconnected", ErrorCode::kLost};
 }
 
 Result<std::size_t> SoundStream::do_read(std::span<std::int16_t> samples) {

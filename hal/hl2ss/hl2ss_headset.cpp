@@ -18,8 +18,8 @@ constexpr Duration kDisplayLatency = std::chrono::milliseconds(16);
 constexpr Duration kConfigurationWithin = std::chrono::milliseconds(500);
 constexpr std::uint8_t kAskUtcOffset = 1;
 
-Error trouble_with(const std::string& host, const std::string& what) {
-  return Error{"hl2ss: " + host + ": " + what};
+Error trouble_with(const std::string& host, const Error& what) {
+  return Error{"hl2ss: " + host + ": " + what.message, what.code};
 }
 
 Result<StereoCalibration> ask_calibration(const net::Endpoint& endpoint,
@@ -233,7 +233,8 @@ Status wait_for_image(const Receiver& receiver, const Hl2ssOptions& options, Hos
     if (HostClock::now() >= deadline) {
       const std::string why = receiver.troubles();
       return Error{"no image within " + std::to_string(seconds(options.open_within)) + " s" +
-                   (why.empty() ? "" : "; " + why)};
+                       (why.empty() ? "" : "; " + why),
+                   ErrorCode::kUnavailable};
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
@@ -245,22 +246,22 @@ Status wait_for_image(const Receiver& receiver, const Hl2ssOptions& options, Hos
 Result<std::unique_ptr<Hl2ssHeadset>> Hl2ssHeadset::open(const Hl2ssOptions& options) {
   const auto endpoint = net::resolve(options.host);
   if (!endpoint) {
-    return trouble_with(options.host, endpoint.error().message);
+    return trouble_with(options.host, endpoint.error());
   }
   const HostTime deadline = HostClock::now() + options.open_within;
   auto asked_depth = begin_asking_depth(*endpoint, options, deadline);
   auto calibration = ask_calibration(*endpoint, options, deadline);
   if (!calibration) {
-    return trouble_with(options.host, calibration.error().message);
+    return trouble_with(options.host, calibration.error());
   }
   const std::int64_t utc_offset = ask_utc_offset(*endpoint, options, deadline);
   auto receiver = Receiver::start(*endpoint, options, utc_offset);
   if (!receiver) {
-    return trouble_with(options.host, receiver.error().message);
+    return trouble_with(options.host, receiver.error());
   }
   if (const Status came = wait_for_image(**receiver, options, deadline, (*receiver)->standin());
       !came) {
-    return trouble_with(options.host, came.error().message);
+    return trouble_with(options.host, came.error());
   }
   const std::int64_t base = (*receiver)->base_ticks();
   // Stamps that are FILETIME already need no offset.

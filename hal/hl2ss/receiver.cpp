@@ -210,7 +210,7 @@ void Receiver::lost(CameraSide /*side*/) {
   pairer_.forget();
   pairs_.clear();
   head_.lose();
-  pairs_.fail(Error{"hl2ss: " + options_.host + ": connection lost"});
+  pairs_.fail(Error{"hl2ss: " + options_.host + ": connection lost", ErrorCode::kLost});
 }
 
 Result<Timestamp> Receiver::time_of(std::uint64_t ticks, HostTime at) const {

@@ -177,7 +177,8 @@ Result<Next> PoseReceiver::next(StereoFrame& frame) {
   }
   if (lost_) {
     return Error{"igtl: " + options_.host +
-                 ": connection lost: " + std::exchange(lost_, std::nullopt).value_or("")};
+                     ": connection lost: " + std::exchange(lost_, std::nullopt).value_or(""),
+                 ErrorCode::kLost};
   }
   if (!waiting_) {
     return Next::kNone;

@@ -92,7 +92,7 @@ Result<std::unique_ptr<Headset>> open_tracker(const TrackerOptions& options) {
   const std::string name = "igtl://" + options.host + ":" + std::to_string(options.port);
   const auto endpoint = net::resolve(options.host);
   if (!endpoint) {
-    return Error{name + ": " + endpoint.error().message};
+    return Error{name + ": " + endpoint.error().message, endpoint.error().code};
   }
   auto receiver = std::make_unique<PoseReceiver>(*endpoint, options);
   const HostTime deadline = HostClock::now() + options.open_within;

@@ -40,7 +40,7 @@ Result<Socket> open_socket(const Endpoint& host) {
   Socket socket(
       ::socket(host.address.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, IPPROTO_TCP));
   if (!socket.is_open()) {
-    return Error{"no socket: " + reason(errno)};
+    return Error{"no socket: " + reason(errno), ErrorCode::kUnavailable};
   }
   // Small requests must not be delayed (Nagle's algorithm).
   const int on = 1;
@@ -74,7 +74,7 @@ Status send_all(const Socket& socket, Bytes bytes, HostTime deadline) {
     }
     bytes = bytes.subspan(*sent);
     if (!bytes.empty() && !wait_for(socket, POLLOUT, deadline)) {
-      return Error{"no time left"};
+      return Error{"no time left", ErrorCode::kUnavailable};
     }
   }
   return {};
@@ -88,7 +88,7 @@ Result<std::vector<std::uint8_t>> ask_once(const Endpoint& host, int port, Bytes
     return socket.error();
   }
   if (!wait_for(*socket, POLLOUT, deadline)) {
-    return Error{"does not answer"};
+    return Error{"does not answer", ErrorCode::kUnavailable};
   }
   if (const Status outcome = connect_outcome(*socket); !outcome) {
     return outcome.error();
@@ -103,12 +103,14 @@ Result<std::vector<std::uint8_t>> ask_once(const Endpoint& host, int port, Bytes
     const auto got = receive_some(*socket, std::span(answer).subspan(have));
     if (!got) {
       return Error{got.error().message + " after " + std::to_string(have) + " of " +
-                   std::to_string(answer_bytes) + " bytes"};
+                       std::to_string(answer_bytes) + " bytes",
+                   got.error().code};
     }
     have += *got;
     if (*got == 0 && !wait_for(*socket, POLLIN, deadline)) {
-      return Error{"sent " + std::to_string(have) + " of " + std::to_string(answer_bytes) +
-                   " bytes in time"};
+      return Error{
+          "sent " + std::to_string(have) + " of " + std::to_string(answer_bytes) + " bytes in time",
+          ErrorCode::kUnavailable};
     }
   }
   return answer;
@@ -129,7 +131,8 @@ Result<Endpoint> resolve(const std::string& host) {
   addrinfo* found = nullptr;
   const int code = ::getaddrinfo(host.c_str(), nullptr, &hints, &found);
   if (code != 0) {
-    return Error{"host \"" + host + "\" is not known: " + std::string(::gai_strerror(code))};
+    return Error{"host \"" + host + "\" is not known: " + std::string(::gai_strerror(code)),
+                 code == EAI_AGAIN ? ErrorCode::kUnavailable : ErrorCode::kNotFound};
   }
   Endpoint endpoint;
   for (const addrinfo* each = found; each != nullptr; each = each->ai_next) {
@@ -145,7 +148,7 @@ Result<Endpoint> resolve(const std::string& host) {
   }
   ::freeaddrinfo(found);
   if (endpoint.length == 0) {
-    return Error{"host \"" + host + "\" has no address"};
+    return Error{"host \"" + host + "\" has no address", ErrorCode::kNotFound};
   }
   return endpoint;
 }
@@ -158,7 +161,7 @@ Result<Socket> begin_connect(Endpoint host, int port) {
   }
   const auto* address = reinterpret_cast<const sockaddr*>(&host.address);
   if (::connect(socket->fd(), address, host.length) != 0 && errno != EINPROGRESS) {
-    return Error{reason(errno)};
+    return Error{reason(errno), ErrorCode::kUnavailable};
   }
   return socket;
 }
@@ -170,7 +173,7 @@ Status connect_outcome(const Socket& socket) {
     code = errno;
   }
   if (code != 0) {
-    return Error{reason(code)};
+    return Error{reason(code), ErrorCode::kUnavailable};
   }
   return {};
 }
@@ -185,7 +188,7 @@ Result<Socket> listen_at(Endpoint host, int port, int waiting) {
   (void)::setsockopt(socket->fd(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
   const auto* address = reinterpret_cast<const sockaddr*>(&host.address);
   if (::bind(socket->fd(), address, host.length) != 0 || ::listen(socket->fd(), waiting) != 0) {
-    return Error{"port " + std::to_string(port) + ": " + reason(errno)};
+    return Error{"port " + std::to_string(port) + ": " + reason(errno), ErrorCode::kUnavailable};
   }
   return socket;
 }
@@ -222,7 +225,7 @@ Result<std::size_t> receive_some(const Socket& socket, std::span<std::uint8_t> r
   if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) {
     return std::size_t{0};
   }
-  return Error{reason(errno)};
+  return Error{reason(errno), ErrorCode::kLost};
 }
 
 Result<std::size_t> send_some(const Socket& socket, Bytes bytes) {
@@ -236,7 +239,7 @@ Result<std::size_t> send_some(const Socket& socket, Bytes bytes) {
   if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) {
     return std::size_t{0};
   }
-  return Error{reason(errno)};
+  return Error{reason(errno), ErrorCode::kLost};
 }
 
 void cut_off(const Socket& socket) {
@@ -257,7 +260,7 @@ Status reach(const Endpoint& host, int port, HostTime deadline) {
     return socket.error();
   }
   if (!wait_for(*socket, POLLOUT, deadline)) {
-    return Error{"does not answer"};
+    return Error{"does not answer", ErrorCode::kUnavailable};
   }
   return connect_outcome(*socket);
 }
@@ -273,7 +276,8 @@ Result<std::vector<std::uint8_t>> ask(const Endpoint& host, int port, Bytes requ
       if (answer) {
         return answer;
       }
-      return Error{"port " + std::to_string(port) + ": " + answer.error().message};
+      return Error{"port " + std::to_string(port) + ": " + answer.error().message,
+                   answer.error().code};
     }
     std::this_thread::sleep_for(kTryAgain);
   }

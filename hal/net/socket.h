@@ -65,10 +65,10 @@ int port_of(const Socket& listener);
 /// The waiting client, if there is one.
 std::optional<Socket> accept_one(const Socket& listener);
 
-/// Number of bytes received without waiting; 0: none now. An Error if the other side closed
-/// (`ErrorCode::kLost`) or reset the connection.
+/// How many bytes came at once; 0: none now. `ErrorCode::kLost` when the other side
+/// closed or reset.
 Result<std::size_t> receive_some(const Socket& socket, std::span<std::uint8_t> room);
-/// Number of bytes sent without waiting.
+/// How many bytes went at once; fails as `receive_some` does.
 Result<std::size_t> send_some(const Socket& socket, Bytes bytes);
 
 /// Makes closing the socket discard undelivered data; the other side sees a reset.

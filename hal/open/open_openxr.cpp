@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/file_code.h"
 #include "hal/open/bad_uri.h"
 #include "hal/openxr/openxr_headset.h"
 
@@ -55,7 +56,7 @@ Result<Transform<Eye, Rig>> pose_from(const nlohmann::json& json, const std::str
 Result<Transform<Eye, Rig>> load_rig(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    return Error{path + ": can't be read"};
+    return Error{path + ": can't be read", code_of_unopened(path)};
   }
   const auto json = nlohmann::json::parse(file, nullptr, false);
   if (json.is_discarded()) {

@@ -13,8 +13,26 @@ std::string name_of(XrResult result) {
   return "XrResult " + std::to_string(static_cast<int>(result));
 }
 
+namespace {
+
+ErrorCode code_of(XrResult result) {
+  switch (result) {
+    case XR_ERROR_INSTANCE_LOST:
+    case XR_ERROR_SESSION_LOST:
+    case XR_SESSION_LOSS_PENDING:
+      return ErrorCode::kLost;
+    case XR_ERROR_RUNTIME_UNAVAILABLE:
+    case XR_ERROR_FORM_FACTOR_UNAVAILABLE:
+      return ErrorCode::kUnavailable;
+    default:
+      return ErrorCode::kInvalid;
+  }
+}
+
+}  // namespace
+
 Error error_of(const std::string& what, XrResult result) {
-  return Error{"openxr: " + what + ": " + name_of(result)};
+  return Error{"openxr: " + what + ": " + name_of(result), code_of(result)};
 }
 
 Status status_of(const std::string& what, XrResult result) {
@@ -24,10 +42,7 @@ Status status_of(const std::string& what, XrResult result) {
   return {};
 }
 
-bool is_loss(XrResult result) {
-  return result == XR_ERROR_INSTANCE_LOST || result == XR_ERROR_SESSION_LOST ||
-         result == XR_SESSION_LOSS_PENDING;
-}
+bool is_loss(XrResult result) { return code_of(result) == ErrorCode::kLost; }
 
 std::string version_text(XrVersion version) {
   return std::to_string(XR_VERSION_MAJOR(version)) + "." +

@@ -3,6 +3,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/file_code.h"
 #include "base/sync_path.h"
 #include "hal/replay/text.h"
 
@@ -14,8 +15,10 @@ namespace {
 Status sync(const std::filesystem::path& path) {
   const int error_number = sync_path(path.string()).error_number;
   return error_number == 0 ? Status{}
-                           : file_error(path, "may not outlast a loss of power: " +
-                                                  std::generic_category().message(error_number));
+                           : file_error(path,
+                                        "may not outlast a loss of power: " +
+                                            std::generic_category().message(error_number),
+                                        file_code(error_number));
 }
 
 }  // namespace
@@ -28,7 +31,8 @@ Status sync_all(const std::filesystem::path& folder) {
       return synced;
     }
   }
-  return code ? file_error(folder, "cannot be read: " + code.message()) : sync(folder);
+  return code ? file_error(folder, "cannot be read: " + code.message(), file_code(code))
+              : sync(folder);
 }
 
 Status rename_durably(const std::filesystem::path& from, const std::filesystem::path& to) {
@@ -38,7 +42,7 @@ Status rename_durably(const std::filesystem::path& from, const std::filesystem::
   std::error_code code;
   std::filesystem::rename(from, to, code);
   if (code) {
-    return file_error(from, "cannot be renamed: " + code.message());
+    return file_error(from, "cannot be renamed: " + code.message(), file_code(code));
   }
   return sync(std::filesystem::absolute(to).parent_path());
 }

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/file_code.h"
 #include "hal/replay/frame_files.h"
 #include "hal/replay/text.h"
 
@@ -28,8 +29,9 @@ Status LineFile::open(const std::filesystem::path& path, const char* header) {
     path_ = path;
     file_.reset(std::fopen(path.c_str(), "wbe"));
     if (!file_) {
-      return file_error(
-          path, std::string("cannot be written: ") + std::generic_category().message(errno));
+      return file_error(path,
+                        std::string("cannot be written: ") + std::generic_category().message(errno),
+                        file_code(errno));
     }
   }
   return header ? write(header) : Status{};
@@ -44,7 +46,8 @@ Status LineFile::write(const std::string& line) {
                        std::fputc('\n', file_.get()) != EOF && std::fflush(file_.get()) == 0;
   if (!written) {
     return file_error(path_,
-                      std::string("cannot be written: ") + std::generic_category().message(errno));
+                      std::string("cannot be written: ") + std::generic_category().message(errno),
+                      ErrorCode::kIo);
   }
   return {};
 }
@@ -53,7 +56,8 @@ Status LineFile::close() {
   const MutexLock lock(mutex_);
   if (file_ && std::fclose(file_.release()) != 0) {
     return file_error(path_,
-                      std::string("cannot be written: ") + std::generic_category().message(errno));
+                      std::string("cannot be written: ") + std::generic_category().message(errno),
+                      ErrorCode::kIo);
   }
   return {};
 }
@@ -89,8 +93,10 @@ Error ImageTarWriter::failed() const {
   const int number = archive_errno(archive_.get());
   // The library's own message for a failed write says no more than this.
   return file_error(
-      path_, "cannot be written: " + (number > 0 ? std::generic_category().message(number)
-                                                 : std::string(text ? text : "unknown error")));
+      path_,
+      "cannot be written: " + (number > 0 ? std::generic_category().message(number)
+                                          : std::string(text ? text : "unknown error")),
+      ErrorCode::kIo);
 }
 
 Status ImageTarWriter::write(std::int64_t ticks, const GreyImage& image) {

@@ -16,7 +16,6 @@
 #include "hal/replay/text.h"
 
 namespace orthonav::replay {
-
 namespace {
 
 constexpr std::uint64_t kTarBlockBytes = 512;
@@ -87,7 +86,7 @@ Result<ImageTar> ImageTar::open(const std::filesystem::path& path, ImageLayout l
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
   if (!std::filesystem::exists(status)) {
-    return file_error(path, "no such file");
+    return file_error(path, "no such file", ErrorCode::kNotFound);
   }
   if (!std::filesystem::is_regular_file(status)) {
     return file_error(path, "is not a file");
@@ -97,7 +96,7 @@ Result<ImageTar> ImageTar::open(const std::filesystem::path& path, ImageLayout l
   tar.layout_ = std::move(layout);
   tar.file_.reset(std::fopen(path.c_str(), "rb"));
   if (!tar.file_) {
-    return file_error(path, "cannot be opened");
+    return file_error(path, "cannot be opened", ErrorCode::kIo);
   }
   if (Status indexed = tar.index(); !indexed) {
     return indexed.error();
@@ -109,7 +108,7 @@ Status ImageTar::index() {
   std::error_code code;
   const std::uint64_t file_size = std::filesystem::file_size(path_, code);
   if (code) {
-    return file_error(path_, "cannot be read: " + code.message());
+    return file_error(path_, "cannot be read: " + code.message(), ErrorCode::kIo);
   }
   if (file_size == 0) {
     return no_whole_image(file_size);  // libarchive does not recognize it
@@ -178,7 +177,7 @@ Status ImageTar::index_member(const char* name_text, bool plain, std::uint64_t o
   std::array<char, 256> bytes;
   const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(size, bytes.size()));
   if (!read_at(offset, bytes.data(), count)) {
-    return file_error(path_, member + "cannot be read");
+    return file_error(path_, member + "cannot be read", ErrorCode::kIo);
   }
   const auto header = parse_pgm_header(std::string_view(bytes.data(), count));
   if (!header) {
@@ -247,7 +246,7 @@ Status ImageTar::check_end(std::uint64_t file_size) {
     const auto count =
         static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), file_size - at));
     if (!read_at(at, bytes.data(), count)) {
-      return file_error(path_, "cannot be read to its end");
+      return file_error(path_, "cannot be read to its end", ErrorCode::kIo);
     }
     const auto stray = std::find_if(bytes.data(), bytes.data() + count, [](char c) { return c; });
     if (stray != bytes.data() + count) {
@@ -274,7 +273,8 @@ Status ImageTar::read_pixels(const ImageMember& member, PlainImage<Value>& image
   if (read_at(member.pixels_offset, image.pixels.data(), image_bytes())) {
     return {};
   }
-  return file_error(path_, "image " + std::to_string(member.ticks) + ".pgm cannot be read");
+  return file_error(path_, "image " + std::to_string(member.ticks) + ".pgm cannot be read",
+                    ErrorCode::kIo);
 }
 
 Status ImageTar::read(const ImageMember& member, GreyImage& image) {

@@ -20,7 +20,7 @@ constexpr Sensors kHololens1{kHololens1Left, kHololens1Right};
 Status check_folder(const std::filesystem::path& folder) {
   std::error_code code;
   if (!is_there(folder)) {
-    return file_error(folder, "no such recording");
+    return file_error(folder, "no such recording", ErrorCode::kNotFound);
   }
   if (!std::filesystem::is_directory(folder, code)) {
     return file_error(

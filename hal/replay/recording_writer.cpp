@@ -2,6 +2,7 @@
 
 #include <system_error>
 
+#include "base/file_code.h"
 #include "hal/replay/calibration_files.h"
 #include "hal/replay/durable.h"
 #include "hal/replay/frame_files.h"
@@ -47,7 +48,7 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(
   std::error_code code;
   std::filesystem::create_directories(writer->part_, code);
   if (code) {
-    return file_error(writer->part_, "cannot be made: " + code.message());
+    return file_error(writer->part_, "cannot be made: " + code.message(), file_code(code));
   }
   const auto filled = [&]() -> Status {
     if (Status s = write_calibration(writer->part_, calibration); !s) {

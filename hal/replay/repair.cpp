@@ -4,6 +4,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "base/file_code.h"
 #include "hal/replay/durable.h"
 #include "hal/replay/layout.h"
 #include "hal/replay/recording.h"
@@ -20,7 +21,9 @@ constexpr std::uintmax_t kMaxLinesBytes = std::uintmax_t{1} << 31U;
 Status resize(const std::filesystem::path& path, std::uint64_t bytes) {
   std::error_code code;
   std::filesystem::resize_file(path, bytes, code);
-  return code ? Status(file_error(path, "cannot be cut to size: " + code.message())) : Status();
+  return code
+             ? Status(file_error(path, "cannot be cut to size: " + code.message(), file_code(code)))
+             : Status();
 }
 
 /// Growing a file adds zeros, which the end mark is made of.

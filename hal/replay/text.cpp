@@ -5,6 +5,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "base/file_code.h"
+
 namespace orthonav::replay {
 
 namespace {
@@ -47,8 +49,8 @@ void append(std::string& text, T value) {
 
 }  // namespace
 
-Error file_error(const std::filesystem::path& path, const std::string& why) {
-  return Error{path.string() + ": " + why};
+Error file_error(const std::filesystem::path& path, const std::string& why, ErrorCode code) {
+  return Error{path.string() + ": " + why, code};
 }
 
 Error line_error(const std::filesystem::path& path, std::size_t line, const std::string& why) {
@@ -64,14 +66,14 @@ Result<std::string> read_text(const std::filesystem::path& path, std::uintmax_t 
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
   if (!std::filesystem::exists(status)) {
-    return file_error(path, "no such file");
+    return file_error(path, "no such file", ErrorCode::kNotFound);
   }
   if (!std::filesystem::is_regular_file(status)) {
     return file_error(path, "is not a file");
   }
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   if (code) {
-    return file_error(path, "cannot be read: " + code.message());
+    return file_error(path, "cannot be read: " + code.message(), file_code(code));
   }
   if (size > max_bytes) {
     return file_error(
@@ -81,7 +83,7 @@ Result<std::string> read_text(const std::filesystem::path& path, std::uintmax_t 
   std::string text(static_cast<std::size_t>(size), '\0');
   file.read(text.data(), static_cast<std::streamsize>(size));
   if (!file || file.gcount() != static_cast<std::streamsize>(size)) {
-    return file_error(path, "cannot be read");
+    return file_error(path, "cannot be read", ErrorCode::kIo);
   }
   return text;
 }
@@ -100,7 +102,7 @@ Status write_bytes(const std::filesystem::path& path, std::span<const char> byte
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
   if (!file) {
-    return file_error(path, "cannot be written");
+    return file_error(path, "cannot be written", ErrorCode::kIo);
   }
   return {};
 }

@@ -16,7 +16,8 @@
 namespace orthonav::replay {
 
 /// Error about a file, or about a line of it: `PATH: line 7: WHY`.
-Error file_error(const std::filesystem::path& path, const std::string& why);
+Error file_error(const std::filesystem::path& path, const std::string& why,
+                 ErrorCode code = ErrorCode::kInvalid);
 Error line_error(const std::filesystem::path& path, std::size_t line, const std::string& why);
 
 [[nodiscard]] bool is_there(const std::filesystem::path& path);

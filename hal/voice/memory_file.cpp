@@ -12,13 +12,15 @@ namespace orthonav::voice {
 Result<MemoryFile> MemoryFile::create(std::string_view content) {
   const int descriptor = ::memfd_create("orthonav", MFD_CLOEXEC);
   if (descriptor < 0) {
-    return Error{"voice: no file in memory: " + std::generic_category().message(errno)};
+    return Error{"voice: no file in memory: " + std::generic_category().message(errno),
+                 ErrorCode::kIo};
   }
   MemoryFile file(descriptor);
   while (!content.empty()) {
     const ::ssize_t written = ::write(descriptor, content.data(), content.size());
     if (written <= 0) {
-      return Error{"voice: no file in memory: " + std::generic_category().message(errno)};
+      return Error{"voice: no file in memory: " + std::generic_category().message(errno),
+                   ErrorCode::kIo};
     }
     content.remove_prefix(static_cast<std::size_t>(written));
   }

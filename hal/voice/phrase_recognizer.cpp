@@ -97,7 +97,8 @@ Result<std::unique_ptr<PhraseRecognizer>> PhraseRecognizer::create(
     const std::vector<std::string>& phrases, const std::filesystem::path& model) {
   std::error_code code;
   if (!std::filesystem::exists(model / "mdef", code)) {
-    return Error{"voice: no acoustic model in " + model.string() + " (Debian: pocketsphinx-en-us)"};
+    return Error{"voice: no acoustic model in " + model.string() + " (Debian: pocketsphinx-en-us)",
+                 ErrorCode::kNotFound};
   }
   err_set_logfp(nullptr);
   std::unique_ptr<PhraseRecognizer> recognizer(new PhraseRecognizer);

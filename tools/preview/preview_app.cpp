@@ -108,7 +108,7 @@ Status PreviewApp::watch() {
   while (!window_->closed()) {
     const Timestamp begun = wall_.now();
     if (window_->lost()) {
-      return Error{"window: the display has gone"};
+      return Error{"window: the display has gone", ErrorCode::kLost};
     }
     if (const Status did = run_script(); !did) {
       return did;

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 Status PreviewApp::make_out() {
   const auto made = engine::make_folders(options_.out);
-  return made ? Status{} : Error{"--out " + made.error().message};
+  return made ? Status{} : Error{"--out " + made.error().message, made.error().code};
 }
 
 std::string PreviewApp::next_name(const std::string& ending) {

@@ -82,7 +82,7 @@ struct Window::Glfw {
 Result<std::unique_ptr<Window>> Window::open(const std::string& title, int width_px, int height_px,
                                              WindowInput input) {
   if (!glfwInit()) {
-    return Error{"window: " + newest_glfw_error("no display")};
+    return Error{"window: " + newest_glfw_error("no display"), ErrorCode::kUnavailable};
   }
   auto glfw = std::make_unique<Glfw>();
   watch_display();
@@ -90,7 +90,7 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, int width
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
   glfw->window = glfwCreateWindow(width_px, height_px, title.c_str(), nullptr, nullptr);
   if (!glfw->window) {
-    return Error{"window: " + newest_glfw_error("cannot be opened")};
+    return Error{"window: " + newest_glfw_error("cannot be opened"), ErrorCode::kUnavailable};
   }
   glfwMakeContextCurrent(glfw->window);
   glfwSwapInterval(1);

@@ -273,7 +273,7 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, Open
   }
   const auto host = net::resolve(options.host);
   if (!host) {
-    return Error{"hl2ss server: " + host.error().message};
+    return Error{"hl2ss server: " + host.error().message, host.error().code};
   }
   const auto allowed = net::Allowed::of(options.allow);
   if (!allowed) {
@@ -288,7 +288,7 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, Open
   }
   auto server = std::make_unique<RunningServer>(options, std::move(open), std::move(*first));
   if (const Status listening = server->listen(*host, *allowed); !listening) {
-    return Error{"hl2ss server: " + listening.error().message};
+    return Error{"hl2ss server: " + listening.error().message, listening.error().code};
   }
   server->run();
   return std::unique_ptr<Server>(std::move(server));

@@ -180,6 +180,7 @@ TEST_F(CaseFile, RefusesLabelsThatWouldNameFilesElsewhere) {
 
 TEST_F(CaseFile, NamesWhatIsMissing) {
   EXPECT_THAT(load_case(folder_.file("none")).error().message, HasSubstr("cannot be opened"));
+  EXPECT_EQ(load_case(folder_.file("none")).error().code, ErrorCode::kNotFound);
   EXPECT_THAT(refusal(""), HasSubstr("levels is empty"));
   EXPECT_THAT(refusal(R"({"label": "L4", "plan": "L4.plan.json"})"),
               HasSubstr("levels[0].model is missing"));

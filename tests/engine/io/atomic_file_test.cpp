@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "tests/support/file_calls.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/is_ok.h"
 #include "tests/support/temporary_folder.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 using orthonav::test::content_of;
 using orthonav::test::FileCalls;
+using orthonav::test::FullDisk;
 using orthonav::test::is_ok;
 using orthonav::test::TemporaryFolder;
 using ::testing::ElementsAre;
@@ -141,12 +143,21 @@ TEST(AtomicFile, WritesADeviceInPlace) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
+TEST(AtomicFile, TellsAFullDiskByItsCode) {
+  const TemporaryFolder folder;
+  const FullDisk full(10);
+  const Status written = write_file(folder.file("report.json"), std::string(100, 'x'));
+  ASSERT_FALSE(written.ok());
+  EXPECT_EQ(written.error().code, ErrorCode::kIo);
+}
+
 TEST(AtomicFile, RefusesWhatCannotBeWritten) {
   const TemporaryFolder folder;
   EXPECT_THAT(AtomicFile::create("").error().message, HasSubstr("no name"));
   EXPECT_THAT(AtomicFile::create(folder.path().string()).error().message, HasSubstr("is a folder"));
-  EXPECT_THAT(AtomicFile::create(folder.file("none/a.txt")).error().message,
-              HasSubstr("does not exist"));
+  const auto nowhere = AtomicFile::create(folder.file("none/a.txt"));
+  EXPECT_THAT(nowhere.error().message, HasSubstr("does not exist"));
+  EXPECT_EQ(nowhere.error().code, ErrorCode::kNotFound);
 }
 
 }  // namespace

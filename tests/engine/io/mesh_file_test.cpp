@@ -164,6 +164,7 @@ TEST(MeshFile, RefusesVerticesThatAreNotFinite) {
 TEST(MeshFile, RefusesWhatIsNoMesh) {
   const TemporaryFolder folder;
   EXPECT_THAT(refusal(folder.file("none.stl")), HasSubstr("cannot be opened"));
+  EXPECT_EQ(load_mesh(folder.file("none.stl"), kMm).error().code, ErrorCode::kNotFound);
   EXPECT_THAT(refusal(folder.path().string()), HasSubstr("is a folder"));
   EXPECT_THAT(refusal(folder.with("empty.stl", "")), HasSubstr("is empty"));
   EXPECT_THAT(refusal(folder.with("mesh.txt", "solid")), HasSubstr("STL, PLY or OBJ"));

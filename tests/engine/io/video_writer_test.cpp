@@ -58,6 +58,7 @@ TEST(VideoWriter, RefusesOddSizesWrongPicturesAndBadFolders) {
   const auto nowhere = VideoWriter::create("/no/such/folder/x.mp4", {});
   ASSERT_FALSE(nowhere.ok());
   EXPECT_THAT(nowhere.error().message, ::testing::HasSubstr("/no/such/folder/x.mp4"));
+  EXPECT_EQ(nowhere.error().code, ErrorCode::kNotFound);
   const std::string path = ::testing::TempDir() + "video_writer_size.mp4";
   auto writer = VideoWriter::create(path, {.width_px = 64, .height_px = 48});
   ASSERT_TRUE(writer.ok());

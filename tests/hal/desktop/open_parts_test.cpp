@@ -64,6 +64,8 @@ TEST(OpenVoice, NamesWhatItKnows) {
   EXPECT_THAT(voice_refusal("wav:x.wav?wake=maybe"), HasSubstr("wake=always"));
   EXPECT_THAT(voice_refusal("wav:/nowhere/x.wav"), HasSubstr("/nowhere/x.wav"));
   EXPECT_THAT(voice_refusal("mic:no such microphone"), HasSubstr("no such microphone"));
+  const fake::ManualClock clock;
+  EXPECT_EQ(open_voice("wav:/nowhere/x.wav", {"save"}, clock).error().code, ErrorCode::kNotFound);
 }
 
 }  // namespace

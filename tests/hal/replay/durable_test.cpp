@@ -66,6 +66,7 @@ TEST(RecordingOnDisk, KeepsItsTemporaryNameWhereASyncFailed) {
   ASSERT_FALSE(closed.ok());
   EXPECT_THAT(closed.error().message,
               HasSubstr("VLC LF.tar: may not outlast a loss of power: Input/output error"));
+  EXPECT_EQ(closed.error().code, ErrorCode::kIo);
   EXPECT_TRUE(std::filesystem::exists(folder / "session.part"));
   EXPECT_FALSE(std::filesystem::exists(folder / "session"));
 }
