@@ -10,8 +10,18 @@ namespace {
 /// A saved region goes when "delete" is said twice within this time.
 constexpr Duration kSaidTwiceWithin = std::chrono::seconds(5);
 
-}  // namespace
+std::ptrdiff_t saved_in(std::span<const nav::Region> regions) {
+  return std::count_if(regions.begin(), regions.end(),
+                       [](const nav::Region& region) { return region.saved; });
+}
 
+/// There is one.
+const nav::Region& last_saved(std::span<const nav::Region> regions) {
+  return *std::find_if(regions.rbegin(), regions.rend(),
+                       [](const nav::Region& region) { return region.saved; });
+}
+
+/// Of a registration that does not count: why, with what to do about it, if that is known.
 Message message_about(const RegistrationOutcome& outcome) {
   RegistrationRefused refused;
   refused.error = outcome.error;
@@ -23,10 +33,17 @@ Message message_about(const RegistrationOutcome& outcome) {
   return refused;
 }
 
-Digitizing::Digitizing(const Method& method, const SessionOptions& options)
-    : verification_(method.verification), options_(options) {
-  if (method.coaching) {
-    coach_ = std::make_unique<Coach>(method.registrar, options.common);
+}  // namespace
+
+Digitizing::Digitizing(const OperationInWork& work) {
+  if (work.method.coaching) {
+    coach_ = std::make_unique<Coach>(work.method.registrar, work.options.common);
+  }
+}
+
+void Digitizing::watch_work(WorkWatch* watch) {
+  if (coach_) {
+    coach_->watch(watch);
   }
 }
 
@@ -37,25 +54,40 @@ void Digitizing::press(LevelState& level, Timestamp time) {
   }
 }
 
-void Digitizing::collect(const nav::TrackedPose& pose, const nav::ToolGeometry& pointer) {
+void Digitizing::collect(const OperationInWork& work) {
   if (strokes_.digitizer.recording()) {
-    strokes_.digitizer.add(pose, pointer.tip_in_marker, pointer.axis_in_marker);
+    const std::size_t pointer = work.tools.pointer();
+    const nav::ToolGeometry& tool = work.tools.geometry(pointer);
+    strokes_.digitizer.add(work.tools.watch(pointer).newest(), tool.tip_in_marker,
+                           tool.axis_in_marker);
   }
-}
-
-void Digitizing::watch_work(WorkWatch* watch) {
   if (coach_) {
-    coach_->watch(watch);
+    coach_->step(work.level().plan, regions());
   }
 }
 
-void Digitizing::coach(const OperatedLevel& plan) {
-  if (coach_) {
-    coach_->step(plan, regions());
+void Digitizing::save_region(OperationInWork& work, Timestamp time) {
+  const std::ptrdiff_t before = saved_in(regions());
+  strokes_.digitizer.save();
+  if (saved_in(regions()) > before) {
+    // Where the button is still down, the next region has begun behind it.
+    work.observer->region_saved(time, work.level(), last_saved(regions()));
   }
 }
 
-Message Digitizing::drop_region(Timestamp time) {
+void Digitizing::drop_region(OperationInWork& work, Timestamp time) {
+  const std::ptrdiff_t before = saved_in(regions());
+  Message answer = dropped(time);
+  if (saved_in(regions()) < before) {
+    work.observer->region_dropped(time, work.level());
+  }
+  if (!std::holds_alternative<std::monostate>(answer)) {
+    work.messages.say(std::move(answer), time);
+  }
+}
+
+/// Returns what the surgeon must be told, which may be nothing.
+Message Digitizing::dropped(Timestamp time) {
   std::optional<nav::Region> gone = strokes_.digitizer.drop();
   const bool asked =
       std::exchange(strokes_.asked_to_drop_saved, std::nullopt) >= time - kSaidTwiceWithin;
@@ -68,18 +100,30 @@ Message Digitizing::drop_region(Timestamp time) {
     return {};
   }
   // One word too many must not cost a good region.
-  const auto drawn = regions();
-  const auto last =
-      std::find_if(drawn.rbegin(), drawn.rend(), [](const nav::Region& r) { return r.saved; });
-  if (last == drawn.rend()) {
+  if (saved_in(regions()) == 0) {
     return NothingToDelete{NothingToDelete::What::kRegion};
   }
   strokes_.asked_to_drop_saved = time;
-  return ConfirmDelete{last->samples.size()};
+  return ConfirmDelete{last_saved(regions()).samples.size()};
 }
 
-RegistrationOutcome Digitizing::register_level(LevelState& level, const Registrar& registrar,
-                                               Timestamp time) {
+Event Digitizing::register_level(OperationInWork& work, Timestamp time) {
+  LevelState& level = work.level();
+  const WatchedTools& tools = work.tools;
+  level.tag_size.reset();
+  if (const auto fraction = tools.tag_size_off(tools.pointer())) {
+    level.tag_size = TagSizeWarning{tools.geometry(tools.pointer()).name, *fraction};
+  }
+  const RegistrationOutcome outcome = registered(work, time);
+  if (!outcome.passed()) {
+    work.messages.say(message_about(outcome), time);
+  }
+  work.observer->registered(time, level, outcome);
+  return outcome.passed() ? Event::kRegistered : Event::kRegistrationRefused;
+}
+
+RegistrationOutcome Digitizing::registered(OperationInWork& work, Timestamp time) {
+  LevelState& level = work.level();
   nav::Digitizer& digitizer = strokes_.digitizer;
   digitizer.release(time);
   // What is not saved is not registered: the two clicks that ask for it are no strokes.
@@ -90,10 +134,10 @@ RegistrationOutcome Digitizing::register_level(LevelState& level, const Registra
   const std::vector<Point<World>> points = digitizer.saved_points();
   const std::vector<double> sds_m = digitizer.saved_point_sds_m();
   const std::vector<Vec3> shafts = digitizer.saved_shafts();
-  nav::CommonErrors common = options_.common;
+  nav::CommonErrors common = work.options.common;
   common.map_m =
-      std::hypot(common.map_m, options_.drift_since_m(time - level.first_press.value_or(time)));
-  const auto result = registrar(
+      std::hypot(common.map_m, work.options.drift_since_m(time - level.first_press.value_or(time)));
+  const auto result = work.method.registrar(
       {*level.plan.model, points, level.plan.screws, level.plan.neighbours, common, sds_m, shafts});
   RegistrationOutcome outcome;
   level.newest.reset();
@@ -101,7 +145,7 @@ RegistrationOutcome Digitizing::register_level(LevelState& level, const Registra
     outcome.error = result.error();
   } else {
     outcome.result = *result;
-    outcome.provisional = result->provisional && verification_ == Verification::kByTouch;
+    outcome.provisional = result->provisional && work.method.verification == Verification::kByTouch;
     level.newest = RegistrationAttempt{points, *result};
   }
   if (outcome.passed()) {
@@ -131,10 +175,12 @@ void Digitizing::forget_coaching() {
   }
 }
 
-const DroppedRegion* Digitizing::dropped(Timestamp display_time, Duration fade) const {
+void Digitizing::write(Guidance& out) const {
   const DroppedRegion& dropped = strokes_.dropped;
-  const bool fading = !dropped.region.samples.empty() && display_time - dropped.dropped_at <= fade;
-  return fading ? &dropped : nullptr;
+  const bool fading =
+      !dropped.region.samples.empty() && out.display_time - dropped.dropped_at <= out.fade;
+  out.regions = regions();
+  out.dropped = fading ? &dropped : nullptr;
 }
 
 StrokesSoFar Digitizing::state() const {

@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/session/calibration_in_use.h"
+#include "engine/session/guide_checks.h"
+#include "engine/session/placing.h"
+#include "engine/session/rod_templating.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -13,6 +18,18 @@ constexpr double kWithdrawn_m = 0.001;
 constexpr double kOffTheScrew_m = 0.015;
 /// A tool that is turned farther from the plan is not aimed at it: 30°.
 constexpr double kAway_rad = 0.52;
+
+/// What comes after a screw that is done.
+Event after_screw(const OperationInWork& work) {
+  const auto finished = [](const LevelState& level) { return level.finished(); };
+  if (!finished(work.level())) {
+    return Event::kAnotherScrew;
+  }
+  if (!std::all_of(work.levels.begin(), work.levels.end(), finished)) {
+    return Event::kAnotherLevel;
+  }
+  return any_rod_planned(work.levels) ? Event::kNoScrewLeft : Event::kNoRodPlanned;
+}
 
 }  // namespace
 
@@ -26,17 +43,47 @@ void Guiding::begin_level() {
   forget_guidance();
 }
 
-void Guiding::forget_guidance() {
-  at_depth_.reset();
-  numbers_.forget();
-  clearance_.forget();
-  drill_.forget();
-  path_.forget();
+Event Guiding::finish_screw(OperationInWork& work, const Placing& placing, Timestamp time) const {
+  LevelState& level = work.level();
+  const auto& at_depth = approach_.at_depth;
+  level.screw_done[screw_] = true;
+  level.clearance_at_depth[screw_] =
+      at_depth
+          ? clearance_along(level, approach_.pose_at_depth, work.tools.geometry(work.tools.guide()))
+          : std::nullopt;
+  level.executed[screw_] = approach_.path.mean();
+  if (work.step == Step::kPlaced) {
+    level.wires[screw_] = {true, placing.wire()};
+  }
+  work.observer->screw_done(time, level, screw_, at_depth ? &*at_depth : nullptr);
+  work.observer->calibration_found(time, calibration_in_use(work.tools.tracker()));
+  return after_screw(work);
 }
 
-std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWatch& watch,
-                                           const nav::ToolGeometry& tool, Timestamp now,
-                                           Timestamp display_time, Duration stale_after) {
+void Guiding::write(const OperationInWork& work, const GuideChecks& checks, bool hidden,
+                    Guidance& out) {
+  out.screw = screw_;
+  out.twin = twin_;
+  out.tool.reset();
+  out.drill = {};
+  if (work.step != Step::kGuide) {
+    return;
+  }
+  if (hidden) {
+    lose_measurement();
+  } else {
+    errors_ = checks.errors(work, out.frame_time);
+    out.tool = guide(work, out.frame_time, out.display_time);
+  }
+  out.drill = drill();
+}
+
+std::optional<ToolGuidance> Guiding::guide(const OperationInWork& work, Timestamp now,
+                                           Timestamp display_time) {
+  const LevelState& level = work.level();
+  const ToolWatch& watch = work.tools.watch(work.tools.guide());
+  const nav::ToolGeometry& tool = work.tools.geometry(work.tools.guide());
+  const Duration stale_after = work.options.stale_after;
   if (!watch.measured_now()) {
     lose_measurement();
   }
@@ -63,6 +110,9 @@ std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWa
   guidance.measured = against_plan(watch.newest().value);
   take_measurement(guidance, level, watch.newest(), tool);
   remember_depth(guidance, *guidance.measured, watch.newest());
+  if (work.options.live_clearance) {
+    add_clearance(guidance, level, watch.newest(), tool);
+  }
   return guidance;
 }
 
@@ -74,9 +124,9 @@ ToolInVertebra Guiding::in_bone(const LevelState& level, const nav::TrackedPose&
 }
 
 void Guiding::lose_measurement() {
-  numbers_.forget();
-  clearance_.forget();
-  drill_.not_measured();
+  approach_.numbers.forget();
+  approach_.clearance.forget();
+  approach_.drill.not_measured();
 }
 
 void Guiding::take_measurement(ToolGuidance& guidance, const LevelState& level,
@@ -87,17 +137,18 @@ void Guiding::take_measurement(ToolGuidance& guidance, const LevelState& level,
   const nav::PoseUncertainty* uncertainty = there.uncertainty ? &*there.uncertainty : nullptr;
   const auto deviation = nav::anatomical_deviation(plan, there.axis, uncertainty);
   if (deviation) {
-    guidance.numbers = numbers_.write(*deviation);
+    guidance.numbers = approach_.numbers.write(*deviation);
   }
   const auto on_bone = level.plan.model->surface().nearest(there.axis.point.v);
   if (measured.tip_off_axis_m <= kOffTheScrew_m) {
-    path_.add(plan, there.axis, uncertainty);
+    approach_.path.add(plan, there.axis, uncertainty);
   }
-  drill_.measured({pose.time, there.axis.point.v,
-                   on_bone ? on_bone->distance_m : std::numeric_limits<double>::infinity(),
-                   measured.tip_off_axis_m, measured.angle_rad, measured.depth_m,
-                   deviation ? deviation->depth_m.sd : std::numeric_limits<double>::infinity(),
-                   measured.to_target_m, tool.stop_m});
+  approach_.drill.measured(
+      {pose.time, there.axis.point.v,
+       on_bone ? on_bone->distance_m : std::numeric_limits<double>::infinity(),
+       measured.tip_off_axis_m, measured.angle_rad, measured.depth_m,
+       deviation ? deviation->depth_m.sd : std::numeric_limits<double>::infinity(),
+       measured.to_target_m, tool.stop_m});
 }
 
 void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,
@@ -106,10 +157,10 @@ void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuida
     return;
   }
   const double depth_m = measured.depth_m;
-  if (!at_depth_ || depth_m >= deepest_m_ - kWithdrawn_m) {
-    deepest_m_ = at_depth_ ? std::max(deepest_m_, depth_m) : depth_m;
-    at_depth_ = guidance;
-    pose_at_depth_ = pose;
+  if (!approach_.at_depth || depth_m >= approach_.deepest_m - kWithdrawn_m) {
+    approach_.deepest_m = approach_.at_depth ? std::max(approach_.deepest_m, depth_m) : depth_m;
+    approach_.at_depth = guidance;
+    approach_.pose_at_depth = pose;
   }
 }
 
@@ -142,15 +193,10 @@ void Guiding::add_clearance(ToolGuidance& guidance, const LevelState& level,
   guidance.clearance = clearance_along(level, pose, tool);
   if (guidance.clearance) {
     guidance.shown_clearance =
-        clearance_.write(*guidance.clearance, level.plan.screws[screw_].side);
+        approach_.clearance.write(*guidance.clearance, level.plan.screws[screw_].side);
   } else {
-    clearance_.forget();
+    approach_.clearance.forget();
   }
-}
-
-std::optional<nav::ScrewClearance> Guiding::clearance_at_depth(
-    const LevelState& level, const nav::ToolGeometry& tool) const {
-  return at_depth_ ? clearance_along(level, pose_at_depth_, tool) : std::nullopt;
 }
 
 StepState Guiding::state(const LevelState& level) const {

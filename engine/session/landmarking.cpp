@@ -4,6 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/session/guide_checks.h"
+#include "engine/session/guiding.h"
+#include "engine/session/verifying.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -32,12 +36,87 @@ double farthest_m(const LevelState& level, std::span<const ReferencePost> posts)
   return most_m;
 }
 
+/// By its landmark, where it was.
+void note_bone_found(LevelState& level, const LandmarkTouch& touch, double drift_m_per_sqrt_s,
+                     Timestamp time) {
+  // Of a registration that was restored nobody knows when the bone was found last.
+  const BoneFound before = level.bone_found.value_or(BoneFound{time, 0.0, drift_m_per_sqrt_s});
+  level.bone_found = found_by_landmark(before, touch, *level.landmark, time);
+  level.unverified = false;
+  if (touch.first) {
+    level.landmark->bone_sd_m = level.bone_found->sd_m;
+  }
+}
+
 }  // namespace
 
-void Landmarking::begin() {
-  forget_touches();
-  recorded_here_ = false;
-  touch_.drop();
+void Landmarking::begin_touch() {
+  pointer_.begin();
+  guide_.begin();
+}
+
+void Landmarking::end_touch() {
+  pointer_.release();
+  guide_.release();
+}
+
+void Landmarking::drop_touch(OperationInWork& work, Timestamp time) {
+  pointer_.drop();
+  work.messages.say(
+      TouchNotRecorded{TouchNotRecorded::What::kLandmark, {TouchRefusal::Kind::kHeldTooLong}},
+      time);
+}
+
+void Landmarking::collect(const WatchedTools& tools) {
+  add_tip(pointer_, tools, tools.pointer());
+  add_tip(guide_, tools, tools.guide());
+}
+
+std::optional<Event> Landmarking::touch_landmark(OperationInWork& work, GuideChecks& guide,
+                                                 Timestamp time) {
+  LevelState& level = work.level();
+  const TouchedPlace place = take_place(pointer_, work, time);
+  if (const auto guide_tip = guide_tip_in_landmark(work, place)) {
+    guide.compare_tips(work, *guide_tip, place_in_world(level), time);
+    return std::nullopt;
+  }
+  const auto taken = take(level, place, work.tools.reference_posts(), work.anchored(), time);
+  if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
+    work.messages.say(TouchNotRecorded{TouchNotRecorded::What::kLandmark, *refusal}, time);
+    return std::nullopt;
+  }
+  const auto& touch = std::get<LandmarkTouch>(taken);
+  if (touch.held()) {
+    note_bone_found(level, touch, work.options.map_drift_m_per_sqrt_s, time);
+  }
+  if (touch.missing == 0) {
+    work.observer->landmark_touched(time, level, touch);
+  }
+  return touch.moved() ? std::optional(Event::kLandmarkMoved) : std::nullopt;
+}
+
+/// Once the pointer was in the dimple the guide may follow: a press is that of the tool whose tip
+/// is nearer to it.
+std::optional<nav::PressedPlace> Landmarking::guide_tip_in_landmark(const OperationInWork& work,
+                                                                    const TouchedPlace& pointer) {
+  constexpr double kInReach_m = 0.02;
+  if (!work.options.steps.tips) {
+    return std::nullopt;
+  }
+  const TouchedPlace guide = guide_.take_place(std::nullopt, work.options.max_touch_spread_m);
+  const auto* guide_tip = std::get_if<nav::PressedPlace>(&guide);
+  if (!guide_tip || !touched()) {
+    return std::nullopt;
+  }
+  const Point<World> dimple = place_in_world(work.level()).place;
+  const double guide_m = (guide_tip->place - dimple).norm();
+  const auto* pointer_tip = std::get_if<nav::PressedPlace>(&pointer);
+  const bool nearer = !pointer_tip || guide_m < (pointer_tip->place - dimple).norm();
+  return nearer && guide_m <= kInReach_m ? std::optional(*guide_tip) : std::nullopt;
+}
+
+nav::PressedPlace Landmarking::place_in_world(const LevelState& level) const {
+  return {level.registration->world_from_vertebra * mean_place(), sd_m()};
 }
 
 std::optional<TouchRefusal> Landmarking::too_near(const LevelState& level, Point<World> place,
@@ -111,17 +190,41 @@ void Landmarking::forget_touches() {
   touches_ = 0;
 }
 
-Landmarking::Dropped Landmarking::drop(LevelState& level) {
+void Landmarking::drop_landmark(OperationInWork& work, Timestamp time) {
   if (!last_) {
-    return Dropped::kNothing;
+    return work.messages.say(NothingToDelete{NothingToDelete::What::kLandmark}, time);
   }
-  const Dropped dropped = last_->missing > 0 ? Dropped::kTouch : Dropped::kPlace;
+  const bool place = last_->missing == 0;
   if (recorded_here_) {
-    level.landmark.reset();
+    work.level().landmark.reset();
   }
   recorded_here_ = false;
   forget_touches();
-  return dropped;
+  if (place) {
+    work.observer->landmark_dropped(time, work.level());
+  }
+}
+
+void Landmarking::verify_again(OperationInWork& work, Verifying& verifying, Guiding& guiding,
+                               Timestamp time) const {
+  LevelState& level = work.level();
+  level.accepted = false;
+  verifying.begin_again(level, last_->off_m);
+  guiding.forget_guidance();
+  work.observer->acceptance_withdrawn(time, level);
+  work.messages.say(LandmarkMoved{last_->off_m, last_->limit_m, work.anchored()}, time);
+}
+
+StepState Landmarking::state(const OperationInWork& work, const GuideChecks& guide) const {
+  const LevelState& level = work.level();
+  if (!level.registration) {
+    return {};
+  }
+  const RegistrationFigures figures = figures_of(level);
+  if (!work.options.steps.dimple()) {
+    return figures;
+  }
+  return LandmarkSoFar{figures, level.landmark.has_value(), last_, &guide.tips(), &guide.axis()};
 }
 
 }  // namespace orthonav::engine

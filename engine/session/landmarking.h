@@ -1,32 +1,43 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <variant>
 
-#include "engine/session/guidance.h"
-#include "engine/session/touch.h"
+#include "engine/session/operation_in_work.h"
 
 namespace orthonav::engine {
 
-/// A patient reference where it is clamped, from its tag down to its foot.
-struct ReferencePost {
-  Point<World> tag;
-  Point<World> foot;
-};
+class GuideChecks;
+class Guiding;
+class Verifying;
 
 /// The step `accepted` where registrations are verified by touch: the landmark of the level is
-/// touched before its next screw.
+/// touched before its next screw, and once in an operation the guide's tip is put into it. Before
+/// another screw it is another object: no touch so far says anything of where the bone is now.
 class Landmarking {
  public:
-  Landmarking() = default;
   explicit Landmarking(const LandmarkRules& rules) : rules_(rules) {}
 
-  /// A screw is to follow: no touch so far, and no press, says anything of where the bone is now.
-  void begin();
-  [[nodiscard]] Touch& touch() { return touch_; }
+  void begin_touch();
+  void end_touch();
+  void drop_touch(OperationInWork& work, Timestamp time);
+  /// Once for each pair of the step.
+  void collect(const WatchedTools& tools);
+  /// What was pressed is the landmark, or the guide's tip in it.
+  [[nodiscard]] std::optional<Event> touch_landmark(OperationInWork& work, GuideChecks& guide,
+                                                    Timestamp time);
+  /// Takes back what was touched since the step began, and with a first place the landmark.
+  void drop_landmark(OperationInWork& work, Timestamp time);
+  [[nodiscard]] Event judge_landmark() const {
+    return touched() ? Event::kLandmarkTouched : Event::kLandmarkMissing;
+  }
+  /// The landmark has moved, and it stays: what is accepted next must put the bone where it was
+  /// touched first.
+  void verify_again(OperationInWork& work, Verifying& verifying, Guiding& guiding,
+                    Timestamp time) const;
+
   /// Records the level's landmark, or compares with it, once touched often enough; or says why the
   /// touch does not count. The level has a registration; `posts` are the patient references, none
   /// where World is the map.
@@ -34,17 +45,9 @@ class Landmarking {
                                                                const TouchedPlace& place,
                                                                std::span<const ReferencePost> posts,
                                                                bool anchored, Timestamp time);
-  enum class Dropped : std::uint8_t { kNothing, kTouch, kPlace };
-  /// Takes back what was touched since the step began, and with a first place the landmark; it had
-  /// been touched too seldom (`kTouch`) or often enough (`kPlace`).
-  [[nodiscard]] Dropped drop(LevelState& level);
   /// Since the step began, and found where it was.
   [[nodiscard]] bool touched() const { return last_ && last_->held(); }
-  /// Where, in the vertebra: the mean of the touches so far, and its SD along an axis; there is
-  /// one.
-  [[nodiscard]] Point<Vertebra> mean_place() const { return {sum_m_ / touches_}; }
-  [[nodiscard]] double sd_m() const { return std::sqrt(variances_m2_) / touches_; }
-  [[nodiscard]] const std::optional<LandmarkTouch>& last() const { return last_; }
+  [[nodiscard]] StepState state(const OperationInWork& work, const GuideChecks& guide) const;
 
  private:
   [[nodiscard]] std::optional<TouchRefusal> refusal_of(const LevelState& level,
@@ -54,7 +57,13 @@ class Landmarking {
                                                        bool anchored);
   [[nodiscard]] std::optional<TouchRefusal> too_near(const LevelState& level, Point<World> place,
                                                      std::span<const ReferencePost> posts) const;
-
+  /// Where it was touched, in the vertebra: the mean of the touches so far, and its SD along an
+  /// axis; there is one.
+  [[nodiscard]] Point<Vertebra> mean_place() const { return {sum_m_ / touches_}; }
+  [[nodiscard]] double sd_m() const { return std::sqrt(variances_m2_) / touches_; }
+  [[nodiscard]] std::optional<nav::PressedPlace> guide_tip_in_landmark(const OperationInWork& work,
+                                                                       const TouchedPlace& pointer);
+  [[nodiscard]] nav::PressedPlace place_in_world(const LevelState& level) const;
   void forget_touches();
 
   LandmarkRules rules_;
@@ -63,7 +72,8 @@ class Landmarking {
   Vec3 sum_m_;                  ///< of the touches so far, in Vertebra
   double variances_m2_ = 0.0;
   int touches_ = 0;
-  Touch touch_;
+  Touch pointer_;
+  Touch guide_;
 };
 
 }  // namespace orthonav::engine

@@ -6,37 +6,64 @@
 #include <span>
 #include <utility>
 
-#include "engine/session/axis_check.h"
-#include "engine/session/tool_in_vertebra.h"
+#include "engine/session/guide_checks.h"
+#include "engine/session/guiding.h"
+#include "engine/session/replanning.h"
 
 namespace orthonav::engine {
 
-void Placing::begin() {
-  wire_.reset();
-  no_other_entry_ = false;
-  confirming_ = false;
-  touch_.drop();
-  recent_.clear();
-  spin_.reset();
+Placing::Placing(const SessionOptions& options)
+    : rules_(options.placed), redo_(options.steps.redo) {
+  recent_.reserve(2 * kMostRecent);
 }
 
-void Placing::collect(const nav::TrackedPose& pose, const nav::ToolGeometry& guide) {
-  if (pose.status == PoseStatus::kMeasured) {
-    touch_.add({pose.value * guide.tip_in_marker, (pose.value * guide.axis_in_marker).v});
-    if (recent_.size() == 2 * kMostRecent) {
-      recent_.erase(recent_.begin(), recent_.begin() + kMostRecent);
-    }
-    recent_.push_back(pose.value);
+void Placing::drop_touch(OperationInWork& work, Timestamp time) {
+  touch_.drop();
+  work.messages.say(
+      TouchNotRecorded{TouchNotRecorded::What::kWire, {TouchRefusal::Kind::kHeldTooLong}}, time);
+}
+
+void Placing::collect(const WatchedTools& tools) {
+  const nav::TrackedPose& pose = tools.watch(tools.guide()).newest();
+  const nav::ToolGeometry& guide = tools.geometry(tools.guide());
+  if (pose.status != PoseStatus::kMeasured) {
+    return touch_.lose();
+  }
+  touch_.add({pose.value * guide.tip_in_marker, (pose.value * guide.axis_in_marker).v});
+  if (recent_.size() == 2 * kMostRecent) {
+    recent_.erase(recent_.begin(), recent_.begin() + kMostRecent);
+  }
+  recent_.push_back(pose.value);
+}
+
+void Placing::measure(OperationInWork& work, const Guiding& guiding, GuideChecks& checks,
+                      bool reference_hidden, Timestamp time) {
+  const ToolWatch& guide = work.tools.watch(work.tools.guide());
+  std::optional<TouchRefusal> refusal;
+  if (reference_hidden) {
+    touch_.drop();
+    refusal = TouchRefusal{TouchRefusal::Kind::kReferenceNotSeen};
+  } else if (!guide.fresh(time, work.options.stale_after)) {
+    touch_.drop();
+    refusal = TouchRefusal{TouchRefusal::Kind::kGuideNotSeen};
   } else {
-    touch_.lose();
+    refusal = take(work, guiding.screw(), checks.errors(work, time));
+  }
+  if (refusal) {
+    return work.messages.say(TouchNotRecorded{TouchNotRecorded::What::kWire, *refusal}, time);
+  }
+  tell(work, guiding.screw(), time);
+  if (spin_ && work.options.steps.axis) {
+    checks.compare_axis(work, *spin_, time);
   }
 }
 
-std::optional<TouchRefusal> Placing::take(const LevelState& level, std::size_t screw,
-                                          const nav::TrackedPose& pose,
-                                          const nav::ToolGeometry& guide,
-                                          const ToolErrors& guide_errors, double max_spread_m) {
-  const auto taken = touch_.take(max_spread_m, rules_.most_turn_rad);
+std::optional<TouchRefusal> Placing::take(const OperationInWork& work, std::size_t screw,
+                                          const ToolErrors& guide_errors) {
+  const LevelState& level = work.level();
+  const nav::TrackedPose& pose = work.tools.watch(work.tools.guide()).last_measured_pose();
+  const nav::ToolGeometry& guide = work.tools.geometry(work.tools.guide());
+  const auto taken = touch_.take(work.options.max_touch_spread_m, rules_.most_turn_rad);
   if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
     return *refusal;
   }
@@ -66,10 +93,6 @@ std::optional<TouchRefusal> Placing::take(const LevelState& level, std::size_t s
   measured_ = Measured{sleeve, *now.uncertainty, errors, resting.pairs};
   put(axis);
   return std::nullopt;
-}
-
-void Placing::judge_again(const nav::ScrewPlan& plan) {
-  put(nav::placed_axis(plan, measured_->sleeve, measured_->uncertainty, measured_->errors));
 }
 
 void Placing::put(const nav::PlacedAxis& axis) {
@@ -125,6 +148,51 @@ std::optional<TouchRefusal> Placing::refusal_of(const nav::PlacedAxis& axis) con
   return std::nullopt;
 }
 
+void Placing::tell(OperationInWork& work, std::size_t screw, Timestamp time) const {
+  work.observer->wire_measured(time, work.level(), screw, *wire_);
+}
+
+void Placing::keep(OperationInWork& work, std::size_t screw, Timestamp time) {
+  if (!undecided()) {
+    return work.messages.say(NotPossibleNow{Event::kSayAccept}, time);
+  }
+  wire_->kept = true;
+  tell(work, screw, time);
+}
+
+void Placing::judge_again(OperationInWork& work, std::size_t screw, Timestamp time) {
+  put(nav::placed_axis(work.level().plan.screws[screw], measured_->sleeve, measured_->uncertainty,
+                       measured_->errors));
+  tell(work, screw, time);
+}
+
+std::optional<Raised> Placing::judge_redo(OperationInWork& work, Guiding& guiding, Timestamp time) {
+  LevelState& level = work.level();
+  const std::size_t screw = guiding.screw();
+  const auto refuse = [&](Message why) {
+    work.messages.say(std::move(why), time);
+    return std::nullopt;
+  };
+  if (!wire_) {
+    return refuse(NothingToDelete{NothingToDelete::What::kWire});
+  }
+  if (!undecided()) {
+    return refuse(NotPossibleNow{Event::kSayDelete});
+  }
+  if (must_confirm(level.redone[screw])) {
+    return refuse(ConfirmRedo{level.redone[screw]});
+  }
+  const auto other = other_entry(level, screw);
+  if (!other) {
+    return Event::kNoOtherEntry;
+  }
+  put_other_entry(level, screw, other->entry);
+  ++level.redone[screw];
+  guiding.forget_guidance();
+  work.observer->screw_redone(time, level, screw, *other);
+  return Raised{Event::kScrewRedone, ScrewRedone{other->from_hole_m, other->clearance.clearance_m}};
+}
+
 bool Placing::must_confirm(int redone) { return redone > 0 && !std::exchange(confirming_, true); }
 
 std::optional<nav::OtherEntry> Placing::other_entry(const LevelState& level, std::size_t screw) {
@@ -138,6 +206,10 @@ std::optional<nav::OtherEntry> Placing::other_entry(const LevelState& level, std
             : std::nullopt;
   no_other_entry_ = !found;
   return found;
+}
+
+void Placing::write(Step step, Guidance& out) const {
+  out.wire = step == Step::kPlaced && wire_ ? &*wire_ : nullptr;
 }
 
 StepState Placing::state() const { return WireSoFar{wire_ ? &*wire_ : nullptr, no_other_entry_}; }

@@ -1,10 +1,10 @@
 #include "engine/session/replanning.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "engine/case/screw_place.h"
+#include "engine/session/guiding.h"
+#include "engine/session/placing.h"
 #include "nav/guidance/anatomical_deviation.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/guidance/screw_clearance.h"
@@ -13,112 +13,15 @@ namespace orthonav::engine {
 namespace {
 
 using Kind = ReplanRefusal::Kind;
-using ChangedOrNot = std::variant<nav::ScrewPlan, ReplanRefusal>;
 
 constexpr const char* kConsented = "accepted in surgery";
-/// A move by all that is allowed is allowed, whatever the last bits say.
-constexpr double kLastBits = 1e-9;
 /// Of the search for the least clearance: a screw that is no worse may look so much worse.
 constexpr double kNoWorse_m = 0.00005;
-/// Two radii that differ by less are one, read from a file.
-constexpr double kSameRadius_m = 1e-6;
 
 std::optional<nav::Clearance> clearance_of(const nav::VertebraModel& bone,
                                            const nav::ScrewPlan& screw) {
   const auto cylinder = nav::cylinder_of(screw);
   return cylinder ? nav::least_clearance(bone.surface(), *cylinder) : std::nullopt;
-}
-
-ReplanRefusal no_size(Kind kind, double diameter_m, double length_m) {
-  ReplanRefusal refusal{kind};
-  refusal.diameter_m = diameter_m;
-  refusal.length_m = length_m;
-  return refusal;
-}
-
-/// What each change makes of a screw.
-struct Changer {
-  const nav::ScrewPlan& now;
-  const nav::VertebraModel& bone;
-  const ScrewSizes& sizes;
-
-  ChangedOrNot operator()(const SetScrewSize& size) const {
-    const double diameter_m = size.diameter_m.value_or(2.0 * now.radius_m);
-    const double length_m = size.length_m.value_or(nav::screw_length_m(now));
-    // What was planned before and is not named stays, listed or not.
-    const bool of_both = size.diameter_m && size.length_m;
-    const bool listed = of_both           ? sizes.has(diameter_m, length_m)
-                        : size.diameter_m ? sizes.of_diameter(diameter_m) != nullptr
-                                          : sizes.has_length(length_m);
-    if (!listed) {
-      return no_size(Kind::kNoSuchSize, size.diameter_m.value_or(0.0), size.length_m.value_or(0.0));
-    }
-    return nav::resized_screw(now, 0.5 * diameter_m, size.length_m.value_or(0.0));
-  }
-  ChangedOrNot operator()(const NextScrewSize& next) const {
-    using Which = NextScrewSize::Which;
-    const double diameter_m = 2.0 * now.radius_m;
-    if (next.which == Which::kThicker || next.which == Which::kThinner) {
-      if (!(diameter_m > 0.0)) {
-        return ReplanRefusal{Kind::kNoDiameter};
-      }
-      const auto other_m = sizes.next_diameter_m(diameter_m, next.which == Which::kThicker);
-      return other_m ? ChangedOrNot(nav::resized_screw(now, 0.5 * *other_m, 0.0))
-                     : no_size(Kind::kLastSize, diameter_m, 0.0);
-    }
-    const double length_m = nav::screw_length_m(now);
-    const auto other_m = sizes.next_length_m(diameter_m, length_m, next.which == Which::kLonger);
-    return other_m ? ChangedOrNot(nav::resized_screw(now, 0.0, *other_m))
-                   : no_size(Kind::kLastSize, 0.0, length_m);
-  }
-  ChangedOrNot operator()(const MoveScrew& move) const {
-    if (!nav::directions_of(now)) {
-      return ReplanRefusal{Kind::kNoDirections};
-    }
-    const auto moved = nav::moved_screw(now, move.part, move.direction, move.by_m, bone.surface(),
-                                        bone.reachable_surface());
-    return moved ? ChangedOrNot(*moved) : ReplanRefusal{Kind::kOffTheBone};
-  }
-  ChangedOrNot operator()(const TiltScrew& tilt) const {
-    const auto tilted = nav::tilted_screw(now, tilt.direction, tilt.by_rad);
-    return tilted ? ChangedOrNot(*tilted) : ReplanRefusal{Kind::kNoDirections};
-  }
-  /// Where and how long it is to be is free within the limits; its diameter must be one of the
-  /// list, or as it was.
-  ChangedOrNot operator()(const PlaceScrew& place) const {
-    nav::ScrewPlan placed = now;
-    placed.entry = place.entry;
-    placed.target = place.target;
-    if (place.radius_m > 0.0 && std::abs(place.radius_m - now.radius_m) > kSameRadius_m) {
-      if (sizes.of_diameter(2.0 * place.radius_m) == nullptr) {
-        return no_size(Kind::kNoSuchSize, 2.0 * place.radius_m, 0.0);
-      }
-      placed.radius_m = place.radius_m;
-    }
-    if (ill_sized(placed.entry, placed.target, placed.radius_m)) {
-      return ReplanRefusal{Kind::kIllSized};
-    }
-    if (misplaced(bone.surface(), placed.entry, placed.target, placed.radius_m)) {
-      return ReplanRefusal{Kind::kOffTheBone};
-    }
-    return placed;
-  }
-  /// That is no change of the screw's own.
-  ChangedOrNot operator()(const UndoChange& /*undo*/) const { return now; }
-};
-
-std::optional<ReplanRefusal> too_far(const nav::ScrewPlan& changed,
-                                     const nav::ScrewPlan& preoperative,
-                                     const ReplanLimits& limits) {
-  const double moved_m = (changed.entry - preoperative.entry).norm();
-  if (!(moved_m <= limits.entry_m + kLastBits)) {
-    return ReplanRefusal{Kind::kEntryTooFar, moved_m, limits.entry_m};
-  }
-  const double tilted_rad = nav::tilt_between_rad(preoperative, changed);
-  if (!(tilted_rad <= limits.tilt_rad + kLastBits)) {
-    return ReplanRefusal{Kind::kTiltTooFar, tilted_rad, limits.tilt_rad};
-  }
-  return std::nullopt;
 }
 
 /// The reason for an earlier breach holds as long as this one is no worse.
@@ -169,32 +72,68 @@ ScrewReplanned put_new(LevelState& level, std::size_t screw, const nav::ScrewPla
   return put(level, screw, plan);
 }
 
-}  // namespace
-
-std::vector<std::string> ReplanLimits::check() const {
-  std::vector<std::string> problems;
-  if (!(entry_m >= 0.0 && entry_m <= 0.02)) {
-    problems.push_back("entry_m must lie in [0, 0.02]");
-  }
-  if (!(tilt_rad >= 0.0 && tilt_rad <= 0.5)) {
-    problems.push_back("tilt_rad must lie in [0, 0.5]");
-  }
-  for (const std::string& problem : sizes.check()) {
-    problems.push_back("screw sizes: " + problem);
-  }
-  return problems;
-}
-
-ChangedOrNot changed(const Replan& replan, const nav::ScrewPlan& now,
-                     const nav::ScrewPlan& preoperative, const nav::VertebraModel& bone,
-                     const ReplanLimits& limits) {
-  ChangedOrNot made = std::visit(Changer{now, bone, limits.sizes}, replan);
-  if (const auto* screw = std::get_if<nav::ScrewPlan>(&made)) {
-    if (const auto refusal = too_far(*screw, preoperative, limits)) {
-      return *refusal;
+std::variant<std::size_t, ReplanRefusal> screw_to_replan(const OperationInWork& work,
+                                                         const Guiding& guiding,
+                                                         const Placing& placing) {
+  if (work.step == Step::kGuide) {
+    switch (guiding.drill().phase) {
+      case nav::DrillPhase::kAway:
+        return guiding.screw();
+      case nav::DrillPhase::kSet:
+        return ReplanRefusal{Kind::kDrillSet};
+      case nav::DrillPhase::kDrilling:
+        return ReplanRefusal{Kind::kDrilling};
     }
   }
-  return made;
+  if (work.step == Step::kPlaced) {
+    return placing.undecided() ? std::variant<std::size_t, ReplanRefusal>(guiding.screw())
+                               : ReplanRefusal{Kind::kWireIn};
+  }
+  const auto open = work.level().open_screw();
+  if (!open) {
+    return ReplanRefusal{Kind::kNoScrewLeft};
+  }
+  return *open;
+}
+
+}  // namespace
+
+void Replanning::replan(OperationInWork& work, Guiding& guiding, Placing& placing, Timestamp time) {
+  const auto screw = screw_to_replan(work, guiding, placing);
+  if (const auto* refusal = std::get_if<ReplanRefusal>(&screw)) {
+    return take(*refusal, work, guiding, placing, time);
+  }
+  take(change(work.level(), std::get<std::size_t>(screw)), work, guiding, placing, time);
+}
+
+bool Replanning::consent(OperationInWork& work, Guiding& guiding, Placing& placing,
+                         Timestamp said) {
+  const auto screw = screw_to_replan(work, guiding, placing);
+  const auto* index = std::get_if<std::size_t>(&screw);
+  if (!index) {
+    return false;
+  }
+  const auto outcome = consented(work.level(), *index, said, work.options.message_for);
+  if (outcome) {
+    take(*outcome, work, guiding, placing, said);
+  }
+  return outcome.has_value();
+}
+
+void Replanning::take(const Outcome& outcome, OperationInWork& work, Guiding& guiding,
+                      Placing& placing, Timestamp time) const {
+  if (const auto* refusal = std::get_if<ReplanRefusal>(&outcome)) {
+    return work.messages.say(*refusal, time);
+  }
+  const auto& done = std::get<ScrewReplanned>(outcome);
+  work.messages.say(done, time);
+  work.observer->replanned(time, work.level(), asked_, done);
+  if (work.step != Step::kPlaced) {
+    // Not one frame shows a number, a depth or an alarm of the plan before.
+    return guiding.forget_guidance();
+  }
+  // Where the tool went stays; its wire is held against the plan in use.
+  placing.judge_again(work, guiding.screw(), time);
 }
 
 Replanning::Outcome Replanning::change(LevelState& level, std::size_t screw) {
@@ -207,8 +146,7 @@ Replanning::Outcome Replanning::change(LevelState& level, std::size_t screw) {
       place != nullptr && (place->level != level.plan.label || place->side != now.side)) {
     return ReplanRefusal{Kind::kOtherScrew};
   }
-  const ChangedOrNot made =
-      changed(asked_, now, level.preoperative[screw], *level.plan.model, limits_);
+  const auto made = changed(asked_, now, level.preoperative[screw], *level.plan.model, limits_);
   if (const auto* refusal = std::get_if<ReplanRefusal>(&made)) {
     return *refusal;
   }
@@ -234,8 +172,8 @@ void Replanning::show(Timestamp display_time) {
   }
 }
 
-std::optional<Replanning::Outcome> Replanning::consent(LevelState& level, std::size_t screw,
-                                                       Timestamp said, Duration within) {
+std::optional<Replanning::Outcome> Replanning::consented(LevelState& level, std::size_t screw,
+                                                         Timestamp said, Duration within) {
   const auto question = std::exchange(question_, std::nullopt);
   if (!question || question->level != level.plan.label || question->screw != screw ||
       !question->shown_at || said < *question->shown_at || said > *question->shown_at + within) {

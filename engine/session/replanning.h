@@ -7,44 +7,51 @@
 #include <vector>
 
 #include "base/time.h"
-#include "engine/session/guidance.h"
-#include "engine/session/replan.h"
-#include "engine/session/replan_limits.h"
+#include "engine/session/operation_in_work.h"
+#include "engine/session/replanned_screw.h"
 
 namespace orthonav::engine {
+
+class Guiding;
+class Placing;
 
 /// Changes a planned screw while it is operated on (docs/decisions/0071-the-plan-in-use.md). The
 /// plan in use is `LevelState::plan`; what was planned before surgery stays beside it, and so does
 /// every plan that was in use in between.
 class Replanning {
  public:
-  using Outcome = std::variant<ScrewReplanned, ReplanRefusal>;
-
-  explicit Replanning(ReplanLimits limits = {}) : limits_(std::move(limits)) {}
+  explicit Replanning(ReplanLimits limits) : limits_(std::move(limits)) {}
 
   /// What is to be changed with the next `change`.
   void ask(Replan replan) { asked_ = std::move(replan); }
-  /// Does it to a screw of a level that has a registration, or says why not. A screw that would
-  /// leave the cortex waits for consent.
-  [[nodiscard]] Outcome change(LevelState& level, std::size_t screw);
+  /// Does it to the screw in work: the next one in `accepted`, the selected one in `guide`, and in
+  /// `placed` one whose wire waits for a word. Or says why not; one that would leave the cortex
+  /// waits for consent. The level has a registration.
+  void replan(OperationInWork& work, Guiding& guiding, Placing& placing, Timestamp time);
   /// A frame that shows the question is displayed then.
   void show(Timestamp display_time);
   /// Takes the change that waits, where the surgeon said so after the question was shown and no
-  /// longer than `within` after. None: nothing waits.
-  [[nodiscard]] std::optional<Outcome> consent(LevelState& level, std::size_t screw, Timestamp said,
-                                               Duration within);
+  /// longer after than it stands. False: nothing waits.
+  [[nodiscard]] bool consent(OperationInWork& work, Guiding& guiding, Placing& placing,
+                             Timestamp said);
   void withdraw_question() { question_.reset(); }
-  /// What was asked for last.
-  [[nodiscard]] const Replan& asked() const { return asked_; }
 
  private:
+  using Outcome = std::variant<ScrewReplanned, ReplanRefusal>;
   struct Question {
     std::string level;
     std::size_t screw = 0;
     nav::ScrewPlan plan;
     std::optional<Timestamp> shown_at;
   };
+  [[nodiscard]] Outcome change(LevelState& level, std::size_t screw);
   [[nodiscard]] Outcome undo(LevelState& level, std::size_t screw) const;
+  /// None: no question about this screw was shown, or it no longer stands.
+  [[nodiscard]] std::optional<Outcome> consented(LevelState& level, std::size_t screw,
+                                                 Timestamp said, Duration within);
+  /// What became of it is said, and holds for what is guided and judged.
+  void take(const Outcome& outcome, OperationInWork& work, Guiding& guiding, Placing& placing,
+            Timestamp time) const;
 
   ReplanLimits limits_;
   Replan asked_;
@@ -54,10 +61,5 @@ class Replanning {
 /// Another entry beside the hole of a screw's first wire becomes the plan in use. There is no way
 /// back to the hole: what was planned for it is kept, as the one earlier plan.
 void put_other_entry(LevelState& level, std::size_t screw, Point<Vertebra> entry);
-
-/// The screw as it would be, or why it may not be so; the cortex is not looked at.
-[[nodiscard]] std::variant<nav::ScrewPlan, ReplanRefusal> changed(
-    const Replan& replan, const nav::ScrewPlan& now, const nav::ScrewPlan& preoperative,
-    const nav::VertebraModel& bone, const ReplanLimits& limits);
 
 }  // namespace orthonav::engine

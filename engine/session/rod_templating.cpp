@@ -78,18 +78,55 @@ bool rod_planned(std::span<const LevelState> levels, nav::Side side) {
   return screws >= 2;
 }
 
+bool any_rod_planned(std::span<const LevelState> levels) {
+  return rod_planned(levels, nav::Side::kLeft) || rod_planned(levels, nav::Side::kRight);
+}
+
 RodTemplating::RodTemplating(bool left_planned, bool right_planned)
     : planned_{left_planned, right_planned}, current_(right_planned && !left_planned ? 1 : 0) {
   rods_[0].side = nav::Side::kLeft;
   rods_[1].side = nav::Side::kRight;
 }
 
-bool RodTemplating::drop_head() {
+void RodTemplating::drop_touch(OperationInWork& work, Timestamp time) {
+  touch_.drop();
+  work.messages.say(
+      TouchNotRecorded{TouchNotRecorded::What::kHead, {TouchRefusal::Kind::kHeldTooLong}}, time);
+}
+
+void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
+  const TouchedPlace place = take_place(touch_, work, time);
+  const auto* head = std::get_if<nav::PressedPlace>(&place);
+  if (!head) {
+    return work.messages.say(
+        TouchNotRecorded{TouchNotRecorded::What::kHead, std::get<TouchRefusal>(place)}, time);
+  }
+  rod().heads.push_back(head->place);
+  bend(work, time);
+  work.observer->head_recorded(time, current().side, head->place);
+}
+
+void RodTemplating::drop_head(OperationInWork& work, Timestamp time) {
   if (rod().heads.empty()) {
-    return false;
+    return work.messages.say(NothingToDelete{NothingToDelete::What::kHead}, time);
   }
   rod().heads.pop_back();
-  return true;
+  bend(work, time);
+  work.observer->head_dropped(time, current().side);
+}
+
+Event RodTemplating::finish_rod(OperationInWork& work, Timestamp time) {
+  work.observer->rod_done(time, current());
+  return finish() ? Event::kAnotherSide : Event::kNoSideLeft;
+}
+
+bool RodTemplating::finish() {
+  rod().done = true;
+  const bool another = current_ + 1 < rods_.size() && planned_[current_ + 1];
+  if (another) {
+    ++current_;
+  }
+  return another;
 }
 
 void RodTemplating::instruct(const SessionOptions& options, std::span<const LevelState> levels) {
@@ -120,33 +157,28 @@ HeadsSoFar RodTemplating::state() const {
   return {now.heads.size(), now.instructions->cut_length_m(), now.instructions->bends.size()};
 }
 
-Status RodTemplating::bend(const SessionOptions& options, std::span<const LevelState> levels) {
+void RodTemplating::bend(OperationInWork& work, Timestamp time) {
   rod().rod.reset();
   rod().instructions.reset();
   rod().no_instructions.clear();
   if (rod().heads.size() < 2) {
-    return {};
+    return;
   }
   std::vector<Vec3> heads;
   for (const Point<World>& head : rod().heads) {
     heads.push_back(head.v);
   }
-  auto made = nav::rod_template(heads, options.rod_diameter_m);
+  auto made = nav::rod_template(heads, work.options.rod_diameter_m);
   if (!made) {
-    return made.error();
+    return work.messages.say(NoRod{made.error()}, time);
   }
   rod().rod = std::move(*made);
-  instruct(options, levels);
-  return {};
+  instruct(work.options, work.levels);
 }
 
-bool RodTemplating::finish() {
-  rod().done = true;
-  const bool another = current_ + 1 < rods_.size() && planned_[current_ + 1];
-  if (another) {
-    ++current_;
-  }
-  return another;
+void RodTemplating::write(Guidance& out) const {
+  out.rods = rods_;
+  out.rods_moved_away = moved_away_;
 }
 
 void RodTemplating::restore(const std::array<bool, 2>& done) {
@@ -166,7 +198,7 @@ void RodTemplating::forget_map() {
       rod = RodState{.side = rod.side};
     }
   }
-  touch_.drop();
+  touch_ = {};
 }
 
 }  // namespace orthonav::engine

@@ -1,9 +1,12 @@
 #include "engine/session/session.h"
 
-#include <numbers>
+#include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/joined.h"
+#include "engine/session/hearing.h"
 
 namespace orthonav::engine {
 namespace {
@@ -30,13 +33,6 @@ constexpr bool keeps_message(Action action) {
   return action == kRefuse || action == kIgnore || action == kWarnLost || action == kHideGuidance ||
          action == kShowGuidance || action == kCountRefusal || action == kForgetMap ||
          action == kEndTouch;
-}
-
-/// Both tips are as their calibration left them.
-TipCheckRules tips_known_to(const SessionOptions& options) {
-  TipCheckRules rules = options.tips;
-  rules.prior_sd_m = std::numbers::sqrt2 * options.placed.tip_sd_m;
-  return rules;
 }
 
 }  // namespace
@@ -67,69 +63,40 @@ Result<std::unique_ptr<Session>> Session::create(Operation operation,
 
 Session::Session(Operation operation, WatchedTools tools, Method method,
                  const SessionOptions& options)
-    : tools_(std::move(tools)),
-      method_(std::move(method)),
-      options_(options),
+    : work_(std::move(operation), std::move(tools), std::move(method), options),
       workflow_(workflow_of(options.steps)),
-      digitizing_(method_, options),
-      landmarking_(options.landmark),
-      tip_check_(tips_known_to(options), options.landmark, options.steps.tips),
-      axis_check_({options.placed.axis_sd_rad}),
-      guiding_(options.drill),
-      placing_(options.placed, options.steps.redo),
-      replanning_(options.replan),
-      messages_(options.message_for, options.heard_for) {
-  for (OperatedLevel& plan : operation.levels) {
-    LevelState state;
-    state.screw_done.assign(plan.screws.size(), false);
-    state.clearance_at_depth.resize(plan.screws.size());
-    state.executed.resize(plan.screws.size());
-    state.wires.resize(plan.screws.size());
-    state.redone.resize(plan.screws.size());
-    state.preoperative = plan.screws;
-    state.earlier_plans.resize(plan.screws.size());
-    state.plan = std::move(plan);
-    levels_.push_back(std::move(state));
+      steps_(work_) {}
+
+Status Session::resume(const LoggedOperation& logged) {
+  if (work_.step != Step::kSetup || watching_.begun()) {
+    return Error{"an operation is resumed before its first step"};
   }
-  rod_templating_ = RodTemplating(rod_planned(levels_, nav::Side::kLeft),
-                                  rod_planned(levels_, nav::Side::kRight));
+  return resuming_.restore(logged, work_, steps_.rods);
 }
 
 const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
+  const Timestamp now = frame.time;
   // Nothing that was measured in another map may answer an event.
-  watch_map(frame);
-  stalled_ = inputs.stalled;
+  handle(watching_.look_at_map(frame, work_), now);
+  work_.stalled = inputs.stalled;
   // Events first: a press before this pair makes this pair a sample, a release before it does not.
   answer_inputs(inputs);
-  tools_.track(frame);
-  watch_reference(frame.time);
-  tell_places(frame.time);
-  watch_tool_in_use(frame.time);
-  watch_drift(frame.time);
-  collect_samples();
-  publish(frame, inputs.display_time);
-  return guidance_;
+  work_.tools.track(frame);
+  handle(watching_.look_at_places(work_), now);
+  handle(watching_.look_for_reference(work_, now), now);
+  watching_.tell_places(work_, now);
+  handle(watching_.look_at_tool(work_, steps_.tool(work_), now), now);
+  handle(watching_.look_at_drift(work_, steps_.guiding, now), now);
+  steps_.collect(work_);
+  return publication_.publish(frame, inputs.display_time, work_, steps_, watching_);
 }
 
 const Guidance& Session::expire(Timestamp display_time) {
-  guidance_.display_time = display_time;
-  guidance_.tool.reset();
-  guiding_.lose_measurement();
-  guidance_.drill = step_ == Step::kGuide ? guiding_.drill() : nav::DrillView{};
-  tools_.lose_sight();
-  guidance_.status = {};
-  guidance_.status.at = step_on_display();
-  guidance_.status.saved = saved(guidance_.frame_time);
-  why_no_guidance_ = NoImages{};
-  guidance_.status.message = &why_no_guidance_;
-  return guidance_;
+  return publication_.expire(display_time, work_, steps_);
 }
 
 const Guidance& Session::end(Timestamp display_time) {
-  expire(display_time);
-  guidance_.blank = true;
-  why_no_guidance_ = Ended{};
-  return guidance_;
+  return publication_.end(display_time, work_, steps_);
 }
 
 void Session::answer_inputs(const Inputs& inputs) {
@@ -148,126 +115,97 @@ void Session::answer_inputs(const Inputs& inputs) {
       const ClickerEvent& click = inputs.clicks[c++];
       handle(event_of(click.action), click.time);
     } else if (said <= asked) {
-      hear(inputs.phrases[p++]);
+      handle(hear(work_, steps_, inputs.phrases[p++]), said);
     } else {
-      hear(inputs.requests[r++]);
+      handle(hear(work_, steps_, inputs.requests[r++]), asked);
     }
   }
 }
 
-void Session::handle(Event event, Timestamp time) {
-  const Cell cell = answer(workflow_, step_, event);
-  if (observer_) {
-    observer_->happened(time, step_, event, cell);
-  }
-  // The step changes first, so that an action may raise the next event from where it now stands.
-  step_ = cell.next;
-  if (!keeps_message(cell.action)) {
-    messages_.clear();
-    if (event != Event::kSayAccept) {
-      replanning_.withdraw_question();
+void Session::handle(std::optional<Raised> raised, Timestamp time) {
+  while (raised) {
+    const Event event = raised->event;
+    const Cell cell = answer(workflow_, work_.step, event);
+    work_.observer->happened(time, work_.step, event, cell);
+    // The step changes first, so that an event which the action raises is answered from there.
+    work_.step = cell.next;
+    if (!keeps_message(cell.action)) {
+      work_.messages.clear();
+      if (event != Event::kSayAccept) {
+        steps_.replanning.withdraw_question();
+      }
     }
-  }
-  act(cell.action, event, time);
-}
-
-void Session::watch_map(const StereoFrame& frame) {
-  const bool moved = map_epoch_ && *map_epoch_ != frame.map_epoch;
-  map_epoch_ = frame.map_epoch;
-  // With a patient reference nothing hangs on the map.
-  if (moved && !anchored()) {
-    handle(Event::kMapMoved, frame.time);
-  }
-}
-
-void Session::watch_reference(Timestamp now) {
-  const nav::Anchor* anchor = tools_.tracker().anchor();
-  if (anchor == nullptr) {
-    return;
-  }
-  if (std::exchange(reference_moves_, anchor->moves) != anchor->moves) {
-    handle(Event::kReferenceMoved, now);
-  }
-  const bool hidden = anchor->stale(now, options_.stale_after);
-  if (std::exchange(reference_hidden_, hidden) != hidden) {
-    handle(hidden ? Event::kReferenceHidden : Event::kReferenceSeen, now);
-  }
-}
-
-void Session::watch_tool_in_use(Timestamp now) {
-  const auto tool = tool_of_step();
-  if (tool != in_use_.tool()) {
-    in_use_ = ToolInUse(tool);
-  }
-  if (!tool) {
-    return;
-  }
-  if (const auto event = in_use_.look(tools_.watch(*tool), now, options_.stale_after)) {
-    handle(*event, now);
-  }
-}
-
-/// Before a drill is set the surgeon can go back and touch the landmark; once it is, the SD that is
-/// shown grows.
-void Session::watch_drift(Timestamp now) {
-  const auto& found = level().bone_found;
-  if (step_ != Step::kGuide || !found || !options_.steps.landmark ||
-      guiding_.drill().phase != nav::DrillPhase::kAway ||
-      !(found->walked_sd_m(now) > options_.landmark.most_walked_m)) {
-    return;
-  }
-  const BoneUnchecked unchecked{seconds(now - found->time), 2.0 * found->walked_sd_m(now)};
-  handle(Event::kBoneUnchecked, now);
-  messages_.say(unchecked, now);
-}
-
-void Session::collect_samples() {
-  const nav::TrackedPose& pose = tools_.watch(tools_.pointer()).newest();
-  const nav::ToolGeometry& pointer = tools_.geometry(tools_.pointer());
-  if (step_ == Step::kDigitize) {
-    digitizing_.collect(pose, pointer);
-    digitizing_.coach(level().plan);
-  } else if (step_ == Step::kPlaced) {
-    collect_sleeve();
-  } else if (is_touched_in()) {
-    if (pose.status == PoseStatus::kMeasured) {
-      touch_of_step().add(pose.value * pointer.tip_in_marker);
-    } else {
-      touch_of_step().lose();
+    std::optional<Raised> next = act(cell.action, event, time);
+    if (!std::holds_alternative<std::monostate>(raised->then_say)) {
+      work_.messages.say(std::move(raised->then_say), time);
     }
-    collect_guide_tip();
+    raised = std::move(next);
   }
 }
 
-void Session::collect_guide_tip() {
-  const nav::TrackedPose& pose = tools_.watch(tools_.guide()).newest();
-  if (by_touch(Step::kAccepted) && pose.status == PoseStatus::kMeasured) {
-    tip_check_.touch().add(pose.value * tools_.geometry(tools_.guide()).tip_in_marker);
+/// The first that is not finished.
+std::optional<Raised> Session::begin_level(Timestamp time) {
+  const auto& levels = work_.levels;
+  const auto open = std::find_if(levels.begin(), levels.end(),
+                                 [](const LevelState& level) { return !level.finished(); });
+  work_.level_in_work = open == levels.end() ? 0 : static_cast<std::size_t>(open - levels.begin());
+  steps_.digitizing.clear();
+  steps_.guiding.begin_level();
+  return resuming_.go_on(work_, steps_, time);
+}
+
+void Session::show_registration(Timestamp time) {
+  work_.level().check_points.clear();
+  steps_.verifying = Verifying(work_, time);
+}
+
+void Session::clear_level(Timestamp time) {
+  work_.level().forget_registration();
+  steps_.digitizing.clear();
+  steps_.forget_registration(work_);
+  work_.observer->level_cleared(time, work_.level());
+}
+
+/// "accept" is first of all the consent to a change of the screw that waits for it; else to a
+/// correction of the guide or to a wire beyond a limit.
+void Session::consent(Action action, Timestamp time) {
+  if (steps_.consent(work_, time)) {
+    return;
+  }
+  if (action == Action::kKeepWire) {
+    return steps_.placing.keep(work_, steps_.guiding.screw(), time);
+  }
+  const bool corrected = action == Action::kCorrectGuide && steps_.landmarking.touched() &&
+                         steps_.guide_checks.correct_guide(work_, time);
+  if (corrected) {
+    steps_.guiding.forget_guidance();
   } else {
-    tip_check_.touch().lose();
+    work_.messages.say(NotPossibleNow{Event::kSayAccept}, time);
   }
 }
 
-std::optional<std::size_t> Session::tool_of_step() const {
-  // With the landmark touched, what comes next is the guide's.
-  if (step_ == Step::kGuide || step_ == Step::kPlaced ||
-      (by_touch(Step::kAccepted) && landmarking_.touched())) {
-    return tools_.guide();
+/// World is another one, or what hung it on the patient moved: whatever was measured in it is gone.
+/// What the patient has already, and what was measured of it, stays in the report.
+void Session::forget_places(Event why, Timestamp time) {
+  for (LevelState& level : work_.levels) {
+    level.map_moved = level.registration.has_value() && level.finished();
+    if (!level.map_moved) {
+      level.forget_registration();
+    }
   }
-  if (step_ == Step::kDigitize || is_touched_in()) {
-    return tools_.pointer();
+  steps_.digitizing.forget_map();
+  resuming_.forget_places();
+  steps_.forget_registration(work_);
+  steps_.rods.forget_map();
+  work_.tools.forget_poses();
+  publication_.forget_head();
+  work_.observer->places_forgotten(time);
+  const Step step = work_.step;
+  if (step == Step::kDigitize || step == Step::kRod || step == Step::kDone) {
+    work_.messages.say(
+        why == Event::kReferenceMoved ? Message(ReferenceMoved{step}) : Message(MapMoved{step}),
+        time);
   }
-  return std::nullopt;
-}
-
-bool Session::by_touch(Step step) const {
-  const bool touched =
-      step == Step::kVerify ? options_.steps.check_points : options_.steps.dimple();
-  return step_ == step && touched;
-}
-
-bool Session::is_touched_in() const {
-  return step_ == Step::kRod || by_touch(Step::kVerify) || by_touch(Step::kAccepted);
 }
 
 }  // namespace orthonav::engine

@@ -45,7 +45,6 @@ class TipCheck {
   TipCheck(const TipCheckRules& rules, const LandmarkRules& landmark, bool compare = true)
       : rules_(rules), landmark_(landmark), compare_(compare) {}
 
-  [[nodiscard]] Touch& touch() { return touch_; }
   /// Of the guide's tip at `place`, the guide standing as `world_from_guide`, the pointer's tip
   /// having been at `pointer_tip`; or why not. `size_sd`: of how much larger
   /// the tags of one are than those of the other, as a fraction.
@@ -70,7 +69,6 @@ class TipCheck {
   LandmarkRules landmark_;
   bool compare_ = true;
   std::optional<TipDifference> last_;
-  Touch touch_;
 };
 
 }  // namespace orthonav::engine

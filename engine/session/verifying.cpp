@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/session/wording.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/registration/press_fit.h"
 #include "nav/registration/unstroked_surface.h"
@@ -41,16 +42,17 @@ std::vector<float> smoothed(std::span<const float> each_m) {
 
 }  // namespace
 
-Verifying::Verifying(LevelState& level, Verification verification, const SessionOptions& options,
-                     bool anchored, Timestamp registered)
-    : options_(options),
-      by_touch_(verification == Verification::kByTouch),
-      anchored_(anchored),
-      strokes_(level.registration),
+Verifying::Verifying(OperationInWork& work, Timestamp registered)
+    : options_(work.options),
+      by_touch_(work.method.verification == Verification::kByTouch),
+      anchored_(work.anchored()),
+      strokes_(work.level().registration),
       registered_(registered),
-      residuals_m_(smoothed(distances_m(level))),
-      unstroked_(nav::unstroked_surface(*level.plan.model, level.registration->world_from_vertebra,
-                                        level.newest->points)) {
+      residuals_m_(smoothed(distances_m(work.level()))),
+      unstroked_(nav::unstroked_surface(*work.level().plan.model,
+                                        work.level().registration->world_from_vertebra,
+                                        work.level().newest->points)) {
+  LevelState& level = work.level();
   if (!anchored_) {
     // In the time that more take, the map moves by more than they tell.
     options_.check_points.enough = 3;
@@ -146,25 +148,28 @@ void Verifying::put(const nav::Registration& registration, LevelState& level) {
   level.predicted = nav::predicted_errors(registration, level.plan.screws);
 }
 
-void Verifying::join(LevelState& level) const {
-  if (joined_) {
-    put(joined_->registration, level);
-    level.newest->registration = joined_->registration;
-  }
-}
-
-void Verifying::show(Timestamp display_time) {
-  if (!visible_at_) {
-    visible_at_ = display_time;
-  }
-}
-
 bool Verifying::shown_before(Timestamp spoken) const {
   return visible_at_ && *visible_at_ <= spoken;
 }
 
-std::optional<TouchRefusal> Verifying::record(LevelState& level, const TouchedPlace& place,
-                                              Timestamp time) {
+void Verifying::drop_touch(OperationInWork& work, Timestamp time) {
+  touch_.drop();
+  work.messages.say(
+      TouchNotRecorded{TouchNotRecorded::What::kCheckPoint, {TouchRefusal::Kind::kHeldTooLong}},
+      time);
+}
+
+void Verifying::record_check(OperationInWork& work, Timestamp time) {
+  if (const auto refusal = add(work.level(), take_place(touch_, work, time), time)) {
+    work.messages.say(TouchNotRecorded{TouchNotRecorded::What::kCheckPoint, *refusal}, time);
+  } else {
+    work.observer->check_point_recorded(time, work.level());
+  }
+}
+
+/// Or says why there is none more.
+std::optional<TouchRefusal> Verifying::add(LevelState& level, const TouchedPlace& place,
+                                           Timestamp time) {
   const auto* touched = std::get_if<nav::PressedPlace>(&place);
   if (!touched) {
     return std::get<TouchRefusal>(place);
@@ -179,17 +184,59 @@ std::optional<TouchRefusal> Verifying::record(LevelState& level, const TouchedPl
   return std::nullopt;
 }
 
-bool Verifying::drop(LevelState& level) {
+void Verifying::drop_check(OperationInWork& work, Timestamp time) {
+  LevelState& level = work.level();
   if (level.check_points.empty()) {
-    return false;
+    return work.messages.say(NothingToDelete{NothingToDelete::What::kCheckPoint}, time);
   }
   pressed_.pop_back();
   level.check_points.pop_back();
   judge(level);
-  return true;
+  work.observer->check_point_dropped(time, level);
 }
 
-ChecksSoFar Verifying::state(const LevelState& level) const {
+void Verifying::accept(OperationInWork& work, Timestamp time) const {
+  LevelState& level = work.level();
+  if (joined_) {
+    put(joined_->registration, level);
+    level.newest->registration = joined_->registration;
+  }
+  level.accepted = true;
+  level.unverified = false;
+  level.bone_found = BoneFound{time, 0.0, work.options.map_drift_m_per_sqrt_s};
+  work.observer->accepted(time, level, shown_);
+}
+
+void Verifying::write(const OperationInWork& work, Guidance& out) {
+  out.residuals_m = {};
+  out.unstroked = {};
+  out.to_check = {};
+  if (work.step != Step::kVerify) {
+    return;
+  }
+  if (!visible_at_ && !work.stalled) {
+    visible_at_ = out.display_time;
+  }
+  out.residuals_m = residuals_m_;
+  out.unstroked = unstroked_;
+  out.to_check = to_check_;
+}
+
+void Verifying::note_shown(const StatusLine& line) {
+  constexpr std::size_t kLongLine = 512;
+  shown_.clear();
+  shown_.reserve(kLongLine);
+  append_status(shown_, line);
+}
+
+StepState Verifying::state(const OperationInWork& work) const {
+  const LevelState& level = work.level();
+  if (!level.registration) {
+    return {};
+  }
+  if (!work.options.steps.check_points) {
+    return figures_of(level);
+  }
   ChecksSoFar checks;
   checks.expected_m = nav::worst_m(level.predicted);
   checks.count = level.check_points.size();

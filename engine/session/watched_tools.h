@@ -9,11 +9,16 @@
 
 #include "base/result.h"
 #include "engine/session/guidance.h"
-#include "engine/session/landmarking.h"
 #include "engine/session/tool_watch.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::engine {
+
+/// A patient reference where it is clamped, from its tag down to its foot.
+struct ReferencePost {
+  Point<World> tag;
+  Point<World> foot;
+};
 
 /// The tools of an operation, exactly one pointer and one guide among them, and what the pairs so
 /// far have shown of each.

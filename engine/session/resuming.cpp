@@ -1,8 +1,9 @@
+#include "engine/session/resuming.h"
+
 #include <algorithm>
 #include <utility>
 
 #include "engine/session/operation_json.h"
-#include "engine/session/session.h"
 
 namespace orthonav::engine {
 namespace {
@@ -46,37 +47,8 @@ void restore_screws(LevelState& level, const LoggedLevel& logged) {
   }
 }
 
-}  // namespace
-
-Status Session::resume(const LoggedOperation& logged) {
-  if (step_ != Step::kSetup || map_epoch_) {
-    return Error{"an operation is resumed before its first step"};
-  }
-  if (Status same = check_levels(levels_, logged); !same) {
-    return same;
-  }
-  const nav::Anchor* anchor = tools_.tracker().anchor();
-  if (anchor != nullptr) {
-    if (Status same = check_places(anchor->places, logged.references); !same) {
-      return same;
-    }
-  }
-  LoggedOperation left = logged;
-  if (anchor == nullptr || anchor->places.empty()) {
-    left.forget_places();
-  }
-  restored_regions_.clear();
-  for (std::size_t i = 0; i < levels_.size(); ++i) {
-    restore_level(levels_[i], left.levels[i]);
-    restored_regions_.push_back(left.levels[i].regions);
-  }
-  rod_templating_.restore({left.rods[0].done, left.rods[1].done});
-  resumed_ = true;
-  return {};
-}
-
 /// A registration comes with the points it was computed from, unless its level is finished.
-void Session::restore_level(LevelState& level, const LoggedLevel& logged) const {
+void restore_level(LevelState& level, const LoggedLevel& logged) {
   level.attempts = logged.attempts;
   restore_screws(level, logged);
   level.map_moved = logged.finished() && logged.registration.has_value();
@@ -95,28 +67,56 @@ void Session::restore_level(LevelState& level, const LoggedLevel& logged) const 
   level.unverified = true;
 }
 
-/// After "start", and when a level begins: to the step that the operation had reached, or to the
-/// one before it in which its registration can be verified.
-void Session::go_on(Timestamp time) {
-  LevelState& now = level();
-  if (now.finished()) {
-    return handle(rod_templating_.left_to_do() ? Event::kNoScrewLeft : Event::kNoRodPlanned, time);
+}  // namespace
+
+Status Resuming::restore(const LoggedOperation& logged, OperationInWork& work,
+                         RodTemplating& rods) {
+  if (Status same = check_levels(work.levels, logged); !same) {
+    return same;
   }
-  if (!now.unverified || !now.registration) {
-    if (level_ < restored_regions_.size()) {
-      digitizing_.restore(std::exchange(restored_regions_[level_], {}));
+  const nav::Anchor* anchor = work.tools.tracker().anchor();
+  if (anchor != nullptr) {
+    if (Status same = check_places(anchor->places, logged.references); !same) {
+      return same;
     }
-    return;
   }
-  const bool landmark_tells =
-      now.accepted && anchored() && options_.steps.landmark && now.landmark.has_value();
+  LoggedOperation left = logged;
+  if (anchor == nullptr || anchor->places.empty()) {
+    left.forget_places();
+  }
+  regions_.clear();
+  for (std::size_t i = 0; i < work.levels.size(); ++i) {
+    restore_level(work.levels[i], left.levels[i]);
+    regions_.push_back(left.levels[i].regions);
+  }
+  rods.restore({left.rods[0].done, left.rods[1].done});
+  resumed_ = true;
+  return {};
+}
+
+std::optional<Event> Resuming::go_on(OperationInWork& work, SessionSteps& steps, Timestamp time) {
+  LevelState& level = work.level();
+  if (!resumed_) {
+    return std::nullopt;
+  }
+  if (level.finished()) {
+    return steps.rods.left_to_do() ? Event::kNoScrewLeft : Event::kNoRodPlanned;
+  }
+  if (!level.unverified || !level.registration) {
+    if (work.level_in_work < regions_.size()) {
+      steps.digitizing.restore(std::exchange(regions_[work.level_in_work], {}));
+    }
+    return std::nullopt;
+  }
+  const bool landmark_tells = level.accepted && work.anchored() && work.options.steps.landmark &&
+                              level.landmark.has_value();
   if (!landmark_tells) {
-    now.accepted = false;
-    return handle(Event::kRegistrationRestored, time);
+    level.accepted = false;
+    return Event::kRegistrationRestored;
   }
   // Should the landmark have moved, its registration is verified once more.
-  verifying_ = Verifying(now, method_.verification, options_, anchored(), time);
-  handle(Event::kAcceptanceRestored, time);
+  steps.verifying = Verifying(work, time);
+  return Event::kAcceptanceRestored;
 }
 
 }  // namespace orthonav::engine

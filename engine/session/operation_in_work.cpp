@@ -1,0 +1,53 @@
+#include "engine/session/operation_in_work.h"
+
+#include <utility>
+
+namespace orthonav::engine {
+namespace {
+
+LevelState state_of(OperatedLevel plan) {
+  LevelState state;
+  state.screw_done.assign(plan.screws.size(), false);
+  state.clearance_at_depth.resize(plan.screws.size());
+  state.executed.resize(plan.screws.size());
+  state.wires.resize(plan.screws.size());
+  state.redone.resize(plan.screws.size());
+  state.preoperative = plan.screws;
+  state.earlier_plans.resize(plan.screws.size());
+  state.plan = std::move(plan);
+  return state;
+}
+
+}  // namespace
+
+OperationInWork::OperationInWork(Operation operation, WatchedTools watched, Method with,
+                                 const SessionOptions& session_options)
+    : options(session_options),
+      method(std::move(with)),
+      tools(std::move(watched)),
+      messages(session_options.message_for, session_options.heard_for) {
+  for (OperatedLevel& plan : operation.levels) {
+    levels.push_back(state_of(std::move(plan)));
+  }
+}
+
+void add_tip(Touch& touch, const WatchedTools& tools, std::size_t tool) {
+  const nav::TrackedPose& pose = tools.watch(tool).newest();
+  if (pose.status == PoseStatus::kMeasured) {
+    touch.add(pose.value * tools.geometry(tool).tip_in_marker);
+  } else {
+    touch.lose();
+  }
+}
+
+TouchedPlace take_place(Touch& touch, const OperationInWork& work, Timestamp time) {
+  return touch.take_place(work.tools.pointer_tip(time, work.options.stale_after),
+                          work.options.max_touch_spread_m);
+}
+
+RegistrationFigures figures_of(const LevelState& level) {
+  return {level.registration->rmse_m, nav::worst_m(level.predicted), false,
+          level.registration_only()};
+}
+
+}  // namespace orthonav::engine

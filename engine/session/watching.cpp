@@ -1,0 +1,65 @@
+#include "engine/session/watching.h"
+
+#include <utility>
+
+namespace orthonav::engine {
+
+std::optional<Event> Watching::look_at_map(const StereoFrame& frame, const OperationInWork& work) {
+  const bool moved = map_epoch_ && *map_epoch_ != frame.map_epoch;
+  map_epoch_ = frame.map_epoch;
+  // With a patient reference nothing hangs on the map.
+  return moved && !work.anchored() ? std::optional(Event::kMapMoved) : std::nullopt;
+}
+
+std::optional<Event> Watching::look_at_places(const OperationInWork& work) {
+  const nav::Anchor* anchor = work.tools.tracker().anchor();
+  if (anchor == nullptr || std::exchange(reference_moves_, anchor->moves) == anchor->moves) {
+    return std::nullopt;
+  }
+  return Event::kReferenceMoved;
+}
+
+std::optional<Event> Watching::look_for_reference(const OperationInWork& work, Timestamp now) {
+  const nav::Anchor* anchor = work.tools.tracker().anchor();
+  if (anchor == nullptr) {
+    return std::nullopt;
+  }
+  const bool hidden = anchor->stale(now, work.options.stale_after);
+  if (std::exchange(reference_hidden_, hidden) == hidden) {
+    return std::nullopt;
+  }
+  return hidden ? Event::kReferenceHidden : Event::kReferenceSeen;
+}
+
+void Watching::tell_places(const OperationInWork& work, Timestamp now) {
+  const nav::Anchor* anchor = work.tools.tracker().anchor();
+  if (anchor != nullptr && !anchor->places.empty() &&
+      std::exchange(places_changed_, anchor->places_changed) != anchor->places_changed) {
+    work.observer->references_placed(now, anchor->places);
+  }
+}
+
+std::optional<Event> Watching::look_at_tool(const OperationInWork& work,
+                                            std::optional<std::size_t> tool, Timestamp now) {
+  if (tool != in_use_.tool()) {
+    in_use_ = ToolInUse(tool);
+  }
+  if (!tool) {
+    return std::nullopt;
+  }
+  return in_use_.look(work.tools.watch(*tool), now, work.options.stale_after);
+}
+
+std::optional<Raised> Watching::look_at_drift(const OperationInWork& work, const Guiding& guiding,
+                                              Timestamp now) const {
+  const auto& found = work.level().bone_found;
+  if (work.step != Step::kGuide || !found || !work.options.steps.landmark ||
+      guiding.drill().phase != nav::DrillPhase::kAway ||
+      !(found->walked_sd_m(now) > work.options.landmark.most_walked_m)) {
+    return std::nullopt;
+  }
+  return Raised{Event::kBoneUnchecked,
+                BoneUnchecked{seconds(now - found->time), 2.0 * found->walked_sd_m(now)}};
+}
+
+}  // namespace orthonav::engine
