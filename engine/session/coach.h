@@ -37,7 +37,9 @@ class Coach {
   static constexpr int kPairsToAnswer = 15;
 
   explicit Coach(Registrar registrar, const nav::CommonErrors& common = {})
-      : registrar_(std::move(registrar)), common_(common) {}
+      : registrar_(std::move(registrar)), common_(common) {
+    points_.reserve(kReservedPoints);
+  }
 
   /// Is told while this waits for an answer; null: nobody. Borrowed.
   void watch(WorkWatch* watch) { watch_ = watch; }
@@ -54,6 +56,9 @@ class Coach {
   [[nodiscard]] const std::optional<Coaching>& newest() const { return newest_; }
 
  private:
+  /// Five minutes of stroking a level: starting a trial does not allocate.
+  static constexpr std::size_t kReservedPoints = 9000;
+
   void start(const OperatedLevel& level, std::span<const nav::Region> regions);
   void take_answer();
   void wait();

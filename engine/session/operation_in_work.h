@@ -27,6 +27,8 @@ struct OperationInWork {
   [[nodiscard]] const LevelState& level() const { return levels[level_in_work]; }
   /// World is that of a patient reference.
   [[nodiscard]] bool anchored() const { return tools.tracker().anchor() != nullptr; }
+  /// Somebody listens.
+  [[nodiscard]] bool heard() const { return observer != &nobody; }
 
   SessionOptions options;
   Method method;

@@ -67,6 +67,7 @@ void SessionSteps::button(Action action, OperationInWork& work, Timestamp time) 
     case Action::kEndTouch:
       return in_touched_step(*this, work.step, [](auto& step) { step.end_touch(); });
     default:
+      ORTHONAV_CHECK(action == Action::kDropTouch);
       return in_touched_step(*this, work.step, [&](auto& step) { step.drop_touch(work, time); });
   }
 }

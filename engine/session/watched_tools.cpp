@@ -68,7 +68,11 @@ WatchedTools::WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_
     : tracker_(std::move(tracker)), pointer_(pointer), guide_(guide) {
   watches_.resize(tracker_->tools().size());
   for (const nav::ToolGeometry& tool : tracker_->tools()) {
-    sights_.push_back({tool.name, tool.role, PoseStatus::kLost, {}});
+    ToolSight& sight = sights_.emplace_back();
+    sight.name = tool.name;
+    sight.role = tool.role;
+    // A tool that is seen for the first time allocates nothing.
+    sight.papers.reserve(1 + tool.more_markers.size());
   }
 }
 

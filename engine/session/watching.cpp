@@ -33,7 +33,8 @@ std::optional<Event> Watching::look_for_reference(const OperationInWork& work, T
 
 void Watching::tell_places(const OperationInWork& work, Timestamp now) {
   const nav::Anchor* anchor = work.tools.tracker().anchor();
-  if (anchor != nullptr && !anchor->places.empty() &&
+  // Whoever begins to listen later is told then.
+  if (anchor != nullptr && work.heard() && !anchor->places.empty() &&
       std::exchange(places_changed_, anchor->places_changed) != anchor->places_changed) {
     work.observer->references_placed(now, anchor->places);
   }

@@ -12,9 +12,11 @@ namespace {
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 std::atomic<std::size_t> g_allocations{0};
 std::atomic<std::size_t> g_largest{kUnlimited};
+thread_local std::size_t t_allocations = 0;
 
 void* counted(std::size_t size) noexcept {
   ++g_allocations;
+  ++t_allocations;
   return size > g_largest ? nullptr : std::malloc(size > 0 ? size : 1);
 }
 
@@ -39,6 +41,7 @@ void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); 
 namespace orthonav::test {
 
 std::size_t allocation_count() { return g_allocations; }
+std::size_t allocations_of_this_thread() { return t_allocations; }
 
 AllocationLimit::AllocationLimit(std::size_t bytes) { g_largest = bytes; }
 AllocationLimit::~AllocationLimit() { g_largest = kUnlimited; }
