@@ -171,8 +171,11 @@ std::optional<Part> FrameLoop::stalled() const {
   if (voice_stalled_) {
     return Part::kVoice;
   }
-  const bool drawing = sink_ && (beats_->drawing_stalled() || sink_->stalled());
-  return drawing ? std::optional(Part::kRenderer) : std::nullopt;
+  if (sink_ && (beats_->drawing_stalled() || sink_->stalled())) {
+    return Part::kRenderer;
+  }
+  // Where time does not pass as it does for the coach, it would be called late at random.
+  return options_.drop_late_snapshots ? beats_->stalled_beside() : std::nullopt;
 }
 
 void FrameLoop::count_stall(std::optional<Part> now, LoopReport& report) {

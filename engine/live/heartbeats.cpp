@@ -13,23 +13,42 @@ constexpr std::array kOfTracking = {Part::kCoach, Part::kVoice, Part::kCamera, P
 }  // namespace
 
 Heartbeats::Heartbeats(const Clock& clock, Duration limit) : clock_(clock), limit_(limit) {
-  for (auto& since_ns : since_ns_) {
-    since_ns.store(kRests, std::memory_order_relaxed);
+  for (Beats* beats : {&at_work_, &beside_}) {
+    for (auto& since_ns : *beats) {
+      since_ns.store(kRests, std::memory_order_relaxed);
+    }
   }
 }
 
-void Heartbeats::begins(Part part) {
-  since_ns_[static_cast<std::size_t>(part)].store(clock_.now().time_since_epoch().count(),
-                                                  std::memory_order_release);
+void Heartbeats::begin(Beats& beats, Part part) const {
+  beats[static_cast<std::size_t>(part)].store(clock_.now().time_since_epoch().count(),
+                                              std::memory_order_release);
 }
+
+void Heartbeats::begins(Part part) { begin(at_work_, part); }
 
 void Heartbeats::ends(Part part) {
-  since_ns_[static_cast<std::size_t>(part)].store(kRests, std::memory_order_release);
+  at_work_[static_cast<std::size_t>(part)].store(kRests, std::memory_order_release);
 }
 
-bool Heartbeats::stalled(Part part, Timestamp now) const {
-  const std::int64_t began = since(part);
-  return began != kRests && now - Timestamp(Duration(began)) > limit_;
+void Heartbeats::begins_beside(Part part) { begin(beside_, part); }
+
+void Heartbeats::ends_beside(Part part) {
+  beside_[static_cast<std::size_t>(part)].store(kRests, std::memory_order_release);
+}
+
+bool Heartbeats::late(std::int64_t since_ns, Timestamp now) const {
+  return since_ns != kRests && now - Timestamp(Duration(since_ns)) > limit_;
+}
+
+std::optional<Part> Heartbeats::stalled_beside() const {
+  const Timestamp now = clock_.now();
+  for (std::size_t part = 0; part < kPartCount; ++part) {
+    if (late(beside_[part].load(std::memory_order_acquire), now)) {
+      return Part{static_cast<std::uint8_t>(part)};
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<Part> Heartbeats::tracking() const {

@@ -18,23 +18,33 @@ class Heartbeats : public WorkWatch {
   Heartbeats(const Clock& clock, Duration limit);
   void begins(Part part) override;
   void ends(Part part) override;
+  void begins_beside(Part part) override;
+  void ends_beside(Part part) override;
 
   /// The part in which the tracking thread hangs: the innermost one at work. Absent if it does not
   /// hang.
   [[nodiscard]] std::optional<Part> tracking_stalled() const;
   [[nodiscard]] bool drawing_stalled() const { return stalled(Part::kRenderer, clock_.now()); }
+  /// The part whose task beside the tracking thread takes longer than the limit. Absent if none
+  /// does.
+  [[nodiscard]] std::optional<Part> stalled_beside() const;
   /// The innermost part at work on the tracking thread, for however long.
   [[nodiscard]] std::optional<Part> tracking() const;
 
  private:
+  /// When each part began, in nanoseconds of the clock; kRests: at no work.
+  using Beats = std::array<std::atomic<std::int64_t>, kPartCount>;
+  void begin(Beats& beats, Part part) const;
   [[nodiscard]] std::int64_t since(Part part) const {
-    return since_ns_[static_cast<std::size_t>(part)].load(std::memory_order_acquire);
+    return at_work_[static_cast<std::size_t>(part)].load(std::memory_order_acquire);
   }
-  [[nodiscard]] bool stalled(Part part, Timestamp now) const;
+  [[nodiscard]] bool late(std::int64_t since_ns, Timestamp now) const;
+  [[nodiscard]] bool stalled(Part part, Timestamp now) const { return late(since(part), now); }
 
   const Clock& clock_;
   Duration limit_;
-  std::array<std::atomic<std::int64_t>, kPartCount> since_ns_;  ///< kRests: at no work
+  Beats at_work_;
+  Beats beside_;
 };
 
 }  // namespace orthonav::engine

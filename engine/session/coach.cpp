@@ -40,7 +40,15 @@ Coaching coaching_from(const nav::Registration& registration) {
   return coaching;
 }
 
+void Coach::watch(WorkWatch* watch) {
+  watch_ = watch;
+  if (watch_ && pairs_left_ > 0) {
+    watch_->begins_beside(Part::kCoach);
+  }
+}
+
 void Coach::step(const OperatedLevel& level, std::span<const nav::Region> regions) {
+  look_at_trial();
   if (pairs_left_ > 0 && --pairs_left_ == 0) {
     take_answer();
   }
@@ -73,6 +81,10 @@ void Coach::start(const OperatedLevel& level, std::span<const nav::Region> regio
     }
   }
   pairs_left_ = kPairsToAnswer;
+  answered_ = false;
+  if (watch_) {
+    watch_->begins_beside(Part::kCoach);
+  }
   worker_.start([](void* coach) { static_cast<Coach*>(coach)->run(); }, this);
 }
 
@@ -81,15 +93,25 @@ void Coach::take_answer() {
   newest_ = std::move(answer_);
 }
 
+void Coach::look_at_trial() {
+  if (watch_ && pairs_left_ > 0 && answered_) {
+    watch_->ends_beside(Part::kCoach);
+  }
+}
+
 void Coach::wait() {
   const Working working(watch_, Part::kCoach);
   worker_.wait();
+  if (watch_) {
+    watch_->ends_beside(Part::kCoach);
+  }
 }
 
 void Coach::run() {
   // Whether another level fits better is asked when it counts, not while half of it is stroked.
   const auto result = registrar_({*level_->model, points_, level_->screws, {}, common_});
   answer_ = result ? std::optional(coaching_from(*result)) : std::nullopt;
+  answered_ = true;
 }
 
 }  // namespace orthonav::engine

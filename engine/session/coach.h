@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <span>
 #include <vector>
@@ -41,8 +42,9 @@ class Coach {
     points_.reserve(kReservedPoints);
   }
 
-  /// Is told while this waits for an answer; null: nobody. Borrowed.
-  void watch(WorkWatch* watch) { watch_ = watch; }
+  /// Told when a trial begins and ends, and when this waits for its answer; null: nobody.
+  /// Borrowed.
+  void watch(WorkWatch* watch);
   /// Once for each pair of stroking, with everything stroked so far. The level must stay until
   /// `forget` or the end.
   void step(const OperatedLevel& level, std::span<const nav::Region> regions);
@@ -61,6 +63,8 @@ class Coach {
 
   void start(const OperatedLevel& level, std::span<const nav::Region> regions);
   void take_answer();
+  /// Tells the watch of a trial that has ended meanwhile.
+  void look_at_trial();
   void wait();
   void run();
 
@@ -70,6 +74,8 @@ class Coach {
   std::optional<Coaching> newest_;
   std::size_t asked_samples_ = 0;  ///< of the last trial
   int pairs_left_ = 0;             ///< until the answer of the trial under way; 0: none is
+
+  std::atomic<bool> answered_ = false;  ///< the trial under way has its answer
 
   // The trial's own, the worker's while it is under way.
   const OperatedLevel* level_ = nullptr;

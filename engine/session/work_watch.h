@@ -16,6 +16,9 @@ class WorkWatch {
   virtual ~WorkWatch() = default;
   virtual void begins(Part part) = 0;
   virtual void ends(Part part) = 0;
+  /// The same for a task that a part works on beside the session, which goes on meanwhile.
+  virtual void begins_beside(Part part) = 0;
+  virtual void ends_beside(Part part) = 0;
 };
 
 /// A part is at work as long as this lives; null: nobody watches. Where an exception ends the

@@ -42,6 +42,20 @@ TEST(Heartbeats, NameWhoIsWaitedForRatherThanWhoWaits) {
   EXPECT_EQ(beats.tracking_stalled(), Part::kTracker);
 }
 
+TEST(Heartbeats, NameATaskBesideTheTrackerWithoutNamingTheTracker) {
+  fake::ManualClock clock;
+  Heartbeats beats(clock, kStallAfter);
+  beats.begins_beside(Part::kCoach);
+  clock.advance(kStallAfter);
+  EXPECT_EQ(beats.stalled_beside(), std::nullopt);
+  clock.advance(Duration(1));
+  EXPECT_EQ(beats.stalled_beside(), Part::kCoach);
+  EXPECT_EQ(beats.tracking_stalled(), std::nullopt);
+  EXPECT_EQ(beats.tracking(), std::nullopt) << "an exception now is not the coach's";
+  beats.ends_beside(Part::kCoach);
+  EXPECT_EQ(beats.stalled_beside(), std::nullopt);
+}
+
 TEST(Heartbeats, KeepWhatAnExceptionLeft) {
   fake::ManualClock clock;
   Heartbeats beats(clock, kStallAfter);

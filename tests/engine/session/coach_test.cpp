@@ -225,21 +225,26 @@ class OpensWhenAwaited : public WorkWatch {
     gate_.set_open(true);
   }
   void ends(Part part) override { told.push_back(part); }
+  void begins_beside(Part) override { ++trials; }
+  void ends_beside(Part) override { --trials; }
   std::vector<Part> told;
+  int trials = 0;  ///< under way
 
  private:
   Gate& gate_;
 };
 
-TEST_F(CoachTest, TellsThatItIsAwaited) {
+TEST_F(CoachTest, TellsOfItsTrialsAndThatItIsAwaited) {
   OpensWhenAwaited watch(gate);
   coach.watch(&watch);
   gate.set_open(false);
   stroke(200);
   pairs(Coach::kPairsToAnswer);
   EXPECT_TRUE(watch.told.empty()) << "nobody waits for it yet";
+  EXPECT_EQ(watch.trials, 1);
   pairs(1);  // would hang here if it did not tell
   EXPECT_EQ(watch.told, std::vector<Part>(2, Part::kCoach));
+  EXPECT_EQ(watch.trials, 0);
   EXPECT_TRUE(coach.newest().has_value());
 }
 
