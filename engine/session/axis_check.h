@@ -7,12 +7,12 @@
 
 namespace orthonav::engine {
 
-/// The guide's axis as its sleeve told it, turned over a wire that stands in the bone, against the
-/// axis that is in use.
+/// The guide's axis as measured by turning its sleeve over a wire in the bone, compared with the
+/// axis in use.
 struct AxisDifference {
   double off_rad = 0.0;  ///< as measured
-  double sd_rad = 0.0;   ///< of that, about each direction across the axis
-  /// By what was known before and by this: what the axis in use is most probably off by.
+  double sd_rad = 0.0;   ///< of `off_rad`, about each direction across the axis
+  /// The most probable error of the axis in use, from prior knowledge and this measurement.
   double by_rad = 0.0;
   bool corrected = false;  ///< with the surgeon's consent
 };
@@ -20,18 +20,20 @@ struct AxisDifference {
 struct AxisCheckRules {
   /// SD of the described axis about each direction across it; a printed tool.
   double prior_sd_rad = 0.010;
-  /// No measurement is taken to be better: tags and lenses are off alike in all poses. 0.1°.
+  /// No measurement is assumed to be better than this: errors of tags and lenses are the same in
+  /// all poses. 0.1°.
   double least_sd_rad = 0.1 * kRadiansPerDegree;
   /// A smaller correction is not offered.
   double worth_rad = 0.15 * kRadiansPerDegree;
 };
 
-/// SD of the axis that a turning sleeve told, about each direction across it: the calibration's is
-/// that of both together.
+/// SD about each direction across the axis of an axis measured by turning the sleeve; the
+/// calibration states the SD of both directions together.
 [[nodiscard]] double sd_of_each_rad(const nav::SpinCalibration& measured,
                                     double least_sd_rad = AxisCheckRules{}.least_sd_rad);
 
-/// Each wire that is measured so tells of the axis; what is corrected counts as known from then on.
+/// Each wire measured this way improves the estimate of the axis; a correction counts as known from
+/// then on.
 class AxisCheck {
  public:
   AxisCheck() : AxisCheck(AxisCheckRules{}) {}
@@ -42,9 +44,9 @@ class AxisCheck {
   [[nodiscard]] bool offers() const {
     return last_ && !last_->corrected && last_->by_rad >= rules_.worth_rad;
   }
-  /// Of the axis in use, about each direction across it.
+  /// SD of the axis in use, about each direction across it.
   [[nodiscard]] double sd_rad() const { return sd_rad_; }
-  /// The surgeon consents: the axis that is used from now on.
+  /// The surgeon consents. Returns the axis to use from now on.
   [[nodiscard]] Direction<Marker> correct();
   [[nodiscard]] const std::optional<AxisDifference>& last() const { return last_; }
 

@@ -8,9 +8,9 @@ namespace {
 
 using Axes = std::span<const nav::Axis<World>>;
 
-/// SD about an axis in one pair, as far as few pairs can't tell it.
+/// SD about an axis in one pair, used where few pairs can't show it.
 constexpr double kPairTurn_rad = 0.004;
-/// A tool that turns by more from one quarter of a second to the next is on its way.
+/// A tool that turns by more from one quarter of a second to the next is not at rest.
 constexpr double kTurnAtRest_rad = 0.009;
 
 nav::Axis<World> mean_axis(Axes axes) {

@@ -9,8 +9,8 @@
 
 namespace orthonav::engine {
 
-/// A tool's axis at rest, and what its scatter leaves of the mean: SDs of the direction about each
-/// axis, and of the tip along each.
+/// A tool's axis at rest, and the SDs of its mean that follow from the scatter: of the direction
+/// about each axis, and of the tip along each.
 struct RestingAxis {
   nav::Axis<World> mean;  ///< from the tip, unit along the tool's axis
   double direction_sd_rad = 0.0;
@@ -18,24 +18,24 @@ struct RestingAxis {
   std::size_t pairs = 0;
 };
 
-/// One axis that a tool rests in, from a press to the click that follows: what `Touch` is for a
-/// place. Where the tool rested already before the press, that counts too.
+/// The axis of a tool at rest, from a press to the click that follows, like `Touch` for a place.
+/// Time at rest before the press counts too.
 class AxisTouch {
  public:
-  /// A press: the axes from here on are one.
+  /// A press: the axes from here on belong to one touch.
   void begin() { axes_.begin(); }
-  /// The button is up; the click that may follow still uses what was touched.
+  /// The button is released; a click that follows still uses the touch.
   void release() { axes_.release(); }
-  /// There is none any more.
+  /// Drops the touch.
   void drop() { axes_.drop(); }
-  /// Measured, once for each pair.
+  /// Adds a measured axis, once for each pair.
   void add(const nav::Axis<World>& axis) { axes_.add(axis); }
-  /// Not measured in this pair: a touch under way is not one of a tool that was seen.
+  /// The tool was not measured in this pair, which spoils a touch under way.
   void lose() { axes_.lose(); }
 
-  /// Ends the touch, whatever the answer. Refused where the press fell into another step, the tool
-  /// was not seen all the while, its tip scatters more than `max_spread_m` or its direction more
-  /// than `max_turn_rad` (root mean squares about their means).
+  /// Ends the touch in every case. Refused if the press fell into another step, the tool was not
+  /// seen throughout, its tip scatters more than `max_spread_m` or its direction more than
+  /// `max_turn_rad` (root mean squares about their means).
   [[nodiscard]] std::variant<RestingAxis, TouchRefusal> take(double max_spread_m,
                                                              double max_turn_rad);
 

@@ -12,15 +12,15 @@ namespace orthonav::engine {
 
 class JsonNode;
 
-/// The tags of a tool against the size that its description states, as fractions.
+/// The size of a tool's tags compared with its description, as fractions.
 struct TagSizeInUse {
   std::string tool;
-  double applied = 0.0;   ///< larger by so much in the poses that were guided on
-  double measured = 0.0;  ///< larger by so much as the two cameras saw them
+  double applied = 0.0;   ///< excess size used in the poses that were guided on
+  double measured = 0.0;  ///< excess size as measured by the two cameras
   double sd = 0.0;        ///< of `measured`
 };
 
-/// The cameras against what the device reports of them.
+/// The cameras compared with what the device reports of them.
 struct CamerasInUse {
   double rotation_rad = 0.0;  ///< of the right camera
   bool rotation_applied = false;
@@ -31,16 +31,16 @@ struct CamerasInUse {
   std::int64_t pairs = 0;
 };
 
-/// What was found out in use about tags and cameras. What is absent was not measured.
+/// What was found out in use about tags and cameras. Absent values were not measured.
 struct CalibrationInUse {
   std::vector<TagSizeInUse> tags;
   std::optional<CamerasInUse> cameras;
 };
 
 [[nodiscard]] CalibrationInUse calibration_in_use(const nav::ToolTracker& tracker);
-/// `tags[]` and `cameras` in percent and degrees; `not_measured[]` names those that were not.
+/// `tags[]` and `cameras` in percent and degrees; `not_measured[]` names those not measured.
 [[nodiscard]] JournalLine calibration_json(const CalibrationInUse& found);
-/// What `calibration_json` wrote.
+/// Reads what `calibration_json` wrote.
 [[nodiscard]] CalibrationInUse calibration_of(const JsonNode& line);
 
 }  // namespace orthonav::engine

@@ -32,7 +32,7 @@ Coaching coaching_from(const nav::Registration& registration) {
   coaching.expected_m = std::hypot(registration.predicted_tre_m, std::sqrt(3.0) * common_m);
   coaching.registration_only = !(common_m > 0.0);
   coaching.stroke_next = registration.stroke_next;
-  // A small error to expect is no comfort where something else stands against it.
+  // A small expected error does not help if there is another reason against the registration.
   if (coaching.unique && !coaching.enough &&
       registration.predicted_tre_m <= limits.max_predicted_tre_m && !registration.reasons.empty()) {
     coaching.against = registration.reasons.front();
@@ -54,7 +54,7 @@ void Coach::step(const OperatedLevel& level, std::span<const nav::Region> region
   }
   const std::size_t samples = samples_in(regions);
   if (samples < kFewestSamples) {
-    // What was told may have been told of strokes that are deleted by now.
+    // The last answer may be about strokes that have since been deleted.
     newest_.reset();
     asked_samples_ = 0;
   } else if (pairs_left_ == 0 &&
@@ -108,7 +108,7 @@ void Coach::wait() {
 }
 
 void Coach::run() {
-  // Whether another level fits better is asked when it counts, not while half of it is stroked.
+  // Whether another level fits better is checked for a real registration, not on partial strokes.
   const auto result = registrar_({*level_->model, points_, level_->screws, {}, common_});
   answer_ = result ? std::optional(coaching_from(*result)) : std::nullopt;
   answered_ = true;

@@ -12,29 +12,29 @@
 
 namespace orthonav::engine {
 
-/// What registering the strokes made so far would say.
+/// The expected result of registering the strokes made so far.
 struct Coaching {
   bool unique = false;      ///< no other pose explains the strokes nearly as well
   bool enough = false;      ///< it would be accepted, or more strokes over tissue would not help
-  bool then_touch = false;  ///< then: places must be pressed to the bone first
+  bool then_touch = false;  ///< if `enough`: places of the bone must be touched first
   double expected_m = 0.0;  ///< root mean square error at the worst of the screws; may be infinite
   bool registration_only = false;  ///< what all strokes share is not known, so not in it
-  /// What stands against it, where that is more to the point than where to stroke next.
+  /// The reason against it, if it matters more than where to stroke next.
   std::optional<nav::RefusalReason> against;
   std::optional<nav::BonePlace> stroke_next;
 };
 [[nodiscard]] Coaching coaching_from(const nav::Registration& registration);
 
-/// Registers while the surgeon strokes, beside the frame loop, to tell what the strokes are worth;
-/// nothing of it registers anything. A trial starts after so many new samples and is answered
-/// exactly so many pairs later, be it ready before or awaited then: the same pairs give the same
-/// answers, on any machine. One thread at a time.
+/// Runs trial registrations beside the frame loop while the surgeon strokes, to tell what the
+/// strokes are worth; the level stays unregistered. A trial starts after `kNewSamples` new samples
+/// and is answered exactly `kPairsToAnswer` pairs later, waiting for it if necessary, so the same
+/// pairs give the same answers on any machine. One thread at a time.
 class Coach {
  public:
   /// 2 s of stroking at 30 pairs a second.
   static constexpr std::size_t kNewSamples = 60;
   static constexpr std::size_t kFewestSamples = 100;
-  /// Half a second: several times what a trial takes, so that hardly any is awaited.
+  /// Half a second: several times the duration of a trial, so that waiting is rare.
   static constexpr int kPairsToAnswer = 15;
 
   explicit Coach(Registrar registrar, const nav::CommonErrors& common = {})
@@ -42,18 +42,18 @@ class Coach {
     points_.reserve(kReservedPoints);
   }
 
-  /// Told when a trial begins and ends, and when this waits for its answer; null: nobody.
-  /// Borrowed.
+  /// Sets the watch to be notified when a trial begins and ends, and while this waits for its
+  /// answer; null: none. Borrowed.
   void watch(WorkWatch* watch);
   /// Once for each pair of stroking, with everything stroked so far. The level must stay until
   /// `forget` or the end.
   void step(const OperatedLevel& level, std::span<const nav::Region> regions);
-  /// So many samples were registered for good, and refused: this is what they are worth.
+  /// A real registration of this many samples was refused; `coaching` is what they are worth.
   void tell(Coaching coaching, std::size_t samples) {
     newest_ = std::move(coaching);
     asked_samples_ = samples;
   }
-  /// The strokes are gone or done with; a trial under way is awaited and dropped.
+  /// The strokes are gone or no longer needed; waits for a trial under way and drops its answer.
   void forget();
   [[nodiscard]] const std::optional<Coaching>& newest() const { return newest_; }
 
@@ -63,7 +63,7 @@ class Coach {
 
   void start(const OperatedLevel& level, std::span<const nav::Region> regions);
   void take_answer();
-  /// Tells the watch of a trial that has ended meanwhile.
+  /// Notifies the watch if the trial has ended.
   void look_at_trial();
   void wait();
   void run();
@@ -77,7 +77,7 @@ class Coach {
 
   std::atomic<bool> answered_ = false;  ///< the trial under way has its answer
 
-  // The trial's own, the worker's while it is under way.
+  // Inputs and answer of the trial, owned by the worker while it is under way.
   const OperatedLevel* level_ = nullptr;
   std::vector<Point<World>> points_;
   std::optional<Coaching> answer_;

@@ -7,7 +7,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// A saved region goes when "delete" is said twice within this time.
+/// A saved region is deleted when "delete" is said twice within this time.
 constexpr Duration kSaidTwiceWithin = std::chrono::seconds(5);
 
 std::ptrdiff_t saved_in(std::span<const nav::Region> regions) {
@@ -15,13 +15,13 @@ std::ptrdiff_t saved_in(std::span<const nav::Region> regions) {
                        [](const nav::Region& region) { return region.saved; });
 }
 
-/// There is one.
+/// Requires a saved region.
 const nav::Region& last_saved(std::span<const nav::Region> regions) {
   return *std::find_if(regions.rbegin(), regions.rend(),
                        [](const nav::Region& region) { return region.saved; });
 }
 
-/// Of a registration that does not count: why, with what to do about it, if that is known.
+/// Why a registration does not count, with what to do about it, if that is known.
 Message message_about(const RegistrationOutcome& outcome) {
   RegistrationRefused refused;
   refused.error = outcome.error;
@@ -70,7 +70,7 @@ void Digitizing::save_region(OperationInWork& work, Timestamp time) {
   const std::ptrdiff_t before = saved_in(regions());
   strokes_.digitizer.save();
   if (saved_in(regions()) > before) {
-    // Where the button is still down, the next region has begun behind it.
+    // If the button is still down, the next region has already begun after it.
     work.observer->region_saved(time, work.level(), last_saved(regions()));
   }
 }
@@ -126,10 +126,11 @@ RegistrationOutcome Digitizing::registered(OperationInWork& work, Timestamp time
   LevelState& level = work.level();
   nav::Digitizer& digitizer = strokes_.digitizer;
   digitizer.release(time);
-  // What is not saved is not registered: the two clicks that ask for it are no strokes.
+  // Unsaved samples are not registered: the two clicks that ask for the registration are not
+  // strokes.
   digitizer.drop();
   ++level.attempts;
-  // The trial under way has lost its use, and this one shall have the machine to itself.
+  // The trial under way is no longer needed, and would take processor time from this registration.
   forget_coaching();
   const std::vector<Point<World>> points = digitizer.saved_points();
   const std::vector<double> sds_m = digitizer.saved_point_sds_m();

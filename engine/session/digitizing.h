@@ -18,7 +18,7 @@ class Digitizing {
  public:
   explicit Digitizing(const OperationInWork& work);
 
-  /// Is told while this waits for the coach; null: nobody. Borrowed.
+  /// Sets the watch to be notified while this waits for the coach; null: none. Borrowed.
   void watch_work(WorkWatch* watch);
 
   void press(LevelState& level, Timestamp time);
@@ -26,18 +26,19 @@ class Digitizing {
   /// Once for each pair of the step.
   void collect(const OperationInWork& work);
   void save_region(OperationInWork& work, Timestamp time);
-  /// A saved region goes when "delete" is said twice.
+  /// A saved region is deleted only when "delete" is said twice.
   void drop_region(OperationInWork& work, Timestamp time);
-  /// Of what is saved; the rest is dropped. What passes is the level's from now on.
+  /// Registers the saved regions and drops the rest. A registration that passes becomes the
+  /// level's.
   [[nodiscard]] Event register_level(OperationInWork& work, Timestamp time);
   /// Another level, or this one anew.
   void clear();
   /// Takes over the saved regions of a resumed operation.
   void restore(std::vector<nav::Region> saved) { strokes_.digitizer.restore(std::move(saved)); }
-  /// The map moved: nothing in it may be shown or asked for any more.
+  /// The map moved: nothing measured in it may be shown or used any more.
   void forget_map();
 
-  /// The strokes, and the region that was deleted a moment ago.
+  /// Writes the strokes, and the region that was just deleted.
   void write(Guidance& out) const;
   [[nodiscard]] StrokesSoFar state() const;
 
@@ -54,11 +55,11 @@ class Digitizing {
   }
   [[nodiscard]] Message dropped(Timestamp time);
   [[nodiscard]] RegistrationOutcome registered(OperationInWork& work, Timestamp time);
-  /// Ends a trial under way: its strokes are gone or done with.
+  /// Ends a trial under way: its strokes are gone or no longer needed.
   void forget_coaching();
 
   Strokes strokes_;
-  std::unique_ptr<Coach> coach_;  ///< null: nobody is coached
+  std::unique_ptr<Coach> coach_;  ///< null: no coaching
 };
 
 }  // namespace orthonav::engine

@@ -5,7 +5,7 @@
 
 namespace orthonav::engine {
 
-/// Everything that can happen: what the surgeon does, and what the engine itself finds out.
+/// Everything that can happen: what the surgeon does, and what the engine detects.
 enum class Event : std::uint8_t {
   kPress,
   kRelease,
@@ -22,41 +22,41 @@ enum class Event : std::uint8_t {
   kSayMoveRod,
   kSayTwin,
   kSayDrill,
-  kSayReplan,             ///< a change of the screw, with what it is to be: Replan
+  kSayReplan,             ///< a change of the screw; Replan says which
   kRegistered,            ///< a registration passed its limits
   kRegistrationRefused,   ///< a registration failed its limits
-  kRegistrationRestored,  ///< one of an operation that was resumed, to be verified as any other
-  kAcceptanceRestored,    ///< one that was accepted; its landmark can tell whether it still holds
-  kChecked,               ///< "accept" was said and the check points bear it out
+  kRegistrationRestored,  ///< a registration of a resumed operation, to be verified like any other
+  kAcceptanceRestored,    ///< an accepted one; its landmark can show whether it still holds
+  kChecked,               ///< "accept" was said and the check points confirm the registration
   kNotChecked,            ///< "accept" was said too early, or against the check points
   kLandmarkTouched,       ///< "next" was said and the landmark was found where it was recorded
   kLandmarkMissing,       ///< "next" was said before the landmark was touched
-  kLandmarkMoved,         ///< the landmark was touched, farther from where it was than may be
-  kBoneUnchecked,         ///< before a drill is set, World has walked too far since it was found
-  kWireSettled,           ///< "next" was said, and nothing of the wire is left to decide
-  kWireUndecided,         ///< "next" was said of a wire beyond a limit
-  kScrewRedone,           ///< "delete" was said of it, and another entry was found
-  kNoOtherEntry,          ///< and none was found
-  kAnotherScrew,          ///< the level has a further screw
-  kAnotherLevel,          ///< the level is finished, a further one is planned
-  kNoScrewLeft,           ///< every screw of the plan is done
-  kNoRodPlanned,          ///< and no side has two, which a rod would join
-  kAnotherSide,           ///< the rod of the other side is still to do
-  kNoSideLeft,            ///< both rods are done
-  kTrackingLost,          ///< the step's tool is no longer measured
-  kPoseStale,             ///< the step's tool was last measured longer ago than may be shown
-  kTrackingRegained,      ///< the step's tool is measured again
-  kMapMoved,              ///< the headset's map is another one: positions in it mean nothing now
-  kReferenceHidden,       ///< no patient reference was seen for longer than guidance may stand
-  kReferenceSeen,         ///< one is seen again, or for the first time
-  kReferenceMoved,        ///< references moved against each other: what hangs on them means nothing
+  kLandmarkMoved,         ///< the landmark was touched too far from where it was
+  kBoneUnchecked,     ///< before a drill is set: World has drifted too far since the bone was found
+  kWireSettled,       ///< "next" was said, and nothing of the wire is left to decide
+  kWireUndecided,     ///< "next" was said of a wire beyond a limit
+  kScrewRedone,       ///< "delete" was said of a wire, and another entry was found
+  kNoOtherEntry,      ///< "delete" was said of a wire, and no other entry was found
+  kAnotherScrew,      ///< the level has a further screw
+  kAnotherLevel,      ///< the level is finished, a further one is planned
+  kNoScrewLeft,       ///< every screw of the plan is done
+  kNoRodPlanned,      ///< every screw is done, and no side has two for a rod to join
+  kAnotherSide,       ///< the rod of the other side is still to do
+  kNoSideLeft,        ///< both rods are done
+  kTrackingLost,      ///< the step's tool is no longer measured
+  kPoseStale,         ///< the step's tool was last measured too long ago to be shown
+  kTrackingRegained,  ///< the step's tool is measured again
+  kMapMoved,          ///< the headset's map was replaced: old positions are meaningless
+  kReferenceHidden,   ///< no patient reference was seen for longer than guidance may stay
+  kReferenceSeen,     ///< a reference is seen again, or for the first time
+  kReferenceMoved,    ///< references moved against each other: positions relative to them are void
 };
 inline constexpr std::size_t kEventCount = 43;
 
-/// What the session does about it. The first is the answer of a forgotten cell.
+/// What the session does about an event. The first is the default of cells without a rule.
 enum class Action : std::uint8_t {
   kRefuse,  ///< not possible now; the surgeon is told
-  kIgnore,  ///< means nothing here, and need not be told
+  kIgnore,  ///< has no meaning here; the surgeon is not told
   kBeginLevel,
   kStartSampling,
   kStopSampling,

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kOneOf100 =
     "1 of 100 errors at the screws would exceed %.1f mm, limit %.1f mm";
 
-/// The words about a number and its limit, and what the number is shown in.
+/// The words for a number and its limit, and the unit in which it is shown.
 struct NumberWords {
   const char* format;
   double unit;
@@ -160,7 +160,7 @@ void append(std::string& out, const nav::CheckAdvice& advice) {
 void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator) {
   std::string& out = text.out;
   if (!coaching.unique) {
-    // An error about a pose that may be the wrong one says nothing.
+    // The error of a pose that may be the wrong one is meaningless.
     text.begin(Importance::kMessage, separator);
     out += "ambiguous";
   } else {

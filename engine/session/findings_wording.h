@@ -10,15 +10,15 @@
 
 namespace orthonav::engine {
 
-/// Before the error that is expected.
+/// Precedes the expected error.
 inline constexpr std::string_view kExpectedError = "expected error ";
-/// Beside an error to expect that lacks what all strokes share.
+/// Follows an expected error that leaves out the errors common to all strokes.
 inline constexpr std::string_view kRegistrationOnly = " (registration only)";
 
 struct Coaching;
 
-// What a registration finds out about itself, in words: a part of engine/session/wording.h. Each is
-// appended as one clause, and allocates nothing where the string has the room.
+// The findings of a registration in words: a part of engine/session/wording.h. Each is appended as
+// one clause, without allocating if the string has enough capacity.
 
 /// "left" or "right".
 [[nodiscard]] std::string_view word_of(Side side);
@@ -28,9 +28,9 @@ void append(std::string& out, const nav::BonePlace& place);
 void append(std::string& out, const nav::UncertainMotion& motion);
 /// "registration RMSE 3.4 mm, limit 3.0 mm".
 void append(std::string& out, const nav::RefusalReason& reason);
-/// Every reason, or that there is none to name.
+/// Every reason, or a text that there is none to name.
 void append(std::string& out, std::span<const nav::RefusalReason> reasons);
-/// What is wrong with the check points, and what to do; nothing when nothing is.
+/// What is wrong with the check points, and what to do; nothing if all is well.
 void append(std::string& out, const nav::CheckAdvice& advice);
 
 /// "expected error 0.6 mm, stroke the left lamina".
@@ -38,7 +38,7 @@ void append(std::string& out, const Coaching& coaching);
 /// The same in parts; the separator comes before the first.
 void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator);
 
-/// One of them alone.
+/// The text of a single finding.
 template <class Finding>
 [[nodiscard]] std::string text_of(const Finding& finding) {
   std::string out;

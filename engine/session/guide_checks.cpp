@@ -6,7 +6,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// Both tips are as their calibration left them.
+/// The rules with both tips as uncertain as their calibration left them.
 TipCheckRules tips_known_to(const SessionOptions& options) {
   TipCheckRules rules = options.tips;
   rules.prior_sd_m = std::numbers::sqrt2 * options.placed.tip_sd_m;
@@ -55,9 +55,9 @@ bool GuideChecks::correct_guide(OperationInWork& work, Timestamp time) {
   return false;
 }
 
-/// The cameras shift what they see at one place alike. The guide's tag is seen elsewhere than the
-/// pointer's was, by some 0.1 m at 0.45 m, and the head has turned since: so much of their error is
-/// taken not to be shared. Estimate.
+/// Camera errors shift everything seen in one place alike. The guide's tag is seen some 0.1 m from
+/// where the pointer's was, at 0.45 m, and the head has turned since, so this part of the error is
+/// assumed not to be shared. Estimate.
 ToolErrors GuideChecks::errors(const OperationInWork& work, Timestamp now) const {
   constexpr double kElsewhere = 0.3;
   const LevelState& level = work.level();

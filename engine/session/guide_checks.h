@@ -7,22 +7,22 @@
 
 namespace orthonav::engine {
 
-/// What an operation finds out about its guide: its tip against the pointer's, in the landmark, and
-/// its axis, on the wires. Lasts for the whole operation.
+/// What an operation finds out about its guide: its tip compared with the pointer's in the
+/// landmark, and its axis on the wires. Lasts for the whole operation.
 class GuideChecks {
  public:
   explicit GuideChecks(const SessionOptions& options);
 
-  /// The guide's tip was put to `place`, after the pointer's, which was at `pointer_tip`.
+  /// The guide's tip was put at `place` after the pointer's was at `pointer_tip`.
   void compare_tips(OperationInWork& work, const nav::PressedPlace& place,
                     const nav::PressedPlace& pointer_tip, Timestamp time);
   /// The sleeve was turned over a wire.
   void compare_axis(OperationInWork& work, const nav::SpinCalibration& spin, Timestamp time);
-  /// The surgeon consents to what the status line offers: the tip first, then the axis. False where
-  /// nothing is offered.
+  /// The surgeon consents to the correction that the status line offers: of the tip first, then of
+  /// the axis. False if none is offered.
   [[nodiscard]] bool correct_guide(OperationInWork& work, Timestamp time);
 
-  /// How far the guide may be off on the level in work.
+  /// How far off the guide may be on the current level.
   [[nodiscard]] ToolErrors errors(const OperationInWork& work, Timestamp now) const;
   [[nodiscard]] const TipCheck& tips() const { return tips_; }
   [[nodiscard]] const AxisCheck& axis() const { return axis_; }

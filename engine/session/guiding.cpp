@@ -13,13 +13,13 @@ namespace {
 
 /// Withdrawn by more than this, the tool is no longer at depth; a hand at rest moves less.
 constexpr double kWithdrawn_m = 0.001;
-/// A tip farther off the planned axis is not at the screw. Depth along the axis alone would count a
-/// tool laid down beside the patient.
+/// A tip farther off the planned axis is not at the screw. Depth along the axis alone would include
+/// a tool laid down beside the patient.
 constexpr double kOffTheScrew_m = 0.015;
-/// A tool that is turned farther from the plan is not aimed at it: 30°.
+/// A tool tilted farther from the plan is not aimed at it: 30°.
 constexpr double kAway_rad = 0.52;
 
-/// What comes after a screw that is done.
+/// The event after a screw is done.
 Event after_screw(const OperationInWork& work) {
   const auto finished = [](const LevelState& level) { return level.finished(); };
   if (!finished(work.level())) {
@@ -90,8 +90,8 @@ std::optional<ToolGuidance> Guiding::guide(const OperationInWork& work, Timestam
   if (!level.registration || !watch.fresh(now, stale_after)) {
     return std::nullopt;
   }
-  // Between two measurements the overlay is predicted, as long as the tracker itself still follows
-  // the tool; the number is not.
+  // Between two measurements the overlay is predicted, as long as the tracker still follows the
+  // tool; the numbers are not.
   const nav::TrackedPose at_display = watch.at(display_time, stale_after);
   if (watch.newest().status == PoseStatus::kLost || at_display.status == PoseStatus::kLost) {
     return std::nullopt;

@@ -8,13 +8,13 @@
 
 namespace orthonav::engine {
 
-// What is said, and what other programs ask. Returns the event that the table answers; none where
-// it was not understood, or can't be meant, which the surgeon is told here.
+// Interprets what is said and what other programs ask. Returns the event for the table to answer;
+// none if it was not understood or can't be meant, which the surgeon is told here.
 
-/// `from`: who asked, where nobody in the room said it.
+/// `from`: who asked, unless it was said in the room.
 [[nodiscard]] std::optional<Event> hear(OperationInWork& work, SessionSteps& steps,
                                         const Phrase& phrase, const std::string& from = {});
-/// Another program is sure of what it asks.
+/// Requests of other programs always count as understood.
 [[nodiscard]] std::optional<Event> hear(OperationInWork& work, SessionSteps& steps,
                                         const Request& request);
 

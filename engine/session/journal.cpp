@@ -20,7 +20,7 @@ Json matrix_mm(std::array<double, 16> m) {
   return m;
 }
 
-/// What the method `best` says of a registration besides. What has no bound becomes null.
+/// The additional figures of method `best` about a registration. Unbounded values become null.
 void put_judgement(Json& line, const nav::Registration& result) {
   line["noise_mm"] = result.noise_m * 1e3;
   line["inlier_share"] = result.inlier_fraction;
@@ -52,7 +52,7 @@ Json plan_of(const std::vector<PlannedLevel>& levels) {
   return plan;
 }
 
-/// How the rod was to be bent, or why nobody was told.
+/// The instructions to bend the rod, or why there are none.
 void put_instructions(Json& line, const RodState& rod) {
   if (!rod.no_instructions.empty()) {
     line["no_instructions"] = rod.no_instructions;
@@ -180,7 +180,7 @@ void Journal::tell_registration(Timestamp time, const LevelState& level,
     append_tag_size_off(warning, level.tag_size->tool, level.tag_size->fraction);
     line["warning"] = warning;
   }
-  // Infinite, that is without a bound, becomes null.
+  // Infinite, that is unbounded, values become null.
   if (outcome.passed()) {
     line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
   }

@@ -14,7 +14,7 @@ namespace orthonav::engine {
 /// How a session ended.
 struct JournalEnd {
   std::optional<Timestamp> time;  ///< of the last pair; absent: that of the last line
-  std::string reason;             ///< what ended it before its time; empty: nothing did
+  std::string reason;             ///< what ended it early; empty: nothing
 };
 
 /// A screw that is planned to leave the cortex, and why.
@@ -23,7 +23,7 @@ struct AcceptedBreach {
   std::string reason;
 };
 
-/// What is to be done on one level.
+/// The plan of one level.
 struct PlannedLevel {
   std::string label;
   std::vector<nav::Side> screws;
@@ -42,20 +42,21 @@ struct JournalHeader {
   std::uint64_t seed = 0;
   std::int64_t epoch_ticks_100ns = 0;  ///< Headset::epoch_ticks_100ns
   std::vector<PlannedLevel> levels;    ///< in the order of the operation
-  bool patient_reference = false;      ///< World hangs on one instead of on the headset's map
+  bool patient_reference = false;      ///< World is attached to one instead of to the headset's map
 };
 
-/// The event log of a session: one JSON object a line, the first is the header. Times as
-/// files name them (`time_100ns`, with the device's epoch) and in nanoseconds of the device's clock
-/// (`time_ns`), lengths in mm, angles in degrees. Grows as NAME.part line by line, so that whatever
-/// ends the process leaves it readable there; `finish` names it. No file system stalls the session.
+/// The event log of a session: one JSON object per line, the first of which is the header. Times
+/// are as in file names (`time_100ns`, with the device's epoch) and in nanoseconds of the device's
+/// clock (`time_ns`), lengths in mm, angles in degrees. Grows line by line as NAME.part, which
+/// stays readable however the process ends; `finish` renames it. A slow file system does not stall
+/// the session.
 class Journal : public SessionObserver {
  public:
   static Result<std::unique_ptr<Journal>> create(const std::string& path,
                                                  const JournalHeader& header);
-  /// Writes the last line and gives the file its name; an Error when any line could not be written.
+  /// Writes the last line and gives the file its name; an Error if any line could not be written.
   Status finish(const JournalEnd& end = {});
-  /// Where journals of earlier sessions were put that had its name; empty: there were none.
+  /// Where earlier journals of the same name were moved; empty: there were none.
   [[nodiscard]] const std::string& earlier_kept_as() const { return log_->earlier_kept_as(); }
 
   void happened(Timestamp time, Step from, Event event, Cell answer) override;
@@ -87,7 +88,7 @@ class Journal : public SessionObserver {
  private:
   Journal(std::unique_ptr<LineLog> log, std::int64_t epoch_ticks_100ns)
       : log_(std::move(log)), epoch_ticks_100ns_(epoch_ticks_100ns) {}
-  /// Of an operation that was resumed: an earlier journal told of the registration.
+  /// Writes a registration of a resumed operation, which is also in an earlier journal.
   void tell_restored(Timestamp time, const LevelState& level);
   void tell_registration(Timestamp time, const LevelState& level,
                          const RegistrationOutcome& outcome, bool restored);
@@ -97,8 +98,8 @@ class Journal : public SessionObserver {
 
   std::unique_ptr<LineLog> log_;
   std::int64_t epoch_ticks_100ns_;
-  Timestamp newest_{};                ///< of what was told
-  std::set<std::string> registered_;  ///< labels of the levels of which a registration was told
+  Timestamp newest_{};                ///< time of the newest line
+  std::set<std::string> registered_;  ///< labels of levels whose registration was written
 };
 
 }  // namespace orthonav::engine

@@ -17,9 +17,9 @@ namespace orthonav::engine {
 namespace {
 
 constexpr std::size_t kLongestLine = 1U << 20U;
-/// Clicks and words that a network delays come some seconds after what was seen meanwhile.
+/// Clicks and phrases delayed by a network arrive some seconds after later images.
 constexpr auto kMostBack = std::chrono::minutes(1);
-/// Beyond it a time in nanoseconds is no time.
+/// Larger times in nanoseconds are invalid.
 constexpr double kLatest_ns = 4e18;
 
 std::size_t count_of(const JsonNode& line, const char* key) {
@@ -30,7 +30,7 @@ std::size_t count_of(const JsonNode& line, const char* key) {
   return static_cast<std::size_t>(std::max(0, count));
 }
 
-/// The value of an enumeration whose name stands under `key`.
+/// The value of an enumeration named under `key`.
 template <class Enum>
 Enum named(const JsonNode& line, const char* key, std::size_t count) {
   const std::string name = line.text(key);
@@ -161,7 +161,7 @@ class Reading {
     }
   }
 
-  /// Refuses what can't be one; else notes it as the newest.
+  /// Refuses what can't be a time; otherwise notes it as the newest.
   Timestamp time_of(const JsonNode& line) {
     const double ns = line.number("time_ns");
     if (!(std::abs(ns) <= kLatest_ns)) {
@@ -262,7 +262,7 @@ class Reading {
 }  // namespace
 
 Result<SessionRecord> read_journal_text(const std::string& text, const std::string& name) {
-  // A disk that lost its power may leave zeros where the last lines were to be.
+  // After a loss of power a disk may hold zeros in place of the last lines.
   const std::size_t last = text.find_last_not_of('\0');
   const std::string_view content =
       std::string_view(text).substr(0, last == std::string::npos ? 0 : last + 1);
@@ -273,7 +273,7 @@ Result<SessionRecord> read_journal_text(const std::string& text, const std::stri
   for (std::size_t at = 0; at < content.size();) {
     const std::size_t end = std::min(content.find('\n', at), content.size());
     const std::string_view line = content.substr(at, end - at);
-    // Only the last line may lack its end. If it is no whole object, its writing was cut off.
+    // Only the last line may lack its end. If it is not a whole object, its writing was cut off.
     if (end == content.size() && at > 0 && !JsonDocument::parse(line, name)) {
       return reading.finish(true);
     }

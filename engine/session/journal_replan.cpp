@@ -20,7 +20,7 @@ JournalLine plan_in_mm(const nav::ScrewPlan& screw) {
 
 }  // namespace
 
-/// What was planned in surgery, and by how much it differs from what was planned before.
+/// The plan made in surgery, and how it differs from the preoperative one.
 void Journal::replanned(Timestamp time, const LevelState& level, const Replan& asked,
                         const ScrewReplanned& done) {
   JournalLine line = journal_line(file_ticks(time), time, "replanned", level);

@@ -6,7 +6,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// No spine has as many.
+/// More than any spine has.
 constexpr std::size_t kMostLevels = 100;
 
 }  // namespace
@@ -194,7 +194,7 @@ void JournalReplay::wire_measured(const std::string& label, Side side, const Rec
   }
 }
 
-/// What was measured is of a wire that is taken out.
+/// The measurement was of a wire that is taken out.
 void JournalReplay::screw_redone(const std::string& label, Side side, const JsonNode& line) {
   if (RecordedScrew* const screw = screw_of(label, side, line)) {
     screw->wire.reset();
@@ -215,7 +215,7 @@ void JournalReplay::screw_done(const std::string& label, const RecordedScrew& sc
   known->not_measured = screw.not_measured;
   known->wire_asked = screw.wire_asked;
   if (line.text_or("wire", "") == "not measured") {
-    known->wire.reset();  // an earlier one was of a registration that is gone
+    known->wire.reset();  // an earlier one belongs to a discarded registration
   }
 }
 

@@ -9,8 +9,8 @@
 
 namespace orthonav::engine {
 
-/// Follows a session from the lines of its journal as the session itself went on (Session::act):
-/// which level is at work, what a rejection or a moved map took back. `line` takes what is wrong.
+/// Follows a session by the lines of its journal, as the session itself did (Session::act): which
+/// level is current, what a rejection or a moved map revoked. Errors are noted in `line`.
 class JournalReplay {
  public:
   explicit JournalReplay(SessionRecord& record) : record_(record) {}
@@ -19,7 +19,7 @@ class JournalReplay {
   void plan(const std::string& label, const std::vector<std::string>& sides, const JsonNode& line);
   void happened(Timestamp time, Event event, Cell answer);
   void registered(RecordedRegistration found, const JsonNode& line);
-  /// What the level's registration leaves uncertain, now that it holds what was touched.
+  /// The uncertainty of the level's registration, which now includes the touched places.
   struct Expected {
     std::optional<double> predicted_tre_m;
     std::optional<double> tre_95_m;
@@ -32,7 +32,7 @@ class JournalReplay {
   void wire_measured(const std::string& label, Side side, const RecordedWire& wire,
                      const JsonNode& line);
   void screw_redone(const std::string& label, Side side, const JsonNode& line);
-  /// Absent: as it was planned before surgery again.
+  /// An absent difference: back to the preoperative plan.
   void replanned(const std::string& label, Side side,
                  const std::optional<nav::ScrewDifference>& difference, const JsonNode& line);
   void screw_done(const std::string& label, const RecordedScrew& screw, const JsonNode& line);
@@ -41,10 +41,10 @@ class JournalReplay {
   void rod_done(RecordedRod rod);
 
  private:
-  /// The level of that name, made where the plan did not tell of it. Null, with the line refused,
-  /// where there are too many.
+  /// The level of that name, added if the plan does not contain it. Null, with the line refused, if
+  /// there are too many.
   RecordedLevel* level_named(const std::string& label, const JsonNode& line);
-  /// Null where there is no such level. Made where the plan did not tell of it.
+  /// Null if there is no such level. The screw is added if the plan does not contain it.
   RecordedScrew* screw_of(const std::string& label, Side side, const JsonNode& line);
   RecordedLevel* current();
   RecordedRod& rod_of(Side side);
@@ -52,7 +52,7 @@ class JournalReplay {
   void forget_map();
 
   SessionRecord& record_;
-  std::optional<std::size_t> level_;      ///< that was registered last
+  std::optional<std::size_t> level_;      ///< registered last
   std::optional<Timestamp> first_press_;  ///< of the digitization under way
 };
 

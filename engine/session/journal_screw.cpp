@@ -6,11 +6,11 @@
 
 namespace orthonav::engine {
 
-// What became of a screw: its wire as it was measured, another entry, and how it was left.
+// The outcome of a screw: its wire as measured, another entry, and its final state.
 
 namespace {
 
-/// Along the tool at depth, where it is known.
+/// The clearance along the tool at depth, if known.
 void put_clearance_at_depth(JournalLine& line, const LevelState& level, std::size_t screw) {
   const auto& clearance = level.clearance_at_depth[screw];
   if (!clearance) {
@@ -24,7 +24,7 @@ void put_clearance_at_depth(JournalLine& line, const LevelState& level, std::siz
   }
 }
 
-/// How its wire was left: measured within the limits, kept beyond one, or not measured.
+/// The outcome of its wire: measured within the limits, kept beyond one, or not measured.
 void put_wire_outcome(JournalLine& line, const LevelState& level, std::size_t screw) {
   const WireOutcome& outcome = level.wires[screw];
   if (!outcome.asked) {

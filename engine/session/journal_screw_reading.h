@@ -7,8 +7,8 @@
 
 namespace orthonav::engine {
 
-// What the lines of a journal about screws say, for the file that reads them. A line that says what
-// none can is refused.
+// Reads the lines of a journal about screws, for the file that reads journals. Impossible content
+// is refused.
 
 [[nodiscard]] std::optional<double> optional_number(const JsonNode& line, const char* key,
                                                     double unit = 1.0);

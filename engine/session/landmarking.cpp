@@ -26,7 +26,7 @@ double nearest_m(Point<World> place, std::span<const ReferencePost> posts) {
   return least_m;
 }
 
-/// How far from all of them the bone that a pointer reaches extends.
+/// How far the bone that a pointer can reach extends from the nearest reference.
 double farthest_m(const LevelState& level, std::span<const ReferencePost> posts) {
   double most_m = 0.0;
   for (const Vec3 vertex : level.plan.model->reachable().vertices_m) {
@@ -36,10 +36,10 @@ double farthest_m(const LevelState& level, std::span<const ReferencePost> posts)
   return most_m;
 }
 
-/// By its landmark, where it was.
+/// Notes that the bone was found where it was, by its landmark.
 void note_bone_found(LevelState& level, const LandmarkTouch& touch, double drift_m_per_sqrt_s,
                      Timestamp time) {
-  // Of a registration that was restored nobody knows when the bone was found last.
+  // For a restored registration it is unknown when the bone was last found.
   const BoneFound before = level.bone_found.value_or(BoneFound{time, 0.0, drift_m_per_sqrt_s});
   level.bone_found = found_by_landmark(before, touch, *level.landmark, time);
   level.unverified = false;
@@ -95,8 +95,8 @@ std::optional<Event> Landmarking::touch_landmark(OperationInWork& work, GuideChe
   return touch.moved() ? std::optional(Event::kLandmarkMoved) : std::nullopt;
 }
 
-/// Once the pointer was in the dimple the guide may follow: a press is that of the tool whose tip
-/// is nearer to it.
+/// Once the pointer was in the dimple, the guide may follow: a press belongs to the tool whose tip
+/// is nearer to the dimple.
 std::optional<nav::PressedPlace> Landmarking::guide_tip_in_landmark(const OperationInWork& work,
                                                                     const TouchedPlace& pointer) {
   constexpr double kInReach_m = 0.02;

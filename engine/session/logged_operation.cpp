@@ -15,7 +15,7 @@ void forget_registration(LoggedLevel& level) {
   level.landmark.reset();
 }
 
-/// Applies one record; what is wrong with it is noted in its document.
+/// Applies one record; errors are noted in its document.
 class Applied {
  public:
   Applied(LoggedOperation& operation, OperationRecord type, const JsonNode& node)
@@ -169,7 +169,7 @@ class Applied {
       return;
     }
     if (type_ == OperationRecord::kWire) {
-      return;  // what became of it is told once the screw is done
+      return;  // its outcome is recorded once the screw is done
     }
     LoggedScrew& screw = level.screws[index];
     screw.done = true;

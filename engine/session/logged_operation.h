@@ -11,8 +11,8 @@
 
 namespace orthonav::engine {
 
-/// What a record of the log of an operation is about. The numbers stand in files: none may ever
-/// change its meaning.
+/// The subject of a record in the log of an operation. The numbers are stored in files, so none may
+/// ever change its meaning.
 enum class OperationRecord : std::uint16_t {
   kBegun = 1,
   kRegion = 2,
@@ -27,13 +27,13 @@ enum class OperationRecord : std::uint16_t {
   kLandmark = 11,
   kLandmarkDropped = 12,
   kWire = 13,
-  kPlan = 14,  ///< of a level's screws, after one was changed or redone
+  kPlan = 14,  ///< the plan of a level's screws, after one was changed or redone
   kScrew = 15,
   kHead = 16,
   kHeadDropped = 17,
   kRod = 18,
   kReferences = 19,
-  kGuide = 20,  ///< its tip or its axis was corrected
+  kGuide = 20,  ///< the guide's tip or axis was corrected
   kResumed = 21,
   kEnded = 22,
 };
@@ -54,7 +54,7 @@ struct LoggedLevel {
   std::string label;
   std::vector<nav::Region> regions;  ///< saved
   int attempts = 0;
-  std::optional<nav::Registration> registration;  ///< that passed
+  std::optional<nav::Registration> registration;  ///< one that passed
   std::string points_hash;                        ///< of the points it was computed from
   bool accepted = false;
   std::size_t check_points = 0;
@@ -62,7 +62,7 @@ struct LoggedLevel {
   std::vector<LoggedScrew> screws;
 
   [[nodiscard]] bool finished() const;
-  /// Of the saved regions, in their order.
+  /// The points of the saved regions, in order.
   [[nodiscard]] std::vector<Point<World>> points() const;
 };
 
@@ -71,21 +71,22 @@ struct LoggedRod {
   bool done = false;
 };
 
-/// An operation as its log tells it, record by record.
+/// An operation as reconstructed from the records of its log.
 struct LoggedOperation {
   OperationIdentity identity;
   std::vector<LoggedLevel> levels;
   std::array<LoggedRod, 2> rods;  ///< left, right
   std::vector<nav::ReferencePlace> references;
   bool guide_corrected = false;
-  bool done = false;  ///< to its end
-  int resumed = 0;    ///< how many times
+  bool done = false;  ///< completed
+  int resumed = 0;    ///< number of times
 
-  /// Refuses records that are not those of an operation, in one line with `name`, the file they
-  /// were read from, and the number of the record.
+  /// Refuses records that are not those of an operation, with a one-line Error that holds `name`,
+  /// the file they were read from, and the number of the record.
   static Result<LoggedOperation> from(const std::vector<Record>& records, const std::string& name);
-  /// Becomes what another program can continue: without a patient reference nothing measured in
-  /// World; no check points, and no heads of an unfinished rod, which are touched again.
+  /// Reduces the operation to what another program can continue. Drops check points and the heads
+  /// of an unfinished rod, which are touched again, and without a patient reference everything
+  /// measured in World.
   void go_on();
   void forget_places();
 };

@@ -16,7 +16,7 @@
 
 namespace orthonav::engine {
 
-/// Why a place that was touched does not count.
+/// Why a touched place does not count.
 struct TouchRefusal {
   enum class Kind : std::uint8_t {
     kPressAgain,  ///< the press fell into another step
@@ -24,9 +24,9 @@ struct TouchRefusal {
     kTipMoved,  ///< by `value_m` (root mean square), above `limit_m`
     kHeldTooLong,
     kTooMany,       ///< there are nav::kMostCheckPoints already
-    kTouchesApart,  ///< of one place, by `value_m`, above `limit_m`
+    kTouchesApart,  ///< touches of one place differ by `value_m`, above `limit_m`
     kTooNear,       ///< `value_m` from a patient reference, at least `limit_m` needed
-    // Of the sleeve over a wire.
+    // For the sleeve over a wire.
     kGuideNotSeen,
     kReferenceNotSeen,
     kSleeveTurned,    ///< by `turn_rad` (root mean square), above `turn_limit_rad`
@@ -42,7 +42,7 @@ struct TouchRefusal {
   double turn_limit_rad = 0.0;
 };
 
-// What the surgeon must be told, as data; engine/session/wording.h makes the text of it.
+// What the surgeon must be told, as data; engine/session/wording.h turns it into text.
 
 struct NotPossibleNow {
   Event event;
@@ -54,7 +54,7 @@ struct NothingToDelete {
   enum class What : std::uint8_t { kRegion, kCheckPoint, kHead, kLandmark, kWire };
   What what;
 };
-/// The last saved region goes when "delete" is said again.
+/// The last saved region will be deleted if "delete" is said again.
 struct ConfirmDelete {
   std::size_t points;
 };
@@ -64,7 +64,7 @@ struct RegistrationRefused {
   std::optional<nav::BonePlace> stroke_next;
   bool another_level_fits = false;
 };
-/// "accept" was said while the check points do not bear it out.
+/// "accept" was said while the check points do not confirm the registration.
 struct ChecksMissing {
   nav::CheckAdvice advice;
 };
@@ -75,13 +75,13 @@ struct TouchNotRecorded {
 };
 /// "next" was said before the landmark was touched.
 struct LandmarkMissing {
-  bool recorded = false;  ///< once before
+  bool recorded = false;  ///< it was recorded before
 };
-/// The guide's tip and the pointer's were that far apart in the same dimple; corrected.
+/// The guide's tip was corrected by this distance from the pointer's in the same dimple.
 struct TipCorrected {
   double by_m = 0.0;
 };
-/// The guide's axis, by what its sleeve told on a wire.
+/// The guide's axis was corrected by this angle, as measured by its sleeve on a wire.
 struct AxisCorrected {
   double by_rad = 0.0;
 };
@@ -89,10 +89,11 @@ struct AxisCorrected {
 struct LandmarkMoved {
   double off_m = 0.0;
   double limit_m = 0.0;
-  bool anchored = false;  ///< to a patient reference: what moves with it shows nowhere
+  bool anchored =
+      false;  ///< to a patient reference, so that movement together with it stays undetected
 };
-/// For so long nothing has told whether the bone is where its registration has it, and the map may
-/// have drifted by so much since: two SDs along an axis.
+/// The time since the bone was last found where its registration puts it, and how far the map may
+/// have drifted since: two SDs along an axis.
 struct BoneUnchecked {
   double for_s = 0.0;
   double drift_m = 0.0;
@@ -101,7 +102,7 @@ struct BoneUnchecked {
 struct WireUndecided {};
 /// There is no other entry through which the screw stays inside the bone.
 struct NoOtherEntry {};
-/// A screw that was redone so often is redone again when "delete" is said again.
+/// A screw that was redone `redone` times is redone again if "delete" is said again.
 struct ConfirmRedo {
   int redone = 0;
 };
@@ -110,7 +111,7 @@ struct ScrewRedone {
   double from_hole_m = 0.0;
   double clearance_m = 0.0;  ///< to the cortex, as planned now
 };
-/// A change of the screw was said, and not understood to its end.
+/// A change of the screw was said, but not fully understood.
 struct ReplanUnclear {
   Error why;
 };
@@ -135,13 +136,13 @@ using Message =
                  WireUndecided, NoOtherEntry, ConfirmRedo, ScrewRedone, ReplanUnclear,
                  ReplanRefusal, ScrewReplanned, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
 
-/// It is about a change of the screw, and what the step asks for stays asked beside it.
+/// Whether it is about a change of the screw; the step's request then stays visible beside it.
 [[nodiscard]] inline bool is_about_replan(const Message& message) {
   return std::holds_alternative<ReplanUnclear>(message) ||
          std::holds_alternative<ReplanRefusal>(message) ||
          std::holds_alternative<ScrewReplanned>(message);
 }
-/// What it is about, for the display.
+/// The subject of the message, for the display.
 [[nodiscard]] Notice notice_of(const Message& message);
 
 }  // namespace orthonav::engine

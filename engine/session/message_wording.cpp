@@ -14,7 +14,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// Of what only a sleeve over a wire is refused for.
+/// The refusals that only concern a sleeve over a wire.
 void append_sleeve_refusal(std::string& out, const TouchRefusal& why) {
   using enum TouchRefusal::Kind;
   const auto length = [&](const char* format) {
@@ -91,7 +91,7 @@ void append_refusal(std::string& out, const TouchRefusal& why) {
   }
 }
 
-/// The words of each kind of message; as parts where they are more than one.
+/// The words of each kind of message, in several parts where needed.
 struct MessageWriter {
   PartedText text;
   std::string& out = text.out;

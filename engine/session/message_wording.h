@@ -5,7 +5,7 @@
 
 namespace orthonav::engine {
 
-/// What the surgeon must be told, in words; as parts where it is more than one.
+/// A message to the surgeon in words, in several parts where needed.
 void write_message(PartedText text, const Message& message);
 
 }  // namespace orthonav::engine

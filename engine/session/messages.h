@@ -7,18 +7,18 @@
 
 namespace orthonav::engine {
 
-/// What the surgeon must be told, until they do something that is taken, and what was heard, both
-/// for a while at most.
+/// The message to the surgeon, until they do something that is accepted, and the phrase heard; both
+/// expire after a while.
 class Messages {
  public:
   Messages(Duration message_for, Duration heard_for)
       : message_for_(message_for), heard_for_(heard_for) {}
 
   void say(Message message, Timestamp time);
-  /// A surgeon who was misheard must see it at once, and one who was heard need not ask.
-  /// `from`: who asked, where nobody in the room said it.
+  /// A surgeon who was misheard must see it at once, and one who was heard need not ask. `from`:
+  /// who asked, unless it was said in the room.
   void echo(const Phrase& phrase, bool sure, const std::string& from = {});
-  /// Something was taken: what was said before is answered.
+  /// Something was accepted, so the last message is settled.
   void clear() { message_ = {}; }
   void expire(Timestamp now);
   /// Null: none.

@@ -16,20 +16,20 @@ namespace orthonav::engine {
 /// What is to be registered.
 struct RegistrationRequest {
   const nav::VertebraModel& model;
-  std::span<const Point<World>> points_in_world;  ///< in the order of time
-  std::span<const nav::ScrewPlan> screws;         ///< where the pose must be sure; may be empty
+  std::span<const Point<World>> points_in_world;  ///< in order of time
+  std::span<const nav::ScrewPlan> screws;         ///< where the pose must be precise; may be empty
   std::span<const NeighbouringLevel> neighbours;
-  nav::CommonErrors common{};  ///< as far as they are known
-  /// How exactly each was tracked (RMS of an axis); empty where nothing tells.
+  nav::CommonErrors common{};  ///< as far as known
+  /// Tracking precision of each point (RMS along an axis); empty if unknown.
   std::span<const double> point_sd_m{};
-  /// The pointer's shaft at each, from the tip back, unit vectors; empty where nothing tells.
+  /// The pointer's shaft at each point, from the tip back, unit vectors; empty if unknown.
   std::span<const Vec3> shafts{};
-  double tip_radius_m = 0.0;  ///< of a ball at the pointer's end; `paper` takes the end for a point
+  double tip_radius_m = 0.0;  ///< of a ball at the pointer's end; `paper` assumes a point
 };
 
 using Registrar = std::function<Result<nav::Registration>(const RegistrationRequest& request)>;
 
-/// One way of tracking and registering, under the name that reports carry.
+/// One way of tracking and registering, under its name in reports.
 struct Method {
   std::string name;
   std::function<Result<std::unique_ptr<nav::ToolTracker>>(const StereoCalibration& calibration,
@@ -38,17 +38,17 @@ struct Method {
       create_tracker;
   Registrar registrar;
   Verification verification = Verification::kByTouch;
-  /// What was stroked so far is registered on the side, to tell what to expect and what to stroke.
+  /// Trial registrations of the strokes so far tell what to expect and what to stroke.
   bool coaching = false;
-  /// Its tracker gives the poses of single pairs, so that it can hang on a patient reference.
+  /// Its tracker gives the poses of single pairs, so World can be attached to a patient reference.
   bool anchors = false;
 };
 
 /// `paper`: the published method (Liebmann et al. 2019). `best`: tools by the photometric pose of
-/// their tags (docs/tracking.md), every pose of the bone searched for and judged
-/// (docs/registration.md). Any other name is refused in one line that names what there is.
+/// their tags (docs/tracking.md), and a search over all poses of the bone, which are judged
+/// (docs/registration.md). Any other name is refused in one line that lists the valid ones.
 Result<Method> method_named(const std::string& name);
-/// Registration alone.
+/// Only the method's registration.
 Result<Registrar> registrar_named(const std::string& name);
 
 }  // namespace orthonav::engine

@@ -24,7 +24,7 @@ std::optional<int> place_in(std::span<const std::string_view> words, std::string
   return static_cast<int>(found - words.begin());
 }
 
-/// From `least` to nine.
+/// A digit from `least` to nine.
 std::optional<int> digit_word(std::string_view word, int least) {
   const auto digit = place_in(std::span(kUpToNineteen).first(10), word);
   return digit && *digit >= least ? digit : std::nullopt;
@@ -65,7 +65,7 @@ bool NumberWords::take_word(std::span<const std::string_view> any_of) {
   return found;
 }
 
-/// Nothing is taken where no number comes next.
+/// Takes nothing if no number comes next.
 std::optional<double> NumberWords::take_whole() {
   if (const auto tens = place_in(kTens, word())) {
     ++next_;

@@ -9,21 +9,21 @@
 
 namespace orthonav::engine {
 
-/// The words of a phrase in lower case: what stands between spaces.
+/// The words of a phrase, split at spaces, in lower case.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view phrase);
 
-/// Reads spoken and typed numbers from words, one after another. What it does not understand it
-/// leaves.
+/// Reads spoken and typed numbers from words, one after another. Words that it does not understand
+/// are not consumed.
 class NumberWords {
  public:
   explicit NumberWords(std::span<const std::string> words) : words_(words) {}
 
   /// "six", "forty five", "twelve point five", "half", "two and a half", "6.5": from 0 to 99.9.
   [[nodiscard]] std::optional<double> take();
-  /// A diameter as surgeons say it before a length: also "six five" for 6.5, where another number
+  /// A diameter as surgeons say it before a length: also "six five" for 6.5 if another number
   /// follows.
   [[nodiscard]] std::optional<double> take_diameter();
-  /// One of these words, where it comes next.
+  /// Takes the next word if it is one of these.
   [[nodiscard]] bool take_word(std::span<const std::string_view> any_of);
   [[nodiscard]] bool at_end() const { return next_ == words_.size(); }
 

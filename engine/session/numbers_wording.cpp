@@ -88,7 +88,7 @@ void append_clearance_line(std::string& out, const nav::ShownClearance& clearanc
   if (clearance.may_break()) {
     out += ": ";
     append_breach(out, clearance);
-    // One that breaks through does so by what was measured; "may" is the bound's.
+    // A breach follows from the measured clearance; "may" refers to the bound.
     registration_only = registration_only && clearance.least_tenths >= 0;
   } else if (clearance.lower_95_tenths) {
     out.append(", ").append(words::kAtLeast).append(" ");

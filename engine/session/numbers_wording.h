@@ -10,40 +10,40 @@
 
 namespace orthonav::engine {
 
-// The numbers of step `guide` in a surgeon's words (part of engine/session/wording.h). They say
-// where the tip is and where the tool aims, as the dots of the target cross do, never where to go.
+// The numbers of step `guide` in a surgeon's words (part of engine/session/wording.h). Like the
+// dots of the target cross, they say where the tip is and where the tool aims, never where to go.
 
-/// The four of them, in the order in which they are read.
+/// The four numbers in reading order.
 enum class NumberRow : std::size_t { kTipCranial, kTipMedial, kAimCranial, kAimMedial };
 inline constexpr std::size_t kNumberRows = 4;
 
 [[nodiscard]] const nav::ShownNumber& number_of(const nav::ScrewNumbers& numbers, NumberRow row);
-/// What it says, signed, as it is shown: m or rad; > 0: cranial or medial.
+/// The signed value as displayed: m or rad; > 0: cranial or medial.
 [[nodiscard]] double reading_of(const nav::ScrewNumbers& numbers, NumberRow row);
 
-/// "1.2 mm cranial"; "0.0 mm"; where it is not sure, "1.2 ± 0.8 mm cranial", and "1.2 ± -- mm
-/// cranial" where nobody knows how sure.
+/// "1.2 mm cranial"; "0.0 mm"; if uncertain, "1.2 ± 0.8 mm cranial", and "1.2 ± -- mm cranial" if
+/// the uncertainty is unknown.
 void append_number(std::string& out, const nav::ScrewNumbers& numbers, NumberRow row);
 /// All in one line: "tip 1.2 mm cranial, 0.8 mm medial; aims 2.1° caudal, 0.4° lateral".
-/// `registration_only`: SDs lack what all strokes share, so a line with one says so.
+/// `registration_only`: SDs leave out the errors common to all strokes, so a line with an SD says
+/// so.
 void append_numbers(std::string& out, const nav::ScrewNumbers& numbers, bool registration_only);
 [[nodiscard]] bool all_sure(const nav::ScrewNumbers& numbers);
 
-/// "2.4 mm"; "-0.4 mm" with a minus sign of its own, as U+2212.
+/// "2.4 mm"; "-0.4 mm" with a real minus sign, U+2212.
 void append_clearance(std::string& out, int tenths);
-/// "may break through medially", or "breaks through medially" where the clearance itself is below
-/// 0.
+/// "may break through medially", or "breaks through medially" if the clearance itself is below 0.
 void append_breach(std::string& out, const nav::ShownClearance& clearance);
 /// All in one line: "clearance 2.4 mm, at least 1.1 mm"; "clearance 0.4 mm: may break through
-/// medially"; "clearance 2.4 mm" where the bound is not known. `registration_only`: the bound lacks
-/// what all strokes share, and says so.
+/// medially"; "clearance 2.4 mm" if the bound is not known. `registration_only`: the bound leaves
+/// out the errors common to all strokes, and says so.
 void append_clearance_line(std::string& out, const nav::ShownClearance& clearance,
                            bool registration_only = false);
 
 /// "tip set", "drilling", "drilling: drifting", "drilling: off plan", "stop"; "drilling, tool not
-/// seen" and "stop, tool not seen" where nobody watches; nothing for a tool that is away.
+/// seen" and "stop, tool not seen" while the tool is hidden; nothing for a tool that is away.
 void append_drill(std::string& out, const nav::DrillView& drill);
-/// By a tenth of a millimetre or more.
+/// Whether the stop is too deep by a tenth of a millimetre or more.
 [[nodiscard]] bool stop_too_deep(const nav::DrillView& drill);
 /// "stop lets the drill 4 mm past the target", rounded up.
 void append_stop_too_deep(std::string& out, double past_target_m);

@@ -8,7 +8,8 @@
 
 namespace orthonav::engine {
 
-/// Passes what it hears on to others, in the order in which they were added. Borrowed, not owned.
+/// Forwards each event to several observers, in the order in which they were added. Borrowed, not
+/// owned.
 class ObserverList : public SessionObserver {
  public:
   ObserverList() = default;

@@ -19,7 +19,7 @@ void add_model(BitHash& hash, const std::string& label, const nav::VertebraModel
   }
 }
 
-/// Of the levels to be operated, then of the others.
+/// Hashes the models of the levels to be operated, then of the others.
 std::string models_hash(std::span<const LevelState> levels) {
   BitHash hash;
   for (const LevelState& level : levels) {

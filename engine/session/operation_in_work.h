@@ -15,8 +15,8 @@
 
 namespace orthonav::engine {
 
-/// What the steps of one operation share. A step is handed it and changes it by its actions; what
-/// only one step knows is that step's own.
+/// The state that the steps of one operation share. Each step receives it and changes it by its
+/// actions; state of a single step is kept in that step.
 struct OperationInWork {
   OperationInWork(Operation operation, WatchedTools watched, Method with,
                   const SessionOptions& session_options);
@@ -25,9 +25,9 @@ struct OperationInWork {
 
   [[nodiscard]] LevelState& level() { return levels[level_in_work]; }
   [[nodiscard]] const LevelState& level() const { return levels[level_in_work]; }
-  /// World is that of a patient reference.
+  /// Whether World is attached to a patient reference.
   [[nodiscard]] bool anchored() const { return tools.tracker().anchor() != nullptr; }
-  /// Somebody listens.
+  /// Whether there is an observer.
   [[nodiscard]] bool heard() const { return observer != &nobody; }
 
   SessionOptions options;
@@ -36,19 +36,19 @@ struct OperationInWork {
   std::vector<LevelState> levels;
   std::size_t level_in_work = 0;  ///< an index into `levels`
   Step step = Step::kSetup;
-  std::optional<Part> stalled;  ///< in the newest pair: nothing is guided
+  std::optional<Part> stalled;  ///< in the newest pair; nothing is guided then
   Messages messages;
   SessionObserver nobody;
   SessionObserver* observer = &nobody;  ///< never null. Borrowed.
 };
 
-/// Takes the tip of that tool in the newest pair to what is being touched.
+/// Adds the tip of that tool in the newest pair to the touch.
 void add_tip(Touch& touch, const WatchedTools& tools, std::size_t tool);
 
 /// Where the pointer's tip rested; ends the touch.
 [[nodiscard]] TouchedPlace take_place(Touch& touch, const OperationInWork& work, Timestamp time);
 
-/// Of the level's registration, which is there.
+/// The figures of the level's registration, which must exist.
 [[nodiscard]] RegistrationFigures figures_of(const LevelState& level);
 
 }  // namespace orthonav::engine

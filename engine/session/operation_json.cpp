@@ -8,7 +8,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// Left out where it is infinite: JSON knows no infinity.
+/// Infinite values are left out, because JSON has no infinity.
 void put_bounded(LogJson& json, const char* key, double value) {
   if (std::isfinite(value)) {
     json[key] = value;

@@ -9,13 +9,13 @@
 
 namespace orthonav::engine {
 
-// What the log of an operation holds, as JSON: SI units, each number to the last bit. Infinite
-// values are left out, and whatever follows from the rest. The readers note what is wrong in the
+// The content of the log of an operation as JSON: SI units, each number to the last bit. Infinite
+// values are left out, as is everything that follows from the rest. The readers note errors in the
 // node's document.
 
 using LogJson = nlohmann::ordered_json;
 
-/// A record of something that happened then, on the device's clock.
+/// A record of something that happened at `time`, on the device's clock.
 [[nodiscard]] LogJson json_at(Timestamp time);
 [[nodiscard]] LogJson json_of(const OperationIdentity& identity);
 [[nodiscard]] LogJson json_of(const nav::Region& region);
@@ -39,7 +39,7 @@ using LogJson = nlohmann::ordered_json;
 [[nodiscard]] Landmark landmark_from(const JsonNode& node);
 [[nodiscard]] nav::ReferencePlace place_from(const JsonNode& node);
 
-/// Of the points that a registration was computed from.
+/// The hash of the points that a registration was computed from.
 [[nodiscard]] std::string hash_of(std::span<const Point<World>> points);
 
 }  // namespace orthonav::engine

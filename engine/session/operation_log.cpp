@@ -14,7 +14,7 @@ std::string log_in(const std::string& folder) {
   return (std::filesystem::path(folder) / "operation.log").string();
 }
 
-/// Labels come from files: bytes that are no UTF-8 must not end the log.
+/// Labels come from files, so bytes that are not UTF-8 must not end the log.
 RecordLog::Entry entry(OperationRecord type, const LogJson& payload) {
   return {static_cast<std::uint16_t>(type), kOperationRecordVersion,
           payload.dump(-1, ' ', false, LogJson::error_handler_t::replace)};

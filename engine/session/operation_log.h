@@ -12,12 +12,12 @@
 
 namespace orthonav::engine {
 
-/// The log of an operation, `operation.log` in its folder: what must outlive a crash, so that the
-/// operation can go on (docs/journal.md). The folder is locked meanwhile. No file system stalls the
-/// session, and a disk that fails does not end it.
+/// The log of an operation, `operation.log` in its folder: what must survive a crash so that the
+/// operation can go on (docs/journal.md). The folder is locked meanwhile. A slow file system does
+/// not stall the session, and a disk failure does not end it.
 class OperationLog : public SessionObserver, public SaveWatch {
  public:
-  /// A new log, of an operation that has not begun.
+  /// Creates the log of an operation that has not begun.
   static Result<std::unique_ptr<OperationLog>> begin(Env& env, const std::string& folder,
                                                      const OperationIdentity& identity,
                                                      std::span<const LevelState> levels,
@@ -29,12 +29,12 @@ class OperationLog : public SessionObserver, public SaveWatch {
     LoggedOperation operation;
     std::string path;
     std::size_t records = 0;
-    std::size_t dropped_bytes = 0;  ///< behind the last whole record
+    std::size_t dropped_bytes = 0;  ///< after the last whole record
     std::unique_ptr<FolderLock> lock;
   };
-  /// Changes nothing in the folder. An Error in one line: there is none, or it can't be read.
+  /// Changes nothing in the folder. A one-line Error if there is no log or it can't be read.
   static Result<Found> find(Env& env, const std::string& folder);
-  /// Continues its log. Where the disk can't be written to any more the operation goes on unsaved,
+  /// Continues its log. If the disk can't be written to any more, the operation goes on unsaved,
   /// and `written` says why.
   static std::unique_ptr<OperationLog> go_on(Env& env, Found found, RecordWriter::Waits waits);
 
@@ -43,10 +43,10 @@ class OperationLog : public SessionObserver, public SaveWatch {
   OperationLog(const OperationLog&) = delete;
   OperationLog& operator=(const OperationLog&) = delete;
 
-  /// The last record: whether the operation was done, or why it ended. An Error when not all was
-  /// saved.
+  /// Writes the last record: whether the operation was done, or why it ended. An Error if not
+  /// everything was saved.
   Status finish(bool done, const std::string& reason);
-  /// Waits for the disk. An Error where not everything is saved.
+  /// Waits for the disk. An Error if not everything is saved.
   [[nodiscard]] Status written() { return writer_.finish(); }
   /// What an earlier log was renamed to; empty: there was none.
   [[nodiscard]] const std::string& earlier_kept_as() const { return writer_.earlier_kept_as(); }
@@ -89,12 +89,12 @@ class OperationLog : public SessionObserver, public SaveWatch {
   void add(OperationRecord type, Timestamp time, const LogJson& payload);
 
   Env& env_;
-  std::unique_ptr<FolderLock> lock_;  ///< let go last
+  std::unique_ptr<FolderLock> lock_;  ///< released last
   std::vector<std::string> levels_;
   RecordWriter writer_;
   std::uint64_t told_ = 0;  ///< number of the newest record
   Timestamp told_at_{};
-  bool stays_ = false;  ///< the file, even if nothing was recorded
+  bool stays_ = false;  ///< the file is kept, even if nothing was recorded
 };
 
 }  // namespace orthonav::engine

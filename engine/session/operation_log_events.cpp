@@ -14,7 +14,7 @@ LogJson about_side(Timestamp time, nav::Side side) {
 
 }  // namespace
 
-// What was touched, and what became of each screw.
+// Touches, and the outcome of each screw.
 
 void OperationLog::check_point_recorded(Timestamp time, const LevelState& level) {
   const nav::CheckPoint& point = level.check_points.back();
@@ -84,7 +84,7 @@ void OperationLog::replanned(Timestamp time, const LevelState& level, const Repl
   add_plan(time, level, text_of(asked));
 }
 
-/// Of every screw, with the reason of each breach that was accepted.
+/// The plan of every screw, with the reason for each accepted breach.
 void OperationLog::add_plan(Timestamp time, const LevelState& level, const std::string& why) {
   LogJson json = about(time, level);
   json["why"] = why;

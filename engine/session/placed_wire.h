@@ -9,19 +9,19 @@
 
 namespace orthonav::engine {
 
-/// A wire as it was measured where it stands, with the guide's sleeve over it
+/// A placed wire as measured with the guide's sleeve over it
 /// (docs/decisions/0066-the-placed-wire-is-measured.md).
 struct PlacedWire {
   nav::PlacedAxis axis;
-  std::size_t pairs = 0;  ///< that it is the mean of
+  std::size_t pairs = 0;  ///< averaged for `axis`
   double angle_limit_rad = 0.0;
   double entry_limit_m = 0.0;
-  bool kept = false;  ///< by the surgeon's word, though it lies beyond a limit
+  bool kept = false;  ///< by the surgeon's decision, although it is beyond a limit
 
   [[nodiscard]] bool angle_within() const { return axis.angle_rad.value <= angle_limit_rad; }
   [[nodiscard]] bool entry_within() const { return axis.entry_m.value <= entry_limit_m; }
   [[nodiscard]] bool within() const { return angle_within() && entry_within(); }
-  /// It waits for the surgeon's word.
+  /// It waits for the surgeon's decision.
   [[nodiscard]] bool undecided() const { return !within() && !kept; }
 };
 
@@ -29,22 +29,21 @@ struct PlacedWire {
 struct PlacedWireRules {
   double angle_limit_rad = 2.0 * kRadiansPerDegree;
   double entry_limit_m = 0.002;
-  /// A measurement that is less sure than this hardly tells within from beyond: three quarters of
+  /// A measurement with a larger SD can hardly tell within from beyond a limit: three quarters of
   /// the limits.
   double most_angle_sd_rad = 1.5 * kRadiansPerDegree;
   double most_entry_sd_m = 0.0015;
-  /// SDs of the guide's axis about each direction across it, and of its tip, as its calibration
-  /// leaves them.
+  /// SDs of the guide's axis about each direction across it, and of its tip, after calibration.
   double axis_sd_rad = 0.010;
   double tip_sd_m = 0.0005;
-  /// SD of the sleeve's direction about that of the wire in it: 0.25°.
+  /// SD of the sleeve's direction relative to the wire in it: 0.25°.
   double play_rad = 0.25 * kRadiansPerDegree;
   /// A sleeve that turns more than this while it is pressed (root mean square) is not at rest.
   double most_turn_rad = 1.0 * kRadiansPerDegree;
-  /// Farther off the plan, the sleeve is not over this screw's wire.
+  /// If it is farther off the plan, the sleeve is not over this screw's wire.
   double on_screw_m = 0.015;
   double on_screw_rad = 30.0 * kRadiansPerDegree;
-  /// Of the hole that a wire leaves: another entry lies at least as far from its middle.
+  /// Diameter of the hole that a wire leaves: another entry is at least this far from its middle.
   double drill_diameter_m = 0.0032;
 
   /// Every problem at once; empty when all is well.

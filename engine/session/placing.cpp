@@ -119,8 +119,8 @@ void Placing::use_turning(const nav::ToolGeometry& guide, RestingAxis& resting) 
   if (!spin_) {
     return;  // it was not turned
   }
-  // Where the described axis is off, axis and tip circle the wire while the sleeve turns; their
-  // means do not.
+  // If the described axis is off, axis and tip circle the wire while the sleeve turns; their means
+  // do not.
   Vec3 tip;
   Vec3 direction;
   for (const Transform<World, Marker>& pose : poses) {

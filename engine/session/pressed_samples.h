@@ -7,7 +7,7 @@
 namespace orthonav::engine {
 
 /// What is measured while the button is down, from a press to the click that follows, and in the
-/// half second before it. Keeps its room: pressing allocates nothing in the frame loop.
+/// half second before it. Keeps its capacity, so presses don't allocate in the frame loop.
 template <typename Sample>
 class PressedSamples {
  public:
@@ -22,9 +22,9 @@ class PressedSamples {
     down_ = true;
     lost_ = false;
   }
-  /// The button is up; the click that may follow still uses what was pressed.
+  /// The button is released; a click that follows still uses the samples.
   void release() { down_ = false; }
-  /// There is nothing pressed any more.
+  /// Drops all samples.
   void drop() {
     samples_.clear();
     before_.clear();
@@ -32,7 +32,7 @@ class PressedSamples {
     down_ = false;
     lost_ = false;
   }
-  /// Measured, once for each pair.
+  /// Adds a measured sample, once for each pair.
   void add(const Sample& sample) {
     if (down_) {
       samples_.push_back(sample);
@@ -43,22 +43,22 @@ class PressedSamples {
     }
     before_.push_back(sample);
   }
-  /// Not measured in this pair: where the tool was before says nothing of where it rests.
+  /// Not measured in this pair, so earlier samples do not show where the tool rests.
   void lose() {
     before_.clear();
     lost_ = lost_ || begun_;
   }
 
   [[nodiscard]] bool down() const { return down_; }
-  /// By a press that no click has used yet.
+  /// There was a press that no click has used yet.
   [[nodiscard]] bool begun() const { return begun_; }
-  /// Since it was begun.
+  /// A sample was lost since the press.
   [[nodiscard]] bool lost() const { return lost_; }
-  /// While the button was down.
+  /// The samples while the button was down.
   [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
 
-  /// Counts the half second before the press too, where the tool rested already: the means of its
-  /// quarters and that of the press are alike. Wants at least one sample of the press.
+  /// Also counts the half second before the press if the tool rested already, that is if the means
+  /// of its quarters and of the press are alike. Requires at least one sample of the press.
   template <typename Mean, typename Alike>
   void take_rest_before(const Mean& mean, const Alike& alike) {
     if (before_.size() < kBefore) {
@@ -82,14 +82,14 @@ class PressedSamples {
   bool lost_ = false;
 };
 
-/// SD of a mean of `count` samples along (about) one of `axes` axes, from the squares of what
-/// differs from it. Few samples can't tell it: `sample_sd` counts as much as three of them.
+/// SD of a mean of `count` samples along (about) one of `axes` axes, from the squares of the
+/// deviations. Because few samples can't show it, `sample_sd` counts as much as three of them.
 [[nodiscard]] double sd_of_mean(double sample_sd, double squares, double axes, double count);
 
 /// SD along an axis of a tip at rest in one pair: jitter of the head's pose, and tremor.
 inline constexpr double kRestingTipSd_m = 0.0006;
-/// A tip whose place in one quarter of a second differs by more from that in the next one is on its
-/// way, not at rest: twice what jitter and tremor do.
+/// A tip that moves by more than this from one quarter of a second to the next is not at rest:
+/// twice the effect of jitter and tremor.
 inline constexpr double kTipAtRest_m = 0.001;
 
 }  // namespace orthonav::engine

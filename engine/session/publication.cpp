@@ -73,7 +73,7 @@ void Publication::publish_tool(const OperationInWork& work, const SessionSteps& 
   }
 }
 
-/// What is in hand that the step has no use for, and a depth stop that is set too deep.
+/// Tools in hand that the step does not use, and a depth stop that is set too deep.
 void Publication::publish_instruments(const OperationInWork& work, const SessionSteps& steps) {
   StatusLine& line = guidance_.status;
   in_hand_.look(work.tools, work.step, steps.tool(work),

@@ -8,22 +8,22 @@
 
 namespace orthonav::engine {
 
-/// What the surgeon is shown: the guidance after each pair, put together from what each step
-/// writes.
+/// What the surgeon is shown: the guidance after each pair, assembled from the output of each step.
 class Publication {
  public:
-  /// What the status line says of saving from now on; null: nothing. Borrowed.
+  /// Sets the source of what the status line says about saving; null: none. Borrowed.
   void show_saving(const SaveWatch* saving) { saving_ = saving; }
 
-  /// After a pair was answered. Valid until the next call, as what follows.
+  /// The guidance after a pair was processed. Like that of the calls below, it is valid until the
+  /// next call.
   const Guidance& publish(const StereoFrame& frame, Timestamp display_time, OperationInWork& work,
                           SessionSteps& steps, const Watching& watching);
-  /// No pair comes: takes back what was guided on the last one.
+  /// No pair arrives: withdraws the guidance of the last one.
   const Guidance& expire(Timestamp display_time, OperationInWork& work, SessionSteps& steps);
-  /// Nothing more will come: only the status line is left.
+  /// The session is over: only the status line remains.
   const Guidance& end(Timestamp display_time, OperationInWork& work, SessionSteps& steps);
 
-  /// Where the head was in World says nothing any more.
+  /// The head's last pose in World is void.
   void forget_head() { guidance_.head.reset(); }
 
  private:
@@ -35,7 +35,7 @@ class Publication {
 
   const SaveWatch* saving_ = nullptr;
   ToolsInHand in_hand_;
-  Message why_no_guidance_;  ///< stands in place of any other message once no pair comes
+  Message why_no_guidance_;  ///< replaces any other message once no pair arrives
   Guidance guidance_;
 };
 

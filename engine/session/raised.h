@@ -7,14 +7,14 @@
 
 namespace orthonav::engine {
 
-/// An event that the engine itself finds out while it answers another one or looks at a pair.
-/// Whoever returns one is done: the session answers it next.
+/// An event that the engine detects while it answers another one or processes a pair. A function
+/// that returns one does nothing more: the session answers it next.
 struct Raised {
   /// Implicit: most events bring no message.
   Raised(Event what, Message message = {}) : event(what), then_say(std::move(message)) {}
 
   Event event;
-  /// Said once the event was answered, since its answer takes back what was said before.
+  /// Said after the event was answered, because the answer clears earlier messages.
   Message then_say;
 };
 

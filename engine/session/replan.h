@@ -9,8 +9,8 @@
 
 namespace orthonav::engine {
 
-// What a surgeon asks to be changed of a screw, as data. It comes with Event::kSayReplan, whose
-// cell in the workflow's table says where it is taken.
+// A surgeon's request to change a screw, as data. It comes with Event::kSayReplan; the workflow's
+// table says in which steps it is accepted.
 
 /// "screw six forty five", "diameter six", "length forty five".
 struct SetScrewSize {
@@ -37,18 +37,18 @@ struct TiltScrew {
   double by_rad = 0.0;
   friend bool operator==(const TiltScrew&, const TiltScrew&) = default;
 };
-/// "undo": the last change of this screw.
+/// "undo": takes back the last change of this screw.
 struct UndoChange {
   friend bool operator==(const UndoChange&, const UndoChange&) = default;
 };
 
-/// A screw as another program planned it; it has no spoken form.
+/// A screw as planned by another program; it has no spoken form.
 struct PlaceScrew {
   std::string level;
   nav::Side side = nav::Side::kLeft;
   Point<Vertebra> entry;
   Point<Vertebra> target;
-  double radius_m = 0.0;  ///< 0: as it is
+  double radius_m = 0.0;  ///< 0: unchanged
   friend bool operator==(const PlaceScrew&, const PlaceScrew&) = default;
 };
 
@@ -60,20 +60,20 @@ struct ReplanRefusal {
   enum class Kind : std::uint8_t {
     kDrillSet,       ///< the tip rests on the bone at the entry
     kDrilling,       ///< the drill is in the bone
-    kWireIn,         ///< its wire is in, and none that was measured waits for a word
+    kWireIn,         ///< its wire is in, and no measured wire waits for a decision
     kNoScrewLeft,    ///< every screw of the level is done
-    kOtherScrew,     ///< another one than that in work was asked for
+    kOtherScrew,     ///< a screw other than the current one was asked for
     kNothingToUndo,  ///< this screw was not changed
     kNoSuchSize,     ///< `diameter_m` × `length_m` is not in the list
-    kLastSize,       ///< there is no further one that way
-    kNoDiameter,     ///< the plan states none, so there is no next one
+    kLastSize,       ///< the list has no further size in that direction
+    kNoDiameter,     ///< the plan states no diameter, so there is no next one
     kNoDirections,   ///< its directions have no names
-    kOffTheBone,     ///< its axis would not meet the bone where a pointer reaches it
-    kIllSized,       ///< shorter, longer, thinner or thicker than any screw is
-    kEntryTooFar,    ///< `value` metres from the preoperative plan in all, above `limit`
+    kOffTheBone,     ///< its axis would not meet the bone where a pointer can reach it
+    kIllSized,       ///< shorter, longer, thinner or thicker than any screw
+    kEntryTooFar,    ///< `value` metres from the preoperative plan in total, above `limit`
     kTiltTooFar,     ///< `value` radians
-    /// It would leave the cortex: a clearance of `value` metres, below `limit`. "accept" takes it
-    /// all the same.
+    /// It would leave the cortex: a clearance of `value` metres, below `limit`. "accept" applies it
+    /// anyway.
     kBreach,
   };
   Kind kind = Kind::kNothingToUndo;
@@ -84,7 +84,7 @@ struct ReplanRefusal {
   const char* towards = "";  ///< of a breach: "medial"
 };
 
-/// A screw as it was changed just now.
+/// A screw that was just changed.
 struct ScrewReplanned {
   std::string level;
   nav::ScrewPlan from;
@@ -93,7 +93,7 @@ struct ScrewReplanned {
   bool as_before_surgery = false;     ///< `to` is the preoperative plan
   nav::ScrewDifference difference;    ///< of `to` from the preoperative plan
   std::optional<double> clearance_m;  ///< of `to`; absent: no diameter is stated
-  const char* towards = "";           ///< where that is least
+  const char* towards = "";           ///< direction of the least clearance
 };
 
 }  // namespace orthonav::engine

@@ -7,7 +7,7 @@
 
 namespace orthonav::engine {
 
-/// How far a screw may be changed in surgery, against the preoperative plan and in all.
+/// How far a screw may be changed in surgery in total, compared with the preoperative plan.
 struct ReplanLimits {
   double entry_m = 0.010;                ///< of the entry
   double tilt_rad = 0.2617993877991494;  ///< 15°, of the axis

@@ -13,9 +13,9 @@
 namespace orthonav::engine {
 namespace {
 
-/// What is smaller rounds to 0.0.
+/// Smaller values round to 0.0.
 constexpr double kLeastShown = 0.05;
-/// A change of the entry's depth follows from the bone's surface; less of it is not worth a word.
+/// A change of the entry's depth follows from the bone's surface; smaller ones are not mentioned.
 constexpr double kLeastDepth_m = 0.0005;
 
 void begin_item(std::string& out, std::size_t begin, const char* first, const char* further) {
@@ -102,7 +102,7 @@ void write_size_refusal(std::string& out, const ReplanRefusal& refusal) {
   }
 }
 
-/// Of a kind without numbers.
+/// The reason of a kind without numbers.
 std::string_view plain_reason(ReplanRefusal::Kind kind) {
   using enum ReplanRefusal::Kind;
   switch (kind) {
@@ -131,7 +131,7 @@ std::string_view plain_reason(ReplanRefusal::Kind kind) {
     case kEntryTooFar:
     case kTiltTooFar:
     case kBreach:
-      return {};  // said with their numbers
+      return {};  // worded with their numbers
   }
   return {};
 }

@@ -10,9 +10,9 @@ namespace {
 using Kind = ReplanRefusal::Kind;
 using ChangedOrNot = std::variant<nav::ScrewPlan, ReplanRefusal>;
 
-/// A move by all that is allowed is allowed, whatever the last bits say.
+/// Tolerance for rounding, so that a move by exactly the limit is allowed.
 constexpr double kLastBits = 1e-9;
-/// Two radii that differ by less are one, read from a file.
+/// Radii that differ by less are the same, apart from rounding in files.
 constexpr double kSameRadius_m = 1e-6;
 
 ReplanRefusal no_size(Kind kind, double diameter_m, double length_m) {
@@ -22,7 +22,7 @@ ReplanRefusal no_size(Kind kind, double diameter_m, double length_m) {
   return refusal;
 }
 
-/// What each change makes of a screw.
+/// Applies each kind of change to a screw.
 struct Changer {
   const nav::ScrewPlan& now;
   const nav::VertebraModel& bone;
@@ -31,7 +31,7 @@ struct Changer {
   ChangedOrNot operator()(const SetScrewSize& size) const {
     const double diameter_m = size.diameter_m.value_or(2.0 * now.radius_m);
     const double length_m = size.length_m.value_or(nav::screw_length_m(now));
-    // What was planned before and is not named stays, listed or not.
+    // A planned size that is not mentioned stays, listed or not.
     const bool of_both = size.diameter_m && size.length_m;
     const bool listed = of_both           ? sizes.has(diameter_m, length_m)
                         : size.diameter_m ? sizes.of_diameter(diameter_m) != nullptr
@@ -69,8 +69,7 @@ struct Changer {
     const auto tilted = nav::tilted_screw(now, tilt.direction, tilt.by_rad);
     return tilted ? ChangedOrNot(*tilted) : ReplanRefusal{Kind::kNoDirections};
   }
-  /// Where and how long it is to be is free within the limits; its diameter must be one of the
-  /// list, or as it was.
+  /// Position and length are free within the limits; the diameter must be in the list or unchanged.
   ChangedOrNot operator()(const PlaceScrew& place) const {
     nav::ScrewPlan placed = now;
     placed.entry = place.entry;
@@ -89,7 +88,7 @@ struct Changer {
     }
     return placed;
   }
-  /// That is no change of the screw's own.
+  /// Undoing is handled elsewhere.
   ChangedOrNot operator()(const UndoChange& /*undo*/) const { return now; }
 };
 

@@ -9,7 +9,7 @@
 
 namespace orthonav::engine {
 
-/// The screw as it would be, or why it may not be so; the cortex is not looked at.
+/// The screw as changed, or why the change is refused; the clearance to the cortex is not checked.
 [[nodiscard]] std::variant<nav::ScrewPlan, ReplanRefusal> changed(
     const Replan& replan, const nav::ScrewPlan& now, const nav::ScrewPlan& preoperative,
     const nav::VertebraModel& bone, const ReplanLimits& limits);

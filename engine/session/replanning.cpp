@@ -15,7 +15,8 @@ namespace {
 using Kind = ReplanRefusal::Kind;
 
 constexpr const char* kConsented = "accepted in surgery";
-/// Of the search for the least clearance: a screw that is no worse may look so much worse.
+/// Tolerance of the search for the least clearance: a screw that is no worse may seem worse by
+/// this.
 constexpr double kNoWorse_m = 0.00005;
 
 std::optional<nav::Clearance> clearance_of(const nav::VertebraModel& bone,
@@ -24,7 +25,7 @@ std::optional<nav::Clearance> clearance_of(const nav::VertebraModel& bone,
   return cylinder ? nav::least_clearance(bone.surface(), *cylinder) : std::nullopt;
 }
 
-/// The reason for an earlier breach holds as long as this one is no worse.
+/// An earlier breach was accepted for a reason, which covers the new one as long as it is no worse.
 std::optional<ReplanRefusal> worse_breach(const nav::VertebraModel& bone, const nav::ScrewPlan& now,
                                           const nav::ScrewPlan& changed) {
   const auto least = clearance_of(bone, changed);
@@ -46,7 +47,7 @@ void predict_again(LevelState& level) {
   }
 }
 
-/// From here on it is the plan in use.
+/// Makes `plan` the plan in use.
 ScrewReplanned put(LevelState& level, std::size_t screw, const nav::ScrewPlan& plan) {
   nav::ScrewPlan& in_use = level.plan.screws[screw];
   ScrewReplanned done;
@@ -129,10 +130,10 @@ void Replanning::take(const Outcome& outcome, OperationInWork& work, Guiding& gu
   work.messages.say(done, time);
   work.observer->replanned(time, work.level(), asked_, done);
   if (work.step != Step::kPlaced) {
-    // Not one frame shows a number, a depth or an alarm of the plan before.
+    // No frame may show a number, a depth or an alarm of the previous plan.
     return guiding.forget_guidance();
   }
-  // Where the tool went stays; its wire is held against the plan in use.
+  // The tool's path is kept; its wire is compared with the plan in use.
   placing.judge_again(work, guiding.screw(), time);
 }
 

@@ -16,22 +16,22 @@ class Guiding;
 class Placing;
 
 /// Changes a planned screw while it is operated on (docs/decisions/0071-the-plan-in-use.md). The
-/// plan in use is `LevelState::plan`; what was planned before surgery stays beside it, and so does
-/// every plan that was in use in between.
+/// plan in use is `LevelState::plan`; the preoperative plan is kept beside it, and so is every plan
+/// that was in use in between.
 class Replanning {
  public:
   explicit Replanning(ReplanLimits limits) : limits_(std::move(limits)) {}
 
-  /// What is to be changed with the next `change`.
+  /// Sets what the next `change` is to do.
   void ask(Replan replan) { asked_ = std::move(replan); }
-  /// Does it to the screw in work: the next one in `accepted`, the selected one in `guide`, and in
-  /// `placed` one whose wire waits for a word. Or says why not; one that would leave the cortex
-  /// waits for consent. The level has a registration.
+  /// Applies it to the current screw: the next one in `accepted`, the selected one in `guide`, and
+  /// in `placed` one whose wire waits for a decision. Otherwise says why not; a change that would
+  /// leave the cortex waits for consent. The level has a registration.
   void replan(OperationInWork& work, Guiding& guiding, Placing& placing, Timestamp time);
-  /// A frame that shows the question is displayed then.
+  /// A frame that shows the question is displayed at `display_time`.
   void show(Timestamp display_time);
-  /// Takes the change that waits, where the surgeon said so after the question was shown and no
-  /// longer after than it stands. False: nothing waits.
+  /// Applies the pending change if the surgeon consented after the question was shown and before it
+  /// expired. False: none is pending.
   [[nodiscard]] bool consent(OperationInWork& work, Guiding& guiding, Placing& placing,
                              Timestamp said);
   void withdraw_question() { question_.reset(); }
@@ -46,10 +46,10 @@ class Replanning {
   };
   [[nodiscard]] Outcome change(LevelState& level, std::size_t screw);
   [[nodiscard]] Outcome undo(LevelState& level, std::size_t screw) const;
-  /// None: no question about this screw was shown, or it no longer stands.
+  /// None: no question about this screw was shown, or it has expired.
   [[nodiscard]] std::optional<Outcome> consented(LevelState& level, std::size_t screw,
                                                  Timestamp said, Duration within);
-  /// What became of it is said, and holds for what is guided and judged.
+  /// Reports the outcome, and applies it to guidance and to the wire's assessment.
   void take(const Outcome& outcome, OperationInWork& work, Guiding& guiding, Placing& placing,
             Timestamp time) const;
 
@@ -58,8 +58,8 @@ class Replanning {
   std::optional<Question> question_;
 };
 
-/// Another entry beside the hole of a screw's first wire becomes the plan in use. There is no way
-/// back to the hole: what was planned for it is kept, as the one earlier plan.
+/// Makes another entry beside the hole of a screw's first wire the plan in use. There is no way
+/// back to the hole; its plan is kept as the only earlier plan.
 void put_other_entry(LevelState& level, std::size_t screw, Point<Vertebra> entry);
 
 }  // namespace orthonav::engine

@@ -9,19 +9,19 @@
 
 namespace orthonav::engine {
 
-/// What somebody asks who is not in the room: another program, by the words that one would say, or
-/// a screw as it is to be. It is answered as if it had been said then.
+/// A request of another program: the words that would be said in the room, or a new plan of a
+/// screw. It is answered as if it had been said at `time`.
 struct Request {
-  std::string text;  ///< "next"; with a change, what that is: "plan L4 left"
-  std::string from;  ///< who asks, as the surgeon and the journal are told
+  std::string text;  ///< "next"; with a change, its description: "plan L4 left"
+  std::string from;  ///< who asks, for the surgeon and the journal
   Timestamp time{};
-  std::optional<Replan> change;  ///< of the screw in work
+  std::optional<Replan> change;  ///< of the current screw
 };
 
 class Requests {
  public:
   virtual ~Requests() = default;
-  /// Appends what was asked up to `until`, in order of time, each once. Does not block.
+  /// Appends the requests up to `until`, in order of time, each once. Does not block.
   virtual void take(Timestamp until, std::vector<Request>& requests) = 0;
 };
 

@@ -36,7 +36,7 @@ std::vector<std::string> placed(const LoggedOperation& operation) {
   return screws;
 }
 
-/// What an open level has left, and how it is verified.
+/// What is kept of an open level, and how it is verified.
 std::string to_verify(const LoggedLevel& level) {
   if (level.finished() || !level.registration) {
     return {};
@@ -46,7 +46,7 @@ std::string to_verify(const LoggedLevel& level) {
                                  : ": registered before, not verified: touch its check points");
 }
 
-/// What an open level had, and has no more.
+/// What is lost of an open level.
 std::vector<std::string> lost(const LoggedLevel& before, const LoggedLevel& after) {
   std::vector<std::string> parts;
   if (before.finished()) {

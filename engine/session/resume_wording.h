@@ -7,8 +7,8 @@
 
 namespace orthonav::engine {
 
-/// What an operation was that is about to be resumed, what of it stands, what must be verified and
-/// what is lost, line by line, for whoever starts the program.
+/// Describes an operation about to be resumed, line by line, for the person who starts the program:
+/// what it was, what is kept, what must be verified and what is lost.
 [[nodiscard]] std::vector<std::string> resume_lines(const OperationLog::Found& found);
 
 }  // namespace orthonav::engine

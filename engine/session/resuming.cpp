@@ -23,7 +23,7 @@ Status check_levels(std::span<const LevelState> levels, const LoggedOperation& l
   return {};
 }
 
-/// With references elsewhere in World, everything restored would be elsewhere in the patient.
+/// If the references had moved in World, everything restored would be misplaced in the patient.
 Status check_places(std::span<const nav::ReferencePlace> places,
                     std::span<const nav::ReferencePlace> logged) {
   const bool same =
@@ -114,7 +114,7 @@ std::optional<Event> Resuming::go_on(OperationInWork& work, SessionSteps& steps,
     level.accepted = false;
     return Event::kRegistrationRestored;
   }
-  // Should the landmark have moved, its registration is verified once more.
+  // If the landmark has moved, its registration is verified again.
   steps.verifying = Verifying(work, time);
   return Event::kAcceptanceRestored;
 }

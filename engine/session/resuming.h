@@ -9,22 +9,22 @@
 
 namespace orthonav::engine {
 
-/// Goes on with an operation as its log tells it. Nothing restored is guided on before it was
-/// verified.
+/// Continues an operation from its log. Nothing restored is guided on before it is verified.
 class Resuming {
  public:
-  /// Before the first step. Refuses other levels or screws, and references elsewhere.
+  /// Called before the first step. Refuses different levels or screws, and references in other
+  /// places.
   Status restore(const LoggedOperation& logged, OperationInWork& work, RodTemplating& rods);
-  /// A level begins: on to the step that the operation had reached, or to the one before it in
-  /// which its registration can be verified.
+  /// A level begins: continues in the step that the operation had reached, or in the one before it
+  /// in which the registration can be verified.
   [[nodiscard]] std::optional<Event> go_on(OperationInWork& work, SessionSteps& steps,
                                            Timestamp time);
-  /// The saved regions lie in a World that is gone.
+  /// The saved regions were measured in a World that no longer exists.
   void forget_places() { regions_.clear(); }
 
  private:
   bool resumed_ = false;
-  std::vector<std::vector<nav::Region>> regions_;  ///< saved, of each level, until it is begun
+  std::vector<std::vector<nav::Region>> regions_;  ///< saved regions of each level, until it begins
 };
 
 }  // namespace orthonav::engine

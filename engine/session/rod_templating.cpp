@@ -33,7 +33,7 @@ std::vector<PlacedScrew> screws_in_world(std::span<const LevelState> levels, nav
   return screws;
 }
 
-/// For every head the screw whose entry is nearest; empty without screws.
+/// For each head, the screw with the nearest entry; empty without screws.
 std::vector<PlacedScrew> nearest_screws(std::span<const Vec3> heads_m,
                                         const std::vector<PlacedScrew>& screws) {
   std::vector<PlacedScrew> nearest_ones;
@@ -55,7 +55,7 @@ std::vector<Vec3> directions_of(const std::vector<PlacedScrew>& screws) {
   return directions;
 }
 
-/// Each screw's own where the list of screws states it.
+/// The seating of each screw, if the list of screws states it.
 nav::RodSeating seating_of(const std::vector<PlacedScrew>& screws, const SessionOptions& options,
                            double overhang_m) {
   nav::RodSeating seating{options.head_to_seat_m, overhang_m, {}};

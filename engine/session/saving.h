@@ -6,19 +6,19 @@
 
 namespace orthonav::engine {
 
-/// Whether what was done lately would survive a crash.
+/// Whether recent actions would survive a crash.
 enum class Saved : std::uint8_t {
-  kNothingNew,   ///< nothing was done for a while, or it is on its way to the disk
-  kSaved,        ///< it is on the disk
-  kNotSaved,     ///< the disk failed: nothing is saved any more
-  kNotRecorded,  ///< a recording was asked for and has stopped; nothing of the operation is lost
+  kNothingNew,   ///< nothing was done recently, or it is still being written
+  kSaved,        ///< everything is on the disk
+  kNotSaved,     ///< the disk failed, and nothing is saved any more
+  kNotRecorded,  ///< a requested recording has stopped; the operation itself is saved
 };
 
-/// Asked in every step. Allocates nothing and waits for nobody.
+/// Asked in every step. Must not allocate or block.
 class SaveWatch {
  public:
   virtual ~SaveWatch() = default;
-  /// What happened longer than `lately` before `now` is nothing new.
+  /// Anything older than `lately` before `now` is not new.
   [[nodiscard]] virtual Saved saved(Timestamp now, Duration lately) const = 0;
 };
 

@@ -27,7 +27,7 @@ Event event_of(ClickerAction action) {
   return Event::kHold;
 }
 
-/// What the surgeon was told stands until something is taken; these take nothing.
+/// A message to the surgeon stays until something is accepted; these actions accept nothing.
 constexpr bool keeps_message(Action action) {
   using enum Action;
   return action == kRefuse || action == kIgnore || action == kWarnLost || action == kHideGuidance ||
@@ -76,7 +76,7 @@ Status Session::resume(const LoggedOperation& logged) {
 
 const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   const Timestamp now = frame.time;
-  // Nothing that was measured in another map may answer an event.
+  // Events must not be answered with measurements from another map.
   handle(watching_.look_at_map(frame, work_), now);
   work_.stalled = inputs.stalled;
   // Events first: a press before this pair makes this pair a sample, a release before it does not.
@@ -110,7 +110,7 @@ void Session::answer_inputs(const Inputs& inputs) {
     const Timestamp clicked = next_of(inputs.clicks, c);
     const Timestamp said = next_of(inputs.phrases, p);
     const Timestamp asked = next_of(inputs.requests, r);
-    // The clicker goes first at equal times: what is said refers to what was done.
+    // At equal times the clicker goes first, because phrases refer to what was done.
     if (clicked <= said && clicked <= asked) {
       const ClickerEvent& click = inputs.clicks[c++];
       handle(event_of(click.action), click.time);
@@ -127,7 +127,7 @@ void Session::handle(std::optional<Raised> raised, Timestamp time) {
     const Event event = raised->event;
     const Cell cell = answer(workflow_, work_.step, event);
     work_.observer->happened(time, work_.step, event, cell);
-    // The step changes first, so that an event which the action raises is answered from there.
+    // The step changes first, so that an event raised by the action is answered in the new step.
     work_.step = cell.next;
     if (!keeps_message(cell.action)) {
       work_.messages.clear();
@@ -143,7 +143,7 @@ void Session::handle(std::optional<Raised> raised, Timestamp time) {
   }
 }
 
-/// The first that is not finished.
+/// Begins the first level that is not finished.
 std::optional<Raised> Session::begin_level(Timestamp time) {
   const auto& levels = work_.levels;
   const auto open = std::find_if(levels.begin(), levels.end(),
@@ -166,8 +166,8 @@ void Session::clear_level(Timestamp time) {
   work_.observer->level_cleared(time, work_.level());
 }
 
-/// "accept" is first of all the consent to a change of the screw that waits for it; else to a
-/// correction of the guide or to a wire beyond a limit.
+/// "accept" consents first to a pending change of the screw, otherwise to a correction of the guide
+/// or to a wire beyond a limit.
 void Session::consent(Action action, Timestamp time) {
   if (steps_.consent(work_, time)) {
     return;
@@ -184,8 +184,8 @@ void Session::consent(Action action, Timestamp time) {
   }
 }
 
-/// World is another one, or what hung it on the patient moved: whatever was measured in it is gone.
-/// What the patient has already, and what was measured of it, stays in the report.
+/// World was replaced, or the references that attach it to the patient moved: everything measured
+/// in it is gone. What was done to the patient, and its measurements, stay in the report.
 void Session::forget_places(Event why, Timestamp time) {
   for (LevelState& level : work_.levels) {
     level.map_moved = level.registration.has_value() && level.finished();

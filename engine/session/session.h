@@ -25,11 +25,11 @@
 
 namespace orthonav::engine {
 
-/// What came in beside the images since the last step.
+/// Inputs other than images since the last step.
 struct Inputs {
   std::span<const ClickerEvent> clicks;  ///< in order of time
   std::span<const Phrase> phrases;       ///< in order of time
-  Timestamp display_time{};              ///< of a frame made of this step
+  Timestamp display_time{};              ///< of the frame made from this step
   std::optional<Part> stalled;           ///< hides all guidance
   std::span<const Request> requests{};   ///< of other programs, in order of time
 };
@@ -38,33 +38,33 @@ struct Inputs {
 /// same inputs give the same outputs, live, simulated or replayed. One thread at a time.
 class Session {
  public:
-  /// Refuses an operation or options with problems, and tools without a pointer and a guide.
+  /// Refuses invalid operations and options, and tools without a pointer and a guide.
   static Result<std::unique_ptr<Session>> create(Operation operation,
                                                  std::unique_ptr<nav::ToolTracker> tracker,
                                                  Method method, const SessionOptions& options = {});
 
-  /// Hears everything from now on; null: nobody. Borrowed.
+  /// Sets the observer; null: none. Borrowed.
   void observe(SessionObserver* observer) {
     work_.observer = observer != nullptr ? observer : &work_.nobody;
   }
 
-  /// Goes on with an operation as its log tells it, before the first step; the tracker was given
-  /// the places of its references. Nothing restored is guided on before it was verified. Refuses
-  /// other levels or screws, and references elsewhere.
+  /// Continues an operation from its log, before the first step; the tracker has been given the
+  /// places of its references. Nothing restored is guided on before it is verified. Refuses
+  /// different levels or screws, and references in other places.
   Status resume(const LoggedOperation& logged);
-  /// What the status line says of saving from now on; null: nothing. Borrowed.
+  /// Sets the source of what the status line says about saving; null: none. Borrowed.
   void show_saving(const SaveWatch* saving) { publication_.show_saving(saving); }
-  /// Is told what the session waits for; null: nobody. Borrowed.
+  /// Sets the watch to be notified of what the session waits for; null: none. Borrowed.
   void watch_work(WorkWatch* watch) { steps_.digitizing.watch_work(watch); }
 
-  /// One stereo pair: events up to it are answered in order of time, tools are tracked, the step's
-  /// work is done. The result is valid until the next call.
+  /// Processes one stereo pair: answers events up to it in order of time, tracks the tools and does
+  /// the step's work. The result is valid until the next call.
   const Guidance& step(const StereoFrame& frame, const Inputs& inputs);
 
-  /// No pair has come for longer than guidance may stand: takes back what was guided on the last
-  /// one. The next step goes on as ever.
+  /// No pair has arrived for longer than guidance may stay: withdraws the guidance of the last one.
+  /// The next step continues normally.
   const Guidance& expire(Timestamp display_time);
-  /// Nothing more will come: only the status line is left.
+  /// The session is over: only the status line remains.
   const Guidance& end(Timestamp display_time);
 
   [[nodiscard]] const SessionOptions& options() const { return work_.options; }
@@ -73,8 +73,7 @@ class Session {
   [[nodiscard]] std::span<const RodState> rods() const { return steps_.rods.rods(); }
   [[nodiscard]] std::span<const nav::ToolState> tool_states() const { return work_.tools.states(); }
   [[nodiscard]] const nav::ToolTracker& tracker() const { return work_.tools.tracker(); }
-  /// The index of the guide among the tools, and the guide as it is believed to be: as described,
-  /// or corrected since.
+  /// The index of the guide among the tools, and its geometry as described or since corrected.
   [[nodiscard]] std::size_t guide() const { return work_.tools.guide(); }
   [[nodiscard]] const nav::ToolGeometry& guide_geometry() const {
     return work_.tools.geometry(work_.tools.guide());
@@ -86,11 +85,11 @@ class Session {
   void answer_inputs(const Inputs& inputs);
   /// The table's answer to an event, and to those that its action raises.
   void handle(std::optional<Raised> raised, Timestamp time);
-  /// session_actions.cpp: what the table asks for. Returns an event that comes of it.
+  /// Does what the table asks for (session_actions.cpp). Returns the event that results, if any.
   [[nodiscard]] std::optional<Raised> act(Action action, Event event, Timestamp time);
   [[nodiscard]] Message why_not(Action action, Event event) const;
 
-  // What concerns several steps.
+  // Actions that concern several steps.
   [[nodiscard]] std::optional<Raised> begin_level(Timestamp time);
   void show_registration(Timestamp time);
   void clear_level(Timestamp time);
@@ -99,7 +98,7 @@ class Session {
 
   OperationInWork work_;
   Workflow workflow_;
-  SessionSteps steps_;  ///< ends before the levels: a trial of the coach may be reading one
+  SessionSteps steps_;  ///< destroyed before the levels: a trial of the coach may be reading one
   Watching watching_;
   Resuming resuming_;
   Publication publication_;

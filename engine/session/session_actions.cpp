@@ -2,8 +2,7 @@
 
 namespace orthonav::engine {
 
-// An action that is forgotten here does not compile, whatever warnings are asked for
-// (tests/build_failures).
+// A missing action does not compile here, whichever warnings are enabled (tests/build_failures).
 // clang-format off
 #pragma GCC diagnostic push
 #pragma GCC diagnostic error "-Wswitch"
@@ -52,7 +51,7 @@ std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
 // clang-format on
 #pragma GCC diagnostic pop
 
-/// What the surgeon is told where nothing is done.
+/// What the surgeon is told if nothing is done.
 Message Session::why_not(Action action, Event event) const {
   switch (action) {
     case Action::kAskForChecks:

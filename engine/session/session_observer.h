@@ -12,18 +12,18 @@
 
 namespace orthonav::engine {
 
-/// Hears what happens in a session, in order, on the thread that steps it. The references live as
-/// long as the call.
+/// Notified of what happens in a session, in order, on the thread that steps it. References are
+/// valid during the call only.
 class SessionObserver {
  public:
   virtual ~SessionObserver() = default;
   /// Every event with the table's answer to it.
   virtual void happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell /*answer*/) {}
-  /// Another program asks; what it leads to is heard next.
+  /// Another program made a request; what it causes is reported next.
   virtual void asked_from_outside(const Request& /*request*/) {}
-  /// A phrase that is no command here, or was not understood well enough.
+  /// A phrase is not a command here, or was not understood well enough.
   virtual void not_understood(const Phrase& /*phrase*/) {}
-  /// A region was saved: the last of the level's.
+  /// A region was saved, the last one of the level.
   virtual void region_saved(Timestamp /*time*/, const LevelState& /*level*/,
                             const nav::Region& /*region*/) {}
   /// The last of the level's saved regions was deleted.
@@ -32,7 +32,7 @@ class SessionObserver {
   virtual void level_cleared(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// Its landmark has moved: its registration is verified once more.
   virtual void acceptance_withdrawn(Timestamp /*time*/, const LevelState& /*level*/) {}
-  /// World is another one: whatever was measured in it is gone, but for what is in the patient.
+  /// World was replaced: everything measured in it is gone, except what is in the patient.
   virtual void places_forgotten(Timestamp /*time*/) {}
   /// Where the patient references in use lie in World, whenever that changes.
   virtual void references_placed(Timestamp /*time*/,
@@ -42,34 +42,34 @@ class SessionObserver {
                           const RegistrationOutcome& /*outcome*/) {}
   /// A place was touched to verify the level's registration: the last of its check points.
   virtual void check_point_recorded(Timestamp /*time*/, const LevelState& /*level*/) {}
-  /// The last of them was taken back; `level` is without it.
+  /// The last check point was taken back; `level` no longer has it.
   virtual void check_point_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
-  /// The surgeon accepted the level's registration, which holds what was touched on it by now.
-  /// `shown` is the status line that they were shown before they did.
+  /// The surgeon accepted the level's registration, which now includes the touched places. `shown`
+  /// is the status line displayed before that.
   virtual void accepted(Timestamp /*time*/, const LevelState& /*level*/,
                         std::string_view /*shown*/) {}
-  /// The level's landmark was touched: for the first time, or against where it was then.
+  /// The level's landmark was touched, for the first time or to compare it with its recorded place.
   virtual void landmark_touched(Timestamp /*time*/, const LevelState& /*level*/,
                                 const LandmarkTouch& /*touch*/) {}
   /// The guide's tip was put into the landmark after the pointer's, or corrected by it.
   virtual void tips_compared(Timestamp /*time*/, const TipDifference& /*difference*/) {}
   virtual void axis_compared(Timestamp /*time*/, const AxisDifference& /*difference*/) {}
-  /// That touch was taken back; with a first one, the landmark.
+  /// The touch of the landmark was taken back, and the landmark with it if the touch recorded it.
   virtual void landmark_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
-  /// The wire of that screw was measured, or is kept as it was measured.
+  /// The wire of that screw was measured, or is kept as measured.
   virtual void wire_measured(Timestamp /*time*/, const LevelState& /*level*/, std::size_t /*screw*/,
                              const PlacedWire& /*wire*/) {}
-  /// That screw is redone; its plan has another entry by now.
+  /// That screw is redone; its plan already has the other entry.
   virtual void screw_redone(Timestamp /*time*/, const LevelState& /*level*/, std::size_t /*screw*/,
                             const nav::OtherEntry& /*entry*/) {}
   /// The surgeon changed a planned screw, or took a change back.
   virtual void replanned(Timestamp /*time*/, const LevelState& /*level*/, const Replan& /*asked*/,
                          const ScrewReplanned& /*done*/) {}
-  /// The surgeon declared the screw done; `at_depth` is what was measured last while the tool stood
-  /// at its depth, or null where it never did.
+  /// The surgeon declared the screw done; `at_depth` is the last measurement while the tool was at
+  /// its depth, or null if it never was.
   virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/, std::size_t /*screw*/,
                           const ToolGuidance* /*at_depth*/) {}
-  /// What tags and cameras in use have told so far, after each screw.
+  /// What was learned about tags and cameras in use so far, after each screw.
   virtual void calibration_found(Timestamp /*time*/, const CalibrationInUse& /*found*/) {}
   virtual void head_recorded(Timestamp /*time*/, nav::Side /*side*/, Point<World> /*head*/) {}
   virtual void head_dropped(Timestamp /*time*/, nav::Side /*side*/) {}

@@ -5,7 +5,8 @@
 namespace orthonav::engine {
 namespace {
 
-/// The step in which a place is touched: the table asks for touches nowhere else.
+/// Calls `act` with the step in which a place is touched; the table asks for touches in no other
+/// step.
 template <class Do>
 void in_touched_step(SessionSteps& steps, Step step, const Do& act) {
   switch (step) {
@@ -113,7 +114,7 @@ std::optional<std::size_t> SessionSteps::tool(const OperationInWork& work) const
     case Step::kVerify:
       return of_method.check_points ? std::optional(pointer) : std::nullopt;
     case Step::kAccepted:
-      // With the landmark touched, what comes next is the guide's.
+      // Once the landmark is touched, the guide is next.
       return of_method.dimple() ? std::optional(landmarking.touched() ? guide : pointer)
                                 : std::nullopt;
     case Step::kGuide:

@@ -15,9 +15,8 @@
 
 namespace orthonav::engine {
 
-/// The steps of one operation, each with what it knows and what the table asks of it, and what
-/// several of them share: the checks of the guide, and changes of the screw. A step that is begun
-/// anew is another object.
+/// The steps of one operation, each with its state and actions, and what several of them share: the
+/// checks of the guide, and changes of the screw. A step that begins anew is a new object.
 struct SessionSteps {
   explicit SessionSteps(const OperationInWork& work);
 
@@ -33,22 +32,22 @@ struct SessionSteps {
   void expect_landmark(const OperationInWork& work);
   void expect_wire(const OperationInWork& work);
   void select_screw(const OperationInWork& work);
-  /// The registration of the level in work is gone, and what stands on it.
+  /// Discards the registration of the current level and everything based on it.
   void forget_registration(const OperationInWork& work);
 
-  /// Pressed, let go, or held too long: samples are taken, or a place is touched.
+  /// The button was pressed, released or held too long: takes samples, or touches a place.
   void button(Action action, OperationInWork& work, Timestamp time);
-  /// The newest pair, to the present step.
+  /// Passes the newest pair to the present step.
   void collect(const OperationInWork& work);
 
-  /// "accept" takes the change of a screw that waits for it; false where none does.
+  /// "accept" applies the pending change of a screw; false if none is pending.
   [[nodiscard]] bool consent(OperationInWork& work, Timestamp said);
 
   /// The tool that the present step works with, if any.
   [[nodiscard]] std::optional<std::size_t> tool(const OperationInWork& work) const;
   [[nodiscard]] StepOnDisplay on_display(const OperationInWork& work) const;
   [[nodiscard]] StepState state(const OperationInWork& work) const;
-  /// What each step shows; `hidden`: nothing is guided.
+  /// Writes what each step shows; `hidden`: no guidance.
   void write(const OperationInWork& work, bool hidden, Guidance& out);
 };
 

@@ -12,12 +12,12 @@ namespace orthonav::engine {
 /// Every phrase that a session understands, lower case.
 [[nodiscard]] std::vector<std::string> spoken_commands();
 
-/// Those of them that our own recognition was trained on (tools/voice/train). The others are heard
-/// by the headset's own and come from scripts; whatever they do, the session finds out by itself
-/// too.
+/// The commands that our own recognition was trained on (tools/voice/train). The others come from
+/// the headset's recognition and from scripts; the session also detects by itself what they
+/// announce.
 [[nodiscard]] std::vector<std::string> trained_commands();
 
-/// What a phrase asks for; nothing when it is no command.
+/// What a phrase asks for; nothing if it is not a command.
 [[nodiscard]] std::optional<Event> command_event(std::string_view phrase);
 
 }  // namespace orthonav::engine

@@ -41,7 +41,7 @@ std::optional<Value> meaning(const std::array<std::pair<std::string_view, Value>
   return found == words.end() ? std::nullopt : std::optional<Value>(found->second);
 }
 
-/// One line whatever was typed.
+/// One line, whatever was typed.
 Error unclear(const std::string& verb, const std::string& problem, const std::string& example) {
   return Error{verb + ": " + problem + ", such as \"" + example + "\""};
 }

@@ -10,10 +10,10 @@
 
 namespace orthonav::engine {
 
-/// What a phrase asks to be changed of the screw in work; nothing where it does not begin as such a
-/// phrase does. An Error in one line where it does, and the rest is missing or not understood:
-/// nothing is guessed. Lengths are in mm and angles in degrees, said or not; typed numbers serve
-/// as well as words.
+/// The change of the current screw that a phrase asks for; nothing if it does not begin like such a
+/// phrase. A one-line Error if it does, but the rest is missing or not understood: nothing is
+/// guessed. Lengths are in mm and angles in degrees, whether said or not; typed numbers work like
+/// words.
 ///
 ///     screw six forty five       6 × 45 mm; "six five forty" and "six point five forty": 6.5 × 40
 ///     diameter six, length forty five, thicker, thinner, longer, shorter
@@ -22,7 +22,7 @@ namespace orthonav::engine {
 ///     undo
 [[nodiscard]] std::optional<Result<Replan>> replan_from(std::string_view phrase);
 
-/// Those of them that a list of phrases can hold: one step each way, the next sizes, undo.
+/// The phrases that fit in a finite list: one step in each direction, the next sizes, undo.
 [[nodiscard]] std::vector<std::string> replan_phrases();
 
 }  // namespace orthonav::engine

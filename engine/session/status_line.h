@@ -20,79 +20,79 @@ namespace orthonav::engine {
 
 struct Coaching;
 
-// How a step stands, as the status line says it while there is nothing more urgent.
+// The state of each step, as the status line shows it while there is nothing more urgent.
 
 /// While the bone is stroked.
 struct StrokesSoFar {
   std::size_t points = 0;
-  const Coaching* coaching = nullptr;  ///< null: nothing is known of them yet
+  const Coaching* coaching = nullptr;  ///< null: nothing is known about them yet
 };
-/// A registration, verified by eye or accepted; or guided on, at the selected screw.
+/// A registration being verified by eye, accepted, or guided on at the selected screw.
 struct RegistrationFigures {
   double rmse_m = 0.0;
-  double expected_m = 0.0;  ///< error at the worst of the screws, or at the selected one
+  double expected_m = 0.0;  ///< error at the worst of the screws or at the selected one
   bool of_one_screw = false;
-  bool registration_only = false;  ///< what all strokes share is not known, so not in it
+  bool registration_only = false;  ///< without the unknown errors common to all strokes
   bool replanned = false;          ///< the selected screw was changed in surgery
 };
 /// While a registration is verified by touch.
 struct ChecksSoFar {
   double expected_m = 0.0;  ///< error at the worst of the screws
   std::size_t count = 0;
-  /// Of the last check point, when it lies near enough; the verdict tells of one that does not.
+  /// Distance of the last check point if it is near enough; otherwise the verdict reports it.
   std::optional<double> last_m;
   const nav::CheckVerdict* verdict = nullptr;
   bool registration_only = false;  ///< as above
-  /// The landmark lies so far off: the registration is verified once more.
+  /// How far the landmark has moved, so that the registration is verified again.
   std::optional<double> moved_m = {};
 };
 /// A registration accepted by touch, before a screw.
 struct LandmarkSoFar {
   RegistrationFigures figures;
-  bool recorded = false;              ///< the landmark was touched once
-  std::optional<LandmarkTouch> last;  ///< since the last screw
-  const TipCheck* tips = nullptr;     ///< of the guide against the pointer; null: not compared
-  const AxisCheck* axis = nullptr;    ///< of the guide, by the wires before; null: not looked at
+  bool recorded = false;              ///< the landmark was touched before
+  std::optional<LandmarkTouch> last;  ///< newest touch since the last screw
+  const TipCheck* tips = nullptr;     ///< of the guide and the pointer; null: not compared
+  const AxisCheck* axis = nullptr;    ///< of the guide, by earlier wires; null: not checked
 };
-/// While a wire stands in the bone, before its screw is done.
+/// While a wire is in the bone, before its screw is done.
 struct WireSoFar {
   const PlacedWire* wire = nullptr;  ///< null: not measured
   bool no_other_entry = false;       ///< it can't be redone
 };
 struct HeadsSoFar {
   std::size_t count = 0;
-  std::optional<double> cut_length_m;  ///< of the rod through them, where it has instructions
+  std::optional<double> cut_length_m;  ///< of the rod through them, if it has instructions
   std::size_t bends = 0;
 };
 using StepState = std::variant<std::monostate, StrokesSoFar, RegistrationFigures, ChecksSoFar,
                                LandmarkSoFar, WireSoFar, HeadsSoFar>;
 
-/// A command as it was heard. A surgeon who was misheard must see it at once, and one who was
-/// heard need not ask.
+/// The command as heard. A surgeon who was misheard must see it at once, and one who was heard need
+/// not ask.
 struct HeardCommand {
   std::string phrase;
   bool sure = false;      ///< confident enough to be acted on
-  std::string from = {};  ///< who asked, where nobody in the room said it
+  std::string from = {};  ///< who asked, unless it was said in the room
 };
 
-/// Everything that the status line says, as data; engine/session/wording.h makes the text. The
+/// Everything that the status line says, as data; engine/session/wording.h turns it into text. The
 /// pointers and views look into the session: valid until its next step.
 struct StatusLine {
   StepOnDisplay at;
-  std::string_view tool;               ///< of the step, where it has one
-  bool tool_lost = false;              ///< and it was seen before
+  std::string_view tool;               ///< of the step, if it has one
+  bool tool_lost = false;              ///< it was seen before
   std::optional<double> tag_size_off;  ///< its tag is larger than stated by this fraction
-  /// The guide's depth stop lets the drill so far past the target of the selected screw.
+  /// How far the guide's depth stop lets the drill go past the target of the selected screw.
   std::optional<double> stop_past_target_m;
-  std::string_view unused_tool;      ///< in hand, with a role that the step has no use for
+  std::string_view unused_tool;      ///< in hand, with a role that the step does not use
   const Message* message = nullptr;  ///< null: none
   StepState state;
-  const HeardCommand* heard = nullptr;  ///< null: nothing lately
+  const HeardCommand* heard = nullptr;  ///< null: nothing recently
   Saved saved = Saved::kNothingNew;
-  std::optional<Part> stalled;  ///< it hangs, so nothing is guided
+  std::optional<Part> stalled;  ///< hangs, so nothing is guided
 };
 
-/// What is asked of a surgeon who verifies by touch: as far as the line says it.
+/// What is asked of a surgeon who verifies by touch, as far as the line says it.
 [[nodiscard]] ChecksAsked checks_asked(const StatusLine& line);
 
 }  // namespace orthonav::engine

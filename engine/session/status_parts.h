@@ -7,26 +7,25 @@
 
 namespace orthonav::engine {
 
-/// How long a part of the status line stays where there is no room for all of it: the last gives
-/// way first.
+/// Priority of a part of the status line when there is no room for all: the last is dropped first.
 enum class Importance {
-  kDanger,   ///< what must not be trusted now: a tool lost, the map moved
+  kDanger,   ///< what must not be trusted now: a lost tool, a moved map
   kNext,     ///< what to do
   kMessage,  ///< what happened, and the first reason
-  kHeard,    ///< the command as it was heard
+  kHeard,    ///< the command as heard
   kMore,     ///< the other reasons
   kFigures,  ///< how good the registration is
   kCount     ///< how much there is
 };
 
-/// A stretch of a text, from here to the next part.
+/// A part of a text, up to the beginning of the next part.
 struct StatusPart {
   Importance importance = Importance::kMessage;
   std::size_t begin = 0;
-  std::size_t separator = 0;  ///< so many bytes come first that no row begins with
+  std::size_t separator = 0;  ///< bytes at the beginning that are dropped at the start of a row
 };
 
-/// The parts of a text, in its order. Whatever comes beyond the last belongs to it.
+/// The parts of a text, in order. Parts beyond `kMost` are merged into the last.
 struct StatusParts {
   static constexpr std::size_t kMost = 24;
   std::array<StatusPart, kMost> parts{};
@@ -40,12 +39,12 @@ struct StatusParts {
   }
 };
 
-/// A text as it is written, and where its parts begin for whoever asks.
+/// A text being written and, if wanted, where its parts begin.
 struct PartedText {
   std::string& out;
   StatusParts* parts = nullptr;
 
-  /// What is appended from here on is a part of its own.
+  /// Begins a new part with what is appended next.
   void begin(Importance importance, std::string_view separator = "") {
     if (parts != nullptr) {
       parts->add({importance, out.size(), separator.size()});

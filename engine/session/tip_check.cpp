@@ -15,7 +15,7 @@ double TipCheck::difference_sd_m(double size_sd) const {
   if (!last_ || !(prior_m > 0.0)) {
     return std::hypot(prior_m, tags_m);
   }
-  // The posterior of two normal distributions; without consent the tip stays off by its mean.
+  // The posterior of two normal distributions; without consent the tip stays off by the mean.
   const double left_m = prior_m * last_->sd_m / std::hypot(prior_m, last_->sd_m);
   const double off_m = last_->corrected ? 0.0 : last_->by_m.norm() / std::sqrt(3.0);
   return std::hypot(left_m, off_m, tags_m);
@@ -28,7 +28,7 @@ std::variant<TipDifference, TouchRefusal> TipCheck::take(
   const double each_m2 = landmark_.touch_variance_m2(anchored);
   TipDifference found;
   found.apart_m = world_from_guide.rotation().transposed() * (place.place - pointer_tip.place);
-  // The pointer's place is that of as many touches as make one; the guide's is one.
+  // The pointer's place is the mean of all its touches; the guide's is a single touch.
   found.sd_m = std::sqrt(place.sd_m * place.sd_m + pointer_tip.sd_m * pointer_tip.sd_m + each_m2 +
                          each_m2 / landmark_.touches_of(anchored) + tags_m * tags_m / 3.0);
   const double prior_m2 = rules_.prior_sd_m * rules_.prior_sd_m;

@@ -8,12 +8,13 @@
 
 namespace orthonav::engine {
 
-/// The guide's tip against the pointer's, both put into the same dimple. The pointer says where the
-/// bone is and the guide is aimed by it, so an error that they do not share goes into every entry.
+/// The guide's tip compared with the pointer's, both put into the same dimple. The pointer
+/// determines where the bone is, and the guide is aimed there, so an error that they do not share
+/// affects every entry.
 struct TipDifference {
   Vec3 apart_m;       ///< from the pointer's tip to the guide's, in the guide's marker
-  double sd_m = 0.0;  ///< along an axis, of that
-  /// By how the tips are known and by this: what they are most probably apart by.
+  double sd_m = 0.0;  ///< of `apart_m`, along an axis
+  /// Their most probable difference, from prior knowledge and this measurement.
   Vec3 by_m;
   double limit_m = 0.0;    ///< of `apart_m`: beyond it, `by_m` is offered as a correction
   bool corrected = false;  ///< with the surgeon's consent
@@ -22,22 +23,23 @@ struct TipDifference {
 };
 
 struct TipCheckRules {
-  /// Tags that are 0.3 % larger put their tool 1.35 mm too far at this distance from the cameras.
-  /// From another side the same error points elsewhere, so no correction of the tip makes up for
-  /// it: what is not known of the two tools' tag sizes is part of the difference's SD.
+  /// Tags that are 0.3 % larger put their tool 1.35 mm too far away at this distance from the
+  /// cameras. Seen from another side the same error points in another direction, so no correction
+  /// of the tip removes it: the uncertainty of the two tools' tag sizes is part of the difference's
+  /// SD.
   double distance_m = 0.45;
-  /// The SD of that, as a fraction, is never taken to be less: lenses differ from place to place.
+  /// Lower limit of the SD of the tag size, as a fraction: lens errors vary across the image.
   double least_size_sd = 0.0003;
-  /// SD along an axis of how far the two described tips are apart, as their calibrations leave
-  /// them. In a session it follows from `PlacedWireRules::tip_sd_m`.
+  /// SD along an axis of the distance between the two described tips after calibration. In a
+  /// session it follows from `PlacedWireRules::tip_sd_m`.
   double prior_sd_m = 0.0007;
-  /// A correction of less is not worth a word.
+  /// Smaller corrections are not offered.
   double worth_m = 0.0002;
-  /// Farther apart they were not in the same dimple.
+  /// Tips farther apart were not in the same dimple.
   double most_m = 0.010;
 };
 
-/// Done once in an operation, after the landmark was touched, or again whenever the surgeon likes.
+/// Done once in an operation, after the landmark was touched, or again at the surgeon's choice.
 class TipCheck {
  public:
   TipCheck() = default;
@@ -45,9 +47,9 @@ class TipCheck {
   TipCheck(const TipCheckRules& rules, const LandmarkRules& landmark, bool compare = true)
       : rules_(rules), landmark_(landmark), compare_(compare) {}
 
-  /// Of the guide's tip at `place`, the guide standing as `world_from_guide`, the pointer's tip
-  /// having been at `pointer_tip`; or why not. `size_sd`: of how much larger
-  /// the tags of one are than those of the other, as a fraction.
+  /// Compares the guide's tip at `place`, with the guide at `world_from_guide`, with the pointer's
+  /// earlier tip at `pointer_tip`; or says why it does not count. `size_sd`: SD of the size
+  /// difference between the tags of both, as a fraction.
   [[nodiscard]] std::variant<TipDifference, TouchRefusal> take(
       const nav::PressedPlace& place, const Transform<World, Marker>& world_from_guide,
       const nav::PressedPlace& pointer_tip, bool anchored, double size_sd);
@@ -55,10 +57,10 @@ class TipCheck {
   [[nodiscard]] bool due() const { return compare_ && !last_; }
   /// A difference waits for consent to be corrected.
   [[nodiscard]] bool offers() const { return last_ && !last_->corrected && !last_->agrees(); }
-  /// SD along an axis by which the guide's tip is off where the pointer's would be, as far as is
-  /// known by now; `size_sd` as in `take`.
+  /// SD along an axis of the guide's tip relative to the pointer's, as currently known; `size_sd`
+  /// as in `take`.
   [[nodiscard]] double difference_sd_m(double size_sd) const;
-  /// The surgeon consents: what is taken off the guide's tip.
+  /// The surgeon consents. Returns what to subtract from the guide's tip.
   [[nodiscard]] Vec3 correct();
   [[nodiscard]] const std::optional<TipDifference>& last() const { return last_; }
 

@@ -9,19 +9,19 @@
 
 namespace orthonav::engine {
 
-/// The tool that the present step works with, if any, and how it was last seen. Another tool is
-/// another object: one that was just taken into use was not lost, it has not been found yet.
+/// The tool that the present step works with, if any, and how it was last seen. Each tool gets a
+/// new object: one that has just come into use is not lost, but not yet found.
 class ToolInUse {
  public:
   ToolInUse() = default;
   explicit ToolInUse(std::optional<std::size_t> tool) : tool_(tool) {}
 
-  /// Once for each pair; what changed, if anything.
+  /// Called once for each pair; returns what changed, if anything.
   [[nodiscard]] std::optional<Event> look(const ToolWatch& watch, Timestamp now,
                                           Duration stale_after);
   void hide_guidance(bool hidden) { guidance_hidden_ = hidden; }
   [[nodiscard]] const std::optional<std::size_t>& tool() const { return tool_; }
-  /// Seen once, and not any more.
+  /// It was seen before, but is not now.
   [[nodiscard]] bool lost() const { return seen_ == Seen::kLost || seen_ == Seen::kStale; }
   [[nodiscard]] bool guidance_hidden() const { return guidance_hidden_; }
 

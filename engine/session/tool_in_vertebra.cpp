@@ -12,7 +12,7 @@ nav::PoseUncertainty bone_against_tool(const nav::Registration& registration,
   if (!errors.unshared_sd_m) {
     return nav::with_common(*registration.uncertainty, more);
   }
-  // The map walked while the bone was stroked, and not while the tool is seen.
+  // The map drifted while the bone was stroked, but not while the tool is seen.
   nav::CommonErrors shared = registration.common;
   shared.map_m = 0.0;
   more.tip_m = *errors.unshared_sd_m;

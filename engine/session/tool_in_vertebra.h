@@ -9,18 +9,19 @@
 
 namespace orthonav::engine {
 
-/// A tool as the bone has it.
+/// A tool in the frame of the bone.
 struct ToolInVertebra {
   nav::Axis<Vertebra> axis;  ///< from the tip into the bone
-  /// Of its pose relative to the bone; absent where the registration's is not known.
+  /// Of its pose relative to the bone; absent if that of the registration is not known.
   std::optional<nav::PoseUncertainty> uncertainty;
 };
 
-/// What makes that pose unsure beside the strokes and the tool's own pose, SDs along an axis.
+/// Sources of uncertainty of that pose besides the strokes and the tool's own pose, SDs along an
+/// axis.
 struct ToolErrors {
   double walked_sd_m = 0.0;  ///< of World against the bone since it was last found
-  /// Of what tool and strokes do not share, in place of the registration's errors of tip and
-  /// cameras: those shift the bone and the tool alike. Absent: those count in full.
+  /// SD of the errors that tool and strokes do not share. It replaces the registration's errors of
+  /// tip and cameras, which shift the bone and the tool alike. Absent: those count in full.
   std::optional<double> unshared_sd_m = {};
   double axis_sd_rad = 0.0;  ///< of its described axis, about each direction across it
 };

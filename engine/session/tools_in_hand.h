@@ -9,15 +9,15 @@
 
 namespace orthonav::engine {
 
-/// Finds a tool that is in hand in a step that has no use for it: measured for half a second, near
-/// the bone where that is known (its tip within 50 mm), and else in place of the step's own tool.
-/// One that merely lies in view is not told of.
+/// Finds a tool that is in hand in a step that does not use it: measured for half a second, with
+/// its tip within 50 mm of the bone or, if the bone is not known, in place of the step's own tool.
+/// A tool that merely lies in view is not reported.
 class ToolsInHand {
  public:
-  /// After a pair. `own`: the tool of the step. Allocates nothing once it knows the tools.
+  /// Called after a pair. `own`: the tool of the step. Does not allocate once it knows the tools.
   void look(const WatchedTools& tools, Step step, std::optional<std::size_t> own,
             const LevelState* level, Timestamp now);
-  /// The first one; none where all is well.
+  /// The first such tool; none if all is well.
   [[nodiscard]] std::optional<std::size_t> unused() const;
 
  private:

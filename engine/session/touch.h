@@ -10,30 +10,30 @@
 
 namespace orthonav::engine {
 
-/// Or why it does not count.
+/// The place, or why it does not count.
 using TouchedPlace = std::variant<nav::PressedPlace, TouchRefusal>;
 
-/// One place that the pointer's tip rests on, from a press to the click that follows. Both belong
-/// to one step: whoever owns the touch lets go of it where the step begins. Where the tip rested
-/// already before the press, that counts too.
+/// One place where the pointer's tip rests, from a press to the click that follows. Both belong to
+/// one step: the owner of the touch drops it when the step begins. Time at rest before the press
+/// counts too.
 class Touch {
  public:
   /// A press: the tips from here on are those of one place.
   void begin() { tips_.begin(); }
-  /// The button is up; the click that may follow still uses what was touched.
+  /// The button is released; a click that follows still uses the touch.
   void release() { tips_.release(); }
-  /// There is none any more.
+  /// Drops the touch.
   void drop() { tips_.drop(); }
   [[nodiscard]] bool down() const { return tips_.down(); }
   /// A measured tip, once for each pair.
   void add(Point<World> tip) { tips_.add(tip); }
-  /// The tip was not measured: where it was before says nothing of where it rests.
+  /// The tip was not measured, so earlier tips do not show where it rests.
   void lose() { tips_.lose(); }
 
-  /// Where the tip rested; ends the touch, whatever the answer. `last_tip` answers a click shorter
-  /// than a frame: the tip of the pair just before it, if that is fresh. Refused when the press
-  /// fell into another step, nothing was seen, or the tips scatter more than `max_spread_m` (root
-  /// mean square about their mean).
+  /// Where the tip rested; ends the touch in every case. `last_tip` is used for a click shorter
+  /// than a frame: the tip of the pair just before it, if fresh. Refused if the press fell into
+  /// another step, nothing was seen, or the tips scatter more than `max_spread_m` (root mean square
+  /// about their mean).
   [[nodiscard]] TouchedPlace take_place(const std::optional<Point<World>>& last_tip,
                                         double max_spread_m);
 

@@ -24,7 +24,7 @@ std::vector<float> distances_m(const LevelState& level) {
   return each_m;
 }
 
-/// One sample says little: the mean over a stretch of the stroke, or it is a speckle.
+/// Averages over a stretch of the stroke, because single samples are noisy.
 std::vector<float> smoothed(std::span<const float> each_m) {
   constexpr std::size_t kStretch = 10;
   std::vector<float> smooth_m;
@@ -54,7 +54,7 @@ Verifying::Verifying(OperationInWork& work, Timestamp registered)
                                         work.level().newest->points)) {
   LevelState& level = work.level();
   if (!anchored_) {
-    // In the time that more take, the map moves by more than they tell.
+    // While more places are touched, the map moves by more than they reveal.
     options_.check_points.enough = 3;
   }
   if (by_touch_) {
@@ -66,8 +66,8 @@ Verifying::Verifying(OperationInWork& work, Timestamp registered)
 }
 
 void Verifying::begin_again(LevelState& level, double moved_m) {
-  // What was pressed before is no check any more, but still tells of the bone: by the same strokes
-  // and the same model, so that neither counts twice, and by how World walked since.
+  // Earlier places are no longer checks but still show where the bone is. They are joined with the
+  // same strokes and model, so that neither counts twice, and with World's drift since then.
   constexpr std::size_t kMostEarlier = nav::kMostCheckPoints;
   if (!anchored_) {
     strokes_ = level.registration;
@@ -78,7 +78,7 @@ void Verifying::begin_again(LevelState& level, double moved_m) {
   level.check_points.clear();
   moved_m_ = moved_m;
   if (by_touch_) {
-    // A screw may have been changed since.
+    // A screw may have been changed in the meantime.
     limits_.targets = nav::entries_and_targets(level.plan.screws);
   }
   visible_at_.reset();
@@ -102,7 +102,7 @@ void Verifying::judge(LevelState& level) {
         nav::place_to_press(model, *strokes_, level.newest->points, pressed_, *fit, press, limits_);
   }
   if (strokes_->provisional) {
-    // It stands on what was touched, so it is shown with it.
+    // The registration includes the touched places, so it is shown with them.
     put(joined_ ? joined_->registration : *strokes_, level);
   }
   for (nav::CheckPoint& point : level.check_points) {
@@ -167,7 +167,7 @@ void Verifying::record_check(OperationInWork& work, Timestamp time) {
   }
 }
 
-/// Or says why there is none more.
+/// Adds the place, or says why it does not count.
 std::optional<TouchRefusal> Verifying::add(LevelState& level, const TouchedPlace& place,
                                            Timestamp time) {
   const auto* touched = std::get_if<nav::PressedPlace>(&place);

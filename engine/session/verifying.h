@@ -9,20 +9,22 @@
 
 namespace orthonav::engine {
 
-/// The step in which one registration is verified, by eye and by touch. Another registration is
-/// another object.
+/// The step in which one registration is verified, by eye and by touch. Each registration has its
+/// own object.
 class Verifying {
  public:
   Verifying() = default;  ///< nothing was registered
-  /// Of the level's registration and the points that it was made of; both are there. With a patient
-  /// reference many places are asked for; on the map, which moves while touches go on, three spread
-  /// ones are enough, and each is taken to be as the model has the bone.
+  /// Verifies the level's registration with the points it was computed from; both must exist. With
+  /// a patient reference many places are asked for; on the map, which moves while places are
+  /// touched, three that are far apart are enough, and each is assumed to lie on the model's
+  /// surface.
   Verifying(OperationInWork& work, Timestamp registered);
 
-  /// Of the registration that was accepted, once something moved by so much since: what was touched
-  /// before is no check any more. With a reference it stays in the estimate.
+  /// Verifies the accepted registration again after a movement by `moved_m`: the places touched
+  /// before are no longer checks. With a reference they remain in the estimate.
   void begin_again(LevelState& level, double moved_m);
-  /// What was said before the registration was first shown can't be a judgement of it.
+  /// Whether the registration was shown before `spoken`; otherwise the phrase can't be a judgement
+  /// of it.
   [[nodiscard]] bool shown_before(Timestamp spoken) const;
 
   void begin_touch() { touch_.begin(); }
@@ -30,20 +32,20 @@ class Verifying {
   void drop_touch(OperationInWork& work, Timestamp time);
   /// Once for each pair of the step.
   void collect(const WatchedTools& tools) { add_tip(touch_, tools, tools.pointer()); }
-  /// Adds the place that was touched to the level's check points.
+  /// Adds the touched place to the level's check points.
   void record_check(OperationInWork& work, Timestamp time);
-  /// Takes the last one back.
+  /// Takes the last check point back.
   void drop_check(OperationInWork& work, Timestamp time);
   [[nodiscard]] Event judge_checks() const {
     return verdict_.passed ? Event::kChecked : Event::kNotChecked;
   }
   [[nodiscard]] const nav::CheckVerdict& verdict() const { return verdict_; }
-  /// The level's registration takes in what was touched, and holds from now on.
+  /// The level's registration includes the touched places and is in force from now on.
   void accept(OperationInWork& work, Timestamp time) const;
 
-  /// In its step: the registration is shown from now on, unless something hangs.
+  /// In its step, the registration is shown from now on, unless something hangs.
   void write(const OperationInWork& work, Guidance& out);
-  /// What the surgeon is shown beside it.
+  /// Notes the status line shown with the registration.
   void note_shown(const StatusLine& line);
   [[nodiscard]] StepState state(const OperationInWork& work) const;
 
@@ -59,20 +61,21 @@ class Verifying {
   bool by_touch_ = false;
   bool anchored_ = false;
   nav::PoseSearchRegistrationOptions limits_;  ///< with the level's screws
-  std::optional<nav::Registration> strokes_;   ///< what the strokes alone say
-  /// The level's check points, after those by which it was verified before.
+  std::optional<nav::Registration> strokes_;   ///< from the strokes alone
+  /// The level's check points, after those of earlier verifications.
   std::vector<nav::PressedPlace> pressed_;
   Timestamp registered_{};
-  std::optional<nav::JoinedPlaces> joined_;  ///< of both; nothing where they can't be joined
-  std::optional<nav::NextPlace> next_;       ///< most worth touching after them
-  std::vector<float> residuals_m_;           ///< of its points from the surface, in their order
+  std::optional<nav::JoinedPlaces>
+      joined_;                          ///< strokes and places; nothing if they can't be joined
+  std::optional<nav::NextPlace> next_;  ///< the most useful one to touch next
+  std::vector<float> residuals_m_;      ///< of its points from the surface, in order
   std::vector<float> unstroked_;
   std::vector<Point<World>> places_;    ///< proposed to be touched first
-  std::vector<Point<World>> to_check_;  ///< of them those that were not touched yet, or one more
-  nav::CheckVerdict verdict_;           ///< on the check points so far
+  std::vector<Point<World>> to_check_;  ///< those of `places_` not touched yet, or one more
+  nav::CheckVerdict verdict_;           ///< about the check points so far
   std::optional<double> moved_m_;       ///< since it was accepted
   std::optional<Timestamp> visible_at_;
-  std::string shown_;  ///< the status line, as it was shown last
+  std::string shown_;  ///< the status line as last shown
   Touch touch_;
 };
 

@@ -25,8 +25,8 @@ Result<std::size_t> only_tool(std::span<const nav::ToolGeometry> tools, nav::Too
   return *found;
 }
 
-/// Half the width of a printed tag's paper by the tag's size: a quiet zone of one cell of eight,
-/// and what is left around it where it was cut out.
+/// Half the width of a printed tag's paper in tag sizes: a quiet zone of one of eight cells, and a
+/// margin left by cutting it out.
 constexpr double kHalfPaper = 0.5 + 0.125 + 0.025;
 
 template <class Frame>
@@ -71,7 +71,7 @@ WatchedTools::WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_
     ToolSight& sight = sights_.emplace_back();
     sight.name = tool.name;
     sight.role = tool.role;
-    // A tool that is seen for the first time allocates nothing.
+    // Seeing a tool for the first time does not allocate.
     sight.papers.reserve(1 + tool.more_markers.size());
   }
 }

@@ -14,13 +14,13 @@
 
 namespace orthonav::engine {
 
-/// A patient reference where it is clamped, from its tag down to its foot.
+/// A clamped patient reference, from its tag down to its foot.
 struct ReferencePost {
   Point<World> tag;
   Point<World> foot;
 };
 
-/// The tools of an operation, exactly one pointer and one guide among them, and what the pairs so
+/// The tools of an operation, including exactly one pointer and one guide, and what the pairs so
 /// far have shown of each.
 class WatchedTools {
  public:
@@ -28,24 +28,22 @@ class WatchedTools {
   static Result<WatchedTools> create(std::unique_ptr<nav::ToolTracker> tracker);
 
   void track(const StereoFrame& frame);
-  /// Where they were says nothing any more.
+  /// Forgets the poses, which are void.
   void forget_poses();
-  /// No pair tells of them.
+  /// No pair arrives, so no tool is seen.
   void lose_sight();
 
   [[nodiscard]] std::size_t pointer() const { return pointer_; }
   [[nodiscard]] std::size_t guide() const { return guide_; }
-  /// A patient reference; nothing where the tools have none.
+  /// The first patient reference; nothing if there is none.
   [[nodiscard]] std::optional<std::size_t> first_reference() const;
-  /// Where the patient references are, as they were last measured; those that never were are not
-  /// among them.
+  /// Where the patient references were last measured; those never measured are left out.
   [[nodiscard]] std::vector<ReferencePost> reference_posts() const;
   [[nodiscard]] const ToolWatch& watch(std::size_t tool) const { return watches_[tool]; }
   [[nodiscard]] const nav::ToolGeometry& geometry(std::size_t tool) const {
     return tool == guide_ && corrected_guide_ ? *corrected_guide_ : tracker_->tools()[tool];
   }
-  /// The guide's tip lies there instead of where its description has it, to the end of the
-  /// operation.
+  /// Replaces the described tip of the guide until the end of the operation.
   void correct_guide_tip(Point<Marker> tip_in_marker) {
     corrected_guide_ = geometry(guide_);
     corrected_guide_->tip_in_marker = tip_in_marker;
@@ -55,12 +53,12 @@ class WatchedTools {
     corrected_guide_ = geometry(guide_);
     corrected_guide_->axis_in_marker = axis_in_marker;
   }
-  /// The pointer's tip where it was last measured, no longer than `within` before `now`.
+  /// The pointer's tip as last measured, no longer than `within` before `now`.
   [[nodiscard]] std::optional<Point<World>> pointer_tip(Timestamp now, Duration within) const;
-  /// A tag that is not as large as its tool's definition says gives wrong poses: larger by this
-  /// fraction. Absent when all is well.
+  /// The fraction by which a tag is larger than its tool's definition says, which makes poses
+  /// wrong. Absent if all is well.
   [[nodiscard]] std::optional<double> tag_size_off(std::size_t tool) const;
-  /// SD of how much larger the tags of pointer and guide are against each other, as a fraction.
+  /// SD of the size difference between the tags of pointer and guide, as a fraction.
   [[nodiscard]] double tag_size_difference_sd() const;
 
   [[nodiscard]] std::span<const nav::ToolState> states() const { return states_; }

@@ -7,7 +7,7 @@ namespace orthonav::engine {
 std::optional<Event> Watching::look_at_map(const StereoFrame& frame, const OperationInWork& work) {
   const bool moved = map_epoch_ && *map_epoch_ != frame.map_epoch;
   map_epoch_ = frame.map_epoch;
-  // With a patient reference nothing hangs on the map.
+  // With a patient reference nothing depends on the map.
   return moved && !work.anchored() ? std::optional(Event::kMapMoved) : std::nullopt;
 }
 
@@ -33,7 +33,7 @@ std::optional<Event> Watching::look_for_reference(const OperationInWork& work, T
 
 void Watching::tell_places(const OperationInWork& work, Timestamp now) {
   const nav::Anchor* anchor = work.tools.tracker().anchor();
-  // Whoever begins to listen later is told then.
+  // Observers added later are notified then.
   if (anchor != nullptr && work.heard() && !anchor->places.empty() &&
       std::exchange(places_changed_, anchor->places_changed) != anchor->places_changed) {
     work.observer->references_placed(now, anchor->places);

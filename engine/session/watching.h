@@ -10,30 +10,29 @@
 
 namespace orthonav::engine {
 
-/// Watches, pair by pair, what happens without anybody saying or doing something: to the headset's
-/// map, to the patient references and to the tool in use. Each look answers with an event where
-/// something changed, which is answered before the next look.
+/// Watches, pair by pair, for changes of the headset's map, the patient references and the tool in
+/// use. Each look returns an event if something changed, which is answered before the next look.
 class Watching {
  public:
-  /// A pair was looked at.
+  /// Whether a pair was processed.
   [[nodiscard]] bool begun() const { return map_epoch_.has_value(); }
 
   [[nodiscard]] std::optional<Event> look_at_map(const StereoFrame& frame,
                                                  const OperationInWork& work);
   /// Whether references moved against each other.
   [[nodiscard]] std::optional<Event> look_at_places(const OperationInWork& work);
-  /// Whether one is seen.
+  /// Whether a reference is seen.
   [[nodiscard]] std::optional<Event> look_for_reference(const OperationInWork& work, Timestamp now);
-  /// Tells where the references lie, whenever that changes.
+  /// Reports the places of the references whenever they change.
   void tell_places(const OperationInWork& work, Timestamp now);
   [[nodiscard]] std::optional<Event> look_at_tool(const OperationInWork& work,
                                                   std::optional<std::size_t> tool, Timestamp now);
-  /// Before a drill is set the surgeon can go back and touch the landmark; once it is, the SD that
-  /// is shown grows.
+  /// Until a drill is set the surgeon can go back and touch the landmark; afterwards the displayed
+  /// SD grows.
   [[nodiscard]] std::optional<Raised> look_at_drift(const OperationInWork& work,
                                                     const Guiding& guiding, Timestamp now) const;
 
-  /// None is seen, where one is in use.
+  /// A reference is in use but none is seen.
   [[nodiscard]] bool reference_hidden(const OperationInWork& work) const {
     return work.anchored() && reference_hidden_;
   }
@@ -43,8 +42,8 @@ class Watching {
 
  private:
   std::optional<std::int64_t> map_epoch_;  ///< of the newest pair
-  std::int64_t reference_moves_ = 0;       ///< that were answered
-  std::int64_t places_changed_ = 0;        ///< of the references, as they were told
+  std::int64_t reference_moves_ = 0;       ///< number already answered
+  std::int64_t places_changed_ = 0;        ///< changes of the references' places already reported
   bool reference_hidden_ = true;
   ToolInUse in_use_;
 };

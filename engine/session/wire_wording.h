@@ -9,7 +9,7 @@
 
 namespace orthonav::engine {
 
-// What a wire's measurement says, in words: a part of engine/session/wording.h.
+// The measurement of a wire in words: a part of engine/session/wording.h.
 
 /// "0.8 ± 0.4°, 0.6 ± 0.3 mm".
 void append_wire(std::string& out, const PlacedWire& wire);

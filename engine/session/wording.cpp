@@ -25,7 +25,7 @@ std::string_view word_of(Step step) {
   return kWords[static_cast<std::size_t>(step)];
 }
 
-/// What is to be touched, and how the last touch was.
+/// What is to be touched, and the result of the last touch.
 void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
   std::string& out = text.out;
   if (checks.last_m) {
@@ -43,7 +43,7 @@ void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view s
   }
 }
 
-/// Since the registration was accepted.
+/// How far the landmark has moved since the registration was accepted.
 void write_moved(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
   if (checks.moved_m) {
     text.begin(Importance::kDanger, separator);
@@ -52,7 +52,7 @@ void write_moved(PartedText text, const ChecksSoFar& checks, std::string_view se
   }
 }
 
-/// The guide's tip beside the pointer's: what is to be done, or how far apart they were.
+/// The guide's tip and the pointer's: what is to be done, or how far apart they were.
 void write_tips(PartedText text, const TipCheck& tips, std::string_view separator) {
   std::string& out = text.out;
   if (tips.due()) {
@@ -73,7 +73,7 @@ void write_tips(PartedText text, const TipCheck& tips, std::string_view separato
   }
 }
 
-/// What the last wire told of the guide's axis, where that is worth correcting.
+/// The error of the guide's axis according to the last wire, if it is worth correcting.
 void write_axis(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
   if (landmark.axis == nullptr || !landmark.axis->offers() || landmark.tips->offers()) {
     return;
@@ -84,7 +84,7 @@ void write_axis(PartedText text, const LandmarkSoFar& landmark, std::string_view
   text.out += "say accept to correct it";
 }
 
-/// Whether the landmark is still to be touched, and how the last touch was.
+/// Whether the landmark is still to be touched, and the result of the last touch.
 void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
   std::string& out = text.out;
   if (!landmark.last) {
@@ -118,7 +118,7 @@ void write_unused_tool(PartedText text, const StatusLine& line, std::string_view
   }
 }
 
-/// How each step stands.
+/// Writes the state of each step.
 struct StateWriter {
   PartedText text;
   std::string& out = text.out;
@@ -182,7 +182,7 @@ void append_step(std::string& out, const StepOnDisplay& at) {
   }
 }
 
-/// What the step asks for stays asked beside what became of a change of the screw.
+/// Keeps the step's request visible beside the outcome of a change of the screw.
 void write_beside_replan(PartedText text, const StepState& state) {
   if (const auto* landmark = std::get_if<LandmarkSoFar>(&state)) {
     write_landmark(text, *landmark, "; ");
@@ -220,7 +220,7 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     out += told && !std::holds_alternative<std::monostate>(line.state) ? "; " : "";
     std::visit(StateWriter{text}, line.state);
   } else if (const auto* checks = std::get_if<ChecksSoFar>(&line.state)) {
-    // What is to be touched counts on beside a warning that stays.
+    // The places to touch are still counted beside a lasting warning.
     write_moved(text, *checks, "; ");
     write_checks(text, *checks, "; ");
   } else if (const auto* landmark = std::get_if<LandmarkSoFar>(&line.state)) {

@@ -14,17 +14,16 @@
 
 namespace orthonav::engine {
 
-// Everything that a surgeon reads in words, made of data, in this one place: whoever
-// translates orthonav translates wording.cpp and the other *_wording.cpp. No
-// decision ever reads these texts.
+// All words that a surgeon reads are made from data here: translating orthonav means translating
+// wording.cpp and the other *_wording.cpp. No decision ever depends on these texts.
 //
-// The status line is written anew for every frame, into strings that keep their room: the `append`
-// functions allocate nothing once the frame loop is warm.
+// The status line is rewritten for every frame, into strings that keep their capacity: the `append`
+// functions do not allocate once the frame loop is warm.
 
 /// "guide L4 left".
 void append_step(std::string& out, const StepOnDisplay& at);
-/// What follows the step: the loss of the tool first, which no message may cover, then the message
-/// or how the step stands. Empty: nothing. `parts`, where asked for: which of it gives way first.
+/// What follows the step: first a lost tool, which no message may hide, then the message or the
+/// state of the step. May be empty. `parts`, if given, receives which parts are dropped first.
 void append_detail(std::string& out, const StatusLine& line, StatusParts* parts = nullptr);
 /// The detail and the command heard: "guide lost | heard: next".
 void append_beside_step(std::string& out, const StatusLine& line, StatusParts* parts = nullptr);
@@ -39,7 +38,7 @@ void append_status(std::string& out, const StatusLine& line);
 [[nodiscard]] std::string step_text(const StepOnDisplay& at);
 [[nodiscard]] std::string detail_text(const StatusLine& line);
 
-/// Why a registration does not count, every reason in one line; empty when it does.
+/// Why a registration does not count, every reason in one line; empty if it does.
 [[nodiscard]] std::string refusal_text(const RegistrationOutcome& outcome);
 void append(std::string& out, const Message& message);
 /// "pointer: tag 2.0 % larger than stated, check print and unit".

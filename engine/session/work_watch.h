@@ -6,23 +6,23 @@
 
 namespace orthonav::engine {
 
-/// The parts of an operation that can hang, each by itself.
+/// The parts of an operation that can hang independently.
 enum class Part : std::uint8_t { kCamera, kTracker, kRenderer, kCoach, kVoice };
 inline constexpr std::size_t kPartCount = 5;
 
-/// Is told when a part begins and ends its work. From any thread; allocates nothing, never waits.
+/// Notified when a part begins and ends its work, from any thread. Must not allocate or block.
 class WorkWatch {
  public:
   virtual ~WorkWatch() = default;
   virtual void begins(Part part) = 0;
   virtual void ends(Part part) = 0;
-  /// The same for a task that a part works on beside the session, which goes on meanwhile.
+  /// The same for a task that a part does in parallel with the session.
   virtual void begins_beside(Part part) = 0;
   virtual void ends_beside(Part part) = 0;
 };
 
-/// A part is at work as long as this lives; null: nobody watches. Where an exception ends the
-/// scope, the part stays marked as at work, so that whoever catches it can name the part.
+/// Marks a part as at work while this object lives; null: no watch. If an exception ends the scope,
+/// the part stays marked, so that the handler can name it.
 class [[nodiscard]] Working {
  public:
   Working(WorkWatch* watch, Part part) : watch_(watch), part_(part) {

@@ -101,7 +101,7 @@ constexpr std::array<std::string_view, kActionCount> kActionNames = {
     "forget map",
 };
 
-// A name forgotten at the end of an array would be empty.
+// A missing name at the end of an array would be empty.
 static_assert(!kEventNames.back().empty() && !kActionNames.back().empty());
 
 /// Mermaid ends a label at a quote.
@@ -118,7 +118,7 @@ std::string unquoted(std::string_view text) {
 void append_state_diagram(std::string& out) {
   out += "```mermaid\nstateDiagram-v2\n    [*] --> setup\n";
   for (const Rule& rule : workflow_detail::kRules) {
-    // What stays and does nothing would only hide the arrows that matter.
+    // Events that are ignored would only hide the arrows that matter.
     if (rule.action == Action::kIgnore) {
       continue;
     }

@@ -28,13 +28,13 @@ using enum Action;
 
 using Table = std::array<std::array<Cell, kEventCount>, kStepCount>;
 
-/// Whether the eye alone does what this step has otherwise.
+/// Whether this step is done by eye alone, without touching.
 constexpr bool is_by_eye(Step step, const MethodSteps& steps) {
   return (step == kDigitize && !steps.landmark) || (step == kVerify && !steps.check_points) ||
          (step == kAccepted && !steps.dimple()) || (step == kGuide && !steps.wire);
 }
 
-/// Every cell starts as a refusal that stays where it is; the rules overwrite theirs.
+/// Every cell starts as a refusal that stays in its step; the rules overwrite their cells.
 constexpr Table make_table(const MethodSteps& steps) {
   Table table{};
   for (std::size_t step = 0; step < kStepCount; ++step) {
@@ -76,15 +76,15 @@ static_assert(rules_are_unique(kRules) && rules_are_unique(kRulesByEye) &&
               "two rules of the workflow share a cell");
 }  // namespace workflow_detail
 
-/// How a registration that passed by its numbers is verified before anything is guided on it.
+/// How a registration whose numbers passed is verified before anything is guided on it.
 enum class Verification : std::uint8_t {
-  kByTouch,  ///< by eye, and by places of the bone that are touched for it
-  kByEye,    ///< by eye alone, as the published method has it
+  kByTouch,  ///< by eye and by touching places of the bone
+  kByEye,    ///< by eye alone, as in the published method
 };
 
 using Workflow = workflow_detail::Table;
 
-/// The table where only these steps of the method are taken.
+/// The table with only these steps of the method.
 [[nodiscard]] constexpr Workflow workflow_of(const MethodSteps& steps) {
   return workflow_detail::make_table(steps);
 }
@@ -104,8 +104,8 @@ using orthonav::name_of;
 [[nodiscard]] std::string_view name_of(Event event);
 [[nodiscard]] std::string_view name_of(Action action);
 
-/// The workflow as docs/safety.md holds it: a mermaid diagram of the changes of step, the whole
-/// table, and what is answered instead where the eye alone verifies or a study leaves a step out.
+/// The workflow as shown in docs/safety.md: a mermaid diagram of the changes of step, the whole
+/// table, and the answers that differ if verification is by eye alone or a study leaves out a step.
 [[nodiscard]] std::string workflow_diagram();
 
 }  // namespace orthonav::engine

@@ -9,7 +9,7 @@ namespace orthonav::engine {
 
 using orthonav::Step;
 
-/// One line of the table as it is written down.
+/// One rule of the table.
 struct Rule {
   Step step;
   Event event;
@@ -194,7 +194,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDone, kReferenceMoved, kForgetMap, kDone},
 });
 
-/// What is answered instead where the surgeon's eye alone verifies.
+/// The answers that differ if verification is by eye alone.
 inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kDigitize, kAcceptanceRestored, kRefuse, kDigitize},
     {kVerify, kSayAccept, kAccept, kAccepted},
@@ -231,13 +231,13 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kGuide, kNoRodPlanned, kFinish, kDone},
 });
 
-/// Where the landmark is not touched again: the next screw comes at once.
+/// If the landmark is not touched again, the next screw follows at once.
 inline constexpr auto kRulesTouchedOnce = std::to_array<Rule>({
     {kPlaced, kAnotherScrew, kSelectScrew, kGuide},
     {kPlaced, kScrewRedone, kSelectScrew, kGuide},
 });
 
-/// Where it is, though no wire is measured.
+/// If the landmark is touched again but no wire is measured.
 inline constexpr auto kRulesWireUnmeasured = std::to_array<Rule>({
     {kGuide, kAnotherScrew, kExpectLandmark, kAccepted},
     {kGuide, kBoneUnchecked, kExpectLandmark, kAccepted},

@@ -25,7 +25,7 @@ class Writer {
     const Vec3 offset{random_.normal(0, p), random_.normal(0, p), random_.normal(0, p)};
     const Vec3 true_tip_m = options_.tip_m + options_.tip_error_m;
     nav::TrackedPose out;
-    // The tracker errs in where the tag is and how it is turned.
+    // The tracker has errors in the tag's position and rotation.
     out.value = Pose(rotation_from_vector(rotation_vector) * rotation,
                      tip_m - rotation * true_tip_m + offset);
     out.time = Timestamp(from_seconds(10.0 + static_cast<double>(count_++) / options_.rate_hz));
@@ -58,7 +58,7 @@ class Writer {
     for (int i = 0; i < steps; ++i) {
       const double t = static_cast<double>(i) / steps;
       const double around = 6.0 * std::numbers::pi * t;
-      // Out from upright and back again.
+      // Tilts from upright and back again.
       const double tilt = options_.tilt_rad * std::sin(std::numbers::pi * t);
       const Mat3 rotated = rotation_from_vector(
           {tilt * std::cos(around), 0.3 * std::sin(around), tilt * std::sin(around)});

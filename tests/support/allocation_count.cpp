@@ -5,7 +5,7 @@
 #include <limits>
 #include <new>
 
-// A file of its own: where the compiler can look into these functions, it takes them for a mistake.
+// In a separate file, because a compiler that can inline these functions warns about them.
 
 namespace {
 
@@ -29,8 +29,8 @@ void* operator new(std::size_t size) {
   throw std::bad_alloc();
 }
 void* operator new[](std::size_t size) { return operator new(size); }
-// std::stable_sort asks this way; memory from one pair of functions may be freed only by the same
-// pair.
+// std::stable_sort allocates this way; memory from one pair of functions may be freed only by the
+// same pair.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
 void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
 void operator delete(void* memory) noexcept { std::free(memory); }

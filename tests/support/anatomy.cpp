@@ -63,7 +63,7 @@ AnatomyLevel level_of(std::filesystem::path file) {
 
 struct Stroker {
   const nav::SurfaceIndex surface;
-  double front_m;  ///< nothing in front of it is touched
+  double front_m;  ///< limit in front of which nothing is touched
   Random& random;
   std::vector<Vec3> tips_m;
 
@@ -86,7 +86,8 @@ struct Stroker {
       }
     }
   }
-  /// Along the spinous process from its root to its tip, the pointer coming in aslant from a side.
+  /// Along the spinous process from its root to its tip, with the pointer held obliquely from one
+  /// side.
   void flank(double side, double from_y, double to_y, double z) {
     constexpr double kStep_m = 0.0007;
     const int steps = std::max(2, static_cast<int>((to_y - from_y) / kStep_m));
@@ -113,7 +114,7 @@ std::vector<AnatomyLevel> anatomy_levels() {
       }
     }
   }
-  // By subject and level, wherever each of them lies.
+  // Sorted by subject and level, independent of folders.
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
     return std::pair(a.parent_path().filename(), a.filename()) <
            std::pair(b.parent_path().filename(), b.filename());

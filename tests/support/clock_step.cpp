@@ -14,7 +14,7 @@ std::atomic<std::int64_t> g_back_s{0};
 
 }  // namespace
 
-// In place of the C library's; the kernel is asked directly.
+// Replaces the C library's function; calls the kernel directly.
 extern "C" {
 
 int clock_gettime(clockid_t clock, timespec* now) noexcept {

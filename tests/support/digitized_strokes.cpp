@@ -26,7 +26,7 @@ StrokeCoverage covered(const TouchableBone& bone, const PosteriorLandmarks& mark
   return cover_sparsely(bone, marks, length_m, std::max(strokes, 1), random);
 }
 
-/// `count` places along all walks. The hand's speed wanders by a quarter.
+/// `count` places along all walks. The speed of the hand varies by a quarter.
 std::vector<TipPlace> places_along(const std::vector<Walk>& walks, int count, Random& random) {
   constexpr double kWandering = 0.25;
   constexpr double kKept = 0.9;  // of a deviation, from sample to sample
@@ -65,8 +65,8 @@ Vec3 normal_vector(Random& random, double sd_m) {
   return {x, y, z};
 }
 
-/// The tracker's error: anew at every sample, and one that wanders along a stroke (AR(1)). Between
-/// strokes it forgets.
+/// The tracker's error: one part new at every sample, and one that varies slowly along a stroke
+/// (AR(1)) and is reset between strokes.
 class TrackingNoise {
  public:
   TrackingNoise(const StrokeErrorModel& m, Random random)
@@ -92,7 +92,7 @@ class TrackingNoise {
   int stroke_ = -1;
 };
 
-/// Any orientation and any place in the ball with the same density.
+/// Uniformly distributed orientation, and uniformly distributed place in the ball.
 Transform<World, Vertebra> random_frame(double farthest_m, Random random) {
   Quaternion q{random.normal(), random.normal(), random.normal(), random.normal()};
   const double n = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);

@@ -18,12 +18,12 @@ namespace fs = std::filesystem;
 
 std::atomic<bool> g_watching{false};
 std::mutex g_mutex;
-std::string g_folder;     ///< as it was named
-std::string g_canonical;  ///< as descriptors name it
+std::string g_folder;     ///< as given
+std::string g_canonical;  ///< as resolved from descriptors
 std::vector<std::string> g_made;
 std::optional<std::pair<std::string, int>> g_fails;
 
-/// As it is told; nothing where the file lies elsewhere.
+/// The path as reported; nothing if the file lies elsewhere.
 std::optional<std::string> told(const std::string& path) {
   for (const std::string& folder : {g_folder, g_canonical}) {
     if (path == folder) {
@@ -43,7 +43,7 @@ std::optional<std::string> told_of(int file) {
   return problem ? std::nullopt : told(path.string());
 }
 
-/// Where the call is to fail, the number of its error; 0 else.
+/// The error number if the call is to fail, otherwise 0.
 int remember(const std::string& call) {
   g_made.push_back(call);
   if (!g_fails || g_fails->first != call) {
@@ -52,7 +52,7 @@ int remember(const std::string& call) {
   return std::exchange(g_fails, std::nullopt)->second;
 }
 
-/// Whether a call on that file may be made; sets errno where not.
+/// Whether a call on that file may be made; sets errno if not.
 bool may(const char* call, const std::optional<std::string>& file) {
   const int problem = file ? remember(std::string(call) + " " + *file) : 0;
   errno = problem != 0 ? problem : errno;
@@ -89,8 +89,8 @@ bool may_at(const char* call, const std::string& path) {
 
 }  // namespace
 
-// In place of the C library's. The kernel is asked directly, so that no other such layer, a
-// sanitizer's for one, has to be found first.
+// Replace the C library's functions. They call the kernel directly, so that no other such layer,
+// for example a sanitizer's, has to be found first.
 extern "C" {
 
 ssize_t write(int file, const void* bytes, size_t count) {

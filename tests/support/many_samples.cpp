@@ -22,7 +22,7 @@ float linear_of_level(std::uint8_t level) {
   return kLinear[level];
 }
 
-/// Seen so many pixels to the right and down of where it was.
+/// The view displaced by these pixels to the right and down.
 View displaced(View view, double right_px, double down_px, const LinearImage& image) {
   const auto across =
       static_cast<float>(right_px * (view.tan_left + view.tan_right) / image.width_px);

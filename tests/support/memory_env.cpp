@@ -49,7 +49,7 @@ class MemoryFile : public engine::AppendFile {
   }
 
  private:
-  /// Its name by now: an open file goes along with a rename.
+  /// Its present name: an open file follows a rename.
   [[nodiscard]] std::string path() const {
     for (const auto& [name, content] : env_.files_) {
       if (content == content_) {

@@ -60,7 +60,7 @@ constexpr Talkers kTraining = {
     {"en-us+Alex", "gmw/en+linda", "en-gb-x-rp+Mario", "en-us-nyc+Annie", "en-us+robert",
      "en-gb-x-gbclan+steph"}};
 
-/// Twelve seconds that are played round and round.
+/// Twelve seconds, played in a loop.
 std::vector<double> make_babble(const Talkers& talkers) {
   std::vector<double> babble(12 * kRateHz, 0.0);
   for (std::size_t v = 0; v < talkers.voices.size(); ++v) {
@@ -110,7 +110,7 @@ std::vector<double> noise_of(Noise noise, std::size_t count, Random& random, Bab
     }
   }
   if (noise == Noise::kPink) {
-    // Three poles that fall by 3 dB an octave together (P. Kellet's filter).
+    // Three poles that together fall by 3 dB per octave (P. Kellet's filter).
     double slow = 0.0, middle = 0.0, fast = 0.0;
     for (double& sample : samples) {
       const double white = random.normal();
@@ -164,7 +164,7 @@ std::pair<std::int64_t, std::int64_t> Soundtrack::speech(std::span<const std::in
   const auto begin = static_cast<std::int64_t>(samples_.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double sample = gain * samples[i];
-    // What is 40 dB below the speech is not heard any more: the synthesiser ends in silence.
+    // Samples 40 dB below the speech are inaudible: the synthesiser ends in silence.
     if (std::abs(sample) > 0.01 * kSpeechRms) {
       last = static_cast<std::int64_t>(i);
       if (first < 0) {

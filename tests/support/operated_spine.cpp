@@ -26,7 +26,7 @@ Motion after(const Motion& second, const Motion& first) {
   return {second.rotation * first.rotation, second(first.translation_m)};
 }
 
-/// Where an axis through a point meets the bone from behind, near the planned entry.
+/// Where an axis through a point meets the bone when seen from behind, near the planned entry.
 std::optional<Vec3> entry_of(const nav::SurfaceIndex& bone, Vec3 abreast_m, Vec3 direction) {
   constexpr double kBehind_m = 0.025;
   const auto hit = bone.first_hit(abreast_m - kBehind_m * direction, direction);
@@ -73,8 +73,8 @@ std::vector<MetalPiece> wire(const TrueScrew& screw, double bow_m, Random& rando
   const Vec3 direction = (screw.tip_m - screw.entry_m).normalized();
   const double length_m = (screw.tip_m - screw.entry_m).norm();
   const Vec3 side = any_across(direction, random);
-  // In the bone off the chord by bow at its middle, nothing at its ends (a parabola is a circle to
-  // a part in a hundred here); behind it straight on.
+  // In the bone it deviates from the chord by bow at the middle and by nothing at the ends (a
+  // parabola equals a circle to one per cent here); behind the bone it is straight.
   const auto at = [&](double s) {
     const double q = 2.0 * s / length_m - 1.0;
     const double off_m = s < 0.0 ? 4.0 * bow_m * s / length_m : bow_m * (1.0 - q * q);
@@ -108,7 +108,7 @@ MetalPiece placed(MetalPiece piece, const Motion& motion) {
   return piece;
 }
 
-/// From head to head of one side.
+/// Joins the heads of one side by rods.
 void join_heads(const engine::Case& subject, OperatedSpine& spine) {
   constexpr double kRodRadius_m = 0.00275;
   for (const Side side : {Side::kLeft, Side::kRight}) {

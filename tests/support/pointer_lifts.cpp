@@ -11,7 +11,7 @@ namespace {
 constexpr double kBurstFraction = 0.7;
 constexpr int kShortestBurst = 6;
 constexpr int kLongestBurst = 20;
-/// Of the single ones that go sideways instead of back along the pointer.
+/// Fraction of the single lifts that go sideways instead of back along the pointer.
 constexpr double kBesideFraction = 0.4;
 
 class Lifter {
@@ -25,7 +25,7 @@ class Lifter {
         std::lround(options_.fraction * static_cast<double>(places_.size())));
     const auto in_bursts =
         static_cast<std::size_t>(std::lround(kBurstFraction * static_cast<double>(wanted)));
-    // Strokes may be too short for bursts; single ones then make up for it.
+    // Strokes may be too short for bursts; single lifts then make up the number.
     for (int tries = 0; lifted_ < in_bursts && tries < 10'000; ++tries) {
       burst(in_bursts - lifted_);
     }
@@ -102,7 +102,7 @@ class Lifter {
 
   void move(TipPlace& place, double distance_m, Vec3 away) {
     auto moved = away_from_bone(place.touch, distance_m, away.normalized());
-    // Back along the pointer the way is free.
+    // Back along the pointer there is no obstacle.
     if (!moved) {
       moved = away_from_bone(place.touch, distance_m, place.touch.approach);
     }
@@ -114,8 +114,7 @@ class Lifter {
     ++lifted_;
   }
 
-  /// As far along a direction as it takes to be so far from the bone; nothing where bone is in the
-  /// way.
+  /// The point along a direction at `distance_m` from the bone; nothing if bone is in the way.
   [[nodiscard]] std::optional<Vec3> away_from_bone(const Touch& touch, double distance_m,
                                                    Vec3 away) const {
     constexpr double kLift_m = 1e-5;
@@ -129,7 +128,7 @@ class Lifter {
       if (missing_m < kNear_m) {
         break;
       }
-      gone_m += missing_m;  // the distance can't grow faster than the way
+      gone_m += missing_m;  // the distance to the bone can't grow faster than the path
     }
     const auto blocked = surface_.first_hit(start_m, away);
     if (gone_m >= kFarthest_m || (blocked && blocked->distance_m < gone_m)) {

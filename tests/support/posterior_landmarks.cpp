@@ -8,7 +8,7 @@ namespace orthonav::test {
 namespace {
 
 constexpr double kRow_m = 0.001;
-/// No lumbar canal is shallower; gaps between folds of the surface are.
+/// No lumbar canal is shallower, but gaps between folds of the surface are.
 constexpr double kShallowestCanal_m = 0.006;
 
 double median(std::vector<double> values) {
@@ -39,7 +39,7 @@ struct CanalRow {
   double back_y_m;
 };
 
-/// The rows in which a ray goes through the body, the canal and the arch.
+/// The rows in which a ray passes through the body, the canal and the arch.
 std::vector<CanalRow> canal_rows(const nav::SurfaceIndex& surface, const nav::Bounds& box,
                                  double x_m) {
   std::vector<CanalRow> rows;
@@ -59,7 +59,8 @@ Result<PosteriorLandmarks> find_posterior_landmarks(const nav::TriangleMesh& mes
   const nav::Bounds box = nav::bounds_of(mesh);
   PosteriorLandmarks found{
       .midline_x_m = box.centre().x, .low_z_m = box.low.z, .high_z_m = box.high.z};
-  // A transverse process longer than the other shifts the box: the canal itself tells its middle.
+  // If one transverse process is longer, it shifts the box, so the middle is taken from the canal
+  // itself.
   for (int round = 0; round < 2; ++round) {
     const auto rows = canal_rows(surface, box, found.midline_x_m);
     std::vector<double> middle, half, front, back;

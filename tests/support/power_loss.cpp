@@ -18,14 +18,14 @@ constexpr int kRandom = 16;
 struct Change {
   bool of_a_name = false;
   std::size_t file = 0;
-  std::size_t offset = 0;     ///< of bytes that are written
-  std::string bytes;          ///< none: it is cut to `offset`
-  std::string name;           ///< that is given to the file; empty: none
-  std::string no_longer;      ///< a name that goes; empty: none
-  bool out_of_reach = false;  ///< of every sync: one failed on it
+  std::size_t offset = 0;     ///< of the written bytes
+  std::string bytes;          ///< empty: the file is truncated to `offset`
+  std::string name;           ///< new name of the file; empty: none
+  std::string no_longer;      ///< name that is removed; empty: none
+  bool out_of_reach = false;  ///< a sync of it failed, so no later sync saves it
 };
 
-/// The disk, and what the kernel has still to write.
+/// The disk, and what the kernel has not written yet.
 class Disk {
  public:
   explicit Disk(const Files& files) {
@@ -62,7 +62,7 @@ class Disk {
 
   [[nodiscard]] std::size_t pending() const { return pending_.size(); }
 
-  /// With those changes that survive.
+  /// The files with the changes that survive.
   [[nodiscard]] Files left(const std::function<bool(std::size_t)>& survives,
                            bool old_blocks) const {
     auto names = names_;

@@ -72,7 +72,7 @@ std::vector<nav::ScrewPlan> two_screws() {
 }
 
 engine::Operation operation_of(const std::vector<std::string>& labels) {
-  // Prepared once: nobody changes a model.
+  // Prepared once, because models are never changed.
   static const auto kBone = nav::VertebraModel::prepare(box_bone()).value();
   engine::Operation operation;
   operation.case_name = "boxes";
@@ -108,7 +108,7 @@ std::span<const nav::ToolState> ScriptedTracker::track(const StereoFrame& frame)
   if (reference_seen) {
     reference.last_seen = frame.time;
   }
-  // The reference, where there is one, stands before the other tool.
+  // The reference, if there is one, comes before the other tool.
   const bool anchored = hangs_on_reference_;
   const std::optional<Transform<World, Marker>> poses[] = {
       pointer, guide, anchored ? reference_pose : other, other};

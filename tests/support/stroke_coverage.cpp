@@ -11,7 +11,7 @@ namespace {
 constexpr double kFinestPitch_m = 0.0015;
 constexpr double kWidestPitch_m = 0.0060;
 
-/// Cuts a stroke into the parts of it that are stroked.
+/// Cuts a stroke into the parts that are actually stroked.
 using Cut = std::function<std::vector<Walk>(const Walk&)>;
 
 std::vector<BoneRegion> every_region() {
@@ -47,8 +47,8 @@ std::vector<Walk> walks_over(const TouchableBone& bone, const PosteriorLandmarks
   return walks;
 }
 
-/// What a first pitch gives tells the pitch that gives the length. Where even the finest gives too
-/// little, the surgeon goes over it again.
+/// The length for a first pitch determines the pitch for the wanted length. If even the finest
+/// pitch gives too little, the surgeon strokes the bone again.
 std::vector<Walk> walks_of_length(const TouchableBone& bone, const PosteriorLandmarks& marks,
                                   const std::vector<BoneRegion>& regions, double wanted_m,
                                   const Random& random, const Cut& cut = {}) {
@@ -111,7 +111,7 @@ struct Part {
   std::string words;
 };
 
-/// A third of what is touched on a side, by height.
+/// Leaves out a third of what is touched on one side, by height.
 Cut third_off(const TouchableBone& bone, const PosteriorLandmarks& marks, int side, bool above,
               const Random& random) {
   double low_m = std::numeric_limits<double>::infinity();
@@ -177,7 +177,7 @@ StrokeCoverage cover_sparsely(const TouchableBone& bone, const PosteriorLandmark
   std::vector<std::vector<Walk>> by_region;
   for (const BoneRegion region : every_region()) {
     auto walks = walks_over(bone, marks, {region}, kPitch_m, random, {});
-    // A small process has no long strokes, but a place among the few.
+    // A small process has no long strokes but still gets its share of the few.
     double longest_m = 0.0;
     for (const Walk& walk : walks) {
       longest_m = std::max(longest_m, walk.length_m());
@@ -190,7 +190,7 @@ StrokeCoverage cover_sparsely(const TouchableBone& bone, const PosteriorLandmark
     }
   }
   StrokeCoverage coverage{{}, "few short strokes"};
-  // Each region in turn, so that no part of the bone is left out.
+  // Takes each region in turn, so that no part of the bone is left out.
   for (int k = 0; k < count && !by_region.empty(); ++k) {
     const auto& walks = by_region[static_cast<std::size_t>(k) % by_region.size()];
     const Walk& walk =

@@ -38,7 +38,7 @@ class LaneMaker {
            {x1, y, marks_.high_z_m}},
           side_ * in_deg, side_ * out_deg);
   }
-  /// The spinous process's side, aimed at its middle plane past the muscles held aside.
+  /// The side of the spinous process, aimed at its middle plane past the retracted muscles.
   void from_aside() {
     constexpr double kRoot_m = 0.006;
     const double x = marks_.midline_x_m;

@@ -48,7 +48,7 @@ class LatticeNoise {
   Random random_;
 };
 
-/// About zero, SD one.
+/// Scales the values to mean 0 and SD 1.
 void standardize(std::vector<double>& values) {
   const double n = static_cast<double>(values.size());
   double mean = 0.0;
@@ -85,7 +85,7 @@ double valley(const nav::SurfaceIndex& surface, Vec3 p) {
   return 2.0 * inside / all - 1.0;
 }
 
-/// Standardized: what each sample's thickness deviates by.
+/// Standardized deviations of each sample's thickness.
 std::vector<double> unevenness(Tissue tissue, const nav::TriangleMesh& mesh, const Random& random,
                                const DigitizedStrokes& strokes) {
   std::vector<double> out;
@@ -117,7 +117,7 @@ std::vector<double> unevenness(Tissue tissue, const nav::TriangleMesh& mesh, con
   return out;
 }
 
-/// Each sample so many times, and all in another order.
+/// Repeats each sample, and shuffles all of them.
 void repeat(const StrokeTruths& truths, const Random& random,
             std::vector<DigitizedSample>& samples) {
   if (truths.copies > 1) {

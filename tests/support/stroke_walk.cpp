@@ -12,11 +12,11 @@ constexpr double kAimStep_m = 0.00025;
 /// A tip that moves more in one step has fallen off an edge.
 constexpr double kFall_m = 0.0012;
 constexpr double kShortestWalk_m = 0.006;
-/// The pointer starts from so far outside.
+/// The pointer starts this far outside.
 constexpr double kOutside_m = 0.15;
 /// Cosine between the pointer and the surface's normal below which it can't be held on the bone.
 constexpr double kFlattest = 0.12;
-/// Over the canal: how far in front of its back wall the tip goes, as a share of its depth.
+/// Over the canal: how far in front of its back wall the tip goes, as a fraction of its depth.
 constexpr double kDeepest = 0.5;
 /// How the handle slants along a lane.
 constexpr double kSlant_rad = 6.0 * kDegree;
@@ -60,8 +60,8 @@ bool TouchableBone::belongs(BoneRegion region, const Touch& touch) const {
   const double aside_m = touch.surface_m.x - marks_.midline_x_m;
   const double width_m = marks_.canal_half_width_m;
   const double y_m = touch.surface_m.y;
-  // Between the laminae one sees the body's back wall through the canal, which ligament closes, and
-  // beside the isthmus its hind edge, where the nerve root lies.
+  // Between the laminae the body's back wall is visible through the canal, which is closed by
+  // ligament, and beside the isthmus the body's rear edge, where the nerve root lies.
   const double canal_m = marks_.arch_front_y_m - marks_.body_back_y_m;
   const double depth_m = marks_.arch_front_y_m - y_m;
   if (depth_m > (std::abs(aside_m) < 1.2 * width_m ? kDeepest : pointer_.deepest_aside) * canal_m) {
@@ -83,7 +83,7 @@ std::optional<Touch> TouchableBone::lower(Vec3 aim_m, Vec3 approach) const {
     }
     return Touch{hit->point_m, hit->point_m, hit->normal, approach};
   }
-  // The ball may go as far as the surface is away, and then look again.
+  // The ball may move by its distance from the surface before the distance is measured again.
   constexpr double kTouching_m = 1e-6;
   constexpr int kMostSteps = 400;
   double gone_m = 0.0;

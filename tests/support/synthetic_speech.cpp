@@ -22,7 +22,7 @@ int keep(short* samples, int count, espeak_EVENT* events) {
   return 0;
 }
 
-/// The synthesiser's own rate, or 0 where it can't be started. Once for the process.
+/// Starts the synthesiser, once per process. Its sample rate, or 0 if it can't be started.
 int start_synthesiser() {
   static const int rate_hz = [] {
     const int rate =

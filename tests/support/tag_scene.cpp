@@ -58,7 +58,7 @@ double grey_on(const TagPicture& tag, double size_m, double x_m, double y_m) {
 
 struct Camera {
   const CameraModel& model;
-  Transform<Rig, Marker> rig_from_camera;  // the letters of the camera do not matter here
+  Transform<Rig, Marker> rig_from_camera;  // the type of the camera frame does not matter here
 };
 
 // The pixels that a tag with its white border may touch.
@@ -82,14 +82,14 @@ nav::PixelBox box_of(const Camera& camera, const PlacedTag& tag, double border) 
           std::min(camera.model.height_px(), static_cast<int>(high.y) + 4) - y};
 }
 
-// Where in a pixel's footprint the n-th ray goes: a box two pixels wide, like a lens's blur. The
-// library's corners of unblurred edges along the rows are off by a quarter of a pixel.
+// Where the n-th ray goes in a pixel's footprint: a box two pixels wide, like a lens's blur. With
+// unblurred edges along the rows the library's corners are off by a quarter of a pixel.
 Vec2 place_of(int x, int y, int ray, int rays_a_side) {
   return {x - 0.5 + 2.0 * (ray % rays_a_side + 0.5) / rays_a_side,
           y - 0.5 + 2.0 * (ray / rays_a_side + 0.5) / rays_a_side};
 }
 
-// The same for the first quarter of the footprint, which is the last one of the pixel before.
+// The same for the first quarter of the footprint, which is the last quarter of the previous pixel.
 Vec2 quarter_place_of(int x, int y, int ray) {
   return place_of(x, y, ray / (kRaysASide / 2) * kRaysASide + ray % (kRaysASide / 2), kRaysASide);
 }
@@ -118,7 +118,7 @@ void draw(const Camera& camera, const PlacedTag& tag, std::vector<double>& sums,
     }
     return grey_on(cells, tag.size_m, eye.x + along * direction.x, eye.y + along * direction.y);
   };
-  // Footprints overlap: the quarter of one that is looked at here belongs to four pixels.
+  // Footprints overlap: each quarter of one belongs to four pixels.
   for (int y = box.y_px; y <= box.y_px + box.height_px; ++y) {
     for (int x = box.x_px; x <= box.x_px + box.width_px; ++x) {
       double sum = 0.0;
@@ -163,7 +163,7 @@ std::array<Vec2, 4> corners_seen(const CameraModel& model,
 
 namespace {
 
-// The library knows no such family: a ring of black cells goes between code and white border.
+// The library has no such family: adds a ring of black cells between code and white border.
 TagPicture with_wider_border(const TagPicture& tag) {
   TagPicture wide;
   wide.cells = tag.cells + 2;
@@ -203,7 +203,7 @@ TagPicture tag_picture(const std::string& family, int id) {
       picture.white.push_back(image->buf[y * image->stride + x] > 127);
     }
   }
-  // What the library calls image_u8_destroy, which Debian's does not export.
+  // What the library's image_u8_destroy does; Debian's library does not export it.
   std::free(image->buf);
   std::free(image);
   known.destroy(made);

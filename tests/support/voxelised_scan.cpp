@@ -24,7 +24,7 @@ std::vector<float> gaussian(double sigma_steps) {
   return kernel;
 }
 
-/// Along one axis, values beyond the ends as at the ends.
+/// Blurs along one axis; values beyond the ends equal those at the ends.
 void blur_along(int axis, const std::vector<float>& kernel, FineBody& body) {
   const int reach = static_cast<int>(kernel.size() / 2);
   const auto a = static_cast<std::size_t>(axis);
@@ -71,7 +71,7 @@ class Streaks {
     bins_ = static_cast<int>(std::hypot(size_[0], size_[1])) + 3;
   }
 
-  /// Of the metal between two heights of the grid.
+  /// The streaks of the metal between two heights of the grid.
   [[nodiscard]] std::vector<double> of_slice(double low_step, double high_step) {
     std::vector<double> metal(static_cast<std::size_t>(size_[0] * size_[1]), 0.0);
     bool any = false;
@@ -182,7 +182,7 @@ class Streaks {
     }
   }
 
-  /// What is measured too little of a ray through so much metal, HU mm, and its noise.
+  /// How much a ray through this much metal is underestimated, HU mm, with noise.
   double error_of(double metal_mm) {
     const double hardened = -8000.0 * metal_mm * 0.25 * metal_mm / (metal_mm + 20.0);
     const double starved = 60.0 * (std::exp(std::min(metal_mm, 40.0) / 12.0) - 1.0);
@@ -219,7 +219,7 @@ double mean_at(const FineBody& body, double x, double y, double low, double high
   return sum / weights;
 }
 
-/// Voxels that start a random part of one inside the body.
+/// A voxel grid that starts a random fraction of a voxel inside the body.
 engine::VolumeGrid grid_in(const FineBody& body, Vec3 spacing_m, Random& random) {
   engine::VolumeGrid grid;
   grid.spacing_m = spacing_m;

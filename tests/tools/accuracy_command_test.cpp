@@ -37,8 +37,8 @@ engine::Board board() {
   return board;
 }
 
-/// Renders the test, with the board or without: what two cameras see of the pointer's tag, ten
-/// pairs a second.
+/// Renders the pointer's tag as two cameras see it during the test, with or without the board, at
+/// ten pairs a second.
 void record_test(const std::string& folder, bool with_board) {
   AccuracyTrackOptions options;
   options.rate_hz = kRateHz;
@@ -53,11 +53,11 @@ void record_test(const std::string& folder, bool with_board) {
     }
   }
   const auto track = accuracy_track(options, points_m);
-  // Between the dimple and the board when the pointer is held as at first.
+  // Between the dimple and the board, with the pointer in its first orientation.
   const auto rig_from_world = facing({0.1, 0.06, 0.0}) * track[15].value.inverse();
   std::vector<std::vector<PlacedTag>> pairs;
-  // The tag is hidden on the way from place to place: at ten pairs a second a filter for thirty
-  // would still be arriving when the touch is over.
+  // The tag is hidden between places: at ten pairs a second a filter for thirty would not have
+  // settled before the touch is over.
   const auto tip_m = [&](std::size_t i) { return (track[i].value * Point<Marker>{kTip}).v; };
   for (std::size_t i = 0; i < track.size(); ++i) {
     pairs.emplace_back();
@@ -83,9 +83,9 @@ void expect_within_what_the_method_can(const json& report) {
   SCOPED_TRACE(report.dump(1));
   EXPECT_EQ(report["pointer"], "pointer");
   EXPECT_EQ(report["method"], "paper");
-  // The published method measures a tag's tilt to half a degree, the same error as long as the
-  // images stay the same, and more where the tag faces the cameras: half a millimetre at a tip
-  // 60 mm away, three or four times that at its worst.
+  // The published method measures a tag's tilt to half a degree, with the same error as long as the
+  // images stay the same, and more if the tag faces the cameras: half a millimetre at a tip 60 mm
+  // away, three or four times that at worst.
   EXPECT_LT(report["single_point"]["rms_mm"], 1.0);
   EXPECT_GT(report["single_point"]["rms_mm"], 0.01);
   EXPECT_GT(report["turning"]["largest_tilt_deg"], 20.0);
@@ -114,7 +114,7 @@ TEST(AccuracyCommand, MeasuresARenderedTest) {
   EXPECT_EQ(called.code, report["verdict"] == "fail" ? 1 : 0);
   expect_within_what_the_method_can(report);
 
-  // Limits from the command line decide.
+  // Limits from the command line apply.
   const Called wide = orthonav({"accuracy", in_the_dimple, "--tools", tools, "--method", "paper",
                                 "--single-point-mm", "20", "30", "--turning-mm", "20", "30",
                                 "--tip-bias-mm", "20", "30"});

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 constexpr int kPairs = 60;
 const Vec3 kAxis = Vec3{0.012, 1.0, -0.008}.normalized();
 
-// A guide with tag 5 turned to and fro about its shaft, by so much to each side.
+// A guide with tag 5 turned to and fro about its shaft, by `side_rad` to each side.
 std::vector<std::vector<PlacedTag>> spinning(double side_rad) {
   std::vector<std::vector<PlacedTag>> pairs;
   const Vec3 tip_in_rig = (facing() * Point<Marker>{{0, -0.05, 0}}).v;

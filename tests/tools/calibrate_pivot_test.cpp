@@ -23,7 +23,7 @@ constexpr double kBestTipM = 0.0001;
 const Vec3 kTip{0.004, -0.08, -0.003};
 constexpr int kPairs = 60;
 
-// A pointer with tag 3 leaning all around its tip, by so much.
+// A pointer with tag 3, tilted by `lean_rad` in all directions about its tip.
 std::vector<std::vector<PlacedTag>> pivoting(double lean_rad, Vec3 slip_m = {}) {
   std::vector<std::vector<PlacedTag>> pairs;
   const Vec3 pivot_in_rig = (facing() * Point<Marker>{kTip}).v;
@@ -71,7 +71,7 @@ TEST_F(CalibratePivot, FindsTheTipAndWritesItIntoTheTools) {
   const auto json = nlohmann::json::parse(called.out);
   EXPECT_EQ(json["method"], "best");
   EXPECT_EQ(json["pairs"], kPairs);
-  // Poses that lean most are less exact than the others, whose scatter sets the limit.
+  // The most tilted poses are less exact than the others, whose scatter sets the limit.
   EXPECT_GE(json["inliers"], kPairs * 85 / 100);
   EXPECT_GT(json["spread_deg"], 10.0);
   EXPECT_NE(json["verdict"], "fail");

@@ -19,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// Rendered corners err by 0.03 px, alike in pairs that are alike; measured 0.03 mm, 0.05°.
+// Rendered corners have errors of 0.03 px, the same in similar pairs; measured 0.03 mm, 0.05°.
 constexpr double kPlaceM = 0.0001;
 constexpr double kRotation_rad = 0.003;
 constexpr int kPairs = 40;
@@ -30,7 +30,7 @@ struct Rotated {
   int quarters = 0;
 };
 
-/// The prism turning; without a tag in it, if given, or with one that was glued on turned.
+/// The prism turning, optionally without one of its tags, or with one that was glued on rotated.
 void record_prism(const std::string& folder, int count = kPairs, std::size_t without = 99,
                   Rotated rotated = {}) {
   const TagBodyScene scene = prism();
@@ -90,7 +90,7 @@ TEST(CalibrateTool, FindsWhereTheTagsLieAndWritesATool) {
   EXPECT_LT(json["tags"][1]["sigma_mm"], 0.1);
   EXPECT_NE(json["verdict"], "fail");
 
-  // Into a file that has the tool already: all else stays.
+  // Into a file that already has the tool: everything else stays.
   const std::string own = folder.with("own.json", R"({"tools": [
     {"name": "pointer", "role": "pointer", "serial": 4, "axis": [0, 1, 0],
      "marker": {"family": "tag36h11", "id": 3, "size_mm": 40}, "tip_mm": [0, -150, 0]}]})");

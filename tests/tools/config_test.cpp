@@ -39,7 +39,7 @@ TEST(Config, RefusesWhatItDoesNotKnowByNameAndLine) {
 }
 
 TEST(Config, NamesFilesFromWhereItLiesAndAFlagWins) {
-  // The missing case is refused only after the settings were read.
+  // The missing case is refused only after the settings are read.
   expect_refusal("[tools]\nfile = \"absent.json\"\n", "/absent.json");
   expect_refusal("[rig]\nheadset = \"holo:\"\n", "unknown scheme");
   expect_refusal("[rig]\nheadset = \"holo:\"\n", "/none", {"--headset", "sim:"});

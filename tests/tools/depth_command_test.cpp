@@ -35,7 +35,7 @@ DepthScene scene() {
   return made;
 }
 
-/// What follows the header of a binary PLY, read by the format's word alone.
+/// The points after the header of a binary PLY, read according to the format's specification.
 std::vector<Vec3> points_of(const std::string& ply) {
   constexpr const char* kEnd = "end_header\n";
   EXPECT_THAT(ply, HasSubstr("format binary_little_endian 1.0\n"));

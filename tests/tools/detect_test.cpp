@@ -20,8 +20,8 @@ using ::testing::SizeIs;
 using Corners = std::array<std::array<double, 2>, 4>;
 
 // The photographs' truth is the library's quads without refinement; the tags are 20-40 px wide and
-// the pictures compressed, so that better corners differ from it by a third of a pixel. Half a
-// pixel, the mistake to be found, would make 0.7 px.
+// the pictures compressed, so better corners differ from it by a third of a pixel. An offset of
+// half a pixel, the mistake to be found, would give 0.7 px.
 constexpr double kMeanPx = 0.35;
 constexpr double kWorstPx = 1.5;
 // As the library finds them, to the digits of the truth and of the decoded pictures.
@@ -67,8 +67,8 @@ void expect_as_listed(const std::string& folder, std::size_t more) {
   EXPECT_GT(images, 0);
 }
 
-// Distances of the corners, with the best agreement over the corner a list may start at and over
-// tags with the same id.
+// Distances of the corners, for the best match over the possible first corners and over tags with
+// the same id.
 std::array<double, 4> nearest_px(const Corners& truth, const nlohmann::json& markers) {
   std::array<double, 4> best;
   best.fill(1e9);
@@ -114,7 +114,7 @@ TEST(DetectCommand, FindsEveryTagOfThePhotographs) {
   if (folder.empty()) {
     GTEST_SKIP() << "AprilTag's photographs are not here";
   }
-  // The truth has a tag more than the list, and it is found.
+  // The truth has one more tag than the list, and it is found.
   expect_as_listed(folder, 1);
 }
 

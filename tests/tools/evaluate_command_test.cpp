@@ -71,7 +71,7 @@ TEST_F(EvaluateCommand, SaysWhatBecameOfEachScrew) {
                           HasSubstr("class=plan"), HasSubstr("class=bone"),
                           HasSubstr("the point of the axis nearest to the planned entry"),
                           Not(HasSubstr("http"))));
-  // What turns in the browser: one bone, two planned and two placed screws.
+  // The model shown in the browser: one bone, two planned and two placed screws.
   const std::string opening = "<script id=spine-data type=\"application/json\">";
   const std::size_t start = html.find(opening);
   ASSERT_NE(start, std::string::npos);

@@ -47,7 +47,7 @@ TEST(GoldenCommand, DrawsTheSameBitsWithAnyNumberOfThreads) {
   EXPECT_EQ(compared, 3 * 9);
 }
 
-/// The pictures of three scenes on a processor with no more than these instructions, by file name.
+/// The pictures of three scenes, by file name, on a processor with only these instructions.
 std::map<std::string, std::string> drawn_with(const char* instructions) {
   const ScratchFolder folder;
   setenv("GALLIUM_OVERRIDE_CPU_CAPS", instructions, 1);
@@ -63,7 +63,7 @@ std::map<std::string, std::string> drawn_with(const char* instructions) {
   return files;
 }
 
-// docs/decisions/0027-pictures-to-the-bit.md says what is measured beyond this.
+// docs/decisions/0027-pictures-to-the-bit.md lists further measurements.
 TEST(GoldenCommand, DrawsTheSameBitsWithAVXAloneAndTheSameLabelsWithout) {
   const auto all = drawn_with("");
   const auto avx = drawn_with("avx");

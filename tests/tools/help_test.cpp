@@ -24,7 +24,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using tools::CommandPage;
 
-/// A command with every sort of option.
+/// A command with every kind of option.
 CommandPage page() {
   CLI::App app("Drives nails", "tool");
   static std::string text;

@@ -26,7 +26,7 @@ rlim_t data_bytes() {
   return kilobytes << 10U;
 }
 
-/// Ends with 0 where the command is asked to end and has memory left to do so.
+/// Ends with 0 if the command is asked to end and has memory left to do so.
 [[noreturn]] void use_up(bool reserve) {
   StopSignals signals;
   if (reserve) {
@@ -46,7 +46,7 @@ rlim_t data_bytes() {
     const std::vector<char> to_end_with(std::size_t{1} << 20U);
     std::_Exit(0);
   } catch (const std::bad_alloc&) {
-    // The signal may still be on its way: what is freed here is enough to wait for it.
+    // The signal may not have arrived yet; the memory freed here is enough to wait for it.
     all.clear();
     std::_Exit(reserve && test::wait_until([&] { return asked.load(); }) ? 0 : 3);
   }

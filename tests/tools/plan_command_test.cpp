@@ -107,7 +107,7 @@ TEST(PlanCommand, JudgesAPlanBesideItsModel) {
   EXPECT_THAT(good.out, AllOf(HasSubstr("L4 left"), HasSubstr("grade A")));
   EXPECT_THAT(good.err, IsEmpty());
 
-  // 6 mm to the side, where the pedicle's wall is.
+  // Moved 6 mm to the side, to the pedicle's wall.
   auto screws = engine::phantom({"L4"}).levels.front().screws;
   for (nav::ScrewPlan& screw : screws) {
     const double out_m = screw.side == nav::Side::kLeft ? 0.006 : -0.006;

@@ -18,11 +18,11 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-// A renderer of PDF other than the library that wrote it, at ten pixels a millimetre.
+// Scale of the page rendered by a PDF renderer independent of the library that wrote it.
 constexpr double kPxPerMm = 10.0;
 constexpr double kToleranceMm = 0.1;
 
-/// The page as an image file; nothing where the renderer is not installed.
+/// The page as an image file; empty if the renderer is not installed.
 std::string rendered(const std::string& pdf, const std::string& to) {
   const std::string command =
       "pdftoppm -r 254 -gray -singlefile '" + pdf + "' '" + to + "' 2>/dev/null";

@@ -27,8 +27,8 @@ using ::testing::StartsWith;
 /// Strokes scatter by 0.3 mm along each axis; wrong poses are off by 5 mm and more.
 constexpr double kRight_mm = 1.0;
 
-/// Strokes over a level of a case, registered to a level of that case: the built-in phantom, which
-/// every checkout has, and real bones.
+/// Strokes over a level of a case, registered to a level of that case. Cases are the built-in
+/// phantom, available in every checkout, and real bones.
 class RegisterCase : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -109,7 +109,7 @@ void expect_covariance(const json& covariance, double rms_mm) {
   EXPECT_NEAR(std::sqrt(trace), rms_mm, 1e-6);
 }
 
-/// Of the report of accepted strokes.
+/// Checks the report of accepted strokes.
 void RegisterCase::expect_next_best_pose(const json& report, const std::string& label,
                                          const Transform<World, Vertebra>& truth) const {
   if (!report.contains("runner_up_rmse_mm")) {
@@ -173,7 +173,7 @@ TEST_P(RegisterCase, RefusesStrokesOfAnotherLevelNamesItAndDrawsTheRefusal) {
   EXPECT_EQ(report["fits_better"], "L3");
   EXPECT_THAT(content_of(page_file),
               AllOf(HasSubstr(">refused</span>"), HasSubstr("The points fit level L3")));
-  // As itself it is accepted.
+  // Registered to the right level it is accepted.
   EXPECT_EQ(registered("L3", stroked.tips()).code, 0);
 }
 

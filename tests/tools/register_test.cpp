@@ -27,7 +27,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr double kNoise_m = 0.0005;
-/// Registration errors with that noise stay well below; wrong poses are off by 10 mm and more.
+/// Registration errors with that noise are well below this; wrong poses are off by 10 mm and more.
 constexpr double kRight_m = 0.001;
 
 /// What a pointer touches from behind and on both flanks of the spinous process, model frame.
@@ -53,7 +53,7 @@ std::vector<Vec3> touched(const nav::TriangleMesh& mesh, double front_m) {
   return points;
 }
 
-/// With the built-in phantom, which every checkout has, and with a real bone.
+/// With the built-in phantom, available in every checkout, and with a real bone.
 class RegisterCommand : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -214,7 +214,7 @@ TEST_P(RegisterCommand, TakesTheSideFromTheBoneNotFromSlicersNameForALine) {
 }
 
 TEST_P(RegisterCommand, GivesTheMatrixInThePointsUnit) {
-  // The model is in millimetres all the same.
+  // The model is in millimetres nevertheless.
   const Called called = orthonav(
       {"register", "--model", model_, "--points", points_file(1.0), "--units", "m", "--json", "-"});
   ASSERT_EQ(called.code, 0) << called.err;

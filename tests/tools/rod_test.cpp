@@ -35,7 +35,7 @@ TEST(RodCommand, GivesLengthAndBends) {
   const double length_mm = rod["length_mm"].get<double>();
   EXPECT_GT(length_mm, 80.0);  // longer than its chords
   EXPECT_LT(length_mm, 86.0);
-  // The sampled path's chords add up to the length, a little less.
+  // The sampled path's chords add up to slightly less than the length.
   double chords_mm = 0.0;
   for (std::size_t i = 1; i < rod["path_mm"].size(); ++i) {
     double squares = 0.0;

@@ -31,10 +31,10 @@ TEST(ServeHl2ss, ListensBeyondThisMachineOnlyForWhomItNames) {
   EXPECT_THAT(everybody.err, HasSubstr("network \"0.0.0.0/0\" must have 8 to 32 bits"));
 }
 
-/// A run through what real units do: the stand-in's options of the command line, one by one.
+/// A run with behaviour of real units: the stand-in's command-line options, one by one.
 struct Unit {
   const char* name;
-  int port;  ///< of its own, since two runs may go on at once; not an ephemeral one
+  int port;  ///< its own, since two runs may go on at once; not an ephemeral one
   std::vector<std::string> serve;
   std::string uri;     ///< besides address and ports
   std::string counts;  ///< in the statistics of the connection
@@ -61,7 +61,7 @@ TEST_P(StandIn, IsRunThrough) {
 
 INSTANTIATE_TEST_SUITE_P(
     Every, StandIn,
-    // Late stamps that nobody corrects, edges of zeros; stamps 0.1 s back (or 1 s ahead), slices.
+    // Uncorrected late stamps, edges of zeros; stamps 0.1 s back (or 1 s ahead), slices.
     ::testing::Values(Unit{"StampsLateZerosAtTheEdges",
                            27612,
                            {"--unmapped-edge-px", "8"},

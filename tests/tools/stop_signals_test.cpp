@@ -20,8 +20,7 @@ using test::StartedCommand;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// A run in the simulated room that would go on for minutes, recorded, with everything that it
-/// leaves.
+/// A recorded run in the simulated room that would take minutes, with all the files that it leaves.
 struct LongRun {
   ScratchFolder folder;
   std::string out = folder.file("out");
@@ -29,7 +28,7 @@ struct LongRun {
   StartedCommand command{
       {"run", "--headset", "sim:?seed=3", "--levels", "L5", "--out", out, "--record", recording}};
 
-  /// Until pairs are being recorded: so many bytes of right images are in their file.
+  /// Whether pairs are being recorded: the file of right images has at least this many bytes.
   bool is_under_way(std::uintmax_t least_bytes = 1) const {
     return test::wait_until([&] {
       std::error_code none;
@@ -114,7 +113,7 @@ TEST(StopSignals, AKilledRunLeavesAJournalAndARecordingThatCanBeRead) {
   EXPECT_TRUE(std::filesystem::exists(run.recording));
 }
 
-/// Whatever it is at: preparing the model, or the first operation.
+/// At any time: while preparing the model, or during the first operation.
 TEST(StopSignals, StopAStudyThatHasNothingYetWithoutAFile) {
   const ScratchFolder folder;
   StartedCommand study({"study", "--levels", "L5", "--json", folder.file("study.json")});
@@ -140,7 +139,7 @@ TEST(StopSignalsDeathTest, TheSecondEndsAtOnce) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto two_signals = [] {
     StopSignals signals;
-    signals.on_stop([] {});  // asked, and never done
+    signals.on_stop([] {});  // a request that is never carried out
     kill(getpid(), SIGINT);
     if (test::wait_until([&] { return signals.caught().has_value(); })) {
       kill(getpid(), SIGTERM);

@@ -85,7 +85,7 @@ TEST(StudySlurm, SaysInOneLineThatThereIsNone) {
   EXPECT_EQ(called.err, "orthonav: --slurm: sbatch was not found (Debian: slurm-wlm)\n");
 }
 
-// Completed work needs no Slurm: the shard exists, and only merging is left.
+// Completed work needs no Slurm: the shard exists and only has to be merged.
 TEST(StudySlurm, WritesThePageOfWhatItsTasksMade) {
   const ScratchFolder folder;
   const std::vector<std::string> study = {

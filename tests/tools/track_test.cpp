@@ -94,7 +94,7 @@ class TrackCommand : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-/// A recording of our own: what is refused needs no more than three pairs.
+/// A recording of our own: three pairs are enough to test refusals.
 class TrackBadInput : public TrackCommand {
  protected:
   void SetUp() override {
@@ -110,8 +110,8 @@ TEST_F(TrackBadInput, IsRefusedOnOtherwiseGoodRecordings) {
   EXPECT_THAT(called.out, HasSubstr("3 stereo pairs"));
 }
 
-/// A HoloLens 1's recording of a tag whose poses are known: every convention of that format stands
-/// between the file and this answer.
+/// A HoloLens 1's recording of a tag with known poses, which depends on every convention of that
+/// format.
 TEST(TrackHololens1, FindsATagWhereItWas) {
   const StereoCalibration calibration = test_calibration();
   PlacedTag tag;

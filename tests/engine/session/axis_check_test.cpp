@@ -20,7 +20,8 @@ nav::SpinCalibration measured(double off_rad, double sigma_rad) {
 TEST(AxisCheck, TakesTheMeanByWhatIsKnown) {
   AxisCheck check;
   EXPECT_FALSE(check.offers());
-  // As unsure about each direction as the described axis: half of it is believed.
+  // The SD about each direction equals that of the described axis, so half of the difference
+  // counts.
   check.take(measured(0.012, 0.010 * std::sqrt(2.0)), kDescribed);
   ASSERT_TRUE(check.offers());
   EXPECT_NEAR(check.last()->off_rad, 0.012, kExact);
@@ -35,7 +36,7 @@ TEST(AxisCheck, WhatWasCorrectedIsKnownBetterFromThenOn) {
   AxisCheck check;
   check.take(measured(0.02, 0.002), kDescribed);
   const Direction<Marker> better = check.correct();
-  // A poor measurement hardly moves it any more.
+  // A poor measurement hardly changes it.
   check.take(measured(0.0, 0.02), better);
   EXPECT_LT(check.last()->by_rad, 0.001);
   EXPECT_FALSE(check.offers());

@@ -94,7 +94,7 @@ TEST(Coaching, SaysWhatElseStandsAgainstASmallError) {
       "limit 1.6 mm");
 }
 
-/// A registrar that answers when it is let, and counts.
+/// A registrar that answers only when allowed to, and counts its calls.
 struct Gate {
   std::mutex mutex;
   std::condition_variable opened;
@@ -109,7 +109,7 @@ struct Gate {
       ++asked;
       points = request.points_in_world.size();
       nav::Registration r = promising();
-      // Falls as samples come in.
+      // Falls as samples arrive.
       r.predicted_tre_m = 0.1 / static_cast<double>(request.points_in_world.size());
       return r;
     };
@@ -159,7 +159,7 @@ TEST_F(CoachTest, AnswersExactlySoManyPairsLaterHoweverFastTheTrialIs) {
 TEST_F(CoachTest, DoesNotHoldUpThePairsBetween) {
   gate.set_open(false);
   stroke(200);
-  pairs(Coach::kPairsToAnswer);  // would hang here if a pair awaited the trial
+  pairs(Coach::kPairsToAnswer);  // would hang here if a pair waited for the trial
   EXPECT_FALSE(coach.newest().has_value());
   gate.set_open(true);
   pairs(1);
@@ -216,7 +216,7 @@ TEST_F(CoachTest, EndsWithATrialUnderWay) {
   EXPECT_EQ(gate.asked, 1);
 }
 
-/// Opens the gate once somebody waits for the coach.
+/// Opens the gate once the session waits for the coach.
 class OpensWhenAwaited : public WorkWatch {
  public:
   explicit OpensWhenAwaited(Gate& gate) : gate_(gate) {}
@@ -242,7 +242,7 @@ TEST_F(CoachTest, TellsOfItsTrialsAndThatItIsAwaited) {
   pairs(Coach::kPairsToAnswer);
   EXPECT_TRUE(watch.told.empty()) << "nobody waits for it yet";
   EXPECT_EQ(watch.trials, 1);
-  pairs(1);  // would hang here if it did not tell
+  pairs(1);  // would hang here if the watch were not notified
   EXPECT_EQ(watch.told, std::vector<Part>(2, Part::kCoach));
   EXPECT_EQ(watch.trials, 0);
   EXPECT_TRUE(coach.newest().has_value());
@@ -258,7 +258,7 @@ TEST_F(CoachTest, ATrialThatDiesDoesSoWhereItIsAwaited) {
   EXPECT_THROW(other.step(operation.levels[0], regions), std::bad_alloc);
 }
 
-/// The reachable side of the phantom's L4 from its left to its right, 0.3 mm noisy.
+/// The reachable side of the phantom's L4 from left to right, with noise of 0.3 mm.
 std::vector<nav::Sample> sweep_of(const nav::VertebraModel& model, std::size_t count) {
   std::vector<Vec3> places = model.reachable().vertices_m;
   std::sort(places.begin(), places.end(),

@@ -16,7 +16,7 @@ using orthonav::test::wait_until;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A session with its journal, told to the end or not.
+/// A session with its journal, finished or not.
 struct Journaled {
   explicit Journaled(const std::vector<std::string>& labels,
                      Verification verification = Verification::kByEye)
@@ -43,7 +43,7 @@ struct Journaled {
   std::unique_ptr<Journal> journal;
 };
 
-/// Every figure that the session itself has of its levels and rods.
+/// Compares every figure that the session itself has about its levels and rods.
 void expect_the_same(const SessionRecord& record, const Session& session) {
   ASSERT_EQ(record.levels.size(), session.levels().size());
   for (std::size_t i = 0; i < record.levels.size(); ++i) {
@@ -309,7 +309,7 @@ TEST(JournalReader, FollowsRejectionsCheckPointsAndAMovedMap) {
     EXPECT_TRUE(read.ok()) << read.error().message;
     return read.ok() ? *read : SessionRecord{};
   };
-  // A thread of its own writes.
+  // The journal is written by a thread of its own.
   const auto is_written = [&j](const char* what) {
     return wait_until([&] { return content_of(j.path + ".part").find(what) != std::string::npos; });
   };
@@ -325,7 +325,7 @@ TEST(JournalReader, FollowsRejectionsCheckPointsAndAMovedMap) {
   expect_the_same(j.finished("end"), j.operation.session());
 }
 
-/// What the three lines of a short journal are.
+/// The first of the three lines of a short journal.
 std::string header() {
   return R"({"format":"orthonav session","format_version":1,"orthonav":"0.1.0","device":"d",)"
          R"("method":"best","case":"c","seed":1})"
@@ -349,7 +349,7 @@ TEST(JournalReader, LeavesOutALineThatWasTorn) {
     ASSERT_TRUE(read.ok()) << length << ": " << read.error().message;
     EXPECT_TRUE(read->cut);
     const std::size_t behind_start = header().size() + started().size();
-    // A line counts when it is whole, with or without its end.
+    // A line counts if it is complete, with or without its newline.
     EXPECT_EQ(read->steps.size(), length + 1 >= behind_start ? 1U : 0U) << length;
     EXPECT_EQ(read->registrations.size(), length + 1 == whole.size() ? 1U : 0U) << length;
     const bool between = length == header().size() || length + 1 == behind_start ||

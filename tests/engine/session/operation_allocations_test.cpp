@@ -20,9 +20,9 @@ using test::state;
 using test::step_of;
 using enum ClickerAction;
 
-/// A message, and the echo of a phrase, go after so long.
+/// A message and the echo of a phrase disappear after this time.
 constexpr Duration kStays = std::chrono::milliseconds(300);
-/// More than that at 30 pairs a second.
+/// Longer than that at 30 pairs a second.
 constexpr int kWhile = 12;
 constexpr Vec3 kDimple = ScriptedOperation::kDimple;
 
@@ -30,10 +30,10 @@ using Actions = std::bitset<kActionCount>;
 
 constexpr std::size_t index_of(Action action) { return static_cast<std::size_t>(action); }
 
-/// What these make must be kept: strokes, a registration and what is checked of it, touches of a
-/// new screw, a changed plan, a wire, a rod. No other action allocates, nor a pair without an
-/// event: not while samples are taken or a tool is guided, not where words steer or a tool comes
-/// and goes.
+/// These actions produce data to keep: strokes, a registration and its checks, touches of a new
+/// screw, a changed plan, a wire, a rod. No other action allocates, and neither does a pair without
+/// an event: not while samples are taken or a tool is guided, and not on voice commands or when a
+/// tool comes and goes.
 Actions that_may_allocate() {
   using enum Action;
   Actions actions;
@@ -52,7 +52,7 @@ SessionOptions with_short_messages() {
   return options;
 }
 
-/// What the table asked for in the newest pair. Allocates nothing.
+/// Records what the table asked for in the newest pair. Does not allocate.
 class AskedActions : public SessionObserver {
  public:
   void happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell answer) override {
@@ -69,7 +69,7 @@ std::string names_of(const Actions& actions) {
   return names.empty() ? "nothing" : names;
 }
 
-/// An operation of which each pair is held to what it may allocate, from the second on.
+/// An operation in which each pair from the second on is checked for forbidden allocations.
 class CountedOperation {
  public:
   explicit CountedOperation(bool reference)
@@ -87,7 +87,7 @@ class CountedOperation {
     }
     return step({}, {});
   }
-  /// Then waits until it was answered and no longer stands on the status line.
+  /// Then waits until it was answered and has left the status line.
   const Guidance& says(const std::string& phrase) {
     const Phrase phrases[] = {{phrase, 1.0, now_ + std::chrono::milliseconds(1)}};
     step({}, phrases);
@@ -115,7 +115,7 @@ class CountedOperation {
     pairs(n);
     return does({kRelease});
   }
-  /// The tool is hidden for longer than guidance may stand, and comes back.
+  /// The tool is hidden for longer than guidance may stay, and comes back.
   void loses(std::optional<Transform<World, Marker>>& tool) {
     const auto seen = std::exchange(tool, std::nullopt);
     pairs(10);
@@ -123,14 +123,14 @@ class CountedOperation {
     pairs(10);
   }
 
-  /// The map, or the references against each other.
+  /// Moves the map, or the references against each other.
   void moves_world() {
     ++s.map_epoch;
     ++s.tracker().reference.moves;
     pairs(kWhile);
   }
 
-  /// Actions that were asked for in pairs that allocated.
+  /// Actions in pairs that allocated.
   [[nodiscard]] const Actions& allocated() const { return allocated_; }
   ScriptedOperation s;
 
@@ -190,7 +190,7 @@ void verifies(CountedOperation& o) {
   EXPECT_EQ(o.says("accept").step, Step::kAccepted);
 }
 
-/// From `accepted` to the measured wire of the screw that enters there and leans by that angle.
+/// From `accepted` to the measured wire of the screw with that entry, tilted by that angle.
 void drives(CountedOperation& o, Vec3 entry, double angle_rad) {
   o.says("next");
   o.touches(kDimple);

@@ -37,7 +37,7 @@ std::unique_ptr<OperationLog> begun(Env& env, test::ScriptedOperation& s,
   return log;
 }
 
-/// The first half of an operation; before its second quarter the clock is set back by so much.
+/// The first half of an operation; before its second quarter the clock is set back by `back`.
 void operate_first_half(Env& env, const std::string& folder, std::chrono::seconds back) {
   auto s = touched_operation(true);
   auto log = begun(env, *s, folder);
@@ -90,7 +90,7 @@ TEST(ClockOfAnOperation, SetBackBeforeItIsResumedLeavesTheOrderAndTheEnd) {
   EXPECT_TRUE(LoggedOperation::from(log->records, "log")->done);
 }
 
-/// Which operation was the last is told by the names: the times of files follow the clock.
+/// The last operation is identified by file names, because file times follow the clock.
 TEST(ClockOfAnOperation, TheLastOneIsFoundThoughItsFileIsDatedEarlier) {
   const TemporaryFolder folder;
   PosixEnv env;
@@ -101,7 +101,7 @@ TEST(ClockOfAnOperation, TheLastOneIsFoundThoughItsFileIsDatedEarlier) {
   const auto first = fs::last_write_time(folder / "operation-1.log");
   fs::last_write_time(folder / "operation.log", first - 1h);
   EXPECT_EQ(newest_log(env, folder.file("operation.log")).value(), folder.file("operation.log"));
-  // A crash came before the newest took its name: of those moved aside, the last.
+  // A crash came before the newest was renamed, so the last of those moved aside counts.
   ASSERT_TRUE(is_ok(RecordLog::create(env, folder.file("operation.log"), {1, 1, "third"})));
   ASSERT_TRUE(is_ok(env.remove(folder.file("operation.log"))));
   fs::last_write_time(folder / "operation-2.log", first - 1h);

@@ -22,13 +22,13 @@ using test::MemoryEnv;
 using test::ScriptedOperation;
 using test::ScriptedSurgeon;
 
-/// After so many calls the surgeon had been told that so many records are saved.
+/// How many records the surgeon had been told are saved, after a number of calls.
 struct Told {
   std::size_t calls = 0;
   std::size_t records = 0;
 };
 
-/// A whole operation of two levels, and what was saved when.
+/// Runs a whole operation of two levels, and returns what was saved when.
 std::vector<Told> operate(MemoryEnv& env) {
   ScriptedOperation s({"L4", "L5"}, {}, Verification::kByTouch);
   s.registers_within(0.0003);
@@ -51,7 +51,7 @@ std::size_t saved_by(const std::vector<Told>& told, std::size_t calls) {
   return records;
 }
 
-/// How many samples the saved regions of the first so many records hold.
+/// How many samples the saved regions in these first records hold.
 std::size_t samples_in(std::span<const Record> records) {
   const auto operation = LoggedOperation::from({records.begin(), records.end()}, "log");
   std::size_t samples = 0;
@@ -63,8 +63,8 @@ std::size_t samples_in(std::span<const Record> records) {
   return samples;
 }
 
-/// Whatever a crash leaves, another program finds the operation as it was at some moment, with
-/// everything of which the surgeon had been told that it was saved.
+/// Whatever a crash leaves, another program finds the operation in some earlier state, with
+/// everything that the surgeon had been told was saved.
 TEST(CrashOfAnOperation, LeavesWhatHadHappenedUpToSomeMoment) {
   MemoryEnv env;
   const std::vector<Told> told = operate(env);
@@ -101,7 +101,7 @@ TEST(CrashOfAnOperation, LeavesWhatHadHappenedUpToSomeMoment) {
 }
 
 TEST(CrashOfAnOperation, TimesSayNothingOfTheOrder) {
-  // The clock of the device is set back between two programs: the numbers go on.
+  // The clock of the device is set back between two programs, but record numbers continue.
   MemoryEnv env;
   {
     ScriptedOperation s({"L4"}, {}, Verification::kByTouch);

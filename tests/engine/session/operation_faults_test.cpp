@@ -23,7 +23,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// What is left of an operation that was killed after so many things were done.
+/// What is left of an operation killed after `acts` acts.
 Files killed_after(int acts) {
   MemoryEnv env;
   auto s = touched_operation(true);
@@ -75,7 +75,7 @@ TEST_P(FaultOfLooking, BeforeAnOperationBeginsLeavesTheEarlierOne) {
   RecordProperty("faults", 2);
 }
 
-/// The operation was found, then its log can't be read again.
+/// The operation was found, but then its log can't be read again.
 TEST_P(FaultOfLooking, AtItsOwnLogGoesOnUnsaved) {
   MemoryEnv env(killed_after(10));
   env.fail_look_at(3, GetParam());

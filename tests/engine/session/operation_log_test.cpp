@@ -121,7 +121,7 @@ TEST(OperationLog, SaysSavedOnlyOnceItIs) {
   EXPECT_THAT(detail_text(s.pairs(90).status), Not(HasSubstr("saved"))) << "two seconds later";
 }
 
-/// A disk whose syncs take as long as `held` is locked.
+/// A disk whose syncs block while `held` is locked.
 class HeldEnv : public MemoryEnv {
  public:
   Result<std::unique_ptr<AppendFile>> open_append(const std::string& path) override {

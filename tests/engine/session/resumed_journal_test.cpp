@@ -1,4 +1,4 @@
-// The journal of an operation that went on in another program.
+// The journal of an operation continued by another program.
 #include <gmock/gmock.h>
 
 #include "engine/session/journal.h"
@@ -16,7 +16,8 @@ using test::is_ok;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Killed in that step of the first level, gone on with to the end: what the second journal says.
+/// The second journal of an operation that was killed in that step of the first level and then
+/// continued to the end.
 std::string second_journal(Step killed_in) {
   test::MemoryEnv env;
   {

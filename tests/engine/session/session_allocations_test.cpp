@@ -21,24 +21,24 @@ constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
 constexpr Vec3 kFirst{-0.015, 0.020, -0.010};
 constexpr Vec3 kSecond{0.015, 0.020, -0.010};
 constexpr Vec3 kThird{0.000, 0.020, 0.012};
-/// More than what a message and the echo of a phrase stay for, at 30 pairs a second.
+/// Longer than a message and the echo of a phrase stay, at 30 pairs a second.
 constexpr int kWarm = 100;
 constexpr int kCounted = 100;
 
-/// Of pairs alone: nothing is said or done.
+/// Allocations of pairs alone, without phrases or clicks.
 std::size_t allocations_of(ScriptedOperation& s, int pairs) {
   const std::size_t before = test::allocation_count();
   s.pairs(pairs);
   return test::allocation_count() - before;
 }
 
-/// Where the operation stands and stays, once buffers have grown.
+/// Allocations in the present state of the operation, once buffers have grown.
 std::size_t allocations_once_warm(ScriptedOperation& s) {
   s.pairs(kWarm);
   return allocations_of(s, kCounted);
 }
 
-/// Of pairs in which the tool in use comes and goes: the status line changes with it.
+/// Allocations of pairs in which the tool in use comes and goes, and the status line changes.
 std::size_t allocations_while_a_tool_comes_and_goes(ScriptedOperation& s,
                                                     std::optional<Transform<World, Marker>>& tool) {
   const auto seen = tool;

@@ -25,7 +25,7 @@ constexpr Vec3 kFirst{-0.015, 0.020, -0.010};
 constexpr Vec3 kSecond{0.015, 0.020, -0.010};
 constexpr Vec3 kThird{0.000, 0.020, 0.012};
 
-/// Asks for so many places, apart from each other.
+/// Whether the advice asks for this many places, apart from each other.
 bool asks_for(const nav::CheckAdvice& advice, std::size_t places) {
   return advice.kind == nav::CheckAdvice::Kind::kTouchApart && advice.number == places;
 }
@@ -79,7 +79,7 @@ TEST_F(CheckedSession, AcceptsNothingWithAPlaceTooFarOff) {
   ASSERT_NE(said<ChecksMissing>(s.pair()), nullptr);
   EXPECT_EQ(said<ChecksMissing>(s.pair())->advice.kind, nav::CheckAdvice::Kind::kReject);
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kReject) << "in a message as well";
-  // The twin: as far as the limit lets it.
+  // The counterpart: just within the limit.
   ScriptedOperation near({"L4"}, {}, Verification::kByTouch);
   near.registers_first_level();
   near.touches(kFirst);
@@ -162,7 +162,8 @@ TEST_F(CheckedSession, ShowsThemWhileVerifyingOnly) {
   EXPECT_EQ(s.says("accept").levels[0].check_points.size(), 3u) << "they stay for the report";
 }
 
-/// Soft tissue left 1.5 mm of doubt in how deep the box lies, which its back tells of.
+/// Soft tissue left an uncertainty of 1.5 mm in the depth of the box, which touches on its back
+/// resolve.
 nav::Registration provisional() {
   nav::Registration r;
   r.provisional = true;
@@ -184,7 +185,7 @@ TEST(ProvisionalRegistration, CountsOnceTheBoneWasTouched) {
   s.registers_first_level();
   EXPECT_EQ(step_of(s.pair()), "verify L4");
   EXPECT_EQ(s.says("accept").step, Step::kVerify) << "it has not been touched";
-  // The bone lies 1.2 mm deeper than the strokes told.
+  // The bone lies 1.2 mm deeper than the strokes showed.
   const Vec3 deeper{0, -0.0012, 0};
   s.touches(kFirst + deeper);
   const double shown_m = s.pair().levels[0].registration->world_from_vertebra.translation().y;
@@ -203,7 +204,7 @@ TEST(ProvisionalRegistration, CountsOnceTheBoneWasTouched) {
 TEST(ProvisionalRegistration, AsksForMorePlacesAndTakesOneBackAsIfItHadNotBeen) {
   ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
   s.registration = provisional();
-  // The doubt is about a slide along the back, which no place on it tells of.
+  // The uncertainty is a slide along the back, which no place on it can resolve.
   std::array<double, 36> covariance = s.registration.uncertainty->covariance();
   covariance[0] = 0.0015 * 0.0015;
   s.registration.uncertainty = nav::PoseUncertainty({}, covariance);

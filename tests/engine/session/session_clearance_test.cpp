@@ -11,7 +11,7 @@ namespace {
 using test::guide_at;
 using test::ScriptedOperation;
 
-/// Of the search for the least depth on the faces of a box.
+/// Tolerance of the search for the least depth on the faces of a box.
 constexpr double kSearch_m = 5e-6;
 constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
 constexpr double kSd_m = 0.0005;

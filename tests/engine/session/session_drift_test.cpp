@@ -19,7 +19,7 @@ constexpr double kExact = 1e-9;
 /// Within a pair or two of the limit.
 constexpr double kPairs_s = 0.1;
 constexpr double kDrift = 0.0005;  // m/sqrt(s): seconds instead of minutes
-/// By then the map may have walked by the limit.
+/// After this time the map may have drifted by the limit.
 const double kLongest_s = std::pow(LandmarkRules{}.most_walked_m / kDrift, 2);
 const Vec3 kAway{0.0, 0.15, 0.0};
 
@@ -40,7 +40,7 @@ class DriftingMap : public ::testing::Test {
     s.touches_dimple();
     s.says("next");
   }
-  /// Pairs until the session has found the bone so long ago, or no longer guides.
+  /// Runs pairs until the bone was last found this long ago, or guidance ends.
   void waits_s(double since_s) {
     while (s.session().current_step() == Step::kGuide &&
            seconds(s.now() - found().time) < since_s) {
@@ -110,7 +110,8 @@ TEST(BoneFound, RecordingTheLandmarkTellsNothingAndFindingItDoes) {
   touch = {false, 0, 0.0009, 0.0014, 0.0004};
   const BoneFound again = found_by_landmark(recorded, touch, landmark, later + from_seconds(60.0));
   EXPECT_NEAR(again.sd_m, std::hypot(0.0003, 0.0009 / std::sqrt(3.0), 0.0004), kExact);
-  // Never less sure than before: a moment after acceptance the walk says more than the touches.
+  // Never less precise than before: just after acceptance the drift is more precise than the
+  // touches.
   const BoneFound soon =
       found_by_landmark(accepted, touch, landmark, Timestamp{} + from_seconds(1.0));
   EXPECT_NEAR(soon.sd_m, 0.0002, kExact);

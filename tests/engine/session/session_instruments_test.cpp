@@ -19,7 +19,7 @@ using ::testing::Not;
 
 constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
 constexpr Vec3 kFarOff{0.3, 0.3, 0.3};
-/// Longer than it takes until a tool is told of.
+/// Longer than it takes until a tool is reported.
 constexpr int kWhile = 20;
 
 nav::ToolGeometry tap() {

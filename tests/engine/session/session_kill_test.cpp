@@ -44,13 +44,13 @@ int doubled_in(const std::map<std::string, int>& done) {
   return doubled;
 }
 
-/// How an operation ended that was gone on with.
+/// The end of an operation that was continued.
 struct Ended {
   std::vector<Vec3> entries_m;  ///< where each screw went
   int doubled = 0;              ///< screws that were declared done more than once
 };
 
-/// Another program goes on with what was left, to the end.
+/// Another program continues from what was left, to the end.
 Ended finished(Env& env, bool reference, const std::string& folder, Story story = Story::kPlain) {
   ResumedOperation r(env, reference, folder);
   EXPECT_TRUE(is_ok(r.resumed));
@@ -78,7 +78,8 @@ Ended finished(Env& env, bool reference, const std::string& folder, Story story 
   return ended;
 }
 
-/// A refusal, a changed plan, a redone screw and an override, so that kills fall between them.
+/// Expects a refusal, a changed plan, a redone screw and an override, so that kills fall between
+/// them.
 void expect_events(const Session& session) {
   EXPECT_TRUE(session.levels()[0].replanned(1));
   EXPECT_EQ(session.levels()[1].redone[0], 1);
@@ -86,7 +87,7 @@ void expect_events(const Session& session) {
   EXPECT_EQ(session.levels()[1].attempts, 2) << "the first was refused";
 }
 
-/// One that nothing interrupts; returns where each screw went.
+/// An uninterrupted operation; returns where each screw went.
 std::vector<Vec3> operate(MemoryEnv& env, bool reference, Story story = Story::kPlain) {
   std::vector<Vec3> entries_m;
   auto s = touched_operation(reference);
@@ -106,7 +107,7 @@ std::vector<Vec3> operate(MemoryEnv& env, bool reference, Story story = Story::k
 
 class KilledOperation : public ::testing::TestWithParam<std::tuple<bool, Story>> {};
 
-/// The first level is registered by then; what comes before is the same in each story.
+/// The first level is registered by then; earlier records are the same in each story.
 constexpr std::size_t kRecordsBeforeEvents = 10;
 
 TEST_P(KilledOperation, AtEveryEventEndsWithTheSameScrewsAndNoneTwice) {
@@ -114,7 +115,7 @@ TEST_P(KilledOperation, AtEveryEventEndsWithTheSameScrewsAndNoneTwice) {
   const bool eventful = story == Story::kEventful;
   MemoryEnv env;
   const std::vector<Vec3> expected_m = operate(env, reference, story);
-  // The operation is the same whenever power goes with the same number of whole records.
+  // The operation is the same whenever power fails with the same number of whole records.
   std::set<std::size_t> tried;
   int disks = 0;
   int doubled = 0;
@@ -152,8 +153,8 @@ INSTANTIATE_TEST_SUITE_P(WithAndWithoutReference, KilledOperation,
                                            std::tuple(true, Story::kPlain),
                                            std::tuple(true, Story::kEventful)));
 
-/// What power leaves after a second program went on with what a killed one had written: at once,
-/// and in the middle of its last record. Of each, how many records it had been told are saved.
+/// What a power failure leaves after a second program continued the files of a killed one: at once,
+/// and in the middle of its last record. For each, how many records were reported as saved.
 struct WithoutPower {
   std::vector<Files> disks;
   std::size_t saved = 0;
@@ -211,7 +212,8 @@ TEST_P(KilledAndWithoutPower, EndsWithEachScrewOnce) {
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutReference, KilledAndWithoutPower, ::testing::Bool());
 
-/// A child that does one thing after another, telling of each; killed after so many.
+/// A child process that performs one act after another, reporting each; killed after `acts` of
+/// them.
 bool operate_until_killed(const std::string& folder, int acts) {
   return test::kill_after(acts, [&](const std::function<void()>& tell) {
     PosixEnv env;

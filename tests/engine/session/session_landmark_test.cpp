@@ -22,7 +22,7 @@ using enum ClickerAction;
 // Arithmetic on values of the order of 1: far below what any device resolves.
 constexpr double kExact = 1e-9;
 constexpr Vec3 kDimple = ScriptedOperation::kDimple;
-/// Two touches of a few pairs each are that far from telling: the limit is its ceiling.
+/// Two touches of a few pairs each are so imprecise that the limit is at its maximum.
 constexpr double kLimit_m = LandmarkRules{}.most_m;
 constexpr double kJust_m = 1e-5;
 

@@ -43,7 +43,7 @@ TEST(MapMoved, DropsWhatWasStroked) {
   s.says("start");
   s.strokes(5);
   s.says("save");
-  s.says("delete");  // a region that would fade is gone too
+  s.says("delete");  // a region that would fade disappears too
   ASSERT_EQ(s.pair().regions.size(), 1u);
   ++s.map_epoch;
   const Guidance& g = s.pair();

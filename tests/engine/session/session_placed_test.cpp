@@ -25,7 +25,7 @@ using Kind = TouchRefusal::Kind;
 
 // Arithmetic on values of the order of 1: far below what any device resolves.
 constexpr double kExact = 1e-9;
-/// The places that were touched to verify the registration move it by micrometres.
+/// The places touched to verify the registration move it by micrometres.
 constexpr double kJoined = 1e-5;
 constexpr double kJust = 5e-5;
 constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
@@ -37,7 +37,7 @@ SessionOptions hole_of(double drill_diameter_m) {
   return options;
 }
 
-/// The first screw was drilled, and "next" said: in `placed`. World is Vertebra.
+/// In `placed`: the first screw was drilled, and "next" was said. World is Vertebra.
 class PlacedSession : public ::testing::Test {
  protected:
   explicit PlacedSession(const SessionOptions& options = {}, bool reference = false,
@@ -56,8 +56,8 @@ class PlacedSession : public ::testing::Test {
     s.pairs(3);
     s.says("next");
   }
-  /// A click with the sleeve over a wire that passes the entry so far beside it, towards +x, and
-  /// leans by that angle; `out_m` of it stand between sleeve and entry.
+  /// A click with the sleeve over a wire that passes the entry `beside_m` towards +x and is tilted
+  /// by `angle_rad`; `out_m` of it lie between sleeve and entry.
   const Guidance& measures(double beside_m, double angle_rad, double out_m = 0.004) {
     set_over(beside_m, angle_rad, out_m);
     s.does({kPress});
@@ -121,8 +121,8 @@ TEST_F(PlacedSession, TheSdHoldsRegistrationPoseAndCalibration) {
   EXPECT_LT(near.axis.angle_rad.sd, 1.1 * std::hypot(rules.axis_sd_rad, rules.play_rad));
 }
 
-/// A wire as planned, over which a guide whose axis is off by that much was turned to and fro, by
-/// up to `turn_rad`.
+/// A wire as planned, over which a guide whose axis is off by `off_rad` was turned to and fro by up
+/// to `turn_rad`.
 const Guidance& measures_turning(ScriptedOperation& s, double off_rad, double turn_rad) {
   constexpr int kPairs = 45;
   const Mat3 off = rotation_from_vector({0, 0, off_rad});
@@ -143,11 +143,11 @@ TEST_F(PlacedSession, ATurnedSleeveTellsTheWireWithoutTheGuidesAxis) {
   const double off_rad = 0.02;
   const Guidance& turned = measures_turning(s, off_rad, 1.0);
   ASSERT_NE(turned.wire, nullptr);
-  // The turn is found to a fiftieth of what the guide's axis is off.
+  // The error of the guide's axis is found to one fiftieth.
   EXPECT_NEAR(turned.wire->axis.angle_rad.value, 0.0, 0.02 * off_rad);
   EXPECT_LT(turned.wire->axis.angle_rad.sd, PlacedWireRules{}.axis_sd_rad);
   const Guidance& still = measures_turning(s, off_rad, 0.0);
-  // What was turned before is still among the last ten seconds, unless the sleeve was elsewhere.
+  // An earlier turn is still within the last ten seconds, unless the sleeve was elsewhere.
   ASSERT_NE(still.wire, nullptr);
   set_over(0.0, 0.3);
   s.pair();
@@ -241,7 +241,7 @@ TEST_F(PlacedSession, NobodyGoesBackToTheHole) {
   EXPECT_EQ(refusal->kind, ReplanRefusal::Kind::kNothingToUndo);
   EXPECT_EQ(level().plan.screws[0].entry, entry);
   EXPECT_TRUE(level().replanned(0)) << "the status line says so";
-  // What is changed from there on is taken back to there.
+  // Later changes can be undone back to this plan.
   ASSERT_NE(said<ScrewReplanned>(s.says("move cranial one")), nullptr);
   EXPECT_NE(level().plan.screws[0].entry, entry);
   ASSERT_NE(said<ScrewReplanned>(s.says("undo")), nullptr);
@@ -381,7 +381,7 @@ TEST_F(PlacedSession, NoPlanIsChangedAwayFromAWireThatNobodyLookedAt) {
   EXPECT_EQ(level().plan.screws[0].entry.v, kLeftEntry);
 }
 
-// What is no measurement.
+// What does not count as a measurement.
 
 TEST_F(PlacedSession, AGuideThatIsNotSeenMeasuresNothing) {
   set_over(0.0, 0.0);

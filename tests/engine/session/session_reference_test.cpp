@@ -26,7 +26,7 @@ ShownFrame shown(const Guidance& guidance) {
   return frame;
 }
 
-/// Guiding the first screw by a tool on its entry, with a reference in sight.
+/// Guiding the first screw with a tool on its entry and a reference in sight.
 struct Guided : ScriptedOperation {
   Guided() {
     tracker().hang_on_reference();

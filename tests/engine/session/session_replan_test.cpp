@@ -1,4 +1,4 @@
-// A screw that is changed in surgery: docs/decisions/0071-the-plan-in-use.md.
+// Screws that are changed in surgery: docs/decisions/0071-the-plan-in-use.md.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 
 constexpr double kExact = 1e-9;
 constexpr double kMm = 1e-3;
-/// Of the search for the least depth on the faces of a box.
+/// Tolerance of the search for the least depth on the faces of a box.
 constexpr double kSearch_m = 5e-6;
 constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
 

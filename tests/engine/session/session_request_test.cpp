@@ -20,7 +20,7 @@ constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
 constexpr Vec3 kLeftTarget{0.015, -0.015, 0.0};
 constexpr double kRadius_m = 0.003;
 
-/// What is heard of what was asked.
+/// Records what is reported about requests.
 class Listener : public SessionObserver {
  public:
   std::vector<std::string> heard;
@@ -73,7 +73,7 @@ TEST(RequestedCommand, ThatIsNoneChangesNothing) {
 TEST(RequestedCommand, AcceptsNothingBeforeItWasShown) {
   Requests4 s;
   s.registers_first_level();
-  // It comes with the very pair that shows the registration first.
+  // It arrives with the pair that first shows the registration.
   s.asks(command("accept"));
   EXPECT_EQ(s.session().current_step(), Step::kVerify);
   s.asks(command("accept"));

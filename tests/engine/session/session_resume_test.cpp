@@ -31,7 +31,7 @@ using ::testing::Not;
 
 constexpr Vec3 kOnBone{0, 0.02, 0};
 
-/// Done until the surgeon stands in that step, then killed.
+/// An operation that was killed once the surgeon had reached that step.
 std::unique_ptr<MemoryEnv> killed_in(Step step, bool reference) {
   MemoryEnv env;
   auto s = touched_operation(reference);

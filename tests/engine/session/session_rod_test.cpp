@@ -171,7 +171,7 @@ TEST_F(RodSession, ADoubleClickLeavesNoTouchBehind) {
   s.tracker().pointer = pointer_at({0.30, 0.03, 0.00});
   s.pairs(5);
   EXPECT_EQ(s.pair().rods[0].heads.size(), 1u);
-  // Had the second press gone on touching, the far tips would spoil this one.
+  // If the second press had continued the touch, the far tips would spoil this one.
   const Guidance& g = s.touches(head + Vec3{0, 0, 0.04});
   ASSERT_EQ(g.rods[0].heads.size(), 2u) << detail_text(g.status);
   EXPECT_NEAR((g.rods[0].heads[1].v - (head + Vec3{0, 0, 0.04})).norm(), 0.0, kExact);
@@ -187,7 +187,7 @@ TEST_F(RodSession, APressForOneRodRecordsNothingOnTheOther) {
   EXPECT_EQ(touch_refusal(g).kind, TouchRefusal::Kind::kPressAgain);
 }
 
-/// One level has one screw a side: there is nothing that a rod could join.
+/// One level has one screw per side, so there is nothing for a rod to join.
 TEST(OneLevel, IsDoneAfterItsLastScrew) {
   ScriptedOperation s({"L5"});
   const Guidance& g = s.finishes_every_screw();

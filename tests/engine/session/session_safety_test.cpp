@@ -23,7 +23,7 @@ constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
 // Arithmetic on values of the order of 1: far below what any device resolves.
 constexpr double kExact = 1e-9;
 
-/// Up to the double click that asks for the registration.
+/// Strokes up to the double click that asks for the registration.
 void digitizes(ScriptedOperation& s) {
   s.tracker().pointer = pointer_at({0, 0.02, 0});
   s.says("start");
@@ -143,7 +143,7 @@ TEST(Delete, KeepsASavedRegionUntilDeleteIsSaidTwice) {
   const auto* confirm = said<ConfirmDelete>(s.says("delete"));
   ASSERT_NE(confirm, nullptr);
   EXPECT_EQ(confirm->points, 5u);
-  s.pairs(200);  // more than 5 s: another matter
+  s.pairs(200);  // more than 5 s, so it no longer counts as said twice
   const Guidance& asked = s.says("delete");
   ASSERT_EQ(asked.regions.size(), 1u);
   EXPECT_EQ(asked.regions[0].samples.size(), 5u);

@@ -114,7 +114,7 @@ TEST(Session, StaysInDigitizeWithTheReasonWhenTheNumbersRefuse) {
   EXPECT_EQ(said<RegistrationRefused>(g)->reasons[0].kind, nav::RefusalReason::Kind::kRmse);
   EXPECT_EQ(g.levels[0].attempts, 1);
   EXPECT_FALSE(g.levels[0].registration.has_value());
-  // The saved regions stay: more strokes may heal it.
+  // The saved regions stay: more strokes may make it pass.
   EXPECT_EQ(g.regions.size(), 1u);
 }
 
@@ -203,7 +203,7 @@ TEST(Session, HidesGuidanceOnceThePoseIsOlderThanItsLimit) {
   s.tracker().guide = guide_at(kLeftEntry, 0.0);
   s.pairs(3);
   ASSERT_TRUE(s.pair().tool.has_value());
-  // The tracker goes on predicting for ever; its measurement ages all the same.
+  // The tracker keeps predicting, but its measurement still ages.
   s.tracker().guide_origin = PoseStatus::kPredicted;
   EXPECT_TRUE(s.pair().tool.has_value());
   EXPECT_TRUE(s.pair().status.tool_lost);
@@ -214,7 +214,7 @@ TEST(Session, HidesGuidanceOnceThePoseIsOlderThanItsLimit) {
   EXPECT_FALSE(g.status.tool_lost);
 }
 
-/// What the session tells of each screw that is done.
+/// Records what the session reports about each finished screw.
 struct DoneScrews : SessionObserver {
   void screw_done(Timestamp /*time*/, const LevelState& /*level*/, std::size_t /*screw*/,
                   const ToolGuidance* at_depth) override {

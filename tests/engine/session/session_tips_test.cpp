@@ -19,23 +19,23 @@ constexpr Vec3 kDimple = ScriptedOperation::kDimple;
 constexpr double kExact = 1e-9;
 constexpr double kTilt_rad = 0.3;
 
-/// With a reference; the landmark was touched by the pointer, which is laid aside in view.
+/// With a reference; the pointer has touched the landmark and was laid aside in view.
 class TipsSession : public ::testing::Test {
  protected:
   TipsSession() : s({"L4", "L5"}, test::three_places(), Verification::kByTouch, false, true) {
-    s.tracker().size_difference_sd = 0.0042;  // tags as printed, of sizes that nobody measured
+    s.tracker().size_difference_sd = 0.0042;  // tags as printed, of unmeasured size
     s.accepts_first_by_touch();
     s.touches_dimple();
     s.tracker().pointer = test::pointer_at(kDimple + Vec3{0.2, 0, 0});
   }
-  /// A click with the guide's tip there, as its description has it.
+  /// A click with the guide's tip there, according to its description.
   const Guidance& touches_by_guide(Vec3 tip) {
     s.tracker().guide = guide_at(tip, kTilt_rad);
     s.does({kPress});
     s.pair();
     return s.does({kRelease, kClick});
   }
-  /// How far the tip lies off the dimple where the description has it there, turned otherwise.
+  /// Distance of the tip from the dimple when the description puts it there in another orientation.
   double tip_off_m() {
     s.tracker().guide = guide_at(kDimple, -kTilt_rad);
     return (s.pairs(2).tool->measured->tip.v - kDimple).norm();
@@ -63,7 +63,7 @@ TEST_F(TipsSession, ADifferenceIsCorrectedOnlyWithConsent) {
   EXPECT_NEAR(tip_off_m(), 0.0, kExact) << "not yet";
 }
 
-/// With tags whose sizes nobody knows yet, most of a difference may be theirs.
+/// If the tag sizes are not known yet, most of a difference may come from them.
 TEST_F(TipsSession, TheCorrectionIsOfTheToolHoweverItIsHeldAndByWhatIsKnown) {
   const Vec3 off{0.004, 0.001, -0.003};
   touches_by_guide(kDimple + off);
@@ -75,7 +75,7 @@ TEST_F(TipsSession, TheCorrectionIsOfTheToolHoweverItIsHeldAndByWhatIsKnown) {
   EXPECT_GT(by_m, 0.1 * off.norm());
   EXPECT_LT(by_m, 0.5 * off.norm());
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kNone) << "while the message stands";
-  // The same pose as in the dimple: there its tip is nearer to the pointer's now.
+  // In the same pose as in the dimple, its tip is nearer to the pointer's now.
   s.says("next");
   s.tracker().guide = guide_at(kDimple + off, kTilt_rad);
   EXPECT_NEAR((s.pairs(2).tool->measured->tip.v - kDimple).norm(), off.norm() - by_m, kExact);

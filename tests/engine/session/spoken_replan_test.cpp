@@ -17,7 +17,7 @@ using nav::ScrewPart;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// What a phrase asks for, in words; what is wrong with it; or nothing.
+/// What a phrase asks for, in words, or what is wrong with it, or nothing.
 std::string heard(std::string_view phrase) {
   const auto replan = replan_from(phrase);
   if (!replan) {
@@ -109,7 +109,7 @@ TEST(SpokenReplan, LeavesEverythingElseAlone) {
   for (const char* phrase : {"", " ", "hello", "the screw six forty five", "next", "cranial one"}) {
     EXPECT_FALSE(replan_from(phrase)) << phrase;
   }
-  // "move rod" is a command of its own, which the session looks for first.
+  // "move rod" is a separate command, which the session checks first.
   EXPECT_EQ(command_event("move rod"), Event::kSayMoveRod);
 }
 

@@ -59,7 +59,7 @@ TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
   for (const auto& [step, event] : kRaised) {
     EXPECT_NE(answer(step, event).action, Action::kRefuse) << name_of(step) << name_of(event);
   }
-  // A button says nothing by itself: pressing it somewhere else is no mistake.
+  // A button has no fixed meaning, so pressing it in another step is not a mistake.
   for (std::size_t s = 0; s < kStepCount; ++s) {
     for (const Event event : {Event::kPress, Event::kRelease, Event::kClick, Event::kHold}) {
       EXPECT_NE(answer(static_cast<Step>(s), event).action, Action::kRefuse) << s;
@@ -103,10 +103,10 @@ INSTANTIATE_TEST_SUITE_P(Workflow, EveryVerification,
                          ::testing::Values(Verification::kByTouch, Verification::kByEye));
 
 TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
-  // What is raised on an "accept" when the touched places bear it out, else the word itself.
+  // The event raised on "accept" when the touched places confirm it, otherwise "accept" itself.
   const bool by_touch = GetParam() == Verification::kByTouch;
   const Event accepting = by_touch ? Event::kChecked : Event::kSayAccept;
-  // What is raised on a "next" once the landmark was found.
+  // The event raised on "next" once the landmark was found.
   const Event guiding = by_touch ? Event::kLandmarkTouched : Event::kSayNext;
   for (std::size_t s = 0; s < kStepCount; ++s) {
     for (std::size_t e = 0; e < kEventCount; ++e) {
@@ -121,7 +121,8 @@ TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
         const bool after_screw = by_touch && step == Step::kPlaced &&
                                  (event == Event::kAnotherScrew || event == Event::kScrewRedone);
         const bool drifted = by_touch && step == Step::kGuide && event == Event::kBoneUnchecked;
-        // Accepted by the surgeon before the program ended; the landmark tells whether it holds.
+        // Accepted by the surgeon before the program ended; the landmark shows whether it still
+        // holds.
         const bool restored =
             by_touch && step == Step::kDigitize && event == Event::kAcceptanceRestored;
         EXPECT_TRUE(after_screw || drifted || restored ||
@@ -171,7 +172,7 @@ TEST(Workflow, VerifyingByEyeDiffersInVerifyLandmarkAndWire) {
           step == Step::kGuide && (event == Event::kSayNext || event == Event::kAnotherScrew ||
                                    event == Event::kAnotherLevel || event == Event::kNoScrewLeft ||
                                    event == Event::kNoRodPlanned || event == Event::kBoneUnchecked);
-      // No landmark that could tell.
+      // There is no landmark to show it.
       const bool restored = step == Step::kDigitize && event == Event::kAcceptanceRestored;
       if (step == Step::kVerify || step == Step::kAccepted || after_screw || restored) {
         continue;
@@ -179,7 +180,7 @@ TEST(Workflow, VerifyingByEyeDiffersInVerifyLandmarkAndWire) {
       EXPECT_EQ(answer(step, event, Verification::kByEye), answer(step, event)) << s << " " << e;
     }
   }
-  // The published way has nothing to click at and nothing to take back.
+  // The published method has nothing to click and nothing to take back.
   for (const Event event : {Event::kPress, Event::kRelease, Event::kClick, Event::kHold}) {
     for (const Step step : {Step::kVerify, Step::kAccepted}) {
       EXPECT_EQ(answer(step, event, Verification::kByEye), (Cell{step, Action::kIgnore}));

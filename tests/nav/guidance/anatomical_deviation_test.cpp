@@ -123,7 +123,7 @@ TEST(AnatomicalDeviation, DoesNotChangeWithThePatientsPose) {
   tool.point = tool.point + Vec3{0.002, 0.001, -0.0015};
   tool.direction = (rotation_from_vector({0.03, 0.02, -0.05}) * tool.direction).normalized();
   const auto still = anatomical_deviation(plan, tool, nullptr);
-  // Through World and back, as a tracked tool comes.
+  // Through World and back, like a tracked tool.
   const Point<World> tip = rotated * tool.point;
   const Vec3 direction = rotated.rotation() * tool.direction;
   const auto back = rotated.inverse();

@@ -12,8 +12,8 @@ namespace {
 constexpr double kExact = 1e-12;
 constexpr double kMm = 1e-3;
 
-/// A roof that falls by 1 mm a mm to the left of x = 0, and lies at y = 0 to the right of it: two
-/// faces, seen from behind (+y).
+/// A roof that falls by 1 mm per mm left of x = 0 and is flat at y = 0 right of it: two faces, seen
+/// from behind (+y).
 SurfaceIndex roof() {
   TriangleMesh mesh;
   mesh.vertices_m = {{0, 0, -0.1},      {0, 0, 0.1},    {0.1, -0.1, 0.1},
@@ -103,7 +103,7 @@ TEST(ChangedScrew, IsNoneWhereTheBoneIsNotReached) {
   const auto off =
       moved_screw(straight(), ScrewPart::kWhole, ScrewDirection::kCranial, 110 * kMm, bone, bone);
   EXPECT_FALSE(off) << "beside the bone";
-  // The right half is what a pointer reaches, the left one lies before it.
+  // A pointer can reach the right half; the left one lies in front of it.
   TriangleMesh lower;
   lower.vertices_m = {{-0.1, -0.01, -0.1}, {-0.1, -0.01, 0.1}, {0, -0.01, 0.1}};
   lower.triangles = {{0, 1, 2}};

@@ -12,7 +12,7 @@
 namespace orthonav::nav::clearance_spread_test {
 namespace {
 
-/// Of the standard normal distribution.
+/// The 95 % quantile of the standard normal distribution.
 constexpr double kQuantile95 = 1.6448536;
 /// The error of the quantile from 1024 motions, in SDs.
 constexpr double kMotions = 0.05;
@@ -26,7 +26,7 @@ PoseUncertainty with_sds(Vec3 centre_m, double translation_m, double rotation_ra
   return {centre_m, covariance};
 }
 
-/// Walls 100 mm and more away but one, at x = 10 mm.
+/// All walls are at least 100 mm away except one at x = 10 mm.
 const SurfaceIndex& one_wall() {
   static const SurfaceIndex kBox(test::box({-0.100, -0.200, -0.100}, {0.010, 0.100, 0.100}));
   return kBox;
@@ -128,13 +128,13 @@ TEST(WithTool, MovesTheToolsCovarianceToTheBonesCentre) {
   EXPECT_NEAR(at_origin[0], 0.04 * 1e-4, 1e-12);
   EXPECT_NEAR(at_origin[4], 4e-8, 1e-12);
   EXPECT_NEAR(at_origin[8], 0.0, 1e-12);
-  // At the marker nothing turns.
+  // At the marker the rotation has no effect.
   const auto at_marker = both.covariance_at(vertebra_from_world * marker);
   EXPECT_NEAR(at_marker[0], 0.0, 1e-12);
   EXPECT_NEAR(at_marker[4], 4e-8, 1e-12);
 }
 
-/// How often the truth lies above the bound: screws of real plans are moved by motions drawn from
+/// How often the truth lies above the bound: screws of real plans are moved by random motions from
 /// the bound's covariance, enlarged by the factor `more`.
 struct Honesty {
   int draws = 0;
@@ -192,7 +192,7 @@ TEST(ClearanceSpread, BoundHoldsIn95Of100DrawsOnRealVertebrae) {
   EXPECT_LE(honest.fraction(), 0.97);
   EXPECT_NEAR(honest.grade_as_expected / static_cast<double>(honest.draws),
               honest.expected / honest.draws, 0.03);
-  // The twins: a covariance that says too little, or too much.
+  // The counterparts: a covariance that is too small, or too large.
   EXPECT_LT(honesty(1.3).fraction(), 0.93);
   EXPECT_GT(honesty(0.7).fraction(), 0.97);
 }

@@ -12,7 +12,7 @@ constexpr double kDegree = 3.14159265358979 / 180.0;
 constexpr double kTarget_m = 0.040;
 const DrillLimits kLimits;
 
-/// A drill on a straight way into the bone, pair after pair at 30 a second.
+/// A drill moving straight into the bone, at 30 pairs a second.
 struct Drilled {
   DrillWatch watch;
   DrillReading reading{.depth_sd_m = 0.0004};
@@ -36,7 +36,7 @@ struct Drilled {
     }
     return watch.view();
   }
-  /// From the entry to a depth, a millimetre a pair.
+  /// Drills from the entry to a depth, one millimetre per pair.
   DrillView drills_to(double depth_m) {
     rests(0.0, 20);
     for (double there_m = 0.001; there_m < depth_m; there_m += 0.001) {

@@ -12,7 +12,8 @@ namespace {
 constexpr double kRounding = 1e-12;
 const ScrewPlan kPlan{Side::kLeft, {{0.015, 0.020, 0.0}}, {{0.015, -0.020, 0.0}}, 0.003};
 
-/// So deep along a line that enters beside the plan and leans by `lean_rad` towards +x.
+/// A tool `depth_m` deep along a line that enters `beside_m` from the plan and is tilted by
+/// `lean_rad` towards +x.
 Axis<Vertebra> tool(double depth_m, double beside_m = 0.0, double lean_rad = 0.0) {
   const Vec3 direction{std::sin(lean_rad), -std::cos(lean_rad), 0.0};
   const Vec3 entry = kPlan.entry.v + Vec3{beside_m, 0.0, 0.0};
@@ -32,7 +33,7 @@ TEST(TrajectoryAtDepth, IsWhereTheToolWasAtItsDeepest) {
   TrajectoryAtDepth at_depth;
   EXPECT_FALSE(at_depth.mean());
   for (const double depth_m : {0.0, 0.010, 0.020, 0.0300, 0.0302, 0.0301}) {
-    // On its way it still leaned elsewhere.
+    // On the way in it was tilted differently.
     at_depth.add(kPlan, depth_m < 0.03 ? tool(depth_m, 0.004, 0.2) : tool(depth_m, 0.001, 0.02),
                  nullptr);
   }
@@ -66,7 +67,7 @@ TEST(TrajectoryAtDepth, AveragesScatterButNotThePosesOwnError) {
   const auto mean = at_depth.mean();
   ASSERT_TRUE(mean && mean->point_covariance_m2 && mean->direction_covariance_rad2);
   EXPECT_EQ(mean->pairs, static_cast<std::size_t>(kPairs));
-  // Along x the scatter is added as it is left in a mean of 400; along z there is none.
+  // Along x the scatter of a mean of 400 is added; along z there is none.
   const double own_m2 = 0.0005 * 0.0005;
   const double left_m2 = kScatter_m * kScatter_m / kPairs;
   EXPECT_NEAR((*mean->point_covariance_m2)[0], own_m2 + left_m2, 0.2 * left_m2);

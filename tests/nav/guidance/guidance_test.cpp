@@ -81,7 +81,7 @@ TEST(Guide, ShowsATipBesideTheEntryInTheTriangleOfAParallelTool) {
     EXPECT_NEAR(g.angle_rad, 0.0, kRounding_rad) << "the number is that of the directions";
     EXPECT_LT(off_tool_m(g, g.b), kRounding_m);
     EXPECT_NEAR((g.b - g.a).norm(), kTriangleReach_m, kRounding_m);
-    // As far from the planned axis as the tip: the chord of that, by the sphere about A.
+    // As far from the planned axis as the tip: the chord on the sphere about A.
     const double angle_at_a_rad = std::asin(aside_m / kTriangleReach_m);
     EXPECT_NEAR((g.b - g.c).norm(), 2.0 * kTriangleReach_m * std::sin(0.5 * angle_at_a_rad),
                 kRounding_m);

@@ -14,7 +14,7 @@ constexpr double kRounding = 1e-9;
 constexpr double kGrid_m = 0.0002;
 constexpr double kTolerance_m = 0.00005;
 
-/// A box so wide to either side of the plan (x), 60 mm deep and 60 mm high; +y is behind.
+/// A box of these widths on either side of the plan (x), 60 mm deep and 60 mm high; +y is behind.
 SurfaceIndex box(double left_m, double right_m) {
   return SurfaceIndex(test::box({-left_m, -0.040, -0.030}, {right_m, 0.020, 0.030}));
 }
@@ -36,8 +36,8 @@ TEST(OtherEntry, IsAsFarFromTheHoleAsAskedAndLeavesTheTarget) {
 }
 
 TEST(OtherEntry, KeepsTheLargestClearanceOfAllPlacesThatAreFarEnough) {
-  // The nearer wall is on the right, so that the best entry is on the left of the hole, and as near
-  // to it as may be is not the best: farther left is farther from the wall.
+  // The nearer wall is on the right, so the best entry is on the left of the hole. The nearest
+  // allowed one is not the best: farther left is farther from the wall.
   const SurfaceIndex bone = box(0.030, 0.0045);
   const Point<Vertebra> hole{{0.001, 0.020, 0.0}};
   const auto found = other_entry(kPlan, hole, bone);
@@ -71,7 +71,7 @@ TEST(OtherEntry, IsNoneOfAPlanWithoutARadius) {
 TEST(OtherEntry, IsNotOnASlopeOnWhichADrillSlips) {
   const SurfaceIndex bone = box(0.020, 0.020);
   OtherEntryRules rules;
-  // Every axis to the target leans by more than this against the flat back.
+  // Every axis to the target is tilted by more than this against the flat back.
   rules.steepest_rad = std::atan2(rules.from_hole_m - 0.0001, 0.035);
   EXPECT_FALSE(other_entry(kPlan, kPlan.entry, bone, rules));
   rules.steepest_rad = std::atan2(rules.from_hole_m + 0.0005, 0.035);

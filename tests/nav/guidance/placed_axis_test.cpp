@@ -12,8 +12,8 @@ namespace {
 constexpr double kRounding = 1e-12;
 const ScrewPlan kPlan{Side::kLeft, {{0.015, 0.020, 0.0}}, {{0.015, -0.020, 0.0}}, 0.003};
 
-/// A sleeve that stands so far out of the bone on a line that passes the entry beside the plan,
-/// towards +x, and leans by `lean_rad` about z.
+/// A sleeve `out_m` out of the bone on a line that passes the entry `beside_m` towards +x and is
+/// tilted by `lean_rad` about z.
 Axis<Vertebra> sleeve(double out_m, double beside_m, double lean_rad) {
   const Vec3 direction{std::sin(lean_rad), -std::cos(lean_rad), 0.0};
   const Vec3 nearest = kPlan.entry.v + beside_m * Vec3{std::cos(lean_rad), std::sin(lean_rad), 0.0};
@@ -56,10 +56,11 @@ TEST(PlacedAxis, AnErrorOfTheAxisCountsAtTheEntryByTheWayToIt) {
   EXPECT_NEAR(far.angle_rad.sd, 0.010, kRounding);
 }
 
-/// Of a wire well off the plan, so that its distance is nearly linear in the errors.
+/// Uses a wire well off the plan, so that its distance is nearly linear in the errors.
 TEST(PlacedAxis, TheSdsAreThoseOfDraws) {
   constexpr int kDraws = 4000;
-  constexpr double kSampling = 0.05;  // of an SD from so many draws, more than four of its SDs
+  constexpr double kSampling =
+      0.05;  // relative error of an SD from these draws, more than four SDs of it
   constexpr double kTranslation_m = 0.0004;
   constexpr double kRotation_rad = 0.004;
   const SleeveErrors errors{0.006, 0.0003};

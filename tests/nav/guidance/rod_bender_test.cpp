@@ -14,7 +14,7 @@ namespace orthonav::nav::rod_bender_test {
 namespace {
 
 constexpr double kDiameter_m = 0.0055;
-// Bisection ends far below; a thousandth of a degree is no reading.
+// Bisection is far more precise; a thousandth of a degree can't be read.
 constexpr double kSameAngle_rad = 1e-3 * kRadiansPerDegree;
 
 double rad(double degrees) { return degrees * kRadiansPerDegree; }

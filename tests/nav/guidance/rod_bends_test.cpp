@@ -16,8 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// The fit weighs seats at 0.05 mm against angles at 20°: what is left of a seat that can be
-// reached.
+// Remaining error of a reachable seat, since the fit weighs seats at 0.05 mm against angles at 20°.
 constexpr double kReached_m = 2e-6;
 // An angle that a lever of 20 mm turns into 2 µm.
 constexpr double kSameBend_rad = 1e-4;
@@ -25,7 +24,7 @@ constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 double rad(double degrees) { return degrees * kRadiansPerDegree; }
 
-/// Where places along a rod's axis lie, all on its straights, moved and turned.
+/// Points at places along a rod's axis, all on its straights, after a rigid motion.
 std::vector<Vec3> seats_on(const std::vector<RodArc>& arcs, const std::vector<double>& places_m) {
   const Mat3 rotation = rotation_from_vector({0.4, -0.9, 1.7});
   const auto straights = rod_straights(arcs, 1.0);
@@ -112,7 +111,7 @@ TEST(RodInstructions, TakeOneBendForFourSeatsOnACircle) {
 }
 
 TEST(RodInstructions, FindTwoBendsInDifferentPlanes) {
-  // Two seats on every straight: nothing is left open but the line.
+  // Two seats on every straight determine everything.
   const std::vector<RodArc> bent = {{0.055, 0.020, rad(14), 0.0}, {0.120, 0.020, rad(9), rad(70)}};
   const auto told =
       rod_instructions(seats_on(bent, {0.005, 0.035, 0.075, 0.100, 0.140, 0.170}), {});
@@ -135,7 +134,7 @@ TEST(RodInstructions, StraightSeatsNeedNoBend) {
   EXPECT_NEAR(told->cut_length_m(), 0.080, kReached_m);
 }
 
-/// What the header promises, over rods of many shapes.
+/// Checks what the header promises, over rods of many shapes.
 TEST(RodInstructions, KeepTheirPromisesOnUnevenSpines) {
   const RodBending bending;
   int followed = 0;
@@ -165,8 +164,8 @@ TEST(RodInstructions, KeepTheirPromisesOnUnevenSpines) {
   EXPECT_GE(followed, 30) << "spines that no rod of one bend a gap fits are the exception";
 }
 
-/// The distances are those of the rod that the instructions make, by another way: the chain of
-/// chords in space.
+/// Checks the distances for the rod made by the instructions in another way: by the chain of chords
+/// in space.
 TEST(RodInstructions, PredictTheRodThatTheyMake) {
   const auto seats = uneven_seats(2, 5);
   const auto told = rod_instructions(seats, {});
@@ -186,7 +185,7 @@ TEST(RodInstructions, PredictTheRodThatTheyMake) {
 }
 
 TEST(RodInstructions, RefuseARadiusTooTight) {
-  // 45° between two straights that two seats each hold.
+  // 45° between two straights, each determined by two seats.
   const std::vector<RodArc> bent = {{0.055, 0.020, rad(45), 0.0}};
   const auto seats = seats_on(bent, {0.005, 0.035, 0.075, 0.105});
   EXPECT_THAT(

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// The spline's own promise; two lengths are compared, so twice that.
+// Twice the spline's guaranteed tolerance, because two lengths are compared.
 constexpr double kCutTolerance_m = 2e-6;
 constexpr Vec3 kAnterior{0.0, -1.0, 0.0};
 

@@ -19,8 +19,8 @@ using ::testing::HasSubstr;
 constexpr double kLength_m = 0.16;
 constexpr double kDiameter_m = 0.0055;
 
-/// A stroke from end to end on the rod's surface, in a room in which the rod lies anyhow. Sides:
-/// the angles about the axis where the tip runs, one pass after the other, there and back.
+/// A stroke from end to end on the rod's surface, with the rod in an arbitrary pose. Sides: the
+/// angles about the axis along which the tip runs, one pass after the other, there and back.
 std::vector<Vec3> stroke(const std::vector<RodArc>& arcs, double noise_m,
                          const std::vector<double>& sides_rad, double from_m = 0.0,
                          double to_m = kLength_m) {
@@ -31,7 +31,7 @@ std::vector<Vec3> stroke(const std::vector<RodArc>& arcs, double noise_m,
   for (const double at : sides_rad) {
     for (int i = 0; i < kPoints; ++i) {
       const double along_m = from_m + (to_m - from_m) * (i + 0.5) / kPoints;
-      // The axis by very short arcs of its own, with the frame that is carried along.
+      // The axis from very short arcs of its own, with the frame transported along it.
       std::vector<RodArc> until;
       for (RodArc arc : arcs) {
         const double begin_m = arc.centre_m - 0.5 * arc.width_m;
@@ -59,7 +59,7 @@ std::vector<Vec3> stroke(const std::vector<RodArc>& arcs, double noise_m,
   return points;
 }
 
-/// Three passes, a third of the way round from each other.
+/// Three passes, a third of a turn apart.
 std::vector<double> around(double first_rad) {
   constexpr double kThird_rad = 2.0 * std::numbers::pi / 3.0;
   return {first_rad, first_rad + kThird_rad, first_rad + 2.0 * kThird_rad};
@@ -91,7 +91,7 @@ TEST(RodStroke, FindsTheBendOnExactPoints) {
   EXPECT_NEAR(found->arc.angle_rad, 0.18, kPulled_rad);
   EXPECT_NEAR(found->arc.roll_rad, 0.9, 5.0 * kPulled_rad);
   EXPECT_LT(found->rms_m, 1e-4);
-  // It is also known where the rod lies; along itself only by its two bends.
+  // The rod's place is found too; along its axis only by its two bends.
   EXPECT_LT((found->rod_in_points_m - Vec3{0.3, -0.1, 0.7}).norm(), 0.001);
   EXPECT_DOUBLE_EQ(found->arc.centre_m, 0.110);
 }
@@ -105,7 +105,8 @@ TEST(RodStroke, DoesNotMindOnWhichSidesTheTipRan) {
   }
 }
 
-/// The axis may lie anywhere about a line that is touched: one pass tells little, and says so.
+/// The axis may lie anywhere around a touched line: one pass determines little, and its errors say
+/// so.
 TEST(RodStroke, OnePassAloneTellsLittle) {
   const auto se_rad = [](const std::vector<double>& sides_rad) {
     return measured_bend(as_instructed(0.05, 0.1), kLength_m, kDiameter_m,
@@ -116,7 +117,7 @@ TEST(RodStroke, OnePassAloneTellsLittle) {
   EXPECT_LE(se_rad({0.5}), RodStrokeRules{}.angle_sd_rad);
 }
 
-/// Over many noisy strokes the errors are as large as the standard errors say.
+/// Over many noisy strokes the errors match the standard errors.
 TEST(RodStroke, StandardErrorsAreThoseOfTheErrors) {
   double angle_z2 = 0.0;
   double roll_z2 = 0.0;
@@ -136,8 +137,8 @@ TEST(RodStroke, StandardErrorsAreThoseOfTheErrors) {
     roll_z2 += std::pow((found->arc.roll_rad - 0.9) / found->roll_se_rad, 2.0) / kStrokes;
     EXPECT_LT(found->angle_se_rad, rules.angle_sd_rad);
   }
-  // chi-squared of 40 within its central 99.8 %: 0.45 to 1.85; errors that are never told apart
-  // from the prior's would still pass, so that is asked above.
+  // chi-squared of 40 within its central 99.8 %: 0.45 to 1.85. Errors no better than the prior
+  // would still pass, so that is checked above.
   EXPECT_GT(angle_z2, 0.45);
   EXPECT_LT(angle_z2, 1.85);
   EXPECT_GT(roll_z2, 0.45);

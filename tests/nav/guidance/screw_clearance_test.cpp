@@ -14,11 +14,11 @@
 namespace orthonav::nav::screw_clearance_test {
 namespace {
 
-/// The search narrows to 4 µm; on a plane nothing else is left out.
+/// The search narrows to 4 µm; on a plane there is no other error.
 constexpr double kSearch_m = 5e-6;
 /// What `least_clearance` promises by default.
 constexpr double kTolerance_m = 0.00005;
-constexpr double kSide_m = 0.0005;  ///< of what is tried on either side of a limit
+constexpr double kSide_m = 0.0005;  ///< distance of the values tried on either side of a limit
 /// A box of 20 × 60 × 30 mm; +y is behind.
 const SurfaceIndex& box() {
   static const SurfaceIndex kBox(test::box({-0.010, -0.040, -0.015}, {0.010, 0.020, 0.015}));
@@ -30,7 +30,7 @@ ScrewCylinder straight_in(double x, double z, double radius_m = 0.003) {
   return {{{x, 0.020, z}}, {0, -1, 0}, 0.045, radius_m};
 }
 
-/// A closed tube of so many sides about the y axis, 80 mm long: a bone that is all pedicle.
+/// A closed tube with `sides` sides about the y axis, 80 mm long: a bone that is all pedicle.
 TriangleMesh tube(double radius_m, std::uint32_t sides) {
   TriangleMesh mesh;
   for (const double y : {-0.040, 0.040}) {
@@ -90,7 +90,7 @@ TEST(ScrewClearance, CountsTheTipAndNotTheFirstSixMillimetres) {
   EXPECT_STREQ(direction_of(*tip, Side::kLeft), "tip");
   screw.length_m = 0.0615;
   EXPECT_NEAR(least_clearance(box(), screw)->clearance_m, -0.0015, kSearch_m);
-  // The entry lies on the surface, where every depth is 0: 6 mm farther it is 6 mm of depth.
+  // The entry lies on the surface, where every depth is 0; 6 mm farther the depth is 6 mm.
   const ScrewCylinder thin = straight_in(0.0, 0.0, 0.001);
   EXPECT_NEAR(least_clearance(box(), thin)->clearance_m, 0.006, kSearch_m);
   EXPECT_NEAR(least_clearance(box(), thin)->arc_length_m, 0.006, kSearch_m);
@@ -99,7 +99,7 @@ TEST(ScrewClearance, CountsTheTipAndNotTheFirstSixMillimetres) {
 TEST(ScrewClearance, OfACylinderInATubeIsTheDifferenceOfTheRadii) {
   constexpr std::uint32_t kSides = 96;
   const SurfaceIndex bone(tube(0.005, kSides));
-  // Between its corners a polygon lies nearer by this.
+  // Between its corners a polygon is nearer by this.
   const double sagitta_m = 0.005 * (1.0 - std::cos(std::numbers::pi / kSides));
   for (const double aside_m : {0.0, 0.0007, 0.0015}) {
     const ScrewCylinder screw{{{aside_m, 0.030, 0.0}}, {0, -1, 0}, 0.045, 0.003};
@@ -190,7 +190,7 @@ TEST(ClearanceProfile, FollowsAWallThatComesNearer) {
   EXPECT_FALSE(clearance_profile(box(), screw, none));
 }
 
-/// The slow way: every place of a fine grid, the sides by other rays than the probe's.
+/// Brute force: every place of a fine grid, with other rays than the probe's.
 double by_brute_force(const TriangleMesh& mesh, const ScrewCylinder& screw) {
   const SurfaceIndex bone(mesh);
   const auto surface = *CylinderSurface::of(screw);
@@ -228,7 +228,7 @@ TEST(ScrewClearance, OnRealVertebraeIsWhatBruteForceFinds) {
         const Clearance found = *least_clearance(bone, screw);
         const double least_m = found.clearance_m;
         EXPECT_LT(least_m, by_brute_force(levels[i].mesh, screw) + kTolerance_m) << levels[i].name;
-        // It is no less than the true one: there is a place of the screw with that depth.
+        // It is not below the true one: there is a place of the screw with that depth.
         const Vec3 aside = found.place.v - screw.entry.v;
         EXPECT_LT(aside.cross(screw.direction).norm(), screw.radius_m + 1e-12);
         const double side = bone.contains(found.place.v) ? 1.0 : -1.0;
@@ -247,7 +247,7 @@ TEST(ScrewClearance, StandsASmallDefectOfTheMesh) {
   }
   const auto screw = *cylinder_of(level->screws[0]);
   const auto whole = *least_clearance(SurfaceIndex(level->mesh), screw);
-  // A face that is turned over, and one that is missing, far from the screw and beside it.
+  // A flipped face, and a missing one, far from the screw and beside it.
   for (const std::size_t face : {std::size_t{0}, level->mesh.triangles.size() / 2}) {
     TriangleMesh inverted = level->mesh;
     std::swap(inverted.triangles[face][0], inverted.triangles[face][1]);

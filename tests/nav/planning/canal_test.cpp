@@ -9,7 +9,7 @@
 namespace orthonav::nav::canal_test {
 namespace {
 
-/// The search's grid of tilts has 7.5°.
+/// Grid step of the search over tilts.
 constexpr double kGrid_deg = 7.5;
 
 const TriangleMesh& phantom_l3() {

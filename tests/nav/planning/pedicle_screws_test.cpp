@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The sizes that are built in, or one diameter of them.
+/// The built-in sizes, or some of their diameters.
 std::vector<ImplantSize> sizes(std::vector<double> diameters_mm = {4.5, 5.0, 5.5, 6.0, 6.5, 7.0}) {
   std::vector<ImplantSize> out;
   for (const double diameter_mm : diameters_mm) {
@@ -65,7 +65,8 @@ TEST(PedicleScrews, AreInsideAndMirrorEachOtherInASymmetricBone) {
 }
 
 TEST(PedicleScrews, LeaveNoBetterOneOfThatSizeToChance) {
-  // What is given up for usual angles: 0.01 mm a degree in the search, and the grid's step.
+  // The clearance sacrificed for usual angles: 0.01 mm per degree in the search, and the grid's
+  // step.
   constexpr double kGivenUp_m = 0.0003;
   const SurfaceIndex& bone = phantom_l4().surface;
   const auto planned = plan_pedicle_screws(phantom_l4().mesh, bone, sizes());
@@ -126,7 +127,7 @@ TEST(PedicleScrews, AreRefusedWhereNoLengthReachesTheBodyAndEndsSafely) {
 }
 
 TEST(PedicleScrews, FollowAVertebraThatIsTiltedInItsScan) {
-  constexpr double kSame_m = 0.0003;  // both searches give up a little
+  constexpr double kSame_m = 0.0003;  // both searches sacrifice a little
   const auto upright = plan_pedicle_screws(phantom_l4().mesh, phantom_l4().surface, sizes());
   const TriangleMesh mesh = test::rotated(
       phantom_l4().mesh, rotation_from_vector(-30.0 * kRadiansPerDegree * Vec3{1, 0, 0}));

@@ -29,7 +29,7 @@ long number(const char* name) {
   return value != nullptr ? std::strtol(value, nullptr, 10) : 0;
 }
 
-/// Path without the links that /proc keeps for open files; empty where that is not known.
+/// Resolves the links that /proc keeps for open files; empty if unknown.
 std::string_view followed(const char* path, std::array<char, PATH_MAX>& held) {
   if (std::strncmp(path, "/proc/self/fd/", 14) != 0) {
     return path;
@@ -38,7 +38,7 @@ std::string_view followed(const char* path, std::array<char, PATH_MAX>& held) {
   return {held.data(), bytes > 0 ? static_cast<std::size_t>(bytes) : 0};
 }
 
-/// By the system call itself, which nobody takes over.
+/// By the system call itself, which is not intercepted.
 void list(std::string_view kind, std::string_view path) {
   const std::string_view file = asked("FAILING_CALLS_LIST");
   if (file.empty()) {
@@ -61,7 +61,7 @@ bool is_below(std::string_view path, std::string_view folder) {
          (path.size() == folder.size() || path[folder.size()] == '/');
 }
 
-/// Of calls that were asked for, over all threads.
+/// Number of matching calls, over all threads.
 std::atomic<long>& count() {
   static std::atomic<long> calls = 0;
   return calls;

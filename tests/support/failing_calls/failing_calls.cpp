@@ -15,7 +15,7 @@ namespace {
 
 bool writes(int flags) { return (flags & O_ACCMODE) != O_RDONLY || (flags & O_CREAT) != 0; }
 
-/// `open` has its third argument only where it makes a file.
+/// `open` has its third argument only if it creates a file.
 mode_t mode_in(int flags, va_list& more) {
   const bool makes = (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
   return makes ? va_arg(more, mode_t) : 0;
@@ -115,7 +115,7 @@ int ftruncate64(int file, off64_t length) {
   return fails(Kind::kTruncate, file) ? -1 : real(file, length);
 }
 
-/// As a file system over a network reports a write that failed late.
+/// Fails like a network file system that reports a failed write late.
 int close(int file) {
   static const auto real = next<int(int)>("close");
   if (is_for_writing(file) && fails(Kind::kClose, file)) {

@@ -9,7 +9,7 @@ using orthonav::test::failing_calls::is_for_writing;
 using orthonav::test::failing_calls::Kind;
 using orthonav::test::failing_calls::next;
 
-// libc's streams write and close within libc, where nobody can take over.
+// libc's streams write and close within libc, where calls can't be intercepted.
 extern "C" {
 
 FILE* fopen(const char* path, const char* mode) {

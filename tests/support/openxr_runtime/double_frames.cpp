@@ -214,7 +214,7 @@ XrResult XRAPI_CALL begin_frame(XrSession, const XrFrameBeginInfo*) {
   return discarded ? XR_FRAME_DISCARDED : XR_SUCCESS;
 }
 
-/// Why a part of an image can't be shown; empty when it can.
+/// Why a part of an image can't be shown; empty if it can.
 std::string flaw_of(Double& d, const XrSwapchainSubImage& part) {
   const DoubleSwapchain* chain = chain_of(d, part.swapchain);
   if (chain == nullptr) {
@@ -249,7 +249,7 @@ std::string flaw_of(Double& d, const XrCompositionLayerProjectionView& view) {
   return {};
 }
 
-/// The depth that hangs on a view, if any does.
+/// The depth attached to a view, if any.
 std::string take_depth(Double& d, const XrCompositionLayerProjectionView& view,
                        std::vector<float>& metres) {
   const auto* depth = static_cast<const XrCompositionLayerDepthInfoKHR*>(view.next);
@@ -273,7 +273,7 @@ std::string take_depth(Double& d, const XrCompositionLayerProjectionView& view,
   const auto bytes = chain.chain->read(*chain.released, depth->subImage.imageArrayIndex);
   metres.resize(bytes.size() / sizeof(float));
   std::memcpy(metres.data(), bytes.data(), bytes.size());
-  // The hyperbola of a projection with the far plane anywhere, also at infinity.
+  // The hyperbola of a projection with any far plane, including infinity.
   for (float& value : metres) {
     value = 1.0f / (1.0f / depth->nearZ + value * (1.0f / depth->farZ - 1.0f / depth->nearZ));
   }

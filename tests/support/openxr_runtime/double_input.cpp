@@ -41,7 +41,7 @@ XrResult XRAPI_CALL path_to_string(XrInstance, XrPath path, std::uint32_t capaci
   return XR_SUCCESS;
 }
 
-// One set and one action are all that there is; their handles stand for nothing else.
+// There is only one set and one action, so their handles are arbitrary.
 XrResult XRAPI_CALL create_action_set(XrInstance, const XrActionSetCreateInfo*, XrActionSet* set) {
   *set = reinterpret_cast<XrActionSet>(std::uintptr_t{0x5e7});
   return XR_SUCCESS;

@@ -236,7 +236,7 @@ XrResult XRAPI_CALL get_proc(XrInstance, const char* name, PFN_xrVoidFunction* f
   return *function != nullptr ? XR_SUCCESS : XR_ERROR_FUNCTION_UNSUPPORTED;
 }
 
-// What the loader and a runtime say to one another; Debian ships no header of it.
+// The interface between the loader and a runtime; Debian ships no header for it.
 struct LoaderInfo {
   int type;
   std::uint32_t version;

@@ -8,7 +8,7 @@
 namespace orthonav::test {
 namespace {
 
-/// Pixels that are not black, of both eyes.
+/// Number of pixels that are not black, of both eyes.
 std::size_t lit_pixels(const SubmittedFrame& frame) {
   std::size_t lit = 0;
   for (const auto& eye : frame.pixels) {
@@ -64,7 +64,7 @@ void obey(Double& d, std::istream& line, const std::string& word) {
 
 }  // namespace
 
-/// Lines of a word and a number. Once: a second instance goes on where the first one ended.
+/// Reads lines of a word and a number, once: a second instance continues where the first one ended.
 void take_script(Double& d) {
   if (d.head) {
     return;

@@ -202,13 +202,13 @@ XrResult XRAPI_CALL locate_views(XrSession, const XrViewLocateInfo* info, XrView
     return d.violated("views in a space of nobody's", XR_ERROR_HANDLE_INVALID);
   }
   const bool on_head = space->type == XR_REFERENCE_SPACE_TYPE_VIEW;
-  // Where the eyes are on the head is known however lost the head is.
+  // The eyes' place on the head is known even if the head is lost.
   state->viewStateFlags = on_head ? kAllFlags : d.flags();
   std::vector<XrView> both(2, {XR_TYPE_VIEW});
   for (std::size_t eye = 0; eye < 2; ++eye) {
     XrPosef offset = {{0, 0, 0, 1}, {eye == 0 ? -0.0315f : 0.0315f, 0, 0}};
     both[eye].pose = on_head ? offset : multiplied(d.viewer_at(info->displayTime), offset);
-    // What is not known may be anything.
+    // An unknown position may be anything.
     if (!d.traits.position_known && !on_head) {
       both[eye].pose.position = {1e30f, -1e30f, 1e30f};
     }

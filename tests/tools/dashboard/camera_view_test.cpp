@@ -50,7 +50,7 @@ class Browser {
               changed_.notify_all();
             }};
   }
-  /// Absent if there are not so many within a minute.
+  /// Absent if fewer arrive within a minute.
   std::optional<RgbaImage> picture(int count) {
     const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     const MutexLock lock(mutex_);
@@ -74,7 +74,7 @@ class Browser {
   int count_ ORTHONAV_GUARDED_BY(mutex_) = 0;
 };
 
-/// The middle of what is blue, in fractions of the picture; absent where nothing is.
+/// The middle of the blue pixels, in fractions of the picture; absent if there are none.
 std::optional<Vec2> middle_of_blue(const RgbaImage& picture) {
   Vec2 sum{};
   double n = 0.0;
@@ -122,7 +122,7 @@ TEST(CameraView, DrawsTheHologramsWhereTheCameraSeesThem) {
   ASSERT_TRUE(right_and_down.has_value());
   EXPECT_LT(left_and_up->x, right_and_down->x - 0.1);
   EXPECT_LT(left_and_up->y, right_and_down->y - 0.1) << "y runs down";
-  // The camera's picture is behind them, not the empty ground.
+  // The camera's picture is behind them, not the empty background.
   const std::size_t corner = 4 * (static_cast<std::size_t>(first->width_px) * 40 + 400);
   EXPECT_EQ(first->pixels[corner], first->pixels[corner + 1]);
   EXPECT_NE(first->pixels[corner], 34);
@@ -149,7 +149,7 @@ TEST(CameraView, DrawsOnlyWhileSomebodyLooksAndTwiceASecond) {
     show(view, grey_frame(test::scripted_time(i)), snapshot);
   }
   browser.looks = true;
-  // One second: at its begin and half a second later.
+  // One second: at its beginning and half a second later.
   for (int i = 30; i < 60; ++i) {
     show(view, grey_frame(test::scripted_time(i)), snapshot);
     if (i == 30) {

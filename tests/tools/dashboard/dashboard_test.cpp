@@ -158,7 +158,7 @@ TEST(DashboardToken, LetsInWhoBringsItAndNobodyElse) {
   EXPECT_EQ(browser.Get("/state", {{"Cookie", "orthonav_token=" + token + "0"}})->status, 403);
 }
 
-/// In a real browser, where there is one: the page's script is what is tested.
+/// In a real browser, if there is one, to test the page's script.
 TEST_F(DashboardPage, ShowsTheOperationInABrowser) {
   if (!test::has_browser()) {
     GTEST_SKIP() << test::kNoBrowser;
@@ -186,7 +186,7 @@ TEST_F(DashboardPage, ShowsTheOperationInABrowser) {
   EXPECT_THAT(page, HasSubstr("class=\"chip measured\""));
   EXPECT_THAT(page, HasSubstr("<td>not known (registration only)</td>"))
       << "an error that has no bound is no number";
-  // The browser takes a while to start, so that the pair may be old by then; nothing else is wrong.
+  // The browser takes a while to start, so the pair may be old by then; nothing else may be wrong.
   EXPECT_EQ(page.find("role=\"alert\">the program"), std::string::npos);
   EXPECT_EQ(page.find("role=\"alert\">this page cannot"), std::string::npos);
   EXPECT_THAT(page, HasSubstr("<li>"));

@@ -23,7 +23,7 @@ std::string refusal(const std::string& at, const std::string& token_file = {}) {
   return access ? "taken" : access.error().message;
 }
 
-/// A file that its owner alone may read.
+/// A file that only its owner may read.
 std::string own_file(const TemporaryFolder& folder, const std::string& text) {
   const std::string file = folder.with("token", text);
   std::filesystem::permissions(file, std::filesystem::perms(0600));

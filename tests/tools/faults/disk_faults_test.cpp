@@ -28,7 +28,7 @@ std::vector<DiskCall> calls_of(ShortRun& run) {
   return listed_calls(run.list());
 }
 
-/// A disk stays full or read-only; it errs once.
+/// A full or read-only disk stays so; other errors occur once.
 DiskFault fault_of(const std::string& kind, std::size_t at, int problem) {
   return {kind, at, problem, problem != EIO};
 }
@@ -48,8 +48,8 @@ std::vector<DiskFault> all_faults(const std::vector<DiskCall>& calls) {
   return faults;
 }
 
-/// The first and the last call of every kind, with one error after another, and errors that pass
-/// within an image and between the lists of a recording.
+/// The first and the last call of every kind, with each error in turn, and passing errors within an
+/// image and between the lists of a recording.
 std::vector<DiskFault> few_faults(const std::vector<DiskCall>& calls) {
   std::map<std::string, std::size_t> counted;
   for (const DiskCall& call : calls) {
@@ -106,7 +106,7 @@ TEST_F(DiskFaults, AtAnyCallOfARunAreToldAndLeaveWhatCanBeRead) {
 }
 
 TEST_F(DiskFaults, OfARecordingAreToldAtOnceAndTheOperationGoesOn) {
-  // Each image is four writes: the second pair's right one begins with the fifth.
+  // Each image takes four writes, so the second pair's right one begins with the fifth.
   const DiskFault full{"write", 5, ENOSPC, false, "VLC RF.tar"};
   const Called called = run_.run([&] { fail_disk(run_.written(), full); });
   EXPECT_EQ(called.code, 2) << called.err;

@@ -41,7 +41,7 @@ TEST(MemoryFaults, WithLessMemoryThanARunNeedsItEndsWithALineThatSaysSo) {
     GTEST_SKIP() << "a sanitizer takes more memory than it leaves";
   }
   ShortRun run;
-  // Halved until they are near: so memory ends early, late, and not at all.
+  // The bounds are halved until they are near, so that memory ends early, late, and not at all.
   rlim_t too_little = 32 * kMiB;
   rlim_t enough = 512 * kMiB;
   while (enough - too_little > 16 * kMiB) {

@@ -25,7 +25,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A folder with an operation that was begun by `run` and died.
+/// A folder with an operation that was begun by `run` and interrupted.
 class KeptCommand : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -43,7 +43,7 @@ class KeptCommand : public ::testing::Test {
     more.insert(more.end(), {"--headset", "sim:?seed=1", "--frames", "3"});
     return words("run", std::move(more));
   }
-  /// As if so many screws had been placed when the computer died.
+  /// As if `screws` screws had been placed when the computer died.
   void place(std::size_t screws) {
     auto found = OperationLog::find(env_, out_).value();
     engine::LevelState level;

@@ -41,7 +41,7 @@ std::string journal_of(const ShortRun& run) {
   return fs::exists(path) ? path : path + ".part";
 }
 
-/// Negative: there is no recording that can be read.
+/// Negative if there is no readable recording.
 std::int64_t pairs_in(const std::string& recording) {
   const auto replayed = replay::ReplayHeadset::open(recording);
   return replayed ? (*replayed)->summary().pairs : -1;
@@ -79,7 +79,7 @@ void bring_prepared_model(const std::string& out) {
                         "--out", folder.file("out")})
                   .code,
               0);
-    // Another test may be at the same: the first that is whole stays.
+    // Another test may be doing the same; the first complete one is kept.
     const fs::path whole = kept.string() + "." + std::to_string(getpid());
     fs::copy(folder.file("out/models"), whole, fs::copy_options::recursive);
     std::error_code taken;

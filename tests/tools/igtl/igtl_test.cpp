@@ -128,7 +128,7 @@ TEST(IgtlMessages, TellScrewsAsPointsAndAsACylinder) {
   ASSERT_TRUE(screws.contains("POLYDATA L4leftScrewModel"));
 }
 
-/// Where the command says that it serves; 0: it has not said yet.
+/// The port that the command reports; 0: none yet.
 int port_of(const StartedCommand& command) {
   const std::string said = command.err_so_far();
   const std::string before = "OpenIGTLink at 127.0.0.1:";
@@ -163,7 +163,7 @@ TEST(IgtlCommand, ServesARunUntilItEnds) {
   EXPECT_THAT(command.wait().err, HasSubstr("OpenIGTLink: 1 client, "));
 }
 
-/// What such a text is refused with; empty: it asks for something.
+/// The reason why such a text is refused; empty: it is accepted.
 std::string refusal(const std::string& device, const std::string& text) {
   const auto request = request_of(device, text);
   return request ? "" : request.error().message;
@@ -250,7 +250,7 @@ TEST(IgtlCommand, AnswersWhatItsClientsAskWhereTheyMay) {
   EXPECT_THAT(command.wait().err, HasSubstr("its clients may command"));
 }
 
-/// A tracker that goes on sending one pose after another.
+/// A tracker that sends one pose after another.
 class Sender {
  public:
   ~Sender() {

@@ -11,7 +11,7 @@ using std::chrono::milliseconds;
 
 constexpr Duration kInterval = milliseconds(33);
 
-/// A stream of pairs behind a gate, and the wall's clock.
+/// A stream of pairs behind a gate, and the wall clock.
 struct Stream {
   fake::ManualClock wall{Timestamp(milliseconds(1000))};
   Gate gate{wall};

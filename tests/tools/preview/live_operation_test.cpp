@@ -9,7 +9,7 @@
 namespace orthonav::preview::live_operation_test {
 namespace {
 
-/// What every start shares: preparing the models takes longest.
+/// Shared by all tests, because preparing the models takes longest.
 const OperationSource& source() {
   static const OperationSource made = [] {
     OperationSource source;
@@ -42,7 +42,7 @@ struct Stage {
     (*live)->start();
     return std::move(*live);
   }
-  /// Waits until the pair is there and nothing more comes. A hang ends by the test's time limit.
+  /// Waits until the pair is there and nothing more arrives. A hang ends at the test's time limit.
   std::shared_ptr<const Moment> run_to(std::int64_t pair) {
     gate.run_to(pair);
     while (true) {
@@ -61,7 +61,7 @@ TEST(LiveOperation, GoesNoFurtherThanItsGate) {
   const auto third = stage.run_to(3);
   EXPECT_EQ(third->pair, 3);
   ASSERT_TRUE(third->room.has_value());
-  // The simulated clock is that of its pairs: it stands, however long the wall's goes on.
+  // The simulated clock follows its pairs: it stands still while wall-clock time passes.
   stage.wall.advance(std::chrono::hours(1));
   stage.gate.step();
   const auto fourth = stage.run_to(4);

@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// A model with so many moments behind it.
+/// A model that moments can be passed to.
 struct Bench : ModelBench {
   void pass(int pairs) {
     for (int i = 0; i < pairs && gate.may_pass(); ++i) {
@@ -187,7 +187,7 @@ TEST(Timeline, CoversTheWholeTimeInABoundedSpace) {
   EXPECT_EQ(timeline.newest()->pair, 10000);
   EXPECT_EQ(timeline.at(1)->pair, 1);
   EXPECT_EQ(timeline.at(-5)->pair, 1);
-  // Nowhere is a gap of more than a few parts of the whole.
+  // There is no large gap anywhere.
   for (int i = 1; i <= 10000; i += 100) {
     EXPECT_LE(std::abs(timeline.at(i)->pair - i), 640) << i;
   }

@@ -89,7 +89,8 @@ TEST(RecordedImages, AreWhatAnEyeInTheCamerasPlaceSees) {
       state.room_from_rig * Transform<Rig, Eye>{Mat3::identity(), images->eye_in_rig()}, 0.48, 0.48,
       0.36, 0.36};
   sim::RoomRenderer::create((*headset)->room(), options.error_model)->picture(state, eye, seen);
-  // Colour against grey and a soft lens against none: never quite one. Two pixels aside it is less.
+  // Never quite one, because colour is compared with grey and a soft lens with none. Less if
+  // shifted by two pixels.
   const double there = correlation(straightened.pixels, seen.pixels, 0);
   EXPECT_GT(there, 0.85);
   EXPECT_LT(correlation(straightened.pixels, seen.pixels, 2), there - 0.005);

@@ -81,7 +81,7 @@ TEST(Script, PausesUntilNothingMovesAnyMore) {
   Script script = Script::parse("pause\n", "t").value();
   ASSERT_TRUE(bench.go_on(script).ok());
   EXPECT_FALSE(script.done());
-  bench.gate.pass(Timestamp(Duration(5)));  // It came, and is being worked on.
+  bench.gate.pass(Timestamp(Duration(5)));  // It arrived, and is being processed.
   ASSERT_TRUE(bench.go_on(script).ok());
   EXPECT_FALSE(script.done());
   auto moment = std::make_shared<Moment>();

@@ -44,8 +44,8 @@ class WindowTest : public ::testing::Test {
     text << std::ifstream(folder_ / name).rdbuf();
     return text.str();
   }
-  /// `$preview` is the command with a hasty surgeon in a perfect world, `$server` the X server,
-  /// which finds a number that no other has. The exit code.
+  /// Returns the exit code. `$preview` is the command with a hasty surgeon in a perfect world,
+  /// `$server` the X server, which chooses a free display number.
   int shell(const std::string& commands) const {
     write("commands", "cd '" + folder_.string() + R"('
 mkfifo number
@@ -69,7 +69,7 @@ preview=')" ORTHONAV_COMMAND R"( preview --levels L5 --perfect --pace 4 --size 6
   fs::path folder_;
 };
 
-/// How many pixels differ by more than the eye would see; all of them when the sizes do.
+/// How many pixels differ visibly; all of them if the sizes differ.
 std::size_t different(const RgbaImage& a, const RgbaImage& b) {
   if (a.pixels.size() != b.pixels.size()) {
     return std::max(a.pixels.size(), b.pixels.size()) / 4;
