@@ -27,14 +27,14 @@ class Placing {
   void drop_touch(OperationInWork& work, Timestamp time);
   /// Once for each pair of the step.
   void collect(const WatchedTools& tools);
-  /// Measures the wire of the selected screw by the touch, or says why it does not count. The level
-  /// has a registration. `reference_hidden`: a patient reference is in use but none is seen.
+  /// Measures the wire of the selected screw by what was touched, or says why that does not count.
+  /// The level has a registration. `reference_hidden`: none is seen, where one is in use.
   void measure(OperationInWork& work, const Guiding& guiding, GuideChecks& checks,
                bool reference_hidden, Timestamp time);
   [[nodiscard]] Event judge_wire() const {
     return undecided() ? Event::kWireUndecided : Event::kWireSettled;
   }
-  /// The surgeon decides to keep a wire that is beyond a limit.
+  /// The surgeon keeps a wire that lies beyond a limit.
   void keep(OperationInWork& work, std::size_t screw, Timestamp time);
   /// Another entry for the same screw. The landmark is touched first: whatever deflected the wire
   /// may have moved the bone against its registration.

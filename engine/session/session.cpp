@@ -143,7 +143,7 @@ void Session::handle(std::optional<Raised> raised, Timestamp time) {
   }
 }
 
-/// Begins the first level that is not finished.
+/// The first of the levels that is not finished.
 std::optional<Raised> Session::begin_level(Timestamp time) {
   const auto& levels = work_.levels;
   const auto open = std::find_if(levels.begin(), levels.end(),
