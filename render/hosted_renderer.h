@@ -50,11 +50,8 @@ class HostedRenderer {
   [[nodiscard]] virtual int format_score(std::int64_t format) const = 0;
   /// The same for depth images.
   [[nodiscard]] virtual int depth_format_score(std::int64_t format) const = 0;
-  /// Whether the device draws both eyes in one pass, into an image of two layers. If not, each eye
-  /// gets a chain of its own: llvmpipe of Mesa 22.3 loses parts of the second layer.
-  [[nodiscard]] virtual bool takes_layers() const = 0;
-  /// The images to draw into from now on; they must stay valid until the next call or `finish`. If
-  /// coverage is computed, they are also copied from.
+  /// The images to draw into from now on, which stay until the next call or `finish`. Where
+  /// coverage is computed they are copied from, too; images of two layers may be copied into.
   virtual Status use(const EyeImages& images) = 0;
   /// Does the slow work that does not need the views: waits for the oldest frame in flight, checks
   /// the scene, uploads new meshes. `draw` of the same scene must follow.
@@ -63,7 +60,12 @@ class HostedRenderer {
   /// others, and returns once the frame is submitted. The images are left as colour attachments,
   /// and as depth and stencil attachments.
   virtual Status draw(const Scene& scene, const std::vector<View>& views,
-                      std::span<const std::uint32_t> indices) = 0;
+                      std::span<const std::uint32_t> indices, HeadTexts head_texts) = 0;
+  /// Draws the texts of `scene` for one view into image `index` of the panel, between frames or
+  /// between `prepare` and `draw`, and returns once they are submitted. Colours come out
+  /// premultiplied, with their opacity as alpha; on an additive display alpha is 0, so that what
+  /// lies below the panel is added to.
+  virtual Status draw_panel(const Scene& scene, const View& view, std::uint32_t index) = 0;
   /// Waits for every frame in flight and releases the images: the host may destroy them.
   virtual Status finish() = 0;
 

@@ -92,6 +92,7 @@ inline void renew(TriangleItem& item) { item = {}; }
 struct TextRun {
   std::string text;  ///< UTF-8
   Colour colour;
+  friend bool operator==(const TextRun&, const TextRun&) = default;
 };
 inline void renew(TextRun& run) {
   run.text.clear();
@@ -101,6 +102,11 @@ inline void renew(TextRun& run) {
 enum class TextPlace {
   kWorld,  ///< at `position` in the world, facing the eyes, upright to the head
   kView    ///< at `position` in the head's frame (x right, y up, -z forward, metres): status line
+};
+/// What becomes of texts in the head's frame.
+enum class HeadTexts {
+  kDrawn,
+  kLeftOut  ///< somebody else shows them
 };
 enum class TextAlign { kLeft, kCentre, kRight };
 
@@ -118,6 +124,7 @@ struct TextItem {
   /// Offset in units of the cap height: right and up as seen by the eyes.
   float offset_right = 0;
   float offset_up = 0;
+  friend bool operator==(const TextItem&, const TextItem&) = default;
 };
 inline void renew(TextItem& item) {
   ItemList<TextRun> runs = std::move(item.runs);

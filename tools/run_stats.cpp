@@ -28,6 +28,13 @@ void print_stats(const engine::PresentReport& report) {
                "display frames", static_cast<long long>(report.frames),
                static_cast<long long>(report.drawn), static_cast<long long>(report.hidden));
   print_times("head pose to submission", report.latch_ms);
+  std::fprintf(stderr, "%-28s %.1f ms, %lld frames late, %lld periods without a frame\n",
+               "display period", 1e3 * seconds(report.period), static_cast<long long>(report.late),
+               static_cast<long long>(report.missed));
+  print_times("waiting for a frame", report.wait_ms);
+  print_times("submitting a frame", report.submit_ms);
+  std::fprintf(stderr, "%-28s drawn %lld times\n", "panel of the status line",
+               static_cast<long long>(report.panel_draws));
 }
 
 void print_stats(const ObjectDisplayStatistics& objects) {

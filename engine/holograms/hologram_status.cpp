@@ -23,9 +23,9 @@ TextItem& add_row(Scene& scene, float row, Label label) {
   TextItem& item = scene.texts.emplace_back();
   item.label = label;
   item.place = render::TextPlace::kView;
-  item.position = {0, -0.096f, -0.5f};  // 11° below straight ahead
-  item.height_m = 0.003f;
-  item.min_height_deg = 0.5f;
+  item.position = kStatusPlace;
+  item.height_m = kStatusHeight_m;
+  item.min_height_deg = kStatusMinHeight_deg;
   item.offset_up = -row * kRowDistance_caps;
   return item;
 }

@@ -11,6 +11,12 @@ namespace orthonav::engine {
 // H11, low in view and fixed to the head. Limited to what the narrowest display can show
 // (engine/holograms/status_rows.h).
 
+/// Where its anchor hangs in the head's frame, 11° below straight ahead, and how large its capitals
+/// are.
+inline constexpr render::Float3 kStatusPlace = {0, -0.096f, -0.5f};
+inline constexpr float kStatusHeight_m = 0.003f;
+inline constexpr float kStatusMinHeight_deg = 0.5f;
+
 enum class ToolState { kMeasured, kPredicted, kLost };
 struct ToolDot {
   std::string_view name;

@@ -59,6 +59,7 @@ void write_notice_alone(const render::Scene& scene, std::string_view why, render
 
 void SceneBuilder::update(const Guidance& guidance, Timestamp display_time) {
   decide_visibility(guidance, rules_, display_time, visible_);
+  hang_cross(guidance, display_time);
 }
 
 void SceneBuilder::write_shown(const Guidance& guidance, ShownFrame& frame) {

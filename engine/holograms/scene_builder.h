@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/holograms/gaze_anchor.h"
 #include "engine/holograms/hologram_shapes.h"
 #include "engine/holograms/hologram_status.h"
 #include "engine/holograms/shown_frame.h"
@@ -22,8 +23,10 @@ class SceneBuilder {
  public:
   explicit SceneBuilder(const VisibilityRules& rules = {}) : rules_(rules) {}
 
-  /// Decides what this guidance shows in a frame displayed at the expected time or later; the two
-  /// functions below then show exactly that.
+  /// Where the eyes look, in the headset's map, for the updates that follow; absent: not known.
+  void look_at(const std::optional<Gaze>& gaze) { gaze_ = gaze; }
+  /// Decides what this guidance shows in a frame shown when it expects, or later; the two
+  /// below then show exactly that.
   void update(const Guidance& guidance) { update(guidance, guidance.display_time); }
   void update(const Guidance& guidance, Timestamp display_time);
   void write_shown(const Guidance& guidance, ShownFrame& frame);
@@ -36,6 +39,7 @@ class SceneBuilder {
     std::shared_ptr<const render::MeshData> mesh;
   };
 
+  void hang_cross(const Guidance& guidance, Timestamp display_time);
   void add_paths(const Guidance& guidance, render::Scene& scene);
   void add_bone(const PlacedLevel& at, std::span<const float> unstroked, render::Scene& scene);
   void add_check_points(const PlacedLevel& at, std::span<const Point<World>> to_check,
@@ -53,6 +57,9 @@ class SceneBuilder {
 
   VisibilityRules rules_;
   Visibility visible_;
+  std::optional<Gaze> gaze_;
+  GazeAnchor gaze_anchor_;
+  std::optional<std::pair<const LevelState*, std::size_t>> hung_for_;  ///< the screw of the cross
   ShownFrameWriter shown_;
   // The renderer keeps its copies by pointer: one surface per level, one tube per rod, made once.
   std::map<const nav::VertebraModel*, std::shared_ptr<const render::MeshData>> surfaces_;

@@ -9,7 +9,12 @@
 namespace orthonav::engine {
 namespace {
 
-/// The middle of the level's entry points.
+Viewer viewer_of(const Transform<World, Rig>& head) {
+  return {to_float3(head.translation()), to_float3(head.rotation().column(1))};
+}
+
+}  // namespace
+
 Point<World> site_of(const PlacedLevel& at) {
   Vec3 sum{};
   for (const nav::ScrewPlan& screw : at.level->plan.screws) {
@@ -18,12 +23,6 @@ Point<World> site_of(const PlacedLevel& at) {
   const Point<Vertebra> middle{sum / static_cast<double>(at.level->plan.screws.size())};
   return at.world_from_vertebra * middle;
 }
-
-Viewer viewer_of(const Transform<World, Rig>& head) {
-  return {to_float3(head.translation()), to_float3(head.rotation().column(1))};
-}
-
-}  // namespace
 
 TrajectoryLine trajectory_of(const PlacedScrew& screw) {
   const auto& world_from_vertebra = screw.at.world_from_vertebra;
@@ -63,7 +62,10 @@ TargetCross cross_of(const PlacedScrew& screw, const VisibleCross& visible,
                      const VisibilityRules& rules) {
   const TrajectoryLine line = trajectory_of(screw);
   TargetCross cross;
-  cross.site = to_float3(site_of(screw.at).v);
+  const Point<World> site = site_of(screw.at);
+  const auto& world_from_vertebra = screw.at.world_from_vertebra;
+  cross.site =
+      to_float3((visible.aside ? site + (world_from_vertebra * *visible.aside).v : site).v);
   cross.outward = to_float3((line.entry - line.target).normalized());
   cross.viewer = viewer_of(visible.world_from_head);
   cross.side = visible.side;

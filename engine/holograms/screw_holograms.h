@@ -28,6 +28,9 @@ void add_wire(render::Scene& scene, const PlacedScrew& screw, const PlacedWire& 
 /// good.
 [[nodiscard]] Grade grade_of_tool(const Visibility& visible, const VisibilityRules& rules);
 
+/// The middle of the level's entry points.
+[[nodiscard]] Point<World> site_of(const PlacedLevel& at);
+
 /// H7 over the level's site.
 [[nodiscard]] TargetCross cross_of(const PlacedScrew& screw, const VisibleCross& visible,
                                    const VisibilityRules& rules);

@@ -38,6 +38,8 @@ struct VisibleCross {
   LabelSide side = LabelSide::kLeft;         ///< of the site
   const nav::ScrewGuidance* dots = nullptr;  ///< where the tool was measured; null: no dots
   bool lost = false;                         ///< it says that the tool is lost
+  /// From the site to what it hangs beside; absent: the site.
+  std::optional<Direction<Vertebra>> aside;
 };
 
 /// Which holograms a frame shows, each with the data it needs. Computed once, so that the drawn

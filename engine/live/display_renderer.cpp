@@ -39,7 +39,7 @@ class Preference : public FormatPreference {
     return renderer_.depth_format_score(format);
   }
   [[nodiscard]] double near_m() const override { return static_cast<double>(render::kNearPlane_m); }
-  [[nodiscard]] bool takes_layers() const override { return renderer_.takes_layers(); }
+  [[nodiscard]] std::array<int, 2> panel_px() const override { return kStatusPanel_px; }
 
  private:
   const render::HostedRenderer& renderer_;
@@ -85,6 +85,7 @@ Result<std::unique_ptr<DisplayRenderer>> DisplayRenderer::start(PixelDisplay& di
   if (const Status used = made->renderer_->use(*images); !used) {
     return used.error();
   }
+  made->panel_.emplace(display, *made->renderer_, !images->panel.chain.empty());
   return made;
 }
 
@@ -96,7 +97,20 @@ DisplayRenderer::~DisplayRenderer() {
   display_.close();
 }
 
+Status DisplayRenderer::draw_eyes(const EyeViews& eyes, std::span<const std::uint32_t> images) {
+  views_.clear();
+  for (const EyeView& eye : eyes.value) {
+    views_.push_back(view_of(eye));
+  }
+  return renderer_->draw(*drawn_, views_, images,
+                         panel_shows_ ? render::HeadTexts::kLeftOut : render::HeadTexts::kDrawn);
+}
+
 Result<bool> DisplayRenderer::draw(const render::Scene& scene) {
+  const bool was_located = drawn_ != &head_lost_;
+  eyes_drawn_ = false;
+  // Before the eyes are located, if the panel is likely to say the same then.
+  panel_shows_ = was_located && panel_->show(scene);
   const auto images = display_.acquire();
   if (!images) {
     return images.error();
@@ -105,25 +119,32 @@ Result<bool> DisplayRenderer::draw(const render::Scene& scene) {
     return prepared.error();
   }
   const EyeViews eyes = display_.views();
+  gaze_ = eyes.gaze;
   drawn_ = &scene;
   if (eyes.status == PoseStatus::kLost) {
+    write_head_lost(scene, head_lost_);
+    drawn_ = &head_lost_;
+    panel_shows_ = panel_->show(head_lost_);
     if (!eyes.on_head) {
       return false;
     }
-    write_head_lost(scene, head_lost_);
     if (const Status prepared = renderer_->prepare(head_lost_); !prepared) {
       return prepared.error();
     }
-    drawn_ = &head_lost_;
+  } else if (!was_located) {
+    panel_shows_ = panel_->show(scene);
   }
-  views_.clear();
-  for (const EyeView& eye : eyes.value) {
-    views_.push_back(view_of(eye));
-  }
-  if (const Status drawn = renderer_->draw(*drawn_, views_, *images); !drawn) {
+  if (const Status drawn = draw_eyes(eyes, *images); !drawn) {
     return drawn.error();
   }
-  return true;
+  return eyes_drawn_ = true;
+}
+
+Status DisplayRenderer::end_frame() {
+  const Status ended = display_.end_frame({eyes_drawn_, panel_->shown()});
+  eyes_drawn_ = false;
+  panel_->ended(ended.ok());
+  return ended;
 }
 
 }  // namespace orthonav::engine

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "base/result.h"
+#include "engine/live/status_panel.h"
 #include "hal/api/pixel_display.h"
 #include "render/hosted_renderer.h"
 
@@ -21,11 +25,14 @@ class DisplayRenderer {
   DisplayRenderer(const DisplayRenderer&) = delete;
   DisplayRenderer& operator=(const DisplayRenderer&) = delete;
 
-  /// Draws a scene into a begun frame. While the head is not located, only items fixed to the head
-  /// are drawn; if the eyes' places on the head are also unknown, nothing is drawn and the result
-  /// is false. The eyes are located as late as possible: only layout, recording and submission come
-  /// after that.
+  /// Draws a scene into a frame that was begun. While the head is not located, only what is fixed
+  /// to the head is drawn; if it is also unknown where the eyes are on the head, nothing is drawn
+  /// for them and the answer is false. The eyes are located as late as possible: only layout,
+  /// recording and submission come after that. What is fixed to the head goes onto the display's
+  /// panel, where it has one.
   Result<bool> draw(const render::Scene& scene);
+  /// Ends the frame with what was drawn since it was begun.
+  Status end_frame();
   [[nodiscard]] const render::HostedRenderer& renderer() const { return *renderer_; }
   /// The scene drawn last (the given one, or the part of it that is fixed to the head) and its
   /// views.
@@ -33,12 +40,20 @@ class DisplayRenderer {
   [[nodiscard]] const std::vector<render::View>& views() const { return views_; }
   /// Whether those views are places in the world.
   [[nodiscard]] bool head_located() const { return !views_.empty() && drawn_ != &head_lost_; }
+  [[nodiscard]] const StatusPanel& panel() const { return *panel_; }
+  /// Where the eyes look, when they were located last.
+  [[nodiscard]] const std::optional<Gaze>& gaze() const { return gaze_; }
 
  private:
   explicit DisplayRenderer(PixelDisplay& display) : display_(display) {}
+  Status draw_eyes(const EyeViews& eyes, std::span<const std::uint32_t> images);
 
   PixelDisplay& display_;
   std::unique_ptr<render::HostedRenderer> renderer_;
+  std::optional<StatusPanel> panel_;
+  bool panel_shows_ = false;  ///< what hangs on the head, in this frame
+  bool eyes_drawn_ = false;   ///< in this frame
+  std::optional<Gaze> gaze_;
   std::vector<render::View> views_;
   render::Scene head_lost_;  ///< drawn while the head is not located
   const render::Scene* drawn_ = &head_lost_;

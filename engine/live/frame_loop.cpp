@@ -206,6 +206,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
     observer->stepped(frame_, inputs, guidance);
   }
   // Tracking took time: guidance that has become too old meanwhile is not shown.
+  builder_.look_at(sink_ ? sink_->gaze() : std::nullopt);
   builder_.update(guidance, std::max(guidance.display_time, next_display_time()));
   builder_.write_shown(guidance, shown_);
   const Status shown = headset_->display().shown(shown_);

@@ -34,6 +34,8 @@ class SnapshotSink {
   virtual Status draw(const Snapshot& snapshot) = 0;
   /// Whether it has its own drawing thread and that hangs. Callable from any thread.
   [[nodiscard]] virtual bool stalled() const { return false; }
+  /// Where its wearer looks; absent where it does not know. From any thread.
+  [[nodiscard]] virtual std::optional<Gaze> gaze() const { return std::nullopt; }
 };
 
 /// A part that works on one thing for longer than this has stalled; it is named within half a

@@ -16,7 +16,13 @@ constexpr auto kIdlePause = std::chrono::milliseconds(5);
 constexpr auto kLongestGoodbye = std::chrono::seconds(2);
 // More would not add information.
 constexpr std::size_t kMostProblems = 20;
-constexpr std::size_t kMostLatches = 100'000;
+constexpr std::size_t kMostTimes = 100'000;
+
+void add_time(std::vector<double>& times_ms, double time_ms) {
+  if (times_ms.size() < kMostTimes) {
+    times_ms.push_back(time_ms);
+  }
+}
 
 }  // namespace
 
@@ -78,7 +84,9 @@ void Presenter::note(const std::string& problem) {
 void Presenter::lose(const std::string& why) {
   note(why);
   renderer_.reset();
+  panel_draws_ = 0;
   const MutexLock lock(mutex_);
+  gaze_.reset();
   ++report_.losses;
 }
 
@@ -109,10 +117,11 @@ void Presenter::run() {
 
 void Presenter::next_frame() {
   const Working working(beats_ ? &*beats_ : nullptr, Part::kRenderer);
+  const Stopwatch waiting;
   const DisplayFrame frame = display_.begin_frame();
   switch (frame.kind) {
     case DisplayFrame::Kind::kFrame:
-      present(frame);
+      present(frame, waiting.elapsed_ms());
       return;
     case DisplayFrame::Kind::kIdle:
       pause(kIdlePause);
@@ -132,9 +141,12 @@ void Presenter::next_frame() {
 }
 
 /// A frame that was begun is always ended, drawn or not.
-void Presenter::present(const DisplayFrame& frame) {
+void Presenter::present(const DisplayFrame& frame, double waited_ms) {
+  const Stopwatch begun;
   const bool drawn = draw_scene(frame);
-  const Status finished = display_.end_frame(drawn);
+  const Stopwatch submitting;
+  const Status finished = renderer_->end_frame();
+  const bool late = drawn && begun.elapsed() > frame.ahead;
   if (!finished) {
     note(finished.error().message);
   }
@@ -143,14 +155,39 @@ void Presenter::present(const DisplayFrame& frame) {
     ++report_.frames;
     report_.drawn += drawn && finished ? 1 : 0;
     report_.failures += finished ? 0 : 1;
+    report_.late += late ? 1 : 0;
+    report_.missed += frame.missed;
+    report_.period = frame.period;
+    add_time(report_.wait_ms, waited_ms);
+    add_time(report_.submit_ms, submitting.elapsed_ms());
+    gaze_ = renderer_->gaze();
   }
+  note_panel();
   if (renderer_->renderer().lost()) {
     lose("the display's graphics device is lost");
   }
 }
 
-/// Labels are laid out for the eyes of the frame before: once this frame's are known, it must be
-/// drawn at once, and a head hardly moves from one frame to the next.
+/// A panel that fails is no failure of the frame, which shows the status line all the same.
+void Presenter::note_panel() {
+  const StatusPanel& panel = renderer_->panel();
+  const MutexLock lock(mutex_);
+  report_.panel_draws += panel.drawn() - std::exchange(panel_draws_, panel.drawn());
+  if (panel.problem() != panel_problem_) {
+    panel_problem_ = panel.problem();
+    if (!panel_problem_.empty() && report_.problems.size() < kMostProblems) {
+      report_.problems.push_back("status line not on its panel: " + panel_problem_);
+    }
+  }
+}
+
+std::optional<Gaze> Presenter::gaze() const {
+  const MutexLock lock(mutex_);
+  return gaze_;
+}
+
+/// Labels are laid out for the eyes of the frame before: by the time that this frame's are known it
+/// must be drawn, and a head hardly moves from one frame to the next.
 void Presenter::take_newest() {
   {
     const MutexLock lock(mutex_);
@@ -191,9 +228,7 @@ bool Presenter::draw_scene(const DisplayFrame& frame) {
     options_.on_drawn(renderer_->drawn(), renderer_->views());
   }
   const MutexLock lock(mutex_);
-  if (report_.latch_ms.size() < kMostLatches) {
-    report_.latch_ms.push_back(renderer_->renderer().last_timing().total_ms);
-  }
+  add_time(report_.latch_ms, renderer_->renderer().last_timing().total_ms);
   return true;
 }
 
@@ -220,7 +255,7 @@ void Presenter::leave() {
       break;
     }
     if (frame.kind == DisplayFrame::Kind::kFrame) {
-      static_cast<void>(display_.end_frame(false));
+      static_cast<void>(display_.end_frame({}));
     } else {
       std::this_thread::sleep_for(kIdlePause);
     }

@@ -21,9 +21,16 @@ struct PresentReport {
   std::int64_t hidden = 0;  ///< snapshots whose guidance was too old by the time it was drawn
   std::int64_t losses = 0;  ///< of session, runtime or device; each with its line in `problems`
   std::int64_t failures = 0;
+  std::int64_t late = 0;              ///< frames submitted after they should have been shown
+  std::int64_t missed = 0;            ///< periods of the display without a frame
+  std::int64_t panel_draws = 0;       ///< of the status line's panel
+  Duration period{};                  ///< of the display, as last predicted
   std::vector<std::string> problems;  ///< the first few, one line each
   /// Wall time from asking for the head's pose until the frame is submitted to the device.
   std::vector<double> latch_ms;
+  // Of each frame: wall time until the display begins it, and until it has taken it.
+  std::vector<double> wait_ms;
+  std::vector<double> submit_ms;
 };
 
 struct PresenterOptions {
@@ -53,7 +60,8 @@ class Presenter : public SnapshotSink {
   /// reported once.
   Status draw(const Snapshot& snapshot) override;
   [[nodiscard]] bool stalled() const override { return beats_ && beats_->drawing_stalled(); }
-  /// Ends the session in an orderly way; nothing is shown after that.
+  [[nodiscard]] std::optional<Gaze> gaze() const override;
+  /// Ends the session in order; nothing is shown after that.
   PresentReport stop();
 
  private:
@@ -66,7 +74,8 @@ class Presenter : public SnapshotSink {
 
   void run();
   void next_frame();
-  void present(const DisplayFrame& frame);
+  void present(const DisplayFrame& frame, double waited_ms);
+  void note_panel();
   void take_newest();
   bool draw_scene(const DisplayFrame& frame);
   void look_again();
@@ -90,12 +99,15 @@ class Presenter : public SnapshotSink {
   /// The last problem, if `draw` has not reported it yet.
   std::string untold_ ORTHONAV_GUARDED_BY(mutex_);
   Status died_ ORTHONAV_GUARDED_BY(mutex_);
+  std::optional<Gaze> gaze_ ORTHONAV_GUARDED_BY(mutex_);
 
   // Used by the presenting thread only.
   std::unique_ptr<DisplayRenderer> renderer_;
   Snapshot shown_;
   bool has_snapshot_ = false;
   LabelLayout labels_;
+  std::int64_t panel_draws_ = 0;  ///< of this renderer, as reported
+  std::string panel_problem_;     ///< as reported
   bool over_ = false;
 };
 

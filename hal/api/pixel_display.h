@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "base/tracked.h"
 #include "base/transform.h"
 #include "base/vulkan_handover.h"
+#include "hal/api/gaze.h"
 
 namespace orthonav {
 
@@ -29,7 +31,7 @@ struct GraphicsNeeds {
 };
 
 /// The renderer's preferences among image formats: a score for each VkFormat (higher is better, 0:
-/// it can't draw into such images), and whether it can draw into images of two layers.
+/// it can't draw into such images).
 class FormatPreference {
  public:
   virtual ~FormatPreference() = default;
@@ -37,7 +39,21 @@ class FormatPreference {
   /// The same for depth, which is 0 at `near_m` and 1 at infinity.
   [[nodiscard]] virtual int depth_format_score(std::int64_t format) const = 0;
   [[nodiscard]] virtual double near_m() const = 0;
-  [[nodiscard]] virtual bool takes_layers() const = 0;
+  /// Width and height of the images of a panel, where the display has one.
+  [[nodiscard]] virtual std::array<int, 2> panel_px() const = 0;
+};
+
+/// Where a panel hangs: on the head, upright, facing the point between the eyes.
+struct HeadPanel {
+  Vec3 middle_m;  ///< from the point between the eyes: x right, y up, z backward
+  double width_m = 0.0;
+  double height_m = 0.0;
+};
+
+/// What is submitted with a frame; nothing of what is not there is shown.
+struct SubmittedContent {
+  bool eyes = false;               ///< what was drawn for the newest `views`
+  std::optional<HeadPanel> panel;  ///< the newest image of the panel that was released, there
 };
 
 /// One eye at the moment of display. Tangents of the half angles, positive where the axis lies
@@ -55,6 +71,9 @@ struct EyeViews : Tracked<std::array<EyeView, 2>> {
   /// With `kLost`: true if the eyes' places on the head are still known. World in `value` is then
   /// the head, and items fixed to the head may be drawn. If false, `value` is meaningless.
   bool on_head = false;
+  /// Where they look; absent where no eye tracker sees them, or its newest answer is older than 100
+  /// ms.
+  std::optional<Gaze> gaze;
 };
 
 /// What the display wants next.
@@ -68,7 +87,11 @@ struct DisplayFrame {
   Kind kind = Kind::kIdle;
   bool draw = false;         ///< false: the frame is not shown, and nothing needs to be drawn
   Timestamp display_time{};  ///< when the frame is shown, by the headset's clock
-  std::string why;           ///< of kLost and kOver, one line
+  Duration ahead{};          ///< from now until then
+  Duration period{};         ///< between two frames; 0: not known
+  /// Periods of the display since the frame before that had no frame of ours.
+  std::int64_t missed = 0;
+  std::string why;  ///< of kLost and kOver, one line
 };
 
 /// One thread at a time, always the same between `start` and `close`: the one that submits to the
@@ -95,8 +118,15 @@ class PixelDisplay {
   virtual Result<std::vector<std::uint32_t>> acquire() = 0;
   /// Where the eyes will be at the display time of the frame begun, as predicted now.
   virtual EyeViews views() = 0;
-  /// Submits the frame, with the images drawn for the newest `views`, or with none.
-  virtual Status end_frame(bool drawn) = 0;
+  /// Submits the frame. After an Error the display may have no panel any more.
+  virtual Status end_frame(const SubmittedContent& content) = 0;
+
+  /// Which image of the panel to draw into, if `start` gave it images. Does not wait: an Error when
+  /// none is free now, or the display has no panel any more. What the panel showed stays until
+  /// `release_panel`.
+  virtual Result<std::uint32_t> acquire_panel() = 0;
+  /// Takes the image that was acquired and drawn into, which stays shown until the next one.
+  virtual Status release_panel() = 0;
 
   /// Asks the runtime to end the session in an orderly way; keep calling `begin_frame` until it
   /// returns kOver.

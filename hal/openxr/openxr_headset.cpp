@@ -130,11 +130,11 @@ Result<std::string> describe_runtime() {
   if (const Status found = (*runtime)->find_headset(); !found) {
     return found.error();
   }
-  const auto headset = (*runtime)->headset_name();
+  const auto headset = (*runtime)->headset_traits();
   if (!headset) {
     return headset.error();
   }
-  return (*runtime)->name() + ", " + *headset;
+  return (*runtime)->name() + ", " + headset->name;
 }
 
 }  // namespace orthonav::openxr

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include "hal/openxr/xr_error.h"
 
@@ -14,9 +15,13 @@ namespace {
 constexpr std::array<const char*, 2> kNeeded = {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,
                                                 XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
 // Enabled if offered. Some are newer than the loader's headers.
-constexpr std::array<const char*, 5> kWelcome = {
-    XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, XR_MSFT_HAND_INTERACTION_EXTENSION_NAME,
-    "XR_EXT_hand_interaction", "XR_ML_ml2_controller_interaction", "XR_EXT_local_floor"};
+constexpr std::array<const char*, 7> kWelcome = {XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME,
+                                                 XR_MSFT_HAND_INTERACTION_EXTENSION_NAME,
+                                                 XR_EXT_HAND_TRACKING_EXTENSION_NAME,
+                                                 XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME,
+                                                 "XR_EXT_hand_interaction",
+                                                 "XR_ML_ml2_controller_interaction",
+                                                 "XR_EXT_local_floor"};
 
 Error no_runtime(XrResult result) {
   return Error{"openxr: no runtime answers (" + name_of(result) +
@@ -64,14 +69,6 @@ Result<std::vector<std::string>> wanted_extensions() {
     }
   }
   return wanted;
-}
-
-template <class Function>
-XrResult load(XrInstance instance, const char* name, Function& function) {
-  PFN_xrVoidFunction found = nullptr;
-  const XrResult result = xrGetInstanceProcAddr(instance, name, &found);
-  function = reinterpret_cast<Function>(found);
-  return result;
 }
 
 /// Both results of a call that makes a Vulkan object.
@@ -132,18 +129,14 @@ Runtime::~Runtime() { xrDestroyInstance(instance_); }
 
 Status Runtime::load_functions() {
   Functions& f = functions_;
-  const std::array<XrResult, 5> results = {
-      load(instance_, "xrConvertTimespecTimeToTimeKHR", f.time_from_timespec),
-      load(instance_, "xrGetVulkanGraphicsRequirements2KHR", f.requirements),
-      load(instance_, "xrCreateVulkanInstanceKHR", f.create_instance),
-      load(instance_, "xrGetVulkanGraphicsDevice2KHR", f.graphics_device),
-      load(instance_, "xrCreateVulkanDeviceKHR", f.create_device)};
-  for (const XrResult result : results) {
-    if (XR_FAILED(result)) {
-      return error_of("load the functions of its extensions", result);
-    }
+  if (load("xrConvertTimespecTimeToTimeKHR", f.time_from_timespec) &&
+      load("xrGetVulkanGraphicsRequirements2KHR", f.requirements) &&
+      load("xrCreateVulkanInstanceKHR", f.create_instance) &&
+      load("xrGetVulkanGraphicsDevice2KHR", f.graphics_device) &&
+      load("xrCreateVulkanDeviceKHR", f.create_device)) {
+    return {};
   }
-  return {};
+  return error_of("load the functions of its extensions", XR_ERROR_FUNCTION_UNSUPPORTED);
 }
 
 bool Runtime::has(const char* extension) const {
@@ -160,13 +153,29 @@ Status Runtime::find_headset() {
   return status_of("look for a headset", found);
 }
 
-Result<std::string> Runtime::headset_name() const {
+Result<HeadsetTraits> Runtime::headset_traits() const {
   XrSystemProperties properties = {XR_TYPE_SYSTEM_PROPERTIES};
+  XrSystemEyeGazeInteractionPropertiesEXT eyes = {
+      XR_TYPE_SYSTEM_EYE_GAZE_INTERACTION_PROPERTIES_EXT};
+  XrSystemHandTrackingPropertiesEXT hands = {XR_TYPE_SYSTEM_HAND_TRACKING_PROPERTIES_EXT};
+  // Only of extensions that are enabled.
+  if (has(XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME)) {
+    eyes.next = std::exchange(properties.next, &eyes);
+  }
+  if (has(XR_EXT_HAND_TRACKING_EXTENSION_NAME)) {
+    hands.next = std::exchange(properties.next, &hands);
+  }
   const XrResult told = xrGetSystemProperties(instance_, system_, &properties);
   if (XR_FAILED(told)) {
-    return error_of("ask the headset for its name", told);
+    return error_of("ask the headset for its properties", told);
   }
-  return std::string(properties.systemName);
+  const XrSystemGraphicsProperties& graphics = properties.graphicsProperties;
+  return HeadsetTraits{properties.systemName,
+                       graphics.maxLayerCount,
+                       {static_cast<int>(graphics.maxSwapchainImageWidth),
+                        static_cast<int>(graphics.maxSwapchainImageHeight)},
+                       eyes.supportsEyeGazeInteraction == XR_TRUE,
+                       hands.supportsHandTracking == XR_TRUE};
 }
 
 Result<XrTime> Runtime::now() const {

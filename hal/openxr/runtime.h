@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,8 +12,17 @@
 
 namespace orthonav::openxr {
 
-/// The connection to the OpenXR runtime of this machine: an instance and, once found, the headset.
-/// Its calls are thread-safe, as the runtime's are; no call may run while it is destroyed.
+/// What the runtime says about the headset that it found.
+struct HeadsetTraits {
+  std::string name;  ///< "Simulated HMD"
+  std::uint32_t most_layers = 1;
+  std::array<int, 2> most_px{};  ///< of a swapchain: width, height
+  bool sees_eyes = false;        ///< where they look
+  bool sees_hands = false;       ///< their joints
+};
+
+/// The connection with the OpenXR runtime of this machine: an instance and, once it is found, the
+/// headset. Its calls are thread-safe, as the runtime's are; no call may run while it is destroyed.
 class Runtime {
  public:
   /// An Error if there is no runtime or it lacks a required feature.
@@ -25,12 +36,19 @@ class Runtime {
   [[nodiscard]] XrInstance instance() const { return instance_; }
   /// Whether this optional extension is enabled.
   [[nodiscard]] bool has(const char* extension) const;
+  /// A function of an extension that is enabled; false where the runtime lacks it.
+  template <class Function>
+  bool load(const char* name, Function& function) const {
+    PFN_xrVoidFunction found = nullptr;
+    const XrResult result = xrGetInstanceProcAddr(instance_, name, &found);
+    function = XR_SUCCEEDED(result) ? reinterpret_cast<Function>(found) : nullptr;
+    return function != nullptr;
+  }
 
   /// Looks for a headset; it may be plugged in later.
   Status find_headset();
   [[nodiscard]] XrSystemId system() const { return system_; }
-  /// "Simulated HMD"
-  [[nodiscard]] Result<std::string> headset_name() const;
+  [[nodiscard]] Result<HeadsetTraits> headset_traits() const;
 
   /// The runtime's time now. It counts from an epoch of its own.
   [[nodiscard]] Result<XrTime> now() const;

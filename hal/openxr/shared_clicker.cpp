@@ -16,7 +16,13 @@ Status SharedClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events
     // The runtime reports a press one frame late: its time may precede what was already passed on.
     const Timestamp time = std::max(change.time, told_);
     timer_.advance(time, selected_);
-    timer_.button(change.down, time, selected_);
+    if (change.lost) {
+      // Nobody let go: it is no click, and the next press begins anew.
+      selected_.push_back({ClickerAction::kRelease, time});
+      timer_ = {};
+    } else {
+      timer_.button(change.down, time, selected_);
+    }
   }
   timer_.advance(until, selected_);
   auto select = selected_.begin();

@@ -59,8 +59,7 @@ Status Swapchains::create(XrSession session, const ViewSetup& setup,
   if (format == 0) {
     return no_format(*formats);
   }
-  images_ = {format, setup.width_px, setup.height_px, preference.takes_layers() ? 2u : 1u, {}, 0,
-             {}};
+  images_ = {format, setup.width_px, setup.height_px, 2, {}, 0, {}, {}};
   if (depth) {
     images_.depth_format = best_format(*formats, preference, &FormatPreference::depth_format_score);
   }
@@ -92,80 +91,40 @@ Status Swapchains::add_chains(XrSession session, Content content) {
 
 Status Swapchains::add_chain(XrSession session, Content content) {
   const bool depth = content == Content::kDepth;
-  XrSwapchainCreateInfo info = {XR_TYPE_SWAPCHAIN_CREATE_INFO};
+  XrSwapchainCreateInfo info = Chain::plain(depth ? images_.depth_format : images_.format,
+                                            images_.width_px, images_.height_px);
   info.usageFlags =
       XR_SWAPCHAIN_USAGE_SAMPLED_BIT |
       (depth ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-             : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_TRANSFER_SRC_BIT);
-  info.format = depth ? images_.depth_format : images_.format;
-  info.sampleCount = 1;  // multisampled images are resolved into it
-  info.width = static_cast<std::uint32_t>(images_.width_px);
-  info.height = static_cast<std::uint32_t>(images_.height_px);
-  info.faceCount = 1;
+             : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_TRANSFER_SRC_BIT |
+                   XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT);
   info.arraySize = images_.layers;
-  info.mipCount = 1;
-  Chain chain;
-  const XrResult created = xrCreateSwapchain(session, &info, &chain.handle);
-  if (XR_FAILED(created)) {
-    return error_of("create a swapchain", created);
+  std::vector<std::uint64_t> images;
+  const Status created = chains_.emplace_back().create(session, info, images);
+  if (!created) {
+    return created;
   }
-  chains_.push_back(chain);
-  std::uint32_t count = 0;
-  XrResult told = xrEnumerateSwapchainImages(chain.handle, 0, &count, nullptr);
-  std::vector<XrSwapchainImageVulkan2KHR> images(count, {XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR});
-  if (XR_SUCCEEDED(told)) {
-    told = xrEnumerateSwapchainImages(chain.handle, count, &count,
-                                      reinterpret_cast<XrSwapchainImageBaseHeader*>(images.data()));
-  }
-  if (XR_FAILED(told)) {
-    return error_of("ask for the images of a swapchain", told);
-  }
-  std::vector<std::uint64_t> handles;
-  handles.reserve(images.size());
-  for (const XrSwapchainImageVulkan2KHR& image : images) {
-    handles.push_back(reinterpret_cast<std::uint64_t>(image.image));
-  }
-  (depth ? images_.depth_chains : images_.chains).push_back(std::move(handles));
+  (depth ? images_.depth_chains : images_.chains).push_back(std::move(images));
   return {};
 }
 
 void Swapchains::destroy() {
-  for (const Chain& chain : chains_) {
-    xrDestroySwapchain(chain.handle);
+  for (Chain& chain : chains_) {
+    chain.destroy();
   }
   chains_.clear();
   images_.chains.clear();
   images_.depth_chains.clear();
 }
 
-XrResult Swapchains::acquire(Chain& chain) {
-  if (!chain.acquired) {
-    const XrSwapchainImageAcquireInfo info = {XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO};
-    const XrResult acquired = xrAcquireSwapchainImage(chain.handle, &info, &chain.index);
-    if (XR_FAILED(acquired)) {
-      return acquired;
-    }
-    chain.acquired = true;
-  }
-  XrSwapchainImageWaitInfo info = {XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO};
-  info.timeout = kPatience_ns;
-  const XrResult waited = xrWaitSwapchainImage(chain.handle, &info);
-  if (waited == XR_SUCCESS || waited == XR_SESSION_LOSS_PENDING) {
-    chain.waited = true;
-  }
-  return waited;
-}
-
 XrResult Swapchains::acquire(std::vector<std::uint32_t>& indices) {
   indices.clear();
   for (Chain& chain : chains_) {
-    if (!chain.waited) {
-      const XrResult acquired = acquire(chain);
-      if (!chain.waited) {
-        return acquired;
-      }
+    const XrResult acquired = chain.acquire(kPatience_ns);
+    if (!chain.ready()) {
+      return acquired;
     }
-    indices.push_back(chain.index);
+    indices.push_back(chain.index());
   }
   return XR_SUCCESS;
 }
@@ -173,12 +132,7 @@ XrResult Swapchains::acquire(std::vector<std::uint32_t>& indices) {
 XrResult Swapchains::release() {
   XrResult first = XR_SUCCESS;
   for (Chain& chain : chains_) {
-    if (!chain.waited) {
-      continue;
-    }
-    chain.acquired = chain.waited = false;
-    const XrSwapchainImageReleaseInfo info = {XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
-    const XrResult released = xrReleaseSwapchainImage(chain.handle, &info);
+    const XrResult released = chain.release();
     if (XR_FAILED(released) && first == XR_SUCCESS) {
       first = released;
     }
@@ -189,7 +143,7 @@ XrResult Swapchains::release() {
 XrSwapchainSubImage Swapchains::part(std::size_t first_chain, std::size_t eye) const {
   const bool layered = images_.layers == 2;
   XrSwapchainSubImage part = {};
-  part.swapchain = chains_[first_chain + (layered ? 0 : eye)].handle;
+  part.swapchain = chains_[first_chain + (layered ? 0 : eye)].handle();
   part.imageRect.extent = {images_.width_px, images_.height_px};
   part.imageArrayIndex = layered ? static_cast<std::uint32_t>(eye) : 0;
   return part;

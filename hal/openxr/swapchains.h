@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hal/api/pixel_display.h"
+#include "hal/openxr/chain.h"
 #include "hal/openxr/view_setup.h"
 
 namespace orthonav::openxr {
@@ -36,17 +37,10 @@ class Swapchains {
   }
 
  private:
-  struct Chain {
-    XrSwapchain handle = XR_NULL_HANDLE;
-    std::uint32_t index = 0;
-    bool acquired = false;
-    bool waited = false;
-  };
   enum class Content { kColour, kDepth };
   Status add_chains(XrSession session, Content content);
   Status add_chain(XrSession session, Content content);
   [[nodiscard]] XrSwapchainSubImage part(std::size_t first_chain, std::size_t eye) const;
-  XrResult acquire(Chain& chain);
 
   std::vector<Chain> chains_;  ///< colour, then depth
   EyeImages images_;

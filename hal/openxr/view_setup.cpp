@@ -86,7 +86,7 @@ XrReferenceSpaceType best_space(std::span<const XrReferenceSpaceType> offered) {
   return XR_REFERENCE_SPACE_TYPE_LOCAL;  // every runtime has it
 }
 
-Result<ViewSetup> view_setup_of(const Runtime& runtime) {
+Result<ViewSetup> view_setup_of(const Runtime& runtime, const HeadsetTraits& traits) {
   const auto views = views_of(runtime);
   if (!views) {
     return views.error();
@@ -101,6 +101,8 @@ Result<ViewSetup> view_setup_of(const Runtime& runtime) {
   }
   ViewSetup setup = sized(*views);
   setup.blend = *blend;
+  setup.most_layers = traits.most_layers;
+  setup.most_px = traits.most_px;
   return setup;
 }
 

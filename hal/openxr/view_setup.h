@@ -15,10 +15,12 @@ struct ViewSetup {
   XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   int width_px = 0;  ///< of each eye's image
   int height_px = 0;
+  std::uint32_t most_layers = 1;
+  std::array<int, 2> most_px{};  ///< of any image
 };
 
 /// An Error when the headset does not have two eyes.
-[[nodiscard]] Result<ViewSetup> view_setup_of(const Runtime& runtime);
+[[nodiscard]] Result<ViewSetup> view_setup_of(const Runtime& runtime, const HeadsetTraits& traits);
 
 /// Prefers additive, then alpha, then opaque: the more of the world the surgeon sees, the better.
 /// Nothing if none of the three is offered.

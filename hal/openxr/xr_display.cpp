@@ -9,7 +9,7 @@ namespace orthonav::openxr {
 
 XrDisplay::~XrDisplay() {
   close();
-  button_.destroy();
+  actions_.destroy();
 }
 
 /// After any failure, the next attempt starts from scratch.
@@ -28,7 +28,7 @@ Result<EyeImages> XrDisplay::start(const VulkanObjects& objects,
 
 Result<GraphicsNeeds> XrDisplay::connect() {
   if (!runtime() || instance_lost_) {
-    button_.destroy();
+    actions_.destroy();
     {
       const MutexLock lock(mutex_);
       runtime_.reset();
@@ -37,7 +37,7 @@ Result<GraphicsNeeds> XrDisplay::connect() {
     if (!connected) {
       return connected.error();
     }
-    if (const Status made = button_.create(**connected); !made) {
+    if (const Status made = actions_.create(**connected); !made) {
       return made.error();
     }
     const MutexLock lock(mutex_);
@@ -46,15 +46,16 @@ Result<GraphicsNeeds> XrDisplay::connect() {
   if (const Status found = runtime()->find_headset(); !found) {
     return found.error();
   }
-  const auto name = runtime()->headset_name();
-  if (!name) {
-    return name.error();
+  const auto traits = runtime()->headset_traits();
+  if (!traits) {
+    return traits.error();
   }
+  traits_ = *traits;
   {
     const MutexLock lock(mutex_);
-    headset_name_ = *name;
+    headset_name_ = traits_.name;
   }
-  const auto setup = view_setup_of(*runtime());
+  const auto setup = view_setup_of(*runtime(), traits_);
   if (!setup) {
     return setup.error();
   }
@@ -83,8 +84,14 @@ Result<EyeImages> XrDisplay::make_all(const VulkanObjects& objects,
   if (const Status made = make_session(objects); !made) {
     return made.error();
   }
-  if (const Status attached = button_.attach(session_); !attached) {
+  if (const Status attached = actions_.attach(session_); !attached) {
     return attached.error();
+  }
+  if (traits_.sees_eyes) {
+    gaze_.create(actions_, session_);
+  }
+  if (traits_.sees_hands) {
+    joints_.create(*runtime(), session_);
   }
   if (const Status made = make_spaces(); !made) {
     return made.error();
@@ -94,7 +101,9 @@ Result<EyeImages> XrDisplay::make_all(const VulkanObjects& objects,
   if (const Status made = swapchains_.create(session_, setup_, preference, depth); !made) {
     return made.error();
   }
-  return swapchains_.images();
+  EyeImages images = swapchains_.images();
+  images.panel = panel_.create(session_, setup_, images.format, preference.panel_px());
+  return images;
 }
 
 Status XrDisplay::make_session(const VulkanObjects& objects) {
@@ -157,6 +166,9 @@ void XrDisplay::ask_to_end() {
 
 void XrDisplay::close() {
   swapchains_.destroy();
+  panel_.destroy();
+  gaze_.destroy();
+  joints_.destroy();
   {
     const MutexLock lock(mutex_);
     if (viewer_ != XR_NULL_HANDLE) {
@@ -167,7 +179,7 @@ void XrDisplay::close() {
     }
     space_ = viewer_ = XR_NULL_HANDLE;
     if (const auto change = button_.let_go(0)) {
-      button_changes_.push_back({change->down, clock_.now()});
+      button_changes_.push_back({change->down, clock_.now(), change->lost});
     }
   }
   if (session_ != XR_NULL_HANDLE) {

@@ -9,6 +9,8 @@
 
 #include "base/mutex.h"
 #include "hal/api/devices.h"
+#include "hal/openxr/gaze_ray.h"
+#include "hal/openxr/panel_chain.h"
 #include "hal/openxr/placement.h"
 #include "hal/openxr/runtime.h"
 #include "hal/openxr/select_button.h"
@@ -28,6 +30,7 @@ struct Mount {
 struct ButtonChange {
   bool down = false;
   Timestamp time{};
+  bool lost = false;  ///< released because what held it is gone
 };
 
 /// The display of an OpenXR headset: session, images, frames. The presenting thread calls the
@@ -51,7 +54,9 @@ class XrDisplay : public PixelDisplay {
   DisplayFrame begin_frame() override;
   Result<std::vector<std::uint32_t>> acquire() override;
   EyeViews views() override;
-  Status end_frame(bool drawn) override;
+  Status end_frame(const SubmittedContent& content) override;
+  Result<std::uint32_t> acquire_panel() override { return panel_.acquire(); }
+  Status release_panel() override { return panel_.release(); }
   void ask_to_end() override;
   void close() override;
 
@@ -91,7 +96,11 @@ class XrDisplay : public PixelDisplay {
   std::optional<DisplayFrame> take_state(XrSessionState state);
   void take_space_change(const XrEventDataReferenceSpaceChangePending& change);
   void poll_button();
+  std::optional<SelectButton::Change> poll_focused(XrTime now);
   DisplayFrame wait_and_begin();
+  void take_timing(const XrFrameState& state, DisplayFrame& frame);
+  /// The layer of the eyes; it points into `eyes_`.
+  [[nodiscard]] XrCompositionLayerProjection eyes_layer();
   [[nodiscard]] DisplayFrame lost(const std::string& what, XrResult result);
   void lay_world(XrTime at);
   /// Writes the eyes' poses and fields of view for the frame begun into `located_` and says how
@@ -100,6 +109,7 @@ class XrDisplay : public PixelDisplay {
   /// Converts `located_`; false if a pose or a field of view can't be used.
   bool take_eyes(const Transform<World, Space>& world_from_space, EyeViews& views) const;
   bool locate_in_world(EyeViews& views);
+  void locate_gaze(EyeViews& views) const;
   [[nodiscard]] Located locate_viewer(XrTime at) const ORTHONAV_REQUIRES(mutex_);
   // Converts between the runtime's clock and ours, both read now.
   [[nodiscard]] std::optional<XrTime> xr_time(Timestamp at) const ORTHONAV_REQUIRES(mutex_);
@@ -128,11 +138,19 @@ class XrDisplay : public PixelDisplay {
   bool had_session_ = false;
   bool end_asked_ = false;
   Swapchains swapchains_;
+  PanelChain panel_;
   double near_m_ = 0.0;  ///< distance at which depth is 0
+  HeadsetTraits traits_;
+  Actions actions_;
+  HandJoints joints_;
+  GazeRay gaze_;
   SelectButton button_;
-  XrTime display_time_ = 0;  ///< of the frame that was begun
+  XrTime display_time_ = 0;  ///< of the frame that was begun; 0: none since the session began
   std::array<XrView, 2> located_{};
   XrSpace located_in_ = XR_NULL_HANDLE;
+  // What the layer of the frame that is ended points to.
+  std::array<XrCompositionLayerProjectionView, 2> eyes_{};
+  std::array<XrCompositionLayerDepthInfoKHR, 2> depths_{};
 };
 
 }  // namespace orthonav::openxr

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "hal/openxr/xr_display.h"
 #include "hal/openxr/xr_error.h"
@@ -38,6 +39,7 @@ std::optional<DisplayFrame> XrDisplay::take_state(XrSessionState state) {
       XrSessionBeginInfo info = {XR_TYPE_SESSION_BEGIN_INFO};
       info.primaryViewConfigurationType = kStereo;
       const XrResult begun = xrBeginSession(session_, &info);
+      display_time_ = 0;
       if (XR_FAILED(begun)) {
         return lost("begin the session", begun);
       }
@@ -108,6 +110,17 @@ std::optional<DisplayFrame> XrDisplay::take_events() {
   }
 }
 
+std::optional<SelectButton::Change> XrDisplay::poll_focused(XrTime now) {
+  const XrResult synced = actions_.sync(session_);
+  if (synced == XR_SESSION_NOT_FOCUSED) {
+    return button_.let_go(now);
+  }
+  const auto polled = XR_SUCCEEDED(synced)
+                          ? button_.poll(actions_, {joints_, viewer()}, session_, now)
+                          : Result<std::optional<SelectButton::Change>>(std::nullopt);
+  return polled ? *polled : std::nullopt;
+}
+
 void XrDisplay::poll_button() {
   const auto now = runtime()->now();
   if (!now) {
@@ -115,10 +128,7 @@ void XrDisplay::poll_button() {
   }
   std::optional<SelectButton::Change> change;
   if (state_.focused()) {
-    const auto polled = button_.poll(session_, *now);
-    if (polled) {
-      change = *polled;
-    }
+    change = poll_focused(*now);
   } else {
     change = button_.let_go(*now);
   }
@@ -128,7 +138,7 @@ void XrDisplay::poll_button() {
   const auto time = timestamp(change->time);
   const MutexLock lock(mutex_);
   if (time) {
-    button_changes_.push_back({change->down, *time});
+    button_changes_.push_back({change->down, *time, change->lost});
   }
 }
 
@@ -156,16 +166,26 @@ DisplayFrame XrDisplay::wait_and_begin() {
   if (XR_FAILED(begun)) {
     return lost("begin a frame", begun);
   }
-  display_time_ = state.predictedDisplayTime;
   DisplayFrame frame;
   frame.kind = DisplayFrame::Kind::kFrame;
+  take_timing(state, frame);
+  return frame;
+}
+
+void XrDisplay::take_timing(const XrFrameState& state, DisplayFrame& frame) {
+  const XrTime before = std::exchange(display_time_, state.predictedDisplayTime);
+  const XrDuration period = state.predictedDisplayPeriod;
+  frame.period = Duration(period);
+  if (before > 0 && period > 0) {
+    frame.missed = std::max<XrDuration>(0, (display_time_ - before + period / 2) / period - 1);
+  }
   const auto display_time = timestamp(display_time_);
   frame.draw = state.shouldRender == XR_TRUE && display_time.has_value();
   if (display_time) {
     frame.display_time = *display_time;
-    latency_ = std::max(Duration::zero(), *display_time - clock_.now());
+    frame.ahead = *display_time - clock_.now();
+    latency_ = std::max(Duration::zero(), frame.ahead);
   }
-  return frame;
 }
 
 Result<std::vector<std::uint32_t>> XrDisplay::acquire() {
@@ -177,24 +197,21 @@ Result<std::vector<std::uint32_t>> XrDisplay::acquire() {
   return indices;
 }
 
-Status XrDisplay::end_frame(bool drawn) {
-  const XrResult released = swapchains_.release();
-  std::array<XrCompositionLayerProjectionView, 2> eyes = {};
-  std::array<XrCompositionLayerDepthInfoKHR, 2> depths = {};
-  for (std::size_t eye = 0; drawn && eye < 2; ++eye) {
-    eyes[eye].type = XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW;
-    eyes[eye].pose = located_[eye].pose;
-    eyes[eye].fov = located_[eye].fov;
-    eyes[eye].subImage = swapchains_.part_of(eye);
+XrCompositionLayerProjection XrDisplay::eyes_layer() {
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    eyes_[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
+    eyes_[eye].pose = located_[eye].pose;
+    eyes_[eye].fov = located_[eye].fov;
+    eyes_[eye].subImage = swapchains_.part_of(eye);
     if (!swapchains_.has_depth()) {
       continue;
     }
-    depths[eye].type = XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR;
-    depths[eye].subImage = swapchains_.depth_of(eye);
-    depths[eye].maxDepth = 1.0f;
-    depths[eye].nearZ = static_cast<float>(near_m_);
-    depths[eye].farZ = std::numeric_limits<float>::infinity();
-    eyes[eye].next = &depths[eye];
+    depths_[eye] = {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR};
+    depths_[eye].subImage = swapchains_.depth_of(eye);
+    depths_[eye].maxDepth = 1.0f;
+    depths_[eye].nearZ = static_cast<float>(near_m_);
+    depths_[eye].farZ = std::numeric_limits<float>::infinity();
+    eyes_[eye].next = &depths_[eye];
   }
   XrCompositionLayerProjection layer = {XR_TYPE_COMPOSITION_LAYER_PROJECTION};
   // The images are premultiplied; the world shows where nothing is drawn.
@@ -203,14 +220,33 @@ Status XrDisplay::end_frame(bool drawn) {
   }
   layer.space = located_in_;
   layer.viewCount = 2;
-  layer.views = eyes.data();
-  const auto* base = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer);
+  layer.views = eyes_.data();
+  return layer;
+}
+
+Status XrDisplay::end_frame(const SubmittedContent& content) {
+  const XrResult released = swapchains_.release();
+  XrCompositionLayerProjection eyes = {XR_TYPE_COMPOSITION_LAYER_PROJECTION};
+  XrCompositionLayerQuad panel = {XR_TYPE_COMPOSITION_LAYER_QUAD};
+  std::array<const XrCompositionLayerBaseHeader*, 2> layers = {};
   XrFrameEndInfo end = {XR_TYPE_FRAME_END_INFO};
+  if (content.eyes && XR_SUCCEEDED(released)) {
+    eyes = eyes_layer();
+    layers[end.layerCount++] = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&eyes);
+  }
+  // Later layers lie over earlier ones.
+  const bool with_panel = content.panel && panel_.shows();
+  if (with_panel) {
+    panel = panel_.layer(*content.panel, viewer());
+    layers[end.layerCount++] = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&panel);
+  }
   end.displayTime = display_time_;
   end.environmentBlendMode = setup_.blend;
-  end.layerCount = drawn && XR_SUCCEEDED(released) ? 1 : 0;
-  end.layers = &base;
+  end.layers = layers.data();
   const XrResult ended = xrEndFrame(session_, &end);
+  if (XR_FAILED(ended) && with_panel) {
+    panel_.give_up();
+  }
   if (XR_FAILED(released)) {
     return error_of("release an image", released);
   }

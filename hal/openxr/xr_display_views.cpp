@@ -92,6 +92,25 @@ bool XrDisplay::locate_in_world(EyeViews& views) {
   return world_from_space && take_eyes(*world_from_space, views);
 }
 
+void XrDisplay::locate_gaze(EyeViews& views) const {
+  const auto now = runtime()->now();
+  const auto seen = now ? gaze_.locate(space(), display_time_, *now) : std::nullopt;
+  const auto time = seen ? timestamp(seen->time) : std::nullopt;
+  if (!time) {
+    return;
+  }
+  std::optional<Transform<World, Space>> world_from_space;
+  {
+    const MutexLock lock(mutex_);
+    world_from_space = anchor_.world_from_space(display_time_);
+  }
+  if (world_from_space) {
+    const auto world_from_gaze = *world_from_space * seen->space_from_gaze;
+    views.gaze = Gaze{Point<World>{world_from_gaze.translation()},
+                      world_from_gaze * Direction<GazePose>{{0, 0, -1}}, *time};
+  }
+}
+
 EyeViews XrDisplay::views() {
   lay_world(display_time_);
   EyeViews views;
@@ -100,6 +119,7 @@ EyeViews XrDisplay::views() {
   }
   if (locate_in_world(views)) {
     views.status = PoseStatus::kPredicted;
+    locate_gaze(views);
   } else {
     views.on_head = (locate_eyes(viewer()) & kKnown) == kKnown && take_eyes({}, views);
   }

@@ -34,7 +34,7 @@ Matrix4 world_from_caps(const TextItem& item, const Head& head) {
 }
 
 void FrameItems::build(const Scene& scene, const std::vector<View>& views, const Font& font,
-                       float least_rad) {
+                       float least_rad, HeadTexts head_texts) {
   translucent_meshes_.clear();
   solids_.clear();
   triangles_.clear();
@@ -68,7 +68,10 @@ void FrameItems::build(const Scene& scene, const std::vector<View>& views, const
   }
   sort_for_drawing(scene.texts, head, order_);
   for (const std::uint32_t i : order_) {
-    add_text(scene.texts[i], head, font);
+    const bool drawn = head_texts == HeadTexts::kDrawn || scene.texts[i].place != TextPlace::kView;
+    if (drawn) {
+      add_text(scene.texts[i], head, font);
+    }
   }
 }
 

@@ -61,7 +61,7 @@ class FrameItems {
  public:
   /// Points of long lines are left out where that moves the line by less than `least_rad`.
   void build(const Scene& scene, const std::vector<View>& views, const Font& font,
-             float least_rad = 0);
+             float least_rad = 0, HeadTexts head_texts = HeadTexts::kDrawn);
 
   /// Finds where each item may appear in the views of one pass, and the regions that hold all
   /// items: no two regions share a pixel, and each item lies in one region. `box_of` gives a mesh's

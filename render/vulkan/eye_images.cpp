@@ -15,21 +15,26 @@ std::vector<VkImage> outer_images(const std::vector<std::vector<std::uint64_t>>&
   return outer;
 }
 
-Status check_shape(const EyeImages& images, std::uint32_t most_px, bool takes_layers) {
+Status check_shape(const EyeImages& images, std::uint32_t most_px) {
   const std::string size =
       std::to_string(images.width_px) + "x" + std::to_string(images.height_px) + " px";
-  if (images.width_px < 1 || images.height_px < 1 ||
-      static_cast<std::uint32_t>(std::max(images.width_px, images.height_px)) > most_px) {
+  const auto fits = [most_px](int width_px, int height_px) {
+    return width_px >= 1 && height_px >= 1 &&
+           static_cast<std::uint32_t>(std::max(width_px, height_px)) <= most_px;
+  };
+  if (!fits(images.width_px, images.height_px)) {
     return Error{"renderer: host's images of " + size + ", limit " + std::to_string(most_px) +
                  " px"};
+  }
+  const PanelImages& panel = images.panel;
+  if (!panel.chain.empty() && !fits(panel.width_px, panel.height_px)) {
+    return Error{"renderer: host's panel of " + std::to_string(panel.width_px) + "x" +
+                 std::to_string(panel.height_px) + " px, limit " + std::to_string(most_px) + " px"};
   }
   const std::size_t chains = images.layers == 2 ? 1 : 2;
   if (images.layers < 1 || images.layers > 2 || images.chains.size() != chains) {
     return Error{"renderer: host's images have " + std::to_string(images.layers) + " layers in " +
                  std::to_string(images.chains.size()) + " chains; needs 2 in 1 or 1 in 2"};
-  }
-  if (images.layers == 2 && !takes_layers) {
-    return Error{"renderer: host's images have 2 layers, which this device does not draw whole"};
   }
   if (!images.depth_chains.empty() && images.depth_chains.size() != chains) {
     return Error{"renderer: " + std::to_string(images.depth_chains.size()) +

@@ -13,7 +13,7 @@ namespace orthonav::render {
 [[nodiscard]] std::vector<VkImage> outer_images(
     const std::vector<std::vector<std::uint64_t>>& chains);
 /// Whether such images can be drawn into, whatever their formats.
-[[nodiscard]] Status check_shape(const EyeImages& images, std::uint32_t most_px, bool takes_layers);
+[[nodiscard]] Status check_shape(const EyeImages& images, std::uint32_t most_px);
 /// Whether each chain has an image with its index, the chains of depth after the others.
 [[nodiscard]] bool holds(const EyeImages& images, std::span<const std::uint32_t> indices);
 

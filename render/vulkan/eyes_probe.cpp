@@ -14,9 +14,10 @@ constexpr std::uint32_t kSide_px = 128;  // covers several tiles of any rasteriz
 constexpr std::uint32_t kViews = 2;
 constexpr Label kLabel = 1;
 
-TargetSpec small_target() {
+TargetSpec small_target(bool samples) {
   TargetSpec spec;
-  spec.kind = PassKind::kLabels;
+  spec.kind = samples ? PassKind::kColour : PassKind::kLabels;
+  spec.edges = samples ? Edges::kSamples : Edges::kHard;
   spec.width = spec.height = kSide_px;
   spec.views = kViews;
   return spec;
@@ -33,12 +34,12 @@ FrameItems covering_items(const Font& font) {
   return items;
 }
 
-}  // namespace
-
-bool draws_both_eyes_whole(const Device& device, Commands& commands, const Bindings& bindings,
-                           const Font& font) {
-  const FramePass pass(device, VK_NULL_HANDLE, bindings.layout(), small_target(), Blend::kAdditive);
-  const FrameItems items = covering_items(font);
+/// Whether every pixel of both views is the triangle's: its label, or its white where samples are
+/// resolved.
+bool fills_both_views(const Device& device, Commands& commands, const Bindings& bindings,
+                      const FrameItems& items, bool samples) {
+  const FramePass pass(device, VK_NULL_HANDLE, bindings.layout(), small_target(samples),
+                       Blend::kAdditive);
   GpuFrame content;
   for (GpuEye& eye : content.eyes) {
     eye.clip_from_world = clip_from_world(View{});
@@ -51,7 +52,7 @@ bool draws_both_eyes_whole(const Device& device, Commands& commands, const Bindi
   const Buffer data(device, data_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::kUpload);
   data.write(items.data().data(), data_bytes);
   constexpr std::size_t kPixels = std::size_t{kViews} * kSide_px * kSide_px;
-  const Buffer readback(device, kPixels * sizeof(Label), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+  const Buffer readback(device, kPixels * sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                         BufferPlace::kReadback);
   bindings.bind_frames(frame);
   bindings.bind_data(data);
@@ -59,8 +60,19 @@ bool draws_both_eyes_whole(const Device& device, Commands& commands, const Bindi
   const Buffer no_lines;
   record_frame(commands.begin(), {pass, bindings, no_meshes, items, no_lines, readback});
   commands.run();
-  const std::span drawn(reinterpret_cast<const Label*>(readback.mapped()), kPixels);
-  return std::all_of(drawn.begin(), drawn.end(), [](Label label) { return label == kLabel; });
+  const std::span drawn(reinterpret_cast<const std::uint32_t*>(readback.mapped()), kPixels);
+  const std::uint32_t expected = samples ? 0xffffffff : kLabel;
+  return std::all_of(drawn.begin(), drawn.end(),
+                     [expected](std::uint32_t pixel) { return pixel == expected; });
+}
+
+}  // namespace
+
+bool draws_both_eyes_whole(const Device& device, Commands& commands, const Bindings& bindings,
+                           const Font& font, bool samples) {
+  const FrameItems items = covering_items(font);
+  return fills_both_views(device, commands, bindings, items, false) &&
+         (!samples || fills_both_views(device, commands, bindings, items, true));
 }
 
 }  // namespace orthonav::render

@@ -7,12 +7,12 @@
 
 namespace orthonav::render {
 
-/// Whether the device draws both eyes of one pass completely. llvmpipe of Mesa 22.3 puts the lines
-/// and triangles of every view into the first layer, so the right eye misses them. A hologram
-/// missing in one eye is worse than a slower frame, so the device itself is tested, not its name.
-/// Draws one small frame that is thrown away. Images must be bound before the call, and buffers
-/// bound again after it.
+/// Whether the device draws both eyes of one pass completely. llvmpipe of Mesa 22.3 puts lines and
+/// triangles into the first layer, whatever the view: the right eye misses them. A hologram that
+/// one eye lacks is worse than a slower frame, so the device is tested and not its name. With
+/// `samples`, whether it resolves both too. Draws one small frame or two that are thrown away.
+/// Images must be bound before, buffers anew afterwards.
 [[nodiscard]] bool draws_both_eyes_whole(const Device& device, Commands& commands,
-                                         const Bindings& bindings, const Font& font);
+                                         const Bindings& bindings, const Font& font, bool samples);
 
 }  // namespace orthonav::render

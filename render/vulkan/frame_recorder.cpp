@@ -17,6 +17,9 @@ void record_outer_frame(VkCommandBuffer commands, const FrameSources& sources) {
   const TargetSpec& spec = sources.pass.targets.spec();
   const PixelRect whole{0, 0, static_cast<int>(spec.width), static_cast<int>(spec.height)};
   RegionRecording(commands, sources, whole).everything();
+  if (sources.pass.targets.copies_result()) {
+    sources.pass.targets.copy_result(commands, sources.outer);
+  }
 }
 
 }  // namespace orthonav::render

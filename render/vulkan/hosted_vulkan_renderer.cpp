@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -56,7 +55,7 @@ HostedVulkanRenderer::HostedVulkanRenderer(const RendererOptions& options, Vulka
       physical_(value_of(device_of(host, instance_))),
       info_(describe(physical_)),
       device_(physical_, &host),
-      drawing_(options, device_, physical_, kFramesInFlight) {
+      drawing_(options, device_, physical_, kFramesInFlight, true) {
   upload_blank_background();
   drawing_.choose_views_a_pass();
 }
@@ -106,28 +105,10 @@ void HostedVulkanRenderer::upload_blank_background() {
   drawing_.bind_drawn(background_);
 }
 
-/// No exception leaves it.
-template <class Work>
-Status HostedVulkanRenderer::attempt(const Work& work) {
-  if (lost_) {
-    return Error{"renderer: device lost", ErrorCode::kLost};
-  }
-  try {
-    return work();
-  } catch (const std::exception&) {
-    Error error = error_in_flight();
-    lost_ = drawing_.lost() || error.code == ErrorCode::kLost;
-    if (lost_) {
-      error.code = ErrorCode::kLost;
-    }
-    return error;
-  }
-}
-
 Status HostedVulkanRenderer::check_images(const EyeImages& images) const {
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physical_, &properties);
-  const Status shape = check_shape(images, properties.limits.maxImageDimension2D, takes_layers());
+  const Status shape = check_shape(images, properties.limits.maxImageDimension2D);
   if (!shape) {
     return shape;
   }
@@ -146,8 +127,9 @@ void HostedVulkanRenderer::make_passes() {
   spec.height = static_cast<std::uint32_t>(images_.height_px);
   spec.edges = drawn_edges(options_);
   spec.colour = static_cast<VkFormat>(images_.format);
-  spec.views = images_.layers;
+  spec.views = std::min(images_.layers, static_cast<std::uint32_t>(drawing_.views_a_pass()));
   spec.outer = outer_images(images_.chains);
+  spec.outer_layers = images_.layers;
   auto pass = std::make_unique<FramePass>(device_, drawing_.cache(), drawing_.layout(), spec,
                                           options_.blend);
   if (!images_.depth_chains.empty()) {
@@ -167,6 +149,9 @@ void HostedVulkanRenderer::make_passes() {
     drawn_so_far_ = DeviceImage(device_, copied);
     drawing_.bind_drawn(drawn_so_far_);
   }
+  if (!images_.panel.chain.empty()) {
+    make_panel_pass();
+  }
   pass_ = std::move(pass);
 }
 
@@ -178,6 +163,7 @@ Status HostedVulkanRenderer::use(const EyeImages& images) {
     drawing_.wait_for_all();
     pass_.reset();
     depth_pass_.reset();
+    panel_pass_.reset();
     images_ = images;
     make_passes();
     return {};
@@ -204,21 +190,27 @@ void HostedVulkanRenderer::record(const std::vector<View>& views,
   for (std::size_t first = 0; first < views.size(); first += at_once) {
     drawing_.place(std::span(views).subspan(first, at_once), first, size, false);
     const auto frame = static_cast<std::uint32_t>(first * kFrameStride);
+    // Image `indices[chain]` of the eye's own chain, or the eye's layer in that of both.
+    const auto outer_of = [&](const auto& chains, std::size_t first_index) {
+      const std::size_t chain = chains.size() == 1 ? 0 : first;
+      const std::size_t image = chain * chains.front().size() + indices[first_index + chain];
+      const std::size_t passes = pass_->targets.spec().passes_an_image();
+      return image * passes + (passes > 1 ? first : 0);
+    };
     const auto draw = [&](const FramePass& pass, std::size_t outer) {
       record_outer_frame(batch, {pass, slot.bindings, drawing_.meshes(), drawing_.items(),
                                  slot.line_indices, nobody_reads, 0, frame, false, outer,
                                  drawing_.edges(first), drawn_so_far_.get()});
     };
-    draw(*pass_, first * images_.chains.front().size() + indices[first]);
+    draw(*pass_, outer_of(images_.chains, 0));
     if (depth_pass_) {
-      draw(*depth_pass_,
-           first * images_.depth_chains.front().size() + indices[images_.chains.size() + first]);
+      draw(*depth_pass_, outer_of(images_.depth_chains, images_.chains.size()));
     }
   }
 }
 
 Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
-                                  std::span<const std::uint32_t> indices) {
+                                  std::span<const std::uint32_t> indices, HeadTexts head_texts) {
   Status drawn = attempt([&]() -> Status {
     const Stopwatch watch;
     if (const Status checked = check_views(views); !checked) {
@@ -227,7 +219,8 @@ Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& v
     if (!pass_ || views.size() != kMostViews || !holds(images_, indices)) {
       return Error{"renderer: no such images of the host's"};
     }
-    drawing_.build(scene, views, {images_.width_px, images_.height_px}, PassKind::kColour);
+    drawing_.build(scene, views, {images_.width_px, images_.height_px}, PassKind::kColour,
+                   head_texts);
     record(views, indices);
     timing_.record_ms = watch.elapsed_ms();
     drawing_.slot().commands.submit();
@@ -244,6 +237,7 @@ Status HostedVulkanRenderer::finish() {
     drawing_.wait_for_all();
     pass_.reset();
     depth_pass_.reset();
+    panel_pass_.reset();
     return {};
   });
 }

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <chrono>
+#include <exception>
 #include <memory>
 #include <vector>
 
 #include "render/hosted_renderer.h"
 #include "render/vulkan/device.h"
+#include "render/vulkan/failure.h"
 #include "render/vulkan/instance.h"
 #include "render/vulkan/scene_drawing.h"
 
@@ -26,11 +27,11 @@ class HostedVulkanRenderer final : public HostedRenderer {
   [[nodiscard]] VulkanObjects objects() const override;
   [[nodiscard]] int format_score(std::int64_t format) const override;
   [[nodiscard]] int depth_format_score(std::int64_t format) const override;
-  [[nodiscard]] bool takes_layers() const override { return drawing_.views_a_pass() == 2; }
   Status use(const EyeImages& images) override;
   Status prepare(const Scene& scene) override;
   Status draw(const Scene& scene, const std::vector<View>& views,
-              std::span<const std::uint32_t> indices) override;
+              std::span<const std::uint32_t> indices, HeadTexts head_texts) override;
+  Status draw_panel(const Scene& scene, const View& view, std::uint32_t index) override;
   Status finish() override;
   [[nodiscard]] bool lost() const override { return lost_; }
   [[nodiscard]] const DeviceInfo& device() const override { return info_; }
@@ -45,6 +46,8 @@ class HostedVulkanRenderer final : public HostedRenderer {
   Status attempt(const Work& work);
   [[nodiscard]] Status check_images(const EyeImages& images) const;
   void make_passes();
+  void make_panel_pass();
+  void record_panel(const View& view, std::uint32_t index);
   void upload_blank_background();
   [[nodiscard]] bool offers(std::int64_t format, VkFormatFeatureFlags feature) const;
   void record(const std::vector<View>& views, std::span<const std::uint32_t> indices);
@@ -60,8 +63,28 @@ class HostedVulkanRenderer final : public HostedRenderer {
   EyeImages images_;
   std::unique_ptr<FramePass> pass_;
   std::unique_ptr<FramePass> depth_pass_;  ///< where the host wants depth
+  std::unique_ptr<FramePass> panel_pass_;  ///< where the host has a panel
+  std::vector<View> panel_view_;
   FrameTiming timing_;
   bool lost_ = false;
 };
+
+/// No exception leaves it.
+template <class Work>
+Status HostedVulkanRenderer::attempt(const Work& work) {
+  if (lost_) {
+    return Error{"renderer: device lost", ErrorCode::kLost};
+  }
+  try {
+    return work();
+  } catch (const std::exception&) {
+    Error error = error_in_flight();
+    lost_ = drawing_.lost() || error.code == ErrorCode::kLost;
+    if (lost_) {
+      error.code = ErrorCode::kLost;
+    }
+    return error;
+  }
+}
 
 }  // namespace orthonav::render

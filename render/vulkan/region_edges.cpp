@@ -70,6 +70,7 @@ void RegionRecording::copy_drawn(const PixelRect& part) const {
   VkImageCopy copy = {};
   copy.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, spec.views};
   copy.dstSubresource = copy.srcSubresource;
+  copy.srcSubresource.baseArrayLayer = sources_.pass.targets.first_layer(sources_.outer);
   copy.srcOffset = {part.left, part.top, 0};
   copy.dstOffset = copy.srcOffset;
   const VkRect2D rect = rect_of(part);

@@ -66,12 +66,13 @@ FrameSlot::FrameSlot(const Device& device)
              BufferPlace::kUpload) {}
 
 SceneDrawing::SceneDrawing(const RendererOptions& options, const Device& device,
-                           VkPhysicalDevice physical, std::size_t slots)
+                           VkPhysicalDevice physical, std::size_t slots, bool has_side_slot)
     : options_(options),
       device_(device),
       cache_(device, physical, options.cache_folder.value_or(user_cache_folder())),
+      frame_slots_(slots),
       meshes_(static_cast<int>(slots) - 1) {
-  for (std::size_t i = 0; i < slots; ++i) {
+  for (std::size_t i = 0; i < slots + (has_side_slot ? 1 : 0); ++i) {
     slots_.push_back(std::make_unique<FrameSlot>(device));
   }
   upload_atlas();
@@ -115,7 +116,8 @@ void SceneDrawing::choose_views_a_pass() {
     views_a_pass_ = options_.eyes_a_pass == EyesAPass::kTwo ? 2 : 1;
   } else {
     // Binds buffers of its own.
-    const bool both = draws_both_eyes_whole(device_, slot().commands, slot().bindings, font_);
+    const bool both = draws_both_eyes_whole(device_, slot().commands, slot().bindings, font_,
+                                            drawn_edges(options_) == Edges::kSamples);
     views_a_pass_ = both ? 2 : 1;
   }
   for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -123,10 +125,11 @@ void SceneDrawing::choose_views_a_pass() {
     slot().bindings.bind_frames(slot().frames);
     prepare_data();
   }
+  now_ = 0;
 }
 
 FrameSlot& SceneDrawing::next_slot() {
-  now_ = (now_ + 1) % slots_.size();
+  now_ = (now_ + 1) % frame_slots_;
   slot().commands.wait();
   return slot();
 }
@@ -200,8 +203,8 @@ Status SceneDrawing::take(const Scene& scene) {
 }
 
 void SceneDrawing::build(const Scene& scene, const std::vector<View>& views, PixelSize size,
-                         PassKind kind) {
-  items_.build(scene, views, font_, unseen_rad(views, size));
+                         PassKind kind, HeadTexts head_texts) {
+  items_.build(scene, views, font_, unseen_rad(views, size), head_texts);
   edges_.clear();
   edges_of_view_ = {};
   if (kind == PassKind::kColour && covers()) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -33,9 +34,10 @@ struct FrameSlot {
 /// slots. After the first frames it allocates nothing.
 class SceneDrawing {
  public:
-  /// Throws Failure, as its other calls do where the device fails. `device` must outlive it.
+  /// Throws Failure, as its other calls do where the device fails. `device` must outlive it. Beside
+  /// the slots of frames there is one more for what is drawn between them, if `has_side_slot`.
   SceneDrawing(const RendererOptions& options, const Device& device, VkPhysicalDevice physical,
-               std::size_t slots);
+               std::size_t slots, bool has_side_slot = false);
 
   /// The image behind the holograms, for all slots; to be called before the first frame.
   void bind_background(const DeviceImage& background);
@@ -50,6 +52,18 @@ class SceneDrawing {
   /// Goes to the next slot and waits until the device has finished with it.
   FrameSlot& next_slot();
   [[nodiscard]] FrameSlot& slot() { return *slots_[now_]; }
+  /// Goes to the side slot, waits until the device has finished with it, and does `work` in it.
+  template <class Work>
+  Status aside(const Work& work) {
+    struct Back {
+      std::size_t& now;
+      std::size_t before;
+      ~Back() { now = before; }
+    };
+    const Back back{now_, std::exchange(now_, slots_.size() - 1)};
+    slot().commands.wait();
+    return work();
+  }
   void wait_for_all();
   [[nodiscard]] bool lost() const;
 
@@ -58,8 +72,9 @@ class SceneDrawing {
   /// Whether colour is drawn with computed coverage.
   [[nodiscard]] bool covers() const { return drawn_edges(options_) == Edges::kCoverage; }
   /// Lays the scene out for a pass over these views in images of this size, into the current slot;
-  /// also the edges of its meshes, if the pass smooths them.
-  void build(const Scene& scene, const std::vector<View>& views, PixelSize size, PassKind kind);
+  /// the edges of its meshes too, where the pass smooths them.
+  void build(const Scene& scene, const std::vector<View>& views, PixelSize size, PassKind kind,
+             HeadTexts head_texts = HeadTexts::kDrawn);
   /// The edges of the pass whose first view is `first`.
   [[nodiscard]] EdgeRanges edges(std::size_t first) const {
     return {edges_of_view_[first], edges_of_view_[(first + 1) % kMostViews]};
@@ -89,6 +104,7 @@ class SceneDrawing {
   const Device& device_;
   PipelineCache cache_;
   std::vector<std::unique_ptr<FrameSlot>> slots_;
+  std::size_t frame_slots_;  ///< the first of them
   std::size_t now_ = 0;
   Font font_;
   FrameItems items_;

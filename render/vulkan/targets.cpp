@@ -74,7 +74,8 @@ VkImageAspectFlags aspects_of(VkFormat depth) {
          (stencil ? VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT} : 0);
 }
 
-ImageView view_of(const Device& device, const TargetSpec& spec, VkImage outer) {
+ImageView view_of(const Device& device, const TargetSpec& spec, VkImage outer,
+                  std::uint32_t first_layer) {
   VkImageViewCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
   info.image = outer;
@@ -83,7 +84,7 @@ ImageView view_of(const Device& device, const TargetSpec& spec, VkImage outer) {
   info.format = depth ? spec.depth : spec.colour;
   const VkImageAspectFlags aspects =
       depth ? aspects_of(spec.depth) : VkImageAspectFlags{VK_IMAGE_ASPECT_COLOR_BIT};
-  info.subresourceRange = {aspects, 0, 1, 0, spec.views};
+  info.subresourceRange = {aspects, 0, 1, first_layer, spec.views};
   VkImageView view = VK_NULL_HANDLE;
   check(vkCreateImageView(device.get(), &info, nullptr, &view), "view of a host's image");
   return {device.get(), view};
@@ -95,8 +96,10 @@ Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
   if (spec.kind == PassKind::kLabels) {
     spec_.colour = kLabelFormat;
   }
-  for (const VkImage outer : spec_.outer) {
-    outer_.push_back(view_of(device, spec_, outer));
+  for (std::size_t i = 0; i < spec_.outer.size() * spec_.passes_an_image(); ++i) {
+    if (!copies_result()) {
+      outer_.push_back(view_of(device, spec_, drawn(i), first_layer(i)));
+    }
   }
   if (spec.kind == PassKind::kDepth) {
     make_depth_pass(device);
@@ -125,7 +128,7 @@ void Targets::make_images(const Device& device) {
   if (resolves() || spec_.outer.empty()) {
     colour_ = DeviceImage(device, image);
   }
-  if (resolves() && spec_.outer.empty()) {
+  if (resolves() && (spec_.outer.empty() || copies_result())) {
     ImageSpec result = image;
     result.samples = VK_SAMPLE_COUNT_1_BIT;
     result.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
@@ -172,8 +175,9 @@ Framebuffer Targets::framebuffer_of(const Device& device, VkImageView result) co
 std::array<VkAttachmentDescription, 3> Targets::attachments(VkFormat depth, PassPart part) const {
   constexpr auto kDrop = VK_ATTACHMENT_STORE_OP_DONT_CARE;
   constexpr auto kKeep = VK_ATTACHMENT_STORE_OP_STORE;
-  const VkImageLayout read = spec_.outer.empty() ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
-                                                 : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  const VkImageLayout read = spec_.outer.empty() || copies_result()
+                                 ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+                                 : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
   std::array<VkAttachmentDescription, 3> described = {
       attachment(spec_.colour, spec_.samples(), VK_ATTACHMENT_LOAD_OP_CLEAR,
                  resolves() ? kDrop : kKeep,
@@ -242,7 +246,34 @@ void Targets::make_depth_pass(const Device& device) {
   set_pass(device, info);
 }
 
-/// Makes the render pass, for all views at once.
+void Targets::copy_result(VkCommandBuffer commands, std::size_t outer) const {
+  constexpr VkPipelineStageFlags kOthers = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
+                                           VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                                           VK_PIPELINE_STAGE_TRANSFER_BIT;
+  VkImageMemoryBarrier change = {};
+  change.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
+  change.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+  change.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+  change.srcQueueFamilyIndex = change.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  change.image = drawn(outer);
+  change.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, first_layer(outer), spec_.views};
+  vkCmdPipelineBarrier(commands, kOthers, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
+                       1, &change);
+  VkImageCopy whole = {};
+  whole.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, spec_.views};
+  whole.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, first_layer(outer), spec_.views};
+  whole.extent = {spec_.width, spec_.height, 1};
+  vkCmdCopyImage(commands, result_.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, drawn(outer),
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &whole);
+  change.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+  change.dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+  change.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+  change.newLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, kOthers, 0, 0, nullptr, 0, nullptr,
+                       1, &change);
+}
+
+/// All views at once.
 void Targets::set_pass(const Device& device, VkRenderPassCreateInfo info, PassPart part) {
   const std::uint32_t view_mask = (1u << spec_.views) - 1;
   const VkRenderPassMultiviewCreateInfo multiview = all_at_once(view_mask);

@@ -38,7 +38,7 @@ std::vector<View> eyes() { return stereo_pair(TestRenderer::straight_ahead()); }
 void draw(HostedRenderer& renderer, const Scene& scene, const std::vector<View>& views,
           const std::vector<std::uint32_t>& images) {
   ASSERT_TRUE(test::is_ok(renderer.prepare(scene)));
-  ASSERT_TRUE(test::is_ok(renderer.draw(scene, views, images)));
+  ASSERT_TRUE(test::is_ok(renderer.draw(scene, views, images, HeadTexts::kDrawn)));
 }
 
 std::vector<RgbaImage> as_drawn_into_images(const Scene& scene, const std::vector<View>& views,
@@ -81,7 +81,11 @@ TEST_P(HostedRendererInEveryWay, DrawsTheSameBitsAsIntoImages) {
 INSTANTIATE_TEST_SUITE_P(Hosts, HostedRendererInEveryWay,
                          ::testing::Values(Way{"chains", 1, Edges::kSamples, EyesAPass::kProbe},
                                            Way{"hard", 1, Edges::kHard, EyesAPass::kProbe},
-                                           Way{"told_one", 1, Edges::kSamples, EyesAPass::kOne}),
+                                           Way{"told_one", 1, Edges::kSamples, EyesAPass::kOne},
+                                           Way{"layers", 2, Edges::kCoverage, EyesAPass::kProbe},
+                                           Way{"layers_hard", 2, Edges::kHard, EyesAPass::kProbe},
+                                           Way{"layers_resolved", 2, Edges::kSamples,
+                                               EyesAPass::kProbe}),
                          [](const auto& way) { return std::string(way.param.name); });
 
 /// llvmpipe resolves into the first layer alone and puts lines and triangles there, but a surface
@@ -194,14 +198,10 @@ TEST(HostedRenderer, RefusesImagesThatDoNotFit) {
   targets = images.targets();
   targets.width_px = 1 << 20;
   EXPECT_THAT(test::error_of(hosted.renderer->use(targets)), HasSubstr("limit"));
-  TestImages layered(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 2);
-  if (!hosted.renderer->takes_layers()) {
-    EXPECT_THAT(test::error_of(hosted.renderer->use(layered.targets())),
-                HasSubstr("does not draw whole"));
-  }
   ASSERT_TRUE(test::is_ok(hosted.renderer->use(images.targets())));
   ASSERT_TRUE(test::is_ok(hosted.renderer->prepare({})));
-  EXPECT_THAT(test::error_of(hosted.renderer->draw({}, eyes(), std::vector<std::uint32_t>{0, 2})),
+  EXPECT_THAT(test::error_of(hosted.renderer->draw({}, eyes(), std::vector<std::uint32_t>{0, 2},
+                                                   HeadTexts::kDrawn)),
               HasSubstr("no such images"));
   EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }

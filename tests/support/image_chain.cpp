@@ -63,9 +63,11 @@ void ImageChain::add_image(VkFormat format) {
   info.mipLevels = 1;
   info.arrayLayers = layers_;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
-  info.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-               (aspect_ == VK_IMAGE_ASPECT_COLOR_BIT ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT
-                                                     : VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+  info.usage =
+      VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+      (layers_ > 1 && aspect_ == VK_IMAGE_ASPECT_COLOR_BIT ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0) |
+      (aspect_ == VK_IMAGE_ASPECT_COLOR_BIT ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT
+                                            : VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
   VkImage image = VK_NULL_HANDLE;
   expect(vkCreateImage(device_, &info, nullptr, &image), "image");
   VkMemoryRequirements needs;

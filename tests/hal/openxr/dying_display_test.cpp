@@ -33,7 +33,9 @@ class DyingDisplay : public PixelDisplay {
   }
   Result<std::vector<std::uint32_t>> acquire() override { return inner_.acquire(); }
   EyeViews views() override { return inner_.views(); }
-  Status end_frame(bool drawn) override { return inner_.end_frame(drawn); }
+  Status end_frame(const SubmittedContent& content) override { return inner_.end_frame(content); }
+  Result<std::uint32_t> acquire_panel() override { return inner_.acquire_panel(); }
+  Status release_panel() override { return inner_.release_panel(); }
   void ask_to_end() override { inner_.ask_to_end(); }
   void close() override { inner_.close(); }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "hal/openxr/pinch.h"
 #include "hal/openxr/placement.h"
 #include "hal/openxr/view_setup.h"
 #include "hal/openxr/xr_error.h"
@@ -91,6 +92,33 @@ TEST(XrErrors, HaveNamesAndNumbersWhereThereIsNone) {
   EXPECT_EQ(error_of("do it", XR_ERROR_SESSION_LOST).message,
             "openxr: do it: XR_ERROR_SESSION_LOST");
   EXPECT_EQ(name_of(static_cast<XrResult>(-123456)), "XrResult -123456");
+}
+
+TEST(Pinch, NeedsAnOpenHandFirstAndTwoSightings) {
+  Pinch pinch;
+  EXPECT_FALSE(pinch.take(1.0f));
+  EXPECT_FALSE(pinch.take(1.0f)) << "came closed";
+  EXPECT_FALSE(pinch.take(0.2f));
+  EXPECT_FALSE(pinch.take(0.9f)) << "once is a glitch";
+  EXPECT_FALSE(pinch.take(0.7f));
+  EXPECT_FALSE(pinch.take(0.9f));
+  EXPECT_TRUE(pinch.take(0.9f));
+  EXPECT_TRUE(pinch.take(0.6f)) << "between the two limits it stays";
+  EXPECT_FALSE(pinch.take(0.5f));
+  EXPECT_FALSE(pinch.take(0.85f));
+  EXPECT_TRUE(pinch.take(0.85f));
+  EXPECT_FALSE(pinch.take(std::nullopt));
+  EXPECT_FALSE(pinch.take(0.9f));
+  EXPECT_FALSE(pinch.take(0.9f));
+}
+
+TEST(Pinch, ClosesWhereTheTipsTouch) {
+  EXPECT_FLOAT_EQ(closed_at(0.0f), 1.0f);
+  EXPECT_FLOAT_EQ(closed_at(0.1f), 0.0f);
+  EXPECT_GE(closed_at(0.016f), Pinch::kCloses);
+  EXPECT_LT(closed_at(0.018f), Pinch::kCloses);
+  EXPECT_GT(closed_at(0.028f), Pinch::kOpens);
+  EXPECT_LE(closed_at(0.029f), Pinch::kOpens);
 }
 
 const Transform<World, Viewer> kBegin = {rotation_from_vector({0, 0.5, 0}), {1, 0, 2}};

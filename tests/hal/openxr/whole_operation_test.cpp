@@ -87,7 +87,7 @@ class Watch : public engine::LoopObserver {
     }
     const SubmittedFrame last = runtime_.frames().back();
     // Until the first picture, and only until then, frames are without one.
-    if (last.layers > 0 || !frames_.empty()) {
+    if (last.has_eyes || !frames_.empty()) {
       frames_[step_] = last;
     }
   }
@@ -126,7 +126,7 @@ TEST_F(OperationOnOpenxr, GoesThroughWithEachStepsFramesAsTheRendererDrawsThem) 
   const auto last = runtime().frames();
   std::int64_t first_drawn = -1;
   for (const auto& frame : last) {
-    if (frame.layers > 0) {
+    if (frame.has_eyes) {
       first_drawn = frame.number + 1 - static_cast<std::int64_t>(all.size());
     }
   }

@@ -2,16 +2,18 @@
 #include <cmath>
 #include <cstring>
 #include <thread>
+#include <utility>
 
 #include "tests/support/openxr_runtime/double_state.h"
 
 namespace orthonav::test {
-namespace {
 
 DoubleSwapchain* chain_of(Double& d, XrSwapchain handle) {
   auto* chain = reinterpret_cast<DoubleSwapchain*>(handle);
   return d.session && d.session->swapchains.count(chain) > 0 ? chain : nullptr;
 }
+
+namespace {
 
 XrResult XRAPI_CALL formats(XrSession, std::uint32_t capacity, std::uint32_t* count,
                             std::int64_t* values) {
@@ -43,6 +45,10 @@ XrResult XRAPI_CALL create_swapchain(XrSession, const XrSwapchainCreateInfo* inf
   if (info->arraySize > d.traits.most_layers) {
     return XR_ERROR_FEATURE_UNSUPPORTED;
   }
+  const bool panel = info->width != d.traits.width_px || info->height != d.traits.height_px;
+  if (const XrResult failed = d.fails("xrCreateSwapchain", panel); failed != XR_SUCCESS) {
+    return failed;
+  }
   const bool depth = info->format == VK_FORMAT_D32_SFLOAT;
   const auto wanted = depth ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                             : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT;
@@ -51,6 +57,7 @@ XrResult XRAPI_CALL create_swapchain(XrSession, const XrSwapchainCreateInfo* inf
   }
   auto* chain = new DoubleSwapchain;
   chain->info = *info;
+  chain->panel = panel;
   chain->chain = std::make_unique<ImageChain>(
       d.session->objects, static_cast<VkFormat>(info->format), static_cast<int>(info->width),
       static_cast<int>(info->height), info->arraySize, 3,
@@ -79,6 +86,10 @@ XrResult XRAPI_CALL images(XrSwapchain handle, std::uint32_t capacity, std::uint
   DoubleSwapchain* chain = chain_of(d, handle);
   if (chain == nullptr) {
     return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
+  }
+  if (const XrResult failed = d.fails("xrEnumerateSwapchainImages", chain->panel);
+      failed != XR_SUCCESS) {
+    return failed;
   }
   const auto& all = chain->chain->images();
   *count = static_cast<std::uint32_t>(all.size());
@@ -109,6 +120,10 @@ XrResult XRAPI_CALL acquire(XrSwapchain handle, const XrSwapchainImageAcquireInf
   if (chain == nullptr) {
     return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
   }
+  if (const XrResult failed = d.fails("xrAcquireSwapchainImage", chain->panel);
+      failed != XR_SUCCESS) {
+    return failed;
+  }
   if (chain->acquired.size() == chain->chain->images().size()) {
     return d.violated("more images than there are", XR_ERROR_CALL_ORDER_INVALID);
   }
@@ -128,6 +143,9 @@ XrResult XRAPI_CALL wait_image(XrSwapchain handle, const XrSwapchainImageWaitInf
   if (chain == nullptr) {
     return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
   }
+  if (const XrResult failed = d.fails("xrWaitSwapchainImage", chain->panel); failed != XR_SUCCESS) {
+    return failed;
+  }
   if (chain->acquired.empty() || chain->waited) {
     return d.violated("an image waited for out of turn", XR_ERROR_CALL_ORDER_INVALID);
   }
@@ -145,12 +163,17 @@ XrResult XRAPI_CALL release(XrSwapchain handle, const XrSwapchainImageReleaseInf
   if (chain == nullptr) {
     return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
   }
+  if (const XrResult failed = d.fails("xrReleaseSwapchainImage", chain->panel);
+      failed != XR_SUCCESS) {
+    return failed;
+  }
   if (!chain->waited) {
     return d.violated("an image released that was not waited for", XR_ERROR_CALL_ORDER_INVALID);
   }
   chain->released = chain->acquired.front();
   chain->acquired.pop_front();
   chain->waited = false;
+  ++chain->releases;
   return XR_SUCCESS;
 }
 
@@ -170,8 +193,9 @@ XrResult XRAPI_CALL wait_frame(XrSession, const XrFrameWaitInfo*, XrFrameState* 
       return d.violated("waited twice for a frame", XR_ERROR_CALL_ORDER_INVALID);
     }
     session.waited = true;
+    const int periods = 1 + std::exchange(d.skipped, 0);
     if (d.traits.stepped) {
-      d.stepped_now += d.traits.period_ns;
+      d.stepped_now += periods * d.traits.period_ns;
     }
     const XrTime now = d.now();
     const XrTime next = (now / d.traits.period_ns + 1) * d.traits.period_ns;
@@ -214,103 +238,6 @@ XrResult XRAPI_CALL begin_frame(XrSession, const XrFrameBeginInfo*) {
   return discarded ? XR_FRAME_DISCARDED : XR_SUCCESS;
 }
 
-/// Why a part of an image can't be shown; empty if it can.
-std::string flaw_of(Double& d, const XrSwapchainSubImage& part) {
-  const DoubleSwapchain* chain = chain_of(d, part.swapchain);
-  if (chain == nullptr) {
-    return "a view of no swapchain";
-  }
-  if (!chain->released) {
-    return "a view of an image that was never released";
-  }
-  const XrRect2Di& rect = part.imageRect;
-  if (rect.offset.x < 0 || rect.offset.y < 0 || rect.extent.width <= 0 || rect.extent.height <= 0 ||
-      rect.offset.x + rect.extent.width > static_cast<int>(chain->info.width) ||
-      rect.offset.y + rect.extent.height > static_cast<int>(chain->info.height)) {
-    return "a view outside its image";
-  }
-  if (part.imageArrayIndex >= chain->info.arraySize) {
-    return "a view of a layer too many";
-  }
-  return {};
-}
-
-std::string flaw_of(Double& d, const XrCompositionLayerProjectionView& view) {
-  if (std::string flaw = flaw_of(d, view.subImage); !flaw.empty()) {
-    return flaw;
-  }
-  const XrQuaternionf& q = view.pose.orientation;
-  if (std::fabs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) > 0.01f) {
-    return "a view with a pose that is none";
-  }
-  if (!(view.fov.angleLeft < view.fov.angleRight && view.fov.angleDown < view.fov.angleUp)) {
-    return "a view of nothing";
-  }
-  return {};
-}
-
-/// The depth attached to a view, if any.
-std::string take_depth(Double& d, const XrCompositionLayerProjectionView& view,
-                       std::vector<float>& metres) {
-  const auto* depth = static_cast<const XrCompositionLayerDepthInfoKHR*>(view.next);
-  if (depth == nullptr) {
-    return {};
-  }
-  if (!d.traits.takes_depth || depth->type != XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR) {
-    return "a view with what was not switched on";
-  }
-  if (std::string flaw = flaw_of(d, depth->subImage); !flaw.empty()) {
-    return flaw;
-  }
-  if (!(depth->minDepth >= 0 && depth->minDepth < depth->maxDepth && depth->maxDepth <= 1 &&
-        depth->nearZ > 0 && depth->nearZ < depth->farZ)) {
-    return "a depth of no range";
-  }
-  DoubleSwapchain& chain = *chain_of(d, depth->subImage.swapchain);
-  if (chain.info.format != VK_FORMAT_D32_SFLOAT) {
-    return "a depth that is none";
-  }
-  const auto bytes = chain.chain->read(*chain.released, depth->subImage.imageArrayIndex);
-  metres.resize(bytes.size() / sizeof(float));
-  std::memcpy(metres.data(), bytes.data(), bytes.size());
-  // The hyperbola of a projection with any far plane, including infinity.
-  for (float& value : metres) {
-    value = 1.0f / (1.0f / depth->nearZ + value * (1.0f / depth->farZ - 1.0f / depth->nearZ));
-  }
-  return {};
-}
-
-XrResult take_layer(Double& d, const XrFrameEndInfo& info, SubmittedFrame& frame) {
-  const auto* layer = reinterpret_cast<const XrCompositionLayerProjection*>(info.layers[0]);
-  if (info.layerCount != 1 || layer->type != XR_TYPE_COMPOSITION_LAYER_PROJECTION ||
-      layer->viewCount != 2) {
-    return d.violated("layers that this runtime does not know", XR_ERROR_LAYER_INVALID);
-  }
-  auto* space = reinterpret_cast<DoubleSpace*>(layer->space);
-  if (d.session->spaces.count(space) == 0) {
-    return d.violated("a layer in no space", XR_ERROR_HANDLE_INVALID);
-  }
-  frame.on_head = space->type == XR_REFERENCE_SPACE_TYPE_VIEW;
-  frame.flags = layer->layerFlags;
-  for (std::size_t eye = 0; eye < 2; ++eye) {
-    const XrCompositionLayerProjectionView& view = layer->views[eye];
-    if (const std::string flaw = flaw_of(d, view); !flaw.empty()) {
-      return d.violated(flaw, XR_ERROR_SWAPCHAIN_RECT_INVALID);
-    }
-    DoubleSwapchain& chain = *chain_of(d, view.subImage.swapchain);
-    frame.poses[eye] = view.pose;
-    frame.fovs[eye] = view.fov;
-    frame.format = chain.info.format;
-    if (d.traits.frames_kept > 0) {
-      frame.pixels[eye] = chain.chain->read(*chain.released, view.subImage.imageArrayIndex);
-    }
-    if (const std::string flaw = take_depth(d, view, frame.depth_m[eye]); !flaw.empty()) {
-      return d.violated(flaw, XR_ERROR_VALIDATION_FAILURE);
-    }
-  }
-  return XR_SUCCESS;
-}
-
 XrResult XRAPI_CALL end_frame(XrSession, const XrFrameEndInfo* info) {
   Double& d = the_double();
   std::function<void()> action;
@@ -335,16 +262,18 @@ XrResult XRAPI_CALL end_frame(XrSession, const XrFrameEndInfo* info) {
       d.violated("drawn where nothing is to be drawn", XR_SUCCESS);
     }
     session.begun = false;
+    if (const XrResult failed = d.fails("xrEndFrame", info->layerCount > 1); failed != XR_SUCCESS) {
+      ++d.ended;
+      return failed;
+    }
     SubmittedFrame frame;
     frame.number = d.ended++;
     frame.display_time = info->displayTime;
     frame.should_render = session.should_render;
     frame.layers = info->layerCount;
     frame.blend = info->environmentBlendMode;
-    if (info->layerCount > 0) {
-      if (const XrResult taken = take_layer(d, *info, frame); taken != XR_SUCCESS) {
-        return taken;
-      }
+    if (const XrResult taken = take_layers(d, *info, frame); taken != XR_SUCCESS) {
+      return taken;
     }
     d.kept.push_back(std::move(frame));
     while (d.kept.size() > std::max<std::size_t>(d.traits.frames_kept, 1)) {

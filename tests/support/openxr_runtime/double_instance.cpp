@@ -30,6 +30,15 @@ XrResult XRAPI_CALL enumerate_extensions(const char* layer, std::uint32_t capaci
   if (d.traits.takes_depth) {
     add(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, 5);
   }
+  if (d.traits.hand_interaction) {
+    add(kHandInteraction, 1);
+  }
+  if (d.traits.hand_tracking) {
+    add(XR_EXT_HAND_TRACKING_EXTENSION_NAME, 4);
+  }
+  if (d.traits.eye_gaze) {
+    add(XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME, 1);
+  }
   return enumerate(all, capacity, count, properties);
 }
 
@@ -44,14 +53,20 @@ XrResult XRAPI_CALL create_instance(const XrInstanceCreateInfo* info, XrInstance
     --d.refusals;
     return XR_ERROR_RUNTIME_FAILURE;
   }
+  std::set<std::string> enabled;
   for (std::uint32_t i = 0; i < info->enabledExtensionCount; ++i) {
     const std::string name = info->enabledExtensionNames[i];
     if (name != XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME &&
         name != XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME &&
-        !(d.traits.takes_depth && name == XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME)) {
+        !(d.traits.takes_depth && name == XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) &&
+        !(d.traits.hand_interaction && name == kHandInteraction) &&
+        !(d.traits.hand_tracking && name == XR_EXT_HAND_TRACKING_EXTENSION_NAME) &&
+        !(d.traits.eye_gaze && name == XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME)) {
       return d.violated("extension " + name + " was not offered", XR_ERROR_EXTENSION_NOT_PRESENT);
     }
+    enabled.insert(name);
   }
+  d.enabled = std::move(enabled);
   d.instance = true;
   d.instance_lost = false;
   d.requirements_asked = false;
@@ -116,9 +131,25 @@ XrResult XRAPI_CALL get_system(XrInstance, const XrSystemGetInfo* info, XrSystem
 }
 
 XrResult XRAPI_CALL system_properties(XrInstance, XrSystemId, XrSystemProperties* properties) {
+  Double& d = the_double();
+  const std::lock_guard lock(d.mutex);
   properties->systemId = kSystem;
   std::snprintf(properties->systemName, sizeof(properties->systemName), "scripted headset");
-  properties->graphicsProperties = {4096, 4096, 16};
+  properties->graphicsProperties = {4096, 4096, d.traits.most_composition_layers};
+  for (auto* next = static_cast<XrBaseOutStructure*>(properties->next); next != nullptr;
+       next = next->next) {
+    if (next->type == XR_TYPE_SYSTEM_EYE_GAZE_INTERACTION_PROPERTIES_EXT &&
+        d.enabled.count(XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME) > 0) {
+      reinterpret_cast<XrSystemEyeGazeInteractionPropertiesEXT*>(next)->supportsEyeGazeInteraction =
+          d.traits.sees_eyes ? XR_TRUE : XR_FALSE;
+    } else if (next->type == XR_TYPE_SYSTEM_HAND_TRACKING_PROPERTIES_EXT &&
+               d.enabled.count(XR_EXT_HAND_TRACKING_EXTENSION_NAME) > 0) {
+      reinterpret_cast<XrSystemHandTrackingPropertiesEXT*>(next)->supportsHandTracking =
+          d.traits.sees_hands ? XR_TRUE : XR_FALSE;
+    } else {
+      return d.violated("properties of what was not switched on", XR_ERROR_VALIDATION_FAILURE);
+    }
+  }
   return XR_SUCCESS;
 }
 
@@ -233,6 +264,14 @@ XrResult XRAPI_CALL create_vulkan_device(XrInstance, const XrVulkanDeviceCreateI
 
 XrResult XRAPI_CALL get_proc(XrInstance, const char* name, PFN_xrVoidFunction* function) {
   *function = function_named(name);
+  // Functions of an extension are there once it is enabled.
+  if (std::strstr(name, "HandTracker") != nullptr || std::strstr(name, "HandJoints") != nullptr) {
+    Double& d = the_double();
+    const std::lock_guard lock(d.mutex);
+    if (d.enabled.count(XR_EXT_HAND_TRACKING_EXTENSION_NAME) == 0) {
+      *function = nullptr;
+    }
+  }
   return *function != nullptr ? XR_SUCCESS : XR_ERROR_FUNCTION_UNSUPPORTED;
 }
 
@@ -284,6 +323,7 @@ PFN_xrVoidFunction function_named(const std::string& name) {
     add_session_functions(table);
     add_frame_functions(table);
     add_input_functions(table);
+    add_hand_functions(table);
     return table;
   }();
   const auto found = kTable.find(name);

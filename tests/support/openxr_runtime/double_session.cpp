@@ -43,6 +43,10 @@ void destroy_chains(DoubleSession& session) {
   for (DoubleSpace* space : session.spaces) {
     delete space;
   }
+  for (DoubleTracker* tracker : session.trackers) {
+    delete tracker;
+  }
+  session.trackers.clear();
   session.swapchains.clear();
   session.spaces.clear();
 }
@@ -156,6 +160,29 @@ XrResult XRAPI_CALL destroy_space(XrSpace handle) {
   return XR_SUCCESS;
 }
 
+/// Where the eyes look in a space as they were seen when actions were last synchronised.
+XrResult locate_gaze(const Double& d, const DoubleSpace& in, XrTime time,
+                     XrSpaceLocation& location) {
+  const GazeState& gaze = d.synced_gaze;
+  location.locationFlags = 0;
+  if (!gaze.active) {
+    return XR_SUCCESS;
+  }
+  const bool on_head = in.type == XR_REFERENCE_SPACE_TYPE_VIEW;
+  location.pose = on_head ? gaze.in_viewer : multiplied(d.viewer_at(time), gaze.in_viewer);
+  location.locationFlags =
+      XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
+  if (gaze.tracked) {
+    location.locationFlags |=
+        XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
+  }
+  auto* sample = static_cast<XrEyeGazeSampleTimeEXT*>(location.next);
+  if (sample != nullptr && sample->type == XR_TYPE_EYE_GAZE_SAMPLE_TIME_EXT) {
+    sample->time = d.now() - gaze.age_ns;
+  }
+  return XR_SUCCESS;
+}
+
 XrResult XRAPI_CALL locate_space(XrSpace viewer, XrSpace base, XrTime time,
                                  XrSpaceLocation* location) {
   Double& d = the_double();
@@ -171,6 +198,12 @@ XrResult XRAPI_CALL locate_space(XrSpace viewer, XrSpace base, XrTime time,
   if (d.session->spaces.count(const_cast<DoubleSpace*>(of)) == 0 ||
       d.session->spaces.count(const_cast<DoubleSpace*>(in)) == 0) {
     return d.violated("a space of nobody's", XR_ERROR_HANDLE_INVALID);
+  }
+  if (of->of_gaze) {
+    return locate_gaze(d, *in, time, *location);
+  }
+  if (location->next != nullptr) {
+    return d.violated("a location with what it does not have", XR_ERROR_VALIDATION_FAILURE);
   }
   if (of->type != XR_REFERENCE_SPACE_TYPE_VIEW || in->type == XR_REFERENCE_SPACE_TYPE_VIEW) {
     return d.violated("spaces that this runtime can't relate", XR_ERROR_RUNTIME_FAILURE);
@@ -202,8 +235,9 @@ XrResult XRAPI_CALL locate_views(XrSession, const XrViewLocateInfo* info, XrView
     return d.violated("views in a space of nobody's", XR_ERROR_HANDLE_INVALID);
   }
   const bool on_head = space->type == XR_REFERENCE_SPACE_TYPE_VIEW;
-  // The eyes' place on the head is known even if the head is lost.
-  state->viewStateFlags = on_head ? kAllFlags : d.flags();
+  // Where the eyes are on the head is known however lost the head is, if it is known at all.
+  const XrViewStateFlags on_head_flags = d.traits.eyes_on_head ? kAllFlags : 0;
+  state->viewStateFlags = on_head ? on_head_flags : d.flags();
   std::vector<XrView> both(2, {XR_TYPE_VIEW});
   for (std::size_t eye = 0; eye < 2; ++eye) {
     XrPosef offset = {{0, 0, 0, 1}, {eye == 0 ? -0.0315f : 0.0315f, 0, 0}};

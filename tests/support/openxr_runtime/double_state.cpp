@@ -66,7 +66,11 @@ void Double::reset(const RuntimeTraits& given) {
   waited_frames = ended = 0;
   kept.clear();
   actions.clear();
-  pressed = synced_pressed = false;
+  failing = {};
+  pressed = synced_pressed = synced_controller = false;
+  hands = synced_hands = {};
+  gaze = synced_gaze = {};
+  skipped = 0;
   wrong.clear();
   session_count = instance_count = 0;
 }
@@ -86,6 +90,26 @@ void Double::press(bool down) {
   const std::lock_guard lock(mutex);
   pressed = down;
   pressed_at = now();
+}
+
+void Double::set_controller(bool there) {
+  const std::lock_guard lock(mutex);
+  traits.controller = there;
+}
+
+void Double::set_hand(std::size_t hand, const HandState& state) {
+  const std::lock_guard lock(mutex);
+  hands[hand] = state;
+}
+
+void Double::set_gaze(const GazeState& state) {
+  const std::lock_guard lock(mutex);
+  gaze = state;
+}
+
+void Double::skip(int periods) {
+  const std::lock_guard lock(mutex);
+  skipped = periods;
 }
 
 void Double::tell(XrSessionState state) {
@@ -157,6 +181,19 @@ void Double::stay_away(int attempts) {
 void Double::at_frame(std::int64_t number, std::function<void()> action) {
   const std::lock_guard lock(mutex);
   actions[number] = std::move(action);
+}
+
+void Double::fail_of_panel(const std::string& call, XrResult result, int times) {
+  const std::lock_guard lock(mutex);
+  failing = {call, result, times};
+}
+
+XrResult Double::fails(const char* call, bool of_panel) {
+  if (!of_panel || failing.times == 0 || failing.call != call) {
+    return XR_SUCCESS;
+  }
+  --failing.times;
+  return failing.result;
 }
 
 std::int64_t Double::ended_frames() const {

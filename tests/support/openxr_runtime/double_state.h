@@ -19,10 +19,26 @@ struct DoubleSwapchain {
   bool waited = false;                 ///< the oldest acquired
   std::uint32_t next = 0;
   std::optional<std::uint32_t> released;  ///< last; what a layer refers to
+  bool panel = false;                     ///< not of the eyes' size
+  std::int64_t releases = 0;
+  std::int64_t read_of = -1;  ///< the release that `pixels` are of
+  std::shared_ptr<const std::vector<std::uint8_t>> pixels;
 };
 
 struct DoubleSpace {
   XrReferenceSpaceType type = XR_REFERENCE_SPACE_TYPE_LOCAL;
+  bool of_gaze = false;  ///< an action's; `type` means nothing
+};
+
+/// What is bound to an action, and what it was when actions were last synchronised.
+struct DoubleAction {
+  XrActionType type = XR_ACTION_TYPE_BOOLEAN_INPUT;
+  std::set<XrPath> hands;  ///< its subaction paths
+  std::set<std::string> bound;
+};
+
+struct DoubleTracker {
+  std::size_t hand = 0;
 };
 
 struct DoubleSession {
@@ -37,10 +53,18 @@ struct DoubleSession {
   VulkanObjects objects;
   std::set<DoubleSpace*> spaces;
   std::set<DoubleSwapchain*> swapchains;
+  std::set<DoubleTracker*> trackers;
   bool attached = false;
 };
 
-/// A move of the space, and its time.
+/// A call that fails.
+struct Failing {
+  std::string call;
+  XrResult result = XR_ERROR_RUNTIME_FAILURE;
+  int times = 0;
+};
+
+/// What moved the space, and when.
 struct SpaceMove {
   XrTime from = 0;
   XrPosef old_from_new{};
@@ -54,19 +78,26 @@ class Double : public RuntimeDouble {
   void set_head(std::function<XrPosef(XrTime)> head) override;
   void set_tracked(bool valid, bool position_tracked) override;
   void press(bool down) override;
+  void set_controller(bool there) override;
+  void set_hand(std::size_t hand, const HandState& state) override;
+  void set_gaze(const GazeState& state) override;
+  void skip(int periods) override;
   void tell(XrSessionState state) override;
   void recentre(const XrPosef& old_from_new, bool known, int frames_ahead) override;
   void lose_session(bool announced) override;
   void lose_instance(bool announced) override;
   void stay_away(int attempts) override;
   void at_frame(std::int64_t number, std::function<void()> action) override;
+  void fail_of_panel(const std::string& call, XrResult result, int times) override;
   [[nodiscard]] std::int64_t ended_frames() const override;
   [[nodiscard]] std::vector<SubmittedFrame> frames() const override;
   [[nodiscard]] int sessions() const override;
   [[nodiscard]] int instances() const override;
   [[nodiscard]] std::vector<std::string> violations() const override;
 
-  /// Records the violation and answers with the error.
+  /// What the call is to answer at once; XR_SUCCESS: what it answers otherwise.
+  XrResult fails(const char* call, bool of_panel);
+  /// Writes it down and answers with the error.
   XrResult violated(const std::string& what, XrResult result);
   [[nodiscard]] XrTime now() const;
   void enter(DoubleSession& session, XrSessionState state);
@@ -95,17 +126,32 @@ class Double : public RuntimeDouble {
   std::int64_t ended = 0;
   std::deque<SubmittedFrame> kept;
   std::map<std::int64_t, std::function<void()>> actions;
+  Failing failing;
   bool pressed = false;
   XrTime pressed_at = 0;
+  std::array<HandState, 2> hands{};
+  GazeState gaze;
+  int skipped = 0;
+  std::set<std::string> enabled;  ///< extensions
+  std::set<std::unique_ptr<DoubleAction>> action_list;
+  // As they were when actions were last synchronised.
   bool synced_pressed = false;
-  bool synced_active = false;
+  bool synced_controller = false;
+  std::array<HandState, 2> synced_hands{};
+  GazeState synced_gaze;
   std::map<XrPath, std::string> paths;
   std::vector<std::string> wrong;
   int session_count = 0;
   int instance_count = 0;
 };
 
+inline constexpr const char* kHandInteraction = "XR_EXT_hand_interaction";
+
 [[nodiscard]] Double& the_double();
+/// Null where the session has none of that handle.
+[[nodiscard]] DoubleSwapchain* chain_of(Double& d, XrSwapchain handle);
+/// The layers of a frame that is ended, into what is kept of it.
+XrResult take_layers(Double& d, const XrFrameEndInfo& info, SubmittedFrame& frame);
 
 /// a ∘ b of rigid poses, and the inverse.
 [[nodiscard]] XrPosef multiplied(const XrPosef& a, const XrPosef& b);
@@ -117,6 +163,7 @@ void add_instance_functions(std::map<std::string, PFN_xrVoidFunction>& table);
 void add_session_functions(std::map<std::string, PFN_xrVoidFunction>& table);
 void add_frame_functions(std::map<std::string, PFN_xrVoidFunction>& table);
 void add_input_functions(std::map<std::string, PFN_xrVoidFunction>& table);
+void add_hand_functions(std::map<std::string, PFN_xrVoidFunction>& table);
 
 /// Reads ORTHONAV_XR_SCRIPT, if there is one, into the double; writes the reports that it asks for.
 void take_script(Double& runtime);

@@ -1,0 +1,56 @@
+#include "engine/live/status_panel.h"
+
+#include <utility>
+
+namespace orthonav::engine {
+
+bool StatusPanel::show(const render::Scene& scene) {
+  shown_ = false;
+  if (!offered_ || !PanelLayout::write(scene, next_)) {
+    return false;
+  }
+  if (next_.texts.empty()) {
+    return true;
+  }
+  if (!holds_ || next_.texts != drawn_.texts) {
+    if (!layout_.fits(next_)) {
+      return false;
+    }
+    if (const Status drawn = draw(); !drawn) {
+      problem_ = drawn.error().message;
+      return false;
+    }
+  }
+  return shown_ = true;
+}
+
+Status StatusPanel::draw() {
+  const auto image = display_.acquire_panel();
+  if (!image) {
+    return image.error();
+  }
+  // Where this fails, the image stays acquired for the next attempt.
+  if (const Status drawn = renderer_.draw_panel(next_, view_, *image); !drawn) {
+    return drawn;
+  }
+  holds_ = false;
+  if (const Status released = display_.release_panel(); !released) {
+    return released;
+  }
+  std::swap(drawn_, next_);
+  holds_ = true;
+  ++drawn_count_;
+  return {};
+}
+
+std::optional<HeadPanel> StatusPanel::shown() const {
+  return shown_ ? std::optional(status_panel()) : std::nullopt;
+}
+
+void StatusPanel::ended(bool well) {
+  // Whether the display still has what was released is not known.
+  holds_ = holds_ && well;
+  shown_ = false;
+}
+
+}  // namespace orthonav::engine
