@@ -29,10 +29,12 @@ class FrameComparison {
     renderer_ = std::move(*renderer);
   }
 
-  /// The largest difference of any colour of both eyes, of 255; and how many pixels are lit.
+  /// The largest difference of any colour of both eyes, of 255; and how many pixels are lit, of the
+  /// eyes and of the panel.
   struct Difference {
     int most = 0;
     std::size_t lit_px = 0;
+    std::size_t lit_on_panel_px = 0;
   };
   /// What hangs on the head must be in the eyes' images exactly where there is no panel.
   Difference compare(const DrawnScene& drawn, const SubmittedFrame& frame) {
@@ -44,6 +46,9 @@ class FrameComparison {
     std::vector<RgbaImage> images;
     EXPECT_TRUE(is_ok(renderer_->draw(scene, drawn.views, {}, images)));
     Difference difference;
+    for (std::size_t i = 0; frame.quad && i < frame.quad->pixels->size(); i += 4) {
+      difference.lit_on_panel_px += (*frame.quad->pixels)[i] != 0 ? 1 : 0;
+    }
     for (std::size_t eye = 0; eye < 2; ++eye) {
       add(images[eye].pixels, frame.pixels[eye], frame.format, difference);
     }

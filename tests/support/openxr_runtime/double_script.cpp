@@ -8,15 +8,18 @@
 namespace orthonav::test {
 namespace {
 
-/// Number of pixels that are not black, of both eyes.
-std::size_t lit_pixels(const SubmittedFrame& frame) {
+std::size_t lit_pixels(const std::vector<std::uint8_t>& image) {
   std::size_t lit = 0;
-  for (const auto& eye : frame.pixels) {
-    for (std::size_t i = 0; i + 3 < eye.size(); i += 4) {
-      lit += eye[i] != 0 || eye[i + 1] != 0 || eye[i + 2] != 0 ? 1 : 0;
-    }
+  for (std::size_t i = 0; i + 3 < image.size(); i += 4) {
+    lit += image[i] != 0 || image[i + 1] != 0 || image[i + 2] != 0 ? 1 : 0;
   }
   return lit;
+}
+
+/// Pixels that are not black, of both eyes and the panel.
+std::size_t lit_pixels(const SubmittedFrame& frame) {
+  const std::size_t eyes = lit_pixels(frame.pixels[0]) + lit_pixels(frame.pixels[1]);
+  return frame.quad && frame.quad->pixels ? eyes + lit_pixels(*frame.quad->pixels) : eyes;
 }
 
 std::string report_path;
