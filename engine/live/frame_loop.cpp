@@ -171,11 +171,15 @@ std::optional<Part> FrameLoop::stalled() const {
   if (voice_stalled_) {
     return Part::kVoice;
   }
-  if (sink_ && (beats_->drawing_stalled() || sink_->stalled())) {
+  if (sink_ && sink_->stalled()) {
     return Part::kRenderer;
   }
-  // Where time does not pass as it does for the coach, it would be called late at random.
-  return options_.drop_late_snapshots ? beats_->stalled_beside() : std::nullopt;
+  // A clock that only the pairs advance says nothing about threads that work beside them: they
+  // would be late at random, and a simulation would depend on the speed of the machine.
+  if (!options_.drop_late_snapshots) {
+    return std::nullopt;
+  }
+  return sink_ && beats_->drawing_stalled() ? Part::kRenderer : beats_->stalled_beside();
 }
 
 void FrameLoop::count_stall(std::optional<Part> now, LoopReport& report) {

@@ -142,6 +142,27 @@ TEST_F(WatchedLoop, WhoeverDiesOnTheTrackingThreadIsNamedAndNothingIsGuided) {
   EXPECT_TRUE(other.display().frames().back().holograms.empty());
 }
 
+TEST_F(WatchedLoop, ASimulationDoesNotDependOnHowFastItIsDrawn) {
+  options.drop_late_snapshots = false;
+  options.draw_every = 15;
+  fake::FakeHeadset headset(pairs(60));
+  sink.hangs_at = 0;
+  // While the first picture is drawn, tracking goes on for 0.7 s of the simulated clock.
+  Stepped goes_on([&, steps = 0](const Guidance&) mutable {
+    if (steps == 0) {
+      EXPECT_TRUE(wait_until([&] { return sink.hanging.load(); }));
+    }
+    headset.manual_clock().advance(kStallAfter / 10);
+    if (++steps == 20) {
+      sink.let_go = true;
+    }
+  });
+  const auto report = run(headset, &goes_on);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->stalls, 0);
+  EXPECT_EQ(report->displayed, 60);
+}
+
 TEST_F(WatchedLoop, ARendererThatDiesEndsTheRunInOrder) {
   for (const bool waits : {false, true}) {
     options.drop_late_snapshots = !waits;
