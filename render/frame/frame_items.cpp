@@ -66,10 +66,14 @@ void FrameItems::build(const Scene& scene, const std::vector<View>& views, const
   for (const std::uint32_t i : order_) {
     add_line(scene.lines[i], least_rad);
   }
+  add_texts(scene, head, font, head_texts);
+}
+
+void FrameItems::add_texts(const Scene& scene, const Head& head, const Font& font,
+                           HeadTexts head_texts) {
   sort_for_drawing(scene.texts, head, order_);
   for (const std::uint32_t i : order_) {
-    const bool drawn = head_texts == HeadTexts::kDrawn || scene.texts[i].place != TextPlace::kView;
-    if (drawn) {
+    if (head_texts == HeadTexts::kDrawn || scene.texts[i].place != TextPlace::kView) {
       add_text(scene.texts[i], head, font);
     }
   }

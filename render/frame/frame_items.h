@@ -87,6 +87,7 @@ class FrameItems {
   void add_many(const LineItem& item, float least_rad);
   void end_line(const LineItem& item, std::uint32_t first, bool rounded);
   void add_dashes(const LineItem& item);
+  void add_texts(const Scene& scene, const Head& head, const Font& font, HeadTexts head_texts);
   void add_text(const TextItem& item, const Head& head, const Font& font);
 
   [[nodiscard]] PixelRect bounds_of(const SpanDraw& draw, std::uint32_t points,

@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/stopwatch.h"
 #include "engine/golden/golden_scenes.h"
 #include "tests/hal/openxr/drawn_frames.h"
 #include "tests/render/test_scenes.h"
@@ -304,31 +303,6 @@ TEST_F(RuntimeTest, TellsHowOldTheHeadsPoseIsWithEachFrame) {
   for (const double latch_ms : report.latch_ms) {
     EXPECT_GT(latch_ms, 0.0);
   }
-}
-
-TEST_F(RuntimeTest, KeepsAccountOfTheDisplaysTiming) {
-  RuntimeTraits traits;
-  traits.period_ns = 12'500'000;
-  runtime().reset(traits);
-  open();
-  ASSERT_TRUE(present().ok());
-  ASSERT_TRUE(show(golden("guidance").scene).ok());
-  ASSERT_TRUE(eventually([&] { return count_drawn() >= 3; }));
-  runtime().skip(4);
-  ASSERT_TRUE(frames_pass(3));
-  // Shown three periods after it was begun; this one takes longer.
-  hold_ = true;
-  ASSERT_TRUE(eventually([&] { return held_.load(); }));
-  const Stopwatch held;
-  ASSERT_TRUE(eventually([&] { return held.elapsed() > std::chrono::milliseconds(50); }));
-  hold_ = false;
-  ASSERT_TRUE(frames_pass(3));
-  const engine::PresentReport report = presenter_->stop();
-  EXPECT_EQ(report.missed, 4);
-  EXPECT_GE(report.late, 1);
-  EXPECT_EQ(report.period, Duration(traits.period_ns));
-  EXPECT_EQ(report.wait_ms.size(), static_cast<std::size_t>(report.frames));
-  EXPECT_EQ(report.submit_ms.size(), static_cast<std::size_t>(report.frames));
 }
 
 std::string refusal(RuntimeTraits traits, Headset& headset) {
