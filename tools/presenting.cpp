@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-#include "tools/support/eye_in_rig.h"
 #include "tools/run_stats.h"
+#include "tools/support/eye_in_rig.h"
 
 namespace orthonav::tools {
 

@@ -6,8 +6,8 @@
 
 #include "base/stopwatch.h"
 #include "engine/holograms/render_values.h"
-#include "tools/support/eye_in_rig.h"
 #include "tools/preview/outlines.h"
+#include "tools/support/eye_in_rig.h"
 
 namespace orthonav::preview {
 namespace {
