@@ -149,7 +149,8 @@ TEST_F(WatchedLoop, ASimulationDoesNotDependOnHowFastItIsDrawn) {
   sink.hangs_at = 0;
   // While the first picture is drawn, tracking goes on for 0.7 s of the simulated clock.
   Stepped goes_on([&, steps = 0](const Guidance&) mutable {
-    if (steps == 0) {
+    // The first pair is handed over for drawing once it was stepped.
+    if (steps == 1) {
       EXPECT_TRUE(wait_until([&] { return sink.hanging.load(); }));
     }
     headset.manual_clock().advance(kStallAfter / 10);
