@@ -54,19 +54,8 @@ Error file_error(const std::filesystem::path& path, const std::string& why) {
   return Error{path.string() + ": " + why};
 }
 
-}  // namespace
-
-Result<std::unique_ptr<Microphone>> open_wav_microphone(const std::filesystem::path& path,
-                                                        const Clock& clock) {
-  SF_INFO info{};
-  const std::unique_ptr<SNDFILE, CloseSound> file(sf_open(path.c_str(), SFM_READ, &info));
-  if (!file) {
-    Error error = file_error(path, std::string("is no sound file: ") + sf_strerror(nullptr));
-    if (sf_error(nullptr) == SF_ERR_SYSTEM) {
-      error.code = code_of_unopened(path);
-    }
-    return error;
-  }
+/// Refuses what no microphone records.
+Status check(const std::filesystem::path& path, const SF_INFO& info) {
   constexpr int kMaxChannels = 16;
   constexpr std::int64_t kMaxSeconds = 3600;
   if (info.channels < 1 || info.channels > kMaxChannels) {
@@ -80,12 +69,17 @@ Result<std::unique_ptr<Microphone>> open_wav_microphone(const std::filesystem::p
     return file_error(
         path, "lasts " + std::to_string(info.frames / info.samplerate) + " s, limit 3600 s");
   }
+  return {};
+}
+
+/// The mean of the channels, from where the file stands to its end.
+std::vector<std::int16_t> mono_samples(SNDFILE& file, const SF_INFO& info) {
   // A float file's full scale becomes that of 16 bits.
-  sf_command(file.get(), SFC_SET_SCALE_FLOAT_INT_READ, nullptr, SF_TRUE);
+  sf_command(&file, SFC_SET_SCALE_FLOAT_INT_READ, nullptr, SF_TRUE);
   const auto channels = static_cast<std::size_t>(info.channels);
   std::vector<std::int16_t> block(4096 * channels);
   std::vector<std::int16_t> samples;
-  for (sf_count_t got = 0; (got = sf_readf_short(file.get(), block.data(), 4096)) > 0;) {
+  for (sf_count_t got = 0; (got = sf_readf_short(&file, block.data(), 4096)) > 0;) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(got); ++i) {
       int sum = 0;
       for (std::size_t c = 0; c < channels; ++c) {
@@ -94,6 +88,26 @@ Result<std::unique_ptr<Microphone>> open_wav_microphone(const std::filesystem::p
       samples.push_back(static_cast<std::int16_t>(sum / info.channels));
     }
   }
+  return samples;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Microphone>> open_wav_microphone(const std::filesystem::path& path,
+                                                        const Clock& clock) {
+  SF_INFO info{};
+  const std::unique_ptr<SNDFILE, CloseSound> file(sf_open(path.c_str(), SFM_READ, &info));
+  if (!file) {
+    Error error = file_error(path, std::string("is no sound file: ") + sf_strerror(nullptr));
+    if (sf_error(nullptr) == SF_ERR_SYSTEM) {
+      error.code = code_of_unopened(path);
+    }
+    return error;
+  }
+  if (const Status usable = check(path, info); !usable) {
+    return usable.error();
+  }
+  std::vector<std::int16_t> samples = mono_samples(*file, info);
   if (samples.empty()) {
     return file_error(path, "holds no sound");
   }

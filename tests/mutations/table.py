@@ -17,12 +17,12 @@ ATOMIC_ORDER = "AtomicFile.IsDurableInTheOrderThatACrashNeeds"
 LINES_ORDER = "LineLog.IsDurableInTheOrderThatACrashNeeds"
 LINES_FAILED = "LineLog.TellsOfASyncThatFailedAndTriesNoneAfterIt"
 
-SYNC_CREATED = """  if (const Status durable = env.sync_folder(folder_of(path)); !durable) {
-    return durable.error();
-  }
-  // Under"""
 RENAME_NEW = """  if (const Status named = env.rename(unnamed(path), path); !named) {
     return named.error();
+  }
+"""
+SYNC_CREATED = """  if (const Status durable = env.sync_folder(folder_of(path)); !durable) {
+    return durable.error();
   }
 """
 SYNC_REOPENED = """  if (const Status durable = (*file)->sync(); !durable) {
@@ -48,7 +48,7 @@ MUTATIONS = [
     ("no sync of a record", RECORD_LOG,
      [("if (const Status durable = written(*file_, bytes)", "if (const Status durable = file_->append(bytes)")],
      A_PREFIX),
-    ("no sync of the folder of a new log", RECORD_LOG, [(SYNC_CREATED, "  // Under")], A_PREFIX),
+    ("no sync of the folder of a new log", RECORD_LOG, [(RENAME_NEW + SYNC_CREATED, RENAME_NEW)], A_PREFIX),
     ("a new log has its name before it is synced", RECORD_LOG,
      [("if (const Status durable = written(**file, bytes)", "if (const Status durable = (*file)->append(bytes)"),
       (RENAME_NEW, RENAME_NEW + SYNC_REOPENED)], A_PREFIX),
