@@ -47,7 +47,7 @@ class DyingDisplay : public PixelDisplay {
 TEST_F(RuntimeTest, APresenterThatDiesSaysSoToWhoeverDrawsAndEndsItsSession) {
   DyingDisplay display(*open().pixels(), 5);
   engine::PresenterOptions options;
-  options.renderer.cache_folder = "";
+  options.renderer.cache_folder.emplace();
   auto presenter = engine::Presenter::start(display, options);
   ASSERT_TRUE(presenter.ok()) << presenter.error().message;
   engine::Snapshot snapshot;
