@@ -28,7 +28,7 @@ engine::OperationOptions options_of(const DemoArguments& arguments) {
   arguments.limits.set_in(options);
   options.tracker.parallel = arguments.threads > 1;
   options.loop.draw_every = kDrawEvery;
-  options.loop.drop_late_snapshots = arguments.realtime;
+  options.loop.real_time = arguments.realtime;
   options.record_folder = arguments.record;
   return options;
 }

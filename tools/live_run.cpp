@@ -186,7 +186,7 @@ class LiveRun {
     options.loop.draw_every = Presenting::is_possible(*headset_) ? 1
                               : onlookers_.draw()                ? kForDashboard
                                                                  : 0;
-    options.loop.drop_late_snapshots = options.loop.draw_every > 0;
+    options.loop.real_time = options.loop.draw_every > 0;
     return options;
   }
 

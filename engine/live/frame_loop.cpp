@@ -174,9 +174,9 @@ std::optional<Part> FrameLoop::stalled() const {
   if (sink_ && sink_->stalled()) {
     return Part::kRenderer;
   }
-  // A clock that only the pairs advance says nothing about threads that work beside them: they
-  // would be late at random, and a simulation would depend on the speed of the machine.
-  if (!options_.drop_late_snapshots) {
+  // A clock that only pairs advance can't time other threads: they would be late at random, and a
+  // simulation would depend on the machine's speed.
+  if (!options_.real_time) {
     return std::nullopt;
   }
   return sink_ && beats_->drawing_stalled() ? Part::kRenderer : beats_->stalled_beside();

@@ -46,9 +46,10 @@ struct LoopOptions {
   /// Every n-th displayed frame goes to the sink; 0: none. Counted, not timed, so that the same
   /// frames are drawn regardless of the machine's speed.
   int draw_every = 1;
-  /// Real time: only the newest snapshot is drawn and tracking never waits. Otherwise every one is
-  /// drawn.
-  bool drop_late_snapshots = false;
+  /// Whether the device's clock runs by itself. Then only the newest snapshot is drawn, tracking
+  /// never waits, and stalled threads are noticed. Otherwise pairs advance the clock: every
+  /// snapshot is drawn, and the speed of drawing has no effect.
+  bool real_time = false;
   std::int64_t max_frames = 0;  ///< ends after this many displayed frames; 0: no limit
   /// Ends once the pairs span this much of the device's clock; 0: no limit.
   Duration max_time = Duration::zero();

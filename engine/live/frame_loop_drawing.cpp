@@ -21,8 +21,8 @@ static_assert(kStallAfter + kLookEvery <= std::chrono::milliseconds(500),
 
 /// The loop, with a thread beside it that draws. If both fail, the loop's Error is returned.
 Status FrameLoop::loop_and_draw(LoopReport& report) {
-  SnapshotQueue queue(options_.drop_late_snapshots ? SnapshotQueue::WhenFull::kDropOldest
-                                                   : SnapshotQueue::WhenFull::kWait);
+  SnapshotQueue queue(options_.real_time ? SnapshotQueue::WhenFull::kDropOldest
+                                         : SnapshotQueue::WhenFull::kWait);
   LoopReport drawing;
   Status drawn;
   std::thread drawer([&] {
@@ -124,9 +124,9 @@ Status FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing) {
   Snapshot* last = nullptr;
   // If every snapshot is drawn, the pictures are for later, and the device's clock runs ahead of
   // them, so it shows neither what is too old nor what hangs.
-  const bool real_time = options_.drop_late_snapshots;
-  while (Snapshot* snapshot = real_time ? await_snapshot(queue, last, drawing) : queue.take()) {
-    if (real_time && snapshot->expires && next_display_time() > *snapshot->expires) {
+  while (Snapshot* snapshot =
+             options_.real_time ? await_snapshot(queue, last, drawing) : queue.take()) {
+    if (options_.real_time && snapshot->expires && next_display_time() > *snapshot->expires) {
       hide_tool_guidance(snapshot->scene);
       snapshot->tool_time.reset();
     }
@@ -140,7 +140,7 @@ Status FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing) {
         stop();
       }
     }
-    if (real_time) {
+    if (options_.real_time) {
       last = snapshot;
     } else {
       queue.release(snapshot);

@@ -18,7 +18,7 @@ engine::LoopOptions loop_options() {
   // A headset that is paused while its clock runs on is not lost.
   options.longest_silence = std::chrono::hours(24);
   // Nothing is drawn in the loop: the newest moment counts.
-  options.drop_late_snapshots = true;
+  options.real_time = true;
   return options;
 }
 

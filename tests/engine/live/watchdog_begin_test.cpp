@@ -60,7 +60,7 @@ TEST_F(WatchedLoop, ATrackerThatHangsAtTheFirstPairIsNamed) {
 class CoachedLoop : public ::testing::Test {
  protected:
   CoachedLoop() {
-    options.drop_late_snapshots = true;
+    options.real_time = true;
     s.tracker().pointer = test::pointer_at({0, 0.02, 0});
     s.says("start");
     s.does({ClickerAction::kPress});
@@ -96,7 +96,7 @@ TEST_F(CoachedLoop, ACoachThatHangsIsNamedBeforeItIsAwaited) {
 }
 
 TEST_F(CoachedLoop, IsNotTimedByPairsThatComeFasterThanTime) {
-  options.drop_late_snapshots = false;
+  options.real_time = false;
   fake::FakeHeadset headset(pairs(60));
   std::atomic<int> trials = 0;
   s.before_registering = [&] {

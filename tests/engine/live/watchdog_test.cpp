@@ -143,7 +143,7 @@ TEST_F(WatchedLoop, WhoeverDiesOnTheTrackingThreadIsNamedAndNothingIsGuided) {
 }
 
 TEST_F(WatchedLoop, ASimulationDoesNotDependOnHowFastItIsDrawn) {
-  options.drop_late_snapshots = false;
+  options.real_time = false;
   options.draw_every = 15;
   fake::FakeHeadset headset(pairs(60));
   sink.hangs_at = 0;
@@ -166,7 +166,7 @@ TEST_F(WatchedLoop, ASimulationDoesNotDependOnHowFastItIsDrawn) {
 
 TEST_F(WatchedLoop, ARendererThatDiesEndsTheRunInOrder) {
   for (const bool waits : {false, true}) {
-    options.drop_late_snapshots = !waits;
+    options.real_time = !waits;
     fake::FakeHeadset headset(pairs(500));
     sink.dies_at = 0;
     const auto report = run(headset);

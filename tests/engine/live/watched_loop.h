@@ -148,7 +148,7 @@ class Stepped : public LoopObserver {
 /// Guidance in real time, drawn into a sink that is watched.
 class WatchedLoop : public GuidingLoop {
  protected:
-  WatchedLoop() { options.drop_late_snapshots = true; }
+  WatchedLoop() { options.real_time = true; }
   Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr) {
     return GuidingLoop::run(headset, observer, &sink);
   }

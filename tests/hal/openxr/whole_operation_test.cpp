@@ -47,7 +47,7 @@ class OperationOnOpenxr : public RuntimeTest {
     auto method = engine::method_named("best");
     ASSERT_TRUE(method.ok());
     engine::AssemblyOptions assembly;
-    assembly.loop.drop_late_snapshots = true;
+    assembly.loop.real_time = true;
     auto assembled =
         engine::assemble_operation(*headset_, std::move(*operation), *method,
                                    engine::tools_known_to(*headset_).value(), assembly);
