@@ -4,9 +4,10 @@
 
 namespace orthonav::openxr {
 
-XrSwapchainCreateInfo Chain::plain(std::int64_t format, int width_px, int height_px) {
+XrSwapchainCreateInfo Chain::plain(XrSwapchainUsageFlags usage, std::int64_t format, int width_px,
+                                   int height_px) {
   XrSwapchainCreateInfo info = {XR_TYPE_SWAPCHAIN_CREATE_INFO};
-  info.usageFlags = XR_SWAPCHAIN_USAGE_SAMPLED_BIT | XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT;
+  info.usageFlags = XR_SWAPCHAIN_USAGE_SAMPLED_BIT | usage;
   info.format = format;
   info.sampleCount = 1;
   info.width = static_cast<std::uint32_t>(width_px);

@@ -8,22 +8,22 @@
 
 namespace orthonav::openxr {
 
-/// One swapchain, of which one image at a time belongs to the application: from `acquire` to
-/// `release`. Destroyed by hand, since a session that is lost takes it along.
+/// One swapchain. Between `acquire` and `release` one of its images belongs to the application.
+/// Must be destroyed explicitly, since losing the session destroys it too.
 class Chain {
  public:
-  /// What all swapchains here have in common: one level, one face, one sample.
-  [[nodiscard]] static XrSwapchainCreateInfo plain(std::int64_t format, int width_px,
-                                                   int height_px);
+  /// A swapchain of 2D images with one level and one sample, which can be sampled besides `usage`.
+  [[nodiscard]] static XrSwapchainCreateInfo plain(XrSwapchainUsageFlags usage, std::int64_t format,
+                                                   int width_px, int height_px);
   /// Writes the images' handles into `images`.
   Status create(XrSession session, const XrSwapchainCreateInfo& info,
                 std::vector<std::uint64_t>& images);
   void destroy();
 
-  /// XR_TIMEOUT_EXPIRED when the image is not free in time: the next call waits on for the same
-  /// one. An image that is there already is kept.
+  /// XR_TIMEOUT_EXPIRED if the image is not free in time: the next call waits for the same one.
+  /// Does nothing if an image is held already.
   XrResult acquire(XrDuration patience);
-  /// Nothing to do where no image was waited for.
+  /// Does nothing unless an image was waited for.
   XrResult release();
   /// Whether an image may be drawn into.
   [[nodiscard]] bool ready() const { return waited_; }

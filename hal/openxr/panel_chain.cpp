@@ -29,7 +29,8 @@ PanelImages PanelChain::create(XrSession session, const ViewSetup& setup, std::i
   if (setup.most_layers < 2 || !fits) {
     return images;
   }
-  const XrSwapchainCreateInfo info = Chain::plain(format, size_px[0], size_px[1]);
+  const XrSwapchainCreateInfo info =
+      Chain::plain(XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT, format, size_px[0], size_px[1]);
   if (!chain_.create(session, info, images.chain)) {
     destroy();
     return {};

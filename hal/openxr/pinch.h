@@ -5,16 +5,16 @@
 
 namespace orthonav::openxr {
 
-/// Thumb and index finger of one hand as a button, from how far they are closed, 0 to 1. A hand
-/// presses only after it was seen open: one that comes into view closed, around an instrument say,
-/// does not. It presses when it was seen closed twice in a row, and lets go where it is clearly
-/// open again, or no longer seen.
+/// Thumb and index finger of one hand as a button, from how far they are closed, 0 to 1. The hand
+/// must have been seen open first: one that comes into view closed, for example around an
+/// instrument, does not press. The button is pressed when the hand is seen closed twice in a row,
+/// and released when it is clearly open again or out of sight.
 class Pinch {
  public:
   static constexpr float kCloses = 0.85f;
   static constexpr float kOpens = 0.5f;
 
-  /// Absent: the hand is not tracked. Whether the button is down.
+  /// Takes the newest value, absent if the hand is not tracked. Returns whether the button is down.
   bool take(std::optional<float> closed) {
     if (!closed) {
       *this = {};
@@ -37,7 +37,7 @@ class Pinch {
   bool down_ = false;
 };
 
-/// How far the tips of thumb and index finger are closed when they are so far apart.
+/// How far thumb and index finger are closed if their tips are this far apart.
 [[nodiscard]] inline float closed_at(float apart_m) {
   constexpr float kTouching_m = 0.012f;  // about a finger's thickness from joint to joint
   constexpr float kApart_m = 0.045f;

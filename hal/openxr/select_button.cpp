@@ -16,8 +16,8 @@ XrActionStateGetInfo get_of(XrAction action, XrPath hand) {
 
 }  // namespace
 
-/// How far a hand is closed; absent where that is not known, or it is held as no hand is that is
-/// about to pinch.
+/// How far a hand is closed; absent if that is unknown, or if its pose is not one that precedes a
+/// pinch.
 std::optional<float> SelectButton::closed(const Actions& actions, const Hands& hands,
                                           std::size_t hand, XrSession session, XrTime now) const {
   if (actions.pinch() == XR_NULL_HANDLE) {
@@ -44,9 +44,9 @@ bool SelectButton::take_hands(const Actions& actions, const Hands& hands, XrSess
   bool down = false;
   hands_stay_ = true;
   for (std::size_t hand = 0; hand < pinches_.size(); ++hand) {
-    const std::optional<float> closed = this->closed(actions, hands, hand, session, now);
-    hands_stay_ = hands_stay_ && (closed || !pinches_[hand].down());
-    down = pinches_[hand].take(closed) || down;
+    const std::optional<float> fraction = closed(actions, hands, hand, session, now);
+    hands_stay_ = hands_stay_ && (fraction || !pinches_[hand].down());
+    down = pinches_[hand].take(fraction) || down;
   }
   return down;
 }
@@ -70,7 +70,7 @@ Result<std::optional<SelectButton::Change>> SelectButton::poll(const Actions& ac
   if (down) {
     by_hand_ = !selected;
   }
-  // The runtime says when a button changed, but not when a controller went away.
+  // The runtime reports when a button changed, but not when a controller disappeared.
   const bool told_when = !by_hand_ && select.isActive;
   const bool lost = !down && (by_hand_ ? !hands_stay_ : !select.isActive);
   return std::optional<Change>({down, told_when ? select.lastChangeTime : now, lost});

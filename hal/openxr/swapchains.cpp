@@ -91,13 +91,12 @@ Status Swapchains::add_chains(XrSession session, Content content) {
 
 Status Swapchains::add_chain(XrSession session, Content content) {
   const bool depth = content == Content::kDepth;
-  XrSwapchainCreateInfo info = Chain::plain(depth ? images_.depth_format : images_.format,
-                                            images_.width_px, images_.height_px);
-  info.usageFlags =
-      XR_SWAPCHAIN_USAGE_SAMPLED_BIT |
-      (depth ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-             : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_TRANSFER_SRC_BIT |
-                   XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT);
+  constexpr XrSwapchainUsageFlags kColour = XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT |
+                                            XR_SWAPCHAIN_USAGE_TRANSFER_SRC_BIT |
+                                            XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT;
+  XrSwapchainCreateInfo info = Chain::plain(
+      depth ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : kColour,
+      depth ? images_.depth_format : images_.format, images_.width_px, images_.height_px);
   info.arraySize = images_.layers;
   std::vector<std::uint64_t> images;
   const Status created = chains_.emplace_back().create(session, info, images);

@@ -3,6 +3,7 @@
 
 #include "tests/hal/openxr/composed.h"
 #include "tests/hal/openxr/drawn_frames.h"
+#include "tests/hal/openxr/software_renderer.h"
 #include "tests/hal/openxr/status_scene.h"
 
 namespace orthonav::test::composed_panel_test {
@@ -15,10 +16,26 @@ struct Look {
 };
 void PrintTo(const Look& look, std::ostream* out) { *out << look.name; }
 
-class ComposedPanel : public RuntimeTest, public ::testing::WithParamInterface<Look> {};
-
 constexpr int kWide_px = 1440;
 constexpr int kHigh_px = 1188;
+
+class ComposedPanel : public RuntimeTest, public ::testing::WithParamInterface<Look> {
+ protected:
+  /// Presents a scene on a display of that look until a frame of it was submitted.
+  void present_scene(const Look& look, const render::Scene& scene) {
+    RuntimeTraits traits;
+    traits.width_px = kWide_px;
+    traits.height_px = kHigh_px;
+    traits.blends = {look.mode};
+    traits.frames_kept = 2;
+    runtime().reset(traits);
+    open();
+    ASSERT_TRUE(present().ok());
+    ASSERT_TRUE(show(scene).ok());
+    ASSERT_TRUE(eventually([&] { return count_drawn() >= 3; }));
+    presenter_->stop();
+  }
+};
 
 std::vector<double> light_of(const RgbaImage& image) {
   std::vector<double> light;
@@ -74,36 +91,28 @@ Apart apart(const std::vector<double>& composed, const std::vector<double>& expe
 
 TEST_P(ComposedPanel, LooksAsInTheEyesImages) {
   const Look& look = GetParam();
-  RuntimeTraits traits;
-  traits.width_px = kWide_px;
-  traits.height_px = kHigh_px;
-  traits.blends = {look.mode};
-  traits.frames_kept = 2;
-  runtime().reset(traits);
-  open();
-  ASSERT_TRUE(present().ok());
   // The triangle lies behind the status line too: what is below the panel shows.
   render::Scene scene = scene_that_says("digitize L4");
   scene.triangles.front().corners = {{{-0.3f, -0.4f, -1}, {0.3f, -0.4f, -1}, {0, 0.2f, -1}}};
   scene.triangles.front().colour = {0.1f, 0.3f, 0.1f, 1};
-  ASSERT_TRUE(show(scene).ok());
-  ASSERT_TRUE(eventually([&] { return count_drawn() >= 3; }));
-  presenter_->stop();
+  ASSERT_NO_FATAL_FAILURE(present_scene(look, scene));
   const auto pairs = matched(drawn(), runtime().frames());
   ASSERT_FALSE(pairs.empty());
   const auto& [shown, frame] = pairs.front();
   ASSERT_TRUE(frame.quad.has_value());
   const bool reads_alpha = look.mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
-  const auto renderer = software(kWide_px, kHigh_px, look.blend,
-                                 reads_alpha ? render::Edges::kSamples : render::Edges::kCoverage);
+  const auto renderer =
+      software_renderer(kWide_px, kHigh_px, look.blend,
+                        reads_alpha ? render::Edges::kSamples : render::Edges::kCoverage);
   std::vector<RgbaImage> with;
   std::vector<RgbaImage> without;
   ASSERT_TRUE(is_ok(renderer->draw(shown.scene, shown.views, {}, with)));
   scene.texts.clear();
   ASSERT_TRUE(is_ok(renderer->draw(scene, shown.views, {}, without)));
   for (std::size_t eye = 0; eye < 2; ++eye) {
-    const Composed composed(frame, kWide_px, kHigh_px);
-    const Apart off = apart(composed.eye(eye), light_of(with[eye]), light_of(without[eye]));
+    const std::vector<double> expected = light_of(with[eye]);
+    const std::vector<double> bare = light_of(without[eye]);
+    const Apart off = apart(Composed(frame, kWide_px, kHigh_px).eye(eye), expected, bare);
     std::printf("%s eye %zu: rms %.2f, right %.4f px, down %.4f px, light %.4f\n", look.name, eye,
                 off.rms, off.right_px, off.down_px, off.light);
     EXPECT_EQ(off.most_beside, 0.0);
@@ -114,8 +123,7 @@ TEST_P(ComposedPanel, LooksAsInTheEyesImages) {
     // A panel that hangs a pixel beside its place is found out.
     SubmittedFrame aside = frame;
     aside.quad->pose.position.x += 0.509f * 0.969f / kWide_px;
-    const Apart far = apart(Composed(aside, kWide_px, kHigh_px).eye(eye), light_of(with[eye]),
-                            light_of(without[eye]));
+    const Apart far = apart(Composed(aside, kWide_px, kHigh_px).eye(eye), expected, bare);
     EXPECT_GT(std::abs(far.right_px), 0.3);
   }
 }

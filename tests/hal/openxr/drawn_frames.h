@@ -7,6 +7,7 @@
 
 #include "base/srgb.h"
 #include "tests/hal/openxr/runtime_test.h"
+#include "tests/hal/openxr/software_renderer.h"
 #include "tests/support/is_ok.h"
 
 namespace orthonav::test {
@@ -16,18 +17,8 @@ namespace orthonav::test {
 class FrameComparison {
  public:
   FrameComparison(int width_px, int height_px, render::Blend blend,
-                  render::Edges edges = render::Edges::kCoverage) {
-    render::RendererOptions options;
-    options.width_px = width_px;
-    options.height_px = height_px;
-    options.blend = blend;
-    options.edges = edges;
-    options.device = "llvmpipe";
-    options.cache_folder = "";
-    auto renderer = render::Renderer::create(options);
-    EXPECT_TRUE(is_ok(renderer));
-    renderer_ = std::move(*renderer);
-  }
+                  render::Edges edges = render::Edges::kCoverage)
+      : renderer_(software_renderer(width_px, height_px, blend, edges)) {}
 
   /// The largest difference of any colour of both eyes, of 255; and how many pixels are lit, of the
   /// eyes and of the panel.

@@ -5,6 +5,7 @@
 #include "engine/holograms/hologram_status.h"
 #include "engine/holograms/panel_layout.h"
 #include "tests/hal/openxr/drawn_frames.h"
+#include "tests/hal/openxr/software_renderer.h"
 #include "tests/hal/openxr/status_scene.h"
 
 namespace orthonav::test::status_panel_test {
@@ -15,8 +16,8 @@ using ::testing::IsEmpty;
 /// What the panel's image is to look like.
 std::vector<std::uint8_t> panel_that_says(const render::Scene& scene) {
   static const std::unique_ptr<render::Renderer> kRenderer =
-      software(engine::kStatusPanel_px[0], engine::kStatusPanel_px[1], render::Blend::kAdditive,
-               render::Edges::kHard);
+      software_renderer(engine::kStatusPanel_px[0], engine::kStatusPanel_px[1],
+                        render::Blend::kAdditive, render::Edges::kHard);
   render::Scene panel;
   EXPECT_TRUE(engine::PanelLayout::write(scene, panel));
   std::vector<RgbaImage> images;

@@ -160,7 +160,9 @@ XrResult take_layers(Double& d, const XrFrameEndInfo& info, SubmittedFrame& fram
 /// The function of that name; null where there is none.
 [[nodiscard]] PFN_xrVoidFunction function_named(const std::string& name);
 void add_instance_functions(std::map<std::string, PFN_xrVoidFunction>& table);
+void add_vulkan_functions(std::map<std::string, PFN_xrVoidFunction>& table);
 void add_session_functions(std::map<std::string, PFN_xrVoidFunction>& table);
+void add_swapchain_functions(std::map<std::string, PFN_xrVoidFunction>& table);
 void add_frame_functions(std::map<std::string, PFN_xrVoidFunction>& table);
 void add_input_functions(std::map<std::string, PFN_xrVoidFunction>& table);
 void add_hand_functions(std::map<std::string, PFN_xrVoidFunction>& table);
