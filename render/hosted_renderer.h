@@ -50,8 +50,8 @@ class HostedRenderer {
   [[nodiscard]] virtual int format_score(std::int64_t format) const = 0;
   /// The same for depth images.
   [[nodiscard]] virtual int depth_format_score(std::int64_t format) const = 0;
-  /// The images to draw into from now on, which stay until the next call or `finish`. Where
-  /// coverage is computed they are copied from, too; images of two layers may be copied into.
+  /// The images to draw into from now on; they must stay until the next call or `finish`. If
+  /// coverage is computed they are also copied from; images of two layers may be copied into.
   virtual Status use(const EyeImages& images) = 0;
   /// Does the slow work that does not need the views: waits for the oldest frame in flight, checks
   /// the scene, uploads new meshes. `draw` of the same scene must follow.
@@ -63,8 +63,8 @@ class HostedRenderer {
                       std::span<const std::uint32_t> indices, HeadTexts head_texts) = 0;
   /// Draws the texts of `scene` for one view into image `index` of the panel, between frames or
   /// between `prepare` and `draw`, and returns once they are submitted. Colours come out
-  /// premultiplied, with their opacity as alpha; on an additive display alpha is 0, so that what
-  /// lies below the panel is added to.
+  /// premultiplied, with their opacity as alpha; on an additive display alpha is 0, so that the
+  /// panel is added to what lies below it.
   virtual Status draw_panel(const Scene& scene, const View& view, std::uint32_t index) = 0;
   /// Waits for every frame in flight and releases the images: the host may destroy them.
   virtual Status finish() = 0;

@@ -103,10 +103,10 @@ enum class TextPlace {
   kWorld,  ///< at `position` in the world, facing the eyes, upright to the head
   kView    ///< at `position` in the head's frame (x right, y up, -z forward, metres): status line
 };
-/// What becomes of texts in the head's frame.
+/// Whether texts in the head's frame are drawn.
 enum class HeadTexts {
   kDrawn,
-  kLeftOut  ///< somebody else shows them
+  kLeftOut  ///< they are shown elsewhere
 };
 enum class TextAlign { kLeft, kCentre, kRight };
 

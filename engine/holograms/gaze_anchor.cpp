@@ -36,7 +36,7 @@ std::optional<GazeAnchor::Across> GazeAnchor::looked_at(const Hanging& hanging, 
 }
 
 bool GazeAnchor::covered(const Across& place, const Across& anchor, LabelSide side) {
-  // The rings and what is written beside them; below, the numbers.
+  // Of the rings and the texts beside them, with the numbers below.
   constexpr double kHalfWidth_m = 0.035;
   constexpr double kAbove_m = 0.030;
   constexpr double kBelow_m = 0.065;

@@ -9,30 +9,31 @@
 
 namespace orthonav::engine {
 
-/// What H7 hangs beside, where it is known where the eyes look: what they rest on near the site, in
-/// place of the site itself. It stays for every glance, for eyes that look at the cross, and where
-/// the cross would cover an entry point. Without a gaze nothing changes.
+/// The place that H7 hangs beside: the site, or, if it is known where the eyes look, the place near
+/// the site that they rest on. It does not move for a glance, while the eyes look at the cross, or
+/// if the cross would then cover an entry point. Without a gaze it stays where it is.
 class GazeAnchor {
  public:
-  static constexpr double kNear_m = 0.040;     ///< of the site: what eyes rest on
-  static constexpr double kResting_m = 0.010;  ///< eyes that stay so close together rest
-  static constexpr double kMoves_m = 0.020;    ///< nearer to the place until now, it stays there
+  static constexpr double kNear_m = 0.040;     ///< of the site; a gaze farther away is ignored
+  static constexpr double kResting_m = 0.010;  ///< eyes that stay this close to a place rest on it
+  static constexpr double kMoves_m = 0.020;    ///< the cross never moves by less
   static constexpr Duration kRests = std::chrono::milliseconds(500);
   static constexpr Duration kOldest = std::chrono::milliseconds(300);
 
-  /// The cross as it hangs beside the site, which faces the eyes.
+  /// Where the cross hangs beside the site, facing the eyes.
   struct Hanging {
     Point<World> site;
     Transform<World, Vertebra> world_from_vertebra;
     Transform<World, Rig> world_from_head;
     LabelSide side = LabelSide::kLeft;
-    std::span<const PlacedLevel> entries_of;  ///< what it must not cover
+    std::span<const PlacedLevel> entries_of;  ///< their entry points must not be covered
   };
-  /// From the site to where it hangs beside; absent: beside the site. All in the guidance's World.
+  /// The offset from the site to the place that the cross hangs beside; absent: none. All poses and
+  /// the gaze are in the guidance's World.
   [[nodiscard]] std::optional<Direction<Vertebra>> follow(const Hanging& hanging,
                                                           const std::optional<Gaze>& gaze,
                                                           Timestamp now);
-  /// Back to the site: another screw is guided.
+  /// Goes back to the site, when another screw is guided.
   void reset() { *this = {}; }
 
  private:
@@ -44,12 +45,12 @@ class GazeAnchor {
     Vec3 towards;
     [[nodiscard]] Across of(const Vec3& v) const { return {right.dot(v), up.dot(v)}; }
   };
-  /// Absent where the eyes look along the head's own upright.
+  /// Absent if the site lies along the head's up direction.
   [[nodiscard]] static std::optional<Axes> axes_of(const Hanging& hanging);
-  /// Where the eyes look in the plane of the site; absent where they look past it.
+  /// Where the gaze meets the plane of the site; absent if it does not.
   [[nodiscard]] static std::optional<Across> looked_at(const Hanging& hanging, const Axes& axes,
                                                        const Gaze& gaze);
-  /// Whether a place lies where the cross or its numbers are that hang beside `anchor`.
+  /// Whether the cross that hangs beside `anchor`, or its numbers, would cover the place.
   [[nodiscard]] static bool covered(const Across& place, const Across& anchor, LabelSide side);
   [[nodiscard]] static bool covers_entry(const Hanging& hanging, const Axes& axes,
                                          const Across& anchor);

@@ -133,7 +133,7 @@ CrossPlaces places_of(const TargetCross& cross) {
 
 void add_target_cross(Scene& scene, const TargetCross& cross, Label label) {
   const CrossPlaces places = places_of(cross);
-  // Without a tool there is nothing to read: the outer ring alone shows what the words are about.
+  // Without a tool there is nothing to read: only the outer ring shows what the words refer to.
   const std::span<const float> rings_m =
       cross.lost ? std::span(kCrossRings_m).last(1) : std::span(kCrossRings_m);
   for (const float ring_m : rings_m) {
@@ -199,7 +199,7 @@ void add_depth(Scene& scene, Float3 a, Float3 b, std::string_view text, bool pas
   item.label = label;
   item.position = readout_place(a, b);
   item.align = render::TextAlign::kLeft;
-  // Under the angle, whose height it follows down to the smallest legible one.
+  // Under the angle; like the angle it shrinks no further than to the smallest legible height.
   item.offset_right = 1.6f;
   item.offset_up = -kDepthBelowAngle;
   item.height_m = 0.004f;

@@ -62,7 +62,7 @@ void take_dots_off(render::Scene& scene, render::Label label);
 
 /// H9: `12.3 mm to entry`, `31.0 mm to target`, `1.2 mm past target`; absent for an invalid depth.
 [[nodiscard]] std::optional<std::string> depth_text(double depth_m, double to_target_m);
-/// The same into an existing text; false and empty for an invalid depth.
+/// Writes the same into an existing text; false and empty for an invalid depth.
 [[nodiscard]] bool write_depth_text(double depth_m, double to_target_m, std::string& text);
 /// From the angle's baseline down to the depth's, in cap heights of the depth.
 inline constexpr float kDepthBelowAngle = 1.9f;

@@ -10,7 +10,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// A cap height of the status line takes so many.
+/// Pixels per cap height of the status line.
 constexpr float kCap_px = 16.0f;
 
 float distance_m() { return render::length(kStatusPlace); }
@@ -21,7 +21,7 @@ float cap_m(const render::TextItem& text) {
   return std::max(text.height_m, 2.0f * std::tan(0.5f * least_rad) * distance_m());
 }
 
-/// Of the status line's.
+/// The cap height of the status line.
 float status_cap_m() {
   render::TextItem text;
   text.height_m = kStatusHeight_m;

@@ -5,7 +5,7 @@
 
 namespace orthonav::engine {
 
-/// H7, beside what the eyes rest on.
+/// Hangs H7 beside the place that the eyes rest on.
 void SceneBuilder::hang_cross(const Guidance& guidance, Timestamp display_time) {
   if (!visible_.cross || !visible_.trajectory) {
     return;

@@ -38,13 +38,13 @@ struct VisibleCross {
   LabelSide side = LabelSide::kLeft;         ///< of the site
   const nav::ScrewGuidance* dots = nullptr;  ///< where the tool was measured; null: no dots
   bool lost = false;                         ///< it says that the tool is lost
-  /// From the site to what it hangs beside; absent: the site.
+  /// From the site to the place that it hangs beside; absent: it hangs beside the site.
   std::optional<Direction<Vertebra>> aside;
 };
 
 /// Which holograms a frame shows, each with the data it needs. Computed once, so that the drawn
 /// scene and the frame in words can't differ. Points into the guidance that it was made from, and
-/// is valid as long as that.
+/// is valid only as long as that guidance is.
 struct Visibility {
   bool paths = false;                               ///< H1
   std::optional<PlacedLevel> vertebra;              ///< H2 and H12, of the current level
@@ -56,11 +56,11 @@ struct Visibility {
   const nav::ScrewGuidance* measurement = nullptr;  ///< the numbers of H6 and H9; or null
   /// H13 and its row of the status line, from the pair of `measurement`; or null.
   const nav::ScrewNumbers* numbers = nullptr;
-  const nav::ShownClearance* clearance = nullptr;  ///< under them; or null
-  nav::DrillView drill;                            ///< with the cross
+  const nav::ShownClearance* clearance = nullptr;  ///< under the numbers; or null
+  nav::DrillView drill;                            ///< shown with the cross
   bool angle_lost = false;                         ///< H6 without a number
   std::optional<VisibleCross> cross;               ///< H7
-  LabelSide cross_side = LabelSide::kLeft;         ///< the side on which it was last
+  LabelSide cross_side = LabelSide::kLeft;         ///< the side on which the cross was last
   bool twin = false;                               ///< H8 of the selected screw
   bool rods = false;                               ///< H10
   /// Time of the pair on which H5 and the dots of H7 are based; absent if neither is shown.

@@ -109,7 +109,7 @@ Status DisplayRenderer::draw_eyes(const EyeViews& eyes, std::span<const std::uin
 Result<bool> DisplayRenderer::draw(const render::Scene& scene) {
   const bool was_located = drawn_ != &head_lost_;
   eyes_drawn_ = false;
-  // Before the eyes are located, if the panel is likely to say the same then.
+  // A head that was located probably still is: then the panel is done before the eyes are located.
   panel_shows_ = was_located && panel_->show(scene);
   const auto images = display_.acquire();
   if (!images) {

@@ -29,7 +29,7 @@ class DisplayRenderer {
   /// to the head is drawn; if it is also unknown where the eyes are on the head, nothing is drawn
   /// for them and the answer is false. The eyes are located as late as possible: only layout,
   /// recording and submission come after that. What is fixed to the head goes onto the display's
-  /// panel, where it has one.
+  /// panel, if it has one.
   Result<bool> draw(const render::Scene& scene);
   /// Ends the frame with what was drawn since it was begun.
   Status end_frame();
@@ -41,7 +41,7 @@ class DisplayRenderer {
   /// Whether those views are places in the world.
   [[nodiscard]] bool head_located() const { return !views_.empty() && drawn_ != &head_lost_; }
   [[nodiscard]] const StatusPanel& panel() const { return *panel_; }
-  /// Where the eyes look, when they were located last.
+  /// Where the eyes looked when they were last located.
   [[nodiscard]] const std::optional<Gaze>& gaze() const { return gaze_; }
 
  private:
@@ -51,7 +51,7 @@ class DisplayRenderer {
   PixelDisplay& display_;
   std::unique_ptr<render::HostedRenderer> renderer_;
   std::optional<StatusPanel> panel_;
-  bool panel_shows_ = false;  ///< what hangs on the head, in this frame
+  bool panel_shows_ = false;  ///< the panel shows what hangs on the head, in this frame
   bool eyes_drawn_ = false;   ///< in this frame
   std::optional<Gaze> gaze_;
   std::vector<render::View> views_;

@@ -32,9 +32,9 @@ class SnapshotSink {
  public:
   virtual ~SnapshotSink() = default;
   virtual Status draw(const Snapshot& snapshot) = 0;
-  /// Whether it has its own drawing thread and that hangs. Callable from any thread.
+  /// Whether it draws on a thread of its own and that thread hangs. Callable from any thread.
   [[nodiscard]] virtual bool stalled() const { return false; }
-  /// Where its wearer looks; absent where it does not know. From any thread.
+  /// Where the wearer looks; absent if that is unknown. Callable from any thread.
   [[nodiscard]] virtual std::optional<Gaze> gaze() const { return std::nullopt; }
 };
 

@@ -28,11 +28,11 @@ class Heartbeats : public WorkWatch {
   /// The part whose task beside the tracking thread takes longer than the limit. Absent if none
   /// does.
   [[nodiscard]] std::optional<Part> stalled_beside() const;
-  /// The innermost part at work on the tracking thread, for however long.
+  /// The innermost part at work on the tracking thread, however long it has been at work.
   [[nodiscard]] std::optional<Part> tracking() const;
 
  private:
-  /// When each part began, in nanoseconds of the clock; kRests: at no work.
+  /// When each part began, in nanoseconds of the clock; kRests: idle.
   using Beats = std::array<std::atomic<std::int64_t>, kPartCount>;
   void begin(Beats& beats, Part part) const;
   [[nodiscard]] std::int64_t since(Part part) const {

@@ -168,7 +168,7 @@ void Presenter::present(const DisplayFrame& frame, double waited_ms) {
   }
 }
 
-/// A panel that fails is no failure of the frame, which shows the status line all the same.
+/// If the panel fails, the frame does not: it still shows the status line.
 void Presenter::note_panel() {
   const StatusPanel& panel = renderer_->panel();
   const MutexLock lock(mutex_);

@@ -21,14 +21,14 @@ struct PresentReport {
   std::int64_t hidden = 0;  ///< snapshots whose guidance was too old by the time it was drawn
   std::int64_t losses = 0;  ///< of session, runtime or device; each with its line in `problems`
   std::int64_t failures = 0;
-  std::int64_t late = 0;              ///< frames submitted after they should have been shown
-  std::int64_t missed = 0;            ///< periods of the display without a frame
-  std::int64_t panel_draws = 0;       ///< of the status line's panel
+  std::int64_t late = 0;              ///< frames submitted after their display time
+  std::int64_t missed = 0;            ///< display periods without a frame
+  std::int64_t panel_draws = 0;       ///< times the status line's panel was drawn
   Duration period{};                  ///< of the display, as last predicted
   std::vector<std::string> problems;  ///< the first few, one line each
   /// Wall time from asking for the head's pose until the frame is submitted to the device.
   std::vector<double> latch_ms;
-  // Of each frame: wall time until the display begins it, and until it has taken it.
+  // Wall times of each frame: waiting until the display begins it, and submitting it.
   std::vector<double> wait_ms;
   std::vector<double> submit_ms;
 };
@@ -106,8 +106,8 @@ class Presenter : public SnapshotSink {
   Snapshot shown_;
   bool has_snapshot_ = false;
   LabelLayout labels_;
-  std::int64_t panel_draws_ = 0;  ///< of this renderer, as reported
-  std::string panel_problem_;     ///< as reported
+  std::int64_t panel_draws_ = 0;  ///< of this renderer, already reported
+  std::string panel_problem_;     ///< already reported
   bool over_ = false;
 };
 

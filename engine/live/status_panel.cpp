@@ -29,7 +29,7 @@ Status StatusPanel::draw() {
   if (!image) {
     return image.error();
   }
-  // Where this fails, the image stays acquired for the next attempt.
+  // If this fails, the image stays acquired for the next attempt.
   if (const Status drawn = renderer_.draw_panel(next_, view_, *image); !drawn) {
     return drawn;
   }
@@ -48,7 +48,7 @@ std::optional<HeadPanel> StatusPanel::shown() const {
 }
 
 void StatusPanel::ended(bool well) {
-  // Whether the display still has what was released is not known.
+  // After a failed frame it is not known whether the display still has the released image.
   holds_ = holds_ && well;
   shown_ = false;
 }

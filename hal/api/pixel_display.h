@@ -39,7 +39,7 @@ class FormatPreference {
   /// The same for depth, which is 0 at `near_m` and 1 at infinity.
   [[nodiscard]] virtual int depth_format_score(std::int64_t format) const = 0;
   [[nodiscard]] virtual double near_m() const = 0;
-  /// Width and height of the images of a panel, where the display has one.
+  /// Width and height of the images of a panel, if the display has one.
   [[nodiscard]] virtual std::array<int, 2> panel_px() const = 0;
 };
 
@@ -50,10 +50,10 @@ struct HeadPanel {
   double height_m = 0.0;
 };
 
-/// What is submitted with a frame; nothing of what is not there is shown.
+/// What is submitted with a frame; what is left out is not shown.
 struct SubmittedContent {
   bool eyes = false;               ///< what was drawn for the newest `views`
-  std::optional<HeadPanel> panel;  ///< the newest image of the panel that was released, there
+  std::optional<HeadPanel> panel;  ///< where the newest released image of the panel is shown
 };
 
 /// One eye at the moment of display. Tangents of the half angles, positive where the axis lies
@@ -71,8 +71,8 @@ struct EyeViews : Tracked<std::array<EyeView, 2>> {
   /// With `kLost`: true if the eyes' places on the head are still known. World in `value` is then
   /// the head, and items fixed to the head may be drawn. If false, `value` is meaningless.
   bool on_head = false;
-  /// Where they look; absent where no eye tracker sees them, or its newest answer is older than 100
-  /// ms.
+  /// Where the eyes look; absent if no eye tracker sees them or its newest sample is older than
+  /// 100 ms.
   std::optional<Gaze> gaze;
 };
 
@@ -89,7 +89,7 @@ struct DisplayFrame {
   Timestamp display_time{};  ///< when the frame is shown, by the headset's clock
   Duration ahead{};          ///< from now until then
   Duration period{};         ///< between two frames; 0: not known
-  /// Periods of the display since the frame before that had no frame of ours.
+  /// How many display periods since the previous frame had no frame of ours.
   std::int64_t missed = 0;
   std::string why;  ///< of kLost and kOver, one line
 };
@@ -118,14 +118,14 @@ class PixelDisplay {
   virtual Result<std::vector<std::uint32_t>> acquire() = 0;
   /// Where the eyes will be at the display time of the frame begun, as predicted now.
   virtual EyeViews views() = 0;
-  /// Submits the frame. After an Error the display may have no panel any more.
+  /// Submits the frame. After an Error the display may no longer have a panel.
   virtual Status end_frame(const SubmittedContent& content) = 0;
 
-  /// Which image of the panel to draw into, if `start` gave it images. Does not wait: an Error when
-  /// none is free now, or the display has no panel any more. What the panel showed stays until
-  /// `release_panel`.
+  /// Which image of the panel to draw into, if `start` gave it images. Does not wait: an Error if
+  /// none is free now or the display no longer has a panel. The panel shows its previous image
+  /// until `release_panel`.
   virtual Result<std::uint32_t> acquire_panel() = 0;
-  /// Takes the image that was acquired and drawn into, which stays shown until the next one.
+  /// Returns the acquired image, drawn into; the panel shows it until the next one is released.
   virtual Status release_panel() = 0;
 
   /// Asks the runtime to end the session in an orderly way; keep calling `begin_frame` until it

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<const char*, 2> kHands = {"/user/hand/left", "/user/hand/right"};
 constexpr const char* kHandInteraction = "XR_EXT_hand_interaction";
 
-/// A kind of controller, which an extension defines, or OpenXR itself (null).
+/// A kind of controller, defined by an extension, or by OpenXR itself (`extension` is null).
 struct Controller {
   const char* extension;
   const char* profile;
@@ -34,7 +34,7 @@ class Suggestion {
     bindings_.push_back({action, path});
     return status_of("name " + input, made);
   }
-  /// The same input of both hands.
+  /// Binds the same input of both hands.
   Status add_of_hands(XrAction action, const char* input) {
     const Status left = add(action, std::string(kHands[0]) + input);
     return left ? add(action, std::string(kHands[1]) + input) : left;
@@ -102,7 +102,8 @@ Status Actions::create(const Runtime& runtime) {
   return done ? suggest_gaze(runtime) : done;
 }
 
-/// Every runtime knows the simple controller; another that it does not know is left out.
+/// Every runtime must know the simple controller; other controllers are left out if it does not
+/// know them.
 Status Actions::suggest_select(const Runtime& runtime) const {
   for (const Controller& controller : kControllers) {
     if (controller.extension != nullptr && !runtime.has(controller.extension)) {
@@ -120,7 +121,7 @@ Status Actions::suggest_select(const Runtime& runtime) const {
   return {};
 }
 
-/// A runtime that offers hands and then refuses them is done without them.
+/// If a runtime offers hands and then refuses them, hands are not used.
 Status Actions::suggest_hands(const Runtime& runtime) {
   const bool ext = runtime.has(kHandInteraction);
   if (!ext && !runtime.has(XR_MSFT_HAND_INTERACTION_EXTENSION_NAME)) {

@@ -8,8 +8,8 @@
 
 namespace orthonav::openxr {
 
-/// What the surgeon does with controllers, hands and eyes: the actions of one set, and which inputs
-/// of which device they come from.
+/// The surgeon's input by controllers, hands and eyes: the actions of one action set, and the
+/// inputs of the devices that they are bound to.
 class Actions {
  public:
   Actions() = default;
@@ -17,21 +17,23 @@ class Actions {
   Actions(const Actions&) = delete;
   Actions& operator=(const Actions&) = delete;
 
-  /// Makes them and suggests bindings for the devices that the runtime knows; once per runtime.
+  /// Makes the actions and suggests bindings for the devices that the runtime knows; once per
+  /// runtime.
   Status create(const Runtime& runtime);
   void destroy();
-  /// Attaches them to a new session; once per session.
+  /// Attaches the actions to a new session; once per session.
   Status attach(XrSession session) const;
-  /// Takes what they are now. XR_SESSION_NOT_FOCUSED: no input reaches the application.
+  /// Updates the states of the actions. XR_SESSION_NOT_FOCUSED: no input reaches the application.
   XrResult sync(XrSession session) const;
 
   /// The button of a controller, in either hand.
   [[nodiscard]] XrAction select() const { return select_; }
-  /// How far thumb and index finger are closed, of each hand, 0 to 1; null where no device tells.
+  /// How far thumb and index finger are closed, 0 to 1, for each hand; null if no device reports
+  /// it.
   [[nodiscard]] XrAction pinch() const { return pinch_; }
-  /// Whether the hand is held as one that is about to pinch; null where no device tells.
+  /// Whether a hand is held ready to pinch; null if no device reports it.
   [[nodiscard]] XrAction ready() const { return ready_; }
-  /// Where the eyes look, a pose; null where no device tells.
+  /// Where the eyes look, a pose; null if no device reports it.
   [[nodiscard]] XrAction gaze() const { return gaze_; }
   /// "/user/hand/left", "/user/hand/right".
   [[nodiscard]] const std::array<XrPath, 2>& hands() const { return hands_; }

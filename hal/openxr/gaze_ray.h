@@ -7,12 +7,12 @@
 
 namespace orthonav::openxr {
 
-struct GazePose;  ///< where the eyes look from: -z is the direction
+struct GazePose;  ///< of the gaze: its origin is between the eyes, which look along -z
 
 /// Where the eyes look, by XR_EXT_eye_gaze_interaction.
 class GazeRay {
  public:
-  /// A gaze that was seen longer before it is asked for means nothing any more.
+  /// A gaze that is older than this when asked for is not used.
   static constexpr XrDuration kOldest_ns = 100'000'000;
 
   GazeRay() = default;
@@ -20,7 +20,7 @@ class GazeRay {
   GazeRay(const GazeRay&) = delete;
   GazeRay& operator=(const GazeRay&) = delete;
 
-  /// Once per session; without a gaze where the runtime refuses it.
+  /// Once per session. If the runtime refuses, there is no gaze.
   void create(const Actions& actions, XrSession session);
   void destroy();
 
@@ -28,7 +28,7 @@ class GazeRay {
     Transform<Space, GazePose> space_from_gaze;
     XrTime time = 0;  ///< when the eyes were seen
   };
-  /// In `space`. Absent where the eyes are not tracked, or were seen too long before `now`.
+  /// In `space`. Absent if the eyes are not tracked, or were seen too long before `now`.
   [[nodiscard]] std::optional<Seen> locate(XrSpace space, XrTime at, XrTime now) const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace orthonav::openxr {
 
-/// Both hands as XR_EXT_hand_tracking sees them, for runtimes that tell joints but no pinch.
+/// Both hands as XR_EXT_hand_tracking sees them, for runtimes that report joints but no pinch.
 class HandJoints {
  public:
   HandJoints() = default;
@@ -16,11 +16,11 @@ class HandJoints {
   HandJoints(const HandJoints&) = delete;
   HandJoints& operator=(const HandJoints&) = delete;
 
-  /// Once per session; without hands where the runtime refuses them.
+  /// Once per session. If the runtime refuses, there are no hands.
   void create(const Runtime& runtime, XrSession session);
   void destroy();
   [[nodiscard]] bool offered() const { return locate_ != nullptr; }
-  /// How far thumb and index finger are closed, 0 to 1; absent where either tip is not tracked.
+  /// How far thumb and index finger are closed, 0 to 1; absent if either tip is not tracked.
   [[nodiscard]] std::optional<float> closed(std::size_t hand, XrSpace space, XrTime at) const;
 
  private:

@@ -8,7 +8,7 @@ namespace orthonav::openxr {
 namespace {
 
 /// The rotation from a panel's axes (x right, y up, z towards the head) to the head's. The panel
-/// stays upright, so that it is a turn about y, then one about its own x.
+/// stays upright, so this is a turn about y, then one about its own x.
 XrQuaternionf facing_head(const Vec3& middle_m) {
   const double yaw_rad = std::atan2(-middle_m.x, -middle_m.z);
   const double pitch_rad = std::atan2(middle_m.y, std::hypot(middle_m.x, middle_m.z));
@@ -71,7 +71,7 @@ Status PanelChain::release() {
 
 XrCompositionLayerQuad PanelChain::layer(const HeadPanel& panel, XrSpace viewer) const {
   XrCompositionLayerQuad quad = {XR_TYPE_COMPOSITION_LAYER_QUAD};
-  // The images are premultiplied; the layer below shows where nothing is drawn.
+  // The images are premultiplied; where nothing is drawn, the layer below shows.
   quad.layerFlags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
   quad.space = viewer;
   quad.eyeVisibility = XR_EYE_VISIBILITY_BOTH;

@@ -7,9 +7,10 @@
 
 namespace orthonav::openxr {
 
-/// The images of a panel that hangs on the head, a layer of its own beside that of the eyes
-/// (XrCompositionLayerQuad). A session does without where the runtime takes one layer only or makes
-/// no such images, and from the first frame on that the runtime refuses with the panel in it.
+/// The images of a panel that hangs on the head, shown in a layer of its own over the eyes' layer
+/// (XrCompositionLayerQuad). A session has no panel if the runtime takes only one layer or makes no
+/// images for it. It is given up for the rest of the session once the runtime refuses a frame with
+/// the panel in it or fails to take an image back.
 class PanelChain {
  public:
   PanelChain() = default;
@@ -17,12 +18,12 @@ class PanelChain {
   PanelChain(const PanelChain&) = delete;
   PanelChain& operator=(const PanelChain&) = delete;
 
-  /// In the eyes' format. The images that it got; none where it is done without.
+  /// Returns the panel's images, in the eyes' format; none if there is no panel.
   PanelImages create(XrSession session, const ViewSetup& setup, std::int64_t format,
                      std::array<int, 2> size_px);
   void destroy();
 
-  /// Does not wait. An Error when no image is free, or the panel was given up.
+  /// Does not wait. An Error if no image is free or the panel was given up.
   Result<std::uint32_t> acquire();
   Status release();
   void give_up() { given_up_ = true; }

@@ -158,7 +158,7 @@ Result<HeadsetTraits> Runtime::headset_traits() const {
   XrSystemEyeGazeInteractionPropertiesEXT eyes = {
       XR_TYPE_SYSTEM_EYE_GAZE_INTERACTION_PROPERTIES_EXT};
   XrSystemHandTrackingPropertiesEXT hands = {XR_TYPE_SYSTEM_HAND_TRACKING_PROPERTIES_EXT};
-  // Only of extensions that are enabled.
+  // A structure may be chained only if its extension is enabled.
   if (has(XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME)) {
     eyes.next = std::exchange(properties.next, &eyes);
   }

@@ -17,8 +17,8 @@ struct HeadsetTraits {
   std::string name;  ///< "Simulated HMD"
   std::uint32_t most_layers = 1;
   std::array<int, 2> most_px{};  ///< of a swapchain: width, height
-  bool sees_eyes = false;        ///< where they look
-  bool sees_hands = false;       ///< their joints
+  bool sees_eyes = false;        ///< reports where they look
+  bool sees_hands = false;       ///< reports their joints
 };
 
 /// The connection with the OpenXR runtime of this machine: an instance and, once it is found, the
@@ -36,7 +36,7 @@ class Runtime {
   [[nodiscard]] XrInstance instance() const { return instance_; }
   /// Whether this optional extension is enabled.
   [[nodiscard]] bool has(const char* extension) const;
-  /// A function of an extension that is enabled; false where the runtime lacks it.
+  /// Finds a function of an enabled extension; false if the runtime lacks it.
   template <class Function>
   bool load(const char* name, Function& function) const {
     PFN_xrVoidFunction found = nullptr;

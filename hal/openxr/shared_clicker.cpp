@@ -17,7 +17,7 @@ Status SharedClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events
     const Timestamp time = std::max(change.time, told_);
     timer_.advance(time, selected_);
     if (change.lost) {
-      // Nobody let go: it is no click, and the next press begins anew.
+      // The surgeon did not let go: this is no click, and the next press starts afresh.
       selected_.push_back({ClickerAction::kRelease, time});
       timer_ = {};
     } else {

@@ -30,7 +30,7 @@ struct Mount {
 struct ButtonChange {
   bool down = false;
   Timestamp time{};
-  bool lost = false;  ///< released because what held it is gone
+  bool lost = false;  ///< the surgeon did not let go: the input is gone
 };
 
 /// The display of an OpenXR headset: session, images, frames. The presenting thread calls the
@@ -148,7 +148,7 @@ class XrDisplay : public PixelDisplay {
   XrTime display_time_ = 0;  ///< of the frame that was begun; 0: none since the session began
   std::array<XrView, 2> located_{};
   XrSpace located_in_ = XR_NULL_HANDLE;
-  // What the layer of the frame that is ended points to.
+  // The eyes' layer of a submitted frame points to these.
   std::array<XrCompositionLayerProjectionView, 2> eyes_{};
   std::array<XrCompositionLayerDepthInfoKHR, 2> depths_{};
 };

@@ -34,8 +34,8 @@ FrameItems covering_items(const Font& font) {
   return items;
 }
 
-/// Whether every pixel of both views is the triangle's: its label, or its white where samples are
-/// resolved.
+/// Whether the triangle fills every pixel of both views: with its label, or with its white if
+/// samples are resolved.
 bool fills_both_views(const Device& device, Commands& commands, const Bindings& bindings,
                       const FrameItems& items, bool samples) {
   const FramePass pass(device, VK_NULL_HANDLE, bindings.layout(), small_target(samples),

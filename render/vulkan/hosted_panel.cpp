@@ -13,7 +13,7 @@ void HostedVulkanRenderer::make_panel_pass() {
   spec.edges = Edges::kHard;  // texts need nothing else
   spec.colour = static_cast<VkFormat>(images_.format);
   spec.outer = outer_images({images_.panel.chain});
-  // Where light is added nothing writes alpha, and what was cleared to 0 stays so.
+  // Additive blending does not write alpha, which stays 0 as it was cleared.
   const Blend blend = options_.blend == Blend::kAdditive ? Blend::kAdditive : Blend::kPremultiplied;
   panel_pass_ =
       std::make_unique<FramePass>(device_, drawing_.cache(), drawing_.layout(), spec, blend);

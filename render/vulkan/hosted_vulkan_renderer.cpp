@@ -190,7 +190,7 @@ void HostedVulkanRenderer::record(const std::vector<View>& views,
   for (std::size_t first = 0; first < views.size(); first += at_once) {
     drawing_.place(std::span(views).subspan(first, at_once), first, size, false);
     const auto frame = static_cast<std::uint32_t>(first * kFrameStride);
-    // Image `indices[chain]` of the eye's own chain, or the eye's layer in that of both.
+    // Image `indices[chain]` of the eye's own chain, or the eye's layer of it in a shared chain.
     const auto outer_of = [&](const auto& chains, std::size_t first_index) {
       const std::size_t chain = chains.size() == 1 ? 0 : first;
       const std::size_t image = chain * chains.front().size() + indices[first_index + chain];

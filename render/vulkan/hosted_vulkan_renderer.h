@@ -69,7 +69,7 @@ class HostedVulkanRenderer final : public HostedRenderer {
   bool lost_ = false;
 };
 
-/// No exception leaves it.
+/// Runs `work` and turns an exception into an Error.
 template <class Work>
 Status HostedVulkanRenderer::attempt(const Work& work) {
   if (lost_) {

@@ -34,8 +34,8 @@ struct FrameSlot {
 /// slots. After the first frames it allocates nothing.
 class SceneDrawing {
  public:
-  /// Throws Failure, as its other calls do where the device fails. `device` must outlive it. Beside
-  /// the slots of frames there is one more for what is drawn between them, if `has_side_slot`.
+  /// Throws Failure if the device fails, as the other calls do. `device` must outlive it. With
+  /// `has_side_slot` there is one slot more, for what is drawn between frames.
   SceneDrawing(const RendererOptions& options, const Device& device, VkPhysicalDevice physical,
                std::size_t slots, bool has_side_slot = false);
 
@@ -52,7 +52,8 @@ class SceneDrawing {
   /// Goes to the next slot and waits until the device has finished with it.
   FrameSlot& next_slot();
   [[nodiscard]] FrameSlot& slot() { return *slots_[now_]; }
-  /// Goes to the side slot, waits until the device has finished with it, and does `work` in it.
+  /// Waits until the device has finished with the side slot, and does `work` with that as the
+  /// current slot.
   template <class Work>
   Status aside(const Work& work) {
     struct Back {
@@ -104,7 +105,7 @@ class SceneDrawing {
   const Device& device_;
   PipelineCache cache_;
   std::vector<std::unique_ptr<FrameSlot>> slots_;
-  std::size_t frame_slots_;  ///< the first of them
+  std::size_t frame_slots_;  ///< the first slots, between which frames alternate
   std::size_t now_ = 0;
   Font font_;
   FrameItems items_;

@@ -29,18 +29,18 @@ struct TargetSpec {
   Edges edges = Edges::kHard;  ///< of colour; other kinds always have hard edges
   VkFormat colour = kColourFormat;
   VkFormat depth = VK_FORMAT_UNDEFINED;  ///< of the outer images, where depth alone is drawn
-  /// Someone else's images, one of which receives the result at a time; empty: the targets have an
+  /// The host's images, one of which receives the result of a frame; empty: the targets have an
   /// image of their own.
   std::vector<VkImage> outer;
-  /// Of each of them: as many as there are views, or 2 where a pass draws one view, into one layer
-  /// after the other.
+  /// Layers of each outer image: as many as there are views, or 2 if a pass draws a single view,
+  /// and the passes fill one layer after the other.
   std::uint32_t outer_layers = 1;
 
   /// Whether the coverage of pixels is computed.
   [[nodiscard]] bool covers() const {
     return kind == PassKind::kColour && edges == Edges::kCoverage;
   }
-  /// Passes that fill an outer image.
+  /// How many passes fill an outer image.
   [[nodiscard]] std::uint32_t passes_an_image() const {
     return outer.empty() ? 1 : outer_layers / views;
   }
@@ -53,8 +53,8 @@ struct TargetSpec {
 /// A part of a frame between a begin and an end.
 enum class PassPart {
   kWhole,
-  kOpening,  ///< what is drawn can be copied, and
-  kClosing   ///< drawn on
+  kOpening,  ///< its result can be copied
+  kClosing   ///< goes on drawing over that result
 };
 
 /// The images of one kind of frame, one layer a view, and the pass that draws into all layers at
@@ -67,18 +67,18 @@ class Targets {
   [[nodiscard]] VkRenderPass pass(PassPart part = PassPart::kWhole) const {
     return passes_[static_cast<std::size_t>(part)].get();
   }
-  /// `outer`, where there are outer images: the image's index times the passes that fill it, plus
-  /// the pass's.
+  /// `outer`, if there are outer images: the index of the image times `passes_an_image()`, plus the
+  /// index of the pass.
   [[nodiscard]] VkFramebuffer framebuffer(std::size_t outer = 0) const {
     return framebuffers_[copies_result() ? 0 : outer].get();
   }
-  /// The single-sample image to read, where it is the targets' own.
+  /// The single-sample image to read, if it is the targets' own.
   [[nodiscard]] VkImage result() const { return resolves() ? result_.get() : colour_.get(); }
-  /// The image that is drawn into, where nothing is resolved.
+  /// The image that is drawn into, if nothing is resolved.
   [[nodiscard]] VkImage drawn(std::size_t outer) const {
     return spec_.outer.empty() ? colour_.get() : spec_.outer[outer / spec_.passes_an_image()];
   }
-  /// The first of its layers that a pass draws.
+  /// The first layer of that image that the pass draws.
   [[nodiscard]] std::uint32_t first_layer(std::size_t outer) const {
     return static_cast<std::uint32_t>(outer % spec_.passes_an_image()) * spec_.views;
   }
@@ -86,7 +86,7 @@ class Targets {
   /// Whether the result is copied into a layer of the outer image after the pass: some drivers
   /// resolve samples into the first layer alone, whatever the view.
   [[nodiscard]] bool copies_result() const { return resolves() && spec_.passes_an_image() > 1; }
-  /// Records that, for a pass that has ended; the outer image is left as an attachment.
+  /// Records that copy after the pass has ended; the outer image is left as an attachment.
   void copy_result(VkCommandBuffer commands, std::size_t outer) const;
 
  private:
@@ -103,7 +103,7 @@ class Targets {
   TargetSpec spec_;
   DeviceImage colour_;
   DeviceImage depth_;
-  DeviceImage result_;  ///< of the resolve, where it is not an outer image
+  DeviceImage result_;  ///< samples are resolved into it, unless into an outer image
   std::vector<ImageView> outer_;
   std::array<RenderPass, 3> passes_;  ///< by part
   std::vector<Framebuffer> framebuffers_;

@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Where the cross hangs while the eyes look here and there, as seen from the head.
+/// How far the cross moves, as seen from the head, while the eyes look at different places.
 class Gazing : public ::testing::Test {
  protected:
   struct Place {
@@ -56,7 +56,8 @@ class Gazing : public ::testing::Test {
     }
     return middle;
   }
-  /// The eyes rest on a place of the site for so long; where the cross hangs then.
+  /// Rests the eyes on a place of the site for that long; returns how far the cross has moved since
+  /// the beginning.
   Place look(const Place& at, Duration how_long) {
     for (const Timestamp until = now_ + how_long; now_ < until; now_ += milliseconds(25)) {
       const Vec3 target = site_.v + at.out_m * out_ + at.up_m * up_;
@@ -89,7 +90,7 @@ class Gazing : public ::testing::Test {
 };
 
 constexpr double kFloat_m = 1e-5;
-// "Above" and "aside" are turned a little towards the eyes where it hangs.
+// The cross faces the eyes, so its "above" and "aside" turn a little when it moves.
 constexpr double kTurned_m = 0.003;
 
 TEST_F(Gazing, MovesTheCrossBesideWhatTheEyesRestOn) {
@@ -123,7 +124,7 @@ TEST_F(Gazing, StaysForEyesThatLookAtTheCrossOrElsewhere) {
 }
 
 TEST_F(Gazing, NeverHangsTheCrossOverAnEntryPoint) {
-  // Away from the cross, so that it would come to hang over the site.
+  // So far from the cross that, if it followed, it would hang over the site.
   EXPECT_NEAR(look({-0.038, -0.010}, milliseconds(1000)).out_m, 0.0, kFloat_m);
 }
 

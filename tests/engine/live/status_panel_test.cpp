@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 const Error kNo{"not now"};
 
-/// A display of which the panel alone matters.
+/// A display of which only the panel works.
 class PanelDisplay : public PixelDisplay {
  public:
   Result<GraphicsNeeds> open() override { return kNo; }
@@ -43,7 +43,7 @@ class PanelDisplay : public PixelDisplay {
   int released = 0;
 };
 
-/// A renderer that keeps the texts that it was to draw.
+/// A renderer that keeps the texts of the panel instead of drawing them.
 class PanelRenderer : public render::HostedRenderer {
  public:
   [[nodiscard]] VulkanObjects objects() const override { return {}; }
@@ -92,7 +92,7 @@ render::Scene saying(const std::string& text) {
 
 class StatusPanelOfADisplay : public ::testing::Test {
  protected:
-  /// A frame that shows it; whether the panel does.
+  /// Runs a frame with that scene; returns whether the panel shows it.
   bool frame(const render::Scene& scene, bool ends_well = true) {
     const bool on_panel = panel_.show(scene);
     EXPECT_EQ(panel_.shown().has_value(), on_panel);

@@ -22,7 +22,7 @@ using enum ClickerAction;
 
 /// A message and the echo of a phrase disappear after this time.
 constexpr Duration kStays = std::chrono::milliseconds(300);
-/// Longer than that at 30 pairs a second.
+/// As many pairs take longer than that, at 30 pairs a second.
 constexpr int kWhile = 12;
 constexpr Vec3 kDimple = ScriptedOperation::kDimple;
 
@@ -87,7 +87,7 @@ class CountedOperation {
     }
     return step({}, {});
   }
-  /// Then waits until it was answered and has left the status line.
+  /// Says a phrase, then waits until it was answered and its echo has left the status line.
   const Guidance& says(const std::string& phrase) {
     const Phrase phrases[] = {{phrase, 1.0, now_ + std::chrono::milliseconds(1)}};
     step({}, phrases);
@@ -130,7 +130,7 @@ class CountedOperation {
     pairs(kWhile);
   }
 
-  /// Actions in pairs that allocated.
+  /// The actions of the pairs that allocated.
   [[nodiscard]] const Actions& allocated() const { return allocated_; }
   ScriptedOperation s;
 

@@ -13,8 +13,8 @@ namespace orthonav::test {
 
 /// The picture that a compositor makes of a frame's layers for each eye: linear light in [0, 1],
 /// three values a pixel, row by row. A quad is sampled once a pixel, bilinearly, and laid over the
-/// eyes' images by its alpha, premultiplied. For images in sRGB, eyes that look as the head does,
-/// and a quad that hangs on the head.
+/// eyes' images with premultiplied alpha. Works only for images in sRGB, eyes whose axes are
+/// parallel to the head's, and a quad that hangs on the head.
 class Composed {
  public:
   using Light = std::array<double, 4>;
@@ -66,7 +66,7 @@ class Composed {
     return light;
   }
 
-  /// What the quad adds at a place of an eye's image; nothing beside it.
+  /// What the quad shows at a place of an eye's image; nothing outside the quad.
   [[nodiscard]] Light quad_at(std::size_t eye, double x_px, double y_px) const {
     if (!frame_.quad) {
       return {};
@@ -82,7 +82,7 @@ class Composed {
     const auto& a = frame_.poses[0].position;
     const auto& b = frame_.poses[1].position;
     const double half = 0.5 * std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
-    // From the quad's middle to the eye, in the head's axes; then in the quad's.
+    // From the quad's middle to the eye, in the head's axes; turned into the quad's axes below.
     const std::array<double, 3> eye_at = {
         (eye == 0 ? -half : half) - static_cast<double>(quad.pose.position.x),
         -static_cast<double>(quad.pose.position.y), -static_cast<double>(quad.pose.position.z)};
@@ -100,7 +100,7 @@ class Composed {
     return light;
   }
 
-  /// By the inverse of a rotation.
+  /// Turns `v` by the inverse of the rotation.
   static std::array<double, 3> turned_back(const XrQuaternionf& q, const std::array<double, 3>& v) {
     const double x = -static_cast<double>(q.x);
     const double y = -static_cast<double>(q.y);

@@ -20,14 +20,14 @@ class FrameComparison {
                   render::Edges edges = render::Edges::kCoverage)
       : renderer_(software_renderer(width_px, height_px, blend, edges)) {}
 
-  /// The largest difference of any colour of both eyes, of 255; and how many pixels are lit, of the
-  /// eyes and of the panel.
+  /// The largest difference of any colour value in both eyes, in levels of 255; and how many pixels
+  /// are lit in the eyes' images and on the panel.
   struct Difference {
     int most = 0;
     std::size_t lit_px = 0;
     std::size_t lit_on_panel_px = 0;
   };
-  /// What hangs on the head must be in the eyes' images exactly where there is no panel.
+  /// What hangs on the head must be in the eyes' images if the frame has no panel, and only then.
   Difference compare(const DrawnScene& drawn, const SubmittedFrame& frame) {
     render::Scene scene = drawn.scene;
     if (frame.quad) {

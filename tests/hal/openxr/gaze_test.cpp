@@ -27,7 +27,7 @@ class GazeTest : public RuntimeTest {
     const std::size_t before = count_drawn();
     ASSERT_TRUE(eventually([&] { return count_drawn() >= before + 3; }));
   }
-  /// What the presenter knows some frames later.
+  /// Sets the eyes; returns the presenter's gaze a few frames later.
   std::optional<Gaze> gaze_of(const GazeState& state) {
     runtime().set_gaze(state);
     EXPECT_TRUE(frames_pass(5));
@@ -49,7 +49,7 @@ TEST_F(GazeTest, IsARayInTheWorldWhereTheEyesAreSeen) {
   EXPECT_NEAR(gaze->origin.v.y, 0.01, 1e-6);
   EXPECT_NEAR(gaze->direction.v.x, -std::sin(0.4), 1e-6);
   EXPECT_NEAR(gaze->direction.v.z, -std::cos(0.4), 1e-6);
-  // The cameras' clock stands, and the sample is 5 ms old.
+  // The cameras' clock stands still, and the sample is 5 ms old.
   EXPECT_NEAR(seconds(gaze->time - kStart), -0.005, 1e-3);
 }
 

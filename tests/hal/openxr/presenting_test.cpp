@@ -93,7 +93,7 @@ std::vector<Variant> runtimes() {
          t.blends = {XR_ENVIRONMENT_BLEND_MODE_OPAQUE, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND};
        })});
   all.back().mode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
-  // Both give the same over black.
+  // Both blends give the same over black.
   for (auto variant = all.end() - 2; variant != all.end(); ++variant) {
     variant->blend = render::Blend::kOver;
   }

@@ -1,4 +1,4 @@
-// The button: of a controller, or a pinch.
+// The button: a controller's select, or a pinch.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ class SelectTest : public RuntimeTest {
     ASSERT_TRUE(present().ok());
     ASSERT_TRUE(frames_pass(5));
   }
-  /// What happens until the cameras' clock has gone on by so much.
+  /// Advances the cameras' clock by `pause`; returns the actions until then.
   std::vector<Action> events_of(Duration pause) {
     EXPECT_TRUE(frames_pass(5));
     cameras_->manual_clock().advance(pause);
@@ -73,7 +73,7 @@ TEST_F(SelectTest, LetsGoWhenTheControllerGoes) {
               ElementsAre(Action::kRelease, Action::kClick));
 }
 
-/// The two ways in which a runtime tells of a hand.
+/// The two ways in which a runtime reports a hand.
 class HandTest : public SelectTest, public ::testing::WithParamInterface<bool> {
  protected:
   static bool by_joints() { return GetParam(); }
@@ -172,7 +172,7 @@ TEST_F(SelectTest, SharesTheButtonWithTheOtherClicker) {
       {Action::kPress, at(100)}, {Action::kRelease, at(900)}, {Action::kClick, at(900)}};
   begin({}, std::move(script));
   EXPECT_THAT(events_of(std::chrono::milliseconds(200)), ElementsAre(Action::kPress));
-  runtime().press(true);  // while the other one is down: nobody's
+  runtime().press(true);  // ignored while the other clicker's is down
   EXPECT_THAT(events_of(std::chrono::milliseconds(100)), IsEmpty());
   runtime().press(false);
   EXPECT_THAT(events_of(std::chrono::milliseconds(1000)),

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::IsEmpty;
 
-/// What the panel's image is to look like.
+/// What the panel's image should look like.
 std::vector<std::uint8_t> panel_that_says(const render::Scene& scene) {
   static const std::unique_ptr<render::Renderer> kRenderer =
       software_renderer(engine::kStatusPanel_px[0], engine::kStatusPanel_px[1],
@@ -25,7 +25,7 @@ std::vector<std::uint8_t> panel_that_says(const render::Scene& scene) {
   return images.front().pixels;
 }
 
-/// Whether a panel shows that, whatever its alpha.
+/// Whether a panel shows the status line of `scene`; its alpha is ignored.
 bool shows(const SubmittedQuad& quad, const render::Scene& scene) {
   const std::vector<std::uint8_t> expected = panel_that_says(scene);
   if (!quad.pixels || quad.pixels->size() != expected.size()) {
@@ -46,13 +46,14 @@ class StatusPanelTest : public RuntimeTest {
     open();
     ASSERT_TRUE(present().ok());
   }
-  /// Has been drawn a few times.
+  /// Shows a step, and returns once it has been drawn a few times.
   void say(const std::string& step) {
-    static_cast<void>(show(scene_that_says(step)));  // an Error is of a frame before
+    static_cast<void>(show(scene_that_says(step)));  // an Error is that of an earlier frame
     const std::size_t before = count_drawn();
     ASSERT_TRUE(eventually([&] { return count_drawn() >= before + 5; }));
   }
-  /// Every frame shows the status line once, in one of the two ways, and everything else as it is.
+  /// Every frame must show the status line once, on the panel or in the eyes' images, and the rest
+  /// of the scene unchanged. Returns how many frames had a panel.
   static std::size_t check_all(const std::vector<DrawnScene>& drawn,
                                const std::vector<SubmittedFrame>& frames) {
     FrameComparison comparison(160, 120, render::Blend::kAdditive);
@@ -136,7 +137,7 @@ struct Failure {
   const char* call;
   XrResult result;
   int times;
-  bool for_good;  ///< the session does without a panel from then on
+  bool for_good;  ///< the session has no panel from then on
 };
 void PrintTo(const Failure& failure, std::ostream* out) { *out << failure.call; }
 
@@ -150,7 +151,7 @@ TEST_P(FailingPanel, LeavesTheStatusLineInTheEyesImages) {
   say("verify L4");
   say("guide L4 left");
   presenter_->stop();
-  // Of a frame that the runtime refuses nothing is shown, nor known.
+  // The double keeps nothing of a frame that it refuses: it can't be compared.
   std::vector<DrawnScene> all = drawn();
   if (std::string(failure.call) == "xrEndFrame") {
     const auto first = std::find_if(all.begin(), all.end(), [](const DrawnScene& one) {
@@ -180,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(StatusPanelTest, ASessionLostWhileItsImageIsHeldIsMadeAnewWithAPanel) {
   begin();
   say("digitize L4");
-  // Acquired, and never free.
+  // The image is acquired but never becomes free.
   runtime().fail_of_panel("xrWaitSwapchainImage", XR_TIMEOUT_EXPIRED, 1'000'000);
   say("verify L4");
   EXPECT_FALSE(runtime().frames().back().quad.has_value());

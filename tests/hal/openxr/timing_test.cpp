@@ -1,4 +1,4 @@
-// What `run --stats` says of the display.
+// What `run --stats` reports about the display.
 #include <gtest/gtest.h>
 
 #include "base/stopwatch.h"
@@ -20,7 +20,7 @@ TEST_F(TimingTest, KeepsAccountOfLateAndMissedFrames) {
   ASSERT_TRUE(eventually([&] { return count_drawn() >= 3; }));
   runtime().skip(4);
   ASSERT_TRUE(frames_pass(3));
-  // Shown three periods after it was begun; this one takes longer.
+  // A frame is due three periods after it was begun; this one takes longer.
   hold_ = true;
   ASSERT_TRUE(eventually([&] { return held_.load(); }));
   const Stopwatch held;

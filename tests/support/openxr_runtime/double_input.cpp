@@ -43,7 +43,7 @@ XrResult XRAPI_CALL path_to_string(XrInstance, XrPath path, std::uint32_t capaci
   return XR_SUCCESS;
 }
 
-// One set is all that there is; its handle stands for nothing else.
+// There is only one action set, so its handle is a constant.
 XrResult XRAPI_CALL create_action_set(XrInstance, const XrActionSetCreateInfo*, XrActionSet* set) {
   *set = reinterpret_cast<XrActionSet>(std::uintptr_t{0x5e7});
   return XR_SUCCESS;
@@ -80,7 +80,7 @@ XrResult XRAPI_CALL create_action(XrActionSet, const XrActionCreateInfo* info, X
 }
 XrResult XRAPI_CALL destroy_action(XrAction) { return XR_SUCCESS; }
 
-/// An input of a device, of either hand where it does not begin with "/user".
+/// An input of a device; of either hand if `path` does not begin with "/user".
 struct Input {
   const char* profile;
   const char* extension;  ///< null: none is needed
@@ -164,7 +164,7 @@ XrResult XRAPI_CALL sync(XrSession, const XrActionsSyncInfo*) {
   return d.session->state == XR_SESSION_STATE_FOCUSED ? XR_SUCCESS : XR_SESSION_NOT_FOCUSED;
 }
 
-/// The action that is asked for, or why it can't be.
+/// Finds the action that is asked for; an error if the request is not valid.
 XrResult asked(Double& d, const XrActionStateGetInfo* get, XrActionType type,
                const DoubleAction** action) {
   if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
@@ -184,7 +184,8 @@ XrResult asked(Double& d, const XrActionStateGetInfo* get, XrActionType type,
   return XR_SUCCESS;
 }
 
-/// The hand that an action is asked about, where it holds no controller; null: none that is seen.
+/// The hand that an action is asked about; null if it is not seen, holds a controller, or `input`
+/// is not bound to the action.
 const HandState* hand_of(Double& d, const DoubleAction& action, const XrActionStateGetInfo* get,
                          const char* input) {
   const std::string path = d.paths[get->subactionPath];

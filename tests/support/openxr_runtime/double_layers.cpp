@@ -3,7 +3,7 @@
 
 #include "tests/support/openxr_runtime/double_state.h"
 
-// What a frame is made of, checked as a strict runtime would.
+// The layers of a frame, checked as a strict runtime would check them.
 
 namespace orthonav::test {
 namespace {
@@ -43,7 +43,7 @@ std::string flaw_of(Double& d, const XrCompositionLayerProjectionView& view) {
   return {};
 }
 
-/// The depth that hangs on a view, if any does.
+/// Reads the depth that is chained to a view, if any. Returns what is wrong with it, or nothing.
 std::string take_depth(Double& d, const XrCompositionLayerProjectionView& view,
                        std::vector<float>& metres) {
   const auto* depth = static_cast<const XrCompositionLayerDepthInfoKHR*>(view.next);
@@ -67,7 +67,7 @@ std::string take_depth(Double& d, const XrCompositionLayerProjectionView& view,
   const auto bytes = chain.chain->read(*chain.released, depth->subImage.imageArrayIndex);
   metres.resize(bytes.size() / sizeof(float));
   std::memcpy(metres.data(), bytes.data(), bytes.size());
-  // The hyperbola of a projection with the far plane anywhere, also at infinity.
+  // Inverts the hyperbola of a projection, for any far plane, also at infinity.
   for (float& value : metres) {
     value = 1.0f / (1.0f / depth->nearZ + value * (1.0f / depth->farZ - 1.0f / depth->nearZ));
   }

@@ -160,7 +160,7 @@ XrResult XRAPI_CALL destroy_space(XrSpace handle) {
   return XR_SUCCESS;
 }
 
-/// Where the eyes look in a space as they were seen when actions were last synchronised.
+/// Where the eyes look, in a space, as seen when actions were last synchronised.
 XrResult locate_gaze(const Double& d, const DoubleSpace& in, XrTime time,
                      XrSpaceLocation& location) {
   const GazeState& gaze = d.synced_gaze;
@@ -235,7 +235,7 @@ XrResult XRAPI_CALL locate_views(XrSession, const XrViewLocateInfo* info, XrView
     return d.violated("views in a space of nobody's", XR_ERROR_HANDLE_INVALID);
   }
   const bool on_head = space->type == XR_REFERENCE_SPACE_TYPE_VIEW;
-  // Where the eyes are on the head is known however lost the head is, if it is known at all.
+  // Where the eyes are on the head does not depend on whether the head is located.
   const XrViewStateFlags on_head_flags = d.traits.eyes_on_head ? kAllFlags : 0;
   state->viewStateFlags = on_head ? on_head_flags : d.flags();
   std::vector<XrView> both(2, {XR_TYPE_VIEW});

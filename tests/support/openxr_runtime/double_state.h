@@ -19,18 +19,18 @@ struct DoubleSwapchain {
   bool waited = false;                 ///< the oldest acquired
   std::uint32_t next = 0;
   std::optional<std::uint32_t> released;  ///< last; what a layer refers to
-  bool panel = false;                     ///< not of the eyes' size
+  bool panel = false;                     ///< its images are not of the eyes' size
   std::int64_t releases = 0;
-  std::int64_t read_of = -1;  ///< the release that `pixels` are of
+  std::int64_t read_of = -1;  ///< the release after which `pixels` were read
   std::shared_ptr<const std::vector<std::uint8_t>> pixels;
 };
 
 struct DoubleSpace {
   XrReferenceSpaceType type = XR_REFERENCE_SPACE_TYPE_LOCAL;
-  bool of_gaze = false;  ///< an action's; `type` means nothing
+  bool of_gaze = false;  ///< the space of a pose action; `type` has no meaning
 };
 
-/// What is bound to an action, and what it was when actions were last synchronised.
+/// An action and the inputs that are bound to it.
 struct DoubleAction {
   XrActionType type = XR_ACTION_TYPE_BOOLEAN_INPUT;
   std::set<XrPath> hands;  ///< its subaction paths
@@ -95,7 +95,7 @@ class Double : public RuntimeDouble {
   [[nodiscard]] int instances() const override;
   [[nodiscard]] std::vector<std::string> violations() const override;
 
-  /// What the call is to answer at once; XR_SUCCESS: what it answers otherwise.
+  /// The error that the call must return at once; XR_SUCCESS: it goes on as usual.
   XrResult fails(const char* call, bool of_panel);
   /// Writes it down and answers with the error.
   XrResult violated(const std::string& what, XrResult result);
@@ -134,7 +134,7 @@ class Double : public RuntimeDouble {
   int skipped = 0;
   std::set<std::string> enabled;  ///< extensions
   std::set<std::unique_ptr<DoubleAction>> action_list;
-  // As they were when actions were last synchronised.
+  // The inputs as they were when actions were last synchronised.
   bool synced_pressed = false;
   bool synced_controller = false;
   std::array<HandState, 2> synced_hands{};
@@ -148,9 +148,9 @@ class Double : public RuntimeDouble {
 inline constexpr const char* kHandInteraction = "XR_EXT_hand_interaction";
 
 [[nodiscard]] Double& the_double();
-/// Null where the session has none of that handle.
+/// Null if the session has no swapchain of that handle.
 [[nodiscard]] DoubleSwapchain* chain_of(Double& d, XrSwapchain handle);
-/// The layers of a frame that is ended, into what is kept of it.
+/// Checks the layers of a frame that is ended, and puts them into `frame`.
 XrResult take_layers(Double& d, const XrFrameEndInfo& info, SubmittedFrame& frame);
 
 /// a ∘ b of rigid poses, and the inverse.

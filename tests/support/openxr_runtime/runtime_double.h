@@ -36,8 +36,8 @@ struct RuntimeTraits {
   bool hand_interaction = false;  ///< XR_EXT_hand_interaction, in hands that hold no controller
   bool hand_tracking = false;     ///< XR_EXT_hand_tracking
   bool eye_gaze = false;          ///< XR_EXT_eye_gaze_interaction
-  bool sees_hands = true;         ///< the headset supports what the extension is for
-  bool sees_eyes = true;          ///< the same
+  bool sees_hands = true;         ///< whether the headset itself tracks hands
+  bool sees_eyes = true;          ///< whether the headset itself tracks eyes
   bool converts_time = true;
   bool takes_depth = false;      ///< `formats` has VK_FORMAT_D32_SFLOAT then
   bool valid = true;             ///< poses are known at all
@@ -92,7 +92,7 @@ struct SubmittedFrame {
   bool should_render = true;
   std::uint32_t layers = 0;
   bool has_eyes = false;              ///< a projection layer
-  std::optional<SubmittedQuad> quad;  ///< over it
+  std::optional<SubmittedQuad> quad;  ///< laid over it
   XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   XrCompositionLayerFlags flags = 0;
   bool on_head = false;  ///< the eyes' layer hangs on the viewer
@@ -101,7 +101,7 @@ struct SubmittedFrame {
   std::array<XrFovf, 2> fovs{};
   /// Left and right as the images hold them, four bytes a pixel, row by row; empty without a layer.
   std::array<std::vector<std::uint8_t>, 2> pixels;
-  /// Distance along the view's axis, where depth was submitted; infinite where nothing is.
+  /// Distance along the view's axis, where depth was submitted; infinite where nothing was drawn.
   std::array<std::vector<float>, 2> depth_m;
 };
 
@@ -122,7 +122,7 @@ class RuntimeDouble {
   /// 0: left.
   virtual void set_hand(std::size_t hand, const HandState& state) = 0;
   virtual void set_gaze(const GazeState& state) = 0;
-  /// The next frame is waited for so many periods longer.
+  /// Waiting for the next frame takes that many periods longer.
   virtual void skip(int periods) = 0;
   /// What the session is told next. STOPPING makes the application end it; READY may follow.
   virtual void tell(XrSessionState state) = 0;
@@ -137,7 +137,7 @@ class RuntimeDouble {
   /// Does something when a frame of this number was ended, on the application's thread.
   virtual void at_frame(std::int64_t number, std::function<void()> action) = 0;
 
-  /// The next so many calls of that name fail that are about the panel, or about a frame with it.
+  /// Of the calls of that name that concern the panel or a frame with it, the next `times` fail.
   virtual void fail_of_panel(const std::string& call, XrResult result, int times) = 0;
 
   [[nodiscard]] virtual std::int64_t ended_frames() const = 0;
