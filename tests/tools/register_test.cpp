@@ -1,18 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "base/random.h"
-#include "engine/case/plan_file.h"
-#include "engine/io/mesh_file.h"
-#include "engine/phantom/phantom.h"
-#include "nav/geometry/mesh.h"
 #include "tests/support/mesh_builder.h"
-#include "tests/tools/command_line.h"
+#include "tests/tools/register_command.h"
 
 namespace orthonav::test::register_test {
 namespace {
@@ -20,101 +15,13 @@ namespace {
 using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr double kNoise_m = 0.0005;
 /// Registration errors with that noise are well below this; wrong poses are off by 10 mm and more.
 constexpr double kRight_m = 0.001;
-
-/// What a pointer touches from behind and on both flanks of the spinous process, model frame.
-std::vector<Vec3> touched(const nav::TriangleMesh& mesh, double front_m) {
-  const nav::SurfaceIndex surface(mesh);
-  std::vector<Vec3> points;
-  const auto touch = [&](Vec3 from, Vec3 direction) {
-    const auto hit = surface.first_hit(from, direction);
-    if (hit && hit->point_m.y > front_m) {
-      points.push_back(hit->point_m);
-    }
-  };
-  for (double z = -0.025; z <= 0.015; z += 0.002) {
-    for (double x = -0.03; x <= 0.03; x += 0.0015) {
-      touch({x, 0.2, z}, {0, -1, 0});
-    }
-    for (double y = front_m; y < 0.08; y += 0.002) {
-      for (const double side : {0.1, -0.1}) {
-        touch({side, y + 0.05, z}, {-side, -0.05, 0});
-      }
-    }
-  }
-  return points;
-}
-
-/// With the built-in phantom, available in every checkout, and with a real bone.
-class RegisterCommand : public ::testing::TestWithParam<const char*> {
- protected:
-  void SetUp() override {
-    if (std::string(GetParam()) == "phantom") {
-      use_phantom();
-    } else {
-      model_ = shared("anatomy/visible-human/L4.stl");
-      plan_file_ = shared("anatomy/visible-human/L4.plan.json");
-    }
-    mesh_ = engine::load_mesh(model_, 1e-3).value();
-    plan_ = engine::load_plan(plan_file_).value();
-    Random random(21);
-    for (const Vec3& p : touched(mesh_, plan_.screws[0].entry.v.y - 0.010)) {
-      const Vec3 noise{random.normal(0, kNoise_m), random.normal(0, kNoise_m),
-                       random.normal(0, kNoise_m)};
-      points_m_.push_back((truth_ * Point<Vertebra>{p + noise}).v);
-    }
-  }
-  void use_phantom() {
-    const engine::Case spine = engine::phantom({"L4"});
-    model_ = folder_.file("model.stl");
-    plan_file_ = folder_.file("model.plan.json");
-    ASSERT_TRUE(engine::save_stl(model_, spine.levels[0].mesh).ok());
-    ASSERT_TRUE(engine::save_plan(plan_file_, "L4", spine.levels[0].screws).ok());
-  }
-  std::string points_file(double per_metre, const std::string& name = "points.csv") const {
-    std::string csv = "x,y,z\n";
-    char row[120];
-    for (const Vec3& p : points_m_) {
-      std::snprintf(row, sizeof row, "%.9g,%.9g,%.9g\n", p.x * per_metre, p.y * per_metre,
-                    p.z * per_metre);
-      csv += row;
-    }
-    return folder_.with(name, csv);
-  }
-  /// The largest error of a JSON's matrix at the plan's points; lengths in its unit.
-  double error_m(const json& report, double per_metre, double sign_xy = 1.0) const {
-    double worst = 0.0;
-    const json& m = report.at("model_to_points");
-    for (const engine::StatedScrew& screw : plan_.screws) {
-      for (const Point<Vertebra>& p : {screw.entry, screw.target}) {
-        const Vec3 file{sign_xy * p.v.x * per_metre, sign_xy * p.v.y * per_metre,
-                        p.v.z * per_metre};
-        Vec3 mapped;
-        for (int r = 0; r < 3; ++r) {
-          mapped[r] = m[r][0].get<double>() * file.x + m[r][1].get<double>() * file.y +
-                      m[r][2].get<double>() * file.z + m[r][3].get<double>();
-        }
-        worst = std::max(worst, (mapped / per_metre - (truth_ * p).v).norm());
-      }
-    }
-    return worst;
-  }
-  ScratchFolder folder_;
-  std::string model_;
-  std::string plan_file_;
-  nav::TriangleMesh mesh_;
-  engine::Plan plan_;
-  Transform<World, Vertebra> truth_{rotation_from_vector({0.4, -1.1, 0.9}), {0.3, -0.5, 1.2}};
-  std::vector<Vec3> points_m_;
-};
 
 TEST_P(RegisterCommand, SaysTheSameWithAPreparedModelFromItsCache) {
   const std::string points = points_file(1e3);
@@ -245,67 +152,6 @@ TEST_P(RegisterCommand, TakesAModelInRas) {
   EXPECT_LT(error_m(report, 1e3, -1.0), kRight_m);
 }
 
-TEST_P(RegisterCommand, SaysNoToACloudThatIsNotTheBone) {
-  Random random(3);
-  for (Vec3& p : points_m_) {
-    p = {random.normal(0, 0.02), random.normal(0, 0.02), random.normal(0, 0.02)};
-  }
-  const Called called =
-      orthonav({"register", "--model", model_, "--points", points_file(1e3), "--json", "-"});
-  EXPECT_EQ(called.code, 1);
-  EXPECT_THAT(called.err, StartsWith("orthonav: refused: the points scatter "));
-  const json report = json::parse(called.out);
-  EXPECT_EQ(report["accepted"], false);
-  EXPECT_THAT(report["reasons"][0].get<std::string>(), HasSubstr("limit 1.6 mm"));
-  const Called paper =
-      orthonav({"register", "--model", model_, "--points", points_file(1e3), "--method", "paper"});
-  EXPECT_EQ(paper.code, 1);
-  EXPECT_THAT(paper.err, StartsWith("orthonav: refused: registration RMSE "));
-}
-
-TEST_P(RegisterCommand, RefusesBadInputInOneLineAndWritesNothing) {
-  const std::string good = points_file(1e3);
-  std::string few = "x,y,z\n";
-  for (int i = 0; i < 99; ++i) {
-    few += std::to_string(i) + ",0,0\n";
-  }
-  const std::string metres = points_file(1.0, "metres.csv");
-  struct Case {
-    std::string model, points, expected;
-  };
-  const std::vector<Case> cases = {
-      {folder_.file("none.stl"), good, "none.stl"},
-      {folder_.with("empty.stl", ""), good, "empty.stl"},
-      {model_, folder_.file("none.csv"), "none.csv"},
-      {model_, folder_.with("few.csv", few), "99 points, needs at least 100"},
-      {model_, folder_.with("nan.csv", "x,y,z\n1,nan,2\n"), "nan.csv"},
-      {model_, metres, "in one place"},
-  };
-  const std::string out = folder_.file("out.json");
-  const std::vector<std::string> before = folder_.names();
-  for (const Case& c : cases) {
-    const Called called =
-        orthonav({"register", "--model", c.model, "--points", c.points, "--json", out});
-    EXPECT_EQ(called.code, 2) << c.expected;
-    EXPECT_THAT(called.err, AllOf(StartsWith("orthonav: "), HasSubstr(c.expected)));
-    EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
-    EXPECT_THAT(called.out, IsEmpty());
-    EXPECT_THAT(folder_.names(), ElementsAreArray(before)) << "no output, whole or in part";
-  }
-}
-
-TEST_P(RegisterCommand, NamesMetresTakenForMillimetres) {
-  nav::TriangleMesh small = mesh_;
-  for (Vec3& v : small.vertices_m) {
-    v = v * 1e-3;  // written as mm: 0.09 mm across
-  }
-  const std::string model = folder_.file("small.stl");
-  ASSERT_TRUE(engine::save_stl(model, small).ok());
-  const Called called = orthonav({"register", "--model", model, "--points", points_file(1e3)});
-  EXPECT_EQ(called.code, 2);
-  EXPECT_THAT(called.err, HasSubstr("metres taken for millimetres"));
-}
-
 TEST_P(RegisterCommand, TellsOfThePublishedMethodWhatItKnows) {
   const Called called = orthonav({"register", "--model", model_, "--points", points_file(1e3),
                                   "--plan", plan_file_, "--method", "paper", "--json", "-"});
@@ -318,20 +164,6 @@ TEST_P(RegisterCommand, TellsOfThePublishedMethodWhatItKnows) {
   for (const char* key : {"noise_mm", "inlier_share", "coverage_share", "runner_up_margin"}) {
     EXPECT_FALSE(report.contains(key)) << key << " is not known to it";
   }
-}
-
-TEST_P(RegisterCommand, RefusesAnUnwritablePlaceAndUnknownWords) {
-  const std::string points = points_file(1e3);
-  const Called unwritable = orthonav({"register", "--model", model_, "--points", points, "--json",
-                                      folder_.file("no/such/folder.json")});
-  EXPECT_EQ(unwritable.code, 2);
-  const Called nearest =
-      orthonav({"register", "--model", model_, "--points", points, "--method", "nearest"});
-  EXPECT_EQ(nearest.code, 2);
-  EXPECT_THAT(nearest.err, HasSubstr("nearest: unknown (available: best, paper)"));
-  EXPECT_EQ(orthonav({"register", "--model", model_}).code, 2);
-  EXPECT_EQ(orthonav({"register", "--model", model_, "--points", points, "--units", "inch"}).code,
-            2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bones, RegisterCommand, ::testing::Values("phantom", "real"),

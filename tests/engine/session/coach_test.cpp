@@ -1,98 +1,24 @@
 #include "engine/session/coach.h"
-#include "engine/session/wording.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
-#include <limits>
 #include <mutex>
 #include <tuple>
 
 #include "base/random.h"
 #include "engine/case/operation_plan.h"
 #include "engine/phantom/phantom.h"
-#include "tests/support/said.h"
+#include "engine/session/wording.h"
+#include "tests/engine/session/promising_registration.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine::coach_test {
 namespace {
 
-using test::pointer_at;
-using test::said;
-using test::ScriptedOperation;
-using test::state;
-using enum ClickerAction;
 using ::testing::HasSubstr;
-
-const nav::BonePlace kLeftLamina{nav::BonePlace::Part::kLamina, Side::kLeft,
-                                 nav::BonePlace::Height::kMiddle};
-
-nav::Registration promising() {
-  nav::Registration r;
-  r.log_likelihood_ratio = 30.0;
-  r.predicted_tre_m = 0.0024;
-  r.stroke_next = kLeftLamina;
-  r.reasons = {{nav::RefusalReason::Kind::kTreAtScrews, 0.0024, 0.0015, {}, {}}};
-  return r;
-}
-
-TEST(Coaching, SaysWhatToExpectAndWhereToStroke) {
-  nav::Registration r = promising();
-  EXPECT_EQ(text_of(coaching_from(r)),
-            "expected error 2.4 mm (registration only), stroke the left lamina");
-  r.predicted_tre_m = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(text_of(coaching_from(r)),
-            "expected error -- mm (registration only), stroke the left lamina");
-}
-
-TEST(Coaching, SaysWhenItIsEnough) {
-  nav::Registration r = promising();
-  r.accepted = true;
-  r.reasons.clear();
-  r.predicted_tre_m = 0.0006;
-  EXPECT_EQ(text_of(coaching_from(r)),
-            "expected error 0.6 mm (registration only), enough to register");
-}
-
-TEST(Coaching, SendsWhoStrokesOverTissueToTheBone) {
-  nav::Registration r = promising();
-  r.provisional = true;
-  EXPECT_FALSE(coaching_from(r).enough) << "more strokes would help";
-  r.reasons.push_back({nav::RefusalReason::Kind::kSoftTissue, 0.001, 0.0003});
-  EXPECT_EQ(
-      text_of(coaching_from(r)),
-      "expected error 2.4 mm (registration only), soft tissue: register, then touch the bone, or "
-      "first scrape the left lamina");
-  r.stroke_next.reset();
-  EXPECT_EQ(
-      text_of(coaching_from(r)),
-      "expected error 2.4 mm (registration only), soft tissue: register, then touch the bone");
-}
-
-TEST(Coaching, AddsWhatAllStrokesShare) {
-  nav::Registration r = promising();
-  r.common.tip_m = 0.001;
-  EXPECT_EQ(text_of(coaching_from(r)), "expected error 3.0 mm, stroke the left lamina");
-}
-
-TEST(Coaching, PromisesNoErrorOfAPoseThatMayBeTheWrongOne) {
-  nav::Registration r = promising();
-  r.log_likelihood_ratio = 3.0;
-  r.predicted_tre_m = 0.0006;
-  EXPECT_EQ(text_of(coaching_from(r)), "ambiguous, stroke the left lamina");
-}
-
-TEST(Coaching, SaysWhatElseStandsAgainstASmallError) {
-  nav::Registration r = promising();
-  r.predicted_tre_m = 0.0006;
-  r.reasons = {{nav::RefusalReason::Kind::kNoise, 0.0019, 0.0016, {}, {}}};
-  EXPECT_EQ(
-      text_of(coaching_from(r)),
-      "expected error 0.6 mm (registration only), the points scatter 1.9 mm about the surface, "
-      "limit 1.6 mm");
-}
 
 /// A registrar that answers only when allowed to, and counts its calls.
 struct Gate {
@@ -298,50 +224,6 @@ TEST(CoachByBest, ExpectsLessAsSamplesComeInAndTheSameEveryTime) {
   EXPECT_GT(early_m, 0.0);
   EXPECT_LT(expected_m[0].back(), 0.7 * early_m);
   EXPECT_THAT(last[0], HasSubstr("enough to register"));
-}
-
-TEST(CoachedSession, ShowsItBesideThePointsAndRegistersNothingByIt) {
-  ScriptedOperation s({"L4"}, {}, Verification::kByTouch, true);
-  s.registration = promising();
-  s.tracker().pointer = pointer_at({0, 0.02, 0});
-  s.says("start");
-  s.strokes(120);
-  const Guidance& g = s.pairs(20);
-  ASSERT_NE(state<StrokesSoFar>(g), nullptr);
-  EXPECT_EQ(state<StrokesSoFar>(g)->points, 120u);
-  ASSERT_NE(state<StrokesSoFar>(g)->coaching, nullptr);
-  EXPECT_EQ(state<StrokesSoFar>(g)->coaching->stroke_next, kLeftLamina);
-  EXPECT_EQ(g.levels[0].attempts, 0);
-  EXPECT_FALSE(g.levels[0].registration.has_value());
-  EXPECT_EQ(g.step, Step::kDigitize);
-}
-
-TEST(CoachedSession, ARefusalSaysWhatToStrokeNextAndKeepsSayingIt) {
-  ScriptedOperation s({"L4"}, {}, Verification::kByTouch, true);
-  s.registration = promising();
-  s.registers_first_level();
-  const auto* refused = said<RegistrationRefused>(s.pair());
-  ASSERT_NE(refused, nullptr);
-  EXPECT_EQ(refused->stroke_next, kLeftLamina);
-  EXPECT_FALSE(refused->another_level_fits);
-  s.registration.fits_better = "L3";
-  s.registration.reasons = {{nav::RefusalReason::Kind::kFitsOtherLevel, 0.0, 0.0, {}, "L3"}};
-  refused = said<RegistrationRefused>(s.does({kDoubleClick}));
-  ASSERT_NE(refused, nullptr);
-  EXPECT_TRUE(refused->another_level_fits);
-}
-
-TEST(CoachedSession, WithoutCoachingThereIsOnlyTheCount) {
-  ScriptedOperation s({"L4"}, {}, Verification::kByTouch, false);
-  s.registration = promising();
-  s.tracker().pointer = pointer_at({0, 0.02, 0});
-  s.says("start");
-  s.strokes(120);
-  const auto* strokes = state<StrokesSoFar>(s.pairs(20));
-  ASSERT_NE(strokes, nullptr);
-  EXPECT_EQ(strokes->points, 120u);
-  EXPECT_EQ(strokes->coaching, nullptr);
-  EXPECT_TRUE(s.registered_points.empty());
 }
 
 }  // namespace

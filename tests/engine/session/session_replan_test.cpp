@@ -6,8 +6,8 @@
 #include "base/angle.h"
 #include "engine/holograms/visibility.h"
 #include "engine/phantom/phantom.h"
-#include "engine/session/session.h"
 #include "engine/session/wording.h"
+#include "tests/engine/session/replan_session.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 
@@ -18,43 +18,8 @@ using nav::DrillPhase;
 using test::guide_at;
 using test::notice_of;
 using test::said;
-using test::ScriptedOperation;
 using test::step_of;
-using Kind = ReplanRefusal::Kind;
 using ::testing::HasSubstr;
-
-constexpr double kExact = 1e-9;
-constexpr double kMm = 1e-3;
-/// Tolerance of the search for the least depth on the faces of a box.
-constexpr double kSearch_m = 5e-6;
-constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
-
-/// The box's screws are 6 × 35 mm, straight in along -y; its walls are at x = ±30 and z = ±25 mm.
-struct Replan4 : ScriptedOperation {
-  explicit Replan4(const SessionOptions& options = {},
-                   Verification verification = Verification::kByEye)
-      : ScriptedOperation({"L4", "L5"}, options, verification) {
-    registers_within(0.0004);
-    tracker().guide = guide_at(kLeftEntry + Vec3{0, 0.030, 0}, 0.0);
-  }
-  const LevelState& level() { return session().levels()[0]; }
-  const nav::ScrewPlan& left() { return level().plan.screws[0]; }
-  void guides_left() {
-    accepts_first_level();
-    says("next");
-  }
-  Kind refusal(const std::string& phrase) {
-    const auto* refused = said<ReplanRefusal>(says(phrase));
-    EXPECT_NE(refused, nullptr) << phrase;
-    return refused ? refused->kind : Kind::kNothingToUndo;
-  }
-};
-
-class SessionReplan : public ::testing::Test {
- protected:
-  SessionReplan() { s.guides_left(); }
-  Replan4 s;
-};
 
 TEST_F(SessionReplan, ASizeIsInUseAtOnceAndThePlanBeforeStays) {
   const Guidance& g = s.says("screw five five thirty");
@@ -134,58 +99,6 @@ TEST_F(SessionReplan, WhatWasAtDepthOnThePlanBeforeIsForgotten) {
   EXPECT_LT(s.level().executed[0]->depth_m, 0.0) << "of what was measured since";
 }
 
-TEST_F(SessionReplan, TheEntryMovesTenMillimetresInAllAndNoMore) {
-  s.says("move cranial nine");
-  s.says("move cranial one");
-  EXPECT_NEAR(s.left().entry.v.z, 10 * kMm, kExact) << "the limit itself";
-  const auto* refused = said<ReplanRefusal>(s.says("entry cranial 0.1"));
-  ASSERT_NE(refused, nullptr);
-  EXPECT_EQ(refused->kind, Kind::kEntryTooFar);
-  EXPECT_NEAR(refused->value, 10.1 * kMm, kExact);
-  EXPECT_NEAR(s.left().entry.v.z, 10 * kMm, kExact);
-  s.says("move caudal five");
-  EXPECT_NEAR(s.left().entry.v.z, 5 * kMm, kExact) << "back is always possible";
-}
-
-TEST_F(SessionReplan, TheAxisTiltsFifteenDegreesInAllAndNoMore) {
-  s.says("tilt cranial nine");
-  s.says("tilt cranial six");
-  EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 15 * kRadiansPerDegree,
-              kExact);
-  EXPECT_EQ(s.refusal("tilt cranial 0.1"), Kind::kTiltTooFar);
-  EXPECT_THAT(detail_text(s.pair().status), HasSubstr("limit 15.0\u00b0"));
-  EXPECT_EQ(s.refusal("target cranial one"), Kind::kTiltTooFar);
-  s.says("tilt caudal two");
-  EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 13 * kRadiansPerDegree,
-              kExact);
-}
-
-TEST_F(SessionReplan, SizesAreThoseOfTheList) {
-  EXPECT_EQ(s.refusal("screw six thirty two"), Kind::kNoSuchSize);
-  EXPECT_THAT(detail_text(s.pair().status), HasSubstr("6.0 \u00d7 32 mm is not in the list"));
-  EXPECT_EQ(s.refusal("diameter eight"), Kind::kNoSuchSize);
-  EXPECT_EQ(s.refusal("length twenty"), Kind::kNoSuchSize);
-  s.says("thinner");
-  EXPECT_NEAR(s.left().radius_m, 2.75 * kMm, kExact);
-  s.says("thinner");
-  s.says("thinner");
-  EXPECT_EQ(s.refusal("thinner"), Kind::kLastSize);
-  EXPECT_NEAR(s.left().radius_m, 2.25 * kMm, kExact);
-}
-
-TEST_F(SessionReplan, AListOfItsOwnAndLimitsAreOptions) {
-  SessionOptions options;
-  options.replan.sizes = {{{0.006, {0.032}, {}}}};
-  options.replan.entry_m = 0.002;
-  Replan4 own(options);
-  own.guides_left();
-  own.says("screw six thirty two");
-  EXPECT_NEAR(nav::screw_length_m(own.left()), 32 * kMm, kExact);
-  EXPECT_EQ(own.refusal("move cranial three"), Kind::kEntryTooFar);
-  options.replan.entry_m = 0.05;
-  EXPECT_THAT(options.check(), ::testing::ElementsAre(HasSubstr("replan: entry_m")));
-}
-
 TEST_F(SessionReplan, UndoTakesChangesBackOneByOne) {
   s.says("move cranial one");
   s.says("shorter");
@@ -216,131 +129,6 @@ TEST_F(SessionReplan, EachScrewHasItsOwnChanges) {
   EXPECT_NEAR(s.left().entry.v.z, kMm, kExact) << "what is done stays";
 }
 
-TEST_F(SessionReplan, ABreachIsRefusedUntilItIsAccepted) {
-  s.says("move lateral nine");
-  const auto* refused = said<ReplanRefusal>(s.says("thicker"));
-  EXPECT_EQ(refused, nullptr) << "x = 24 + 3.25: still in the bone";
-  s.says("tilt lateral nine");
-  const Guidance& g = s.pair();
-  ASSERT_NE(said<ReplanRefusal>(g), nullptr);
-  EXPECT_EQ(said<ReplanRefusal>(g)->kind, Kind::kBreach);
-  const double reach_m = 24 * kMm + 35 * kMm * std::sin(9 * kRadiansPerDegree) +
-                         3.25 * kMm * std::cos(9 * kRadiansPerDegree);
-  EXPECT_NEAR(said<ReplanRefusal>(g)->value, 30 * kMm - reach_m, kSearch_m + 1e-5);
-  EXPECT_THAT(detail_text(g.status), HasSubstr("(tip): say accept to take it"));
-  EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 0.0, kExact)
-      << "not before it is accepted";
-  const Guidance& taken = s.says("accept");
-  ASSERT_NE(said<ScrewReplanned>(taken), nullptr);
-  EXPECT_EQ(s.left().accepted_breach, "accepted in surgery");
-  EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 9 * kRadiansPerDegree,
-              kExact);
-  s.says("tilt medial one");
-  EXPECT_EQ(s.left().accepted_breach, "accepted in surgery") << "no worse: not asked again";
-  EXPECT_EQ(s.refusal("tilt lateral two"), Kind::kBreach) << "worse";
-  s.says("undo");
-  s.says("undo");
-  EXPECT_TRUE(s.left().accepted_breach.empty()) << "with the change its reason goes";
-}
-
-TEST_F(SessionReplan, AReasonEndsWithItsBreach) {
-  s.says("move lateral nine");
-  ASSERT_EQ(s.refusal("tilt lateral nine"), Kind::kBreach);
-  s.pair();
-  s.says("accept");
-  ASSERT_FALSE(s.left().accepted_breach.empty());
-  s.says("tilt medial nine");
-  EXPECT_TRUE(s.left().accepted_breach.empty());
-  EXPECT_EQ(s.refusal("tilt lateral nine"), Kind::kBreach) << "asked anew";
-}
-
-TEST_F(SessionReplan, ConsentCountsOnlyForTheQuestionThatIsShown) {
-  s.says("move lateral nine");
-  const auto breaks = [&] { return s.refusal("tilt lateral nine") == Kind::kBreach; };
-  EXPECT_EQ(notice_of(s.says("accept")), Notice::kNotPossibleNow) << "nothing was asked";
-  s.hears_at(s.now() + std::chrono::milliseconds(1), "tilt lateral nine");
-  s.hears_at(s.now() + std::chrono::milliseconds(2), "accept");
-  EXPECT_EQ(notice_of(s.pair()), Notice::kNotPossibleNow) << "said before the question was shown";
-  ASSERT_TRUE(breaks());
-  s.pairs(100);
-  EXPECT_EQ(notice_of(s.says("accept")), Notice::kNotPossibleNow) << "its message is gone";
-  ASSERT_TRUE(breaks());
-  s.says("twin");
-  EXPECT_EQ(notice_of(s.says("accept")), Notice::kNotPossibleNow) << "something else was done";
-  ASSERT_TRUE(breaks());
-  s.tracker().guide = guide_at(s.left().entry.v, 0.0);
-  s.pairs(20);
-  EXPECT_EQ(notice_of(s.says("accept")), Notice::kNotPossibleNow) << "the drill is set by now";
-  EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 0.0, kExact);
-}
-
-TEST(SessionReplanSteps, TheNextScrewIsChangedInAcceptedAndNoneElsewhere) {
-  Replan4 s;
-  s.registers_first_level();
-  EXPECT_EQ(notice_of(s.says("shorter")), Notice::kNotPossibleNow);
-  EXPECT_THAT(detail_text(s.pair().status), HasSubstr("once its level is accepted"));
-  s.accepts();
-  const auto* done = said<ScrewReplanned>(s.says("shorter"));
-  ASSERT_NE(done, nullptr);
-  EXPECT_EQ(done->level, "L4");
-  EXPECT_EQ(done->to.side, Side::kLeft);
-  s.says("next");
-  EXPECT_NEAR(nav::screw_length_m(s.left()), 30 * kMm, kExact);
-  s.says("next");
-  s.says("next");
-  EXPECT_EQ(step_of(s.pair()), "digitize L5");
-  EXPECT_EQ(notice_of(s.says("shorter")), Notice::kNotPossibleNow);
-  EXPECT_EQ(s.level().earlier_plans[0].size(), 1u);
-}
-
-TEST(SessionReplanSteps, ByTouchAcceptConsentsFirstAndCorrectsTheTipElse) {
-  Replan4 s({}, Verification::kByTouch);
-  s.accepts_first_by_touch();
-  EXPECT_EQ(notice_of(s.says("accept")), Notice::kNotPossibleNow) << "neither waits";
-  s.says("move lateral nine");
-  ASSERT_EQ(s.refusal("tilt lateral nine"), Kind::kBreach);
-  s.pair();
-  s.says("accept");
-  EXPECT_EQ(s.left().accepted_breach, "accepted in surgery");
-}
-
-TEST(SessionReplanSteps, TheLandmarkOfTheNextScrewIsNotTheLast) {
-  Replan4 s({}, Verification::kByTouch);
-  s.accepts_first_by_touch();
-  s.touches_dimple();
-  s.says("next");
-  s.says("next");
-  s.says("next");  // its wire is not measured
-  ASSERT_EQ(step_of(s.pair()), "accepted L4");
-  const auto* done = said<ScrewReplanned>(s.says("move cranial one"));
-  ASSERT_NE(done, nullptr);
-  EXPECT_EQ(done->to.side, Side::kRight) << "the left one is done";
-}
-
-TEST(SessionReplanSteps, WhatTheStepAsksForStaysAskedBesideIt) {
-  Replan4 s({}, Verification::kByTouch);
-  s.accepts_first_by_touch();
-  for (const char* phrase : {"shorter", "move cranial", "undo", "undo"}) {
-    const Guidance& g = s.says(phrase);
-    ASSERT_NE(g.status.message, nullptr) << phrase;
-    EXPECT_THAT(detail_text(g.status), HasSubstr("; make a dimple in this bone and touch it"));
-    EXPECT_EQ(checks_asked(g.status), ChecksAsked::kTouchMore) << phrase;
-  }
-}
-
-TEST(SessionReplanSteps, APhraseThatIsNotUnderstoodChangesNothing) {
-  Replan4 s;
-  s.guides_left();
-  EXPECT_EQ(notice_of(s.says("move cranial")), Notice::kNotUnderstood);
-  EXPECT_EQ(detail_text(s.pair().status), "move: say how far, such as \"move cranial one\"");
-  EXPECT_EQ(notice_of(s.says("move cranial one", 0.4)), Notice::kNotUnderstood) << "not sure";
-  EXPECT_EQ(s.left().entry.v, kLeftEntry);
-  ASSERT_NE(s.pair().status.heard, nullptr);
-  EXPECT_FALSE(s.pair().status.heard->sure);
-  s.says("move cranial one", 0.6);
-  EXPECT_NEAR(s.left().entry.v.z, kMm, kExact);
-}
-
 TEST(Replanning, OnAVertebraTheEntryStaysOnTheBoneAndTheStepIsExact) {
   const Case spine = phantom({"L4"});
   const CaseLevel& level = *spine.find("L4");
@@ -360,15 +148,6 @@ TEST(Replanning, OnAVertebraTheEntryStaysOnTheBoneAndTheStepIsExact) {
       EXPECT_NEAR(nav::tilt_between_rad(screw, *moved), 0.0, 1e-7);
     }
   }
-}
-
-TEST(SessionReplanSteps, ChangesOutliveTheRegistration) {
-  Replan4 s;
-  s.guides_left();
-  s.says("move cranial one");
-  s.says("reject");
-  EXPECT_NEAR(s.left().entry.v.z, kMm, kExact) << "they are of the bone";
-  EXPECT_TRUE(s.level().replanned(0));
 }
 
 }  // namespace

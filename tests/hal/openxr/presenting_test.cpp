@@ -1,137 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/golden/golden_scenes.h"
 #include "tests/hal/openxr/drawn_frames.h"
+#include "tests/hal/openxr/golden_frames.h"
 #include "tests/render/test_scenes.h"
 
-namespace orthonav::test {
+namespace orthonav::test::presenting_test {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-
-/// Of the golden scene of that name.
-const engine::GoldenScene& golden(const std::string& name) {
-  static const std::vector<engine::GoldenScene> kScenes = engine::golden_scenes();
-  for (const engine::GoldenScene& scene : kScenes) {
-    if (scene.name == name) {
-      return scene;
-    }
-  }
-  ADD_FAILURE() << "no golden scene " << name;
-  return kScenes.front();
-}
-
-/// The head pose that sees a golden scene as in its picture.
-Transform<World, Rig> head_of(const engine::GoldenScene& scene) {
-  std::array<double, 16> rows{};
-  for (std::size_t r = 0; r < 4; ++r) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      rows[4 * r + c] = static_cast<double>(scene.views.front().eye_from_world[4 * c + r]);
-    }
-  }
-  const auto eye_from_world = Transform<Rig, World>::from_row_major(rows);
-  EXPECT_TRUE(eye_from_world.ok());
-  return eye_from_world->inverse();
-}
-
-/// A runtime that differs from the usual one.
-struct Variant {
-  const char* name;
-  RuntimeTraits traits;
-  render::Blend blend = render::Blend::kAdditive;
-  XrEnvironmentBlendMode mode = XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
-  int tolerance = 0;
-  bool head_still = false;
-};
-void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name; }
-
-RuntimeTraits with(const std::function<void(RuntimeTraits&)>& change) {
-  RuntimeTraits traits;
-  change(traits);
-  return traits;
-}
-
-/// The last format of each list is the one to be taken.
-std::vector<Variant> runtimes() {
-  const std::vector<XrReferenceSpaceType> plain = {XR_REFERENCE_SPACE_TYPE_VIEW,
-                                                   XR_REFERENCE_SPACE_TYPE_LOCAL};
-  const auto srgb = [](const std::function<void(RuntimeTraits&)>& change) {
-    RuntimeTraits traits;
-    traits.formats = {VK_FORMAT_R8G8B8A8_SRGB};
-    change(traits);
-    return traits;
-  };
-  std::vector<Variant> all = {
-      {"usual", with([](RuntimeTraits& t) {
-         t.formats = {37, 50, 43};
-       })},
-      {"swapped", with([](RuntimeTraits& t) {
-         t.formats = {44, 126, 50};
-       })},
-      {"one_layer", srgb([](RuntimeTraits& t) { t.most_layers = 1; })},
-      {"local_only", srgb([&](RuntimeTraits& t) { t.spaces = plain; })},
-      {"no_controller", srgb([](RuntimeTraits& t) { t.controller = false; })},
-      {"untracked_position", srgb([](RuntimeTraits& t) { t.position_tracked = false; })},
-      {"turns_only", srgb([](RuntimeTraits& t) { t.position_known = false; })},
-      {"young_vulkan", srgb([](RuntimeTraits& t) { t.least_vulkan = XR_MAKE_VERSION(1, 2, 0); })}};
-  // Eight bits of linear light: both images round at each of a few blends, sRGB's steps in the
-  // light being up to 2.2 of 255.
-  all.push_back({"linear", with([](RuntimeTraits& t) { t.formats = {126, 37}; })});
-  all.back().tolerance = 5;
-  // Where a surface's edge passes through a pixel's centre, shaders/edge.frag decides by the
-  // colours around it on which side the pixel lies. Colours that are rounded otherwise may decide
-  // otherwise, and the pixel is another one, in a few of the views that a swaying head has.
-  all.back().head_still = true;
-  all.push_back(
-      {"opaque", srgb([](RuntimeTraits& t) { t.blends = {XR_ENVIRONMENT_BLEND_MODE_OPAQUE}; })});
-  all.back().mode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
-  all.push_back(
-      {"alpha", srgb([](RuntimeTraits& t) {
-         t.blends = {XR_ENVIRONMENT_BLEND_MODE_OPAQUE, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND};
-       })});
-  all.back().mode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
-  // Both blends give the same over black.
-  for (auto variant = all.end() - 2; variant != all.end(); ++variant) {
-    variant->blend = render::Blend::kOver;
-  }
-  return all;
-}
-
-class EveryRuntime : public RuntimeTest, public ::testing::WithParamInterface<Variant> {};
-
-TEST_P(EveryRuntime, GetsTheFramesThatTheRendererDraws) {
-  const Variant& variant = GetParam();
-  runtime().reset(variant.traits);
-  if (variant.head_still) {
-    runtime().set_head([](XrTime) { return XrPosef{{0, 0, 0, 1}, {0, 0, 0}}; });
-  }
-  const engine::GoldenScene& scene = golden("guidance");
-  open(head_of(scene));
-  ASSERT_TRUE(present().ok());
-  ASSERT_TRUE(show(scene.scene).ok());
-  ASSERT_TRUE(eventually([&] { return count_drawn() >= 4; }));
-  presenter_->stop();
-  // A compositor that reads alpha gets four samples.
-  const bool reads_alpha = variant.mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
-  FrameComparison comparison(static_cast<int>(variant.traits.width_px),
-                             static_cast<int>(variant.traits.height_px), variant.blend,
-                             reads_alpha ? render::Edges::kSamples : render::Edges::kCoverage);
-  const auto pairs = matched(drawn(), runtime().frames());
-  ASSERT_GE(pairs.size(), 4u);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto difference = comparison.compare(pairs[i].first, pairs[i].second);
-    EXPECT_LE(difference.most, variant.tolerance);
-    EXPECT_GT(difference.lit_px, 100u) << "nothing was there to be compared";
-    EXPECT_EQ(pairs[i].second.blend, variant.mode);
-    EXPECT_EQ(pairs[i].second.format, variant.traits.formats.back());
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Runtimes, EveryRuntime, ::testing::ValuesIn(runtimes()),
-                         [](const auto& variant) { return std::string(variant.param.name); });
 
 TEST_F(RuntimeTest, DrawsEveryKindOfGoldenSceneAsItIs) {
   FrameComparison comparison(160, 120, render::Blend::kAdditive);
@@ -340,4 +217,4 @@ TEST_F(RuntimeTest, IsDescribedByRuntimeAndHeadset) {
 }
 
 }  // namespace
-}  // namespace orthonav::test
+}  // namespace orthonav::test::presenting_test

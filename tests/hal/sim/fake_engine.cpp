@@ -1,14 +1,8 @@
 #include "tests/hal/sim/fake_engine.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "hal/sim/shown_cross.h"
 
 namespace orthonav::sim {
-namespace {
-
 std::size_t tool_of(const RoomDescription& room, ToolKind kind) {
   for (std::size_t i = 0; i < room.tools.size(); ++i) {
     if (room.tools[i].kind == kind) {
@@ -17,8 +11,6 @@ std::size_t tool_of(const RoomDescription& room, ToolKind kind) {
   }
   return 0;
 }
-
-}  // namespace
 
 SimOptions without_pixels(std::uint64_t seed, const ErrorModel& error_model) {
   SimOptions options;
@@ -63,6 +55,7 @@ int FakeEngine::run() {
     for (const Phrase& phrase : phrases) {
       take(phrase);
     }
+    sample();
     draw(frame);
     if (on_frame) {
       on_frame(frame, step_);
@@ -100,6 +93,17 @@ void FakeEngine::take(const ClickerEvent& event) {
   } else if (event.action == ClickerAction::kClick && (checking || (step_.step == Step::kRod))) {
     touched();
   }
+}
+
+void FakeEngine::sample() {
+  const RoomState state = headset_.state();
+  const std::size_t pointer = tool_of(case_.room, ToolKind::kPointer);
+  if (!pressed_ || step_.step != Step::kDigitize || !state.tool_present[pointer]) {
+    return;
+  }
+  const auto tip = world_from_vertebra(level_label()).inverse() * headset_.world_from_room() *
+                   state.room_from_marker[pointer] * case_.room.tools[pointer].tip_in_marker;
+  region_.push_back(tip.v);
 }
 
 Point<World> FakeEngine::tip() const {
@@ -272,80 +276,6 @@ Transform<World, Vertebra> FakeEngine::world_from_vertebra(const std::string& la
 
 Transform<Vertebra, Vertebra> FakeEngine::vertebra_from_shown(const std::string& label) const {
   return room_from_vertebra(label).inverse() * room_from_shown(label);
-}
-
-void FakeEngine::draw(const StereoFrame& frame) {
-  const RoomState state = headset_.state();
-  const double time_s = seconds(frame.time.time_since_epoch()) - 100.0;
-  const bool blind = time_s >= options_.blind_from_s && time_s < options_.blind_to_s;
-  if (pressed_ && (step_.step == Step::kDigitize)) {
-    const std::size_t pointer = tool_of(case_.room, ToolKind::kPointer);
-    const auto tip = world_from_vertebra(level_label()).inverse() * headset_.world_from_room() *
-                     state.room_from_marker[pointer] * case_.room.tools[pointer].tip_in_marker;
-    if (state.tool_present[pointer]) {
-      region_.push_back(tip.v);
-    }
-  }
-  ShownFrame shown;
-  shown.pose_time = frame.time;
-  shown.display_time = headset_.display().predicted_display_time(headset_.clock().now());
-  shown.status = ShownStatus{step_, notice_, checks_, {}, {}};
-  if ((step_.step == Step::kVerify)) {
-    ShownHologram model{.kind = HologramKind::kVertebra};
-    const auto& vertices = level_named(level_label()).vertices_m;
-    for (const Vec3 d : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}}) {
-      const Vec3 extreme = *std::max_element(vertices.begin(), vertices.end(),
-                                             [d](Vec3 a, Vec3 b) { return a.dot(d) < b.dot(d); });
-      model.points_in_world.push_back(world_from_vertebra(level_label()) *
-                                      Point<Vertebra>{extreme});
-    }
-    shown.holograms.push_back(model);
-  }
-  if ((step_.step == Step::kGuide)) {
-    draw_screw(shown, state, blind);
-  }
-  static_cast<void>(headset_.display().shown(shown));
-}
-
-void FakeEngine::draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const {
-  const TestScrew& screw = case_.screws[screw_];
-  const auto from_vertebra = world_from_vertebra(screw.level);
-  const Point<World> entry = from_vertebra * screw.entry;
-  const Point<World> target = from_vertebra * screw.target;
-  const Vec3 outwards = (entry - target).normalized();
-  shown.holograms.push_back({.kind = HologramKind::kEntry,
-                             .level = screw.level,
-                             .side = screw.side,
-                             .points_in_world = {entry}});
-  shown.holograms.push_back({.kind = HologramKind::kTrajectory,
-                             .points_in_world = {entry + 0.060 * outwards, entry, target}});
-  const std::size_t guide = tool_of(case_.room, ToolKind::kGuide);
-  if (blind || !state.tool_present[guide]) {
-    return;
-  }
-  const auto world_from_marker = headset_.world_from_room() * state.room_from_marker[guide];
-  const RoomTool& tool = case_.room.tools[guide];
-  const Vec3 axis = (world_from_marker * Direction<Marker>{tool.axis_in_marker}).v;
-  if ((world_from_marker * tool.tip_in_marker - entry).norm() > 0.040) {
-    return;
-  }
-  // To a tenth of a degree, as the readout has it.
-  const double angle_deg = angle_between_rad(axis, outwards) * 180.0 / std::numbers::pi;
-  const double reading_rad = std::round(10.0 * angle_deg) / 10.0 * std::numbers::pi / 180.0;
-  shown.holograms.push_back(
-      {.kind = HologramKind::kTriangle,
-       .points_in_world = {entry, entry + kCrossReach_m * axis, entry + kCrossReach_m * outwards}});
-  shown.holograms.push_back({.kind = HologramKind::kAngle, .reading = reading_rad});
-  const Vec3 tip = world_from_marker * tool.tip_in_marker - entry;
-  const auto dot = [&](Vec3 from_entry) {
-    const Vec3 offset = from_entry - outwards * from_entry.dot(outwards);
-    const double held = std::min(1.0, kCrossRim_m / std::max(kCrossRim_m, offset.norm()));
-    return entry + kCrossScale * held * offset;
-  };
-  shown.holograms.push_back(
-      {.kind = HologramKind::kCross,
-       .points_in_world = {entry, dot(tip), dot(tip + kCrossReach_m * axis)}});
-  draw_numbers(shown, screw, tip, axis);
 }
 
 }  // namespace orthonav::sim

@@ -42,6 +42,9 @@ struct EngineOptions {
   int landmark_moves = 0;  ///< this many touches before a level's second screw find it elsewhere
 };
 
+/// The index of the room's first tool of that kind.
+std::size_t tool_of(const RoomDescription& room, ToolKind kind);
+
 /// For a simulation that renders nothing, for tests that need no images.
 SimOptions without_pixels(std::uint64_t seed, const ErrorModel& error_model = {});
 
@@ -76,10 +79,15 @@ class FakeEngine {
   void answer_about_wire(const std::string& phrase);
   void look_at_wire();
   void next_screw();
+  /// Adds where the pointer's tip is to the stroke, while one is made.
+  void sample();
   void draw(const StereoFrame& frame);
+  void draw_vertebra(ShownFrame& shown) const;
   /// H13 for a tip off the entry and an axis out of the bone, all in World.
   void draw_numbers(ShownFrame& shown, const TestScrew& screw, Vec3 tip_m, Vec3 axis) const;
   void draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const;
+  void draw_guide(ShownFrame& shown, const TestScrew& screw, Point<World> entry, Vec3 outwards,
+                  const RoomState& state) const;
   [[nodiscard]] std::string level_label() const { return order_[level_]; }
   [[nodiscard]] Transform<Room, Vertebra> room_from_vertebra(const std::string& label) const;
   [[nodiscard]] Transform<Room, Vertebra> room_from_shown(const std::string& label) const;

@@ -1,36 +1,24 @@
+#include "nav/calibration/stereo_board.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
+#include <vector>
 
 #include "base/random.h"
-#include "nav/calibration/epipolar.h"
-#include "nav/calibration/stereo_board.h"
+#include "tests/nav/calibration/board_cameras.h"
 
-namespace orthonav::nav {
+namespace orthonav::nav::stereo_board_test {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-struct Board;  // x along the columns, y down the rows, z away from who sees the face
-
-const Chessboard kBoard{9, 6, 0.025};
-constexpr ImageSize kSize{640, 480};
 constexpr double kNoisePx = 0.1;
-
-/// Two cameras, the right one upside down as those of a HoloLens 2 lie to each other.
-struct Cameras {
-  BrownConrady left{640, 480, 362.0, 361.0, 324.0, 238.0, -0.04, 0.01, 3e-4, -2e-4, 0.0};
-  BrownConrady right{640, 480, 359.0, 360.0, 317.0, 243.0, -0.038, 0.009, -2e-4, 3e-4, 0.0};
-  Transform<RightCamera, LeftCamera> right_from_left{
-      rotation_from_vector({0, 0, std::numbers::pi}) * rotation_from_vector({0.01, -0.02, 0.005}),
-      {0.001, 0.099, 0.003}};
-};
-
-Vec2 seen(const BrownConrady& camera, Vec3 p) { return camera.distort({p.x / p.z, p.y / p.z}); }
 
 bool inside(Vec2 p) { return p.x > 2 && p.y > 2 && p.x < 638 && p.y < 478; }
 
@@ -208,108 +196,5 @@ TEST(StereoBoard, RefusesWhatCannotBeCalibrated) {
   EXPECT_TRUE(!found || found->judgement.verdict != Verdict::kPass);
 }
 
-/// The board as a camera at the origin sees it, four by four rays a pixel, blurred like a lens
-/// does.
-GreyImage picture_of_board(const Chessboard& board, const BrownConrady& parameters,
-                           const Transform<LeftCamera, Board>& camera_from_board) {
-  const CameraModel camera = CameraModel::from_brown_conrady(parameters).value();
-  const auto board_from_camera = camera_from_board.inverse();
-  const Vec3 eye = board_from_camera.translation();
-  const auto grey = [&](Vec2 pixel) {
-    const auto unit = camera.unproject(pixel);
-    if (!unit) {
-      return 128.0;
-    }
-    const Vec3 ray = board_from_camera.rotation() * Vec3{unit->x, unit->y, 1.0};
-    const Vec3 p = eye - (eye.z / ray.z) * ray;
-    const int column = static_cast<int>(std::floor(p.x / board.square_m));
-    const int row = static_cast<int>(std::floor(p.y / board.square_m));
-    if (column < -2 || row < -2 || column > board.columns || row > board.rows) {
-      return 128.0;
-    }
-    if (column < -1 || row < -1 || column >= board.columns || row >= board.rows) {
-      return 225.0;
-    }
-    return (column + row) % 2 == 0 ? 30.0 : 225.0;  // the first inner square is dark
-  };
-  // Hammersley's points in a box two pixels wide: in each direction 64 different places, so that
-  // edges along the rows do not move in steps.
-  constexpr unsigned kRays = 64;
-  GreyImage image(kSize.width_px, kSize.height_px);
-  for (int y = 0; y < image.height_px; ++y) {
-    for (int x = 0; x < image.width_px; ++x) {
-      double sum = 0.0;
-      for (unsigned i = 0; i < kRays; ++i) {
-        unsigned reversed = 0;
-        for (unsigned bit = 0; bit < 6; ++bit) {
-          reversed |= ((i >> bit) & 1U) << (5U - bit);
-        }
-        sum += grey({x - 0.5 + (i + 0.5) / 32.0, y - 0.5 + (reversed + 0.5) / 32.0});
-      }
-      image.at(x, y) = static_cast<std::uint8_t>(std::lround(sum / kRays));
-    }
-  }
-  return image;
-}
-
-TEST(FindChessboard, GivesTheSameCornersFirstHoweverTheBoardIsTurned) {
-  // Measured 0.015-0.045 px RMS, least where edges run along the rows; half a pixel, the mistake
-  // to be found, would be 0.7 px.
-  constexpr double kCornerRmsPx = 0.06;
-  const Cameras cameras;
-  for (const double rotation_rad : {0.0, 1.2, 3.0, -1.8}) {
-    const Mat3 rotation =
-        rotation_from_vector({0.3, 0, 0}) * rotation_from_vector({0, -0.2, rotation_rad});
-    const Vec3 half{0.1, 0.0625, 0};
-    const Transform<LeftCamera, Board> pose{rotation, Vec3{0.01, -0.01, 0.35} - rotation * half};
-    const auto found = find_chessboard(picture_of_board(kBoard, cameras.left, pose), kBoard);
-    ASSERT_TRUE(found.has_value()) << rotation_rad;
-    ASSERT_THAT(*found, SizeIs(54));
-    double squared = 0.0;
-    for (std::size_t i = 0; i < 54; ++i) {
-      const Vec2 place = kBoard.corner_m(i);
-      const Vec2 off =
-          found->at(i) - seen(cameras.left, (pose * Point<Board>{{place.x, place.y, 0}}).v);
-      squared += off.dot(off) / 54;
-    }
-    EXPECT_LT(std::sqrt(squared), kCornerRmsPx) << "turned by " << rotation_rad;
-  }
-}
-
-TEST(FindChessboard, FindsNothingWhereThereIsNoBoard) {
-  EXPECT_FALSE(find_chessboard(GreyImage(320, 240, 128), kBoard).has_value());
-  EXPECT_FALSE(find_chessboard(GreyImage(), kBoard).has_value());
-  EXPECT_FALSE(find_chessboard(GreyImage(1, 1), kBoard).has_value());
-  const Mat3 rotation = rotation_from_vector({0.3, 0, 0});
-  const auto other =
-      picture_of_board({7, 5, 0.025}, Cameras{}.left, {rotation, {-0.08, -0.05, 0.4}});
-  EXPECT_FALSE(find_chessboard(other, kBoard).has_value()) << "another board";
-}
-
-// The interpolation error of the camera's table.
-constexpr double kTablePx = 1e-4;
-
-TEST(Epipolar, MeasuresInPixelsOfTheRightImage) {
-  const Cameras cameras;
-  const auto left = CameraModel::from_brown_conrady(cameras.left).value();
-  const auto right = CameraModel::from_brown_conrady(cameras.right).value();
-  Random random(8);
-  for (int i = 0; i < 50; ++i) {
-    const Point<LeftCamera> p{
-        {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(0.3, 0.6)}};
-    const Vec2 in_left = seen(cameras.left, p.v);
-    const Vec2 in_right = seen(cameras.right, (cameras.right_from_left * p).v);
-    const auto off = [&](Vec2 moved) {
-      return across_epipolar_px(left, right, cameras.right_from_left, in_left, in_right + moved)
-          .value();
-    };
-    EXPECT_NEAR(off({}), 0.0, kTablePx);
-    // The baseline runs down the images: only the part across it counts, with its whole length.
-    EXPECT_NEAR(std::hypot(off({0.5, 0}), off({0, 0.5})), 0.5, 0.01);
-  }
-  EXPECT_FALSE(
-      across_epipolar_px(left, right, cameras.right_from_left, {-50, 10}, {320, 240}).has_value());
-}
-
 }  // namespace
-}  // namespace orthonav::nav
+}  // namespace orthonav::nav::stereo_board_test

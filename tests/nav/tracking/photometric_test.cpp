@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "nav/tracking/photometric_pose.h"
+#include "tests/support/tag_picture.h"
 #include "tests/support/tag_scene.h"
 
 namespace orthonav::nav {

@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "engine/session/coach.h"
+#include "engine/session/wording.h"
+#include "tests/engine/session/promising_registration.h"
+
+namespace orthonav::engine::coach_test {
+namespace {
+
+TEST(Coaching, SaysWhatToExpectAndWhereToStroke) {
+  nav::Registration r = promising();
+  EXPECT_EQ(text_of(coaching_from(r)),
+            "expected error 2.4 mm (registration only), stroke the left lamina");
+  r.predicted_tre_m = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(text_of(coaching_from(r)),
+            "expected error -- mm (registration only), stroke the left lamina");
+}
+
+TEST(Coaching, SaysWhenItIsEnough) {
+  nav::Registration r = promising();
+  r.accepted = true;
+  r.reasons.clear();
+  r.predicted_tre_m = 0.0006;
+  EXPECT_EQ(text_of(coaching_from(r)),
+            "expected error 0.6 mm (registration only), enough to register");
+}
+
+TEST(Coaching, SendsWhoStrokesOverTissueToTheBone) {
+  nav::Registration r = promising();
+  r.provisional = true;
+  EXPECT_FALSE(coaching_from(r).enough) << "more strokes would help";
+  r.reasons.push_back({nav::RefusalReason::Kind::kSoftTissue, 0.001, 0.0003});
+  EXPECT_EQ(
+      text_of(coaching_from(r)),
+      "expected error 2.4 mm (registration only), soft tissue: register, then touch the bone, or "
+      "first scrape the left lamina");
+  r.stroke_next.reset();
+  EXPECT_EQ(
+      text_of(coaching_from(r)),
+      "expected error 2.4 mm (registration only), soft tissue: register, then touch the bone");
+}
+
+TEST(Coaching, AddsWhatAllStrokesShare) {
+  nav::Registration r = promising();
+  r.common.tip_m = 0.001;
+  EXPECT_EQ(text_of(coaching_from(r)), "expected error 3.0 mm, stroke the left lamina");
+}
+
+TEST(Coaching, PromisesNoErrorOfAPoseThatMayBeTheWrongOne) {
+  nav::Registration r = promising();
+  r.log_likelihood_ratio = 3.0;
+  r.predicted_tre_m = 0.0006;
+  EXPECT_EQ(text_of(coaching_from(r)), "ambiguous, stroke the left lamina");
+}
+
+TEST(Coaching, SaysWhatElseStandsAgainstASmallError) {
+  nav::Registration r = promising();
+  r.predicted_tre_m = 0.0006;
+  r.reasons = {{nav::RefusalReason::Kind::kNoise, 0.0019, 0.0016, {}, {}}};
+  EXPECT_EQ(
+      text_of(coaching_from(r)),
+      "expected error 0.6 mm (registration only), the points scatter 1.9 mm about the surface, "
+      "limit 1.6 mm");
+}
+
+}  // namespace
+}  // namespace orthonav::engine::coach_test

@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include "tests/engine/session/status_wording.h"
+
+namespace orthonav::engine::wording_test {
+namespace {
+
+TEST(Wording, GivesEveryReasonItsNumberAndLimit) {
+  EXPECT_EQ(text_of_reason(Reason::kRmse, 0.0034, 0.003), "registration RMSE 3.4 mm, limit 3.0 mm");
+  EXPECT_EQ(text_of_reason(Reason::kRunnerUpRmse, 1.02, 1.2),
+            "another pose fits nearly as well (1.02 times the RMSE, at least 1.20)");
+  EXPECT_EQ(text_of_reason(Reason::kTreAtCentre, 0.0041, 0.002),
+            "the points leave the bone loose: 4.1 mm error expected at its centre, limit 2.0 mm");
+  EXPECT_EQ(text_of_reason(Reason::kNoise, 0.0019, 0.0016),
+            "the points scatter 1.9 mm about the surface, limit 1.6 mm");
+  EXPECT_EQ(text_of_reason(Reason::kInliers, 0.5, 0.7),
+            "only 50 % of the points lie on the model, at least 70 %");
+  EXPECT_EQ(text_of_reason(Reason::kCoverage, 0.05, 0.1),
+            "only 5 % of the surface was stroked, at least 10 %");
+  EXPECT_EQ(text_of_reason(Reason::kShaftCollision, 0.4, 0.15),
+            "the pointer would have gone through bone at 40 % of the points, limit 15 %");
+  EXPECT_EQ(text_of_reason(Reason::kLogLikelihoodRatio, 3.25, 12.0),
+            "another pose fits nearly as well (margin 3.2, at least 12)");
+  EXPECT_EQ(text_of_reason(Reason::kTreAtScrews, 0.0024, 0.0015),
+            "error expected at the screws 2.4 mm, limit 1.5 mm");
+  EXPECT_EQ(text_of_reason(Reason::kTre99AtScrews, 0.0031, 0.002),
+            "1 of 100 errors at the screws would exceed 3.1 mm, limit 2.0 mm");
+  EXPECT_EQ(text_of(nav::RefusalReason{Reason::kFitsOtherLevel, 0.0, 0.0, {}, "L3"}),
+            "the points fit level L3 as well");
+}
+
+TEST(Wording, NeverSaysThatANumberExceedsItself) {
+  EXPECT_EQ(text_of_reason(Reason::kTre99AtScrews, 0.00204, 0.002),
+            "1 of 100 errors at the screws would exceed 2.04 mm, limit 2.00 mm");
+  EXPECT_EQ(text_of_reason(Reason::kInliers, 0.696, 0.7),
+            "only 69.6 % of the points lie on the model, at least 70.0 %");
+  EXPECT_EQ(text_of_reason(Reason::kLogLikelihoodRatio, 11.96, 12.0),
+            "another pose fits nearly as well (margin 11.96, at least 12.0)");
+  EXPECT_EQ(text_of_reason(Reason::kRmse, 0.00300001, 0.003),
+            "registration RMSE just over 3.0 mm, limit 3.0 mm");
+  EXPECT_EQ(text_of(nav::CheckAdvice{nav::CheckAdvice::Kind::kReject, 4, 0.002003, 0.002}),
+            "check point 4 is 2.003 mm off, limit 2.000 mm: reject and stroke again");
+  EXPECT_EQ(line_with(Message(TouchNotRecorded{TouchNotRecorded::What::kHead,
+                                               {TouchRefusal::Kind::kTipMoved, 0.00304, 0.003}})),
+            "head not recorded: tip moved 3.04 mm, limit 3.00 mm");
+}
+
+TEST(Wording, HasNoNegativeZero) {
+  constexpr double kTiny = -1e-9;
+  nav::CheckVerdict verdict{true, kTiny, {}};
+  Coaching coaching;
+  coaching.unique = true;
+  coaching.expected_m = kTiny;
+  const nav::UncertainMotion motion{nav::UncertainMotion::Kind::kCraniocaudal, kTiny};
+  std::string all = line_with(RegistrationFigures{kTiny, kTiny, true}) +
+                    line_with(ChecksSoFar{kTiny, 1, kTiny, &verdict}) +
+                    line_with(StrokesSoFar{1, &coaching}) + text_of(motion) +
+                    text_of(nav::CheckAdvice{nav::CheckAdvice::Kind::kReject, 4, kTiny, 0.002}) +
+                    text_of(nav::CheckAdvice{nav::CheckAdvice::Kind::kTouchApart, 3, kTiny, 0.0});
+  for (int kind = 0; kind < static_cast<int>(Reason::kFitsOtherLevel); ++kind) {
+    all += text_of_reason(static_cast<Reason>(kind), kTiny, 1.0);
+  }
+  append_tag_size_off(all, "pointer", kTiny);
+  EXPECT_EQ(all.find("-0"), std::string::npos) << all;
+}
+
+TEST(Wording, NamesTheMotionBehindAnError) {
+  const nav::UncertainMotion motion{nav::UncertainMotion::Kind::kCraniocaudal, 0.0012};
+  EXPECT_EQ(text_of(motion), "cranial-caudal shift (1.2 mm at the screws)");
+  EXPECT_EQ(text_of(nav::RefusalReason{Reason::kTreAtScrews, 0.0024, 0.0015, motion, {}}),
+            "error expected at the screws 2.4 mm, limit 1.5 mm: cranial-caudal shift (1.2 mm at "
+            "the screws)");
+  EXPECT_EQ(text_of(nav::UncertainMotion{}), "one motion of the bone is not determined");
+}
+
+TEST(Wording, SaysWhereToStroke) {
+  using Part = nav::BonePlace::Part;
+  using Height = nav::BonePlace::Height;
+  EXPECT_EQ(text_of(kLeftLamina), "stroke the left lamina");
+  EXPECT_EQ(text_of(nav::BonePlace{Part::kFacet, Side::kRight, Height::kUpper}),
+            "stroke the right upper facet and root of the transverse process");
+  EXPECT_EQ(text_of(nav::BonePlace{Part::kSpinousProcess, {}, Height::kLower}),
+            "stroke the lower spinous process");
+}
+
+TEST(Wording, AsksForCheckPoints) {
+  using Kind = nav::CheckAdvice::Kind;
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchApart, 3, 0.015, 0.0}),
+            "touch 3 places, 15 mm apart");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchApart, 2, 0.015, 0.0}),
+            "touch 2 more places, 15 mm from the others");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchApart, 1, 0.015, 0.0}),
+            "touch 1 more place, 15 mm from the others");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchOffLine, 1, 0.005, 0.0}),
+            "touch 1 more place, 5 mm off the line of the others");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kReject, 4, 0.0031, 0.002}),
+            "check point 4 is 3.1 mm off, limit 2.0 mm: reject and stroke again");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchMore, 1, 0.0026, 0.002}),
+            "touch 1 more place: 1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kUncertain, 1, 0.0026, 0.002}),
+            "1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm: reject and stroke "
+            "again");
+}
+
+TEST(Wording, SaysWhatStrokesAreWorth) {
+  Coaching coaching;
+  coaching.unique = true;
+  coaching.expected_m = 0.0024;
+  coaching.stroke_next = kLeftLamina;
+  EXPECT_EQ(text_of(coaching), "expected error 2.4 mm, stroke the left lamina");
+  EXPECT_EQ(line_with(StrokesSoFar{120, &coaching}),
+            "120 points | expected error 2.4 mm, stroke the left lamina");
+  coaching.against = nav::RefusalReason{Reason::kNoise, 0.0019, 0.0016, {}, {}};
+  EXPECT_EQ(text_of(coaching),
+            "expected error 2.4 mm, the points scatter 1.9 mm about the surface, limit 1.6 mm");
+  coaching.enough = true;
+  EXPECT_EQ(text_of(coaching), "expected error 2.4 mm, enough to register");
+  coaching.expected_m = kInfinite;
+  EXPECT_EQ(text_of(coaching), "expected error -- mm, enough to register");
+  coaching.unique = coaching.enough = false;
+  coaching.against.reset();
+  EXPECT_EQ(text_of(coaching), "ambiguous, stroke the left lamina")
+      << "no error is promised of a pose that may be the wrong one";
+}
+
+TEST(Wording, SaysWhyARegistrationWasRefusedAndWhatToDo) {
+  RegistrationRefused refused;
+  refused.reasons = {{Reason::kNoise, 0.0019, 0.0016, {}, {}},
+                     {Reason::kFitsOtherLevel, 0.0, 0.0, {}, "L3"}};
+  refused.stroke_next = kLeftLamina;
+  EXPECT_EQ(line_with(Message(refused)),
+            "refused: the points scatter 1.9 mm about the surface, limit 1.6 mm; the points fit "
+            "level L3 as well; stroke the left lamina");
+  refused.another_level_fits = true;
+  EXPECT_EQ(line_with(Message(refused)),
+            "refused: the points scatter 1.9 mm about the surface, limit 1.6 mm; the points fit "
+            "level L3 as well; verify the vertebral level");
+  RegistrationRefused none;
+  none.error = Error{"0 points, at least 100 needed"};
+  EXPECT_EQ(line_with(Message(none)), "refused: 0 points, at least 100 needed");
+}
+
+}  // namespace
+}  // namespace orthonav::engine::wording_test

@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include "base/angle.h"
+#include "tests/engine/session/status_wording.h"
+
+namespace orthonav::engine::wording_test {
+namespace {
+
+PlacedWire wire_off(double angle_deg, double entry_m) {
+  PlacedWire wire;
+  wire.axis.angle_rad = {angle_deg * kRadiansPerDegree, 0.9 * kRadiansPerDegree};
+  wire.axis.entry_m = {entry_m, 0.0006};
+  wire.angle_limit_rad = 2.0 * kRadiansPerDegree;
+  wire.entry_limit_m = 0.002;
+  return wire;
+}
+
+TEST(Wording, AsksForTheSleeveAndTellsHowTheWireStands) {
+  EXPECT_EQ(line_with(WireSoFar{}), "set the sleeve over the wire, turn it and click, or say next");
+  const PlacedWire within = wire_off(0.8, 0.0006);
+  EXPECT_EQ(line_with(WireSoFar{&within}), "placed: 0.8 ± 0.9°, 0.6 ± 0.6 mm from the plan");
+  const PlacedWire turned = wire_off(2.04, 0.0006);
+  EXPECT_EQ(line_with(WireSoFar{&turned}),
+            "placed: 2.0 ± 0.9°, 0.6 ± 0.6 mm from the plan; angle 2.04°, limit 2.00°: say accept "
+            "to keep it, delete to redo it");
+  PlacedWire off = wire_off(2.6, 0.0031);
+  EXPECT_EQ(line_with(WireSoFar{&off, true}),
+            "placed: 2.6 ± 0.9°, 3.1 ± 0.6 mm from the plan; angle 2.6°, limit 2.0°; entry 3.1 mm, "
+            "limit 2.0 mm: no other entry stays inside the bone, say accept to keep it");
+  off.kept = true;
+  EXPECT_EQ(line_with(WireSoFar{&off}),
+            "placed: 2.6 ± 0.9°, 3.1 ± 0.6 mm from the plan; angle 2.6°, limit 2.0°; entry 3.1 mm, "
+            "limit 2.0 mm: kept, say next");
+  StatusLine lost;
+  lost.tool = "guide";
+  lost.tool_lost = true;
+  lost.state = WireSoFar{};
+  EXPECT_EQ(detail_text(lost),
+            "guide lost; set the sleeve over the wire, turn it and click, or say next");
+}
+
+TEST(Wording, SaysWhyAWireWasNotMeasuredAndWhatBecomesOfIt) {
+  using Kind = TouchRefusal::Kind;
+  const auto refused = [](const TouchRefusal& why) {
+    return line_with(Message(TouchNotRecorded{TouchNotRecorded::What::kWire, why}));
+  };
+  const double deg = kRadiansPerDegree;
+  EXPECT_EQ(refused({Kind::kGuideNotSeen}), "wire not recorded: guide not seen all the while");
+  EXPECT_EQ(refused({Kind::kReferenceNotSeen}), "wire not recorded: reference not seen");
+  EXPECT_EQ(refused({Kind::kSleeveTurned, 0.0, 0.0, 1.4 * deg, 1.0 * deg}),
+            "wire not recorded: sleeve turned 1.4°, limit 1.0°");
+  EXPECT_EQ(refused({Kind::kOffTheScrew, 0.021, 0.015}),
+            "wire not recorded: sleeve 21 mm off the entry, limit 15 mm");
+  EXPECT_EQ(refused({Kind::kAcrossTheScrew, 0.0, 0.0, 41.0 * deg, 30.0 * deg}),
+            "wire not recorded: sleeve 41° off the plan, limit 30°");
+  EXPECT_EQ(refused({Kind::kEntryUnsure, 0.0018, 0.0015}),
+            "wire not recorded: place known to ± 1.8 mm, limit 1.5 mm");
+  EXPECT_EQ(refused({Kind::kEntryUnsure, kInfinite, 0.0015}),
+            "wire not recorded: how sure the registration is, is not known");
+  EXPECT_EQ(refused({Kind::kAngleUnsure, 0.0, 0.0, 1.8 * deg, 1.5 * deg}),
+            "wire not recorded: angle known to ± 1.8°, limit 1.5°");
+  EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kWire})),
+            "measure the wire first");
+  EXPECT_EQ(line_with(Message(WireUndecided{})),
+            "not yet: say accept to keep it, delete to redo it");
+  EXPECT_EQ(line_with(Message(NoOtherEntry{})),
+            "no other entry stays inside the bone, say accept to keep it");
+  EXPECT_EQ(line_with(Message(ConfirmRedo{1})),
+            "redone once already: say delete again to redo it, accept to keep it");
+  EXPECT_EQ(line_with(Message(ConfirmRedo{2})),
+            "redone 2 times already: say delete again to redo it, accept to keep it");
+  EXPECT_EQ(line_with(Message(ScrewRedone{0.0034, 0.0018})),
+            "new entry 3.4 mm from the hole, clearance 1.8 mm: take the wire out and touch the "
+            "dimple");
+}
+
+}  // namespace
+}  // namespace orthonav::engine::wording_test

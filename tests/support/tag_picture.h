@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "base/vec.h"
+
+namespace orthonav::test {
+
+/// The picture of a tag, straight from the AprilTag library: true is white.
+struct TagPicture {
+  int cells = 0;         ///< a side, with the white border
+  int border_cells = 0;  ///< outside the edge that is the tag's size
+  std::vector<bool> white;
+};
+TagPicture tag_picture(const std::string& family, int id);
+
+inline constexpr double kTagWhite = 230.0;
+inline constexpr double kTagBlack = 20.0;
+
+/// Grey where a ray of the marker frame meets the tag's plane; negative beside the tag.
+inline double grey_on(const TagPicture& tag, double size_m, double x_m, double y_m) {
+  const double cell_m = size_m / (tag.cells - 2 * tag.border_cells);
+  const int column = static_cast<int>(std::floor(x_m / cell_m + tag.cells / 2.0));
+  const int row = static_cast<int>(std::floor(-y_m / cell_m + tag.cells / 2.0));
+  if (column < 0 || row < 0 || column >= tag.cells || row >= tag.cells) {
+    return -1.0;
+  }
+  return tag.white[static_cast<std::size_t>(row * tag.cells + column)] ? kTagWhite : kTagBlack;
+}
+
+/// Where the n-th ray goes in a pixel's footprint: a box two pixels wide, like a lens's blur. With
+/// unblurred edges along the rows the library's corners are off by a quarter of a pixel.
+inline Vec2 place_of(int x, int y, int ray, int rays_a_side) {
+  return {x - 0.5 + 2.0 * (ray % rays_a_side + 0.5) / rays_a_side,
+          y - 0.5 + 2.0 * (ray / rays_a_side + 0.5) / rays_a_side};
+}
+
+/// A flat picture: the tag magnified to `cell_px` a cell with its outer edge's top left corner at
+/// `corner`, in continuous pixels, on white.
+GreyImage flat_picture(const std::string& family, int id, int width_px, int height_px, Vec2 corner,
+                       double cell_px);
+
+/// Kalibr's AprilGrid on white: tags of ids 0, 1, ... with a black border two cells wide, and small
+/// black squares between them that touch their corners. The first tag's outer edge begins at
+/// (10 cell_px · spacing) from the left and the top; the next is (1 + spacing) edges farther.
+GreyImage april_grid_picture(int columns, int rows, double cell_px, double spacing);
+
+}  // namespace orthonav::test
