@@ -79,7 +79,7 @@ TEST(SimHeadset, PredictsTheHeadFromItsVelocityAndLosesItBeyondItsReach) {
   next_frame(*headset);
   const auto truth = headset->world_from_room() * headset->state().room_from_rig;
   // A swaying head is predicted over a frame within a tenth of a millimetre.
-  EXPECT_LT((predicted.value.translation() - truth.translation()).norm(), 0.0005);
+  EXPECT_LT((predicted.value.translation() - truth.translation()).norm(), 0.0001);
   EXPECT_EQ(headset->head().world_from_rig(frame.time).status, PoseStatus::kMeasured);
   EXPECT_EQ(headset->head().world_from_rig(ahead + std::chrono::milliseconds(200)).status,
             PoseStatus::kLost);

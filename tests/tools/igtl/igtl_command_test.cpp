@@ -64,7 +64,8 @@ TEST(IgtlCommand, AnswersWhatItsClientsAskWhereTheyMay) {
   ASSERT_TRUE(test::wait_until([&] { return (port = port_of(command)) != 0; }));
   test::IgtlClient client(port);
   // Once it runs.
-  while (client.next() != "STRING Guidance") {
+  for (std::string name = client.next(); name != "STRING Guidance"; name = client.next()) {
+    ASSERT_FALSE(name.empty()) << "it ended";
   }
   client.send(igtl::packed_text({"Command", 0}, "begin"));
   client.send(igtl::packed_text({"Plan", 0}, kScrew));
