@@ -48,9 +48,8 @@ Vec2 undistorted(const BrownConrady& p, Vec2 pixel_px) {
     const Vec2 step{off.cross(by_y) / determinant, by_x.cross(off) / determinant};
     u = u + step;
     if (step.norm() * p.fx_px < kFinalStepPx) {
-      return distort_jacobian(p, u)[0].cross(distort_jacobian(p, u)[1]) > 0.0
-                 ? u
-                 : Vec2{kUndefined, kUndefined};
+      const auto [last_by_x, last_by_y] = distort_jacobian(p, u);
+      return last_by_x.cross(last_by_y) > 0.0 ? u : Vec2{kUndefined, kUndefined};
     }
   }
   return {kUndefined, kUndefined};

@@ -10,6 +10,7 @@ namespace orthonav::sim {
 /// by 180° relative to the left; Rig is x right, y up, z backward, at the left camera.
 [[nodiscard]] BrownConrady hololens2_left();
 [[nodiscard]] BrownConrady hololens2_right();
-[[nodiscard]] StereoCalibration hololens2_calibration();
+/// Made at the first call, since its look-up tables take a tenth of a second.
+[[nodiscard]] const StereoCalibration& hololens2_calibration();
 
 }  // namespace orthonav::sim

@@ -98,11 +98,15 @@ TEST_F(CoachedLoop, ACoachThatHangsIsNamedBeforeItIsAwaited) {
 TEST_F(CoachedLoop, IsNotTimedByPairsThatComeFasterThanTime) {
   options.real_time = false;
   fake::FakeHeadset headset(pairs(60));
+  // The trial is asked for at the tenth pair and answered fifteen later, however late its thread
+  // begins; by the second to last of these, it has taken longer than a stall.
+  constexpr int kPairsOfTrial = Coach::kPairsToAnswer - 2;
+  ASSERT_GT(kPairsOfTrial * test::kPair, kStallAfter);
+  const Timestamp late = test::kStart + (10 + kPairsOfTrial) * test::kPair;
   std::atomic<int> trials = 0;
   s.before_registering = [&] {
-    const Timestamp began = headset.clock().now();
     if (trials++ == 0) {
-      EXPECT_TRUE(wait_until([&] { return headset.clock().now() - began > kStallAfter; }));
+      EXPECT_TRUE(wait_until([&] { return headset.clock().now() >= late; }));
     }
   };
   const auto report = run(headset);
