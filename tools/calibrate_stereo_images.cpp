@@ -126,8 +126,8 @@ nlohmann::ordered_json json_of(const Views& views, const nav::StereoBoardCalibra
   return list;
 }
 
-nlohmann::ordered_json as_json(const StereoArguments& arguments, const Views& views,
-                               const nav::StereoBoardCalibration& found) {
+nlohmann::ordered_json result_json(const StereoArguments& arguments, const Views& views,
+                                   const nav::StereoBoardCalibration& found) {
   nlohmann::ordered_json out = {
       {"format", "orthonav stereo calibration"},
       {"format_version", 1},
@@ -206,7 +206,7 @@ int run_stereo_images(const StereoArguments& arguments) {
   if (!found) {
     return refused(found.error().message);
   }
-  if (const Status s = arguments.json.write(as_json(arguments, *views, *found)); !s) {
+  if (const Status s = arguments.json.write(result_json(arguments, *views, *found)); !s) {
     return bad_input(s.error().message);
   }
   if (!arguments.json.on_stdout()) {

@@ -46,8 +46,9 @@ Result<std::vector<nav::BoardTag>> tags_of(const std::string& path) {
   return tags;
 }
 
-nlohmann::ordered_json as_json(const StereoArguments& arguments, const RecordedSightings& seen,
-                               const Result<nav::StereoRecording>& found) {
+nlohmann::ordered_json recording_json(const StereoArguments& arguments,
+                                      const RecordedSightings& seen,
+                                      const Result<nav::StereoRecording>& found) {
   nlohmann::ordered_json out = {{"format", "orthonav stereo calibration"},
                                 {"format_version", 1},
                                 {"source", "recording"},
@@ -116,7 +117,7 @@ int run_stereo_recording(const StereoArguments& arguments) {
     return bad_input(seen.error().message);
   }
   const auto found = nav::calibrate_stereo(seen->calibration, *board, seen->pairs);
-  if (const Status s = arguments.json.write(as_json(arguments, *seen, found)); !s) {
+  if (const Status s = arguments.json.write(recording_json(arguments, *seen, found)); !s) {
     return bad_input(s.error().message);
   }
   if (!found) {

@@ -83,7 +83,7 @@ Status check(const CaseArguments& arguments) {
   return {};
 }
 
-nlohmann::ordered_json as_json(const engine::ScanLevels& made) {
+nlohmann::ordered_json levels_json(const engine::ScanLevels& made) {
   nlohmann::ordered_json out = {{"levels", nlohmann::ordered_json::array()},
                                 {"left_out", made.left_out}};
   for (const engine::ScanLevel& level : made.levels) {
@@ -160,7 +160,7 @@ int run_make(const CaseArguments& arguments) {
   }
   const Status saved =
       engine::save_case(arguments.out, engine::case_of(*made, case_name(arguments)));
-  if (const Status s = saved ? arguments.json.write(as_json(*made)) : saved; !s) {
+  if (const Status s = saved ? arguments.json.write(levels_json(*made)) : saved; !s) {
     return bad_input(s.error().message);
   }
   warn(*made);

@@ -12,18 +12,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kAbsent = "\u2013";
-
 std::string word_of(const json& object, const char* key) {
   const std::string text = text_in(object, key);
-  return text.empty() ? kAbsent : html_escaped(text);
+  return text.empty() ? kNoValue : html_escaped(text);
 }
 
 /// `beside`: the text after the number, if any.
 void millimetre_cell(HtmlTable& table, const json& object, const char* key,
                      const char* beside = "") {
   const auto value = value_of(object, key);
-  table.cell(value ? html_number(*value, 2) + beside : std::string(kAbsent),
+  table.cell(value ? html_number(*value, 2) + beside : std::string(kNoValue),
              value && *value < 0.0 ? "bad" : "");
 }
 
@@ -35,7 +33,7 @@ std::string where_text(const json& object) {
 
 std::string grades_text(const json& object) {
   const std::string text = likely_grades(object_in(object, "grade_probability"));
-  return text.empty() ? kAbsent : text;
+  return text.empty() ? kNoValue : text;
 }
 
 /// The bound, with a remark that it lacks the errors that all strokes share.

@@ -37,11 +37,11 @@ std::string html_escaped(const std::string& text) {
 }
 
 std::string html_number(double value, int decimals) {
-  return std::isfinite(value) ? with_true_minus(printed("%.*f", decimals, value)) : "\u2013";
+  return std::isfinite(value) ? with_true_minus(printed("%.*f", decimals, value)) : kNoValue;
 }
 
 std::string html_number_beside(double value, double limit, int decimals) {
-  return std::isfinite(value) ? with_true_minus(value_beside(value, limit, decimals)) : "\u2013";
+  return std::isfinite(value) ? with_true_minus(value_beside(value, limit, decimals)) : kNoValue;
 }
 
 std::string formatted(const char* format, double a, double b, double c, double d) {

@@ -4,6 +4,9 @@
 
 namespace orthonav::engine {
 
+/// Stands for a value that is absent or unknown.
+inline constexpr const char* kNoValue = "\u2013";
+
 /// Shown beside an expected error, or a bound, that does not include common errors of all strokes.
 inline constexpr const char* kRegistrationOnlyHtml = " <small>registration only</small>";
 

@@ -11,19 +11,17 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr const char* kNone = "\u2013";
-
 void put_row(HtmlTable& table, const nlohmann::json& report, const PaperRow& row, bool simulated) {
   const nav::Summary s = nav::summarize(values_of(report, row.key, row.per_screw));
   const auto number = [&row](double value) { return html_number(value, row.decimals); };
   table.row(std::string(row.name) + " <small>" + std::string(row.unit) + "</small>");
   table.cell(number(row.mean) + " \u00b1 " + number(row.sd));
   if (s.count == 0) {
-    table.cell(kNone);
-    table.cell(kNone);
+    table.cell(kNoValue);
+    table.cell(kNoValue);
   } else {
     table.cell(number(s.mean) + (s.count > 1 ? " \u00b1 " + number(s.sd) : ""), "ours");
-    table.cell(s.count > 1 ? number(s.min) + "\u2013" + number(s.max) : kNone);
+    table.cell(s.count > 1 ? number(s.min) + "\u2013" + number(s.max) : kNoValue);
   }
   table.cell(std::to_string(s.count) + (row.per_screw ? " screw" : " level") +
              (s.count == 1 ? "" : "s"));

@@ -94,7 +94,7 @@ std::string timing_section(const json& report, const std::vector<ReportTiming>& 
   for (const ReportTiming& timing : timings) {
     const auto at = [&timing](double fraction) {
       const auto value = quantile(timing.ms, fraction);
-      return value ? html_number(*value, 2) : std::string("\u2013");
+      return value ? html_number(*value, 2) : std::string(kNoValue);
     };
     table.row(html_escaped(timing.name));
     table.cell(at(0.5));

@@ -27,7 +27,7 @@ std::optional<double> value_of(const nlohmann::json& object, std::string_view ke
 
 std::string figure(const nlohmann::json& object, std::string_view key, int decimals) {
   const auto value = value_of(object, key);
-  return value ? html_number(*value, decimals) : "\u2013";
+  return value ? html_number(*value, decimals) : kNoValue;
 }
 
 std::string text_in(const nlohmann::json& object, std::string_view key) {

@@ -15,8 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kNone = "\u2013";
-
 /// "6.5 × 40".
 std::string size_of(const json& screw) {
   const json& planned = object_in(screw, "planned");
@@ -29,7 +27,7 @@ std::string size_of(const json& screw) {
 
 /// A cell with an error against the truth, and its limit.
 void error_cell(HtmlTable& table, const std::optional<double>& value, double limit) {
-  table.cell(value ? html_number_beside(*value, limit, 1) : kNone,
+  table.cell(value ? html_number_beside(*value, limit, 1) : kNoValue,
              value && *value > limit ? "bad" : "");
 }
 
@@ -40,7 +38,7 @@ void clearance_cell(HtmlTable& table, const json& screw) {
   const json& from = known ? screw : tracked;
   const auto clearance = value_of(from, "clearance_mm");
   if (!clearance) {
-    table.cell(kNone);
+    table.cell(kNoValue);
     return;
   }
   table.cell(html_number(*clearance, 1) + " " + html_escaped(text_in(from, "grade")) +

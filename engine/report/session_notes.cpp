@@ -6,7 +6,7 @@
 namespace orthonav::engine {
 
 std::string wire_text(const RecordedScrew& screw) {
-  std::string text = "\u2013";
+  std::string text = kNoValue;
   if (const auto& wire = screw.wire) {
     text = html_number(degrees(wire->angle_rad), 1) + " \u00b1 " +
            html_number(degrees(wire->angle_sd_rad), 1) + "\u00b0, " +

@@ -72,7 +72,7 @@ std::string touches_of_landmark(const RecordedLevel& level) {
             (touch.within ? off : "<span class=bad>" + off + "</span>") +
             (touch.dropped ? " (taken back)" : "");
   }
-  return text.empty() ? "\u2013" : text;
+  return text.empty() ? kNoValue : text;
 }
 
 /// An error or a bound in mm, with a remark if it lacks the errors that all strokes share.

@@ -14,12 +14,12 @@ constexpr const char* kOneOf100 =
     "1 of 100 errors at the screws would exceed %.1f mm, limit %.1f mm";
 
 /// The words for a number and its limit, and the unit in which it is shown.
-struct NumberWords {
+struct LimitWords {
   const char* format;
   double unit;
 };
 
-NumberWords words_about(nav::RefusalReason::Kind kind) {
+LimitWords words_about(nav::RefusalReason::Kind kind) {
   using enum nav::RefusalReason::Kind;
   switch (kind) {
     case kRmse:

@@ -7,7 +7,7 @@ namespace orthonav::sim {
 namespace {
 
 /// Finer than the sensor's steps of 1 mm.
-constexpr double kBoneCellM = 0.0008;
+constexpr double kSensedCellM = 0.0008;
 constexpr float kNearestM = 0.02F;
 
 Material material_of(Ground::Kind kind) {
@@ -74,7 +74,7 @@ DepthRenderer::DepthRenderer(const RoomDescription& room, const DepthModel& mode
     : model_(model),
       calibration_(calibration_of(model)),
       ground_(room),
-      bones_(room, ground_, kBoneCellM),
+      bones_(room, ground_, kSensedCellM),
       bodies_(room) {}
 
 void DepthRenderer::render(const RoomState& state, std::vector<DepthSight>& sights) {

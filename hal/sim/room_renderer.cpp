@@ -11,7 +11,7 @@ namespace orthonav::sim {
 namespace {
 
 /// Thins the bones to about a pixel of the background at arm's length.
-constexpr double kBoneCellM = 0.0025;
+constexpr double kCoarseCellM = 0.0025;
 
 /// Doubles the resolution: value i of the source belongs to value 2i+1 of the target.
 void doubled(const HalfImage& from, HalfImage& to) {
@@ -96,7 +96,7 @@ std::unique_ptr<RoomRenderer> RoomRenderer::create(RoomDescription room,
 SoftwareRoomRenderer::SoftwareRoomRenderer(RoomDescription room, const ErrorModel& error_model)
     : room_(std::move(room)),
       ground_(room_),
-      coarse_bones_(room_, ground_, kBoneCellM),
+      coarse_bones_(room_, ground_, kCoarseCellM),
       error_model_(error_model),
       bodies_(room_),
       sensor_(error_model),

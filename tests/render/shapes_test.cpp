@@ -9,7 +9,7 @@
 
 #include "render/float3.h"
 
-namespace orthonav::render {
+namespace orthonav::render::shapes_test {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -113,4 +113,4 @@ TEST(SmoothNormals, OfAFlatSheetStandOnIt) {
 }
 
 }  // namespace
-}  // namespace orthonav::render
+}  // namespace orthonav::render::shapes_test

@@ -9,7 +9,7 @@
 
 #include "hal/sim/shown_cross.h"
 
-namespace orthonav::sim {
+namespace orthonav::sim::deviation_test {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
@@ -111,4 +111,4 @@ TEST(ReadDeviation, IsNothingWhereAPartIsMissingOrNoNumber) {
 }
 
 }  // namespace
-}  // namespace orthonav::sim
+}  // namespace orthonav::sim::deviation_test

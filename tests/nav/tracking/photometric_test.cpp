@@ -9,7 +9,7 @@
 #include "tests/support/tag_picture.h"
 #include "tests/support/tag_scene.h"
 
-namespace orthonav::nav {
+namespace orthonav::nav::photometric_test {
 namespace {
 
 constexpr double kTagM = 0.05;
@@ -246,4 +246,4 @@ TEST(TagTemplate, HasAWiderBorderWhereTheNameSaysSo) {
 }
 
 }  // namespace
-}  // namespace orthonav::nav
+}  // namespace orthonav::nav::photometric_test
