@@ -1,0 +1,28 @@
+#include "engine/study/study_reading.h"
+#include "engine/study/system_profile.h"
+#include "tests/fuzz/input_file.h"
+
+namespace orthonav::fuzz {
+
+/// What studies read: profiles of systems, and results of another study; the first byte chooses.
+void fuzz_systems(std::span<const std::uint8_t> input) {
+  if (input.empty()) {
+    return;
+  }
+  const std::string text = text_of(input.subspan(1));
+  if (input[0] % 2 == 1) {
+    const auto study = engine::parse_study(text, "study");
+    insist(study.ok() || study.error().message.find('\n') == std::string::npos);
+    return;
+  }
+  const auto systems = engine::parse_systems(text, "systems");
+  if (!systems) {
+    insist(systems.error().message.find('\n') == std::string::npos);
+    return;
+  }
+  for (const engine::SystemProfile& system : *systems) {
+    insist(!system.name.empty());
+  }
+}
+
+}  // namespace orthonav::fuzz
