@@ -7,6 +7,7 @@
 
 #include <toml++/toml.h>
 
+#include "base/one_line.h"
 #include "engine/io/json_document.h"
 #include "tools/did_you_mean.h"
 
@@ -20,7 +21,7 @@ std::string at(const std::string& path, const toml::source_region& where) {
 Error unknown(const std::string& place, const std::string& what, const std::string& name,
               const std::vector<std::string>& known) {
   const std::string meant = closest(name, known);
-  return Error{place + "unknown " + what + " \"" + name + "\"" +
+  return Error{place + "unknown " + what + " \"" + one_line(name) + "\"" +
                (meant.empty() ? "" : "; did you mean " + meant + "?") +
                " (see orthonav config show)"};
 }
@@ -129,7 +130,7 @@ Result<ConfigFile> ConfigFile::load(const std::string& path) {
   try {
     sections = toml::parse(std::string_view(*text), path);
   } catch (const toml::parse_error& error) {
-    return Error{at(path, error.source()) + std::string(error.description())};
+    return Error{at(path, error.source()) + one_line(std::string(error.description()))};
   }
   ConfigFile file;
   file.path_ = path;
@@ -162,7 +163,7 @@ Status ConfigFile::apply_to(CLI::App& command) const {
       option->run_callback();
     } catch (const CLI::ParseError& error) {
       return Error{path_ + ":" + std::to_string(value.line) + ": " + value.key->section + "." +
-                   value.key->key + " (" + error.what() + ")"};
+                   value.key->key + " (" + one_line(error.what()) + ")"};
     }
   }
   return {};

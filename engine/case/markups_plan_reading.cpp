@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string_view>
 
+#include "base/one_line.h"
 #include "engine/case/line_name.h"
 #include "engine/case/markups_plan.h"
 #include "engine/io/slicer_markups.h"
@@ -47,10 +47,7 @@ std::string accepted_breach(const Markup& markup) {
 /// A name may have any length and content; a message is one line.
 std::string quoted(const std::string& name) {
   constexpr std::size_t kMost = 60;
-  std::string shown = name.size() <= kMost ? name : name.substr(0, kMost) + "...";
-  std::replace_if(
-      shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-  return "\"" + shown + "\"";
+  return "\"" + one_line(name.size() <= kMost ? name : name.substr(0, kMost) + "...") + "\"";
 }
 
 std::optional<nav::Side> side_of(const LineName& name) {

@@ -57,8 +57,9 @@ struct VolumeGrid {
   }
 };
 
-/// Refuses spacings outside 0.05-20 mm, axes that are not at right angles or not of unit length,
-/// and an origin that is not finite.
+/// Refuses fewer than 2 or more than 10,000 voxels along an axis, more than 2^30 in all, spacings
+/// outside 0.05-20 mm, axes that are not at right angles or not of unit length, and an origin that
+/// is not finite.
 [[nodiscard]] Status check_grid(const VolumeGrid& grid);
 
 /// A scan (HU) or a label map, as stored in its file. Several layers lie one after another, voxel

@@ -11,8 +11,9 @@ namespace orthonav::engine {
 /// slices of one series (`series`: its UID, where the folder holds several), in HU. DICOM slices
 /// are ordered by position (engine/scan/dicom_order.h); files that are not DICOM are skipped.
 /// Refuses in one line unreadable files, those without three dimensions, more than 2^30 voxels,
-/// axes that are not at right angles or spacings outside 0.05-20 mm. Needs the Insight Toolkit; its
-/// exceptions end here.
+/// axes that are not at right angles or spacings outside 0.05-20 mm, and files whose voxels are not
+/// in them. Needs the Insight Toolkit, which runs in a child process: GDCM ends its program by
+/// assertions where a file is damaged.
 Result<Volume> load_volume(const std::string& path, const std::string& series = {});
 
 }  // namespace orthonav::engine

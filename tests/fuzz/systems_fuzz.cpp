@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "engine/study/study_reading.h"
 #include "engine/study/system_profile.h"
 #include "tests/fuzz/input_file.h"

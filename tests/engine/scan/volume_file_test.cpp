@@ -76,6 +76,30 @@ TEST(VolumeFile, ReadsTheLayersOfASegmentation) {
   EXPECT_EQ(volume->fields.at("Segment0_Layer"), "1");
 }
 
+TEST(VolumeFile, ReadsNoOtherFileThatAHeaderNames) {
+  const TemporaryFolder folder;
+  const std::string voxels = folder.with("secret.raw", std::string(16, '\1'));
+  const std::string header =
+      "NRRD0005\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 2 2\n"
+      "space directions: (1,0,0) (0,1,0) (0,0,1)\nendian: little\nencoding: raw\n"
+      "space origin: (0,0,0)\n";
+  for (const std::string& name : {std::string("secret.raw"), voxels}) {
+    EXPECT_THAT(refusal(folder.with("a.nrrd", header + "data file: " + name + "\n\n")),
+                HasSubstr("a.nrrd: its voxels are in another file"));
+  }
+  EXPECT_TRUE(load_volume(folder.with("b.nrrd", header + "\n" + std::string(16, '\1'))).ok());
+}
+
+TEST(VolumeFile, TakesNoMemoryForVoxelsThatCannotBeThere) {
+  const TemporaryFolder folder;
+  const std::string refused =
+      refusal(folder.with("a.nrrd",
+                          "NRRD0005\ntype: double\ndimension: 3\nspace: left-posterior-superior\n"
+                          "sizes: 1000 1000 1000\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+                          "endian: little\nencoding: raw\nspace origin: (0,0,0)\n\nfew"));
+  EXPECT_THAT(refused, HasSubstr("too short for 8000000000 bytes of voxels"));
+}
+
 TEST(VolumeFile, RefusesWhatItCannotRead) {
   const TemporaryFolder folder;
   EXPECT_THAT(refusal(folder.file("none.nii.gz")), HasSubstr("no such file or folder"));

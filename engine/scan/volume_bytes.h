@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+#include "base/result.h"
+#include "engine/scan/volume.h"
+
+namespace orthonav::engine {
+
+/// A volume, or why there is none, from one process to another of the same program. False where the
+/// file can't be written.
+bool write_volume(int file, const Result<Volume>& volume);
+Result<Volume> volume_of(std::string_view bytes);
+
+}  // namespace orthonav::engine
