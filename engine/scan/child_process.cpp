@@ -15,6 +15,15 @@
 #include <string>
 #include <utility>
 
+// Sanitizers map terabytes that they never use.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ORTHONAV_MAPS_MORE_THAN_IT_USES 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define ORTHONAV_MAPS_MORE_THAN_IT_USES 1
+#endif
+#endif
+
 namespace orthonav::engine {
 namespace {
 
@@ -46,9 +55,11 @@ rlim_t address_space_bytes() {
   const auto seconds = static_cast<rlim_t>(limits.processor.count());
   const rlimit processor{seconds, seconds + 1};
   ::setrlimit(RLIMIT_CPU, &processor);
-  const rlim_t bytes = address_space_bytes() + limits.memory_bytes;
-  const rlimit memory{bytes, bytes};
-  ::setrlimit(RLIMIT_AS, &memory);
+  if (memory_can_be_limited()) {
+    const rlim_t bytes = address_space_bytes() + limits.memory_bytes;
+    const rlimit memory{bytes, bytes};
+    ::setrlimit(RLIMIT_AS, &memory);
+  }
   print_nothing();
   bool done = false;
   try {
@@ -105,6 +116,14 @@ ChildBytes& ChildBytes::operator=(ChildBytes&& other) noexcept {
   std::swap(bytes_, other.bytes_);
   std::swap(size_, other.size_);
   return *this;
+}
+
+bool memory_can_be_limited() {
+#ifdef ORTHONAV_MAPS_MORE_THAN_IT_USES
+  return false;
+#else
+  return true;
+#endif
 }
 
 bool write_all(int file, std::string_view bytes) {

@@ -42,6 +42,9 @@ struct ChildLimits {
 Result<ChildBytes> bytes_from_child(const ChildLimits& limits,
                                     const std::function<bool(int file)>& work);
 
+/// False under sanitizers: children have no bound on their memory there.
+[[nodiscard]] bool memory_can_be_limited();
+
 /// Writes all bytes; false where that fails.
 bool write_all(int file, std::string_view bytes);
 
