@@ -30,8 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 using itk::IOComponentEnum;
 
-constexpr std::uint64_t kNiftiHeader = 348;
-
 /// An exception of ITK as one line: its description ends with the file and line of its source.
 Error refused(const std::string& path, const itk::ExceptionObject& error) {
   std::string what = error.GetDescription();
@@ -143,15 +141,6 @@ std::map<std::string, std::string> fields_of(const itk::ImageIOBase& io) {
     }
   }
   return fields;
-}
-
-/// Before memory is taken for them: are the voxels that a header announces in this file?
-Status check_voxels(const std::string& path, std::uint64_t bytes) {
-  if (const Status enough = check_long_enough(path, bytes); !enough) {
-    return enough;
-  }
-  return path.ends_with(".nrrd") ? check_names_no_other_file(path)
-                                 : check_whole(path, kNiftiHeader + bytes);
 }
 
 Result<Volume> load_file(itk::ImageIOBase& io, const std::string& path) {

@@ -20,4 +20,8 @@ Status check_long_enough(const std::string& path, std::uint64_t bytes);
 /// and must not bring in any other of this machine.
 Status check_names_no_other_file(const std::string& path);
 
+/// All of this for a `.nii`, `.nii.gz` or `.nrrd` file, before memory is taken for the voxels that
+/// its header announces.
+Status check_voxels(const std::string& path, std::uint64_t bytes);
+
 }  // namespace orthonav::engine
