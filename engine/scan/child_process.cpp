@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <utility>
 
 // Sanitizers map terabytes that they never use.
@@ -156,7 +157,7 @@ Result<ChildBytes> bytes_from_child(const ChildLimits& limits,
     ended = child < 0 ? -1 : ::waitpid(child, &status, 0);
   } while (ended < 0 && child >= 0 && errno == EINTR);
   if (ended < 0) {
-    const Error why{std::string("no process to read it in: ") + std::strerror(errno),
+    const Error why{"no process to read it in: " + std::generic_category().message(errno),
                     ErrorCode::kIo};
     ::close(file);
     return why;

@@ -155,6 +155,25 @@ TEST_F(KeptCommand, DemoThatFindsNoRoomForAPictureSaysSoAndComesToItsEnd) {
   EXPECT_THAT(content_of(out_ + "/report.html"), HasSubstr("operation.mp4"));
 }
 
+TEST_F(KeptCommand, DemoWhoseFilmFindsNoMoreRoomSaysSoAndComesToItsEnd) {
+  if (!disk_can_fail()) {
+    GTEST_SKIP() << "a sanitizer's runtime must be loaded first, where the failing calls must be";
+  }
+  ASSERT_EQ(orthonav(run()).code, 0);
+  place(2);
+  StartedCommand demo(words("demo", {"--pace", "4", "--resume"}), [this] {
+    fail_disk(out_, {"write", 5, ENOSPC, true, "operation.part"});
+  });
+  const Called ended = demo.wait();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, ContainsRegex("operation.mp4: writing failed .No space left on device.; "
+                                       "what was written plays: .*operation.part-.*mp4\n"));
+  EXPECT_EQ(json::parse(content_of(out_ + "/report.json"))["completed"], true);
+  EXPECT_TRUE(std::filesystem::exists(out_ + "/01-setup.png")) << "the pictures go on";
+  EXPECT_FALSE(std::filesystem::exists(out_ + "/operation.mp4"));
+  EXPECT_THAT(content_of(out_ + "/report.html"), Not(HasSubstr("operation.mp4")));
+}
+
 /// A whole operation, which takes minutes: of tools/test --all.
 TEST_F(KeptCommand, DemoInterruptedAfterItsFirstScrewEndsWithBothAndNoneTwice) {
   if (!every_fault_is_tried()) {
