@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/one_line.h"
+
 namespace orthonav::engine {
 
 using nlohmann::json;
@@ -69,7 +71,8 @@ void JsonNode::refuse(const std::string& problem) const {
   if (document.problem) {
     return;
   }
-  document.problem = Error{document.name + ": " + where_ + (where_.empty() ? "" : " ") + problem};
+  document.problem =
+      Error{document.name + ": " + one_line(where_ + (where_.empty() ? "" : " ") + problem)};
 }
 
 void JsonNode::refuse(const char* key, const std::string& problem) const {

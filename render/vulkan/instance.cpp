@@ -142,7 +142,7 @@ Instance::Instance(bool validation, MessageSink messages, VulkanHost* host)
   } else {
     check(vkCreateInstance(&info, nullptr, &instance_), "Vulkan");
   }
-  keep_drivers_for_leak_check();
+  keep_loaded_drivers();
   if (!validation) {
     return;
   }
@@ -170,7 +170,7 @@ std::vector<VkPhysicalDevice> Instance::devices() const {
   check(vkEnumeratePhysicalDevices(instance_, &count, nullptr), "list of Vulkan devices");
   std::vector<VkPhysicalDevice> devices(count);
   check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "list of Vulkan devices");
-  keep_drivers_for_leak_check();  // some are loaded only now
+  keep_loaded_drivers();  // some are loaded only now
   return devices;
 }
 
