@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -31,9 +32,8 @@ class TestRenderer {
     options.eyes_a_pass = eyes_a_pass;
     options.cache_folder = "";
     auto renderer = Renderer::create(options);
-    if (!renderer) {
-      ADD_FAILURE() << renderer.error().message;
-      return;
+    if (!renderer) {  // fails the test, not the program
+      throw std::runtime_error(renderer.error().message);
     }
     renderer_ = std::move(*renderer);
   }
