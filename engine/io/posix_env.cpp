@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/write_all.h"
 #include "engine/io/file_names.h"
 #include "engine/io/folders.h"
 
@@ -45,15 +46,8 @@ class PosixFile : public AppendFile {
   PosixFile(std::string path, Descriptor file) : path_(std::move(path)), file_(std::move(file)) {}
 
   Status append(std::string_view bytes) override {
-    while (!bytes.empty()) {
-      const ssize_t count = ::write(file_.get(), bytes.data(), bytes.size());
-      if (count >= 0) {
-        bytes.remove_prefix(static_cast<std::size_t>(count));
-      } else if (errno != EINTR) {
-        return file_error(path_, kWriting, errno);
-      }
-    }
-    return {};
+    const int problem = write_all(file_.get(), bytes);
+    return problem == 0 ? Status{} : file_error(path_, kWriting, problem);
   }
 
   Status sync() override {

@@ -71,6 +71,10 @@ rlim_t address_space_bytes() {
   ::_exit(done ? 0 : 1);
 }
 
+Error no_process() {
+  return {"no process to read it in: " + std::generic_category().message(errno), ErrorCode::kIo};
+}
+
 Error refused(int status, const ChildLimits& limits) {
   if (!WIFSIGNALED(status)) {
     return Error{"its reader gave up: it is damaged, or there was no memory for it"};
@@ -91,17 +95,16 @@ Error refused(int status, const ChildLimits& limits) {
 
 }  // namespace
 
-ChildBytes::ChildBytes(int file) {
+ChildBytes::ChildBytes(const MemoryFile& file) {
   struct stat about {};
-  if (::fstat(file, &about) == 0 && about.st_size > 0) {
+  if (::fstat(file.descriptor(), &about) == 0 && about.st_size > 0) {
     const auto size = static_cast<std::size_t>(about.st_size);
-    void* const mapped = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
+    void* const mapped = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.descriptor(), 0);
     if (mapped != MAP_FAILED) {
       bytes_ = static_cast<const char*>(mapped);
       size_ = size;
     }
   }
-  ::close(file);
 }
 
 ChildBytes::~ChildBytes() {
@@ -127,46 +130,29 @@ bool memory_can_be_limited() {
 #endif
 }
 
-bool write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(file, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) {
-      continue;
-    }
-    if (count <= 0) {
-      return false;
-    }
-    bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return true;
-}
-
 Result<ChildBytes> bytes_from_child(const ChildLimits& limits,
                                     const std::function<bool(int file)>& work) {
-  const int file = ::memfd_create("orthonav", MFD_CLOEXEC);
-  if (file < 0) {
-    return Error{"no memory for what its reader finds", ErrorCode::kIo};
+  const auto file = MemoryFile::create();
+  if (!file) {
+    return file.error();
   }
   const pid_t child = ::fork();
   if (child == 0) {
-    run_child(limits, work, file);
+    run_child(limits, work, file->descriptor());
+  }
+  if (child < 0) {
+    return no_process();
   }
   int status = 0;
-  pid_t ended = -1;
-  do {
-    ended = child < 0 ? -1 : ::waitpid(child, &status, 0);
-  } while (ended < 0 && child >= 0 && errno == EINTR);
-  if (ended < 0) {
-    const Error why{"no process to read it in: " + std::generic_category().message(errno),
-                    ErrorCode::kIo};
-    ::close(file);
-    return why;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) {
+      return no_process();
+    }
   }
-  ChildBytes bytes(file);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     return refused(status, limits);
   }
-  return bytes;
+  return ChildBytes(*file);
 }
 
 }  // namespace orthonav::engine

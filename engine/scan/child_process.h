@@ -6,6 +6,7 @@
 #include <functional>
 #include <string_view>
 
+#include "base/memory_file.h"
 #include "base/result.h"
 
 namespace orthonav::engine {
@@ -13,9 +14,8 @@ namespace orthonav::engine {
 /// What a child process wrote, mapped into memory.
 class ChildBytes {
  public:
-  ChildBytes() = default;
-  /// Takes over the file; nothing is mapped where it is empty or can't be mapped.
-  explicit ChildBytes(int file);
+  /// Maps the file, which may then be closed; nothing where it is empty or can't be mapped.
+  explicit ChildBytes(const MemoryFile& file);
   ~ChildBytes();
   ChildBytes(ChildBytes&& other) noexcept;
   ChildBytes& operator=(ChildBytes&& other) noexcept;
@@ -44,8 +44,5 @@ Result<ChildBytes> bytes_from_child(const ChildLimits& limits,
 
 /// False under sanitizers: children have no bound on their memory there.
 [[nodiscard]] bool memory_can_be_limited();
-
-/// Writes all bytes; false where that fails.
-bool write_all(int file, std::string_view bytes);
 
 }  // namespace orthonav::engine

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "base/number_bytes.h"
-#include "engine/scan/child_process.h"
+#include "base/write_all.h"
 
 namespace orthonav::engine {
 namespace {
@@ -33,7 +33,7 @@ bool write_volume(int file, const Result<Volume>& volume) {
   if (!volume) {
     put(head, volume.error().code);
     put_text(head, volume.error().message);
-    return write_all(file, head);
+    return write_all(file, head) == 0;
   }
   put(head, volume->grid);
   put(head, std::uint64_t{volume->layers});
@@ -43,9 +43,9 @@ bool write_volume(int file, const Result<Volume>& volume) {
     put_text(head, value);
   }
   put(head, std::uint64_t{volume->values.size()});
-  return write_all(file, head) &&
+  return write_all(file, head) == 0 &&
          write_all(file, {reinterpret_cast<const char*>(volume->values.data()),
-                          volume->values.size() * sizeof(float)});
+                          volume->values.size() * sizeof(float)}) == 0;
 }
 
 Result<Volume> volume_of(std::string_view bytes) {

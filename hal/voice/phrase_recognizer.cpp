@@ -10,11 +10,11 @@
 #include <sstream>
 #include <utility>
 
+#include "base/memory_file.h"
 #include "embedded/voice_means.h"
 #include "embedded/voice_mixtures.h"
 #include "hal/voice/adapted_means.h"
 #include "hal/voice/adapted_mixtures.h"
-#include "hal/voice/memory_file.h"
 #include "hal/voice/pronunciations.h"
 
 namespace orthonav::voice {
@@ -63,6 +63,11 @@ std::string anything_grammar() {
   return grammar + ";";
 }
 
+Result<MemoryFile> in_memory(std::string_view content) {
+  auto file = MemoryFile::create(content);
+  return file ? std::move(file) : Error{"voice: " + file.error().message, file.error().code};
+}
+
 Result<MemoryFile> adapted_means(const std::filesystem::path& model) {
   auto means = read_means(model / "means");
   if (!means) {
@@ -71,7 +76,7 @@ Result<MemoryFile> adapted_means(const std::filesystem::path& model) {
   if (Status moved = apply_change(embedded::voice_means(), *means); !moved) {
     return moved.error();
   }
-  return MemoryFile::create(means_file(*means));
+  return in_memory(means_file(*means));
 }
 
 Result<MemoryFile> adapted_mixtures(const std::filesystem::path& model) {
@@ -82,7 +87,7 @@ Result<MemoryFile> adapted_mixtures(const std::filesystem::path& model) {
   if (Status moved = apply_change(embedded::voice_mixtures(), *mixtures); !moved) {
     return moved.error();
   }
-  return MemoryFile::create(mixture_weights_file(*mixtures));
+  return in_memory(mixture_weights_file(*mixtures));
 }
 
 }  // namespace
@@ -124,7 +129,7 @@ Status PhraseRecognizer::open(const std::filesystem::path& model) {
     return mixtures.error();
   }
   // The model's noise words could explain the rest of a sentence after a word; silence can't.
-  const auto silences = MemoryFile::create("<s> SIL\n</s> SIL\n<sil> SIL\n");
+  const auto silences = in_memory("<s> SIL\n</s> SIL\n<sil> SIL\n");
   if (!silences) {
     return silences.error();
   }

@@ -7,7 +7,7 @@ namespace orthonav::fuzz {
 void fuzz_board(std::span<const std::uint8_t> input) {
   const auto board = engine::parse_board(text_of(input), "board");
   if (!board) {
-    insist(board.error().message.find('\n') == std::string::npos);
+    insist_one_line(board.error());
     return;
   }
   const std::string text = engine::board_text(*board);

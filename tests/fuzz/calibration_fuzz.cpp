@@ -10,7 +10,7 @@ void fuzz_calibration(std::span<const std::uint8_t> input) {
   const InputFile file(input);
   const auto calibration = engine::load_calibration(file.path());
   if (!calibration) {
-    insist(calibration.error().message.find('\n') == std::string::npos);
+    insist_one_line(calibration.error());
     return;
   }
   const auto& rotation = calibration->right_from_left.rotation();

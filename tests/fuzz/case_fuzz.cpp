@@ -40,7 +40,7 @@ void fuzz_case(std::span<const std::uint8_t> input) {
   static const CaseFolder folder;
   const auto loaded = folder.with_case(text_of(input));
   if (!loaded) {
-    insist(loaded.error().message.find('\n') == std::string::npos);
+    insist_one_line(loaded.error());
     return;
   }
   insist(!loaded->levels.empty());

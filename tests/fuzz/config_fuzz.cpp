@@ -8,7 +8,7 @@ void fuzz_config(std::span<const std::uint8_t> input) {
   const InputFile file(input);
   const auto config = tools::ConfigFile::load(file.path());
   if (!config) {
-    insist(config.error().message.find('\n') == std::string::npos);
+    insist_one_line(config.error());
     return;
   }
   for (const tools::ConfigFile::Value& value : config->values()) {

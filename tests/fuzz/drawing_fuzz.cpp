@@ -7,7 +7,7 @@ namespace orthonav::fuzz {
 void fuzz_drawing(std::span<const std::uint8_t> input) {
   const auto scene = engine::parse_scene(text_of(input), "scene", "/nonexistent");
   if (!scene) {
-    insist(scene.error().message.find('\n') == std::string::npos);
+    insist_one_line(scene.error());
     return;
   }
   insist(scene->eyes.size() == 2 && scene->width_px > 0 && scene->height_px > 0);

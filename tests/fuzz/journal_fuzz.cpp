@@ -9,7 +9,7 @@ void fuzz_journal(std::span<const std::uint8_t> input) {
   const std::string text(input.begin(), input.end());
   const auto session = engine::read_journal_text(text, "journal");
   if (!session) {
-    insist(session.error().message.find('\n') == std::string::npos);
+    insist_one_line(session.error());
     return;
   }
   insist(session->lines > 0 && session->levels.size() <= 100);

@@ -16,7 +16,7 @@ void fuzz_mesh(std::span<const std::uint8_t> input) {
   const std::string path = folder.with(kNames[input[0] % kNames.size()], text_of(input.subspan(1)));
   const auto mesh = engine::load_mesh(path, 1e-3);
   if (!mesh) {
-    insist(mesh.error().message.find('\n') == std::string::npos);
+    insist_one_line(mesh.error());
     return;
   }
   insist(!mesh->triangles.empty());

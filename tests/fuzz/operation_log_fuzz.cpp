@@ -10,7 +10,7 @@ namespace {
 void insist_on_operation(const std::vector<engine::Record>& records) {
   auto operation = engine::LoggedOperation::from(records, "log");
   if (!operation) {
-    insist(operation.error().message.find('\n') == std::string::npos);
+    insist_one_line(operation.error());
     return;
   }
   operation->go_on();
@@ -27,7 +27,7 @@ void fuzz_operation_log(std::span<const std::uint8_t> input) {
   const std::string bytes(input.begin(), input.end());
   const auto read = engine::read_records(bytes, "log");
   if (!read) {
-    insist(read.error().message.find('\n') == std::string::npos);
+    insist_one_line(read.error());
   } else {
     insist(read->whole_bytes + read->dropped_bytes == bytes.size());
     std::string again(read->whole_bytes > 0 ? engine::kRecordsBegin : std::string_view());

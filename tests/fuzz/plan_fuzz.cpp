@@ -8,7 +8,7 @@ void fuzz_plan(std::span<const std::uint8_t> input) {
   const InputFile file(input);
   const auto plan = engine::load_plan(file.path());
   if (!plan) {
-    insist(plan.error().message.find('\n') == std::string::npos);
+    insist_one_line(plan.error());
     return;
   }
   for (const engine::StatedScrew& screw : plan->screws) {

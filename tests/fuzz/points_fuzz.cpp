@@ -17,7 +17,7 @@ void fuzz_points(std::span<const std::uint8_t> input) {
   const auto points =
       engine::load_points(folder.with(kNames[input[0] % kNames.size()], text_of(input.subspan(1))));
   if (!points) {
-    insist(points.error().message.find('\n') == std::string::npos);
+    insist_one_line(points.error());
     return;
   }
   insist(!points->points.empty());

@@ -39,7 +39,7 @@ void fuzz_scan(std::span<const std::uint8_t> input) {
                           ? engine::load_volume(folder_with_slices(folder, content))
                           : engine::read_volume(folder.with(kNames[format], text_of(content)), {});
   if (!volume) {
-    insist(volume.error().message.find('\n') == std::string::npos);
+    insist_one_line(volume.error());
     return;
   }
   insist(engine::check_grid(volume->grid).ok());

@@ -7,7 +7,7 @@ namespace orthonav::fuzz {
 void fuzz_sizes(std::span<const std::uint8_t> input) {
   const auto sizes = engine::parse_screw_sizes(text_of(input), "sizes");
   if (!sizes) {
-    insist(sizes.error().message.find('\n') == std::string::npos);
+    insist_one_line(sizes.error());
     return;
   }
   insist(sizes->check().empty());

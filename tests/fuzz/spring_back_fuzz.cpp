@@ -11,7 +11,7 @@ void fuzz_spring_back(std::span<const std::uint8_t> input) {
   const InputFile file(input);
   const auto trials = engine::load_spring_back(file.path());
   if (!trials) {
-    insist(trials.error().message.find('\n') == std::string::npos);
+    insist_one_line(trials.error());
     return;
   }
   for (const nav::SpringBackTrial& trial : *trials) {
@@ -21,7 +21,7 @@ void fuzz_spring_back(std::span<const std::uint8_t> input) {
   material.trials = *trials;
   const auto spring_back = nav::RodSpringBack::of({}, material, 5.5e-3);
   if (!spring_back) {
-    insist(spring_back.error().message.find('\n') == std::string::npos);
+    insist_one_line(spring_back.error());
     return;
   }
   const auto set = spring_back->set_rad(0.2);

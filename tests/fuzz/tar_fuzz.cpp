@@ -10,7 +10,7 @@ template <class Value>
 void read_all(const InputFile& file, const replay::ImageLayout& layout) {
   auto tar = replay::ImageTar::open(file.path(), layout);
   if (!tar) {
-    insist(tar.error().message.find('\n') == std::string::npos);
+    insist_one_line(tar.error());
     return;
   }
   const auto pixels =

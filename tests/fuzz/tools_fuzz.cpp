@@ -8,7 +8,7 @@ void fuzz_tools(std::span<const std::uint8_t> input) {
   const InputFile file(input);
   const auto tools = engine::load_tools(file.path());
   if (!tools) {
-    insist(tools.error().message.find('\n') == std::string::npos);
+    insist_one_line(tools.error());
     return;
   }
   const auto again = engine::parse_tools(engine::tools_text(*tools), "again");

@@ -9,6 +9,7 @@
 #include <new>
 #include <vector>
 
+#include "base/write_all.h"
 #include "engine/scan/volume_bytes.h"
 
 namespace orthonav::engine::child_process_test {
@@ -25,7 +26,8 @@ std::string refusal(const std::function<bool(int)>& work) {
 
 TEST(ChildProcess, HandsBackWhatItWrote) {
   const std::string much(3'000'000, 'x');
-  const auto bytes = bytes_from_child(kLimits, [&](int file) { return write_all(file, much); });
+  const auto bytes =
+      bytes_from_child(kLimits, [&](int file) { return write_all(file, much) == 0; });
   ASSERT_TRUE(bytes.ok()) << bytes.error().message;
   EXPECT_EQ(bytes->view(), much);
   const auto nothing = bytes_from_child(kLimits, [](int) { return true; });

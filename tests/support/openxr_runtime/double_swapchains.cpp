@@ -106,18 +106,23 @@ XrResult XRAPI_CALL images(XrSwapchain handle, std::uint32_t capacity, std::uint
   return XR_SUCCESS;
 }
 
+/// What every call on an image of a chain begins with: its chain, or why there is none. With the
+/// mutex held.
+XrResult call_on_chain(Double& d, XrSwapchain handle, const char* name, DoubleSwapchain*& chain) {
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
+  chain = chain_of(d, handle);
+  return chain == nullptr ? d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID)
+                          : d.fails(name, chain->panel);
+}
+
 XrResult XRAPI_CALL acquire(XrSwapchain handle, const XrSwapchainImageAcquireInfo*,
                             std::uint32_t* index) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
-    return dead;
-  }
-  DoubleSwapchain* chain = chain_of(d, handle);
-  if (chain == nullptr) {
-    return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
-  }
-  if (const XrResult failed = d.fails("xrAcquireSwapchainImage", chain->panel);
+  DoubleSwapchain* chain = nullptr;
+  if (const XrResult failed = call_on_chain(d, handle, "xrAcquireSwapchainImage", chain);
       failed != XR_SUCCESS) {
     return failed;
   }
@@ -133,14 +138,9 @@ XrResult XRAPI_CALL acquire(XrSwapchain handle, const XrSwapchainImageAcquireInf
 XrResult XRAPI_CALL wait_image(XrSwapchain handle, const XrSwapchainImageWaitInfo*) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
-    return dead;
-  }
-  DoubleSwapchain* chain = chain_of(d, handle);
-  if (chain == nullptr) {
-    return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
-  }
-  if (const XrResult failed = d.fails("xrWaitSwapchainImage", chain->panel); failed != XR_SUCCESS) {
+  DoubleSwapchain* chain = nullptr;
+  if (const XrResult failed = call_on_chain(d, handle, "xrWaitSwapchainImage", chain);
+      failed != XR_SUCCESS) {
     return failed;
   }
   if (chain->acquired.empty() || chain->waited) {
@@ -153,14 +153,8 @@ XrResult XRAPI_CALL wait_image(XrSwapchain handle, const XrSwapchainImageWaitInf
 XrResult XRAPI_CALL release(XrSwapchain handle, const XrSwapchainImageReleaseInfo*) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
-    return dead;
-  }
-  DoubleSwapchain* chain = chain_of(d, handle);
-  if (chain == nullptr) {
-    return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
-  }
-  if (const XrResult failed = d.fails("xrReleaseSwapchainImage", chain->panel);
+  DoubleSwapchain* chain = nullptr;
+  if (const XrResult failed = call_on_chain(d, handle, "xrReleaseSwapchainImage", chain);
       failed != XR_SUCCESS) {
     return failed;
   }

@@ -1,11 +1,11 @@
-#include "hal/voice/memory_file.h"
+#include "base/memory_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
 
-namespace orthonav::voice {
+namespace orthonav::memory_file_test {
 namespace {
 
 TEST(MemoryFile, HoldsItsContentAtAPath) {
@@ -16,4 +16,4 @@ TEST(MemoryFile, HoldsItsContentAtAPath) {
 }
 
 }  // namespace
-}  // namespace orthonav::voice
+}  // namespace orthonav::memory_file_test

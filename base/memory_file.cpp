@@ -1,4 +1,4 @@
-#include "hal/voice/memory_file.h"
+#include "base/memory_file.h"
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -7,22 +7,25 @@
 #include <system_error>
 #include <utility>
 
-namespace orthonav::voice {
+#include "base/write_all.h"
+
+namespace orthonav {
+namespace {
+
+Error no_file(int problem) {
+  return {"no file in memory: " + std::generic_category().message(problem), ErrorCode::kIo};
+}
+
+}  // namespace
 
 Result<MemoryFile> MemoryFile::create(std::string_view content) {
   const int descriptor = ::memfd_create("orthonav", MFD_CLOEXEC);
   if (descriptor < 0) {
-    return Error{"voice: no file in memory: " + std::generic_category().message(errno),
-                 ErrorCode::kIo};
+    return no_file(errno);
   }
   MemoryFile file(descriptor);
-  while (!content.empty()) {
-    const ::ssize_t written = ::write(descriptor, content.data(), content.size());
-    if (written <= 0) {
-      return Error{"voice: no file in memory: " + std::generic_category().message(errno),
-                   ErrorCode::kIo};
-    }
-    content.remove_prefix(static_cast<std::size_t>(written));
+  if (const int problem = write_all(descriptor, content); problem != 0) {
+    return no_file(problem);
   }
   return file;
 }
@@ -38,4 +41,4 @@ MemoryFile::~MemoryFile() {
 
 std::string MemoryFile::path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 
-}  // namespace orthonav::voice
+}  // namespace orthonav
