@@ -10,6 +10,8 @@
 #include <new>
 #include <string_view>
 
+#include "base/memory_limit.h"
+
 namespace orthonav::tools {
 namespace {
 
@@ -52,6 +54,9 @@ void keep_memory_reserve() {
 }
 
 void limit_memory() {
+  if (!memory_can_be_limited()) {
+    return;
+  }
   rlimit limit{};
   if (::getrlimit(RLIMIT_DATA, &limit) == 0 && limit.rlim_cur > kMemoryCeiling) {
     limit.rlim_cur = std::min<rlim_t>(kMemoryCeiling, limit.rlim_max);

@@ -16,14 +16,7 @@
 #include <system_error>
 #include <utility>
 
-// Sanitizers map terabytes that they never use.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define ORTHONAV_MAPS_MORE_THAN_IT_USES 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define ORTHONAV_MAPS_MORE_THAN_IT_USES 1
-#endif
-#endif
+#include "base/memory_limit.h"
 
 namespace orthonav::engine {
 namespace {
@@ -120,14 +113,6 @@ ChildBytes& ChildBytes::operator=(ChildBytes&& other) noexcept {
   std::swap(bytes_, other.bytes_);
   std::swap(size_, other.size_);
   return *this;
-}
-
-bool memory_can_be_limited() {
-#ifdef ORTHONAV_MAPS_MORE_THAN_IT_USES
-  return false;
-#else
-  return true;
-#endif
 }
 
 Result<ChildBytes> bytes_from_child(const ChildLimits& limits,

@@ -42,7 +42,4 @@ struct ChildLimits {
 Result<ChildBytes> bytes_from_child(const ChildLimits& limits,
                                     const std::function<bool(int file)>& work);
 
-/// False under sanitizers: children have no bound on their memory there.
-[[nodiscard]] bool memory_can_be_limited();
-
 }  // namespace orthonav::engine

@@ -36,6 +36,9 @@ class ScriptedOperation {
                              engine::Verification verification = engine::Verification::kByEye,
                              bool coaching = false, bool reference = false,
                              const std::optional<nav::ToolGeometry>& other = std::nullopt);
+  /// Its session's registrar refers to it.
+  ScriptedOperation(const ScriptedOperation&) = delete;
+  ScriptedOperation& operator=(const ScriptedOperation&) = delete;
 
   const engine::Guidance& pair();
   const engine::Guidance& pairs(int n);

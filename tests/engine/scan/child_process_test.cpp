@@ -9,6 +9,7 @@
 #include <new>
 #include <vector>
 
+#include "base/memory_limit.h"
 #include "base/write_all.h"
 #include "engine/scan/volume_bytes.h"
 

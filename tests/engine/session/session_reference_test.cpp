@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <string>
+#include <vector>
+
 #include "engine/holograms/scene_builder.h"
 #include "engine/session/session.h"
 #include "engine/session/wording.h"
@@ -55,13 +58,12 @@ TEST(PatientReference, HidesThePatientAndSaysSoOnceItIsStale) {
 
 TEST(PatientReference, HidesThePatientInEveryStepThatShowsAny) {
   for (const Step step : {Step::kVerify, Step::kAccepted, Step::kGuide, Step::kRod}) {
-    ScriptedOperation s({"L4"});
+    ScriptedOperation s(step == Step::kRod ? std::vector<std::string>{"L4", "L5"}
+                                           : std::vector<std::string>{"L4"});
     s.tracker().hang_on_reference();
     if (step == Step::kVerify) {
       s.registers_first_level();
     } else if (step == Step::kRod) {
-      s = ScriptedOperation({"L4", "L5"});
-      s.tracker().hang_on_reference();
       s.finishes_every_screw();
     } else {
       s.accepts_first_level();
