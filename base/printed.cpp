@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/translation.h"
+
 namespace orthonav {
 namespace {
 
@@ -105,7 +107,8 @@ void append_value(std::string& out, const Conversion& how, const PrintedValue& v
   out += text.data();
 }
 
-/// Prints with `more` extra decimals in every real number and `before` ahead of the first.
+/// Prints with `more` extra decimals in every real number and the words `before` ahead of the
+/// first.
 void append_with(std::string& out, const char* format, std::span<const PrintedValue> values,
                  int more, const char* before) {
   std::size_t next = 0;
@@ -132,7 +135,9 @@ void append_with(std::string& out, const char* format, std::span<const PrintedVa
     if (value.kind == PrintedValue::Kind::kReal && more > 0) {
       how.precision = (how.precision < 0 ? kUsualPrecision : how.precision) + more;
     }
-    out += next == 1 ? before : "";
+    if (next == 1 && *before != 0) {
+      out.append(before).append(" ");
+    }
     append_value(out, how, value);
   }
 }
@@ -173,7 +178,8 @@ void append_beside_limit(std::string& out, const char* format, double value, dou
       return append_with(out, format, values, more, "");
     }
   }
-  const char* const before = !differ ? "" : (value > limit ? "just over " : "just under ");
+  const char* const before =
+      !differ ? "" : (value > limit ? translated("just over") : translated("just under"));
   append_with(out, format, values, 0, before);
 }
 
