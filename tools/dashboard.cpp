@@ -13,6 +13,7 @@
 #include "base/mutex.h"
 #include "base/printed.h"
 #include "base/stopwatch.h"
+#include "base/translation.h"
 #include "embedded/dashboard_html.h"
 #include "engine/io/image_file.h"
 #include "engine/session/part_wording.h"
@@ -258,7 +259,12 @@ void Dashboard::show(const RgbaImage& picture, const std::string& what) {
   }
 }
 
-void Dashboard::part_stalled(engine::Part part) { server_->tell_stall(engine::stalled_text(part)); }
+// The page shows the very texts that the surgeon reads.
+
+void Dashboard::part_stalled(engine::Part part) {
+  const WearersLanguage language;
+  server_->tell_stall(engine::stalled_text(part));
+}
 
 void Dashboard::note_changes() {
   const std::string& step = changes_.new_step();
@@ -275,6 +281,7 @@ void Dashboard::note_changes() {
 
 void Dashboard::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*/,
                         const engine::Guidance& guidance) {
+  const WearersLanguage language;
   changes_.look(frame.time, guidance.status);
   note_changes();
   if (told_at_ && frame.time - *told_at_ < kTellEvery) {

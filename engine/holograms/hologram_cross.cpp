@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/length_text.h"
+#include "base/translation.h"
 #include "engine/holograms/hologram_parts.h"
 #include "engine/session/wording.h"
 #include "render/float3.h"
@@ -89,7 +90,7 @@ void add_lost_text(Scene& scene, Float3 middle, Label label) {
   text.height_m = 0.0045f;
   text.min_height_deg = 0.5f;
   text.rim = look::kRed;
-  add_run(text, words::kToolLost, look::kWhite);
+  add_run(text, translated(words::kToolLost), look::kWhite);
 }
 
 }  // namespace
@@ -184,7 +185,8 @@ bool write_depth_text(double depth_m, double to_target_m, std::string& text) {
   }
   text = in_mm(std::abs(left_m));
   text += ' ';
-  text += before ? words::kToEntry : (left_m < 0.0 ? words::kPastTarget : words::kToTarget);
+  text +=
+      translated(before ? words::kToEntry : (left_m < 0.0 ? words::kPastTarget : words::kToTarget));
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/translation.h"
 #include "engine/holograms/hologram_parts.h"
 #include "render/float3.h"
 
@@ -105,15 +106,15 @@ void add_numbers(Scene& scene, const TargetCross& cross, const nav::ScrewNumbers
   for (std::size_t i = 0; i < kNumberRows; ++i) {
     const auto row = static_cast<NumberRow>(i);
     if (row == NumberRow::kTipCranial) {
-      block.heading(words::kTip);
+      block.heading(translated(words::kTip));
     } else if (row == NumberRow::kAimCranial) {
-      block.heading(words::kAims);
+      block.heading(translated(words::kAims));
     }
     append_number(block.text(number_of(numbers, row).sure), numbers, row);
     block.next_row();
   }
   if (registration_only && (with_bound || !all_sure(numbers))) {
-    block.text(false) = words::kSdOfRegistrationOnly;
+    block.text(false) = translated(words::kSdOfRegistrationOnly);
   }
 }
 
@@ -121,13 +122,13 @@ void add_clearance(Scene& scene, const TargetCross& cross, const nav::ShownClear
                    Label label) {
   Block block(scene, cross, label);
   block.skip(kClearanceAfter_rows);
-  block.heading(words::kClearance);
+  block.heading(translated(words::kClearance));
   append_clearance(block.text(true), clearance.least_tenths);
   block.next_row();
   if (clearance.may_break()) {
     append_breach(block.warning(), clearance);
   } else if (clearance.lower_95_tenths) {
-    block.heading(words::kAtLeast);
+    block.heading(translated(words::kAtLeast));
     append_clearance(block.text(true), *clearance.lower_95_tenths);
   }
 }

@@ -10,6 +10,7 @@
 
 #include "base/angle.h"
 #include "base/length_text.h"
+#include "base/translation.h"
 #include "engine/holograms/hologram_parts.h"
 #include "engine/session/wording.h"
 #include "render/float3.h"
@@ -57,7 +58,7 @@ void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, La
   add_ring(scene, at, along, kBendRingRadius_m, kBendRingWidth_m, look::kAmber, label);
   render::TextItem& text = add_text_beside(scene, at, 1.6f, 0.0035f, 0.35f, label);
   add_run(text, angle_text(bend.angle_rad), look::kWhite);
-  add_run(text, words::kAt, look::kSoftWhite);
+  add_run(text, look::kSoftWhite).append(" ").append(translated(words::kAt)).append(" ");
   add_run(text, in_mm(bend.arc_length_m), look::kSoftWhite);
 }
 

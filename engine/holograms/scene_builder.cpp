@@ -1,8 +1,8 @@
 #include "engine/holograms/scene_builder.h"
 
 #include <algorithm>
-#include <string>
 
+#include "base/translation.h"
 #include "engine/holograms/anchored_frame.h"
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_numbers.h"
@@ -18,8 +18,7 @@ constexpr render::Label kTwinTool = label_of(HologramKind::kTwin, 2);
 constexpr render::Label kNumbers = label_of(HologramKind::kNumbers, 1);
 constexpr render::Label kClearance = label_of(HologramKind::kNumbers, 3);
 constexpr render::Label kDrill = label_of(HologramKind::kNumbers, 4);
-constexpr render::Label kStop =
-    label_of(HologramKind::kNumbers, 5);  // stays when a pose is too old
+constexpr render::Label kStop = label_of(HologramKind::kNumbers, 5);  // stays when a pose is old
 constexpr render::Label kNumbersRow = label_of(HologramKind::kNumbers, 2);
 
 }  // namespace
@@ -32,6 +31,7 @@ bool hangs_on_tool(render::Label label) {
 }
 
 void hide_tool_guidance(render::Scene& scene) {
+  const WearersLanguage language;
   // The number's place stays, with dashes.
   const auto of_tool = [](const auto& item) {
     return hangs_on_tool(item.label) && kind_of(item.label) != HologramKind::kAngle;
@@ -48,13 +48,14 @@ void hide_tool_guidance(render::Scene& scene) {
 }
 
 void write_notice_alone(const render::Scene& scene, std::string_view why, render::Scene& left) {
+  const WearersLanguage language;
   left.clear();
   for (const render::TextItem& text : scene.texts) {
     if (text.place == render::TextPlace::kView && text.label != kNumbersRow) {
       left.texts.push_back(text);
     }
   }
-  add_notice(left, why, label_of(HologramKind::kStatus, 2));
+  add_notice(left, translated(why), label_of(HologramKind::kStatus, 2));
 }
 
 void SceneBuilder::update(const Guidance& guidance, Timestamp display_time) {
@@ -70,6 +71,7 @@ void SceneBuilder::write_shown(const Guidance& guidance, ShownFrame& frame) {
 }
 
 void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
+  const WearersLanguage language;
   scene.clear();
   add_paths(guidance, scene);
   if (visible_.vertebra) {

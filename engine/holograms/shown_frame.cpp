@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/translation.h"
 #include "engine/holograms/hologram_shapes.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
@@ -48,6 +49,7 @@ ShownHologram& ShownFrameWriter::add(ShownFrame& frame, HologramKind kind) {
 
 void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible,
                              const VisibilityRules& rules, ShownFrame& frame) {
+  const WearersLanguage language;
   used_ = 0;
   frame.display_time = guidance.display_time;
   frame.pose_time = guidance.pose_time;
@@ -121,7 +123,7 @@ void ShownFrameWriter::write_cross(const PlacedScrew& screw, const VisibleCross&
   const CrossPlaces places = places_of(cross);
   ShownHologram& shown = add(frame, HologramKind::kCross);
   if (cross.lost) {
-    shown.text = words::kToolLost;
+    shown.text = translated(words::kToolLost);
   }
   shown.points_in_world.push_back(to_point(places.middle));
   if (!cross.reading) {

@@ -10,11 +10,6 @@
 
 namespace orthonav::engine {
 
-/// Precedes the expected error.
-inline constexpr std::string_view kExpectedError = "expected error ";
-/// Follows an expected error that leaves out the errors common to all strokes.
-inline constexpr std::string_view kRegistrationOnly = " (registration only)";
-
 struct Coaching;
 
 // The findings of a registration in words: a part of engine/session/wording.h. Each is appended as
@@ -22,6 +17,11 @@ struct Coaching;
 
 /// "left" or "right".
 [[nodiscard]] std::string_view word_of(Side side);
+/// "expected error 0.6 mm".
+void append_expected_error(std::string& out, double expected_m);
+/// " (registration only)": follows an expected error that leaves out the errors common to all
+/// strokes.
+void append_registration_only(std::string& out);
 /// "stroke the left lamina".
 void append(std::string& out, const nav::BonePlace& place);
 /// "cranial-caudal shift (0.4 mm at the screws)".

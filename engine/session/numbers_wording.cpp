@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "base/printed.h"
+#include "base/translation.h"
 #include "engine/session/findings_wording.h"
 
 namespace orthonav::engine {
@@ -17,12 +18,30 @@ bool is_angle(NumberRow row) {
 std::string_view direction_of(NumberRow row, int tenths) {
   const bool along_spine = row == NumberRow::kTipCranial || row == NumberRow::kAimCranial;
   if (along_spine) {
-    return tenths > 0 ? " cranial" : " caudal";
+    return tenths > 0 ? translated("cranial") : translated("caudal");
   }
-  return tenths > 0 ? " medial" : " lateral";
+  return tenths > 0 ? translated("medial") : translated("lateral");
 }
 
 void append_tenths(std::string& out, int tenths) { append_printed(out, "%.1f", 0.1 * tenths); }
+
+/// Where a screw breaks through, by nav::direction_of.
+const char* adverb_of(std::string_view towards) {
+  constexpr std::array<std::array<const char*, 2>, 7> kAdverbs = {
+      {{"tip", translatable("at its tip")},
+       {"medial", translatable("medially")},
+       {"lateral", translatable("laterally")},
+       {"cranial", translatable("cranially")},
+       {"caudal", translatable("caudally")},
+       {translatable("anterior"), translatable("anteriorly")},
+       {translatable("posterior"), translatable("posteriorly")}}};
+  for (const auto& [direction, adverb] : kAdverbs) {
+    if (towards == direction) {
+      return translated(adverb);
+    }
+  }
+  return "--";
+}
 
 }  // namespace
 
@@ -49,20 +68,22 @@ void append_number(std::string& out, const nav::ScrewNumbers& numbers, NumberRow
   }
   out += is_angle(row) ? "°" : " mm";
   if (number.tenths != 0) {
-    out += direction_of(row, number.tenths);
+    out.append(" ").append(direction_of(row, number.tenths));
   }
 }
 
 void append_numbers(std::string& out, const nav::ScrewNumbers& numbers, bool registration_only) {
-  out.append(words::kTip).append(" ");
+  out.append(translated(words::kTip)).append(" ");
   append_number(out, numbers, NumberRow::kTipCranial);
   out += ", ";
   append_number(out, numbers, NumberRow::kTipMedial);
-  out.append("; ").append(words::kAims).append(" ");
+  out.append("; ").append(translated(words::kAims)).append(" ");
   append_number(out, numbers, NumberRow::kAimCranial);
   out += ", ";
   append_number(out, numbers, NumberRow::kAimMedial);
-  out += registration_only && !all_sure(numbers) ? kRegistrationOnly : "";
+  if (registration_only && !all_sure(numbers)) {
+    append_registration_only(out);
+  }
 }
 
 void append_clearance(std::string& out, int tenths) {
@@ -72,18 +93,15 @@ void append_clearance(std::string& out, int tenths) {
 }
 
 void append_breach(std::string& out, const nav::ShownClearance& clearance) {
-  const std::string_view towards = clearance.towards;
-  out += clearance.least_tenths < 0 ? "breaks through " : "may break through ";
-  if (towards == "tip") {
-    out += "at its tip";
-  } else {
-    out.append(towards).append("ly");
-  }
+  append_printed(out,
+                 clearance.least_tenths < 0 ? translated("breaks through %s")
+                                            : translated("may break through %s"),
+                 adverb_of(clearance.towards));
 }
 
 void append_clearance_line(std::string& out, const nav::ShownClearance& clearance,
                            bool registration_only) {
-  out.append(words::kClearance).append(" ");
+  out.append(translated(words::kClearance)).append(" ");
   append_clearance(out, clearance.least_tenths);
   if (clearance.may_break()) {
     out += ": ";
@@ -91,10 +109,12 @@ void append_clearance_line(std::string& out, const nav::ShownClearance& clearanc
     // A breach follows from the measured clearance; "may" refers to the bound.
     registration_only = registration_only && clearance.least_tenths >= 0;
   } else if (clearance.lower_95_tenths) {
-    out.append(", ").append(words::kAtLeast).append(" ");
+    out.append(", ").append(translated(words::kAtLeast)).append(" ");
     append_clearance(out, *clearance.lower_95_tenths);
   }
-  out += registration_only && clearance.lower_95_tenths ? kRegistrationOnly : "";
+  if (registration_only && clearance.lower_95_tenths) {
+    append_registration_only(out);
+  }
 }
 
 bool stop_too_deep(const nav::DrillView& drill) {
@@ -103,7 +123,7 @@ bool stop_too_deep(const nav::DrillView& drill) {
 }
 
 void append_stop_too_deep(std::string& out, double past_target_m) {
-  append_printed(out, "stop lets the drill %.0f mm past the target",
+  append_printed(out, translated("stop lets the drill %.0f mm past the target"),
                  std::ceil(past_target_m * 1e3));
 }
 
@@ -112,17 +132,20 @@ void append_drill(std::string& out, const nav::DrillView& drill) {
     return;
   }
   if (drill.phase == nav::DrillPhase::kSet) {
-    out += drill.watched ? "tip set" : "";
+    out += drill.watched ? translated("tip set") : "";
     if (drill.watched && stop_too_deep(drill)) {
       out += ", ";
       append_stop_too_deep(out, *drill.stop_past_target_m);
     }
     return;
   }
-  constexpr std::array<std::string_view, 4> kTexts = {"drilling", "drilling: drifting",
-                                                      "drilling: off plan", "stop"};
-  out += kTexts[static_cast<std::size_t>(drill.alarm)];
-  out += drill.watched ? "" : ", tool not seen";
+  constexpr std::array<const char*, 4> kTexts = {
+      translatable("drilling"), translatable("drilling: drifting"),
+      translatable("drilling: off plan"), translatable("stop")};
+  out += translated(kTexts[static_cast<std::size_t>(drill.alarm)]);
+  if (!drill.watched) {
+    out.append(", ").append(translated("tool not seen"));
+  }
 }
 
 bool all_sure(const nav::ScrewNumbers& numbers) {

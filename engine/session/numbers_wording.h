@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/translation.h"
 #include "nav/guidance/drill_watch.h"
 #include "nav/guidance/screw_numbers.h"
 #include "nav/guidance/shown_clearance.h"
@@ -48,12 +49,13 @@ void append_drill(std::string& out, const nav::DrillView& drill);
 /// "stop lets the drill 4 mm past the target", rounded up.
 void append_stop_too_deep(std::string& out, double past_target_m);
 
+// For `translated`.
 namespace words {
-inline constexpr std::string_view kClearance = "clearance";
-inline constexpr std::string_view kAtLeast = "at least";
-inline constexpr std::string_view kTip = "tip";
-inline constexpr std::string_view kAims = "aims";
-inline constexpr std::string_view kSdOfRegistrationOnly = "± registration only";
+inline constexpr const char* kClearance = translatable("clearance");
+inline constexpr const char* kAtLeast = translatable("at least");
+inline constexpr const char* kTip = translatable("tip");
+inline constexpr const char* kAims = translatable("aims");
+inline constexpr const char* kSdOfRegistrationOnly = translatable("± registration only");
 }  // namespace words
 
 }  // namespace orthonav::engine

@@ -2,18 +2,26 @@
 
 #include <array>
 
+#include "base/translation.h"
+
 namespace orthonav::engine {
+namespace {
+
+constexpr std::array<const char*, kPartCount> kStalledTexts = {
+    translatable("camera stalled: nothing is guided"),
+    translatable("tracker stalled: nothing is guided"),
+    translatable("renderer stalled: nothing is guided"),
+    translatable("coach stalled: nothing is guided"),
+    translatable("voice stalled: nothing is guided")};
+
+}  // namespace
 
 std::string_view stalled_text(Part part) {
-  constexpr std::array<std::string_view, kPartCount> kTexts = {
-      "camera stalled: nothing is guided", "tracker stalled: nothing is guided",
-      "renderer stalled: nothing is guided", "coach stalled: nothing is guided",
-      "voice stalled: nothing is guided"};
-  return kTexts[static_cast<std::size_t>(part)];
+  return translated(std::string_view(kStalledTexts[static_cast<std::size_t>(part)]));
 }
 
 std::string_view word_of(Part part) {
-  const std::string_view text = stalled_text(part);
+  const std::string_view text = kStalledTexts[static_cast<std::size_t>(part)];
   return text.substr(0, text.find(' '));
 }
 

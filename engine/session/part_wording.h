@@ -6,7 +6,7 @@
 
 namespace orthonav::engine {
 
-/// "tracker".
+/// "tracker": in English, for logs.
 [[nodiscard]] std::string_view word_of(Part part);
 /// "tracker stalled: nothing is guided".
 [[nodiscard]] std::string_view stalled_text(Part part);

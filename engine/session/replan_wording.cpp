@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
+#include <span>
+#include <string_view>
 
 #include "base/angle.h"
 #include "base/length_text.h"
 #include "base/printed.h"
+#include "base/translation.h"
 #include "engine/session/findings_wording.h"
+#include "engine/session/said.h"
 
 namespace orthonav::engine {
 namespace {
@@ -18,40 +21,47 @@ constexpr double kLeastShown = 0.05;
 /// A change of the entry's depth follows from the bone's surface; smaller ones are not mentioned.
 constexpr double kLeastDepth_m = 0.0005;
 
-void begin_item(std::string& out, std::size_t begin, const char* first, const char* further) {
-  out += out.size() == begin ? first : further;
-}
+/// A way in one direction or the other.
+struct Way {
+  double by;
+  const char* to;
+  const char* away;
+};
 
-/// "1.0 mm cranial".
-void append_way(std::string& out, const char* format, double value, const char* to,
-                const char* away) {
-  append_printed(out, format, std::abs(value));
-  out.append(" ").append(value > 0.0 ? to : away);
-}
+constexpr const char* kCranial = translatable("cranial");
+constexpr const char* kCaudal = translatable("caudal");
+constexpr const char* kMedial = translatable("medial");
+constexpr const char* kLateral = translatable("lateral");
 
-void append_entry(std::string& out, const nav::ScrewDifference& d, std::size_t begin) {
-  const std::size_t own = out.size();
-  for (const auto& [by_m, to, away] :
-       {std::tuple{d.entry_cranial_m, "cranial", "caudal"},
-        std::tuple{d.entry_medial_m, "medial", "lateral"},
-        std::tuple{std::abs(d.entry_inward_m) < kLeastDepth_m ? 0.0 : d.entry_inward_m, "deeper",
-                   "shallower"}}) {
-    if (std::abs(by_m) * 1e3 >= kLeastShown) {
-      begin_item(out, own, begin == own ? "entry moved " : ", entry moved ", " and ");
-      append_way(out, "%.1f mm", by_m * 1e3, to, away);
+/// "entry moved 1.0 mm cranial and 0.4 mm medial", of the ways that do not round to zero.
+void append_ways(std::string& out, const char* what, const char* format,
+                 std::span<const Way> ways) {
+  const std::size_t begin = out.size();
+  bool first = true;
+  for (const auto& [by, to, away] : ways) {
+    if (std::abs(by) >= kLeastShown) {
+      out += first && begin > 0 ? ", " : (first ? "" : " ");
+      out.append(first ? what : translated("and")).append(" ");
+      append_printed(out, format, std::abs(by));
+      out.append(" ").append(translated(by > 0.0 ? to : away));
+      first = false;
     }
   }
 }
 
-void append_aim(std::string& out, const nav::ScrewDifference& d, std::size_t begin) {
-  const std::size_t own = out.size();
-  for (const auto& [by_rad, to, away] : {std::tuple{d.aim_cranial_rad, "cranial", "caudal"},
-                                         std::tuple{d.aim_medial_rad, "medial", "lateral"}}) {
-    if (std::abs(degrees(by_rad)) >= kLeastShown) {
-      begin_item(out, own, begin == own ? "aims " : ", aims ", " and ");
-      append_way(out, "%.1f\u00b0 more", degrees(by_rad), to, away);
-    }
-  }
+void append_entry(std::string& out, const nav::ScrewDifference& d) {
+  const double inward_m = std::abs(d.entry_inward_m) < kLeastDepth_m ? 0.0 : d.entry_inward_m;
+  const std::array<Way, 3> ways = {
+      {{d.entry_cranial_m * 1e3, kCranial, kCaudal},
+       {d.entry_medial_m * 1e3, kMedial, kLateral},
+       {inward_m * 1e3, translatable("deeper"), translatable("shallower")}}};
+  append_ways(out, translated("entry moved"), "%.1f mm", ways);
+}
+
+void append_aim(std::string& out, const nav::ScrewDifference& d) {
+  const std::array<Way, 2> ways = {{{degrees(d.aim_cranial_rad), kCranial, kCaudal},
+                                    {degrees(d.aim_medial_rad), kMedial, kLateral}}};
+  append_ways(out, translated("aims"), translated("%.1f\u00b0 more"), ways);
 }
 
 const char* name_of(nav::ScrewDirection direction) {
@@ -89,17 +99,17 @@ struct RequestText {
 };
 
 void write_size_refusal(std::string& out, const ReplanRefusal& refusal) {
+  const std::size_t begin = out.size();
   const bool both = refusal.diameter_m > 0.0 && refusal.length_m > 0.0;
   if (both) {
     append_size(out, refusal.diameter_m, refusal.length_m);
   } else {
     append_mm(out, std::max(refusal.diameter_m, refusal.length_m), 1);
   }
-  if (refusal.kind == ReplanRefusal::Kind::kLastSize) {
-    out += " is the last of the list";
-  } else {
-    out += " is not in the list of screws";
-  }
+  enclose(out, begin,
+          refusal.kind == ReplanRefusal::Kind::kLastSize
+              ? translated("%s is the last of the list")
+              : translated("%s is not in the list of screws"));
 }
 
 /// The reason of a kind without numbers.
@@ -107,25 +117,26 @@ std::string_view plain_reason(ReplanRefusal::Kind kind) {
   using enum ReplanRefusal::Kind;
   switch (kind) {
     case kDrillSet:
-      return "the tip is set on the bone, lift it first";
+      return translated("the tip is set on the bone, lift it first");
     case kDrilling:
-      return "drilling, draw the drill out first";
+      return translated("drilling, draw the drill out first");
     case kWireIn:
-      return "its wire is in: the plan can change only once the wire was measured beyond a limit";
+      return translated(
+          "its wire is in: the plan can change only once the wire was measured beyond a limit");
     case kNoScrewLeft:
-      return "every screw of this level is done";
+      return translated("every screw of this level is done");
     case kNothingToUndo:
-      return "nothing to undo";
+      return translated("nothing to undo");
     case kNoDiameter:
-      return "the plan states no diameter";
+      return translated("the plan states no diameter");
     case kNoDirections:
-      return "it runs too far off the usual directions";
+      return translated("it runs too far off the usual directions");
     case kOffTheBone:
-      return "its axis misses the bone that a pointer reaches";
+      return translated("its axis misses the bone that a pointer reaches");
     case kOtherScrew:
-      return "another screw is in work";
+      return translated("another screw is in work");
     case kIllSized:
-      return "no pedicle screw is so short, long, thin or thick";
+      return translated("no pedicle screw is so short, long, thin or thick");
     case kNoSuchSize:
     case kLastSize:
     case kEntryTooFar:
@@ -136,38 +147,47 @@ std::string_view plain_reason(ReplanRefusal::Kind kind) {
   return {};
 }
 
+/// Where the nearest wall lies, by nav::direction_of: " (medial)".
+void append_towards(std::string& out, std::string_view towards) {
+  out.append(" (").append(translated(towards)).append(")");
+}
+
 void write_breach(PartedText text, const ReplanRefusal& refusal) {
-  text.out += "breaks through the cortex: clearance ";
-  append_beside_limit(text.out, "%.1f mm, limit %.1f mm", refusal.value * 1e3, refusal.limit * 1e3);
-  text.out.append(" (").append(refusal.towards).append(")");
+  append_beside_limit(text.out,
+                      translated("breaks through the cortex: clearance %.1f mm, limit %.1f mm"),
+                      refusal.value * 1e3, refusal.limit * 1e3);
+  append_towards(text.out, refusal.towards);
   text.begin(Importance::kNext, ": ");
-  text.out += "say accept to take it";
+  text.out += translated("say accept to take it");
 }
 
 }  // namespace
 
 void append_size(std::string& out, double diameter_m, double length_m) {
+  const std::size_t begin = out.size();
   const double length_mm = length_m * 1e3;
   const bool whole = std::abs(length_mm - std::round(length_mm)) < kLeastShown;
   if (diameter_m > 0.0) {
     append_printed(out, "%.1f \u00d7 ", diameter_m * 1e3);
   }
   append_printed(out, whole ? "%.0f mm" : "%.1f mm", length_mm);
-  out += diameter_m > 0.0 ? "" : " long";
+  if (!(diameter_m > 0.0)) {
+    enclose(out, begin, translated("%s long"));
+  }
 }
 
 std::string text_of(const nav::ScrewDifference& d) {
   std::string out;
-  append_entry(out, d, 0);
-  append_aim(out, d, 0);
+  append_entry(out, d);
+  append_aim(out, d);
   if (std::abs(d.diameter_to_m - d.diameter_from_m) * 1e3 >= kLeastShown ||
       std::abs(d.length_to_m - d.length_from_m) * 1e3 >= kLeastShown) {
-    begin_item(out, 0, "", ", ");
+    out += out.empty() ? "" : ", ";
     append_size(out, d.diameter_to_m, d.length_to_m);
-    out += " instead of ";
+    out.append(" ").append(translated("instead of")).append(" ");
     append_size(out, d.diameter_from_m, d.length_from_m);
   }
-  return out.empty() ? "no difference" : out;
+  return out.empty() ? translated("no difference") : out;
 }
 
 std::string text_of(const Replan& replan) { return std::visit(RequestText{}, replan); }
@@ -176,18 +196,19 @@ void write(PartedText text, const ReplanRefusal& refusal) {
   using enum ReplanRefusal::Kind;
   std::string& out = text.out;
   text.begin(refusal.kind == kBreach ? Importance::kDanger : Importance::kMessage);
-  out += "screw not changed: ";
+  out.append(translated("screw not changed:")).append(" ");
   switch (refusal.kind) {
     case kNoSuchSize:
     case kLastSize:
       return write_size_refusal(out, refusal);
     case kEntryTooFar:
-      return append_beside_limit(out, "entry %.1f mm from the preoperative plan, limit %.1f mm",
-                                 refusal.value * 1e3, refusal.limit * 1e3);
+      return append_beside_limit(
+          out, translated("entry %.1f mm from the preoperative plan, limit %.1f mm"),
+          refusal.value * 1e3, refusal.limit * 1e3);
     case kTiltTooFar:
-      return append_beside_limit(out,
-                                 "tilted %.1f\u00b0 from the preoperative plan, limit %.1f\u00b0",
-                                 degrees(refusal.value), degrees(refusal.limit));
+      return append_beside_limit(
+          out, translated("tilted %.1f\u00b0 from the preoperative plan, limit %.1f\u00b0"),
+          degrees(refusal.value), degrees(refusal.limit));
     case kBreach:
       return write_breach(text, refusal);
     case kDrillSet:
@@ -207,19 +228,21 @@ void write(PartedText text, const ReplanRefusal& refusal) {
 void write(PartedText text, const ScrewReplanned& done) {
   std::string& out = text.out;
   text.begin(Importance::kMessage);
-  out.append(done.undone ? "undone: " : "").append(done.level).append(" ");
-  out.append(word_of(done.to.side)).append(" ");
+  if (done.undone) {
+    out.append(translated("undone:")).append(" ");
+  }
+  out.append(done.level).append(" ").append(word_of(done.to.side)).append(" ");
   append_size(out, 2.0 * done.to.radius_m, nav::screw_length_m(done.to));
   if (done.clearance_m) {
-    out += ", clearance ";
-    append_mm(out, *done.clearance_m, 1);
-    out.append(" (").append(done.towards).append(")");
+    out += ", ";
+    append_printed(out, translated("clearance %s"), said_mm(*done.clearance_m).c_str());
+    append_towards(out, done.towards);
   } else {
-    out += ", clearance not known";
+    out.append(", ").append(translated("clearance not known"));
   }
   text.begin(Importance::kMore, "; ");
   out +=
-      done.as_before_surgery ? std::string("as planned before surgery") : text_of(done.difference);
+      done.as_before_surgery ? translated("as planned before surgery") : text_of(done.difference);
 }
 
 }  // namespace orthonav::engine

@@ -1,5 +1,7 @@
 #include "engine/session/saved_wording.h"
 
+#include "base/translation.h"
+
 namespace orthonav::engine {
 
 namespace {
@@ -22,11 +24,11 @@ Importance importance_of(Saved saved) {
 std::string_view text_of(Saved saved) {
   switch (saved) {
     case Saved::kNotSaved:
-      return "NOT SAVED";
+      return translated("NOT SAVED");
     case Saved::kSaved:
-      return "saved";
+      return translated("saved");
     case Saved::kNotRecorded:
-      return "NOT RECORDED";
+      return translated("NOT RECORDED");
     case Saved::kNothingNew:
       return {};
   }

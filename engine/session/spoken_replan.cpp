@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "base/angle.h"
+#include "base/printed.h"
+#include "base/translation.h"
 #include "base/units.h"
 #include "engine/session/number_words.h"
 
@@ -41,9 +43,12 @@ std::optional<Value> meaning(const std::array<std::pair<std::string_view, Value>
   return found == words.end() ? std::nullopt : std::optional<Value>(found->second);
 }
 
+constexpr const char* kNotToItsEnd = translatable("not understood to its end, say it");
+
 /// One line, whatever was typed.
-Error unclear(const std::string& verb, const std::string& problem, const std::string& example) {
-  return Error{verb + ": " + problem + ", such as \"" + example + "\""};
+Error unclear(const std::string& verb, const char* problem, const std::string& example) {
+  return Error{
+      printed(translatable("%s: %s, such as \"%s\""), verb.c_str(), problem, example.c_str())};
 }
 
 struct SaidStep {
@@ -57,19 +62,19 @@ Result<SaidStep> step_from(std::span<const std::string> words,
   const std::string& verb = words[0];
   const auto direction = meaning(kDirections, words.size() > 1 ? words[1] : std::string());
   if (!direction) {
-    return unclear(verb, "say cranial, caudal, medial or lateral", example);
+    return unclear(verb, translatable("say cranial, caudal, medial or lateral"), example);
   }
   NumberWords numbers(words.subspan(2));
   const auto by = numbers.take();
   if (!by) {
-    return unclear(verb, "say how far", example);
+    return unclear(verb, translatable("say how far"), example);
   }
   (void)numbers.take_word(unit);
   if (!numbers.at_end()) {
-    return unclear(verb, "not understood to its end, say it", example);
+    return unclear(verb, kNotToItsEnd, example);
   }
   if (!(*by > 0.0)) {
-    return unclear(verb, "say more than zero", example);
+    return unclear(verb, translatable("say more than zero"), example);
   }
   return SaidStep{*direction, *by};
 }
@@ -98,11 +103,11 @@ Result<Replan> size_from(std::span<const std::string> words) {
   (void)(diameter && numbers.take_word(kBetweenSizes));
   const auto length = diameter ? numbers.take() : std::nullopt;
   if (!length) {
-    return unclear("screw", "say diameter and length", kExample);
+    return unclear("screw", translatable("say diameter and length"), kExample);
   }
   (void)numbers.take_word(kMillimetres);
   if (!numbers.at_end()) {
-    return unclear("screw", "not understood to its end, say it", kExample);
+    return unclear("screw", kNotToItsEnd, kExample);
   }
   return Replan(SetScrewSize{*diameter * kMetresPerMm, *length * kMetresPerMm});
 }
@@ -113,11 +118,11 @@ Result<Replan> one_size_from(std::span<const std::string> words) {
   NumberWords numbers(words.subspan(1));
   const auto value = numbers.take();
   if (!value) {
-    return unclear(words[0], "say a number", example);
+    return unclear(words[0], translatable("say a number"), example);
   }
   (void)numbers.take_word(kMillimetres);
   if (!numbers.at_end()) {
-    return unclear(words[0], "not understood to its end, say it", example);
+    return unclear(words[0], kNotToItsEnd, example);
   }
   const double metres = *value * kMetresPerMm;
   return Replan(diameter ? SetScrewSize{metres, {}} : SetScrewSize{{}, metres});
@@ -125,7 +130,7 @@ Result<Replan> one_size_from(std::span<const std::string> words) {
 
 Result<Replan> alone(std::span<const std::string> words, Replan replan) {
   if (words.size() > 1) {
-    return Error{words[0] + ": stands alone"};
+    return Error{printed(translatable("%s: stands alone"), words[0].c_str())};
   }
   return replan;
 }

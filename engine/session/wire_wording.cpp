@@ -2,6 +2,8 @@
 
 #include "base/angle.h"
 #include "base/printed.h"
+#include "base/translation.h"
+#include "engine/session/said.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {
@@ -16,32 +18,32 @@ void write_wire(PartedText text, const WireSoFar& state, std::string_view separa
   std::string& out = text.out;
   if (state.wire == nullptr) {
     text.begin(Importance::kNext, separator);
-    out += "set the sleeve over the wire, turn it and click, or say next";
+    out += translated("set the sleeve over the wire, turn it and click, or say next");
     return;
   }
   const PlacedWire& wire = *state.wire;
   text.begin(Importance::kMessage, separator);
-  out += "placed: ";
+  const std::size_t begin = out.size();
   append_wire(out, wire);
-  out += " from the plan";
+  enclose(out, begin, translated("placed: %s from the plan"));
   if (wire.within()) {
     return;
   }
   text.begin(wire.kept ? Importance::kMessage : Importance::kDanger, "; ");
   if (!wire.angle_within()) {
-    append_beside_limit(out, "angle %.1f°, limit %.1f°", degrees(wire.axis.angle_rad.value),
-                        degrees(wire.angle_limit_rad));
+    append_beside_limit(out, translated("angle %.1f°, limit %.1f°"),
+                        degrees(wire.axis.angle_rad.value), degrees(wire.angle_limit_rad));
   }
   if (!wire.entry_within()) {
     out += wire.angle_within() ? "" : "; ";
-    append_beside_limit(out, "entry %.1f mm, limit %.1f mm", wire.axis.entry_m.value * 1e3,
-                        wire.entry_limit_m * 1e3);
+    append_beside_limit(out, translated("entry %.1f mm, limit %.1f mm"),
+                        wire.axis.entry_m.value * 1e3, wire.entry_limit_m * 1e3);
   }
   text.begin(Importance::kNext, ": ");
   if (wire.kept) {
-    out += "kept, say next";
+    out += translated("kept, say next");
   } else {
-    out += state.no_other_entry ? words::kNoOtherEntry : words::kKeepOrRedo;
+    out += translated(state.no_other_entry ? words::kNoOtherEntry : words::kKeepOrRedo);
   }
 }
 

@@ -6,11 +6,13 @@
 #include <span>
 
 #include "base/angle.h"
-#include "base/length_text.h"
 #include "base/printed.h"
+#include "base/translation.h"
+#include "engine/session/landmark_wording.h"
 #include "engine/session/message_wording.h"
 #include "engine/session/numbers_wording.h"
 #include "engine/session/part_wording.h"
+#include "engine/session/said.h"
 #include "engine/session/saved_wording.h"
 #include "engine/session/wire_wording.h"
 
@@ -20,9 +22,11 @@ namespace {
 constexpr std::string_view kBetweenParts = " | ";
 
 std::string_view word_of(Step step) {
-  constexpr std::array<std::string_view, kStepCount> kWords = {
-      "setup", "digitize", "verify", "accepted", "guide", "placed", "rod", "done"};
-  return kWords[static_cast<std::size_t>(step)];
+  constexpr std::array<const char*, kStepCount> kWords = {
+      translatable("setup"),    translatable("digitize"), translatable("verify"),
+      translatable("accepted"), translatable("guide"),    translatable("placed"),
+      translatable("rod"),      translatable("done")};
+  return translated(kWords[static_cast<std::size_t>(step)]);
 }
 
 /// What is to be touched, and the result of the last touch.
@@ -30,14 +34,12 @@ void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view s
   std::string& out = text.out;
   if (checks.last_m) {
     text.begin(Importance::kMessage, separator);
-    append_printed(out, "check %zu: ", checks.count);
-    append_mm(out, *checks.last_m, 1);
+    append_printed(out, translated("check %zu: %s"), checks.count, said_mm(*checks.last_m).c_str());
     separator = "; ";
   }
   text.begin(Importance::kNext, separator);
   if (checks.verdict->passed) {
-    out += "passed, worst ";
-    append_mm(out, checks.verdict->worst_m, 1);
+    append_printed(out, translated("passed, worst %s"), said_mm(checks.verdict->worst_m).c_str());
   } else {
     append(out, checks.verdict->advice);
   }
@@ -47,74 +49,14 @@ void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view s
 void write_moved(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
   if (checks.moved_m) {
     text.begin(Importance::kDanger, separator);
-    text.out += "moved ";
-    append_mm(text.out, *checks.moved_m, 1);
-  }
-}
-
-/// The guide's tip and the pointer's: what is to be done, or how far apart they were.
-void write_tips(PartedText text, const TipCheck& tips, std::string_view separator) {
-  std::string& out = text.out;
-  if (tips.due()) {
-    text.begin(Importance::kNext, separator);
-    out += "put the guide's tip in it too, or say next";
-    return;
-  }
-  if (!tips.last() || tips.last()->corrected) {
-    return;
-  }
-  text.begin(tips.offers() ? Importance::kDanger : Importance::kMessage, separator);
-  out += tips.offers() ? "guide's tip " : "tips agree, ";
-  append_mm(out, tips.last()->apart_m.norm(), 1);
-  out += tips.offers() ? " from the pointer's" : " apart";
-  if (tips.offers()) {
-    text.begin(Importance::kNext, ": ");
-    out += "say accept to correct it";
-  }
-}
-
-/// The error of the guide's axis according to the last wire, if it is worth correcting.
-void write_axis(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
-  if (landmark.axis == nullptr || !landmark.axis->offers() || landmark.tips->offers()) {
-    return;
-  }
-  text.begin(Importance::kDanger, separator);
-  append_printed(text.out, "guide's axis %.1f° off", degrees(landmark.axis->last()->off_rad));
-  text.begin(Importance::kNext, ": ");
-  text.out += "say accept to correct it";
-}
-
-/// Whether the landmark is still to be touched, and the result of the last touch.
-void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
-  std::string& out = text.out;
-  if (!landmark.last) {
-    text.begin(Importance::kNext, separator);
-    out += landmark.recorded ? words::kTouchDimple : words::kMakeDimple;
-    return;
-  }
-  if (landmark.last->missing > 0) {
-    text.begin(Importance::kNext, separator);
-    out += "lift the tip and touch the dimple again";
-    return;
-  }
-  text.begin(Importance::kMessage, separator);
-  if (landmark.last->first) {
-    out += "dimple recorded";
-  } else {
-    out += "dimple found, ";
-    append_mm(out, landmark.last->off_m, 1);
-    out += " off";
-  }
-  if (landmark.tips != nullptr) {
-    write_tips(text, *landmark.tips, "; ");
-    write_axis(text, landmark, "; ");
+    append_printed(text.out, translated("moved %s"), said_mm(*checks.moved_m).c_str());
   }
 }
 
 void write_unused_tool(PartedText text, const StatusLine& line, std::string_view separator) {
   if (!line.unused_tool.empty()) {
     text.begin(Importance::kNext, separator);
-    text.out.append(line.unused_tool).append(" in view: not used in this step");
+    append_with(text.out, translated("%s in view: not used in this step"), line.unused_tool);
   }
 }
 
@@ -126,30 +68,33 @@ struct StateWriter {
   void operator()(std::monostate /*none*/) {}
   void operator()(const StrokesSoFar& strokes) {
     text.begin(Importance::kCount);
-    append_printed(out, "%zu points", strokes.points);
+    append_printed(out, translated("%zu points"), strokes.points);
     if (strokes.coaching != nullptr) {
       write_coaching(text, *strokes.coaching, kBetweenParts);
     }
   }
   void operator()(const RegistrationFigures& figures) {
     text.begin(Importance::kFigures);
-    out += "RMSE ";
-    append_mm(out, figures.rmse_m, 2);
+    append_printed(out, translated("RMSE %s"), said_mm(figures.rmse_m, 2).c_str());
     text.begin(Importance::kFigures, ", ");
-    out += kExpectedError;
-    append_mm(out, figures.expected_m, 1);
-    out += figures.of_one_screw ? "" : " at the screws";
-    out += figures.registration_only ? kRegistrationOnly : "";
+    append_expected_error(out, figures.expected_m);
+    if (!figures.of_one_screw) {
+      out.append(" ").append(translated("at the screws"));
+    }
+    if (figures.registration_only) {
+      append_registration_only(out);
+    }
     if (figures.replanned) {
       text.begin(Importance::kMessage, "; ");
-      out += "planned in surgery";
+      out += translated("planned in surgery");
     }
   }
   void operator()(const ChecksSoFar& checks) {
     text.begin(Importance::kFigures);
-    out += kExpectedError;
-    append_mm(out, checks.expected_m, 1);
-    out += checks.registration_only ? kRegistrationOnly : "";
+    append_expected_error(out, checks.expected_m);
+    if (checks.registration_only) {
+      append_registration_only(out);
+    }
     write_moved(text, checks, "; ");
     write_checks(text, checks, "; ");
   }
@@ -160,12 +105,13 @@ struct StateWriter {
   void operator()(const WireSoFar& wire) { write_wire(text, wire, ""); }
   void operator()(const HeadsSoFar& heads) {
     text.begin(Importance::kCount);
-    append_printed(out, "%zu heads", heads.count);
+    append_printed(out, translated("%zu heads"), heads.count);
     if (heads.cut_length_m) {
       text.begin(Importance::kFigures, ", ");
-      out += "cut to ";
-      append_mm(out, *heads.cut_length_m, 1);
-      append_printed(out, heads.bends == 1 ? ", %zu bend" : ", %zu bends", heads.bends);
+      append_printed(out, translated("cut to %s"), said_mm(*heads.cut_length_m).c_str());
+      out += ", ";
+      append_printed(out, heads.bends == 1 ? translated("%zu bend") : translated("%zu bends"),
+                     heads.bends);
     }
   }
 };
@@ -199,7 +145,7 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     out += stalled_text(*line.stalled);
   } else if (line.tool_lost) {
     text.begin(Importance::kDanger);
-    out.append(line.tool).append(" lost");
+    append_with(out, translated("%s lost"), line.tool);
   } else if (line.tag_size_off) {
     text.begin(Importance::kDanger);
     append_tag_size_off(out, line.tool, *line.tag_size_off);
@@ -233,8 +179,14 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
 }
 
 void append_heard(std::string& out, const HeardCommand& heard) {
-  out.append(heard.from).append(heard.from.empty() ? "heard: " : " asks: ");
-  out.append(heard.phrase).append(heard.sure ? "" : "? not sure");
+  if (heard.from.empty()) {
+    append_with(out, translated("heard: %s"), heard.phrase);
+  } else {
+    append_printed(out, translated("%s asks: %s"), heard.from.c_str(), heard.phrase.c_str());
+  }
+  if (!heard.sure) {
+    out.append("? ").append(translated("not sure"));
+  }
 }
 
 void append_beside_step(std::string& out, const StatusLine& line, StatusParts* parts) {
@@ -269,9 +221,12 @@ void append_status(std::string& out, const StatusLine& line) {
 }
 
 void append_tag_size_off(std::string& out, std::string_view tool, double fraction) {
-  out += tool;
-  append_printed(out, ": tag %.1f %% %s than stated, check print and unit",
-                 100.0 * std::abs(fraction), fraction > 0.0 ? "larger" : "smaller");
+  out.append(tool).append(": ");
+  append_printed(out,
+                 fraction > 0.0
+                     ? translated("tag %.1f %% larger than stated, check print and unit")
+                     : translated("tag %.1f %% smaller than stated, check print and unit"),
+                 100.0 * std::abs(fraction));
 }
 
 std::string step_text(const StepOnDisplay& at) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/translation.h"
 #include "engine/session/coach.h"
 #include "engine/session/findings_wording.h"
 #include "engine/session/message.h"
@@ -14,8 +15,9 @@
 
 namespace orthonav::engine {
 
-// All words that a surgeon reads are made from data here: translating orthonav means translating
-// wording.cpp and the other *_wording.cpp. No decision ever depends on these texts.
+// All words that a surgeon reads are made from data here, in wording.cpp and the other
+// *_wording.cpp: in English, or where a WearersLanguage lives, in the wearer's language
+// (base/translation.h). No decision ever depends on these texts.
 //
 // The status line is rewritten for every frame, into strings that keep their capacity: the `append`
 // functions do not allocate once the frame loop is warm.
@@ -44,20 +46,22 @@ void append(std::string& out, const Message& message);
 /// "pointer: tag 2.0 % larger than stated, check print and unit".
 void append_tag_size_off(std::string& out, std::string_view tool, double fraction);
 
+// For `translated`.
 namespace words {
-inline constexpr std::string_view kToolLost = "tool lost";
-inline constexpr std::string_view kHeadNotLocated =
-    "Head not located: nothing is shown in the world";
-inline constexpr std::string_view kTouchDimple = "touch the dimple";
-inline constexpr std::string_view kMakeDimple = "make a dimple in this bone and touch it";
-inline constexpr std::string_view kKeepOrRedo = "say accept to keep it, delete to redo it";
-inline constexpr std::string_view kNoOtherEntry =
-    "no other entry stays inside the bone, say accept to keep it";
-inline constexpr std::string_view kToEntry = "to entry";
-inline constexpr std::string_view kToTarget = "to target";
-inline constexpr std::string_view kPastTarget = "past target";
+inline constexpr const char* kToolLost = translatable("tool lost");
+inline constexpr const char* kHeadNotLocated =
+    translatable("Head not located: nothing is shown in the world");
+inline constexpr const char* kNotYet = translatable("not yet:");
+inline constexpr const char* kTouchDimple = translatable("touch the dimple");
+inline constexpr const char* kMakeDimple = translatable("make a dimple in this bone and touch it");
+inline constexpr const char* kKeepOrRedo = translatable("say accept to keep it, delete to redo it");
+inline constexpr const char* kNoOtherEntry =
+    translatable("no other entry stays inside the bone, say accept to keep it");
+inline constexpr const char* kToEntry = translatable("to entry");
+inline constexpr const char* kToTarget = translatable("to target");
+inline constexpr const char* kPastTarget = translatable("past target");
 /// Between the angle of a bend and its place along the rod.
-inline constexpr std::string_view kAt = " at ";
+inline constexpr const char* kAt = translatable("at");
 }  // namespace words
 
 }  // namespace orthonav::engine

@@ -7,6 +7,7 @@
 
 #include "base/angle.h"
 #include "base/printed.h"
+#include "base/translation.h"
 #include "nav/geometry/spline.h"
 #include "nav/registration/principal_axes.h"
 
@@ -37,21 +38,22 @@ std::string outside(double length_m, double shortest_m, double longest_m) {
 }
 
 Error apart(std::size_t i, std::size_t j, double gap_m) {
-  return Error{"screw heads " + std::to_string(i + 1) + " and " + std::to_string(j + 1) + " are " +
-               outside(gap_m, kClosest_m, kFarthestHead_m) + " apart, limit 5-150 mm"};
+  return Error{printed(translatable("screw heads %zu and %zu are %s apart, limit 5-150 mm"), i + 1,
+                       j + 1, outside(gap_m, kClosest_m, kFarthestHead_m).c_str())};
 }
 
 Status check(std::span<const Vec3> heads_m, double diameter_m) {
   if (!(diameter_m >= kThinnestRod_m && diameter_m <= kThickestRod_m)) {
-    return Error{"rod diameter is " + outside(diameter_m, kThinnestRod_m, kThickestRod_m) +
-                 ", limit 1-15 mm"};
+    return Error{printed(translatable("rod diameter is %s, limit 1-15 mm"),
+                         outside(diameter_m, kThinnestRod_m, kThickestRod_m).c_str())};
   }
   if (heads_m.size() < 2) {
-    return Error{"rod needs at least 2 screw heads, got " + std::to_string(heads_m.size())};
+    return Error{
+        printed(translatable("rod needs at least 2 screw heads, got %zu"), heads_m.size())};
   }
   for (std::size_t i = 0; i < heads_m.size(); ++i) {
     if (!heads_m[i].is_finite()) {
-      return Error{"screw head " + std::to_string(i + 1) + " is not finite"};
+      return Error{printed(translatable("screw head %zu is not finite"), i + 1)};
     }
   }
   for (std::size_t i = 0; i < heads_m.size(); ++i) {
@@ -96,8 +98,9 @@ Status check_run(std::span<const Vec3> heads_m, std::span<const std::size_t> ord
     const double angle_rad = bend_rad(heads_m, i);
     if (angle_rad > kSharpest_rad) {
       return Error{printed(
-          "rod %s %s° at screw head %zu, limit 60°",
-          angle_rad > kBack_rad ? "doubles back by" : "bends by",
+          angle_rad > kBack_rad
+              ? translatable("rod doubles back by %s° at screw head %zu, limit 60°")
+              : translatable("rod bends by %s° at screw head %zu, limit 60°"),
           value_beside(angle_rad * kDegreesPerRadian, kSharpest_rad * kDegreesPerRadian, 1).c_str(),
           order[i] + 1)};
     }
@@ -132,7 +135,8 @@ Result<RodTemplate> rod_template(std::span<const Vec3> heads_m, double diameter_
     rod.length_m += spline->segment_length_m(i);
   }
   if (rod.length_m > kLongestRod_m) {
-    return Error{"rod is " + outside(rod.length_m, 0.0, kLongestRod_m) + " long, limit 600 mm"};
+    return Error{printed(translatable("rod is %s long, limit 600 mm"),
+                         outside(rod.length_m, 0.0, kLongestRod_m).c_str())};
   }
   return rod;
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/printed.h"
+#include "base/translation.h"
 #include "nav/registration/principal_axes.h"
 #include "nav/registration/registration.h"
 
@@ -21,27 +22,27 @@ std::string line(const char* format, double a, double b) { return beside_limit(f
 Status validate_points(std::span<const Point<World>> points, std::size_t min_points) {
   const std::size_t fewest = std::max<std::size_t>(min_points, 3);
   if (points.size() < fewest) {
-    return Error{"registration has " + std::to_string(points.size()) + " points, needs at least " +
-                 std::to_string(fewest)};
+    return Error{printed(translatable("registration has %zu points, needs at least %zu"),
+                         points.size(), fewest)};
   }
   std::vector<Vec3> numbers(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].v.is_finite()) {
-      return Error{"registration point " + std::to_string(i + 1) + " is not finite"};
+      return Error{printed(translatable("registration point %zu is not finite"), i + 1)};
     }
     numbers[i] = points[i].v;
   }
   const PrincipalAxes axes = principal_axes(numbers);
   if (!(axes.deviation_m[0] <= kWidest_m)) {
     return Error{
-        line("registration points spread %.4g mm (standard deviation), limit %.0f mm: not "
-             "one vertebra, or not in the unit given",
+        line(translatable("registration points spread %.4g mm (standard deviation), limit %.0f mm: "
+                          "not one vertebra, or not in the unit given"),
              axes.deviation_m[0] * 1e3, kWidest_m * 1e3)};
   }
   if (!(axes.deviation_m[1] >= kNarrowest_m)) {
     return Error{
-        line("registration points lie on a line or in one place (%.3g mm wide, at least "
-             "%.0f mm)",
+        line(translatable("registration points lie on a line or in one place (%.3g mm wide, at "
+                          "least %.0f mm)"),
              axes.deviation_m[1] * 1e3, kNarrowest_m * 1e3)};
   }
   return {};
@@ -52,17 +53,17 @@ Status check_point_sds(std::span<const double> sd_m, std::size_t points) {
     return {};
   }
   if (sd_m.size() != points) {
-    return Error{"registration: " + std::to_string(sd_m.size()) + " standard deviations of " +
-                 std::to_string(points) + " points"};
+    return Error{printed(translatable("registration: %zu standard deviations of %zu points"),
+                         sd_m.size(), points)};
   }
   const auto bad =
       std::find_if(sd_m.begin(), sd_m.end(), [](double sd) { return !(sd >= 0.0 && sd < 1.0); });
   if (bad == sd_m.end()) {
     return {};
   }
-  return Error{"registration: standard deviation of point " +
-               std::to_string(bad - sd_m.begin() + 1) + " is " + std::to_string(*bad) +
-               " m, must be between 0 and 1 m"};
+  return Error{printed(translatable("registration: standard deviation of point %zu is %f m, must "
+                                    "be between 0 and 1 m"),
+                       static_cast<std::size_t>(bad - sd_m.begin()) + 1, *bad)};
 }
 
 }  // namespace orthonav::nav

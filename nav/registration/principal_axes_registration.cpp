@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/translation.h"
 #include "nav/registration/coarse.h"
 #include "nav/registration/icp.h"
 #include "nav/registration/registration.h"
@@ -58,8 +59,8 @@ Result<Registration> register_by_principal_axes(const VertebraModel& model,
     }
   }
   if (refined.empty()) {
-    return Error{
-        "registration finds no pose: the extreme points of the strokes fit no part of the model"};
+    return Error{translatable(
+        "registration finds no pose: the extreme points of the strokes fit no part of the model")};
   }
   if (refined.size() == 1) {
     refined.push_back(refined[0]);

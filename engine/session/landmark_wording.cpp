@@ -1,0 +1,74 @@
+#include "engine/session/landmark_wording.h"
+
+#include "base/angle.h"
+#include "base/printed.h"
+#include "base/translation.h"
+#include "engine/session/said.h"
+#include "engine/session/wording.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr const char* kSayAccept = translatable("say accept to correct it");
+
+/// The guide's tip and the pointer's: what is to be done, or how far apart they were.
+void write_tips(PartedText text, const TipCheck& tips, std::string_view separator) {
+  std::string& out = text.out;
+  if (tips.due()) {
+    text.begin(Importance::kNext, separator);
+    out += translated("put the guide's tip in it too, or say next");
+    return;
+  }
+  if (!tips.last() || tips.last()->corrected) {
+    return;
+  }
+  text.begin(tips.offers() ? Importance::kDanger : Importance::kMessage, separator);
+  append_printed(out,
+                 tips.offers() ? translated("guide's tip %s from the pointer's")
+                               : translated("tips agree, %s apart"),
+                 said_mm(tips.last()->apart_m.norm()).c_str());
+  if (tips.offers()) {
+    text.begin(Importance::kNext, ": ");
+    out += translated(kSayAccept);
+  }
+}
+
+/// The error of the guide's axis according to the last wire, if it is worth correcting.
+void write_axis(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
+  if (landmark.axis == nullptr || !landmark.axis->offers() || landmark.tips->offers()) {
+    return;
+  }
+  text.begin(Importance::kDanger, separator);
+  append_printed(text.out, translated("guide's axis %.1f° off"),
+                 degrees(landmark.axis->last()->off_rad));
+  text.begin(Importance::kNext, ": ");
+  text.out += translated(kSayAccept);
+}
+
+}  // namespace
+
+void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
+  std::string& out = text.out;
+  if (!landmark.last) {
+    text.begin(Importance::kNext, separator);
+    out += translated(landmark.recorded ? words::kTouchDimple : words::kMakeDimple);
+    return;
+  }
+  if (landmark.last->missing > 0) {
+    text.begin(Importance::kNext, separator);
+    out += translated("lift the tip and touch the dimple again");
+    return;
+  }
+  text.begin(Importance::kMessage, separator);
+  if (landmark.last->first) {
+    out += translated("dimple recorded");
+  } else {
+    append_printed(out, translated("dimple found, %s off"), said_mm(landmark.last->off_m).c_str());
+  }
+  if (landmark.tips != nullptr) {
+    write_tips(text, *landmark.tips, "; ");
+    write_axis(text, landmark, "; ");
+  }
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+#include "engine/session/status_line.h"
+#include "engine/session/status_parts.h"
+
+namespace orthonav::engine {
+
+// The landmark in words: a part of engine/session/wording.h.
+
+/// Whether the landmark is still to be touched, and the result of the last touch.
+void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_view separator);
+
+}  // namespace orthonav::engine
