@@ -34,6 +34,8 @@ foreach(header contract/device_cases support/session_log)
 endforeach()
 install(FILES "${PROJECT_SOURCE_DIR}/data/tools.json" DESTINATION "${CMAKE_INSTALL_DATADIR}/orthonav"
         COMPONENT runtime)
+install(FILES "${PROJECT_SOURCE_DIR}/data/languages/template.toml" "${PROJECT_SOURCE_DIR}/data/languages/de.toml"
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/orthonav/languages" COMPONENT runtime)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/orthonav-doc" COMPONENT doc)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" "${PROJECT_SOURCE_DIR}/tools/example"

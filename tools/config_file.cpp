@@ -88,7 +88,8 @@ Result<ConfigFile::Value> value_of(const std::string& path, const std::string& s
   if (text.empty()) {
     return Error{place + section + "." + name + " must be a text, a number, true or false"};
   }
-  if (key->is_file) {
+  const bool word = key->or_word && text.find_first_of("./") == text.npos;
+  if (key->is_file && !word) {
     text = (std::filesystem::path(path).parent_path() / text).string();
   }
   return ConfigFile::Value{key, std::move(text), static_cast<int>(node.source().begin.line)};
@@ -114,6 +115,7 @@ const std::vector<ConfigKey>& config_keys() {
       {"limits", "map_sd_mm", "--map-sd-mm"},
       {"display", "device", "--device"},
       {"display", "size", "--size"},
+      {"display", "language", "--language", true, true},
       {"log", "file", "--log", true},
       {"log", "verbose", "--verbose"},
   };

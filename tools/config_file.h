@@ -14,6 +14,7 @@ struct ConfigKey {
   const char* key;
   const char* option;
   bool is_file = false;  ///< relative names start from the folder of the configuration
+  bool or_word = false;  ///< a value without dot and slash is a word, not a file
 };
 
 /// All keys, by section.

@@ -9,6 +9,7 @@
 #include "tools/arguments.h"
 #include "tools/calibration_argument.h"
 #include "tools/kept_operation.h"
+#include "tools/language_argument.h"
 #include "tools/limit_arguments.h"
 #include "tools/onlookers.h"
 
@@ -33,6 +34,7 @@ struct DemoArguments {
   int threads = 2;
   std::optional<double> pace;
   CalibrationArgument calibration;
+  LanguageArgument language;
   LimitArguments limits;
   OnlookerArguments onlookers;
 };

@@ -239,7 +239,10 @@ void add_demo_command(CLI::App& app, Action& action, StopSignals& signals) {
       "demo", "A whole navigated operation in the simulated room, from camera frames to holograms");
   add_demo_arguments(*demo, *arguments);
   demo->callback([arguments, &action, &signals] {
-    action = [arguments, &signals] { return Demo(*arguments, signals).run(); };
+    action = [arguments, &signals] {
+      const Status spoken = arguments->language.use();
+      return spoken ? Demo(*arguments, signals).run() : bad_input(spoken.error().message);
+    };
   });
 }
 

@@ -10,6 +10,7 @@
 #include "tools/config_file.h"
 #include "tools/igtl_stream.h"
 #include "tools/kept_previews.h"
+#include "tools/language_argument.h"
 #include "tools/memory_reserve.h"
 #include "tools/model_notes.h"
 #include "tools/preview/preview_app.h"
@@ -33,6 +34,7 @@ struct PreviewArguments {
   std::optional<double> pace;
   IgtlArguments igtl;
   KeepArguments keep;
+  LanguageArgument language;
   preview::PreviewOptions options;
 };
 
@@ -258,11 +260,15 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   arguments->keep.add_to(*preview);
   preview->add_option("--models", arguments->models, "folder that keeps the prepared models")
       ->check(some_text());
+  arguments->language.add_to(*preview);
   add_window_options(*preview, arguments);
   add_config_option(*preview);
   preview->callback([arguments, &action, &signals] {
     action = [arguments, &signals] {
       limit_memory();
+      if (const Status spoken = arguments->language.use(); !spoken) {
+        return bad_input(spoken.error().message);
+      }
       return preview_window(*arguments, signals);
     };
   });

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "base/angle.h"
+#include "base/translation.h"
 #include "engine/golden/golden_stage.h"
 #include "engine/session/wording.h"
 #include "render/projection.h"
 #include "tests/golden/expected_box.h"
+#include "tools/language_file.h"
 
 namespace orthonav::engine {
 namespace {
@@ -19,8 +21,16 @@ using ::testing::HasSubstr;
 
 const nav::BonePlace kFarPlace{nav::BonePlace::Part::kFacet, Side::kRight,
                                nav::BonePlace::Height::kLower};
-constexpr const char* kFarPlaceText =
-    "stroke the right lower facet and root of the transverse process";
+/// What no message may hide, and what it asks for, in the language in use.
+struct Told {
+  std::string lost;
+  std::string not_saved;
+  std::string stroke;
+};
+const Told kEnglish{"reference lost", "NOT SAVED",
+                    "stroke the right lower facet and root of the transverse process"};
+const Told kGerman{"reference verloren", "NICHT GESICHERT",
+                   "abfahren: Facette und Querfortsatzbasis unten rechts"};
 
 struct ShownOn {
   std::string name;
@@ -201,7 +211,7 @@ void expect_apart(const GoldenScene& golden) {
   }
 }
 
-TEST(StatusLineOnDisplays, ShowsTheLongestMessageOfEveryKindWhole) {
+void expect_whole(const Told& told) {
   Coaching coaching;
   coaching.unique = true;
   coaching.expected_m = 0.0123;
@@ -219,16 +229,16 @@ TEST(StatusLineOnDisplays, ShowsTheLongestMessageOfEveryKindWhole) {
         ASSERT_THAT(text,
                     ::testing::StartsWith(step_text(line.at) + "\n●\npointer\n◐\nguide\n○\n"));
         if (line.tool_lost) {
-          ASSERT_THAT(text, HasSubstr("reference lost"));
+          ASSERT_THAT(text, HasSubstr(told.lost));
         }
         if (line.saved == Saved::kNotSaved) {
-          ASSERT_THAT(in_one_row(text), HasSubstr("NOT SAVED"));
+          ASSERT_THAT(in_one_row(text), HasSubstr(told.not_saved));
         }
         if (const auto* refused = std::get_if<RegistrationRefused>(&message)) {
           ASSERT_TRUE(refused->stroke_next);
           std::string joined = text;
           std::replace(joined.begin(), joined.end(), '\n', ' ');
-          ASSERT_THAT(joined, HasSubstr(kFarPlaceText));
+          ASSERT_THAT(joined, HasSubstr(told.stroke));
         }
       }
       if (::testing::Test::HasFailure()) {
@@ -239,6 +249,19 @@ TEST(StatusLineOnDisplays, ShowsTheLongestMessageOfEveryKindWhole) {
       }
     }
   }
+}
+
+TEST(StatusLineOnDisplays, ShowsTheLongestMessageOfEveryKindWhole) { expect_whole(kEnglish); }
+
+TEST(StatusLineOnDisplays, ShowsItInGermanToo) {
+  auto german = tools::language_named("de");
+  ASSERT_TRUE(german) << german.error().message;
+  use_translation(*std::move(german));
+  {
+    const WearersLanguage language;
+    expect_whole(kGerman);
+  }
+  use_translation(nullptr);
 }
 
 TEST(StatusLineOnDisplays, IsCutWhereNothingShortensIt) {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "base/translation.h"
+#include "tools/language_file.h"
+
+namespace orthonav::test {
+
+/// A language of brackets: of each text only its values are left, as in "[3.2 3.0]". A letter that
+/// still appears is English that was not translated.
+class PseudoLanguage {
+ public:
+  PseudoLanguage() {
+    std::vector<Translation::Entry> entries;
+    for (const std::string& english : tools::texts_to_translate()) {
+      std::string text = "[";
+      for (const std::string_view conversion : conversions_of(english)) {
+        text.append(text.size() == 1 ? "" : " ").append(conversion);
+      }
+      entries.push_back({english, text + "]"});
+    }
+    use_translation(std::make_shared<Translation>(std::move(entries)));
+  }
+  ~PseudoLanguage() { use_translation(nullptr); }
+  PseudoLanguage(const PseudoLanguage&) = delete;
+  PseudoLanguage& operator=(const PseudoLanguage&) = delete;
+};
+
+/// The words in a text that are neither numbers and units nor names of the operation: tools,
+/// levels, commands in quotation marks, or `heard`.
+inline std::string english_left(const std::string& text, const std::string& heard = "mm") {
+  const std::regex allowed(
+      "\\b(mm|inf|pointer|guide|reference|L[0-9]|" + heard +
+      ")\\b|\"(start|save|delete|accept|reject|next|done|move rod|twin|drill)\"");
+  static const std::regex kNoLetters("[^A-Za-z\"]+");
+  return std::regex_replace(std::regex_replace(text, allowed, ""), kNoLetters, "");
+}
+
+}  // namespace orthonav::test

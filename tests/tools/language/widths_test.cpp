@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/holograms/status_rows.h"
+#include "engine/session/numbers_wording.h"
+#include "engine/session/wording.h"
+#include "tools/language_file.h"
+
+namespace orthonav::engine::language_widths_test {
+namespace {
+
+/// Everything is written in German for a wearer.
+class German : public ::testing::Test {
+ protected:
+  German() {
+    if (auto german = tools::language_named("de")) {
+      use_translation(*std::move(german));
+    }
+  }
+  ~German() override { use_translation(nullptr); }
+  German(const German&) = delete;
+  German& operator=(const German&) = delete;
+  WearersLanguage language_;
+};
+
+/// The row above the status line.
+std::string row_of_numbers() {
+  constexpr nav::ShownNumber kFar{-123, 3, true};
+  std::string text;
+  append_numbers(text, {kFar, kFar, kFar, kFar}, true);
+  return text;
+}
+
+TEST_F(German, WordsBesideTheNumbersHaveThePlaceOfTheEnglishOnes) {
+  for (const char* word : {words::kClearance, words::kAtLeast, words::kTip, words::kAims}) {
+    EXPECT_NE(translated(word), word);
+    EXPECT_LE(width_caps(translated(word)), width_caps(words::kClearance)) << translated(word);
+  }
+  for (const char* word : {"cranial", "caudal", "medial", "lateral"}) {
+    EXPECT_LE(width_caps(translated(word)), 1.1f * width_caps(word)) << translated(word);
+  }
+  std::string breach;
+  append_breach(breach, {4, -1, "posterior"});
+  EXPECT_LE(width_caps(breach), width_caps("may break through posteriorly")) << breach;
+}
+
+TEST_F(German, RowsThatAreNotBrokenFitTheDisplay) {
+  EXPECT_LE(width_caps(translated(words::kHeadNotLocated)), kStatusWidth_caps);
+  EXPECT_LE(width_caps(row_of_numbers()), kStatusWidth_caps) << row_of_numbers();
+  std::string stop;
+  append_drill(stop, {nav::DrillPhase::kDrilling, nav::DrillAlarm::kStop, false});
+  EXPECT_LE(width_caps(stop), kStatusWidth_caps) << stop;
+}
+
+TEST_F(German, PartsThatAreNeverDroppedFitARow) {
+  for (std::size_t part = 0; part < kPartCount; ++part) {
+    StatusLine line;
+    line.stalled = static_cast<Part>(part);
+    EXPECT_LE(width_caps(detail_text(line)), kStatusWidth_caps) << detail_text(line);
+  }
+}
+
+}  // namespace
+}  // namespace orthonav::engine::language_widths_test
