@@ -47,14 +47,17 @@ Result<Translation> translation_of(std::string_view content, const std::string& 
 
 }  // namespace
 
-std::vector<std::string> texts_to_translate() {
-  std::vector<std::string> texts;
-  if (auto lines = lines_of(embedded::language_template(), "template.toml")) {
-    for (LanguageLine& line : *lines) {
-      texts.push_back(std::move(line.english));
+const std::vector<std::string>& texts_to_translate() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> texts;
+    if (auto lines = lines_of(embedded::language_template(), "template.toml")) {
+      for (LanguageLine& line : *lines) {
+        texts.push_back(std::move(line.english));
+      }
     }
-  }
-  return texts;
+    return texts;
+  }();
+  return all;
 }
 
 Result<Translation> load_translation(const std::string& path) {

@@ -10,7 +10,7 @@
 namespace orthonav::tools {
 
 /// Every English text that a wearer may read, in the order of data/languages/template.toml.
-[[nodiscard]] std::vector<std::string> texts_to_translate();
+[[nodiscard]] const std::vector<std::string>& texts_to_translate();
 
 /// The translation of a file (TOML: English text = other text), checked by
 /// tools/language_check.h.

@@ -7,6 +7,7 @@
 #include "engine/session/numbers_wording.h"
 #include "engine/session/replan_wording.h"
 #include "engine/session/wording.h"
+#include "tests/support/allocation_count.h"
 #include "tests/tools/language/every_message.h"
 #include "tests/tools/language/pseudo_language.h"
 
@@ -247,6 +248,29 @@ TEST_F(EveryText, OfTheNumbersIsTranslated) {
       }
     }
   }
+}
+
+TEST_F(EveryText, IsWrittenWithoutAllocating) {
+  RegistrationRefused refused;
+  refused.reasons = test::every_reason();
+  RegistrationRefused none;
+  none.error = test::every_registration_error().back();
+  const Message messages[] = {
+      refused, none, NoRod{test::every_rod_error()[3]}, BoneUnchecked{49.2, 0.0014},
+      TouchNotRecorded{TouchNotRecorded::What::kHead, {TouchRefusal::Kind::kTipMoved, 3, 2}}};
+  std::string text;
+  text.reserve(1u << 20u);
+  StatusParts parts;
+  const std::size_t before = test::allocation_count();
+  for (const Message& message : messages) {
+    StatusLine line;
+    line.tool = "guide";
+    line.tool_lost = true;
+    line.message = &message;
+    line.saved = Saved::kSaved;
+    append_detail(text, line, &parts);
+  }
+  EXPECT_EQ(test::allocation_count(), before);
 }
 
 TEST_F(EveryText, IsEnglishWhereNoWearerReadsIt) {

@@ -72,6 +72,11 @@ TEST(Language, KeepsTheCommands) {
             "my.toml:3: the translation of \"say accept to take it\" lacks the command "
             "\"accept\", which is said in English");
   EXPECT_NE(refusal_with(2, "acceptieren"), "") << "a part of a word is no command";
+  const std::vector<std::string> texts = {"check again or reject", "the tip is done"};
+  const auto checked = checked_translation(
+      "my.toml", {{texts[1], "fertig", 1}, {texts[0], "erneut prüfen", 2}}, texts);
+  ASSERT_FALSE(checked);
+  EXPECT_THAT(checked.error().message, HasSubstr("lacks the command \"reject\""));
 }
 
 TEST(Language, HoldsOnlyWhatTheDisplayShows) {
