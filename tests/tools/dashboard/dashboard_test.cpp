@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/translation.h"
 #include "engine/io/image_file.h"
 #include "tests/support/browser.h"
 #include "tests/support/scripted_operation.h"
@@ -118,6 +119,21 @@ TEST_F(DashboardPage, SaysWhatHangsUntilItGoesOn) {
   StereoFrame frame;
   dashboard_.stepped(frame, {}, s.pair());
   EXPECT_EQ(stalled(), "");
+}
+
+TEST_F(DashboardPage, SaysWhatTheSurgeonReadsInTheirLanguage) {
+  test::ScriptedOperation s;
+  dashboard_.watch(s.session(), {0.05, 0.09});
+  use_translation(std::make_shared<Translation>(std::vector<Translation::Entry>{
+      {"setup", "Vorbereitung"},
+      {"tracker stalled: nothing is guided", "Tracking steht: keine Navigation"}}));
+  StereoFrame frame;
+  dashboard_.stepped(frame, {}, s.pair());
+  dashboard_.part_stalled(engine::Part::kTracker);
+  use_translation(nullptr);
+  const json page = json::parse(browser_->Get("/state")->body);
+  EXPECT_EQ(page["now"]["step"], "Vorbereitung");
+  EXPECT_EQ(page["stalled"], "Tracking steht: keine Navigation");
 }
 
 TEST_F(DashboardPage, AnswersThisMachinesPageAloneAndIsReadOnly) {
