@@ -9,7 +9,7 @@
 namespace orthonav {
 namespace {
 
-// Written before any thread is started (docs/decisions/0108-translations.md).
+// Written before any thread is started (docs/decisions/0108-what-the-wearer-reads-in-other-languages.md).
 std::shared_ptr<const Translation> in_use;  // NOLINT
 thread_local bool for_wearer = false;       // NOLINT
 
