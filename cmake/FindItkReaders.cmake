@@ -1,22 +1,32 @@
-# The readers of the Insight Toolkit for DICOM, NIfTI and NRRD, as the target ItkReaders::ItkReaders.
+# Of the Insight Toolkit: the readers for DICOM, NIfTI and NRRD as the target ItkReaders::ItkReaders, and the readers and
+# writers of transforms, which tests hold ours against, as ItkReaders::ItkTransforms.
 # ITKConfig.cmake would look for every module's dependencies (HDF5, curl, executables of GDCM).
 find_path(ItkReaders_INCLUDE_DIR itkImageIOBase.h PATH_SUFFIXES ITK-5.4 ITK-5.3 ITK-5.2)
 find_path(ItkReaders_GDCM_INCLUDE_DIR gdcmTrace.h PATH_SUFFIXES gdcm-3.0)
-set(ItkReaders_LIBRARIES "")
 set(itk_readers_required ItkReaders_INCLUDE_DIR ItkReaders_GDCM_INCLUDE_DIR)
-foreach(module ITKIOGDCM ITKIONIFTI ITKIONRRD ITKIOImageBase ITKCommon itksys itkvnl
-        gdcmCommon)
-  find_library(ItkReaders_${module}_LIBRARY NAMES ${module}-5.4 ${module}-5.3 ${module}-5.2 ${module})
-  list(APPEND itk_readers_required ItkReaders_${module}_LIBRARY)
-  list(APPEND ItkReaders_LIBRARIES "${ItkReaders_${module}_LIBRARY}")
+set(itk_readers ITKIOGDCM ITKIONIFTI ITKIONRRD ITKIOImageBase ITKCommon itksys itkvnl gdcmCommon)
+set(itk_transforms ITKIOTransformHDF5 ITKIOTransformInsightLegacy ITKIOTransformBase ITKTransformFactory ITKTransform
+    ITKCommon itksys itkvnl)
+foreach(group itk_readers itk_transforms)
+  set(${group}_libraries "")
+  foreach(module IN LISTS ${group})
+    find_library(ItkReaders_${module}_LIBRARY NAMES ${module}-5.4 ${module}-5.3 ${module}-5.2 ${module})
+    list(APPEND itk_readers_required ItkReaders_${module}_LIBRARY)
+    list(APPEND ${group}_libraries "${ItkReaders_${module}_LIBRARY}")
+  endforeach()
 endforeach()
+list(REMOVE_DUPLICATES itk_readers_required)
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(ItkReaders REQUIRED_VARS ${itk_readers_required}
   REASON_FAILURE_MESSAGE "Debian: libinsighttoolkit5-dev")
-if(ItkReaders_FOUND AND NOT TARGET ItkReaders::ItkReaders)
-  add_library(ItkReaders::ItkReaders INTERFACE IMPORTED)
-  set_target_properties(ItkReaders::ItkReaders PROPERTIES
-    INTERFACE_LINK_LIBRARIES "${ItkReaders_LIBRARIES}"
+function(itk_target name libraries)
+  add_library(ItkReaders::${name} INTERFACE IMPORTED)
+  set_target_properties(ItkReaders::${name} PROPERTIES
+    INTERFACE_LINK_LIBRARIES "${libraries}"
     INTERFACE_INCLUDE_DIRECTORIES "${ItkReaders_INCLUDE_DIR};${ItkReaders_GDCM_INCLUDE_DIR}"
     INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${ItkReaders_INCLUDE_DIR};${ItkReaders_GDCM_INCLUDE_DIR}")
+endfunction()
+if(ItkReaders_FOUND AND NOT TARGET ItkReaders::ItkReaders)
+  itk_target(ItkReaders "${itk_readers_libraries}")
+  itk_target(ItkTransforms "${itk_transforms_libraries}")
 endif()

@@ -50,6 +50,22 @@ Transform<Spine, Vertebra> spine_from_model(const JsonNode& node, double metres_
   return rigid_pose<Spine, Vertebra>(node, "spine_from_model", rows);
 }
 
+/// From a transform file in the case's folder: 3D Slicer displays the model below that transform.
+Result<Transform<Spine, Vertebra>> spine_from_model_file(const std::string& folder,
+                                                         const std::string& name,
+                                                         const TransformReader& transforms) {
+  const auto path = path_inside(folder, name);
+  if (!path) {
+    return path.error();
+  }
+  const auto stored = transforms(*path);
+  if (!stored) {
+    return stored.error();
+  }
+  auto pose = parent_from_node<Spine, Vertebra>(*stored);
+  return pose ? pose : Error{*path + ": " + pose.error().message};
+}
+
 /// Metres per unit of the case's own numbers; problems are noted on the node.
 std::optional<double> declared_metres_per_unit(const JsonNode& root) {
   const std::string units = root.text_or("units", "mm");
@@ -94,8 +110,34 @@ Result<Plan> plan_of(const Entry& entry, const std::string& folder, double metre
   return load_plan(paths);
 }
 
-Result<CaseLevel> loaded(const Entry& entry, const std::string& folder, double metres_per_unit) {
-  const Result<Plan> plan = plan_of(entry, folder, metres_per_unit);
+/// What all levels are read with.
+struct Reading {
+  const std::string& folder;
+  double metres_per_unit;
+  const TransformReader& transforms;
+};
+
+/// Puts the level where the entry says, if it does.
+Status place(const Entry& entry, const Reading& reading, Axes model_axes, CaseLevel& level) {
+  if (!entry.node.has("spine_from_model")) {
+    return {};
+  }
+  if (!entry.node.is_text("spine_from_model")) {
+    level.spine_from_vertebra = spine_from_model(entry.node, reading.metres_per_unit, model_axes);
+    return {};
+  }
+  const auto pose = spine_from_model_file(reading.folder, entry.node.text("spine_from_model"),
+                                          reading.transforms);
+  if (!pose) {
+    return pose.error();
+  }
+  level.spine_from_vertebra = *pose;
+  return {};
+}
+
+Result<CaseLevel> loaded(const Entry& entry, const Reading& reading) {
+  const std::string& folder = reading.folder;
+  const Result<Plan> plan = plan_of(entry, folder, reading.metres_per_unit);
   if (!plan) {
     return plan.error();
   }
@@ -112,16 +154,16 @@ Result<CaseLevel> loaded(const Entry& entry, const std::string& folder, double m
     return level.error();
   }
   level->label = entry.label;
-  if (entry.node.has("spine_from_model")) {
-    level->spine_from_vertebra =
-        spine_from_model(entry.node, metres_per_unit, declared_axes(*model).value_or(plan->axes));
+  const Axes axes = declared_axes(*model).value_or(plan->axes);
+  if (Status s = place(entry, reading, axes, *level); !s) {
+    return s.error();
   }
   return level;
 }
 
-Status load_levels(const std::vector<Entry>& entries, double metres_per_unit, Case& subject) {
+Status load_levels(const std::vector<Entry>& entries, const Reading& reading, Case& subject) {
   for (const Entry& entry : entries) {
-    Result<CaseLevel> level = loaded(entry, subject.folder, metres_per_unit);
+    Result<CaseLevel> level = loaded(entry, reading);
     if (!level) {
       return level.error();
     }
@@ -149,7 +191,7 @@ Result<CaseLevel> load_level(const std::string& model, const Plan& plan) {
   return level;
 }
 
-Result<Case> load_case(const std::string& folder, CaseUse use) {
+Result<Case> load_case(const std::string& folder, CaseUse use, const TransformReader& transforms) {
   const auto file = path_inside(folder, "case.json");
   if (!file) {
     return file.error();
@@ -174,7 +216,8 @@ Result<Case> load_case(const std::string& folder, CaseUse use) {
   if (Status status = document->status(); !status) {
     return status.error();
   }
-  if (Status status = load_levels(entries, *metres_per_unit, subject); !status) {
+  if (Status status = load_levels(entries, {folder, *metres_per_unit, transforms}, subject);
+      !status) {
     return status.error();
   }
   if (Status status = document->status(); !status) {

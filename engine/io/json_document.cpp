@@ -91,6 +91,11 @@ std::vector<std::string> JsonNode::keys() const {
   return names;
 }
 
+bool JsonNode::is_text(const char* key) const {
+  const json* found = value_->find(key);
+  return found != nullptr && found->is_string();
+}
+
 std::string JsonNode::text(const char* key) const {
   const json* found = value_->find(key);
   if (found == nullptr) {

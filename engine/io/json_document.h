@@ -25,6 +25,7 @@ class JsonNode {
   /// The names in an object, sorted, so that unknown ones can be refused; empty if it is not an
   /// object.
   [[nodiscard]] std::vector<std::string> keys() const;
+  [[nodiscard]] bool is_text(const char* key) const;
   [[nodiscard]] std::string text(const char* key) const;
   [[nodiscard]] std::string text_or(const char* key, const std::string& fallback) const;
   /// A finite number.
