@@ -2,9 +2,12 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "engine/case/case_writer.h"
 #include "engine/evaluation/evaluation.h"
 #include "engine/io/atomic_file.h"
+#include "engine/scan/transform_file.h"
 #include "engine/scan/volume_file.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
@@ -12,6 +15,8 @@
 #include "tools/evaluate_figures.h"
 #include "tools/evaluate_page.h"
 #include "tools/json_output.h"
+#include "tools/out_folder.h"
+#include "tools/transform_name.h"
 
 namespace orthonav::tools {
 namespace {
@@ -21,6 +26,7 @@ struct EvaluateArguments {
   std::string volume;
   std::string series;
   std::string report;  ///< empty: none
+  std::string out;     ///< folder for transforms; empty: none
   JsonOutput json;
 };
 
@@ -31,6 +37,42 @@ Status check_outputs(const EvaluateArguments& arguments) {
   }
   const auto place = engine::AtomicFile::create(arguments.report);
   return place ? Status{} : Status{place.error()};
+}
+
+/// The folder for transforms, if one is asked for, with room for one of each level.
+Result<std::optional<OutFolder>> folder_for(const EvaluateArguments& arguments,
+                                            const engine::Case& subject) {
+  if (arguments.out.empty()) {
+    return std::optional<OutFolder>();
+  }
+  if (Status s = engine::check_labels(subject); !s) {
+    return s.error();
+  }
+  auto folder = OutFolder::create("--out", arguments.out);
+  if (!folder) {
+    return folder.error();
+  }
+  for (const engine::CaseLevel& level : subject.levels) {
+    if (Status s = folder->check_absent({transform_name(level.label)}); !s) {
+      return s.error();
+    }
+  }
+  return std::optional<OutFolder>(std::move(*folder));
+}
+
+/// So that 3D Slicer shows the model and the plan of each vertebra where it lies in the scan.
+Status write_transforms(const engine::Evaluation& evaluation, const OutFolder& folder) {
+  for (const engine::EvaluatedLevel& level : evaluation.levels) {
+    if (!level.registration) {
+      continue;
+    }
+    if (Status s = engine::save_transform(folder.file(transform_name(level.label)),
+                                          engine::stored(level.registration->scan_from_vertebra));
+        !s) {
+      return s;
+    }
+  }
+  return {};
 }
 
 Status write_outputs(const EvaluateArguments& arguments, const engine::Case& subject,
@@ -56,6 +98,10 @@ int run_evaluate(const EvaluateArguments& arguments) {
   if (!subject) {
     return bad_input(subject.error().message);
   }
+  const auto folder = folder_for(arguments, *subject);
+  if (!folder) {
+    return bad_input(folder.error().message);
+  }
   const auto scan = engine::load_volume(arguments.volume, arguments.series);
   if (!scan) {
     return bad_input(scan.error().message);
@@ -64,8 +110,12 @@ int run_evaluate(const EvaluateArguments& arguments) {
   if (!evaluation) {
     return bad_input(arguments.volume + ": " + evaluation.error().message);
   }
-  if (Status s = write_outputs(arguments, *subject, *scan, *evaluation); !s) {
-    return bad_input(s.error().message);
+  Status written = *folder ? write_transforms(*evaluation, **folder) : Status{};
+  if (written) {
+    written = write_outputs(arguments, *subject, *scan, *evaluation);
+  }
+  if (!written) {
+    return bad_input(written.error().message);
   }
   if (!arguments.json.on_stdout()) {
     print(*evaluation);
@@ -95,6 +145,11 @@ void add_evaluate_command(CLI::App& app, Action& action) {
                    "The evaluation as a page: slices along and across each screw")
       ->check(some_text())
       ->type_name("PAGE");
+  command
+      ->add_option("-o,--out", arguments->out,
+                   "Folder for LABEL.tfm: where each vertebra lies in the scan, for 3D Slicer")
+      ->check(some_text())
+      ->type_name("DIR");
   arguments->json.add_to(*command);
   command->footer(
       "\nThe patient may lie turned by up to 45° against the case, anywhere in the scan. Exit code "

@@ -17,6 +17,16 @@ Result<OutFolder> OutFolder::create(const std::string& option, const std::string
 OutFolder::OutFolder(OutFolder&& other) noexcept
     : path_(std::move(other.path_)), made_(std::exchange(other.made_, {})) {}
 
+Status OutFolder::check_absent(const std::vector<std::string>& names) const {
+  std::error_code code;
+  for (const std::string& name : names) {
+    if (std::filesystem::exists(path_ / name, code)) {
+      return Error{file(name) + ": is there already"};
+    }
+  }
+  return {};
+}
+
 OutFolder::~OutFolder() { engine::remove_empty(made_); }
 
 }  // namespace orthonav::tools

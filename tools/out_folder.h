@@ -20,6 +20,8 @@ class OutFolder {
   ~OutFolder();
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Refuses files of these names that are in it already.
+  [[nodiscard]] Status check_absent(const std::vector<std::string>& names) const;
   [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
 
  private:

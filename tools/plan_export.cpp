@@ -1,19 +1,19 @@
-#include <filesystem>
 #include <memory>
 
+#include "base/joined.h"
 #include "engine/case/case_writer.h"
 #include "engine/case/markups_plan.h"
 #include "engine/io/mesh_file.h"
+#include "engine/scan/transform_file.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/out_folder.h"
 #include "tools/plan_command.h"
 #include "tools/print_text.h"
+#include "tools/transform_name.h"
 
 namespace orthonav::tools {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ExportArguments {
   std::string case_folder;
@@ -22,26 +22,40 @@ struct ExportArguments {
 
 std::string markups_name(const engine::CaseLevel& level) { return level.label + ".mrk.json"; }
 
-/// Writes model and screws of each level, to files that must not exist yet.
-Status write_scene(const engine::Case& subject, const OutFolder& folder) {
-  std::error_code code;
-  for (const engine::CaseLevel& level : subject.levels) {
-    for (const std::string& name : {engine::model_name(level.label), markups_name(level)}) {
-      if (fs::exists(folder.path() / name, code)) {
-        return Error{folder.file(name) + ": is there already"};
-      }
-    }
+/// The files of a level: its model, its screws if it has any, and its place in the spine.
+std::vector<std::string> names_of(const engine::CaseLevel& level) {
+  std::vector<std::string> names = {engine::model_name(level.label)};
+  if (!level.screws.empty()) {
+    names.push_back(markups_name(level));
   }
-  for (const engine::CaseLevel& level : subject.levels) {
-    if (Status s = engine::save_stl(folder.file(engine::model_name(level.label)), level.mesh); !s) {
-      return s;
-    }
-    if (level.screws.empty()) {
-      continue;
-    }
+  names.push_back(transform_name(level.label));
+  return names;
+}
+
+Status write_level(const engine::CaseLevel& level, const OutFolder& folder) {
+  if (Status s = engine::save_stl(folder.file(engine::model_name(level.label)), level.mesh); !s) {
+    return s;
+  }
+  if (!level.screws.empty()) {
     if (Status s =
             engine::save_markups_plan(folder.file(markups_name(level)), level.label, level.screws);
         !s) {
+      return s;
+    }
+  }
+  return engine::save_transform(folder.file(transform_name(level.label)),
+                                engine::stored(level.spine_from_vertebra));
+}
+
+/// Writes every level, to files that must not exist yet.
+Status write_scene(const engine::Case& subject, const OutFolder& folder) {
+  for (const engine::CaseLevel& level : subject.levels) {
+    if (Status s = folder.check_absent(names_of(level)); !s) {
+      return s;
+    }
+  }
+  for (const engine::CaseLevel& level : subject.levels) {
+    if (Status s = write_level(level, folder); !s) {
       return s;
     }
   }
@@ -64,9 +78,7 @@ int run_export(const ExportArguments& arguments) {
     return bad_input(s.error().message);
   }
   for (const engine::CaseLevel& level : subject->levels) {
-    print_text("%s: %s%s%s\n", level.label.c_str(), engine::model_name(level.label).c_str(),
-               level.screws.empty() ? "" : ", ",
-               level.screws.empty() ? "" : markups_name(level).c_str());
+    print_text("%s: %s\n", level.label.c_str(), joined(names_of(level), ", ").c_str());
   }
   return kDone;
 }
@@ -78,15 +90,15 @@ void add_plan_export(CLI::App& plan, Action& action) {
   CLI::App* command =
       plan.add_subcommand("export", "Models and screws as 3D Slicer opens them by drag and drop");
   add_case_option(*command, arguments->case_folder);
-  command->add_option("-o,--out", arguments->out, "folder for LABEL.stl and LABEL.mrk.json")
+  command->add_option("-o,--out", arguments->out, "folder for LABEL.stl, LABEL.mrk.json, LABEL.tfm")
       ->required()
       ->check(some_text())
       ->type_name("DIR");
   command->footer(
-      "\nAll in the models' own frame (mm, LPS): of a case from a scan, that of the scan. A line "
-      "moved\n"
-      "in 3D Slicer and saved is a plan again: name it as \"plan\" in case.json, or judge it by\n"
-      "plan check --model LABEL.stl --plan LABEL.mrk.json.");
+      "\nModels and lines are in the models' own frame (mm, LPS): of a case from a scan, that of\n"
+      "the scan. LABEL.tfm says where the level lies in the spine: in 3D Slicer's module Data drag\n"
+      "model and line onto it. A line moved in 3D Slicer and saved is a plan again: name it as\n"
+      "\"plan\" in case.json, or judge it by plan check --model LABEL.stl --plan LABEL.mrk.json.");
   command->callback(
       [arguments, &action] { action = [arguments] { return run_export(*arguments); }; });
 }

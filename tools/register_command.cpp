@@ -1,48 +1,18 @@
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "engine/io/atomic_file.h"
-#include "engine/report/registration_page.h"
 #include "engine/session/findings_wording.h"
 #include "engine/session/method.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
-#include "tools/json_output.h"
 #include "tools/print_text.h"
 #include "tools/register_inputs.h"
+#include "tools/register_outputs.h"
 
 namespace orthonav::tools {
 namespace {
-
-struct RegisterOutputs {
-  JsonOutput json;
-  std::string report;  ///< empty: none
-
-  [[nodiscard]] Status check() const {
-    if (const Status s = json.check(); !s || report.empty()) {
-      return s;
-    }
-    const auto place = engine::AtomicFile::create(report);
-    return place ? Status{} : Status{place.error()};
-  }
-  [[nodiscard]] Status write(const engine::RegisteredLevel& level, const engine::FigureFrame& frame,
-                             const std::string& points) const {
-    if (!report.empty()) {
-      const auto page =
-          engine::registration_page(level, std::filesystem::path(points).filename().string());
-      if (!page) {
-        return page.error();
-      }
-      if (const Status s = engine::write_file(report, *page); !s) {
-        return s;
-      }
-    }
-    return json.write(engine::registration_json(level, frame));
-  }
-};
 
 constexpr double kLargestTip_mm = 10.0;
 
@@ -81,15 +51,29 @@ void print(const engine::RegisteredLevel& level, const engine::FigureFrame& fram
   }
 }
 
-/// Prints why it was refused, and what to do about it.
-void print_refusal(const nav::Registration& r) {
+/// Prints why it was refused, what to do about it, and which file is not of this registration.
+void print_refusal(const nav::Registration& r, const std::string& transform) {
   for (const nav::RefusalReason& reason : r.reasons) {
     std::fprintf(stderr, "orthonav: refused: %s\n", engine::text_of(reason).c_str());
+  }
+  if (!r.accepted && !transform.empty()) {
+    std::fprintf(stderr, "orthonav: %s: not written, since the registration is refused\n",
+                 transform.c_str());
   }
   if (!r.accepted && r.stroke_next) {
     std::fprintf(stderr, "orthonav: to know the pose better: %s\n",
                  engine::text_of(*r.stroke_next).c_str());
   }
+}
+
+Result<RegisterInputs> inputs_for(const RegisterOutputs& outputs,
+                                  const RegisterArguments& arguments) {
+  auto inputs = load_register_inputs(arguments);
+  if (!inputs) {
+    return inputs;
+  }
+  const Status suited = outputs.check_inputs(*inputs, arguments.points);
+  return suited ? inputs : suited.error();
 }
 
 int run_register(const RegisterArguments& arguments, const RegisterOutputs& outputs) {
@@ -100,7 +84,7 @@ int run_register(const RegisterArguments& arguments, const RegisterOutputs& outp
   if (const Status s = outputs.check(); !s) {
     return bad_input(s.error().message);
   }
-  const auto inputs = load_register_inputs(arguments);
+  const auto inputs = inputs_for(outputs, arguments);
   if (!inputs) {
     return bad_input(inputs.error().message);
   }
@@ -119,13 +103,13 @@ int run_register(const RegisterArguments& arguments, const RegisterOutputs& outp
   const engine::RegisteredLevel level{inputs->level.label,  arguments.method, inputs->level.model,
                                       inputs->level.screws, inputs->points,   *registration,
                                       tip_radius_m};
-  if (const Status s = outputs.write(level, inputs->frame, arguments.points); !s) {
+  if (const Status s = outputs.write(level, *inputs, arguments.points); !s) {
     return bad_input(s.error().message);
   }
   if (!outputs.json.on_stdout()) {
     print(level, inputs->frame);
   }
-  print_refusal(*registration);
+  print_refusal(*registration, outputs.transform);
   return registration->accepted ? kDone : kNo;
 }
 
@@ -199,6 +183,11 @@ void add_register_command(CLI::App& app, Action& action) {
                    "The registration as a page: pictures from three sides, every figure")
       ->check(some_text())
       ->type_name("FILE.html");
+  command
+      ->add_option("--transform", outputs->transform,
+                   "The pose, if accepted, for 3D Slicer (.tfm, .h5): drag the model onto it")
+      ->check(some_text())
+      ->type_name("FILE");
   command->footer(kRegisterFooter);
   command->callback([arguments, outputs, &action] {
     action = [arguments, outputs] { return run_register(*arguments, *outputs); };

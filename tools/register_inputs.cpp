@@ -41,6 +41,7 @@ Status load_points(const RegisterArguments& arguments, RegisterInputs& inputs) {
   }
   const double given_m = arguments.units == "m" ? 1.0 : 1e-3;
   inputs.frame.points_unit_m = file->metres_per_unit.value_or(given_m);
+  inputs.points_axes = file->axes;
   for (const Vec3& p : file->points) {
     inputs.points.push_back({inputs.frame.points_unit_m * p});
   }

@@ -30,6 +30,7 @@ struct RegisterInputs {
   engine::OperatedLevel level;  ///< its label is empty if no case names it
   std::vector<Point<World>> points;
   engine::FigureFrame frame;
+  std::optional<engine::Axes> points_axes;  ///< if the points' file states its axes
 };
 
 /// Reads and checks every file that the arguments name. Prepared models are kept once all is well;

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "engine/case/case_writer.h"
+#include "engine/evaluation/scan_field.h"
+#include "engine/scan/transform_file.h"
 #include "tests/engine/evaluation/operated_phantom.h"
 #include "tests/support/nrrd_scan.h"
 #include "tests/tools/command_line.h"
@@ -84,6 +86,25 @@ TEST_F(EvaluateCommand, SaysWhatBecameOfEachScrew) {
   EXPECT_GT(scene["reach"], 30.0) << "millimetres";
 }
 
+TEST_F(EvaluateCommand, ShowsSlicerWhereEachVertebraLies) {
+  const std::string out = scratch_->file("out");
+  const Called called = evaluated("both.nrrd", {"--json", "-", "--out", out});
+  ASSERT_EQ(called.code, 0) << called.err;
+  const auto stored = engine::load_transform(out + "/L4.tfm");
+  ASSERT_TRUE(stored.ok()) << stored.error().message;
+  const auto scan_from_model = engine::parent_from_node<engine::Scan, Vertebra>(*stored);
+  ASSERT_TRUE(scan_from_model.ok()) << scan_from_model.error().message;
+  const json rows = json::parse(called.out)["levels"][0]["scan_from_model"];
+  const auto written = scan_from_model->row_major();
+  for (std::size_t i = 0; i < 16; ++i) {
+    const double to_mm = i % 4 == 3 && i < 12 ? 1e3 : 1.0;
+    EXPECT_NEAR(to_mm * written[i], rows[i / 4][i % 4].get<double>(), 1e-6) << i;
+  }
+  const Called again = evaluated("both.nrrd", {"--out", out});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.err, HasSubstr("L4.tfm: is there already"));
+}
+
 TEST_F(EvaluateCommand, AnswersNoWhereAScrewIsMissing) {
   const Called called = evaluated("one.nrrd", {"--json", "-"});
   EXPECT_EQ(called.code, 1) << called.err;
@@ -100,9 +121,11 @@ TEST_F(EvaluateCommand, RefusesInOneLineAndLeavesNothing) {
     return called.err;
   };
   const std::string page = scratch_->file("no.html");
-  EXPECT_THAT(refusal(evaluated("none.nrrd", {"--report", page})),
+  const std::string out = scratch_->file("transforms");
+  EXPECT_THAT(refusal(evaluated("none.nrrd", {"--report", page, "--out", out})),
               HasSubstr("no metal in the scan"));
   EXPECT_FALSE(std::filesystem::exists(page));
+  EXPECT_FALSE(std::filesystem::exists(out));
   EXPECT_THAT(refusal(evaluated("absent.nrrd")), HasSubstr("absent.nrrd"));
   EXPECT_THAT(refusal(evaluated("both.nrrd", {"--json", scratch_->file("none/out.json")})),
               HasSubstr("none/out.json"));

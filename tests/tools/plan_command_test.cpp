@@ -1,12 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "engine/case/case_file.h"
 #include "engine/case/case_writer.h"
 #include "engine/case/plan_file.h"
 #include "engine/phantom/phantom.h"
+#include "engine/scan/transform_file.h"
 #include "tests/tools/command_line.h"
 
 namespace orthonav::test::plan_command_test {
@@ -130,7 +133,7 @@ TEST(PlanCommand, TakesACaseToSlicerAndBack) {
   const std::string out = scratch.file("slicer");
   const Called called = orthonav({"plan", "export", "--case", folder, "--out", out});
   ASSERT_EQ(called.code, 0) << called.err;
-  EXPECT_THAT(called.out, HasSubstr("L4: L4.stl, L4.mrk.json"));
+  EXPECT_THAT(called.out, HasSubstr("L4: L4.stl, L4.mrk.json, L4.tfm"));
   const auto clearances = [](const Called& checked) {
     EXPECT_EQ(checked.code, 0) << checked.err;
     const json screws = json::parse(checked.out)["levels"][0]["screws"];
@@ -146,6 +149,33 @@ TEST(PlanCommand, TakesACaseToSlicerAndBack) {
   const Called again = orthonav({"plan", "export", "--case", folder, "--out", out});
   EXPECT_EQ(again.code, 2);
   EXPECT_THAT(again.err, HasSubstr("L4.stl: is there already"));
+}
+
+TEST(PlanCommand, SaysToSlicerWhereTheLevelsLieAndReadsItBack) {
+  constexpr double kKept_m = 1e-9;
+  const ScratchFolder scratch;
+  const std::string folder = phantom_case(scratch, true);
+  const std::string out = scratch.file("slicer");
+  const Called called = orthonav({"plan", "export", "--case", folder, "--out", out});
+  ASSERT_EQ(called.code, 0) << called.err;
+  const engine::Case before = engine::load_case(folder).value();
+  const auto differs = [&](const engine::Case& after, std::size_t i) {
+    const auto apart =
+        before.levels[i].spine_from_vertebra.inverse() * after.levels[i].spine_from_vertebra;
+    return apart.translation().norm() + rotation_angle_rad(apart.rotation(), Mat3::identity());
+  };
+  EXPECT_GT(before.levels[1].spine_from_vertebra.translation().norm(), 0.01) << "a place to lose";
+  // As if Slicer had saved one of them as .h5.
+  ASSERT_TRUE(
+      engine::save_transform(out + "/L5.h5", engine::load_transform(out + "/L5.tfm").value()).ok());
+  std::ofstream(out + "/case.json") << R"({"levels": [
+      {"label": "L4", "model": "L4.stl", "plan": "L4.mrk.json", "spine_from_model": "L4.tfm"},
+      {"label": "L5", "model": "L5.stl", "plan": "L5.mrk.json", "spine_from_model": "L5.h5"}]})";
+  EXPECT_EQ(orthonav({"plan", "check", "--case", out}).code, 0);
+  const auto after = engine::load_case(out, engine::CaseUse::kOperation, engine::load_transform);
+  ASSERT_TRUE(after.ok()) << after.error().message;
+  EXPECT_LT(differs(*after, 0), kKept_m);
+  EXPECT_LT(differs(*after, 1), kKept_m);
 }
 
 TEST(PlanCommand, WritesNoPlanWhereItsFiguresCannotBeWritten) {
