@@ -1,5 +1,5 @@
-# Of the Insight Toolkit: the readers for DICOM, NIfTI and NRRD as the target ItkReaders::ItkReaders, and the readers and
-# writers of transforms, which tests hold ours against, as ItkReaders::ItkTransforms.
+# Of the Insight Toolkit: the readers for DICOM, NIfTI and NRRD as the target ItkReaders::ItkReaders, and those of
+# transforms with their writers, which tests hold ours against, as ItkReaders::ItkTransforms.
 # ITKConfig.cmake would look for every module's dependencies (HDF5, curl, executables of GDCM).
 find_path(ItkReaders_INCLUDE_DIR itkImageIOBase.h PATH_SUFFIXES ITK-5.4 ITK-5.3 ITK-5.2)
 find_path(ItkReaders_GDCM_INCLUDE_DIR gdcmTrace.h PATH_SUFFIXES gdcm-3.0)
