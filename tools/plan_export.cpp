@@ -96,8 +96,8 @@ void add_plan_export(CLI::App& plan, Action& action) {
       ->type_name("DIR");
   command->footer(
       "\nModels and lines are in the models' own frame (mm, LPS): of a case from a scan, that of\n"
-      "the scan. LABEL.tfm says where the level lies in the spine: in 3D Slicer's module Data drag\n"
-      "model and line onto it. A line moved in 3D Slicer and saved is a plan again: name it as\n"
+      "the scan. LABEL.tfm says where the level lies in the spine: in 3D Slicer's module Data\n"
+      "drag model and line onto it. A line moved there and saved is a plan again: name it as\n"
       "\"plan\" in case.json, or judge it by plan check --model LABEL.stl --plan LABEL.mrk.json.");
   command->callback(
       [arguments, &action] { action = [arguments] { return run_export(*arguments); }; });
