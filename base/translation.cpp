@@ -9,7 +9,7 @@
 namespace orthonav {
 namespace {
 
-// Written before any thread is started (docs/decisions/0108-what-the-wearer-reads-in-other-languages.md).
+// Written before any thread is started (decision 0108).
 std::shared_ptr<const Translation> in_use;  // NOLINT
 thread_local bool for_wearer = false;       // NOLINT
 
