@@ -10,7 +10,7 @@
 #include <new>
 #include <string_view>
 
-#include "base/memory_limit.h"
+#include "base/sanitizers.h"
 
 namespace orthonav::tools {
 namespace {
@@ -54,7 +54,7 @@ void keep_memory_reserve() {
 }
 
 void limit_memory() {
-  if (!memory_can_be_limited()) {
+  if (sanitized()) {
     return;
   }
   rlimit limit{};

@@ -16,7 +16,7 @@
 #include <system_error>
 #include <utility>
 
-#include "base/memory_limit.h"
+#include "base/sanitizers.h"
 
 namespace orthonav::engine {
 namespace {
@@ -49,7 +49,7 @@ rlim_t address_space_bytes() {
   const auto seconds = static_cast<rlim_t>(limits.processor.count());
   const rlimit processor{seconds, seconds + 1};
   ::setrlimit(RLIMIT_CPU, &processor);
-  if (memory_can_be_limited()) {
+  if (!sanitized()) {
     const rlim_t bytes = address_space_bytes() + limits.memory_bytes;
     const rlimit memory{bytes, bytes};
     ::setrlimit(RLIMIT_AS, &memory);

@@ -9,7 +9,7 @@
 #include <new>
 #include <vector>
 
-#include "base/memory_limit.h"
+#include "base/sanitizers.h"
 #include "base/write_all.h"
 #include "engine/scan/volume_bytes.h"
 
@@ -56,7 +56,7 @@ TEST(ChildProcess, EndsAloneAndSilently) {
 }
 
 TEST(ChildProcess, TakesNoMoreMemoryThanItMay) {
-  if (!memory_can_be_limited()) {
+  if (sanitized()) {
     GTEST_SKIP() << "sanitizers map more than they use";
   }
   EXPECT_THAT(refusal([](int) { return std::vector<char>(1U << 30U).size() > 1; }),
