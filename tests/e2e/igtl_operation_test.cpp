@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/random.h"
+#include "base/stopwatch.h"
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
 #include "engine/live/assembled_operation.h"
@@ -80,7 +83,8 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
   /// Returns how many tools are seen. An identity is sent for the others, as PlusServer does.
   std::size_t send() {
     const sim::RoomState state = room_.state();
-    stamp_s_ += 0.033;
+    // As a tracker's clock goes on; further apart than what belongs to one moment.
+    stamp_s_ = std::max(stamp_s_ + 0.005, kFirstStamp_s + 1e-3 * since_first_.elapsed_ms());
     std::size_t seen = 0;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       Transform<Rig, Marker> pose;
@@ -105,7 +109,9 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
   std::vector<std::string> names_;
   StereoFrame pair_;
   Random random_{7};
-  double stamp_s_ = 1.7e9;
+  static constexpr double kFirstStamp_s = 1.7e9;
+  Stopwatch since_first_;
+  double stamp_s_ = kFirstStamp_s;
   bool hidden_ = false;
 };
 
