@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/beside_limit.h"
 #include "base/translation.h"
 
 namespace orthonav {
@@ -179,7 +180,7 @@ void append_beside_limit(std::string& out, const char* format, double value, dou
     }
   }
   const char* const before =
-      !differ ? "" : (value > limit ? translated("just over") : translated("just under"));
+      !differ ? "" : (value > limit ? translated(kJustOver) : translated(kJustUnder));
   append_with(out, format, values, 0, before);
 }
 

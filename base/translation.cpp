@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/beside_limit.h"
+
 namespace orthonav {
 namespace {
 
@@ -14,6 +16,12 @@ std::shared_ptr<const Translation> in_use;  // NOLINT
 thread_local bool for_wearer = false;       // NOLINT
 
 const Translation* wanted() { return for_wearer ? in_use.get() : nullptr; }
+
+/// Null where nothing is translated.
+const std::string* found(std::string_view english) {
+  const Translation* const translation = wanted();
+  return translation != nullptr ? translation->find(english) : nullptr;
+}
 
 /// Length of the conversion at the front of a format; 2 for `%%`.
 std::size_t conversion_length(std::string_view format) {
@@ -42,8 +50,7 @@ Piece take_piece(std::string_view& format) {
   return piece;
 }
 
-constexpr std::array<const char*, 2> kJust = {translatable("just over"),
-                                              translatable("just under")};
+constexpr std::array<const char*, 2> kJust = {kJustOver, kJustUnder};
 
 /// The values that were printed into a text.
 struct Values {
@@ -167,14 +174,12 @@ void use_translation(std::shared_ptr<const Translation> translation) {
 }
 
 const char* translated(const char* english) {
-  const Translation* const translation = wanted();
-  const std::string* const text = translation != nullptr ? translation->find(english) : nullptr;
+  const std::string* const text = found(english);
   return text != nullptr ? text->c_str() : english;
 }
 
 std::string_view translated(std::string_view english) {
-  const Translation* const translation = wanted();
-  const std::string* const text = translation != nullptr ? translation->find(english) : nullptr;
+  const std::string* const text = found(english);
   return text != nullptr ? std::string_view(*text) : english;
 }
 

@@ -17,16 +17,11 @@ foreach(group itk_readers itk_transforms)
 endforeach()
 list(REMOVE_DUPLICATES itk_readers_required)
 include(FindPackageHandleStandardArgs)
+include("${CMAKE_CURRENT_LIST_DIR}/OrthonavImported.cmake")
 find_package_handle_standard_args(ItkReaders REQUIRED_VARS ${itk_readers_required}
   REASON_FAILURE_MESSAGE "Debian: libinsighttoolkit5-dev")
-function(itk_target name libraries)
-  add_library(ItkReaders::${name} INTERFACE IMPORTED)
-  set_target_properties(ItkReaders::${name} PROPERTIES
-    INTERFACE_LINK_LIBRARIES "${libraries}"
-    INTERFACE_INCLUDE_DIRECTORIES "${ItkReaders_INCLUDE_DIR};${ItkReaders_GDCM_INCLUDE_DIR}"
-    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${ItkReaders_INCLUDE_DIR};${ItkReaders_GDCM_INCLUDE_DIR}")
-endfunction()
-if(ItkReaders_FOUND AND NOT TARGET ItkReaders::ItkReaders)
-  itk_target(ItkReaders "${itk_readers_libraries}")
-  itk_target(ItkTransforms "${itk_transforms_libraries}")
+if(ItkReaders_FOUND)
+  set(itk_folders "${ItkReaders_INCLUDE_DIR}" "${ItkReaders_GDCM_INCLUDE_DIR}")
+  orthonav_imported(ItkReaders::ItkReaders LIBRARIES ${itk_readers_libraries} INCLUDE_DIRS ${itk_folders})
+  orthonav_imported(ItkReaders::ItkTransforms LIBRARIES ${itk_transforms_libraries} INCLUDE_DIRS ${itk_folders})
 endif()

@@ -10,12 +10,10 @@ foreach(module calib3d imgproc core)
   list(APPEND OpenCVCalib3d_LIBRARIES "${OpenCVCalib3d_${module}_LIBRARY}")
 endforeach()
 include(FindPackageHandleStandardArgs)
+include("${CMAKE_CURRENT_LIST_DIR}/OrthonavImported.cmake")
 find_package_handle_standard_args(OpenCVCalib3d REQUIRED_VARS ${opencv_calib3d_required}
   REASON_FAILURE_MESSAGE "Debian: libopencv-calib3d-dev")
-if(OpenCVCalib3d_FOUND AND NOT TARGET OpenCVCalib3d::OpenCVCalib3d)
-  add_library(OpenCVCalib3d::OpenCVCalib3d INTERFACE IMPORTED)
-  set_target_properties(OpenCVCalib3d::OpenCVCalib3d PROPERTIES
-    INTERFACE_LINK_LIBRARIES "${OpenCVCalib3d_LIBRARIES}"
-    INTERFACE_INCLUDE_DIRECTORIES "${OpenCVCalib3d_INCLUDE_DIR}"
-    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${OpenCVCalib3d_INCLUDE_DIR}")
+if(OpenCVCalib3d_FOUND)
+  orthonav_imported(OpenCVCalib3d::OpenCVCalib3d
+    LIBRARIES ${OpenCVCalib3d_LIBRARIES} INCLUDE_DIRS "${OpenCVCalib3d_INCLUDE_DIR}")
 endif()

@@ -3,12 +3,9 @@
 find_path(OpenIgtLink_INCLUDE_DIR igtlTransformMessage.h PATH_SUFFIXES openigtlink)
 find_library(OpenIgtLink_LIBRARY OpenIGTLink)
 include(FindPackageHandleStandardArgs)
+include("${CMAKE_CURRENT_LIST_DIR}/OrthonavImported.cmake")
 find_package_handle_standard_args(OpenIgtLink REQUIRED_VARS OpenIgtLink_LIBRARY OpenIgtLink_INCLUDE_DIR
   REASON_FAILURE_MESSAGE "Debian: libopenigtlink-dev")
-if(OpenIgtLink_FOUND AND NOT TARGET OpenIgtLink::OpenIgtLink)
-  add_library(OpenIgtLink::OpenIgtLink INTERFACE IMPORTED)
-  set_target_properties(OpenIgtLink::OpenIgtLink PROPERTIES
-    INTERFACE_LINK_LIBRARIES "${OpenIgtLink_LIBRARY}"
-    INTERFACE_INCLUDE_DIRECTORIES "${OpenIgtLink_INCLUDE_DIR}"
-    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${OpenIgtLink_INCLUDE_DIR}")
+if(OpenIgtLink_FOUND)
+  orthonav_imported(OpenIgtLink::OpenIgtLink LIBRARIES "${OpenIgtLink_LIBRARY}" INCLUDE_DIRS "${OpenIgtLink_INCLUDE_DIR}")
 endif()

@@ -5,15 +5,13 @@ find_path(PocketSphinx_BASE_INCLUDE_DIR sphinxbase/err.h)
 find_library(PocketSphinx_LIBRARY pocketsphinx)
 find_library(PocketSphinx_BASE_LIBRARY sphinxbase)
 include(FindPackageHandleStandardArgs)
+include("${CMAKE_CURRENT_LIST_DIR}/OrthonavImported.cmake")
 find_package_handle_standard_args(PocketSphinx REQUIRED_VARS PocketSphinx_LIBRARY
   PocketSphinx_BASE_LIBRARY PocketSphinx_INCLUDE_DIR PocketSphinx_BASE_INCLUDE_DIR
   REASON_FAILURE_MESSAGE "Debian: libpocketsphinx-dev libsphinxbase-dev")
-if(PocketSphinx_FOUND AND NOT TARGET PocketSphinx::PocketSphinx)
-  add_library(PocketSphinx::PocketSphinx INTERFACE IMPORTED)
-  set(folders "${PocketSphinx_INCLUDE_DIR}" "${PocketSphinx_BASE_INCLUDE_DIR}"
+if(PocketSphinx_FOUND)
+  orthonav_imported(PocketSphinx::PocketSphinx
+    LIBRARIES "${PocketSphinx_LIBRARY}" "${PocketSphinx_BASE_LIBRARY}"
+    INCLUDE_DIRS "${PocketSphinx_INCLUDE_DIR}" "${PocketSphinx_BASE_INCLUDE_DIR}"
       "${PocketSphinx_BASE_INCLUDE_DIR}/sphinxbase")
-  set_target_properties(PocketSphinx::PocketSphinx PROPERTIES
-    INTERFACE_LINK_LIBRARIES "${PocketSphinx_LIBRARY};${PocketSphinx_BASE_LIBRARY}"
-    INTERFACE_INCLUDE_DIRECTORIES "${folders}"
-    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${folders}")
 endif()

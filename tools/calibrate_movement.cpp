@@ -32,8 +32,8 @@ Result<ToolMovement> movement_of(const MovementArguments& arguments) {
     return s.error();
   }
   if (!arguments.out.empty()) {
-    if (auto place = engine::AtomicFile::create(arguments.out); !place) {
-      return place.error();
+    if (const Status s = engine::check_place(arguments.out); !s) {
+      return s.error();
     }
   }
   auto seen = measured_poses(arguments.recording, arguments.method, *tool);

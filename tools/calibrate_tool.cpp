@@ -186,8 +186,8 @@ Result<ToolInput> tool_input(const ToolArguments& arguments) {
   if (const Status s = arguments.json.check(); !s) {
     return s.error();
   }
-  if (auto place = engine::AtomicFile::create(arguments.out); !place) {
-    return place.error();
+  if (const Status s = engine::check_place(arguments.out); !s) {
+    return s.error();
   }
   return ToolInput{std::move(*tags), std::move(*tool)};
 }

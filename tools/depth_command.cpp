@@ -166,8 +166,8 @@ int run_depth(const DepthArguments& arguments) {
   }
   // Checked before the work, so that an unwritable place is known at once.
   if (!arguments.out.empty()) {
-    if (const auto place = engine::AtomicFile::create(arguments.out); !place) {
-      return bad_input(place.error().message);
+    if (const Status s = engine::check_place(arguments.out); !s) {
+      return bad_input(s.error().message);
     }
   }
   return names_headset(arguments.source) ? depth_of_headset(arguments) : of_recording(arguments);

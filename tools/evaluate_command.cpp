@@ -35,8 +35,7 @@ Status check_outputs(const EvaluateArguments& arguments) {
   if (const Status s = arguments.json.check(); !s || arguments.report.empty()) {
     return s;
   }
-  const auto place = engine::AtomicFile::create(arguments.report);
-  return place ? Status{} : Status{place.error()};
+  return engine::check_place(arguments.report);
 }
 
 /// The folder for transforms, if one is asked for, with room for one of each level.

@@ -25,8 +25,7 @@ Status JsonOutput::check() const {
   if (!given() || on_stdout()) {
     return {};
   }
-  const auto place = engine::AtomicFile::create(place_);
-  return place ? Status{} : Status{place.error()};
+  return engine::check_place(place_);
 }
 
 Status JsonOutput::write(const nlohmann::ordered_json& content) const {

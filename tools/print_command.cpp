@@ -160,8 +160,8 @@ int run_board(const BoardArguments& arguments) {
     return bad_input(pdf.error().message);
   }
   // Checked before either file gets its name, so that an unwritable place leaves neither.
-  if (auto place = engine::AtomicFile::create(arguments.page.out); !place) {
-    return bad_input(place.error().message);
+  if (Status s = engine::check_place(arguments.page.out); !s) {
+    return bad_input(s.error().message);
   }
   if (Status s = engine::save_board(json, *board); !s) {
     return bad_input(s.error().message);

@@ -22,25 +22,22 @@ Transform<SlicerWorld, Vertebra> in_slicer(const Transform<World, Vertebra>& wor
   return slicer_from_world * world_from_vertebra;
 }
 
-Status check_writable(const std::string& path) {
-  if (path.empty()) {
-    return {};
-  }
-  const auto place = engine::AtomicFile::create(path);
-  return place ? Status{} : Status{place.error()};
-}
-
 }  // namespace
 
 Status RegisterOutputs::check() const {
   if (const Status s = json.check(); !s) {
     return s;
   }
-  if (const Status s = check_writable(report); !s || transform.empty()) {
-    return s;
+  if (!report.empty()) {
+    if (const Status s = engine::check_place(report); !s) {
+      return s;
+    }
+  }
+  if (transform.empty()) {
+    return {};
   }
   const Status name = engine::check_transform_name(transform);
-  return name ? check_writable(transform) : name;
+  return name ? engine::check_place(transform) : name;
 }
 
 Status RegisterOutputs::check_inputs(const RegisterInputs& inputs,

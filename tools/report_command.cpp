@@ -43,7 +43,7 @@ int report(const ReportArguments& arguments) {
   if (const Status place = arguments.json.check(); !place) {
     return bad_input(place.error().message);
   }
-  if (const auto place = engine::AtomicFile::create(arguments.out); !place) {
+  if (const Status place = engine::check_place(arguments.out); !place) {
     return bad_input(place.error().message);
   }
   const auto path = journal_at(arguments.session);

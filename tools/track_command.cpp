@@ -169,8 +169,7 @@ bool is_stdout(const TrackArguments& arguments) { return arguments.csv == "-"; }
 /// Before the work, so that an unwritable place is known at once.
 Status check_place(const TrackArguments& arguments) {
   if (!is_stdout(arguments)) {
-    const auto place = engine::AtomicFile::create(arguments.csv);
-    return place ? Status{} : place.error();
+    return engine::check_place(arguments.csv);
   }
   return arguments.json
              ? Error{"--csv -: standard output has the poses, so --json has no place there"}

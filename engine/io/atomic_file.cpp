@@ -179,6 +179,11 @@ Status AtomicFile::commit() {
   return sync_folder(folder_of(final_path_));
 }
 
+Status check_place(const std::string& path) {
+  const auto file = AtomicFile::create(path);
+  return file ? Status{} : Status{file.error()};
+}
+
 Status write_file(const std::string& path, std::string_view content) {
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) {

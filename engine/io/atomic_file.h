@@ -49,6 +49,10 @@ class AtomicFile {
   bool open_ = true;
 };
 
+/// Refuses a place where `AtomicFile::create` could make no file, before the work for it. Leaves
+/// nothing there.
+[[nodiscard]] Status check_place(const std::string& path);
+
 /// Writes `content` as the whole file.
 Status write_file(const std::string& path, std::string_view content);
 

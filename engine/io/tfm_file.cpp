@@ -12,7 +12,7 @@ namespace orthonav::engine {
 namespace {
 
 constexpr std::string_view kHeader = "#Insight Transform File V1.0";
-constexpr std::string_view kSigns = "\x89HDF\r\n\x1a\n";
+constexpr std::string_view kHdf5Signature = "\x89HDF\r\n\x1a\n";
 
 void append_numbers(std::string& text, const std::vector<double>& numbers) {
   for (const double number : numbers) {
@@ -146,6 +146,6 @@ Result<StoredTransform> load_tfm(const std::string& path) {
   return transform_from_tfm(*text, path);
 }
 
-bool is_hdf5(std::string_view bytes) { return bytes.starts_with(kSigns); }
+bool is_hdf5(std::string_view bytes) { return bytes.starts_with(kHdf5Signature); }
 
 }  // namespace orthonav::engine

@@ -51,7 +51,7 @@ Handle access_to_memory() {
   return access;
 }
 
-/// It would print its errors, and load programs that decompress.
+/// Unless told not to, libhdf5 prints its errors and loads plugins that decompress.
 void keep_quiet() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   H5PLset_loading_state(0);

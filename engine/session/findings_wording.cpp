@@ -71,8 +71,15 @@ std::string_view word_of(Side side) {
   return side == Side::kLeft ? translated("left") : translated("right");
 }
 
-void append_expected_error(std::string& out, double expected_m) {
+void append_expected_error(std::string& out, double expected_m, bool registration_only,
+                           bool at_the_screws) {
   append_printed(out, translated("expected error %s"), said_mm(expected_m).c_str());
+  if (at_the_screws) {
+    out.append(" ").append(translated("at the screws"));
+  }
+  if (registration_only) {
+    append_registration_only(out);
+  }
 }
 
 void append_registration_only(std::string& out) {
@@ -200,10 +207,7 @@ void write_coaching(PartedText text, const Coaching& coaching, std::string_view 
     out += translated("ambiguous");
   } else {
     text.begin(Importance::kFigures, separator);
-    append_expected_error(out, coaching.expected_m);
-    if (coaching.registration_only) {
-      append_registration_only(out);
-    }
+    append_expected_error(out, coaching.expected_m, coaching.registration_only);
   }
   if (coaching.enough) {
     text.begin(Importance::kNext, ", ");

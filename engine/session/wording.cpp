@@ -77,13 +77,8 @@ struct StateWriter {
     text.begin(Importance::kFigures);
     append_printed(out, translated("RMSE %s"), said_mm(figures.rmse_m, 2).c_str());
     text.begin(Importance::kFigures, ", ");
-    append_expected_error(out, figures.expected_m);
-    if (!figures.of_one_screw) {
-      out.append(" ").append(translated("at the screws"));
-    }
-    if (figures.registration_only) {
-      append_registration_only(out);
-    }
+    append_expected_error(out, figures.expected_m, figures.registration_only,
+                          !figures.of_one_screw);
     if (figures.replanned) {
       text.begin(Importance::kMessage, "; ");
       out += translated("planned in surgery");
@@ -91,10 +86,7 @@ struct StateWriter {
   }
   void operator()(const ChecksSoFar& checks) {
     text.begin(Importance::kFigures);
-    append_expected_error(out, checks.expected_m);
-    if (checks.registration_only) {
-      append_registration_only(out);
-    }
+    append_expected_error(out, checks.expected_m, checks.registration_only);
     write_moved(text, checks, "; ");
     write_checks(text, checks, "; ");
   }

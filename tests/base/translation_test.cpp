@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "base/printed.h"
+#include "tests/support/language_in_use.h"
 
 namespace orthonav::translation_test {
 namespace {
@@ -12,28 +13,22 @@ using ::testing::IsEmpty;
 
 class Translated : public ::testing::Test {
  protected:
-  Translated() {
-    use_translation(std::make_shared<Translation>(std::vector<Translation::Entry>{
-        {"tool lost", "Werkzeug verloren"},
-        {"tip moved %.1f mm, limit %.1f mm", "Spitze um %.1f mm verrutscht, Grenze %.1f mm"},
-        {"just over", "knapp über"},
-        {"just under", "knapp unter"},
-        {"heads %zu and %zu are %s apart, limit 5-150 mm",
-         "Köpfe %zu und %zu: %s, Grenze 5-150 mm"},
-        {"%s: %s, such as \"%s\"", "%s: %s, etwa \"%s\""},
-        {"%s: stands alone", "%s: steht allein"},
-        {"say how far", "sagen, wie weit"},
-        {"only %.0f %% lie on it", "nur %.0f %% liegen darauf"}}));
-  }
-  ~Translated() override { use_translation(nullptr); }
-  Translated(const Translated&) = delete;
-  Translated& operator=(const Translated&) = delete;
-
   static std::string retold(std::string_view english) {
     std::string out;
     append_retold(out, english);
     return out;
   }
+
+  test::LanguageInUse in_use_{std::vector<Translation::Entry>{
+      {"tool lost", "Werkzeug verloren"},
+      {"tip moved %.1f mm, limit %.1f mm", "Spitze um %.1f mm verrutscht, Grenze %.1f mm"},
+      {"just over", "knapp über"},
+      {"just under", "knapp unter"},
+      {"heads %zu and %zu are %s apart, limit 5-150 mm", "Köpfe %zu und %zu: %s, Grenze 5-150 mm"},
+      {"%s: %s, such as \"%s\"", "%s: %s, etwa \"%s\""},
+      {"%s: stands alone", "%s: steht allein"},
+      {"say how far", "sagen, wie weit"},
+      {"only %.0f %% lie on it", "nur %.0f %% liegen darauf"}}};
 };
 
 TEST_F(Translated, IsForTheWearerAlone) {

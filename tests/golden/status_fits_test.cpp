@@ -12,6 +12,7 @@
 #include "engine/session/wording.h"
 #include "render/projection.h"
 #include "tests/golden/expected_box.h"
+#include "tests/support/language_in_use.h"
 #include "tools/language_file.h"
 
 namespace orthonav::engine {
@@ -256,12 +257,9 @@ TEST(StatusLineOnDisplays, ShowsTheLongestMessageOfEveryKindWhole) { expect_whol
 TEST(StatusLineOnDisplays, ShowsItInGermanToo) {
   auto german = tools::language_named("de");
   ASSERT_TRUE(german) << german.error().message;
-  use_translation(*std::move(german));
-  {
-    const WearersLanguage language;
-    expect_whole(kGerman);
-  }
-  use_translation(nullptr);
+  const test::LanguageInUse in_use(*std::move(german));
+  const WearersLanguage language;
+  expect_whole(kGerman);
 }
 
 TEST(StatusLineOnDisplays, IsCutWhereNothingShortensIt) {

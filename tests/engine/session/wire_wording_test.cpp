@@ -6,15 +6,6 @@
 namespace orthonav::engine::wording_test {
 namespace {
 
-PlacedWire wire_off(double angle_deg, double entry_m) {
-  PlacedWire wire;
-  wire.axis.angle_rad = {angle_deg * kRadiansPerDegree, 0.9 * kRadiansPerDegree};
-  wire.axis.entry_m = {entry_m, 0.0006};
-  wire.angle_limit_rad = 2.0 * kRadiansPerDegree;
-  wire.entry_limit_m = 0.002;
-  return wire;
-}
-
 TEST(Wording, AsksForTheSleeveAndTellsHowTheWireStands) {
   EXPECT_EQ(line_with(WireSoFar{}), "set the sleeve over the wire, turn it and click, or say next");
   const PlacedWire within = wire_off(0.8, 0.0006);

@@ -6,9 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/translation.h"
 #include "engine/io/image_file.h"
 #include "tests/support/browser.h"
+#include "tests/support/language_in_use.h"
 #include "tests/support/scripted_operation.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/dashboard_state.h"
@@ -124,13 +124,12 @@ TEST_F(DashboardPage, SaysWhatHangsUntilItGoesOn) {
 TEST_F(DashboardPage, SaysWhatTheSurgeonReadsInTheirLanguage) {
   test::ScriptedOperation s;
   dashboard_.watch(s.session(), {0.05, 0.09});
-  use_translation(std::make_shared<Translation>(std::vector<Translation::Entry>{
+  const test::LanguageInUse in_use(std::vector<Translation::Entry>{
       {"setup", "Vorbereitung"},
-      {"tracker stalled: nothing is guided", "Tracking steht: keine Navigation"}}));
+      {"tracker stalled: nothing is guided", "Tracking steht: keine Navigation"}});
   StereoFrame frame;
   dashboard_.stepped(frame, {}, s.pair());
   dashboard_.part_stalled(engine::Part::kTracker);
-  use_translation(nullptr);
   const json page = json::parse(browser_->Get("/state")->body);
   EXPECT_EQ(page["now"]["step"], "Vorbereitung");
   EXPECT_EQ(page["stalled"], "Tracking steht: keine Navigation");

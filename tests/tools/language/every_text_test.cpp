@@ -7,6 +7,7 @@
 #include "engine/session/numbers_wording.h"
 #include "engine/session/replan_wording.h"
 #include "engine/session/wording.h"
+#include "tests/engine/session/status_wording.h"
 #include "tests/support/allocation_count.h"
 #include "tests/tools/language/every_message.h"
 #include "tests/tools/language/pseudo_language.h"
@@ -16,6 +17,7 @@ namespace {
 
 using test::each_up_to;
 using test::english_left;
+using wording_test::wire_off;
 
 /// Everything is written for a wearer, in a language of brackets.
 class EveryText : public ::testing::Test {
@@ -42,15 +44,6 @@ class EveryText : public ::testing::Test {
   WearersLanguage language_;
   inline static int said_ = 0;
 };
-
-PlacedWire wire_off(double angle_deg, double entry_m) {
-  PlacedWire wire;
-  wire.axis.angle_rad = {angle_deg * kRadiansPerDegree, 0.9 * kRadiansPerDegree};
-  wire.axis.entry_m = {entry_m, 0.0006};
-  wire.angle_limit_rad = 2.0 * kRadiansPerDegree;
-  wire.entry_limit_m = 0.002;
-  return wire;
-}
 
 TEST_F(EveryText, OfTheStepsIsTranslated) {
   for (const Step step : each_up_to(Step::kDone)) {

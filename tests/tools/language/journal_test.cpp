@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "engine/holograms/scene_builder.h"
 #include "tests/engine/session/journaled_operation.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/tools/language/pseudo_language.h"
 
 namespace orthonav::engine::translated_journal_test {
@@ -28,8 +26,7 @@ std::string journal_of_an_operation() {
   draw(s.operation.checks_by_touch());
   draw(s.operation.accepts());
   s.finished("ended by the test");
-  std::ifstream in(s.path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return test::content_of(s.path);
 }
 
 TEST(TranslatedJournal, IsThatOfTheSameOperationInEnglish) {

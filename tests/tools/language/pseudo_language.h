@@ -1,11 +1,11 @@
 #pragma once
 
-#include <memory>
 #include <regex>
 #include <string>
 #include <vector>
 
 #include "base/translation.h"
+#include "tests/support/language_in_use.h"
 #include "tools/language_file.h"
 
 namespace orthonav::test {
@@ -14,7 +14,10 @@ namespace orthonav::test {
 /// still appears is English that was not translated.
 class PseudoLanguage {
  public:
-  PseudoLanguage() {
+  PseudoLanguage() : in_use_(entries()) {}
+
+ private:
+  static std::vector<Translation::Entry> entries() {
     std::vector<Translation::Entry> entries;
     for (const std::string& english : tools::texts_to_translate()) {
       std::string text = "[";
@@ -23,11 +26,10 @@ class PseudoLanguage {
       }
       entries.push_back({english, text + "]"});
     }
-    use_translation(std::make_shared<Translation>(std::move(entries)));
+    return entries;
   }
-  ~PseudoLanguage() { use_translation(nullptr); }
-  PseudoLanguage(const PseudoLanguage&) = delete;
-  PseudoLanguage& operator=(const PseudoLanguage&) = delete;
+
+  LanguageInUse in_use_;
 };
 
 /// The words in a text that are neither numbers and units nor names of the operation: tools,

@@ -5,6 +5,7 @@
 #include "engine/holograms/status_rows.h"
 #include "engine/session/numbers_wording.h"
 #include "engine/session/wording.h"
+#include "tests/support/language_in_use.h"
 #include "tools/language_file.h"
 
 namespace orthonav::engine::language_widths_test {
@@ -13,14 +14,7 @@ namespace {
 /// Everything is written in German for a wearer.
 class German : public ::testing::Test {
  protected:
-  German() {
-    if (auto german = tools::language_named("de")) {
-      use_translation(*std::move(german));
-    }
-  }
-  ~German() override { use_translation(nullptr); }
-  German(const German&) = delete;
-  German& operator=(const German&) = delete;
+  test::LanguageInUse german_{tools::language_named("de").value()};
   WearersLanguage language_;
 };
 
