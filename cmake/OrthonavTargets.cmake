@@ -54,8 +54,8 @@ function(orthonav_warnings target)
   # GCC 12 wrongly warns of overlapping copies in plain "text" + std::string (GCC bug 105651).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
-    # Nor does it see through what instrumented code does: it takes for uninitialized what an optional would hold, and
-    # parts of <regex> (GCC bug 105562).
+    # In instrumented code it also wrongly warns of uninitialized values: of what an empty optional would hold, and
+    # within <regex> (GCC bug 105562).
     if(ORTHONAV_SANITIZE OR ORTHONAV_COVERAGE)
       target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
     endif()
