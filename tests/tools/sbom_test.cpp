@@ -49,6 +49,7 @@ TEST(Sbom, IsSpdxAndNamesEveryLibraryThatTheProgramNames) {
     EXPECT_FALSE(package.at("versionInfo").get<std::string>().empty()) << name;
     EXPECT_EQ(package.at("downloadLocation"), "NOASSERTION");
     EXPECT_EQ(package.at("filesAnalyzed"), false);
+    EXPECT_NE(package.at("licenseDeclared"), "NOASSERTION") << name;
   }
   std::set<std::string> depended_on;
   bool described = false;
@@ -68,16 +69,19 @@ TEST(Sbom, IsSpdxAndNamesEveryLibraryThatTheProgramNames) {
     EXPECT_EQ(depended_on.count(std::string("SPDXRef-Package-") + name), 1u) << name;
   }
   EXPECT_EQ(by_id.at("SPDXRef-Package-libeigen3-dev").at("licenseDeclared"), "MPL-2.0");
+  EXPECT_EQ(by_id.at("SPDXRef-Package-libx264-164").at("licenseDeclared"), "GPL-2.0-or-later");
   EXPECT_EQ(by_id.at("SPDXRef-Package-orthonav").at("licenseDeclared"), "Apache-2.0");
 }
 
 TEST(Sbom, RefusesAPackageWhoseLicenceNobodyStated) {
   const ScratchFolder root;
-  std::string copy = "cp -r --parents tools/sbom data/licences.tsv CMakeLists.txt " + root.file("");
-  said("cd " + std::string(ORTHONAV_SOURCE_DIR) + " && " + copy);
-  said("sed -i '/^assimp/d' " + root.file("data/licences.tsv"));
+  const std::string tables = "data/licences.tsv data/licences_loaded.tsv ";
+  said("cd " + std::string(ORTHONAV_SOURCE_DIR) + " && cp -r --parents tools/sbom CMakeLists.txt " +
+       tables + root.file(""));
+  said("cd " + root.file("") + " && sed -i '/^assimp\\|^x264/d' " + tables);
   const std::string out = said("! " + root.file("tools/sbom ") + ORTHONAV_BUILD_DIR + " 2>&1");
-  EXPECT_THAT(out, HasSubstr("sbom: data/licences.tsv lacks assimp (package libassimp5)"));
+  EXPECT_THAT(out, HasSubstr("sbom: data/licences.tsv lacks assimp (package libassimp5)\n"));
+  EXPECT_THAT(out, HasSubstr("sbom: data/licences_loaded.tsv lacks x264 (package libx264-164)\n"));
 }
 
 TEST(Licences, AreInTheirPageAsTheTableHasThem) {
