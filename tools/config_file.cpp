@@ -116,6 +116,7 @@ const std::vector<ConfigKey>& config_keys() {
       {"display", "device", "--device"},
       {"display", "size", "--size"},
       {"display", "language", "--language", true, true},
+      {"display", "colours", "--colours"},
       {"log", "file", "--log", true},
       {"log", "verbose", "--verbose"},
   };

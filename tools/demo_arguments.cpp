@@ -69,7 +69,7 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
   arguments.onlookers.add_to(demo);
   arguments.calibration.add_to(demo);
   arguments.limits.add_to(demo);
-  arguments.language.add_to(demo);
+  arguments.wearer.add_to(demo);
   add_config_option(demo);
   // For tests: a hasty surgeon finishes in a fraction of the frames.
   demo.add_option("--pace", arguments.pace, "how many times as fast the surgeon works")

@@ -9,9 +9,9 @@
 #include "tools/arguments.h"
 #include "tools/calibration_argument.h"
 #include "tools/kept_operation.h"
-#include "tools/language_argument.h"
 #include "tools/limit_arguments.h"
 #include "tools/onlookers.h"
+#include "tools/wearer_arguments.h"
 
 namespace orthonav::tools {
 
@@ -34,7 +34,7 @@ struct DemoArguments {
   int threads = 2;
   std::optional<double> pace;
   CalibrationArgument calibration;
-  LanguageArgument language;
+  WearerArguments wearer;
   LimitArguments limits;
   OnlookerArguments onlookers;
 };

@@ -240,7 +240,7 @@ void add_demo_command(CLI::App& app, Action& action, StopSignals& signals) {
   add_demo_arguments(*demo, *arguments);
   demo->callback([arguments, &action, &signals] {
     action = [arguments, &signals] {
-      const Status spoken = arguments->language.use();
+      const Status spoken = arguments->wearer.use();
       return spoken ? Demo(*arguments, signals).run() : bad_input(spoken.error().message);
     };
   });

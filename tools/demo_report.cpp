@@ -23,7 +23,7 @@ Result<std::vector<std::uint8_t>> bytes_of(const std::filesystem::path& path) {
 const char* caption_of(Step step) {
   constexpr std::array<const char*, kStepCount> kCaptions = {
       "The tools are found in both cameras; nothing is registered yet.",
-      "The pointer strokes the bone: yellow while recording, orange once saved.",
+      "The pointer strokes the bone: one colour while recording, another once saved.",
       "The registered vertebra is laid over the bone to be judged before use.",
       "The registration was accepted: entry points appear.",
       "Entry, planned trajectory, the triangle towards the tool's axis, and the angle.",

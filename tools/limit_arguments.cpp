@@ -16,8 +16,8 @@ struct Limit {
 };
 
 constexpr std::array<Limit, 4> kLimits = {
-    {{"--good-deg", &LimitArguments::good_deg, "angle below which the triangle is green"},
-     {"--poor-deg", &LimitArguments::poor_deg, "angle above which the triangle is red and dashed"},
+    {{"--good-deg", &LimitArguments::good_deg, "angle below which the triangle is good"},
+     {"--poor-deg", &LimitArguments::poor_deg, "angle above which the triangle is poor and dashed"},
      {"--wire-deg", &LimitArguments::wire_deg, "angle beyond which a placed wire is questioned"},
      {"--wire-mm", &LimitArguments::wire_mm,
       "entry error beyond which a placed wire is questioned"}}};

@@ -6,11 +6,11 @@
 
 #include "tools/calibration_argument.h"
 #include "tools/common_error_arguments.h"
-#include "tools/language_argument.h"
 #include "tools/limit_arguments.h"
 #include "tools/onlookers.h"
 #include "tools/screw_arguments.h"
 #include "tools/stop_signals.h"
+#include "tools/wearer_arguments.h"
 
 namespace orthonav::tools {
 
@@ -30,7 +30,7 @@ struct RunArguments {
   CalibrationArgument calibration;
   LimitArguments limits;
   OnlookerArguments onlookers;
-  LanguageArgument language;
+  WearerArguments wearer;
   std::int64_t frames = 0;
   double for_s = 0.0;  ///< of the device's clock; 0: no limit
   bool reference = false;

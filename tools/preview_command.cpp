@@ -10,12 +10,12 @@
 #include "tools/config_file.h"
 #include "tools/igtl_stream.h"
 #include "tools/kept_previews.h"
-#include "tools/language_argument.h"
 #include "tools/memory_reserve.h"
 #include "tools/model_notes.h"
 #include "tools/preview/preview_app.h"
 #include "tools/screw_arguments.h"
 #include "tools/stopped_run.h"
+#include "tools/wearer_arguments.h"
 
 namespace orthonav::tools {
 namespace {
@@ -34,7 +34,7 @@ struct PreviewArguments {
   std::optional<double> pace;
   IgtlArguments igtl;
   KeepArguments keep;
-  LanguageArgument language;
+  WearerArguments wearer;
   preview::PreviewOptions options;
 };
 
@@ -260,13 +260,13 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   arguments->keep.add_to(*preview);
   preview->add_option("--models", arguments->models, "folder that keeps the prepared models")
       ->check(some_text());
-  arguments->language.add_to(*preview);
+  arguments->wearer.add_to(*preview);
   add_window_options(*preview, arguments);
   add_config_option(*preview);
   preview->callback([arguments, &action, &signals] {
     action = [arguments, &signals] {
       limit_memory();
-      if (const Status spoken = arguments->language.use(); !spoken) {
+      if (const Status spoken = arguments->wearer.use(); !spoken) {
         return bad_input(spoken.error().message);
       }
       return preview_window(*arguments, signals);

@@ -41,8 +41,8 @@ std::vector<engine::ReportPlot> ReadingCurves::plots(const engine::GradeLimits& 
                            time,
                            "\u00b0",
                            {},
-                           {{good_deg, "green below " + engine::angle_text(limits.good_rad)},
-                            {poor_deg, "red above " + engine::angle_text(limits.poor_rad)}},
+                           {{good_deg, "good below " + engine::angle_text(limits.good_rad)},
+                            {poor_deg, "poor above " + engine::angle_text(limits.poor_rad)}},
                            std::max(kAxis_deg, 1.2 * poor_deg)};
   engine::ReportPlot distance{
       "Distance of the tool's tip from the planned entry, as tracked", time, "mm", {}};

@@ -58,12 +58,12 @@ void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
   arguments->onlookers.add_to(*run);
   arguments->calibration.add_to(*run);
   arguments->limits.add_to(*run);
-  arguments->language.add_to(*run);
+  arguments->wearer.add_to(*run);
   add_ends_and_results(*run, *arguments);
   add_config_option(*run);
   run->callback([arguments, &action, &signals] {
     action = [arguments, &signals] {
-      const Status spoken = arguments->language.use();
+      const Status spoken = arguments->wearer.use();
       return spoken ? run_live(*arguments, signals) : bad_input(spoken.error().message);
     };
   });

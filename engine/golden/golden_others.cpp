@@ -81,7 +81,7 @@ GoldenScene head_lost() {
              "guide L4 left | RMSE 0.62 mm", ToolState::kMeasured, ToolState::kMeasured);
   render::Scene whole = golden.scene;
   whole.lines.push_back(
-      {kAngleLabel, {kPlacesToCheck[0], kPlacesToCheck[1]}, 0.002f, look::kGreen});
+      {kAngleLabel, {kPlacesToCheck[0], kPlacesToCheck[1]}, 0.002f, look::colours().good});
   write_head_lost(whole, golden.scene);
   return golden;
 }

@@ -30,18 +30,18 @@ std::string distance_text(double distance_m) {
 
 void add_check_point(render::Scene& scene, render::Float3 position, std::string_view text,
                      bool within, render::Label label) {
-  const render::Colour colour = within ? look::kGreen : look::kRed;
+  const render::Colour colour = within ? look::colours().good : look::colours().poor;
   add_diamond_in_halo(scene, position, colour, label);
   render::TextItem& item = add_text_beside(scene, position, 1.5f, 0.0045f, 0.5f, label);
   if (!within) {
-    item.rim = look::kRed;
+    item.rim = look::colours().poor;
   }
   add_run(item, text, look::kWhite);
   add_run(item, within ? " ✓" : " ✗", look::kWhite);
 }
 
 void add_place_to_check(render::Scene& scene, render::Float3 position, render::Label label) {
-  add_diamond_in_halo(scene, position, look::kCyan, label);
+  add_diamond_in_halo(scene, position, look::colours().placed, label);
 }
 
 }  // namespace orthonav::engine

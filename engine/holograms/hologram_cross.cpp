@@ -89,7 +89,7 @@ void add_lost_text(Scene& scene, Float3 middle, Label label) {
   text.offset_up = -0.5f;
   text.height_m = 0.0045f;
   text.min_height_deg = 0.5f;
-  text.rim = look::kRed;
+  text.rim = look::colours().poor;
   add_run(text, translated(words::kToolLost), look::kWhite);
 }
 
@@ -207,7 +207,7 @@ void add_depth(Scene& scene, Float3 a, Float3 b, std::string_view text, bool pas
   item.height_m = 0.004f;
   item.min_height_deg = 0.45f;
   if (past_target) {
-    item.rim = look::kRed;
+    item.rim = look::colours().poor;
   }
   add_run(item, text, look::kWhite);
 }

@@ -59,7 +59,7 @@ class Block {
   /// A long text, therefore smaller; white with a red rim.
   std::string& warning() {
     std::string& text = add(left_of_site_ ? TextAlign::kRight : TextAlign::kLeft, 0, false);
-    scene_.texts.back().rim = look::kRed;
+    scene_.texts.back().rim = look::colours().poor;
     scene_.texts.back().runs.front().colour = look::kWhite;
     return text;
   }
@@ -134,8 +134,9 @@ void add_clearance(Scene& scene, const TargetCross& cross, const nav::ShownClear
 }
 
 void add_drill(Scene& scene, const TargetCross& cross, const nav::DrillView& drill, Label label) {
-  constexpr std::array<render::Colour, 4> kRims = {render::Colour{0, 0, 0, 0}, look::kAmber,
-                                                   look::kRed, look::kRed};
+  const HologramColours& colours = look::colours();
+  const std::array<render::Colour, 4> rims = {render::Colour{0, 0, 0, 0}, colours.fair,
+                                              colours.poor, colours.poor};
   const bool away = drill.phase == nav::DrillPhase::kAway;
   if (away || (drill.phase == nav::DrillPhase::kSet && !drill.watched)) {
     return;
@@ -143,7 +144,7 @@ void add_drill(Scene& scene, const TargetCross& cross, const nav::DrillView& dri
   const bool stop = drill.alarm == nav::DrillAlarm::kStop;
   TextItem& item = Block(scene, cross, label).above(stop ? kStopLarger : 1.0f);
   const bool unwatched = !drill.watched;
-  item.rim = unwatched ? look::kRed : kRims[static_cast<std::size_t>(drill.alarm)];
+  item.rim = unwatched ? colours.poor : rims[static_cast<std::size_t>(drill.alarm)];
   append_drill(add_run(item, look::kWhite), drill);
 }
 

@@ -55,7 +55,7 @@ std::string fixed_width(std::string_view text) {
 }
 
 void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, Label label) {
-  add_ring(scene, at, along, kBendRingRadius_m, kBendRingWidth_m, look::kAmber, label);
+  add_ring(scene, at, along, kBendRingRadius_m, kBendRingWidth_m, look::colours().fair, label);
   render::TextItem& text = add_text_beside(scene, at, 1.6f, 0.0035f, 0.35f, label);
   add_run(text, angle_text(bend.angle_rad), look::kWhite);
   add_run(text, look::kSoftWhite).append(" ").append(translated(words::kAt)).append(" ");
@@ -97,13 +97,13 @@ Grade grade_of(double angle_rad, const GradeLimits& limits) {
 Colour colour_of(Grade grade) {
   switch (grade) {
     case Grade::kGood:
-      return look::kGreen;
+      return look::colours().good;
     case Grade::kFair:
-      return look::kAmber;
+      return look::colours().fair;
     case Grade::kPoor:
       break;
   }
-  return look::kRed;
+  return look::colours().poor;
 }
 
 std::string angle_text(std::optional<double> angle_rad) {
@@ -122,7 +122,8 @@ void add_sampled_path(Scene& scene, std::span<const Float3> samples, PathState s
   if (samples.empty() || !(opacity > 0)) {
     return;
   }
-  const Colour colour = state == PathState::kRecording ? look::kYellow : look::kOrange;
+  const Colour colour =
+      state == PathState::kRecording ? look::colours().recording : look::colours().saved;
   add_line(scene, samples, kPathWidth_m, faded(colour, std::fmin(opacity, 1.0f)), label);
 }
 
@@ -146,15 +147,15 @@ void add_residual_path(Scene& scene, std::span<const Float3> samples,
 
 void add_vertebra(Scene& scene, std::shared_ptr<const render::MeshData> mesh,
                   const render::Matrix4& world_from_model, Label label) {
-  add_mesh(scene, std::move(mesh), world_from_model, look::kBone, label);
-  scene.meshes.back().tint = look::kUnstroked;
+  add_mesh(scene, std::move(mesh), world_from_model, look::colours().bone, label);
+  scene.meshes.back().tint = look::colours().unstroked;
   scene.meshes.back().style = render::MeshStyle::kRim;
 }
 
 void add_entry(Scene& scene, const EntryHologram& entry, Label label) {
-  add_sphere(scene, entry.position, kEntryRadius_m, look::kBlue, label);
+  add_sphere(scene, entry.position, kEntryRadius_m, look::colours().entry, label);
   add_ring(scene, entry.position, entry.surface_normal, kEntryRingRadius_m, kEntryRingWidth_m,
-           look::kBlue, label);
+           look::colours().entry, label);
   if (entry.text.empty() && !entry.done) {
     return;
   }
@@ -171,23 +172,24 @@ Float3 trajectory_outer_end(Float3 entry, Float3 target) {
 }
 
 void add_planned_trajectory(Scene& scene, Float3 entry, Float3 target, Label label) {
-  add_line(scene, {trajectory_outer_end(entry, target), entry}, kTrajectoryWidth_m, look::kGreen,
-           label);
+  add_line(scene, {trajectory_outer_end(entry, target), entry}, kTrajectoryWidth_m,
+           look::colours().good, label);
   // A gap first: the dashes must not add up with the solid part at the entry.
   const Float3 inward = render::unit_or(target - entry, {0, -1, 0});
   if (render::length(target - entry) <= kDash_m) {
     return;
   }
-  add_line(scene, {entry + kDash_m * inward, target}, kTrajectoryWidth_m, look::kGreen, label,
-           kDash_m);
+  add_line(scene, {entry + kDash_m * inward, target}, kTrajectoryWidth_m, look::colours().good,
+           label, kDash_m);
 }
 
 void add_placed_wire(Scene& scene, Float3 outside, Float3 deep, std::string_view text, bool within,
                      Label label) {
-  add_line(scene, {outside, deep}, kPlacedWireWidth_m, within ? look::kCyan : look::kRed, label);
+  add_line(scene, {outside, deep}, kPlacedWireWidth_m,
+           within ? look::colours().placed : look::colours().poor, label);
   render::TextItem& item = add_text_beside(scene, outside, 2.5f, 0.0045f, 0.55f, label);
   if (!within) {
-    item.rim = look::kRed;
+    item.rim = look::colours().poor;
   }
   add_run(item, text, look::kWhite);
   add_run(item, within ? " ✓" : " ✗", look::kWhite);
@@ -225,10 +227,10 @@ void take_angle_off(render::TextItem& readout) {
 
 void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   if (rod.tube && !rod.tube->indices.empty()) {
-    add_mesh(scene, rod.tube, render::placed_at(rod.offset), look::kTitanium, label);
+    add_mesh(scene, rod.tube, render::placed_at(rod.offset), look::colours().rod, label);
   }
   for (const Float3 head : rod.heads) {
-    add_sphere(scene, head + rod.offset, kHeadRadius_m, look::kBlue, label);
+    add_sphere(scene, head + rod.offset, kHeadRadius_m, look::colours().entry, label);
   }
   const Float3 along = rod.heads.empty()
                            ? Float3{0, 1, 0}

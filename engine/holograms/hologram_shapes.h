@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/holograms/hologram_colours.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {
@@ -15,32 +16,12 @@ namespace orthonav::engine {
 // render::Scene. What is shown when is decided by the scene builder. Labels follow the scene's
 // convention, 100·n + k for the k-th instance of hologram Hn.
 
-/// Linear colours of the holograms, tuned for an additive display. Text is white, since light can't
-/// darken its background and red light alone is unreadable on anything bright (docs/holograms.md
-/// has the contrasts); colour appears in a rim or in the mark beside it.
-namespace look {
-inline constexpr render::Colour kYellow{1.0f, 0.78f, 0.04f, 1};
-inline constexpr render::Colour kOrange{1.0f, 0.30f, 0.02f, 1};
-inline constexpr render::Colour kBone{0.92f, 0.86f, 0.74f, 0.35f};
-inline constexpr render::Colour kUnstroked{0.10f, 0.42f, 1.0f, 0.35f};
-inline constexpr render::Colour kBlue{0.12f, 0.36f, 1.0f, 1};
-inline constexpr render::Colour kGreen{0.04f, 0.90f, 0.13f, 1};
-inline constexpr render::Colour kAmber{1.0f, 0.42f, 0.0f, 1};
-inline constexpr render::Colour kRed{1.0f, 0.06f, 0.04f, 1};
-inline constexpr render::Colour kWhite{1, 1, 1, 1};
-inline constexpr render::Colour kSoftWhite{0.90f, 0.90f, 0.90f, 1};
-inline constexpr render::Colour kPale{0.86f, 0.86f, 0.86f, 1};
-inline constexpr render::Colour kCyan{0.02f, 0.72f, 0.80f, 1};
-inline constexpr render::Colour kRing{0.30f, 0.30f, 0.30f, 1};
-inline constexpr render::Colour kTitanium{0.46f, 0.48f, 0.52f, 1};
-}  // namespace look
-
 /// How far the tool is from the plan, as shown by colours.
 enum class Grade { kGood, kFair, kPoor };
 
 struct GradeLimits {
-  double good_rad = 0.0349065850398866;  ///< 2°: below it is green
-  double poor_rad = 0.0872664625997165;  ///< 5°: above it is red and dashed
+  double good_rad = 0.0349065850398866;  ///< 2°: below it is good
+  double poor_rad = 0.0872664625997165;  ///< 5°: above it is poor, and dashed
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
@@ -70,8 +51,8 @@ void add_residual_path(render::Scene& scene, std::span<const render::Float3> sam
 /// Opacity of a path while there are check points, which need the attention.
 inline constexpr float kPathBehindChecks = 0.10f;
 
-/// H2: the registered surface, bright where it turns away from the eye; in `look::kUnstroked` where
-/// its tints mark unstroked surface.
+/// H2: the registered surface, bright where it turns away from the eye; in another colour where its
+/// tints mark unstroked surface.
 void add_vertebra(render::Scene& scene, std::shared_ptr<const render::MeshData> mesh,
                   const render::Matrix4& world_from_model, render::Label label);
 

@@ -37,8 +37,9 @@ std::string_view dot_of(ToolState state) {
 }
 
 render::Colour colour_of(ToolState state) {
-  constexpr std::array<render::Colour, 3> kColours = {look::kGreen, look::kAmber, look::kRed};
-  return kColours[static_cast<std::size_t>(state)];
+  constexpr std::array<render::Colour HologramColours::*, 3> kColours = {
+      &HologramColours::good, &HologramColours::fair, &HologramColours::poor};
+  return look::colours().*kColours[static_cast<std::size_t>(state)];
 }
 
 float tools_width_caps(std::span<const ToolDot> tools, float name_caps) {
@@ -118,13 +119,13 @@ void add_detail(Scene& scene, std::string_view detail, const StatusParts* parts,
 void add_notice(Scene& scene, std::string_view text, Label label) {
   TextItem& item = add_row(scene, 0, label);
   item.offset_up = 2.0f;
-  item.rim = look::kRed;
+  item.rim = look::colours().poor;
   add_run(item, text, look::kWhite);
 }
 
 void add_stop_row(Scene& scene, std::string_view text, Label label) {
   TextItem& item = add_row(scene, -2, label);
-  item.rim = look::kRed;
+  item.rim = look::colours().poor;
   append_cut(add_run(item, look::kWhite), text, kStatusWidth_caps);
 }
 

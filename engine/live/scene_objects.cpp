@@ -138,7 +138,8 @@ void SceneObjects::add_mesh(const render::MeshItem& item, Float3 eye, Timestamp 
   }
   const HologramKind kind = kind_of(item.label);
   if (kind == HologramKind::kVertebra || kind == HologramKind::kTwin) {
-    const render::Colour line = {look::kBone.r, look::kBone.g, look::kBone.b, 1};
+    render::Colour line = look::colours().bone;
+    line.a = 1;
     for (const StraightPiece& piece : bone_.pieces(item, eye, shown_at)) {
       writer_.add_piece(piece, kBoneLine_m, line);
     }

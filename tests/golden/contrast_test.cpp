@@ -258,7 +258,7 @@ TEST(Contrast, TellsThatRedLightAloneIsNotLegible) {
   Contrasts contrasts;
   render::Scene scene = in_view(text_kinds().front().text);
   for (render::TextRun& run : scene.texts[0].runs) {
-    run.colour = look::kRed;
+    run.colour = look::colours().poor;
   }
   for (const Background& b : backgrounds()) {
     EXPECT_LT(contrasts.least(scene, b), kLegibleText) << b.name;

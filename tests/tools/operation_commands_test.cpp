@@ -105,7 +105,7 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   EXPECT_THAT(page, HasSubstr("src=\"operation.mp4\" poster=\"data:image/png;base64,"));
   EXPECT_THAT(page, ContainsRegex("date <b>20[0-9][0-9]-[0-9][0-9]-[0-9][0-9] "));
   EXPECT_THAT(page, HasSubstr("Operation completed"));
-  EXPECT_THAT(page, ContainsRegex("\"name\":\"green below 2.0[^\"]*\",\"y\":2.0"));
+  EXPECT_THAT(page, ContainsRegex("\"name\":\"good below 2.0[^\"]*\",\"y\":2.0"));
   EXPECT_THAT(demo.out, Not(HasSubstr("date"))) << "report.json is the same from day to day";
   EXPECT_EQ(report["levels"][0]["screws"][0]["done"], true);
   EXPECT_GT(report["levels"][0]["screws"][0]["planned"]["diameter_mm"].get<double>(), 3.0);

@@ -190,8 +190,8 @@ TEST_F(Guiding, GradesByTheLimitsItWasGiven) {
   };
   VisibilityRules lenient;
   lenient.grades = {0.2, 0.4};
-  EXPECT_EQ(colour({}).r, look::kRed.r);
-  EXPECT_EQ(colour(lenient).r, look::kGreen.r);
+  EXPECT_EQ(colour({}).r, look::colours().poor.r);
+  EXPECT_EQ(colour(lenient).r, look::colours().good.r);
 }
 
 std::string readout(const render::Scene& scene) {

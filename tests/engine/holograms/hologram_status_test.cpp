@@ -59,8 +59,8 @@ TEST(StatusLine, TellsToolsApartByShapeToo) {
   render::Scene scene;
   add_status_line(scene, "setup", tools, kStatusLabel);
   EXPECT_THAT(texts_of(scene), ElementsAre("setup", "●", "a", "◐", "b", "○", "c"));
-  EXPECT_EQ(scene.texts[1].rim, look::kGreen);
-  EXPECT_EQ(scene.texts[5].rim, look::kRed);
+  EXPECT_EQ(scene.texts[1].rim, look::colours().good);
+  EXPECT_EQ(scene.texts[5].rim, look::colours().poor);
 }
 
 TEST(StatusLine, KeepsStepAndToolsOnARowOfTheirOwn) {

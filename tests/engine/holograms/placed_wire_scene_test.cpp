@@ -71,8 +71,8 @@ TEST_F(PlacedWireShown, BeyondALimitIsRed) {
     }
     return render::Colour{};
   };
-  EXPECT_EQ(colour(measures(0.0012)), look::kCyan);
-  EXPECT_EQ(colour(measures(0.0032)), look::kRed);
+  EXPECT_EQ(colour(measures(0.0012)), look::colours().placed);
+  EXPECT_EQ(colour(measures(0.0032)), look::colours().poor);
 }
 
 TEST_F(PlacedWireShown, IsHiddenWithTheReferenceAndGoneWithItsRegistration) {

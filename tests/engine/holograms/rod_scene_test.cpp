@@ -58,7 +58,7 @@ TEST(SceneBuilder, MakesATubeOnceForARod) {
     std::shared_ptr<const render::MeshData> found;
     for (const auto& item : scene.meshes) {
       if (kind_of(item.label) == kRod && item.mesh->positions.size() > most &&
-          item.colour == look::kTitanium) {
+          item.colour == look::colours().rod) {
         found = item.mesh, most = item.mesh->positions.size();
       }
     }

@@ -77,8 +77,8 @@ TEST(SceneBuilder, DrawsCheckPointsWhereTheyWereTouchedGreenOrRed) {
     return render::Colour{};
   };
   const auto open = static_cast<render::Label>(g.to_check.size());
-  EXPECT_EQ(colour(1201 + open), look::kGreen);
-  EXPECT_EQ(colour(1202 + open), look::kRed);
+  EXPECT_EQ(colour(1201 + open), look::colours().good);
+  EXPECT_EQ(colour(1202 + open), look::colours().poor);
   // They disappear with the surface that they checked.
   EXPECT_THAT(drawn(s.says("reject")), ::testing::Not(::testing::Contains(kCheckPoint)));
 }

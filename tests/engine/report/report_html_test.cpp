@@ -95,7 +95,7 @@ ReportContent whole_content() {
                            "s",
                            "°",
                            {{"L4 left", {0, 1, 2, 3}, {71.3, 6.5, 6.0, 1.0}}},
-                           {{2.0, "green below 2.0°"}, {5.0, "red above 5.0°"}},
+                           {{2.0, "good below 2.0°"}, {5.0, "poor above 5.0°"}},
                            6.0});
   content.timings.push_back({"tracking", {1.0, 2.0}});
   content.notes = {"a note"};
@@ -137,8 +137,8 @@ TEST(ReportHtml, MarksWhatLiesAboveThePlotsAxisAndKeepsWhatItWas) {
                               R"({"x":2.0,"y":6.0},{"x":3.0,"y":1.0})"));
   EXPECT_THAT(html,
               HasSubstr("angle: above the axis (triangles at its edge) L4 left up to 71.3°."));
-  EXPECT_THAT(html, AllOf(HasSubstr(R"({"name":"green below 2.0\u00b0","y":2.0})"),
-                          HasSubstr(R"({"name":"red above 5.0\u00b0","y":5.0})")));
+  EXPECT_THAT(html, AllOf(HasSubstr(R"({"name":"good below 2.0\u00b0","y":2.0})"),
+                          HasSubstr(R"({"name":"poor above 5.0\u00b0","y":5.0})")));
   ReportContent open = whole_content();
   open.plots[0].y_max = 0.0;
   EXPECT_THAT(report_html(open).value(),

@@ -4,7 +4,7 @@
 
 #include "tests/tools/command_line.h"
 
-namespace orthonav::test::language_command_test {
+namespace orthonav::test::wearer_command_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -40,5 +40,14 @@ TEST(LanguageOption, IsAKeyOfTheSettingsToo) {
   expect_refusal(with("no/such"), folder.file("no/such"));
 }
 
+TEST(ColoursOption, RefusesWhatWouldMislead) {
+  const ScratchFolder folder;
+  expect_refusal({"--colours", "good=#FFA010"}, "--colours: good and fair are too much alike");
+  expect_refusal({"--colours", "colour-blind"}, "/none");
+  expect_refusal(
+      {"--config", folder.with("theatre.toml", "[display]\ncolours = \"poor=#600000\"\n")},
+      "--colours: poor has 0.02 of white's luminance");
+}
+
 }  // namespace
-}  // namespace orthonav::test::language_command_test
+}  // namespace orthonav::test::wearer_command_test
