@@ -11,6 +11,7 @@
 #include "engine/scan/scan_case.h"
 #include "engine/scan/volume_file.h"
 #include "tools/arguments.h"
+#include "tools/case_meshes.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
 #include "tools/out_folder.h"
@@ -20,6 +21,8 @@ namespace orthonav::tools {
 namespace {
 
 namespace fs = std::filesystem;
+using tools::levels_json;
+using tools::print;
 
 struct CaseArguments {
   std::string volume;
@@ -27,6 +30,7 @@ struct CaseArguments {
   std::string labels;
   std::string convention;
   std::optional<double> threshold_hu;
+  CaseMeshes meshes;
   std::vector<std::string> levels;
   std::string name;
   std::string out;
@@ -69,16 +73,21 @@ Result<engine::ScanLevels> levels_of_threshold(const CaseArguments& arguments) {
 /// Refuses arguments that do not go together.
 Status check(const CaseArguments& arguments) {
   const bool labels = !arguments.labels.empty();
-  if (labels == arguments.threshold_hu.has_value()) {
+  const bool meshes = arguments.meshes.any();
+  if (int{labels} + int{meshes} + int{arguments.threshold_hu.has_value()} != 1) {
     return Error{
-        "vertebrae need --labels FILE (a segmentation); --threshold HU takes connected bone from "
-        "--volume, where adjoining vertebrae hang together as one part"};
+        "vertebrae need --labels FILE (a segmentation) or --mesh LEVEL=FILE (for each); "
+        "--threshold "
+        "HU takes connected bone from --volume, where adjoining vertebrae hang together as one "
+        "part"};
   }
-  if (!labels && arguments.volume.empty()) {
+  if (arguments.threshold_hu && arguments.volume.empty()) {
     return Error{"--threshold needs --volume"};
   }
   if (!labels && !arguments.levels.empty()) {
-    return Error{"--levels needs --labels: parts of a threshold have no names"};
+    return Error{
+        "--levels needs --labels: parts of a threshold have no names, meshes are named one "
+        "by one"};
   }
   return {};
 }
@@ -114,16 +123,28 @@ void print(const engine::ScanLevels& made) {
   }
 }
 
+void warn_of_no_canal(const std::string& label) {
+  std::fprintf(stderr,
+               "orthonav: warning: %s: no vertebral canal found; is it half a vertebra, or are the "
+               "axes not the patient's?\n",
+               label.c_str());
+}
+
 void warn(const engine::ScanLevels& made) {
   for (const std::string& line : made.left_out) {
     std::fprintf(stderr, "orthonav: left out: %s\n", line.c_str());
   }
   for (const engine::ScanLevel& level : made.levels) {
     if (!level.canal) {
-      std::fprintf(stderr,
-                   "orthonav: warning: %s: no vertebral canal found; is it half a vertebra, or are "
-                   "the axes not the patient's?\n",
-                   level.label.c_str());
+      warn_of_no_canal(level.label);
+    }
+  }
+}
+
+void warn(const std::vector<engine::MeshLevel>& made) {
+  for (const engine::MeshLevel& each : made) {
+    if (!each.canal) {
+      warn_of_no_canal(each.level.label);
     }
   }
 }
@@ -138,19 +159,9 @@ std::string case_name(const CaseArguments& arguments) {
   return folder.lexically_normal().parent_path().filename().string();
 }
 
-int run_make(const CaseArguments& arguments) {
-  if (Status s = arguments.json.check(); !s) {
-    return bad_input(s.error().message);
-  }
-  if (Status s = check(arguments); !s) {
-    return bad_input(s.error().message);
-  }
-  std::error_code code;
-  if (fs::exists(fs::path(arguments.out) / "case.json", code)) {
-    return bad_input(arguments.out + "/case.json: is there already");
-  }
-  const auto made =
-      arguments.labels.empty() ? levels_of_threshold(arguments) : levels_of_labels(arguments);
+/// Writes the case of the levels that were made, and what is to be known about them.
+template <class Levels>
+int save(const CaseArguments& arguments, const Result<Levels>& made) {
   if (!made) {
     return bad_input(made.error().message);
   }
@@ -158,13 +169,12 @@ int run_make(const CaseArguments& arguments) {
   if (!folder) {
     return bad_input(folder.error().message);
   }
-  const Status saved =
-      engine::save_case(arguments.out, engine::case_of(*made, case_name(arguments)));
+  const Status saved = engine::save_case(arguments.out, case_of(*made, case_name(arguments)));
   if (const Status s = saved ? arguments.json.write(levels_json(*made)) : saved; !s) {
     return bad_input(s.error().message);
   }
   warn(*made);
-  if (arguments.labels.empty()) {
+  if (arguments.threshold_hu) {
     std::fprintf(
         stderr,
         "orthonav: parts of a threshold: adjoining vertebrae hang together as one part; for "
@@ -176,12 +186,30 @@ int run_make(const CaseArguments& arguments) {
   return kDone;
 }
 
+int run_make(const CaseArguments& arguments) {
+  if (Status s = arguments.json.check(); !s) {
+    return bad_input(s.error().message);
+  }
+  if (Status s = check(arguments); !s) {
+    return bad_input(s.error().message);
+  }
+  std::error_code code;
+  if (fs::exists(fs::path(arguments.out) / "case.json", code)) {
+    return bad_input(arguments.out + "/case.json: is there already");
+  }
+  if (arguments.meshes.any()) {
+    return save(arguments, arguments.meshes.read(arguments.volume, arguments.series));
+  }
+  return save(arguments, arguments.threshold_hu ? levels_of_threshold(arguments)
+                                                : levels_of_labels(arguments));
+}
+
 void add_inputs(CLI::App& command, CaseArguments& arguments) {
   command
       .add_option(
           "--volume", arguments.volume,
-          "CT: .nii, .nii.gz, .nrrd, or a folder of DICOM slices; with --labels only to check "
-          "that they lie on bone")
+          "CT: .nii, .nii.gz, .nrrd, or a folder of DICOM slices; with --labels or --mesh only "
+          "to check that they lie on bone")
       ->check(some_text())
       ->type_name("SCAN");
   command
@@ -201,6 +229,7 @@ void add_inputs(CLI::App& command, CaseArguments& arguments) {
       .add_option("--threshold", arguments.threshold_hu,
                   "instead of --labels: connected bone of at least so many HU")
       ->check(finite_number(-1000, 3000));
+  arguments.meshes.add_to(command);
   add_levels_option(command, arguments.levels, "levels (default: whole ones from T1 to L6)");
 }
 
@@ -210,8 +239,8 @@ void add_case_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("case", "Case folders");
   command->require_subcommand(1);
   auto arguments = std::make_shared<CaseArguments>();
-  CLI::App* make =
-      command->add_subcommand("make", "Makes a case folder with vertebra meshes from a scan");
+  CLI::App* make = command->add_subcommand(
+      "make", "Makes a case folder with vertebra meshes from a scan, or from meshes");
   add_inputs(*make, *arguments);
   make->add_option("--name", arguments->name, "name of the case (default: that of the folder)")
       ->check(some_text());

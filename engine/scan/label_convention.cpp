@@ -8,25 +8,12 @@
 #include "base/joined.h"
 #include "engine/case/line_name.h"
 #include "engine/io/text_fields.h"
+#include "engine/scan/level_places.h"
 
 namespace orthonav::engine {
 namespace {
 
 /// From the head down.
-std::vector<std::string> spine_labels() {
-  std::vector<std::string> labels;
-  const auto add = [&](char region, int count) {
-    for (int i = 1; i <= count; ++i) {
-      labels.push_back(region + std::to_string(i));
-    }
-  };
-  add('C', 7);
-  add('T', 13);
-  add('L', 6);
-  labels.push_back("S1");
-  return labels;
-}
-
 /// Numbers that run down the spine in steps of `step`, L1 being `l1`; `s1` 0: no S1.
 std::map<int, std::string> counted(int l1, int step, int lumbar, int s1) {
   std::map<int, std::string> out;
@@ -168,32 +155,6 @@ Result<std::vector<LabelledLevel>> labelled_levels(const Volume& labels,
   }
   sort_from_the_head(levels);
   return levels;
-}
-
-double usual_distance_m(const std::string& upper, const std::string& lower) {
-  const auto step_m = [](const std::string& label) {
-    const int number = std::stoi(label.substr(1));
-    switch (label[0]) {
-      case 'C':
-        return 0.017;
-      case 'T':
-        return 0.0175 + 0.0008 * number;
-      default:
-        return 0.035;
-    }
-  };
-  // Few spines have a T13 or an L6; a missing one does not count as a step.
-  std::vector<std::string> order = spine_labels();
-  std::erase_if(order, [&](const std::string& label) {
-    return (label == "T13" || label == "L6") && label != upper && label != lower;
-  });
-  const auto from = std::find(order.begin(), order.end(), upper);
-  const auto to = std::find(order.begin(), order.end(), lower);
-  double sum_m = 0.0;
-  for (auto at = from; at < to; ++at) {
-    sum_m += step_m(*at);
-  }
-  return sum_m;
 }
 
 }  // namespace orthonav::engine

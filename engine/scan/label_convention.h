@@ -32,8 +32,4 @@ struct LabelledLevel {
 Result<std::vector<LabelledLevel>> labelled_levels(const Volume& labels,
                                                    const std::string& convention);
 
-/// How far the middles of two vertebrae lie apart in an adult, from the upper to the lower one:
-/// body and disc of each level between (17 mm in the neck, 18 to 27 mm in the chest, 35 mm below).
-[[nodiscard]] double usual_distance_m(const std::string& upper, const std::string& lower);
-
 }  // namespace orthonav::engine

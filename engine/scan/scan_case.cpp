@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/joined.h"
-#include "base/printed.h"
+#include "engine/scan/level_places.h"
 #include "nav/planning/canal.h"
 
 namespace orthonav::engine {
@@ -13,8 +13,6 @@ namespace {
 
 /// Volume of the smallest part that is considered, m³: a lumbar vertebra has 40 to 80 cm³.
 constexpr double kLeastPart_m3 = 5e-6;
-constexpr double kMostOutside = 0.1;
-constexpr double kLeastBone_hu = 50.0;
 
 /// Without `--levels` only T and L are made: these rules are not for the neck or the sacrum.
 bool made_unasked(const std::string& label) { return label[0] == 'T' || label[0] == 'L'; }
@@ -69,34 +67,12 @@ Vec3 middle_m(const Volume& labels, const LabelledLevel& level) {
   return labels.grid.place_m(sum / std::max(count, 1.0));
 }
 
-/// Signs that the numbers were read by the wrong convention: vertebrae out of order, or too near
-/// together or too far apart for their names.
-Status check_places(const Volume& labels, const std::vector<LabelledLevel>& levels) {
-  constexpr double kLeastRatio = 0.72, kMostRatio = 1.35;
-  std::vector<Vec3> middles_m;
+Status check_label_places(const Volume& labels, const std::vector<LabelledLevel>& levels) {
+  std::vector<LevelPlace> places;
   for (const LabelledLevel& level : levels) {
-    middles_m.push_back(middle_m(labels, level));
+    places.push_back({level.label, middle_m(labels, level)});
   }
-  double measured_m = 0.0, usual_m = 0.0;
-  for (std::size_t i = 1; i < levels.size(); ++i) {
-    const Vec3 down = middles_m[i] - middles_m[i - 1];
-    if (!(down.z < 0.0)) {
-      return Error{levels[i].label + " lies above " + levels[i - 1].label +
-                   ": is it another convention?"};
-    }
-    measured_m += down.norm();
-    usual_m += usual_distance_m(levels[i - 1].label, levels[i].label);
-  }
-  if (levels.size() < 2) {
-    return {};
-  }
-  const double ratio = measured_m / usual_m;
-  if (ratio < kLeastRatio || ratio > kMostRatio) {
-    return Error{printed("%s to %s measure %.0f mm, usual are %.0f mm: is it another convention?",
-                         levels.front().label.c_str(), levels.back().label.c_str(),
-                         measured_m * 1e3, usual_m * 1e3)};
-  }
-  return {};
+  return check_places(places, "is it another convention?");
 }
 
 }  // namespace
@@ -110,7 +86,7 @@ Result<ScanLevels> scan_levels(const Volume& labels, const std::string& conventi
   if (Status s = check_wanted(*there, wanted); !s) {
     return s.error();
   }
-  if (Status s = check_places(labels, *there); !s) {
+  if (Status s = check_label_places(labels, *there); !s) {
     return s.error();
   }
   ScanLevels out;
@@ -176,23 +152,10 @@ Status check_on_bone(const Volume& labels, const std::string& convention, const 
       }
     });
   }
-  constexpr const char* kHint =
-      "; are their axes mixed up (LPS, RAS), or are they of another scan?";
   const double outside =
       1.0 - static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(all, 1));
-  if (!(outside <= kMostOutside)) {
-    return Error{printed("%.0f %% of the labels lie outside of the scan, limit %.0f %%",
-                         outside * 1e2, kMostOutside * 1e2) +
-                 kHint};
-  }
-  const double mean_hu = sum_hu / static_cast<double>(inside);
-  if (!(mean_hu >= kLeastBone_hu)) {
-    return Error{
-        printed("the scan has %.0f HU on average where the labels are, bone has %.0f or more",
-                mean_hu, kLeastBone_hu) +
-        kHint};
-  }
-  return {};
+  return check_bone({outside, sum_hu / static_cast<double>(std::max<std::size_t>(inside, 1))},
+                    "labels");
 }
 
 Case case_of(const ScanLevels& made, const std::string& name) {

@@ -125,17 +125,6 @@ Status check_closed(const TriangleMesh& mesh) {
   return {};
 }
 
-double signed_volume_m3(const TriangleMesh& mesh) {
-  // About a vertex, so that a model far from its origin keeps its precision.
-  const Vec3 o = mesh.vertices_m[mesh.triangles[0][0]];
-  double six_volumes = 0.0;
-  for (const auto& t : mesh.triangles) {
-    six_volumes += (mesh.vertices_m[t[0]] - o)
-                       .dot((mesh.vertices_m[t[1]] - o).cross(mesh.vertices_m[t[2]] - o));
-  }
-  return six_volumes / 6.0;
-}
-
 }  // namespace
 
 Bounds bounds_of(const TriangleMesh& mesh) {
@@ -154,6 +143,26 @@ Bounds bounds_of(const TriangleMesh& mesh) {
   return box;
 }
 
+Solid solid_of(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) {
+    return {};
+  }
+  // About a vertex, so that a model far from its origin keeps its precision.
+  const Vec3 o = mesh.vertices_m[mesh.triangles[0][0]];
+  double six_volumes = 0.0;
+  Vec3 moment;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices_m[t[0]] - o;
+    const Vec3 b = mesh.vertices_m[t[1]] - o;
+    const Vec3 c = mesh.vertices_m[t[2]] - o;
+    const double part = a.dot(b.cross(c));
+    six_volumes += part;
+    moment += part / 4.0 * (a + b + c);
+  }
+  const Vec3 centre = six_volumes == 0.0 ? Vec3{} : 1.0 / six_volumes * moment;
+  return {six_volumes / 6.0, o + centre};
+}
+
 Result<TriangleMesh> checked_vertebra(TriangleMesh mesh) {
   if (const Status s = check_numbers(mesh); !s) {
     return s.error();
@@ -165,7 +174,7 @@ Result<TriangleMesh> checked_vertebra(TriangleMesh mesh) {
   if (const Status s = check_closed(mesh); !s) {
     return s.error();
   }
-  const double volume_m3 = signed_volume_m3(mesh);
+  const double volume_m3 = solid_of(mesh).volume_m3;
   if (std::abs(volume_m3) < kMinVolumeFraction * size_m * size_m * size_m) {
     return Error{"mesh encloses no volume (" + number(volume_m3 * 1e9, "%.3g") + " mm3)"};
   }

@@ -28,6 +28,13 @@ struct Bounds {
 /// The bounds of the vertices that faces refer to; stray vertices are ignored. Zero without faces.
 [[nodiscard]] Bounds bounds_of(const TriangleMesh& mesh);
 
+/// What a closed surface encloses, by the divergence theorem.
+struct Solid {
+  double volume_m3 = 0.0;  ///< negative for an inward-oriented surface
+  Vec3 centroid_m;
+};
+[[nodiscard]] Solid solid_of(const TriangleMesh& mesh);
+
 /// Refuses a mesh that can't be navigated on, with the reason: no faces, non-finite vertices, an
 /// index out of range, edges not shared by exactly two triangles (non-manifold or open), a size
 /// outside 30-250 mm (a vertebra is 60-130 mm across; the message says so if metres were taken for

@@ -120,6 +120,10 @@ std::optional<CanalFrame> find_canal(const TriangleMesh& mesh, const SurfaceInde
   if (!body_m) {
     return std::nullopt;
   }
+  // Most of the bone is the body, in front of the canal.
+  if ((solid_of(mesh).centroid_m - frame.centre_m).dot(frame.behind) >= 0.0) {
+    return std::nullopt;
+  }
   frame.to_body_m = *body_m;
   return frame;
 }

@@ -20,7 +20,8 @@ struct CanalFrame {
 /// front, behind, to the left and to the right are taken as the canal; of the axes through their
 /// middle that lean by up to 45° in the sagittal and 20° in the coronal plane, the one that stays
 /// farthest from bone over 20 mm is chosen. Empty if there is no such passage: not a vertebra, half
-/// of one, or one whose axes are not LPS.
+/// of one, or one whose axes are not LPS; and if most of the bone lies behind it: RAS taken for
+/// LPS.
 [[nodiscard]] std::optional<CanalFrame> find_canal(const TriangleMesh& mesh,
                                                    const SurfaceIndex& surface);
 

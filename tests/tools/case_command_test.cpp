@@ -90,10 +90,41 @@ TEST(CaseCommand, RefusesInOneLineAndLeavesNothing) {
               HasSubstr("holds no L5 (it has: L4)"));
   EXPECT_THAT(refusal({"--volume", labels}), HasSubstr("vertebrae need --labels"));
   EXPECT_THAT(refusal({"--threshold", "200"}), HasSubstr("--threshold needs --volume"));
+  EXPECT_THAT(refusal({"--labels", labels, "--mesh", "L4=a.stl"}), HasSubstr("vertebrae need "));
+  EXPECT_THAT(refusal({"--mesh", "a.stl"}), HasSubstr("a.stl: must be LEVEL=FILE"));
+  EXPECT_THAT(refusal({"--mesh", "L4=none.stl"}), HasSubstr("none.stl: cannot be opened"));
   EXPECT_THAT(refusal({"--labels", scratch.file("none.nii")}), HasSubstr("no such file"));
   // The labels as their own scan: 23 HU are no bone.
   EXPECT_THAT(refusal({"--labels", labels, "--convention", "verse", "--volume", labels}),
               HasSubstr("has 23 HU on average where the labels are"));
+}
+
+TEST(CaseCommand, MakesACaseOfMeshesWhoseAxesAreStated) {
+  const ScratchFolder scratch;
+  const std::string labels = ball(scratch, "labels.nrrd", 23);
+  const std::string first = scratch.file("first");
+  ASSERT_EQ(
+      orthonav({"case", "make", "--labels", labels, "--convention", "verse", "--out", first}).code,
+      0);
+  // What orthonav writes declares its axes.
+  const std::string mesh = "L4=" + first + "/L4.stl";
+  const Called made =
+      orthonav({"case", "make", "--mesh", mesh, "--out", scratch.file("second"), "--json"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NEAR(json::parse(made.out)["levels"][0]["volume_cm3"].get<double>(), 33.5, 1.5);
+  EXPECT_THAT(made.err, HasSubstr("warning: L4: no vertebral canal found")) << "it is a ball";
+  // The same without that.
+  std::string bytes = content_of(first + "/L4.stl");
+  bytes.replace(bytes.find("SPACE=LPS"), 9, "SOMETHING");
+  const std::string silent = scratch.with("l4.stl", bytes);
+  const Called refused =
+      orthonav({"case", "make", "--mesh", "L4=" + silent, "--out", scratch.file("third")});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("l4.stl: does not say its axes; state them with --frame"));
+  EXPECT_EQ(orthonav({"case", "make", "--mesh", "L4=" + silent, "--frame", "LPS", "--out",
+                      scratch.file("third")})
+                .code,
+            0);
 }
 
 TEST(CaseCommand, RefusesPlacesThatCannotBeWrittenBeforeItWritesAnything) {

@@ -124,6 +124,13 @@ TEST(CheckedVertebra, HoldsTheLimitsOfSizeToTheMillimetre) {
   EXPECT_THAT(refusal(box({0, 0, 0}, {0.2501, 0.1, 0.1})), HasSubstr("250.1 mm across"));
 }
 
+TEST(Solid, HasTheVolumeAndTheCentroidOfItsInside) {
+  const Solid box = solid_of(test::box({0.1, 0.2, 0.3}, {0.14, 0.26, 0.38}));
+  EXPECT_NEAR(box.volume_m3, 0.04 * 0.06 * 0.08, 1e-12);
+  EXPECT_NEAR((box.centroid_m - Vec3{0.12, 0.23, 0.34}).norm(), 0.0, 1e-12);
+  EXPECT_EQ(solid_of({}).volume_m3, 0.0);
+}
+
 TEST(Welded, JoinsTheCornersOfALooseMesh) {
   const TriangleMesh whole = vertebra_sized_box();
   TriangleMesh loose;

@@ -48,5 +48,11 @@ TEST(Canal, IsNoneWhereThereIsNoRingOfBone) {
   EXPECT_FALSE(find_canal(box, SurfaceIndex(box)));
 }
 
+TEST(Canal, IsNoneInAVertebraThatFacesBackward) {
+  const TriangleMesh mesh =
+      test::rotated(phantom_l3(), rotation_from_vector(180.0 * kRadiansPerDegree * Vec3{0, 0, 1}));
+  EXPECT_FALSE(find_canal(mesh, SurfaceIndex(mesh))) << "RAS taken for LPS";
+}
+
 }  // namespace
 }  // namespace orthonav::nav::canal_test

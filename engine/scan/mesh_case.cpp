@@ -1,0 +1,109 @@
+#include "engine/scan/mesh_case.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/scan/level_places.h"
+#include "nav/planning/canal.h"
+
+namespace orthonav::engine {
+namespace {
+
+std::ptrdiff_t place_in_spine(const std::string& label) {
+  const std::vector<std::string>& order = spine_labels();
+  return std::find(order.begin(), order.end(), label) - order.begin();
+}
+
+bool has_canal(const nav::TriangleMesh& mesh) {
+  return nav::find_canal(mesh, nav::SurfaceIndex(mesh)).has_value();
+}
+
+/// LPS read as RAS, or RAS as LPS.
+nav::TriangleMesh half_round(nav::TriangleMesh mesh) {
+  for (Vec3& v : mesh.vertices_m) {
+    v = {-v.x, -v.y, v.z};
+  }
+  return mesh;
+}
+
+Status check_names(const std::vector<CaseLevel>& meshes) {
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const std::string& label = meshes[i].label;
+    if (place_in_spine(label) == std::ssize(spine_labels())) {
+      return Error{"'" + label + "' is no vertebra (C1-C7, T1-T13, L1-L6, S1)"};
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (meshes[j].label == label) {
+        return Error{label + " is given twice"};
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<MeshLevel>> mesh_levels(std::vector<CaseLevel> meshes) {
+  if (Status s = check_names(meshes); !s) {
+    return s.error();
+  }
+  std::sort(meshes.begin(), meshes.end(), [](const CaseLevel& a, const CaseLevel& b) {
+    return place_in_spine(a.label) < place_in_spine(b.label);
+  });
+  std::vector<LevelPlace> places;
+  for (const CaseLevel& level : meshes) {
+    places.push_back({level.label, nav::bounds_of(level.mesh).centre()});
+  }
+  const Case together{"", {}, std::move(meshes)};
+  for (std::size_t i = 1; i < together.levels.size(); ++i) {
+    if (const CaseLevel* other = together.overlapped_by(i)) {
+      return Error{together.levels[i].label + " lies in the same place as " + other->label +
+                   ": each is in a frame of its own; the meshes must be of one scan"};
+    }
+  }
+  if (Status s = check_places(places, "are these meshes of one scan, with their own names?"); !s) {
+    return s.error();
+  }
+  std::vector<MeshLevel> levels;
+  for (const CaseLevel& level : together.levels) {
+    const bool canal = has_canal(level.mesh);
+    if (!canal && has_canal(half_round(level.mesh))) {
+      return Error{level.label +
+                   " faces backward: its axes are RAS and not LPS, or LPS and not RAS"};
+    }
+    levels.push_back({level, nav::solid_of(level.mesh).volume_m3, canal});
+  }
+  return levels;
+}
+
+Status check_on_bone(const std::vector<MeshLevel>& levels, const Volume& scan) {
+  constexpr double kStep_m = 0.002;
+  if (scan.layers != 1) {
+    return Error{"the scan has " + std::to_string(scan.layers) + " values a voxel, a CT has 1"};
+  }
+  double sum_hu = 0.0;
+  std::size_t inside = 0, all = 0;
+  for (const MeshLevel& made : levels) {
+    const nav::SurfaceIndex bone(made.level.mesh);
+    const nav::Bounds box = nav::bounds_of(made.level.mesh);
+    for (double z = box.low.z; z <= box.high.z; z += kStep_m) {
+      for (double y = box.low.y; y <= box.high.y; y += kStep_m) {
+        for (double x = box.low.x; x <= box.high.x; x += kStep_m) {
+          if (!bone.contains({x, y, z})) {
+            continue;
+          }
+          ++all;
+          if (const auto voxel = scan.grid.voxel_around({x, y, z})) {
+            ++inside;
+            sum_hu += static_cast<double>(scan.values[*voxel]);
+          }
+        }
+      }
+    }
+  }
+  const auto count = [](std::size_t n) { return static_cast<double>(std::max<std::size_t>(n, 1)); };
+  return check_bone({1.0 - static_cast<double>(inside) / count(all), sum_hu / count(inside)},
+                    "meshes");
+}
+
+}  // namespace orthonav::engine
