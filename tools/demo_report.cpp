@@ -4,6 +4,8 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <string>
 
 #include "base/file_code.h"
 #include "engine/io/atomic_file.h"
@@ -63,6 +65,34 @@ std::vector<std::uint8_t> poster_of(const DemoReport& report,
              : content.pictures.back().png;
 }
 
+/// The registered levels as they lie to each other, in the axes of the first.
+void show_spine(const engine::OperationResult& result, bool simulated,
+                engine::ReportContent& content) {
+  std::optional<Transform<Vertebra, World>> first_from_world;
+  for (const engine::LevelOutcome& level : result.levels) {
+    if (!level.accepted || !level.registered) {
+      continue;
+    }
+    const auto& world_from_vertebra = level.registered->registration.world_from_vertebra;
+    if (!first_from_world) {
+      first_from_world = world_from_vertebra.inverse();
+    }
+    const Transform<Vertebra, Vertebra> pose = *first_from_world * world_from_vertebra;
+    content.spine.add_bone(level.registered->model->mesh(), pose);
+    for (const engine::ScrewOutcome& screw : level.screws) {
+      if (screw.size) {
+        content.spine.add_planned(*screw.size, pose);
+      }
+      if (screw.done && screw.driven) {
+        content.spine.add_placed(*screw.driven, pose);
+      }
+    }
+  }
+  content.spine_note =
+      std::string("Vertebrae as they were registered. Blue: screws as planned; amber: the same ") +
+      (simulated ? "along the true wires." : "along the tool as it was tracked at depth.");
+}
+
 }  // namespace
 
 Status write_demo_report(const std::filesystem::path& folder, const engine::OperationResult& result,
@@ -85,6 +115,7 @@ Status write_demo_report(const std::filesystem::path& folder, const engine::Oper
       content.registrations.push_back(*level.registered);
     }
   }
+  show_spine(result, report.simulated, content);
   for (const StepPicture& picture : report.pictures) {
     auto png = bytes_of(picture.path);
     if (!png) {

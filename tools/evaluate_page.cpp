@@ -6,8 +6,8 @@
 #include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/page_style.h"
+#include "engine/report/spine_view.h"
 #include "tools/evaluate_figures.h"
-#include "tools/evaluate_spine.h"
 #include "tools/scan_slice.h"
 
 namespace orthonav::tools {
@@ -212,6 +212,28 @@ std::string registrations_of(const engine::Evaluation& evaluation) {
   return html + "</tbody></table></section>";
 }
 
+/// The spine as it lay in the scan.
+std::string spine_of(const engine::Case& subject, const engine::Evaluation& evaluation) {
+  engine::SpineView view;
+  for (const engine::EvaluatedLevel& level : evaluation.levels) {
+    const engine::CaseLevel* const model = subject.find(level.label);
+    if (!level.registration || model == nullptr) {
+      continue;
+    }
+    const auto& pose = level.registration->scan_from_vertebra;
+    view.add_bone(model->mesh, pose);
+    for (const engine::EvaluatedScrew& screw : level.screws) {
+      if (const auto plan = nav::cylinder_of(screw.plan)) {
+        view.add_planned(*plan, pose);
+      }
+      if (screw.placed) {
+        view.add_placed(screw.placed->cylinder, pose);
+      }
+    }
+  }
+  return view.section("As it lies in the scan", "");
+}
+
 }  // namespace
 
 Result<std::string> evaluate_page(const engine::Case& subject, const engine::Volume& scan,
@@ -227,7 +249,7 @@ Result<std::string> evaluate_page(const engine::Case& subject, const engine::Vol
           "</b></p></header><main>" + table_of(evaluation) +
           "<p class=key><b style=\"color:#4cc2ff\"></b>planned<b style=\"color:#ffb000\"></b>placed"
           "<b style=\"color:#37c26b\"></b>surface of the case’s model, laid on the scan</p>" +
-          rotating_spine(subject, evaluation);
+          spine_of(subject, evaluation);
   const engine::ScanField field(scan);
   for (const engine::EvaluatedLevel& level : evaluation.levels) {
     const engine::CaseLevel* const source_level = subject.find(level.label);

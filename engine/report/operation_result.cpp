@@ -61,6 +61,9 @@ ScrewOutcome outcome_of_screw(const LevelState& state, std::size_t index) {
   if (index < state.executed.size()) {
     screw.trajectory = state.executed[index];
   }
+  if (screw.trajectory && state.plan.model) {
+    screw.driven = nav::cylinder_along(screw.trajectory->axis, plan, state.plan.model->surface());
+  }
   if (index < state.wires.size()) {
     screw.wire = state.wires[index];
     screw.redone = state.redone[index];

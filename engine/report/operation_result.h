@@ -54,6 +54,9 @@ struct ScrewOutcome {
   std::optional<double> preoperative_angle_error_rad = {};
   std::optional<double> preoperative_entry_error_m = {};
   std::optional<nav::ScrewCylinder> size = {};  ///< as planned; absent: the plan states no radius
+  /// Along the true wire, or where the truth is not known along the tool as tracked; absent: not
+  /// done, not measured, or past the bone.
+  std::optional<nav::ScrewCylinder> driven = {};
   /// Whether the surgeon was warned of this screw: its wire was measured beyond a limit, its
   /// clearance's 95 % bound is below 0, or its planned breach was accepted.
   [[nodiscard]] bool warned() const;

@@ -210,7 +210,8 @@ Result<std::string> report_html(const ReportContent& content) {
   if (!registrations) {
     return registrations;
   }
-  html += *registrations + rods_section(report) + pictures_section(content) +
+  html += content.spine.section("The spine with its screws", html_escaped(content.spine_note)) +
+          *registrations + rods_section(report) + pictures_section(content) +
           paper_section(report) +
           "<section id=plots><h2>Errors and readings</h2><div class=plots id=error-plots></div>"
           "<div class=plots id=reading-plots></div>" +

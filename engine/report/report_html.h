@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "engine/report/registration_figures.h"
+#include "engine/report/spine_view.h"
 
 namespace orthonav::engine {
 
@@ -55,6 +56,8 @@ struct ReportContent {
   std::string video;                 ///< file name beside the page; empty: none
   std::vector<std::uint8_t> poster;  ///< a PNG to show while the film is not played; empty: none
   std::vector<RegisteredLevel> registrations;  ///< drawn, one section each
+  SpineView spine;                             ///< the vertebrae with their screws, to be turned
+  std::string spine_note;                      ///< a sentence on what lies where in it
   std::vector<ReportPicture> pictures;
   std::vector<ReportPlot> plots;
   std::vector<ReportTiming> timings;

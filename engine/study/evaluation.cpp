@@ -94,6 +94,7 @@ void GroundTruthRecorder::evaluate_level(const LevelState& state, LevelOutcome& 
       }
       const auto executed = nav::cylinder_along({wire.entry, wire.direction}, state.plan.screws[s],
                                                 state.plan.model->surface());
+      screw.driven = executed;
       screw.executed =
           executed ? nav::least_clearance(state.plan.model->surface(), *executed) : std::nullopt;
     }

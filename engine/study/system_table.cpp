@@ -18,6 +18,7 @@ namespace {
 /// Where a publication gives no SD, half of the mean; where it gives no number of screws, twenty.
 constexpr double kAssumedSd = 0.5;
 constexpr int kAssumedScrews = 20;
+constexpr int kScrewsPerRegistration = 2;  ///< one left and one right at a level
 constexpr double kSdFactor = 1.5;
 
 std::string mean_and_sd(double mean, const std::optional<double>& sd) {
@@ -103,11 +104,12 @@ std::vector<Prediction> predictions_of(const SystemProfile& system, const nlohma
     p.published = *quantity.published;
     p.predicted = *predicted;
     p.assumed_error = !p.published.sd || !system.screws;
+    p.screws = system.screws.value_or(quantity.per_screw ? kAssumedScrews
+                                                         : kAssumedScrews / kScrewsPerRegistration);
     p.published_error = p.published.sd.value_or(kAssumedSd * p.published.mean) /
-                        std::sqrt(static_cast<double>(system.screws.value_or(kAssumedScrews)));
+                        std::sqrt(static_cast<double>(p.screws));
     p.z = (p.predicted.mean - p.published.mean) /
           std::hypot(p.published_error, p.predicted.standard_error);
-    p.screws = system.screws.value_or(kAssumedScrews);
     test(p);
     out.push_back(std::move(p));
   }

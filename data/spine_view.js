@@ -1,4 +1,4 @@
-// Turns the spine of an evaluation with its planned and placed screws. Plain WebGL: nothing is loaded.
+// Turns a spine with its planned and placed screws. Plain WebGL: nothing is loaded.
 "use strict";
 (() => {
   const scene = JSON.parse(document.getElementById("spine-data").textContent);
@@ -6,7 +6,7 @@
   const note = document.getElementById("spine-note");
   const gl = canvas.getContext("webgl", {alpha: false, antialias: true, preserveDrawingBuffer: true});
   if (!gl) {
-    note.textContent = "This browser has no WebGL: the slices below show the same.";
+    note.textContent = "This browser has no WebGL: what would turn here is not shown.";
     return;
   }
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
