@@ -28,15 +28,20 @@ inline std::string said_by(const std::string& command) {
 inline bool has_browser() { return !said_by("command -v chromium").empty(); }
 inline constexpr const char* kNoBrowser = "chromium is not installed: the page was not opened";
 
+/// Whether pages may draw with WebGL, on the processor: that takes the browser longer to start.
+enum class BrowserDraws { kPlain, kWebGl };
+
 /// The page at an address after its scripts have run for this long; empty if the browser fails or
 /// takes more than a minute.
-inline std::string page_in_browser(const std::string& address, int script_ms) {
+inline std::string page_in_browser(const std::string& address, int script_ms,
+                                   BrowserDraws draws = BrowserDraws::kPlain) {
   const TemporaryFolder profile;
   return said_by(
-      "timeout 60 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage "
-      "--allow-file-access-from-files --user-data-dir=" +
-      profile.path().string() + " --virtual-time-budget=" + std::to_string(script_ms) +
-      " --dump-dom '" + address + "'");
+      std::string("timeout 60 chromium --headless --no-sandbox --disable-dev-shm-usage ") +
+      (draws == BrowserDraws::kWebGl ? "--use-angle=swiftshader --enable-unsafe-swiftshader "
+                                     : "--disable-gpu ") +
+      "--allow-file-access-from-files --user-data-dir=" + profile.path().string() +
+      " --virtual-time-budget=" + std::to_string(script_ms) + " --dump-dom '" + address + "'");
 }
 
 inline constexpr int kPhone_px = 390;
