@@ -37,10 +37,17 @@ void IgtlArguments::add_to(CLI::App& command) {
       ->type_name("PORT");
   command
       .add_option("--igtl-allow", allow,
-                  "who may connect besides this machine, as in 192.168.1.0/24,10.0.0.7; needed "
-                  "where --igtl names an address that other machines reach")
+                  "who may connect besides this machine, as in 192.168.1.0/24,10.0.0.7; this or "
+                  "--igtl-token is needed where --igtl names an address that other machines reach")
       ->check(some_text())
       ->type_name("NETWORKS");
+  command
+      .add_option(
+          "--igtl-token", token_file,
+          "file with the token that a client of --igtl must send first, made where there is "
+          "none (docs/igtl.md)")
+      ->check(some_text())
+      ->type_name("FILE");
   command.add_flag("--igtl-commands", commands,
                    "clients of --igtl may say commands and change the planned screw in work; "
                    "whoever may connect then steers the operation (docs/igtl.md)");
@@ -50,6 +57,13 @@ Result<igtl::ServerOptions> igtl_options(const IgtlArguments& arguments) {
   const std::string& at = arguments.at;
   igtl::ServerOptions options;
   options.allow = arguments.allow;
+  if (!arguments.token_file.empty()) {
+    auto token = net::Token::of(arguments.token_file);
+    if (!token) {
+      return Error{"--igtl-token " + token.error().message, token.error().code};
+    }
+    options.token = *std::move(token);
+  }
   const auto place = listening_place("--igtl", at);
   if (!place) {
     return place.error();
@@ -67,6 +81,9 @@ Status IgtlStream::open(const IgtlArguments& arguments) {
     if (arguments.commands) {
       return Error{"--igtl-commands: needs --igtl"};
     }
+    if (!arguments.token_file.empty()) {
+      return Error{"--igtl-token: needs --igtl"};
+    }
     return arguments.allow.empty() ? Status{} : Error{"--igtl-allow: needs --igtl"};
   }
   const auto options = igtl_options(arguments);
@@ -76,10 +93,12 @@ Status IgtlStream::open(const IgtlArguments& arguments) {
   hears_ = arguments.commands;
   auto server = igtl::Server::start(*options, hears_ ? &commands_ : nullptr);
   if (!server) {
-    return Error{"--igtl, --igtl-allow: " + server.error().message, server.error().code};
+    return Error{"--igtl, --igtl-allow, --igtl-token: " + server.error().message,
+                 server.error().code};
   }
   server_ = std::move(*server);
-  std::fprintf(stderr, "OpenIGTLink at %s:%d%s\n", options->address.c_str(), server_->port(),
+  std::fprintf(stderr, "OpenIGTLink at %s:%d%s%s\n", options->address.c_str(), server_->port(),
+               options->token.is_asked_for() ? "; clients bring the token" : "",
                hears_ ? "; its clients may command" : "");
   return {};
 }

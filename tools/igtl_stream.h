@@ -14,9 +14,10 @@ namespace orthonav::tools {
 
 /// `--igtl`, of the commands that run an operation.
 struct IgtlArguments {
-  std::string at;         ///< "PORT" or "ADDRESS:PORT"; empty: nothing is served
-  std::string allow;      ///< networks that may connect in addition to this machine
-  bool commands = false;  ///< clients may command and plan
+  std::string at;          ///< "PORT" or "ADDRESS:PORT"; empty: nothing is served
+  std::string allow;       ///< networks that may connect in addition to this machine
+  std::string token_file;  ///< with the token that clients must bring; empty: none
+  bool commands = false;   ///< clients may command and plan
 
   void add_to(CLI::App& command);
 };

@@ -8,7 +8,11 @@
 namespace orthonav::igtl {
 
 bool TextReader::wants(const Header& header) const {
-  return header.type == "STRING" && (header.device == "Command" || header.device == "Plan");
+  if (header.type != "STRING") {
+    return false;
+  }
+  return let_in_ ? listener_ != nullptr && (header.device == "Command" || header.device == "Plan")
+                 : header.device == "Token";
 }
 
 Status TextReader::read(const Header& header, Bytes body) {
@@ -19,16 +23,18 @@ Status TextReader::read(const Header& header, Bytes body) {
   if (!text) {
     return text.error();
   }
-  listener_.said(client_, header.device, *text);
-  return {};
+  if (let_in_) {
+    listener_->said(client_, header.device, *text);
+    return {};
+  }
+  let_in_ = token_.is(*text);
+  return let_in_ ? Status{} : Error{"brought a wrong token"};
 }
 
-Client::Client(net::Socket socket, HostTime now, TextListener* listener)
+Client::Client(net::Socket socket, HostTime now, TextListener* listener, const net::Token& token)
     : socket_(std::move(socket)),
       taken_(now),
-      reader_(listener == nullptr
-                  ? nullptr
-                  : std::make_unique<TextReader>(net::text_of(net::peer_of(socket_)), *listener)),
+      reader_(std::make_unique<TextReader>(net::text_of(net::peer_of(socket_)), listener, token)),
       incoming_(reader_.get()) {}
 
 void Client::add(std::span<const std::uint8_t> bytes, HostTime now) {

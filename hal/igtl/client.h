@@ -11,35 +11,44 @@
 #include "hal/igtl/text_message.h"
 #include "hal/net/rate_limit.h"
 #include "hal/net/socket.h"
+#include "hal/net/token.h"
 
 namespace orthonav::igtl {
 
-/// Passes a client's texts to the listener: STRING messages of the devices `Command` and `Plan`.
+/// Passes a client's texts to the listener, if there is one: STRING messages of the devices
+/// `Command` and `Plan`. Where a token is asked for, that of `Token` must be the first.
 class TextReader : public MessageReader {
  public:
   /// A client that sends more texts within a second is dropped.
   static constexpr int kMostASecond = 20;
 
-  TextReader(std::string client, TextListener& listener)
-      : client_(std::move(client)), listener_(listener) {}
+  /// Both are borrowed; `listener` may be null.
+  TextReader(std::string client, TextListener* listener, const net::Token& token)
+      : client_(std::move(client)), listener_(listener), token_(token) {}
+  /// It has brought the token, or none is asked for.
+  [[nodiscard]] bool let_in() const { return let_in_; }
 
  private:
   [[nodiscard]] bool wants(const Header& header) const override;
   Status read(const Header& header, Bytes body) override;
 
   std::string client_;
-  TextListener& listener_;
+  TextListener* listener_;
+  const net::Token& token_;
+  bool let_in_ = !token_.is_asked_for();
   net::RateLimit said_;
 };
 
-/// One connected client: its messages are skipped, unless there is a listener; messages to it wait
-/// until it takes them.
+/// One connected client: its messages are skipped, unless there is a listener or a token is asked
+/// for; messages to it wait until it takes them.
 class Client {
  public:
-  /// `listener` is borrowed; may be null.
-  Client(net::Socket socket, HostTime now, TextListener* listener = nullptr);
+  /// `listener` and `token` are borrowed; `listener` may be null.
+  Client(net::Socket socket, HostTime now, TextListener* listener, const net::Token& token);
 
   [[nodiscard]] int fd() const { return socket_.fd(); }
+  /// Whether it may be sent anything.
+  [[nodiscard]] bool let_in() const { return reader_->let_in(); }
   /// Whether no bytes are waiting.
   [[nodiscard]] bool idle() const { return sent_ == waiting_.size(); }
   /// When the client last took bytes, or was last idle.
@@ -59,7 +68,7 @@ class Client {
   std::vector<std::uint8_t> waiting_;
   std::size_t sent_ = 0;
   HostTime taken_;
-  std::unique_ptr<TextReader> reader_;  ///< null: no listener
+  std::unique_ptr<TextReader> reader_;  ///< never null
   Incoming incoming_;
   net::RateLimit came_;
 };

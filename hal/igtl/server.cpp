@@ -42,7 +42,9 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options,
   if (!host) {
     return host.error();
   }
-  const auto allowed = net::Allowed::of(options.allow);
+  const auto allowed = options.allow.empty() && options.token.is_asked_for()
+                           ? net::Allowed::everybody()
+                           : net::Allowed::of(options.allow);
   if (!allowed) {
     return allowed.error();
   }

@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "hal/igtl/text_message.h"
+#include "hal/net/token.h"
 
 namespace orthonav::igtl {
 
@@ -15,9 +16,13 @@ struct ServerOptions {
   /// Numeric address of this machine to listen at; loopback by default.
   std::string address = "127.0.0.1";
   int port = 18944;  ///< 0: any free one
-  /// Networks that may connect in addition to this machine, as in "192.168.1.0/24,10.0.0.7". Must
-  /// not be empty unless the address is loopback.
+  /// Networks that may connect in addition to this machine, as in "192.168.1.0/24,10.0.0.7"; empty:
+  /// with a token, all. Must not be empty without one unless the address is loopback.
   std::string allow;
+  /// If there is one, a client is sent nothing, and not heard, until it sends it as a STRING of the
+  /// device `Token`.
+  net::Token token;
+  std::chrono::milliseconds longest_without_token{5000};  ///< then it is dropped
   std::size_t most_clients = 8;
   /// Connections accepted in each `calls_counted_for`; further ones wait in the kernel's queue.
   int most_calls = 20;

@@ -104,6 +104,8 @@ void ServerThread::wait(HostTime now) {
     watched.push_back({client.fd(), events, 0});
     if (!client.idle()) {
       until = std::min(until, client.taken() + options_.longest_block);
+    } else if (!client.let_in()) {
+      until = std::min(until, client.taken() + options_.longest_without_token);
     }
   }
   const auto left = std::chrono::ceil<milliseconds>(until - now).count();
@@ -135,8 +137,10 @@ void ServerThread::accept_clients(HostTime now) {
       continue;
     }
     (void)::setsockopt(socket->fd(), SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
-    clients_.emplace_back(std::move(*socket), now, hears_);
-    clients_.back().add(standing_, now);
+    clients_.emplace_back(std::move(*socket), now, hears_, options_.token);
+    if (clients_.back().let_in()) {
+      clients_.back().add(standing_, now);
+    }
     const MutexLock lock(mutex_);
     ++counts_.served;
     counts_.clients = clients_.size();
@@ -163,6 +167,9 @@ void ServerThread::give_out(HostTime now) {
     }
   }
   for (Client& client : clients_) {
+    if (!client.let_in()) {
+      continue;
+    }
     if (stands_anew) {
       client.add(standing_, now);
     }
@@ -188,7 +195,7 @@ void ServerThread::give_out(HostTime now) {
 /// A client that has not taken the last frame misses this one.
 void ServerThread::give_frame(std::span<const std::uint8_t> frame, HostTime now) {
   for (Client& client : clients_) {
-    if (client.idle()) {
+    if (client.let_in() && client.idle()) {
       client.add(frame, now);
     }
   }
@@ -197,10 +204,17 @@ void ServerThread::give_frame(std::span<const std::uint8_t> frame, HostTime now)
 void ServerThread::serve_clients(HostTime now) {
   for (auto client = clients_.begin(); client != clients_.end();) {
     const auto here = client++;
+    const bool was_in = here->let_in();
     Status s = here->read(now, options_.most_bytes_per_s);
+    if (s && !was_in && here->let_in()) {
+      here->add(standing_, now);
+    }
     s = s ? here->write(now) : s;
     if (s && !here->idle() && now - here->taken() > options_.longest_block) {
       s = Error{"does not read"};
+    }
+    if (s && !here->let_in() && now - here->taken() > options_.longest_without_token) {
+      s = Error{"brought no token"};
     }
     if (!s) {
       drop(here, s.error());

@@ -68,6 +68,12 @@ Result<Allowed> Allowed::of(const std::string& networks) {
   return allowed;
 }
 
+Allowed Allowed::everybody() {
+  Allowed all;
+  all.networks_.push_back({});
+  return all;
+}
+
 Allowed Allowed::nobody() {
   Allowed allowed;
   allowed.this_machine_ = false;

@@ -22,6 +22,8 @@ class Allowed {
 
   /// Not even this machine.
   static Allowed nobody();
+  /// All networks: for a port that asks for a token.
+  static Allowed everybody();
 
   [[nodiscard]] bool names_others() const { return !networks_.empty(); }
   [[nodiscard]] bool contains(const Endpoint& peer) const;

@@ -137,7 +137,10 @@ TEST(IgtlCommand, RefusesPlacesWhereNobodyCanListen) {
 TEST(IgtlCommand, SaysForWhomItListensBeyondThisMachine) {
   const test::Called open = test::orthonav({"run", "--frames", "1", "--igtl", "0.0.0.0:0"});
   EXPECT_EQ(open.code, 2);
-  EXPECT_THAT(open.err, HasSubstr("--igtl-allow: OpenIGTLink: other machines reach 0.0.0.0"));
+  EXPECT_THAT(open.err, HasSubstr("--igtl-token: OpenIGTLink: other machines reach 0.0.0.0"));
+  const test::Called no_port = test::orthonav({"run", "--frames", "1", "--igtl-token", "token"});
+  EXPECT_EQ(no_port.code, 2);
+  EXPECT_THAT(no_port.err, HasSubstr("--igtl-token: needs --igtl"));
   const test::Called alone = test::orthonav({"run", "--frames", "1", "--igtl-allow", "10.0.0.7"});
   EXPECT_EQ(alone.code, 2);
   EXPECT_THAT(alone.err, HasSubstr("--igtl-allow: needs --igtl"));
