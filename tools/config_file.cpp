@@ -86,7 +86,9 @@ Result<ConfigFile::Value> value_of(const std::string& path, const std::string& s
   }
   std::string text = text_of(node);
   if (text.empty()) {
-    return Error{place + section + "." + name + " must be a text, a number, true or false"};
+    return Error{
+        place + section + "." + name +
+        (node.is_string() ? " must not be empty" : " must be a text, a number, true or false")};
   }
   const bool word = key->or_word && text.find_first_of("./") == text.npos;
   if (key->is_file && !word) {

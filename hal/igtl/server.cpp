@@ -49,7 +49,7 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options,
     return allowed.error();
   }
   if (const Status named = net::check_who_may(options.address, *host, *allowed); !named) {
-    return Error{"OpenIGTLink: " + named.error().message};
+    return Error{"OpenIGTLink: " + named.error().message + ", or ask for a token"};
   }
   auto socket = net::listen_at(*host, options.port, static_cast<int>(options.most_clients));
   if (!socket) {

@@ -122,9 +122,7 @@ Status check_who_may(const std::string& host, const Endpoint& address, const All
   if (is_loopback(address) || allowed.names_others()) {
     return {};
   }
-  return Error{
-      "other machines reach " + host +
-      ", and this protocol knows no passwords: name who may connect, as in 192.168.1.0/24"};
+  return Error{"other machines reach " + host + "; name who may connect, as in 192.168.1.0/24"};
 }
 
 std::string text_of(const Endpoint& endpoint) {

@@ -33,6 +33,7 @@ TEST(Config, RefusesWhatItDoesNotKnowByNameAndLine) {
   expect_refusal("headset = \"sim:\"\n", "theatre.toml:1: unknown section \"headset\"");
   expect_refusal("[limits]\nwire_mm = [1, 2]\n",
                  "theatre.toml:2: limits.wire_mm must be a text, a number, true or false");
+  expect_refusal("[rig]\nheadset = \"\"\n", "theatre.toml:2: rig.headset must not be empty");
   expect_refusal("[rig\n", "theatre.toml:1: ");
   expect_refusal("[limits]\nwire_mm = 40\n",
                  "theatre.toml:2: limits.wire_mm (--wire-mm: \"40\" must");
