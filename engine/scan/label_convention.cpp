@@ -62,7 +62,7 @@ std::set<float> values_in(const Volume& labels, std::size_t layer) {
 }
 
 void sort_from_the_head(std::vector<LabelledLevel>& levels) {
-  const std::vector<std::string> order = spine_labels();
+  const std::vector<std::string>& order = spine_labels();
   const auto place = [&](const LabelledLevel& level) {
     return std::find(order.begin(), order.end(), level.label) - order.begin();
   };
@@ -79,7 +79,7 @@ std::string field_of(const Volume& labels, const std::string& key) {
 /// The segments of a 3D Slicer file whose names contain a level.
 Result<std::vector<LabelledLevel>> named_levels(const Volume& labels) {
   constexpr int kMostSegments = 1000;
-  const std::vector<std::string> known = spine_labels();
+  const std::vector<std::string>& known = spine_labels();
   std::vector<std::set<float>> present;
   for (std::size_t layer = 0; layer < labels.layers; ++layer) {
     present.push_back(values_in(labels, layer));
