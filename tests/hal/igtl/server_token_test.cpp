@@ -61,6 +61,8 @@ TEST_F(IgtlToken, ThatIsWrongEndsTheConnection) {
   IgtlClient stranger(server->port());
   stranger.send(bring(std::string(token_.text().size(), 'x')));
   EXPECT_EQ(stranger.next(), "");
+  // It hangs up before it counts.
+  ASSERT_TRUE(wait_until([&] { return server->counts().dropped == 1; }));
   EXPECT_EQ(server->counts().last_drop, "brought a wrong token");
 }
 
