@@ -13,7 +13,6 @@
 namespace orthonav::engine {
 namespace {
 
-/// From the head down.
 /// Numbers that run down the spine in steps of `step`, L1 being `l1`; `s1` 0: no S1.
 std::map<int, std::string> counted(int l1, int step, int lumbar, int s1) {
   std::map<int, std::string> out;
@@ -62,13 +61,10 @@ std::set<float> values_in(const Volume& labels, std::size_t layer) {
 }
 
 void sort_from_the_head(std::vector<LabelledLevel>& levels) {
-  const std::vector<std::string>& order = spine_labels();
-  const auto place = [&](const LabelledLevel& level) {
-    return std::find(order.begin(), order.end(), level.label) - order.begin();
-  };
-  std::stable_sort(
-      levels.begin(), levels.end(),
-      [&](const LabelledLevel& a, const LabelledLevel& b) { return place(a) < place(b); });
+  std::stable_sort(levels.begin(), levels.end(),
+                   [](const LabelledLevel& a, const LabelledLevel& b) {
+                     return place_in_spine(a.label) < place_in_spine(b.label);
+                   });
 }
 
 std::string field_of(const Volume& labels, const std::string& key) {
@@ -79,7 +75,6 @@ std::string field_of(const Volume& labels, const std::string& key) {
 /// The segments of a 3D Slicer file whose names contain a level.
 Result<std::vector<LabelledLevel>> named_levels(const Volume& labels) {
   constexpr int kMostSegments = 1000;
-  const std::vector<std::string>& known = spine_labels();
   std::vector<std::set<float>> present;
   for (std::size_t layer = 0; layer < labels.layers; ++layer) {
     present.push_back(values_in(labels, layer));
@@ -92,7 +87,7 @@ Result<std::vector<LabelledLevel>> named_levels(const Volume& labels) {
       break;
     }
     const std::string level = parsed_line_name(name).level;
-    if (std::find(known.begin(), known.end(), level) == known.end()) {
+    if (!place_in_spine(level)) {
       continue;
     }
     const double layer = number_from(field_of(labels, segment + "_Layer")).value_or(0.0);

@@ -5,7 +5,9 @@
 #include "base/printed.h"
 
 namespace orthonav::engine {
+namespace {
 
+/// From the head down.
 const std::vector<std::string>& spine_labels() {
   static const std::vector<std::string> kLabels = [] {
     std::vector<std::string> labels;
@@ -21,6 +23,16 @@ const std::vector<std::string>& spine_labels() {
     return labels;
   }();
   return kLabels;
+}
+
+}  // namespace
+
+std::optional<std::size_t> place_in_spine(const std::string& label) {
+  const std::vector<std::string>& order = spine_labels();
+  const auto found = std::find(order.begin(), order.end(), label);
+  return found == order.end()
+             ? std::nullopt
+             : std::optional<std::size_t>(static_cast<std::size_t>(found - order.begin()));
 }
 
 double usual_distance_m(const std::string& upper, const std::string& lower) {
@@ -75,18 +87,38 @@ Status check_places(const std::vector<LevelPlace>& from_the_head, const std::str
   return {};
 }
 
-Status check_bone(const BoneInScan& bone, const std::string& what) {
+Result<BoneSamples> BoneSamples::in(const Volume& scan) {
+  if (scan.layers != 1) {
+    return Error{"the scan has " + std::to_string(scan.layers) + " values a voxel, a CT has 1"};
+  }
+  return BoneSamples(scan);
+}
+
+void BoneSamples::add(Vec3 place_m) {
+  ++all_;
+  if (const auto voxel = scan_->grid.voxel_around(place_m)) {
+    ++inside_;
+    sum_hu_ += static_cast<double>(scan_->values[*voxel]);
+  }
+}
+
+Status BoneSamples::check(const std::string& what) const {
   constexpr double kMostOutside = 0.1, kLeastBone_hu = 50.0;
   constexpr const char* kHint =
       "; are their axes mixed up (LPS, RAS), or are they of another scan?";
-  if (!(bone.outside <= kMostOutside)) {
-    return Error{printed("%.0f %% of the %s lie outside of the scan, limit %.0f %%",
-                         bone.outside * 1e2, what.c_str(), kMostOutside * 1e2) +
+  const auto divisor = [](std::size_t n) {
+    return static_cast<double>(std::max<std::size_t>(n, 1));
+  };
+  const double outside = 1.0 - static_cast<double>(inside_) / divisor(all_);
+  if (!(outside <= kMostOutside)) {
+    return Error{printed("%.0f %% of the %s lie outside of the scan, limit %.0f %%", outside * 1e2,
+                         what.c_str(), kMostOutside * 1e2) +
                  kHint};
   }
-  if (!(bone.mean_hu >= kLeastBone_hu)) {
+  const double mean_hu = sum_hu_ / divisor(inside_);
+  if (!(mean_hu >= kLeastBone_hu)) {
     return Error{printed("the scan has %.0f HU on average where the %s are, bone has %.0f or more",
-                         bone.mean_hu, what.c_str(), kLeastBone_hu) +
+                         mean_hu, what.c_str(), kLeastBone_hu) +
                  kHint};
   }
   return {};

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "base/vec.h"
+#include "engine/scan/volume.h"
 
 namespace orthonav::engine {
 
@@ -14,8 +17,9 @@ struct LevelPlace {
   Vec3 middle_m;
 };
 
-/// The vertebrae of a spine from the head down: C1 to C7, T1 to T13, L1 to L6, S1.
-[[nodiscard]] const std::vector<std::string>& spine_labels();
+/// How many vertebrae are above this one, of C1 to C7, T1 to T13, L1 to L6 and S1; nothing for any
+/// other name.
+[[nodiscard]] std::optional<std::size_t> place_in_spine(const std::string& label);
 
 /// How far the middles of two vertebrae lie apart in an adult, from the upper to the lower one:
 /// body and disc of each level between (17 mm in the neck, 18 to 27 mm in the chest, 35 mm below).
@@ -26,14 +30,24 @@ struct LevelPlace {
 /// with `hint`.
 Status check_places(const std::vector<LevelPlace>& from_the_head, const std::string& hint);
 
-/// How vertebrae lie in a scan.
-struct BoneInScan {
-  double outside = 0.0;  ///< the part of their volume that lies outside of the scan, 0 to 1
-  double mean_hu = 0.0;  ///< of the rest
-};
+/// Samples of vertebrae in a scan, which tell whether they lie on its bone.
+class BoneSamples {
+ public:
+  /// Refuses a scan with several values a voxel. It must outlive the samples.
+  static Result<BoneSamples> in(const Volume& scan);
+  /// Takes a place inside a vertebra, metres, LPS.
+  void add(Vec3 place_m);
+  /// Refuses what does not lie on bone: more than a tenth outside of the scan, or less than 50 HU
+  /// on average inside. `what` was sampled, as in "labels"; for the Error.
+  [[nodiscard]] Status check(const std::string& what) const;
 
-/// Refuses what does not lie on bone: more than a tenth outside of the scan, or less than 50 HU on
-/// average inside. `what`: "labels", for the Error.
-Status check_bone(const BoneInScan& bone, const std::string& what);
+ private:
+  explicit BoneSamples(const Volume& scan) : scan_(&scan) {}
+
+  const Volume* scan_;
+  std::size_t all_ = 0;
+  std::size_t inside_ = 0;
+  double sum_hu_ = 0.0;
+};
 
 }  // namespace orthonav::engine

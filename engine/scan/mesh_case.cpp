@@ -3,25 +3,21 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/io/patient_axes.h"
 #include "engine/scan/level_places.h"
 #include "nav/planning/canal.h"
 
 namespace orthonav::engine {
 namespace {
 
-std::ptrdiff_t place_in_spine(const std::string& label) {
-  const std::vector<std::string>& order = spine_labels();
-  return std::find(order.begin(), order.end(), label) - order.begin();
-}
-
 bool has_canal(const nav::TriangleMesh& mesh) {
   return nav::find_canal(mesh, nav::SurfaceIndex(mesh)).has_value();
 }
 
 /// LPS read as RAS, or RAS as LPS.
-nav::TriangleMesh half_round(nav::TriangleMesh mesh) {
+nav::TriangleMesh in_other_axes(nav::TriangleMesh mesh) {
   for (Vec3& v : mesh.vertices_m) {
-    v = {-v.x, -v.y, v.z};
+    v = to_lps(v, Axes::kRas);
   }
   return mesh;
 }
@@ -29,7 +25,7 @@ nav::TriangleMesh half_round(nav::TriangleMesh mesh) {
 Status check_names(const std::vector<CaseLevel>& meshes) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const std::string& label = meshes[i].label;
-    if (place_in_spine(label) == std::ssize(spine_labels())) {
+    if (!place_in_spine(label)) {
       return Error{"'" + label + "' is no vertebra (C1-C7, T1-T13, L1-L6, S1)"};
     }
     for (std::size_t j = 0; j < i; ++j) {
@@ -67,7 +63,7 @@ Result<std::vector<MeshLevel>> mesh_levels(std::vector<CaseLevel> meshes) {
   std::vector<MeshLevel> levels;
   for (const CaseLevel& level : together.levels) {
     const bool canal = has_canal(level.mesh);
-    if (!canal && has_canal(half_round(level.mesh))) {
+    if (!canal && has_canal(in_other_axes(level.mesh))) {
       return Error{level.label +
                    " faces backward: its axes are RAS and not LPS, or LPS and not RAS"};
     }
@@ -78,32 +74,24 @@ Result<std::vector<MeshLevel>> mesh_levels(std::vector<CaseLevel> meshes) {
 
 Status check_on_bone(const std::vector<MeshLevel>& levels, const Volume& scan) {
   constexpr double kStep_m = 0.002;
-  if (scan.layers != 1) {
-    return Error{"the scan has " + std::to_string(scan.layers) + " values a voxel, a CT has 1"};
+  auto samples = BoneSamples::in(scan);
+  if (!samples) {
+    return samples.error();
   }
-  double sum_hu = 0.0;
-  std::size_t inside = 0, all = 0;
   for (const MeshLevel& made : levels) {
     const nav::SurfaceIndex bone(made.level.mesh);
     const nav::Bounds box = nav::bounds_of(made.level.mesh);
     for (double z = box.low.z; z <= box.high.z; z += kStep_m) {
       for (double y = box.low.y; y <= box.high.y; y += kStep_m) {
         for (double x = box.low.x; x <= box.high.x; x += kStep_m) {
-          if (!bone.contains({x, y, z})) {
-            continue;
-          }
-          ++all;
-          if (const auto voxel = scan.grid.voxel_around({x, y, z})) {
-            ++inside;
-            sum_hu += static_cast<double>(scan.values[*voxel]);
+          if (bone.contains({x, y, z})) {
+            samples->add({x, y, z});
           }
         }
       }
     }
   }
-  const auto count = [](std::size_t n) { return static_cast<double>(std::max<std::size_t>(n, 1)); };
-  return check_bone({1.0 - static_cast<double>(inside) / count(all), sum_hu / count(inside)},
-                    "meshes");
+  return samples->check("meshes");
 }
 
 }  // namespace orthonav::engine

@@ -134,28 +134,20 @@ Result<ScanLevels> threshold_levels(const Volume& scan, double threshold_hu) {
 }
 
 Status check_on_bone(const Volume& labels, const std::string& convention, const Volume& scan) {
-  if (scan.layers != 1) {
-    return Error{"the scan has " + std::to_string(scan.layers) + " values a voxel, a CT has 1"};
+  auto samples = BoneSamples::in(scan);
+  if (!samples) {
+    return samples.error();
   }
   const auto levels = labelled_levels(labels, convention);
   if (!levels) {
     return levels.error();
   }
-  double sum_hu = 0.0;
-  std::size_t inside = 0, all = 0;
   for (const LabelledLevel& level : *levels) {
     for_each_voxel(labels, level, [&](const std::array<int, 3>& at) {
-      ++all;
-      if (const auto voxel = scan.grid.voxel_around(labels.grid.place_m(vector_of(at)))) {
-        ++inside;
-        sum_hu += static_cast<double>(scan.values[*voxel]);
-      }
+      samples->add(labels.grid.place_m(vector_of(at)));
     });
   }
-  const double outside =
-      1.0 - static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(all, 1));
-  return check_bone({outside, sum_hu / static_cast<double>(std::max<std::size_t>(inside, 1))},
-                    "labels");
+  return samples->check("labels");
 }
 
 Case case_of(const ScanLevels& made, const std::string& name) {
