@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 namespace orthonav {
@@ -11,5 +12,8 @@ namespace orthonav {
 [[nodiscard]] inline double linear_from_srgb(double srgb) {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
+
+/// The luminance of linear red, green and blue, relative to white (ITU-R BT.709).
+inline constexpr std::array<double, 3> kLuminance = {0.2126, 0.7152, 0.0722};
 
 }  // namespace orthonav

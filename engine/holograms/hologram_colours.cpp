@@ -25,8 +25,10 @@ HologramColours& in_use() {
   return colours;
 }
 
-/// Rec. 709, relative to white.
-double luminance(const Colour& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
+/// Relative to white.
+double luminance(const Colour& c) {
+  return kLuminance[0] * c.r + kLuminance[1] * c.g + kLuminance[2] * c.b;
+}
 
 std::array<double, 3> lab(const Colour& c) {
   const auto f = [](double t) {
@@ -52,6 +54,12 @@ bool read_hex(std::string_view digits, Colour& before) {
   };
   before = {channel(16), channel(8), channel(0), before.a};
   return true;
+}
+
+std::string_view name_of(Colour HologramColours::*colour) {
+  return std::find_if(kNamedColours.begin(), kNamedColours.end(),
+                      [&](const NamedColour& each) { return each.colour == colour; })
+      ->name;
 }
 
 std::string known_names() {
@@ -85,15 +93,15 @@ Status change(HologramColours& colours, std::string_view item) {
 const std::array<ColoursApart, 9>& colours_apart() {
   using C = HologramColours;
   static constexpr std::array<ColoursApart, 9> kPairs = {{
-      {{"good", &C::good}, {"fair", &C::fair}},
-      {{"good", &C::good}, {"poor", &C::poor}},
-      {{"fair", &C::fair}, {"poor", &C::poor}},
-      {{"recording", &C::recording}, {"saved", &C::saved}},
-      {{"bone", &C::bone}, {"unstroked", &C::unstroked}},
-      {{"good", &C::good}, {"placed", &C::placed}},
-      {{"placed", &C::placed}, {"poor", &C::poor}},
-      {{"good", &C::good}, {"entry", &C::entry}},
-      {{"entry", &C::entry}, {"rod", &C::rod}},
+      {&C::good, &C::fair},
+      {&C::good, &C::poor},
+      {&C::fair, &C::poor},
+      {&C::recording, &C::saved},
+      {&C::bone, &C::unstroked},
+      {&C::good, &C::placed},
+      {&C::placed, &C::poor},
+      {&C::good, &C::entry},
+      {&C::entry, &C::rod},
   }};
   return kPairs;
 }
@@ -116,11 +124,11 @@ Status HologramColours::check() const {
     }
   }
   for (const ColoursApart& pair : colours_apart()) {
-    const double apart = colour_difference(this->*pair.first.colour, this->*pair.second.colour);
+    const double apart = colour_difference(this->*pair.first, this->*pair.second);
     if (!(apart >= kApart)) {
       std::snprintf(text, sizeof text,
                     "%s and %s are too much alike: %.0f apart in CIELAB, at least %.0f needed",
-                    pair.first.name.data(), pair.second.name.data(), apart, kApart);
+                    name_of(pair.first).data(), name_of(pair.second).data(), apart, kApart);
       return Error{text};
     }
   }

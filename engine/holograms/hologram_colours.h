@@ -49,8 +49,8 @@ inline constexpr std::array<NamedColour, 10> kNamedColours = {{
 
 /// Two colours that are shown beside each other and mean different things.
 struct ColoursApart {
-  NamedColour first;
-  NamedColour second;
+  render::Colour HologramColours::*first;
+  render::Colour HologramColours::*second;
 };
 [[nodiscard]] const std::array<ColoursApart, 9>& colours_apart();
 

@@ -12,8 +12,6 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr std::array<double, 3> kLuminance = {0.2126, 0.7152, 0.0722};  // ITU-R BT.709
-
 const std::array<double, 256>& linear_table() {
   static const std::array<double, 256> table = [] {
     std::array<double, 256> values{};

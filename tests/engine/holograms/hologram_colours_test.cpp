@@ -56,8 +56,8 @@ Colour seen(const Vision& vision, const Colour& c) {
 double least_apart(const HologramColours& colours, const Vision& vision) {
   double least = 1000;
   for (const ColoursApart& pair : colours_apart()) {
-    least = std::min(least, colour_difference(seen(vision, colours.*pair.first.colour),
-                                              seen(vision, colours.*pair.second.colour)));
+    least = std::min(least, colour_difference(seen(vision, colours.*pair.first),
+                                              seen(vision, colours.*pair.second)));
   }
   return least;
 }
