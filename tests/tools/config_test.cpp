@@ -1,29 +1,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "tests/tools/command_line.h"
+#include "tests/tools/run_refusal.h"
 
 namespace orthonav::test::config_test {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
-/// Refused before anything is prepared, in one line.
+/// Settings with this content, refused by `run`.
 void expect_refusal(const std::string& content, const std::string& reason,
                     const std::vector<std::string>& more = {}) {
   const ScratchFolder folder;
-  std::vector<std::string> words = {"run", "--case", "/none", "--config",
-                                    folder.with("theatre.toml", content)};
-  words.insert(words.end(), more.begin(), more.end());
-  const Called called = orthonav(words);
-  EXPECT_EQ(called.code, 2);
-  EXPECT_THAT(called.out, IsEmpty());
-  EXPECT_THAT(called.err, HasSubstr(reason));
-  EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
+  std::vector<std::string> arguments = {"--config", folder.with("theatre.toml", content)};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  expect_run_refusal(arguments, reason);
 }
 
 TEST(Config, RefusesWhatItDoesNotKnowByNameAndLine) {
