@@ -21,6 +21,7 @@ namespace orthonav::tools {
 namespace {
 
 namespace fs = std::filesystem;
+// Those for meshes (tools/case_meshes.h), beside those for scans below.
 using tools::levels_json;
 using tools::print;
 
@@ -77,17 +78,16 @@ Status check(const CaseArguments& arguments) {
   if (int{labels} + int{meshes} + int{arguments.threshold_hu.has_value()} != 1) {
     return Error{
         "vertebrae need --labels FILE (a segmentation) or --mesh LEVEL=FILE (for each); "
-        "--threshold "
-        "HU takes connected bone from --volume, where adjoining vertebrae hang together as one "
-        "part"};
+        "--threshold HU takes connected bone from --volume, where adjoining vertebrae hang "
+        "together as one part"};
   }
   if (arguments.threshold_hu && arguments.volume.empty()) {
     return Error{"--threshold needs --volume"};
   }
   if (!labels && !arguments.levels.empty()) {
     return Error{
-        "--levels needs --labels: parts of a threshold have no names, meshes are named one "
-        "by one"};
+        "--levels needs --labels: parts of a threshold have no names, meshes are named one by "
+        "one"};
   }
   return {};
 }

@@ -38,8 +38,7 @@ void CaseMeshes::add_to(CLI::App& command) {
   command
       .add_option(
           "--mesh", files_,
-          "instead of --labels: a vertebra made elsewhere (STL, PLY or OBJ), again for each "
-          "level")
+          "instead of --labels: the mesh of a vertebra (STL, PLY or OBJ), once for each level")
       ->type_name("LEVEL=FILE")
       ->allow_extra_args(false);
   command.add_option("--units", units_, "unit of the files of --mesh")

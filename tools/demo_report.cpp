@@ -89,7 +89,8 @@ void show_spine(const engine::OperationResult& result, bool simulated,
     }
   }
   content.spine_note =
-      std::string("Vertebrae as they were registered. Blue: screws as planned; amber: the same ") +
+      std::string(
+          "Vertebrae as they were registered. Blue: screws as planned; amber: the same screws ") +
       (simulated ? "along the true wires." : "along the tool as it was tracked at depth.");
 }
 

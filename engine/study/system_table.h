@@ -38,7 +38,7 @@ struct Prediction {
   /// (resampled at the published number); the second is absent if no SD was published.
   double mean_p = 1.0;
   std::optional<double> sd_p;
-  int screws = 0;  ///< the published number, or an assumed one
+  int screws = 0;  ///< or registrations, for RMSE and TRE: the published number, or an assumed one
   /// Within two standard errors.
   [[nodiscard]] bool agrees() const { return z >= -2.0 && z <= 2.0; }
   /// Whether the SDs agree within a factor of 1.5; nothing if none was published.

@@ -56,7 +56,7 @@ Status write_for_owner_alone(const std::string& path, const std::string& text) {
   return {};
 }
 
-Result<std::string> text_of_file(const std::string& path) {
+Result<std::string> read_or_made(const std::string& path) {
   struct stat found {};
   if (::stat(path.c_str(), &found) != 0) {
     auto token = token_at_random();
@@ -91,7 +91,7 @@ Result<std::string> text_of_file(const std::string& path) {
 }  // namespace
 
 Result<Token> Token::of(const std::string& path) {
-  auto text = text_of_file(path);
+  auto text = read_or_made(path);
   if (!text) {
     return text.error();
   }
