@@ -6,6 +6,7 @@ set(ORTHONAV_SANITIZE "" CACHE STRING "Sanitizers for every target: address,unde
 option(ORTHONAV_FUZZ "Build the fuzzers of tests/fuzz (clang)" OFF)
 option(ORTHONAV_UNITY "Compile several sources as one: a full build takes less than half the time" ON)
 set(ORTHONAV_UNITY_BATCH 32 CACHE STRING "How many sources are compiled as one")
+option(ORTHONAV_WARNINGS "Warn, and end the build at a warning: for those who change the code" ON)
 option(ORTHONAV_COVERAGE "Instrument for line coverage" OFF)
 
 set(CMAKE_CXX_STANDARD 20)

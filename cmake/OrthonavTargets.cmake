@@ -48,6 +48,9 @@ function(orthonav_cold target)
 endfunction()
 
 function(orthonav_warnings target)
+  if(NOT ORTHONAV_WARNINGS)
+    return()
+  endif()
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror -Wshadow
     -Wconversion -Wno-sign-conversion -Wno-missing-field-initializers
     -Wnon-virtual-dtor -Woverloaded-virtual)
