@@ -28,6 +28,7 @@ struct ServeArguments {
   std::string faults;
   std::int64_t sessions = 0;
   std::string draw;
+  std::string token_file;
 };
 
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
@@ -59,9 +60,13 @@ Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) 
       [room, options] { return as_headset(sim::SimHeadset::open(room, options)); });
 }
 
-void say_where(const hl2ss::Server& server, const hl2ss::ServerOptions& options) {
-  const std::string side =
+void say_where(const hl2ss::Server& server, const ServeArguments& arguments) {
+  const hl2ss::ServerOptions& options = arguments.server;
+  std::string side =
       options.standin ? "&standin=" + std::to_string(server.standin_port()) : std::string();
+  if (options.token.is_asked_for()) {
+    side += "&token=" + arguments.token_file;
+  }
   std::fprintf(stderr,
                "serving a HoloLens 2 at %s, ports from %d on; in another window:\n"
                "  orthonav run --headset 'hl2ss://%s?port=%d%s'\n",
@@ -135,6 +140,13 @@ int serve(ServeArguments arguments, StopSignals& signals) {
   }
   arguments.server.faults = *faults;
   arguments.server.seed = arguments.seed;
+  if (!arguments.token_file.empty()) {
+    const auto token = net::Token::of(arguments.token_file);
+    if (!token) {
+      return bad_input("--token " + token.error().message);
+    }
+    arguments.server.token = *token;
+  }
   const auto sessions = sessions_of(arguments);
   if (!sessions) {
     return bad_input(sessions.error().message);
@@ -152,7 +164,7 @@ int serve(ServeArguments arguments, StopSignals& signals) {
     return bad_input(server.error().message);
   }
   signals.let_finish();
-  say_where(**server, arguments.server);
+  say_where(**server, arguments);
   return watch(**server, pictures.get(), arguments.sessions, signals);
 }
 
@@ -196,9 +208,16 @@ void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals
       ->capture_default_str();
   serve_hl2ss
       ->add_option("--host,--listen", server.host,
-                   "address to listen at; 0.0.0.0: for other machines too, which --allow names")
+                   "address to listen at; 0.0.0.0: for other machines too, if they bring the token "
+                   "of --token or --allow names them")
       ->check(some_text())
       ->capture_default_str();
+  serve_hl2ss
+      ->add_option("--token", arguments->token_file,
+                   "file with the token that a client must bring first (docs/hl2ss.md), made where "
+                   "there is none")
+      ->check(some_text())
+      ->type_name("FILE");
   serve_hl2ss
       ->add_option("--allow", server.allow,
                    "who may connect besides this machine, as in 192.168.1.0/24,10.0.0.7")

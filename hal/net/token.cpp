@@ -56,17 +56,22 @@ Status write_for_owner_alone(const std::string& path, const std::string& text) {
   return {};
 }
 
-Result<std::string> read_or_made(const std::string& path) {
+Result<std::string> made_at(const std::string& path) {
+  auto token = token_at_random();
+  if (!token) {
+    return token;
+  }
+  if (const Status written = write_for_owner_alone(path, *token + "\n"); !written) {
+    return written.error();
+  }
+  return token;
+}
+
+Result<std::string> read_from(const std::string& path) {
   struct stat found {};
   if (::stat(path.c_str(), &found) != 0) {
-    auto token = token_at_random();
-    if (!token) {
-      return token;
-    }
-    if (const Status written = write_for_owner_alone(path, *token + "\n"); !written) {
-      return written.error();
-    }
-    return token;
+    return Error{path + ": cannot be read (" + std::generic_category().message(errno) + ")",
+                 file_code(errno)};
   }
   if (!S_ISREG(found.st_mode)) {
     return Error{path + ": is no regular file"};
@@ -91,13 +96,14 @@ Result<std::string> read_or_made(const std::string& path) {
 }  // namespace
 
 Result<Token> Token::of(const std::string& path) {
-  auto text = read_or_made(path);
-  if (!text) {
-    return text.error();
-  }
-  Token token;
-  token.text_ = *std::move(text);
-  return token;
+  struct stat found {};
+  auto text = ::stat(path.c_str(), &found) == 0 ? read_from(path) : made_at(path);
+  return text ? Result<Token>(Token(*std::move(text))) : text.error();
+}
+
+Result<Token> Token::existing(const std::string& path) {
+  auto text = read_from(path);
+  return text ? Result<Token>(Token(*std::move(text))) : text.error();
 }
 
 bool Token::is(std::string_view text) const {

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/result.h"
 
@@ -15,6 +16,8 @@ class Token {
   /// From a file, which must be readable only by its owner; if it does not exist, it is made with a
   /// random token.
   static Result<Token> of(const std::string& path);
+  /// The same for whoever brings it: a file that does not exist is an Error.
+  static Result<Token> existing(const std::string& path);
 
   [[nodiscard]] bool is_asked_for() const { return !text_.empty(); }
   /// Whether this is it, in constant time for every text of the right length; never if there is
@@ -23,6 +26,7 @@ class Token {
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
+  explicit Token(std::string text) : text_(std::move(text)) {}
   std::string text_;
 };
 

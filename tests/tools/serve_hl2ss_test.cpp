@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hal/net/socket.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/wait_until.h"
 #include "tests/tools/command_line.h"
 
@@ -26,6 +27,11 @@ TEST(ServeHl2ss, ListensBeyondThisMachineOnlyForWhomItNames) {
   const Called open = orthonav({"serve-hl2ss", "--listen", "0.0.0.0"});
   EXPECT_EQ(open.code, 2);
   EXPECT_THAT(open.err, HasSubstr("hl2ss server: other machines reach 0.0.0.0"));
+  EXPECT_THAT(open.err, HasSubstr("or ask for a token"));
+  const TemporaryFolder folder;
+  const Called token = orthonav({"serve-hl2ss", "--token", folder.with("token", "open to all")});
+  EXPECT_EQ(token.code, 2);
+  EXPECT_THAT(token.err, HasSubstr("--token " + folder.file("token") + ": others may read"));
   const Called everybody = orthonav({"serve-hl2ss", "--listen", "0.0.0.0", "--allow", "0.0.0.0/0"});
   EXPECT_EQ(everybody.code, 2);
   EXPECT_THAT(everybody.err, HasSubstr("network \"0.0.0.0/0\" must have 8 to 32 bits"));

@@ -13,13 +13,13 @@ constexpr std::size_t kMaxHeard = std::size_t{4} << 20;
 
 }  // namespace
 
-Status Port::listen(const net::Endpoint& host, int port, const net::Allowed& allowed) {
+Status Port::listen(const net::Endpoint& host, int port, Admits admits) {
   auto listener = listen_at(host, port);
   if (!listener) {
     return listener.error();
   }
   listener_ = std::move(*listener);
-  allowed_ = allowed;
+  admits_ = std::move(admits);
   return {};
 }
 
@@ -39,7 +39,7 @@ void Port::step(short revents, HostTime now) {
     if ((revents & POLLIN) == 0) {
       return;
     }
-    if (auto client = accept_one(listener_); client && allowed_.contains(peer_of(*client))) {
+    if (auto client = accept_one(listener_); client && admits_(peer_of(*client))) {
       client_ = std::move(*client);
       has_client_ = true;
       talk_.came();
@@ -58,13 +58,13 @@ void Port::read() {
   std::array<std::uint8_t, 65536> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   const auto count = receive_some(client_, bytes);
   if (!count) {
-    return close();
+    return disconnect();
   }
   heard_.insert(heard_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(*count));
   while (!heard_.empty()) {
     const auto used = talk_.understand(heard_);
     if (!used || heard_.size() > kMaxHeard) {
-      return close();
+      return disconnect();
     }
     if (*used == 0) {
       return;
@@ -92,11 +92,11 @@ void Port::write(HostTime now) {
     }
   }
   if (closes) {
-    close();
+    disconnect();
   }
 }
 
-void Port::close() {
+void Port::disconnect() {
   client_ = net::Socket();
   has_client_ = false;
   heard_.clear();

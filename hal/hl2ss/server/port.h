@@ -32,8 +32,9 @@ class Port {
     std::function<void()> left = [] {};
   };
   explicit Port(Talk talk) : talk_(std::move(talk)) {}
-  /// Disconnects clients that are not `allowed`.
-  Status listen(const net::Endpoint& host, int port, const net::Allowed& allowed = {});
+  using Admits = std::function<bool(const net::Endpoint& peer)>;
+  /// Disconnects clients that are not admitted; by default all but those of this machine.
+  Status listen(const net::Endpoint& host, int port, Admits admits = &net::is_loopback);
 
   [[nodiscard]] int fd() const;
   [[nodiscard]] short events() const;
@@ -43,15 +44,17 @@ class Port {
   /// client that is too slow misses whole packets.
   void send(std::vector<Chunk> chunks);
   [[nodiscard]] bool has_client() const { return has_client_.load(); }
+  /// On the network thread: where the client is, and its disconnection.
+  [[nodiscard]] net::Endpoint peer() const { return peer_of(client_); }
+  void disconnect() ORTHONAV_EXCLUDES(mutex_);
 
  private:
   void read();
   void write(HostTime now) ORTHONAV_EXCLUDES(mutex_);
-  void close() ORTHONAV_EXCLUDES(mutex_);
 
   Talk talk_;
   net::Socket listener_;
-  net::Allowed allowed_;
+  Admits admits_;
   net::Socket client_;
   std::atomic<bool> has_client_ = false;
   std::vector<std::uint8_t> heard_;

@@ -1,9 +1,5 @@
 #include "hal/hl2ss/server/server.h"
 
-#include <poll.h>
-
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <optional>
 #include <thread>
@@ -14,19 +10,17 @@
 #include "hal/hl2ss/server/camera_port.h"
 #include "hal/hl2ss/server/depth_sender.h"
 #include "hal/hl2ss/server/pair_sender.h"
+#include "hal/hl2ss/server/port_group.h"
 #include "hal/hl2ss/server/served_headset.h"
 #include "hal/hl2ss/server/side_ports.h"
 
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr int kTurnMs = 5;
 constexpr auto kIdle = std::chrono::milliseconds(1);
 /// A client that is not done with a pair by then has missed it.
 constexpr auto kPatience = std::chrono::seconds(10);
 constexpr auto kImpatience = std::chrono::milliseconds(20);
-constexpr int kFirstFreePort = 20000;
-constexpr int kPortStep = 20;
 
 class RunningServer final : public Server {
  public:
@@ -41,7 +35,8 @@ class RunningServer final : public Server {
         scene_(options.faults, Random(options.seed).fork("scene")),
         sender_(options.faults, options.seed, left_, right_, sides_),
         depth_(headset_.depth_calibration(DepthStream::kAhat),
-               headset_.depth_calibration(DepthStream::kLongThrow)) {}
+               headset_.depth_calibration(DepthStream::kLongThrow)),
+        ports_(ports(), options.token) {}
   ~RunningServer() override {
     stop_ = true;
     if (producer_.joinable()) {
@@ -53,17 +48,9 @@ class RunningServer final : public Server {
   }
 
   Status listen(const net::Endpoint& host, const net::Allowed& allowed) {
-    for (int base = options_.first_port > 0 ? options_.first_port : kFirstFreePort;;
-         base += kPortStep) {
-      const Status listening = listen_from(host, base, allowed);
-      if (listening) {
-        return {};
-      }
-      const bool may_look_on = options_.first_port == 0 && base < 60000;
-      if (!may_look_on) {
-        return listening;
-      }
-    }
+    const auto first = ports_.listen(host, options_.first_port, allowed);
+    first_port_ = first ? *first : 0;
+    return first ? Status() : first.error();
   }
   void run() {
     network_ = std::thread([this] { serve(); });
@@ -88,8 +75,8 @@ class RunningServer final : public Server {
   }
 
  private:
-  std::vector<std::pair<Port*, int>> ports() {
-    std::vector<std::pair<Port*, int>> all = {
+  std::vector<PortGroup::Member> ports() {
+    std::vector<PortGroup::Member> all = {
         {&left_.port(), offset_of(Service::kLeftFront)},
         {&right_.port(), offset_of(Service::kRightFront)},
         {&depth_.ahat().port(), offset_of(Service::kAhat)},
@@ -98,38 +85,18 @@ class RunningServer final : public Server {
         {&sides_.microphone, offset_of(Service::kMicrophone)},
         {&sides_.spatial, offset_of(Service::kSpatialInput)},
         {&sides_.voice, offset_of(Service::kVoice)},
-        {&scene_.port, offset_of(Service::kScene)}};
+        {&scene_.port, offset_of(Service::kScene), [this] { return scene_.is_free(); }}};
     if (options_.standin) {
-      all.emplace_back(&sides_.standin, kStandinOffset);
+      all.push_back({&sides_.standin, kStandinOffset});
     }
     return all;
-  }
-  Status listen_from(const net::Endpoint& host, int base, const net::Allowed& allowed) {
-    for (const auto& [port, offset] : ports()) {
-      if (const Status listening = port->listen(host, base + offset, allowed); !listening) {
-        return listening;
-      }
-    }
-    first_port_ = base;
-    return {};
   }
 
   /// The network thread.
   void serve() {
-    std::vector<pollfd> watched;
-    const auto all = ports();
     while (!stop_) {
-      watched.clear();
-      for (const auto& [port, offset] : all) {
-        const bool waits = port == &scene_.port && !port->has_client() && !scene_.is_free();
-        watched.push_back({waits ? -1 : port->fd(), port->events(), 0});
-      }
-      (void)::poll(watched.data(), watched.size(), kTurnMs);
-      const HostTime now = HostClock::now();
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        all[i].first->step(watched[i].revents, now);
-      }
-      scene_.run(now);
+      ports_.turn();
+      scene_.run(HostClock::now());
       show();
     }
   }
@@ -253,6 +220,7 @@ class RunningServer final : public Server {
   ScenePort scene_;
   PairSender sender_;
   DepthSender depth_;
+  PortGroup ports_;
   int first_port_ = 0;
   std::atomic<bool> stop_ = false;
 
@@ -275,12 +243,14 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, Open
   if (!host) {
     return Error{"hl2ss server: " + host.error().message, host.error().code};
   }
-  const auto allowed = net::Allowed::of(options.allow);
+  const auto allowed = options.allow.empty() && options.token.is_asked_for()
+                           ? net::Allowed::everybody()
+                           : net::Allowed::of(options.allow);
   if (!allowed) {
     return Error{"hl2ss server: " + allowed.error().message};
   }
   if (const Status named = net::check_who_may(options.host, *host, *allowed); !named) {
-    return Error{"hl2ss server: " + named.error().message};
+    return Error{"hl2ss server: " + named.error().message + ", or ask for a token"};
   }
   auto first = open();
   if (!first) {

@@ -1,3 +1,4 @@
+#include "hal/hl2ss/door.h"
 #include "hal/hl2ss/server/server.h"
 
 namespace orthonav::hl2ss {
@@ -11,9 +12,8 @@ constexpr int kMaxUnmappedPx = 100;
 
 std::vector<std::string> ServerOptions::check() const {
   std::vector<std::string> problems = faults.check();
-  if (first_port < 0 || first_port > 65535 - kStandinOffset) {
-    problems.push_back("first_port must lie in [0, " + std::to_string(65535 - kStandinOffset) +
-                       "]");
+  if (first_port < 0 || first_port > 65535 - kDoorOffset) {
+    problems.push_back("first_port must lie in [0, " + std::to_string(65535 - kDoorOffset) + "]");
   }
   if (paced && !standin) {
     problems.push_back("paced needs standin");

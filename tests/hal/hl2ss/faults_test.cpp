@@ -7,18 +7,10 @@
 namespace orthonav::hl2ss {
 namespace {
 
+using orthonav::test::black_session;
 using orthonav::test::next_pair;
 using orthonav::test::ServedRoom;
 using orthonav::test::wait_until;
-
-sim::SimOptions black_session(double limit_s) {
-  sim::SimOptions sim;
-  sim.seed = 5;
-  sim.surgeon = false;
-  sim.render = false;
-  sim.limit_s = limit_s;
-  return sim;
-}
 
 struct Seen {
   int pairs = 0;

@@ -28,6 +28,16 @@ class ServedRoom {
   std::unique_ptr<hl2ss::Server> server_;
 };
 
+/// A room without a surgeon, whose images are black.
+inline sim::SimOptions black_session(double limit_s) {
+  sim::SimOptions sim;
+  sim.seed = 5;
+  sim.surgeon = false;
+  sim.render = false;
+  sim.limit_s = limit_s;
+  return sim;
+}
+
 /// Waits for its client.
 inline hl2ss::ServerOptions paced() {
   hl2ss::ServerOptions options;
