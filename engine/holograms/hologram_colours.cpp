@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/srgb.h"
+#include "engine/io/text_fields.h"
 
 namespace orthonav::engine {
 namespace {
@@ -152,10 +153,8 @@ const HologramColours& colour_blind_colours() {
 
 Result<HologramColours> read_colours(std::string_view text) {
   HologramColours colours;
-  for (bool first = true; first || !text.empty(); first = false) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    const std::string_view item = text.substr(0, comma);
-    text.remove_prefix(std::min(comma + 1, text.size()));
+  bool first = true;
+  for (const std::string& item : split(text, ',')) {
     if (first && item == "colour-blind") {
       colours = colour_blind_colours();
     } else if (!first || item != "standard") {
@@ -163,6 +162,7 @@ Result<HologramColours> read_colours(std::string_view text) {
         return changed.error();
       }
     }
+    first = false;
   }
   if (Status good = colours.check(); !good) {
     return good.error();

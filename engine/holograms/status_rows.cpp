@@ -99,7 +99,7 @@ std::string_view first_row(std::string_view text) {
   return text.substr(0, end);
 }
 
-std::string_view trimmed(std::string_view row) {
+std::string_view without_separators(std::string_view row) {
   const std::size_t first = row.find_first_not_of(kSeparators);
   const std::size_t last = row.find_last_not_of(kSeparators);
   return first == std::string_view::npos ? std::string_view{} : row.substr(first, last + 1 - first);
@@ -111,9 +111,9 @@ bool wrap(std::string_view text, std::span<std::string_view> rows) {
   for (std::string_view& row : rows) {
     const bool last = &row == &rows.back();
     const std::string_view whole = first_row(text);
-    row = trimmed(last ? text : whole);
+    row = without_separators(last ? text : whole);
     fits = fits && width_caps(row) <= kStatusWidth_caps;
-    text = trimmed(text.substr(last ? text.size() : whole.size()));
+    text = without_separators(text.substr(last ? text.size() : whole.size()));
   }
   return fits;
 }
@@ -144,7 +144,7 @@ void append_cut(std::string& out, std::string_view text, float most_caps) {
     }
     end = text.size() - rest.size();
   }
-  out.append(trimmed(text.substr(0, end))).append(kEllipsis);
+  out.append(without_separators(text.substr(0, end))).append(kEllipsis);
 }
 
 void fill_rows(std::string_view text, const StatusParts& parts, std::span<std::string*> rows) {

@@ -106,7 +106,7 @@ TEST(HologramColours, AreReadAsAListOfChanges) {
   EXPECT_NEAR(changed->good.g, 0.552f, 0.001f) << "sRGB becomes linear light";
   EXPECT_EQ(changed->poor, HologramColours{}.poor);
 
-  const auto others = read_colours("colour-blind,rod=#FFFFFF");
+  const auto others = read_colours("colour-blind, rod=#FFFFFF");
   ASSERT_TRUE(others) << others.error().message;
   EXPECT_EQ(others->good, colour_blind_colours().good);
   EXPECT_EQ(others->rod, (Colour{1, 1, 1, 1}));
@@ -125,7 +125,7 @@ TEST(HologramColours, AreRefusedWhereTheyWouldMislead) {
   EXPECT_THAT(refusal("good=#40C4FG"), HasSubstr("good must be"));
   EXPECT_THAT(refusal("good"), HasSubstr("good must be"));
   EXPECT_THAT(refusal(""), HasSubstr("'' is none"));
-  EXPECT_THAT(refusal("good=#40C4FF,,"), HasSubstr("'' is none"));
+  EXPECT_THAT(refusal("good=#40C4FF,"), HasSubstr("'' is none"));
   EXPECT_THAT(refusal("good=#40C4FF,standard"), HasSubstr("'standard' is none"));
 }
 

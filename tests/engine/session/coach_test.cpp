@@ -14,6 +14,7 @@
 #include "engine/session/wording.h"
 #include "tests/engine/session/promising_registration.h"
 #include "tests/support/scripted_operation.h"
+#include "tests/support/wait_until.h"
 
 namespace orthonav::engine::coach_test {
 namespace {
@@ -25,11 +26,13 @@ struct Gate {
   std::mutex mutex;
   std::condition_variable opened;
   bool open = true;
+  std::atomic<int> at_the_gate = 0;
   std::atomic<int> asked = 0;
   std::atomic<std::size_t> points = 0;
 
   Registrar registrar() {
     return [this](const RegistrationRequest& request) -> Result<nav::Registration> {
+      ++at_the_gate;
       std::unique_lock lock(mutex);
       opened.wait(lock, [this] { return open; });
       ++asked;
@@ -137,6 +140,7 @@ TEST_F(CoachTest, EndsWithATrialUnderWay) {
   auto other = std::make_unique<Coach>(gate.registrar());
   stroke(200);
   other->step(operation.levels[0], regions);
+  ASSERT_TRUE(test::wait_until([&] { return gate.at_the_gate == 1; }));
   gate.set_open(true);
   other.reset();
   EXPECT_EQ(gate.asked, 1);
