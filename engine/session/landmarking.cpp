@@ -62,6 +62,7 @@ void Landmarking::end_touch() {
 
 void Landmarking::drop_touch(OperationInWork& work, Timestamp time) {
   pointer_.drop();
+  guide_.drop();
   work.messages.say(
       TouchNotRecorded{TouchNotRecorded::What::kLandmark, {TouchRefusal::Kind::kHeldTooLong}},
       time);

@@ -89,8 +89,10 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
   /// Returns how many tools are seen. An identity is sent for the others, as PlusServer does.
   std::size_t send() {
     const sim::RoomState state = room_.state();
-    // As a tracker's clock goes on; further apart than what belongs to one moment.
-    stamp_s_ = std::max(stamp_s_ + 0.005, kFirstStamp_s + 1e-3 * since_first_.elapsed_ms());
+    // As a tracker's clock goes on, and never slower than time does: stamps that fell behind what
+    // they once were ahead would be old for good. Further apart than what belongs to one moment.
+    stamp_s_ += std::max(0.005, 1e-3 * since_stamp_.elapsed_ms());
+    since_stamp_ = Stopwatch();
     std::size_t seen = 0;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       Transform<Rig, Marker> pose;
@@ -115,10 +117,9 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
   std::vector<std::string> names_;
   StereoFrame pair_;
   Random random_{7};
-  static constexpr double kFirstStamp_s = 1.7e9;
   static constexpr double kAgain_ms = 200.0;
-  Stopwatch since_first_;
-  double stamp_s_ = kFirstStamp_s;
+  Stopwatch since_stamp_;
+  double stamp_s_ = 1.7e9;
   bool hidden_ = false;
 };
 
