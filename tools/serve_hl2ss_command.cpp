@@ -168,6 +168,33 @@ int serve(ServeArguments arguments, StopSignals& signals) {
   return watch(**server, pictures.get(), arguments.sessions, signals);
 }
 
+/// Where it listens, and to whom.
+void add_ports(CLI::App& serve, ServeArguments& arguments) {
+  hl2ss::ServerOptions& server = arguments.server;
+  serve
+      .add_option("--port", server.first_port,
+                  "first port (a HoloLens 2: 3800; the side channel is 19 higher)")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  serve
+      .add_option("--host,--listen", server.host,
+                  "address to listen at; 0.0.0.0: for other machines too, if they bring the token "
+                  "of --token or --allow names them")
+      ->check(some_text())
+      ->capture_default_str();
+  serve
+      .add_option("--token", arguments.token_file,
+                  "file with the token that a client must bring first (docs/hl2ss.md), made where "
+                  "there is none")
+      ->check(some_text())
+      ->type_name("FILE");
+  serve
+      .add_option("--allow", server.allow,
+                  "who may connect besides this machine, as in 192.168.1.0/24,10.0.0.7")
+      ->check(some_text())
+      ->type_name("NETWORKS");
+}
+
 /// Options for faults that real headsets have, and the stand-in only on request.
 void add_faults(CLI::App& serve, ServeArguments& arguments) {
   serve
@@ -201,28 +228,7 @@ void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals
   auto* serve_hl2ss = app.add_subcommand(
       "serve-hl2ss", "A stand-in for a HoloLens 2: a simulated operation over hl2ss's protocol");
   hl2ss::ServerOptions& server = arguments->server;
-  serve_hl2ss
-      ->add_option("--port", server.first_port,
-                   "first port (a HoloLens 2: 3800; the side channel is 19 higher)")
-      ->check(whole_number(1))
-      ->capture_default_str();
-  serve_hl2ss
-      ->add_option("--host,--listen", server.host,
-                   "address to listen at; 0.0.0.0: for other machines too, if they bring the token "
-                   "of --token or --allow names them")
-      ->check(some_text())
-      ->capture_default_str();
-  serve_hl2ss
-      ->add_option("--token", arguments->token_file,
-                   "file with the token that a client must bring first (docs/hl2ss.md), made where "
-                   "there is none")
-      ->check(some_text())
-      ->type_name("FILE");
-  serve_hl2ss
-      ->add_option("--allow", server.allow,
-                   "who may connect besides this machine, as in 192.168.1.0/24,10.0.0.7")
-      ->check(some_text())
-      ->type_name("NETWORKS");
+  add_ports(*serve_hl2ss, *arguments);
   add_case_option(*serve_hl2ss, arguments->case_folder);
   add_levels_option(*serve_hl2ss, arguments->levels);
   serve_hl2ss->add_option("-s,--seed", arguments->seed, "of the simulation and the faults")
