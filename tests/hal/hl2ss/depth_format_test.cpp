@@ -61,14 +61,21 @@ TEST(DepthPng, OfAnotherSizeOrDamagedIsRefused) {
     ASSERT_TRUE((*decoder)->decode(*png, bgra).ok());
     EXPECT_EQ(bgra, raw_depth_bytes(DepthStream::kLongThrow, frame)) << "picture " << again;
   }
-  for (const auto& [width, height] : {std::pair{288, 320}, {320, 144}, {160, 144}, {640, 576}}) {
-    frame.range_mm = DepthImage(width, height, 812);
-    frame.brightness = DepthImage(width, height, 99);
-    const Status other = (*decoder)->decode(*long_throw_png(frame), bgra);
-    ASSERT_FALSE(other.ok()) << width << " x " << height;
-    EXPECT_THAT(other.error().message, HasSubstr("PNG is " + std::to_string(width) + "x" +
-                                                 std::to_string(height) + " px"));
+  for (const auto& [width, height] :
+       {std::pair{288, 320}, {320, 144}, {640, 576}, {40000, 40000}}) {
+    auto other = *png;
+    // The header's own sizes, whose checksum then fails as well; the smaller ones are made anew.
+    for (int i = 0; i < 4; ++i) {
+      other[static_cast<std::size_t>(16 + i)] = static_cast<std::uint8_t>(width >> (24 - 8 * i));
+      other[static_cast<std::size_t>(20 + i)] = static_cast<std::uint8_t>(height >> (24 - 8 * i));
+    }
+    EXPECT_FALSE((*decoder)->decode(other, bgra).ok()) << width;
   }
+  frame.range_mm = DepthImage(160, 144, 812);
+  frame.brightness = DepthImage(160, 144, 99);
+  const Status small = (*decoder)->decode(*long_throw_png(frame), bgra);
+  ASSERT_FALSE(small.ok());
+  EXPECT_THAT(small.error().message, HasSubstr("PNG is 160x144 px"));
   Random random(3);
   for (int i = 0; i < 50; ++i) {
     auto damaged = *png;
