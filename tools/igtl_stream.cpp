@@ -57,13 +57,11 @@ Result<igtl::ServerOptions> igtl_options(const IgtlArguments& arguments) {
   const std::string& at = arguments.at;
   igtl::ServerOptions options;
   options.allow = arguments.allow;
-  if (!arguments.token_file.empty()) {
-    auto token = net::Token::of(arguments.token_file);
-    if (!token) {
-      return Error{"--igtl-token " + token.error().message, token.error().code};
-    }
-    options.token = *std::move(token);
+  auto token = token_asked_for("--igtl-token", arguments.token_file);
+  if (!token) {
+    return token.error();
   }
+  options.token = *std::move(token);
   const auto place = listening_place("--igtl", at);
   if (!place) {
     return place.error();

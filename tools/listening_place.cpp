@@ -1,6 +1,7 @@
 #include "tools/listening_place.h"
 
 #include <charconv>
+#include <utility>
 
 namespace orthonav::tools {
 
@@ -20,6 +21,14 @@ Result<ListeningPlace> listening_place(const std::string& option, const std::str
                  "\": must be PORT or ADDRESS:PORT, with a port from 0 to 65535"};
   }
   return place;
+}
+
+Result<net::Token> token_asked_for(const std::string& option, const std::string& file) {
+  if (file.empty()) {
+    return net::Token();
+  }
+  auto token = net::Token::of(file);
+  return token ? std::move(token) : Error{option + " " + token.error().message, token.error().code};
 }
 
 }  // namespace orthonav::tools

@@ -12,6 +12,7 @@
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
+#include "tools/listening_place.h"
 #include "tools/scene_drawing.h"
 #include "tools/stop_signals.h"
 
@@ -140,13 +141,11 @@ int serve(ServeArguments arguments, StopSignals& signals) {
   }
   arguments.server.faults = *faults;
   arguments.server.seed = arguments.seed;
-  if (!arguments.token_file.empty()) {
-    const auto token = net::Token::of(arguments.token_file);
-    if (!token) {
-      return bad_input("--token " + token.error().message);
-    }
-    arguments.server.token = *token;
+  const auto token = token_asked_for("--token", arguments.token_file);
+  if (!token) {
+    return bad_input(token.error().message);
   }
+  arguments.server.token = *token;
   const auto sessions = sessions_of(arguments);
   if (!sessions) {
     return bad_input(sessions.error().message);

@@ -42,13 +42,11 @@ Result<WebAccess> WebAccess::of(const std::string& at, const std::string& token_
     return Error{"--web \"" + at + "\": other machines reach this address: needs --token FILE"};
   }
   access.seen_as_ = name_for_browsers(access.host_, *address);
-  if (!token_file.empty()) {
-    auto token = net::Token::of(token_file);
-    if (!token) {
-      return Error{"--token " + token.error().message, token.error().code};
-    }
-    access.token_ = std::move(*token);
+  auto token = token_asked_for("--token", token_file);
+  if (!token) {
+    return token.error();
   }
+  access.token_ = std::move(*token);
   return access;
 }
 

@@ -42,14 +42,9 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options,
   if (!host) {
     return host.error();
   }
-  const auto allowed = options.allow.empty() && options.token.is_asked_for()
-                           ? net::Allowed::everybody()
-                           : net::Allowed::of(options.allow);
+  const auto allowed = net::allowed_at(options.address, *host, options.allow, options.token);
   if (!allowed) {
-    return allowed.error();
-  }
-  if (const Status named = net::check_who_may(options.address, *host, *allowed); !named) {
-    return Error{"OpenIGTLink: " + named.error().message + ", or ask for a token"};
+    return Error{"OpenIGTLink: " + allowed.error().message};
   }
   auto socket = net::listen_at(*host, options.port, static_cast<int>(options.most_clients));
   if (!socket) {

@@ -118,11 +118,24 @@ bool is_loopback(const Endpoint& endpoint) {
   return Allowed::lies_in(address, four) || Allowed::lies_in(address, six);
 }
 
+Result<Allowed> allowed_at(const std::string& host, const Endpoint& address,
+                           const std::string& networks, const Token& token) {
+  auto allowed =
+      networks.empty() && token.is_asked_for() ? Allowed::everybody() : Allowed::of(networks);
+  if (!allowed) {
+    return allowed;
+  }
+  const Status named = check_who_may(host, address, *allowed);
+  return named ? std::move(allowed) : named.error();
+}
+
 Status check_who_may(const std::string& host, const Endpoint& address, const Allowed& allowed) {
   if (is_loopback(address) || allowed.names_others()) {
     return {};
   }
-  return Error{"other machines reach " + host + "; name who may connect, as in 192.168.1.0/24"};
+  return Error{"other machines reach " + host +
+               "; name who may connect, as in 192.168.1.0/24, or ask "
+               "for a token"};
 }
 
 std::string text_of(const Endpoint& endpoint) {

@@ -7,6 +7,7 @@
 
 #include "base/result.h"
 #include "hal/net/socket.h"
+#include "hal/net/token.h"
 
 namespace orthonav::net {
 
@@ -45,6 +46,11 @@ class Allowed {
 };
 
 [[nodiscard]] bool is_loopback(const Endpoint& endpoint);
+/// Who may connect to a port at this address: those of `networks`, as for Allowed::of; everybody if
+/// none are named and a token is asked for. An Error if other machines can reach the port and
+/// neither is so.
+[[nodiscard]] Result<Allowed> allowed_at(const std::string& host, const Endpoint& address,
+                                         const std::string& networks, const Token& token);
 /// Refuses a port that other machines can reach if none of them is allowed.
 [[nodiscard]] Status check_who_may(const std::string& host, const Endpoint& address,
                                    const Allowed& allowed);

@@ -66,7 +66,7 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
     if (!answer || *answer != Next::kFrame) {
       return answer;
     }
-    // As a tracker does, it goes on: what came too late on a busy machine is dropped as old.
+    // Sends again, as a tracker would: a message that comes too late on a busy machine is dropped.
     std::size_t sent = send();
     Stopwatch since_sent;
     const bool came = test::wait_until([&] {
@@ -89,8 +89,8 @@ class TrackedRoom : public ForwardingHeadset, private StereoCamera {
   /// Returns how many tools are seen. An identity is sent for the others, as PlusServer does.
   std::size_t send() {
     const sim::RoomState state = room_.state();
-    // As a tracker's clock goes on, and never slower than time does: stamps that fell behind what
-    // they once were ahead would be old for good. Further apart than what belongs to one moment.
+    // Further apart than what belongs to one moment, and never slower than real time: whoever
+    // receives stamps that have run ahead and then slow down takes all later ones for old.
     stamp_s_ += std::max(0.005, 1e-3 * since_stamp_.elapsed_ms());
     since_stamp_ = Stopwatch();
     std::size_t seen = 0;

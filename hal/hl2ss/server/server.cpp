@@ -243,14 +243,9 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, Open
   if (!host) {
     return Error{"hl2ss server: " + host.error().message, host.error().code};
   }
-  const auto allowed = options.allow.empty() && options.token.is_asked_for()
-                           ? net::Allowed::everybody()
-                           : net::Allowed::of(options.allow);
+  const auto allowed = net::allowed_at(options.host, *host, options.allow, options.token);
   if (!allowed) {
     return Error{"hl2ss server: " + allowed.error().message};
-  }
-  if (const Status named = net::check_who_may(options.host, *host, *allowed); !named) {
-    return Error{"hl2ss server: " + named.error().message + ", or ask for a token"};
   }
   auto first = open();
   if (!first) {

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 
 #include "hal/hl2ss/probe.h"
@@ -20,18 +19,12 @@ using ::testing::HasSubstr;
 
 constexpr auto kPatience = std::chrono::milliseconds(500);
 
-std::string token_file(const test::TemporaryFolder& folder, const char* name, const char* text) {
-  const std::string file = folder.with(name, text);
-  std::filesystem::permissions(file, std::filesystem::perms(0600));
-  return file;
-}
-
-/// A room that asks for a token, and others that it does not take.
+/// A room that asks for a token, a file with that token, and one with another.
 class HeadsetWithADoor : public ::testing::Test {
  protected:
   ServerOptions asking() {
     ServerOptions options;
-    options.token = net::Token::existing(right_).value();
+    options.token = net::Token::of(right_).value();
     return options;
   }
   Hl2ssOptions client(const std::string& token) {
@@ -42,13 +35,14 @@ class HeadsetWithADoor : public ::testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  std::string right_ = token_file(folder_, "right", "the-right-token-of-ours\n");
-  std::string wrong_ = token_file(folder_, "wrong", "the-wrong-token-of-ours\n");
+  std::string right_ = folder_.file("right");
+  std::string wrong_ = folder_.file("wrong");
   test::ServedRoom room_{test::black_session(10.0), asking()};
 };
 
 TEST_F(HeadsetWithADoor, ServesNobodyWithoutTheToken) {
   EXPECT_FALSE(Hl2ssHeadset::open(client("")));
+  ASSERT_TRUE(net::Token::of(wrong_)) << "is made";
   const auto wrong = Hl2ssHeadset::open(client(wrong_));
   ASSERT_FALSE(wrong);
   EXPECT_THAT(wrong.error().message, HasSubstr("the token of " + wrong_ + " is not taken"));
@@ -106,8 +100,8 @@ class DoorkeeperTest : public ::testing::Test {
   Result<net::Endpoint> host_ = net::resolve("127.0.0.1");
   int port_ = 28512;
   test::TemporaryFolder folder_;
-  Doorkeeper keeper_{
-      net::Token::existing(token_file(folder_, "token", "a-token-of-our-own\n")).value()};
+  net::Token token_ = net::Token::of(folder_.file("token")).value();
+  Doorkeeper keeper_{token_};
   net::Socket client_;
   bool sent_ = false;
 };
@@ -115,7 +109,7 @@ class DoorkeeperTest : public ::testing::Test {
 TEST_F(DoorkeeperTest, AdmitsAnAddressForAMinuteAndLongerWhileItIsThere) {
   const HostTime begin = HostClock::now();
   EXPECT_FALSE(keeper_.admits(*host_, begin));
-  EXPECT_EQ(answer_to("a-token-of-our-own\n"), kWelcome);
+  EXPECT_EQ(answer_to(token_.text() + "\n"), kWelcome);
   const HostTime now = HostClock::now();
   EXPECT_TRUE(keeper_.admits(*host_, now + std::chrono::seconds(59)));
   EXPECT_TRUE(keeper_.admits(*host_, now + std::chrono::seconds(118)));
@@ -126,7 +120,9 @@ TEST_F(DoorkeeperTest, AdmitsAnAddressForAMinuteAndLongerWhileItIsThere) {
 }
 
 TEST_F(DoorkeeperTest, HangsUpOnAnotherToken) {
-  EXPECT_EQ(answer_to("a-token-of-our-owN\n"), "");
+  std::string other = token_.text();
+  other.back() = other.back() == '0' ? '1' : '0';
+  EXPECT_EQ(answer_to(other + "\n"), "");
   EXPECT_FALSE(keeper_.admits(*host_, HostClock::now()));
 }
 
