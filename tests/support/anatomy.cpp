@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <numbers>
+#include <utility>
 
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
@@ -124,6 +125,19 @@ std::vector<AnatomyLevel> anatomy_levels() {
     levels.push_back(level_of(file));
   }
   return levels;
+}
+
+std::vector<AnatomyLevel> sampled_anatomy_levels() {
+  constexpr std::size_t kOwn = 5;
+  std::vector<AnatomyLevel> all = anatomy_levels();
+  if (all.size() <= kOwn) {
+    return all;
+  }
+  std::vector<AnatomyLevel> sampled;
+  for (std::size_t i = 0; i < all.size(); i += 4) {
+    sampled.push_back(std::move(all[i]));
+  }
+  return sampled;
 }
 
 std::optional<AnatomyLevel> anatomy_level(const std::string& name) {

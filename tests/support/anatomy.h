@@ -10,15 +10,18 @@
 
 namespace orthonav::test {
 
-/// A real vertebra of the shared anatomy with its plan.
+/// A real vertebra with its plan.
 struct AnatomyLevel {
   std::string name;  ///< "shape-mean/L4"
   nav::TriangleMesh mesh;
   std::vector<nav::ScrewPlan> screws;
 };
 
-/// Every level of the shared anatomy in alphabetical order; empty where it is absent.
+/// Every level in alphabetical order: of the shared anatomy, or of the project's own five where
+/// that is absent.
 std::vector<AnatomyLevel> anatomy_levels();
+/// Every fourth of them, or all of the five.
+std::vector<AnatomyLevel> sampled_anatomy_levels();
 /// One of them, or none.
 std::optional<AnatomyLevel> anatomy_level(const std::string& name);
 

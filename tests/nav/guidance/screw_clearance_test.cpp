@@ -210,24 +210,20 @@ double by_brute_force(const TriangleMesh& mesh, const ScrewCylinder& screw) {
 }
 
 TEST(ScrewClearance, OnRealVertebraeIsWhatBruteForceFinds) {
-  const auto levels = test::anatomy_levels();
-  if (levels.empty()) {
-    GTEST_SKIP() << "the shared anatomy is not here";
-  }
   Random random(5);
   int breaches = 0;
-  for (std::size_t i = 0; i < levels.size(); i += 4) {
-    const SurfaceIndex bone(levels[i].mesh);
-    for (ScrewPlan plan : levels[i].screws) {
+  for (const test::AnatomyLevel& level : test::sampled_anatomy_levels()) {
+    const SurfaceIndex bone(level.mesh);
+    for (ScrewPlan plan : level.screws) {
       const auto planned = least_clearance(bone, *cylinder_of(plan));
-      EXPECT_GE(planned->clearance_m, 0.0009) << levels[i].name << ": as its README says";
+      EXPECT_GE(planned->clearance_m, 0.0009) << level.name << ": as its README says";
       for (const double off_m : {0.0, 0.003}) {
         plan.entry.v += off_m * Vec3{random.normal(), 0.0, random.normal()};
         plan.target.v += off_m * Vec3{random.normal(), random.normal(), random.normal()};
         const auto screw = *cylinder_of(plan);
         const Clearance found = *least_clearance(bone, screw);
         const double least_m = found.clearance_m;
-        EXPECT_LT(least_m, by_brute_force(levels[i].mesh, screw) + kTolerance_m) << levels[i].name;
+        EXPECT_LT(least_m, by_brute_force(level.mesh, screw) + kTolerance_m) << level.name;
         // It is not below the true one: there is a place of the screw with that depth.
         const Vec3 aside = found.place.v - screw.entry.v;
         EXPECT_LT(aside.cross(screw.direction).norm(), screw.radius_m + 1e-12);

@@ -260,15 +260,15 @@ TEST_F(DigitizedStrokesTest, StandInAnyFrameOfTheWorld) {
 }
 
 TEST_F(DigitizedStrokesTest, AreTheSameForTheSameSeed) {
-  const auto a = strokes(5, StrokeVariant::kOutliers, 8);
-  const auto b = strokes(5, StrokeVariant::kOutliers, 8);
-  const auto c = strokes(5, StrokeVariant::kOutliers, 9);
+  const auto a = strokes(4, StrokeVariant::kOutliers, 8);
+  const auto b = strokes(4, StrokeVariant::kOutliers, 8);
+  const auto c = strokes(4, StrokeVariant::kOutliers, 9);
   EXPECT_EQ(a.world_from_vertebra, b.world_from_vertebra);
   EXPECT_EQ(a.tips(), b.tips());
   EXPECT_FALSE(a.world_from_vertebra == c.world_from_vertebra);
   // The frame and the hand don't know of the noise.
   const auto quiet =
-      strokes(5, StrokeVariant::kOutliers, 8, without_noise(StrokeVariant::kOutliers));
+      strokes(4, StrokeVariant::kOutliers, 8, without_noise(StrokeVariant::kOutliers));
   EXPECT_EQ(a.world_from_vertebra, quiet.world_from_vertebra);
   ASSERT_EQ(a.samples.size(), quiet.samples.size());
   EXPECT_EQ(a.samples[700].true_tip, quiet.samples[700].true_tip);
