@@ -56,7 +56,7 @@ void ModelledSightings::look(const StereoFrame& frame) {
 
 void ModelledSightings::look_at(std::size_t tool, const StereoFrame& frame,
                                 const sim::RoomState& now) {
-  ModelledSighting& seen = seen_[tool];
+  nav::StereoCorners& seen = seen_[tool];
   Trail& trail = trails_[tool];
   seen = {};
   if (!now.tool_present[tool]) {
@@ -120,7 +120,7 @@ std::optional<nav::TagCorners> ModelledSightings::with_errors(
 }
 
 std::optional<Transform<Rig, Marker>> ModelledSightings::near(std::size_t tool) const {
-  const ModelledSighting& seen = seen_[tool];
+  const nav::StereoCorners& seen = seen_[tool];
   return seen.left_px || seen.right_px ? std::optional(near_[tool]) : std::nullopt;
 }
 

@@ -6,15 +6,9 @@
 #include "base/random.h"
 #include "engine/study/measurement_model.h"
 #include "hal/sim/sim_headset.h"
-#include "nav/tracking/tag_pose.h"
+#include "nav/tracking/corner_pose.h"
 
 namespace orthonav::engine {
-
-/// A tag's corners in the image of each camera; nothing if it can't be found there.
-struct ModelledSighting {
-  std::optional<nav::TagCorners> left_px;
-  std::optional<nav::TagCorners> right_px;
-};
 
 /// Where the two cameras of a simulated room see its tools: the true corners through the true
 /// cameras, with the errors of a measurement model. Draws from a separate stream per pair and tool,
@@ -27,7 +21,7 @@ class ModelledSightings {
   /// Looks at a pair; the state of the room must be that of the pair.
   void look(const StereoFrame& frame);
   /// In the order of the room's tools.
-  [[nodiscard]] const std::vector<ModelledSighting>& seen() const { return seen_; }
+  [[nodiscard]] const std::vector<nav::StereoCorners>& seen() const { return seen_; }
   /// Where the tool is, as a start for a solver; nothing if neither camera sees it.
   [[nodiscard]] std::optional<Transform<Rig, Marker>> near(std::size_t tool) const;
 
@@ -54,7 +48,7 @@ class ModelledSightings {
   MeasurementModel model_;
   Random random_;
   std::vector<Trail> trails_;
-  std::vector<ModelledSighting> seen_;
+  std::vector<nav::StereoCorners> seen_;
   std::vector<Transform<Rig, Marker>> near_;
   Timestamp before_{};
 };

@@ -1,8 +1,6 @@
 #include "engine/study/sensitivity_regression.h"
 
 #include <atomic>
-#include <cmath>
-#include <Eigen/Dense>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -12,27 +10,12 @@
 #include "engine/report/report_values.h"
 #include "engine/study/on_threads.h"
 #include "nav/evaluation/errors.h"
+#include "nav/statistics/linear_regression.h"
 
 namespace orthonav::engine {
 namespace {
 
 constexpr double kHalfWidth = 1.96;
-
-struct Regressed {
-  Eigen::VectorXd slopes;
-  Eigen::VectorXd standard_errors;
-};
-
-Regressed least_squares(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
-  const Eigen::MatrixXd inverse =
-      (x.transpose() * x).ldlt().solve(Eigen::MatrixXd::Identity(x.cols(), x.cols()));
-  const Eigen::VectorXd slopes = inverse * (x.transpose() * y);
-  const Eigen::VectorXd residuals = y - x * slopes;
-  const Eigen::MatrixXd weighted = residuals.asDiagonal() * x;
-  const double small = static_cast<double>(x.rows()) / static_cast<double>(x.rows() - x.cols());
-  const Eigen::MatrixXd covariance = small * inverse * (weighted.transpose() * weighted) * inverse;
-  return {slopes, covariance.diagonal().cwiseSqrt()};
-}
 
 /// Notes the mean errors of the operation's screws; false if it has none.
 bool note_errors(const OperationResult& result, RandomPoint& point) {
@@ -126,25 +109,26 @@ std::vector<Sensitivity> regressed(std::span<const sim::Magnitude* const> magnit
   if (points.size() < fewest_points(magnitudes.size())) {
     return {};
   }
-  const auto rows = static_cast<Eigen::Index>(points.size());
-  const auto columns = static_cast<Eigen::Index>(magnitudes.size());
-  Eigen::MatrixXd x(rows, columns + 1);
-  Eigen::VectorXd entry(rows);
-  Eigen::VectorXd angle(rows);
-  for (Eigen::Index r = 0; r < rows; ++r) {
-    const RandomPoint& point = points[static_cast<std::size_t>(r)];
-    x.row(r) << 1.0, Eigen::Map<const Eigen::RowVectorXd>(point.place.data(), columns);
-    entry(r) = point.entry_mm;
-    angle(r) = point.angle_deg;
+  std::vector<double> places;
+  std::vector<double> entry_mm;
+  std::vector<double> angle_deg;
+  for (const RandomPoint& point : points) {
+    places.push_back(1.0);
+    places.insert(places.end(), point.place.begin(), point.place.end());
+    entry_mm.push_back(point.entry_mm);
+    angle_deg.push_back(point.angle_deg);
   }
-  const Regressed of_entry = least_squares(x, entry);
-  const Regressed of_angle = least_squares(x, angle);
+  const nav::LinearRegression of_entry = nav::linear_regression(places, entry_mm);
+  const nav::LinearRegression of_angle = nav::linear_regression(places, angle_deg);
+  if (of_entry.slopes.empty() || of_angle.slopes.empty()) {
+    return {};
+  }
   std::vector<Sensitivity> out;
-  for (Eigen::Index i = 0; i < columns; ++i) {
-    const sim::Magnitude& m = *magnitudes[static_cast<std::size_t>(i)];
-    out.push_back({std::string(m.name), std::string(m.unit), m.low, m.high, of_entry.slopes(i + 1),
-                   of_angle.slopes(i + 1), kHalfWidth * of_entry.standard_errors(i + 1),
-                   kHalfWidth * of_angle.standard_errors(i + 1)});
+  for (std::size_t i = 0; i < magnitudes.size(); ++i) {
+    const sim::Magnitude& m = *magnitudes[i];
+    out.push_back({std::string(m.name), std::string(m.unit), m.low, m.high, of_entry.slopes[i + 1],
+                   of_angle.slopes[i + 1], kHalfWidth * of_entry.standard_errors[i + 1],
+                   kHalfWidth * of_angle.standard_errors[i + 1]});
   }
   sort_by_effect(out);
   return out;

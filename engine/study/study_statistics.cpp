@@ -2,9 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <Eigen/LU>
 #include <nlohmann/json.hpp>
 #include <vector>
+
+#include "base/vec.h"
 
 namespace orthonav::engine {
 namespace {
@@ -14,8 +15,8 @@ constexpr double kChi68 = 3.5059;
 constexpr double kChi95 = 7.8147;
 
 /// The covariances of a level's entries and targets, in the order of its errors.
-std::vector<Eigen::Matrix3d> covariances_of(const nlohmann::ordered_json& level) {
-  std::vector<Eigen::Matrix3d> out;
+std::vector<Mat3> covariances_of(const nlohmann::ordered_json& level) {
+  std::vector<Mat3> out;
   if (!level.contains("registration") || !level["registration"].contains("screws")) {
     return out;
   }
@@ -24,10 +25,10 @@ std::vector<Eigen::Matrix3d> covariances_of(const nlohmann::ordered_json& level)
       if (!screw.contains(key) || !screw[key].is_array() || screw[key].size() != 3) {
         return {};
       }
-      Eigen::Matrix3d covariance;
-      for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) {
-          covariance(r, c) = screw[key][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+      Mat3 covariance;
+      for (std::size_t r = 0; r < 3; ++r) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          covariance.m[r][c] = screw[key][r][c];
         }
       }
       out.push_back(covariance);
@@ -36,13 +37,22 @@ std::vector<Eigen::Matrix3d> covariances_of(const nlohmann::ordered_json& level)
   return out;
 }
 
-std::vector<Eigen::Vector3d> errors_of(const nlohmann::ordered_json& level) {
-  std::vector<Eigen::Vector3d> out;
+/// eᵀ·C⁻¹·e: with the rows of C, the columns of its inverse are their cross products over det C.
+double mahalanobis_squared(const Mat3& covariance, Vec3 error) {
+  const Vec3 a = covariance.row(0);
+  const Vec3 b = covariance.row(1);
+  const Vec3 c = covariance.row(2);
+  const Vec3 scaled = b.cross(c) * error.x + c.cross(a) * error.y + a.cross(b) * error.z;
+  return error.dot(scaled) / a.dot(b.cross(c));
+}
+
+std::vector<Vec3> errors_of(const nlohmann::ordered_json& level) {
+  std::vector<Vec3> out;
   if (!level.contains("errors_mm")) {
     return out;
   }
   for (const auto& error : level["errors_mm"]) {
-    out.emplace_back(error[0].get<double>(), error[1].get<double>(), error[2].get<double>());
+    out.push_back({error[0].get<double>(), error[1].get<double>(), error[2].get<double>()});
   }
   return out;
 }
@@ -87,7 +97,7 @@ void add_run(const nlohmann::ordered_json& run, RegistrationCounts& counts) {
       if (covariances.size() != errors.size()) {
         continue;
       }
-      const double squared = errors[i].dot(covariances[i].inverse() * errors[i]);
+      const double squared = mahalanobis_squared(covariances[i], errors[i]);
       ++counts.places;
       counts.in_68 += squared <= kChi68 ? 1 : 0;
       counts.in_95 += squared <= kChi95 ? 1 : 0;

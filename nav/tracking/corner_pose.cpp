@@ -1,14 +1,14 @@
-#include "engine/study/corner_pose.h"
+#include "nav/tracking/corner_pose.h"
 
 #include <cmath>
 #include <Eigen/Dense>
 
-namespace orthonav::engine {
+namespace orthonav::nav {
 namespace {
 
 /// The tag's motion in the rig (m, rad about its centre), then the errors of the calibration.
 constexpr int kPose = 6;
-constexpr int kCalibration = nav::kCalibrationUnknowns;
+constexpr int kCalibration = kCalibrationUnknowns;
 constexpr int kAll = kPose + kCalibration;
 using Normal = Eigen::Matrix<double, kAll, kAll>;
 using Right = Eigen::Matrix<double, kAll, 1>;
@@ -40,10 +40,10 @@ struct Equations {
 
   /// Corners of one camera. `baseline_m`: of the right one, from it to the left one.
   template <class CameraFrame>
-  bool add(const nav::TagCorners& corners_px, const CameraModel& camera,
+  bool add(const TagCorners& corners_px, const CameraModel& camera,
            const Transform<CameraFrame, Rig>& camera_from_rig, const Transform<Rig, Marker>& pose,
            double size_m, double sd_px, const Vec3* baseline_m) {
-    const auto in_marker_m = nav::corners_in_marker(size_m);
+    const auto in_marker_m = corners_in_marker(size_m);
     const Matrix3 rotation = as_eigen(camera_from_rig.rotation());
     for (std::size_t k = 0; k < corners_px.size(); ++k) {
       const auto ray = camera.unproject(corners_px[k]);
@@ -63,10 +63,10 @@ struct Equations {
       row.middleCols<3>(3) = -by_point * rotation * cross_matrix(lever_arm);
       if (baseline_m != nullptr) {
         row.middleCols<3>(kPose) = -by_point * cross_matrix(p);
-        row.col(kPose + nav::kFocalUnknown) << p.x / p.z, p.y / p.z;
-        row.col(kPose + nav::kBaselineUnknown) = by_point * as_eigen(*baseline_m);
+        row.col(kPose + kFocalUnknown) << p.x / p.z, p.y / p.z;
+        row.col(kPose + kBaselineUnknown) = by_point * as_eigen(*baseline_m);
       }
-      row.col(kPose + nav::kTagSizeUnknown) = by_point * rotation * as_eigen(lever_arm);
+      row.col(kPose + kTagSizeUnknown) = by_point * rotation * as_eigen(lever_arm);
       const Eigen::Vector2d residual(ray->x - p.x / p.z, ray->y - p.y / p.z);
       normal += weight * weight * row.transpose() * row;
       right += weight * weight * row.transpose() * residual;
@@ -74,12 +74,12 @@ struct Equations {
     return true;
   }
 
-  [[nodiscard]] nav::CalibrationEquations calibration() const {
+  [[nodiscard]] CalibrationEquations calibration() const {
     using Square = Eigen::Matrix<double, kCalibration, kCalibration>;
     const auto pose = normal.topLeftCorner<kPose, kPose>().ldlt();
     const Eigen::Matrix<double, kPose, kCalibration> cross =
         normal.topRightCorner<kPose, kCalibration>();
-    nav::CalibrationEquations out;
+    CalibrationEquations out;
     Eigen::Map<Square>(out.information.data()) =
         normal.bottomRightCorner<kCalibration, kCalibration>() -
         cross.transpose() * pose.solve(cross);
@@ -98,7 +98,7 @@ Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose,
 
 }  // namespace
 
-std::optional<CornerPose> corner_pose(const ModelledSighting& seen,
+std::optional<CornerPose> corner_pose(const StereoCorners& seen,
                                       const Transform<Rig, Marker>& start,
                                       const StereoCalibration& cameras, double size_m,
                                       double sd_px) {
@@ -130,4 +130,4 @@ std::optional<CornerPose> corner_pose(const ModelledSighting& seen,
   }
 }
 
-}  // namespace orthonav::engine
+}  // namespace orthonav::nav
