@@ -57,7 +57,7 @@ GoldenScene off_the_tag() {
   add_planned_trajectory(golden.scene, kEntry, kTarget, kTrajectoryLabel);
   add_deviation_triangle(golden.scene, kEntry, b, planned_point(), Grade::kFair, kTriangleLabel);
   add_angle_readout(golden.scene, kEntry, b, "3.4°", Grade::kFair, kAngleLabel);
-  add_depth(golden.scene, kEntry, b, depth_text(-0.0062, 0.0512).value_or(""), false, kDepthLabel);
+  add_depth(golden.scene, kEntry, b, shown_depth(-0.0062, 0.0512), kDepthLabel);
   add_status_line(golden.scene, "guide L4 left | RMSE 0.62 mm", kToolDots, kStatusLabel);
   golden.covered = {{kEntryLabel, kEntry}};
   return golden;

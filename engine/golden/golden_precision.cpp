@@ -84,13 +84,12 @@ GoldenScene twin(const std::string& name, const std::string& what, bool with_too
 }
 
 GoldenScene depth(const std::string& name, const std::string& what, double depth_m,
-                  double to_target_m) {
+                  double to_target_m, double sd_m = 0.0004) {
   GoldenScene golden = start(name, what, close_view({0.012f, 0.110f, 0.020f}));
   const Float3 b = tool_point(1.4);
   add_angle_readout(golden.scene, kEntry, b, angle_text(1.4 * kRadiansPerDegree), Grade::kGood,
                     kAngleLabel);
-  add_depth(golden.scene, kEntry, b, depth_text(depth_m, to_target_m).value_or(""),
-            to_target_m < 0.0, kDepthLabel);
+  add_depth(golden.scene, kEntry, b, shown_depth(depth_m, to_target_m, sd_m), kDepthLabel);
   return golden;
 }
 
@@ -114,6 +113,8 @@ void add_precision_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(depth("h9_to_target", "1.4°, under it 31.0 mm to target", 0.0134, 0.0310));
   scenes.push_back(
       depth("h9_past_target", "1.4°, under it 1.2 mm past target in a red rim", 0.0456, -0.0012));
+  scenes.push_back(depth("h9_unsure", "1.4°, under it 31.0 ± 1.4 mm to target, smaller and paler",
+                         0.0134, 0.0310, 0.0014));
 }
 
 }  // namespace orthonav::engine::golden

@@ -75,6 +75,10 @@ nav::ScrewNumbers numbers_of(const nav::ScrewGuidance& tool, const NumberSds& sd
   return nav::ScrewNumberWriter().write(deviation.value());
 }
 
+nav::ShownDepth shown_depth(double depth_m, double to_target_m, double sd_m) {
+  return nav::DepthWriter().write({depth_m, sd_m}, to_target_m).value();
+}
+
 std::vector<Float3> stroke() {
   std::vector<Float3> samples;
   for (int i = 0; i < 120; ++i) {

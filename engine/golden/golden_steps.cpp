@@ -109,8 +109,7 @@ void add_tool_to(GoldenScene& golden, const nav::ScrewGuidance& guide, bool meas
   std::string row;
   append_numbers(row, numbers, false);
   add_row_above_status(golden.scene, row, kNumbersRowLabel);
-  add_depth(golden.scene, kEntry, b, depth_text(guide.depth_m, guide.to_target_m).value_or(""),
-            guide.to_target_m < 0.0, kDepthLabel);
+  add_depth(golden.scene, kEntry, b, shown_depth(guide.depth_m, guide.to_target_m), kDepthLabel);
 }
 
 GoldenScene digitizing() {

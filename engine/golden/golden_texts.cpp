@@ -32,9 +32,8 @@ TextKind angle(const char* name, std::optional<double> angle_deg, Label label) {
   });
 }
 
-TextKind depth(const char* name, const char* text, bool past_target, Label label) {
-  return last_of(
-      name, [&](Scene& s) { add_depth(s, kEntry, planned_point(), text, past_target, label); });
+TextKind depth(const char* name, const nav::ShownDepth& depth, Label label) {
+  return last_of(name, [&](Scene& s) { add_depth(s, kEntry, planned_point(), depth, label); });
 }
 
 TextKind cross(const char* name, bool lost, Label label) {
@@ -94,8 +93,8 @@ std::vector<TextKind> text_kinds() {
       angle("angle, lost", {}, 604),
       cross("cross, rings", false, 701),
       cross("cross, tool lost", true, 703),
-      depth("depth", "12.3 mm to entry", false, 901),
-      depth("depth, past target", "1.2 mm past target", true, 902),
+      depth("depth", golden::shown_depth(-0.0123, 0.055), 901),
+      depth("depth, past target", golden::shown_depth(0.0456, -0.0012), 902),
       numbers("numbers", 0.0003, 1301),
       numbers("numbers, unsure", 0.003, 1302),
       last_of("clearance, may break through",

@@ -26,7 +26,6 @@ constexpr float kArrow_m = 0.0030f;
 /// A dot beyond this multiple of the outermost ring's radius is held at the rim.
 constexpr float kRim = 1.12f;
 constexpr float kDiagonal = 0.70710678f;
-constexpr double kDeepest_m = 0.9995;
 
 /// From a place to the eyes, unit.
 Float3 towards(const Viewer& viewer, Float3 place) {
@@ -176,40 +175,21 @@ void take_dots_off(Scene& scene, Label label) {
   add_lost_text(scene, middle, label);
 }
 
-bool write_depth_text(double depth_m, double to_target_m, std::string& text) {
-  const bool before = depth_m < 0.0;
-  const double left_m = before ? -depth_m : to_target_m;
-  text.clear();
-  if (!(std::abs(left_m) < kDeepest_m)) {
-    return false;
-  }
-  text = in_mm(std::abs(left_m));
-  text += ' ';
-  text +=
-      translated(before ? words::kToEntry : (left_m < 0.0 ? words::kPastTarget : words::kToTarget));
-  return true;
-}
-
-std::optional<std::string> depth_text(double depth_m, double to_target_m) {
-  std::string text;
-  return write_depth_text(depth_m, to_target_m, text) ? std::optional(text) : std::nullopt;
-}
-
-void add_depth(Scene& scene, Float3 a, Float3 b, std::string_view text, bool past_target,
-               Label label) {
+void add_depth(Scene& scene, Float3 a, Float3 b, const nav::ShownDepth& depth, Label label) {
+  const float size = depth.sure ? 1.0f : kUnsureSize;
   render::TextItem& item = scene.texts.emplace_back();
   item.label = label;
   item.position = readout_place(a, b);
   item.align = render::TextAlign::kLeft;
   // Under the angle; like the angle it shrinks no further than to the smallest legible height.
-  item.offset_right = 1.6f;
+  item.offset_right = 1.6f / size;
   item.offset_up = -kDepthBelowAngle;
-  item.height_m = 0.004f;
-  item.min_height_deg = 0.45f;
-  if (past_target) {
+  item.height_m = size * 0.004f;
+  item.min_height_deg = size * 0.45f;
+  if (depth.to == nav::DepthTo::kPastTarget) {
     item.rim = look::colours().poor;
   }
-  add_run(item, text, look::kWhite);
+  append_depth(add_run(item, depth.sure ? look::kWhite : look::kPale), depth);
 }
 
 }  // namespace orthonav::engine

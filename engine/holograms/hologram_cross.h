@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "engine/holograms/hologram_shapes.h"
+#include "engine/session/numbers_wording.h"
 
 namespace orthonav::engine {
 
@@ -60,14 +61,12 @@ void add_target_cross(render::Scene& scene, const TargetCross& cross, render::La
 /// Takes the dots off a drawn cross and says that the tool is lost.
 void take_dots_off(render::Scene& scene, render::Label label);
 
-/// H9: `12.3 mm to entry`, `31.0 mm to target`, `1.2 mm past target`; absent for an invalid depth.
-[[nodiscard]] std::optional<std::string> depth_text(double depth_m, double to_target_m);
-/// Writes the same into an existing text; false and empty for an invalid depth.
-[[nodiscard]] bool write_depth_text(double depth_m, double to_target_m, std::string& text);
 /// From the angle's baseline down to the depth's, in cap heights of the depth.
 inline constexpr float kDepthBelowAngle = 1.9f;
-/// H9: under H6, which is beside `b` (see `add_angle_readout`); past the target it has a red rim.
-void add_depth(render::Scene& scene, render::Float3 a, render::Float3 b, std::string_view text,
-               bool past_target, render::Label label);
+/// H9: `12.3 mm to entry`, `31.0 mm to target`, `1.2 mm past target`, under H6, which is beside `b`
+/// (see `add_angle_readout`); paler and smaller with its SD if it is not sure, with a red rim past
+/// the target.
+void add_depth(render::Scene& scene, render::Float3 a, render::Float3 b,
+               const nav::ShownDepth& depth, render::Label label);
 
 }  // namespace orthonav::engine

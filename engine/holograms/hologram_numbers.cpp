@@ -17,9 +17,6 @@ using render::TextItem;
 
 constexpr float kCaps_m = 0.0040f;
 constexpr float kLeastCaps_deg = 0.55f;
-/// The size of unsure numbers and of the words beside the numbers. A paler text alone would not do:
-/// with the contrast that every text needs, it is hardly paler.
-constexpr float kSmaller = 0.8f;
 constexpr float kRow_caps = 1.7f;
 /// From the rim of the cross down to the first row's baseline.
 constexpr float kBelowRim_caps = 4.2f;
@@ -78,7 +75,7 @@ class Block {
 
  private:
   std::string& add(TextAlign align, float right, bool sure) {
-    const float size = sure ? 1.0f : kSmaller;
+    const float size = sure ? 1.0f : kUnsureSize;
     TextItem& item = scene_.texts.emplace_back();
     item.label = label_;
     item.position = place_;

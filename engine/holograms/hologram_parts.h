@@ -11,6 +11,10 @@ namespace orthonav::engine {
 
 // Parts from which holograms are composed.
 
+/// The size of numbers that are not sure, and of words beside numbers, in the size of sure ones. A
+/// paler text alone would not do: with the contrast that every text needs, it is hardly paler.
+inline constexpr float kUnsureSize = 0.8f;
+
 [[nodiscard]] render::Colour faded(render::Colour colour, float opacity);
 
 void add_mesh(render::Scene& scene, std::shared_ptr<const render::MeshData> mesh,

@@ -218,8 +218,8 @@ void SceneBuilder::add_tool_guidance(const nav::ScrewGuidance& shown, render::Sc
   add_angle_readout(scene, a, b,
                     angle_text(measured ? std::optional(measured->angle_rad) : std::nullopt), grade,
                     label_of(HologramKind::kAngle, 1));
-  if (measured && write_depth_text(measured->depth_m, measured->to_target_m, text_)) {
-    add_depth(scene, a, b, text_, measured->to_target_m < 0.0, label_of(HologramKind::kDepth, 1));
+  if (visible_.depth) {
+    add_depth(scene, a, b, *visible_.depth, label_of(HologramKind::kDepth, 1));
   }
 }
 

@@ -99,13 +99,17 @@ void add_cross(const JsonNode& node, Label label, Scene& scene) {
 }
 
 void add_depth_text(const JsonNode& node, Label label, Scene& scene) {
-  const double to_target_m = node.number("to_target_mm") * 1e-3;
-  const auto text = depth_text(node.number("depth_mm") * 1e-3, to_target_m);
-  if (!text) {
+  const double sd_m = node.has("sd_mm") ? node.number("sd_mm") * 1e-3 : 0.0;
+  if (!(sd_m >= 0.0)) {
+    node.refuse("sd_mm", "must not be below 0");
+  }
+  const auto depth = nav::DepthWriter().write({node.number("depth_mm") * 1e-3, sd_m},
+                                              node.number("to_target_mm") * 1e-3);
+  if (!depth) {
     node.refuse("depth_mm", "must lie within 1000 mm");
   }
-  add_depth(scene, place_from(node, "entry_mm"), place_from(node, "tool_mm"), text.value_or(""),
-            to_target_m < 0.0, label);
+  add_depth(scene, place_from(node, "entry_mm"), place_from(node, "tool_mm"),
+            depth.value_or(nav::ShownDepth{}), label);
 }
 
 void add_rod_through(const JsonNode& node, Label label, Scene& scene) {

@@ -173,9 +173,8 @@ void ShownFrameWriter::write_screw(const PlacedScrew& screw, const Visibility& v
       shown.points_in_world.push_back(to_point(in_twin(twin, to_float3(place.v))));
     }
   }
-  if (visible.measurement &&
-      write_depth_text(visible.measurement->depth_m, visible.measurement->to_target_m, text_)) {
-    add(frame, HologramKind::kDepth).text = text_;
+  if (visible.depth) {
+    append_depth(add(frame, HologramKind::kDepth).text, *visible.depth);
   }
   if (visible.numbers) {
     write_numbers(*visible.numbers, screw.plan().side, frame);

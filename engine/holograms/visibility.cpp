@@ -54,6 +54,7 @@ void decide_tool(const ToolGuidance* fresh, const VisibilityRules& rules, Visibi
       out.triangle = &fresh->shown;
       out.measurement = measured;
       out.numbers = measured && fresh->numbers ? &*fresh->numbers : nullptr;
+      out.depth = measured && fresh->depth ? &*fresh->depth : nullptr;
       out.clearance = measured && fresh->shown_clearance ? &*fresh->shown_clearance : nullptr;
       out.pose_time = fresh->pose_time;
     }

@@ -53,9 +53,10 @@ struct Visibility {
   std::optional<PlacedScrew> trajectory;            ///< H4 of the selected screw
   const PlacedWire* wire = nullptr;                 ///< the measured wire beside H4, or null
   const nav::ScrewGuidance* triangle = nullptr;     ///< H5, predicted to the display time; or null
-  const nav::ScrewGuidance* measurement = nullptr;  ///< the numbers of H6 and H9; or null
+  const nav::ScrewGuidance* measurement = nullptr;  ///< the number of H6; or null
   /// H13 and its row of the status line, from the pair of `measurement`; or null.
   const nav::ScrewNumbers* numbers = nullptr;
+  const nav::ShownDepth* depth = nullptr;          ///< H9, likewise; or null
   const nav::ShownClearance* clearance = nullptr;  ///< under the numbers; or null
   nav::DrillView drill;                            ///< shown with the cross
   bool angle_lost = false;                         ///< H6 without a number

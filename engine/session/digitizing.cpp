@@ -151,6 +151,8 @@ RegistrationOutcome Digitizing::registered(OperationInWork& work, Timestamp time
   }
   if (outcome.passed()) {
     level.registration = *result;
+    const nav::Anchor* anchor = work.tools.tracker().anchor();
+    level.registered_on_map = anchor ? std::optional(anchor->world_from_anchored) : std::nullopt;
     level.predicted = nav::predicted_errors(*result, level.plan.screws);
     level.digitization_s = level.first_press ? seconds(time - *level.first_press) : 0.0;
   } else if (result && coach_) {

@@ -62,6 +62,9 @@ struct LevelState {
   int attempts = 0;  ///< registrations asked for so far
   /// The newest registration that passed its limits; removed when the surgeon rejects it.
   std::optional<nav::Registration> registration;
+  /// With a patient reference: where the anchored World lay on the headset's map then; absent after
+  /// a restart.
+  std::optional<Transform<World, World>> registered_on_map;
   /// The uncertainty that the registration leaves, screw by screw.
   std::vector<nav::PredictedScrewError> predicted;
   /// The places touched to verify that registration, in order.
@@ -109,6 +112,7 @@ struct LevelState {
   /// Discards the registration with everything based on it, except wires already driven.
   void forget_registration() {
     registration.reset();
+    registered_on_map.reset();
     predicted.clear();
     check_points.clear();
     landmark.reset();
@@ -172,6 +176,8 @@ struct ToolGuidance {
   /// Tip and aim in the surgeon's directions, as displayed. Absent if `measured` is, and for a plan
   /// whose directions have no such names (`nav::directions_of`).
   std::optional<nav::ScrewNumbers> numbers = {};
+  /// Depth of the tip as displayed; absent if `measured` is.
+  std::optional<nav::ShownDepth> depth = {};
   /// `clearance` as displayed; absent if it is.
   std::optional<nav::ShownClearance> shown_clearance = {};
 };

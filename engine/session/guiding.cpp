@@ -125,6 +125,7 @@ ToolInVertebra Guiding::in_bone(const LevelState& level, const nav::TrackedPose&
 
 void Guiding::lose_measurement() {
   approach_.numbers.forget();
+  approach_.depth.forget();
   approach_.clearance.forget();
   approach_.drill.not_measured();
 }
@@ -139,16 +140,17 @@ void Guiding::take_measurement(ToolGuidance& guidance, const LevelState& level,
   if (deviation) {
     guidance.numbers = approach_.numbers.write(*deviation);
   }
+  const double depth_sd_m =
+      deviation ? deviation->depth_m.sd : std::numeric_limits<double>::infinity();
+  guidance.depth = approach_.depth.write({measured.depth_m, depth_sd_m}, measured.to_target_m);
   const auto on_bone = level.plan.model->surface().nearest(there.axis.point.v);
   if (measured.tip_off_axis_m <= kOffTheScrew_m) {
     approach_.path.add(plan, there.axis, uncertainty);
   }
-  approach_.drill.measured(
-      {pose.time, there.axis.point.v,
-       on_bone ? on_bone->distance_m : std::numeric_limits<double>::infinity(),
-       measured.tip_off_axis_m, measured.angle_rad, measured.depth_m,
-       deviation ? deviation->depth_m.sd : std::numeric_limits<double>::infinity(),
-       measured.to_target_m, tool.stop_m});
+  approach_.drill.measured({pose.time, there.axis.point.v,
+                            on_bone ? on_bone->distance_m : std::numeric_limits<double>::infinity(),
+                            measured.tip_off_axis_m, measured.angle_rad, measured.depth_m,
+                            depth_sd_m, measured.to_target_m, tool.stop_m});
 }
 
 void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,
@@ -199,12 +201,16 @@ void Guiding::add_clearance(ToolGuidance& guidance, const LevelState& level,
   }
 }
 
-StepState Guiding::state(const LevelState& level) const {
+StepState Guiding::state(const OperationInWork& work) const {
+  const LevelState& level = work.level();
   if (!level.registration) {
     return {};
   }
-  return RegistrationFigures{level.registration->rmse_m, level.predicted[screw_].worst_m(), true,
-                             level.registration_only(), level.replanned(screw_)};
+  RegistrationFigures figures = figures_of(work);
+  figures.expected_m = level.predicted[screw_].worst_m();
+  figures.of_one_screw = true;
+  figures.replanned = level.replanned(screw_);
+  return figures;
 }
 
 }  // namespace orthonav::engine

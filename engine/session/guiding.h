@@ -42,7 +42,7 @@ class Guiding {
   /// Writes the selected screw and, in this step, the tool relative to it unless guidance is
   /// hidden.
   void write(const OperationInWork& work, const GuideChecks& checks, bool hidden, Guidance& out);
-  [[nodiscard]] StepState state(const LevelState& level) const;
+  [[nodiscard]] StepState state(const OperationInWork& work) const;
 
  private:
   /// What was measured on the way to the selected screw.
@@ -55,6 +55,7 @@ class Guiding {
     nav::TrackedPose pose_at_depth;  ///< of the tool, if there is an `at_depth`
     double deepest_m = 0.0;          ///< the greatest depth past the entry so far
     nav::ScrewNumberWriter numbers;
+    nav::DepthWriter depth;
     nav::ClearanceWriter clearance;
     nav::DrillWatch drill;
     nav::TrajectoryAtDepth path;

@@ -221,7 +221,7 @@ StepState Landmarking::state(const OperationInWork& work, const GuideChecks& gui
   if (!level.registration) {
     return {};
   }
-  const RegistrationFigures figures = figures_of(level);
+  const RegistrationFigures figures = figures_of(work);
   if (!work.options.steps.dimple()) {
     return figures;
   }

@@ -25,6 +25,19 @@ std::string_view direction_of(NumberRow row, int tenths) {
 
 void append_tenths(std::string& out, int tenths) { append_printed(out, "%.1f", 0.1 * tenths); }
 
+/// Nothing for a number that is sure.
+void append_sd(std::string& out, bool sure, std::optional<int> sd_tenths) {
+  if (sure) {
+    return;
+  }
+  out += " ± ";
+  if (sd_tenths) {
+    append_tenths(out, *sd_tenths);
+  } else {
+    out += "--";
+  }
+}
+
 /// Where a screw breaks through, by nav::direction_of.
 const char* adverb_of(std::string_view towards) {
   constexpr std::array<std::array<const char*, 2>, 7> kAdverbs = {
@@ -58,14 +71,7 @@ double reading_of(const nav::ScrewNumbers& numbers, NumberRow row) {
 void append_number(std::string& out, const nav::ScrewNumbers& numbers, NumberRow row) {
   const nav::ShownNumber& number = number_of(numbers, row);
   append_tenths(out, std::abs(number.tenths));
-  if (!number.sure) {
-    out += " ± ";
-    if (number.sd_tenths) {
-      append_tenths(out, *number.sd_tenths);
-    } else {
-      out += "--";
-    }
-  }
+  append_sd(out, number.sure, number.sd_tenths);
   out += is_angle(row) ? "°" : " mm";
   if (number.tenths != 0) {
     out.append(" ").append(direction_of(row, number.tenths));
@@ -84,6 +90,14 @@ void append_numbers(std::string& out, const nav::ScrewNumbers& numbers, bool reg
   if (registration_only && !all_sure(numbers)) {
     append_registration_only(out);
   }
+}
+
+void append_depth(std::string& out, const nav::ShownDepth& depth) {
+  constexpr std::array<const char*, 3> kTo = {words::kToEntry, words::kToTarget,
+                                              words::kPastTarget};
+  append_tenths(out, depth.tenths);
+  append_sd(out, depth.sure, depth.sd_tenths);
+  out.append(" mm ").append(translated(kTo[static_cast<std::size_t>(depth.to)]));
 }
 
 void append_clearance(std::string& out, int tenths) {

@@ -29,6 +29,9 @@ void append_number(std::string& out, const nav::ScrewNumbers& numbers, NumberRow
 /// `registration_only`: SDs leave out the errors common to all strokes, so a line with an SD says
 /// so.
 void append_numbers(std::string& out, const nav::ScrewNumbers& numbers, bool registration_only);
+/// "12.3 mm to entry", "31.0 mm to target", "1.2 mm past target"; if uncertain, "12.3 ± 1.4 mm to
+/// entry", and "12.3 ± -- mm to entry" if the uncertainty is unknown.
+void append_depth(std::string& out, const nav::ShownDepth& depth);
 [[nodiscard]] bool all_sure(const nav::ScrewNumbers& numbers);
 
 /// "2.4 mm"; "-0.4 mm" with a real minus sign, U+2212.
@@ -55,6 +58,9 @@ inline constexpr const char* kClearance = translatable("clearance");
 inline constexpr const char* kAtLeast = translatable("at least");
 inline constexpr const char* kTip = translatable("tip");
 inline constexpr const char* kAims = translatable("aims");
+inline constexpr const char* kToEntry = translatable("to entry");
+inline constexpr const char* kToTarget = translatable("to target");
+inline constexpr const char* kPastTarget = translatable("past target");
 inline constexpr const char* kSdOfRegistrationOnly = translatable("± registration only");
 }  // namespace words
 

@@ -155,7 +155,7 @@ StepState SessionSteps::state(const OperationInWork& work) const {
     case Step::kAccepted:
       return landmarking.state(work, guide_checks);
     case Step::kGuide:
-      return guiding.state(work.level());
+      return guiding.state(work);
     case Step::kPlaced:
       return placing.state();
     case Step::kRod:

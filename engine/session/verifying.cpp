@@ -235,7 +235,7 @@ StepState Verifying::state(const OperationInWork& work) const {
     return {};
   }
   if (!work.options.steps.check_points) {
-    return figures_of(level);
+    return figures_of(work);
   }
   ChecksSoFar checks;
   checks.expected_m = nav::worst_m(level.predicted);

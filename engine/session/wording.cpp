@@ -60,6 +60,9 @@ void write_unused_tool(PartedText text, const StatusLine& line, std::string_view
   }
 }
 
+/// Less is what the head's own noise moves a bone on the map by.
+constexpr double kFollowedAtLeast_m = 0.001;
+
 /// Writes the state of each step.
 struct StateWriter {
   PartedText text;
@@ -82,6 +85,10 @@ struct StateWriter {
     if (figures.replanned) {
       text.begin(Importance::kMessage, "; ");
       out += translated("planned in surgery");
+    }
+    if (figures.followed_m && *figures.followed_m >= kFollowedAtLeast_m) {
+      text.begin(Importance::kCount, "; ");
+      append_printed(out, translated("moved %s, followed"), said_mm(*figures.followed_m).c_str());
     }
   }
   void operator()(const ChecksSoFar& checks) {

@@ -57,9 +57,6 @@ inline constexpr const char* kMakeDimple = translatable("make a dimple in this b
 inline constexpr const char* kKeepOrRedo = translatable("say accept to keep it, delete to redo it");
 inline constexpr const char* kNoOtherEntry =
     translatable("no other entry stays inside the bone, say accept to keep it");
-inline constexpr const char* kToEntry = translatable("to entry");
-inline constexpr const char* kToTarget = translatable("to target");
-inline constexpr const char* kPastTarget = translatable("past target");
 /// Between the angle of a bend and its place along the rod.
 inline constexpr const char* kAt = translatable("at");
 }  // namespace words

@@ -13,15 +13,24 @@ constexpr double kLastBits = 1e-6;
 
 int rounded_up(double tenths) { return static_cast<int>(std::ceil(tenths - kLastBits)); }
 
+/// Rounded up; `before`, what was shown last, stays until the number has fallen by another tenth.
+int rounded_up_steadily(double tenths, std::optional<int> before) {
+  const int up = rounded_up(tenths);
+  const bool still = before && *before >= up && tenths > *before - 1 - SteadyNumber::kBand;
+  return still ? *before : up;
+}
+
+std::optional<int> shown_sd(double sd_tenths) {
+  return sd_tenths <= kMostShown ? std::optional(std::max(1, rounded_up(sd_tenths))) : std::nullopt;
+}
+
 ShownNumber shown(SteadyNumber& number, const NumberWithSd& measured, double tenth,
                   double sure_sd) {
   ShownNumber out;
   const double sd = measured.sd / tenth;
   out.tenths = number.show(measured.value / tenth, sd);
   out.sure = measured.sd <= sure_sd;
-  if (sd <= kMostShown) {
-    out.sd_tenths = std::max(1, rounded_up(sd));
-  }
+  out.sd_tenths = shown_sd(sd);
   return out;
 }
 
@@ -35,14 +44,30 @@ int SteadyNumber::show(double tenths, double sd_tenths) {
     return 0;
   }
   const int sign = tenths < 0.0 ? -1 : 1;
-  int digits = std::max(1, rounded_up(size));
-  if (shown_) {
-    const int before = sign * *shown_;
-    const bool still = before >= digits && size > before - 1 - kBand;
-    digits = still ? before : digits;
-  }
-  shown_ = sign * digits;
+  const auto before = shown_ ? std::optional(sign * *shown_) : std::nullopt;
+  shown_ = sign * std::max(1, rounded_up_steadily(size, before));
   return *shown_;
+}
+
+std::optional<ShownDepth> DepthWriter::write(const NumberWithSd& depth_m, double to_target_m) {
+  const double past_entry = depth_m.value / kTenth_m;
+  const double past_target = -to_target_m / kTenth_m;
+  if (!(std::abs(past_entry) <= kMostShown && std::abs(past_target) <= kMostShown)) {
+    forget();
+    return std::nullopt;
+  }
+  past_entry_ = rounded_up_steadily(past_entry, past_entry_);
+  past_target_ = rounded_up_steadily(past_target, past_target_);
+  ShownDepth out;
+  if (*past_entry_ < 0) {
+    out.tenths = -*past_entry_;
+  } else {
+    out.to = *past_target_ > 0 ? DepthTo::kPastTarget : DepthTo::kTarget;
+    out.tenths = std::abs(*past_target_);
+  }
+  out.sd_tenths = shown_sd(depth_m.sd / kTenth_m);
+  out.sure = depth_m.sd <= kSureOffset_m;
+  return out;
 }
 
 ScrewNumbers ScrewNumberWriter::write(const AnatomicalDeviation& measured) {

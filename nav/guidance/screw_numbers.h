@@ -21,6 +21,16 @@ struct ScrewNumbers {
   ShownNumber aim_cranial;  ///< tenths of a degree
   ShownNumber aim_medial;
 };
+
+/// What the depth of the tip along the planned axis is counted to.
+enum class DepthTo { kEntry, kTarget, kPastTarget };
+/// The depth of the tip as displayed: so much to the entry or to the target, or past the target.
+struct ShownDepth {
+  DepthTo to = DepthTo::kEntry;
+  int tenths = 0;                ///< of a millimetre, >= 0
+  std::optional<int> sd_tenths;  ///< of its error, rounded up; absent: not known
+  bool sure = false;             ///< otherwise it is greyed and shown with its SD
+};
 inline constexpr double kTenth_m = 1e-4;
 inline constexpr double kTenth_rad = 0.1 * std::numbers::pi / 180.0;
 
@@ -51,6 +61,21 @@ class SteadyNumber {
 
  private:
   std::optional<int> shown_;
+};
+
+/// Writes the depth, pair after pair. A tip that is shown short of where it is leads the surgeon to
+/// drill deeper: the depth is rounded deeper, and a lesser one is shown only when the measured one
+/// has fallen by another tenth, as with `SteadyNumber`.
+class DepthWriter {
+ public:
+  /// `depth_m`: past the entry along the planned axis; `to_target_m`: what is left of it. Absent if
+  /// either is not finite or a metre or more.
+  [[nodiscard]] std::optional<ShownDepth> write(const NumberWithSd& depth_m, double to_target_m);
+  void forget() { *this = {}; }
+
+ private:
+  std::optional<int> past_entry_;   ///< shown last, tenths
+  std::optional<int> past_target_;  ///< likewise
 };
 
 /// Writes all four numbers, pair after pair.

@@ -94,14 +94,19 @@ TEST(TargetCross, TakenOffItsDotsItSaysWhatALostOneSays) {
   EXPECT_TRUE(scene.meshes.empty());
 }
 
-TEST(DepthText, SaysWhatIsLeft) {
-  EXPECT_EQ(depth_text(-0.0123, 0.055).value(), "12.3 mm to entry");
-  EXPECT_EQ(depth_text(0.0, 0.045).value(), "45.0 mm to target");
-  EXPECT_EQ(depth_text(0.0462, -0.0012).value(), "1.2 mm past target");
-  EXPECT_FALSE(
-      depth_text(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity())
-          .has_value());
-  EXPECT_FALSE(depth_text(-2.0, 2.05).has_value());
+TEST(Depth, IsPalerAndSmallerWithItsSdWhereItIsNotSure) {
+  render::Scene scene;
+  add_depth(scene, {}, {0, 0.08f, 0}, {nav::DepthTo::kTarget, 310, 4, true}, 7);
+  add_depth(scene, {}, {0, 0.08f, 0}, {nav::DepthTo::kPastTarget, 12, 14, false}, 8);
+  ASSERT_EQ(scene.texts.size(), 2u);
+  const render::TextItem& sure = scene.texts[0];
+  const render::TextItem& unsure = scene.texts[1];
+  EXPECT_EQ(sure.runs.at(0).text, "31.0 mm to target");
+  EXPECT_EQ(unsure.runs.at(0).text, "1.2 ± 1.4 mm past target");
+  EXPECT_LT(unsure.height_m, sure.height_m);
+  EXPECT_LT(unsure.runs[0].colour.g, sure.runs[0].colour.g);
+  EXPECT_EQ(sure.rim.a, 0.0f);
+  EXPECT_GT(unsure.rim.a, 0.0f);
 }
 
 }  // namespace

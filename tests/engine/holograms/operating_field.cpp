@@ -176,7 +176,7 @@ OperatingField guided_levels(int levels, float lean_rad) {
                                  label_of(HologramKind::kTriangle, 1));
   engine::add_angle_readout(field.scene, a, b, "12.4°", engine::Grade::kFair,
                             label_of(HologramKind::kAngle, 1));
-  engine::add_depth(field.scene, a, b, "12.3 mm to entry", false,
+  engine::add_depth(field.scene, a, b, {nav::DepthTo::kEntry, 123, 4, true},
                     label_of(HologramKind::kDepth, 1));
   field.places.push_back({"the wound", a, 0.010f, true});
   field.papers.push_back(paper_above(b));

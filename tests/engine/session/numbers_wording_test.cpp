@@ -45,6 +45,20 @@ TEST(NumbersWording, SaysHowUnsureANumberIs) {
   EXPECT_EQ(line_text(kSure, true), line_text(kSure, false)) << "without an SD, nothing to add";
 }
 
+std::string depth_text(const nav::ShownDepth& depth) {
+  std::string out;
+  append_depth(out, depth);
+  return out;
+}
+
+TEST(NumbersWording, SaysWhatIsLeftToDrillAndHowUnsureThatIs) {
+  EXPECT_EQ(depth_text({nav::DepthTo::kEntry, 123, 4, true}), "12.3 mm to entry");
+  EXPECT_EQ(depth_text({nav::DepthTo::kTarget, 0, 4, true}), "0.0 mm to target");
+  EXPECT_EQ(depth_text({nav::DepthTo::kPastTarget, 12, 14, false}), "1.2 ± 1.4 mm past target");
+  EXPECT_EQ(depth_text({nav::DepthTo::kTarget, 310, std::nullopt, false}),
+            "31.0 ± -- mm to target");
+}
+
 std::string clearance_text(const nav::ShownClearance& clearance, bool registration_only = false) {
   std::string out;
   append_clearance_line(out, clearance, registration_only);

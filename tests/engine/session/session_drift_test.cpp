@@ -10,6 +10,8 @@
 namespace orthonav::engine::session_drift_test {
 namespace {
 
+using ::testing::HasSubstr;
+using ::testing::Not;
 using test::guide_at;
 using test::said;
 using test::ScriptedOperation;
@@ -76,7 +78,10 @@ TEST_F(DriftingMap, OnceTheDrillIsSetGuidesOnAndSaysHowUnsureItIs) {
   waits_s(4.0 * kLongest_s);
   EXPECT_EQ(s.session().current_step(), Step::kGuide);
   EXPECT_GE(sd_now(), before + 5) << "tenths of a millimetre";
-  EXPECT_FALSE(s.pair().tool->numbers->tip_cranial.sure);
+  const auto tool = s.pair().tool;
+  EXPECT_FALSE(tool->numbers->tip_cranial.sure);
+  ASSERT_TRUE(tool->depth);
+  EXPECT_FALSE(tool->depth->sure) << "the depth drifts as well";
 }
 
 class OnReference : public DriftingMap {
@@ -88,6 +93,15 @@ TEST_F(OnReference, NothingDriftsAndNothingIsAskedAgain) {
   waits_s(4.0 * kLongest_s);
   EXPECT_EQ(s.session().current_step(), Step::kGuide);
   EXPECT_EQ(found().sd_at_m(s.now()), 0.0);
+}
+
+TEST_F(OnReference, SaysHowFarTheBoneMovedOnTheMapAndThatItIsFollowed) {
+  const auto line = [this] { return detail_text(s.pair().status); };
+  EXPECT_THAT(line(), Not(HasSubstr("followed")));
+  s.tracker().reference.world_from_anchored = {Mat3::identity(), {0.0005, 0.0, 0.0}};
+  EXPECT_THAT(line(), Not(HasSubstr("followed"))) << "no more than the head's noise";
+  s.tracker().reference.world_from_anchored = {Mat3::identity(), {0.0, 0.003, 0.004}};
+  EXPECT_THAT(line(), HasSubstr("moved 5.0 mm, followed"));
 }
 
 TEST(BoneFound, WalksWithTheRootOfTime) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -104,6 +105,62 @@ TEST(ScrewNumbers, AreGreyedAboveTheirLimitsAndSayTheirSds) {
   EXPECT_EQ(shown.aim_medial.tenths, 4);
   EXPECT_FALSE(shown.aim_medial.sure);
   EXPECT_FALSE(shown.aim_medial.sd_tenths.has_value());
+}
+
+ShownDepth written(double depth_m, double to_target_m, double sd_m = 0.0004) {
+  return DepthWriter().write({depth_m, sd_m}, to_target_m).value();
+}
+
+TEST(DepthWriter, CountsToTheEntryThenToTheTargetThenPastIt) {
+  EXPECT_EQ(written(-0.0123, 0.0573).to, DepthTo::kEntry);
+  EXPECT_EQ(written(-0.0123, 0.0573).tenths, 123);
+  EXPECT_EQ(written(0.0, 0.045).to, DepthTo::kTarget);
+  EXPECT_EQ(written(0.0, 0.045).tenths, 450);
+  EXPECT_EQ(written(0.0462, -0.0012).to, DepthTo::kPastTarget);
+  EXPECT_EQ(written(0.0462, -0.0012).tenths, 12);
+}
+
+TEST(DepthWriter, NeverShowsTheTipShortOfWhereItIsNorTwoTenthsDeeper) {
+  constexpr double kLength_m = 0.04503;
+  Random random(11);
+  DepthWriter writer;
+  double depth_m = -0.004;
+  for (int i = 0; i < 20000; ++i) {
+    depth_m = std::clamp(depth_m + random.normal(1e-6, 7e-5), -0.01, 0.05);
+    const ShownDepth shown = writer.write({depth_m, 0.0004}, kLength_m - depth_m).value();
+    const double sign = shown.to == DepthTo::kPastTarget ? 1.0 : -1.0;
+    const double from_m = shown.to == DepthTo::kEntry ? 0.0 : kLength_m;
+    const double shown_m = from_m + sign * shown.tenths * kTenth_m;
+    EXPECT_GE(shown_m, depth_m - 1e-9);
+    EXPECT_LT(shown_m, depth_m + 2.0 * kTenth_m);
+    EXPECT_GE(shown.tenths, 0);
+  }
+}
+
+TEST(DepthWriter, ATremblingTipMovesNoDigit) {
+  DepthWriter writer;
+  int changes = -1;
+  int before = -1;
+  Random random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double depth_m = 0.010 + random.normal(0.0, 2e-5);
+    const int tenths = writer.write({depth_m, 0.0004}, 0.045 - depth_m)->tenths;
+    changes += tenths == before ? 0 : 1;
+    before = tenths;
+  }
+  EXPECT_LE(changes, 2);
+}
+
+TEST(DepthWriter, SaysHowSureItIsAndRefusesWhatIsNoDepth) {
+  EXPECT_TRUE(written(0.01, 0.03, 0.0010).sure);
+  EXPECT_FALSE(written(0.01, 0.03, 0.00101).sure);
+  EXPECT_EQ(written(0.01, 0.03, 0.00131).sd_tenths, 14) << "rounded up";
+  EXPECT_FALSE(written(0.01, 0.03, kUnknown).sure);
+  EXPECT_FALSE(written(0.01, 0.03, kUnknown).sd_tenths.has_value());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(DepthWriter().write({nan, 0.0004}, 0.03).has_value());
+  EXPECT_FALSE(DepthWriter().write({0.01, 0.0004}, kUnknown).has_value());
+  EXPECT_FALSE(DepthWriter().write({-2.0, 0.0004}, 2.05).has_value());
 }
 
 }  // namespace
