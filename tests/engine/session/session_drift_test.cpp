@@ -10,11 +10,11 @@
 namespace orthonav::engine::session_drift_test {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::Not;
 using test::guide_at;
 using test::said;
 using test::ScriptedOperation;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 // Arithmetic on values of the order of 1.
 constexpr double kExact = 1e-9;
