@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "nav/registration/height_model.h"
+#include "nav/registration/tissue_prior.h"
 
 namespace orthonav::nav {
 namespace {
@@ -116,7 +117,9 @@ class Trial {
     if (!answers) {
       return -std::numeric_limits<double>::infinity();
     }
-    tried_.push_back({field, *answers, log_prior(field)});
+    const double standoff_m = answers->fixed_size.unknowns[kStandoffUnknown];
+    const double evenness = log_prior_of_evenness(field, standoff_m);
+    tried_.push_back({field, *answers, log_prior(field) + evenness});
     return answers->fixed_size.log_evidence;
   }
 
