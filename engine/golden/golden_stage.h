@@ -69,10 +69,10 @@ struct NumberSds {
   double translation_m = 0.0003;
   double rotation_rad = 0.005;
 };
-/// How the product would show a depth past the entry of which so much is left to the target.
-[[nodiscard]] nav::ShownDepth shown_depth(double depth_m, double to_target_m, double sd_m = 0.0004);
 [[nodiscard]] nav::ScrewNumbers numbers_of(const nav::ScrewGuidance& tool, const NumberSds& sds,
                                            Side side = Side::kLeft);
+/// How the product would show a depth past the entry of which so much is left to the target.
+[[nodiscard]] nav::ShownDepth shown_depth(double depth_m, double to_target_m, double sd_m = 0.0004);
 
 /// Strokes over lamina and spinous process, as a surgeon makes them.
 [[nodiscard]] std::vector<render::Float3> stroke();

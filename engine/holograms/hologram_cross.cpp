@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <span>
 
-#include "base/length_text.h"
 #include "base/translation.h"
 #include "engine/holograms/hologram_parts.h"
 #include "engine/session/wording.h"

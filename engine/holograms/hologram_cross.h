@@ -2,8 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <string>
-#include <string_view>
 
 #include "engine/holograms/hologram_shapes.h"
 #include "engine/session/numbers_wording.h"

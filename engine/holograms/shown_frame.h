@@ -35,7 +35,6 @@ class ShownFrameWriter {
   void write_status(const StatusLine& line, const Visibility& visible, ShownFrame& frame);
 
   std::size_t used_ = 0;
-  std::string text_;
   /// Landmarks by which a person compares the hologram with the bone; found once per model.
   std::map<const nav::VertebraModel*, std::array<Vec3, 4>> landmarks_m_;
 };

@@ -176,7 +176,7 @@ struct ToolGuidance {
   /// Tip and aim in the surgeon's directions, as displayed. Absent if `measured` is, and for a plan
   /// whose directions have no such names (`nav::directions_of`).
   std::optional<nav::ScrewNumbers> numbers = {};
-  /// Depth of the tip as displayed; absent if `measured` is.
+  /// Depth of the tip as displayed; absent if `measured` is, or a metre away.
   std::optional<nav::ShownDepth> depth = {};
   /// `clearance` as displayed; absent if it is.
   std::optional<nav::ShownClearance> shown_clearance = {};
