@@ -18,7 +18,7 @@ LevelState state_of(OperatedLevel plan) {
   return state;
 }
 
-/// Of the first screw's entry, as `RegistrationFigures` says it.
+/// Movement of the first screw's entry: `RegistrationFigures::followed_m`.
 std::optional<double> followed_m(const LevelState& level, const nav::Anchor* anchor) {
   if (anchor == nullptr || !level.registered_on_map || level.plan.screws.empty()) {
     return std::nullopt;

@@ -35,7 +35,7 @@ struct RegistrationFigures {
   bool registration_only = false;  ///< without the unknown errors common to all strokes
   bool replanned = false;          ///< the selected screw was changed in surgery
   /// With a patient reference: how far the bone has moved on the headset's map since it was
-  /// registered, because the patient moved or the map drifted. The reference makes up for it.
+  /// registered, because the patient moved or the map drifted. Guidance has followed.
   std::optional<double> followed_m = {};
 };
 /// While a registration is verified by touch.

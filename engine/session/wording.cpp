@@ -60,7 +60,7 @@ void write_unused_tool(PartedText text, const StatusLine& line, std::string_view
   }
 }
 
-/// Less is what the head's own noise moves a bone on the map by.
+/// Smaller movements may be noise of the head's pose.
 constexpr double kFollowedAtLeast_m = 0.001;
 
 /// Writes the state of each step.

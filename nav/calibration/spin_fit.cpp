@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "base/angle.h"
+#include "nav/geometry/matrix_as.h"
 
 namespace orthonav::nav {
 namespace {
@@ -15,23 +16,13 @@ using ChosenPoses = std::span<const std::size_t>;
 // Less turning than this is rounding.
 constexpr double kLeastSpread = 1e-6;
 
-Eigen::Matrix3d eigen_rotation(const Transform<World, Marker>& pose) {
-  Eigen::Matrix3d out;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      out(r, c) = pose.rotation()[r][static_cast<std::size_t>(c)];
-    }
-  }
-  return out;
-}
-
 Eigen::Vector3d eigen_vector(Vec3 v) { return {v.x, v.y, v.z}; }
 Vec3 plain(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Eigen::Matrix3d mean_rotation(SpinPoses poses, ChosenPoses chosen) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const std::size_t i : chosen) {
-    sum += eigen_rotation(poses[i]);
+    sum += matrix_as<Eigen::Matrix3d>(poses[i].rotation());
   }
   return sum / static_cast<double>(chosen.size());
 }
@@ -90,7 +81,7 @@ Vec3 beside_axis_m(SpinPoses poses, ChosenPoses chosen, const SpinFit& fit, Poin
   Eigen::Matrix3d normal = count * axis * axis.transpose();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const std::size_t i : chosen) {
-    const Eigen::Matrix3d lever = across * (eigen_rotation(poses[i]) - mean);
+    const Eigen::Matrix3d lever = across * (matrix_as<Eigen::Matrix3d>(poses[i].rotation()) - mean);
     normal += lever.transpose() * lever;
     right -= lever.transpose() * (eigen_vector((poses[i] * tip).v) - mean_tip);
   }

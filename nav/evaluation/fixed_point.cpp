@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "nav/geometry/matrix_as.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -12,16 +14,6 @@ namespace {
 constexpr double kBlock_s = 0.25;
 // A stretch that has not fitted for this many more blocks won't fit again.
 constexpr int kFarFromBest = 8;
-
-Eigen::Matrix3d as_eigen(const Mat3& m) {
-  Eigen::Matrix3d out;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      out(r, c) = m[r][static_cast<std::size_t>(c)];
-    }
-  }
-  return out;
-}
 
 Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 
@@ -95,7 +87,8 @@ PoseBlocks blocks_of(std::span<const TrackedPose> poses, Point<Marker> tip) {
       blocks.first.push_back(i);
       begins_s = time_s;
     }
-    sums.add(as_eigen(poses[i].value.rotation()), as_eigen((poses[i].value * tip).v - origin_m));
+    sums.add(matrix_as<Eigen::Matrix3d>(poses[i].value.rotation()),
+             as_eigen((poses[i].value * tip).v - origin_m));
   }
   blocks.before.push_back(sums);
   blocks.first.push_back(poses.size());

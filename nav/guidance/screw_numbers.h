@@ -63,9 +63,9 @@ class SteadyNumber {
   std::optional<int> shown_;
 };
 
-/// Writes the depth, pair after pair. A tip that is shown short of where it is leads the surgeon to
-/// drill deeper: the depth is rounded deeper, and a lesser one is shown only when the measured one
-/// has fallen by another tenth, as with `SteadyNumber`.
+/// Writes the depth, pair after pair. A tip that is shown short of where it is tempts the surgeon
+/// to drill on, so the depth is rounded deeper. A smaller depth is shown once the measured one has
+/// fallen by another tenth, as with `SteadyNumber`.
 class DepthWriter {
  public:
   /// `depth_m`: past the entry along the planned axis; `to_target_m`: what is left of it. Absent if

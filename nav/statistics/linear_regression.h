@@ -8,7 +8,7 @@ namespace orthonav::nav {
 /// What a linear regression finds for each column.
 struct LinearRegression {
   std::vector<double> slopes;
-  /// Consistent where the scatter depends on the place: White (1980), with n / (n - k) as in
+  /// Consistent where the scatter differs from row to row: White (1980), with n / (n - k) as in
   /// MacKinnon & White (1985), HC1.
   std::vector<double> standard_errors;
 };

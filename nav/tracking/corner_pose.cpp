@@ -3,6 +3,8 @@
 #include <cmath>
 #include <Eigen/Dense>
 
+#include "nav/geometry/matrix_as.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -15,16 +17,6 @@ using Right = Eigen::Matrix<double, kAll, 1>;
 using Row = Eigen::Matrix<double, 2, kAll>;
 using Matrix3 = Eigen::Matrix3d;
 constexpr int kIterations = 3;
-
-Matrix3 as_eigen(const Mat3& m) {
-  Matrix3 out;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      out(r, c) = m[r][static_cast<std::size_t>(c)];
-    }
-  }
-  return out;
-}
 
 Matrix3 cross_matrix(Vec3 v) {
   Matrix3 m;
@@ -44,7 +36,7 @@ struct Equations {
            const Transform<CameraFrame, Rig>& camera_from_rig, const Transform<Rig, Marker>& pose,
            double size_m, double sd_px, const Vec3* baseline_m) {
     const auto in_marker_m = corners_in_marker(size_m);
-    const Matrix3 rotation = as_eigen(camera_from_rig.rotation());
+    const auto rotation = matrix_as<Matrix3>(camera_from_rig.rotation());
     for (std::size_t k = 0; k < corners_px.size(); ++k) {
       const auto ray = camera.unproject(corners_px[k]);
       const auto slope = camera.jacobian_px(corners_px[k]);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <Eigen/Dense>
 
+#include "nav/geometry/matrix_as.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -12,16 +14,6 @@ using Chosen = std::span<const std::size_t>;
 
 // So small a rotation does not determine the tip.
 constexpr double kLeastSpreadRad = 1e-6;
-
-Eigen::Matrix3d to_eigen(const Mat3& m) {
-  Eigen::Matrix3d out;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      out(r, c) = m[r][static_cast<std::size_t>(c)];
-    }
-  }
-  return out;
-}
 
 Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -34,7 +26,7 @@ struct Means {
 Means means_of(Poses poses, Chosen chosen) {
   Means mean;
   for (const std::size_t i : chosen) {
-    mean.rotation += to_eigen(poses[i].rotation());
+    mean.rotation += matrix_as<Eigen::Matrix3d>(poses[i].rotation());
     mean.translation += to_eigen(poses[i].translation());
   }
   mean.rotation /= static_cast<double>(chosen.size());
@@ -57,7 +49,8 @@ std::optional<PivotFit> fit_pivot(Poses poses, Chosen chosen) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const std::size_t i : chosen) {
-    const Eigen::Matrix3d deviation = to_eigen(poses[i].rotation()) - mean.rotation;
+    const Eigen::Matrix3d deviation =
+        matrix_as<Eigen::Matrix3d>(poses[i].rotation()) - mean.rotation;
     normal += deviation.transpose() * deviation;
     right -= deviation.transpose() * (to_eigen(poses[i].translation()) - mean.translation);
   }

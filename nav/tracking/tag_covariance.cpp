@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 
+#include "nav/geometry/matrix_as.h"
 #include "nav/tracking/symmetric_covariance.h"
 
 #include "nav/tracking/tag_pose.h"
@@ -13,16 +14,6 @@ using Matrix36 = Eigen::Matrix<double, 3, 6>;
 constexpr double kStepPx = 0.05;
 
 Eigen::Vector3d eigen_of(Vec3 v) { return {v.x, v.y, v.z}; }
-
-Eigen::Matrix3d eigen_of(const Mat3& m) {
-  Eigen::Matrix3d out;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      out(r, c) = m[r][static_cast<std::size_t>(c)];
-    }
-  }
-  return out;
-}
 
 // How a point of the body moves with a small translation and rotation: [I, -[lever arm]x].
 Matrix36 point_by_pose(Vec3 lever_arm) {
@@ -70,7 +61,8 @@ std::optional<PoseCovariance> TagGeometry::covariance(const Transform<Rig, Marke
 
 PoseCovariance rotated(const PoseCovariance& covariance, const Mat3& b_from_a) {
   Matrix6 both = Matrix6::Zero();
-  both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = eigen_of(b_from_a);
+  both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() =
+      matrix_as<Eigen::Matrix3d>(b_from_a);
   const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> in_a(covariance.data());
   return symmetrized(Matrix6(both * in_a * both.transpose()));
 }
