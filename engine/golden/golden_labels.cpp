@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "engine/golden/golden_stage.h"
+#include "engine/holograms/hologram_numbers.h"
 #include "render/float3.h"
 #include "render/projection.h"
 
@@ -81,12 +82,43 @@ GoldenScene rod_length() {
   return golden;
 }
 
+/// A site so low in view that the lowest numbers lay over the row above the status line.
+GoldenScene numbers_low() {
+  const Viewer viewer = surgeon();
+  GoldenScene golden =
+      start_wide("labels_numbers", "the numbers under the cross end above the status line's rows",
+                 render::stereo_pair(render::look_at(viewer.eye, kEntry + 0.055f * viewer.up,
+                                                     viewer.up, 0.394f, 0.2561f)));
+  TargetCross cross;
+  cross.site = kEntry;
+  cross.outward = render::unit_or(kEntry - kTarget, {});
+  cross.viewer = viewer;
+  cross.side = LabelSide::kLeft;
+  cross.reading = CrossReading{{0.0005f, 0, 0.0004f}, {0.004f, 0, -0.002f}, Grade::kFair};
+  const nav::ScrewNumbers numbers = numbers_of(guided(3.4, 0.0006, -0.0062), {});
+  nav::ShownClearance clearance;
+  clearance.least_tenths = 25;
+  clearance.lower_95_tenths = 6;
+  add_entry(golden.scene, {kEntry, kNormal, "L4 left", false, LabelSide::kLeft}, kEntryLabel);
+  add_planned_trajectory(golden.scene, kEntry, kTarget, kTrajectoryLabel);
+  add_target_cross(golden.scene, cross, kCrossLabel);
+  add_numbers(golden.scene, cross, numbers, false, kNumbersLabel, true);
+  add_clearance(golden.scene, cross, clearance, kClearanceLabel);
+  add_status_line(golden.scene, "guide L4 left | RMSE 0.62 mm", kToolDots, kStatusLabel);
+  std::string row;
+  append_numbers(row, numbers, false);
+  add_row_above_status(golden.scene, row, kNumbersRowLabel);
+  golden.covered = {{kEntryLabel, kEntry}};
+  return golden;
+}
+
 }  // namespace
 
 void add_label_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(names());
   scenes.push_back(off_the_tag());
   scenes.push_back(rod_length());
+  scenes.push_back(numbers_low());
 }
 
 }  // namespace orthonav::engine::golden

@@ -149,6 +149,24 @@ void add_target_cross(Scene& scene, const TargetCross& cross, Label label) {
   }
 }
 
+std::optional<CrossDisc> disc_of(const Scene& scene, Label label) {
+  CrossDisc disc;
+  for (const render::LineItem& line : scene.lines) {
+    if (line.label == label) {
+      disc.ring = &line;  // the last one is the outermost
+    }
+  }
+  if (!disc.ring || disc.ring->points.empty()) {
+    return std::nullopt;
+  }
+  const std::vector<Float3>& points = disc.ring->points;
+  for (const Float3 point : points) {
+    disc.middle = disc.middle + 1.0f / static_cast<float>(points.size()) * point;
+  }
+  disc.radius_m = render::length(points.front() - disc.middle);
+  return disc;
+}
+
 void take_dots_off(Scene& scene, Label label) {
   const auto is_dot = [&](const auto& item) { return item.label == label + 1; };
   scene.meshes.erase_if(is_dot);
@@ -156,22 +174,13 @@ void take_dots_off(Scene& scene, Label label) {
   scene.triangles.erase_if(is_dot);
   const auto is_cross = [&](const auto& item) { return item.label == label; };
   scene.texts.erase_if(is_cross);
-  const render::LineItem* outermost = nullptr;
-  for (const render::LineItem& line : scene.lines) {
-    if (is_cross(line)) {
-      outermost = &line;
-    }
-  }
-  if (!outermost) {
+  const std::optional<CrossDisc> disc = disc_of(scene, label);
+  if (!disc) {
     return;
   }
-  Float3 middle{};
-  for (const Float3 point : outermost->points) {
-    middle = middle + 1.0f / static_cast<float>(outermost->points.size()) * point;
-  }
   scene.lines.erase_if(
-      [&](const render::LineItem& line) { return is_cross(line) && &line != outermost; });
-  add_lost_text(scene, middle, label);
+      [&](const render::LineItem& line) { return is_cross(line) && &line != disc->ring; });
+  add_lost_text(scene, disc->middle, label);
 }
 
 void add_depth(Scene& scene, Float3 a, Float3 b, const nav::ShownDepth& depth, Label label) {

@@ -56,6 +56,13 @@ struct CrossPlaces {
 
 /// Rings carry `label`, the dots the next one.
 void add_target_cross(render::Scene& scene, const TargetCross& cross, render::Label label);
+/// The outermost ring of a drawn cross; absent: the scene shows none.
+struct CrossDisc {
+  render::Float3 middle;
+  float radius_m = 0;
+  const render::LineItem* ring = nullptr;  ///< never null
+};
+[[nodiscard]] std::optional<CrossDisc> disc_of(const render::Scene& scene, render::Label label);
 /// Takes the dots off a drawn cross and says that the tool is lost.
 void take_dots_off(render::Scene& scene, render::Label label);
 

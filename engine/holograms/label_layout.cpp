@@ -13,7 +13,6 @@ namespace {
 constexpr LabelMargins kToStay = {0.0010f, -0.0008f};  // within the free margin around ink
 constexpr LabelMargins kToCome = {0.0035f, 0.0f};
 
-constexpr Duration kForgetAfter = std::chrono::seconds(2);
 constexpr float kLeaderWidth_m = 0.0004f;
 constexpr float kLeaderOpacity = 0.6f;
 
@@ -25,6 +24,7 @@ void LabelLayout::lay_out(render::Scene& scene, const std::vector<render::View>&
     return;
   }
   forget(shown_at);
+  cross_lift_.lay_out(scene, Eyes(views), shown_at);
   judge_.begin(scene, views, patches);
   for (const LabelSubject& subject : judge_.subjects()) {
     Kept& kept = kept_of(scene.texts[subject.text].label, subject);
@@ -37,10 +37,10 @@ void LabelLayout::lay_out(render::Scene& scene, const std::vector<render::View>&
 }
 
 void LabelLayout::forget(Timestamp shown_at) {
-  const bool jumped = shown_at < now_ || shown_at - kForgetAfter > now_;
+  const bool jumped = shown_at < now_ || shown_at - kForgetPlacesAfter > now_;
   now_ = shown_at;
-  std::erase_if(kept_,
-                [&](const Kept& kept) { return jumped || kept.seen < shown_at - kForgetAfter; });
+  std::erase_if(
+      kept_, [&](const Kept& kept) { return jumped || kept.seen < shown_at - kForgetPlacesAfter; });
 }
 
 LabelLayout::Kept& LabelLayout::kept_of(render::Label label, const LabelSubject& subject) {
@@ -77,7 +77,7 @@ LabelLayout::Best LabelLayout::best_of(const render::Scene& scene, const LabelSu
 /// everywhere else.
 LabelLayout::Best LabelLayout::refuge_of(const render::Scene& scene, const LabelSubject& subject,
                                          const Kept& kept, const Best& best) const {
-  if (kept.before != best.place || now_ - kept.left_at >= kSettled) {
+  if (!kept.just_left(best.place, now_)) {
     return best;
   }
   const Best other = best_of(scene, subject, kept.before);
@@ -94,40 +94,24 @@ void LabelLayout::settle(const render::Scene& scene, const LabelSubject& subject
     return;
   }
   if (!kept.place) {
-    room ? wait_for(kept, best.place) : kept.better.reset();
+    room ? kept.wait_for(best.place, now_) : kept.better.reset();
     return;
   }
   const LabelVerdict here = judge_.judge(scene, subject, *kept.place, kToStay);
   if (here.blocked > 0 && may_be_left_out && !room) {
-    return move(kept, std::nullopt);
+    return kept.move(std::nullopt, now_);
   }
   if (here.blocked > best.verdict.blocked) {
     const Best refuge = refuge_of(scene, subject, kept, best);
     if (here.blocked > refuge.verdict.blocked) {
-      return move(kept, refuge.place);
+      return kept.move(refuge.place, now_);
     }
   }
   if (best.verdict.cost < here.cost) {
-    wait_for(kept, best.place);
+    kept.wait_for(best.place, now_);
   } else {
     kept.better.reset();
   }
-}
-
-void LabelLayout::wait_for(Kept& kept, std::size_t place) {
-  if (kept.better != place) {
-    kept.better = place;
-    kept.better_since = now_;
-  } else if (now_ - kept.better_since >= kSettled) {
-    move(kept, place);
-  }
-}
-
-void LabelLayout::move(Kept& kept, std::optional<std::size_t> place) const {
-  kept.before = kept.place;
-  kept.left_at = now_;
-  kept.place = place;
-  kept.better.reset();
 }
 
 void LabelLayout::write(render::Scene& scene, const LabelSubject& subject, const Kept& kept) {

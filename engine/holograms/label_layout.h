@@ -1,28 +1,28 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "base/time.h"
+#include "engine/holograms/cross_lift.h"
 #include "engine/holograms/label_judge.h"
+#include "engine/holograms/place_history.h"
 
 namespace orthonav::engine {
 
 /// Moves the texts of a scene so that, for either eye, none covers another one, the thing that
 /// another one names, or a printed tag. The most important is placed first (LabelRank). A label
 /// without room nearby is placed farther off with a thin line; an incidental one is left out.
+/// Before them the target cross makes way for the rows of the status line (CrossLift).
 ///
 /// Places change with hysteresis: a blocked one is left at once, any other only after a better one
 /// has been free for `kSettled`. A label jumps from one frame to the next, since it would cross
 /// others on its way. Deterministic; once warm it allocates nothing. One thread at a time.
 class LabelLayout {
  public:
-  /// How long a better place must have been free before a label takes it. For as long, a label does
-  /// not return to the place that it left if there is another.
-  static constexpr Duration kSettled = std::chrono::seconds(1);
+  static constexpr Duration kSettled = kPlaceSettled;
 
   /// Lays out a scene from the builder; call once per scene. `shown_at` measures how long a place
   /// has been free; history later than that, or more than two seconds before it, is forgotten.
@@ -31,15 +31,10 @@ class LabelLayout {
 
  private:
   /// A label's history in earlier frames.
-  struct Kept {
+  struct Kept : PlaceHistory {  // no place: left out
     render::Label label = 0;
     LabelRank rank = LabelRank::kFixed;
     std::uint32_t instance = 0;
-    std::optional<std::size_t> place;  ///< none: left out
-    std::optional<std::size_t> better;
-    Timestamp better_since{};
-    std::optional<std::size_t> before;  ///< the place that it left
-    Timestamp left_at{};
     Timestamp seen{};
     bool is_new = true;
   };
@@ -51,14 +46,13 @@ class LabelLayout {
   void forget(Timestamp shown_at);
   Kept& kept_of(render::Label label, const LabelSubject& subject);
   void settle(const render::Scene& scene, const LabelSubject& subject, Kept& kept);
-  void wait_for(Kept& kept, std::size_t place);
-  void move(Kept& kept, std::optional<std::size_t> place) const;
   [[nodiscard]] Best best_of(const render::Scene& scene, const LabelSubject& subject,
                              std::optional<std::size_t> without) const;
   [[nodiscard]] Best refuge_of(const render::Scene& scene, const LabelSubject& subject,
                                const Kept& kept, const Best& best) const;
   static void write(render::Scene& scene, const LabelSubject& subject, const Kept& kept);
 
+  CrossLift cross_lift_;
   LabelJudge judge_;
   Timestamp now_ = Timestamp::min();
   std::vector<Kept> kept_;

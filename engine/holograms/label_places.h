@@ -11,7 +11,7 @@ namespace orthonav::engine {
 
 /// Order of importance: earlier ones are placed first, and later ones avoid them.
 enum class LabelRank {
-  kFixed,       ///< never moved: the status line, the texts on the target cross
+  kFixed,       ///< not moved by itself: the status line, the texts on and under the cross
   kGuiding,     ///< the angle, with the depth under it
   kMeasured,    ///< a check point's distance, a rod's length
   kNamed,       ///< an entry point's name
