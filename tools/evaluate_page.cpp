@@ -122,24 +122,18 @@ std::string table_of(const engine::Evaluation& evaluation) {
          ".</p></section>";
 }
 
-Vec3 part_across(Vec3 v, Vec3 direction) { return (v - v.dot(direction) * direction).normalized(); }
-
 struct NamedPlane {
-  SlicePlane plane;
+  engine::SlicePlane plane;
   const char* name;
 };
 
-/// Along the screw seen from below and from the left, and across it where it is nearest to the
-/// cortex, seen from behind.
+/// `across` lies where the screw is nearest to the cortex.
 std::array<NamedPlane, 3> planes_of(const nav::ScrewCylinder& cylinder, double arc_length_m) {
-  const Vec3 d = cylinder.direction;
-  const Vec3 left = part_across({1, 0, 0}, d);
-  const Vec3 cranial = part_across({0, 0, 1}, d);
-  const Point<Vertebra> middle = cylinder.entry + 0.45 * cylinder.length_m * d;
-  return {{{{middle, left, d}, "along the screw, from below; front is up"},
-           {{middle, -d, cranial}, "along the screw, from the side; head is up"},
-           {{cylinder.entry + arc_length_m * d, -part_across(left, cranial), cranial, 0.018},
-            "across the screw where it is nearest to the cortex, from behind"}}};
+  const auto slices =
+      engine::slices_of({cylinder.entry, cylinder.direction}, cylinder.length_m, arc_length_m);
+  return {{{slices.axial, "along the screw, from below; front is up"},
+           {slices.sagittal, "along the screw, from the side; head is up"},
+           {slices.across, "across the screw where it is nearest to the cortex, from behind"}}};
 }
 
 Result<std::string> figures_of(const engine::ScanField& scan, const nav::TriangleMesh& bone,

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "engine/case/screw_breach.h"
 #include "engine/io/json_writer.h"
 #include "nav/guidance/changed_screw.h"
 #include "tools/print_text.h"
@@ -46,8 +47,9 @@ void print(const std::string& label, const JudgedScrew& screw) {
     return;
   }
   const nav::Clearance& least = *screw.clearance;
-  print_text("%.1f x %.1f mm  clearance %.1f mm (%s, %.0f mm past the entry)  grade %s",
-             2e3 * screw.plan.radius_m, length_mm, least.clearance_m * 1e3,
+  print_text("%.1f x %.1f mm  clearance %s mm (%s, %.0f mm past the entry)  grade %s",
+             2e3 * screw.plan.radius_m, length_mm,
+             engine::clearance_text(least.clearance_m).c_str(),
              nav::direction_of(least, screw.plan.side), least.arc_length_m * 1e3,
              nav::name_of(nav::grade_of(least.clearance_m)));
   if (screw.found) {

@@ -12,6 +12,7 @@
 #include "tools/kept_previews.h"
 #include "tools/memory_reserve.h"
 #include "tools/model_notes.h"
+#include "tools/plan_window.h"
 #include "tools/preview/preview_app.h"
 #include "tools/screw_arguments.h"
 #include "tools/stopped_run.h"
@@ -36,6 +37,7 @@ struct PreviewArguments {
   KeepArguments keep;
   WearerArguments wearer;
   preview::PreviewOptions options;
+  PlanWindowArguments plan;
 };
 
 /// Takes the room, the guidance and the method of a published system. Refuses a system that
@@ -135,6 +137,24 @@ void set_room(PreviewArguments& arguments) {
   if (arguments.pace) {
     errors.pace = *arguments.pace;
   }
+}
+
+int plan_window(const PreviewArguments& arguments, StopSignals& signals) {
+  PlanWindowArguments plan = arguments.plan;
+  auto sizes = arguments.screws.sizes();
+  if (!sizes) {
+    return bad_input(sizes.error().message);
+  }
+  plan.sizes = std::move(*sizes);
+  plan.case_folder = arguments.case_folder;
+  plan.levels = arguments.levels;
+  plan.script = arguments.script;
+  plan.models = arguments.models;
+  plan.options.width_px = arguments.options.stage.width_px;
+  plan.options.height_px = arguments.options.stage.height_px;
+  plan.options.device = arguments.options.stage.device;
+  plan.options.out = arguments.options.out;
+  return edit_plan(std::move(plan), signals);
 }
 
 int preview_window(PreviewArguments arguments, StopSignals& signals) {
@@ -246,7 +266,8 @@ void add_room_options(CLI::App& preview, PreviewArguments& arguments) {
 void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<PreviewArguments>();
   auto* preview = app.add_subcommand(
-      "preview", "A window with the holograms over the simulated room or a recording");
+      "preview",
+      "A window with the holograms over the simulated room or a recording, or with a plan");
   preview->add_option("--headset", arguments->headset, "URI: sim:, replay:PATH, igtl://HOST")
       ->check(some_text())
       ->capture_default_str();
@@ -262,6 +283,7 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
       ->check(some_text());
   arguments->wearer.add_to(*preview);
   add_window_options(*preview, arguments);
+  arguments->plan.add_to(*preview);
   add_config_option(*preview);
   preview->callback([arguments, &action, &signals] {
     action = [arguments, &signals] {
@@ -269,7 +291,8 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
       if (const Status spoken = arguments->wearer.use(); !spoken) {
         return bad_input(spoken.error().message);
       }
-      return preview_window(*arguments, signals);
+      return arguments->plan.plan ? plan_window(*arguments, signals)
+                                  : preview_window(*arguments, signals);
     };
   });
 }

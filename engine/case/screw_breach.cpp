@@ -1,5 +1,7 @@
 #include "engine/case/screw_breach.h"
 
+#include <cmath>
+
 #include "base/printed.h"
 #include "nav/guidance/screw_clearance.h"
 
@@ -22,6 +24,11 @@ std::optional<std::string> breach_problem(const nav::VertebraModel& bone,
              ", %.0f mm past the entry); plan another one, or state why in its "
              "\"accept_breach\"",
              least->arc_length_m * 1e3);
+}
+
+std::string clearance_text(double clearance_m) {
+  // What is a tenth but for its last bits stays that tenth.
+  return printed("%.1f", std::floor(clearance_m * 1e4 + 1e-6) / 10.0);
 }
 
 }  // namespace orthonav::engine

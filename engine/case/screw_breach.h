@@ -16,4 +16,7 @@ namespace orthonav::engine {
 [[nodiscard]] std::optional<std::string> breach_problem(const nav::VertebraModel& bone,
                                                         const nav::ScrewPlan& screw);
 
+/// A clearance in mm with one decimal, rounded down: never better than it is.
+[[nodiscard]] std::string clearance_text(double clearance_m);
+
 }  // namespace orthonav::engine

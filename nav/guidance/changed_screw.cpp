@@ -55,12 +55,13 @@ std::optional<ScrewPlan> moved_screw(const ScrewPlan& screw, ScrewPart part,
                                      ScrewDirection direction, double by_m,
                                      const SurfaceIndex& bone, const SurfaceIndex& reachable) {
   const auto to = towards(screw, direction);
-  if (!to) {
-    return std::nullopt;
-  }
-  const Vec3 step_m = by_m * *to;
-  const Vec3 beside_m = part == ScrewPart::kTarget ? screw.entry.v : screw.entry.v + step_m;
-  const Vec3 aim_m = part == ScrewPart::kEntry ? screw.target.v : screw.target.v + step_m;
+  return to ? shifted_screw(screw, part, by_m * *to, bone, reachable) : std::nullopt;
+}
+
+std::optional<ScrewPlan> shifted_screw(const ScrewPlan& screw, ScrewPart part, Vec3 by_m,
+                                       const SurfaceIndex& bone, const SurfaceIndex& reachable) {
+  const Vec3 beside_m = part == ScrewPart::kTarget ? screw.entry.v : screw.entry.v + by_m;
+  const Vec3 aim_m = part == ScrewPart::kEntry ? screw.target.v : screw.target.v + by_m;
   const Vec3 inward = (aim_m - beside_m).normalized();
   if (part == ScrewPart::kTarget) {
     return from_entry(screw, screw.entry, inward);

@@ -31,6 +31,11 @@ enum class ScrewPart : std::uint8_t {
                                                    const SurfaceIndex& bone,
                                                    const SurfaceIndex& reachable);
 
+/// The same by any vector.
+[[nodiscard]] std::optional<ScrewPlan> shifted_screw(const ScrewPlan& screw, ScrewPart part,
+                                                     Vec3 by_m, const SurfaceIndex& bone,
+                                                     const SurfaceIndex& reachable);
+
 /// Turned about its entry so that it aims more in that direction.
 [[nodiscard]] std::optional<ScrewPlan> tilted_screw(const ScrewPlan& screw,
                                                     ScrewDirection direction, double by_rad);

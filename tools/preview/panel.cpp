@@ -8,17 +8,11 @@
 
 #include "engine/session/wording.h"
 #include "tools/preview/error_sources.h"
+#include "tools/preview/panel_parts.h"
 #include "tools/preview/screw_panel.h"
 
 namespace orthonav::preview {
 namespace {
-
-const ImVec4 kGood{0.45f, 0.85f, 0.50f, 1.0f};
-const ImVec4 kFair{0.95f, 0.75f, 0.25f, 1.0f};
-const ImVec4 kBad{0.95f, 0.40f, 0.35f, 1.0f};
-const ImVec4 kDim{0.60f, 0.63f, 0.68f, 1.0f};
-
-void text(const std::string& line) { ImGui::TextUnformatted(line.c_str()); }
 
 void draw_step(const Moment& moment) {
   for (std::size_t i = 0; i < engine::kStepCount; ++i) {
@@ -32,9 +26,7 @@ void draw_step(const Moment& moment) {
                        std::string(engine::name_of(step)).c_str());
   }
   text(engine::step_text(moment.at));
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextColored(kDim, "%s", moment.detail.empty() ? "-" : moment.detail.c_str());
-  ImGui::PopTextWrapPos();
+  wrapped_text(kDim, moment.detail.empty() ? "-" : moment.detail);
 }
 
 void draw_tools(const Moment& moment) {
@@ -187,33 +179,22 @@ void draw_buttons(PreviewModel& model, const PanelFacts& facts) {
   if (ImGui::Button(facts.video ? "stop" : "video")) {
     model.wishes().video = true;
   }
-  ImGui::PushTextWrapPos(0.0f);
   // An empty line as well, so that nothing jumps when there is something to say.
-  ImGui::TextColored(kFair, "%s", facts.note.c_str());
-  ImGui::PopTextWrapPos();
+  wrapped_text(kFair, facts.note);
 }
 
-void draw_help() {
-  ImGui::SetNextWindowPos({12.0f, 12.0f}, ImGuiCond_Appearing);
-  ImGui::SetNextWindowBgAlpha(0.88f);
-  constexpr auto kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize |
-                          ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
-  ImGui::Begin("help", nullptr, kFlags);
+void draw_help_lines() {
   for (const KeyBinding& binding : key_bindings()) {
     // Digits show and hide what the panel lists; one line for all of them.
     if (binding.command == Command::kHologram && binding.hologram != 1) {
       continue;
     }
     const bool holograms = binding.command == Command::kHologram;
-    text(holograms ? "1 - 9, f10 - f12" : std::string(binding.name));
-    ImGui::SameLine(140.0f);
     const std::string what(holograms ? "holograms H1 - H12" : binding.what);
-    text(binding.command == Command::kSay ? "say \"" + what + "\"" : what);
+    help_line(holograms ? "1 - 9, f10 - f12" : std::string(binding.name),
+              binding.command == Command::kSay ? "say \"" + what + "\"" : what);
   }
-  text("drag, wheel");
-  ImGui::SameLine(140.0f);
-  text("orbiting: turn (with shift: move), nearer; else larger");
-  ImGui::End();
+  help_line("drag, wheel", "orbiting: turn (with shift: move), nearer; else larger");
 }
 
 void draw_moment(PreviewModel& model, const Moment& moment, const PanelFacts& facts) {
@@ -223,7 +204,7 @@ void draw_moment(PreviewModel& model, const Moment& moment, const PanelFacts& fa
     draw_step(moment);
   }
   if (ImGui::CollapsingHeader("planned screw")) {
-    draw_screw(model);
+    draw_screw([&model](const std::string& phrase) { model.say(phrase); });
   }
   if (ImGui::CollapsingHeader("tracking", ImGuiTreeNodeFlags_DefaultOpen)) {
     draw_tools(moment);
@@ -236,24 +217,7 @@ void draw_moment(PreviewModel& model, const Moment& moment, const PanelFacts& fa
   }
 }
 
-}  // namespace
-
-void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::ErrorModel& error_model) {
-  if (model.help()) {
-    draw_help();
-  }
-  if (!model.panel()) {
-    return;
-  }
-  const ImVec2 room = ImGui::GetIO().DisplaySize;
-  const float width = std::min(static_cast<float>(kPanel_px), room.x);
-  ImGui::SetNextWindowPos({room.x - width, 0.0f});
-  ImGui::SetNextWindowSize({width, room.y});
-  constexpr auto kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav;
-  ImGui::Begin("panel", nullptr, kFlags);
-  // Tab is one of our keys; Dear ImGui would use it to go from slider to slider.
-  ImGui::PushAllowKeyboardFocus(false);
+void draw_content(PreviewModel& model, const PanelFacts& facts, sim::ErrorModel& error_model) {
   text(facts.headset);
   ImGui::SameLine(230.0f);
   ImGui::TextColored(kDim, "h: keys");
@@ -265,8 +229,17 @@ void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::ErrorModel& e
   if (facts.running && ImGui::CollapsingHeader("error sources")) {
     draw_error_sources(model, facts, error_model);
   }
-  ImGui::PopAllowKeyboardFocus();
-  ImGui::End();
+}
+
+}  // namespace
+
+void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::ErrorModel& error_model) {
+  if (model.help()) {
+    draw_help_window(draw_help_lines);
+  }
+  if (model.panel()) {
+    draw_panel_window([&] { draw_content(model, facts, error_model); });
+  }
 }
 
 }  // namespace orthonav::preview

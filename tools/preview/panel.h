@@ -8,8 +8,6 @@
 
 namespace orthonav::preview {
 
-inline constexpr int kPanel_px = 380;
-
 /// What the panel shows besides the model and its moment.
 struct PanelFacts {
   std::string headset;

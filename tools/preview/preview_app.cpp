@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "tools/preview/panel_parts.h"
+
 namespace orthonav::preview {
 namespace {
 

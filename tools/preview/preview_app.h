@@ -50,7 +50,7 @@ class PreviewApp {
   Status stop_video();
   Status make_out();
   void count_pictures();
-  [[nodiscard]] std::string next_name(const std::string& ending);
+  [[nodiscard]] std::string next_name(const std::string& ending) const;
 
   PreviewOptions options_;
   std::optional<Script> script_;

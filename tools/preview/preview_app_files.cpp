@@ -1,10 +1,9 @@
-#include <cstdio>
 #include <filesystem>
 #include <utility>
 
 #include "engine/io/folders.h"
-#include "engine/io/image_file.h"
 #include "tools/preview/preview_app.h"
+#include "tools/preview/screenshot.h"
 
 namespace orthonav::preview {
 
@@ -15,26 +14,13 @@ Status PreviewApp::make_out() {
   return made ? Status{} : Error{"--out " + made.error().message, made.error().code};
 }
 
-std::string PreviewApp::next_name(const std::string& ending) {
-  for (int number = 1;; ++number) {
-    char name[32];
-    std::snprintf(name, sizeof name, "preview-%03d", number);
-    std::error_code code;
-    if (!fs::exists(fs::path(options_.out) / (name + ending), code)) {
-      return name + ending;
-    }
-  }
+std::string PreviewApp::next_name(const std::string& ending) const {
+  return numbered_name(options_.out, "preview", ending);
 }
 
 Status PreviewApp::take_screenshot(const std::string& name) {
-  const RgbaImage image = window_->screenshot();
   const fs::path path = fs::path(options_.out) / name;
-  Status taken = image.pixels.empty()
-                     ? Status(Error{"screenshot: nothing of the window can be seen"})
-                     : make_out();
-  if (taken) {
-    taken = engine::write_png(path, image);
-  }
+  const Status taken = write_screenshot(*window_, path);
   facts_.note = taken ? "wrote " + path.string() : taken.error().message;
   // A script that gets no picture has failed; a person reads the reason.
   return script_ ? taken : Status{};

@@ -1,11 +1,15 @@
 #pragma once
 
-#include "tools/preview/model.h"
+#include <functional>
+#include <string>
 
 namespace orthonav::preview {
 
-/// The part of the panel that changes the planned screw being guided: buttons for one step each way
-/// and the next sizes, and a line for any command. All of it is entered as speech.
-void draw_screw(PreviewModel& model);
+/// Takes a phrase as if it had been said.
+using SayPhrase = std::function<void(const std::string& phrase)>;
+
+/// A button for each step of a change of the planned screw, and a line for any command. Made with
+/// Dear ImGui.
+void draw_screw(const SayPhrase& say);
 
 }  // namespace orthonav::preview

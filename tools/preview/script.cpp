@@ -13,13 +13,7 @@ namespace {
 /// Longer than any step of an operation takes, even on a slow machine.
 constexpr Duration kPatience = std::chrono::seconds(300);
 
-/// A word and what follows it.
-enum class Follows { kNothing, kText, kKey, kNumber, kTwoNumbers };
-struct Word {
-  std::string_view word;
-  Follows follows;
-};
-constexpr auto kWords = std::to_array<Word>({
+constexpr auto kWords = std::to_array<ScriptWord>({
     {"key", Follows::kKey},          // down and up
     {"press", Follows::kKey},        // down
     {"release", Follows::kKey},      // up
@@ -38,25 +32,10 @@ constexpr auto kWords = std::to_array<Word>({
     {"screenshot", Follows::kText},
 });
 
-std::optional<std::array<double, 2>> numbers(const std::string& text, int count) {
-  std::istringstream in(text);
-  std::array<double, 2> values{};
-  for (int i = 0; i < count; ++i) {
-    if (!(in >> values[static_cast<std::size_t>(i)])) {
-      return std::nullopt;
-    }
-  }
-  std::string more;
-  if (in >> more) {
-    return std::nullopt;
-  }
-  return values;
-}
-
 /// The words that change the view without waiting.
 void change_view(const ScriptLine& line, Look& look, const ScriptStage& stage) {
-  const auto two = numbers(line.rest, 2).value_or(std::array<double, 2>{});
-  const double one = numbers(line.rest, 1).value_or(std::array<double, 2>{})[0];
+  const auto two = numbers_in(line.rest, 2).value_or(std::array<double, 2>{});
+  const double one = numbers_in(line.rest, 1).value_or(std::array<double, 2>{})[0];
   if (line.word == "drag") {
     look.camera.orbit(0.01 * Vec2{two[0], two[1]});
   } else if (line.word == "zoom") {
@@ -72,23 +51,33 @@ void change_view(const ScriptLine& line, Look& look, const ScriptStage& stage) {
 
 }  // namespace
 
-std::vector<std::string_view> script_words() {
-  std::vector<std::string_view> words;
-  for (const Word& word : kWords) {
-    words.push_back(word.word);
+std::span<const ScriptWord> script_words() { return kWords; }
+
+std::optional<std::array<double, 2>> numbers_in(const std::string& text, int count) {
+  std::istringstream in(text);
+  std::array<double, 2> values{};
+  for (int i = 0; i < count; ++i) {
+    if (!(in >> values[static_cast<std::size_t>(i)])) {
+      return std::nullopt;
+    }
   }
-  return words;
+  std::string more;
+  if (in >> more) {
+    return std::nullopt;
+  }
+  return values;
 }
 
-Result<Script> Script::load(const std::filesystem::path& path) {
+Result<Script> Script::load(const std::filesystem::path& path, std::span<const ScriptWord> words) {
   const auto text = engine::read_text(path.string());
   if (!text) {
     return text.error();
   }
-  return parse(*text, path.string());
+  return parse(*text, path.string(), words);
 }
 
-Result<Script> Script::parse(const std::string& text, const std::string& name) {
+Result<Script> Script::parse(const std::string& text, const std::string& name,
+                             std::span<const ScriptWord> words) {
   Script script(name, {});
   std::istringstream in(text);
   std::string line;
@@ -102,7 +91,7 @@ Result<Script> Script::parse(const std::string& text, const std::string& name) {
     if (space != std::string::npos) {
       parsed.rest = engine::trimmed(std::string_view(line).substr(space));
     }
-    if (const Status known = script.check(parsed); !known) {
+    if (const Status known = script.check(parsed, words); !known) {
       return known.error();
     }
     script.lines_.push_back(std::move(parsed));
@@ -114,10 +103,10 @@ Error Script::error(const ScriptLine& line, const std::string& why) const {
   return Error{name_ + ":" + std::to_string(line.number) + ": " + line.word + ": " + why};
 }
 
-Status Script::check(const ScriptLine& line) const {
-  const auto word = std::find_if(kWords.begin(), kWords.end(),
-                                 [&](const Word& w) { return w.word == line.word; });
-  if (word == kWords.end()) {
+Status Script::check(const ScriptLine& line, std::span<const ScriptWord> words) const {
+  const auto word = std::find_if(words.begin(), words.end(),
+                                 [&](const ScriptWord& w) { return w.word == line.word; });
+  if (word == words.end()) {
     return Error{name_ + ":" + std::to_string(line.number) + ": unknown script command \"" +
                  line.word + "\""};
   }
@@ -138,14 +127,14 @@ Status Script::check(const ScriptLine& line) const {
       }
       return {};
     case Follows::kNumber:
-      if (!numbers(line.rest, 1)) {
+      if (!numbers_in(line.rest, 1)) {
         return error(line, "needs a number");
       }
       return {};
     case Follows::kTwoNumbers:
       break;
   }
-  if (!numbers(line.rest, 2)) {
+  if (!numbers_in(line.rest, 2)) {
     return error(line, "needs two numbers");
   }
   return {};
@@ -179,8 +168,22 @@ Status Script::go_on(PreviewModel& model, const ScriptStage& stage, Timestamp no
   return {};
 }
 
+Status Script::go_on(const std::function<Status(const ScriptLine&)>& perform) {
+  while (!done()) {
+    const ScriptLine& line = lines_[next_++];
+    if (const Status performed = perform(line); !performed) {
+      return error(line, performed.error().message);
+    }
+    // A picture shows the result of everything before it, so a call takes at most one.
+    if (line.word == "screenshot" || line.word == "resize") {
+      return {};
+    }
+  }
+  return {};
+}
+
 bool Script::perform(const ScriptLine& line, PreviewModel& model, const ScriptStage& stage) {
-  const double one = numbers(line.rest, 1).value_or(std::array<double, 2>{})[0];
+  const double one = numbers_in(line.rest, 1).value_or(std::array<double, 2>{})[0];
   if (line.word == "until") {
     const auto shown = model.shown();
     return shown && engine::name_of(shown->at).starts_with(line.rest);

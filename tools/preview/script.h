@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,27 +30,41 @@ struct ScriptLine {
   std::string rest;
 };
 
-/// Every word that a line can begin with.
-[[nodiscard]] std::vector<std::string_view> script_words();
+/// What follows a word.
+enum class Follows : std::uint8_t { kNothing, kText, kKey, kNumber, kTwoNumbers };
+/// A word that a line can begin with.
+struct ScriptWord {
+  std::string_view word;
+  Follows follows = Follows::kNothing;
+};
+/// Those of a previewed operation.
+[[nodiscard]] std::span<const ScriptWord> script_words();
+/// One or two numbers; nothing if there are others, or more.
+[[nodiscard]] std::optional<std::array<double, 2>> numbers_in(const std::string& text, int count);
 
 /// Synthetic input from a file, line by line; docs/preview.md lists the words. It acts through
 /// the same calls as keys and mouse.
 class Script {
  public:
-  /// Refuses unknown lines, with file and line number.
-  static Result<Script> load(const std::filesystem::path& path);
-  static Result<Script> parse(const std::string& text, const std::string& name);
+  /// Refuses lines that do not begin with one of the words, with file and line number.
+  static Result<Script> load(const std::filesystem::path& path,
+                             std::span<const ScriptWord> words = script_words());
+  static Result<Script> parse(const std::string& text, const std::string& name,
+                              std::span<const ScriptWord> words = script_words());
 
   /// Performs the lines that are due, up to the first one that must wait; the next call continues
   /// there. `now` is wall time: a line that waits too long is an Error. `ended`: nothing more will
   /// come.
   Status go_on(PreviewModel& model, const ScriptStage& stage, Timestamp now, bool ended);
+  /// The same where nothing is waited for: performs lines up to the next picture, or to the first
+  /// Error, to which file, line and word are added.
+  Status go_on(const std::function<Status(const ScriptLine&)>& perform);
   [[nodiscard]] bool done() const { return next_ == lines_.size(); }
 
  private:
   Script(std::string name, std::vector<ScriptLine> lines)
       : name_(std::move(name)), lines_(std::move(lines)) {}
-  [[nodiscard]] Status check(const ScriptLine& line) const;
+  [[nodiscard]] Status check(const ScriptLine& line, std::span<const ScriptWord> words) const;
   [[nodiscard]] Error error(const ScriptLine& line, const std::string& why) const;
   /// False: it must wait and be tried again.
   bool perform(const ScriptLine& line, PreviewModel& model, const ScriptStage& stage);

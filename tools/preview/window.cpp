@@ -114,8 +114,13 @@ Window::Window(std::unique_ptr<Glfw> glfw, WindowInput input)
 
 /// Handles keys and mouse when Dear ImGui does not want them.
 void Window::watch_input() {
+  glfwSetWindowUserPointer(glfw_->window, this);
+  watch_keys();
+  watch_mouse();
+}
+
+void Window::watch_keys() {
   GLFWwindow* window = glfw_->window;
-  glfwSetWindowUserPointer(window, this);
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(w));
     const auto known = key_of_glfw(key);
@@ -125,6 +130,10 @@ void Window::watch_input() {
       self->input_.key(*known, action == GLFW_PRESS);
     }
   });
+}
+
+void Window::watch_mouse() {
+  GLFWwindow* window = glfw_->window;
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(w));
     const Vec2 now{x, y};
@@ -134,8 +143,19 @@ void Window::watch_input() {
     const bool other = glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS ||
                        glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_MIDDLE) == GLFW_PRESS;
     const bool shift = glfwGetKey(w, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS;
-    if ((left || other) && !ImGui::GetIO().WantCaptureMouse) {
+    if (self->input_.move) {
+      self->input_.move((1.0 / self->shown_height_px_) * (now - self->shown_from_px_));
+    }
+    if (self->input_.drag && (left || other) && !ImGui::GetIO().WantCaptureMouse) {
       self->input_.drag(by, other || shift);
+    }
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+    auto* self = static_cast<Window*>(glfwGetWindowUserPointer(w));
+    const bool down = action == GLFW_PRESS;
+    const bool ours = !down || !ImGui::GetIO().WantCaptureMouse;
+    if (self->input_.button && button == GLFW_MOUSE_BUTTON_LEFT && ours) {
+      self->input_.button(down);
     }
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double steps) {
@@ -203,6 +223,7 @@ void Window::place_picture(int panel_px) {
   const ImVec2 from{std::floor(0.5f * (across - scale * width)),
                     std::floor(0.5f * (room.y - scale * height))};
   const ImVec2 to{from.x + scale * width, from.y + scale * height};
+  shown_from_px_ = {static_cast<double>(from.x), static_cast<double>(from.y)};
   shown_height_px_ = std::max(static_cast<double>(scale * height), 1.0);
   const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_));
   ImGui::GetBackgroundDrawList()->AddImage(id, from, to);

@@ -12,13 +12,18 @@
 
 namespace orthonav::preview {
 
-/// Input of keys and mouse over the picture; what the panel handles is not reported.
+/// Input of keys and mouse over the picture; what the panel handles is not reported. What is not
+/// set is not called.
 struct WindowInput {
   std::function<void(Key key, bool down)> key;
   /// By this fraction of the picture's height, to the right and down; `pan` with shift or another
   /// button.
   std::function<void(Vec2 by, bool pan)> drag;
   std::function<void(double steps)> scroll;
+  /// The mouse is there now: from the upper left of the picture, as fractions of its height.
+  std::function<void(Vec2 at)> move;
+  /// The left button goes down over the picture, or up anywhere.
+  std::function<void(bool down)> button;
 };
 
 /// A desktop window with one picture and Dear ImGui on top, by GLFW and OpenGL. Handles any size,
@@ -55,6 +60,8 @@ class Window {
   struct Glfw;
   Window(std::unique_ptr<Glfw> glfw, WindowInput input);
   void watch_input();
+  void watch_keys();
+  void watch_mouse();
   void place_picture(int panel_px);
 
   std::unique_ptr<Glfw> glfw_;
@@ -64,6 +71,7 @@ class Window {
   int picture_width_px_ = 0;
   int picture_height_px_ = 0;
   unsigned texture_ = 0;
+  Vec2 shown_from_px_{};          ///< upper left of the picture in the window
   double shown_height_px_ = 1.0;  ///< of the picture in the window
 };
 

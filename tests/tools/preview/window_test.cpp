@@ -54,6 +54,7 @@ trap 'code=$?; kill $server 2>/dev/null; exit $code' EXIT
 read display <number
 export DISPLAY=:$display
 preview=')" ORTHONAV_COMMAND R"( preview --levels L5 --perfect --pace 4 --size 640x360 --out .'
+plan=')" ORTHONAV_COMMAND R"( preview --plan --levels L5 --size 640x360 --out .'
 )" + commands);
     const int status = std::system(("timeout -k 5 120 sh '" + (folder_ / "commands").string() +
                                     "' >'" + (folder_ / "out").string() + "' 2>&1")
@@ -100,6 +101,8 @@ std::size_t coloured(const RgbaImage& image, const std::array<int, 3>& colour) {
 
 // The planned trajectory, over the drapes.
 constexpr std::array<int, 3> kGreen = {64, 232, 96};
+// A screw that breaks through.
+constexpr std::array<int, 3> kRed = {255, 68, 56};
 
 TEST_F(WindowTest, ShowsAnOperationFromStrokesToGuidanceAndHidesWhatIsUnchecked) {
   write("script", R"(key tab
@@ -243,6 +246,57 @@ wait $pid
   EXPECT_EQ(shell(commands), 0) << content("out");
   EXPECT_THAT(content("type"), ::testing::AnyOf("POINT", "TRANS", "STRIN", "STATU"));
   EXPECT_THAT(content("out"), HasSubstr("OpenIGTLink: 1 client, "));
+}
+
+TEST_F(WindowTest, EditsAPlanAndSavesItBesideTheOldOne) {
+  write("script", R"(key right
+screenshot before.png
+drag sagittal target 0 9
+screenshot breach.png
+key z
+screenshot undone.png
+say longer
+key v
+)");
+  const std::string check = "\"" ORTHONAV_COMMAND "\" plan check --case plan-001";
+  ASSERT_EQ(shell("$plan --script script && " + check), 0) << content("out");
+  EXPECT_THAT(content("out"), HasSubstr("wrote ./plan-001\n"));
+  EXPECT_THAT(content("out"), HasSubstr("L5 right  6.0 x 50.0 mm"));
+  const RgbaImage before = picture("before.png");
+  const RgbaImage breach = picture("breach.png");
+  EXPECT_GT(coloured(before, kGreen), 300u);
+  EXPECT_GT(coloured(breach, kRed), 300u);
+  EXPECT_LT(coloured(breach, kGreen), coloured(before, kGreen) / 2);
+  EXPECT_LT(different(before, picture("undone.png")), 1500u) << "but for the panel";
+  EXPECT_FALSE(fs::exists(folder_ / "plan-002")) << "nothing was changed since";
+}
+
+TEST_F(WindowTest, DragsAScrewWithARealMouse) {
+  // The target of a screw lies at the top of the upper left pane.
+  const std::string mouse = std::string(kRealKeys) + R"(
+$plan & pid=$!
+window=$(timeout 60 xdotool search --sync --onlyvisible --name 'orthonav plan' | head -1)
+xdotool windowfocus --sync $window
+xdotool key i; there preview-001.png
+xdotool mousemove --window $window 160 20 mousedown 1
+for x in 162 164 166 168; do xdotool mousemove --window $window $x 20; done
+xdotool mouseup 1 key i; there preview-002.png
+kill -TERM $pid
+wait $pid
+)";
+  EXPECT_EQ(shell(mouse), 143) << content("out");
+  EXPECT_THAT(content("out"), HasSubstr("wrote ./plan-001\n")) << "even when it is stopped";
+  EXPECT_GT(different(picture("preview-001.png"), picture("preview-002.png")), 1000u);
+}
+
+TEST_F(WindowTest, RefusesWhatAPlanDoesNotHave) {
+  EXPECT_NE(shell("$plan --paused"), 0);
+  EXPECT_THAT(content("out"), HasSubstr("--plan excludes --paused"));
+  EXPECT_NE(shell("$preview --volume ct.nii"), 0);
+  EXPECT_THAT(content("out"), HasSubstr("--volume requires --plan"));
+  EXPECT_EQ(shell("$plan --volume ct.nii"), 2);
+  EXPECT_THAT(content("out"), HasSubstr("orthonav: --volume: ct.nii: "));
+  EXPECT_EQ(shell("$plan --levels L9"), 2);
 }
 
 TEST_F(WindowTest, ScrubsThroughARecording) {

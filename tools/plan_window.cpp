@@ -1,0 +1,154 @@
+#include "tools/plan_window.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "engine/scan/mesh_case.h"
+#include "engine/scan/volume_file.h"
+#include "tools/arguments.h"
+#include "tools/case_source.h"
+#include "tools/command.h"
+#include "tools/model_notes.h"
+#include "tools/plan_figures.h"
+#include "tools/preview/planning/plan_script.h"
+#include "tools/print_text.h"
+#include "tools/stopped_run.h"
+
+namespace orthonav::tools {
+namespace {
+
+/// Options of `preview` that have no meaning without an operation. Those that a configuration file
+/// can give are not among them: there they are ignored.
+constexpr std::array<const char*, 14> kOperationOnly = {
+    "--headset",    "--seed",       "--replay",        "--profile", "--perfect",
+    "--pace",       "--keep",       "--resume",        "--speed",   "--paused",
+    "--igtl-allow", "--igtl-token", "--igtl-commands", "--igtl"};
+
+/// The scan behind the slices; refused if the models do not lie on its bone.
+Result<std::optional<engine::Volume>> scan_for(const PlanWindowArguments& arguments,
+                                               const engine::Case& subject) {
+  if (arguments.volume.empty()) {
+    return std::optional<engine::Volume>();
+  }
+  auto scan = engine::load_volume(arguments.volume, arguments.series);
+  if (!scan) {
+    return Error{"--volume: " + scan.error().message, scan.error().code};
+  }
+  std::vector<engine::MeshLevel> levels;
+  for (const engine::CaseLevel& level : subject.levels) {
+    levels.push_back({level});
+  }
+  if (const Status on_bone = engine::check_on_bone(levels, *scan); !on_bone) {
+    return Error{"--volume: " + arguments.volume + ": " + on_bone.error().message};
+  }
+  return std::optional(std::move(*scan));
+}
+
+Status select_level(const std::vector<std::string>& wanted, engine::PlanEditor& editor) {
+  if (wanted.empty()) {
+    return {};
+  }
+  const auto& levels = editor.subject().levels;
+  const auto found =
+      std::find_if(levels.begin(), levels.end(),
+                   [&](const engine::CaseLevel& level) { return level.label == wanted.front(); });
+  if (found == levels.end()) {
+    return Error{"--levels: the case has no level \"" + wanted.front() + "\""};
+  }
+  editor.select({static_cast<std::size_t>(found - levels.begin()), nav::Side::kLeft});
+  return {};
+}
+
+/// Prints where the plan is, and each screw as `plan check` does.
+void tell_saved(const std::string& folder, const engine::PlanEditor& editor) {
+  if (folder.empty()) {
+    return;
+  }
+  print_text("wrote %s\n", folder.c_str());
+  std::vector<JudgedLevel> judged_levels;
+  for (const engine::CaseLevel& level : editor.subject().levels) {
+    JudgedLevel out{level.label, {}, {}};
+    const nav::SurfaceIndex bone(level.mesh);
+    for (const nav::ScrewPlan& screw : level.screws) {
+      out.screws.push_back(judged(bone, screw, editor.sizes()));
+    }
+    judged_levels.push_back(std::move(out));
+  }
+  print(judged_levels);
+}
+
+Result<engine::PlanEditor> editor_of(const PlanWindowArguments& arguments, engine::Case subject) {
+  engine::ModelCache models(arguments.models);
+  auto editor = engine::PlanEditor::create(std::move(subject), arguments.sizes, models);
+  if (editor) {
+    models.keep();
+    print_notes(models);
+  }
+  return editor;
+}
+
+int run_window(preview::PlanApp& app, const engine::PlanEditor& editor, StopSignals& signals) {
+  if (const Status opened = app.open_window(); !opened) {
+    return bad_input(opened.error().message);
+  }
+  signals.on_stop([&app] { app.quit(); });
+  const Status done = app.run();
+  signals.on_stop(nullptr);
+  tell_saved(app.saved(), editor);
+  if (signals.caught()) {
+    return signals.exit_code();
+  }
+  return done ? kDone : bad_input(done.error().message);
+}
+
+}  // namespace
+
+void PlanWindowArguments::add_to(CLI::App& preview) {
+  CLI::Option* flag =
+      preview.add_flag("--plan", plan, "edit the plan of the case instead of an operation");
+  preview.add_option("--volume", volume, "the scan of the models, behind the slices")
+      ->check(some_text())
+      ->type_name("FILE|DIR")
+      ->needs(flag);
+  preview.add_option("--series", series, "UID of the series, where a folder holds several")
+      ->check(some_text())
+      ->needs(flag);
+  for (const char* name : kOperationOnly) {
+    if (CLI::Option* option = preview.get_option_no_throw(name)) {
+      flag->excludes(option);
+    }
+  }
+}
+
+int edit_plan(PlanWindowArguments arguments, StopSignals& signals) {
+  std::optional<preview::Script> script;
+  if (!arguments.script.empty()) {
+    auto parsed = preview::Script::load(arguments.script, preview::plan_script_words());
+    if (!parsed) {
+      return bad_input(parsed.error().message);
+    }
+    script = std::move(*parsed);
+  }
+  auto subject = load_checked_case(arguments.case_folder, engine::CaseUse::kPlanning);
+  if (!subject) {
+    return bad_input(subject.error().message);
+  }
+  const auto scan = scan_for(arguments, *subject);
+  if (!scan) {
+    return bad_input(scan.error().message);
+  }
+  auto editor = editor_of(arguments, *std::move(subject));
+  const Status ready = editor ? select_level(arguments.levels, *editor) : Status(editor.error());
+  if (!ready) {
+    return bad_input(ready.error().message);
+  }
+  arguments.options.scan_name = arguments.volume;
+  preview::PlanApp app(std::move(arguments.options), std::move(script), *editor,
+                       *scan ? &**scan : nullptr);
+  return run_window(app, *editor, signals);
+}
+
+}  // namespace orthonav::tools

@@ -1,0 +1,36 @@
+#include "tools/preview/screenshot.h"
+
+#include <cstdio>
+
+#include "engine/io/folders.h"
+#include "engine/io/image_file.h"
+
+namespace orthonav::preview {
+
+namespace fs = std::filesystem;
+
+std::string numbered_name(const std::string& folder, const std::string& beginning,
+                          const std::string& ending) {
+  for (int number = 1;; ++number) {
+    char digits[16];
+    std::snprintf(digits, sizeof digits, "-%03d", number);
+    const std::string name = beginning + digits + ending;
+    std::error_code code;
+    if (!fs::exists(fs::path(folder) / name, code)) {
+      return name;
+    }
+  }
+}
+
+Status write_screenshot(const Window& window, const fs::path& path) {
+  const RgbaImage image = window.screenshot();
+  if (image.pixels.empty()) {
+    return Error{"screenshot: nothing of the window can be seen"};
+  }
+  if (const auto made = engine::make_folders(path.parent_path().string()); !made) {
+    return Error{"--out " + made.error().message, made.error().code};
+  }
+  return engine::write_png(path, image);
+}
+
+}  // namespace orthonav::preview
