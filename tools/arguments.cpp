@@ -102,4 +102,22 @@ std::optional<std::array<int, 2>> size_from(const std::string& text) {
   return size;
 }
 
+CLI::Validator picture_size() {
+  const auto check = [](const std::string& text) -> std::string {
+    const auto size = size_from(text);
+    if (!size) {
+      return "\"" + text + "\" is not WIDTHxHEIGHT, as 960x540";
+    }
+    const auto [width, height] = *size;
+    if (width < 160 || width > 3840 || height < 120 || height > 2160) {
+      return text + " must lie from 160x120 to 3840x2160";
+    }
+    if (width % 2 != 0 || height % 2 != 0) {
+      return text + " must be even";
+    }
+    return {};
+  };
+  return CLI::Validator(check, "WIDTHxHEIGHT");
+}
+
 }  // namespace orthonav::tools

@@ -42,4 +42,7 @@ void add_reference_flag(CLI::App& command, bool& reference);
 /// `WIDTHxHEIGHT` in whole pixels and nothing else.
 [[nodiscard]] std::optional<std::array<int, 2>> size_from(const std::string& text);
 
+/// WIDTHxHEIGHT of a picture in pixels, both even, since videos need that.
+[[nodiscard]] CLI::Validator picture_size();
+
 }  // namespace orthonav::tools

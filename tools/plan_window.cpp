@@ -47,18 +47,19 @@ Result<std::optional<engine::Volume>> scan_for(const PlanWindowArguments& argume
   return std::optional(std::move(*scan));
 }
 
+/// Selects the first of them. Refuses one that the case does not have.
 Status select_level(const std::vector<std::string>& wanted, engine::PlanEditor& editor) {
-  if (wanted.empty()) {
-    return {};
-  }
   const auto& levels = editor.subject().levels;
-  const auto found =
-      std::find_if(levels.begin(), levels.end(),
-                   [&](const engine::CaseLevel& level) { return level.label == wanted.front(); });
-  if (found == levels.end()) {
-    return Error{"--levels: the case has no level \"" + wanted.front() + "\""};
+  // The first one last, so that it stays selected.
+  for (auto label = wanted.rbegin(); label != wanted.rend(); ++label) {
+    const auto found =
+        std::find_if(levels.begin(), levels.end(),
+                     [&](const engine::CaseLevel& level) { return level.label == *label; });
+    if (found == levels.end()) {
+      return Error{"--levels: the case has no level \"" + *label + "\""};
+    }
+    editor.select({static_cast<std::size_t>(found - levels.begin()), nav::Side::kLeft});
   }
-  editor.select({static_cast<std::size_t>(found - levels.begin()), nav::Side::kLeft});
   return {};
 }
 

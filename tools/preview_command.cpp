@@ -198,22 +198,6 @@ int preview_window(PreviewArguments arguments, StopSignals& signals) {
   return code;
 }
 
-/// `WIDTHxHEIGHT` in pixels, both even, since videos need that.
-std::string check_size(const std::string& text) {
-  const auto size = size_from(text);
-  if (!size) {
-    return "\"" + text + "\" is not WIDTHxHEIGHT, as 960x540";
-  }
-  const auto [width, height] = *size;
-  if (width < 160 || width > 3840 || height < 120 || height > 2160) {
-    return text + " must lie from 160x120 to 3840x2160";
-  }
-  if (width % 2 != 0 || height % 2 != 0) {
-    return text + " must be even";
-  }
-  return {};
-}
-
 void add_window_options(CLI::App& preview, const std::shared_ptr<PreviewArguments>& arguments) {
   preview
       .add_option_function<std::string>(
@@ -224,7 +208,7 @@ void add_window_options(CLI::App& preview, const std::shared_ptr<PreviewArgument
             arguments->options.stage.height_px = size[1];
           },
           "of the picture in pixels (default: 1120x720)")
-      ->check(CLI::Validator(check_size, "WIDTHxHEIGHT"));
+      ->check(picture_size());
   preview.add_option("-o,--out", arguments->options.out, "folder for screenshots and videos")
       ->check(some_text())
       ->capture_default_str();

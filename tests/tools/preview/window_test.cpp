@@ -1,108 +1,12 @@
-#include <gmock/gmock.h>
-#include <sys/wait.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
-#include "engine/io/image_file.h"
+#include "tests/tools/preview/window_bench.h"
 
 namespace orthonav::preview::window_test {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-/// A shell script run with a display of its own, in an empty folder.
-class WindowTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    for (const char* needed : {"Xvfb", "xdotool"}) {
-      if (std::system((std::string("command -v ") + needed + " >/dev/null").c_str()) != 0) {
-        GTEST_SKIP() << needed << " is not installed (tools/setup installs it)";
-      }
-    }
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) / (std::string("preview-") + info->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override {
-    if (!HasFailure()) {
-      fs::remove_all(folder_);
-    }
-  }
-
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
-  std::string content(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / name).rdbuf();
-    return text.str();
-  }
-  /// Returns the exit code. `$preview` is the command with a hasty surgeon in a perfect world,
-  /// `$server` the X server, which chooses a free display number.
-  int shell(const std::string& commands) const {
-    write("commands", "cd '" + folder_.string() + R"('
-mkfifo number
-Xvfb -displayfd 3 -screen 0 1600x1000x24 -nolisten tcp 3>number >/dev/null 2>&1 & server=$!
-trap 'code=$?; kill $server 2>/dev/null; exit $code' EXIT
-read display <number
-export DISPLAY=:$display
-preview=')" ORTHONAV_COMMAND R"( preview --levels L5 --perfect --pace 4 --size 640x360 --out .'
-plan=')" ORTHONAV_COMMAND R"( preview --plan --levels L5 --size 640x360 --out .'
-)" + commands);
-    const int status = std::system(("timeout -k 5 120 sh '" + (folder_ / "commands").string() +
-                                    "' >'" + (folder_ / "out").string() + "' 2>&1")
-                                       .c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  RgbaImage picture(const std::string& name) const {
-    auto image = engine::read_png(folder_ / name);
-    EXPECT_TRUE(image.ok()) << (image ? "" : image.error().message) << content("out");
-    return image ? *image : RgbaImage{};
-  }
-
-  fs::path folder_;
-};
-
-/// How many pixels differ visibly; all of them if the sizes differ.
-std::size_t different(const RgbaImage& a, const RgbaImage& b) {
-  if (a.pixels.size() != b.pixels.size()) {
-    return std::max(a.pixels.size(), b.pixels.size()) / 4;
-  }
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); i += 4) {
-    int most = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      most = std::max(most, std::abs(int{a.pixels[i + c]} - int{b.pixels[i + c]}));
-    }
-    count += most > 16 ? 1 : 0;
-  }
-  return count;
-}
-
-/// Pixels close to a colour; sRGB.
-std::size_t coloured(const RgbaImage& image, const std::array<int, 3>& colour) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
-    int most = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      most = std::max(most, std::abs(int{image.pixels[i + c]} - colour[c]));
-    }
-    count += most < 40 ? 1 : 0;
-  }
-  return count;
-}
 
 // The planned trajectory, over the drapes.
 constexpr std::array<int, 3> kGreen = {64, 232, 96};
-// A screw that breaks through.
-constexpr std::array<int, 3> kRed = {255, 68, 56};
 
 TEST_F(WindowTest, ShowsAnOperationFromStrokesToGuidanceAndHidesWhatIsUnchecked) {
   write("script", R"(key tab
@@ -166,16 +70,6 @@ TEST_F(WindowTest, HearsWhatIsTypedInsteadOfTheSurgeon) {
   write("script", "key u\npairs 150\nuntil setup\nkey s\nuntil digitize L5\n");
   EXPECT_EQ(shell("$preview --speed 0 --script script"), 0) << content("out");
 }
-
-/// Commands for a window with real keys: `begin` waits for its first picture, `there` for a file.
-constexpr const char* kRealKeys = R"(
-begin() {
-  "$@" & pid=$!
-  window=$(timeout 60 xdotool search --sync --onlyvisible --name 'orthonav preview: ' | head -1)
-  xdotool windowfocus --sync $window
-}
-there() { for i in $(seq 600); do [ -s "$1" ] && return; sleep 0.1; done; echo "no $1"; exit 9; }
-)";
 
 TEST_F(WindowTest, TakesRealKeys) {
   const std::string keys = std::string(kRealKeys) + R"(
@@ -246,57 +140,6 @@ wait $pid
   EXPECT_EQ(shell(commands), 0) << content("out");
   EXPECT_THAT(content("type"), ::testing::AnyOf("POINT", "TRANS", "STRIN", "STATU"));
   EXPECT_THAT(content("out"), HasSubstr("OpenIGTLink: 1 client, "));
-}
-
-TEST_F(WindowTest, EditsAPlanAndSavesItBesideTheOldOne) {
-  write("script", R"(key right
-screenshot before.png
-drag sagittal target 0 9
-screenshot breach.png
-key z
-screenshot undone.png
-say longer
-key v
-)");
-  const std::string check = "\"" ORTHONAV_COMMAND "\" plan check --case plan-001";
-  ASSERT_EQ(shell("$plan --script script && " + check), 0) << content("out");
-  EXPECT_THAT(content("out"), HasSubstr("wrote ./plan-001\n"));
-  EXPECT_THAT(content("out"), HasSubstr("L5 right  6.0 x 50.0 mm"));
-  const RgbaImage before = picture("before.png");
-  const RgbaImage breach = picture("breach.png");
-  EXPECT_GT(coloured(before, kGreen), 300u);
-  EXPECT_GT(coloured(breach, kRed), 300u);
-  EXPECT_LT(coloured(breach, kGreen), coloured(before, kGreen) / 2);
-  EXPECT_LT(different(before, picture("undone.png")), 1500u) << "but for the panel";
-  EXPECT_FALSE(fs::exists(folder_ / "plan-002")) << "nothing was changed since";
-}
-
-TEST_F(WindowTest, DragsAScrewWithARealMouse) {
-  // The target of a screw lies at the top of the upper left pane.
-  const std::string mouse = std::string(kRealKeys) + R"(
-$plan & pid=$!
-window=$(timeout 60 xdotool search --sync --onlyvisible --name 'orthonav plan' | head -1)
-xdotool windowfocus --sync $window
-xdotool key i; there preview-001.png
-xdotool mousemove --window $window 160 20 mousedown 1
-for x in 162 164 166 168; do xdotool mousemove --window $window $x 20; done
-xdotool mouseup 1 key i; there preview-002.png
-kill -TERM $pid
-wait $pid
-)";
-  EXPECT_EQ(shell(mouse), 143) << content("out");
-  EXPECT_THAT(content("out"), HasSubstr("wrote ./plan-001\n")) << "even when it is stopped";
-  EXPECT_GT(different(picture("preview-001.png"), picture("preview-002.png")), 1000u);
-}
-
-TEST_F(WindowTest, RefusesWhatAPlanDoesNotHave) {
-  EXPECT_NE(shell("$plan --paused"), 0);
-  EXPECT_THAT(content("out"), HasSubstr("--plan excludes --paused"));
-  EXPECT_NE(shell("$preview --volume ct.nii"), 0);
-  EXPECT_THAT(content("out"), HasSubstr("--volume requires --plan"));
-  EXPECT_EQ(shell("$plan --volume ct.nii"), 2);
-  EXPECT_THAT(content("out"), HasSubstr("orthonav: --volume: ct.nii: "));
-  EXPECT_EQ(shell("$plan --levels L9"), 2);
 }
 
 TEST_F(WindowTest, ScrubsThroughARecording) {
