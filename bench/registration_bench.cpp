@@ -24,6 +24,7 @@ struct Arguments {
   std::vector<double> tissues_mm{0.0};
   double common_mm = 0.0;
   double segmented_mm = 0.0;
+  double voxel_mm = 0.0;
   double jitter_mm = 0.0;
   double asymmetric_mm = 0.5;
   bool wrong_level = false;
@@ -110,6 +111,7 @@ int measured(Arguments& arguments) {
   arguments.run.truths.common_sd_m = 1e-3 * arguments.common_mm;
   arguments.run.truths.copy_jitter_m = 1e-3 * arguments.jitter_mm;
   arguments.level.segmented_m = 1e-3 * arguments.segmented_mm;
+  arguments.level.voxel_m = 1e-3 * arguments.voxel_mm;
   const auto levels = load_levels(arguments.level);
   if (!levels) {
     std::fprintf(stderr, "bench_registration: %s\n", levels.error().message.c_str());
@@ -153,6 +155,8 @@ void add_truths(CLI::App& app, Arguments& arguments) {
   app.add_flag("--left-handed", arguments.run.truths.left_handed,
                "points of a left-handed frame: any that are accepted fail silently");
   app.add_option("--segmented-mm", arguments.segmented_mm, "SD of the model's own error");
+  app.add_option("--voxel-mm", arguments.voxel_mm,
+                 "the model is made from a label of such voxels, as by case make");
   app.add_option("--scale", arguments.level.scale, "size of the model, of the bone's");
   app.add_flag("--mirrored", arguments.level.mirrored, "the model is the bone's mirror image");
   app.add_option("--asymmetric-mm", arguments.asymmetric_mm,

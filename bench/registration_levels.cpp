@@ -2,16 +2,37 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "base/stopwatch.h"
 #include "engine/case/case_file.h"
+#include "engine/scan/label_surface.h"
+#include "tests/engine/scan/voxelised.h"
 #include "tests/support/stroke_truths.h"
 
 namespace orthonav::bench {
 namespace {
 
+/// The surface that `case make` finds in a label of the bone.
+Result<nav::TriangleMesh> from_label(const nav::TriangleMesh& mesh, double voxel_m) {
+  const engine::Volume labels = test::voxelised(mesh, {voxel_m, voxel_m, voxel_m});
+  const auto part = engine::label_part(labels, {"bone", 0, 1}, engine::kSurfaceMargin);
+  if (!part) {
+    return part.error();
+  }
+  auto surface = engine::label_surface(*part);
+  return surface ? Result<nav::TriangleMesh>(std::move(surface->mesh)) : surface.error();
+}
+
 /// The model of the bone, with the errors asked for.
-nav::TriangleMesh modelled(nav::TriangleMesh mesh, const LevelOptions& options) {
+Result<nav::TriangleMesh> modelled(nav::TriangleMesh mesh, const LevelOptions& options) {
+  if (options.voxel_m > 0.0) {
+    auto made = from_label(mesh, options.voxel_m);
+    if (!made) {
+      return made.error();
+    }
+    mesh = std::move(*made);
+  }
   if (options.segmented_m > 0.0) {
     mesh = test::segmented(mesh, options.segmented_m, 1);
   }
@@ -64,7 +85,11 @@ Result<std::vector<BenchLevel>> load_levels(const LevelOptions& options) {
       level.mesh = from.mesh;
       level.screws = from.screws;
       const Stopwatch watch;
-      auto model = nav::VertebraModel::prepare(modelled(from.mesh, options));
+      auto mesh = modelled(from.mesh, options);
+      if (!mesh) {
+        return Error{level.name() + ": " + mesh.error().message};
+      }
+      auto model = nav::VertebraModel::prepare(std::move(*mesh));
       level.prepare_ms = watch.elapsed_ms();
       if (!model) {
         return model.error();

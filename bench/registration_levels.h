@@ -12,6 +12,7 @@ struct LevelOptions {
   std::string anatomy;              ///< folder of case folders
   std::vector<std::string> levels;  ///< "visible-human/L4"; empty: all
   double segmented_m = 0.0;         ///< SD of the model's own error
+  double voxel_m = 0.0;             ///< the model is made from a label of such voxels; 0: it is not
   double scale = 1.0;               ///< size of the model relative to the bone
   bool mirrored = false;            ///< the model is the bone's mirror image
   bool alone = false;               ///< levels are registered without the others of their case
