@@ -13,6 +13,15 @@ TipCheckRules tips_known_to(const SessionOptions& options) {
   return rules;
 }
 
+/// How the guide was last seen against the bone of the current level.
+Mat3 bone_from_guide(const OperationInWork& work) {
+  const LevelState& level = work.level();
+  const nav::TrackedPose& seen = work.tools.watch(work.tools.guide()).last_measured_pose();
+  return level.registration ? level.registration->world_from_vertebra.rotation().transposed() *
+                                  seen.value.rotation()
+                            : Mat3::identity();
+}
+
 }  // namespace
 
 GuideChecks::GuideChecks(const SessionOptions& options)
@@ -27,6 +36,7 @@ void GuideChecks::compare_tips(OperationInWork& work, const nav::PressedPlace& p
   if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
     work.messages.say(TouchNotRecorded{TouchNotRecorded::What::kGuideTip, *refusal}, time);
   } else {
+    tips_.held(bone_from_guide(work));
     work.observer->tips_compared(time, std::get<TipDifference>(taken));
   }
 }
@@ -62,10 +72,11 @@ ToolErrors GuideChecks::errors(const OperationInWork& work, Timestamp now) const
   constexpr double kElsewhere = 0.3;
   const LevelState& level = work.level();
   const double cameras_m = level.registration ? level.registration->common.cameras_m : 0.0;
-  return {level.walked_sd_m(now),
-          std::hypot(tips_.difference_sd_m(work.tools.tag_size_difference_sd()),
-                     kElsewhere * cameras_m),
-          axis_.sd_rad()};
+  return {
+      level.walked_sd_m(now),
+      std::hypot(tips_.difference_sd_m(work.tools.tag_size_difference_sd(), bone_from_guide(work)),
+                 kElsewhere * cameras_m),
+      axis_.sd_rad()};
 }
 
 }  // namespace orthonav::engine

@@ -13,6 +13,8 @@ class GuideChecks {
  public:
   explicit GuideChecks(const SessionOptions& options);
 
+  /// Another screw is next: the tips are to be compared as the guide is held for it.
+  void expect_tips() { tips_.expect(); }
   /// The guide's tip was put at `place` after the pointer's was at `pointer_tip`.
   void compare_tips(OperationInWork& work, const nav::PressedPlace& place,
                     const nav::PressedPlace& pointer_tip, Timestamp time);
@@ -22,7 +24,7 @@ class GuideChecks {
   /// the axis. False if none is offered.
   [[nodiscard]] bool correct_guide(OperationInWork& work, Timestamp time);
 
-  /// How far off the guide may be on the current level.
+  /// How far off the guide may be on the current level, as it was last seen.
   [[nodiscard]] ToolErrors errors(const OperationInWork& work, Timestamp now) const;
   [[nodiscard]] const TipCheck& tips() const { return tips_; }
   [[nodiscard]] const AxisCheck& axis() const { return axis_; }

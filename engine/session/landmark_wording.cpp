@@ -16,7 +16,7 @@ void write_tips(PartedText text, const TipCheck& tips, std::string_view separato
   std::string& out = text.out;
   if (tips.due()) {
     text.begin(Importance::kNext, separator);
-    out += translated("put the guide's tip in it too, or say next");
+    out += translated("put the guide's tip in it too, held as for the screw, or say next");
     return;
   }
   if (!tips.last() || tips.last()->corrected) {

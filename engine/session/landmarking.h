@@ -14,7 +14,7 @@ class Guiding;
 class Verifying;
 
 /// The step `accepted` when registrations are verified by touch: the landmark of the level is
-/// touched before its next screw, and once in an operation the guide's tip is put into it. A new
+/// touched before its next screw, and the guide's tip is put into it (TipCheck says when). A new
 /// object is made before each screw, because earlier touches do not show where the bone is now.
 class Landmarking {
  public:

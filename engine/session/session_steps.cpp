@@ -41,6 +41,10 @@ SessionSteps::SessionSteps(const OperationInWork& work)
 
 void SessionSteps::expect_landmark(const OperationInWork& work) {
   landmarking = Landmarking(work.options.landmark);
+  // On the headset's map a comparison costs more by the drift meanwhile than it gains.
+  if (work.anchored()) {
+    guide_checks.expect_tips();
+  }
 }
 
 void SessionSteps::expect_wire(const OperationInWork& work) { placing = Placing(work.options); }

@@ -9,7 +9,7 @@ double TipCheck::along_sight_m(double size_sd) const {
   return rules_.distance_m * std::max(size_sd, rules_.least_size_sd);
 }
 
-double TipCheck::difference_sd_m(double size_sd) const {
+double TipCheck::difference_sd_m(double size_sd, const Mat3& bone_from_guide) const {
   const double tags_m = along_sight_m(size_sd) / std::sqrt(3.0);
   const double prior_m = rules_.prior_sd_m;
   if (!last_ || !(prior_m > 0.0)) {
@@ -18,7 +18,12 @@ double TipCheck::difference_sd_m(double size_sd) const {
   // The posterior of two normal distributions; without consent the tip stays off by the mean.
   const double left_m = prior_m * last_->sd_m / std::hypot(prior_m, last_->sd_m);
   const double off_m = last_->corrected ? 0.0 : last_->by_m.norm() / std::sqrt(3.0);
-  return std::hypot(left_m, off_m, tags_m);
+  // Half of the difference is the pointer's, on average, and does not turn with the guide: turned
+  // by an angle a, that part (SD `prior_m` / sqrt(2)) is off by 2 sin(a/2) in two of three
+  // directions.
+  const double turned_rad = rotation_angle_rad(held_, bone_from_guide);
+  const double turned_m = std::sqrt(4.0 / 3.0) * std::sin(0.5 * turned_rad) * prior_m;
+  return std::hypot(std::hypot(left_m, off_m, tags_m), turned_m);
 }
 
 std::variant<TipDifference, TouchRefusal> TipCheck::take(
@@ -42,6 +47,7 @@ std::variant<TipDifference, TouchRefusal> TipCheck::take(
     return TouchRefusal{TouchRefusal::Kind::kTouchesApart, found.apart_m.norm(), rules_.most_m};
   }
   last_ = found;
+  compared_ = true;
   return found;
 }
 

@@ -39,7 +39,10 @@ struct TipCheckRules {
   double most_m = 0.010;
 };
 
-/// Done once in an operation, after the landmark was touched, or again at the surgeon's choice.
+/// Done after the landmark was touched: before each screw with a patient reference, once in an
+/// operation without, or again at the surgeon's choice. The guide is held as for the screw: what a
+/// comparison can't tell apart, the guide's tip (which turns with it) and the pointer's (which
+/// shifted the registered bone), then adds up as it did in the dimple.
 class TipCheck {
  public:
   TipCheck() = default;
@@ -53,13 +56,17 @@ class TipCheck {
   [[nodiscard]] std::variant<TipDifference, TouchRefusal> take(
       const nav::PressedPlace& place, const Transform<World, Marker>& world_from_guide,
       const nav::PressedPlace& pointer_tip, bool anchored, double size_sd);
+  /// How the guide was held against the bone in the last comparison.
+  void held(const Mat3& bone_from_guide) { held_ = bone_from_guide; }
+  /// Another screw is next.
+  void expect() { compared_ = false; }
   /// Still to be done.
-  [[nodiscard]] bool due() const { return compare_ && !last_; }
+  [[nodiscard]] bool due() const { return compare_ && !compared_; }
   /// A difference waits for consent to be corrected.
   [[nodiscard]] bool offers() const { return last_ && !last_->corrected && !last_->agrees(); }
-  /// SD along an axis of the guide's tip relative to the pointer's, as currently known; `size_sd`
-  /// as in `take`.
-  [[nodiscard]] double difference_sd_m(double size_sd) const;
+  /// SD along an axis of the guide's tip relative to the pointer's, as currently known, with the
+  /// guide held so against the bone; `size_sd` as in `take`.
+  [[nodiscard]] double difference_sd_m(double size_sd, const Mat3& bone_from_guide) const;
   /// The surgeon consents. Returns what to subtract from the guide's tip.
   [[nodiscard]] Vec3 correct();
   [[nodiscard]] const std::optional<TipDifference>& last() const { return last_; }
@@ -70,7 +77,9 @@ class TipCheck {
   TipCheckRules rules_;
   LandmarkRules landmark_;
   bool compare_ = true;
+  bool compared_ = false;  ///< for the next screw
   std::optional<TipDifference> last_;
+  Mat3 held_ = Mat3::identity();
 };
 
 }  // namespace orthonav::engine

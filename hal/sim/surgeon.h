@@ -77,6 +77,8 @@ class Surgeon {
   Script touch_place(const StepOnDisplay& step, const BoneSpot& place);
   /// Rests the pointer's tip there and clicks, again if the line says that the touch was not taken.
   Script touch_at(const StepOnDisplay& step, Point<Room> tip, Vec3 normal);
+  /// The same with the tool along that axis, without moving the head.
+  Script hold_at(const StepOnDisplay& step, Point<Room> tip, Vec3 normal, Vec3 axis);
   /// The same for a tip already there; `read_s` of simulated time is spent reading the line.
   Script click_at_rest(const StepOnDisplay& step, Vec3 normal, double settle_s, double read_s);
   /// Rests and clicks; if the line says that the touch was not taken, rests a second and clicks

@@ -89,8 +89,12 @@ Script Surgeon::touch_place(const StepOnDisplay& step, const BoneSpot& place) {
 
 Script Surgeon::touch_at(const StepOnDisplay& step, Point<Room> tip, Vec3 normal) {
   body_.look(tip);
+  co_await hold_at(step, tip, normal, body_.pointer_axis(normal));
+}
+
+Script Surgeon::hold_at(const StepOnDisplay& step, Point<Room> tip, Vec3 normal, Vec3 axis) {
   body_.posture().contact_normal.reset();
-  co_await body_.move({tip, body_.pointer_axis(normal), 0.0}, kReach_s, kTouchLift_m);
+  co_await body_.move({tip, axis, 0.0}, kReach_s, kTouchLift_m);
   co_await click_at_rest(step, normal, kSettle_s, kReadLine_s);
 }
 

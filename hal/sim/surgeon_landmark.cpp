@@ -7,6 +7,10 @@ namespace orthonav::sim {
 namespace {
 
 constexpr int kMostTouches = 40;
+constexpr double kLookAnew_s = 2.0;
+/// Along a pedicle screw outward, unit: 20° of convergence, as any surgeon knows it.
+constexpr Vec3 kLeftScrew{0.342, 0.940, 0.0};
+constexpr Vec3 kRightScrew{-0.342, 0.940, 0.0};
 
 }  // namespace
 
@@ -42,8 +46,13 @@ Script Surgeon::compare_tips(std::size_t level) {
   const auto& room_from_vertebra = layout_->room_from_vertebra(level);
   const BoneSpot& spot = *dimples_[level];
   const Vec3 off = normal_vector(seating_, error_model_->dimple_seating_m);
-  co_await touch_at(step, room_from_vertebra * Point<Vertebra>{spot.point} + off,
-                    (room_from_vertebra * Direction<Vertebra>{spot.normal}).v);
+  const Point<Room> tip = room_from_vertebra * Point<Vertebra>{spot.point} + off;
+  // Held, and looked at, about as for the next screw, the left one first.
+  const bool left = !driven_.contains({Step::kGuide, step.level, Side::kLeft});
+  const Vec3 axis = (room_from_vertebra * Direction<Vertebra>{left ? kLeftScrew : kRightScrew}).v;
+  body_.look(tip, body_.best_view(axis));
+  co_await body_.rest(kLookAnew_s);
+  co_await hold_at(step, tip, (room_from_vertebra * Direction<Vertebra>{spot.normal}).v, axis);
 }
 
 Script Surgeon::consent_to_corrections(const StepOnDisplay& step) {

@@ -240,7 +240,7 @@ const engine::Guidance& ScriptedOperation::accepts_first_level() {
 double guide_sd_m() {
   engine::TipCheckRules rules;
   rules.prior_sd_m = std::numbers::sqrt2 * engine::PlacedWireRules{}.tip_sd_m;
-  return engine::TipCheck(rules, {}).difference_sd_m(0.0);
+  return engine::TipCheck(rules, {}).difference_sd_m(0.0, Mat3::identity());
 }
 
 }  // namespace orthonav::test

@@ -101,25 +101,67 @@ TEST(TipCheck, SaysHowFarTheGuideMayBeOffThePointer) {
   TipCheck check(rules, LandmarkRules{});
   constexpr double kSizeSd = 0.0005;
   const double tags_m = rules.distance_m * kSizeSd / std::sqrt(3.0);
-  EXPECT_NEAR(check.difference_sd_m(kSizeSd), std::hypot(rules.prior_sd_m, tags_m), kExact)
+  const Mat3 held = Mat3::identity();
+  EXPECT_NEAR(check.difference_sd_m(kSizeSd, held), std::hypot(rules.prior_sd_m, tags_m), kExact)
       << "as their calibrations leave them";
-  EXPECT_GT(check.difference_sd_m(0.004), 0.001) << "tags of unknown size";
+  EXPECT_GT(check.difference_sd_m(0.004, held), 0.001) << "tags of unknown size";
   const nav::PressedPlace pointer{{{0.01, 0.02, 0.0}}, 0.0001};
   const nav::PressedPlace guide{{{0.01, 0.0215, 0.0}}, 0.0001};
   ASSERT_TRUE(std::holds_alternative<TipDifference>(check.take(guide, {}, pointer, true, kSizeSd)));
   const TipDifference found = *check.last();
   const double left_m = rules.prior_sd_m * found.sd_m / std::hypot(rules.prior_sd_m, found.sd_m);
-  EXPECT_NEAR(check.difference_sd_m(kSizeSd),
+  EXPECT_NEAR(check.difference_sd_m(kSizeSd, held),
               std::hypot(left_m, found.by_m.norm() / std::sqrt(3.0), tags_m), kExact)
       << "known, and not corrected";
   EXPECT_EQ(check.correct(), found.by_m);
-  EXPECT_NEAR(check.difference_sd_m(kSizeSd), std::hypot(left_m, tags_m), kExact);
+  EXPECT_NEAR(check.difference_sd_m(kSizeSd, held), std::hypot(left_m, tags_m), kExact);
+  // Held otherwise, it is known less well: upside down as well as without the comparison, or worse.
+  double before_m = check.difference_sd_m(kSizeSd, held);
+  for (const double turned_rad : {0.2, 0.6, 1.2, 3.1}) {
+    const double sd_m = check.difference_sd_m(kSizeSd, rotation_from_vector({turned_rad, 0, 0}));
+    EXPECT_GT(sd_m, before_m);
+    before_m = sd_m;
+  }
+  EXPECT_GT(before_m, rules.prior_sd_m);
 }
 
 TEST_F(TipsSession, AGuideElsewhereIsNoTouchOfIt) {
   const TouchRefusal why = touch_refusal(touches_by_guide(kDimple + Vec3{0.0151, 0, 0}));
   EXPECT_EQ(why.kind, TouchRefusal::Kind::kTouchesApart);
   EXPECT_EQ(checks_asked(s.pairs(120).status), ChecksAsked::kGuideTip) << "still to be done";
+}
+
+TEST_F(TipsSession, AreComparedBeforeEveryScrewAndAsHeldForIt) {
+  touches_by_guide(kDimple + Vec3{0.0006, 0, 0});
+  for (int i = 0; i < 3; ++i) {  // guides the first screw, measures no wire, and comes back
+    s.says("next");
+  }
+  s.tracker().guide.reset();
+  s.touches_dimple();
+  const Guidance& g = s.pair();
+  EXPECT_EQ(g.step, Step::kAccepted);
+  EXPECT_EQ(checks_asked(g.status), ChecksAsked::kGuideTip);
+  EXPECT_THAT(detail_text(g.status), HasSubstr("put the guide's tip in it too, held as for the "));
+}
+
+TEST(Tips, AreComparedOnceOnAMapThatDrifts) {
+  ScriptedOperation s({"L4", "L5"}, {}, Verification::kByTouch);
+  s.accepts_first_by_touch();
+  s.touches_dimple();
+  s.tracker().pointer = test::pointer_at(kDimple + Vec3{0.2, 0, 0});
+  ASSERT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTip);
+  s.tracker().guide = guide_at(kDimple + Vec3{0.0006, 0, 0}, kTilt_rad);
+  s.does({kPress});
+  s.pair();
+  s.does({kRelease, kClick});
+  for (int i = 0; i < 3; ++i) {
+    s.says("next");
+  }
+  s.tracker().guide.reset();
+  s.touches_dimple();
+  const Guidance& g = s.pair();
+  EXPECT_EQ(g.step, Step::kAccepted);
+  EXPECT_EQ(checks_asked(g.status), ChecksAsked::kCorrectGuide) << "of the first comparison";
 }
 
 TEST_F(TipsSession, NextIsTakenWithoutIt) { EXPECT_EQ(s.says("next").step, Step::kGuide); }
