@@ -144,13 +144,24 @@ void Guiding::take_measurement(ToolGuidance& guidance, const LevelState& level,
       deviation ? deviation->depth_m.sd : std::numeric_limits<double>::infinity();
   guidance.depth = approach_.depth.write({measured.depth_m, depth_sd_m}, measured.to_target_m);
   const auto on_bone = level.plan.model->surface().nearest(there.axis.point.v);
+  approach_.watch_drill({pose.time, there.axis.point.v,
+                         on_bone ? on_bone->distance_m : std::numeric_limits<double>::infinity(),
+                         measured.tip_off_axis_m, measured.angle_rad, measured.depth_m, depth_sd_m,
+                         measured.to_target_m, tool.stop_m});
   if (measured.tip_off_axis_m <= kOffTheScrew_m) {
     approach_.path.add(plan, there.axis, uncertainty);
   }
-  approach_.drill.measured({pose.time, there.axis.point.v,
-                            on_bone ? on_bone->distance_m : std::numeric_limits<double>::infinity(),
-                            measured.tip_off_axis_m, measured.angle_rad, measured.depth_m,
-                            depth_sd_m, measured.to_target_m, tool.stop_m});
+}
+
+void Guiding::Approach::watch_drill(const nav::DrillReading& reading) {
+  using enum nav::DrillPhase;
+  const bool away = drill.view().phase == kAway;
+  drill.measured(reading);
+  drilled = drilled || drill.view().phase == kDrilling;
+  if (away && !drilled && drill.view().phase == kSet) {
+    path.forget();
+    at_depth.reset();
+  }
 }
 
 void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,

@@ -58,7 +58,13 @@ class Guiding {
     nav::DepthWriter depth;
     nav::ClearanceWriter clearance;
     nav::DrillWatch drill;
+    bool drilled = false;  ///< since the approach began
     nav::TrajectoryAtDepth path;
+
+    /// Feeds the drill's watch. The first time that the tip is set on the bone at the entry, what
+    /// was measured on the way there is forgotten: beside the screw a tip may lie deeper than where
+    /// it is set, as in the dimple, and a sleeve never gets deeper than there.
+    void watch_drill(const nav::DrillReading& reading);
   };
 
   /// The tool relative to the selected screw. Absent without a fresh pose to guide on.

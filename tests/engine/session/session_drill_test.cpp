@@ -97,6 +97,17 @@ TEST(SessionDrill, EndsWithWithdrawalAndWithTheScrew) {
   EXPECT_EQ(s.says("next").drill.phase, DrillPhase::kAway);
 }
 
+TEST(SessionDrill, ForgetsWhatLayDeeperBesideTheScrewBeforeTheTipWasSet) {
+  Drilling s;
+  s.at(0.012, 0.009, 5);  // in the dimple, or past the facet
+  s.at(0.0, 0.0005, 30);  // a sleeve is set, and stays there while the drill goes in
+  s.says("next");
+  const auto& executed = s.session().levels()[0].executed[0];
+  ASSERT_TRUE(executed);
+  EXPECT_NEAR(executed->depth_m, 0.0, 1e-9);
+  EXPECT_NEAR(executed->axis.point.v.x, 0.0155, 1e-9);
+}
+
 TEST(SessionDrill, KeepsWhereTheToolWent) {
   Drilling s;
   s.drills_to(0.0300);
