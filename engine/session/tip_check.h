@@ -62,8 +62,8 @@ class TipCheck {
   void expect() { compared_ = false; }
   /// Still to be done.
   [[nodiscard]] bool due() const { return compare_ && !compared_; }
-  /// A difference waits for consent to be corrected.
-  [[nodiscard]] bool offers() const { return last_ && !last_->corrected && !last_->agrees(); }
+  /// A difference waits for consent to be corrected; that of an earlier screw no longer does.
+  [[nodiscard]] bool offers() const { return compared_ && !last_->corrected && !last_->agrees(); }
   /// SD along an axis of the guide's tip relative to the pointer's, as currently known, with the
   /// guide held so against the bone; `size_sd` as in `take`.
   [[nodiscard]] double difference_sd_m(double size_sd, const Mat3& bone_from_guide) const;
