@@ -20,12 +20,12 @@
 namespace orthonav::tools {
 namespace {
 
-/// Options of `preview` that have no meaning without an operation. Those that a configuration file
-/// can give are not among them: there they are ignored.
-constexpr std::array<const char*, 14> kOperationOnly = {
-    "--headset",    "--seed",       "--replay",        "--profile", "--perfect",
-    "--pace",       "--keep",       "--resume",        "--speed",   "--paused",
-    "--igtl-allow", "--igtl-token", "--igtl-commands", "--igtl"};
+/// Options of `preview` that have no meaning without an operation, but for those that a
+/// configuration file can give: these are ignored.
+constexpr std::array<const char*, 13> kOperationOnly = {
+    "--seed",       "--replay",     "--profile",      "--perfect", "--pace",
+    "--keep",       "--resume",     "--speed",        "--paused",  "--igtl",
+    "--igtl-allow", "--igtl-token", "--igtl-commands"};
 
 /// The scan behind the slices; refused if the models do not lie on its bone.
 Result<std::optional<engine::Volume>> scan_for(const PlanWindowArguments& arguments,

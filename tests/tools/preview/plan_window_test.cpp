@@ -60,6 +60,9 @@ TEST_F(PlanWindowTest, RefusesWhatAPlanDoesNotHave) {
   EXPECT_EQ(shell("$plan --volume ct.nii"), 2);
   EXPECT_THAT(content("out"), HasSubstr("orthonav: --volume: ct.nii: "));
   EXPECT_EQ(shell("$plan --levels L9"), 2);
+  write("settings.toml", "[rig]\nheadset = \"sim:\"\n");
+  write("script", "key tab\n");
+  EXPECT_EQ(shell("$plan --config settings.toml --script script"), 0) << "needs no headset";
 }
 
 }  // namespace
