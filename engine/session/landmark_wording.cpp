@@ -16,7 +16,9 @@ void write_tips(PartedText text, const TipCheck& tips, std::string_view separato
   std::string& out = text.out;
   if (tips.due()) {
     text.begin(Importance::kNext, separator);
-    out += translated("put the guide's tip in it too, held as for the screw, or say next");
+    out += tips.for_screw()
+               ? translated("put the guide's tip in it too, held as for the screw, or say next")
+               : translated("put the guide's tip in it too, or say next");
     return;
   }
   if (!tips.last() || tips.last()->corrected) {

@@ -63,7 +63,7 @@ ChecksAsked checks_asked(const StatusLine& line) {
       return ChecksAsked::kPassed;
     }
     if (landmark->tips->due()) {
-      return ChecksAsked::kGuideTip;
+      return landmark->tips->for_screw() ? ChecksAsked::kGuideTipHeld : ChecksAsked::kGuideTip;
     }
     const bool axis = landmark->axis != nullptr && landmark->axis->offers();
     return landmark->tips->offers() || axis ? ChecksAsked::kCorrectGuide : ChecksAsked::kPassed;

@@ -40,9 +40,9 @@ struct TipCheckRules {
 };
 
 /// Done after the landmark was touched: before each screw with a patient reference, once in an
-/// operation without, or again at the surgeon's choice. The guide is held as for the screw: what a
-/// comparison can't tell apart, the guide's tip (which turns with it) and the pointer's (which
-/// shifted the registered bone), then adds up as it did in the dimple.
+/// operation without, or again at the surgeon's choice. Before a screw the guide is held as for the
+/// screw: what a comparison can't tell apart, the guide's tip (which turns with it) and the
+/// pointer's (which shifted the registered bone), then adds up as it did in the dimple.
 class TipCheck {
  public:
   TipCheck() = default;
@@ -58,8 +58,13 @@ class TipCheck {
       const nav::PressedPlace& pointer_tip, bool anchored, double size_sd);
   /// How the guide was held against the bone in the last comparison.
   void held(const Mat3& bone_from_guide) { held_ = bone_from_guide; }
-  /// Another screw is next.
-  void expect() { compared_ = false; }
+  /// Another screw is next: the guide is to be compared as it is held for that one.
+  void expect() {
+    compared_ = false;
+    for_screw_ = true;
+  }
+  /// Whether it matters how the guide is held: with a comparison before each screw.
+  [[nodiscard]] bool for_screw() const { return for_screw_; }
   /// Still to be done.
   [[nodiscard]] bool due() const { return compare_ && !compared_; }
   /// A difference waits for consent to be corrected; that of an earlier screw no longer does.
@@ -78,6 +83,7 @@ class TipCheck {
   LandmarkRules landmark_;
   bool compare_ = true;
   bool compared_ = false;  ///< for the next screw
+  bool for_screw_ = false;
   std::optional<TipDifference> last_;
   Mat3 held_ = Mat3::identity();
 };

@@ -73,6 +73,7 @@ enum class ChecksAsked : std::uint8_t {
   kNone,          ///< nothing about check points
   kTouchMore,     ///< more places, or the landmark before a screw
   kGuideTip,      ///< the guide's tip in the landmark too
+  kGuideTipHeld,  ///< the same, held as for the next screw
   kCorrectGuide,  ///< consent to correct its tip or its axis
   kMeasureWire,   ///< with the sleeve over it
   kDecideOnWire,  ///< beyond a limit: keep or redo

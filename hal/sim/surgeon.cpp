@@ -162,6 +162,8 @@ Script Surgeon::perform(StepOnDisplay step) {
     }
     if (in_step(step) && asked(ChecksAsked::kGuideTip)) {
       co_await compare_tips(*level);
+    } else if (in_step(step) && asked(ChecksAsked::kGuideTipHeld)) {
+      co_await compare_tips_as_for_screw(*level);
     }
     co_await consent_to_corrections(step);
     if (in_step(step)) {

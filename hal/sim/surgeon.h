@@ -98,6 +98,8 @@ class Surgeon {
   Script touch_landmark(std::size_t level);
   /// Puts the guide into the same dimple.
   Script compare_tips(std::size_t level);
+  /// With the guide held, and looked at, about as for the next screw.
+  Script compare_tips_as_for_screw(std::size_t level);
   /// Accepts the corrections of the guide that the line offers: its tip, its axis.
   Script consent_to_corrections(const StepOnDisplay& step);
 

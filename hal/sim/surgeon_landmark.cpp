@@ -46,8 +46,18 @@ Script Surgeon::compare_tips(std::size_t level) {
   const auto& room_from_vertebra = layout_->room_from_vertebra(level);
   const BoneSpot& spot = *dimples_[level];
   const Vec3 off = normal_vector(seating_, error_model_->dimple_seating_m);
+  co_await touch_at(step, room_from_vertebra * Point<Vertebra>{spot.point} + off,
+                    (room_from_vertebra * Direction<Vertebra>{spot.normal}).v);
+}
+
+Script Surgeon::compare_tips_as_for_screw(std::size_t level) {
+  const StepOnDisplay step = step_now();
+  co_await body_.take(ToolKind::kGuide, layout_->site(level));
+  const auto& room_from_vertebra = layout_->room_from_vertebra(level);
+  const BoneSpot& spot = *dimples_[level];
+  const Vec3 off = normal_vector(seating_, error_model_->dimple_seating_m);
   const Point<Room> tip = room_from_vertebra * Point<Vertebra>{spot.point} + off;
-  // Held, and looked at, about as for the next screw, the left one first.
+  // The left screw comes first.
   const bool left = !driven_.contains({Step::kGuide, step.level, Side::kLeft});
   const Vec3 axis = (room_from_vertebra * Direction<Vertebra>{left ? kLeftScrew : kRightScrew}).v;
   body_.look(tip, body_.best_view(axis));

@@ -44,7 +44,7 @@ class TipsSession : public ::testing::Test {
 };
 
 TEST_F(TipsSession, TipsThatAgreeAreToldAndLeftAlone) {
-  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTip);
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTipHeld);
   const Guidance& g = touches_by_guide(kDimple + Vec3{0.0006, 0, 0});
   EXPECT_THAT(detail_text(g.status), HasSubstr("tips agree, 0.6 mm apart"));
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
@@ -128,7 +128,7 @@ TEST(TipCheck, SaysHowFarTheGuideMayBeOffThePointer) {
 TEST_F(TipsSession, AGuideElsewhereIsNoTouchOfIt) {
   const TouchRefusal why = touch_refusal(touches_by_guide(kDimple + Vec3{0.0151, 0, 0}));
   EXPECT_EQ(why.kind, TouchRefusal::Kind::kTouchesApart);
-  EXPECT_EQ(checks_asked(s.pairs(120).status), ChecksAsked::kGuideTip) << "still to be done";
+  EXPECT_EQ(checks_asked(s.pairs(120).status), ChecksAsked::kGuideTipHeld) << "still to be done";
 }
 
 TEST_F(TipsSession, AreComparedBeforeEveryScrewAndAsHeldForIt) {
@@ -140,7 +140,7 @@ TEST_F(TipsSession, AreComparedBeforeEveryScrewAndAsHeldForIt) {
   s.touches_dimple();
   const Guidance g = s.pair();
   EXPECT_EQ(g.step, Step::kAccepted);
-  EXPECT_EQ(checks_asked(g.status), ChecksAsked::kGuideTip);
+  EXPECT_EQ(checks_asked(g.status), ChecksAsked::kGuideTipHeld);
   EXPECT_THAT(detail_text(g.status), HasSubstr("put the guide's tip in it too, held as for the "));
   ASSERT_NE(said<NotPossibleNow>(s.says("accept")), nullptr) << "the old one is past";
 }
@@ -170,7 +170,7 @@ TEST_F(TipsSession, NextIsTakenWithoutIt) { EXPECT_EQ(s.says("next").step, Step:
 TEST_F(TipsSession, ThePointerInTheDimpleIsThePointers) {
   s.tracker().guide = guide_at(kDimple + Vec3{0.012, 0, 0}, 0.0);
   s.touches_dimple();
-  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTip) << "the guide lay beside it";
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTipHeld) << "the guide lay beside it";
 }
 
 }  // namespace
