@@ -77,12 +77,7 @@ int run_check(const CheckArguments& arguments) {
     if (!arguments.common.wants(level.label)) {
       continue;
     }
-    const nav::SurfaceIndex bone(level.mesh);
-    JudgedLevel out{level.label, {}, {}};
-    for (const nav::ScrewPlan& screw : level.screws) {
-      out.screws.push_back(judged(bone, screw, *sizes));
-    }
-    levels.push_back(std::move(out));
+    levels.push_back(judged(level, *sizes));
   }
   if (Status s = arguments.common.json.write(as_json(levels)); !s) {
     return bad_input(s.error().message);

@@ -84,6 +84,15 @@ JudgedScrew judged(const nav::SurfaceIndex& bone, const nav::ScrewPlan& screw,
   return out;
 }
 
+JudgedLevel judged(const engine::CaseLevel& level, const engine::ScrewSizes& sizes) {
+  const nav::SurfaceIndex bone(level.mesh);
+  JudgedLevel out{level.label, {}, {}};
+  for (const nav::ScrewPlan& screw : level.screws) {
+    out.screws.push_back(judged(bone, screw, sizes));
+  }
+  return out;
+}
+
 void print(const std::vector<JudgedLevel>& levels) {
   for (const JudgedLevel& level : levels) {
     for (const JudgedScrew& screw : level.screws) {

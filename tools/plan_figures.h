@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/case/case.h"
 #include "engine/case/screw_sizes.h"
 #include "nav/planning/pedicle_screws.h"
 
@@ -36,6 +37,9 @@ struct JudgedLevel {
 
 [[nodiscard]] JudgedScrew judged(const nav::SurfaceIndex& bone, const nav::ScrewPlan& screw,
                                  const engine::ScrewSizes& sizes);
+
+/// Every screw of a level.
+[[nodiscard]] JudgedLevel judged(const engine::CaseLevel& level, const engine::ScrewSizes& sizes);
 
 /// Prints one line per screw on standard output, lengths in mm and angles in degrees.
 void print(const std::vector<JudgedLevel>& levels);

@@ -71,12 +71,7 @@ void tell_saved(const std::string& folder, const engine::PlanEditor& editor) {
   print_text("wrote %s\n", folder.c_str());
   std::vector<JudgedLevel> judged_levels;
   for (const engine::CaseLevel& level : editor.subject().levels) {
-    JudgedLevel out{level.label, {}, {}};
-    const nav::SurfaceIndex bone(level.mesh);
-    for (const nav::ScrewPlan& screw : level.screws) {
-      out.screws.push_back(judged(bone, screw, editor.sizes()));
-    }
-    judged_levels.push_back(std::move(out));
+    judged_levels.push_back(judged(level, editor.sizes()));
   }
   print(judged_levels);
 }

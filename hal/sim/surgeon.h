@@ -97,6 +97,12 @@ class Surgeon {
   /// Makes a dimple in the bone, or finds it again, and touches it.
   Script touch_landmark(std::size_t level);
   /// Puts the guide into the same dimple.
+  /// Where a tip comes to lie in the level's dimple, and the bone's normal there.
+  struct Seat {
+    Point<Room> tip;
+    Vec3 normal;
+  };
+  [[nodiscard]] Seat seat_in_dimple(std::size_t level);
   Script compare_tips(std::size_t level);
   /// With the guide held, and looked at, about as for the next screw.
   Script compare_tips_as_for_screw(std::size_t level);

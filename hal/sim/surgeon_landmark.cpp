@@ -20,14 +20,11 @@ Script Surgeon::touch_landmark(std::size_t level) {
   const bool made = dimples_[level].has_value();
   const std::vector<BoneSpot> places =
       made ? std::vector<BoneSpot>{*dimples_[level]} : places_to_check(level);
-  const auto& room_from_vertebra = layout_->room_from_vertebra(level);
   std::size_t place = 0;
   for (int touch = 0; touch < kMostTouches && in_step(step) && !finished_; ++touch) {
-    const BoneSpot& spot = places[place];
-    dimples_[level] = spot;
-    const Vec3 off = normal_vector(seating_, error_model_->dimple_seating_m);
-    co_await touch_at(step, room_from_vertebra * Point<Vertebra>{spot.point} + off,
-                      (room_from_vertebra * Direction<Vertebra>{spot.normal}).v);
+    dimples_[level] = places[place];
+    const Seat seat = seat_in_dimple(level);
+    co_await touch_at(step, seat.tip, seat.normal);
     // A refused place, for example too near to the reference, is replaced by another one.
     place = told(Notice::kTouchNotRecorded) ? (place + 1) % places.size() : place;
     const Timestamp end = body_.now() + from_seconds(kPatience_s);
@@ -40,29 +37,32 @@ Script Surgeon::touch_landmark(std::size_t level) {
   }
 }
 
-Script Surgeon::compare_tips(std::size_t level) {
-  const StepOnDisplay step = step_now();
-  co_await body_.take(ToolKind::kGuide, layout_->site(level));
+Surgeon::Seat Surgeon::seat_in_dimple(std::size_t level) {
   const auto& room_from_vertebra = layout_->room_from_vertebra(level);
   const BoneSpot& spot = *dimples_[level];
   const Vec3 off = normal_vector(seating_, error_model_->dimple_seating_m);
-  co_await touch_at(step, room_from_vertebra * Point<Vertebra>{spot.point} + off,
-                    (room_from_vertebra * Direction<Vertebra>{spot.normal}).v);
+  return {room_from_vertebra * Point<Vertebra>{spot.point} + off,
+          (room_from_vertebra * Direction<Vertebra>{spot.normal}).v};
+}
+
+Script Surgeon::compare_tips(std::size_t level) {
+  const StepOnDisplay step = step_now();
+  co_await body_.take(ToolKind::kGuide, layout_->site(level));
+  const Seat seat = seat_in_dimple(level);
+  co_await touch_at(step, seat.tip, seat.normal);
 }
 
 Script Surgeon::compare_tips_as_for_screw(std::size_t level) {
   const StepOnDisplay step = step_now();
   co_await body_.take(ToolKind::kGuide, layout_->site(level));
-  const auto& room_from_vertebra = layout_->room_from_vertebra(level);
-  const BoneSpot& spot = *dimples_[level];
-  const Vec3 off = normal_vector(seating_, error_model_->dimple_seating_m);
-  const Point<Room> tip = room_from_vertebra * Point<Vertebra>{spot.point} + off;
+  const Seat seat = seat_in_dimple(level);
   // The left screw comes first.
   const bool left = !driven_.contains({Step::kGuide, step.level, Side::kLeft});
-  const Vec3 axis = (room_from_vertebra * Direction<Vertebra>{left ? kLeftScrew : kRightScrew}).v;
-  body_.look(tip, body_.best_view(axis));
+  const Vec3 axis =
+      (layout_->room_from_vertebra(level) * Direction<Vertebra>{left ? kLeftScrew : kRightScrew}).v;
+  body_.look(seat.tip, body_.best_view(axis));
   co_await body_.rest(kLookAnew_s);
-  co_await hold_at(step, tip, (room_from_vertebra * Direction<Vertebra>{spot.normal}).v, axis);
+  co_await hold_at(step, seat.tip, seat.normal, axis);
 }
 
 Script Surgeon::consent_to_corrections(const StepOnDisplay& step) {
