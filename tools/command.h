@@ -33,7 +33,7 @@ void add_doctor_command(CLI::App& app, Action& action);
 void add_evaluate_command(CLI::App& app, Action& action);
 void add_golden_command(CLI::App& app, Action& action);
 void add_manual_command(CLI::App& app, Action& action);
-void add_plan_command(CLI::App& app, Action& action);
+void add_plan_command(CLI::App& app, Action& action, StopSignals& signals);
 void add_preview_command(CLI::App& app, Action& action, StopSignals& signals);
 void add_print_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);

@@ -189,30 +189,37 @@ std::vector<std::uint8_t> igtl_status(const engine::Session& session,
   return igtl::packed(label_of("orthonav", guidance.frame_time), status);
 }
 
+std::vector<std::uint8_t> igtl_screws(const std::string& label,
+                                      std::span<const nav::ScrewPlan> screws, Timestamp time) {
+  Bytes out;
+  for (const nav::ScrewPlan& screw : screws) {
+    const std::string name = label + name_of(screw.side) + "Screw";
+    const auto radius_mm = static_cast<float>(screw.radius_m * 1e3);
+    const std::array<igtl::PointValues, 2> points = {
+        igtl::PointValues{name + " entry",
+                          "Screw",
+                          {80, 160, 255, 255},
+                          in_mm(ras_of(screw.entry.v)),
+                          radius_mm,
+                          ""},
+        igtl::PointValues{name + " target",
+                          "Screw",
+                          {80, 255, 120, 255},
+                          in_mm(ras_of(screw.target.v)),
+                          radius_mm,
+                          ""}};
+    append(out, igtl::packed(label_of(name, time), std::span<const igtl::PointValues>(points)));
+    if (const auto shape = nav::cylinder_of(screw)) {
+      append(out, cylinder(label_of(name + "Model", time), *shape));
+    }
+  }
+  return out;
+}
+
 std::vector<std::uint8_t> igtl_screws(std::span<const engine::LevelState> levels, Timestamp time) {
   Bytes out;
   for (const engine::LevelState& level : levels) {
-    for (const nav::ScrewPlan& screw : level.plan.screws) {
-      const std::string name = level.plan.label + name_of(screw.side) + "Screw";
-      const auto radius_mm = static_cast<float>(screw.radius_m * 1e3);
-      const std::array<igtl::PointValues, 2> points = {
-          igtl::PointValues{name + " entry",
-                            "Screw",
-                            {80, 160, 255, 255},
-                            in_mm(ras_of(screw.entry.v)),
-                            radius_mm,
-                            ""},
-          igtl::PointValues{name + " target",
-                            "Screw",
-                            {80, 255, 120, 255},
-                            in_mm(ras_of(screw.target.v)),
-                            radius_mm,
-                            ""}};
-      append(out, igtl::packed(label_of(name, time), std::span<const igtl::PointValues>(points)));
-      if (const auto shape = nav::cylinder_of(screw)) {
-        append(out, cylinder(label_of(name + "Model", time), *shape));
-      }
-    }
+    append(out, igtl_screws(level.plan.label, level.plan.screws, time));
   }
   return out;
 }

@@ -37,8 +37,12 @@ namespace orthonav::tools {
 [[nodiscard]] std::vector<std::uint8_t> igtl_status(const engine::Session& session,
                                                     const engine::Guidance& guidance);
 
-/// Each screw of the plan in use in its model's frame: a POINT with entry and target (radius in the
-/// field for it) and a POLYDATA of its cylinder.
+/// Each screw of a level in its model's frame: a POINT with entry and target (radius in the field
+/// for it) and a POLYDATA of its cylinder.
+[[nodiscard]] std::vector<std::uint8_t> igtl_screws(const std::string& label,
+                                                    std::span<const nav::ScrewPlan> screws,
+                                                    Timestamp time);
+/// Those of the plans in use.
 [[nodiscard]] std::vector<std::uint8_t> igtl_screws(std::span<const engine::LevelState> levels,
                                                     Timestamp time);
 

@@ -28,11 +28,12 @@ std::vector<nav::ScrewPlan> screws_of(std::span<const engine::LevelState> levels
 
 }  // namespace
 
-void IgtlArguments::add_to(CLI::App& command) {
+void IgtlArguments::add_place_to(CLI::App& command, const std::string& what) {
   command
       .add_option("--igtl", at,
-                  "serve tools, registration, screws and guidance over OpenIGTLink at this port of "
-                  "this machine alone, or at ADDRESS:PORT (docs/igtl.md; usual port: 18944)")
+                  what +
+                      " over OpenIGTLink at this port of this machine alone, or at ADDRESS:PORT "
+                      "(docs/igtl.md; usual port: 18944)")
       ->check(some_text())
       ->type_name("PORT");
   command
@@ -48,6 +49,10 @@ void IgtlArguments::add_to(CLI::App& command) {
           "none (docs/igtl.md)")
       ->check(some_text())
       ->type_name("FILE");
+}
+
+void IgtlArguments::add_to(CLI::App& command) {
+  add_place_to(command, "serve tools, registration, screws and guidance");
   command.add_flag("--igtl-commands", commands,
                    "clients of --igtl may say commands and change the planned screw in work; "
                    "whoever may connect then steers the operation (docs/igtl.md)");

@@ -20,6 +20,8 @@ struct IgtlArguments {
   bool commands = false;   ///< clients may command and plan
 
   void add_to(CLI::App& command);
+  /// All but `--igtl-commands`; `what` says what is served.
+  void add_place_to(CLI::App& command, const std::string& what);
 };
 
 /// Serves an operation over OpenIGTLink (tools/igtl_messages.h) for as long as it lives, once it is

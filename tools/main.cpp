@@ -52,7 +52,7 @@ void add_commands(CLI::App& app, Action& action, StopSignals& signals) {
   add_evaluate_command(app, action);
   add_golden_command(app, action);
   add_manual_command(app, action);
-  add_plan_command(app, action);
+  add_plan_command(app, action, signals);
   add_preview_command(app, action, signals);
   add_print_command(app, action);
   add_recording_command(app, action);

@@ -2,7 +2,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/printed.h"
 #include "engine/case/plan_file.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
@@ -44,10 +43,7 @@ bool none_breaks_through(const std::vector<JudgedLevel>& levels) {
     for (const JudgedScrew& screw : level.screws) {
       if (screw.breaks_through()) {
         none = false;
-        std::fprintf(stderr, "orthonav: %s %s: breaks through the cortex: clearance %s\n",
-                     level.label.c_str(), name_of(screw.plan.side),
-                     beside_limit("%.1f mm, limit %.1f mm", screw.clearance->clearance_m * 1e3, 0.0)
-                         .c_str());
+        std::fprintf(stderr, "orthonav: %s\n", breach_text(level.label, screw).c_str());
       }
     }
   }

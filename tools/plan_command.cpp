@@ -27,13 +27,14 @@ bool PlanArguments::wants(const std::string& label) const {
   return levels.empty() || std::find(levels.begin(), levels.end(), label) != levels.end();
 }
 
-void add_plan_command(CLI::App& app, Action& action) {
+void add_plan_command(CLI::App& app, Action& action, StopSignals& signals) {
   CLI::App* command = app.add_subcommand(
-      "plan", "Pedicle screws: plans them, judges a plan, takes it to 3D Slicer");
+      "plan", "Pedicle screws: plans them, judges a plan, takes it to 3D Slicer and back");
   command->require_subcommand(1);
   add_plan_auto(*command, action);
   add_plan_check(*command, action);
   add_plan_export(*command, action);
+  add_plan_receive(*command, action, signals);
 }
 
 }  // namespace orthonav::tools

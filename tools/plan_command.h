@@ -26,5 +26,6 @@ struct PlanArguments {
 void add_plan_auto(CLI::App& plan, Action& action);
 void add_plan_check(CLI::App& plan, Action& action);
 void add_plan_export(CLI::App& plan, Action& action);
+void add_plan_receive(CLI::App& plan, Action& action, StopSignals& signals);
 
 }  // namespace orthonav::tools

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "base/printed.h"
 #include "engine/case/screw_breach.h"
 #include "engine/io/json_writer.h"
 #include "nav/guidance/changed_screw.h"
@@ -69,6 +70,11 @@ void print(const std::string& label, const JudgedScrew& screw) {
 
 bool JudgedScrew::breaks_through() const {
   return clearance && clearance->clearance_m < 0.0 && plan.accepted_breach.empty();
+}
+
+std::string breach_text(const std::string& label, const JudgedScrew& screw) {
+  return label + " " + name_of(screw.plan.side) + ": breaks through the cortex: clearance " +
+         beside_limit("%.1f mm, limit %.1f mm", screw.clearance->clearance_m * 1e3, 0.0);
 }
 
 JudgedScrew judged(const nav::SurfaceIndex& bone, const nav::ScrewPlan& screw,

@@ -41,6 +41,9 @@ struct JudgedLevel {
 /// Every screw of a level.
 [[nodiscard]] JudgedLevel judged(const engine::CaseLevel& level, const engine::ScrewSizes& sizes);
 
+/// "L4 left: breaks through the cortex: clearance -0.4 mm, limit 0.0 mm".
+[[nodiscard]] std::string breach_text(const std::string& label, const JudgedScrew& screw);
+
 /// Prints one line per screw on standard output, lengths in mm and angles in degrees.
 void print(const std::vector<JudgedLevel>& levels);
 

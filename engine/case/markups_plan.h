@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "engine/case/plan_file.h"
+#include "engine/io/slicer_markups.h"
 
 namespace orthonav::engine {
 
@@ -15,7 +16,8 @@ namespace orthonav::engine {
 Status save_markups_plan(const std::string& path, const std::string& level,
                          std::span<const nav::ScrewPlan> screws);
 
-/// The plan in a markups file, not yet checked; see load_plan.
-Result<Plan> plan_from_markups(const std::string& path);
+/// The plan in a markups file, not yet checked; see load_plan. `name` stands for the file in
+/// messages.
+Result<Plan> plan_from_markups(const Result<MarkupsFile>& file, const std::string& name);
 
 }  // namespace orthonav::engine

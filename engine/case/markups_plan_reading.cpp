@@ -119,8 +119,7 @@ Status add(const Pair& pair, Plan& plan) {
 
 }  // namespace
 
-Result<Plan> plan_from_markups(const std::string& path) {
-  const Result<MarkupsFile> file = load_markups(path);
+Result<Plan> plan_from_markups(const Result<MarkupsFile>& file, const std::string& name) {
   if (!file) {
     return file.error();
   }
@@ -129,7 +128,7 @@ Result<Plan> plan_from_markups(const std::string& path) {
   plan.metres_per_unit = file->metres_per_unit;
   for (const Pair& pair : pairs_of(*file)) {
     if (const Status added = add(pair, plan); !added) {
-      return Error{path + ": " + added.error().message};
+      return Error{name + ": " + added.error().message};
     }
   }
   return plan;

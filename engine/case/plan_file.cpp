@@ -148,13 +148,16 @@ Result<Plan> load_plan(const std::string& path) {
   if (lower_case(path).ends_with(".fcsv")) {
     return Error{path + ": an .fcsv file holds no lines; save the screws as .mrk.json lines"};
   }
-  auto plan =
-      is_markups_name(path) ? plan_from_markups(path) : plan_from_json(JsonDocument::read(path));
+  auto plan = is_markups_name(path) ? plan_from_markups(load_markups(path), path)
+                                    : plan_from_json(JsonDocument::read(path));
   return plan ? checked(path, std::move(*plan)) : plan;
 }
 
 Result<Plan> parse_plan(const std::string& text, const std::string& name) {
-  auto plan = plan_from_json(JsonDocument::parse(text, name));
+  const auto document = JsonDocument::parse(text, name);
+  const bool of_slicer = document && document->root().has("markups");
+  auto plan =
+      of_slicer ? plan_from_markups(markups_in(document, name), name) : plan_from_json(document);
   return plan ? checked(name, std::move(*plan)) : plan;
 }
 

@@ -41,7 +41,7 @@ struct Plan {
 /// that say both sides, screws shorter than 10 mm or longer than 120 mm, radii outside 1-6 mm, and
 /// the legacy `.fcsv`, which has no lines.
 Result<Plan> load_plan(const std::string& path);
-/// The same from a plan's JSON; `name` stands for the file in messages.
+/// The same from the text of either; `name` stands for the file in messages.
 Result<Plan> parse_plan(const std::string& text, const std::string& name);
 /// Several files as one plan: of one level, in one frame and unit.
 Result<Plan> load_plan(std::span<const std::string> paths);

@@ -94,7 +94,10 @@ bool is_markups_name(const std::string& path) {
 }
 
 Result<MarkupsFile> load_markups(const std::string& path) {
-  const Result<JsonDocument> document = JsonDocument::read(path);
+  return markups_in(JsonDocument::read(path), path);
+}
+
+Result<MarkupsFile> markups_in(const Result<JsonDocument>& document, const std::string& name) {
   if (!document) {
     return document.error();
   }
@@ -108,7 +111,7 @@ Result<MarkupsFile> load_markups(const std::string& path) {
     return status.error();
   }
   if (file.markups.empty()) {
-    return Error{path + ": markups is empty"};
+    return Error{name + ": markups is empty"};
   }
   return file;
 }

@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "base/vec.h"
+#include "engine/io/json_document.h"
 #include "engine/io/patient_axes.h"
 
 namespace orthonav::engine {
@@ -31,6 +32,9 @@ struct MarkupsFile {
 /// Reads `.mrk.json` (markups schema 1.0). Refuses markups without `coordinateSystem` (LPS or RAS)
 /// or `coordinateUnits` (mm or m), and files whose markups differ in either.
 Result<MarkupsFile> load_markups(const std::string& path);
+/// The same from a document that was read already, or the Error why it was not; `name` stands for
+/// the file in messages.
+Result<MarkupsFile> markups_in(const Result<JsonDocument>& document, const std::string& name);
 
 /// Reads the legacy `.fcsv` (always mm); refuses one without `# CoordinateSystem`, or whose
 /// `# columns` do not begin as Slicer writes them.

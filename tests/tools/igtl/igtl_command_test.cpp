@@ -14,6 +14,7 @@
 #include "tests/support/wait_until.h"
 #include "tests/tools/command_line.h"
 #include "tests/tools/igtl/screw_plan.h"
+#include "tests/tools/igtl/served_port.h"
 
 namespace orthonav::tools::igtl_test {
 namespace {
@@ -22,20 +23,10 @@ using test::StartedCommand;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 
-/// The port that the command reports; 0: none yet.
-int port_of(const StartedCommand& command) {
-  const std::string said = command.err_so_far();
-  const std::string before = "OpenIGTLink at 127.0.0.1:";
-  const std::size_t at = said.find(before);
-  return at == std::string::npos || said.find('\n', at) == std::string::npos
-             ? 0
-             : std::stoi(said.substr(at + before.size()));
-}
-
 TEST(IgtlCommand, ServesARunUntilItEnds) {
   StartedCommand command({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--igtl", "0"});
   int port = 0;
-  ASSERT_TRUE(test::wait_until([&] { return (port = port_of(command)) != 0; }));
+  ASSERT_TRUE(test::wait_until([&] { return (port = served_port(command)) != 0; }));
   test::IgtlClient listener(port);
   std::set<std::string> heard;
   const std::set<std::string> wanted = {"POINT L5leftScrew", "POLYDATA L5rightScrewModel",
@@ -61,7 +52,7 @@ TEST(IgtlCommand, AnswersWhatItsClientsAskWhereTheyMay) {
   StartedCommand command(
       {"run", "--headset", "sim:?seed=3", "--levels", "L5", "--igtl", "0", "--igtl-commands"});
   int port = 0;
-  ASSERT_TRUE(test::wait_until([&] { return (port = port_of(command)) != 0; }));
+  ASSERT_TRUE(test::wait_until([&] { return (port = served_port(command)) != 0; }));
   test::IgtlClient client(port);
   // Once it runs.
   for (std::string name = client.next(); name != "STRING Guidance"; name = client.next()) {
