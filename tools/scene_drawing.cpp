@@ -23,6 +23,9 @@ using render::Float3;
 constexpr int kWidth_px = 1440;
 constexpr int kHeight_px = 936;
 
+constexpr double kFilmScale = 0.5;
+constexpr int kFilm_hz = 10;
+
 /// Edge of Unity's plane at scale 1.
 constexpr double kPlaneEdge = 10.0;
 
@@ -145,30 +148,84 @@ render::Scene drawn_scene(const hl2ss::UnityObjects& objects, const render::Head
   return scene;
 }
 
+Result<std::unique_ptr<SceneEye>> SceneEye::create(double scale) {
+  render::RendererOptions options;
+  options.width_px = static_cast<int>(kWidth_px * scale);
+  options.height_px = static_cast<int>(kHeight_px * scale);
+  auto renderer = render::Renderer::create(options);
+  if (!renderer) {
+    return renderer.error();
+  }
+  return std::unique_ptr<SceneEye>(new SceneEye(std::move(*renderer)));
+}
+
+Result<const RgbaImage*> SceneEye::draw(const hl2ss::UnityObjects& objects,
+                                        const Transform<World, Rig>& world_from_rig) {
+  const std::vector<render::View> views = {
+      engine::hololens2_view(world_from_rig * rig_from_eyes())};
+  const render::Scene scene = drawn_scene(objects, render::head_of(views));
+  if (const Status drawn = renderer_->draw(scene, views, {}, images_); !drawn) {
+    return drawn.error();
+  }
+  return &images_[0];
+}
+
 Result<std::unique_ptr<ScenePictures>> ScenePictures::create(const std::string& folder) {
   auto made = OutFolder::create("--draw", folder);
   if (!made) {
     return made.error();
   }
-  render::RendererOptions options;
-  options.width_px = kWidth_px;
-  options.height_px = kHeight_px;
-  auto renderer = render::Renderer::create(options);
-  if (!renderer) {
-    return renderer.error();
+  auto eye = SceneEye::create(1.0);
+  if (!eye) {
+    return eye.error();
   }
-  return std::unique_ptr<ScenePictures>(new ScenePictures(std::move(*made), std::move(*renderer)));
+  return std::unique_ptr<ScenePictures>(new ScenePictures(std::move(*made), std::move(*eye)));
 }
 
 Status ScenePictures::draw(const hl2ss::UnityObjects& objects,
                            const Transform<World, Rig>& world_from_rig) {
-  const std::vector<render::View> views = {
-      engine::hololens2_view(world_from_rig * rig_from_eyes())};
-  const render::Scene scene = drawn_scene(objects, render::head_of(views));
-  if (const Status drawn = renderer_->draw(scene, views, {}, images_); !drawn) {
-    return drawn;
-  }
-  return engine::write_png(folder_.file(printed("scene-%04d.png", ++count_)), images_[0]);
+  const auto picture = eye_->draw(objects, world_from_rig);
+  return picture ? engine::write_png(folder_.file(printed("scene-%04d.png", ++count_)), **picture)
+                 : Status{picture.error()};
 }
+
+Result<std::unique_ptr<SceneFilm>> SceneFilm::create(const std::string& path) {
+  auto eye = SceneEye::create(kFilmScale);
+  if (!eye) {
+    return eye.error();
+  }
+  return std::unique_ptr<SceneFilm>(new SceneFilm(path, std::move(*eye)));
+}
+
+Status SceneFilm::look(const hl2ss::UnityObjects& objects,
+                       const Transform<World, Rig>& world_from_rig) {
+  if (!video_) {
+    if (objects.empty()) {
+      return {};
+    }
+    engine::VideoOptions options;
+    options.width_px = static_cast<int>(kWidth_px * kFilmScale);
+    options.height_px = static_cast<int>(kHeight_px * kFilmScale);
+    options.frames_per_second = kFilm_hz;
+    auto video = engine::VideoWriter::create(path_, options);
+    if (!video) {
+      return video.error();
+    }
+    video_ = std::move(*video);
+    since_first_.emplace();
+  }
+  const auto due = 1 + static_cast<std::int64_t>(since_first_->elapsed_ms() * 1e-3 * kFilm_hz);
+  if (video_->frames() >= due) {
+    return {};
+  }
+  const auto picture = eye_->draw(objects, world_from_rig);
+  Status written = picture ? Status{} : Status{picture.error()};
+  while (written && video_->frames() < due) {
+    written = video_->write(**picture);
+  }
+  return written;
+}
+
+Status SceneFilm::finish() { return video_ ? video_->finish() : Status{}; }
 
 }  // namespace orthonav::tools

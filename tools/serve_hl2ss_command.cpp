@@ -29,6 +29,7 @@ struct ServeArguments {
   std::string faults;
   std::int64_t sessions = 0;
   std::string draw;
+  std::string film;
   std::string token_file;
 };
 
@@ -75,27 +76,52 @@ void say_where(const hl2ss::Server& server, const ServeArguments& arguments) {
                side.c_str());
 }
 
-/// Draws what the headset's scene shows, a picture a second while it shows anything.
+/// Draws what the headset's scene shows, a picture a second while it shows anything, and films it.
 class SceneWatch {
  public:
-  explicit SceneWatch(ScenePictures* pictures) : pictures_(pictures) {}
+  static Result<SceneWatch> create(const ServeArguments& arguments) {
+    SceneWatch watch;
+    if (!arguments.draw.empty()) {
+      auto pictures = ScenePictures::create(arguments.draw);
+      if (!pictures) {
+        return pictures.error();
+      }
+      watch.pictures_ = std::move(*pictures);
+    }
+    if (!arguments.film.empty()) {
+      auto film = SceneFilm::create(arguments.film);
+      if (!film) {
+        return film.error();
+      }
+      watch.film_ = std::move(*film);
+    }
+    return watch;
+  }
   Status look(hl2ss::Server& server, const hl2ss::ServerReport& report) {
-    if (pictures_ == nullptr || looks_++ % kPictureEvery != 0 || !report.world_from_rig) {
+    const bool picture = pictures_ && looks_++ % kPictureEvery == 0;
+    if (!report.world_from_rig || !(picture || film_)) {
       return {};
     }
     const hl2ss::UnityObjects objects = server.scene().objects();
-    return objects.empty() ? Status{} : pictures_->draw(objects, *report.world_from_rig);
+    if (film_) {
+      if (const Status filmed = film_->look(objects, *report.world_from_rig); !filmed) {
+        return filmed;
+      }
+    }
+    return picture && !objects.empty() ? pictures_->draw(objects, *report.world_from_rig)
+                                       : Status{};
   }
+  Status finish() { return film_ ? film_->finish() : Status{}; }
 
  private:
-  ScenePictures* pictures_;
+  std::unique_ptr<ScenePictures> pictures_;
+  std::unique_ptr<SceneFilm> film_;
   int looks_ = 0;
 };
 
 /// Reports the beginning and end of each session, until the given number is reached.
-int watch(hl2ss::Server& server, ScenePictures* pictures, std::int64_t sessions,
+int watch(hl2ss::Server& server, SceneWatch& scene, std::int64_t sessions,
           const StopSignals& signals) {
-  SceneWatch scene(pictures);
   bool was_streaming = false;
   std::int64_t pairs_before = 0;
   std::int64_t faults_before = 0;
@@ -150,13 +176,9 @@ int serve(ServeArguments arguments, StopSignals& signals) {
   if (!sessions) {
     return bad_input(sessions.error().message);
   }
-  std::unique_ptr<ScenePictures> pictures;
-  if (!arguments.draw.empty()) {
-    auto made = ScenePictures::create(arguments.draw);
-    if (!made) {
-      return bad_input(made.error().message);
-    }
-    pictures = std::move(*made);
+  auto scene = SceneWatch::create(arguments);
+  if (!scene) {
+    return bad_input(scene.error().message);
   }
   const auto server = hl2ss::Server::start(arguments.server, *sessions);
   if (!server) {
@@ -164,7 +186,9 @@ int serve(ServeArguments arguments, StopSignals& signals) {
   }
   signals.let_finish();
   say_where(**server, arguments);
-  return watch(**server, pictures.get(), arguments.sessions, signals);
+  const int code = watch(**server, *scene, arguments.sessions, signals);
+  const Status finished = scene->finish();
+  return finished ? code : bad_input(finished.error().message);
 }
 
 /// Where it listens, and to whom.
@@ -218,6 +242,9 @@ void add_scene(CLI::App& serve, ServeArguments& arguments) {
       .add_option("--draw", arguments.draw,
                   "folder for pictures of what the headset's own scene shows, one a second")
       ->check(some_text());
+  serve.add_option("--film", arguments.film, "film of it, as an MP4 file, ten pictures a second")
+      ->check(some_text())
+      ->type_name("FILE");
 }
 
 }  // namespace

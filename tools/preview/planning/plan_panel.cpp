@@ -6,6 +6,7 @@
 #include "engine/case/screw_breach.h"
 #include "engine/session/replan_wording.h"
 #include "nav/guidance/changed_screw.h"
+#include "nav/planning/pedicle_screws.h"
 #include "tools/preview/panel_parts.h"
 #include "tools/preview/planning/plan_scene.h"
 #include "tools/preview/screw_panel.h"
@@ -62,7 +63,8 @@ void draw_clearance(const PlanModel& model) {
     return wrapped_text(kFair, "no diameter is stated: clearance not measured");
   }
   const double clearance_m = least->clearance_m;
-  const ImVec4& colour = clearance_m < 0.0 ? kBad : clearance_m < 0.001 ? kFair : kGood;
+  const double wanted_m = nav::PlanningRules{}.wanted_clearance_m;
+  const ImVec4& colour = clearance_m < 0.0 ? kBad : clearance_m < wanted_m ? kFair : kGood;
   ImGui::TextColored(colour, "clearance %s mm, grade %s",
                      engine::clearance_text(clearance_m).c_str(),
                      nav::name_of(nav::grade_of(clearance_m)));

@@ -6,6 +6,7 @@
 #include "engine/case/screw_breach.h"
 #include "engine/holograms/hologram_colours.h"
 #include "engine/holograms/render_values.h"
+#include "nav/planning/pedicle_screws.h"
 #include "render/projection.h"
 #include "render/shapes.h"
 
@@ -28,7 +29,6 @@ constexpr double kHandleRadius = 0.016;
 /// What lies this near to a slice is drawn in it.
 constexpr double kInSlice_m = 0.004;
 constexpr double kBesideBone_m = 0.006;
-constexpr double kWanted_m = 0.001;
 constexpr double kScale_m = 0.010;
 /// The axis is drawn beyond the entry by this part of the screw.
 constexpr double kBeyond = 0.12;
@@ -230,9 +230,10 @@ render::Colour colour_of(const std::optional<nav::Clearance>& clearance) {
     return kText;
   }
   const engine::HologramColours& colours = engine::look::colours();
-  return clearance->clearance_m < 0.0         ? colours.poor
-         : clearance->clearance_m < kWanted_m ? colours.fair
-                                              : colours.good;
+  const double wanted_m = nav::PlanningRules{}.wanted_clearance_m;
+  return clearance->clearance_m < 0.0        ? colours.poor
+         : clearance->clearance_m < wanted_m ? colours.fair
+                                             : colours.good;
 }
 
 void add_slice(const PlanModel& model, Pane pane, double aspect, render::Scene& scene) {
