@@ -31,6 +31,15 @@ Event after_screw(const OperationInWork& work) {
   return any_rod_planned(work.levels) ? Event::kNoScrewLeft : Event::kNoRodPlanned;
 }
 
+/// Of a screw in the hole of a drill that goes astray from the tool.
+nav::PoseUncertainty with_astray(const nav::PoseUncertainty& of_tool,
+                                 const nav::ScrewCylinder& screw, const DrillAstray& astray) {
+  nav::CommonErrors skived;
+  skived.tip_m = astray.start_m;
+  return nav::with_turn(nav::with_common(of_tool, skived), screw.entry, screw.direction,
+                        astray.direction_rad);
+}
+
 }  // namespace
 
 void Guiding::select_open_screw(const LevelState& level) {
@@ -49,7 +58,7 @@ Event Guiding::finish_screw(OperationInWork& work, const Placing& placing, Times
   level.screw_done[screw_] = true;
   level.clearance_at_depth[screw_] =
       at_depth
-          ? clearance_along(level, approach_.pose_at_depth, work.tools.geometry(work.tools.guide()))
+          ? clearance_along(work, approach_.pose_at_depth, work.tools.geometry(work.tools.guide()))
           : std::nullopt;
   level.executed[screw_] = approach_.path.mean();
   if (work.step == Step::kPlaced) {
@@ -111,7 +120,7 @@ std::optional<ToolGuidance> Guiding::guide(const OperationInWork& work, Timestam
   take_measurement(guidance, level, watch.newest(), tool);
   remember_depth(guidance, *guidance.measured, watch.newest());
   if (work.options.live_clearance) {
-    add_clearance(guidance, level, watch.newest(), tool);
+    add_clearance(guidance, work, watch.newest(), tool);
   }
   return guidance;
 }
@@ -177,15 +186,15 @@ void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuida
   }
 }
 
-std::optional<nav::ScrewClearance> Guiding::clearance_along(const LevelState& level,
+std::optional<nav::ScrewClearance> Guiding::clearance_along(const OperationInWork& work,
                                                             const nav::TrackedPose& pose,
                                                             const nav::ToolGeometry& tool) const {
+  const LevelState& level = work.level();
   if (!level.registration) {
     return std::nullopt;
   }
   const nav::ScrewPlan& plan = level.plan.screws[screw_];
-  const ToolInVertebra there =
-      in_vertebra(*level.registration, pose, tool, {level.walked_sd_m(pose.time)});
+  const ToolInVertebra there = in_bone(level, pose, tool);
   const nav::Axis<Vertebra>& axis = there.axis;
   const Vec3 planned = plan.target - plan.entry;
   const Vec3 off_m = (axis.point - plan.entry).cross(planned.normalized());
@@ -198,15 +207,20 @@ std::optional<nav::ScrewClearance> Guiding::clearance_along(const LevelState& le
   if (!screw) {
     return std::nullopt;
   }
-  return nav::screw_clearance(bone, *screw, there.uncertainty ? &*there.uncertainty : nullptr);
+  if (!there.uncertainty) {
+    return nav::screw_clearance(bone, *screw, nullptr);
+  }
+  const nav::PoseUncertainty of_drill =
+      with_astray(*there.uncertainty, *screw, work.options.astray);
+  return nav::screw_clearance(bone, *screw, &of_drill);
 }
 
-void Guiding::add_clearance(ToolGuidance& guidance, const LevelState& level,
+void Guiding::add_clearance(ToolGuidance& guidance, const OperationInWork& work,
                             const nav::TrackedPose& pose, const nav::ToolGeometry& tool) {
-  guidance.clearance = clearance_along(level, pose, tool);
+  guidance.clearance = clearance_along(work, pose, tool);
   if (guidance.clearance) {
     guidance.shown_clearance =
-        approach_.clearance.write(*guidance.clearance, level.plan.screws[screw_].side);
+        approach_.clearance.write(*guidance.clearance, work.level().plan.screws[screw_].side);
   } else {
     approach_.clearance.forget();
   }

@@ -34,11 +34,12 @@ class Guiding {
   [[nodiscard]] std::size_t screw() const { return screw_; }
   [[nodiscard]] const nav::DrillView& drill() const { return approach_.drill.view(); }
   /// Clearance of the selected screw if it were driven along the tool's axis; none if the tool is
-  /// not near the plan (15 mm, 30°). Takes the uncertainty of the pose into account, and the
-  /// registration's if known. Errors that shift bone and tool alike count in full: hand and drill
-  /// deviate too, and a bound may be too low but never too high. Allocates nothing.
+  /// not near the plan (15 mm, 30°). Where the registration's uncertainty is known, takes the
+  /// tool's relative to the bone into account, and how far a drill goes astray (`DrillAstray`).
+  /// Allocates nothing.
   [[nodiscard]] std::optional<nav::ScrewClearance> clearance_along(
-      const LevelState& level, const nav::TrackedPose& pose, const nav::ToolGeometry& tool) const;
+      const OperationInWork& work, const nav::TrackedPose& pose,
+      const nav::ToolGeometry& tool) const;
   /// Writes the selected screw and, in this step, the tool relative to it unless guidance is
   /// hidden.
   void write(const OperationInWork& work, const GuideChecks& checks, bool hidden, Guidance& out);
@@ -78,8 +79,8 @@ class Guiding {
   [[nodiscard]] ToolInVertebra in_bone(const LevelState& level, const nav::TrackedPose& pose,
                                        const nav::ToolGeometry& tool) const;
   /// Adds `clearance_along`, and its displayed form, to guidance on a measurement.
-  void add_clearance(ToolGuidance& guidance, const LevelState& level, const nav::TrackedPose& pose,
-                     const nav::ToolGeometry& tool);
+  void add_clearance(ToolGuidance& guidance, const OperationInWork& work,
+                     const nav::TrackedPose& pose, const nav::ToolGeometry& tool);
 
   nav::DrillLimits limits_;
   ToolErrors errors_;  ///< of the tool in this pair; World's drift is in the level (BoneFound)

@@ -31,6 +31,17 @@ std::vector<std::string> problems_of_times(const SessionOptions& o) {
 
 }  // namespace
 
+std::vector<std::string> DrillAstray::check() const {
+  std::vector<std::string> problems;
+  if (!(direction_rad >= 0.0 && direction_rad <= 0.2)) {
+    problems.push_back("direction_rad must lie in [0, 0.2]");
+  }
+  if (!(start_m >= 0.0 && start_m <= 0.01)) {
+    problems.push_back("start_m must lie in [0, 0.01]");
+  }
+  return problems;
+}
+
 std::vector<std::string> SessionOptions::check() const {
   std::vector<std::string> problems;
   const auto add = [&problems](const char* of, const std::vector<std::string>& more) {
@@ -52,6 +63,7 @@ std::vector<std::string> SessionOptions::check() const {
   add("", landmark.check());
   add("", placed.check());
   add("drill: ", drill.check());
+  add("astray: ", astray.check());
   add("replan: ", replan.check());
   for (const double sd_m : {common.tip_m, common.cameras_m, common.map_m}) {
     if (!(sd_m >= 0.0 && sd_m <= 0.01)) {

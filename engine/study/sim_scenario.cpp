@@ -62,6 +62,8 @@ void tell_common_errors(const sim::ErrorModel& room, SessionOptions& session) {
   session.placed.tip_sd_m = room.tip_calibration_m;
   session.placed.axis_sd_rad = room.axis_calibration_rad;
   session.placed.play_rad = room.sleeve_play_rad;
+  session.astray = {std::hypot(room.wire_bending_rad, room.hand_drilling_corrected_rad),
+                    room.wire_skiving_m};
   session.common.cameras_m = std::sqrt((2.0 * across_m * across_m + depth_m * depth_m) / 3.0);
   constexpr double kSecondsAMinute = 60.0;
   session.map_drift_m_per_sqrt_s =

@@ -42,8 +42,9 @@ struct ClearanceSpread {
 
 /// The uncertainty of a tracked tool's pose relative to the bone, from the uncertainties of both
 /// poses. They are taken as independent: errors that strokes and tool share (the cameras, the map)
-/// are counted twice, which is on the safe side. `origin_in_vertebra` is the origin of the tracked
-/// marker, about which the rotations in its covariance (World's axes) are taken.
+/// must not be in `bone`, or they are counted although they cancel. `origin_in_vertebra` is the
+/// origin of the tracked marker, about which the rotations in its covariance (World's axes) are
+/// taken.
 [[nodiscard]] PoseUncertainty with_tool(const PoseUncertainty& bone,
                                         const Transform<Vertebra, World>& vertebra_from_world,
                                         Point<Vertebra> origin_in_vertebra,

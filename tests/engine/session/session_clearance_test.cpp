@@ -41,11 +41,27 @@ TEST(SessionClearance, IsThatOfTheScrewAlongTheToolAsItIsHeld) {
   const auto aside = s.along({0.0255, 0.020, 0.0});
   ASSERT_TRUE(aside && aside->spread);
   EXPECT_NEAR(aside->least.clearance_m, 0.0015, kSearch_m);
-  EXPECT_NEAR(aside->spread->lower_95_m, 0.0015 - 1.645 * kSd_m, 0.1 * kSd_m);
-  EXPECT_GT(aside->spread->probability(nav::PedicleGrade::kA), 0.99);
+  EXPECT_LT(aside->spread->lower_95_m, 0.0015 - 1.645 * kSd_m) << "guide and drill err as well";
+  EXPECT_GT(aside->spread->probability(nav::PedicleGrade::kA), 0.8);
   const auto out = s.along({0.0285, 0.020, 0.0});
   EXPECT_NEAR(out->least.clearance_m, -0.0015, kSearch_m);
-  EXPECT_GT(out->spread->probability(nav::PedicleGrade::kB), 0.8);
+  EXPECT_GT(out->spread->probability(nav::PedicleGrade::kB), 0.5);
+}
+
+/// SD of the clearance beside a wall that runs along the screw, from its bound.
+double sd_beside_wall_m(const DrillAstray& astray) {
+  SessionOptions options;
+  options.astray = astray;
+  const auto aside = WhileGuiding(options).along({0.0255, 0.020, 0.0});
+  return (aside->least.clearance_m - aside->spread->lower_95_m) / 1.645;
+}
+
+TEST(SessionClearance, CountsHowFarADrillGoesAstray) {
+  const double straight_m = sd_beside_wall_m({0.0, 0.0});
+  const double skived_m = sd_beside_wall_m({0.0, 0.002});
+  const double added_m2 = skived_m * skived_m - straight_m * straight_m;
+  EXPECT_NEAR(added_m2, 0.002 * 0.002, 0.2 * 0.002 * 0.002);
+  EXPECT_GT(sd_beside_wall_m({0.1, 0.0}), straight_m + 0.001) << "some 35 mm behind the entry";
 }
 
 TEST(SessionClearance, CountsTheToolsOwnUncertainty) {
