@@ -68,6 +68,11 @@ endif()
 # Each package carries its copyright and changelog (gzip was searched for with the manual).
 if(GZIP_PROGRAM)
   set(papers "${PROJECT_BINARY_DIR}/papers")
+  # Of data/golden_vertebra.ply; blank lines are dots in this format.
+  file(READ "${PROJECT_SOURCE_DIR}/tests/data/anatomy/visible-human/LICENSE" bsd)
+  string(STRIP "${bsd}" bsd)
+  string(REGEX REPLACE "\n\n" "\n.\n" bsd "${bsd}")
+  string(REPLACE "\n" "\n " bsd "${bsd}")
   file(WRITE "${papers}/copyright" "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: orthonav
 
@@ -75,6 +80,11 @@ Files: *
 Copyright: 2026 The orthonav developers
 License: Apache-2.0
  On Debian systems the full text is in /usr/share/common-licenses/Apache-2.0.
+
+Files: data/golden_vertebra.ply
+Copyright: 2021 Robin Remus
+License: BSD-3-Clause
+ ${bsd}
 ")
   configure_file("${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${papers}/changelog" COPYONLY)
   file(WRITE "${papers}/changelog.Debian" "orthonav (${PROJECT_VERSION}-1) unstable; urgency=medium

@@ -5,6 +5,24 @@
 #include "engine/io/image_file.h"
 
 namespace orthonav::tools {
+namespace {
+
+/// The middle of a picture, with the site, the cross and its numbers, and the status line below.
+void copy_middle(const RgbaImage& image, RgbaImage& middle) {
+  const int left = image.width_px / 8;
+  const int top = image.height_px / 8;
+  middle.width_px = image.width_px - 2 * left;
+  middle.height_px = image.height_px - top;
+  middle.pixels.clear();
+  for (int y = top; y < image.height_px; ++y) {
+    const auto row =
+        image.pixels.begin() + 4 * (static_cast<std::ptrdiff_t>(y) * image.width_px + left);
+    middle.pixels.insert(middle.pixels.end(), row,
+                         row + 4 * static_cast<std::ptrdiff_t>(middle.width_px));
+  }
+}
+
+}  // namespace
 
 Status StepPictures::picture(const RgbaImage& image, const engine::Snapshot& snapshot) {
   if (snapshot.blank) {
@@ -15,14 +33,22 @@ Status StepPictures::picture(const RgbaImage& image, const engine::Snapshot& sna
       return finished;
     }
     held_step_ = snapshot.step;
-    held_guides_ = false;
+    held_shows_site_ = false;
+    held_tip_to_entry_m_.reset();
   }
-  const bool guides = !snapshot.scene.triangles.empty();
-  if (held_guides_ && !guides) {
+  const bool shows_site = !snapshot.scene.lines.empty() || !snapshot.scene.meshes.empty();
+  const std::optional<double> tip_to_entry_m = snapshot.tip_to_entry_m;
+  if ((held_shows_site_ && !shows_site) ||
+      (held_tip_to_entry_m_ && !(tip_to_entry_m && *tip_to_entry_m < *held_tip_to_entry_m_))) {
     return {};
   }
-  held_ = image;
-  held_guides_ = guides;
+  held_shows_site_ = shows_site;
+  held_tip_to_entry_m_ = tip_to_entry_m;
+  if (tip_to_entry_m) {
+    copy_middle(image, held_);
+  } else {
+    held_ = image;
+  }
   return {};
 }
 

@@ -16,8 +16,8 @@ struct StepPicture {
   std::filesystem::path path;
 };
 
-/// Keeps one picture of every step: the last one before the step ends; for guiding, the last one
-/// with the deviation triangle, since afterwards the tool is gone.
+/// Keeps one picture of every step: the last one that shows more than the status line. For guiding,
+/// the one with the tip nearest to the entry, and of that the middle, where the bone is.
 class StepPictures : public PictureSink {
  public:
   explicit StepPictures(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -31,7 +31,8 @@ class StepPictures : public PictureSink {
   std::vector<StepPicture> written_;
   RgbaImage held_;
   std::optional<StepOnDisplay> held_step_;
-  bool held_guides_ = false;
+  bool held_shows_site_ = false;  ///< more than the status line
+  std::optional<double> held_tip_to_entry_m_;
   Status failure_;  ///< the first picture that could not be written
 };
 

@@ -58,6 +58,7 @@ void SurgeonView::draw_room(const Moment& moment) {
   view.tan_right = static_cast<double>(views_[0].tan_right);
   view.tan_up = static_cast<double>(views_[0].tan_up);
   view.tan_down = static_cast<double>(views_[0].tan_down);
+  view.hand_opacity = options_.hand_opacity;
   room_->picture(moment.room, view, room_picture_);
   background_.pixels.swap(room_picture_.pixels);
   combiner_.dim(background_);

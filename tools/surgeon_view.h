@@ -21,17 +21,19 @@ class PictureSink {
   virtual Status picture(const RgbaImage& image, const engine::Snapshot& snapshot) = 0;
 };
 
+/// What a HoloLens 2 shows one eye, 43° wide, four fifths as many pixels each way.
 struct SurgeonViewOptions {
-  int width_px = 960;
-  int height_px = 540;
-  double half_angle_deg = 26.0;  ///< of the horizontal field of view
+  int width_px = 1152;
+  int height_px = 748;
+  double half_angle_deg = 21.5;  ///< of the horizontal field of view
+  double hand_opacity = 0.35;    ///< sim::PinholeView::hand_opacity
   std::string device;            ///< part of a Vulkan device's name; empty: the best
 };
 
 /// The surgeon's right eye's view of a simulated room: the site with the holograms added to it, as
-/// in an optical see-through display. The room is drawn from where the head truly is, the holograms
-/// from where the headset believes it is: tracking error and map drift appear as they would in
-/// reality. It only observes; nothing from it reaches the engine.
+/// in an optical see-through display. The hand is drawn as if of glass. The room is drawn from
+/// where the head truly is, the holograms from where the headset believes it is: tracking error and
+/// map drift appear as they would in reality. It only observes; nothing from it reaches the engine.
 class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
  public:
   /// An Error when no Vulkan device is suitable.

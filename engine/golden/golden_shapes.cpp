@@ -20,7 +20,7 @@ namespace {
 using render::Float3;
 
 GoldenScene path(const std::string& name, const std::string& what, PathState state) {
-  GoldenScene golden = start(name, what, close_view({-0.012f, 0.04f, -0.001f}));
+  GoldenScene golden = start(name, what, close_view({-0.011f, 0.033f, -0.004f}));
   const std::vector<Float3> samples = stroke();
   add_sampled_path(golden.scene, samples, state, kPathLabel);
   golden.covered = {
@@ -30,7 +30,7 @@ GoldenScene path(const std::string& name, const std::string& what, PathState sta
 
 GoldenScene fading(float opacity) {
   GoldenScene golden = start("h1_fading", "orange ribbon, half gone: a deleted region",
-                             close_view({-0.012f, 0.04f, -0.001f}));
+                             close_view({-0.011f, 0.033f, -0.004f}));
   const std::vector<Float3> samples = stroke();
   add_sampled_path(golden.scene, samples, PathState::kSaved, kPathLabel, opacity);
   golden.covered = {{kPathLabel, samples[60]}};
@@ -39,7 +39,7 @@ GoldenScene fading(float opacity) {
 
 GoldenScene residuals() {
   GoldenScene golden = start("h1_residuals", "ribbon green, amber and red by its distance",
-                             close_view({-0.012f, 0.04f, -0.001f}));
+                             close_view({-0.011f, 0.033f, -0.004f}));
   const std::vector<Float3> samples = stroke();
   std::vector<float> distances_m;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -54,10 +54,10 @@ GoldenScene vertebra() {
   GoldenScene golden = start("h2_vertebra", "a vertebra: bright rim, dark see-through inside",
                              close_view({0, 0.02f, 0}));
   add_vertebra(golden.scene, make_golden_vertebra(), render::kIdentity, kVertebraLabel);
-  golden.covered = {{kVertebraLabel, {0, 0.0655f, -0.0185f}},
-                    {kVertebraLabel, {0.0445f, 0.030f, 0.009f}},
-                    {kVertebraLabel, {-0.0445f, 0.030f, 0.009f}},
-                    {kVertebraLabel, {0.0185f, 0.033f, 0.014f}}};
+  golden.covered = {{kVertebraLabel, {-0.0010f, 0.0570f, -0.0120f}},
+                    {kVertebraLabel, {0.0360f, 0.0285f, 0.0070f}},
+                    {kVertebraLabel, {-0.0360f, 0.0276f, 0.0075f}},
+                    {kVertebraLabel, {0.0163f, 0.0285f, 0.0245f}}};
   return golden;
 }
 

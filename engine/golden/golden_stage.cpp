@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/angle.h"
+#include "engine/golden/golden_vertebra.h"
 #include "engine/holograms/render_values.h"
 #include "render/float3.h"
 #include "render/projection.h"
@@ -79,13 +80,15 @@ nav::ShownDepth shown_depth(double depth_m, double to_target_m, double sd_m) {
   return nav::DepthWriter().write({depth_m, sd_m}, to_target_m).value();
 }
 
-std::vector<Float3> stroke() {
+std::vector<Float3> stroke(Side side) {
+  const float lateral = side == Side::kLeft ? 1.0f : -1.0f;
   std::vector<Float3> samples;
   for (int i = 0; i < 120; ++i) {
     const float t = static_cast<float>(i) / 119.0f;
     const float angle_rad = t * 3.0f * 2.0f * std::numbers::pi_v<float>;
-    samples.push_back({-0.020f + 0.016f * t + 0.0035f * std::cos(angle_rad), 0.038f + 0.004f * t,
-                       0.004f - 0.010f * t + 0.005f * std::sin(angle_rad)});
+    const float aside = 0.0115f - 0.0015f * t - 0.0028f * std::cos(angle_rad);
+    samples.push_back(
+        on_golden_vertebra(lateral * aside, 0.0035f - 0.015f * t + 0.004f * std::sin(angle_rad)));
   }
   return samples;
 }

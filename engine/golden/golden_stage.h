@@ -19,8 +19,8 @@ inline constexpr render::Float3 kEntry = {0.0165f, 0.0320f, 0.0070f};
 inline constexpr render::Float3 kTarget = {0.0080f, -0.0110f, 0.0040f};
 inline constexpr render::Float3 kOtherEntry = {-0.0165f, 0.0320f, 0.0070f};
 inline constexpr render::Float3 kOtherTarget = {-0.0080f, -0.0110f, 0.0040f};
-inline constexpr render::Float3 kNormal = {0.25f, 0.95f, 0.15f};
-inline constexpr render::Float3 kOtherNormal = {-0.25f, 0.95f, 0.15f};
+inline constexpr render::Float3 kNormal = {-0.14f, 0.78f, -0.61f};
+inline constexpr render::Float3 kOtherNormal = {0.14f, 0.78f, -0.61f};
 
 // The labels of the holograms in the scenes.
 inline constexpr render::Label kPathLabel = label_of(HologramKind::kPath, 1);
@@ -48,7 +48,7 @@ inline constexpr render::Label kCheckPointLabel = label_of(HologramKind::kCheckP
 
 /// Spread over the bone, to be touched for verification.
 inline constexpr std::array<render::Float3, 3> kPlacesToCheck = {
-    {{0, 0.062f, -0.016f}, {0.021f, 0.036f, 0.010f}, {-0.021f, 0.036f, 0.010f}}};
+    {{0.0002f, 0.0576f, -0.0145f}, {0.0200f, 0.0352f, 0.0106f}, {-0.0200f, 0.0354f, 0.0109f}}};
 
 /// Unit, along the plan out of the bone.
 [[nodiscard]] render::Float3 planned_direction();
@@ -74,8 +74,8 @@ struct NumberSds {
 /// How the product would show a depth past the entry of which so much is left to the target.
 [[nodiscard]] nav::ShownDepth shown_depth(double depth_m, double to_target_m, double sd_m = 0.0004);
 
-/// Strokes over lamina and spinous process, as a surgeon makes them.
-[[nodiscard]] std::vector<render::Float3> stroke();
+/// A stroke over the lamina of a side, as a surgeon makes it.
+[[nodiscard]] std::vector<render::Float3> stroke(Side side = Side::kRight);
 
 /// Near enough to judge one hologram: 14° wide.
 [[nodiscard]] std::vector<render::View> close_view(render::Float3 target);

@@ -42,13 +42,10 @@ void add_paths(GoldenScene& golden, bool recording) {
   if (!recording) {
     return;
   }
-  std::vector<Float3> mirrored = saved;
-  for (Float3& p : mirrored) {
-    p = {-p.x, p.y, p.z};
-  }
-  mirrored.resize(70);
-  add_sampled_path(golden.scene, mirrored, PathState::kRecording, kOtherPathLabel);
-  golden.covered.push_back({kOtherPathLabel, mirrored.back()});
+  std::vector<Float3> recorded = stroke(Side::kLeft);
+  recorded.resize(70);
+  add_sampled_path(golden.scene, recorded, PathState::kRecording, kOtherPathLabel);
+  golden.covered.push_back({kOtherPathLabel, recorded.back()});
 }
 
 void add_bone(GoldenScene& golden) {

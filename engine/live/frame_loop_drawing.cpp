@@ -58,6 +58,10 @@ void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int
   snapshot->map_epoch = frame_.map_epoch;
   snapshot->expires.reset();
   snapshot->tool_time = builder_.visible().pose_time;
+  snapshot->tip_to_entry_m.reset();
+  if (const nav::ScrewGuidance* triangle = builder_.visible().triangle) {
+    snapshot->tip_to_entry_m = triangle->tip_to_entry_m;
+  }
   if (const auto& pose_time = builder_.visible().pose_time) {
     snapshot->expires = *pose_time + guidance.stale_after;
   }

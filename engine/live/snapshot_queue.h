@@ -24,6 +24,8 @@ struct Snapshot {
   std::optional<Timestamp> expires;
   /// Mid-exposure of the pair from which the scene's tool guidance comes; absent if there is none.
   std::optional<Timestamp> tool_time;
+  /// From the tool's tip to the entry point; absent without a deviation triangle.
+  std::optional<double> tip_to_entry_m;
   std::int64_t map_epoch = 0;  ///< of the scene's World (StereoFrame::map_epoch)
   bool blank = false;          ///< the loop has ended: only the status line is shown
   render::Scene scene;  ///< with labels at their original places; the drawing thread lays them out

@@ -22,7 +22,8 @@ std::string pictures_section(const ReportContent& content) {
         file + "\"" +
         (content.poster.empty() ? "" : " poster=\"" + data_uri(content.poster) + "\"") +
         "></video><p class=notes>" + file +
-        ", beside this page; the holograms as the surgeon saw them.</p></section>";
+        ", beside this page; the holograms as the surgeon saw them, the hand as if of "
+        "glass.</p></section>";
   }
   if (content.pictures.empty()) {
     return html;

@@ -18,6 +18,9 @@ struct PinholeView {
   double tan_right = 0.5;
   double tan_up = 0.3;
   double tan_down = 0.3;
+  /// How much of what is behind the hand it hides. 1: as in reality; less, in pictures that are to
+  /// show what the hand does.
+  double hand_opacity = 1.0;
 };
 
 /// Renders the room as its cameras see it. Deterministic: the image depends only on the arguments.

@@ -51,9 +51,11 @@ class Ground {
 
   [[nodiscard]] Hit hit(const std::array<float, 3>& origin,
                         const std::array<float, 3>& direction) const;
-  /// Grey as the cameras see it, and colour (linear light) for people.
+  /// Grey as the cameras see it.
   [[nodiscard]] float grey(const Hit& hit) const;
-  [[nodiscard]] std::array<float, 3> colour(const Hit& hit) const;
+  /// Colour (linear light) for people; `direction` is the ray's, of any length.
+  [[nodiscard]] std::array<float, 3> colour(const Hit& hit,
+                                            const std::array<float, 3>& direction) const;
 
   /// Height of the skin, and of the tissue between the bones.
   [[nodiscard]] float skin_height(float z) const {
@@ -73,6 +75,13 @@ class Ground {
   void reach(const std::array<float, 3>& origin, const std::array<float, 3>& direction,
              float below_skin, Hit& hit) const;
   [[nodiscard]] std::array<float, 3> drape_colour(const Hit& hit) const;
+  [[nodiscard]] std::array<float, 3> skin_colour(const Hit& hit) const;
+  [[nodiscard]] std::array<float, 3> wall_colour(const Hit& hit,
+                                                 const std::array<float, 3>& direction) const;
+  [[nodiscard]] std::array<float, 3> tissue_colour(const Hit& hit,
+                                                   const std::array<float, 3>& direction) const;
+  /// How far across the nearest blade of the retractor a place is: 0 in its middle, 1 on its edges.
+  [[nodiscard]] float across_blade(float z) const;
 
   Blotches blotches_;
   bool wound_ = false;

@@ -25,15 +25,67 @@ std::uint8_t encoded(float linear) {
   return static_cast<std::uint8_t>(std::lround(255.0 * srgb_from_linear(v)));
 }
 
-std::array<float, 3> bone_colour(float lit, float height) {
+using Colour = std::array<float, 3>;
+
+/// As on the two sides of an edge.
+bool far_apart(const Colour& a, const Colour& b) {
+  constexpr float kFar = 0.05F;
+  return std::abs(a[0] - b[0]) > kFar || std::abs(a[1] - b[1]) > kFar ||
+         std::abs(a[2] - b[2]) > kFar;
+}
+
+Colour bone_colour(float lit, float height) {
   // Blood stays in the grooves near the tissue.
   const float clean = std::clamp((height - 0.0005F) / 0.005F, 0.0F, 1.0F);
-  const float light = 0.10F + 0.95F * lit;
+  // Light that bone and tissue throw at each other fills what the lamp does not reach.
+  const float light = 0.10F + 0.95F * std::pow(std::max(lit, 0.0F), 0.8F);
   return {light * (0.42F + 0.42F * clean), light * (0.13F + 0.60F * clean),
           light * (0.08F + 0.44F * clean)};
 }
 
+/// Moves the hand's bodies to `hand`.
+void take_hand(Solids& solids, Solids& hand) {
+  hand.lamp_in_camera = solids.lamp_in_camera;
+  const auto is_tool = [](const Capsule& capsule) { return capsule.tool >= 0; };
+  const auto first = std::stable_partition(solids.capsules.begin(), solids.capsules.end(), is_tool);
+  hand.capsules.assign(first, solids.capsules.end());
+  solids.capsules.erase(first, solids.capsules.end());
+}
+
 }  // namespace
+
+/// The ground as the rays of a picture meet it.
+struct PicturePainter::GroundView {
+  const Ground& ground;
+  const PinholeLens& lens;
+  Transform<Spine, LeftCamera> spine_from_camera;
+
+  /// At a place in pixels; the corner of the picture is (0, 0).
+  [[nodiscard]] Colour colour(Vec2 at, float* nearness = nullptr) const {
+    const Vec3 eye = spine_from_camera.translation();
+    const Vec3 ray = spine_from_camera.rotation() * lens.ray(at);
+    const Colour direction{static_cast<float>(ray.x), static_cast<float>(ray.y),
+                           static_cast<float>(ray.z)};
+    const Ground::Hit hit = ground.hit(
+        {static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(eye.z)},
+        direction);
+    if (nearness != nullptr) {
+      *nearness = hit.distance > 0.0F ? 1.0F / hit.distance : 0.0F;
+    }
+    return ground.colour(hit, direction);
+  }
+  /// The mean over a pixel, of four places; `corner` is its upper left one.
+  [[nodiscard]] Colour finely(Vec2 corner) const {
+    Colour mean{};
+    for (const Vec2 offset : {Vec2{0.25, 0.25}, {0.75, 0.25}, {0.25, 0.75}, {0.75, 0.75}}) {
+      const Colour one = colour(corner + offset);
+      for (std::size_t k = 0; k < 3; ++k) {
+        mean[k] += 0.25F * one[k];
+      }
+    }
+    return mean;
+  }
+};
 
 PicturePainter::PicturePainter(const RoomDescription& room, const Ground& ground)
     : ground_(ground), bones_(room, ground, 0.0) {
@@ -43,31 +95,21 @@ PicturePainter::PicturePainter(const RoomDescription& room, const Ground& ground
 }
 
 /// At half the resolution.
-void PicturePainter::paint_coarse_ground(const PinholeLens& lens,
-                                         const Transform<Spine, LeftCamera>& spine_from_camera) {
+void PicturePainter::paint_coarse_ground(const GroundView& ground) {
   const int columns = (width_ + 1) / 2;
   const int rows = (height_ + 1) / 2;
   coarse_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   coarse_nearness_.resize(coarse_.size());
-  const Vec3 eye = spine_from_camera.translation();
-  const std::array<float, 3> origin{static_cast<float>(eye.x), static_cast<float>(eye.y),
-                                    static_cast<float>(eye.z)};
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
-      const Vec3 ray = spine_from_camera.rotation() * lens.ray({2.0 * i + 1.0, 2.0 * j + 1.0});
-      const Ground::Hit hit = ground_.hit(
-          origin,
-          {static_cast<float>(ray.x), static_cast<float>(ray.y), static_cast<float>(ray.z)});
       const std::size_t at = static_cast<std::size_t>(j * columns + i);
-      coarse_[at] = ground_.colour(hit);
-      coarse_nearness_[at] = hit.distance > 0.0F ? 1.0F / hit.distance : 0.0F;
+      coarse_[at] = ground.colour({2.0 * i + 1.0, 2.0 * j + 1.0}, &coarse_nearness_[at]);
     }
   }
 }
 
-void PicturePainter::paint_ground(const PinholeLens& lens,
-                                  const Transform<Spine, LeftCamera>& spine_from_camera) {
-  paint_coarse_ground(lens, spine_from_camera);
+void PicturePainter::paint_ground(const GroundView& ground) {
+  paint_coarse_ground(ground);
   const int columns = (width_ + 1) / 2;
   const int rows = (height_ + 1) / 2;
   light_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
@@ -80,13 +122,17 @@ void PicturePainter::paint_ground(const PinholeLens& lens,
       const int left = std::max((x + 1) / 2 - 1, 0);
       const int right = std::min((x + 1) / 2, columns - 1);
       const float s = x % 2 == 0 ? 0.75F : 0.25F;
-      const auto& a = coarse_[static_cast<std::size_t>(low * columns + left)];
-      const auto& b = coarse_[static_cast<std::size_t>(low * columns + right)];
-      const auto& c = coarse_[static_cast<std::size_t>(high * columns + left)];
-      const auto& d = coarse_[static_cast<std::size_t>(high * columns + right)];
-      auto& out = light_[static_cast<std::size_t>(y * width_ + x)];
-      for (std::size_t k = 0; k < 3; ++k) {
-        out[k] = (1 - t) * ((1 - s) * a[k] + s * b[k]) + t * ((1 - s) * c[k] + s * d[k]);
+      const Colour& a = coarse_[static_cast<std::size_t>(low * columns + left)];
+      const Colour& b = coarse_[static_cast<std::size_t>(low * columns + right)];
+      const Colour& c = coarse_[static_cast<std::size_t>(high * columns + left)];
+      const Colour& d = coarse_[static_cast<std::size_t>(high * columns + right)];
+      Colour& out = light_[static_cast<std::size_t>(y * width_ + x)];
+      if (far_apart(a, d) || far_apart(b, c)) {
+        out = ground.finely({static_cast<double>(x), static_cast<double>(y)});
+      } else {
+        for (std::size_t k = 0; k < 3; ++k) {
+          out[k] = (1 - t) * ((1 - s) * a[k] + s * b[k]) + t * ((1 - s) * c[k] + s * d[k]);
+        }
       }
       nearness_[static_cast<std::size_t>(y * width_ + x)] =
           coarse_nearness_[static_cast<std::size_t>((y / 2) * columns + x / 2)];
@@ -110,28 +156,31 @@ void PicturePainter::paint_bones(const PinholeLens& lens,
   }
 }
 
-void PicturePainter::merge_tools(RgbaImage& image) {
-  const std::size_t plane = foreground_.plane();
-  for (int y = 0; y < height_; ++y) {
-    const CoverageWindow::Span span = foreground_.spans[static_cast<std::size_t>(y)];
-    const std::size_t row = foreground_.row(y);
-    for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
-      const std::array<float, 3>& c = light_[row + x];
-      std::uint8_t* out = image.pixels.data() + 4 * (row + x);
+void PicturePainter::encode_light(RgbaImage& image) const {
+  for (std::size_t i = 0; i < light_.size(); ++i) {
+    std::uint8_t* out = image.pixels.data() + 4 * i;
+    for (std::size_t k = 0; k < 3; ++k) {
+      out[k] = encode_[static_cast<std::size_t>(std::clamp(light_[i][k], 0.0F, 1.0F) *
+                                                static_cast<float>(kEncodeSteps - 1))];
+    }
+    out[3] = 255;
+  }
+}
+
+/// Bodies carry greys as a display shows them, so they are laid over the encoded background.
+void PicturePainter::lay_over(const Foreground& bodies, float opacity, RgbaImage& image) {
+  const std::size_t plane = bodies.plane();
+  for (int y = 0; y < image.height_px; ++y) {
+    const CoverageWindow::Span span = bodies.spans[static_cast<std::size_t>(y)];
+    for (int x = std::max(span.low, 0); x < std::min(span.high, image.width_px); ++x) {
+      const std::size_t at = bodies.row(y) + static_cast<std::size_t>(x);
+      std::uint8_t* out = image.pixels.data() + 4 * at;
       for (std::size_t k = 0; k < 3; ++k) {
-        out[k] = encode_[static_cast<std::size_t>(std::clamp(c[k], 0.0F, 1.0F) *
-                                                  static_cast<float>(kEncodeSteps - 1))];
+        const float below = static_cast<float>(out[k]);
+        const float v = below + opacity * (kPrintLight * bodies.light[k * plane + at] -
+                                           bodies.opacity[at] * below);
+        out[k] = static_cast<std::uint8_t>(std::clamp(v + 0.5F, 0.0F, 255.0F));
       }
-      // Bodies carry greys as a display shows them, so they are laid over the encoded background.
-      if (static_cast<int>(x) >= span.low && static_cast<int>(x) < span.high) {
-        for (std::size_t k = 0; k < 3; ++k) {
-          const float below = static_cast<float>(out[k]);
-          const float v = below + kPrintLight * foreground_.light[k * plane + row + x] -
-                          foreground_.opacity[row + x] * below;
-          out[k] = static_cast<std::uint8_t>(std::clamp(v + 0.5F, 0.0F, 255.0F));
-        }
-      }
-      out[3] = 255;
     }
   }
 }
@@ -148,12 +197,20 @@ void PicturePainter::paint(const RoomState& state, const PinholeView& view,
   const PinholeLens lens(view, width_, height_);
   const Transform<LeftCamera, Room> camera_from_room = camera_from_room_of(view);
   const Transform<LeftCamera, Spine> camera_from_spine = camera_from_room * state.room_from_spine;
-  paint_ground(lens, camera_from_spine.inverse());
+  paint_ground({ground_, lens, camera_from_spine.inverse()});
   paint_bones(lens, camera_from_spine);
   foreground_.reset(width_, height_, 3);
   bodies.gather(state, camera_from_room, solids_, 0.0);
+  encode_light(image);
+  if (view.hand_opacity < 1.0) {
+    // Under the tools, as glass: it hides neither them nor what they point at.
+    take_hand(solids_, hand_solids_);
+    hand_.reset(width_, height_, 3);
+    layers_.add_moment(hand_solids_, lens, 1.0F, hand_, nearness_.data());
+    lay_over(hand_, static_cast<float>(view.hand_opacity), image);
+  }
   layers_.add_moment(solids_, lens, 1.0F, foreground_, nearness_.data());
-  merge_tools(image);
+  lay_over(foreground_, 1.0F, image);
 }
 
 }  // namespace orthonav::sim

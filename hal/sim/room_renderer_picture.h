@@ -16,18 +16,22 @@ class PicturePainter {
              RgbaImage& image);
 
  private:
-  void paint_coarse_ground(const PinholeLens& lens,
-                           const Transform<Spine, LeftCamera>& spine_from_camera);
-  void paint_ground(const PinholeLens& lens, const Transform<Spine, LeftCamera>& spine_from_camera);
+  struct GroundView;
+  void paint_coarse_ground(const GroundView& ground);
+  /// Coarsely, but finely where colours meet.
+  void paint_ground(const GroundView& ground);
   void paint_bones(const PinholeLens& lens, const Transform<LeftCamera, Spine>& camera_from_spine);
-  void merge_tools(RgbaImage& image);
+  void encode_light(RgbaImage& image) const;
+  static void lay_over(const Foreground& bodies, float opacity, RgbaImage& image);
 
   const Ground& ground_;
   ShownBones bones_;
   BoneImage bone_image_;
   Layers layers_;
   Foreground foreground_;
+  Foreground hand_;  ///< apart from the tools where it hides less than it would
   Solids solids_;
+  Solids hand_solids_;
   int width_ = 0;
   int height_ = 0;
   std::vector<std::array<float, 3>> coarse_;  ///< linear light, half resolution

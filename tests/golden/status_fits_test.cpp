@@ -51,7 +51,7 @@ std::vector<ShownOn> displays() {
   return {{"HoloLens 2, eyes 56 mm apart", 1440, 936, render::stereo_pair(hololens2, 0.056f)},
           {"HoloLens 2, eyes 72 mm apart", 1440, 936, render::stereo_pair(hololens2, 0.072f)},
           {"golden pictures", 720, 468, golden::surgeon_views()},
-          {"film", 960, 540, {window(960, 540, 26.0)}},
+          {"film", 1152, 748, {window(1152, 748, 21.5)}},
           {"preview", 1120, 720, {window(1120, 720, 27.0)}}};
 }
 
