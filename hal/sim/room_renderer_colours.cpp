@@ -43,13 +43,17 @@ Colour unit(const Colour& a) {
   return scaled(a, 1.0F / std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]));
 }
 
-/// The lamp mirrored in something wet, 0 to 1 (Blinn 1977). Neither vector has to be of unit
-/// length.
-float wet_shine(const Colour& normal, const Colour& direction, float sharpness) {
+/// The lamp mirrored in something wet, 0 to 1 (Blinn 1977): a cosine squared so many times.
+/// Neither vector has to be of unit length.
+float wet_shine(const Colour& normal, const Colour& direction, int squared) {
   const Colour n = unit(normal);
   const Colour to_eye = scaled(unit(direction), -1.0F);
   const Colour half = unit({to_eye[0] + kLamp[0], to_eye[1] + kLamp[1], to_eye[2] + kLamp[2]});
-  return std::pow(std::max(n[0] * half[0] + n[1] * half[1] + n[2] * half[2], 0.0F), sharpness);
+  float shine = std::max(n[0] * half[0] + n[1] * half[1] + n[2] * half[2], 0.0F);
+  for (int i = 0; i < squared; ++i) {
+    shine *= shine;
+  }
+  return shine;
 }
 
 /// Brushed steel that is a little hollow from edge to edge.
@@ -121,7 +125,7 @@ std::array<float, 3> Ground::wall_colour(const Hit& hit,
   c = mix(c, kMuscleColour, smooth_step(0.20F, 0.26F, deep));
   c = mix(c, kDeepColour, 0.8F * smooth_step(0.35F, 1.0F, deep));
   const Colour inwards{(wound_x_ - x) / half_width_ + 4.0F * bump, 0.7F, 4.0F * bump};
-  return brighter(scaled(c, 0.5F + 0.75F * strands), 0.25F * wet_shine(inwards, direction, 24.0F));
+  return brighter(scaled(c, 0.5F + 0.75F * strands), 0.25F * wet_shine(inwards, direction, 5));
 }
 
 std::array<float, 3> Ground::tissue_colour(const Hit& hit,
@@ -138,7 +142,7 @@ std::array<float, 3> Ground::tissue_colour(const Hit& hit,
   const Colour c =
       mix(kMuscleColour, kDeepColour, std::clamp(0.85F * rim + 0.9F * pool, 0.0F, 1.0F));
   const float bumps = 0.0035F * (1.0F - 0.8F * pool);  // blood lies level
-  const float shine = wet_shine({-bumps * across, 1.0F, -bumps * along}, direction, 60.0F);
+  const float shine = wet_shine({-bumps * across, 1.0F, -bumps * along}, direction, 6);
   return brighter(scaled(c, 0.5F + 0.75F * strands), 0.45F * (1.0F - 0.7F * rim) * shine);
 }
 

@@ -29,7 +29,7 @@ using Colour = std::array<float, 3>;
 
 /// As on the two sides of an edge.
 bool far_apart(const Colour& a, const Colour& b) {
-  constexpr float kFar = 0.05F;
+  constexpr float kFar = 0.08F;
   return std::abs(a[0] - b[0]) > kFar || std::abs(a[1] - b[1]) > kFar ||
          std::abs(a[2] - b[2]) > kFar;
 }
