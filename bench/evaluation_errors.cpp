@@ -56,7 +56,9 @@ void add_axis(const test::TrueScrew& truth, const nav::ScrewPlan& plan,
   errors.axis_mm.push_back(1e3 * off_axis_m(truth.entry_m, placed.cylinder));
   errors.tip_mm.push_back(1e3 * off_axis_m(truth.tip_m, placed.cylinder));
   errors.entry_mm.push_back(1e3 * (truth.entry_m - placed.cylinder.entry.v).norm());
-  errors.depth_mm.push_back(1e3 * (placed.cylinder.length_m - way.norm()));
+  if (placed.tip_seen) {
+    errors.depth_mm.push_back(1e3 * (placed.cylinder.length_m - way.norm()));
+  }
   errors.diameter_mm.push_back(2e3 * (placed.measured_radius_m - truth.radius_m));
   const double angle_rad = angle_between_rad(way.normalized(), plan.target - plan.entry);
   errors.angle_held += std::abs(angle_rad - placed.angle_rad) <= 1.96 * placed.angle_sd_rad ? 1 : 0;
@@ -69,7 +71,11 @@ void add_clearance(double true_m, const engine::ScrewInScan& placed, Errors& err
   const double clearance_m = placed.clearance->clearance_m;
   errors.clearance_mm.push_back(1e3 * (clearance_m - true_m));
   ++errors.grades;
-  errors.right_grades += nav::grade_of(clearance_m) == nav::grade_of(true_m) ? 1 : 0;
+  const bool right = nav::grade_of(clearance_m) == nav::grade_of(true_m);
+  const bool firm = engine::likely_grades(placed).size() == 1;
+  errors.right_grades += right ? 1 : 0;
+  errors.firm_grades += firm ? 1 : 0;
+  errors.right_firm_grades += firm && right ? 1 : 0;
   if (placed.spread) {
     const double lower_m = placed.spread->lower_95_m;
     errors.clearance_sds.push_back(1.645 * (true_m - clearance_m) / (clearance_m - lower_m));
@@ -93,6 +99,7 @@ void add(const test::TrueScrew& truth, const engine::EvaluatedScrew& found,
     return;
   }
   errors.touched += found.placed->touched ? 1 : 0;
+  errors.unseen_tips += found.placed->tip_seen ? 0 : 1;
   add_axis(truth, found.plan, *found.placed, errors);
   const Vec3 way = truth.tip_m - truth.entry_m;
   const auto clearance =
@@ -103,11 +110,13 @@ void add(const test::TrueScrew& truth, const engine::EvaluatedScrew& found,
   if (each) {
     std::printf(
         "    %zu/%zu angle %.2f deg axis %.2f tip %.2f entry %.2f depth %+.2f dia %+.2f "
-        "clr %+.2f (true %+.2f)%s\n",
+        "clr %+.2f (true %+.2f)%s%s\n",
         truth.level, truth.screw, errors.angle_deg.back(), errors.axis_mm.back(),
-        errors.tip_mm.back(), errors.entry_mm.back(), errors.depth_mm.back(),
-        errors.diameter_mm.back(), errors.clearance_mm.empty() ? 0.0 : errors.clearance_mm.back(),
-        clearance ? 1e3 * clearance->clearance_m : 0.0, found.placed->touched ? " touched" : "");
+        errors.tip_mm.back(), errors.entry_mm.back(),
+        1e3 * (found.placed->cylinder.length_m - way.norm()), errors.diameter_mm.back(),
+        errors.clearance_mm.empty() ? 0.0 : errors.clearance_mm.back(),
+        clearance ? 1e3 * clearance->clearance_m : 0.0, found.placed->touched ? " touched" : "",
+        found.placed->tip_seen ? "" : " tip not seen");
   }
 }
 
@@ -157,10 +166,10 @@ void compare(const test::OperatedSpine& spine, const engine::Case& subject,
 void print(const Errors& e, double slice_mm) {
   std::printf(
       "slices of %.1f mm: %d screws, %d not found, %d levels and %d scans refused, "
-      "%d of %d missing ones invented, %d pieces unassigned, %d touched by others, %.2f s a "
-      "scan\n",
+      "%d of %d missing ones invented, %d pieces unassigned, %d touch others, %d tips not seen, "
+      "%.2f s a scan\n",
       slice_mm, e.screws, e.missed, e.refused_levels, e.failed_scans, e.invented, e.not_placed,
-      e.unassigned, e.touched, e.seconds);
+      e.unassigned, e.touched, e.unseen_tips, e.seconds);
   std::printf("                       median    95 %%    most   (n = %zu)\n", e.angle_deg.size());
   std::printf("  axis angle, deg     %s\n", quantiles(e.angle_deg).c_str());
   std::printf("  axis at entry, mm   %s\n", quantiles(e.axis_mm).c_str());
@@ -174,6 +183,7 @@ void print(const Errors& e, double slice_mm) {
   std::printf("  angle, stated SDs   %s\n", quantiles(e.angle_sds).c_str());
   std::printf("  clearance, SDs      %s\n", quantiles(e.clearance_sds).c_str());
   std::printf("  grades right        %s\n", fraction(e.right_grades, e.grades).c_str());
+  std::printf("  firm grades right   %s\n", fraction(e.right_firm_grades, e.firm_grades).c_str());
   std::printf("  above lower 95      %s\n", fraction(e.lower_held, e.grades).c_str());
   std::printf("  angle within 95     %s\n",
               fraction(e.angle_held, static_cast<int>(e.angle_deg.size())).c_str());

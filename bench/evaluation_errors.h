@@ -13,8 +13,8 @@ struct Errors {
   std::vector<double> bone_mm, bone_deg;
   std::vector<double> angle_sds, clearance_sds;  ///< errors divided by the stated SDs
   int screws = 0, missed = 0, invented = 0, refused_levels = 0, failed_scans = 0;
-  int grades = 0, right_grades = 0, lower_held = 0, angle_held = 0, unassigned = 0, not_placed = 0,
-      touched = 0;
+  int grades = 0, right_grades = 0, firm_grades = 0, right_firm_grades = 0, lower_held = 0,
+      angle_held = 0, unassigned = 0, not_placed = 0, touched = 0, unseen_tips = 0;
   double seconds = 0.0;
 };
 

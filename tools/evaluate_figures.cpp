@@ -22,6 +22,9 @@ void put_clearance(const engine::ScrewInScan& placed, const nav::ScrewPlan& plan
   if (placed.clearance) {
     out["clearance_mm"] = placed.clearance->clearance_m * 1e3;
     out["grade"] = grade_name(*placed.clearance);
+    for (const nav::PedicleGrade grade : engine::likely_grades(placed)) {
+      out["likely_grades"].push_back(nav::name_of(grade));
+    }
     out["nearest"] = nav::direction_of(*placed.clearance, plan.side);
     out["nearest_past_entry_mm"] = placed.clearance->arc_length_m * 1e3;
   }
@@ -51,15 +54,20 @@ ordered_json as_json(const std::string& level, const engine::EvaluatedScrew& scr
   out["entry_error_mm"] = placed.entry_m * 1e3;
   out["entry_error_axis_mm"] = placed.entry_axis_m * 1e3;
   out["entry_error_axis_95_mm"] = k95 * placed.entry_axis_sd_m * 1e3;
-  out["target_error_mm"] = placed.target_m * 1e3;
-  out["depth_error_mm"] = placed.depth_m * 1e3;
+  if (placed.tip_seen) {
+    out["target_error_mm"] = placed.target_m * 1e3;
+    out["depth_error_mm"] = placed.depth_m * 1e3;
+  }
   out["diameter_mm"] = 2e3 * placed.measured_radius_m;
   out["judged_diameter_mm"] = 2e3 * cylinder.radius_m;
   out["bow_mm"] = placed.bow_m * 1e3;
   out["touches_other_metal"] = placed.touched;
+  out["tip_seen"] = placed.tip_seen;
   put_clearance(placed, screw.plan, out);
   out["entry_mm"] = engine::vector_mm(cylinder.entry.v);
-  out["tip_mm"] = engine::vector_mm((cylinder.entry + cylinder.length_m * cylinder.direction).v);
+  if (placed.tip_seen) {
+    out["tip_mm"] = engine::vector_mm((cylinder.entry + cylinder.length_m * cylinder.direction).v);
+  }
   return out;
 }
 
@@ -89,6 +97,11 @@ ordered_json as_json(const engine::UnassignedMetal& metal, const engine::Evaluat
   return out;
 }
 
+/// A figure in mm that needs the tip.
+std::string if_seen(const engine::ScrewInScan& placed, double value_m) {
+  return placed.tip_seen ? printed("%.1f", value_m * 1e3) : "-";
+}
+
 void print(const std::string& level, const engine::EvaluatedScrew& screw) {
   print_text("%-4s %-5s  ", level.c_str(), name_of(screw.plan.side));
   if (!screw.placed) {
@@ -96,15 +109,16 @@ void print(const std::string& level, const engine::EvaluatedScrew& screw) {
     return;
   }
   const engine::ScrewInScan& placed = *screw.placed;
-  print_text("%5.1f +- %-4.1f %6.1f %6.1f +- %-4.1f %6.1f %6.1f %6.1f  ",
+  print_text("%5.1f +- %-4.1f %6.1f %6.1f +- %-4.1f %6s %6s %6.1f  ",
              placed.angle_rad * kDegreesPerRadian, k95 * placed.angle_sd_rad * kDegreesPerRadian,
              placed.entry_m * 1e3, placed.entry_axis_m * 1e3, k95 * placed.entry_axis_sd_m * 1e3,
-             placed.target_m * 1e3, placed.depth_m * 1e3, 2e3 * placed.measured_radius_m);
+             if_seen(placed, placed.target_m).c_str(), if_seen(placed, placed.depth_m).c_str(),
+             2e3 * placed.measured_radius_m);
   if (placed.clearance) {
     print_text(
         "%6.1f %6.1f  %s  %s", placed.clearance->clearance_m * 1e3,
         placed.spread ? placed.spread->lower_95_m * 1e3 : placed.clearance->clearance_m * 1e3,
-        grade_name(*placed.clearance), nav::direction_of(*placed.clearance, screw.plan.side));
+        grade_text(placed).c_str(), nav::direction_of(*placed.clearance, screw.plan.side));
   } else {
     print_text("%s", kBarelyIn);
   }
@@ -115,10 +129,21 @@ void print(const std::string& level, const engine::EvaluatedScrew& screw) {
   if (placed.touched) {
     print_text("; %s", kTouched);
   }
+  if (!placed.tip_seen) {
+    print_text("; %s", kTipNotSeen);
+  }
   print_text("\n");
 }
 
 }  // namespace
+
+std::string grade_text(const engine::ScrewInScan& screw) {
+  std::string out;
+  for (const nav::PedicleGrade grade : engine::likely_grades(screw)) {
+    out += std::string(out.empty() ? "" : " or ") + nav::name_of(grade);
+  }
+  return out;
+}
 
 std::string text_of(const engine::UnassignedMetal& metal, const engine::Evaluation& evaluation) {
   const Vec3 p = metal.place.v * 1e3;

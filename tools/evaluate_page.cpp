@@ -33,13 +33,9 @@ std::string with_bound(double value, double sd) {
   return html_number(value, 1) + " <small>±" + html_number(k95 * sd, 1) + "</small>";
 }
 
-void put_grade(engine::HtmlTable& table, const std::optional<nav::Clearance>& clearance) {
-  if (!clearance) {
-    table.cell("–");
-    return;
-  }
-  const nav::PedicleGrade grade = nav::grade_of(clearance->clearance_m);
-  table.cell(nav::name_of(grade), grade == nav::PedicleGrade::kA ? "good" : "bad");
+void put_grade(engine::HtmlTable& table, const engine::ScrewInScan& placed) {
+  const std::string grades = grade_text(placed);
+  table.cell(grades, grades == nav::name_of(nav::PedicleGrade::kA) ? "good" : "bad");
 }
 
 void put_clearance(engine::HtmlTable& table, const engine::ScrewInScan& placed, Side side) {
@@ -54,7 +50,7 @@ void put_clearance(engine::HtmlTable& table, const engine::ScrewInScan& placed, 
       html_number(mm, 1) + " <small>" + nav::direction_of(*placed.clearance, side) + "</small>",
       mm < 0.0 ? "bad" : "");
   table.cell(placed.spread ? html_number(placed.spread->lower_95_m * 1e3, 1) : "–");
-  put_grade(table, placed.clearance);
+  put_grade(table, placed);
 }
 
 void put_empty_row(engine::HtmlTable& table, const std::string& name, const std::string& why) {
@@ -78,12 +74,16 @@ void put_row(engine::HtmlTable& table, const std::string& label,
       with_bound(placed.angle_rad * kDegreesPerRadian, placed.angle_sd_rad * kDegreesPerRadian));
   table.cell(html_number(placed.entry_m * 1e3, 1));
   table.cell(with_bound(placed.entry_axis_m * 1e3, placed.entry_axis_sd_m * 1e3));
-  table.cell(html_number(placed.target_m * 1e3, 1));
-  table.cell(html_number(placed.depth_m * 1e3, 1));
+  for (const double value_m : {placed.target_m, placed.depth_m}) {
+    table.cell(placed.tip_seen ? html_number(value_m * 1e3, 1) : "–");
+  }
   table.cell(html_number(2e3 * placed.measured_radius_m, 1));
   put_clearance(table, placed, screw.plan.side);
   if (placed.touched) {
-    table.below(kTouched, "bad");
+    table.below(kTouched);
+  }
+  if (!placed.tip_seen) {
+    table.below(kTipNotSeen, "bad");
   }
   if (placed.as_planned_screw) {
     const nav::PedicleGrade grade = nav::grade_of(placed.as_planned_screw->clearance_m);

@@ -70,7 +70,7 @@ Transform<Scan, Vertebra> moved(const Transform<Scan, Vertebra>& pose, Vec3 cent
 /// The pose's covariance. Neighbouring edges share streaks, blur and the model's own error: an edge
 /// counts for a tenth of one.
 nav::PoseUncertainty uncertainty_of(const Equations& equations, Vec3 centre_m) {
-  constexpr double kSharing = 10.0;
+  constexpr double kSharing = 4.0;
   const double variance_m2 =
       std::max(equations.squares_m2 / std::max(equations.weights, 1.0), 1e-9);
   const Matrix7 covariance = kSharing * variance_m2 * equations.information.inverse();

@@ -6,6 +6,7 @@
 #include "engine/evaluation/placed_screw.h"
 #include "engine/evaluation/shaft_fit.h"
 #include "engine/evaluation/spine_start.h"
+#include "engine/evaluation/tip_fit.h"
 
 namespace orthonav::engine {
 namespace {
@@ -30,11 +31,7 @@ std::vector<Shaft> fitted(const ScanField& scan, const MetalPieces& metal,
       unassigned.push_back({shaft.tip(), std::nullopt, 0.0, ""});
     }
   }
-  for (Shaft& shaft : out) {
-    shaft.touched = std::any_of(out.begin(), out.end(), [&](const Shaft& other) {
-      return &other != &shaft && (tip_touches(shaft, other) || tip_touches(other, shaft));
-    });
-  }
+  fit_touching_tips(scan, out);
   for (const OtherMetal& other : metal.others) {
     unassigned.push_back({other.centre, std::nullopt, other.volume_m3, ""});
   }

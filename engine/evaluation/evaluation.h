@@ -17,7 +17,7 @@ inline constexpr const char* kEvaluationDefinitions =
     "entry: where the axis meets the bone; entry (axis): the point of the axis nearest to the "
     "planned entry; depth: length in the bone less the planned length; clearance: least depth "
     "below the bone's surface of side and flat tip from 6 mm past the entry on; a bent wire's "
-    "axis is its chord from entry to tip";
+    "axis is its chord from entry to tip; two grades: neither is 90 % probable";
 
 /// A planned screw as found in the scan.
 struct ScrewInScan {
@@ -33,15 +33,20 @@ struct ScrewInScan {
   double depth_m = 0.0;   ///< length in the bone minus the planned length
   double measured_radius_m = 0.0;
   bool radius_as_planned = false;  ///< measured as planned, so that it is judged by the planned one
-  /// Its tip touches another shaft: its end can't be seen, so target, depth and a clearance at the
-  /// tip are unreliable.
-  bool touched = false;
+  bool touched = false;            ///< its tip lies at another shaft
+  /// If not, the cylinder ends where the shaft is surely metal: no target, no depth, and the
+  /// clearance is that of the part that is seen.
+  bool tip_seen = true;
   double bow_m = 0.0;                       ///< of a bent wire, from its chord
   std::optional<nav::Clearance> clearance;  ///< none if 6 mm or less lie in the bone
   std::optional<nav::ClearanceSpread> spread;
   /// For a wire: the clearance of the planned screw along its axis.
   std::optional<nav::Clearance> as_planned_screw;
 };
+
+/// The grades that the screw may have, A first: one if it is at least 90 % probable, else the most
+/// probable ones that together are. Empty without a clearance.
+[[nodiscard]] std::vector<nav::PedicleGrade> likely_grades(const ScrewInScan& screw);
 
 struct EvaluatedScrew {
   nav::ScrewPlan plan;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Dense>
+#include <numeric>
 
 #include "nav/guidance/placed_axis.h"
 
@@ -18,11 +19,11 @@ bool has_planned_radius(const Shaft& shaft, const nav::ScrewPlan& plan) {
   return plan.radius_m > 0.0 && std::abs(2.0 * (shaft.radius_m - plan.radius_m)) < kSameDiameter_m;
 }
 
-/// Metal that looks too thick also reaches too far at the tip, by the same amount.
+/// Metal that looks too thick also reaches too far at the tip, by about half as much.
 Vec3 tip_in_scan(const Shaft& shaft, const nav::ScrewPlan& plan) {
   const double too_large_m =
-      has_planned_radius(shaft, plan) && !shaft.cut ? shaft.radius_m - plan.radius_m : 0.0;
-  return shaft.line.at(shaft.to_s_m - too_large_m);
+      has_planned_radius(shaft, plan) && shaft.tip_seen ? shaft.radius_m - plan.radius_m : 0.0;
+  return shaft.line.at(shaft.to_s_m - 0.5 * too_large_m);
 }
 
 /// How far a cylinder lies from a plan.
@@ -68,13 +69,17 @@ nav::PoseUncertainty total_uncertainty(const Shaft& shaft, const BoneRegistratio
 
 /// For the clearance: adds the uncertainty of the tip along the axis, and of the radius where it
 /// was measured, as a shift of the whole cylinder along each direction.
-nav::PoseUncertainty with_surface(const nav::PoseUncertainty& axis, bool radius_as_planned) {
-  constexpr double kTip_m = 8e-5;
+nav::PoseUncertainty with_surface(const nav::PoseUncertainty& axis, Vec3 direction,
+                                  bool radius_as_planned) {
+  constexpr double kTip_m = 4e-5;
   constexpr double kRadius_m = 1.2e-4;
-  const double sd_m = std::hypot(kTip_m, radius_as_planned ? 0.0 : kRadius_m);
   std::array<double, 36> sum = axis.covariance();
-  for (const std::size_t i : {0u, 7u, 14u}) {
-    sum[i] += sd_m * sd_m;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      sum[6 * row + column] +=
+          kTip_m * kTip_m * direction[static_cast<int>(row)] * direction[static_cast<int>(column)];
+    }
+    sum[7 * row] += radius_as_planned ? 0.0 : kRadius_m * kRadius_m;
   }
   return {axis.centre_m(), sum};
 }
@@ -131,18 +136,46 @@ ScrewInScan placed_screw(const Shaft& shaft, const nav::ScrewPlan& plan,
   out.measured_radius_m = shaft.radius_m;
   out.radius_as_planned = has_planned_radius(shaft, plan);
   out.touched = shaft.touched;
+  out.tip_seen = shaft.tip_seen;
   const double part = 0.5 * cylinder.length_m / shaft.line.half_m;
   out.bow_m = part * part * std::hypot(shaft.line.bow_across_m, shaft.line.bow_athwart_m);
   out.clearance = nav::least_clearance(bone.surface, cylinder);
   if (out.clearance) {
-    out.spread = nav::clearance_spread(bone.surface, cylinder, *out.clearance,
-                                       with_surface(unsure, out.radius_as_planned));
+    out.spread =
+        nav::clearance_spread(bone.surface, cylinder, *out.clearance,
+                              with_surface(unsure, cylinder.direction, out.radius_as_planned));
   }
   if (shaft.is_wire() && plan.radius_m > 0.0) {
     nav::ScrewCylinder thick = cylinder;
     thick.radius_m = plan.radius_m;
     out.as_planned_screw = nav::least_clearance(bone.surface, thick);
   }
+  return out;
+}
+
+std::vector<nav::PedicleGrade> likely_grades(const ScrewInScan& screw) {
+  constexpr double kFirm = 0.9;
+  if (!screw.clearance) {
+    return {};
+  }
+  std::vector<nav::PedicleGrade> out{nav::grade_of(screw.clearance->clearance_m)};
+  if (!screw.spread) {
+    return out;
+  }
+  const auto& chance = screw.spread->grade_probability;
+  std::vector<std::size_t> order(chance.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return chance[a] > chance[b]; });
+  double sum = 0.0;
+  for (auto g = order.begin(); g != order.end() && sum < kFirm; ++g) {
+    sum += chance[*g];
+    const auto grade = static_cast<nav::PedicleGrade>(*g);
+    if (grade != out.front()) {
+      out.push_back(grade);
+    }
+  }
+  std::sort(out.begin(), out.end());
   return out;
 }
 

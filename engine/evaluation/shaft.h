@@ -54,8 +54,10 @@ struct Shaft {
   /// (rad²), by rows.
   std::array<double, 16> covariance{};
 
-  /// Whether the tip lies at another shaft, so that the end of neither can be seen.
+  /// Whether its tip lies at another shaft, or another one's tip at it.
   bool touched = false;
+  /// Not where the scan ends before it, or where it lies within another shaft.
+  bool tip_seen = true;
   /// Whether metal continues before `from_s_m`, so that it is not an end.
   bool goes_on = false;
 

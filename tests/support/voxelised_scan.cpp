@@ -78,25 +78,36 @@ class Streaks {
     const std::size_t plane =
         static_cast<std::size_t>(body_.size[0]) * static_cast<std::size_t>(body_.size[1]);
     const double cell_mm = body_.step_m * 1e3;
-    const double weight = cell_mm * cell_mm / std::max(1.0, high_step - low_step);
+    const double weight = cell_mm * cell_mm / (high_step - low_step);
     const auto first = std::lower_bound(
         body_.metal.begin(), body_.metal.end(),
-        static_cast<std::size_t>(std::max(0.0, std::ceil(low_step))) * plane,
+        static_cast<std::size_t>(std::max(0.0, std::floor(low_step + 0.5))) * plane,
         [](const FineBody::MetalCell& m, std::size_t cell) { return m.cell < cell; });
     for (auto m = first; m != body_.metal.end(); ++m) {
-      if (static_cast<double>(m->cell / plane) > high_step) {
+      const auto k = static_cast<double>(m->cell / plane);
+      const double share = std::min(high_step, k + 0.5) - std::max(low_step, k - 0.5);
+      if (share <= 0.0) {
         break;
       }
       const std::size_t in_plane = m->cell % plane;
-      const auto x = static_cast<int>(
-          static_cast<double>(in_plane % static_cast<std::size_t>(body_.size[0])) * cell_mm);
-      const auto y = static_cast<int>(
-          static_cast<double>(in_plane / static_cast<std::size_t>(body_.size[0])) * cell_mm);
-      metal[static_cast<std::size_t>(y * size_[0] + x)] +=
-          weight * static_cast<double>(m->fraction);
+      add(static_cast<double>(in_plane % static_cast<std::size_t>(body_.size[0])) * cell_mm,
+          static_cast<double>(in_plane / static_cast<std::size_t>(body_.size[0])) * cell_mm,
+          share * weight * static_cast<double>(m->fraction), metal);
       any = true;
     }
     return any ? projected_back(metal) : std::vector<double>{};
+  }
+
+  /// Shared by the four places around, so that streaks lie about the metal that makes them.
+  void add(double x_mm, double y_mm, double mm2, std::vector<double>& metal) const {
+    const int i = static_cast<int>(x_mm);
+    const int j = static_cast<int>(y_mm);
+    for (const int a : {0, 1}) {
+      for (const int b : {0, 1}) {
+        metal[static_cast<std::size_t>((j + b) * size_[0] + i + a)] +=
+            mm2 * (1.0 - std::abs(x_mm - i - a)) * (1.0 - std::abs(y_mm - j - b));
+      }
+    }
   }
 
   [[nodiscard]] double at(const std::vector<double>& slice, double x_mm, double y_mm) const {

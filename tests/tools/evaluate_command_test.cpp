@@ -66,6 +66,8 @@ TEST_F(EvaluateCommand, SaysWhatBecameOfEachScrew) {
       EXPECT_TRUE(screw.contains(key) && screw[key].is_number()) << key;
     }
     EXPECT_TRUE(screw["grade"].is_string());
+    EXPECT_FALSE(screw["likely_grades"].empty());
+    EXPECT_EQ(screw["tip_seen"], true);
   }
   EXPECT_TRUE(out["unassigned"].empty());
   const std::string html = content_of(page);

@@ -90,6 +90,20 @@ TEST(Evaluation, GradesByTheSurfaceOfTheScrewFromSixMillimetresOn) {
   }
 }
 
+TEST(Evaluation, NamesEachGradeThatIsLikely) {
+  using nav::PedicleGrade;
+  ScrewInScan screw;
+  EXPECT_TRUE(likely_grades(screw).empty()) << "no clearance";
+  screw.clearance = nav::Clearance{-0.00195};
+  screw.spread = nav::ClearanceSpread{-0.0022, {0.0, 0.95, 0.05, 0.0, 0.0}};
+  EXPECT_EQ(likely_grades(screw), std::vector{PedicleGrade::kB}) << "firm";
+  screw.spread->grade_probability = {0.0, 0.4, 0.6, 0.0, 0.0};
+  EXPECT_EQ(likely_grades(screw), (std::vector{PedicleGrade::kB, PedicleGrade::kC}));
+  screw.spread->grade_probability = {0.0, 0.05, 0.95, 0.0, 0.0};
+  EXPECT_EQ(likely_grades(screw), (std::vector{PedicleGrade::kB, PedicleGrade::kC}))
+      << "the measured one is always among them";
+}
+
 TEST(Evaluation, InventsNoScrewAndReportsWhatLiesElsewhere) {
   // The left screw is missing; another one was driven askew through the body's side.
   test::OperatedSpine spine = operated_l4().spine;

@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "base/angle.h"
 #include "engine/evaluation/shaft_fit.h"
 #include "engine/evaluation/shaft_search.h"
+#include "engine/evaluation/tip_fit.h"
 #include "tests/support/voxelised_scan.h"
 
 namespace orthonav::engine::shaft_test {
@@ -84,13 +88,53 @@ TEST(Shaft, OfABentWireFollowsItsBow) {
   EXPECT_NEAR(std::hypot(found[0].line.bow_across_m, found[0].line.bow_athwart_m), kBow_m, 0.0003);
 }
 
-TEST(Shaft, OfTwoScrewsThatTouchAreTwo) {
-  const Vec3 tip{0.0, -0.025, 0.0};
-  const auto found = shafts_in(scan_of({{{0.014, 0.020, 0.0}, tip + Vec3{0.003, 0, 0}, 0.003},
-                                        {{-0.014, 0.020, 0.0}, tip - Vec3{0.003, 0, 0}, 0.003}},
-                                       0.001));
+/// Those in a scan of this metal, with touching tips fitted together.
+std::vector<Shaft> tips_in(const std::vector<test::MetalPiece>& metal, double slice_m) {
+  const Volume volume = scan_of(metal, slice_m);
+  std::vector<Shaft> out = shafts_in(volume);
+  fit_touching_tips(ScanField(volume), out);
+  return out;
+}
+
+/// The one of them whose rear is nearest to a place.
+const Shaft& from(const std::vector<Shaft>& shafts, Vec3 rear) {
+  return *std::min_element(shafts.begin(), shafts.end(), [&](const Shaft& a, const Shaft& b) {
+    return (a.rear().v - rear).norm() < (b.rear().v - rear).norm();
+  });
+}
+
+TEST(Shaft, EndsWhereItTrulyDoesThoughTipsTouch) {
+  const Vec3 left{0.016, 0.020, 0.0};
+  const Vec3 right{-0.016, 0.020, 0.002};
+  // Tip to tip, and one tip at the side of the other shaft: the search runs from one into the
+  // other.
+  for (const auto& [left_tip, right_tip] :
+       {std::pair{Vec3{0.0024, -0.024, 0.0}, Vec3{-0.0024, -0.024, 0.0}},
+        std::pair{Vec3{-0.004, -0.028, 0.0}, Vec3{-0.003, -0.014, 0.0}}}) {
+    for (const double slice_m : {0.0007, 0.002}) {
+      const auto found = tips_in({{left, left_tip, 0.003}, {right, right_tip, 0.003}}, slice_m);
+      ASSERT_EQ(found.size(), 2u);
+      for (const auto& [rear, tip] : {std::pair{left, left_tip}, std::pair{right, right_tip}}) {
+        const Shaft& shaft = from(found, rear);
+        EXPECT_TRUE(shaft.touched && shaft.tip_seen) << slice_m;
+        EXPECT_LT((shaft.tip().v - tip).norm(), 0.0005) << slice_m;
+      }
+    }
+  }
+}
+
+TEST(Shaft, SaysThatATipWithinAnotherShaftIsNotSeen) {
+  const Vec3 through{0.0, 0.025, 0.0};
+  const Vec3 end{0.0, -0.028, 0.0};
+  const Vec3 aside{0.018, 0.020, 0.0};
+  const Vec3 hidden{0.0, -0.006, 0.0};
+  const auto found = tips_in({{through, end, 0.0035}, {aside, hidden, 0.002}}, 0.001);
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_TRUE(tip_touches(found[0], found[1]) || tip_touches(found[1], found[0]));
+  EXPECT_TRUE(from(found, through).tip_seen);
+  EXPECT_LT((from(found, through).tip().v - end).norm(), 0.0005);
+  const Shaft& shaft = from(found, aside);
+  EXPECT_FALSE(shaft.tip_seen);
+  EXPECT_LT(shaft.line.s_of(shaft.tip().v), shaft.line.s_of(hidden) + 0.0005) << "surely metal";
 }
 
 TEST(Shaft, OfTwoScrewsApartTouchesNone) {
