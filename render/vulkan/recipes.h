@@ -11,11 +11,13 @@ enum class Stage {
   kBackground,   ///< the image behind everything; colour only
   kDepth,        ///< solids into the depth alone
   kTranslucent,  ///< see-through meshes: the nearest surface replaces what was drawn before
+  kFarthest,     ///< nothing but the farthest depth, where veils were: they hide nothing else
   kSolid,        ///< the nearest solid surface, blended
   kTriangle,
   kLine,        ///< the stencil lets each item touch a sample once
   kLineCover,   ///< replaces kLine where coverage is computed: a line into alpha, then
-  kLineColour,  ///< its colour by what alpha lacks
+  kLineColour,  ///< its colour by what alpha lacks, along its segments or
+  kLineFill,    ///< over everything around it
   kEdge,        ///< of meshes, where coverage is computed: pixels get their neighbours' share
   kText,        ///< in front of everything: a number is never hidden
   kCount
