@@ -246,20 +246,21 @@ bool RegionRecording::mesh_stage(Stage stage, const std::vector<MeshDraw>& meshe
 bool RegionRecording::mesh_stage(Stage stage, const std::vector<MeshDraw>& meshes,
                                  const PixelRect& within) const {
   bool bound = false;
-  for (const auto& [item, bounds] : meshes) {
+  for (const auto& [item, bounds, number] : meshes) {
     const GpuMesh* copy = sources_.meshes.find(item->mesh);
-    if (copy == nullptr || copy->index_count == 0 || !touch(bounds, within) ||
+    if (copy == nullptr || copy->levels.empty() || !touch(bounds, within) ||
         !shows(bounds, stage, bound)) {
       continue;
     }
+    const MeshLevel& level = copy->levels[number];
     const std::uint32_t style = item->style == MeshStyle::kRim ? 1 : 0;
     const Colour& tint = item->tint;
     push({item->world_from_model, item->colour, {tint.r, tint.g, tint.b}, {item->label, 0, style}});
-    const VkBuffer vertices = copy->vertices.get();
+    const VkBuffer vertices = level.vertices.get();
     const VkDeviceSize offset = 0;
     vkCmdBindVertexBuffers(commands_, 0, 1, &vertices, &offset);
-    vkCmdBindIndexBuffer(commands_, copy->indices.get(), 0, VK_INDEX_TYPE_UINT32);
-    vkCmdDrawIndexed(commands_, copy->index_count, 1, 0, 0, 0);
+    vkCmdBindIndexBuffer(commands_, level.indices.get(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexed(commands_, level.index_count, 1, 0, 0, 0);
   }
   return bound;
 }

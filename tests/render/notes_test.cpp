@@ -129,8 +129,8 @@ TEST(HugeMesh, HasNoMoreTrianglesThanTheLimitWhateverTheError) {
   detail.enough_triangles = 1000;
   detail.most_triangles = 4000;
   EXPECT_TRUE(test::is_ok(cache.add(device, commands, mesh, detail)));
-  EXPECT_LE(cache.find(mesh)->index_count, 3 * 4000u);
-  EXPECT_GT(cache.find(mesh)->index_count, 3 * 3000u);
+  EXPECT_LE(cache.find(mesh)->levels.front().index_count, 3 * 4000u);
+  EXPECT_GT(cache.find(mesh)->levels.front().index_count, 3 * 3000u);
 }
 
 }  // namespace
