@@ -73,6 +73,11 @@ Recipe recipe_of(Stage stage, bool labels, bool covers) {
     case Stage::kTranslucent:
       return mesh_recipe(labels ? flat : embedded::mesh_veil_frag(), Mix::kReplace, true,
                          VK_COMPARE_OP_LESS);
+    case Stage::kOverBackground: {
+      Recipe recipe = recipe_of(Stage::kTranslucent, labels, covers);
+      recipe.has_background = true;
+      return recipe;
+    }
     case Stage::kSolid:
       return mesh_recipe(labels ? flat : embedded::mesh_solid_frag(), Mix::kBlend, false,
                          VK_COMPARE_OP_EQUAL);
@@ -125,6 +130,7 @@ Recipe depth_recipe_of(Stage stage) {
 bool has_stage(Stage stage, const TargetSpec& spec) {
   switch (stage) {
     case Stage::kBackground:
+    case Stage::kOverBackground:
       return spec.kind == PassKind::kColour;
     case Stage::kLineCover:
     case Stage::kLineColour:

@@ -77,7 +77,9 @@ void RegionRecording::meshes() const {
   for (const MeshDraw& draw : items.translucent_meshes()) {
     veiled = joined(veiled, overlap(draw.bounds, region_));
   }
-  if (mesh_stage(Stage::kTranslucent, items.translucent_meshes())) {
+  const bool over =
+      sources_.has_background && has_stage(Stage::kOverBackground, sources_.pass.targets.spec());
+  if (mesh_stage(over ? Stage::kOverBackground : Stage::kTranslucent, items.translucent_meshes())) {
     forget_depth(veiled);
     mesh_stage(Stage::kDepth, items.solids(), veiled);
   }

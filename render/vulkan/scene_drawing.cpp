@@ -272,8 +272,7 @@ void SceneDrawing::prepare_data() {
   }
 }
 
-void SceneDrawing::place(std::span<const View> views, std::size_t first, PixelSize size,
-                         bool has_background) {
+void SceneDrawing::place(std::span<const View> views, std::size_t first, PixelSize size) {
   items_.place(views, size, [this](const MeshItem& item) {
     const GpuMesh* copy = meshes_.find(item.mesh);
     return copy != nullptr ? copy->box : Box{};
@@ -291,7 +290,7 @@ void SceneDrawing::place(std::span<const View> views, std::size_t first, PixelSi
   }
   frame.target = {width, height, 0, 0};
   frame.font = {font_.header().reach, kRimWidth, kNearPlane_m, 0};
-  frame.mode = {options_.blend == Blend::kAdditive ? 0u : 1u, has_background ? 1u : 0u, 0, 0};
+  frame.mode = {options_.blend == Blend::kAdditive ? 0u : 1u, 0, 0, 0};
   slot().frames.write(&frame, sizeof(frame), first * kFrameStride);
 }
 
