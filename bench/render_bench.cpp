@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -60,15 +61,23 @@ double resident_mib() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
+/// Of all threads of this process.
+double processor_ms() {
+  timespec now = {};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
 struct Row {
-  Phase record, submit, gpu, read, total;
+  Phase record, submit, gpu, read, total, processor;
   double memory_mib = 0;
 };
 
 void print_row(const std::string& name, const std::string& edges, const Row& row) {
-  std::printf("| %s | %s | %s | %s | %s | %s | %s | %.0f |\n", name.c_str(), edges.c_str(),
+  std::printf("| %s | %s | %s | %s | %s | %s | %s | %s | %.0f |\n", name.c_str(), edges.c_str(),
               row.record.text().c_str(), row.submit.text().c_str(), row.gpu.text().c_str(),
-              row.read.text().c_str(), row.total.text().c_str(), row.memory_mib);
+              row.read.text().c_str(), row.total.text().c_str(), row.processor.text().c_str(),
+              row.memory_mib);
 }
 
 std::unique_ptr<render::Renderer> make_renderer(const Options& options, render::Edges edges,
@@ -95,6 +104,7 @@ class Ours {
         full_(full) {}
 
   void draw(int frame, Row* row) {
+    const double before_ms = processor_ms();
     const Status drawn = renderer_->draw(full_.scene, swayed(full_.views, frame), {}, images_);
     if (!drawn) {
       std::fprintf(stderr, "%s\n", drawn.error().message.c_str());
@@ -109,6 +119,7 @@ class Ours {
     row->gpu.add(timing.gpu_ms);
     row->read.add(timing.read_ms);
     row->total.add(timing.total_ms);
+    row->processor.add(processor_ms() - before_ms);
   }
   [[nodiscard]] double before_mib() const { return before_mib_; }
   [[nodiscard]] std::string name() const { return renderer_->device().name; }
@@ -121,6 +132,7 @@ class Ours {
 };
 
 void draw_peer(VtkWindow& window, const FullScene& full, int frame, Row* row) {
+  const double before_ms = processor_ms();
   const VtkTiming timing = window.draw(swayed(full.views, frame));
   if (row == nullptr) {
     return;
@@ -129,6 +141,7 @@ void draw_peer(VtkWindow& window, const FullScene& full, int frame, Row* row) {
   row->gpu.add(timing.wait_ms);
   row->read.add(timing.read_ms);
   row->total.add(timing.total_ms);
+  row->processor.add(processor_ms() - before_ms);
 }
 
 /// Memory is what each renderer adds to the process with its first frames.
@@ -174,9 +187,12 @@ void compare(const Options& options, const Comparison& way, const FullScene& ful
     return;
   }
   print_row("VTK " + window->name(), std::to_string(way.samples) + " samples", peers);
-  std::printf("\nRatio of the medians, %s to VTK's %d samples: %.3f, with every triangle %.3f\n\n",
+  std::printf("\nRatio of the medians, %s to VTK's %d samples: %.3f, with every triangle %.3f;\n",
               way.name, way.samples, ours.total.quantile(0.5) / peers.total.quantile(0.5),
               all_triangles.total.quantile(0.5) / peers.total.quantile(0.5));
+  std::printf("of processor time: %.3f, %.3f\n\n",
+              ours.processor.quantile(0.5) / peers.processor.quantile(0.5),
+              all_triangles.processor.quantile(0.5) / peers.processor.quantile(0.5));
   if (options.save) {
     window->save("vtk_" + std::to_string(way.samples) + ".png");
   }
@@ -193,8 +209,10 @@ void run(const Options& options) {
               full.scene.triangles.size(), full.scene.texts.size(), full.views.size());
   std::printf("%dx%d px; %d frames; ms as median / p99\n\n", options.width_px, options.height_px,
               options.frames);
-  std::printf("| renderer | edges | record | submit | GPU side | read | total | memory, MiB |\n");
-  std::printf("|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| renderer | edges | record | submit | GPU side | read | total | processor | memory, MiB "
+      "|\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|\n");
   for (const Comparison& way : {Comparison{"coverage", render::Edges::kCoverage, 4},
                                 {"4 samples", render::Edges::kSamples, 4},
                                 {"1 sample", render::Edges::kHard, 1}}) {

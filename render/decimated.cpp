@@ -42,12 +42,16 @@ std::vector<std::uint32_t> joined_indices(const MeshData& mesh) {
 /// Collapses edges until `wanted` indices are left or the error, relative to the extent, is
 /// reached.
 std::vector<std::uint32_t> collapsed(const MeshData& mesh, const std::vector<std::uint32_t>& joined,
-                                     std::size_t wanted, float error) {
+                                     std::size_t wanted, float error, float* reached = nullptr) {
   std::vector<std::uint32_t> indices(joined.size());
   indices.resize(meshopt_simplify(indices.data(), joined.data(), joined.size(),
                                   &mesh.positions.front().x, mesh.positions.size(), sizeof(Float3),
-                                  wanted, error, 0, nullptr));
+                                  wanted, error, 0, reached));
   return indices;
+}
+
+float extent_of(const MeshData& mesh) {
+  return meshopt_simplifyScale(&mesh.positions.front().x, mesh.positions.size(), sizeof(Float3));
 }
 
 }  // namespace
@@ -73,12 +77,21 @@ MeshData simplified(const MeshData& mesh, std::size_t enough_triangles, float er
   if (mesh.indices.size() <= enough || !(error_m > 0)) {
     return mesh;
   }
-  const float extent_m =
-      meshopt_simplifyScale(&mesh.positions.front().x, mesh.positions.size(), sizeof(Float3));
+  const float extent_m = extent_of(mesh);
   if (!(extent_m > 0)) {
     return mesh;
   }
   return compacted(mesh, collapsed(mesh, joined_indices(mesh), enough, error_m / extent_m));
+}
+
+Coarser coarser(const MeshData& mesh, std::size_t triangles, bool joined) {
+  if (mesh.indices.empty()) {
+    return {mesh, 0};
+  }
+  float relative = 0;
+  const std::vector<std::uint32_t> indices = collapsed(
+      mesh, joined ? joined_indices(mesh) : mesh.indices, 3 * triangles, kAnyError, &relative);
+  return {compacted(mesh, indices), relative * extent_of(mesh)};
 }
 
 }  // namespace orthonav::render

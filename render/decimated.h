@@ -18,4 +18,15 @@ namespace orthonav::render {
 [[nodiscard]] MeshData simplified(const MeshData& mesh, std::size_t enough_triangles,
                                   float error_m);
 
+/// A mesh with fewer triangles.
+struct Coarser {
+  MeshData mesh;
+  float error_m = 0;  ///< how far the surface moved, mean over triangles
+};
+
+/// The mesh with about this many triangles or, where its shape forbids that, more. Where two
+/// vertices lie at one place they stay apart, as at the rim of a cap, unless `joined`: then a
+/// surface of separate triangles gets fewer as well.
+[[nodiscard]] Coarser coarser(const MeshData& mesh, std::size_t triangles, bool joined);
+
 }  // namespace orthonav::render

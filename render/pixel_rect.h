@@ -31,6 +31,12 @@ struct PixelRect {
           std::max(a.bottom, b.bottom)};
 }
 
+/// The pixels that are in both.
+[[nodiscard]] inline PixelRect overlap(const PixelRect& a, const PixelRect& b) {
+  return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
+          std::min(a.bottom, b.bottom)};
+}
+
 /// Whether they share a pixel.
 [[nodiscard]] inline bool touch(const PixelRect& a, const PixelRect& b) {
   return !a.empty() && !b.empty() && a.left < b.right && b.left < a.right && a.top < b.bottom &&

@@ -43,7 +43,8 @@ struct RendererOptions {
   EyesAPass eyes_a_pass = EyesAPass::kProbe;
   /// Surfaces of many triangles are drawn with fewer where the error is no larger than this mean
   /// over triangles (single points may be four times as far off); 0: every triangle. Surfaces too
-  /// large to be drawn at all are simplified even then, with a note.
+  /// large to be drawn at all are simplified even then, with a note. Unless it is 0, surfaces far
+  /// away are drawn with fewer triangles still (docs/rendering.md).
   float surface_error_m = 2e-5f;
   /// Where compiled pipelines are kept for the next start. Not set: the user's cache folder
   /// (XDG_CACHE_HOME or ~/.cache); empty: they are not kept.

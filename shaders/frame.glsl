@@ -11,7 +11,7 @@ layout(set = 0, binding = 0) uniform Frame {
   Eye eyes[2];
   vec4 target;  // width and height in pixels, -, -
   vec4 font;    // reach of the distances and rim width in cap heights, near plane in metres, -
-  uvec4 mode;   // 1: over, 0: additive; 1: there is a background; -; -
+  uvec4 mode;   // 1: over, 0: additive; -; -; -
 }
 frame;
 

@@ -4,6 +4,8 @@
 #include "shade.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2DArray background;
+// A constant, since a software rasterizer fetches in both cases where a variable decides.
+layout(constant_id = 0) const bool kHasBackground = false;
 
 layout(location = 0) in vec4 normal_and_tint;
 layout(location = 1) in vec3 towards_eye;
@@ -15,7 +17,7 @@ void main() {
   float light = item.ids.z == 1u ? rim_light(normal_and_tint.xyz, towards_eye)
                                  : headlight(normal_and_tint.xyz, towards_eye);
   vec3 below = vec3(0);
-  if (frame.mode.y == 1u) {
+  if (kHasBackground) {
     below = texelFetch(background, ivec3(gl_FragCoord.xy, gl_ViewIndex), 0).rgb;
   }
   // A rim is as opaque as it is bright: where it is faint, the bone shows through.

@@ -23,7 +23,8 @@ struct Float4 {
 
 struct MeshDraw {
   const MeshItem* item = nullptr;
-  PixelRect bounds;  ///< set by FrameItems::place, as in all structs that follow
+  PixelRect bounds;       ///< set by FrameItems::place, as in all structs that follow
+  std::size_t level = 0;  ///< how finely it is drawn, set by FrameItems::set_levels
 };
 
 /// A line as pairs of points (already cut into dashes), or a triangle as three corners, in the
@@ -59,9 +60,18 @@ struct PixelSize {
 /// when a frame is larger than all before it.
 class FrameItems {
  public:
-  /// Points of long lines are left out where that moves the line by less than `least_rad`.
+  /// Points of lines are left out where that moves the line by less than `least_rad`.
   void build(const Scene& scene, const std::vector<View>& views, const Font& font,
              float least_rad = 0, HeadTexts head_texts = HeadTexts::kDrawn);
+
+  template <class LevelOf>
+  void set_levels(const LevelOf& level_of) {
+    for (auto* meshes : {&translucent_meshes_, &solids_}) {
+      for (MeshDraw& draw : *meshes) {
+        draw.level = level_of(*draw.item);
+      }
+    }
+  }
 
   /// Finds where each item may appear in the views of one pass, and the regions that hold all
   /// items: no two regions share a pixel, and each item lies in one region. `box_of` gives a mesh's

@@ -3,12 +3,33 @@
 #include "render/vulkan/region_recording.h"
 
 namespace orthonav::render {
+namespace {
+
+/// What surrounds the regions, or nothing where pixels between them would cost more than a pass for
+/// each of them.
+PixelRect compact(const std::vector<PixelRect>& regions) {
+  PixelRect all;
+  long needed = 0;
+  for (const PixelRect& region : regions) {
+    all = joined(all, region);
+    needed += region.area();
+  }
+  return all.area() <= needed + needed / 4 ? all : PixelRect{};
+}
+
+}  // namespace
 
 void record_frame(VkCommandBuffer commands, const FrameSources& sources) {
-  for (const PixelRect& region : sources.items.regions()) {
-    const RegionRecording part(commands, sources, region);
-    part.everything();
-    part.copy();
+  const std::vector<PixelRect>& regions = sources.items.regions();
+  if (const PixelRect all = compact(regions); !all.empty()) {
+    RegionRecording(commands, sources, all).everything();
+  } else {
+    for (const PixelRect& region : regions) {
+      RegionRecording(commands, sources, region).everything();
+    }
+  }
+  for (const PixelRect& region : regions) {
+    RegionRecording(commands, sources, region).copy();
   }
   wait_for_copies(commands, sources.readback, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }

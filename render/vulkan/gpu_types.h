@@ -20,7 +20,7 @@ struct GpuFrame {
   std::array<GpuEye, 2> eyes{};
   Float4 target;  ///< width and height in px
   Float4 font;    ///< reach and rim width in cap heights, near plane in metres
-  std::array<std::uint32_t, 4> mode{};  ///< over?, background?
+  std::array<std::uint32_t, 4> mode{};  ///< over?
 };
 static_assert(sizeof(GpuFrame) == 2 * 96 + 48);
 /// Offset from one pass's frame to the next in their buffer; every device supports this alignment.

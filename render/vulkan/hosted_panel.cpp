@@ -22,7 +22,7 @@ void HostedVulkanRenderer::make_panel_pass() {
 
 void HostedVulkanRenderer::record_panel(const View& view, std::uint32_t index) {
   const FrameSlot& slot = drawing_.slot();
-  drawing_.place({&view, 1}, 0, {images_.panel.width_px, images_.panel.height_px}, false);
+  drawing_.place({&view, 1}, 0, {images_.panel.width_px, images_.panel.height_px});
   const Buffer nobody_reads;
   record_outer_frame(drawing_.slot().commands.begin(),
                      {*panel_pass_, slot.bindings, drawing_.meshes(), drawing_.items(),

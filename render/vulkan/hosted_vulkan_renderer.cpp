@@ -188,7 +188,7 @@ void HostedVulkanRenderer::record(const std::vector<View>& views,
   const PixelSize size{images_.width_px, images_.height_px};
   const Buffer nobody_reads;
   for (std::size_t first = 0; first < views.size(); first += at_once) {
-    drawing_.place(std::span(views).subspan(first, at_once), first, size, false);
+    drawing_.place(std::span(views).subspan(first, at_once), first, size);
     const auto frame = static_cast<std::uint32_t>(first * kFrameStride);
     // Image `indices[chain]` of the eye's own chain, or the eye's layer of it in a shared chain.
     const auto outer_of = [&](const auto& chains, std::size_t first_index) {

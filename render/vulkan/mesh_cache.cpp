@@ -9,7 +9,9 @@
 namespace orthonav::render {
 namespace {
 
-constexpr int kMostIdleFrames = 300;  // five seconds of a headset's frames
+constexpr int kMostIdleFrames = 300;       // five seconds of a headset's frames
+constexpr std::size_t kFewTriangles = 64;  // fewer cost next to nothing
+constexpr double kWorthwhile = 0.85;       // of the triangles of the level before
 
 std::vector<GpuVertex> vertices_of(const MeshData& mesh) {
   std::vector<GpuVertex> vertices(mesh.positions.size());
@@ -38,26 +40,70 @@ Buffer uploaded(const Device& device, Commands& commands, const void* bytes, std
   return buffer;
 }
 
-GpuMesh copy_of(const Device& device, Commands& commands, const MeshData& mesh, bool edges) {
-  GpuMesh copy;
-  copy.index_count = static_cast<std::uint32_t>(mesh.indices.size());
-  copy.box = box_of(mesh);
-  if (copy.index_count == 0) {
-    return copy;
-  }
+MeshLevel level_of(const Device& device, Commands& commands, const MeshData& mesh, bool edges) {
+  MeshLevel level;
+  level.index_count = static_cast<std::uint32_t>(mesh.indices.size());
   const std::vector<GpuVertex> vertices = vertices_of(mesh);
   if (edges) {
-    copy.edges = SurfaceEdges(mesh);
+    level.edges = SurfaceEdges(mesh);
   }
-  copy.vertices = uploaded(device, commands, vertices.data(), vertices.size() * sizeof(GpuVertex),
-                           VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-  copy.indices =
+  level.vertices = uploaded(device, commands, vertices.data(), vertices.size() * sizeof(GpuVertex),
+                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  level.indices =
       uploaded(device, commands, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t),
                VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  return level;
+}
+
+/// The mesh as it is drawn from nearby.
+MeshData finest_of(const MeshData& mesh, const MeshDetail& detail) {
+  return mesh.indices.size() > 3 * detail.enough_triangles
+             ? decimated(simplified(mesh, detail.enough_triangles, detail.error),
+                         detail.most_triangles)
+             : mesh;
+}
+
+/// For views from farther away. Errors are those from the mesh as given.
+void add_coarser(const Device& device, Commands& commands, const MeshData& mesh,
+                 const MeshDetail& detail, std::vector<MeshLevel>& levels) {
+  const std::size_t finest = levels.front().index_count / 3;
+  const bool large = mesh.indices.size() > 3 * detail.enough_triangles;
+  for (const double share : {0.7, 0.5, 0.3}) {
+    const auto wanted = static_cast<std::size_t>(share * static_cast<double>(finest));
+    const Coarser fewer = wanted < kFewTriangles ? Coarser{} : coarser(mesh, wanted, large);
+    if (fewer.mesh.indices.empty() ||
+        static_cast<double>(fewer.mesh.indices.size()) > kWorthwhile * levels.back().index_count) {
+      return;
+    }
+    levels.push_back(level_of(device, commands, fewer.mesh, detail.edges));
+    levels.back().error = fewer.error_m;
+  }
+}
+
+GpuMesh copy_of(const Device& device, Commands& commands, const MeshData& mesh,
+                const MeshDetail& detail) {
+  GpuMesh copy;
+  copy.box = box_of(mesh);
+  const MeshData finest = finest_of(mesh, detail);
+  if (finest.indices.empty()) {
+    return copy;
+  }
+  copy.levels.push_back(level_of(device, commands, finest, detail.edges));
+  if (detail.error > 0) {
+    add_coarser(device, commands, mesh, detail, copy.levels);
+  }
   return copy;
 }
 
 }  // namespace
+
+std::size_t GpuMesh::level_within(float error) const {
+  std::size_t level = 0;
+  while (level + 1 < levels.size() && levels[level + 1].error <= error) {
+    ++level;
+  }
+  return level;
+}
 
 const GpuMesh* MeshCache::find(const std::shared_ptr<const MeshData>& mesh) const {
   for (const Entry& entry : entries_) {
@@ -86,14 +132,7 @@ Status MeshCache::add(const Device& device, Commands& commands,
   }
   Entry entry;
   entry.mesh = mesh;
-  if (mesh->indices.size() > 3 * detail.enough_triangles) {
-    entry.copy = copy_of(
-        device, commands,
-        decimated(simplified(*mesh, detail.enough_triangles, detail.error), detail.most_triangles),
-        detail.edges);
-  } else {
-    entry.copy = copy_of(device, commands, *mesh, detail.edges);
-  }
+  entry.copy = copy_of(device, commands, *mesh, detail);
   entries_.push_back(std::move(entry));
   return {};
 }

@@ -14,19 +14,28 @@ namespace orthonav::render {
 
 /// How finely a mesh is drawn. Lengths are in the mesh's own unit.
 struct MeshDetail {
-  float error = 0;                        ///< allowed for leaving triangles out; 0: all stay
+  float error = 0;  ///< allowed for leaving triangles out whatever the view; 0: all stay, always
   std::size_t enough_triangles = 14'000;  ///< with fewer, simplifying does not pay
   std::size_t most_triangles = 250'000;   ///< regardless of the error
   bool edges = false;                     ///< whether they are wanted
 };
 
-/// The copy of a mesh on the device.
-struct GpuMesh {
+/// A mesh on the device, with some number of triangles.
+struct MeshLevel {
   Buffer vertices;
   Buffer indices;
-  std::uint32_t index_count = 0;  ///< 0: an empty mesh draws nothing
+  std::uint32_t index_count = 0;
+  float error = 0;     ///< how far its surface is off, mean over triangles, in the mesh's own unit
+  SurfaceEdges edges;  ///< where they are wanted
+};
+
+/// The copy of a mesh on the device.
+struct GpuMesh {
   Box box;
-  SurfaceEdges edges;  ///< of what is drawn, where they are wanted
+  std::vector<MeshLevel> levels;  ///< finest first; an empty mesh has none, and draws nothing
+
+  /// The coarsest level whose error is no larger than this, or else the finest.
+  [[nodiscard]] std::size_t level_within(float error) const;
 };
 
 /// Device copies of meshes, keyed by pointer. A copy is dropped when only the cache still holds the

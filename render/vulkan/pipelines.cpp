@@ -131,6 +131,9 @@ struct States {
   States& operator=(const States&) = delete;
 };
 
+/// The first constant of the fragment shaders; those without constants take no notice.
+constexpr VkSpecializationMapEntry kFirstConstant = {0, 0, sizeof(VkBool32)};
+
 VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
   VkPipelineShaderStageCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -145,9 +148,13 @@ Pipeline make_pipeline(const Device& device, VkPipelineCache cache, VkPipelineLa
   const ShaderModule vertex = make_module(device.get(), recipe.vertex);
   const ShaderModule fragment =
       recipe.fragment.empty() ? ShaderModule() : make_module(device.get(), recipe.fragment);
-  const std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
+  const VkBool32 has_background = recipe.has_background;
+  const VkSpecializationInfo constants = {1, &kFirstConstant, sizeof(has_background),
+                                          &has_background};
+  std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
       stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex.get()),
       stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get())};
+  stages[1].pSpecializationInfo = &constants;
   const States states(recipe, targets.spec(), blend);
   VkGraphicsPipelineCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;

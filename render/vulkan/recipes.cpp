@@ -73,9 +73,20 @@ Recipe recipe_of(Stage stage, bool labels, bool covers) {
     case Stage::kTranslucent:
       return mesh_recipe(labels ? flat : embedded::mesh_veil_frag(), Mix::kReplace, true,
                          VK_COMPARE_OP_LESS);
+    case Stage::kOverBackground: {
+      Recipe recipe = recipe_of(Stage::kTranslucent, labels, covers);
+      recipe.has_background = true;
+      return recipe;
+    }
     case Stage::kSolid:
       return mesh_recipe(labels ? flat : embedded::mesh_solid_frag(), Mix::kBlend, false,
                          VK_COMPARE_OP_EQUAL);
+    case Stage::kFarthest: {
+      Recipe recipe = plain_recipe(embedded::background_vert(), {});
+      recipe.depth_test = recipe.depth_write = true;
+      recipe.depth_compare = VK_COMPARE_OP_ALWAYS;
+      return recipe;
+    }
     case Stage::kTriangle:
       return covers ? overlay_recipe(embedded::triangle_cover_vert(),
                                      embedded::triangle_cover_frag(), true)
@@ -89,6 +100,11 @@ Recipe recipe_of(Stage stage, bool labels, bool covers) {
       return covered_line_recipe(embedded::line_cover_frag(), Mix::kCoverAlpha);
     case Stage::kLineColour:
       return covered_line_recipe(embedded::line_colour_frag(), Mix::kByAlpha);
+    case Stage::kLineFill: {
+      Recipe recipe = plain_recipe(embedded::background_vert(), embedded::line_colour_frag());
+      recipe.mix = Mix::kByAlpha;
+      return recipe;
+    }
     case Stage::kEdge:
       return plain_recipe(embedded::edge_vert(), embedded::edge_frag());
     case Stage::kText:
@@ -114,13 +130,17 @@ Recipe depth_recipe_of(Stage stage) {
 bool has_stage(Stage stage, const TargetSpec& spec) {
   switch (stage) {
     case Stage::kBackground:
+    case Stage::kOverBackground:
       return spec.kind == PassKind::kColour;
     case Stage::kLineCover:
     case Stage::kLineColour:
+    case Stage::kLineFill:
     case Stage::kEdge:
       return spec.covers();
     case Stage::kLine:
       return !spec.covers();
+    case Stage::kFarthest:
+      return spec.kind != PassKind::kDepth;
     case Stage::kDepth:
     case Stage::kTranslucent:
     case Stage::kSolid:

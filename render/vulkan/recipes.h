@@ -8,14 +8,17 @@ namespace orthonav::render {
 
 /// The stages of drawing a frame, in this order.
 enum class Stage {
-  kBackground,   ///< the image behind everything; colour only
-  kDepth,        ///< solids into the depth alone
-  kTranslucent,  ///< see-through meshes: the nearest surface replaces what was drawn before
-  kSolid,        ///< the nearest solid surface, blended
+  kBackground,      ///< the image behind everything; colour only
+  kDepth,           ///< solids into the depth alone
+  kTranslucent,     ///< see-through meshes: the nearest surface replaces what was drawn before
+  kOverBackground,  ///< the same where there is a background to shine through
+  kFarthest,        ///< nothing but the farthest depth, where veils were: they hide nothing else
+  kSolid,           ///< the nearest solid surface, blended
   kTriangle,
   kLine,        ///< the stencil lets each item touch a sample once
   kLineCover,   ///< replaces kLine where coverage is computed: a line into alpha, then
-  kLineColour,  ///< its colour by what alpha lacks
+  kLineColour,  ///< its colour by what alpha lacks, along its segments or
+  kLineFill,    ///< over everything around it
   kEdge,        ///< of meshes, where coverage is computed: pixels get their neighbours' share
   kText,        ///< in front of everything: a number is never hidden
   kCount
@@ -39,6 +42,7 @@ struct Recipe {
   bool depth_write = false;
   VkCompareOp depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
   bool stencil = false;
+  bool has_background = false;  ///< for the shader
 };
 
 /// Whether frames of this kind have the stage.

@@ -59,7 +59,9 @@ void RegionRecording::background() const {
   if (!shows(region_, Stage::kBackground, bound)) {
     return;
   }
-  vkCmdDraw(commands_, 3, 1, 0, 0);
+  for (const PixelRect& region : sources_.items.regions()) {
+    fill(overlap(region, region_));
+  }
 }
 
 void RegionRecording::meshes() const {
@@ -71,11 +73,40 @@ void RegionRecording::meshes() const {
     mesh_stage(Stage::kTranslucent, items.translucent_meshes());
     return;
   }
-  if (mesh_stage(Stage::kTranslucent, items.translucent_meshes())) {
-    clear(VK_IMAGE_ASPECT_DEPTH_BIT);
-    mesh_stage(Stage::kDepth, items.solids());
+  PixelRect veiled;
+  for (const MeshDraw& draw : items.translucent_meshes()) {
+    veiled = joined(veiled, overlap(draw.bounds, region_));
+  }
+  const bool over =
+      sources_.has_background && has_stage(Stage::kOverBackground, sources_.pass.targets.spec());
+  if (mesh_stage(over ? Stage::kOverBackground : Stage::kTranslucent, items.translucent_meshes())) {
+    forget_depth(veiled);
+    mesh_stage(Stage::kDepth, items.solids(), veiled);
   }
   mesh_stage(Stage::kSolid, items.solids());
+}
+
+void RegionRecording::fill(const PixelRect& part) const {
+  if (part.empty()) {
+    return;
+  }
+  const VkRect2D inner = rect_of(part);
+  const VkRect2D outer = rect_of(region_);
+  vkCmdSetScissor(commands_, 0, 1, &inner);
+  vkCmdDraw(commands_, 3, 1, 0, 0);
+  vkCmdSetScissor(commands_, 0, 1, &outer);
+}
+
+void RegionRecording::forget_depth(const PixelRect& part) const {
+  // For a clear, llvmpipe first waits for all that was drawn; but of two views it would draw over
+  // the first alone (docs/decisions/0022-both-eyes-in-one-pass.md).
+  if (sources_.pass.targets.spec().views > 1) {
+    return clear(VK_IMAGE_ASPECT_DEPTH_BIT, part);
+  }
+  bool bound = false;
+  if (shows(part, Stage::kFarthest, bound)) {
+    fill(part);
+  }
 }
 
 void RegionRecording::triangles() const {
@@ -133,15 +164,15 @@ void RegionRecording::texts() const {
 }
 
 void RegionRecording::everything() const {
-  const PixelRect smoothed = edges_within();
-  begin(smoothed.empty() ? PassPart::kWhole : PassPart::kOpening);
+  const bool smoothed = shows_edges();
+  begin(smoothed ? PassPart::kOpening : PassPart::kWhole);
   background();
   meshes();
   triangles();
   lines();
-  if (!smoothed.empty()) {
+  if (smoothed) {
     vkCmdEndRenderPass(commands_);
-    copy_drawn(smoothed);
+    copy_drawn();
     begin(PassPart::kClosing);
     edges();
   }
@@ -185,7 +216,7 @@ bool RegionRecording::shows(const PixelRect& bounds, Stage stage, bool& bound) c
 
 void RegionRecording::next_stencil(std::uint32_t& stencil) const {
   if (stencil == kLastStencil) {
-    clear(VK_IMAGE_ASPECT_STENCIL_BIT);
+    clear(VK_IMAGE_ASPECT_STENCIL_BIT, region_);
     stencil = 0;
   }
   vkCmdSetStencilReference(commands_, VK_STENCIL_FACE_FRONT_AND_BACK, ++stencil);
@@ -202,29 +233,36 @@ void RegionRecording::push_line(const SpanDraw& draw) const {
   push({kIdentity, draw.colour, {draw.width_m}, {draw.label, draw.first, 0, rounded}});
 }
 
-void RegionRecording::clear(VkImageAspectFlags aspect) const {
+void RegionRecording::clear(VkImageAspectFlags aspect, const PixelRect& part) const {
   VkClearAttachment attachment = {};
   attachment.aspectMask = aspect;
   attachment.clearValue.depthStencil = {1.0f, 0};
-  const VkClearRect everywhere = {rect_of(region_), 0, 1};
+  const VkClearRect everywhere = {rect_of(part), 0, 1};
   vkCmdClearAttachments(commands_, 1, &attachment, 1, &everywhere);
 }
 
 bool RegionRecording::mesh_stage(Stage stage, const std::vector<MeshDraw>& meshes) const {
+  return mesh_stage(stage, meshes, region_);
+}
+
+bool RegionRecording::mesh_stage(Stage stage, const std::vector<MeshDraw>& meshes,
+                                 const PixelRect& within) const {
   bool bound = false;
-  for (const auto& [item, bounds] : meshes) {
+  for (const auto& [item, bounds, number] : meshes) {
     const GpuMesh* copy = sources_.meshes.find(item->mesh);
-    if (copy == nullptr || copy->index_count == 0 || !shows(bounds, stage, bound)) {
+    if (copy == nullptr || copy->levels.empty() || !touch(bounds, within) ||
+        !shows(bounds, stage, bound)) {
       continue;
     }
+    const MeshLevel& level = copy->levels[number];
     const std::uint32_t style = item->style == MeshStyle::kRim ? 1 : 0;
     const Colour& tint = item->tint;
     push({item->world_from_model, item->colour, {tint.r, tint.g, tint.b}, {item->label, 0, style}});
-    const VkBuffer vertices = copy->vertices.get();
+    const VkBuffer vertices = level.vertices.get();
     const VkDeviceSize offset = 0;
     vkCmdBindVertexBuffers(commands_, 0, 1, &vertices, &offset);
-    vkCmdBindIndexBuffer(commands_, copy->indices.get(), 0, VK_INDEX_TYPE_UINT32);
-    vkCmdDrawIndexed(commands_, copy->index_count, 1, 0, 0, 0);
+    vkCmdBindIndexBuffer(commands_, level.indices.get(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexed(commands_, level.index_count, 1, 0, 0, 0);
   }
   return bound;
 }

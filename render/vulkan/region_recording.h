@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "render/vulkan/frame_recorder.h"
@@ -22,6 +23,10 @@ class RegionRecording {
   void begin(PassPart part) const;
   void background() const;
   void meshes() const;
+  /// Draws the bound stage, one that covers everything, over a part of the region.
+  void fill(const PixelRect& part) const;
+  /// Sets the depth of a part of the region as it was at the frame's beginning.
+  void forget_depth(const PixelRect& part) const;
   void triangles() const;
   void lines() const;
   void texts() const;
@@ -34,18 +39,26 @@ class RegionRecording {
   [[nodiscard]] bool covers() const { return sources_.pass.targets.spec().covers(); }
 
   void push_line(const SpanDraw& draw) const;
-  void cover_line(const SpanDraw& draw) const;
+  /// Draws the segments of one line.
+  void cover_lines(std::span<const SpanDraw> spans, Stage stage) const;
+  void colour_line(std::span<const SpanDraw> spans) const;
   /// Draws each line into alpha first, which then says how much of its colour is added; no stencil
   /// is needed.
   void covered_lines() const;
-  /// The part of the region whose pixels edges of meshes may cut; empty where there are none.
-  [[nodiscard]] PixelRect edges_within() const;
+  /// Whether edges of meshes may cut pixels of the region.
+  [[nodiscard]] bool shows_edges() const;
+  /// The pixels of a part that edges of meshes may cut; empty where there are none.
+  [[nodiscard]] PixelRect edges_within(const PixelRect& part) const;
   void edges() const;
+  /// Copies the pixels that edges may cut, for the edges to read.
+  void copy_drawn() const;
   void copy_drawn(const PixelRect& part) const;
   /// Clears depth or stencil of every view, as at the frame's beginning.
-  void clear(VkImageAspectFlags aspect) const;
+  void clear(VkImageAspectFlags aspect, const PixelRect& part) const;
   /// Draws the meshes of a stage; returns whether there were any.
   bool mesh_stage(Stage stage, const std::vector<MeshDraw>& meshes) const;
+  /// The same, of those that may touch `within`.
+  bool mesh_stage(Stage stage, const std::vector<MeshDraw>& meshes, const PixelRect& within) const;
 
   VkCommandBuffer commands_;
   const FrameSources& sources_;

@@ -15,7 +15,8 @@
 namespace orthonav::render {
 namespace {
 
-constexpr float kUnseen_px = 0.1f;  // less than half the distance between samples
+constexpr float kUnseen_px = 0.1f;   // less than half the distance between samples
+constexpr float kSurface_px = 0.2f;  // of a surface, mean over triangles; 0.15 amid the image
 
 /// Twice what is needed, so that a growing scene soon stops reallocating.
 VkDeviceSize grown(std::size_t bytes) { return std::max<std::size_t>(2 * bytes, 4096); }
@@ -44,8 +45,13 @@ void write_line_indices(const Buffer& buffer) {
   }
 }
 
-/// By how large an angle a line may deviate unnoticed: kUnseen_px where pixels are smallest.
-float unseen_rad(const std::vector<View>& views, PixelSize size) {
+float scale_of(const MeshItem& item) {
+  const Matrix4& place = item.world_from_model;
+  return length({place[0], place[1], place[2]});
+}
+
+/// The angle that a pixel subtends where pixels are smallest.
+float pixel_rad(const std::vector<View>& views, PixelSize size) {
   float least = std::numeric_limits<float>::max();
   for (const View& view : views) {
     const float across = (view.tan_left + view.tan_right) / static_cast<float>(size.width_px);
@@ -54,7 +60,17 @@ float unseen_rad(const std::vector<View>& views, PixelSize size) {
     const float aside = std::max({view.tan_left, view.tan_right, view.tan_up, view.tan_down});
     least = std::min(least, std::min(across, down) / (1 + 2 * aside * aside));
   }
-  return kUnseen_px * least;
+  return least;
+}
+
+/// How near a mesh may be to an eye, never too far.
+float nearest_m(const MeshItem& item, const Box& box, const std::vector<View>& views) {
+  const Float3 middle = transformed(item.world_from_model, 0.5f * (box.low + box.high));
+  float nearest = std::numeric_limits<float>::max();
+  for (const View& view : views) {
+    nearest = std::min(nearest, length(transformed(view.eye_from_world, middle)));
+  }
+  return std::max(nearest - 0.5f * scale_of(item) * length(box.high - box.low), 0.0f);
 }
 
 }  // namespace
@@ -146,16 +162,15 @@ bool SceneDrawing::lost() const {
 }
 
 Status SceneDrawing::add_mesh(const MeshItem& item, const std::string& name) {
-  const Matrix4& place = item.world_from_model;
   MeshDetail detail;
-  detail.error = options_.surface_error_m / length({place[0], place[1], place[2]});
+  detail.error = options_.surface_error_m / scale_of(item);
   detail.edges = covers();
   if (const Status added = meshes_.add(device_, slot().commands, item.mesh, detail); !added) {
     return Error{name + ": " + added.error().message, added.error().code};
   }
-  const std::size_t drawn = meshes_.find(item.mesh)->index_count / 3;
   const std::size_t given = item.mesh->indices.size() / 3;
   if (given > detail.most_triangles) {
+    const std::size_t drawn = meshes_.find(item.mesh)->levels.front().index_count / 3;
     note(name + ": drawn with " + std::to_string(drawn) + " of its " + std::to_string(given) +
          " triangles, limit " + std::to_string(detail.most_triangles));
   }
@@ -204,7 +219,13 @@ Status SceneDrawing::take(const Scene& scene) {
 
 void SceneDrawing::build(const Scene& scene, const std::vector<View>& views, PixelSize size,
                          PassKind kind, HeadTexts head_texts) {
-  items_.build(scene, views, font_, unseen_rad(views, size), head_texts);
+  const float rad = pixel_rad(views, size);
+  items_.build(scene, views, font_, kUnseen_px * rad, head_texts);
+  items_.set_levels([&](const MeshItem& item) {
+    const GpuMesh& copy = *meshes_.find(item.mesh);
+    const float error_m = kSurface_px * rad * nearest_m(item, copy.box, views);
+    return copy.level_within(error_m / scale_of(item));
+  });
   edges_.clear();
   edges_of_view_ = {};
   if (kind == PassKind::kColour && covers()) {
@@ -219,8 +240,10 @@ void SceneDrawing::find_edges(const std::vector<View>& views, PixelSize size) {
     const std::uint32_t first = number(edges_.size());
     for (const auto* meshes : {&items_.translucent_meshes(), &items_.solids()}) {
       for (const MeshDraw& draw : *meshes) {
-        if (const GpuMesh* copy = meshes_.find(draw.item->mesh)) {
-          copy->edges.seen_by(views[i], size, draw.item->world_from_model, edge_scratch_, edges_);
+        const GpuMesh* copy = meshes_.find(draw.item->mesh);
+        if (copy != nullptr && !copy->levels.empty()) {
+          copy->levels[draw.level].edges.seen_by(views[i], size, draw.item->world_from_model,
+                                                 edge_scratch_, edges_);
         }
       }
     }
@@ -249,8 +272,7 @@ void SceneDrawing::prepare_data() {
   }
 }
 
-void SceneDrawing::place(std::span<const View> views, std::size_t first, PixelSize size,
-                         bool has_background) {
+void SceneDrawing::place(std::span<const View> views, std::size_t first, PixelSize size) {
   items_.place(views, size, [this](const MeshItem& item) {
     const GpuMesh* copy = meshes_.find(item.mesh);
     return copy != nullptr ? copy->box : Box{};
@@ -268,7 +290,7 @@ void SceneDrawing::place(std::span<const View> views, std::size_t first, PixelSi
   }
   frame.target = {width, height, 0, 0};
   frame.font = {font_.header().reach, kRimWidth, kNearPlane_m, 0};
-  frame.mode = {options_.blend == Blend::kAdditive ? 0u : 1u, has_background ? 1u : 0u, 0, 0};
+  frame.mode = {options_.blend == Blend::kAdditive ? 0u : 1u, 0, 0, 0};
   slot().frames.write(&frame, sizeof(frame), first * kFrameStride);
 }
 

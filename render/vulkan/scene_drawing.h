@@ -82,7 +82,7 @@ class SceneDrawing {
   }
   /// For the pass whose first view is `first`: places its items and passes its views to the
   /// shaders.
-  void place(std::span<const View> views, std::size_t first, PixelSize size, bool has_background);
+  void place(std::span<const View> views, std::size_t first, PixelSize size);
   /// Marks the frame's end, however it ended.
   void end_frame() { meshes_.end_frame(); }
 

@@ -29,7 +29,7 @@ void VulkanRenderer::upload_backgrounds(VkCommandBuffer batch,
 
 void VulkanRenderer::record_pass(VkCommandBuffer batch, PassKind kind, std::span<const View> views,
                                  std::span<const RgbaImage* const> backgrounds, std::size_t first) {
-  drawing_.place(views, first, size(), !backgrounds.empty());
+  drawing_.place(views, first, size());
   const FrameItems& items = drawing_.items();
   for (std::size_t i = 0; i < views.size(); ++i) {
     drawn_[first + i] = items.regions();

@@ -128,7 +128,7 @@ TEST_F(MeshCacheTest, KeepsOneCopyAMeshAndDropsItWithItsLastOwner) {
   cache_.end_frame();
   EXPECT_EQ(cache_.size(), 1u);
   ASSERT_NE(cache_.find(mesh), nullptr);
-  EXPECT_EQ(cache_.find(mesh)->index_count, mesh->indices.size());
+  EXPECT_EQ(cache_.find(mesh)->levels.front().index_count, mesh->indices.size());
   mesh.reset();
   cache_.end_frame();
   EXPECT_EQ(cache_.size(), 0u);

@@ -98,6 +98,44 @@ TEST(Decimated, MakesLooseTrianglesFewerToo) {
   EXPECT_LT(farthest_from_sphere(fewer, 0.035f), 5e-4f);
 }
 
+TEST(Coarser, HasTheTrianglesAskedForAndSaysHowFarItIsOff) {
+  const MeshData fine = make_sphere(0.035f, 60, 30);
+  const std::size_t half = fine.indices.size() / 6;
+  for (const bool joined : {false, true}) {
+    const Coarser fewer = coarser(fine, half, joined);
+    EXPECT_LE(fewer.mesh.indices.size(), 3 * half + 30);
+    EXPECT_GT(fewer.error_m, 1e-6f);
+    EXPECT_LT(farthest_from_sphere(fewer.mesh, 0.035f),
+              farthest_from_sphere(fine, 0.035f) + 4 * fewer.error_m);
+  }
+  EXPECT_TRUE(coarser({}, 10, true).mesh.indices.empty());
+}
+
+TEST(Coarser, IsChosenByTheErrorThatIsAllowed) {
+  SilentValidation validation;
+  const Instance instance(true, validation.sink());
+  const Device device(choose_device(instance, test::test_device()).value());
+  Commands commands(device);
+  MeshCache cache;
+  const auto mesh = std::make_shared<const MeshData>(make_sphere(0.05f, 60, 30));
+  MeshDetail detail;
+  detail.error = 2e-5f;
+  EXPECT_TRUE(test::is_ok(cache.add(device, commands, mesh, detail)));
+  const GpuMesh& copy = *cache.find(mesh);
+  ASSERT_EQ(copy.levels.size(), 4u);
+  EXPECT_EQ(copy.levels[0].index_count, mesh->indices.size());
+  EXPECT_EQ(copy.levels[0].error, 0);
+  for (std::size_t i = 1; i < copy.levels.size(); ++i) {
+    EXPECT_LT(copy.levels[i].index_count, copy.levels[i - 1].index_count);
+    EXPECT_GT(copy.levels[i].error, copy.levels[i - 1].error);
+    EXPECT_EQ(copy.level_within(copy.levels[i].error), i);
+  }
+  EXPECT_EQ(copy.level_within(0), 0u);
+  const auto whole = std::make_shared<const MeshData>(*mesh);
+  EXPECT_TRUE(test::is_ok(cache.add(device, commands, whole, {})));
+  EXPECT_EQ(cache.find(whole)->levels.size(), 1u) << "every triangle was asked for";
+}
+
 TEST(HugeMesh, IsDrawnWithFewerTrianglesAndANote) {
   TestRenderer renderer;
   Scene scene = sphere_scene(MeshStyle::kRim, {}, {0, 0, -1}, 201);
@@ -129,8 +167,8 @@ TEST(HugeMesh, HasNoMoreTrianglesThanTheLimitWhateverTheError) {
   detail.enough_triangles = 1000;
   detail.most_triangles = 4000;
   EXPECT_TRUE(test::is_ok(cache.add(device, commands, mesh, detail)));
-  EXPECT_LE(cache.find(mesh)->index_count, 3 * 4000u);
-  EXPECT_GT(cache.find(mesh)->index_count, 3 * 3000u);
+  EXPECT_LE(cache.find(mesh)->levels.front().index_count, 3 * 4000u);
+  EXPECT_GT(cache.find(mesh)->levels.front().index_count, 3 * 3000u);
 }
 
 }  // namespace
