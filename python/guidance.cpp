@@ -56,7 +56,7 @@ GuidedTool guide(const Model& model, const nav::ScrewPlan& screw, const py::obje
                      measured.value * tool.tip_in_marker, (measured.value * tool.axis_in_marker).v),
           nav::anatomical_deviation(screw, there.axis,
                                     there.uncertainty ? &*there.uncertainty : nullptr),
-          engine::Guiding().clearance_along(level, measured, tool)};
+          engine::Guiding().clearance_along(level, measured, tool, {})};
 }
 
 /// Members of the session's value, as properties.

@@ -57,9 +57,9 @@ Event Guiding::finish_screw(OperationInWork& work, const Placing& placing, Times
   const auto& at_depth = approach_.at_depth;
   level.screw_done[screw_] = true;
   level.clearance_at_depth[screw_] =
-      at_depth
-          ? clearance_along(work, approach_.pose_at_depth, work.tools.geometry(work.tools.guide()))
-          : std::nullopt;
+      at_depth ? clearance_along(level, approach_.pose_at_depth,
+                                 work.tools.geometry(work.tools.guide()), work.options.astray)
+               : std::nullopt;
   level.executed[screw_] = approach_.path.mean();
   if (work.step == Step::kPlaced) {
     level.wires[screw_] = {true, placing.wire()};
@@ -186,10 +186,10 @@ void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuida
   }
 }
 
-std::optional<nav::ScrewClearance> Guiding::clearance_along(const OperationInWork& work,
+std::optional<nav::ScrewClearance> Guiding::clearance_along(const LevelState& level,
                                                             const nav::TrackedPose& pose,
-                                                            const nav::ToolGeometry& tool) const {
-  const LevelState& level = work.level();
+                                                            const nav::ToolGeometry& tool,
+                                                            const DrillAstray& astray) const {
   if (!level.registration) {
     return std::nullopt;
   }
@@ -210,14 +210,13 @@ std::optional<nav::ScrewClearance> Guiding::clearance_along(const OperationInWor
   if (!there.uncertainty) {
     return nav::screw_clearance(bone, *screw, nullptr);
   }
-  const nav::PoseUncertainty of_drill =
-      with_astray(*there.uncertainty, *screw, work.options.astray);
+  const nav::PoseUncertainty of_drill = with_astray(*there.uncertainty, *screw, astray);
   return nav::screw_clearance(bone, *screw, &of_drill);
 }
 
 void Guiding::add_clearance(ToolGuidance& guidance, const OperationInWork& work,
                             const nav::TrackedPose& pose, const nav::ToolGeometry& tool) {
-  guidance.clearance = clearance_along(work, pose, tool);
+  guidance.clearance = clearance_along(work.level(), pose, tool, work.options.astray);
   if (guidance.clearance) {
     guidance.shown_clearance =
         approach_.clearance.write(*guidance.clearance, work.level().plan.screws[screw_].side);

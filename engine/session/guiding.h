@@ -37,9 +37,10 @@ class Guiding {
   /// not near the plan (15 mm, 30°). Where the registration's uncertainty is known, takes the
   /// tool's relative to the bone into account, and how far a drill goes astray (`DrillAstray`).
   /// Allocates nothing.
-  [[nodiscard]] std::optional<nav::ScrewClearance> clearance_along(
-      const OperationInWork& work, const nav::TrackedPose& pose,
-      const nav::ToolGeometry& tool) const;
+  [[nodiscard]] std::optional<nav::ScrewClearance> clearance_along(const LevelState& level,
+                                                                   const nav::TrackedPose& pose,
+                                                                   const nav::ToolGeometry& tool,
+                                                                   const DrillAstray& astray) const;
   /// Writes the selected screw and, in this step, the tool relative to it unless guidance is
   /// hidden.
   void write(const OperationInWork& work, const GuideChecks& checks, bool hidden, Guidance& out);
