@@ -24,11 +24,12 @@ class FrameComparison {
   /// are lit in the eyes' images and on the panel.
   struct Difference {
     int most = 0;
+    std::size_t beyond = 0;  ///< colour values that differ by more than the tolerance
     std::size_t lit_px = 0;
     std::size_t lit_on_panel_px = 0;
   };
   /// What hangs on the head must be in the eyes' images if the frame has no panel, and only then.
-  Difference compare(const DrawnScene& drawn, const SubmittedFrame& frame) {
+  Difference compare(const DrawnScene& drawn, const SubmittedFrame& frame, int tolerance = 0) {
     render::Scene scene = drawn.scene;
     if (frame.quad) {
       scene.texts.erase_if(
@@ -41,7 +42,7 @@ class FrameComparison {
       difference.lit_on_panel_px += (*frame.quad->pixels)[i] != 0 ? 1 : 0;
     }
     for (std::size_t eye = 0; eye < 2; ++eye) {
-      add(images[eye].pixels, frame.pixels[eye], frame.format, difference);
+      add(images[eye].pixels, frame.pixels[eye], frame.format, tolerance, difference);
     }
     return difference;
   }
@@ -54,7 +55,7 @@ class FrameComparison {
     return format == VK_FORMAT_R8G8B8A8_UNORM || format == VK_FORMAT_B8G8R8A8_UNORM;
   }
   static void add(const std::vector<std::uint8_t>& expected, const std::vector<std::uint8_t>& got,
-                  std::int64_t format, Difference& difference) {
+                  std::int64_t format, int tolerance, Difference& difference) {
     ASSERT_EQ(expected.size(), got.size());
     for (std::size_t i = 0; i < got.size(); ++i) {
       if (i % 4 == 3) {
@@ -65,7 +66,9 @@ class FrameComparison {
       if (is_linear(format)) {
         wanted = static_cast<int>(std::lround(255.0 * linear_from_srgb(wanted / 255.0)));
       }
-      difference.most = std::max(difference.most, std::abs(wanted - got[from]));
+      const int off = std::abs(wanted - got[from]);
+      difference.most = std::max(difference.most, off);
+      difference.beyond += off > tolerance ? 1 : 0;
       if (i % 4 == 0 && (got[i] | got[i + 1] | got[i + 2]) != 0) {
         ++difference.lit_px;
       }
