@@ -62,6 +62,26 @@ Recipe covered_line_recipe(std::string_view fragment, Mix mix) {
   return recipe;
 }
 
+/// A line's colour over all its surroundings; its coverage is in the alpha already.
+Recipe line_fill_recipe() {
+  Recipe recipe = plain_recipe(embedded::background_vert(), embedded::line_colour_frag());
+  recipe.mix = Mix::kByAlpha;
+  return recipe;
+}
+
+/// Draws the greatest depth, which llvmpipe does faster than clearing it.
+Recipe farthest_recipe() {
+  Recipe recipe = plain_recipe(embedded::background_vert(), {});
+  recipe.depth_test = recipe.depth_write = true;
+  recipe.depth_compare = VK_COMPARE_OP_ALWAYS;
+  return recipe;
+}
+
+Recipe over_background(Recipe recipe) {
+  recipe.has_background = true;
+  return recipe;
+}
+
 /// `covers`: whether the coverage of pixels is computed.
 Recipe recipe_of(Stage stage, bool labels, bool covers) {
   const std::string_view flat = labels ? embedded::label_frag() : embedded::flat_frag();
@@ -73,20 +93,13 @@ Recipe recipe_of(Stage stage, bool labels, bool covers) {
     case Stage::kTranslucent:
       return mesh_recipe(labels ? flat : embedded::mesh_veil_frag(), Mix::kReplace, true,
                          VK_COMPARE_OP_LESS);
-    case Stage::kOverBackground: {
-      Recipe recipe = recipe_of(Stage::kTranslucent, labels, covers);
-      recipe.has_background = true;
-      return recipe;
-    }
+    case Stage::kOverBackground:
+      return over_background(recipe_of(Stage::kTranslucent, labels, covers));
     case Stage::kSolid:
       return mesh_recipe(labels ? flat : embedded::mesh_solid_frag(), Mix::kBlend, false,
                          VK_COMPARE_OP_EQUAL);
-    case Stage::kFarthest: {
-      Recipe recipe = plain_recipe(embedded::background_vert(), {});
-      recipe.depth_test = recipe.depth_write = true;
-      recipe.depth_compare = VK_COMPARE_OP_ALWAYS;
-      return recipe;
-    }
+    case Stage::kFarthest:
+      return farthest_recipe();
     case Stage::kTriangle:
       return covers ? overlay_recipe(embedded::triangle_cover_vert(),
                                      embedded::triangle_cover_frag(), true)
@@ -100,11 +113,8 @@ Recipe recipe_of(Stage stage, bool labels, bool covers) {
       return covered_line_recipe(embedded::line_cover_frag(), Mix::kCoverAlpha);
     case Stage::kLineColour:
       return covered_line_recipe(embedded::line_colour_frag(), Mix::kByAlpha);
-    case Stage::kLineFill: {
-      Recipe recipe = plain_recipe(embedded::background_vert(), embedded::line_colour_frag());
-      recipe.mix = Mix::kByAlpha;
-      return recipe;
-    }
+    case Stage::kLineFill:
+      return line_fill_recipe();
     case Stage::kEdge:
       return plain_recipe(embedded::edge_vert(), embedded::edge_frag());
     case Stage::kText:
