@@ -34,7 +34,7 @@ constexpr double kDisplayPixel = 2 * 0.394 / 1440;
 /// At rest, in its pixels.
 constexpr double kOff_px = 1.5;
 /// While the head goes around the site at arm's length by 30 degrees a second.
-constexpr double kLag_px = 4;
+constexpr double kLag_px = 4.5;
 
 /// What the headset shows of a list once all of it was sent: the client and the stand-in's scene,
 /// connected directly.

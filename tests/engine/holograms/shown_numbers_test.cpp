@@ -169,9 +169,11 @@ TEST_F(ShownNumbers, CountOfTheCamerasErrorWhatToolAndBoneDoNotShare) {
 }
 
 TEST_F(ShownNumbers, HaveTheClearanceBelowThem) {
-  // The wall at x = 30 mm, a radius of 3 mm; the bound is 1.6 SDs of 0.3 mm less.
-  EXPECT_EQ(told(guided({0.01055, 0.010, 0.0})).clearance,
-            "clearance 1.4 mm, at least 0.9 mm (registration only)");
+  // The wall at x = 30 mm, a radius of 3 mm; of the bound's SD most is that of the guide, which was
+  // not compared with the pointer.
+  const std::string inside = told(guided({0.00855, 0.010, 0.0})).clearance;
+  EXPECT_THAT(inside, ::testing::StartsWith("clearance 3.4 mm, at least "));
+  EXPECT_THAT(inside, ::testing::EndsWith(" mm (registration only)"));
   const Told near = told(guided({0.01185, 0.010, 0.0}));
   EXPECT_EQ(near.clearance, "clearance 0.1 mm: may break through laterally (registration only)");
   const Guidance& out = guided({0.01305, 0.010, 0.0});
