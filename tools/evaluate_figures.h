@@ -13,7 +13,7 @@ inline constexpr double k95 = 1.96;
 /// Words that the table and the page have in common.
 inline constexpr const char* kNotFound = "not found: no metal lies there as planned";
 inline constexpr const char* kBarelyIn = "less than 6 mm in the bone";
-inline constexpr const char* kTouched = "its tip meets another one";
+inline constexpr const char* kTouched = "touches another screw";
 inline constexpr const char* kTipNotSeen =
     "its tip is not seen: no target, no depth, and the clearance is that of the part that is seen";
 

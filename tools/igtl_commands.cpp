@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "hal/igtl/message.h"
+#include "tools/igtl_messages.h"
 #include "tools/igtl_requests.h"
 
 namespace orthonav::tools {
-namespace {
-
-constexpr const char* kAnswer = "CommandAnswer";
-
-}  // namespace
-
 void IgtlCommands::watch(engine::AssembledOperation& operation) {
   operation.observe(static_cast<engine::SessionObserver*>(this));
   operation.hear(this);
@@ -111,8 +105,7 @@ std::vector<std::uint8_t> IgtlCommands::answers(const std::string& status, std::
     } else {
       log_.warn(what + ": refused: " + each.why);
     }
-    const auto message = igtl::packed_text(
-        {kAnswer, stamp}, line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    const auto message = igtl_answer(line, stamp);
     out.insert(out.end(), message.begin(), message.end());
   }
   return out;

@@ -189,6 +189,12 @@ std::vector<std::uint8_t> igtl_status(const engine::Session& session,
   return igtl::packed(label_of("orthonav", guidance.frame_time), status);
 }
 
+std::vector<std::uint8_t> igtl_answer(const nlohmann::ordered_json& answer, std::uint64_t stamp) {
+  // What a client sent may be no UTF-8.
+  return igtl::packed_text({"CommandAnswer", stamp},
+                           answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
 std::vector<std::uint8_t> igtl_screws(const std::string& label,
                                       std::span<const nav::ScrewPlan> screws, Timestamp time) {
   Bytes out;

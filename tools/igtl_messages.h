@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,10 @@ namespace orthonav::tools {
 /// The step, the status line, and which tools are lost.
 [[nodiscard]] std::vector<std::uint8_t> igtl_status(const engine::Session& session,
                                                     const engine::Guidance& guidance);
+
+/// What became of something that a client sent, as a STRING `CommandAnswer`.
+[[nodiscard]] std::vector<std::uint8_t> igtl_answer(const nlohmann::ordered_json& answer,
+                                                    std::uint64_t stamp);
 
 /// Each screw of a level in its model's frame: a POINT with entry and target (radius in the field
 /// for it) and a POLYDATA of its cylinder.

@@ -79,6 +79,23 @@ Result<igtl::ServerOptions> igtl_options(const IgtlArguments& arguments) {
   return options;
 }
 
+Result<std::unique_ptr<igtl::Server>> serve_igtl(const IgtlArguments& arguments,
+                                                 igtl::TextListener* listener,
+                                                 const char* clients) {
+  const auto options = igtl_options(arguments);
+  if (!options) {
+    return options.error();
+  }
+  auto server = igtl::Server::start(*options, listener);
+  if (!server) {
+    return Error{"--igtl, --igtl-allow, --igtl-token: " + server.error().message,
+                 server.error().code};
+  }
+  std::fprintf(stderr, "OpenIGTLink at %s:%d%s%s\n", options->address.c_str(), (*server)->port(),
+               options->token.is_asked_for() ? "; clients bring the token" : "", clients);
+  return server;
+}
+
 Status IgtlStream::open(const IgtlArguments& arguments) {
   if (arguments.at.empty()) {
     if (arguments.commands) {
@@ -89,20 +106,13 @@ Status IgtlStream::open(const IgtlArguments& arguments) {
     }
     return arguments.allow.empty() ? Status{} : Error{"--igtl-allow: needs --igtl"};
   }
-  const auto options = igtl_options(arguments);
-  if (!options) {
-    return options.error();
-  }
   hears_ = arguments.commands;
-  auto server = igtl::Server::start(*options, hears_ ? &commands_ : nullptr);
+  auto server = serve_igtl(arguments, hears_ ? &commands_ : nullptr,
+                           hears_ ? "; its clients may command" : "");
   if (!server) {
-    return Error{"--igtl, --igtl-allow, --igtl-token: " + server.error().message,
-                 server.error().code};
+    return server.error();
   }
   server_ = std::move(*server);
-  std::fprintf(stderr, "OpenIGTLink at %s:%d%s%s\n", options->address.c_str(), server_->port(),
-               options->token.is_asked_for() ? "; clients bring the token" : "",
-               hears_ ? "; its clients may command" : "");
   return {};
 }
 

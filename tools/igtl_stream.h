@@ -54,4 +54,9 @@ class IgtlStream : public engine::LoopObserver {
 /// "18944"; or "0.0.0.0:18944" with "192.168.1.0/24" allowed.
 Result<igtl::ServerOptions> igtl_options(const IgtlArguments& arguments);
 
+/// Listens where the arguments say, and reports it on standard error; `clients` ends that line with
+/// what they may do. `listener` must outlive the server; may be null.
+Result<std::unique_ptr<igtl::Server>> serve_igtl(const IgtlArguments& arguments,
+                                                 igtl::TextListener* listener, const char* clients);
+
 }  // namespace orthonav::tools

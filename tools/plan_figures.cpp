@@ -108,6 +108,16 @@ void print(const std::vector<JudgedLevel>& levels) {
   print_text("%s\n", nav::kPedicleScale);
 }
 
+void print_written(const std::string& folder, const engine::Case& subject,
+                   const engine::ScrewSizes& sizes) {
+  print_text("wrote %s\n", folder.c_str());
+  std::vector<JudgedLevel> levels;
+  for (const engine::CaseLevel& level : subject.levels) {
+    levels.push_back(judged(level, sizes));
+  }
+  print(levels);
+}
+
 nlohmann::ordered_json as_json(const std::vector<JudgedLevel>& levels) {
   nlohmann::ordered_json out = {{"scale", nav::kPedicleScale},
                                 {"levels", nlohmann::ordered_json::array()}};

@@ -44,6 +44,10 @@ struct JudgedLevel {
 /// "L4 left: breaks through the cortex: clearance -0.4 mm, limit 0.0 mm".
 [[nodiscard]] std::string breach_text(const std::string& label, const JudgedScrew& screw);
 
+/// Prints where a case was written, and each of its screws as `print` does.
+void print_written(const std::string& folder, const engine::Case& subject,
+                   const engine::ScrewSizes& sizes);
+
 /// Prints one line per screw on standard output, lengths in mm and angles in degrees.
 void print(const std::vector<JudgedLevel>& levels);
 

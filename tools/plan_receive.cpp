@@ -15,7 +15,6 @@
 #include "tools/igtl_stream.h"
 #include "tools/out_folder.h"
 #include "tools/plan_command.h"
-#include "tools/print_text.h"
 #include "tools/received_plans.h"
 #include "tools/stop_signals.h"
 
@@ -56,9 +55,7 @@ class PlanDesk : public igtl::TextListener {
     std::fprintf(stderr, "%s: %s: %s\n", client.c_str(),
                  one_line(answer["asked"].get<std::string>()).c_str(),
                  done ? "taken" : ("refused: " + one_line(done.error().message)).c_str());
-    const auto message =
-        igtl::packed_text({"CommandAnswer", 0},
-                          answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    const auto message = igtl_answer(answer, 0);
     answers_.insert(answers_.end(), message.begin(), message.end());
   }
 
@@ -96,8 +93,7 @@ class PlanDesk : public igtl::TextListener {
   /// Prints where the plans are, and every screw.
   void tell_saved() const ORTHONAV_EXCLUDES(mutex_) {
     const MutexLock lock(mutex_);
-    print_text("wrote %s\n", folder_.c_str());
-    print(plans_.judged_all());
+    print_written(folder_, plans_.subject(), plans_.sizes());
   }
 
  private:
@@ -162,17 +158,11 @@ void attend(PlanDesk& desk, igtl::Server& server, const StopSignals& signals) {
 }
 
 int receive(PlanDesk& desk, const ReceiveArguments& arguments, StopSignals& signals) {
-  const auto options = igtl_options(arguments.igtl);
-  if (!options) {
-    return bad_input(options.error().message);
-  }
-  const auto server = igtl::Server::start(*options, &desk);
+  const auto server = serve_igtl(arguments.igtl, &desk, "; its clients send plans");
   if (!server) {
-    return bad_input("--igtl, --igtl-allow, --igtl-token: " + server.error().message);
+    return bad_input(server.error().message);
   }
   signals.let_finish();
-  std::fprintf(stderr, "plans wanted over OpenIGTLink at %s:%d%s\n", options->address.c_str(),
-               (*server)->port(), options->token.is_asked_for() ? "; clients bring the token" : "");
   attend(desk, **server, signals);
   if (desk.ending() == Ending::kSaved) {
     desk.tell_saved();

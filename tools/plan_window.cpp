@@ -14,7 +14,6 @@
 #include "tools/model_notes.h"
 #include "tools/plan_figures.h"
 #include "tools/preview/planning/plan_script.h"
-#include "tools/print_text.h"
 #include "tools/stopped_run.h"
 
 namespace orthonav::tools {
@@ -63,19 +62,6 @@ Status select_level(const std::vector<std::string>& wanted, engine::PlanEditor& 
   return {};
 }
 
-/// Prints where the plan is, and each screw as `plan check` does.
-void tell_saved(const std::string& folder, const engine::PlanEditor& editor) {
-  if (folder.empty()) {
-    return;
-  }
-  print_text("wrote %s\n", folder.c_str());
-  std::vector<JudgedLevel> judged_levels;
-  for (const engine::CaseLevel& level : editor.subject().levels) {
-    judged_levels.push_back(judged(level, editor.sizes()));
-  }
-  print(judged_levels);
-}
-
 Result<engine::PlanEditor> editor_of(const PlanWindowArguments& arguments, engine::Case subject) {
   engine::ModelCache models(arguments.models);
   auto editor = engine::PlanEditor::create(std::move(subject), arguments.sizes, models);
@@ -93,7 +79,9 @@ int run_window(preview::PlanApp& app, const engine::PlanEditor& editor, StopSign
   signals.on_stop([&app] { app.quit(); });
   const Status done = app.run();
   signals.on_stop(nullptr);
-  tell_saved(app.saved(), editor);
+  if (!app.saved().empty()) {
+    print_written(app.saved(), editor.subject(), editor.sizes());
+  }
   if (signals.caught()) {
     return signals.exit_code();
   }

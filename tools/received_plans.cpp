@@ -45,12 +45,4 @@ Result<JudgedLevel> ReceivedPlans::take(const std::string& text) {
   return out;
 }
 
-std::vector<JudgedLevel> ReceivedPlans::judged_all() const {
-  std::vector<JudgedLevel> out;
-  for (const engine::CaseLevel& level : subject_.levels) {
-    out.push_back(judged(level, sizes_));
-  }
-  return out;
-}
-
 }  // namespace orthonav::tools

@@ -18,6 +18,7 @@ class ReceivedPlans {
 
   /// The case with its screws as they are now.
   [[nodiscard]] const engine::Case& subject() const { return subject_; }
+  [[nodiscard]] const engine::ScrewSizes& sizes() const { return sizes_; }
   /// The levels for which a plan was taken.
   [[nodiscard]] const std::set<std::string>& received() const { return received_; }
 
@@ -25,9 +26,6 @@ class ReceivedPlans {
   /// Refused as a whole, and changing nothing, where it names no level of the case, does not fit
   /// the bone (`screws_on`), or holds a screw that leaves the cortex without saying why it may.
   Result<JudgedLevel> take(const std::string& text);
-
-  /// Every screw of the case.
-  [[nodiscard]] std::vector<JudgedLevel> judged_all() const;
 
  private:
   engine::Case subject_;

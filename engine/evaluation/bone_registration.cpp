@@ -68,7 +68,7 @@ Transform<Scan, Vertebra> moved(const Transform<Scan, Vertebra>& pose, Vec3 cent
 }
 
 /// The pose's covariance. Neighbouring edges share streaks, blur and the model's own error: an edge
-/// counts for a tenth of one.
+/// counts for a quarter of one.
 nav::PoseUncertainty uncertainty_of(const Equations& equations, Vec3 centre_m) {
   constexpr double kSharing = 4.0;
   const double variance_m2 =

@@ -16,8 +16,8 @@ namespace orthonav::engine {
 [[nodiscard]] sim::RoomDescription room_of(const Case& source, const Operation& operation,
                                            const std::vector<nav::ToolGeometry>& tools);
 
-/// Sets the common errors of all strokes for an operation in this room: the SDs from which the room
-/// draws them, not the drawn values.
+/// Tells an operation in this room what all strokes have in common, how well the guide is known,
+/// and how far drills go astray: the SDs from which the room draws these, not the drawn values.
 void tell_common_errors(const sim::ErrorModel& room, SessionOptions& session);
 
 }  // namespace orthonav::engine
