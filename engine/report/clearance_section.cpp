@@ -84,8 +84,9 @@ std::string clearance_section(const json& report) {
          "<ul class=notes><li>The least depth of the screw's side and tip " +
          "below the bone's surface, from 6 mm past the entry on; negative is a breach. Grades: " +
          html_escaped(nav::kPedicleScale) +
-         ". \u201cTracked\u201d is the planned screw along the tool as measured at depth; what the "
-         "instrument does after that (slip, bending, the hand) is in no bound.</li></ul></section>";
+         ". \u201cTracked\u201d is the planned screw along the tool as measured at depth; its "
+         "bound counts how far a drill goes astray from the tool (slip, bending, the hand), the "
+         "planned one does not.</li></ul></section>";
 }
 
 }  // namespace orthonav::engine
