@@ -45,6 +45,23 @@ bool tells_apart(const nav::Registration& r) {
              : r.runner_up_rmse_m >= nav::RegistrationOptions{}.min_runner_up_ratio * r.rmse_m;
 }
 
+/// What the points could not show, in words; empty if nothing.
+std::string not_checked(const nav::Registration& r) {
+  if (!tells_log_likelihood_ratio(r)) {
+    return "";
+  }
+  std::string out;
+  if (r.levels_compared == 0) {
+    out += "; no other level is known, so whether it is this level could not be checked";
+  }
+  if (!sides_told_apart(r)) {
+    out +=
+        "; the model's mirror image fits about as well, so whether left and right are swapped "
+        "could not be checked";
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<ScrewErrors> errors_at_screws(const RegisteredLevel& level) {
@@ -95,15 +112,16 @@ std::optional<RunnerUpDistance> runner_up_distance(const RegisteredLevel& level)
   return out;
 }
 
+bool sides_told_apart(const nav::Registration& r) {
+  return r.mirror_log_likelihood < -nav::PoseSearchRegistrationOptions{}.max_mirror_log_likelihood;
+}
+
 std::string ambiguity_of(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
   if (!r.fits_better.empty()) {
     return "ambiguous: the points fit level " + r.fits_better + " as well or better";
   }
-  const std::string unchecked =
-      tells_log_likelihood_ratio(r) && r.levels_compared == 0
-          ? "; no other level is known, so whether it is this level could not be checked"
-          : "";
+  const std::string unchecked = not_checked(r);
   const auto other = runner_up_distance(level);
   if (!other) {
     return "unambiguous: no other pose comes near to explaining the points" + unchecked;

@@ -55,7 +55,10 @@ struct RunnerUpDistance {
 /// Nothing if there was no other pose to compare with.
 [[nodiscard]] std::optional<RunnerUpDistance> runner_up_distance(const RegisteredLevel& level);
 
-/// Whether another pose is possible, in words.
+/// Whether the points tell the bone from its own mirror image. If not, a model or points with left
+/// and right swapped would look the same.
+[[nodiscard]] bool sides_told_apart(const nav::Registration& r);
+/// Whether another pose is possible, in words, and what could not be checked.
 [[nodiscard]] std::string ambiguity_of(const RegisteredLevel& level);
 /// The sources of expected errors in addition to the registration's own.
 [[nodiscard]] std::string sources_of(const nav::CommonErrors& common);

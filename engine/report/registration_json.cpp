@@ -102,6 +102,8 @@ void put_expected(Json& out, const RegisteredLevel& level) {
                            {"map", r.common.map_m * 1e3}};
     out["registration_only"] = !(r.common.sd_m() > 0.0);
     out["levels_compared"] = r.levels_compared;
+    out["mirror_margin"] =
+        std::isfinite(r.mirror_log_likelihood) ? Json(-r.mirror_log_likelihood) : Json(nullptr);
   }
 }
 

@@ -38,9 +38,11 @@ std::string rows_of_hypotheses(const nav::Registration& r,
   const double mirror = std::max(-999.0, r.mirror_log_likelihood);
   return figure_row("Size of the bone", plain(r.size, 3),
                     "as the points say, the model’s is 1; SD " + html_number(r.size_sd, 3)) +
-         figure_row("Margin of the mirror image",
-                    at_most(mirror, 1, limits.max_mirror_log_likelihood, 0),
-                    "how much better it explains the points (log-likelihood ratio)") +
+         figure_row(
+             "Margin of the mirror image", at_most(mirror, 1, limits.max_mirror_log_likelihood, 0),
+             sides_told_apart(r) ? "how much better it explains the points (log-likelihood ratio)"
+                                 : "about as good: whether left and right are swapped could not be "
+                                   "checked") +
          figure_row("Other levels compared", plain(static_cast<double>(r.levels_compared), 0),
                     levels);
 }

@@ -228,6 +228,22 @@ TEST(RegistrationFigures, MeasureTheRunnerUpAtTheWorstScrew) {
   EXPECT_EQ(ambiguity_of(level), "ambiguous: the points fit level L5 as well or better");
 }
 
+TEST(RegistrationFigures, SayWhatCouldNotBeChecked) {
+  RegisteredLevel level = exact();
+  level.registration.noise_m = 0.0002;
+  level.registration.levels_compared = 4;
+  level.registration.mirror_log_likelihood = -80.0;
+  EXPECT_THAT(ambiguity_of(level), Not(HasSubstr("could not be checked")));
+  EXPECT_EQ(registration_json(level, {})["mirror_margin"], 80.0);
+  level.registration.mirror_log_likelihood = -3.0;
+  EXPECT_THAT(ambiguity_of(level), HasSubstr("whether left and right are swapped could not be"));
+  level.registration.mirror_log_likelihood = -std::numeric_limits<double>::infinity();
+  EXPECT_THAT(ambiguity_of(level), Not(HasSubstr("could not be checked")));
+  EXPECT_TRUE(registration_json(level, {})["mirror_margin"].is_null());
+  level.registration.levels_compared = 0;
+  EXPECT_THAT(ambiguity_of(level), HasSubstr("whether it is this level could not be checked"));
+}
+
 TEST(RegistrationFigures, SayHowSureInPlainWords) {
   RegisteredLevel level = exact();
   level.registration.weakest = {nav::UncertainMotion::Kind::kCraniocaudal, 0.0004};

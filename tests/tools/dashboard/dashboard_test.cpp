@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "engine/io/image_file.h"
 #include "tests/support/browser.h"
@@ -190,9 +192,16 @@ TEST_F(DashboardPage, ShowsTheOperationInABrowser) {
   frame.left.pixels.assign(8, 128);
   dashboard_.watch(s.session(), {0.05, 0.09});
   dashboard_.stepped(frame, {}, guidance);
-  dashboard_.show(red_picture(), "what the surgeon sees");
+  // The browser may take seconds to start, and a picture that old is not served.
+  std::jthread shows([this](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      dashboard_.show(red_picture(), "what the surgeon sees");
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  });
   const std::string page =
       test::page_in_browser("http://127.0.0.1:" + std::to_string(dashboard_.port()) + "/", 900);
+  shows.request_stop();
   ASSERT_THAT(page, HasSubstr("<h1 id=\"step\">guide L4 left</h1>")) << "the script ran";
   EXPECT_THAT(page, HasSubstr("<h2 id=\"screw\">Guidance L4 left</h2>"));
   EXPECT_THAT(page, HasSubstr("<div id=\"angle\" class=\"poor\">5.7°</div>"));
