@@ -33,7 +33,10 @@ void GroundTruthRecorder::note(const LevelState& level,
 
 Transform<World, World> GroundTruthRecorder::map_from_session() const {
   const nav::Anchor* anchor = session_.tracker().anchor();
-  return anchor != nullptr ? anchor->world_from_anchored : Transform<World, World>();
+  if (anchor == nullptr || !anchor->last_seen) {
+    return {};
+  }
+  return headset_.actual_from_reported(*anchor->last_seen) * anchor->world_from_anchored;
 }
 
 void GroundTruthRecorder::head_recorded(Timestamp /*time*/, nav::Side side, Point<World> head) {

@@ -44,6 +44,8 @@ class GroundTruthRecorder : public SessionObserver {
   void evaluate_level(const LevelState& state, LevelOutcome& level) const;
   void evaluate_rod(RodOutcome& rod) const;
   /// From the session's World, which may be relative to a patient reference, to the headset's map.
+  /// The head's noise in the pair that showed the reference is left out: it moves the bone and
+  /// everything else that is seen in that pair alike.
   [[nodiscard]] Transform<World, World> map_from_session() const;
 
   const sim::SimHeadset& headset_;

@@ -1,7 +1,7 @@
 #include "engine/study/sim_scenario.h"
 
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace orthonav::engine {
@@ -26,6 +26,28 @@ std::optional<sim::ToolKind> kind_of(nav::ToolRole role) {
   return std::nullopt;
 }
 
+/// How far an error alone shifts a registration: SD along each axis, for each unit of the error.
+struct Shift {
+  double sim::ErrorModel::*magnitude;
+  double m_per_unit;
+};
+
+/// Measured in operations in which all other errors are zero and sizes of tags are estimated in
+/// use (docs/accuracy.md, "What shifts a registration as a whole").
+constexpr std::array<Shift, 7> kOfCamerasAndTags = {{
+    {&sim::ErrorModel::calibration_focal_ratio, 0.15},
+    {&sim::ErrorModel::calibration_centre_px, 0.0017},
+    {&sim::ErrorModel::calibration_rotation_rad, 0.11},
+    {&sim::ErrorModel::calibration_baseline_m, 2.1},
+    {&sim::ErrorModel::calibration_distortion_px, 0.00018},
+    {&sim::ErrorModel::tag_scale, 0.043},
+    {&sim::ErrorModel::tag_bow_m, 1.2},
+}};
+/// Of a tag's size that is taken as stated: all of it along the line of sight, at 0.45 m.
+constexpr double kOfSizeAsStated_m = 0.26;
+/// A pointer is held differently from stroke to stroke, so part of its tip's error averages out.
+constexpr double kOfTip = 0.8;
+
 }  // namespace
 
 sim::RoomDescription room_of(const Case& source, const Operation& operation,
@@ -47,24 +69,23 @@ sim::RoomDescription room_of(const Case& source, const Operation& operation,
   return room;
 }
 
-void tell_common_errors(const sim::ErrorModel& room, SessionOptions& session) {
-  // At arm's length. The tag's known size and the estimated rotation remove most of the depth error
-  // from a wrong rotation and centre; what remains is the scale, from focal length, baseline and
-  // the printed size of the tags: cameras that are turned towards each other look the same.
-  constexpr double kReach_m = 0.45;
-  constexpr double kFocal_px = 365.0;
-  constexpr double kBaseline_m = 0.1;
-  const double across_m = kReach_m * room.calibration_centre_px / kFocal_px;
-  const double depth_m =
-      kReach_m * std::hypot(room.calibration_focal_ratio / std::numbers::sqrt2,
-                            room.calibration_baseline_m / kBaseline_m, room.tag_scale);
-  session.common.tip_m = room.tip_calibration_m;
+void tell_common_errors(const sim::ErrorModel& room, bool sizes_estimated,
+                        SessionOptions& session) {
+  double cameras_m2 = 0.0;
+  for (const Shift& shift : kOfCamerasAndTags) {
+    const double sd_m = shift.m_per_unit * room.*shift.magnitude;
+    cameras_m2 += sd_m * sd_m;
+  }
+  if (!sizes_estimated) {
+    cameras_m2 += kOfSizeAsStated_m * kOfSizeAsStated_m * room.tag_scale * room.tag_scale;
+  }
+  session.common.cameras_m = std::sqrt(cameras_m2);
+  session.common.tip_m = kOfTip * room.tip_calibration_m;
   session.placed.tip_sd_m = room.tip_calibration_m;
   session.placed.axis_sd_rad = room.axis_calibration_rad;
   session.placed.play_rad = room.sleeve_play_rad;
   session.astray = {std::hypot(room.wire_bending_rad, room.hand_drilling_corrected_rad),
                     room.wire_skiving_m};
-  session.common.cameras_m = std::sqrt((2.0 * across_m * across_m + depth_m * depth_m) / 3.0);
   constexpr double kSecondsAMinute = 60.0;
   session.map_drift_m_per_sqrt_s =
       std::hypot(room.map_drift_m_per_sqrt_s,

@@ -17,7 +17,8 @@ namespace orthonav::engine {
                                            const std::vector<nav::ToolGeometry>& tools);
 
 /// Tells an operation in this room what all strokes have in common, how well the guide is known,
-/// and how far drills go astray: the SDs from which the room draws these, not the drawn values.
-void tell_common_errors(const sim::ErrorModel& room, SessionOptions& session);
+/// and how far drills go astray: the SDs that follow from those from which the room draws, not the
+/// drawn values. `sizes_estimated`: sizes of tags are estimated in use.
+void tell_common_errors(const sim::ErrorModel& room, bool sizes_estimated, SessionOptions& session);
 
 }  // namespace orthonav::engine

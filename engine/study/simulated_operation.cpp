@@ -81,7 +81,7 @@ Result<std::unique_ptr<AssembledOperation>> assembled_in(
     return headset.error();
   }
   AssemblyOptions assembly = options;
-  tell_common_errors(options.sim.error_model, assembly.session);
+  tell_common_errors(options.sim.error_model, options.correct_tag_sizes, assembly.session);
   auto live = assemble_operation(**headset, std::move(operation), method, tools, assembly);
   const Status taken = live && hooks.assembled ? hooks.assembled(**live) : Status();
   return taken ? std::move(live) : taken.error();

@@ -88,4 +88,15 @@ Tracked<Transform<World, Rig>> HeadTrack::at(Timestamp time, Timestamp known) co
   return answer;
 }
 
+Transform<World, World> HeadTrack::actual_from_reported(Timestamp frame) const {
+  const std::size_t size = std::min(count_, kKept);
+  for (std::size_t steps = 0; steps < size; ++steps) {
+    const Node& node = back(steps);
+    if (node.time == frame) {
+      return node.pose * noisy(node, node.pose).inverse();
+    }
+  }
+  return {};
+}
+
 }  // namespace orthonav::sim

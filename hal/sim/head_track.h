@@ -23,6 +23,9 @@ class HeadTrack {
   [[nodiscard]] Tracked<Transform<World, Rig>> at(Timestamp time) const;
   /// The answer that would have been given when `known` was the newest measurement.
   [[nodiscard]] Tracked<Transform<World, Rig>> at(Timestamp time, Timestamp known) const;
+  /// From where the head's reported pose puts what is seen in the frame at that time to where it
+  /// is; the identity for a frame that is not remembered.
+  [[nodiscard]] Transform<World, World> actual_from_reported(Timestamp frame) const;
 
  private:
   struct Node {

@@ -131,6 +131,10 @@ class SimulatedHeadset final : public SimHeadset {
     const MutexLock lock(room_.mutex);
     return room_.simulation.world_from_room(room_.last_frame);
   }
+  [[nodiscard]] Transform<World, World> actual_from_reported(Timestamp pair) const override {
+    const MutexLock lock(room_.mutex);
+    return room_.head.actual_from_reported(pair);
+  }
   [[nodiscard]] DescribedTools described_tools() const override {
     return described(room().tools, options_.error_model,
                      Random(options_.seed).fork("tool descriptions"));

@@ -68,6 +68,9 @@ class SimHeadset : public Headset {
   [[nodiscard]] virtual RoomState state() const = 0;
   /// World, as the headset assumes it, from Room, now.
   [[nodiscard]] virtual Transform<World, Room> world_from_room() const = 0;
+  /// From where the head's reported pose puts what is seen in the pair at that time to where it is
+  /// in World; the identity for a pair of more than some seconds ago.
+  [[nodiscard]] virtual Transform<World, World> actual_from_reported(Timestamp pair) const = 0;
   [[nodiscard]] virtual const RoomDescription& room() const = 0;
   /// Its true cameras; `cameras().calibration()` is what the device reports.
   [[nodiscard]] virtual const StereoCalibration& actual_calibration() const = 0;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "tests/hal/sim/hovering_headset.h"
@@ -37,6 +38,24 @@ TEST(SimHeadset, ReportedHeadPoseHasTheNoiseOfItsMagnitudes) {
   // Five standard errors of a variance from 9,000 draws: 5·sqrt(2/9000) = 7.5 %, half of it here.
   EXPECT_NEAR(std::sqrt(translation / kFrames / 3), 0.001, 0.00004);
   EXPECT_NEAR(std::sqrt(rotation / kFrames / 3), 0.002, 0.00008);
+}
+
+TEST(SimHeadset, TellsTheNoiseOfTheReportedHeadPoseApart) {
+  SimOptions options = hovering();
+  options.error_model.head_pose_noise_m = 0.001;
+  options.error_model.head_pose_noise_rad = 0.002;
+  const auto headset = opened(options);
+  const StereoFrame first = next_frame(*headset);
+  const auto true_first = headset->world_from_room() * headset->state().room_from_rig;
+  for (int i = 0; i < 10; ++i) {
+    next_frame(*headset);
+  }
+  const auto actual = headset->actual_from_reported(first.time) * *first.world_from_rig;
+  EXPECT_GT((first.world_from_rig->translation() - true_first.translation()).norm(), 1e-5);
+  EXPECT_LT((actual.translation() - true_first.translation()).norm(), 1e-9);
+  EXPECT_LT(rotation_angle_rad(actual.rotation(), true_first.rotation()), 1e-9);
+  const auto unknown = headset->actual_from_reported(first.time - std::chrono::hours(1));
+  EXPECT_EQ(unknown.translation().norm(), 0.0);
 }
 
 TEST(SimHeadset, HeadSwaysAndMapDriftsByTheirMagnitudes) {
