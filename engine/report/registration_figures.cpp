@@ -45,6 +45,11 @@ bool tells_apart(const nav::Registration& r) {
              : r.runner_up_rmse_m >= nav::RegistrationOptions{}.min_runner_up_ratio * r.rmse_m;
 }
 
+/// By how much the model may be of another size than the bone, with 95 % probability.
+double size_may_be_off(const nav::Registration& r) {
+  return std::abs(r.size - 1.0) + 1.96 * r.size_sd;
+}
+
 /// What the points could not show, in words; empty if nothing.
 std::string not_checked(const nav::Registration& r) {
   if (!tells_log_likelihood_ratio(r)) {
@@ -58,6 +63,11 @@ std::string not_checked(const nav::Registration& r) {
     out +=
         "; the model's mirror image fits about as well, so whether left and right are swapped "
         "could not be checked";
+  }
+  constexpr double kNotable = 0.03;
+  if (size_may_be_off(r) > kNotable) {
+    out += formatted("; the model's size could be checked to %.0f %% only",
+                     std::ceil(1e2 * size_may_be_off(r)));
   }
   return out;
 }

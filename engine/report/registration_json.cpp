@@ -97,6 +97,7 @@ void put_expected(Json& out, const RegisteredLevel& level) {
     out["tissue_sd_mm"] = r.field_sd_m * 1e3;
     out["correlation_across_strokes"] = r.correlation_across_strokes;
     out["size"] = r.size;
+    out["size_sd"] = r.size_sd;
     out["common_sd_mm"] = {{"tip", r.common.tip_m * 1e3},
                            {"cameras", r.common.cameras_m * 1e3},
                            {"map", r.common.map_m * 1e3}};

@@ -242,6 +242,11 @@ TEST(RegistrationFigures, SayWhatCouldNotBeChecked) {
   EXPECT_TRUE(registration_json(level, {})["mirror_margin"].is_null());
   level.registration.levels_compared = 0;
   EXPECT_THAT(ambiguity_of(level), HasSubstr("whether it is this level could not be checked"));
+  level.registration.size = 1.01;
+  level.registration.size_sd = 0.009;
+  EXPECT_THAT(ambiguity_of(level), Not(HasSubstr("size")));
+  level.registration.size_sd = 0.012;
+  EXPECT_THAT(ambiguity_of(level), HasSubstr("size could be checked to 4 % only"));
 }
 
 TEST(RegistrationFigures, SayHowSureInPlainWords) {
