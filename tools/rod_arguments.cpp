@@ -85,10 +85,13 @@ Result<nav::RodTemplate> RodHeadArguments::rod() const {
 void RodBendingArguments::add_to(CLI::App& command) {
   command
       .add_option("--to-bone", to_bone,
-                  "X,Y,Z from heads to bone: the rod lies --seat-mm below the heads; without, the "
+                  "X,Y,Z from heads to bone: the rod lies --seat-mm below where they were touched; "
+                  "without, the "
                   "points given are where it lies")
       ->check(some_text());
-  add_length(command, "--seat-mm", seat_mm, "From a head's top to the rod's middle", 0, 30);
+  add_length(command, "--seat-mm", seat_mm,
+             "From where a head was touched to the rod's middle, negative away from the bone", -15,
+             30);
   add_length(command, "--overhang-mm", overhang_mm, "Wanted beyond the first and last head", 0, 50);
   add_length(command, "--bender-width-mm", bender_width_mm, "Of the rod that a bend curves", 2,
              100);

@@ -53,7 +53,12 @@ void print(const nav::RodTemplate& rod) {
 nlohmann::ordered_json as_json(const nav::RodInstructions& told) {
   nlohmann::ordered_json out = {{"cut_length_mm", told.cut_length_m() * 1e3},
                                 {"worst_seat_mm", told.fit.worst_off_m * 1e3},
+                                {"reach_into_tulip_mm", told.reach_m * 1e3},
+                                {"seats_mm", nlohmann::ordered_json::array()},
                                 {"bends", nlohmann::ordered_json::array()}};
+  for (const nav::SeatOnRod& seat : told.fit.seats) {
+    out["seats_mm"].push_back(seat.at_m * 1e3);
+  }
   for (const nav::RodInstruction& bend : told.bends) {
     out["bends"].push_back({{"arc_length_mm", bend.arc.centre_m * 1e3},
                             {"roll_deg", bend.arc.roll_rad * kDegreesPerRadian},
@@ -64,7 +69,12 @@ nlohmann::ordered_json as_json(const nav::RodInstructions& told) {
 }
 
 void print(const nav::RodInstructions& told) {
+  const double first_m = told.fit.seats.front().at_m;
+  const double last_m = told.cut_length_m() - told.fit.seats.back().at_m;
   print_text("cut to %.1f mm; draw a line along it\n", told.cut_length_m() * 1e3);
+  print_text(
+      "mark the middles of the end heads: %.1f mm from the first end, %.1f mm from the last\n",
+      first_m * 1e3, last_m * 1e3);
   for (std::size_t k = 0; k < told.bends.size(); ++k) {
     const nav::RodInstruction& bend = told.bends[k];
     print_text("bend %zu: middle at %.1f mm, roll %.0f°, angle %.1f°, set %.1f°\n", k + 1,
@@ -72,6 +82,10 @@ void print(const nav::RodInstructions& told) {
                bend.arc.angle_rad * kDegreesPerRadian, bend.set_rad * kDegreesPerRadian);
   }
   print_text("farthest head %.2f mm off\n", told.fit.worst_off_m * 1e3);
+  if (told.reach_m > 0.0) {
+    print_text("bends reach %.0f mm into the tulips: no other rod passes the heads\n",
+               told.reach_m * 1e3);
+  }
 }
 
 /// Writes template and instructions; returns 1 if no instructions reach the heads.

@@ -53,8 +53,8 @@ void check_size(const ScrewSize& size, std::vector<std::string>& problems) {
           printed("length %.1f mm must be over 1 mm more than the one before", length_m * 1e3));
     }
   }
-  if (size.head_to_seat_m && !(*size.head_to_seat_m >= 0.0 && *size.head_to_seat_m <= 0.030)) {
-    problems.push_back(where + "seat must lie in [0, 30] mm");
+  if (size.head_to_seat_m && !(*size.head_to_seat_m >= -0.015 && *size.head_to_seat_m <= 0.030)) {
+    problems.push_back(where + "seat must lie in [-15, 30] mm");
   }
 }
 

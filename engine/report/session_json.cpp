@@ -120,6 +120,16 @@ void put_instructions(Json& side, const RecordedRod& rod) {
   }
 }
 
+/// As in the journal.
+void put_certainty(Json& side, const RecordedRod& rod) {
+  for (const RecordedHead& head : rod.touched) {
+    side["touched"].push_back(Json{{"touches", head.touches}, {"sd_mm", head.sd_m * 1e3}});
+  }
+  if (rod.expected_within) {
+    side["expected_within_share"] = *rod.expected_within;
+  }
+}
+
 /// As report.json has it: the mean length, and each side.
 Json recorded_rods_json(const std::vector<RecordedRod>& rods) {
   Json out = Json::object();
@@ -134,6 +144,7 @@ Json recorded_rods_json(const std::vector<RecordedRod>& rods) {
       ++lengths;
     }
     put_instructions(side, rod);
+    put_certainty(side, rod);
     sides.push_back(std::move(side));
   }
   if (lengths > 0) {

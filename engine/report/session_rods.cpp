@@ -22,6 +22,15 @@ std::string instructed(const RecordedRod& rod) {
   return text.empty() ? "\u2013" : text;
 }
 
+std::string touches_text(const RecordedRod& rod) {
+  std::string text;
+  for (const RecordedHead& head : rod.touched) {
+    text += (text.empty() ? "" : ", ") + std::to_string(head.touches) + ": " +
+            html_number(head.sd_m * 1e3, 1);
+  }
+  return text.empty() ? "\u2013" : text;
+}
+
 }  // namespace
 
 std::string session_rods(const SessionRecord& session) {
@@ -30,11 +39,13 @@ std::string session_rods(const SessionRecord& session) {
   }
   HtmlTable table({{"side"},
                    {"heads"},
+                   {"touches of each", "SD, mm"},
                    {"template"},
                    {"length", "mm"},
                    {"bends", "mm: \u00b0"},
                    {"cut to", "mm"},
-                   {"instructions", "mm: roll \u00b0, set \u00b0"}});
+                   {"instructions", "mm: roll \u00b0, set \u00b0"},
+                   {"expected within 1.0 mm", "%"}});
   for (const RecordedRod& rod : session.rods) {
     std::string bends;
     for (const RecordedBend& bend : rod.bends) {
@@ -43,11 +54,13 @@ std::string session_rods(const SessionRecord& session) {
     }
     table.row(name_of(rod.side));
     table.cell(std::to_string(rod.heads));
+    table.cell(touches_text(rod));
     table.cell(rod.done ? "taken" : "not taken");
     table.cell(rod.done ? length_text(rod.length_m) : "\u2013");
     table.cell(bends.empty() ? "\u2013" : bends);
     table.cell(length_text(rod.cut_length_m));
     table.cell(instructed(rod));
+    table.cell(rod.expected_within ? html_number(100.0 * *rod.expected_within, 0) : "\u2013");
   }
   return "<section><h2>Rods</h2>" + table.html() + "</section>";
 }

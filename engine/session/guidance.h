@@ -13,6 +13,7 @@
 #include "engine/session/landmark.h"
 #include "engine/session/placed_wire.h"
 #include "engine/session/status_line.h"
+#include "engine/session/touched_heads.h"
 #include "engine/session/workflow.h"
 #include "nav/guidance/clearance_spread.h"
 #include "nav/guidance/drill_watch.h"
@@ -20,6 +21,7 @@
 #include "nav/guidance/predicted_error.h"
 #include "nav/guidance/rod.h"
 #include "nav/guidance/rod_bends.h"
+#include "nav/guidance/rod_expectation.h"
 #include "nav/guidance/screw.h"
 #include "nav/guidance/screw_numbers.h"
 #include "nav/guidance/shown_clearance.h"
@@ -139,12 +141,16 @@ struct LevelState {
 /// One rod: the heads as touched, the template once there are two heads, and how to bend it.
 struct RodState {
   nav::Side side = nav::Side::kLeft;
-  std::vector<Point<World>> heads;
+  TouchedHeads touched;
+  std::vector<Point<World>> heads;  ///< each the mean of its touches
   std::optional<nav::RodTemplate> rod;
   /// How to bend it, with the bender and the material of the options; absent if there is no
   /// template, or for the reason in `no_instructions`.
   std::optional<nav::RodInstructions> instructions;
   std::string no_instructions;
+  /// Whether it will lie in the true heads; `least_sure` is a head, in order of first touch. Absent
+  /// without instructions.
+  std::optional<nav::RodExpectation> expected;
   bool done = false;
   /// Finished, and the map has moved since: kept for the report, shown nowhere.
   bool map_moved = false;

@@ -71,6 +71,19 @@ void put_instructions(Json& line, const RodState& rod) {
   line["instructions"] = instructions;
 }
 
+/// How sure the touched heads are, and what is expected of the rod.
+void put_certainty(Json& line, const RodState& rod) {
+  Json touched = Json::array();
+  for (std::size_t head = 0; head < rod.touched.heads(); ++head) {
+    touched.push_back(
+        Json{{"touches", rod.touched.touches_of(head)}, {"sd_mm", rod.touched.sd_m(head) * 1e3}});
+  }
+  line["touched"] = touched;
+  if (rod.expected) {
+    line["expected_within_share"] = rod.expected->within;
+  }
+}
+
 }  // namespace
 
 PlannedLevel planned(const std::string& label, const std::vector<nav::ScrewPlan>& screws) {
@@ -213,6 +226,7 @@ void Journal::rod_done(Timestamp time, const RodState& rod) {
     line["bends"] = bends;
   }
   put_instructions(line, rod);
+  put_certainty(line, rod);
   add_line(*log_, line, kDurable);
 }
 

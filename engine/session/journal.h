@@ -81,8 +81,8 @@ class Journal : public SessionObserver {
   void screw_done(Timestamp time, const LevelState& level, std::size_t screw,
                   const ToolGuidance* at_depth) override;
   void calibration_found(Timestamp time, const CalibrationInUse& found) override;
-  void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
-  void head_dropped(Timestamp time, nav::Side side) override;
+  void head_recorded(Timestamp time, nav::Side side, const HeadTouch& touch) override;
+  void head_dropped(Timestamp time, nav::Side side, const HeadTouch& touch) override;
   void rod_done(Timestamp time, const RodState& rod) override;
 
  private:

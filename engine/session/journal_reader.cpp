@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "engine/io/json_document.h"
 #include "engine/session/journal_replay.h"
+#include "engine/session/journal_rod_reading.h"
 #include "engine/session/journal_screw_reading.h"
 #include "engine/session/recorded_replan.h"
 
@@ -21,14 +22,6 @@ constexpr std::size_t kLongestLine = 1U << 20U;
 constexpr auto kMostBack = std::chrono::minutes(1);
 /// Larger times in nanoseconds are invalid.
 constexpr double kLatest_ns = 4e18;
-
-std::size_t count_of(const JsonNode& line, const char* key) {
-  const int count = line.integer(key);
-  if (count < 0) {
-    line.refuse(key, "is negative");
-  }
-  return static_cast<std::size_t>(std::max(0, count));
-}
 
 /// The value of an enumeration named under `key`.
 template <class Enum>
@@ -80,31 +73,6 @@ RecordedTips tips_of(const JsonNode& line) {
 RecordedAxis axis_of(const JsonNode& line) {
   return {line.number("off_deg") * kRadiansPerDegree, line.number("sd_deg") * kRadiansPerDegree,
           line.number("by_deg") * kRadiansPerDegree, line.flag_or("corrected", false)};
-}
-
-RecordedRod rod_of(const JsonNode& line) {
-  RecordedRod rod;
-  rod.side = side_of(line);
-  rod.heads = count_of(line, "heads");
-  rod.done = true;
-  rod.length_m = optional_number(line, "length_mm", kMetresPerMm);
-  if (line.has("bends")) {
-    for (const JsonNode& bend : line.list("bends")) {
-      rod.bends.push_back({bend.number("arc_length_mm") * kMetresPerMm,
-                           bend.number("angle_deg") * kRadiansPerDegree});
-    }
-  }
-  rod.cut_length_m = optional_number(line, "cut_length_mm", kMetresPerMm);
-  rod.no_instructions = line.text_or("no_instructions", "");
-  if (line.has("instructions")) {
-    for (const JsonNode& bend : line.list("instructions")) {
-      rod.instructions.push_back({bend.number("arc_length_mm") * kMetresPerMm,
-                                  bend.number("roll_deg") * kRadiansPerDegree,
-                                  bend.number("angle_deg") * kRadiansPerDegree,
-                                  bend.number("set_deg") * kRadiansPerDegree});
-    }
-  }
-  return rod;
 }
 
 /// Goes through a journal line by line.
@@ -209,9 +177,9 @@ class Reading {
     } else if (what == "replanned") {
       replay_.replanned(line.text("level"), side_of(line), planned_in_surgery(line), line);
     } else if (what == "head" || what == "head dropped") {
-      replay_.head(side_of(line), what == "head");
+      replay_.head(side_of(line), what == "head", touches_of(line, what == "head"));
     } else if (what == "rod") {
-      replay_.rod_done(rod_of(line));
+      replay_.rod_done(recorded_rod_of(line));
     } else if (what == "ended") {
       record_.reason = line.text_or("reason", "");
       ended_ = true;

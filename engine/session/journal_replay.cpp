@@ -227,12 +227,12 @@ void JournalReplay::replanned(const std::string& label, Side side,
   }
 }
 
-void JournalReplay::head(Side side, bool touched) {
+void JournalReplay::head(Side side, bool touched, std::size_t touches) {
   RecordedRod& rod = rod_of(side);
   if (touched) {
-    ++rod.heads;
+    rod.heads += touches == 1 ? 1 : 0;
   } else if (rod.heads > 0) {
-    --rod.heads;
+    rod.heads -= touches == 0 ? 1 : 0;
   }
 }
 

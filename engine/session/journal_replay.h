@@ -37,7 +37,8 @@ class JournalReplay {
                  const std::optional<nav::ScrewDifference>& difference, const JsonNode& line);
   void screw_done(const std::string& label, const RecordedScrew& screw, const JsonNode& line);
   /// A head was touched, or the last one taken back.
-  void head(Side side, bool touched);
+  /// `touches` of that head, with the new touch or without the dropped one.
+  void head(Side side, bool touched, std::size_t touches);
   void rod_done(RecordedRod rod);
 
  private:

@@ -64,16 +64,21 @@ void Journal::landmark_dropped(Timestamp time, const LevelState& level) {
   add_line(*log_, line);
 }
 
-void Journal::head_recorded(Timestamp time, nav::Side side, Point<World> head) {
+void Journal::head_recorded(Timestamp time, nav::Side side, const HeadTouch& touch) {
   JournalLine line = journal_line(file_ticks(time), time, "head");
   line["side"] = name_of(side);
-  line["in_world_mm"] = millimetres(head.v);
+  line["number"] = touch.head + 1;
+  line["touches"] = touch.touches;
+  line["in_world_mm"] = millimetres(touch.place.v);
+  line["sd_mm"] = touch.head_sd_m * 1e3;
   add_line(*log_, line);
 }
 
-void Journal::head_dropped(Timestamp time, nav::Side side) {
+void Journal::head_dropped(Timestamp time, nav::Side side, const HeadTouch& touch) {
   JournalLine line = journal_line(file_ticks(time), time, "head dropped");
   line["side"] = name_of(side);
+  line["number"] = touch.head + 1;
+  line["touches"] = touch.touches - 1;
   add_line(*log_, line);
 }
 

@@ -69,10 +69,15 @@ class Applied {
     LoggedRod& rod = operation_.rods[side_from(node_) == Side::kRight ? 1 : 0];
     if (type_ == OperationRecord::kRod) {
       rod.done = true;
-    } else if (type_ == OperationRecord::kHead) {
-      ++rod.heads;
+      return;
+    }
+    // Logs before heads were touched several times do not count touches: each was another head.
+    const bool touched = type_ == OperationRecord::kHead;
+    const auto touches = node_.has("touches") ? node_.unsigned_integer("touches") : touched ? 1 : 0;
+    if (touched) {
+      rod.heads += touches == 1 ? 1 : 0;
     } else if (rod.heads > 0) {
-      --rod.heads;
+      rod.heads -= touches == 0 ? 1 : 0;
     }
   }
 

@@ -91,11 +91,11 @@ class ObserverList : public SessionObserver {
   void calibration_found(Timestamp time, const CalibrationInUse& found) override {
     tell(&SessionObserver::calibration_found, time, found);
   }
-  void head_recorded(Timestamp time, nav::Side side, Point<World> head) override {
-    tell(&SessionObserver::head_recorded, time, side, head);
+  void head_recorded(Timestamp time, nav::Side side, const HeadTouch& touch) override {
+    tell(&SessionObserver::head_recorded, time, side, touch);
   }
-  void head_dropped(Timestamp time, nav::Side side) override {
-    tell(&SessionObserver::head_dropped, time, side);
+  void head_dropped(Timestamp time, nav::Side side, const HeadTouch& touch) override {
+    tell(&SessionObserver::head_dropped, time, side, touch);
   }
   void rod_done(Timestamp time, const RodState& rod) override {
     tell(&SessionObserver::rod_done, time, rod);

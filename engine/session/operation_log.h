@@ -77,8 +77,8 @@ class OperationLog : public SessionObserver, public SaveWatch {
                  const ScrewReplanned& done) override;
   void screw_done(Timestamp time, const LevelState& level, std::size_t screw,
                   const ToolGuidance* at_depth) override;
-  void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
-  void head_dropped(Timestamp time, nav::Side side) override;
+  void head_recorded(Timestamp time, nav::Side side, const HeadTouch& touch) override;
+  void head_dropped(Timestamp time, nav::Side side, const HeadTouch& touch) override;
   void rod_done(Timestamp time, const RodState& rod) override;
 
  private:

@@ -119,14 +119,20 @@ void OperationLog::screw_done(Timestamp time, const LevelState& level, std::size
   add(OperationRecord::kScrew, time, json);
 }
 
-void OperationLog::head_recorded(Timestamp time, nav::Side side, Point<World> head) {
+void OperationLog::head_recorded(Timestamp time, nav::Side side, const HeadTouch& touch) {
   LogJson json = about_side(time, side);
-  json["in_world_m"] = json_of(head.v);
+  json["head"] = touch.head;
+  json["touches"] = touch.touches;
+  json["in_world_m"] = json_of(touch.place.v);
+  json["sd_m"] = touch.head_sd_m;
   add(OperationRecord::kHead, time, json);
 }
 
-void OperationLog::head_dropped(Timestamp time, nav::Side side) {
-  add(OperationRecord::kHeadDropped, time, about_side(time, side));
+void OperationLog::head_dropped(Timestamp time, nav::Side side, const HeadTouch& touch) {
+  LogJson json = about_side(time, side);
+  json["head"] = touch.head;
+  json["touches"] = touch.touches - 1;
+  add(OperationRecord::kHeadDropped, time, json);
 }
 
 void OperationLog::rod_done(Timestamp time, const RodState& rod) {

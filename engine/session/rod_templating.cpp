@@ -9,6 +9,9 @@
 namespace orthonav::engine {
 namespace {
 
+/// Below this probability that every seat lies within the limit, a head is to be touched again.
+constexpr double kExpectedEnough = 0.95;
+
 struct PlacedScrew {
   Vec3 entry;
   Vec3 to_tip;
@@ -101,18 +104,24 @@ void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
     return work.messages.say(
         TouchNotRecorded{TouchNotRecorded::What::kHead, std::get<TouchRefusal>(place)}, time);
   }
-  rod().heads.push_back(head->place);
+  if (rod().touched.empty()) {
+    rod().touched = TouchedHeads(work.options.heads, work.anchored());
+  }
+  const auto added = rod().touched.add(*head);
+  if (const auto* refusal = std::get_if<TouchRefusal>(&added)) {
+    return work.messages.say(TouchNotRecorded{TouchNotRecorded::What::kHead, *refusal}, time);
+  }
   bend(work, time);
-  work.observer->head_recorded(time, current().side, head->place);
+  work.observer->head_recorded(time, current().side, std::get<HeadTouch>(added));
 }
 
 void RodTemplating::drop_head(OperationInWork& work, Timestamp time) {
-  if (rod().heads.empty()) {
+  const auto dropped = rod().touched.drop_last();
+  if (!dropped) {
     return work.messages.say(NothingToDelete{NothingToDelete::What::kHead}, time);
   }
-  rod().heads.pop_back();
   bend(work, time);
-  work.observer->head_dropped(time, current().side);
+  work.observer->head_dropped(time, current().side, *dropped);
 }
 
 Event RodTemplating::finish_rod(OperationInWork& work, Timestamp time) {
@@ -144,23 +153,46 @@ void RodTemplating::instruct(const SessionOptions& options, std::span<const Leve
                   : Result<nav::RodInstructions>(cut.error());
   if (told) {
     rod().instructions = *std::move(told);
+    expect();
   } else {
     rod().no_instructions = told.error().message;
   }
 }
 
+void RodTemplating::expect() {
+  std::vector<double> seat_sd_m;
+  std::vector<std::size_t> heads;  // of the seats, which are in order along the rod
+  for (const Vec3& head_m : rod().rod->heads_m) {
+    const auto at = std::find(rod().heads.begin(), rod().heads.end(), Point<World>{head_m});
+    heads.push_back(static_cast<std::size_t>(at - rod().heads.begin()));
+    seat_sd_m.push_back(rod().touched.sd_m(heads.back()));
+  }
+  rod().expected = nav::rod_expectation(rod().instructions->fit, seat_sd_m);
+  rod().expected->least_sure = heads[rod().expected->least_sure];
+}
+
 HeadsSoFar RodTemplating::state() const {
   const RodState& now = current();
-  if (!now.instructions) {
-    return {now.heads.size()};
+  HeadsSoFar out{now.heads.size()};
+  if (!now.touched.empty()) {
+    out.last = now.touched.last();
   }
-  return {now.heads.size(), now.instructions->cut_length_m(), now.instructions->bends.size()};
+  if (now.instructions) {
+    out.cut_length_m = now.instructions->cut_length_m();
+    out.bends = now.instructions->bends.size();
+  }
+  if (now.expected && now.expected->within < kExpectedEnough) {
+    out.touch_again = now.expected->least_sure;
+  }
+  return out;
 }
 
 void RodTemplating::bend(OperationInWork& work, Timestamp time) {
   rod().rod.reset();
   rod().instructions.reset();
   rod().no_instructions.clear();
+  rod().expected.reset();
+  rod().heads = rod().touched.places();
   if (rod().heads.size() < 2) {
     return;
   }

@@ -26,9 +26,9 @@ class RodTemplating {
   void drop_touch(OperationInWork& work, Timestamp time);
   /// Once for each pair of the step.
   void collect(const WatchedTools& tools) { add_tip(touch_, tools, tools.pointer()); }
-  /// Records the touched place as the next head.
+  /// Records the touched place as the next head, or as one more touch of the head it is at.
   void record_head(OperationInWork& work, Timestamp time);
-  /// Takes the last head back.
+  /// Takes the last touch back.
   void drop_head(OperationInWork& work, Timestamp time);
   /// The rod is done; false if no other is left to do.
   bool finish();
@@ -53,6 +53,8 @@ class RodTemplating {
   /// among the registered levels.
   void bend(OperationInWork& work, Timestamp time);
   void instruct(const SessionOptions& options, std::span<const LevelState> levels);
+  /// Says of the instructed rod how surely it will lie in the true heads.
+  void expect();
 
   std::array<RodState, 2> rods_;  ///< left, right
   std::array<bool, 2> planned_;

@@ -71,8 +71,10 @@ class SessionObserver {
                           const ToolGuidance* /*at_depth*/) {}
   /// What was learned about tags and cameras in use so far, after each screw.
   virtual void calibration_found(Timestamp /*time*/, const CalibrationInUse& /*found*/) {}
-  virtual void head_recorded(Timestamp /*time*/, nav::Side /*side*/, Point<World> /*head*/) {}
-  virtual void head_dropped(Timestamp /*time*/, nav::Side /*side*/) {}
+  /// A screw head was touched, for the first time or once more.
+  virtual void head_recorded(Timestamp /*time*/, nav::Side /*side*/, const HeadTouch& /*touch*/) {}
+  /// The last touch was taken back: `touch` as it was recorded.
+  virtual void head_dropped(Timestamp /*time*/, nav::Side /*side*/, const HeadTouch& /*touch*/) {}
   virtual void rod_done(Timestamp /*time*/, const RodState& /*rod*/) {}
 };
 

@@ -61,6 +61,7 @@ std::vector<std::string> SessionOptions::check() const {
   add("", problems_of_times(*this));
   add("", check_points.check());
   add("", landmark.check());
+  add("", heads.check());
   add("", placed.check());
   add("drill: ", drill.check());
   add("astray: ", astray.check());

@@ -10,6 +10,7 @@
 #include "engine/session/placed_wire.h"
 #include "engine/session/replan_limits.h"
 #include "engine/session/tip_check.h"
+#include "engine/session/touched_heads.h"
 #include "nav/guidance/drill_watch.h"
 #include "nav/guidance/rod_bends.h"
 #include "nav/registration/check_points.h"
@@ -41,6 +42,7 @@ struct SessionOptions {
   /// already cause up to 2.5 mm over three pairs in the simulated room; a moving tip causes 5 mm
   /// and more.
   double max_touch_spread_m = 0.003;
+  HeadTouchRules heads;
   MethodSteps steps;  ///< none if verification is by eye alone
   nav::CheckPointRules check_points;
   LandmarkRules landmark;

@@ -127,15 +127,25 @@ struct RecordedInstruction {
   double set_rad = 0.0;  ///< on the bender
 };
 
+/// How a head was touched.
+struct RecordedHead {
+  std::size_t touches = 0;
+  double sd_m = 0.0;  ///< standard error of its place, along an axis
+};
+
 struct RecordedRod {
   Side side = Side::kLeft;
   std::size_t heads = 0;
+  std::vector<RecordedHead> touched;  ///< head by head; empty in older journals
   bool done = false;
   std::optional<double> length_m;  ///< of the template that was used
   std::vector<RecordedBend> bends;
   std::optional<double> cut_length_m;  ///< absent: there were no instructions
   std::vector<RecordedInstruction> instructions;
   std::string no_instructions;  ///< why not
+  /// Probability that every true seat lies within 1.0 mm; absent without instructions, and in older
+  /// journals.
+  std::optional<double> expected_within;
 };
 
 /// The workflow reached this step.

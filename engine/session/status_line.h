@@ -12,6 +12,7 @@
 #include "engine/session/placed_wire.h"
 #include "engine/session/saving.h"
 #include "engine/session/tip_check.h"
+#include "engine/session/touched_heads.h"
 #include "engine/session/work_watch.h"
 #include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
@@ -66,6 +67,10 @@ struct HeadsSoFar {
   std::size_t count = 0;
   std::optional<double> cut_length_m;  ///< of the rod through them, if it has instructions
   std::size_t bends = 0;
+  std::optional<HeadTouch> last = {};  ///< the newest touch
+  /// The head that is to be touched again, since the rod is not sure to lie within 1.0 mm of all;
+  /// from 0.
+  std::optional<std::size_t> touch_again = {};
 };
 using StepState = std::variant<std::monostate, StrokesSoFar, RegistrationFigures, ChecksSoFar,
                                LandmarkSoFar, WireSoFar, HeadsSoFar>;

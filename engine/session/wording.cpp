@@ -60,6 +60,23 @@ void write_unused_tool(PartedText text, const StatusLine& line, std::string_view
   }
 }
 
+/// How sure the head touched last is, and which one is to be touched again.
+void write_head(PartedText text, const HeadsSoFar& heads, std::string_view separator) {
+  if (heads.last) {
+    text.begin(Importance::kMessage, separator);
+    const HeadTouch& last = *heads.last;
+    append_printed(text.out,
+                   last.touches == 1 ? translated("head %zu: %zu touch, ± %.1f mm")
+                                     : translated("head %zu: %zu touches, ± %.1f mm"),
+                   last.head + 1, last.touches, last.head_sd_m * 1e3);
+  }
+  if (heads.touch_again) {
+    text.begin(Importance::kNext, separator);
+    append_printed(text.out, translated("1.0 mm not sure: touch head %zu again"),
+                   *heads.touch_again + 1);
+  }
+}
+
 /// Smaller movements may be noise of the head's pose.
 constexpr double kFollowedAtLeast_m = 0.001;
 
@@ -104,7 +121,8 @@ struct StateWriter {
   void operator()(const WireSoFar& wire) { write_wire(text, wire, ""); }
   void operator()(const HeadsSoFar& heads) {
     text.begin(Importance::kCount);
-    append_printed(out, translated("%zu heads"), heads.count);
+    append_printed(out, heads.count == 1 ? translated("%zu head") : translated("%zu heads"),
+                   heads.count);
     if (heads.cut_length_m) {
       text.begin(Importance::kFigures, ", ");
       append_printed(out, translated("cut to %s"), said_mm(*heads.cut_length_m).c_str());
@@ -112,6 +130,7 @@ struct StateWriter {
       append_printed(out, heads.bends == 1 ? translated("%zu bend") : translated("%zu bends"),
                      heads.bends);
     }
+    write_head(text, heads, "; ");
   }
 };
 

@@ -39,11 +39,14 @@ Transform<World, World> GroundTruthRecorder::map_from_session() const {
   return headset_.actual_from_reported(*anchor->last_seen) * anchor->world_from_anchored;
 }
 
-void GroundTruthRecorder::head_recorded(Timestamp /*time*/, nav::Side side, Point<World> head) {
-  touched_.push_back({side, headset_.world_from_room().inverse() * (map_from_session() * head)});
+void GroundTruthRecorder::head_recorded(Timestamp /*time*/, nav::Side side,
+                                        const HeadTouch& touch) {
+  touched_.push_back({side, touch.head,
+                      headset_.world_from_room().inverse() * (map_from_session() * touch.place)});
 }
 
-void GroundTruthRecorder::head_dropped(Timestamp /*time*/, nav::Side side) {
+void GroundTruthRecorder::head_dropped(Timestamp /*time*/, nav::Side side,
+                                       const HeadTouch& /*touch*/) {
   const auto last = std::find_if(touched_.rbegin(), touched_.rend(),
                                  [&](const TouchedHead& head) { return head.side == side; });
   if (last != touched_.rend()) {
@@ -104,20 +107,32 @@ void GroundTruthRecorder::evaluate_level(const LevelState& state, LevelOutcome& 
   }
 }
 
+/// The mean of each head's touches.
+std::vector<Point<sim::Room>> GroundTruthRecorder::touched_heads(nav::Side side) const {
+  std::vector<Point<sim::Room>> heads;
+  std::vector<double> counts;
+  for (const TouchedHead& touched : touched_) {
+    if (touched.side != side) {
+      continue;
+    }
+    heads.resize(std::max(heads.size(), touched.head + 1));
+    counts.resize(heads.size());
+    const double count = ++counts[touched.head];
+    heads[touched.head].v += (touched.position.v - heads[touched.head].v) / count;
+  }
+  return heads;
+}
+
 void GroundTruthRecorder::evaluate_rod(RodOutcome& rod) const {
   std::vector<Vec3> true_heads;
   double sum = 0.0;
-  for (const TouchedHead& touched : touched_) {
-    if (touched.side != rod.side) {
-      continue;
-    }
+  for (const Point<sim::Room>& touched : touched_heads(rod.side)) {
     const sim::PlacedHead* nearest = nullptr;
     for (const sim::PlacedHead& head : headset_.truth().heads) {
       if (head.side != rod.side) {
         continue;
       }
-      if (!nearest || (head.position - touched.position).norm() <
-                          (nearest->position - touched.position).norm()) {
+      if (!nearest || (head.position - touched).norm() < (nearest->position - touched).norm()) {
         nearest = &head;
       }
     }
@@ -125,7 +140,7 @@ void GroundTruthRecorder::evaluate_rod(RodOutcome& rod) const {
       return;
     }
     true_heads.push_back(nearest->position.v);
-    sum += (nearest->position - touched.position).norm();
+    sum += (nearest->position - touched).norm();
   }
   if (true_heads.empty()) {
     return;

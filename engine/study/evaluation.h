@@ -23,8 +23,8 @@ class GroundTruthRecorder : public SessionObserver {
   void registered(Timestamp time, const LevelState& level,
                   const RegistrationOutcome& outcome) override;
   void accepted(Timestamp time, const LevelState& level, std::string_view shown) override;
-  void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
-  void head_dropped(Timestamp time, nav::Side side) override;
+  void head_recorded(Timestamp time, nav::Side side, const HeadTouch& touch) override;
+  void head_dropped(Timestamp time, nav::Side side, const HeadTouch& touch) override;
 
   /// Adds the true errors to the result: the TRE of each accepted registration at its screws'
   /// entries and targets; the angle and entry error of each driven wire; the rods'.
@@ -38,10 +38,12 @@ class GroundTruthRecorder : public SessionObserver {
   };
   struct TouchedHead {
     nav::Side side;
+    std::size_t head;  ///< which one of this side
     Point<sim::Room> position;
   };
   void note(const LevelState& level, const Transform<World, Vertebra>& estimated);
   void evaluate_level(const LevelState& state, LevelOutcome& level) const;
+  [[nodiscard]] std::vector<Point<sim::Room>> touched_heads(nav::Side side) const;
   void evaluate_rod(RodOutcome& rod) const;
   /// From the session's World, which may be relative to a patient reference, to the headset's map.
   /// The head's noise in the pair that showed the reference is left out: it moves the bone and

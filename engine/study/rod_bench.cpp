@@ -16,13 +16,12 @@ void RodBench::spend(double mean_s) {
   time_s_ += mean_s * task_.hands * rod_log_normal(random_, options_.durations.scatter);
 }
 
-nav::RodCut RodBench::touched() {
+template <class Touch>
+nav::RodCut RodBench::cut_through(Touch touch) {
   for (int i = 0; i < kMostRodDraws; ++i) {
     std::vector<Vec3> heads_m;
     for (const Vec3& head_m : task_.heads_m) {
-      spend(options_.durations.touch_head_s);
-      heads_m.push_back(head_m + sim::normal_vector(random_, options_.head_pick_m) +
-                        sim::normal_vector(random_, options_.navigation_m));
+      heads_m.push_back(touch(head_m));
     }
     const auto rod = nav::rod_template(heads_m, options_.rod_diameter_m);
     if (!rod) {
@@ -36,6 +35,37 @@ nav::RodCut RodBench::touched() {
   }
   ORTHONAV_CHECK(false && "touched heads never gave a rod");
   return {};
+}
+
+nav::RodCut RodBench::touched() {
+  return cut_through([this](Vec3 head_m) {
+    spend(options_.durations.touch_head_s);
+    return head_m + sim::normal_vector(random_, options_.head_pick_m) +
+           sim::normal_vector(random_, options_.navigation_m);
+  });
+}
+
+int RodBench::touches_of_a_head() const {
+  return task_.heads_m.size() >= options_.long_rod_heads ? options_.long_rod_touches
+                                                         : options_.head_touches;
+}
+
+double RodBench::head_sd_m() const {
+  return options_.in_socket ? std::hypot(options_.socket_seating_m / std::sqrt(touches_of_a_head()),
+                                         options_.neighbour_navigation_m)
+                            : std::hypot(options_.head_pick_m, options_.navigation_m);
+}
+
+nav::RodCut RodBench::touched_in_sockets() {
+  const int touches = touches_of_a_head();
+  return cut_through([this, touches](Vec3 head_m) {
+    Vec3 seating_m;
+    for (int i = 0; i < touches; ++i) {
+      spend(i == 0 ? options_.durations.touch_head_s : options_.durations.touch_again_s);
+      seating_m += sim::normal_vector(random_, options_.socket_seating_m) / touches;
+    }
+    return head_m + seating_m + sim::normal_vector(random_, options_.neighbour_navigation_m);
+  });
 }
 
 void RodBench::bend(RodInHand& rod, std::size_t joint, Vec3 wanted_rad, double relative_sd) {
@@ -69,7 +99,7 @@ BentRod RodBench::matched(const nav::RodCut& shown) {
       }
     }
   }
-  return finished(std::move(rod), length_m, &RodInHand::worst_bend);
+  return finished(std::move(rod), length_m, &RodInHand::worst_bend, options_.placing_m);
 }
 
 BentRod RodBench::by_eye() {
@@ -91,11 +121,11 @@ BentRod RodBench::by_eye() {
     bend(rod, i, angle_rad > 0.0 ? (1.0 + over_rad / angle_rad) * rotation_rad : rotation_rad,
          options_.eye_bend_sd);
   }
-  return finished(std::move(rod), length_m, &RodInHand::worst_bend);
+  return finished(std::move(rod), length_m, &RodInHand::worst_bend, options_.placing_m);
 }
 
 /// Tries the rod in the heads and bends it again until it fits all of them.
-BentRod RodBench::finished(RodInHand rod, double length_m, WorstBend worst_bend) {
+BentRod RodBench::finished(RodInHand rod, double length_m, WorstBend worst_bend, double placing_m) {
   BentRod result;
   const std::vector<Vec3>& seats_m = task_.cut.seats_m;
   work(options_.durations.try_s);
@@ -110,7 +140,7 @@ BentRod RodBench::finished(RodInHand rod, double length_m, WorstBend worst_bend)
     lie = rod.lay_on(seats_m);
     ++result.rebends;
   }
-  const double offset_m = random_.normal(0.0, options_.placing_m);
+  const double offset_m = random_.normal(0.0, placing_m);
   const auto right = [&](double overhang_m) {
     return overhang_m >= options_.shortest_overhang_m && overhang_m <= options_.longest_overhang_m;
   };

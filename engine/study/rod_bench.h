@@ -41,14 +41,22 @@ class RodBench {
  private:
   void spend(double mean_s);
   void work(double mean_s) { spend(mean_s * options_.pace); }
+  /// Touches every head, `touch` one of them, until the touched places allow a rod.
+  template <class Touch>
+  [[nodiscard]] nav::RodCut cut_through(Touch touch);
   [[nodiscard]] nav::RodCut touched();
+  [[nodiscard]] nav::RodCut touched_in_sockets();
+  [[nodiscard]] int touches_of_a_head() const;
+  /// Of a touched head, along an axis.
+  [[nodiscard]] double head_sd_m() const;
   /// Cut and bent against the hologram.
   [[nodiscard]] BentRod matched(const nav::RodCut& shown);
   void bend(RodInHand& rod, std::size_t joint, Vec3 wanted_rad, double relative_sd);
   /// Measured off by the displayed length, and cut.
   [[nodiscard]] double cut_to(double shown_m);
   using WorstBend = RodCorrection (RodInHand::*)(std::span<const Vec3> seats_m) const;
-  [[nodiscard]] BentRod finished(RodInHand rod, double length_m, WorstBend worst_bend);
+  [[nodiscard]] BentRod finished(RodInHand rod, double length_m, WorstBend worst_bend,
+                                 double placing_m);
   [[nodiscard]] nav::RodArc bent_as_told(const nav::RodInstruction& told,
                                          const nav::RodSpringBack& spring_back, double stiffness);
   [[nodiscard]] std::vector<Vec3> stroked(std::span<const nav::RodArc> rod, double length_m);

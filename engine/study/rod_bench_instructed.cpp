@@ -6,6 +6,7 @@
 
 #include "engine/study/rod_bench.h"
 #include "hal/sim/noise.h"
+#include "nav/guidance/rod_expectation.h"
 #include "nav/guidance/rod_stroke.h"
 
 namespace orthonav::engine {
@@ -70,9 +71,11 @@ nav::RodArc RodBench::bent_as_told(const nav::RodInstruction& told,
 std::vector<Vec3> RodBench::stroked(std::span<const nav::RodArc> rod, double length_m) {
   work(options_.durations.stroke_s);
   const std::vector<Vec3> chain_m = nav::rod_axis(rod, length_m);
+  const double tracking_sd_m =
+      options_.in_socket ? options_.neighbour_navigation_m : options_.navigation_m / std::sqrt(2.0);
   std::vector<Vec3> tracking_m;
   for (double at_m = 0.0; at_m < length_m + kTrackingVaries_m; at_m += kTrackingVaries_m) {
-    tracking_m.push_back(sim::normal_vector(random_, options_.navigation_m / std::sqrt(2.0)));
+    tracking_m.push_back(sim::normal_vector(random_, tracking_sd_m));
   }
   std::vector<Vec3> points_m;
   constexpr int kSides = 3;
@@ -101,11 +104,12 @@ nav::RodInstructions RodBench::followed(nav::RodInstructions told, const nav::Ro
   const nav::RodSpringBack spring_back =
       nav::RodSpringBack::of(bending.bender, bending.material, bending.diameter_m).value();
   const double stiffness = 1.0 + random_.normal(0.0, options_.spring_back_error);
+  const bool strokes = options_.remeasured && told.bends.size() >= options_.measured_from_bends;
   std::vector<nav::RodArc> known;
   for (std::size_t k = 0; k < told.bends.size(); ++k) {
     rod.push_back(bent_as_told(told.bends[k], spring_back, stiffness));
     known.push_back(told.bends[k].arc);
-    if (!options_.remeasured || k + 1 == told.bends.size()) {
+    if (!strokes || k + 1 == told.bends.size()) {
       continue;
     }
     const auto points_m = stroked(rod, length_m);
@@ -122,21 +126,28 @@ nav::RodInstructions RodBench::followed(nav::RodInstructions told, const nav::Ro
 }
 
 InstructedRod RodBench::with_instructions() {
-  const nav::RodCut shown = touched();
+  const nav::RodCut shown = options_.in_socket ? touched_in_sockets() : touched();
   const nav::RodBending bending = bending_of(options_);
   const auto plan = nav::rod_instructions(shown.seats_m, bending);
   if (!plan) {
     return {.rod = matched(shown)};
   }
   const double length_m = cut_to(plan->cut_length_m());
+  if (options_.ends_marked) {
+    work(options_.durations.mark_s);
+  }
   std::vector<nav::RodArc> bent;
   const nav::RodInstructions last = followed(*plan, bending, length_m, bent);
   const RodInHand rod = laid_rod(bent, length_m, last.fit);
   InstructedRod out;
   out.bends = plan->bends.size();
+  const std::vector<double> seat_sd_m(shown.seats_m.size(), head_sd_m());
+  out.expected_within =
+      nav::rod_expectation(plan->fit, seat_sd_m, {.limit_m = kInstructedLimit_m}).within;
   out.off_touched_m = RodInHand(rod).lay_on(shown.seats_m).largest_m;
   out.off_heads_m = RodInHand(rod).lay_on(task_.cut.seats_m).largest_m;
-  out.rod = finished(rod, length_m, &RodInHand::worst_bend_near);
+  out.rod = finished(rod, length_m, &RodInHand::worst_bend_near,
+                     options_.ends_marked ? options_.placing_by_marks_m : options_.placing_m);
   return out;
 }
 

@@ -118,6 +118,10 @@ InstructedRods run_instructed_rods(const RodExperimentOptions& options, std::uin
     out.bends += rod.bends.value_or(0);
     out.within_of_touched += rod.bends && rod.off_touched_m <= kInstructedLimit_m ? 1 : 0;
     out.within_of_heads += rod.bends && rod.off_heads_m <= kInstructedLimit_m ? 1 : 0;
+    out.expected_within += rod.expected_within;
+  }
+  if (out.rods.size() > out.refused) {
+    out.expected_within /= static_cast<double>(out.rods.size() - out.refused);
   }
   summarize_rods(out.arm);
   return out;

@@ -27,6 +27,9 @@ struct RodStepDurations {
   double take_out_s = 10.0;  ///< before it is bent again
   double mark_s = 5.0;       ///< lay off one bend and its roll, as instructed
   double stroke_s = 10.0;    ///< along the rod with the pointer, on three sides
+  /// The same head once more: the tip is lifted, turned and put down again. Estimate: as long as a
+  /// landmark takes. Not multiplied by `pace`.
+  double touch_again_s = 3.0;
   /// Relative SD of a step. Estimate.
   double scatter = 0.3;
 };
@@ -94,6 +97,26 @@ struct RodExperimentOptions {
   double eye_bend_sd = 0.3;
   double eye_place_m = 0.002;  ///< SD of where along the rod a bend is set. Estimate
 
+  // The touches before instructions are made; none of these values is fitted. The other arms touch
+  // as published.
+
+  /// The ball at the pointer's end is put into the drive socket of each screw. False: on top of the
+  /// head, as in the arm with the template.
+  bool in_socket = true;
+  /// SD of that ball in the socket. Estimate (0.2 to 0.5 mm): a ball of 1 mm has 0.2 mm of play in
+  /// a dimple made for it, and a socket is wider.
+  double socket_seating_m = 0.0003;
+  /// SD of what navigation adds to one head and not to the others, the same for all touches of a
+  /// head. Measured with a patient reference: 0.10 mm (`bench_rod_heads --reference`); the
+  /// pointer's tip, off by 0.5 mm and held 10° differently from head to head, adds 0.09 mm. What
+  /// all heads have in common, 0.7 mm, moves the rod as a whole. Rounded up.
+  double neighbour_navigation_m = 0.00015;
+  /// Of each head; its place is their mean. Rods of `long_rod_heads` and more are not expected to
+  /// lie within 1.0 mm of every head after one touch each (nav::rod_expectation).
+  int head_touches = 1;
+  int long_rod_touches = 2;
+  std::size_t long_rod_heads = 5;
+
   // The instructions; none of these values is fitted.
 
   /// Relative error of the stated spring-back, SD over rods; the same for all bends of a rod.
@@ -104,10 +127,17 @@ struct RodExperimentOptions {
   double roll_setting_rad = 3.0 * kRadiansPerDegree;
   /// SD along an axis of one point of a stroke: noise and tremor at the pointer's end, which
   /// scatter by up to 2.5 mm over three pairs (session_options.h). Tracking errors common to
-  /// neighbouring places are added: `navigation_m` / √2, varying over 50 mm. Estimate.
+  /// neighbouring places are added: `neighbour_navigation_m` (without `in_socket`, `navigation_m` /
+  /// √2), varying over 50 mm. Estimate.
   double stroke_noise_m = 0.0015;
-  int stroke_points = 300;  ///< ten seconds of pairs
-  bool remeasured = true;   ///< by a stroke after each bend but the last
+  int stroke_points = 300;              ///< ten seconds of pairs
+  bool remeasured = true;               ///< by a stroke after each bend but the last
+  std::size_t measured_from_bends = 4;  ///< rods with fewer bends are not measured
+  /// Both ends are marked where the middles of the end seats will be, and the rod is laid by these
+  /// marks instead of by eye.
+  bool ends_marked = true;
+  /// SD of laying it so. Estimate: each mark is laid off and seen to 0.5 mm, and there are two.
+  double placing_by_marks_m = 0.0005;
 
   // The hand, in all arms.
 
@@ -175,6 +205,7 @@ struct InstructedRod {
   std::optional<std::size_t> bends;  ///< absent: no instructions, so bent with the template
   double off_touched_m = 0.0;        ///< the farthest seat, as touched
   double off_heads_m = 0.0;          ///< the farthest true seat
+  double expected_within = 0.0;      ///< probability of `kInstructedLimit_m`, stated before bending
 };
 
 /// The accuracy that instructions should reach at every head.
@@ -187,6 +218,7 @@ struct InstructedRods {
   std::size_t bends = 0;              ///< instructed, of all
   std::size_t within_of_touched = 0;  ///< every seat as touched within `kInstructedLimit_m`
   std::size_t within_of_heads = 0;    ///< every true seat
+  double expected_within = 0.0;       ///< of those with instructions, as stated before bending
 };
 
 /// Bends `rods` rods with a template (heads touched, length and bends from `nav::rod_template` and

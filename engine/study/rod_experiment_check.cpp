@@ -43,6 +43,11 @@ std::vector<RodRange> rod_ranges(const RodExperimentOptions& o) {
           {"eye_overbend_rad_per_m", o.eye_overbend_rad_per_m, 0, 10},
           {"eye_bend_sd", o.eye_bend_sd, 0, 1},
           {"eye_place_m", o.eye_place_m, 0, 0.0025},
+          {"socket_seating_m", o.socket_seating_m, 0, 0.003},
+          {"neighbour_navigation_m", o.neighbour_navigation_m, 0, 0.003},
+          {"head_touches", static_cast<double>(o.head_touches), 1, 20},
+          {"long_rod_touches", static_cast<double>(o.long_rod_touches), 1, 20},
+          {"placing_by_marks_m", o.placing_by_marks_m, 0, 0.01},
           {"spring_back_error", o.spring_back_error, 0, 1},
           {"bender_setting_rad", o.bender_setting_rad, 0, 0.2},
           {"roll_setting_rad", o.roll_setting_rad, 0, 0.5},
@@ -67,6 +72,7 @@ std::vector<RodRange> rod_duration_ranges(const RodStepDurations& d) {
           {"durations.take_out_s", d.take_out_s, 0, 3600},
           {"durations.mark_s", d.mark_s, 0, 3600},
           {"durations.stroke_s", d.stroke_s, 0, 3600},
+          {"durations.touch_again_s", d.touch_again_s, 0, 3600},
           {"durations.scatter", d.scatter, 0, 1}};
 }
 

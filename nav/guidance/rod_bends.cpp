@@ -1,7 +1,7 @@
 #include "nav/guidance/rod_bends.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -11,59 +11,36 @@
 #include "base/angle.h"
 #include "base/length_text.h"
 #include "base/printed.h"
+#include "nav/guidance/rod_bends_check.h"
 
 namespace orthonav::nav {
 namespace {
 
-/// Two seats nearer to each other than this are one head touched twice (rod.cpp).
-constexpr double kMeeting_m = 0.005;
 /// The fit's margin from a tulip's edge, on both sides of a bend.
 constexpr double kFittingMargin_m = 0.0002;
 /// Number of the gentlest bends that may be left out on trial; the others are needed anyway.
 constexpr std::size_t kLeftOutTries = 4;
 
-Status check_length(const char* name, double value_m, double least_m, double most_m) {
-  if (!std::isfinite(value_m)) {
-    return Error{printed("%s is not finite", name)};
-  }
-  if (value_m < least_m || value_m > most_m) {
-    return Error{printed("%s is %s, limit %g-%g mm", name,
-                         in_mm_outside(value_m, least_m, most_m, 2).c_str(), least_m * 1e3,
-                         most_m * 1e3)};
-  }
-  return {};
+/// What a rod is allowed: how far off a seat, and into the tulips, it may be.
+struct RodAllowance {
+  double tolerance_m = 0.0;
+  double reach_m = 0.0;
+};
+
+/// From the strictest on; the first one with a rod counts.
+std::array<RodAllowance, 4> allowances_of(const RodBending& bending) {
+  const double last_m = std::max(bending.tolerance_m, bending.last_tolerance_m);
+  return {{{bending.tolerance_m, 0.0},
+           {bending.tolerance_m, 0.5 * bending.reach_m},
+           {bending.tolerance_m, bending.reach_m},
+           {last_m, bending.reach_m}}};
 }
 
-Status check_bending(const RodBending& bending) {
-  if (const Status s =
-          check_length("overhang of the rod", bending.overhang_m, 0.0, kLongestOverhang_m);
-      !s) {
-    return s;
-  }
-  if (const Status s = check_length("width of a tulip", bending.tulip_m, 0.0, kWidestTulip_m); !s) {
-    return s;
-  }
-  return check_length("tolerance at the seats", bending.tolerance_m, kFinestTolerance_m,
-                      kCoarsestTolerance_m);
-}
-
-Status check_seats(std::span<const Vec3> seats_m) {
-  if (seats_m.size() < 2) {
-    return Error{printed("rod to bend needs at least 2 seats, got %zu", seats_m.size())};
-  }
-  for (std::size_t i = 0; i < seats_m.size(); ++i) {
-    if (!seats_m[i].is_finite()) {
-      return Error{printed("seat %zu of the rod is not finite", i + 1)};
-    }
-  }
-  for (std::size_t i = 1; i < seats_m.size(); ++i) {
-    const double gap_m = (seats_m[i] - seats_m[i - 1]).norm();
-    if (gap_m < kMeeting_m) {
-      return Error{printed("seats %zu and %zu of the rod meet: %s apart, at least 5 mm", i, i + 1,
-                           in_mm_outside(gap_m, kMeeting_m, 1.0).c_str())};
-    }
-  }
-  return {};
+/// The same bending with the tulips as narrow, and the tolerance as wide, as allowed.
+RodBending with_allowance(RodBending bending, const RodAllowance& allowed) {
+  bending.tulip_m -= 2.0 * allowed.reach_m;
+  bending.tolerance_m = allowed.tolerance_m;
+  return bending;
 }
 
 double least_gap_m(const RodBending& bending) {
@@ -192,21 +169,6 @@ Result<PlannedRod> with_every_bend(std::span<const Vec3> seats_m, const RodBendi
   return out_of_reach({gaps, *std::move(free)}, seats_m, bending, spring_back);
 }
 
-Status check_made(const RodInstructions& plan, std::span<const RodArc> made) {
-  if (made.size() > plan.bends.size()) {
-    return Error{
-        printed("%zu bends were made of the %zu instructed", made.size(), plan.bends.size())};
-  }
-  for (std::size_t k = 0; k < made.size(); ++k) {
-    const RodArc& arc = made[k];
-    if (!(std::isfinite(arc.centre_m) && std::isfinite(arc.width_m) &&
-          std::isfinite(arc.angle_rad) && std::isfinite(arc.roll_rad))) {
-      return Error{printed("bend %zu as made is not finite", k + 1)};
-    }
-  }
-  return {};
-}
-
 }  // namespace
 
 Result<RodInstructions> rod_instructions(std::span<const Vec3> seats_m, const RodBending& bending) {
@@ -214,20 +176,29 @@ Result<RodInstructions> rod_instructions(std::span<const Vec3> seats_m, const Ro
   if (!spring_back) {
     return spring_back.error();
   }
-  if (const Status s = check_bending(bending); !s) {
+  if (const Status s = check_rod_bending(bending); !s) {
     return s.error();
   }
-  if (const Status s = check_seats(seats_m); !s) {
+  if (const Status s = check_rod_seats(seats_m); !s) {
     return s.error();
   }
-  auto rod = with_every_bend(seats_m, bending, *spring_back);
-  if (!rod) {
-    return rod.error();
+  Result<PlannedRod> rod = Error{"rod was not planned"};
+  for (const RodAllowance& allowance : allowances_of(bending)) {
+    const RodBending allowed = with_allowance(bending, allowance);
+    rod = with_every_bend(seats_m, allowed, *spring_back);
+    if (!rod) {
+      continue;
+    }
+    while (auto less = with_a_bend_less(seats_m, *rod, allowed, spring_back->most_kept_rad())) {
+      *rod = *std::move(less);
+    }
+    auto out = told(*std::move(rod), seats_m, 0, *spring_back);
+    if (out) {
+      out->reach_m = allowance.reach_m;
+    }
+    return out;
   }
-  while (auto less = with_a_bend_less(seats_m, *rod, bending, spring_back->most_kept_rad())) {
-    *rod = *std::move(less);
-  }
-  return told(*std::move(rod), seats_m, 0, *spring_back);
+  return rod.error();
 }
 
 Result<RodInstructions> rod_instructions_after(const RodInstructions& plan,
@@ -237,17 +208,18 @@ Result<RodInstructions> rod_instructions_after(const RodInstructions& plan,
   if (!spring_back) {
     return spring_back.error();
   }
-  if (const Status s = check_bending(bending); !s) {
+  if (const Status s = check_rod_bending(bending); !s) {
     return s.error();
   }
-  if (const Status s = check_made(plan, made); !s) {
+  if (const Status s = check_made_bends(plan, made); !s) {
     return s.error();
   }
   PlannedRod rod;
   for (const RodInstruction& bend : plan.bends) {
     rod.gaps.push_back(bend.gap);
   }
-  RodFitTask task = fit_task(plan.seats_m, rod.gaps, bending, spring_back->most_kept_rad());
+  const RodBending allowed = with_allowance(bending, {bending.tolerance_m, plan.reach_m});
+  RodFitTask task = fit_task(plan.seats_m, rod.gaps, allowed, spring_back->most_kept_rad());
   task.made = made;
   task.length_m = plan.cut_length_m();
   auto fit = fit_rod_bends(task, &plan.fit);
@@ -265,7 +237,11 @@ Result<RodInstructions> rod_instructions_after(const RodInstructions& plan,
         printed("after bend %zu a bend would lie in a tulip: begin another rod", made.size())};
   }
   rod.fit = *std::move(fit);
-  return told(std::move(rod), plan.seats_m, made.size(), *spring_back);
+  auto out = told(std::move(rod), plan.seats_m, made.size(), *spring_back);
+  if (out) {
+    out->reach_m = plan.reach_m;
+  }
+  return out;
 }
 
 }  // namespace orthonav::nav

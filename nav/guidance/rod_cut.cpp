@@ -10,17 +10,24 @@
 namespace orthonav::nav {
 namespace {
 
-Status check_rod_distance(const char* name, double distance_m, double longest_m) {
+Status check_rod_distance(const char* name, double distance_m, double shortest_m,
+                          double longest_m) {
   if (!std::isfinite(distance_m)) {
     return Error{printed("%s is not finite", name)};
   }
-  if (distance_m < 0.0 || distance_m > longest_m) {
-    const double limit_m = distance_m < 0.0 ? 0.0 : longest_m;
-    return Error{printed("%s is %s mm, limit 0-%.0f mm", name,
-                         value_beside(distance_m * 1e3, limit_m * 1e3, 1).c_str(),
-                         longest_m * 1e3)};
+  if (distance_m < shortest_m || distance_m > longest_m) {
+    const double limit_m = distance_m < shortest_m ? shortest_m : longest_m;
+    return Error{printed(
+        shortest_m < 0.0 ? "%s is %s mm, limit %.0f to %.0f mm" : "%s is %s mm, limit %.0f-%.0f mm",
+        name, value_beside(distance_m * 1e3, limit_m * 1e3, 1).c_str(), shortest_m * 1e3,
+        longest_m * 1e3)};
   }
   return {};
+}
+
+Status check_seat_distance(double distance_m) {
+  return check_rod_distance("distance from head to seat", distance_m, -kHighestSeat_m,
+                            kDeepestSeat_m);
 }
 
 Status check_rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
@@ -41,9 +48,7 @@ Status check_rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
       return Error{printed("direction of screw %zu is zero or not finite", i + 1)};
     }
   }
-  if (const Status s =
-          check_rod_distance("distance from head to seat", seating.head_to_seat_m, kDeepestSeat_m);
-      !s) {
+  if (const Status s = check_seat_distance(seating.head_to_seat_m); !s) {
     return s;
   }
   if (!seating.each_head_to_seat_m.empty() &&
@@ -52,12 +57,11 @@ Status check_rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
                          rod.heads_m.size(), seating.each_head_to_seat_m.size())};
   }
   for (const double seat_m : seating.each_head_to_seat_m) {
-    if (const Status s = check_rod_distance("distance from head to seat", seat_m, kDeepestSeat_m);
-        !s) {
+    if (const Status s = check_seat_distance(seat_m); !s) {
       return s;
     }
   }
-  return check_rod_distance("overhang of the rod", seating.overhang_m, kLongestOverhang_m);
+  return check_rod_distance("overhang of the rod", seating.overhang_m, 0.0, kLongestOverhang_m);
 }
 
 }  // namespace

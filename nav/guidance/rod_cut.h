@@ -11,8 +11,10 @@ namespace orthonav::nav {
 
 /// Where the rod lies relative to the touched heads, and how far it overhangs.
 struct RodSeating {
-  /// From the touched top of a head to the middle of the rod in its tulip, along the screw. 6 mm is
-  /// an estimate: half the height of a tulip of 12 mm.
+  /// From the touched place of a head to the middle of the rod in its tulip, along the screw,
+  /// positive towards the bone. 6 mm is an estimate for a head touched on top: half the height of a
+  /// tulip of 12 mm. Touched in the drive socket at the bottom of the tulip, the rod lies above the
+  /// place, so that the distance is negative: the maker's drawing tells it.
   double head_to_seat_m = 0.006;
   /// Length wanted beyond the middle of the first and of the last seat.
   double overhang_m = 0.005;
@@ -28,15 +30,16 @@ struct RodCut {
 
 /// Limits of what `rod_cut` takes.
 inline constexpr double kDeepestSeat_m = 0.03;
+inline constexpr double kHighestSeat_m = 0.015;
 inline constexpr double kLongestOverhang_m = 0.05;
 
-/// The length to cut a rod to. The heads are touched on top, but the rod lies below, at the seats:
+/// The length to cut a rod to. The rod does not lie where the heads are touched, but at the seats:
 /// each seat is its head plus `head_to_seat_m` along `to_bone`, the direction of that screw from
 /// head to tip (any length but zero, in the order of `rod.heads_m`). In a lordosis the seats lie on
 /// the outside of the curve, so their spline is longer than the heads': by the depth times the
 /// angle of the curve, 4 mm for 6 mm and 40°. Refuses fewer than 2 heads, a number of directions or
-/// seats that differs from that of heads, numbers that are not finite, distances that are negative
-/// or beyond the limits above, and seats that coincide.
+/// seats that differs from that of heads, numbers that are not finite, distances beyond the limits
+/// above, a negative overhang, and seats that coincide.
 Result<RodCut> rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
                        const RodSeating& seating = {});
 

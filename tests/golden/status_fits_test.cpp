@@ -125,10 +125,11 @@ std::vector<StatusLine> lines_about(const Message& message, const Coaching& coac
   std::vector<StepState> states = {ChecksSoFar{0.0123, 20, -0.0123, &verdict},
                                    ChecksSoFar{0.0123, 20, -0.0123, &verdict, true, 0.0123}};
   if (none) {
-    states.insert(states.end(),
-                  {StrokesSoFar{123456, &coaching}, RegistrationFigures{0.0123, 0.0123, false},
-                   LandmarkSoFar{{0.0123, 0.0123, false, true}, false, {}},
-                   WireSoFar{&far_off(), true}, HeadsSoFar{20}});
+    states.insert(
+        states.end(),
+        {StrokesSoFar{123456, &coaching}, RegistrationFigures{0.0123, 0.0123, false},
+         LandmarkSoFar{{0.0123, 0.0123, false, true}, false, {}}, WireSoFar{&far_off(), true},
+         HeadsSoFar{20, 0.5123, 12, HeadTouch{19, {}, 0.001, 10, 0.00123}, 10}});
   }
   std::vector<StatusLine> lines;
   for (int step = 0; step < static_cast<int>(kStepCount); ++step) {

@@ -89,7 +89,10 @@ TEST(RodCommand, InstructsHowToBendIt) {
     EXPECT_GT(bend["set_deg"].get<double>(), bend["angle_deg"].get<double>());
   }
   const Called text = orthonav({"rod", "--heads", heads, "--instructions"});
-  EXPECT_THAT(text.out, AllOf(HasSubstr("cut to "), HasSubstr("bend 1: middle at ")));
+  EXPECT_THAT(text.out, AllOf(HasSubstr("cut to "),
+                              HasSubstr("mark the middles of the end heads: 5.0 mm from the first "
+                                        "end, 5.0 mm from the last\n"),
+                              HasSubstr("bend 1: middle at ")));
 }
 
 TEST(RodCommand, SaysNoWhereNoInstructionsLeadThere) {

@@ -57,7 +57,7 @@ TEST(ScrewSizesFile, RefusesWhatIsNotAListOfScrewsInOneLine) {
         R"([{"diameter_mm": 6.5, "lengths_mm": [40, 40]}])",
         R"([{"diameter_mm": 6.5, "lengths_mm": [40, 40.2]}])",
         R"([{"diameter_mm": 6.5, "lengths_mm": [40]}, {"diameter_mm": 6.5, "lengths_mm": [45]}])",
-        R"([{"diameter_mm": 6.5, "lengths_mm": [40], "head_to_seat_mm": -1}])",
+        R"([{"diameter_mm": 6.5, "lengths_mm": [40], "head_to_seat_mm": -16}])",
         R"([{"diameter_mm": 6.5, "lengths_mm": [40], "head_to_seat_mm": "x"}])"}) {
     EXPECT_THAT(refusal(bad), AllOf(StartsWith("sizes.json: "), Not(HasSubstr("\n")))) << bad;
   }

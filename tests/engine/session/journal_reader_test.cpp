@@ -19,6 +19,10 @@ TEST(JournalReader, TellsTheWholeOperationAsTheSessionHasIt) {
   j.operation.finishes_every_screw();
   j.operation.touches({0.02, 0.03, 0.00});
   j.operation.touches({0.02, 0.03, 0.04});
+  // The second head twice more, of which one touch is taken back: still two heads.
+  j.operation.touches({0.0204, 0.03, 0.04});
+  j.operation.touches({0.0201, 0.03, 0.04});
+  j.operation.says("delete");
   j.operation.says("mumble");
   j.operation.says("done");
   j.operation.touches({-0.02, 0.03, 0.00});
@@ -31,7 +35,9 @@ TEST(JournalReader, TellsTheWholeOperationAsTheSessionHasIt) {
   EXPECT_EQ(record.device, "fake");
   EXPECT_EQ(record.patient_reference, true);
   expect_the_same(record, j.operation.session());
-  EXPECT_EQ(record.rods.size(), 2U);
+  ASSERT_EQ(record.rods.size(), 2U);
+  EXPECT_EQ(record.rods[0].heads, 2U);
+  EXPECT_EQ(record.rods[0].touched.at(1).touches, 2U);
   EXPECT_EQ(record.registrations.size(), 2U);
   const auto& pose = record.levels[0].screws[0].at_depth;
   ASSERT_TRUE(pose);

@@ -77,6 +77,13 @@ inline void expect_the_same(const RecordedRod& rod, const RodState& state) {
   EXPECT_EQ(rod.bends.size(), state.rod->bends.size());
   ASSERT_EQ(rod.cut_length_m.has_value(), state.instructions.has_value());
   EXPECT_EQ(rod.no_instructions, state.no_instructions);
+  ASSERT_EQ(rod.touched.size(), state.heads.size());
+  for (std::size_t head = 0; head < rod.touched.size(); ++head) {
+    EXPECT_EQ(rod.touched[head].touches, state.touched.touches_of(head));
+    EXPECT_DOUBLE_EQ(rod.touched[head].sd_m, state.touched.sd_m(head));
+  }
+  ASSERT_EQ(rod.expected_within.has_value(), state.expected.has_value());
+  EXPECT_DOUBLE_EQ(rod.expected_within.value_or(0), state.expected ? state.expected->within : 0);
   EXPECT_NE(rod.cut_length_m.has_value(), !rod.no_instructions.empty());
   if (state.instructions) {
     EXPECT_DOUBLE_EQ(*rod.cut_length_m, state.instructions->cut_length_m());

@@ -95,6 +95,53 @@ TEST_F(RodSession, SaysWhyThereAreNoInstructions) {
   EXPECT_FALSE(state<HeadsSoFar>(g)->cut_length_m.has_value());
 }
 
+TEST_F(RodSession, MakesAHeadSurerThatIsTouchedAgain) {
+  s.touches({0.02, 0.03, 0.00});
+  const HeadsSoFar once = *state<HeadsSoFar>(s.touches({0.02, 0.03, 0.04}));
+  ASSERT_TRUE(once.last);
+  EXPECT_EQ(once.last->head, 1u);
+  EXPECT_EQ(once.last->touches, 1u);
+  const Guidance& g = s.touches({0.0206, 0.03, 0.04});
+  ASSERT_EQ(g.rods[0].heads.size(), 2u);
+  EXPECT_NEAR(g.rods[0].heads[1].v.x, 0.0203, kExact);
+  EXPECT_NEAR((g.rods[0].rod->heads_m[1] - Vec3{0.0203, 0.03, 0.04}).norm(), 0.0, kExact)
+      << "the template follows";
+  EXPECT_EQ(state<HeadsSoFar>(g)->last->touches, 2u);
+  EXPECT_LT(state<HeadsSoFar>(g)->last->head_sd_m, once.last->head_sd_m);
+  // "delete" takes one touch back, then the head.
+  EXPECT_NEAR(s.says("delete").rods[0].heads[1].v.x, 0.02, kExact);
+  EXPECT_EQ(s.says("delete").rods[0].heads.size(), 1u);
+}
+
+TEST_F(RodSession, RefusesATouchThatDisagreesWithItsHead) {
+  s.touches({0.02, 0.03, 0.00});
+  const Guidance& g = s.touches({0.024, 0.03, 0.00});
+  ASSERT_EQ(g.rods[0].heads.size(), 1u);
+  EXPECT_EQ(g.rods[0].touched.touches_of(0), 1u);
+  EXPECT_EQ(touch_refusal(g).kind, TouchRefusal::Kind::kTouchesApart);
+  EXPECT_NEAR(touch_refusal(g).value_m, 0.004, kExact);
+  EXPECT_THAT(detail_text(g.status), ::testing::StartsWith("head not recorded: touches 4.0 mm "));
+}
+
+TEST_F(RodSession, SaysWhichHeadToTouchAgain) {
+  SessionOptions options;
+  options.heads.tracking_sd_m = options.heads.tracking_sd_anchored_m = 0.0005;
+  ScriptedOperation unsure({"L4", "L5"}, options);
+  unsure.finishes_every_screw();
+  unsure.touches({0.02, 0.030, 0.00});
+  unsure.touches({0.02, 0.032, 0.04});
+  EXPECT_FALSE(state<HeadsSoFar>(unsure.pair())->touch_again) << "two heads: any straight rod";
+  const Guidance& g = unsure.touches({0.02, 0.036, 0.08});
+  ASSERT_TRUE(g.rods[0].expected);
+  EXPECT_LT(g.rods[0].expected->within, 0.95);
+  EXPECT_TRUE(state<HeadsSoFar>(g)->touch_again);
+  s.touches({0.02, 0.030, 0.00});
+  s.touches({0.02, 0.032, 0.04});
+  const Guidance& sure = s.touches({0.02, 0.036, 0.08});
+  ASSERT_TRUE(sure.rods[0].expected);
+  EXPECT_GT(sure.rods[0].expected->within, g.rods[0].expected->within);
+}
+
 TEST_F(RodSession, DropsTheLastHead) {
   s.touches({0.02, 0.03, 0.00});
   s.touches({0.02, 0.03, 0.04});

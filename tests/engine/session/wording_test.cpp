@@ -74,6 +74,11 @@ TEST(Wording, SaysHowAStepStands) {
   EXPECT_EQ(line_with(HeadsSoFar{2}), "2 heads");
   EXPECT_EQ(line_with(HeadsSoFar{4, 0.15236, 3}), "4 heads, cut to 152.4 mm, 3 bends");
   EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1}), "3 heads, cut to 90.0 mm, 1 bend");
+  EXPECT_EQ(line_with(HeadsSoFar{1, {}, 0, HeadTouch{0, {}, 0.0001, 1, 0.00034}}),
+            "1 head; head 1: 1 touch, ± 0.3 mm");
+  EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1, HeadTouch{1, {}, 0.0001, 3, 0.00041}, 0}),
+            "3 heads, cut to 90.0 mm, 1 bend; head 2: 3 touches, ± 0.4 mm; 1.0 mm not sure: touch "
+            "head 1 again");
   nav::CheckVerdict verdict;
   verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};
   EXPECT_EQ(line_with(ChecksSoFar{0.0008, 1, -0.0007, &verdict}),
@@ -201,10 +206,10 @@ TEST(Wording, PutsTheLineTogether) {
   line.state = HeadsSoFar{1};
   text.clear();
   append_status(text, line);
-  EXPECT_EQ(text, "guide L4 left | 1 heads | heard: next? not sure");
+  EXPECT_EQ(text, "guide L4 left | 1 head | heard: next? not sure");
   text.clear();
   append_without_heard(text, line);
-  EXPECT_EQ(text, "guide L4 left | 1 heads");
+  EXPECT_EQ(text, "guide L4 left | 1 head");
 }
 
 }  // namespace

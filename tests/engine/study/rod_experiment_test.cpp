@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "base/angle.h"
-#include "engine/study/rod_in_hand.h"
 
 namespace orthonav::engine {
 namespace {
@@ -23,6 +22,7 @@ RodExperimentOptions flawless_bending() {
   o.head_pick_m = o.navigation_m = o.perception_m = o.length_reading_m = 0.0;
   o.eye_length_sd = o.eye_overbend_rad_per_m = o.eye_bend_sd = o.eye_place_m = 0.0;
   o.recovery_error = o.cutting_m = o.placing_m = 0.0;
+  o.socket_seating_m = o.neighbour_navigation_m = o.placing_by_marks_m = 0.0;
   o.pace_sd = o.durations.scatter = 0.0;
   return o;
 }
@@ -138,9 +138,19 @@ RodExperimentOptions flawless_following() {
   return o;
 }
 
-/// The tolerance of the instructions at a seat, plus the sagitta of the chords that approximate
-/// arcs.
-constexpr double kPromised_m = 0.3e-3 + 0.03e-3;
+/// The last tolerance of the instructions at a seat, plus the sagitta of the chords that
+/// approximate arcs.
+constexpr double kPromised_m = 0.5e-3 + 0.03e-3;
+
+/// The mean time of a rod bent as instructed, without scatter.
+double time_of_steps_s(const RodExperimentOptions& options, const InstructedRod& rod) {
+  const bool long_rod = rod.rod.heads >= options.long_rod_heads;
+  const auto heads = static_cast<double>(rod.rod.heads);
+  const auto bends = static_cast<double>(rod.bends.value());
+  const double strokes = *rod.bends >= options.measured_from_bends ? bends - 1.0 : 0.0;
+  return heads * (long_rod ? 7.3 + 3.0 : 7.3) +
+         options.pace * (20.0 + 30.0 + 5.0 + bends * (5.0 + 20.0) + strokes * 10.0 + 25.0);
+}
 
 TEST(InstructedRods, ReachEveryHeadWithoutFlawsInTheTimeOfTheirSteps) {
   const RodExperimentOptions options = flawless_following();
@@ -153,19 +163,15 @@ TEST(InstructedRods, ReachEveryHeadWithoutFlawsInTheTimeOfTheirSteps) {
     }
     EXPECT_LE(rod.off_touched_m, kPromised_m);
     EXPECT_LE(rod.off_heads_m, kPromised_m);
-    const auto bends = static_cast<double>(*rod.bends);
-    const double strokes = bends > 0.0 ? bends - 1.0 : 0.0;
-    EXPECT_NEAR(rod.rod.time_s,
-                static_cast<double>(rod.rod.heads) * 7.3 +
-                    options.pace * (20.0 + 30.0 + bends * (5.0 + 20.0) + strokes * 10.0 + 25.0),
-                1e-9);
+    EXPECT_NEAR(rod.rod.time_s, time_of_steps_s(options, rod), 1e-9);
   }
-  EXPECT_LE(found.refused, 4U);
+  EXPECT_LE(found.refused, 1U);
 }
 
 TEST(InstructedRods, MeasuringMakesUpForBendsThatCameOutWrong) {
   RodExperimentOptions options = flawless_following();
   options.rods = 12;
+  options.measured_from_bends = 2;
   options.bender_setting_rad = 3.0 * kRadiansPerDegree;
   // A lordosis of six heads that are set off sideways: some bends, in several planes.
   constexpr std::array<double, 6> kAside_m = {0.0, 0.0015, -0.001, 0.002, -0.0005, 0.001};
@@ -185,8 +191,49 @@ TEST(InstructedRods, MeasuringMakesUpForBendsThatCameOutWrong) {
   EXPECT_LT(farthest_m(true), farthest_m(false));
 }
 
+InstructedRods bent_with(const RodExperimentOptions& options) {
+  return run_instructed_rods(options, 11);
+}
+
+/// Each of the parts that bring a rod to the true heads, left out.
+TEST(InstructedRods, LieInTheTrueHeadsBecauseOfEachPart) {
+  RodExperimentOptions options;
+  options.rods = 40;
+  const InstructedRods designed = bent_with(options);
+  EXPECT_GE(designed.within_of_heads, 34U);
+  EXPECT_EQ(designed.arm.right_lengths, 40U);
+  EXPECT_NEAR(designed.expected_within, 0.95, 0.05) << "and that was said before";
+
+  RodExperimentOptions on_top = options;
+  on_top.in_socket = false;
+  EXPECT_LT(bent_with(on_top).within_of_heads, designed.within_of_heads / 2);
+  RodExperimentOptions unsure = options;
+  unsure.socket_seating_m = 0.0008;
+  const InstructedRods once = bent_with(unsure);
+  unsure.head_touches = unsure.long_rod_touches = 8;
+  EXPECT_GT(bent_with(unsure).within_of_heads, once.within_of_heads) << "touched again";
+  RodExperimentOptions unmarked = options;
+  unmarked.placing_m = 0.002;
+  unmarked.ends_marked = false;
+  EXPECT_LT(bent_with(unmarked).arm.right_lengths, 40U);
+}
+
+TEST(InstructedRods, TouchesDoNotChangeTheOtherArms) {
+  RodExperimentOptions options;
+  const RodExperiment before = run_rod_experiment(options, 7);
+  options.in_socket = false;
+  options.socket_seating_m = options.neighbour_navigation_m = 0.002;
+  options.head_touches = options.long_rod_touches = 9;
+  options.ends_marked = false;
+  const RodExperiment after = run_rod_experiment(options, 7);
+  EXPECT_EQ(times_of(before.with_template), times_of(after.with_template));
+  EXPECT_EQ(times_of(before.control), times_of(after.control));
+  EXPECT_EQ(before.with_template.right_lengths, after.with_template.right_lengths);
+}
+
 TEST(InstructedRods, AreBentWithTheTemplateWhereThereAreNoInstructions) {
   RodExperimentOptions options;
+  options.in_socket = false;     // the same touches as with the template
   options.bend_width_m = 0.045;  // longer than what the heads leave free
   const InstructedRods found = run_instructed_rods(options, 7);
   EXPECT_EQ(found.refused, 18U);
@@ -220,43 +267,6 @@ TEST(RodExperimentOptions, SaysEverythingThatIsWrong) {
   EXPECT_THAT(options.check(), ElementsAre(HasSubstr("14.0 mm apart, at least 15 mm")));
   options.heads_m.resize(1);
   EXPECT_THAT(options.check(), ElementsAre(HasSubstr("at least 2 screw heads")));
-}
-
-TEST(RodInHand, LiesInItsSeatsWhereverItIsHeld) {
-  const std::vector<Vec3> seats = {{0, 0, 0}, {0.004, 0, 0.035}, {0, 0.008, 0.07}, {0, 0, 0.1}};
-  const Mat3 rotation = rotation_from_vector({0.05, -0.04, 0.08});
-  std::vector<Vec3> held;
-  std::transform(seats.begin(), seats.end(), std::back_inserter(held), [&](Vec3 seat) {
-    return rotation * seat + Vec3{0.001, 0.002, -0.001};
-  });
-  RodInHand rod = RodInHand::straight(held);
-  for (std::size_t i = 1; i + 1 < held.size(); ++i) {
-    rod.bend(i, rod_rotation_rad(rod.chord_m(i), held[i + 1] - rod.places_m()[i]));
-  }
-  const RodLie lie = rod.lay_on(seats);
-  EXPECT_LT(lie.largest_m, 1e-4);  // closest points creep along the rod; 0.1 mm is touching
-}
-
-TEST(RodInHand, FindsTheWrongBendOfARodWithOtherPlaces) {
-  const std::vector<Vec3> seats = {{0, 0, 0}, {0, 0, 0.03}, {0, 0, 0.06}, {0, 0, 0.09}};
-  const RodInHand rod =
-      RodInHand::along({{0, 0, -0.005}, {0, 0, 0.02}, {0, 0, 0.058}, {0, -0.0035, 0.095}});
-  const RodCorrection worst = rod.worst_bend_near(seats);
-  EXPECT_EQ(worst.joint, 2U);
-  EXPECT_GT(-worst.rotation_rad.x, 0.05);
-  EXPECT_NEAR(worst.rotation_rad.y, 0.0, 1e-12);
-}
-
-TEST(RodInHand, FindsTheBendThatIsWrongAndItsAngle) {
-  const std::vector<Vec3> seats = {{0, 0, 0}, {0, 0, 0.03}, {0, 0, 0.06}, {0, 0, 0.09}};
-  RodInHand rod = RodInHand::straight(seats);
-  rod.bend(2, {0.1, 0.0, 5.0});  // the turn about the rod itself does nothing
-  EXPECT_LT(
-      (rod.places_m()[3] - Vec3{0, -0.03 * std::sin(0.1), 0.06 + 0.03 * std::cos(0.1)}).norm(),
-      1e-15);
-  const RodCorrection worst = rod.worst_bend(seats);
-  EXPECT_EQ(worst.joint, 2U);
-  EXPECT_LT((worst.rotation_rad - Vec3{-0.1, 0, 0}).norm(), 1e-12);
 }
 
 }  // namespace

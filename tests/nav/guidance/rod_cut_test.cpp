@@ -63,7 +63,12 @@ TEST(RodCut, TakesTheSeatOfEachHeadWhereTheyDiffer) {
   EXPECT_NEAR(cut->seats_m[3].y, 0.0, 1e-12);
   seating.each_head_to_seat_m = {0.006};
   EXPECT_THAT(refusal(straight_rod(), to_bone, seating), HasSubstr("1 distances to a seat"));
-  seating.each_head_to_seat_m = {0.006, 0.006, -0.001, 0.006};
+  // Touched in the drive socket: the rod lies above it, away from the bone.
+  seating.each_head_to_seat_m = {0.006, 0.006, -0.004, 0.006};
+  const auto above = rod_cut(straight_rod(), to_bone, seating);
+  ASSERT_TRUE(above.ok()) << above.error().message;
+  EXPECT_NEAR(above->seats_m[2].y, 0.004, 1e-12);
+  seating.each_head_to_seat_m = {0.006, 0.006, -0.0151, 0.006};
   EXPECT_THAT(refusal(straight_rod(), to_bone, seating), HasSubstr("distance from head to seat"));
 }
 
@@ -104,16 +109,16 @@ TEST(RodCut, KeepsItsLengthWhenEverythingIsTurnedAndMoved) {
 TEST(RodCut, TakesItsLimitsAndRefusesWhatIsJustBeyond) {
   const RodTemplate rod = straight_rod();
   const std::vector<Vec3> to_bone(4, kAnterior);
-  EXPECT_TRUE(rod_cut(rod, to_bone, {0.0, 0.0}).ok());
+  EXPECT_TRUE(rod_cut(rod, to_bone, {-0.015, 0.0}).ok());
   EXPECT_TRUE(rod_cut(rod, to_bone, {0.03, 0.05}).ok());
   EXPECT_EQ(refusal(rod, to_bone, {0.006, 0.0501}),
             "overhang of the rod is 50.1 mm, limit 0-50 mm");
   EXPECT_EQ(refusal(rod, to_bone, {0.006, -0.001}),
             "overhang of the rod is -1.0 mm, limit 0-50 mm");
   EXPECT_EQ(refusal(rod, to_bone, {0.0302, 0.0}),
-            "distance from head to seat is 30.2 mm, limit 0-30 mm");
-  EXPECT_EQ(refusal(rod, to_bone, {-0.0002, 0.0}),
-            "distance from head to seat is -0.2 mm, limit 0-30 mm");
+            "distance from head to seat is 30.2 mm, limit -15 to 30 mm");
+  EXPECT_EQ(refusal(rod, to_bone, {-0.0152, 0.0}),
+            "distance from head to seat is -15.2 mm, limit -15 to 30 mm");
 }
 
 TEST(RodCut, RefusesWhatIsNotFinite) {

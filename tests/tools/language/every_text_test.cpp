@@ -99,7 +99,10 @@ TEST_F(EveryText, OfTheStatesIsTranslated) {
   const PlacedWire within = wire_off(0.8, 0.0006);
   expect_shown(WireSoFar{&within});
   expect_shown(WireSoFar{});
+  expect_shown(HeadsSoFar{1});
   expect_shown(HeadsSoFar{3, 0.09, 1});
+  expect_shown(HeadsSoFar{3, 0.09, 1, HeadTouch{0, {}, 0.0001, 1, 0.0004}, 2});
+  expect_shown(HeadsSoFar{3, 0.09, 1, HeadTouch{0, {}, 0.0001, 2, 0.0003}});
   expect_shown(HeadsSoFar{4, 0.15, 3});
 }
 

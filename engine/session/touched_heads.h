@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/transform.h"
+#include "engine/session/message.h"
+#include "nav/registration/pressed_places.h"
+
+namespace orthonav::engine {
+
+/// Which touches belong to one screw head, and how sure its place is.
+struct HeadTouchRules {
+  /// A touch nearer to a head than this belongs to it. Neighbouring heads are 15 mm apart or more;
+  /// no touch errs by half of that.
+  double same_head_m = 0.0075;
+  /// SD along an axis of the pointer's ball in the drive socket of a screw (docs/rods.md). Estimate
+  /// (0.2 to 0.5 mm).
+  double seating_sd_m = 0.0003;
+  /// SD along an axis of what tracking adds to one head and not to its neighbours; touching again
+  /// does not take it away. Measured on the headset's map (0.37 mm) and with a patient reference
+  /// (0.11 mm, 0.14 with a tip that is off by 0.5 mm and held 10° differently).
+  double tracking_sd_m = 0.00037;
+  double tracking_sd_anchored_m = 0.00015;
+  /// The limit in SDs along an axis of the distance of a touch from the others of its head: one
+  /// touch in 200 exceeds it (chi-squared with three degrees of freedom).
+  double sds = 3.583;
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+/// One touch of a head, and what is known of the head with it.
+struct HeadTouch {
+  std::size_t head = 0;     ///< which one, in order of first touch, from 0
+  Point<World> place;       ///< of this touch
+  double sd_m = 0.0;        ///< of its tips' mean, along an axis
+  std::size_t touches = 0;  ///< of the head
+  double head_sd_m = 0.0;   ///< standard error of the head's place, along an axis
+};
+
+/// The screw heads of one rod: each is the mean of its touches.
+class TouchedHeads {
+ public:
+  TouchedHeads() = default;
+  TouchedHeads(HeadTouchRules rules, bool anchored) : rules_(rules), anchored_(anchored) {}
+
+  /// Records a touch: of a new head, or once more of one nearby. Refused if it is farther from the
+  /// other touches of its head than they scatter.
+  [[nodiscard]] std::variant<HeadTouch, TouchRefusal> add(const nav::PressedPlace& touched);
+  /// Takes the last touch back, and its head with it if it was the only one. Returns it as it was
+  /// recorded; nothing if there is none.
+  std::optional<HeadTouch> drop_last();
+
+  [[nodiscard]] bool empty() const { return touches_.empty(); }
+  [[nodiscard]] std::size_t heads() const { return heads_; }
+  /// The places of the heads, in order of first touch.
+  [[nodiscard]] std::vector<Point<World>> places() const;
+  /// How often a head was touched.
+  [[nodiscard]] std::size_t touches_of(std::size_t head) const;
+  /// Standard error of a head's place along an axis: from the scatter of its touches, in which the
+  /// SD stated for one touch counts as much as three of them, and from tracking.
+  [[nodiscard]] double sd_m(std::size_t head) const;
+  /// The newest touch; requires one.
+  [[nodiscard]] HeadTouch last() const;
+
+ private:
+  struct OneTouch {
+    std::size_t head = 0;
+    nav::PressedPlace at;
+  };
+  [[nodiscard]] Point<World> place_of(std::size_t head) const;
+  /// The stated SD of one touch of that head.
+  [[nodiscard]] double stated_sd_m(std::size_t head) const;
+  [[nodiscard]] std::optional<std::size_t> head_near(Point<World> place) const;
+  [[nodiscard]] double tracking_sd_m() const {
+    return anchored_ ? rules_.tracking_sd_anchored_m : rules_.tracking_sd_m;
+  }
+
+  HeadTouchRules rules_;
+  bool anchored_ = false;
+  std::vector<OneTouch> touches_;  ///< in order
+  std::size_t heads_ = 0;
+};
+
+}  // namespace orthonav::engine
