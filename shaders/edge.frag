@@ -20,8 +20,15 @@ float difference(vec3 a, vec3 b) {
   return max(max(off.r, off.g), off.b);
 }
 
-vec3 continued(vec3 near, vec3 far, float by) {
-  return clamp(near + by * (near - far), 0.5 * near, min(2.0 * near, 1.0));
+float sum(vec3 c) { return c.r + c.g + c.b; }
+
+// The colour of a surface `at_px` from its edge, from that of a pixel `near_px` from it and that of
+// the next one behind. On a round surface the cosine between normal and eye grows as the root of
+// the distance from the edge. `far` may belong to another surface, so the hue is kept.
+vec3 continued(vec3 near, vec3 far, float near_px, float at_px) {
+  float grown = 1.0 - sum(far) / max(sum(near), 1e-3);
+  float by = (sqrt(near_px) - sqrt(at_px)) / (sqrt(near_px + 1.0) - sqrt(near_px));
+  return min(near * clamp(1.0 + by * grown, 0.5, 2.0), 1.0);
 }
 
 // A pixel that a surface's edge cuts is a blend of its own colour and, in proportion to the part
@@ -47,15 +54,20 @@ void main() {
       next = back;
     }
   }
-  // An invisible edge must not undo what another one did.
-  if (other * difference(own, next) < kLeast) discard;
+  // Several edges may cut one pixel, some of them hidden: the depth test keeps the one that changes
+  // the pixel most. Whatever is farther than twice the near plane lies behind all of them.
+  float change = other * difference(own, next);
+  if (change < kLeast) discard;
+  gl_FragDepth = 0.5 * (1.0 - change);
   // Shading changes fastest at a surface's edge, so it is extrapolated from the surface's two
   // nearest pixels to the middle of its part of this pixel. The surface lies to the left of its
   // edge.
   bool outside = along.y * float(beside.x) > along.x * float(beside.y);
   vec3 inner = drawn_at(outside ? pixel + 2 * beside : pixel - beside);
-  float by = (outside ? 0.75 : 0.25) - 0.5 * abs(off);
-  colour = vec4(outside ? mix(own, continued(next, inner, by), other)
-                        : mix(continued(own, inner, by), next, other),
+  float distance_px = min(abs(off), 0.5);
+  float near_px = outside ? 1.0 - distance_px : distance_px;
+  float middle_px = outside ? 0.25 - 0.5 * distance_px : 0.25 + 0.5 * distance_px;
+  colour = vec4(outside ? mix(own, continued(next, inner, near_px, middle_px), other)
+                        : mix(continued(own, inner, near_px, middle_px), next, other),
                 1);
 }

@@ -36,7 +36,7 @@ void main() {
   float span = distance(ends.a.xy, ends.b.xy);
   float depth_a = ends.a.z / ends.a.w;
   float depth_b = ends.b.z / ends.b.w;
-  float at = (first ? -ahead * reach : span + ahead * reach) / (span + 0.4 * ends.radius_b);
+  float at = (first ? -ahead * reach : span + ahead * reach) / (span + 0.5 * ends.radius_b);
   float depth = span > 0.0 ? clamp(mix(depth_a, depth_b, at), 0.0, 1.0) : depth_a;
   vec2 at_px = (first ? ends.a.xy : ends.b.xy) + reach * offset;
   gl_Position = vec4(2.0 * at_px / frame.target.xy - 1.0, depth, 1);

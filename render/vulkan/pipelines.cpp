@@ -1,5 +1,7 @@
 #include "render/vulkan/pipelines.h"
 
+#include <array>
+#include <cstddef>
 #include <cstring>
 #include <string_view>
 #include <vector>
@@ -131,8 +133,14 @@ struct States {
   States& operator=(const States&) = delete;
 };
 
-/// The first constant of the fragment shaders; those without constants take no notice.
-constexpr VkSpecializationMapEntry kFirstConstant = {0, 0, sizeof(VkBool32)};
+/// The constants of the fragment shaders; those without constants take no notice.
+struct ShaderConstants {
+  VkBool32 has_background = VK_FALSE;
+  VkBool32 mean_light = VK_FALSE;
+};
+constexpr std::array<VkSpecializationMapEntry, 2> kConstants = {
+    {{0, offsetof(ShaderConstants, has_background), sizeof(VkBool32)},
+     {1, offsetof(ShaderConstants, mean_light), sizeof(VkBool32)}}};
 
 VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
   VkPipelineShaderStageCreateInfo info = {};
@@ -148,9 +156,9 @@ Pipeline make_pipeline(const Device& device, VkPipelineCache cache, VkPipelineLa
   const ShaderModule vertex = make_module(device.get(), recipe.vertex);
   const ShaderModule fragment =
       recipe.fragment.empty() ? ShaderModule() : make_module(device.get(), recipe.fragment);
-  const VkBool32 has_background = recipe.has_background;
-  const VkSpecializationInfo constants = {1, &kFirstConstant, sizeof(has_background),
-                                          &has_background};
+  const ShaderConstants values = {recipe.has_background, recipe.mean_light};
+  const VkSpecializationInfo constants = {kConstants.size(), kConstants.data(), sizeof(values),
+                                          &values};
   std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
       stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex.get()),
       stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get())};

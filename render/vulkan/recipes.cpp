@@ -77,6 +77,13 @@ Recipe farthest_recipe() {
   return recipe;
 }
 
+/// Of several edges in one pixel the nearest counts; the shader chooses the depth.
+Recipe edge_recipe() {
+  Recipe recipe = plain_recipe(embedded::edge_vert(), embedded::edge_frag());
+  recipe.depth_test = recipe.depth_write = true;
+  return recipe;
+}
+
 Recipe over_background(Recipe recipe) {
   recipe.has_background = true;
   return recipe;
@@ -116,7 +123,7 @@ Recipe recipe_of(Stage stage, bool labels, bool covers) {
     case Stage::kLineFill:
       return line_fill_recipe();
     case Stage::kEdge:
-      return plain_recipe(embedded::edge_vert(), embedded::edge_frag());
+      return edge_recipe();
     case Stage::kText:
     case Stage::kCount:
       break;
@@ -167,7 +174,9 @@ Recipe recipe_of(Stage stage, const TargetSpec& spec) {
   if (spec.kind == PassKind::kDepth) {
     return depth_recipe_of(stage);
   }
-  return recipe_of(stage, spec.kind == PassKind::kLabels, spec.covers());
+  Recipe recipe = recipe_of(stage, spec.kind == PassKind::kLabels, spec.covers());
+  recipe.mean_light = spec.edges != Edges::kHard;
+  return recipe;
 }
 
 }  // namespace orthonav::render

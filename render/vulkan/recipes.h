@@ -42,7 +42,8 @@ struct Recipe {
   bool depth_write = false;
   VkCompareOp depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
   bool stencil = false;
-  bool has_background = false;  ///< for the shader
+  bool has_background = false;  ///< for the shader, as the next
+  bool mean_light = false;      ///< of a rim over each pixel, not the light at its centre
 };
 
 /// Whether frames of this kind have the stage.
