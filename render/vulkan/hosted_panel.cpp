@@ -46,7 +46,7 @@ Status HostedVulkanRenderer::draw_panel(const Scene& scene, const View& view, st
         return taken;
       }
       drawing_.build(scene, panel_view_, {images_.panel.width_px, images_.panel.height_px},
-                     PassKind::kColour);
+                     PassKind::kColour, {0, 1});
       record_panel(view, index);
       drawing_.slot().commands.submit();
       return {};

@@ -220,7 +220,7 @@ Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& v
       return Error{"renderer: no such images of the host's"};
     }
     drawing_.build(scene, views, {images_.width_px, images_.height_px}, PassKind::kColour,
-                   head_texts);
+                   {0, views.size()}, head_texts);
     record(views, indices);
     timing_.record_ms = watch.elapsed_ms();
     drawing_.slot().commands.submit();

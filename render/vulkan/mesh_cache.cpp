@@ -105,9 +105,13 @@ std::size_t GpuMesh::level_within(float error) const {
   return level;
 }
 
+bool MeshCache::Entry::is_of(const std::shared_ptr<const MeshData>& other) const {
+  return address == other.get() && !mesh.owner_before(other) && !other.owner_before(mesh);
+}
+
 const GpuMesh* MeshCache::find(const std::shared_ptr<const MeshData>& mesh) const {
   for (const Entry& entry : entries_) {
-    if (entry.mesh == mesh) {
+    if (entry.is_of(mesh)) {
       return &entry.copy;
     }
   }
@@ -116,7 +120,7 @@ const GpuMesh* MeshCache::find(const std::shared_ptr<const MeshData>& mesh) cons
 
 bool MeshCache::touch(const std::shared_ptr<const MeshData>& mesh) {
   for (Entry& entry : entries_) {
-    if (entry.mesh != mesh) {
+    if (!entry.is_of(mesh)) {
       continue;
     }
     entry.idle_frames = 0;
@@ -131,6 +135,7 @@ Status MeshCache::add(const Device& device, Commands& commands,
     return checked;
   }
   Entry entry;
+  entry.address = mesh.get();
   entry.mesh = mesh;
   entry.copy = copy_of(device, commands, *mesh, detail);
   entries_.push_back(std::move(entry));
@@ -143,7 +148,7 @@ void MeshCache::end_frame() {
   }
   std::erase_if(entries_, [this](const Entry& entry) {
     const bool drawing = entry.idle_frames <= frames_in_flight_;
-    return !drawing && (entry.mesh.use_count() == 1 || entry.idle_frames > kMostIdleFrames);
+    return !drawing && (entry.mesh.expired() || entry.idle_frames > kMostIdleFrames);
   });
 }
 

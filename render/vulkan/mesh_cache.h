@@ -38,9 +38,8 @@ struct GpuMesh {
   [[nodiscard]] std::size_t level_within(float error) const;
 };
 
-/// Device copies of meshes, keyed by pointer. A copy is dropped when only the cache still holds the
-/// mesh, or when it was not drawn for a while. Until then the cache keeps the mesh alive, so that a
-/// pointer never stands for two meshes.
+/// Device copies of meshes, keyed by pointer. A copy is dropped when nobody holds the mesh any
+/// more, or when it was not drawn for a while.
 class MeshCache {
  public:
   /// `frames_in_flight`: how many may still be drawing when a frame ends; their copies are not
@@ -61,7 +60,11 @@ class MeshCache {
 
  private:
   struct Entry {
-    std::shared_ptr<const MeshData> mesh;
+    /// Not of a new mesh that lies at the address of an old one.
+    [[nodiscard]] bool is_of(const std::shared_ptr<const MeshData>& other) const;
+
+    const MeshData* address = nullptr;
+    std::weak_ptr<const MeshData> mesh;
     GpuMesh copy;
     int idle_frames = 0;
   };

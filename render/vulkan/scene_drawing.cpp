@@ -218,7 +218,7 @@ Status SceneDrawing::take(const Scene& scene) {
 }
 
 void SceneDrawing::build(const Scene& scene, const std::vector<View>& views, PixelSize size,
-                         PassKind kind, HeadTexts head_texts) {
+                         PassKind kind, DrawnViews drawn, HeadTexts head_texts) {
   const float rad = pixel_rad(views, size);
   items_.build(scene, views, font_, kUnseen_px * rad, head_texts);
   items_.set_levels([&](const MeshItem& item) {
@@ -229,14 +229,14 @@ void SceneDrawing::build(const Scene& scene, const std::vector<View>& views, Pix
   edges_.clear();
   edges_of_view_ = {};
   if (kind == PassKind::kColour && covers()) {
-    find_edges(views, size);
+    find_edges(views, size, drawn);
   }
   prepare_data();
 }
 
-void SceneDrawing::find_edges(const std::vector<View>& views, PixelSize size) {
+void SceneDrawing::find_edges(const std::vector<View>& views, PixelSize size, DrawnViews drawn) {
   const auto number = [](std::size_t count) { return static_cast<std::uint32_t>(count); };
-  for (std::size_t i = 0; i < views.size(); ++i) {
+  for (std::size_t i = drawn.first; i < drawn.first + drawn.count; ++i) {
     const std::uint32_t first = number(edges_.size());
     for (const auto* meshes : {&items_.translucent_meshes(), &items_.solids()}) {
       for (const MeshDraw& draw : *meshes) {

@@ -29,6 +29,12 @@ struct FrameSlot {
   Buffer line_indices;  ///< for as many segments as any frame needed so far
 };
 
+/// Which of a frame's views are drawn.
+struct DrawnViews {
+  std::size_t first = 0;
+  std::size_t count = kMostViews;
+};
+
 /// The common part of drawing into own images and into a host's: a scene is checked, its meshes are
 /// uploaded, and it is laid out and written where the shaders read it. Frames alternate between the
 /// slots. After the first frames it allocates nothing.
@@ -72,10 +78,10 @@ class SceneDrawing {
   [[nodiscard]] Status take(const Scene& scene);
   /// Whether colour is drawn with computed coverage.
   [[nodiscard]] bool covers() const { return drawn_edges(options_) == Edges::kCoverage; }
-  /// Lays the scene out for a pass over these views in images of this size, into the current slot;
-  /// the edges of its meshes too, where the pass smooths them.
+  /// Lays the scene out for these views in images of this size, into the current slot, and finds
+  /// the edges of its meshes in those that are `drawn`, where the pass smooths them.
   void build(const Scene& scene, const std::vector<View>& views, PixelSize size, PassKind kind,
-             HeadTexts head_texts = HeadTexts::kDrawn);
+             DrawnViews drawn, HeadTexts head_texts = HeadTexts::kDrawn);
   /// The edges of the pass whose first view is `first`.
   [[nodiscard]] EdgeRanges edges(std::size_t first) const {
     return {edges_of_view_[first], edges_of_view_[(first + 1) % kMostViews]};
@@ -95,7 +101,7 @@ class SceneDrawing {
 
  private:
   void upload_atlas();
-  void find_edges(const std::vector<View>& views, PixelSize size);
+  void find_edges(const std::vector<View>& views, PixelSize size, DrawnViews drawn);
   void prepare_data();
   Status add_mesh(const MeshItem& item, const std::string& name);
   void note(std::string line);

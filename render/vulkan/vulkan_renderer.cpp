@@ -119,7 +119,7 @@ Status VulkanRenderer::draw_into(std::vector<Picture>& pictures, PassKind kind, 
   for (Picture& picture : pictures) {
     resize(picture, options_.width_px, options_.height_px);
   }
-  submit(kind, scene, views, backgrounds);
+  submit(kind, {scene, views, backgrounds}, {0, views.size()});
   // Nothing throws between submitting a frame and waiting for it.
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     fill_picture(pictures[i], i);
@@ -132,23 +132,28 @@ Status VulkanRenderer::draw_into(std::vector<Picture>& pictures, PassKind kind, 
   return {};
 }
 
-/// Turns exceptions into Errors, and ends the frame for the mesh cache however it ended.
+/// Turns exceptions into Errors.
 template <class Work>
-Status VulkanRenderer::attempt(const Work& work) {
-  const Stopwatch watch;
-  phase_ = watch;
-  timing_ = {};
-  Status drawn;
+Status VulkanRenderer::guarded(const Work& work) {
   try {
-    drawn = work();
+    return work();
   } catch (const std::exception&) {
     Error error = error_in_flight();
     lost_ = lost_ || drawing_.lost() || error.code == ErrorCode::kLost;
     if (lost_) {
       error.code = ErrorCode::kLost;
     }
-    drawn = error;
+    return error;
   }
+}
+
+/// Ends the frame for the mesh cache however it ended.
+template <class Work>
+Status VulkanRenderer::attempt(const Work& work) {
+  const Stopwatch watch;
+  phase_ = watch;
+  timing_ = {};
+  const Status drawn = guarded(work);
   drawing_.end_frame();
   timing_.total_ms = watch.elapsed_ms();
   return drawn;
@@ -163,6 +168,35 @@ Status VulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
                        fill(image, backgrounds.empty() ? nullptr : backgrounds[i]);
                      });
   });
+}
+
+Status VulkanRenderer::begin_eye(const EyeFrame& frame, std::size_t eye, RgbaImage& image) {
+  phase_ = Stopwatch();
+  timing_ = {};
+  const Status begun = guarded([&]() -> Status {
+    if (const Status taken = take_input(frame.scene, frame.views, frame.backgrounds); !taken) {
+      return taken;
+    }
+    resize(image, options_.width_px, options_.height_px);
+    submit(PassKind::kColour, frame, {eye, 1});
+    return {};
+  });
+  if (!begun) {
+    drawing_.end_frame();
+  }
+  return begun;
+}
+
+Status VulkanRenderer::end_eye(const EyeFrame& frame, std::size_t eye, RgbaImage& image) {
+  const Status ended = guarded([&]() -> Status {
+    fill(image, frame.backgrounds.empty() ? nullptr : frame.backgrounds[eye]);
+    finish();
+    take(readback_.mapped() + eye * image_bytes(), drawn_[eye], image);
+    timing_.read_ms = phase_.elapsed_ms();
+    return {};
+  });
+  drawing_.end_frame();
+  return ended;
 }
 
 Status VulkanRenderer::draw_labels(const Scene& scene, const std::vector<View>& views,

@@ -12,6 +12,13 @@
 
 namespace orthonav::render {
 
+/// What one eye's part of a frame is drawn from; nothing here is owned.
+struct EyeFrame {
+  const Scene& scene;
+  const std::vector<View>& views;  ///< of both eyes
+  const std::vector<const RgbaImage*>& backgrounds;
+};
+
 /// Draws one frame at a time to completion, with buffers that it reuses.
 class VulkanRenderer final : public Renderer {
  public:
@@ -26,6 +33,11 @@ class VulkanRenderer final : public Renderer {
               std::vector<RgbaImage>& images) override;
   Status draw_labels(const Scene& scene, const std::vector<View>& views,
                      std::vector<LabelImage>& images) override;
+  /// Begins to draw one eye's image of a frame. Without an Error, `end_eye` must follow with the
+  /// same frame and image before anything else is drawn.
+  Status begin_eye(const EyeFrame& frame, std::size_t eye, RgbaImage& image);
+  /// Waits for the image that was begun.
+  Status end_eye(const EyeFrame& frame, std::size_t eye, RgbaImage& image);
   [[nodiscard]] const DeviceInfo& device() const override { return info_; }
   [[nodiscard]] FrameTiming last_timing() const override { return timing_; }
   [[nodiscard]] const std::vector<std::string>& validation_messages() const override {
@@ -36,14 +48,15 @@ class VulkanRenderer final : public Renderer {
  private:
   template <class Work>
   Status attempt(const Work& work);
+  template <class Work>
+  Status guarded(const Work& work);
   /// Fills the pictures with what is behind the holograms while the device draws.
   template <class Picture, class Fill>
   Status draw_into(std::vector<Picture>& pictures, PassKind kind, const Scene& scene,
                    const std::vector<View>& views, const std::vector<const RgbaImage*>& backgrounds,
                    const Fill& fill_picture);
   /// What was taken.
-  void submit(PassKind kind, const Scene& scene, const std::vector<View>& views,
-              const std::vector<const RgbaImage*>& backgrounds);
+  void submit(PassKind kind, const EyeFrame& frame, DrawnViews drawn);
   /// Waits for what was submitted.
   void finish();
   /// Checks everything and uploads the scene's meshes.

@@ -44,16 +44,17 @@ void VulkanRenderer::record_pass(VkCommandBuffer batch, PassKind kind, std::span
                        drawing_.edges(first), drawn_so_far_.get()});
 }
 
-void VulkanRenderer::submit(PassKind kind, const Scene& scene, const std::vector<View>& views,
-                            const std::vector<const RgbaImage*>& backgrounds) {
-  drawing_.build(scene, views, size(), kind);
-  const std::size_t at_once = std::min(views.size(), drawing_.views_a_pass());
+void VulkanRenderer::submit(PassKind kind, const EyeFrame& frame, DrawnViews drawn) {
+  drawing_.build(frame.scene, frame.views, size(), kind, drawn);
   Commands& commands = drawing_.slot().commands;
   const VkCommandBuffer batch = commands.begin();
-  for (std::size_t first = 0; first < views.size(); first += at_once) {
-    const std::span<const RgbaImage* const> behind(backgrounds);
-    record_pass(batch, kind, std::span(views).subspan(first, at_once),
-                behind.empty() ? behind : behind.subspan(first, at_once), first);
+  const std::size_t end = drawn.first + drawn.count;
+  for (std::size_t first = drawn.first; first < end;) {
+    const std::size_t count = std::min(end - first, drawing_.views_a_pass());
+    const std::span<const RgbaImage* const> behind(frame.backgrounds);
+    record_pass(batch, kind, std::span(frame.views).subspan(first, count),
+                behind.empty() ? behind : behind.subspan(first, count), first);
+    first += count;
   }
   timing_.record_ms = phase_.elapsed_ms();
   commands.submit();

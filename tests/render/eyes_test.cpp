@@ -90,6 +90,27 @@ TEST(Eyes, InOnePassHaveTheLabelsThatTheyHaveInTurn) {
   EXPECT_FALSE(compare_labels(expected[0], actual[1]).alike()) << "the twin";
 }
 
+TEST(Eyes, OnADeviceEachSeeWhatTheySeeOnOne) {
+  const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
+  Scene refused = line_scene(0.06f, {-0.1f, 0, -1}, {0.1f, 0, -1});
+  refused.lines[0].width_m = -1;
+  for (const Blend blend : {Blend::kAdditive, Blend::kOver}) {
+    TestRenderer apart(200, 120, blend);
+    TestRenderer on_one(200, 120, blend, Edges::kCoverage, EyesAPass::kOne);
+    std::vector<RgbaImage> expected;
+    std::vector<RgbaImage> actual;
+    for (const Scene& scene :
+         {meshes_and_texts(), line_scene(0.06f, {-0.1f, 0, -1}, {0.1f, 0, -1})}) {
+      ASSERT_TRUE(test::is_ok(on_one->draw(scene, eyes, {}, expected)));
+      EXPECT_FALSE(apart->draw(refused, eyes, {}, actual).ok());
+      ASSERT_TRUE(test::is_ok(apart->draw(scene, eyes, {}, actual)));
+      EXPECT_EQ(actual.at(0).pixels, expected.at(0).pixels);
+      EXPECT_EQ(actual.at(1).pixels, expected.at(1).pixels);
+      EXPECT_NE(actual.at(0).pixels, expected.at(1).pixels) << "the twin";
+    }
+  }
+}
+
 /// Both eyes' labels in one picture, so that a line is found in whichever layer a driver put it.
 LabelImage joined(const std::vector<LabelImage>& layers) {
   LabelImage all = layers.at(0);
