@@ -153,6 +153,24 @@ GoldenScene checked() {
   return golden;
 }
 
+GoldenScene checked_often() {
+  GoldenScene golden = step("verify_many", "the vertebra, small dim places and a green one at last",
+                            kVerify, "check 13: 0.4 mm; passed, worst 1.1 mm");
+  add_bone(golden);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < kPlacesToCheck.size(); ++i) {
+    const Float3 place = kPlacesToCheck[i];
+    const Float3 next = kPlacesToCheck[(i + 1) % kPlacesToCheck.size()];
+    for (const float part : {0.0f, 0.12f, 0.24f, 0.36f}) {
+      add_earlier_check_point(golden.scene, place + part * (next - place),
+                              label_of(HologramKind::kCheckPoint, ++k));
+    }
+  }
+  add_check_point(golden.scene, 0.5f * (kPlacesToCheck[1] + kPlacesToCheck[2]),
+                  distance_text(0.0004), true, label_of(HologramKind::kCheckPoint, ++k));
+  return golden;
+}
+
 GoldenScene accepted() {
   GoldenScene golden =
       step("accepted", "two blue entries, nothing else", kAccepted, "RMSE 0.62 mm");
@@ -221,6 +239,7 @@ void add_step_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(refused());
   scenes.push_back(verifying());
   scenes.push_back(checked());
+  scenes.push_back(checked_often());
   scenes.push_back(accepted());
   scenes.push_back(guide_far());
   scenes.push_back(guidance());

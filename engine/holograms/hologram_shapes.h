@@ -119,6 +119,10 @@ void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
 void add_check_point(render::Scene& scene, render::Float3 position, std::string_view text,
                      bool within, render::Label label);
 
+/// H12: a place that was near enough when touched, but not the newest: small and dim, without its
+/// distance, so that many of them leave the bone visible.
+void add_earlier_check_point(render::Scene& scene, render::Float3 position, render::Label label);
+
 /// H12: a place that is still to be touched.
 void add_place_to_check(render::Scene& scene, render::Float3 position, render::Label label);
 

@@ -129,24 +129,6 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
   }
 }
 
-void SceneBuilder::add_bone(const PlacedLevel& at, std::span<const float> unstroked,
-                            render::Scene& scene) {
-  add_vertebra(scene, tinted_surface_of(*at.level, unstroked),
-               to_matrix(at.world_from_vertebra.row_major()), label_of(HologramKind::kVertebra, 1));
-}
-
-void SceneBuilder::add_check_points(const PlacedLevel& at, std::span<const Point<World>> to_check,
-                                    render::Scene& scene) {
-  std::size_t k = 0;
-  for (const Point<World>& place : to_check) {
-    add_place_to_check(scene, to_float3(place.v), label_of(HologramKind::kCheckPoint, ++k));
-  }
-  for (const nav::CheckPoint& point : at.level->check_points) {
-    add_check_point(scene, to_float3(point.place.v), distance_text(point.distance_m), point.within,
-                    label_of(HologramKind::kCheckPoint, ++k));
-  }
-}
-
 void SceneBuilder::add_entries(render::Scene& scene) {
   std::size_t k = 0;
   for (const PlacedLevel& at : visible_.entries_of) {
