@@ -111,6 +111,7 @@ void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
   if (const auto* refusal = std::get_if<TouchRefusal>(&added)) {
     return work.messages.say(TouchNotRecorded{TouchNotRecorded::What::kHead, *refusal}, time);
   }
+  rod().heads = rod().touched.places();
   bend(work, time);
   work.observer->head_recorded(time, current().side, std::get<HeadTouch>(added));
 }
@@ -119,6 +120,11 @@ void RodTemplating::drop_head(OperationInWork& work, Timestamp time) {
   const auto dropped = rod().touched.drop_last();
   if (!dropped) {
     return work.messages.say(NothingToDelete{NothingToDelete::What::kHead}, time);
+  }
+  if (dropped->touches == 1) {
+    rod().heads.pop_back();
+  } else {
+    rod().heads = rod().touched.places();
   }
   bend(work, time);
   work.observer->head_dropped(time, current().side, *dropped);
@@ -192,7 +198,6 @@ void RodTemplating::bend(OperationInWork& work, Timestamp time) {
   rod().instructions.reset();
   rod().no_instructions.clear();
   rod().expected.reset();
-  rod().heads = rod().touched.places();
   if (rod().heads.size() < 2) {
     return;
   }

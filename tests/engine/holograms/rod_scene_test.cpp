@@ -36,7 +36,7 @@ TEST(SceneBuilder, ARodThatCantBeMadeHasNoLength) {
   ScriptedOperation s;
   s.finishes_every_screw();
   s.touches({0.02, 0.03, 0.00});
-  const Guidance& g = s.touches({0.02, 0.03, 0.00});
+  const Guidance& g = s.touches({0.02, 0.03, 0.20});  // farther than any two heads
   ASSERT_EQ(g.rods[0].heads.size(), 2u);
   ASSERT_FALSE(g.rods[0].rod.has_value());
   const render::Scene scene = scene_of(g);
