@@ -161,7 +161,7 @@ GoldenScene checked_often() {
   for (std::size_t i = 0; i < kPlacesToCheck.size(); ++i) {
     const Float3 place = kPlacesToCheck[i];
     const Float3 next = kPlacesToCheck[(i + 1) % kPlacesToCheck.size()];
-    for (const float part : {0.0f, 0.12f, 0.24f, 0.36f}) {
+    for (const float part : {0.0f, 0.14f, 0.28f, 0.42f}) {
       add_earlier_check_point(golden.scene, place + part * (next - place),
                               label_of(HologramKind::kCheckPoint, ++k));
     }
