@@ -126,6 +126,7 @@ nav::PressModel Verifying::press_model() const {
     return press;
   }
   press.model = nav::ModelError{};
+  press.left_out = nav::ModelError{nav::kUsualModelError_m};
   if (!pressed_.empty()) {
     const double first_s = pressed_.front().time_s;
     const double drift = options_.map_drift_m_per_sqrt_s;

@@ -33,14 +33,34 @@ void judge(const PoseSearchRegistrationOptions& options, Registration& r) {
 
 using Covariance6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
+/// What a unit of each height moves the pose by, with the likeliest field.
+Eigen::MatrixXd gain_of(const PressFit& fit) {
+  const auto n = static_cast<Eigen::Index>(fit.heights.size());
+  const Eigen::Map<const Eigen::MatrixXd> inverse(fit.inverse_1_m2.data(), n, n);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>> shared(
+      fit.shared.front().data(), n, 6);
+  return shared.transpose() * inverse;
+}
+
+/// What an error of the model that the fit did not know of adds to the pose's covariance.
+Covariance6 model_left(const PressFit& fit, const ModelError& error) {
+  const auto n = static_cast<Eigen::Index>(fit.heights.size());
+  Eigen::MatrixXd off_m2(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      off_m2(i, k) = shared_error_m2(error, fit.heights[static_cast<std::size_t>(i)].at_m,
+                                     fit.heights[static_cast<std::size_t>(k)].at_m);
+    }
+  }
+  const Eigen::MatrixXd gain = gain_of(fit);
+  return gain * off_m2 * gain.transpose();
+}
+
 /// The part of the pose's covariance after all presses that comes from World's drift, by the gain
 /// of the likeliest field.
 Covariance6 walk_left(const PressFit& fit, const PressModel& press) {
   const double walk_m2 = press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s;
   const auto n = static_cast<Eigen::Index>(fit.heights.size());
-  const Eigen::Map<const Eigen::MatrixXd> inverse(fit.inverse_1_m2.data(), n, n);
-  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>> shared(
-      fit.shared.front().data(), n, 6);
   Eigen::MatrixXd with_now = Eigen::MatrixXd::Zero(n, 6);
   Eigen::MatrixXd walk(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -51,7 +71,7 @@ Covariance6 walk_left(const PressFit& fit, const PressModel& press) {
       walk(i, k) = std::min(a.time_s, b.time_s) * a.up.dot(b.up);
     }
   }
-  const Eigen::MatrixXd gain = shared.transpose() * inverse;
+  const Eigen::MatrixXd gain = gain_of(fit);
   const Covariance6 taken = gain * with_now;
   Covariance6 left = gain * walk * gain.transpose() - taken - taken.transpose();
   left.topLeftCorner<3, 3>().diagonal().array() += fit.now_s;
@@ -108,7 +128,11 @@ std::optional<JoinedPlaces> join_places(const VertebraModel& model, const Regist
   }
   CommonErrors common = strokes.common;
   common.map_m = press.since_sd_m;
-  const PoseUncertainty whole(fit.centre_m, fit.covariance);
+  std::array<double, 36> covariance = fit.covariance;
+  if (press.left_out) {
+    Eigen::Map<Covariance6>(covariance.data()) += model_left(fit, *press.left_out);
+  }
+  const PoseUncertainty whole(fit.centre_m, covariance);
   // Limits judge the registration alone, without World's drift, which no press can reduce. The
   // drift stays in the uncertainty.
   put_errors(model, {fit.centre_m, without_walk(fit, press)}, common, targets_of(model, options),

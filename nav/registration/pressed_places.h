@@ -35,6 +35,9 @@ struct PressModel {
   double since_sd_m = 0.0;
   /// If known; otherwise it is estimated from the places, within the usual range of segmentations.
   std::optional<ModelError> model;
+  /// The model's error where the fit takes it to be smaller than it is: included in the reported
+  /// uncertainty, but not compared with the limits.
+  std::optional<ModelError> left_out;
 };
 
 /// A registration that includes pressed places.
