@@ -102,6 +102,26 @@ TEST(PressedPlaces, TheSamePlaceAgainTellsHardlyMore) {
   EXPECT_GT(often.registration.predicted_tre_m, 0.9 * once.registration.predicted_tre_m);
 }
 
+TEST(PressedPlaces, AModelTakenAsExactStillCountsInTheUncertainty) {
+  PressedBone bone(6, 0.0025);
+  const auto places = bone.press(3);
+  ASSERT_THAT(places, SizeIs(3));
+  PressModel press;
+  press.model = ModelError{};
+  const auto exact =
+      join_places(bone.model(), bone.registration, places, bone.options, press).value();
+  press.left_out = ModelError{0.0005};
+  const auto told =
+      join_places(bone.model(), bone.registration, places, bone.options, press).value();
+  EXPECT_EQ(told.registration.predicted_tre_m, exact.registration.predicted_tre_m) << "the limits";
+  EXPECT_EQ(told.registration.world_from_vertebra, exact.registration.world_from_vertebra);
+  const Point<Vertebra> middle{bone.model().reachable_axes().centre_m};
+  const double sd_m = exact.registration.uncertainty->predicted_tre_m(middle);
+  const double told_sd_m = told.registration.uncertainty->predicted_tre_m(middle);
+  EXPECT_GT(told_sd_m, sd_m);
+  EXPECT_LT(told_sd_m, std::hypot(sd_m, std::sqrt(3.0) * 0.0005));
+}
+
 TEST(PressedPlaces, AreOfNoUseWhereTheStrokesLeaveAMotionOpen) {
   PressedBone bone(1, 0.0);
   EXPECT_TRUE(bone.registration.accepted);
