@@ -177,7 +177,7 @@ class Reading {
     } else if (what == "replanned") {
       replay_.replanned(line.text("level"), side_of(line), planned_in_surgery(line), line);
     } else if (what == "head" || what == "head dropped") {
-      replay_.head(side_of(line), what == "head", touches_of(line, what == "head"));
+      replay_.head(side_of(line), what == "head", line);
     } else if (what == "rod") {
       replay_.rod_done(recorded_rod_of(line));
     } else if (what == "ended") {

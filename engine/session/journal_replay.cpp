@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/session/journal_rod_reading.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -227,13 +229,9 @@ void JournalReplay::replanned(const std::string& label, Side side,
   }
 }
 
-void JournalReplay::head(Side side, bool touched, std::size_t touches) {
+void JournalReplay::head(Side side, bool touched, const JsonNode& line) {
   RecordedRod& rod = rod_of(side);
-  if (touched) {
-    rod.heads += touches == 1 ? 1 : 0;
-  } else if (rod.heads > 0) {
-    rod.heads -= touches == 0 ? 1 : 0;
-  }
+  rod.heads = heads_after(line, touched, rod.heads);
 }
 
 void JournalReplay::rod_done(RecordedRod rod) { rod_of(rod.side) = std::move(rod); }

@@ -36,9 +36,8 @@ class JournalReplay {
   void replanned(const std::string& label, Side side,
                  const std::optional<nav::ScrewDifference>& difference, const JsonNode& line);
   void screw_done(const std::string& label, const RecordedScrew& screw, const JsonNode& line);
-  /// A head was touched, or the last one taken back.
-  /// `touches` of that head, with the new touch or without the dropped one.
-  void head(Side side, bool touched, std::size_t touches);
+  /// A head was touched, or the last touch taken back.
+  void head(Side side, bool touched, const JsonNode& line);
   void rod_done(RecordedRod rod);
 
  private:

@@ -16,8 +16,12 @@ std::size_t count_of(const JsonNode& line, const char* key) {
   return static_cast<std::size_t>(std::max(0, count));
 }
 
-std::size_t touches_of(const JsonNode& line, bool touched) {
-  return line.has("touches") ? count_of(line, "touches") : touched ? 1 : 0;
+std::size_t heads_after(const JsonNode& line, bool touched, std::size_t heads) {
+  const std::size_t touches = line.has("touches") ? count_of(line, "touches") : touched ? 1 : 0;
+  if (touched) {
+    return touches == 1 ? heads + 1 : heads;
+  }
+  return touches == 0 && heads > 0 ? heads - 1 : heads;
 }
 
 RecordedRod recorded_rod_of(const JsonNode& line) {

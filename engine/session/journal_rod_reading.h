@@ -7,14 +7,15 @@
 
 namespace orthonav::engine {
 
-// Reads the lines of a journal about rods, for the file that reads journals. Impossible content is
-// refused.
+// Reads the lines of a journal about rods, for the files that read journals and logs. Impossible
+// content is refused.
 
 /// A number of things, not negative.
 [[nodiscard]] std::size_t count_of(const JsonNode& line, const char* key);
-/// The touches of a head with the one just made, or without the one just dropped. In journals from
-/// before heads were touched several times, each touch was of another head.
-[[nodiscard]] std::size_t touches_of(const JsonNode& line, bool touched);
+/// The number of heads after a line that says that one was touched, or that the last touch was
+/// taken back, from the number before it. Lines from before heads were touched several times do not
+/// count touches: each was of another head.
+[[nodiscard]] std::size_t heads_after(const JsonNode& line, bool touched, std::size_t heads);
 /// A rod that was declared done.
 [[nodiscard]] RecordedRod recorded_rod_of(const JsonNode& line);
 

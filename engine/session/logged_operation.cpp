@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/session/journal_rod_reading.h"
 #include "engine/session/operation_json.h"
 
 namespace orthonav::engine {
@@ -69,15 +70,8 @@ class Applied {
     LoggedRod& rod = operation_.rods[side_from(node_) == Side::kRight ? 1 : 0];
     if (type_ == OperationRecord::kRod) {
       rod.done = true;
-      return;
-    }
-    // Logs before heads were touched several times do not count touches: each was another head.
-    const bool touched = type_ == OperationRecord::kHead;
-    const auto touches = node_.has("touches") ? node_.unsigned_integer("touches") : touched ? 1 : 0;
-    if (touched) {
-      rod.heads += touches == 1 ? 1 : 0;
-    } else if (rod.heads > 0) {
-      rod.heads -= touches == 0 ? 1 : 0;
+    } else {
+      rod.heads = heads_after(node_, type_ == OperationRecord::kHead, rod.heads);
     }
   }
 

@@ -122,6 +122,7 @@ void RodTemplating::drop_head(OperationInWork& work, Timestamp time) {
     return work.messages.say(NothingToDelete{NothingToDelete::What::kHead}, time);
   }
   if (dropped->touches == 1) {
+    // Without `places`, which allocates: a head can be taken back where memory has run out.
     rod().heads.pop_back();
   } else {
     rod().heads = rod().touched.places();

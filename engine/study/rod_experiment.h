@@ -107,7 +107,7 @@ struct RodExperimentOptions {
   /// a dimple made for it, and a socket is wider.
   double socket_seating_m = 0.0003;
   /// SD of what navigation adds to one head and not to the others, the same for all touches of a
-  /// head. Measured with a patient reference: 0.10 mm (`bench_rod_heads --reference`); the
+  /// head. Measured with a patient reference: 0.11 mm (`bench_rod_heads --reference`); the
   /// pointer's tip, off by 0.5 mm and held 10° differently from head to head, adds 0.09 mm. What
   /// all heads have in common, 0.7 mm, moves the rod as a whole. Rounded up.
   double neighbour_navigation_m = 0.00015;

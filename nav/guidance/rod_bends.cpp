@@ -130,8 +130,9 @@ Error out_of_reach(const PlannedRod& rod, std::span<const Vec3> seats_m, const R
 }
 
 Result<RodInstructions> told(PlannedRod rod, std::span<const Vec3> seats_m, std::size_t made,
-                             const RodSpringBack& spring_back) {
+                             double reach_m, const RodSpringBack& spring_back) {
   RodInstructions out;
+  out.reach_m = reach_m;
   out.seats_m.assign(seats_m.begin(), seats_m.end());
   out.made = made;
   for (std::size_t k = 0; k < rod.fit.arcs.size(); ++k) {
@@ -192,11 +193,7 @@ Result<RodInstructions> rod_instructions(std::span<const Vec3> seats_m, const Ro
     while (auto less = with_a_bend_less(seats_m, *rod, allowed, spring_back->most_kept_rad())) {
       *rod = *std::move(less);
     }
-    auto out = told(*std::move(rod), seats_m, 0, *spring_back);
-    if (out) {
-      out->reach_m = allowance.reach_m;
-    }
-    return out;
+    return told(*std::move(rod), seats_m, 0, allowance.reach_m, *spring_back);
   }
   return rod.error();
 }
@@ -237,11 +234,7 @@ Result<RodInstructions> rod_instructions_after(const RodInstructions& plan,
         printed("after bend %zu a bend would lie in a tulip: begin another rod", made.size())};
   }
   rod.fit = *std::move(fit);
-  auto out = told(std::move(rod), plan.seats_m, made.size(), *spring_back);
-  if (out) {
-    out->reach_m = plan.reach_m;
-  }
-  return out;
+  return told(std::move(rod), plan.seats_m, made.size(), plan.reach_m, *spring_back);
 }
 
 }  // namespace orthonav::nav
