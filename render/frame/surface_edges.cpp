@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -166,16 +167,52 @@ SurfaceEdges::SurfaceEdges(const MeshData& mesh) {
                       is_hollow(mesh, planes_[a.triangle], b)});
     i += alike;
   }
+  // Euler: a sphere has two more corners and faces than edges.
+  convex_ = positions_.size() + planes_.size() == edges_.size() + 2 &&
+            std::none_of(edges_.begin(), edges_.end(), [](const Edge& edge) {
+              return edge.hollow || edge.triangles[0] == edge.triangles[1];
+            });
 }
 
-void SurfaceEdges::seen_by(const View& view, PixelSize size, const Matrix4& world_from_model,
-                           EdgeScratch& scratch, std::vector<Float4>& edges) const {
-  const Matrix4 clip_from_model = multiplied(clip_from_world(view), world_from_model);
+void SurfaceEdges::hide(const View& view, PixelSize size, const PlacedSurface& surface,
+                        EdgeScratch& scratch, HiddenEdges& hidden) const {
+  if (!convex_) {
+    return;
+  }
+  const Matrix4 clip_from_model = multiplied(clip_from_world(view), surface.world_from_model);
+  constexpr float kFar = std::numeric_limits<float>::max();
+  Float4 box_px = {kFar, kFar, -kFar, -kFar};
+  for (const Float3 p : positions_) {
+    const OnScreen at = on_screen(clip_from_model, size, p);
+    if (!at.in_front) {
+      return;
+    }
+    box_px = {std::min(box_px.x, at.x_px), std::min(box_px.y, at.y_px), std::max(box_px.z, at.x_px),
+              std::max(box_px.w, at.y_px)};
+  }
+  hidden.add(surface, box_px);
+  const Float3 eye = eye_in_model(multiplied(view.eye_from_world, surface.world_from_model));
+  find_faces(planes_, eye, scratch.faces);
+  for (std::size_t i = 0; i < planes_.size(); ++i) {
+    if (scratch.faces[i] == 1) {
+      hidden.add_plane(planes_[i]);
+    }
+  }
+  for (const Edge& edge : edges_) {
+    const std::uint8_t left = scratch.faces[edge.triangles[0]];
+    if (left != scratch.faces[edge.triangles[1]]) {
+      const Float3 from = positions_[edge.ends[1 - left]] - eye;
+      const Float3 to = positions_[edge.ends[left]] - eye;
+      const Float3 outward = cross(from, to);
+      hidden.add_plane({outward.x, outward.y, outward.z, -dot(outward, eye)});
+    }
+  }
+}
+
+void SurfaceEdges::find_shown(const Matrix4& clip_from_model, PixelSize size,
+                              EdgeScratch& scratch) const {
   const std::vector<std::uint8_t>& faces = scratch.faces;
-  find_faces(planes_, eye_in_model(multiplied(view.eye_from_world, world_from_model)),
-             scratch.faces);
   scratch.shown.clear();
-  scratch.axes.assign(positions_.size(), 0);
   for (const Edge& edge : edges_) {
     const unsigned facing = faces[edge.triangles[0]] + faces[edge.triangles[1]];
     const bool border = edge.triangles[0] == edge.triangles[1];
@@ -186,16 +223,39 @@ void SurfaceEdges::seen_by(const View& view, PixelSize size, const Matrix4& worl
     const std::array<std::uint32_t, 2> ends = {edge.ends[begin], edge.ends[1 - begin]};
     const OnScreen a = on_screen(clip_from_model, size, positions_[ends[0]]);
     const OnScreen b = on_screen(clip_from_model, size, positions_[ends[1]]);
-    if (!a.in_front || !b.in_front || (a.x_px == b.x_px && a.y_px == b.y_px)) {
-      continue;
+    if (a.in_front && b.in_front && (a.x_px != b.x_px || a.y_px != b.y_px)) {
+      scratch.shown.push_back({ends, {a.x_px, a.y_px, b.x_px, b.y_px}});
     }
-    scratch.shown.push_back({ends, {a.x_px, a.y_px, b.x_px, b.y_px}});
-    scratch.axes[ends[0]] |= axis_of(scratch.shown.back().at_px);
-    scratch.axes[ends[1]] |= axis_of(scratch.shown.back().at_px);
+  }
+}
+
+void SurfaceEdges::seen_by(const View& view, PixelSize size, const PlacedSurface& surface,
+                           const HiddenEdges& hidden, EdgeScratch& scratch,
+                           std::vector<Float4>& edges) const {
+  const Matrix4& world_from_model = surface.world_from_model;
+  find_faces(planes_, eye_in_model(multiplied(view.eye_from_world, world_from_model)),
+             scratch.faces);
+  const Matrix4 clip_from = clip_from_world(view);
+  find_shown(multiplied(clip_from, world_from_model), size, scratch);
+  scratch.axes.assign(positions_.size(), 0);
+  for (const EdgeScratch::Shown& edge : scratch.shown) {
+    scratch.axes[edge.ends[0]] |= axis_of(edge.at_px);
+    scratch.axes[edge.ends[1]] |= axis_of(edge.at_px);
   }
   for (const EdgeScratch::Shown& edge : scratch.shown) {
-    edges.push_back(lengthened(edge.at_px, scratch.axes[edge.ends[0]] == kBothAxes,
-                               scratch.axes[edge.ends[1]] == kBothAxes));
+    if (!hidden.may_hide(surface, edge.at_px)) {
+      edges.push_back(lengthened(edge.at_px, scratch.axes[edge.ends[0]] == kBothAxes,
+                                 scratch.axes[edge.ends[1]] == kBothAxes));
+      continue;
+    }
+    scratch.parts.assign(1, {transformed(world_from_model, positions_[edge.ends[0]]),
+                             transformed(world_from_model, positions_[edge.ends[1]])});
+    hidden.leave_out(surface, edge.at_px, scratch.parts);
+    for (const Segment3& part : scratch.parts) {
+      const OnScreen a = on_screen(clip_from, size, part.from);
+      const OnScreen b = on_screen(clip_from, size, part.to);
+      edges.push_back({a.x_px, a.y_px, b.x_px, b.y_px});
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/frame/frame_items.h"
+#include "render/frame/hidden_edges.h"
 #include "render/projection.h"
 #include "render/scene.h"
 
@@ -20,6 +21,7 @@ struct EdgeScratch {
   std::vector<std::uint8_t> faces;  ///< by triangle
   std::vector<std::uint8_t> axes;   ///< by position
   std::vector<Shown> shown;
+  std::vector<Segment3> parts;  ///< of one edge
 };
 
 /// The edges of a surface at which its image may end or change abruptly: between a triangle that
@@ -30,12 +32,16 @@ class SurfaceEdges {
   SurfaceEdges() = default;
   explicit SurfaceEdges(const MeshData& mesh);
 
+  /// Adds what the surface hides of others, if it is closed and convex.
+  void hide(const View& view, PixelSize size, const PlacedSurface& surface, EdgeScratch& scratch,
+            HiddenEdges& hidden) const;
+
   /// Appends the edges that show from the view, as they lie in its image: x and y of one end, then
   /// of the other, in pixels; as one goes along it, a triangle that faces the eye is on the left.
-  /// Edges that turn a corner are drawn slightly too long, so that no pixel is missed. An edge that
-  /// crosses the near plane is left out.
-  void seen_by(const View& view, PixelSize size, const Matrix4& world_from_model,
-               EdgeScratch& scratch, std::vector<Float4>& edges) const;
+  /// Edges that turn a corner are drawn slightly too long, so that no pixel is missed. What is
+  /// hidden, and an edge that crosses the near plane, is left out.
+  void seen_by(const View& view, PixelSize size, const PlacedSurface& surface,
+               const HiddenEdges& hidden, EdgeScratch& scratch, std::vector<Float4>& edges) const;
 
  private:
   /// Between two triangles, or twice the same at a border.
@@ -46,6 +52,9 @@ class SurfaceEdges {
     bool hollow = false;  ///< its triangles hide it wherever only one of them faces the eye
   };
 
+  void find_shown(const Matrix4& clip_from_model, PixelSize size, EdgeScratch& scratch) const;
+
+  bool convex_ = false;            ///< and closed, in one piece
   std::vector<Float3> positions_;  ///< no two alike
   std::vector<Float4> planes_;     ///< by triangle: outward normal and offset
   std::vector<Edge> edges_;

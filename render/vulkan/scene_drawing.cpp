@@ -234,23 +234,6 @@ void SceneDrawing::build(const Scene& scene, const std::vector<View>& views, Pix
   prepare_data();
 }
 
-void SceneDrawing::find_edges(const std::vector<View>& views, PixelSize size, DrawnViews drawn) {
-  const auto number = [](std::size_t count) { return static_cast<std::uint32_t>(count); };
-  for (std::size_t i = drawn.first; i < drawn.first + drawn.count; ++i) {
-    const std::uint32_t first = number(edges_.size());
-    for (const auto* meshes : {&items_.translucent_meshes(), &items_.solids()}) {
-      for (const MeshDraw& draw : *meshes) {
-        const GpuMesh* copy = meshes_.find(draw.item->mesh);
-        if (copy != nullptr && !copy->levels.empty()) {
-          copy->levels[draw.level].edges.seen_by(views[i], size, draw.item->world_from_model,
-                                                 edge_scratch_, edges_);
-        }
-      }
-    }
-    edges_of_view_[i] = {number(items_.data().size()) + first, number(edges_.size()) - first};
-  }
-}
-
 void SceneDrawing::prepare_data() {
   FrameSlot& slot = this->slot();
   const std::size_t item_bytes = items_.data().size() * sizeof(Float4);

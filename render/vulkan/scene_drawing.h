@@ -101,6 +101,9 @@ class SceneDrawing {
 
  private:
   void upload_atlas();
+  /// `use` is given the edges of each surface of the frame, and where it is.
+  template <class Use>
+  void for_each_surface(const Use& use);
   void find_edges(const std::vector<View>& views, PixelSize size, DrawnViews drawn);
   void prepare_data();
   Status add_mesh(const MeshItem& item, const std::string& name);
@@ -117,6 +120,7 @@ class SceneDrawing {
   FrameItems items_;
   std::vector<Float4> edges_;  ///< of meshes in each view, as in SurfaceEdges
   EdgeRanges edges_of_view_;
+  HiddenEdges hidden_edges_;  ///< in one view
   EdgeScratch edge_scratch_;
   MeshCache meshes_;
   DeviceImage atlas_;

@@ -21,7 +21,7 @@ View straight_ahead() {
 std::vector<Float4> seen(const MeshData& mesh, const Matrix4& place) {
   EdgeScratch scratch;
   std::vector<Float4> edges;
-  SurfaceEdges(mesh).seen_by(straight_ahead(), kImage, place, scratch, edges);
+  SurfaceEdges(mesh).seen_by(straight_ahead(), kImage, {0, false, place}, {}, scratch, edges);
   return edges;
 }
 
