@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "base/how_many.h"
 #include "base/printed.h"
 #include "engine/io/json_writer.h"
 
@@ -142,7 +143,7 @@ void append_distances(const nav::DistancePart& part, std::string& text) {
                  part.distances, part.points.size(), millimetres(part.mean_error_m),
                  millimetres(part.sd_m), millimetres(part.rms_m));
   if (part.stray_rests > 0) {
-    append_printed(text, "  %zu rests that touched no point left out\n", part.stray_rests);
+    text += "  " + how_many(part.stray_rests, "rest") + " that touched no point left out\n";
   }
 }
 

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/how_many.h"
 #include "base/joined.h"
 #include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
@@ -51,8 +52,8 @@ Result<std::vector<double>> sizes_m(const std::string& text, std::size_t tags) {
     sizes.resize(tags, sizes.front());
   }
   if (sizes.size() != tags) {
-    return Error{"--size-mm: " + std::to_string(sizes.size()) + " sizes for " +
-                 std::to_string(tags) + " tags, must be one, or one each"};
+    return Error{"--size-mm: " + how_many(sizes.size(), "size") + " for " + how_many(tags, "tag") +
+                 ", must be one, or one each"};
   }
   return sizes;
 }

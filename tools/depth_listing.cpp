@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "base/how_many.h"
+
 namespace orthonav::tools {
 
 std::string in_words(const replay::DepthSummary& summary) {
@@ -14,9 +16,9 @@ std::string in_words(const replay::DepthSummary& summary) {
   const double span_s =
       kSecondsATick * static_cast<double>(summary.last_ticks_100ns - summary.first_ticks_100ns);
   std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), "%dx%d px, %lld frames in %.1f s, %lld without a pose",
-                summary.width_px, summary.height_px, static_cast<long long>(summary.frames), span_s,
-                static_cast<long long>(summary.frames_without_pose));
+  std::snprintf(text.data(), text.size(), "%dx%d px, %s in %.1f s, %lld without a pose",
+                summary.width_px, summary.height_px, how_many(summary.frames, "frame").c_str(),
+                span_s, static_cast<long long>(summary.frames_without_pose));
   return text.data();
 }
 

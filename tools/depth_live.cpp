@@ -7,6 +7,7 @@
 #include <system_error>
 #include <thread>
 
+#include "base/how_many.h"
 #include "base/printed.h"
 #include "base/stopwatch.h"
 #include "hal/open/open.h"
@@ -109,7 +110,7 @@ class LiveDepth {
     }
     if (taken_ <= arguments_.frame.value_or(0)) {
       return bad_input("--frame: is " + std::to_string(arguments_.frame.value_or(0)) +
-                       ", but only " + std::to_string(taken_) + " frames came");
+                       ", but only " + how_many(taken_, "frame") + " came");
     }
     return arguments_.wants_picture()
                ? write_picture(arguments_, stream, taken_ - 1, frame_.range_mm)
@@ -202,8 +203,8 @@ int depth_of_headset(const DepthArguments& arguments) {
     return bad_input("--stream: a HoloLens 2 has ahat and long-throw");
   }
   if (arguments.frames && arguments.frame && *arguments.frame >= *arguments.frames) {
-    return bad_input("--frame: is " + std::to_string(*arguments.frame) + ", but only " +
-                     std::to_string(*arguments.frames) + " frames were asked for");
+    return bad_input("--frame: is " + std::to_string(*arguments.frame) +
+                     ", must be less than --frames, " + std::to_string(*arguments.frames));
   }
   const auto opened = open_with_room(asking_for_depth(arguments));
   if (!opened) {

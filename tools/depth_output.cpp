@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "base/how_many.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/image_file.h"
 #include "engine/io/ply_file.h"
@@ -56,11 +57,11 @@ int write_cloud(const DepthArguments& arguments, DepthStream stream,
     return bad_input(s.error().message);
   }
   if (!arguments.json.on_stdout()) {
-    std::printf(
-        "%s: %zu points of %s; frames: %lld used, %lld without a pose, %lld in other maps\n",
-        arguments.out.c_str(), points, name_of(stream), static_cast<long long>(report.frames_used),
-        static_cast<long long>(report.frames_without_pose),
-        static_cast<long long>(report.frames_in_other_maps));
+    std::printf("%s: %s of %s; frames: %lld used, %lld without a pose, %lld in other maps\n",
+                arguments.out.c_str(), how_many(points, "point").c_str(), name_of(stream),
+                static_cast<long long>(report.frames_used),
+                static_cast<long long>(report.frames_without_pose),
+                static_cast<long long>(report.frames_in_other_maps));
   }
   return points > 0 ? kDone : kNo;
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "base/how_many.h"
 #include "hal/hl2ss/probe.h"
 #include "hal/replay/replay_headset.h"
 #include "tools/depth_listing.h"
@@ -63,7 +64,7 @@ Result<std::vector<Offer>> offers_of_recording(const std::string& folder) {
   const std::int64_t start = summary.first_ticks_100ns;
   std::vector<Offer> offers = {
       {"Recording: stereo pairs", Finding::kFound,
-       std::to_string(summary.pairs) + " pairs, " + std::to_string(summary.pairs_without_pose) +
+       how_many(summary.pairs, "pair") + ", " + std::to_string(summary.pairs_without_pose) +
            " without a pose, " + span_after(start, start, summary.last_ticks_100ns),
        ""}};
   if (!summary.cut.empty()) {

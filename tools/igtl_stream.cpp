@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "base/how_many.h"
 #include "base/joined.h"
 #include "engine/session/wording.h"
 #include "tools/arguments.h"
@@ -158,9 +159,8 @@ void IgtlStream::tell() const {
     return;
   }
   const igtl::Server::Counts counts = server_->counts();
-  std::fprintf(stderr, "OpenIGTLink: %lld client%s, %lld frames",
-               static_cast<long long>(counts.served), counts.served == 1 ? "" : "s",
-               static_cast<long long>(counts.frames));
+  std::fprintf(stderr, "OpenIGTLink: %s, %s", how_many(counts.served, "client").c_str(),
+               how_many(counts.frames, "frame").c_str());
   if (counts.dropped > 0) {
     std::fprintf(stderr, "; %lld dropped, the last one %s", static_cast<long long>(counts.dropped),
                  counts.last_drop.c_str());

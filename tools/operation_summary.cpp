@@ -1,6 +1,7 @@
 #include "tools/operation_summary.h"
 
 #include "base/angle.h"
+#include "base/how_many.h"
 #include "base/printed.h"
 
 namespace orthonav::tools {
@@ -18,19 +19,19 @@ std::string number(const std::optional<double>& value, double scale, const char*
 std::string operation_summary(const engine::OperationResult& result) {
   std::string out = "case " + result.case_name + ", method " + result.method +
                     (result.seed ? ", seed " + std::to_string(*result.seed) : "") +
-                    (result.completed ? ": completed\n" : ": not completed\n");
+                    (result.completed ? ": completed\n" : ": incomplete\n");
   if (!result.why_not.empty()) {
     out += result.why_not + "\n";
   }
   for (const engine::LevelOutcome& level : result.levels) {
     if (level.attempts == 0) {
-      out += level.label + ": not reached\n";
+      out += level.label + ": not registered\n";
       continue;
     }
     out += level.label + ": " + (level.accepted ? "accepted" : "not accepted") + " after " +
-           std::to_string(level.attempts) + (level.attempts == 1 ? " attempt" : " attempts") +
-           ", RMSE " + number(level.rmse_m, 1e3, "mm") + ", TRE " + number(level.tre_m, 1e3, "mm") +
-           ", " + (level.points ? std::to_string(*level.points) : "-") + " points in " +
+           how_many(level.attempts, "attempt") + ", RMSE " + number(level.rmse_m, 1e3, "mm") +
+           ", TRE " + number(level.tre_m, 1e3, "mm") + ", " +
+           (level.points ? std::to_string(*level.points) : "-") + " points in " +
            number(level.digitization_s, 1.0, "s") + "\n";
     for (const engine::ScrewOutcome& screw : level.screws) {
       out += "  " + std::string(name_of(screw.side)) + ": angle error " +
@@ -43,7 +44,7 @@ std::string operation_summary(const engine::OperationResult& result) {
            ", length error " + number(rod.length_error_m, 1e3, "mm") + ", head error " +
            number(rod.head_error_m, 1e3, "mm") + "\n";
   }
-  out += std::to_string(result.loop.displayed) + " frames displayed\n";
+  out += how_many(result.loop.displayed, "frame") + " displayed\n";
   return out;
 }
 

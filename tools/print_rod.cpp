@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/how_many.h"
 #include "engine/io/atomic_file.h"
 #include "engine/print/rod_sheet.h"
 #include "engine/print/sheet_drawing.h"
@@ -67,9 +68,9 @@ int run_print_rod(const PrintRodArguments& arguments) {
   if (const Status s = engine::write_file(arguments.page.out, *pdf); !s) {
     return bad_input(s.error().message);
   }
-  std::printf("%s: rod of %.1f mm with %zu %s (%s); print at 100 %%, both rulers must be 100 mm\n",
-              arguments.page.out.c_str(), told->cut_length_m() * 1e3, told->bends.size(),
-              told->bends.size() == 1 ? "bend" : "bends", page->name.c_str());
+  std::printf("%s: rod of %.1f mm with %s (%s); print at 100 %%, both rulers must be 100 mm\n",
+              arguments.page.out.c_str(), told->cut_length_m() * 1e3,
+              how_many(told->bends.size(), "bend").c_str(), page->name.c_str());
   return kDone;
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/how_many.h"
 #include "hal/replay/repair.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
@@ -30,7 +31,7 @@ int repair(const RepairArguments& arguments) {
     return bad_input(s.error().message);
   }
   if (!arguments.json.on_stdout()) {
-    std::printf("%s: %lld pairs; %s\n", name.c_str(), static_cast<long long>(report->pairs),
+    std::printf("%s: %s; %s\n", name.c_str(), how_many(report->pairs, "pair").c_str(),
                 report->cut.empty() ? "was whole" : ("closed: " + report->cut).c_str());
   }
   return kDone;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "base/how_many.h"
 #include "engine/io/json_writer.h"
 #include "nav/guidance/rod.h"
 #include "nav/guidance/rod_bends.h"
@@ -42,8 +43,8 @@ nlohmann::ordered_json as_json(const nav::RodTemplate& rod) {
 }
 
 void print(const nav::RodTemplate& rod) {
-  print_text("rod through %zu heads: length %.3f mm, diameter %.1f mm, %zu bends\n",
-             rod.heads_m.size(), rod.length_m * 1e3, rod.diameter_m * 1e3, rod.bends.size());
+  print_text("rod through %zu heads: length %.3f mm, diameter %.1f mm, %s\n", rod.heads_m.size(),
+             rod.length_m * 1e3, rod.diameter_m * 1e3, how_many(rod.bends.size(), "bend").c_str());
   for (const nav::RodBend& bend : rod.bends) {
     print_text("bend at %.1f mm: %.1f°\n", bend.arc_length_m * 1e3,
                bend.angle_rad * kDegreesPerRadian);

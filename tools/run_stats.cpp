@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "base/how_many.h"
 #include "engine/study/evaluation.h"
 
 namespace orthonav::tools {
@@ -28,25 +29,26 @@ void print_stats(const engine::PresentReport& report) {
                "display frames", static_cast<long long>(report.frames),
                static_cast<long long>(report.drawn), static_cast<long long>(report.hidden));
   print_times("head pose to submission", report.latch_ms);
-  std::fprintf(stderr, "%-28s %.1f ms, %lld frames late, %lld periods without a frame\n",
-               "display period", 1e3 * seconds(report.period), static_cast<long long>(report.late),
-               static_cast<long long>(report.missed));
+  std::fprintf(stderr, "%-28s %.1f ms, %s late, %s without a frame\n", "display period",
+               1e3 * seconds(report.period), how_many(report.late, "frame").c_str(),
+               how_many(report.missed, "period").c_str());
   print_times("waiting for a frame", report.wait_ms);
   print_times("submitting a frame", report.submit_ms);
-  std::fprintf(stderr, "%-28s drawn %lld times\n", "panel of the status line",
-               static_cast<long long>(report.panel_draws));
+  std::fprintf(stderr, "%-28s drawn %s\n", "panel of the status line",
+               how_many(report.panel_draws, "time").c_str());
 }
 
 void print_stats(const ObjectDisplayStatistics& objects) {
   std::fprintf(
       stderr,
-      "%-28s %lld now, %lld lists, %lld commands, %lld bytes, %lld refused, %lld left out, "
-      "%lld connections, %lld given up, guidance in %zu acknowledged lists, too old in %lld\n",
+      "%-28s %lld now, %s, %s, %s, %lld refused, %lld left out, %s, %lld given up, guidance in %s, "
+      "too old in %lld\n",
       "objects on the headset", static_cast<long long>(objects.objects),
-      static_cast<long long>(objects.lists), static_cast<long long>(objects.commands),
-      static_cast<long long>(objects.bytes), static_cast<long long>(objects.refused),
-      static_cast<long long>(objects.left_out), static_cast<long long>(objects.connections),
-      static_cast<long long>(objects.given_up), objects.shown_age_ms.size(),
+      how_many(objects.lists, "list").c_str(), how_many(objects.commands, "command").c_str(),
+      how_many(objects.bytes, "byte").c_str(), static_cast<long long>(objects.refused),
+      static_cast<long long>(objects.left_out), how_many(objects.connections, "connection").c_str(),
+      static_cast<long long>(objects.given_up),
+      how_many(objects.shown_age_ms.size(), "acknowledged list").c_str(),
       static_cast<long long>(objects.withheld));
   print_times("list to acknowledgement", objects.acknowledged_ms);
   print_times("pair to acknowledgement", objects.shown_age_ms);

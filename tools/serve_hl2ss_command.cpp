@@ -3,6 +3,7 @@
 #include <memory>
 #include <thread>
 
+#include "base/how_many.h"
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
 #include "engine/study/sim_scenario.h"
@@ -132,10 +133,10 @@ int watch(hl2ss::Server& server, SceneWatch& scene, std::int64_t sessions,
       std::fprintf(stderr, "session %lld begins\n", static_cast<long long>(report.sessions));
     }
     if (!report.is_streaming && was_streaming) {
-      std::fprintf(stderr, "session %lld ended: %lld pairs, %lld faults on purpose\n",
+      std::fprintf(stderr, "session %lld ended: %s, %s on purpose\n",
                    static_cast<long long>(report.sessions),
-                   static_cast<long long>(report.pairs - pairs_before),
-                   static_cast<long long>(report.faults - faults_before));
+                   how_many(report.pairs - pairs_before, "pair").c_str(),
+                   how_many(report.faults - faults_before, "fault").c_str());
       pairs_before = report.pairs;
       faults_before = report.faults;
     }
@@ -147,9 +148,9 @@ int watch(hl2ss::Server& server, SceneWatch& scene, std::int64_t sessions,
       return bad_input(drawn.error().message);
     }
     if (const auto signal = signals.caught()) {
-      std::fprintf(stderr, "orthonav: stopped by %s after %lld sessions, %lld pairs\n",
-                   signal->c_str(), static_cast<long long>(report.sessions),
-                   static_cast<long long>(report.pairs));
+      std::fprintf(stderr, "orthonav: stopped by %s after %s, %s\n", signal->c_str(),
+                   how_many(report.sessions, "session").c_str(),
+                   how_many(report.pairs, "pair").c_str());
       return signals.exit_code();
     }
     if (sessions > 0 && report.sessions >= sessions && !report.is_streaming) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/how_many.h"
 #include "base/printed.h"
 #include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
@@ -151,10 +152,10 @@ void print(const TrackArguments& arguments, const TrackSummary& summary,
     print_text("%s\n", out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     return;
   }
-  print_text("%lld stereo pairs, %lld without a head pose, %lld images without a partner\n",
-             static_cast<long long>(summary.pairs),
+  print_text("%s, %lld without a head pose, %s without a partner\n",
+             how_many(summary.pairs, "stereo pair").c_str(),
              static_cast<long long>(recording.pairs_without_pose),
-             static_cast<long long>(recording.left_unpaired + recording.right_unpaired));
+             how_many(recording.left_unpaired + recording.right_unpaired, "image").c_str());
   for (std::size_t i = 0; i < tools.size(); ++i) {
     print_text("%s (id %d): measured in %lld\n", tools[i].name.c_str(), tools[i].marker.id,
                static_cast<long long>(summary.measured[i]));

@@ -123,6 +123,18 @@ std::string to_text(BoardKind kind) {
   return {};
 }
 
+std::string in_words(BoardKind kind) {
+  switch (kind) {
+    case BoardKind::kTags:
+      return "grid of tags";
+    case BoardKind::kAprilGrid:
+      return "AprilGrid";
+    case BoardKind::kChessboard:
+      return "chessboard";
+  }
+  return {};
+}
+
 std::vector<std::string> problems_of(const Board& board) {
   std::vector<std::string> problems;
   check_counts(board, problems);

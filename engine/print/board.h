@@ -33,6 +33,8 @@ struct Board {
 
 /// "tags", "aprilgrid" or "chessboard".
 [[nodiscard]] std::string to_text(BoardKind kind);
+/// For people: "chessboard", "AprilGrid", "grid of tags".
+[[nodiscard]] std::string in_words(BoardKind kind);
 
 /// Every problem at once, each with value and limit: counts outside 1-50 (squares: 3-50), sizes
 /// outside 2-500 mm, ids that are unknown, repeated or wrong in number, gaps between tags of less

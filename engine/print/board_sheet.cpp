@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/how_many.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -24,7 +26,7 @@ std::string heading_of(const Board& board) {
   return (board.kind == BoardKind::kAprilGrid ? "AprilGrid " : "Tag grid ") + across + ", " +
          board.family + " id " + std::to_string(*low) + "-" + std::to_string(*high) + ", size " +
          mm_text(board.size_m * 1e3) + " mm, gap " + mm_text(board.gap_m * 1e3) + " mm, border " +
-         std::to_string(board.border_cells) + (board.border_cells == 1 ? " cell" : " cells");
+         how_many(board.border_cells, "cell");
 }
 
 /// The margin that has to stay free or black around the outermost edges.
@@ -46,7 +48,7 @@ Status fits(const Board& board, const Page& page) {
     if (taken_mm <= room_mm) {
       return {};
     }
-    return Error{to_text(board.kind) + " board of " + std::to_string(board.columns) + " x " +
+    return Error{in_words(board.kind) + ", " + std::to_string(board.columns) + " x " +
                  std::to_string(board.rows) + ": " + mm_text(taken_mm) + " mm " + direction +
                  " with its surround, page " + page.name + " has room for " + mm_text(room_mm) +
                  " mm"};
@@ -142,7 +144,7 @@ void add_numbers(Sheet& sheet, const Placed& placed) {
 
 Result<BoardSheet> board_sheet(const Board& board, const Page& page) {
   if (const auto problems = problems_of(board); !problems.empty()) {
-    return Error{to_text(board.kind) + " board: " + problems.front()};
+    return Error{in_words(board.kind) + ": " + problems.front()};
   }
   if (Status s = fits(board, page); !s) {
     return s.error();

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/how_many.h"
 #include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/paper_table.h"
@@ -23,8 +24,7 @@ void put_row(HtmlTable& table, const nlohmann::json& report, const PaperRow& row
     table.cell(number(s.mean) + (s.count > 1 ? " \u00b1 " + number(s.sd) : ""), "ours");
     table.cell(s.count > 1 ? number(s.min) + "\u2013" + number(s.max) : kNoValue);
   }
-  table.cell(std::to_string(s.count) + (row.per_screw ? " screw" : " level") +
-             (s.count == 1 ? "" : "s"));
+  table.cell(how_many(s.count, row.per_screw ? "screw" : "level"));
   table.cell(simulated && row.input ? "an input: how the scripted surgeon strokes" : "measured");
 }
 

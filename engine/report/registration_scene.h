@@ -43,8 +43,8 @@ inline constexpr double kStroked_m = 0.005;
 /// The magnification that suits each of these levels, so that their ellipsoids can be compared.
 [[nodiscard]] double common_magnification(std::span<const RegisteredLevel> levels);
 
-/// Half the longest axis of the ellipsoid that holds 95 of 100 errors (normal distribution in
-/// space), as a multiple of the standard deviation along it.
+/// Half the longest axis of the 95 % error ellipsoid (normal distribution in space), as a multiple
+/// of the standard deviation along it.
 [[nodiscard]] double ellipsoid_scale();
 
 }  // namespace orthonav::engine

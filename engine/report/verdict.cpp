@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "base/how_many.h"
 #include "engine/report/html_text.h"
 #include "engine/report/report_limits.h"
 #include "engine/report/report_values.h"
@@ -59,8 +60,8 @@ std::string accuracy_text(const Counts& n) {
   }
   const std::string unknown = "; their true distance from the plan is not known";
   return n.wires == 0 ? unknown
-                      : unknown + ", " + of(n.wires_within, n.wires) + " measured wire" +
-                            (n.wires == 1 ? "" : "s") + " within the limits";
+                      : unknown + ", " + std::to_string(n.wires_within) + " of " +
+                            how_many(n.wires, "measured wire") + " within the limits";
 }
 
 /// What is wrong with a screw according to the truth; empty if nothing is, or there is no truth.
@@ -149,8 +150,7 @@ Verdict verdict_of(const json& report) {
                                     : Verdict::Kind::kDoneWithWarnings;
   out.line = completed ? "Operation completed" : "Operation incomplete";
   if (!out.warnings.empty()) {
-    out.line += " with " + std::to_string(out.warnings.size()) + " warning" +
-                (out.warnings.size() == 1 ? "" : "s");
+    out.line += " with " + how_many(out.warnings.size(), "warning");
   }
   const Counts n = counts_of(report);
   if (!completed && !why.empty()) {
@@ -160,8 +160,8 @@ Verdict verdict_of(const json& report) {
   const json& session = object_in(report, "session");
   const bool planned = !session.contains("plan_recorded") || is_true(session, "plan_recorded");
   const std::size_t all = planned ? n.screws : n.placed;
-  out.counts = (planned ? of(n.placed, all) : std::to_string(n.placed)) + " screw" +
-               (all == 1 ? "" : "s") + " placed" + accuracy_text(n) + ".";
+  out.counts = (planned ? std::to_string(n.placed) + " of " : std::string()) +
+               how_many(all, "screw") + " placed" + accuracy_text(n) + ".";
   out.line += ": " + out.counts;
   return out;
 }

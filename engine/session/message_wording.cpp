@@ -126,6 +126,10 @@ struct MessageWriter {
   }
   void operator()(const ConfirmDelete& m) {
     text.begin(Importance::kNext);
+    if (m.points == 1) {
+      out += translated("say delete again to drop the last saved point");
+      return;
+    }
     append_printed(out, translated("say delete again to drop the last saved %zu points"), m.points);
   }
   void operator()(const RegistrationRefused& m) {

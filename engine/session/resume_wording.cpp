@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "base/how_many.h"
 #include "base/joined.h"
 
 namespace orthonav::engine {
@@ -9,15 +10,11 @@ namespace {
 
 std::string listed(const std::vector<std::string>& parts) { return joined(parts, ", "); }
 
-std::string counted(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 std::string what_it_was(const OperationLog::Found& found) {
   const OperationIdentity& identity = found.operation.identity;
   std::string line = "resuming " + found.path + ": case '" + identity.case_name + "', levels " +
                      listed(identity.levels) + ", begun " + identity.begun + ", " +
-                     counted(found.records, "record");
+                     how_many(found.records, "record");
   if (found.operation.resumed > 0) {
     line += ", resumed before";
   }
@@ -53,7 +50,7 @@ std::vector<std::string> lost(const LoggedLevel& before, const LoggedLevel& afte
     return parts;
   }
   if (before.regions.size() > after.regions.size()) {
-    parts.push_back(counted(before.regions.size() - after.regions.size(), "region"));
+    parts.push_back(how_many(before.regions.size() - after.regions.size(), "region"));
   }
   if (before.registration && !after.registration) {
     parts.emplace_back(before.accepted ? "its accepted registration" : "its registration");
@@ -62,7 +59,7 @@ std::vector<std::string> lost(const LoggedLevel& before, const LoggedLevel& afte
     parts.emplace_back("its dimple");
   }
   if (before.check_points > 0) {
-    parts.push_back(counted(before.check_points, "check point"));
+    parts.push_back(how_many(before.check_points, "check point"));
   }
   return parts;
 }
@@ -79,14 +76,14 @@ std::vector<std::string> lost(const OperationLog::Found& found, const LoggedOper
   for (std::size_t i = 0; i < before.rods.size(); ++i) {
     if (before.rods[i].heads > after.rods[i].heads) {
       lines.push_back("lost: of the " + std::string(kSides[i]) + " rod " +
-                      counted(before.rods[i].heads, "head"));
+                      how_many(before.rods[i].heads, "head"));
     }
   }
   if (before.guide_corrected) {
     lines.emplace_back("lost: the correction of the guide, compare it in the dimple again");
   }
   if (found.dropped_bytes > 0) {
-    lines.push_back("lost: " + counted(found.dropped_bytes, "byte") +
+    lines.push_back("lost: " + how_many(found.dropped_bytes, "byte") +
                     " behind the last whole record, kept in " + found.path + ".dropped");
   }
   return lines;

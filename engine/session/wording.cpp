@@ -88,7 +88,8 @@ struct StateWriter {
   void operator()(std::monostate /*none*/) {}
   void operator()(const StrokesSoFar& strokes) {
     text.begin(Importance::kCount);
-    append_printed(out, translated("%zu points"), strokes.points);
+    append_printed(out, strokes.points == 1 ? translated("%zu point") : translated("%zu points"),
+                   strokes.points);
     if (strokes.coaching != nullptr) {
       write_coaching(text, *strokes.coaching, kBetweenParts);
     }

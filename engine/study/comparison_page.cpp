@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/how_many.h"
 #include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/study/study_page_frame.h"
@@ -27,7 +28,7 @@ void add_compared(const StudyComparison& comparison, std::string& html) {
     table.cell("<b>" + signed_number(q.difference.mean) + "</b>");
     table.cell(interval_html(q.difference, signed_number));
     table.cell(std::to_string(q.operations.size()));
-    table.cell(std::to_string(q.pairs) + (q.quantity.per_screw ? " screws" : " levels"));
+    table.cell(how_many(q.pairs, q.quantity.per_screw ? "screw" : "level"));
   }
   html += "<section><h2>Means, pair by pair</h2>" + table.html() +
           "<p class=notes>Each operation counts once, with the mean over the screws or "

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/findings.h"
+#include "base/how_many.h"
 #include "base/joined.h"
 #include "nav/calibration/coverage.h"
 #include "nav/calibration/epipolar.h"
@@ -33,8 +34,8 @@ Status check_views(const Chessboard& board, ImageSize size, std::span<const Boar
     }
   }
   if (views.size() < options.min_views) {
-    problems.push_back("the board is seen in " + std::to_string(views.size()) +
-                       " pairs, at least " + std::to_string(options.min_views) + " are needed");
+    problems.push_back("the board is seen in " + how_many(views.size(), "pair") + ", at least " +
+                       std::to_string(options.min_views) + " are needed");
   }
   if (problems.empty()) {
     return {};

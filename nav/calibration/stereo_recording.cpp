@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/findings.h"
+#include "base/how_many.h"
 #include "base/printed.h"
 #include "nav/calibration/body_jackknife.h"
 #include "nav/calibration/body_start.h"
@@ -179,7 +180,7 @@ void judge(const StereoRecordingOptions& options, StereoRecording& result) {
 Status check_pairs(const BodyProblem& problem, const StereoRecordingOptions& options) {
   if (problem.pairs.size() < options.min_pairs) {
     return stereo_refused("both cameras see two tags of the board or more in " +
-                          std::to_string(problem.pairs.size()) + " pairs, at least " +
+                          how_many(problem.pairs.size(), "pair") + ", at least " +
                           std::to_string(options.min_pairs) + " are needed");
   }
   const double ratio = median_size_ratio(problem.pairs);

@@ -6,6 +6,7 @@
 
 #include "base/angle.h"
 #include "base/findings.h"
+#include "base/how_many.h"
 #include "base/joined.h"
 #include "nav/calibration/body_jackknife.h"
 #include "nav/calibration/body_start.h"
@@ -24,7 +25,7 @@ Error body_refused(const std::string& why) { return Error{"tool calibration: " +
 Status check_input(std::span<const MarkerDefinition> tags, const TagBodyOptions& options) {
   std::vector<std::string> problems = options.check();
   if (tags.size() < 2) {
-    problems.push_back(std::to_string(tags.size()) + " tags, at least 2 are needed");
+    problems.push_back(how_many(tags.size(), "tag") + ", at least 2 are needed");
   }
   ToolGeometry tool;
   tool.name = "tool";
@@ -75,7 +76,7 @@ Status check_connected(std::span<const MarkerDefinition> tags, std::span<const P
       continue;
     }
     names += (names.empty() ? "" : ", ") + name_of(tags[i]) + " (seen in " +
-             std::to_string(pairs_with(pairs, i)) + " pairs)";
+             how_many(pairs_with(pairs, i), "pair") + ")";
   }
   if (names.empty()) {
     return {};

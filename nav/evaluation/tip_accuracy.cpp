@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle.h"
 #include "base/findings.h"
 #include "base/printed.h"
 #include "nav/evaluation/fixed_point.h"
@@ -70,8 +71,8 @@ Result<FixedPoint> rotated_about(const PointerTrack& track, Point<Marker> tip,
   if (!found) {
     return refused(
         "accuracy test: the pointer never turned about its resting tip, must do so for "
-        "at least %.1f s and %.2f rad RMS about every axis",
-        options.min_turning_s, options.min_turning_spread_rad);
+        "at least %.1f s and %.1f° RMS about every axis",
+        options.min_turning_s, degrees(options.min_turning_spread_rad));
   }
   return *found;
 }

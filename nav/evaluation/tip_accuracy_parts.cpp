@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle.h"
 #include "base/findings.h"
 #include "nav/evaluation/board_touches.h"
 #include "nav/evaluation/errors.h"
@@ -116,9 +117,9 @@ Result<PivotFit> fit_in(const PointerTrack& track, const Dimple& dimple,
   const double spread_rad = fit ? fit->spread_rad : 0.0;
   if (!fit || spread_rad < options.min_turning_spread_rad) {
     return refused(
-        "accuracy test: the pointer turned by %.2f rad RMS about its resting tip, at "
-        "least %.2f are needed",
-        spread_rad, options.min_turning_spread_rad);
+        "accuracy test: the pointer turned by %.1f° RMS about its resting tip, at "
+        "least %.1f° is needed",
+        degrees(spread_rad), degrees(options.min_turning_spread_rad));
   }
   return *fit;
 }

@@ -83,8 +83,8 @@ Status check_poses(Poses poses, const PivotOptions& options) {
 Status check_result(const PivotCalibration& found, const PivotOptions& options) {
   const double fraction = static_cast<double>(found.inliers) / static_cast<double>(found.poses);
   if (!(found.spread_rad >= options.min_spread_rad)) {
-    return refused("the tool turned by %.3f rad RMS, at least %.3f is needed", found.spread_rad,
-                   options.min_spread_rad);
+    return refused("the tool turned by %.1f° RMS, at least %.1f° is needed",
+                   degrees(found.spread_rad), degrees(options.min_spread_rad));
   }
   if (!(fraction >= options.min_inlier_fraction) || found.inliers < options.min_poses) {
     return refused(
@@ -157,8 +157,8 @@ Result<PivotCalibration> pivot_calibration(Poses poses, const PivotOptions& opti
   Random random(options.seed);
   std::optional<PivotFit> fit = consensus.best(options.rounds, random);
   if (!fit) {
-    return refused("the tool turned by %.3f rad RMS, at least %.3f is needed", 0.0,
-                   options.min_spread_rad);
+    return refused("the tool turned by %.1f° RMS, at least %.1f° is needed", 0.0,
+                   degrees(options.min_spread_rad));
   }
   const auto inliers = consensus.settle(*fit);
   PivotCalibration found;

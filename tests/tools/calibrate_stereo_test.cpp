@@ -104,7 +104,7 @@ TEST_F(CalibrateStereo, RefusesInOneLineAndWritesNothing) {
   const Called few =
       stereo(folder_.file("left01.jpg"), folder_.file("right01.jpg"), {"--json", out});
   EXPECT_EQ(few.code, 1);
-  EXPECT_THAT(few.err, HasSubstr("refused: stereo calibration: the board is seen in 1 pairs"));
+  EXPECT_THAT(few.err, HasSubstr("refused: stereo calibration: the board is seen in 1 pair,"));
   const std::string small = folder_.with("right02.pgm", "P5 40 30 255\n" + std::string(1200, 'x'));
   const std::string text = folder_.with("a.txt", "hello");
   const std::vector<std::pair<Called, std::string>> cases = {

@@ -66,7 +66,7 @@ TEST(DepthLive, SaysWhatIsWrong) {
   const std::string far = folder.file("far.png");
   expect_refused(
       {"depth", "sim:", "--stream", "ahat", "--frames", "2", "--frame", "2", "--out", far},
-      "--frame: is 2, but only 2 frames were asked for");
+      "--frame: is 2, must be less than --frames, 2");
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 

@@ -141,6 +141,7 @@ TEST(PrintCommand, PutsTheDescriptionWhereItIsTold) {
                                   folder.file("a.pdf"), "--json", folder.file("b.json")});
   ASSERT_EQ(called.code, 0) << called.err;
   EXPECT_THAT(folder.names(), ElementsAre("a.pdf", "b.json"));
+  EXPECT_THAT(called.out, HasSubstr(": chessboard, 7 x 10, 140 x 200 mm on A4; print at 100 %"));
   const json board = json::parse(content_of(folder.file("b.json")));
   EXPECT_EQ(board["kind"], "chessboard");
   EXPECT_FALSE(board.contains("ids"));

@@ -57,6 +57,8 @@ TEST(RodCommand, SpeaksToPeopleByDefaultAndWritesTheFileBeside) {
   ASSERT_EQ(called.code, 0) << called.err;
   EXPECT_THAT(called.out, HasSubstr("length 50.000 mm, diameter 5.5 mm, 0 bends"));
   EXPECT_NEAR(json::parse(content_of(out))["length_mm"].get<double>(), 50.0, 1e-6);
+  const Called bent = orthonav({"rod", "--heads", folder.with("bent.csv", kCorner)});
+  EXPECT_THAT(bent.out, HasSubstr(", 1 bend\n"));
 }
 
 TEST(RodCommand, TakesMetres) {

@@ -111,7 +111,7 @@ TEST(PrintedBoard, RefusesWhatDoesNotFit) {
   board.columns = 7;
   board.ids = consecutive_ids(board.kind, 7, 7, 0);
   EXPECT_THAT(board_sheet(board, a4()).error().message,
-              HasSubstr("aprilgrid board of 7 x 7: 188 mm wide with its surround, page A4 has room "
+              HasSubstr("AprilGrid, 7 x 7: 188 mm wide with its surround, page A4 has room "
                         "for 182 mm"));
   EXPECT_TRUE(board_sheet(board, *page_named("A3", false)));
   board.size_m = 0.0;

@@ -65,6 +65,8 @@ TEST(Wording, SaysWhichPartsGiveWayFirst) {
 
 TEST(Wording, SaysHowAStepStands) {
   EXPECT_EQ(line_with(StepState{}), "");
+  EXPECT_EQ(line_with(StrokesSoFar{1}), "1 point");
+  EXPECT_EQ(line_with(StrokesSoFar{2}), "2 points");
   EXPECT_EQ(line_with(RegistrationFigures{0.0006, 0.0012, false}),
             "RMSE 0.60 mm, expected error 1.2 mm at the screws");
   EXPECT_EQ(line_with(RegistrationFigures{kInfinite, 0.0012, true}),
@@ -125,6 +127,7 @@ TEST(Wording, SaysEveryMessage) {
   EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kCheckPoint})),
             "no check point to delete");
   EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kHead})), "no head to delete");
+  EXPECT_EQ(line_with(Message(ConfirmDelete{1})), "say delete again to drop the last saved point");
   EXPECT_EQ(line_with(Message(ConfirmDelete{5})),
             "say delete again to drop the last saved 5 points");
   EXPECT_EQ(line_with(Message(ChecksMissing{{nav::CheckAdvice::Kind::kTouchApart, 3, 0.015}})),

@@ -183,7 +183,7 @@ TEST(TagBody, RefusesBadInput) {
   const auto pairs = seen(scene, 20, 8);
   EXPECT_THAT(
       calibrate_tag_body(scene.calibration, std::span(scene.tags).first(1), pairs).error().message,
-      HasSubstr("1 tags, at least 2"));
+      HasSubstr("1 tag, at least 2"));
   EXPECT_FALSE(calibrate_tag_body(scene.calibration, {}, pairs).ok());
   scene.tags[2].id = 3;
   EXPECT_THAT(refusal(scene, pairs), HasSubstr("id 3 is already on"));

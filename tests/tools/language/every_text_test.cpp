@@ -164,11 +164,11 @@ TEST_F(EveryText, OfTheMessagesIsTranslated) {
     expect_said(refused);
   }
   for (const Message& message :
-       {Message(NotUnderstood{}), Message(SaidBeforeShown{}), Message(ConfirmDelete{5}),
-        Message(BoneUnchecked{49.2, 0.0014}), Message(TipCorrected{0.001}),
-        Message(AxisCorrected{0.01}), Message(WireUndecided{}), Message(NoOtherEntry{}),
-        Message(ConfirmRedo{1}), Message(ConfirmRedo{2}), Message(ScrewRedone{0.0034, 0.0018}),
-        Message(NoImages{}), Message(Ended{})}) {
+       {Message(NotUnderstood{}), Message(SaidBeforeShown{}), Message(ConfirmDelete{1}),
+        Message(ConfirmDelete{5}), Message(BoneUnchecked{49.2, 0.0014}),
+        Message(TipCorrected{0.001}), Message(AxisCorrected{0.01}), Message(WireUndecided{}),
+        Message(NoOtherEntry{}), Message(ConfirmRedo{1}), Message(ConfirmRedo{2}),
+        Message(ScrewRedone{0.0034, 0.0018}), Message(NoImages{}), Message(Ended{})}) {
     expect_said(message);
   }
   EXPECT_EQ(std::variant_size_v<Message>, 26u) << "a new message belongs here";
