@@ -159,18 +159,18 @@ void add_accuracy_command(CLI::App& app, Action& action) {
   command->add_option("RECORDING", arguments->recording, "Folder of a StreamRecorder recording")
       ->required();
   command->add_option("-t,--tools", arguments->tools_file, "Tool definitions (JSON)")->required();
-  command->add_option("--pointer", arguments->pointer, "Name of the tool; default: pointer")
+  command->add_option("--pointer", arguments->pointer, "Name of the tool (default: pointer)")
       ->check(some_text());
   command
       ->add_option("--board", arguments->board_file,
-                   "Description of the board that was touched; default: no distances")
+                   "Description of the board that was touched (default: no distances)")
       ->check(some_text());
   add_method_option(*command, arguments->method, "Tracking");
   const nav::AccuracyOptions defaults;
   for (LimitArgument& limit : arguments->limits) {
     const nav::AccuracyLimits& given = defaults.*limit.limits;
     char text[160];
-    std::snprintf(text, sizeof text, "%s; default: %g %g", limit.what, given.pass_m * 1e3,
+    std::snprintf(text, sizeof text, "%s (default: %g %g)", limit.what, given.pass_m * 1e3,
                   given.note_m * 1e3);
     command->add_option(limit.option, limit.mm, text)
         ->expected(2)

@@ -54,7 +54,7 @@ CLI::Validator some_text() {
   return {check, "", "text"};
 }
 
-CLI::Option* add_case_option(CLI::App& command, std::string& folder) {
+CLI::Validator folder_of_case() {
   const auto folder_of = [](std::string& path) -> std::string {
     const std::filesystem::path given(path);
     if (given.filename() == "case.json") {
@@ -62,10 +62,14 @@ CLI::Option* add_case_option(CLI::App& command, std::string& folder) {
     }
     return {};
   };
+  return {folder_of, "", "folder"};
+}
+
+CLI::Option* add_case_option(CLI::App& command, std::string& folder) {
   return command
       .add_option("-c,--case", folder, "folder with a case.json (default: the built-in phantom)")
       ->check(some_text())
-      ->transform(CLI::Validator(folder_of, "", "folder"))
+      ->transform(folder_of_case())
       ->type_name("DIR");
 }
 

@@ -23,6 +23,9 @@ namespace orthonav::tools {
 /// Any text but an empty one: an unset variable in a script must not mean a default.
 [[nodiscard]] CLI::Validator some_text();
 
+/// Turns the path of a case.json into that of its folder, and takes any other as it is.
+[[nodiscard]] CLI::Validator folder_of_case();
+
 // Options with the same meaning in every command.
 
 /// `-c,--case`: a case folder, or the case.json in it.

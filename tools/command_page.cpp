@@ -1,6 +1,8 @@
 #include "tools/command_page.h"
 
 #include <algorithm>
+#include <cctype>
+#include <map>
 #include <sstream>
 
 namespace orthonav::tools {
@@ -23,6 +25,58 @@ std::vector<std::string> split(const std::string& text, char at) {
   return parts;
 }
 
+/// What follows options that the commands share, if no more is said of it than that it is text.
+std::string usual_value(const std::string& option) {
+  static const std::map<std::string, const char*> values = {{"--background", "NAME|FILE"},
+                                                            {"--board", "FILE"},
+                                                            {"--cases", "DIR"},
+                                                            {"--clicker", "DEVICE"},
+                                                            {"--csv", "FILE"},
+                                                            {"--db", "PATH"},
+                                                            {"--device", "NAME"},
+                                                            {"--dir", "DIR"},
+                                                            {"--draw", "DIR"},
+                                                            {"--family", "NAME"},
+                                                            {"--faults", "LIST"},
+                                                            {"--headset", "URI"},
+                                                            {"--host", "ADDRESS"},
+                                                            {"--ids", "LIST"},
+                                                            {"--instrument", "NAME"},
+                                                            {"--level", "LEVEL"},
+                                                            {"--material", "NAME"},
+                                                            {"--models", "DIR"},
+                                                            {"--name", "NAME"},
+                                                            {"--out", "PATH"},
+                                                            {"--page", "NAME"},
+                                                            {"--pointer", "NAME"},
+                                                            {"--profile", "NAME"},
+                                                            {"--record", "DIR"},
+                                                            {"--report", "FILE"},
+                                                            {"--screws", "FILE"},
+                                                            {"--script", "FILE"},
+                                                            {"--series", "UID"},
+                                                            {"--shard", "I/N"},
+                                                            {"--size", "WIDTHxHEIGHT"},
+                                                            {"--slurm", "DIR"},
+                                                            {"--to-bone", "X,Y,Z"},
+                                                            {"--tools", "FILE"},
+                                                            {"--voice", "DEVICE"},
+                                                            {"--without", "STEPS"}};
+  const auto found = values.find(option);
+  return found == values.end() ? "TEXT" : found->second;
+}
+
+/// A text in a table begins with a small letter, unless its first word is a name, as "URI" and
+/// "CT:".
+std::string begun_small(std::string text) {
+  const auto capital = [](unsigned char c) { return std::isupper(c) != 0; };
+  const std::string word = text.substr(0, text.find(' '));
+  if (!word.empty() && std::none_of(word.begin() + 1, word.end(), capital)) {
+    text.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(text.front())));
+  }
+  return text;
+}
+
 /// The library's "TEXT:{a,b}" and our own "a|b" are choices; its words for numbers differ from
 /// ours.
 void read_value(const CLI::Option& option, OptionRow& row) {
@@ -43,6 +97,8 @@ void read_value(const CLI::Option& option, OptionRow& row) {
     row.value = "N";
   } else if (row.value == "FLOAT") {
     row.value = "NUMBER";
+  } else if (row.value == "TEXT") {
+    row.value = usual_value(row.name());
   }
 }
 
@@ -68,7 +124,7 @@ OptionRow row_of(const CLI::Option& option) {
     }
   }
   read_value(option, row);
-  row.text = option.get_description();
+  row.text = begun_small(option.get_description());
   row.default_value = option.get_default_str();
   row.excludes = names_of(option.get_excludes());
   row.needs = names_of(option.get_needs());

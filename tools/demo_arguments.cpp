@@ -53,7 +53,8 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
       ->check(some_text())
       ->capture_default_str();
   add_levels_option(demo, arguments.levels);
-  auto* fast = demo.add_flag("--fast", arguments.fast, "as fast as the machine goes (default)");
+  auto* fast = demo.add_flag("--fast", arguments.fast,
+                             "as fast as the machine goes (default: unless --realtime)");
   demo.add_flag("--realtime", arguments.realtime, "30 frames a second")->excludes(fast);
   demo.add_option("--record", arguments.record, "also record the session into this new folder")
       ->check(some_text());
@@ -71,10 +72,8 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
   arguments.limits.add_to(demo);
   arguments.wearer.add_to(demo);
   add_config_option(demo);
-  // For tests: a hasty surgeon finishes in a fraction of the frames.
-  demo.add_option("--pace", arguments.pace, "how many times as fast the surgeon works")
-      ->check(finite_number(0.5, 4))
-      ->group("");
+  demo.add_option("--pace", arguments.pace, "how many times as fast the surgeon works (default: 1)")
+      ->check(finite_number(0.5, 4));
   demo.add_flag("--json", arguments.json, "print the report as JSON");
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/how_many.h"
 #include "base/printed.h"
 #include "engine/io/grey_image_file.h"
 #include "nav/tracking/marker_detector.h"
@@ -104,8 +105,7 @@ std::string seen_as_json(const std::vector<Seen>& all) {
 std::string as_text(const std::vector<Seen>& all) {
   std::string text = std::string("# corners in ") + kConvention + "; " + kOrder + "\n";
   for (const Seen& seen : all) {
-    text += seen.image + ": " + std::to_string(seen.markers.size()) +
-            (seen.markers.size() == 1 ? " marker\n" : " markers\n");
+    text += seen.image + ": " + how_many(seen.markers.size(), "marker") + "\n";
     for (const nav::MarkerCorners& marker : seen.markers) {
       const auto& c = marker.corners_px;
       append_printed(text,
@@ -139,12 +139,12 @@ void add_detect_command(CLI::App& app, Action& action) {
   command
       ->add_option("--family", arguments->families,
                    "Tag family, may be repeated; known are " + nav::known_families_text())
-      ->capture_default_str()
+      ->default_str("tag36h11")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       ->add_option("--max-hamming", arguments->max_hamming,
-                   "Corrected bits, 0-2; default: 2, or 1 for families of over 10,000 codes")
+                   "Corrected bits, 0-2 (default: 2, or 1 for families of over 10,000 codes)")
       ->check(whole_number(0, 2));
   command
       ->add_option("--min-margin", arguments->min_decision_margin,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/how_many.h"
 #include "engine/golden/golden_review.h"
 #include "engine/io/atomic_file.h"
 #include "tools/command.h"
@@ -110,8 +111,8 @@ int review(const GoldenOptions& options) {
   if (const Status written = engine::write_file(options.out, *page); !written) {
     return bad_input(written.error().message);
   }
-  std::printf("%zu scenes, %s: %s\n", verdicts.size(), alike ? "all alike" : "not all alike",
-              options.out.c_str());
+  std::printf("%s, %s: %s\n", how_many(verdicts.size(), "scene").c_str(),
+              alike ? "all alike" : "not all alike", options.out.c_str());
   return alike ? kDone : kNo;
 }
 
@@ -183,16 +184,16 @@ void add_golden_command(CLI::App& app, Action& action) {
   CLI::App* list = golden->add_subcommand("list", "Names, sizes (px x views) and contents");
   list->callback([&action] { action = list_scenes; });
 
-  CLI::App* draw = golden->add_subcommand("render", "Draw scenes as they are now");
-  draw->add_option("scenes", options->scenes, "Scenes; all when none is named");
+  CLI::App* draw = golden->add_subcommand("render", "Draws scenes as they are now");
+  draw->add_option("SCENE", options->scenes, "Scenes (default: all)");
   draw->add_option("-o,--out", options->out, "Folder to write to")->required();
   draw->add_option("--device", options->device, "Part of the Vulkan device's name")
       ->capture_default_str();
   draw->callback([&action, options] { action = [options] { return render_scenes(*options); }; });
 
   CLI::App* page = golden->add_subcommand(
-      "review", "Write one HTML with expected, actual and difference; exit 1 if any differs");
-  page->add_option("scenes", options->scenes, "Scenes; all when none is named");
+      "review", "Writes one HTML with expected, actual and difference; exit 1 if any differs");
+  page->add_option("SCENE", options->scenes, "Scenes (default: all)");
   page->add_option("-o,--out", options->out, "HTML file to write")
       ->default_str("golden-review.html");
   add_common(page);
@@ -203,8 +204,8 @@ void add_golden_command(CLI::App& app, Action& action) {
     action = [options] { return review(*options); };
   });
 
-  CLI::App* take = golden->add_subcommand("approve", "Take what is drawn now as the golden");
-  take->add_option("scene", options->scenes, "Scene")->required()->expected(1);
+  CLI::App* take = golden->add_subcommand("approve", "Takes what is drawn now as the golden image");
+  take->add_option("SCENE", options->scenes, "Scene")->required()->expected(1);
   take->add_option("--why", options->why, "Reason, one line; kept beside the images")->required();
   add_common(take);
   take->callback([&action, options] { action = [options] { return approve(*options); }; });

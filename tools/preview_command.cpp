@@ -239,10 +239,9 @@ void add_room_options(CLI::App& preview, PreviewArguments& arguments) {
                   "the room of a published system, by its name or as a file")
       ->check(some_text());
   preview.add_flag("--perfect", arguments.perfect, "every source of error at zero");
-  // For tests: a hasty surgeon finishes in a fraction of the frames.
-  preview.add_option("--pace", arguments.pace, "how many times as fast the surgeon works")
-      ->check(finite_number(0.5, 4))
-      ->group("");
+  preview
+      .add_option("--pace", arguments.pace, "how many times as fast the surgeon works (default: 1)")
+      ->check(finite_number(0.5, 4));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/how_many.h"
 #include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/text_fields.h"
@@ -61,10 +62,9 @@ int print_tags(const TagArguments& arguments, const std::vector<engine::PrintedT
   if (Status s = engine::write_file(arguments.page.out, *pdf); !s) {
     return bad_input(s.error().message);
   }
-  std::printf("%s: %zu %s on %zu %s (%s); print at 100 %%, both rulers must be 100 mm\n",
-              arguments.page.out.c_str(), tags.size(), tags.size() == 1 ? "tag" : "tags",
-              sheets->sheets.size(), sheets->sheets.size() == 1 ? "page" : "pages",
-              page->name.c_str());
+  std::printf("%s: %s on %s (%s); print at 100 %%, both rulers must be 100 mm\n",
+              arguments.page.out.c_str(), how_many(tags.size(), "tag").c_str(),
+              how_many(sheets->sheets.size(), "page").c_str(), page->name.c_str());
   return kDone;
 }
 
@@ -170,10 +170,11 @@ int run_board(const BoardArguments& arguments) {
     return bad_input(s.error().message);
   }
   std::printf(
-      "%s: %s board %d x %d on %s, %.3f x %.3f mm; print at 100 %%, both rulers must be "
-      "100 mm\n%s: its description\n",
-      arguments.page.out.c_str(), to_text(board->kind).c_str(), board->columns, board->rows,
-      page->name.c_str(), board->width_m() * 1e3, board->height_m() * 1e3, json.c_str());
+      "%s: %s, %d x %d, %s x %s mm on %s; print at 100 %%, both rulers must be 100 mm\n"
+      "%s: its description\n",
+      arguments.page.out.c_str(), engine::in_words(board->kind).c_str(), board->columns,
+      board->rows, engine::mm_text(board->width_m() * 1e3).c_str(),
+      engine::mm_text(board->height_m() * 1e3).c_str(), page->name.c_str(), json.c_str());
   return kDone;
 }
 
@@ -219,9 +220,13 @@ void add_board(CLI::App& print, Action& action) {
                    "tags: plain tags; chessboard")
       ->check(CLI::IsMember({"aprilgrid", "tags", "chessboard"}))
       ->capture_default_str();
-  command->add_option("--columns", arguments->columns, "Tags (6) or squares (7) across")
+  command
+      ->add_option("--columns", arguments->columns,
+                   "Tags or squares across (default: 6, 7 of a chessboard)")
       ->check(whole_number(1, 50));
-  command->add_option("--rows", arguments->rows, "Tags (6) or squares (10) upward")
+  command
+      ->add_option("--rows", arguments->rows,
+                   "Tags or squares upward (default: 6, 10 of a chessboard)")
       ->check(whole_number(1, 50));
   command
       ->add_option("--size-mm", arguments->size_mm, "Outer edge of a tag's border, or of a square")
@@ -229,7 +234,7 @@ void add_board(CLI::App& print, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--gap-mm", arguments->gap_mm,
-                   "Between the borders of neighbours; default: 0.3 of the size")
+                   "Between the borders of neighbours (default: 0.3 of the size)")
       ->check(finite_number(0, 500));
   command->add_option("--family", arguments->family, "Tag family")->capture_default_str();
   command->add_option("--first-id", arguments->first_id, "Id of the first tag")
@@ -238,7 +243,7 @@ void add_board(CLI::App& print, Action& action) {
   arguments->page.add_to(*command);
   command
       ->add_option("--json", arguments->json,
-                   "The board's description; default: beside the PDF, with its name")
+                   "The board's description (default: beside the PDF, with its name)")
       ->check(some_text())
       ->type_name("FILE");
   command->callback(

@@ -14,7 +14,7 @@ struct PageArguments {
   void add_to(CLI::App& command) {
     command.add_option("--page", page, "Paper: A4, Letter or A3")->capture_default_str();
     command.add_flag("--landscape", landscape, "The paper on its side");
-    command.add_option("--out", out, "The PDF file")->required()->type_name("FILE");
+    command.add_option("-o,--out", out, "The PDF file")->required()->type_name("FILE");
   }
 };
 

@@ -36,8 +36,8 @@ void print(const engine::RegisteredLevel& level, const engine::FigureFrame& fram
   print_text("\n");
   if (r.noise_m > 0.0) {
     print_text(
-        "%.0f %% of the points on the bone, scatter %.2f mm at a mean height of %.2f mm, worth "
-        "%.0f independent ones; %.0f %% of the surface stroked\n",
+        "%.0f %% of the points on the bone, scatter %.2f mm, estimated offset of the tip above it "
+        "%.2f mm (corrected); %.0f effective points; %.0f %% of the surface stroked\n",
         r.inlier_fraction * 1e2, r.noise_m * 1e3, r.standoff_m * 1e3, r.effective_points,
         r.coverage_fraction * 1e2);
   }
@@ -61,8 +61,7 @@ void print_refusal(const nav::Registration& r, const std::string& transform) {
                  transform.c_str());
   }
   if (!r.accepted && r.stroke_next) {
-    std::fprintf(stderr, "orthonav: to know the pose better: %s\n",
-                 engine::text_of(*r.stroke_next).c_str());
+    std::fprintf(stderr, "orthonav: to improve: %s\n", engine::text_of(*r.stroke_next).c_str());
   }
 }
 
@@ -136,13 +135,13 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
       ->required()
       ->type_name("FILE");
   command
-      .add_option("--units", arguments.units,
-                  "Unit of files that declare none; a model with a plan has the plan's "
-                  "[mm]")
+      .add_option(
+          "--units", arguments.units,
+          "Unit of files that declare none; a model with a plan has the plan's (default: mm)")
       ->check(CLI::IsMember({"mm", "m"}));
   command
       .add_option("--frame", arguments.frame,
-                  "Axes of a model whose file declares none [the plan's, else LPS]")
+                  "Axes of a model whose file declares none (default: the plan's, else LPS)")
       ->check(CLI::IsMember({"LPS", "RAS"}));
   command
       .add_option("--plan", arguments.plans,
@@ -150,9 +149,11 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
       ->type_name("PLAN")
       ->allow_extra_args(false);
   command
-      .add_option("-c,--case", arguments.case_folder,
-                  "Instead of --model and --plan: folder with case.json [the built-in phantom]")
+      .add_option(
+          "-c,--case", arguments.case_folder,
+          "Instead of --model and --plan: folder with case.json (default: the built-in phantom)")
       ->check(some_text())
+      ->transform(folder_of_case())
       ->type_name("DIR");
   command.add_option("--level", arguments.level, "Level of the case that was stroked")
       ->check(some_text());
@@ -164,7 +165,7 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
   arguments.common.add_to(command);
   command
       .add_option("--cache", arguments.cache,
-                  "Folder that keeps prepared models for the next time [nothing is kept]")
+                  "Folder that keeps prepared models for the next time (default: nothing is kept)")
       ->type_name("DIR");
   add_method_option(command, arguments.method, "registration: best or paper");
 }

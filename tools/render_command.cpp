@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/how_many.h"
 #include "engine/golden/golden_scenes.h"
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/optical_model.h"
@@ -127,8 +128,8 @@ Status draw_scene(const RenderArguments& arguments, const engine::SceneFile& fil
   if (!written) {
     return written;
   }
-  std::printf("%s: %zu eye%s, %dx%d px each, drawn by %s\n", arguments.out.c_str(), images.size(),
-              images.size() == 1 ? "" : "s", file.width_px, file.height_px,
+  std::printf("%s: %s, %dx%d px each, drawn by %s\n", arguments.out.c_str(),
+              how_many(images.size(), "eye").c_str(), file.width_px, file.height_px,
               renderer.device().name.c_str());
   return {};
 }
@@ -172,14 +173,14 @@ int render_scene(const RenderArguments& arguments) {
 void add_render_command(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<RenderArguments>();
   CLI::App* command =
-      app.add_subcommand("render", "Draw the holograms of a scene file into a picture");
-  command->add_option("scene", arguments->scene, "Scene file (docs/scene-files.md)")->required();
+      app.add_subcommand("render", "Draws the holograms of a scene file into a picture");
+  command->add_option("SCENE", arguments->scene, "Scene file (docs/scene-files.md)")->required();
   command->add_option("-o,--out", arguments->out, "PNG to write; both eyes side by side")
       ->required();
   command->add_option("--eye", arguments->eye, "left, right or both")
       ->check(CLI::IsMember({"left", "right", "both"}))
       ->capture_default_str();
-  command->add_option("--size", arguments->size, "WIDTHxHEIGHT of one eye, px (the file's)");
+  command->add_option("--size", arguments->size, "of one eye, px (default: the file's)");
   command->add_option("--blend", arguments->blend, "additive as a headset, over as a preview")
       ->check(CLI::IsMember({"additive", "over"}))
       ->capture_default_str();
@@ -188,8 +189,9 @@ void add_render_command(CLI::App& app, Action& action) {
                    "black, wound, or a PNG of one eye's size")
       ->capture_default_str();
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
-  command->add_flag("--optics", arguments->optics,
-                    "See the holograms through a combiner in a lit room; prints their contrasts");
+  command->add_flag(
+      "--optics", arguments->optics,
+      "the holograms as seen through a combiner in a lit room; prints their contrasts");
   command->add_option("--display", arguments->model.display_cd_m2, "White of the display, cd/m2")
       ->capture_default_str();
   command->add_option("--ambient", arguments->model.ambient_lux, "Light on the background, lux")

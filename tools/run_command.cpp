@@ -15,8 +15,10 @@ void add_ends_and_results(CLI::App& run, RunArguments& arguments) {
   run.add_option("--frames", arguments.frames, "end after so many displayed frames (0: no limit)")
       ->check(whole_number(0));
   run.add_option("--for", arguments.for_s, "end after so long, as in 60s or 5min")
-      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1.0}, {"min", 60.0}},
-                                        CLI::AsNumberWithUnit::UNIT_REQUIRED, "TIME"))
+      ->transform(CLI::Validator(CLI::AsNumberWithUnit(
+                                     std::map<std::string, double>{{"s", 1.0}, {"min", 60.0}},
+                                     CLI::AsNumberWithUnit::UNIT_REQUIRED, "TIME"))
+                      .description("TIME"))
       ->check(finite_number(0.1, 86400.0));
   run.add_option("--record", arguments.record, "record the session into this new folder")
       ->check(some_text());

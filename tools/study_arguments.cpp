@@ -262,7 +262,8 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
   study
       .add_option("--cases", arguments.cases,
                   "case folder or a folder of them (default: the built-in phantom)")
-      ->check(some_text());
+      ->check(some_text())
+      ->transform(folder_of_case());
   add_method_option(study, arguments.method);
   study
       .add_option("--profile", arguments.profile,
@@ -282,8 +283,9 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
           "wire, redo, numbers, reference")
       ->delimiter(',');
   study
-      .add_option("--guidance", arguments.guidance,
-                  "what the surgeon goes by: overlay, numbers (default) or \"closed loop\"")
+      .add_option(
+          "--guidance", arguments.guidance,
+          "what the surgeon goes by: overlay, numbers or \"closed loop\" (default: numbers)")
       ->check(CLI::IsMember(guidance_names()));
   study
       .add_option("--instrument", arguments.instrument,

@@ -139,8 +139,8 @@ void add_study_command(CLI::App& app, Action& action, StopSignals& signals) {
   add_sensitivity_command(*study, action);
   add_rods_command(*study, action);
   add_compare_command(*study, action);
-  auto* merge_command = study->add_subcommand("merge", "joins the results of shards");
-  merge_command->add_option("files", arguments->merged, "results of shards")->required();
+  auto* merge_command = study->add_subcommand("merge", "Joins the results of shards");
+  merge_command->add_option("FILE", arguments->merged, "results of shards")->required();
   arguments->merged_json.add_to(*merge_command);
   merge_command->add_option("--report", arguments->merged_report, "HTML page to write")
       ->check(some_text());

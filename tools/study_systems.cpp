@@ -73,7 +73,7 @@ void add_systems_command(CLI::App& study, Action& action) {
   auto arguments = std::make_shared<SystemsArguments>();
   auto* systems = study.add_subcommand(
       "systems", "What the simulated room predicts of published systems, beside what they reached");
-  systems->add_option("names", arguments->names, "systems, or files of one (default: all)");
+  systems->add_option("SYSTEM", arguments->names, "systems, or files of one (default: all)");
   systems->add_option("-n,--runs", arguments->runs, "operations a system")
       ->check(whole_number(2, 1'000'000))
       ->capture_default_str();

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <sstream>
 
@@ -18,6 +19,7 @@ namespace orthonav::test::help_test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -54,7 +56,7 @@ TEST(HelpText, SaysWhatFollowsAnOptionItsDefaultAndWhatItExcludes) {
             "  WOOD                        what it goes into\n"
             "\n"
             "Options:\n"
-            "  -h, --help                  Print this help message and\n"
+            "  -h, --help                  print this help message and\n"
             "                              exit\n"
             "  -o, --out FILE              where it comes out\n"
             "  --kind round|square         which kind\n"
@@ -100,6 +102,40 @@ TEST(Help, OfEveryCommandIsThereAndNamesTheMistypedWord) {
   EXPECT_THAT(orthonav({"run", "--headest", "x"}).err,
               HasSubstr("unknown option: --headest; did you mean --headset? (see orthonav run --"));
   EXPECT_THAT(orthonav({"doctor", "more"}).err, HasSubstr("one word too many: more (see"));
+}
+
+/// Calls `look` with the help of this command and of all below it.
+void for_each_help(const std::vector<std::string>& way,
+                   const std::function<void(const std::string&)>& look) {
+  std::vector<std::string> asked = way;
+  asked.emplace_back("--help");
+  const std::string help = orthonav(asked).out;
+  look(help);
+  std::istringstream lines(help);
+  std::string line;
+  while (std::getline(lines, line) && line != "Commands:") {
+  }
+  while (std::getline(lines, line) && !line.empty()) {
+    if (line[2] != ' ') {
+      std::vector<std::string> below = way;
+      below.push_back(line.substr(2, line.find(' ', 2) - 2));
+      for_each_help(below, look);
+    }
+  }
+}
+
+TEST(Help, SaysDefaultsInOneStyle) {
+  int commands = 0;
+  int defaults = 0;
+  for_each_help({}, [&](const std::string& help) {
+    ++commands;
+    defaults += help.find("(default: ") != std::string::npos ? 1 : 0;
+    EXPECT_THAT(help, Not(HasSubstr("; default:")));
+    EXPECT_THAT(help, Not(HasSubstr("(default)")));
+    EXPECT_THAT(help, Not(ContainsRegex(" \\[[a-z]"))) << "a default in brackets";
+  });
+  EXPECT_GE(commands, 45);
+  EXPECT_GE(defaults, 25);
 }
 
 /// The manual, made once.

@@ -64,7 +64,7 @@ class RegisterCase : public ::testing::TestWithParam<const char*> {
     std::vector<std::string> arguments{
         "register", "--level", label, "--points", file_of(points), "--cache", ORTHONAV_TEST_MODELS};
     if (!folder_of_case_.empty()) {
-      more.insert(more.end(), {"--case", folder_of_case_});
+      more.insert(more.end(), {"--case", folder_of_case_ + "/case.json"});
     }
     arguments.insert(arguments.end(), more.begin(), more.end());
     return orthonav(arguments);
@@ -191,7 +191,7 @@ TEST_P(RegisterCase, SaysWhyNotAndWhatToStrokeNext) {
   ASSERT_EQ(called.code, 1) << called.out;
   EXPECT_THAT(called.out, StartsWith("refused: "));
   EXPECT_THAT(called.err, StartsWith("orthonav: refused: "));
-  EXPECT_THAT(called.err, HasSubstr("orthonav: to know the pose better: stroke the "));
+  EXPECT_THAT(called.err, HasSubstr("orthonav: to improve: stroke the "));
 }
 
 TEST_P(RegisterCase, TakesTheBallAtThePointersEndIntoAccount) {
