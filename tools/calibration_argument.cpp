@@ -12,11 +12,12 @@ void CalibrationArgument::add_to(CLI::App& command) {
       ->type_name("FILE");
 }
 
-Result<Headset*> CalibrationArgument::on(Headset& headset) {
-  if (file_.empty()) {
+Result<Headset*> CalibrationArgument::on(Headset& headset, const std::string& rig_calibration) {
+  const std::string& path = file_.empty() ? rig_calibration : file_;
+  if (path.empty()) {
     return &headset;
   }
-  const auto file = engine::load_calibration(file_);
+  const auto file = engine::load_calibration(path);
   if (!file) {
     return file.error();
   }

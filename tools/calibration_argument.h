@@ -13,9 +13,9 @@ namespace orthonav::tools {
 class CalibrationArgument {
  public:
   void add_to(CLI::App& command);
-  /// The headset with that calibration, or unchanged if none was given. This object owns the new
-  /// headset and must outlive its use, and so must the original headset.
-  Result<Headset*> on(Headset& headset);
+  /// The headset with that calibration, else with the one that its rig file names, else unchanged.
+  /// This object owns the new headset and must outlive its use, and so must the original headset.
+  Result<Headset*> on(Headset& headset, const std::string& rig_calibration = {});
 
  private:
   std::string file_;

@@ -133,7 +133,7 @@ class LiveRun {
       onlookers_.log().warn(opened->warning);
       std::fprintf(stderr, "orthonav: warning: %s\n", opened->warning.c_str());
     }
-    const auto calibrated = arguments_.calibration.on(*headset_);
+    const auto calibrated = arguments_.calibration.on(*headset_, opened->calibration_file);
     if (!calibrated) {
       return calibrated.error();
     }

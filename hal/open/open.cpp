@@ -139,7 +139,7 @@ Result<OpenedHeadset> open_sim(const std::string& uri, const std::string& rest,
     return opened.error();
   }
   sim::SimHeadset* const seen = opened->get();
-  return OpenedHeadset{std::move(*opened), seen, {}};
+  return OpenedHeadset{std::move(*opened), seen, {}, {}};
 }
 
 /// A headset whose cameras see no simulated room.
@@ -148,7 +148,7 @@ Result<OpenedHeadset> without_room(Result<std::unique_ptr<T>> opened) {
   if (!opened) {
     return opened.error();
   }
-  return OpenedHeadset{std::move(*opened), nullptr, {}};
+  return OpenedHeadset{std::move(*opened), nullptr, {}, {}};
 }
 
 Result<OpenedHeadset> open_replay(const std::string& uri, const std::string& rest) {

@@ -23,6 +23,8 @@ struct OpenedHeadset {
   sim::SimHeadset* room = nullptr;
   /// In one line, a problem that did not prevent opening; empty: none.
   std::string warning;
+  /// Path of the cameras' calibration that a rig file names; empty: none.
+  std::string calibration_file;
 };
 
 /// Opens a headset by URI: `sim:` (the simulated operating room;

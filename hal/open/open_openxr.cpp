@@ -1,5 +1,6 @@
 #include "hal/open/open_openxr.h"
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -53,16 +54,41 @@ Result<Transform<Eye, Rig>> pose_from(const nlohmann::json& json, const std::str
   return pose;
 }
 
-Result<Transform<Eye, Rig>> load_rig(const std::string& path) {
+struct RigFile {
+  Transform<Eye, Rig> view_from_rig;
+  std::string calibration;  ///< path; empty: none
+};
+
+/// The path in the optional field `calibration`, which starts from the rig file's folder.
+Result<std::string> calibration_from(const nlohmann::json& json, const std::string& path) {
+  const auto field = json.find("calibration");
+  if (field == json.end()) {
+    return std::string();
+  }
+  if (!field->is_string() || field->get_ref<const std::string&>().empty()) {
+    return Error{path + ": calibration must be the path of a file of orthonav calibrate stereo"};
+  }
+  return (std::filesystem::path(path).parent_path() / field->get<std::string>()).string();
+}
+
+Result<RigFile> load_rig(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     return Error{path + ": can't be read", code_of_unopened(path)};
   }
   const auto json = nlohmann::json::parse(file, nullptr, false);
   if (json.is_discarded()) {
-    return Error{path + ": is no JSON"};
+    return Error{path + ": is not JSON"};
   }
-  return pose_from(json, path);
+  auto pose = pose_from(json, path);
+  if (!pose) {
+    return pose.error();
+  }
+  auto calibration = calibration_from(json, path);
+  if (!calibration) {
+    return calibration.error();
+  }
+  return RigFile{*pose, std::move(*calibration)};
 }
 
 /// Whether the cameras move with the wearer's head, unlike those of a simulation or a recording.
@@ -111,17 +137,19 @@ Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
     return parts.error();
   }
   openxr::RigOnHead rig;
+  std::string calibration;
   rig.mounted = is_mounted(parts->cameras);
   if (rig.mounted && !parts->rig_file) {
     return bad_uri(uri,
                    "cameras on the head need rig=FILE: where they are mounted can't be guessed");
   }
   if (parts->rig_file) {
-    auto pose = load_rig(*parts->rig_file);
-    if (!pose) {
-      return bad_uri(uri, pose.error().message);
+    auto file = load_rig(*parts->rig_file);
+    if (!file) {
+      return bad_uri(uri, file.error().message);
     }
-    rig.view_from_rig = *pose;
+    rig.view_from_rig = file->view_from_rig;
+    calibration = std::move(file->calibration);
   }
   auto cameras = open_with_room(parts->cameras, options);
   if (!cameras) {
@@ -132,7 +160,9 @@ Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
                             " has no cameras, and where it lies in the display's map is not known");
   }
   return OpenedHeadset{openxr::OpenxrHeadset::around(std::move(cameras->headset), rig),
-                       cameras->room};
+                       cameras->room,
+                       {},
+                       std::move(calibration)};
 }
 
 }  // namespace orthonav

@@ -98,7 +98,7 @@ TEST(OpenHeadset, ChecksTheRigFile) {
   };
   EXPECT_EQ(refused(R"({"view_from_rig": [[1,0,0,-50],[0,1,0,10],[0,0,1,-30],[0,0,0,1]]})"),
             "accepted");
-  EXPECT_THAT(refused("{"), HasSubstr("is no JSON"));
+  EXPECT_THAT(refused("{"), HasSubstr("is not JSON"));
   EXPECT_THAT(refused("[]"), HasSubstr("four rows of four numbers"));
   EXPECT_THAT(refused(R"({"view_from_rig": [[1,0,0],[0,1,0],[0,0,1],[0,0,0]]})"),
               HasSubstr("four rows of four numbers"));

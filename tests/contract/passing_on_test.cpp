@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "hal/fake/failing.h"
 #include "hal/open/joined_headset.h"
 #include "hal/open/open.h"
@@ -81,6 +83,27 @@ TEST(OpenWithRoom, NamesTheRoomThatTheCamerasSee) {
     const DescribedTools tools = opened->headset->described_tools();
     ASSERT_TRUE(std::holds_alternative<std::vector<DescribedTool>>(tools)) << uri;
     EXPECT_EQ(std::get<std::vector<DescribedTool>>(tools).size(), 1u) << uri;
+  }
+}
+
+TEST(OpenWithRoom, NamesTheCalibrationOfTheRigFile) {
+  const TemporaryFolder folder;
+  const auto opened_with = [&](const std::string& more) {
+    const std::string path = (folder.path() / "rig.json").string();
+    std::ofstream(path) << R"({"view_from_rig": [[1,0,0,-50],[0,1,0,10],[0,0,1,-30],[0,0,0,1]])"
+                        << more << "}";
+    return open_with_room("openxr:?rig=" + path + "+sim:");
+  };
+  const auto without = opened_with("");
+  ASSERT_TRUE(without.ok()) << without.error().message;
+  EXPECT_EQ(without->calibration_file, "");
+  const auto with = opened_with(R"(, "calibration": "stereo.json")");
+  ASSERT_TRUE(with.ok()) << with.error().message;
+  EXPECT_EQ(with->calibration_file, (folder.path() / "stereo.json").string());
+  for (const char* wrong : {"3", "\"\"", "null"}) {
+    const auto refused = opened_with(std::string(", \"calibration\": ") + wrong);
+    ASSERT_FALSE(refused.ok()) << wrong;
+    EXPECT_NE(refused.error().message.find("calibration must be the path"), std::string::npos);
   }
 }
 
