@@ -1,5 +1,6 @@
 #include "tools/preview/live_operation.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/case/operation_plan.h"
@@ -35,6 +36,19 @@ ToolSeen seen(const nav::ToolGeometry& tool, const nav::TrackedPose& pose) {
   }
   seen.tip_in_world = pose.value * tool.tip_in_marker;
   return seen;
+}
+
+/// A recording of a pointer alone can be looked at as well: it gets the built-in guide, which is
+/// never seen in it.
+std::vector<nav::ToolGeometry> with_guide(std::vector<nav::ToolGeometry> tools) {
+  const auto is_guide = [](const nav::ToolGeometry& tool) {
+    return tool.role == nav::ToolRole::kGuide;
+  };
+  if (std::none_of(tools.begin(), tools.end(), is_guide)) {
+    std::vector<nav::ToolGeometry> built_in = engine::built_in_tools();
+    tools.push_back(std::move(*std::find_if(built_in.begin(), built_in.end(), is_guide)));
+  }
+  return tools;
 }
 
 }  // namespace
@@ -89,8 +103,8 @@ Status LiveOperation::prepare(const OperationSource& source) {
   }
   engine::AssemblyOptions options{.loop = loop_options()};
   options.session.replan.sizes = source.screw_sizes;
-  auto assembled =
-      engine::assemble_operation(gated_, source.operation, source.method, *tools, options);
+  auto assembled = engine::assemble_operation(gated_, source.operation, source.method,
+                                              with_guide(*tools), options);
   if (!assembled) {
     return assembled.error();
   }

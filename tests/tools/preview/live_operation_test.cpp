@@ -5,6 +5,7 @@
 #include "engine/case/operation_plan.h"
 #include "engine/phantom/phantom.h"
 #include "hal/fake/scripted.h"
+#include "tests/support/temporary_folder.h"
 
 namespace orthonav::preview::live_operation_test {
 namespace {
@@ -96,6 +97,24 @@ TEST(LiveOperation, HearsTheKeyboardAtTheNextPair) {
   stage.keyboard.say("start");
   EXPECT_EQ(stage.timeline.newest()->at.step, engine::Step::kSetup);
   EXPECT_EQ(stage.run_to(3)->at.step, engine::Step::kDigitize);
+}
+
+TEST(LiveOperation, NeedsNoGuideToShowWhereThePointerIs) {
+  Stage stage;
+  const test::TemporaryFolder folder;
+  OperationSource pointer = source();
+  pointer.tools_file = folder.with("tools.json", R"({"tools": [{"name": "pointer",
+      "role": "pointer", "marker": {"family": "tag36h11", "id": 3, "size_mm": 70},
+      "tip_mm": [0, -130, 0], "axis": [0, 1, 0]}]})");
+  stage.gate.pause(true);
+  const auto live =
+      LiveOperation::open(pointer, perfect_room(), stage.gate, stage.keyboard, stage.timeline);
+  ASSERT_TRUE(live.ok()) << live.error().message;
+  (*live)->start();
+  const auto tenth = stage.run_to(10);
+  ASSERT_EQ(tenth->tools.size(), 2u);
+  EXPECT_EQ(tenth->tools[0].status, PoseStatus::kMeasured);
+  EXPECT_EQ(tenth->tools[1].name, "guide");
 }
 
 TEST(LiveOperation, RefusesAHeadsetThatHasADisplay) {
