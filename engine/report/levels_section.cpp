@@ -14,7 +14,7 @@ using nlohmann::json;
 /// Accepted, not accepted after a number of attempts, or never tried.
 std::string verdict_on(const json& level) {
   if (value_of(level, "attempts").value_or(0.0) <= 0.0) {
-    return "<span>not reached</span>";
+    return "<span>not registered</span>";
   }
   return std::string(is_true(level, "accepted") ? "<span class=good>accepted</span>"
                                                 : "<span class=bad>refused</span>") +

@@ -68,7 +68,7 @@ std::string cut_off_text(const std::vector<ReportPlot>& plots) {
 /// so that no hitch is hidden.
 ReportPlot timing_plot(const std::vector<ReportTiming>& timings) {
   ReportPlot plot{
-      "Cost of each frame on this machine", "frame, counted for each kind", "ms of wall time", {}};
+      "Time of each frame on this machine", "frame, counted for each kind", "ms of wall time", {}};
   for (const ReportTiming& timing : timings) {
     ReportCurve curve{timing.name, {}, {}};
     const std::size_t bin = std::max<std::size_t>(1, timing.ms.size() / 1000);
@@ -202,7 +202,7 @@ Result<std::string> report_html(const ReportContent& content) {
   const json report = json::parse(content.report_json, nullptr, false);
   if (report.is_discarded() || !report.is_object() || !report.contains("levels") ||
       !report["levels"].is_array()) {
-    return Error{"report: the figures are no report of this program (\"levels\" is missing)"};
+    return Error{"report: the figures are not a report of this program (\"levels\" is missing)"};
   }
   std::string html = head(report, content.date) + verdict_section(report) + screws_section(report) +
                      clearance_section(report) + levels_section(report);

@@ -41,14 +41,14 @@ void put_nothing(const std::string& title, std::string& html) {
 void put_ending(const SessionRecord& session, const Verdict& verdict, std::string& html) {
   html += "<section id=verdict class=" + std::string(style_of(verdict)) + "><h2>" +
           (session.cut ? "This session was cut off"
-                       : (session.completed() ? "The operation is done" : "Operation incomplete")) +
+                       : (session.completed() ? "Operation completed" : "Operation incomplete")) +
           ": " + html_escaped(verdict.counts) + "</h2><p>" + html_escaped(ending_of(session)) +
           "</p>" + warnings_list(verdict) + "</section>";
 }
 
 std::string verdict(const RecordedLevel& level) {
   if (level.attempts == 0) {
-    return "not reached";
+    return "not registered";
   }
   return level.accepted ? "<span class=good>accepted</span>"
                         : "<span class=bad>not accepted</span>";

@@ -93,10 +93,11 @@ std::string SpineView::section(std::string_view heading, std::string_view what) 
           "touch-action:none\"></canvas><p id=spine-note class=notes style=\"margin-top:10px\">")
       .append(what)
       .append(
-          " Drag to turn, wheel to zoom. <button data-turn=behind>from behind</button> "
+          "<span class=on-screen> Drag to turn, wheel to zoom. <button data-turn=behind>from "
+          "behind</button> "
           "<button data-turn=left>from the left</button> <button data-turn=above>from above"
           "</button> <label>bone <input id=spine-bone type=range min=0 max=1 step=0.05 value=0.35>"
-          "</label></p><script id=spine-data type=\"application/json\">")
+          "</label></span></p><script id=spine-data type=\"application/json\">")
       .append(data())
       .append("</script><script>")
       .append(embedded::spine_view_js())

@@ -25,7 +25,7 @@ TEST(ReportCommand, MakesThePageOfASessionAndOfWhatIsLeftOfOne) {
                                 "--json", folder.file("page.json")});
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(done.err, "");
-  EXPECT_THAT(content_of(page), HasSubstr("The operation is done"));
+  EXPECT_THAT(content_of(page), HasSubstr("Operation completed"));
   const json figures = json::parse(content_of(folder.file("page.json")));
   EXPECT_EQ(figures["completed"], true);
   EXPECT_EQ(figures["levels"][0]["screws"].size(), 2U);

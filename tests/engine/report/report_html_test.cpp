@@ -60,7 +60,7 @@ TEST(ReportHtml, TellsALevelThatWasRefusedFromOneThatWasNeverReached) {
   const auto page = [](const std::string& level) {
     return report_html({.report_json = R"({"levels":[{"label":"L4",)" + level + "}]}"}).value();
   };
-  EXPECT_THAT(page(R"("accepted":false,"attempts":0)"), HasSubstr("not reached"));
+  EXPECT_THAT(page(R"("accepted":false,"attempts":0)"), HasSubstr("not registered"));
   EXPECT_THAT(page(R"("accepted":false,"attempts":0)"), Not(HasSubstr("refused")));
   EXPECT_THAT(page(R"("accepted":false,"attempts":2)"), HasSubstr(">refused</span>"));
   EXPECT_THAT(page(R"("accepted":true,"attempts":1)"), HasSubstr(">accepted</span>"));

@@ -250,7 +250,7 @@ TEST(SessionReport, BeginsWithWhatWasPlacedAndItsWarnings) {
 TEST(SessionReport, TellsOfASessionThatEnded) {
   SessionRecord session = cut_session();
   session.cut = session.last_line_torn = false;
-  EXPECT_THAT(session_page(session, "j"), HasSubstr("The operation is done"));
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("Operation completed"));
   EXPECT_EQ(nlohmann::json::parse(session_json(session))["completed"], true);
   session.reason = "stopped by SIGTERM, ended at rod";
   EXPECT_THAT(session_page(session, "j"), HasSubstr("Operation incomplete"));

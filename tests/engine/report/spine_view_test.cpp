@@ -43,7 +43,7 @@ json data_of(const std::string& section) {
 TEST(SpineView, HoldsEveryBoneAndScrewInMillimetres) {
   const std::string section = operated_level().section("Spine", "What lies where.");
   EXPECT_THAT(section, StartsWith("<section><h2>Spine</h2><canvas id=spine"));
-  EXPECT_THAT(section, HasSubstr("What lies where. Drag to turn"));
+  EXPECT_THAT(section, HasSubstr("What lies where.<span class=on-screen> Drag to turn"));
   const json data = data_of(section);
   EXPECT_EQ(data["bones"].size(), 1u);
   EXPECT_EQ(data["planned"].size(), 2u);
