@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::string_view kEllipsis = "…";
 constexpr std::string_view kSeparators = " ;,:|";
+/// The end of a row stands for these.
+constexpr std::string_view kLeftOutAtAnEnd = " ;|";
 /// More than any rows hold.
 constexpr std::size_t kMostBytes = 1024;
 
@@ -99,9 +101,9 @@ std::string_view first_row(std::string_view text) {
   return text.substr(0, end);
 }
 
-std::string_view without_separators(std::string_view row) {
+std::string_view without_separators(std::string_view row, std::string_view at_end = kSeparators) {
   const std::size_t first = row.find_first_not_of(kSeparators);
-  const std::size_t last = row.find_last_not_of(kSeparators);
+  const std::size_t last = row.find_last_not_of(at_end);
   return first == std::string_view::npos ? std::string_view{} : row.substr(first, last + 1 - first);
 }
 
@@ -111,7 +113,7 @@ bool wrap(std::string_view text, std::span<std::string_view> rows) {
   for (std::string_view& row : rows) {
     const bool last = &row == &rows.back();
     const std::string_view whole = first_row(text);
-    row = without_separators(last ? text : whole);
+    row = last ? without_separators(text) : without_separators(whole, kLeftOutAtAnEnd);
     fits = fits && width_caps(row) <= kStatusWidth_caps;
     text = without_separators(text.substr(last ? text.size() : whole.size()));
   }

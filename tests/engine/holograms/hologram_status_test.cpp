@@ -111,6 +111,20 @@ TEST(StatusRows, WrapBetweenWordsWithoutASeparatorAtTheirEdges) {
   EXPECT_THAT(rows[0] + " " + rows[1], EndsWith("; stroke the left lamina now"));
 }
 
+TEST(StatusRows, KeepTheCommaOfASentenceThatGoesOnInTheNextRow) {
+  int broken_there = 0;
+  std::string said = "accept,";
+  while (width_caps(said) <= kStatusWidth_caps) {
+    const auto rows = Parted().add(Importance::kNext, "", said + " delete to redo it").rows();
+    if (rows[1] == "delete to redo it") {
+      ++broken_there;
+      EXPECT_EQ(rows[0], said);
+    }
+    said.insert(said.begin(), 'x');
+  }
+  EXPECT_GT(broken_there, 0);
+}
+
 TEST(StatusRows, DropTheLeastImportantFirstAndSaySo) {
   const auto with = [](std::size_t more) {
     Parted text;
