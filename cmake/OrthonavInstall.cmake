@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 get_property(orthonav_libraries GLOBAL PROPERTY ORTHONAV_LIBRARIES)
 set(orthonav_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/orthonav")
 
-# Building the target orthonav is enough to install everything.
+# Building the targets orthonav and manual is enough to install everything but the pages of the headers.
 add_dependencies(orthonav ${orthonav_libraries})
 install(TARGETS ${orthonav_libraries} EXPORT orthonavTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)

@@ -7,9 +7,11 @@
 namespace orthonav::tools {
 namespace {
 
-/// The middle of a picture, with the site, the cross and its numbers, and the status line below.
+/// The middle of a picture, with the site, the cross and its numbers, and the status line below:
+/// the borders show nothing but drapes.
 void copy_middle(const RgbaImage& image, RgbaImage& middle) {
-  const int left = image.width_px / 8;
+  // The status line is three quarters as wide as the picture.
+  const int left = image.width_px / 10;
   const int top = image.height_px / 8;
   middle.width_px = image.width_px - 2 * left;
   middle.height_px = image.height_px - top;
@@ -44,11 +46,7 @@ Status StepPictures::picture(const RgbaImage& image, const engine::Snapshot& sna
   }
   held_shows_site_ = shows_site;
   held_tip_to_entry_m_ = tip_to_entry_m;
-  if (tip_to_entry_m) {
-    copy_middle(image, held_);
-  } else {
-    held_ = image;
-  }
+  copy_middle(image, held_);
   return {};
 }
 
