@@ -34,7 +34,7 @@ py::array array_from(const py::object& value, const std::string& name, Shape sha
   const auto array = py::array::ensure(value);
   if (!array || kinds.find(array.dtype().kind()) == std::string::npos) {
     PyErr_Clear();
-    throw Refused(name + ": " + (array ? "holds " + text_of(array.dtype()) : "is no array") +
+    throw Refused(name + ": " + (array ? "holds " + text_of(array.dtype()) : "is not an array") +
                   ", must be an array of " + wanted);
   }
   if (!has_shape(array, shape)) {
@@ -107,7 +107,7 @@ std::vector<std::array<std::uint32_t, 3>> triangles_from(const py::object& value
   std::vector<std::array<std::uint32_t, 3>> triangles(corners.size() / 3);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (corners[i] < 0 || corners[i] > std::numeric_limits<std::uint32_t>::max()) {
-      throw Refused(name + ": holds " + std::to_string(corners[i]) + ", which is no index");
+      throw Refused(name + ": holds " + std::to_string(corners[i]) + ", which is not an index");
     }
     triangles[i / 3][i % 3] = static_cast<std::uint32_t>(corners[i]);
   }

@@ -181,7 +181,7 @@ std::string unassigned_of(const engine::Evaluation& evaluation) {
   if (evaluation.unassigned.empty()) {
     return "";
   }
-  std::string html = "<section><h2>Metal that is no planned screw</h2><ul>";
+  std::string html = "<section><h2>Metal that is not a planned screw</h2><ul>";
   for (const engine::UnassignedMetal& metal : evaluation.unassigned) {
     html += "<li>" + html_escaped(text_of(metal, evaluation)) + "</li>";
   }

@@ -16,7 +16,7 @@ Result<engine::Request> command_of(const std::string& text) {
   const bool plain =
       std::all_of(text.begin(), text.end(), [](unsigned char c) { return c >= 0x20 && c < 0x7f; });
   if (!plain || text.size() > kLongestCommand) {
-    return Error{"is no command: one line of at most " + std::to_string(kLongestCommand) +
+    return Error{"is not a command: one line of at most " + std::to_string(kLongestCommand) +
                  " letters is"};
   }
   engine::Request request;
@@ -26,7 +26,7 @@ Result<engine::Request> command_of(const std::string& text) {
   }
   const auto replan = engine::replan_from(text);
   if (!replan) {
-    return Error{"\"" + text + "\" is no command"};
+    return Error{"\"" + text + "\" is not a command"};
   }
   return *replan ? Result<engine::Request>(request) : replan->error();
 }

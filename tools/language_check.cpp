@@ -98,7 +98,7 @@ Result<Translation> checked_translation(const std::string& file,
     const std::string place = file + ":" + std::to_string(line.line) + ": ";
     const auto found = known.find(line.english);
     if (found == known.end()) {
-      return Error{place + "\"" + one_line(line.english) + "\" is no text of this version"};
+      return Error{place + "\"" + one_line(line.english) + "\" is not a text of this version"};
     }
     if (line.text.empty()) {
       continue;

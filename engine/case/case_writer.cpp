@@ -53,7 +53,7 @@ Result<ordered_json> with_plan_names(const std::string& path, const Case& planne
   }
   ordered_json root = ordered_json::parse(*text, nullptr, false);
   if (!is_case(root)) {
-    return Error{path + ": is no case"};
+    return Error{path + ": is not a case"};
   }
   if (root.value("units", "mm") != "mm") {
     return Error{path + ": units must be mm where plans are added to it"};

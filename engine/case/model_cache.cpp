@@ -23,7 +23,7 @@ Result<std::optional<std::string>> content_of(const std::string& path) {
   }
   // Reading a pipe might never return.
   if (!fs::is_regular_file(status)) {
-    return Error{"is no file"};
+    return Error{"is not a file"};
   }
   const std::uintmax_t size = fs::file_size(path, code);
   if (code) {

@@ -58,7 +58,7 @@ std::vector<T> take(std::string_view& from, std::uint64_t count) {
 
 Status check(const Header& header, std::size_t size, const MeshKey& key) {
   if (std::string_view(header.magic, sizeof header.magic) != kMagic) {
-    return Error{"is no prepared model"};
+    return Error{"is not a prepared model"};
   }
   if (header.layout != kLayout || header.preparation != nav::kPreparationVersion) {
     return Error{"is of version " + std::to_string(header.layout) + "." +

@@ -36,7 +36,7 @@ Status check_references(const Operation& operation, const std::vector<nav::ToolG
     }
     if (named(operation.spine, tool.level) == operation.spine.end()) {
       return Error{"reference '" + tool.name + "': clamped to '" + tool.level +
-                   "', which is no level of case '" + operation.case_name + "'"};
+                   "', which is not a level of case '" + operation.case_name + "'"};
     }
     references.push_back(&tool);
   }

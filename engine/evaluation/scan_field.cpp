@@ -43,7 +43,7 @@ Status check_scan(const Volume& scan) {
     metal += static_cast<double>(hu) >= kMetal_hu ? 1 : 0;
   }
   if (scan.values.empty() || static_cast<double>(least) > kNotHu) {
-    return Error{printed("the scan is no CT in HU: its least value is %.0f, limit %.0f",
+    return Error{printed("the scan is not a CT in HU: its least value is %.0f, limit %.0f",
                          static_cast<double>(least), kNotHu)};
   }
   if (metal == 0) {

@@ -46,7 +46,7 @@ Result<std::string> path_inside(const std::string& folder, const std::string& na
   }
   const fs::file_status found = fs::status(real, problem);
   if (fs::exists(found) && !fs::is_regular_file(found)) {
-    return Error{path.string() + ": is no plain file"};
+    return Error{path.string() + ": is not a plain file"};
   }
   return path.string();
 }

@@ -121,7 +121,7 @@ Status read_vertices(const Element& element, Values& values, PlyFile& file) {
   for (std::size_t i = 0; i < element.count; ++i) {
     if (!read_row(element, element.properties.size(), values, row)) {
       return values.ended() ? ends_early(element, i)
-                            : Error{"vertex " + std::to_string(i) + " holds no finite number"};
+                            : Error{"vertex " + std::to_string(i) + " is not a number"};
     }
     const Vec3 v{row.values[columns[0]], row.values[columns[1]], row.values[columns[2]]};
     if (!v.is_finite()) {
@@ -141,7 +141,7 @@ Status read_faces(const Element& element, Values& values, PlyFile& file) {
   for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
     if (!read_row(element, corners, values, row)) {
       return values.ended() ? ends_early(element, i)
-                            : Error{"face " + std::to_string(i) + " holds no number"};
+                            : Error{"face " + std::to_string(i) + " is not a number"};
     }
     for (const double corner : row.list) {
       if (!(corner >= 0.0 && corner < static_cast<double>(file.vertices.size()))) {

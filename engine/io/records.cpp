@@ -71,7 +71,7 @@ std::uint32_t append_record(std::string& out, const Record& record, std::uint32_
 Result<RecordsRead> read_records(std::string_view bytes, const std::string& name) {
   const std::size_t beginning = std::min(bytes.size(), kRecordsBegin.size());
   if (bytes.substr(0, beginning) != kRecordsBegin.substr(0, beginning)) {
-    return Error{name + ": is no file of records of an operation"};
+    return Error{name + ": is not a file of records of an operation"};
   }
   RecordsRead read;
   read.check = kFirstCheck;

@@ -114,7 +114,8 @@ std::string tfm_text(const StoredTransform& transform) {
 
 Result<StoredTransform> transform_from_tfm(std::string_view text, const std::string& name) {
   if (!text.starts_with(kHeader)) {
-    return Error{name + ": is no transform file: must begin with \"" + std::string(kHeader) + "\""};
+    return Error{name + ": is not a transform file: must begin with \"" + std::string(kHeader) +
+                 "\""};
   }
   // Digits could be missing at the end of a line that does not end.
   if (text.back() != '\n') {

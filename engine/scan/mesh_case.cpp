@@ -26,7 +26,7 @@ Status check_names(const std::vector<CaseLevel>& meshes) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const std::string& label = meshes[i].label;
     if (!place_in_spine(label)) {
-      return Error{"'" + label + "' is no vertebra (C1-C7, T1-T13, L1-L6, S1)"};
+      return Error{"'" + label + "' is not a vertebra (C1-C7, T1-T13, L1-L6, S1)"};
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (meshes[j].label == label) {

@@ -94,7 +94,7 @@ Result<std::string> text_named(hid_t group, const char* name) {
   if (!data) {
     return data.error();
   }
-  const Error unreadable{std::string(kFirst) + "/" + name + " is no text"};
+  const Error unreadable{std::string(kFirst) + "/" + name + " is not text"};
   const Handle type(H5Dget_type(data->id()), H5Tclose);
   if (!type || H5Tget_class(type.id()) != H5T_STRING || count_in(data->id()) != 1) {
     return unreadable;

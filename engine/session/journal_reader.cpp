@@ -107,7 +107,7 @@ class Reading {
  private:
   void take_header(const JsonNode& line) {
     if (line.text("format") != "orthonav session") {
-      return line.refuse("format", "is no \"orthonav session\"");
+      return line.refuse("format", "is not \"orthonav session\"");
     }
     if (const int version = line.integer("format_version"); version != 1) {
       return line.refuse("format_version", "is " + std::to_string(version) + ", known is 1");
@@ -133,7 +133,7 @@ class Reading {
   Timestamp time_of(const JsonNode& line) {
     const double ns = line.number("time_ns");
     if (!(std::abs(ns) <= kLatest_ns)) {
-      line.refuse("time_ns", "is no time of a session");
+      line.refuse("time_ns", "is not a time of a session");
       return {};
     }
     const Timestamp time{Duration(static_cast<std::int64_t>(ns))};

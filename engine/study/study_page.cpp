@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/how_many.h"
 #include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/report_values.h"
@@ -86,7 +87,7 @@ void add_registrations(const nlohmann::json& study, std::string& html) {
           html_number(100.0 * quality["coverage"]["95"].get<double>(), 0) +
           " % where 95 % were. More than 2 mm off at a screw: " +
           std::to_string(silent["n"].get<int>()) + " of " +
-          std::to_string(silent["of"].get<int>()) + " levels, with 95 % certainty at most " +
+          how_many(silent["of"].get<int>(), "level") + ", with 95 % certainty at most " +
           html_number(100.0 * silent["upper_95"].get<double>(), 1) + " %.</p></section>";
 }
 
@@ -98,7 +99,7 @@ void add_guided(const nlohmann::json& study, std::string& html) {
   const auto& guided = study["guided"];
   const auto count_of = [](const nlohmann::json& counted) {
     return std::to_string(counted["n"].get<int>()) + " of " +
-           std::to_string(counted["of"].get<int>()) + " screws, with 95 % certainty at most " +
+           how_many(counted["of"].get<int>(), "screw") + ", with 95 % certainty at most " +
            html_number(100.0 * counted["upper_95"].get<double>(), 1) + " %";
   };
   html +=
@@ -206,7 +207,7 @@ std::string study_html(const std::string& text, const ReplayCommand& replay) {
   const nlohmann::json study = nlohmann::json::parse(text, nullptr, false);
   StudyPage page{"study", "", ""};
   if (!study.is_object() || !study.contains("runs")) {
-    page.body = "<p>This is no study.</p>";
+    page.body = "<p>This is not a study.</p>";
     return framed(page, nlohmann::json::object());
   }
   const std::string method = study.value("method", "");

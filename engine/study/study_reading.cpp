@@ -18,7 +18,7 @@ Status check_run(const nlohmann::ordered_json& run, const std::string& name) {
   }
   for (const nlohmann::ordered_json& level : run["levels"]) {
     if (!level.is_object()) {
-      return Error{name + ": a level of a run is no object"};
+      return Error{name + ": a level of a run is not an object"};
     }
   }
   return {};
@@ -30,7 +30,7 @@ Result<nlohmann::ordered_json> parse_study(const std::string& text, const std::s
   nlohmann::ordered_json study = nlohmann::ordered_json::parse(text, nullptr, false);
   if (study.is_discarded() || !study.is_object() || !study.contains("runs") ||
       !study["runs"].is_array() || !study.contains("method") || !study["method"].is_string()) {
-    return Error{name + ": is no study (an object with method and runs)"};
+    return Error{name + ": is not a study (an object with method and runs)"};
   }
   for (const nlohmann::ordered_json& run : study["runs"]) {
     if (const Status good = check_run(run, name); !good) {

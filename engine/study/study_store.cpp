@@ -75,7 +75,7 @@ Result<StoredOperation> operation_in(const Statement& asked, const std::string& 
   StoredOperation out{static_cast<int>(asked.number(0)), asked.text(1), *seed, asked.text(3),
                       asked.text(4)};
   if (!out.report.empty() && !nlohmann::json::accept(out.report)) {
-    return Error{path + ": report of operation " + asked.text(0) + " is no JSON"};
+    return Error{path + ": report of operation " + asked.text(0) + " is not JSON"};
   }
   return out;
 }
@@ -136,7 +136,7 @@ struct StudyStore::Database {
   /// The definition of the study in it.
   [[nodiscard]] Result<std::string> definition(const std::string& path) const {
     if (pragma("PRAGMA application_id") != kApplication) {
-      return Error{path + ": is no study of orthonav"};
+      return Error{path + ": is not a study of orthonav"};
     }
     if (const auto layout = pragma("PRAGMA user_version"); layout != kLayout) {
       return Error{path + ": layout " + std::to_string(layout) + ", this version reads " +

@@ -103,7 +103,7 @@ Status check_tools(const char* what, const StereoFrame& frame, std::span<const s
       }
     }
     if (!is_rigid({tool.rig_from_marker.rotation(), tool.rig_from_marker.translation()})) {
-      return Error{pose + " is no rigid motion"};
+      return Error{pose + " is not a rigid motion"};
     }
     if (!is_sound(tool.covariance)) {
       return Error{pose + ": covariance" + kUnsound};

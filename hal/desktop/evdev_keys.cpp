@@ -69,7 +69,7 @@ class EvdevKeys : public KeyEvents {
     libevdev* device = nullptr;
     if (const int code = libevdev_new_from_fd(file_.number(), &device); code < 0) {
       return device_error(
-          path_, std::string("is no event device: ") + std::generic_category().message(-code));
+          path_, std::string("is not an event device: ") + std::generic_category().message(-code));
     }
     device_.reset(device);
     if (const int code = libevdev_set_clock_id(device, CLOCK_MONOTONIC); code < 0) {

@@ -65,7 +65,7 @@ class RecordedKeys : public KeyEvents {
     if (event.input_event_sec < 0 || event.input_event_sec > kMaxSeconds ||
         event.input_event_usec < 0 || event.input_event_usec >= 1'000'000) {
       return Error{"clicker " + path_ + ": time " + std::to_string(event.input_event_sec) + " s " +
-                   std::to_string(event.input_event_usec) + " us is no time of an event"};
+                   std::to_string(event.input_event_usec) + " us is not the time of an event"};
     }
     const Duration at = std::chrono::seconds(event.input_event_sec) +
                         std::chrono::microseconds(event.input_event_usec);
@@ -90,7 +90,8 @@ Result<std::unique_ptr<KeyEvents>> open_recorded_keys(const std::string& path) {
   }
   const bool fifo = S_ISFIFO(status.st_mode);
   if (!fifo && !S_ISREG(status.st_mode)) {
-    return Error{"clicker " + path + ": is no event device, no file of events and no FIFO"};
+    return Error{"clicker " + path +
+                 ": is neither an event device nor a file of events nor a FIFO"};
   }
   const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) {

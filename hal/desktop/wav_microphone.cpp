@@ -98,7 +98,7 @@ Result<std::unique_ptr<Microphone>> open_wav_microphone(const std::filesystem::p
   SF_INFO info{};
   const std::unique_ptr<SNDFILE, CloseSound> file(sf_open(path.c_str(), SFM_READ, &info));
   if (!file) {
-    Error error = file_error(path, std::string("is no sound file: ") + sf_strerror(nullptr));
+    Error error = file_error(path, std::string("is not a sound file: ") + sf_strerror(nullptr));
     if (sf_error(nullptr) == SF_ERR_SYSTEM) {
       error.code = code_of_unopened(path);
     }

@@ -72,7 +72,7 @@ Result<Header> parsed_header(std::span<const std::uint8_t, kHeaderBytes> bytes) 
                        return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
                      });
   if (header.version < 1 || header.version > kNewest || !named) {
-    return Error{"sends what is no OpenIGTLink message"};
+    return Error{"sends what is not an OpenIGTLink message"};
   }
   return header;
 }

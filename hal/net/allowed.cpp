@@ -41,7 +41,7 @@ Result<Allowed::Network> Allowed::network_of(const std::string& text) {
     network.address = mapped(four);
     before = kMappedBits;
   } else if (::inet_pton(AF_INET6, number.c_str(), network.address.data()) != 1) {
-    return Error{"\"" + text + "\" is no network, as in 192.168.1.0/24 or 10.0.0.7"};
+    return Error{"\"" + text + "\" is not a network, as in 192.168.1.0/24 or 10.0.0.7"};
   }
   const int most = 128 - before;
   const auto bits =

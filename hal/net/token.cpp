@@ -74,7 +74,7 @@ Result<std::string> read_from(const std::string& path) {
                  file_code(errno)};
   }
   if (!S_ISREG(found.st_mode)) {
-    return Error{path + ": is no regular file"};
+    return Error{path + ": is not a regular file"};
   }
   if ((found.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
     return Error{path + ": others may read or write it; chmod 600 makes it yours alone"};

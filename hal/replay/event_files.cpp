@@ -112,7 +112,7 @@ Status take_event(std::string_view line, std::vector<std::string_view>& fields,
   const auto time = parse_time(fields[3]);
   const auto available = parse_time(fields[4]);
   if (!time || !available) {
-    return Error{"time_ns or available_ns is no whole number"};
+    return Error{"time_ns or available_ns is not a whole number"};
   }
   for (const Timestamp t : {*time, *available}) {
     if (t < Timestamp(Duration(-kMaxNs)) || t > Timestamp(Duration(kMaxNs))) {
@@ -152,7 +152,7 @@ Status take_head_answer(std::string_view line, std::vector<std::string_view>& fi
   const auto at = parse_time(fields[1]);
   const auto origin = value_in(kOrigins, fields[2]);
   if (!sequence || !at) {
-    return Error{"sequence or at_ns is no whole number"};
+    return Error{"sequence or at_ns is not a whole number"};
   }
   if (!origin) {
     return Error{"origin is unknown; known are measured, predicted and lost"};

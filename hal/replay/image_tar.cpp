@@ -116,7 +116,7 @@ Status ImageTar::index() {
   const ArchiveReader reader(archive_read_new());
   archive_read_support_format_tar(reader.get());
   if (archive_read_open_filename(reader.get(), path_.c_str(), 64 * 1024) != ARCHIVE_OK) {
-    return file_error(path_, "is no tar archive: " + error_of(reader.get()));
+    return file_error(path_, "is not a tar archive: " + error_of(reader.get()));
   }
   const auto answer =
       for_each_member(reader.get(), file_size,
@@ -171,7 +171,7 @@ Status ImageTar::index_member(const char* name_text, bool plain, std::uint64_t o
   const std::string member = "member \"" + printable(name) + "\" ";
   const auto known = parsed(name);
   if (!plain || !known) {
-    return file_error(path_, member + "is no image named " + layout_.prefix + "<ticks>.pgm" +
+    return file_error(path_, member + "is not an image named " + layout_.prefix + "<ticks>.pgm" +
                                  (layout_.with_brightness ? " or <ticks>_ab.pgm" : ""));
   }
   std::array<char, 256> bytes;

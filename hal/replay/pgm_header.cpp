@@ -61,7 +61,7 @@ class Fields {
 Result<PgmHeader> parse_pgm_header(std::string_view bytes) {
   Fields fields(bytes);
   if (!fields.magic()) {
-    return Error{"is no binary PGM (P5)"};
+    return Error{"is not a binary PGM (P5)"};
   }
   const auto width = fields.number();
   const auto height = fields.number();

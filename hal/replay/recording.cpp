@@ -25,7 +25,7 @@ Status check_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder, code)) {
     return file_error(
         folder,
-        "is no folder; a recording is a folder with \"VLC LF.tar\" or \"vlc_lf.tar\" in it");
+        "is not a folder; a recording is a folder with \"VLC LF.tar\" or \"vlc_lf.tar\" in it");
   }
   return {};
 }

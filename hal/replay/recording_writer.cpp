@@ -37,7 +37,7 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(
   // The temporary folder lies next to it.
   writer->folder_ = without_slash(folder);
   if (writer->folder_.empty()) {
-    return file_error(folder, "is no name for a recording");
+    return file_error(folder, "is not a name for a recording");
   }
   writer->part_ = writer->folder_;
   writer->part_ += kUnfinished;

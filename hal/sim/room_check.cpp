@@ -37,7 +37,7 @@ Status check_level(const RoomLevel& level) {
   }
   const auto& pose = level.spine_from_vertebra;
   if (!Transform<Spine, Vertebra>::checked(pose.rotation(), pose.translation())) {
-    return Error{name + "its place in the spine is no rigid motion"};
+    return Error{name + "its place in the spine is not a rigid motion"};
   }
   return {};
 }

@@ -240,7 +240,7 @@ Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(
         std::find_if(references.begin(), references.end(),
                      [&](const Reference& each) { return each.tool == place.tool; });
     if (reference == references.end()) {
-      return Error{"tools: tool " + std::to_string(place.tool) + " is no patient reference"};
+      return Error{"tools: tool " + std::to_string(place.tool) + " is not a patient reference"};
     }
     reference->anchored_from_marker = place.anchored_from_marker;
   }

@@ -187,7 +187,7 @@ TEST(StudyCommand, RefusesBadInput) {
   expect_refusal(orthonav({"study", "--shard", "1/2x"}), "--shard 1/2x");
   expect_refusal(orthonav({"study", "--runs", "0"}), "--runs: \"0\"");
   expect_refusal(orthonav({"study", "--cases", folder.file("none")}), "no case.json");
-  expect_refusal(orthonav({"study", "merge", folder.with("a.json", "[]")}), "is no study");
+  expect_refusal(orthonav({"study", "merge", folder.with("a.json", "[]")}), "is not a study");
   const std::string words = folder.with("words.json", R"({"method": "paper", "runs": [
       {"case": "a", "seed": 1, "completed": "yes", "levels": []}]})");
   expect_refusal(orthonav({"study", "merge", words}),

@@ -61,7 +61,7 @@ TEST(StudyCompare, RefusesInOneLine) {
   EXPECT_THAT(refusal({one, none}), HasSubstr("none.json: no operation in common"));
   EXPECT_THAT(refusal({one}), HasSubstr("B is required"));
   EXPECT_THAT(refusal({one, folder.file("absent")}), HasSubstr("absent: cannot be opened"));
-  EXPECT_THAT(refusal({one, folder.with("x.db", "no study")}), HasSubstr("x.db: is no study"));
+  EXPECT_THAT(refusal({one, folder.with("x.db", "no study")}), HasSubstr("x.db: is not a study"));
 }
 
 TEST(StudyMerge, WritesThePageToo) {

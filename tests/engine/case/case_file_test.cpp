@@ -141,7 +141,7 @@ TEST_F(CaseFile, LeavesItsFolderByNoName) {
   std::filesystem::create_directory_symlink(elsewhere.path(), folder_.file("sub"));
   EXPECT_THAT(with("sub/other.stl", "L4.plan.json"), HasSubstr("is a link that leads out of"));
   ASSERT_EQ(::mkfifo(folder_.file("pipe.stl").c_str(), 0600), 0);
-  EXPECT_THAT(with("pipe.stl", "L4.plan.json"), HasSubstr("is no plain file"));
+  EXPECT_THAT(with("pipe.stl", "L4.plan.json"), HasSubstr("is not a plain file"));
 }
 
 TEST_F(CaseFile, FollowsALinkThatStaysInside) {

@@ -74,7 +74,7 @@ TEST_F(CaseTransform, MixesFilesAndMatrices) {
 TEST_F(CaseTransform, RefusesFilesInOneLineThatNamesThem) {
   EXPECT_THAT(refusal("\"none.tfm\"", "\"L5.tfm\""), HasSubstr("none.tfm: cannot be opened"));
   EXPECT_THAT(refusal("\"../L4.tfm\"", "\"L5.tfm\""), HasSubstr("leads out of"));
-  EXPECT_THAT(refusal("\"L4.obj\"", "\"L5.tfm\""), HasSubstr("L4.obj: is no transform file"));
+  EXPECT_THAT(refusal("\"L4.obj\"", "\"L5.tfm\""), HasSubstr("L4.obj: is not a transform file"));
   std::ignore = folder_.with("mirror.tfm",
                              "#Insight Transform File V1.0\nTransform: AffineTransform_double_3_3\n"
                              "Parameters: -1 0 0 0 1 0 0 0 1 0 0 0\nFixedParameters: 0 0 0\n");

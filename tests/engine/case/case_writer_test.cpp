@@ -130,7 +130,7 @@ TEST(CaseWriter, AddsNoPlanToWhatIsNoCase) {
     std::ignore = folder.with("case.json", text);
     const Status status = add_plans(folder.path().string(), boxes(true));
     ASSERT_FALSE(status.ok()) << text;
-    EXPECT_THAT(status.error().message, HasSubstr("case.json: is no case"));
+    EXPECT_THAT(status.error().message, HasSubstr("case.json: is not a case"));
     EXPECT_FALSE(std::filesystem::exists(folder.file("L4.plan.json"))) << text;
   }
 }

@@ -57,7 +57,7 @@ TEST(References, OneThatSaysNoLevelLimitsNothing) {
 
 TEST(References, OneOnNoLevelOfTheCaseIsRefused) {
   EXPECT_THAT(check_references(lumbar("L1"), {reference_on("T4")}).error().message,
-              HasSubstr("clamped to 'T4', which is no level of case"));
+              HasSubstr("clamped to 'T4', which is not a level of case"));
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST(RecordLog, RefusesWhatIsNoneInOneLine) {
   EXPECT_THAT(missing.error().message, HasSubstr("operation.log: cannot be read"));
   const auto other = RecordLog::reopen(env, folder.with("operation.log", "something else, longer"));
   ASSERT_FALSE(other.ok());
-  EXPECT_THAT(other.error().message, HasSubstr("is no file of records"));
+  EXPECT_THAT(other.error().message, HasSubstr("is not a file of records"));
   const auto empty = RecordLog::reopen(env, folder.with("operation.log", ""));
   ASSERT_FALSE(empty.ok());
   EXPECT_THAT(empty.error().message, HasSubstr("holds no whole record"));

@@ -89,7 +89,7 @@ TEST(Records, AreNumberedWithoutAGap) {
 TEST(Records, OfAnotherSortOfFileAreRefused) {
   const auto read = read_records("{\"format\": \"orthonav session\"}", "a.log");
   ASSERT_FALSE(read.ok());
-  EXPECT_THAT(read.error().message, HasSubstr("a.log: is no file of records"));
+  EXPECT_THAT(read.error().message, HasSubstr("a.log: is not a file of records"));
   EXPECT_TRUE(read_records("", "a.log")->records.empty());
 }
 

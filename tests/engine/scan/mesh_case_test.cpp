@@ -56,7 +56,7 @@ TEST(MeshCase, RefusesNamesThatTheBonesContradict) {
   EXPECT_THAT(refusal(twice), HasSubstr("L4 is given twice"));
   auto strange = meshes({"L3"});
   strange[0].label = "bone";
-  EXPECT_THAT(refusal(strange), HasSubstr("'bone' is no vertebra"));
+  EXPECT_THAT(refusal(strange), HasSubstr("'bone' is not a vertebra"));
 }
 
 TEST(MeshCase, RefusesMeshesInFramesOfTheirOwn) {

@@ -125,7 +125,7 @@ TEST(TransformHdf5, RefusesDataOfAnotherSort) {
   const std::string path = folder.file("a.h5");
   const std::string in = "/TransformGroup/0/";
   Hdf5File(path).start().numbers(in + "TransformType", kCentre);
-  EXPECT_THAT(refusal(path), HasSubstr("/TransformGroup/0/TransformType is no text"));
+  EXPECT_THAT(refusal(path), HasSubstr("/TransformGroup/0/TransformType is not text"));
   Hdf5File(path).start().text(in + "TransformType", kAffine);
   EXPECT_THAT(refusal(path), HasSubstr("has no /TransformGroup/0/TransformParameters"));
   Hdf5File(path)

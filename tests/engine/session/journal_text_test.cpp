@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{"Binary", "\x89PNG\r\n\x1a\n", "bad:1: is not JSON"},
         Hostile{"TornHeader", header().substr(0, 40), "bad:1: is not JSON"},
         Hostile{"AnotherFormat", "{\"format\":\"x\"}\n",
-                "bad:1: format is no \"orthonav session\""},
+                "bad:1: format is not \"orthonav session\""},
         Hostile{"ALaterVersion", R"({"format":"orthonav session","format_version":2})",
                 "bad:1: format_version is 2, known is 1"},
         Hostile{"NoJson", line_with("\"ended\"").insert(header().size(), "x"),
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
                 header() + started() + "{\"time_ns\":39000000000,\"what\":\"ended\"}\n",
                 "bad:3: time_ns goes back by 61.0 s, limit 60 s"},
         Hostile{"NoTime", header() + "{\"time_ns\":1e300,\"what\":\"ended\"}\n",
-                "bad:2: time_ns is no time"},
+                "bad:2: time_ns is not a time"},
         Hostile{"AfterTheEnd", line_with("\"ended\""), "bad:3: stands after the end"}),
     [](const auto& each) { return std::string(each.param.name); });
 

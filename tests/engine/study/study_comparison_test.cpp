@@ -90,7 +90,7 @@ TEST(StudyComparison, RefusesStudiesThatHaveNothingInCommon) {
   const std::string one = study_with("best", {operation_with(1, 1.0, 2.0)});
   EXPECT_EQ(compared_by(one, study_with("paper", {operation_with(2, 1.0, 2.0)})).error().message,
             "a.json, b.json: no operation in common (the same case and seed)");
-  EXPECT_THAT(compared_by(one, "[]").error().message, HasSubstr("b.json: is no study"));
+  EXPECT_THAT(compared_by(one, "[]").error().message, HasSubstr("b.json: is not a study"));
   EXPECT_THAT(compared_by(study_with("best", {{{"case", "a"}}}), one).error().message,
               HasSubstr("a.json: a run lacks"));
 }

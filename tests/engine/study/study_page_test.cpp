@@ -84,7 +84,7 @@ TEST(StudyPage, DrawsEveryValueItHas) {
 
 TEST(StudyPage, TakesNoNameForMarkup) {
   EXPECT_THAT(study_html(small_study("<b>")), Not(HasSubstr("<b>, L5")));
-  EXPECT_THAT(study_html("[]"), HasSubstr("This is no study."));
+  EXPECT_THAT(study_html("[]"), HasSubstr("This is not a study."));
 }
 
 TEST(StudyPage, FitsAPhone) {

@@ -72,8 +72,8 @@ TEST(Study, RefusesWhatDoesNotBelongTogether) {
   const std::string one = study_of("paper", {run_of("a", 1, 3.0)});
   EXPECT_THAT(merged({one, one}).error().message, HasSubstr("part2: case 'a' with seed 1"));
   EXPECT_THAT(merged({one, study_of("best", {})}).error().message, HasSubstr("method 'best'"));
-  EXPECT_THAT(merged({"{", one}).error().message, HasSubstr("part1: is no study"));
-  EXPECT_THAT(merged({"[]"}).error().message, HasSubstr("is no study"));
+  EXPECT_THAT(merged({"{", one}).error().message, HasSubstr("part1: is not a study"));
+  EXPECT_THAT(merged({"[]"}).error().message, HasSubstr("is not a study"));
   EXPECT_THAT(merged({study_of("paper", {json{{"case", "a"}}})}).error().message,
               HasSubstr("a run lacks"));
 }

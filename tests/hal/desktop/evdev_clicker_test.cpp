@@ -119,7 +119,7 @@ TEST_F(RecordedClicker, RefusesATimeThatCannotBe) {
   std::vector<ClickerEvent> events;
   const Status polled = (*clicker)->poll(clock_.now(), events);
   ASSERT_FALSE(polled.ok());
-  EXPECT_THAT(polled.error().message, HasSubstr("is no time of an event"));
+  EXPECT_THAT(polled.error().message, HasSubstr("is not the time of an event"));
 }
 
 TEST_F(RecordedClicker, WaitsForTheRestOfAnEvent) {
@@ -166,7 +166,7 @@ TEST(KeyCode, KnowsKeysByTheirNames) {
 TEST(EvdevKeys, RefusesWhatIsNoEventDevice) {
   const auto keys = open_evdev_keys("/dev/null", {clicker_keys(), true});
   ASSERT_FALSE(keys.ok());
-  EXPECT_THAT(keys.error().message, HasSubstr("/dev/null: is no event device"));
+  EXPECT_THAT(keys.error().message, HasSubstr("/dev/null: is not an event device"));
 }
 
 /// A device that appears after the clicker was opened, and disappears again.

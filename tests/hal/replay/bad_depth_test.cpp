@@ -217,10 +217,10 @@ TEST(BadHololens1Depth, SaysWhy) {
               HasSubstr("holds 5 bytes, must be 12672"));
   EXPECT_THAT(damaged("short_throw_depth.tar",
                       HandmadeTar().add("short_throw_depth/5.pgm", "P5").finished()),
-              HasSubstr("is no image named short_throw_depth\\<ticks>.pgm"));
+              HasSubstr("is not an image named short_throw_depth\\<ticks>.pgm"));
   EXPECT_THAT(damaged("short_throw_depth.tar",
                       HandmadeTar().add("short_throw_depth\\5_ab.pgm", "P5").finished()),
-              HasSubstr("is no image named"));
+              HasSubstr("is not an image named"));
 }
 
 TEST(BadOwnDepth, ContradictsItself) {

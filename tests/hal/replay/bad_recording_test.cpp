@@ -225,11 +225,11 @@ TEST(BadFolder, NamesAMissingOrForeignFolder) {
   EXPECT_THAT(refusal(folder / "nowhere"), AllOf(HasSubstr("nowhere"), HasSubstr("no such")));
   EXPECT_EQ(ReplayHeadset::open(folder / "nowhere").error().code, ErrorCode::kNotFound);
   write_text(folder / "file", "x");
-  EXPECT_THAT(refusal(folder / "file"), HasSubstr("is no folder"));
+  EXPECT_THAT(refusal(folder / "file"), HasSubstr("is not a folder"));
   EXPECT_THAT(refusal(folder.path()), AllOf(HasSubstr("VLC LF.tar"), HasSubstr("no such file")));
   EXPECT_EQ(ReplayHeadset::open(folder.path()).error().code, ErrorCode::kNotFound);
   write_text(folder / "vlc_lf.tar", "x");
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("vlc_lf.tar: is no tar archive"));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("vlc_lf.tar: is not a tar archive"));
   std::filesystem::create_directory(folder / "VLC LF.tar");
   std::filesystem::remove(folder / "vlc_lf.tar");
   EXPECT_THAT(refusal(folder.path()), AllOf(HasSubstr("VLC LF.tar"), HasSubstr("is not a file")));

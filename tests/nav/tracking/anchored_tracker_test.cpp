@@ -290,7 +290,7 @@ TEST(AnchoredTracker, WaitsForOneThatIsKnownAndRefusesAPlaceOfAnotherTool) {
   const auto refused = create_anchored_tracker(
       std::make_unique<SaidTracker>(std::vector{ToolRole::kPointer, ToolRole::kReference}), kCoast,
       {}, places);
-  EXPECT_EQ(test::error_of(refused), "tools: tool 0 is no patient reference");
+  EXPECT_EQ(test::error_of(refused), "tools: tool 0 is not a patient reference");
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ TEST(WebAccessTest, RefusesATokenFileThatOthersReadOrThatHoldsNone) {
   EXPECT_THAT(refusal("80", own_file(folder, "short")), HasSubstr("must hold 16 to 128"));
   EXPECT_THAT(refusal("80", own_file(folder, std::string(129, 'a'))), HasSubstr("16 to 128"));
   EXPECT_THAT(refusal("80", own_file(folder, "sixteen letters; and")), HasSubstr("16 to 128"));
-  EXPECT_THAT(refusal("80", folder.path()), HasSubstr("is no regular file"));
+  EXPECT_THAT(refusal("80", folder.path()), HasSubstr("is not a regular file"));
   EXPECT_THAT(refusal("80", folder.file("no/token")), HasSubstr("cannot be made"));
   const std::string file = own_file(folder, kToken);
   EXPECT_EQ(refusal("80", file), "taken");

@@ -72,7 +72,7 @@ TEST(IgtlCommand, AnswersWhatItsClientsAskWhereTheyMay) {
   std::sort(answers.begin(), answers.end(),
             [](const auto& a, const auto& b) { return a.contains("why") && !b.contains("why"); });
   EXPECT_EQ(answers[0]["taken"], false);
-  EXPECT_EQ(answers[0]["why"], "\"begin\" is no command");
+  EXPECT_EQ(answers[0]["why"], "\"begin\" is not a command");
   EXPECT_EQ(answers[1]["asked"], "plan L4 left");
   EXPECT_EQ(answers[1]["client"], "127.0.0.1");
   EXPECT_EQ(answers[1]["taken"], false) << "no level is accepted yet";

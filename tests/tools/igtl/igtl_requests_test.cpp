@@ -24,8 +24,8 @@ TEST(IgtlRequests, AreTheWordsThatOneWouldSay) {
     EXPECT_EQ(request->text, said);
     EXPECT_FALSE(request->change);
   }
-  EXPECT_THAT(refusal("Command", "begin"), HasSubstr("\"begin\" is no command"));
-  EXPECT_THAT(refusal("Command", ""), HasSubstr("is no command"));
+  EXPECT_THAT(refusal("Command", "begin"), HasSubstr("\"begin\" is not a command"));
+  EXPECT_THAT(refusal("Command", ""), HasSubstr("is not a command"));
   EXPECT_THAT(refusal("Command", "next\n"), HasSubstr("one line"));
   EXPECT_THAT(refusal("Command", std::string(81, 'a')), HasSubstr("at most 80"));
   EXPECT_THAT(refusal("Command", "move up one"), HasSubstr("say cranial"));

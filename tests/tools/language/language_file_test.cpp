@@ -51,7 +51,7 @@ TEST(Language, HasNoTextThatThereIsNot) {
   lines.push_back({"tool\nfound", "Werkzeug gefunden", 5});
   const auto checked = checked_translation("my.toml", lines, kTexts);
   ASSERT_FALSE(checked);
-  EXPECT_EQ(checked.error().message, "my.toml:5: \"tool found\" is no text of this version");
+  EXPECT_EQ(checked.error().message, "my.toml:5: \"tool found\" is not a text of this version");
 }
 
 TEST(Language, KeepsEveryNumber) {
@@ -71,7 +71,7 @@ TEST(Language, KeepsTheCommands) {
   EXPECT_EQ(refusal_with(2, "zum Übernehmen annehmen sagen"),
             "my.toml:3: the translation of \"say accept to take it\" lacks the command "
             "\"accept\", which is said in English");
-  EXPECT_NE(refusal_with(2, "acceptieren"), "") << "a part of a word is no command";
+  EXPECT_NE(refusal_with(2, "acceptieren"), "") << "a part of a word is not a command";
   const std::vector<std::string> texts = {"check again or reject", "the tip is done"};
   const auto checked = checked_translation(
       "my.toml", {{texts[1], "fertig", 1}, {texts[0], "erneut prüfen", 2}}, texts);
@@ -107,7 +107,7 @@ TEST(LanguageFile, IsRefusedInOneLine) {
   EXPECT_THAT(refusal_of("\"stop\" = \"\\u0007\"\n"), HasSubstr("U+0007"));
   EXPECT_THAT(refusal_of("\"stop\" = \"\xff\"\n"), HasSubstr("my.toml:1: "));
   EXPECT_THAT(refusal_of("\"stopp\" = \"a\"\n"),
-              HasSubstr("my.toml:1: \"stopp\" is no text of this version"));
+              HasSubstr("my.toml:1: \"stopp\" is not a text of this version"));
   const auto absent = language_named("/none.toml");
   ASSERT_FALSE(absent);
   EXPECT_EQ(absent.error().code, ErrorCode::kNotFound);
