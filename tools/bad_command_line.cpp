@@ -70,11 +70,30 @@ std::string with_hidden_name(std::string message, const CLI::App& command) {
   return message;
 }
 
+/// "SHELL: fish not in {bash,zsh}" and "A subcommand is required", as the parser says, in our
+/// words.
+std::string in_our_words(std::string message) {
+  if (message.starts_with("A subcommand")) {
+    message.replace(0, std::string("A subcommand").size(), "a command");
+  }
+  const std::string before = " not in {";
+  const std::size_t at = message.find(before);
+  if (at != std::string::npos && message.ends_with('}')) {
+    std::string choices = message.substr(at + before.size());
+    choices.pop_back();
+    for (std::size_t i = choices.find(','); i != std::string::npos; i = choices.find(',', i + 1)) {
+      choices.insert(i + 1, " ");
+    }
+    message.replace(at, std::string::npos, " is not one of " + choices);
+  }
+  return message;
+}
+
 }  // namespace
 
 int bad_command_line(const CLI::App& app, const CLI::ParseError& error) {
   const Asked asked = asked_of(app);
-  std::string message = with_hidden_name(error.what(), *asked.command);
+  std::string message = in_our_words(with_hidden_name(error.what(), *asked.command));
   // Without a known command the library reports a missing one; the word that was written says more.
   const std::vector<std::string> unknown = app.remaining(true);
   const auto option = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {

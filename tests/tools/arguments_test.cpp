@@ -26,15 +26,16 @@ void expect_one_line(const std::vector<std::string>& arguments, const std::strin
 }
 
 TEST(CommandLine, NamesTheWordThatIsWrongInOneLine) {
-  expect_one_line({}, "subcommand is required");
+  expect_one_line({}, "a command is required");
   expect_one_line({"fly"}, "unknown command: fly");
   expect_one_line({"golden", "burn"}, "unknown command: burn (see orthonav golden --help)");
   expect_one_line({"demo", "--nonsense"}, "--nonsense");
   expect_one_line({"demo", "--fast", "--realtime"}, "--realtime");
   expect_one_line({"doctor", "more"}, "more");
   expect_one_line({"rod"}, "--heads is required");
-  expect_one_line({"study", "merge"}, "files is required");
-  expect_one_line({"register", "--model", "m", "--points", "p", "--units", "inch"}, "inch");
+  expect_one_line({"study", "merge"}, "FILE is required");
+  expect_one_line({"register", "--model", "m", "--points", "p", "--units", "inch"},
+                  "--units: inch is not one of mm, m");
 }
 
 TEST(CommandLine, TakesDecimalNumbersInTheirRangesAndNothingElse) {

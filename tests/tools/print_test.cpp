@@ -109,7 +109,7 @@ TEST(PrintCommand, PrintsABoardAndItsDescription) {
       orthonav({"print", "board", "--kind", "tags", "--columns", "4", "--rows", "3", "--size-mm",
                 "25", "--gap-mm", "8", "--first-id", "20", "--page", "Letter", "--out", pdf});
   ASSERT_EQ(called.code, 0) << called.err;
-  EXPECT_THAT(called.out, HasSubstr("124.000 x 91.000 mm"));
+  EXPECT_THAT(called.out, HasSubstr("124 x 91 mm on Letter"));
   EXPECT_THAT(folder.names(), ElementsAre("board.json", "board.pdf"));
   const json board = json::parse(content_of(folder.file("board.json")));
   EXPECT_EQ(board["kind"], "tags");
@@ -177,7 +177,7 @@ TEST(PrintCommand, RefusesInOneLineAndLeavesNothing) {
       {{"board", "--kind", "hexagons"}, "hexagons"},
       {{"board", "--json", out}, "is both the PDF and the board's description"},
       {{"board", "--json", folder.file("no/board.json")}, "does not exist"},
-      {{}, "subcommand"},
+      {{}, "a command is required"},
   };
   for (const Case& c : cases) {
     std::vector<std::string> arguments = {"print"};
