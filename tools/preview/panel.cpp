@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
 
@@ -98,12 +99,14 @@ void draw_time(PreviewModel& model, const Moment& moment, const PanelFacts& fact
   const std::int64_t first = 1;
   std::int64_t pair = moment.pair;
   ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::SliderScalar("##pair", ImGuiDataType_S64, &pair, &first, &last, "pair %lld")) {
+  if (ImGui::SliderScalar("##pair", ImGuiDataType_S64, &pair, &first, &last, "frame %lld")) {
     model.scrub_to(pair);
   }
-  ImGui::TextColored(model.looks_back() ? kFair : kDim, "%s%.2f s (headset clock)",
-                     model.looks_back() ? "looking back, " : "",
-                     seconds(moment.time.time_since_epoch()));
+  const auto begun = model.timeline().at(1);
+  const long tenths = begun ? std::lround(10.0 * seconds(moment.time - begun->time)) : 0;
+  ImGui::TextColored(model.looks_back() ? kFair : kDim, "%s%02ld:%02ld.%ld",
+                     model.looks_back() ? "looking back, " : "", tenths / 600, tenths / 10 % 60,
+                     tenths % 10);
 }
 
 void draw_holograms(PreviewModel& model) {
@@ -219,7 +222,7 @@ void draw_moment(PreviewModel& model, const Moment& moment, const PanelFacts& fa
 
 void draw_content(PreviewModel& model, const PanelFacts& facts, sim::ErrorModel& error_model) {
   text(facts.headset);
-  ImGui::SameLine(230.0f);
+  ImGui::SameLine(std::max(230.0f, ImGui::CalcTextSize(facts.headset.c_str()).x + 24.0f));
   ImGui::TextColored(kDim, "h: keys");
   if (facts.moment) {
     draw_moment(model, *facts.moment, facts);
