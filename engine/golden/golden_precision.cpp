@@ -15,8 +15,6 @@ namespace {
 
 using render::Float3;
 
-constexpr Float3 kSite = {0, 0.0320f, 0.0070f};
-
 /// An offset from the planned axis, so far in that direction about it.
 Float3 off_axis(float away_m, float about_deg) {
   const Float3 across = render::any_perpendicular(planned_direction());

@@ -19,6 +19,8 @@ inline constexpr render::Float3 kEntry = {0.0165f, 0.0320f, 0.0070f};
 inline constexpr render::Float3 kTarget = {0.0080f, -0.0110f, 0.0040f};
 inline constexpr render::Float3 kOtherEntry = {-0.0165f, 0.0320f, 0.0070f};
 inline constexpr render::Float3 kOtherTarget = {-0.0080f, -0.0110f, 0.0040f};
+/// Between the entry points: what the cross hangs beside.
+inline constexpr render::Float3 kSite = {0, 0.0320f, 0.0070f};
 inline constexpr render::Float3 kNormal = {-0.14f, 0.78f, -0.61f};
 inline constexpr render::Float3 kOtherNormal = {0.14f, 0.78f, -0.61f};
 
@@ -74,6 +76,9 @@ struct NumberSds {
 /// How the product would show a depth past the entry of which so much is left to the target.
 [[nodiscard]] nav::ShownDepth shown_depth(double depth_m, double to_target_m, double sd_m = 0.0004);
 
+/// What the scenes with a tool say of the bone around the screw.
+inline constexpr nav::ShownClearance kClearance{24, 11, "medial"};
+
 /// A stroke over the lamina of a side, as a surgeon makes it.
 [[nodiscard]] std::vector<render::Float3> stroke(Side side = Side::kRight);
 
@@ -92,6 +97,9 @@ struct NumberSds {
 [[nodiscard]] GoldenScene start_wide(std::string name, std::string what,
                                      std::vector<render::View> views);
 
+/// Guiding the left screw of L4 with everything, the right one done.
+[[nodiscard]] GoldenScene guidance_scene();
+
 // Appended in the order in which they are listed.
 void add_shape_scenes(std::vector<GoldenScene>& scenes);      ///< H1 to H6
 void add_precision_scenes(std::vector<GoldenScene>& scenes);  ///< H7 to H9
@@ -99,7 +107,7 @@ void add_number_scenes(std::vector<GoldenScene>& scenes);     ///< H13
 void add_other_scenes(std::vector<GoldenScene>& scenes);      ///< H10 to H12
 void add_step_scenes(std::vector<GoldenScene>& scenes);       ///< the workflow, step by step
 void add_placed_scenes(std::vector<GoldenScene>& scenes);     ///< a wire beside its plan
-void add_view_scenes(std::vector<GoldenScene>& scenes);       ///< distances and head rolls
+void add_view_scenes(std::vector<GoldenScene>& scenes);       ///< distances, head rolls, a gaze
 void add_label_scenes(std::vector<GoldenScene>& scenes);      ///< labels that make way
 void add_text_scenes(std::vector<GoldenScene>& scenes);       ///< every text on every ground
 

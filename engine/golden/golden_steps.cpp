@@ -1,8 +1,5 @@
 #include <array>
-#include <cmath>
-#include <utility>
 
-#include "base/angle.h"
 #include "engine/golden/golden_stage.h"
 #include "engine/golden/golden_vertebra.h"
 #include "engine/holograms/hologram_numbers.h"
@@ -59,8 +56,6 @@ void add_entries(GoldenScene& golden, bool left_done, bool right_done) {
   golden.covered.push_back({kOtherEntryLabel, kOtherEntry});
 }
 
-constexpr nav::ShownClearance kClearance{24, 11, "medial"};
-
 /// Everything that does not depend on the tool.
 GoldenScene guiding(const std::string& name, const std::string& what, const std::string& detail,
                     ToolState tool = ToolState::kMeasured) {
@@ -70,12 +65,11 @@ GoldenScene guiding(const std::string& name, const std::string& what, const std:
   return golden;
 }
 
-TargetCross add_cross_to(GoldenScene& golden, std::optional<CrossReading> reading, bool lost,
-                         const Viewer& viewer = surgeon()) {
+TargetCross add_cross_to(GoldenScene& golden, std::optional<CrossReading> reading, bool lost) {
   TargetCross cross;
-  cross.site = 0.5f * (kEntry + kOtherEntry);
+  cross.site = kSite;
   cross.outward = planned_direction();
-  cross.viewer = viewer;
+  cross.viewer = surgeon();
   cross.reading = reading;
   cross.lost = lost;
   add_target_cross(golden.scene, cross, kCrossLabel);
@@ -178,15 +172,6 @@ GoldenScene accepted() {
   return golden;
 }
 
-GoldenScene guidance() {
-  GoldenScene golden =
-      guiding("guidance", "guiding the left screw of L4 with everything, the right one done",
-              "RMSE 0.62 mm | predicted 1.1 mm");
-  add_bone(golden);
-  add_tool_to(golden, guided(3.4, 0.0006, -0.0062), true);
-  return golden;
-}
-
 GoldenScene guide_far() {
   GoldenScene golden = guiding("guide_far", "plan and cross with arrows: the tool is far away",
                                "RMSE 0.62 mm | predicted 1.1 mm");
@@ -233,6 +218,15 @@ GoldenScene screws_done() {
 
 }  // namespace
 
+GoldenScene guidance_scene() {
+  GoldenScene golden =
+      guiding("guidance", "guiding the left screw of L4 with everything, the right one done",
+              "RMSE 0.62 mm | predicted 1.1 mm");
+  add_bone(golden);
+  add_tool_to(golden, guided(3.4, 0.0006, -0.0062), true);
+  return golden;
+}
+
 void add_step_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(step("setup", "the status line alone", kSetup, "", ToolState::kLost));
   scenes.push_back(digitizing());
@@ -242,43 +236,12 @@ void add_step_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(checked_often());
   scenes.push_back(accepted());
   scenes.push_back(guide_far());
-  scenes.push_back(guidance());
+  scenes.push_back(guidance_scene());
   scenes.push_back(guide_beside());
   scenes.push_back(guide_drilling());
   scenes.push_back(guide_predicted());
   scenes.push_back(guide_lost());
   scenes.push_back(screws_done());
-}
-
-void add_view_scenes(std::vector<GoldenScene>& scenes) {
-  constexpr std::array<float, 3> kDistances_m = {0.35f, 0.50f, 0.70f};
-  constexpr std::array<float, 3> kRolls_deg = {-20.0f, 0.0f, 20.0f};
-  constexpr std::array<const char*, 3> kRollNames = {"rolled_left", "upright", "rolled_right"};
-  for (const float distance_m : kDistances_m) {
-    for (std::size_t i = 0; i < kRolls_deg.size(); ++i) {
-      GoldenScene golden = guidance();
-      const auto cm = static_cast<int>(std::lround(100.0f * distance_m));
-      golden.name = "guidance_" + std::to_string(cm) + "cm_" + kRollNames[i];
-      golden.what = "guidance from " + std::to_string(cm) + " cm, head " + kRollNames[i] +
-                    ": texts upright to the head, both eyes";
-      golden.views = surgeon_views(distance_m, kRolls_deg[i]);
-      // The cross faces the eyes from wherever they are.
-      const auto of_cross = [](const auto& item) {
-        return kind_of(item.label) == HologramKind::kCross || item.label == kNumbersLabel ||
-               item.label == kClearanceLabel;
-      };
-      golden.scene.meshes.erase_if(of_cross);
-      golden.scene.lines.erase_if(of_cross);
-      golden.scene.texts.erase_if(of_cross);
-      const TargetCross cross = add_cross_to(
-          golden, CrossReading{{0.0005f, 0, 0.0004f}, {0.004f, 0, -0.002f}, Grade::kFair}, false,
-          surgeon(distance_m, kRolls_deg[i]));
-      add_numbers(golden.scene, cross, numbers_of(guided(3.4, 0.0006, -0.0062), {}), false,
-                  kNumbersLabel);
-      add_clearance(golden.scene, cross, kClearance, kClearanceLabel);
-      scenes.push_back(std::move(golden));
-    }
-  }
 }
 
 }  // namespace orthonav::engine::golden
