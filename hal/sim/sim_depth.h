@@ -8,8 +8,9 @@
 
 namespace orthonav::sim {
 
-/// A depth camera of the simulated headset: renders the newest picture that is no later than the
-/// last pair, only on request. May be read by a separate thread.
+/// A depth camera of the simulated headset, with a rate of its own: renders on request the pictures
+/// up to the last pair, in order. A caller that is late misses the oldest, as with a real camera.
+/// May be read by a separate thread.
 class SimDepth final : public DepthCamera {
  public:
   /// The room must outlive it.
@@ -21,9 +22,12 @@ class SimDepth final : public DepthCamera {
   }
   Result<Next> do_next(DepthFrame& frame) override;
   [[nodiscard]] Timestamp time_of(std::int64_t number) const;
+  /// The number of the last picture no later than the last pair, up to which the room is known.
+  [[nodiscard]] std::int64_t newest() const ORTHONAV_REQUIRES(room_.mutex);
 
   SimRoom& room_;
   double rate_hz_;
+  std::int64_t most_waiting_;  ///< pictures
   Random random_;
   DepthRenderer renderer_;
   DepthSensorErrors sensor_;

@@ -1,5 +1,6 @@
 #include "hal/hl2ss/server/depth_port.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "hal/hl2ss/server/depth_bytes.h"
@@ -10,6 +11,7 @@ namespace {
 
 /// A depth camera's sensor ticks are cycles of 24 MHz here; no client reads them.
 constexpr std::int64_t kCyclesAMicrosecond = 24;
+constexpr int kAhatFramesPerSecond = 45;
 
 }  // namespace
 
@@ -49,8 +51,9 @@ Result<std::vector<std::uint8_t>> DepthPort::pictured(const DepthAsked& asked, s
   }
   // A new client must get a key frame first.
   if (!encoder_ || encoded_request_ != request) {
-    auto encoder = H264Encoder::create(
-        {asked.bitrate, asked.gop_size, 1, frame.range_mm.width_px, frame.range_mm.height_px});
+    auto encoder = H264Encoder::create({asked.bitrate, asked.gop_size, 1, frame.range_mm.width_px,
+                                        frame.range_mm.height_px,
+                                        std::max(1, kAhatFramesPerSecond / asked.every)});
     if (!encoder) {
       return encoder.error();
     }

@@ -35,21 +35,27 @@ void DepthSender::end() {
 
 void DepthSender::run() {
   while (!stop_) {
-    send_newest();
+    (void)send_next();
     // Even when the next picture is due: `end` may be waiting for the mutex.
     std::this_thread::sleep_for(kDepthIdle);
   }
 }
 
-void DepthSender::send_newest() {
-  const MutexLock lock(mutex_);
-  send_newest(ahat_);
-  send_newest(long_throw_);
+void DepthSender::send_due() {
+  while (send_next()) {
+  }
 }
 
-void DepthSender::send_newest(DepthPort& port) {
+bool DepthSender::send_next() {
+  const MutexLock lock(mutex_);
+  const bool sent_ahat = send_next(ahat_);
+  const bool sent_long_throw = send_next(long_throw_);
+  return sent_ahat || sent_long_throw;
+}
+
+bool DepthSender::send_next(DepthPort& port) {
   if (headset_ == nullptr || !port.is_streaming()) {
-    return;
+    return false;
   }
   for (DepthCamera* camera : headset_->depth_cameras()) {
     if (camera->calibration().stream != port.stream()) {
@@ -63,7 +69,9 @@ void DepthSender::send_newest(DepthPort& port) {
       frame_.world_from_rig = client_from_world_() * *frame_.world_from_rig;
     }
     (void)port.send(frame_);
+    return true;
   }
+  return false;
 }
 
 }  // namespace orthonav::hl2ss

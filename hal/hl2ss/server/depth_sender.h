@@ -27,18 +27,20 @@ class DepthSender {
   [[nodiscard]] DepthPort& long_throw() { return long_throw_; }
   /// Converts poses from the headset's world to the client's, which may have jumped.
   using ClientFromWorld = std::function<Transform<World, World>()>;
-  /// `follows_pairs`: pictures are taken when `send_newest` is called; otherwise on a separate
-  /// thread, since a picture of a simulated room takes a while.
+  /// `follows_pairs`: pictures are taken when `send_due` is called; otherwise on a separate thread,
+  /// since a picture of a simulated room takes a while.
   void start(ClientFromWorld client_from_world, bool follows_pairs);
   /// A session with this headset begins; the headset must exist until the session ends.
   void begin(Headset& headset);
   void end();
-  /// Sends the newest picture of each stream that a client wants.
-  void send_newest();
+  /// Sends every picture that is due of each stream that a client wants.
+  void send_due();
 
  private:
   void run();
-  void send_newest(DepthPort& port) ORTHONAV_REQUIRES(mutex_);
+  /// Sends one picture of each; whether there was any.
+  bool send_next();
+  bool send_next(DepthPort& port) ORTHONAV_REQUIRES(mutex_);
 
   DepthPort ahat_;
   DepthPort long_throw_;

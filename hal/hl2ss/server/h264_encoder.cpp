@@ -14,7 +14,6 @@ extern "C" {
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr int kFramesPerSecond = 30;
 constexpr std::uint8_t kNoColour = 128;
 
 Error failed(const char* what, int code) {
@@ -25,8 +24,8 @@ Error failed(const char* what, int code) {
 void describe_stream(const H264Encoder::Options& options, AVCodecContext& context) {
   context.width = options.width_px;
   context.height = options.height_px;
-  context.time_base = {1, kFramesPerSecond};
-  context.framerate = {kFramesPerSecond, 1};
+  context.time_base = {1, options.frames_per_second};
+  context.framerate = {options.frames_per_second, 1};
   context.pix_fmt = AV_PIX_FMT_YUV420P;
   context.color_range = AVCOL_RANGE_JPEG;
   context.gop_size = options.gop_size;

@@ -19,6 +19,7 @@ class H264Encoder {
     int slices = 1;     ///< of each picture
     int width_px = 640;
     int height_px = 480;
+    int frames_per_second = 30;
   };
   static Result<std::unique_ptr<H264Encoder>> create(const Options& options);
   ~H264Encoder();

@@ -172,7 +172,7 @@ class RunningServer final : public Server {
       if (!options_.paced) {
         continue;
       }
-      depth_.send_newest();
+      depth_.send_due();
       wait_for_client(whole ? std::optional(frame.time) : std::nullopt);
     }
   }

@@ -56,7 +56,7 @@ struct Direct {
     StereoFrame pair;
     DepthFrame frame;
     while (*headset->cameras().next(pair) == Next::kFrame) {
-      if (*camera->next(frame) == Next::kFrame) {
+      while (*camera->next(frame) == Next::kFrame) {
         frames[frame.time] = frame;
       }
     }
@@ -171,6 +171,10 @@ void expect_exact(const DepthWish& wish, double limit_s, std::size_t enough) {
     expect_same_pose(frame, same->second);
     EXPECT_EQ(frame.map_epoch, 0);
   }
+  // None is left out from the first that came to the last.
+  const auto first = direct.frames.find(all.frames.front().time);
+  const auto last = direct.frames.find(all.frames.back().time);
+  EXPECT_THAT(all.frames, SizeIs(static_cast<std::size_t>(std::distance(first, last) + 1)));
 }
 
 TEST(Depth, OfAhatRawComesAsItWas) { expect_exact({DepthStream::kAhat, false}, 0.6, 6); }
@@ -178,6 +182,18 @@ TEST(Depth, OfAhatRawComesAsItWas) { expect_exact({DepthStream::kAhat, false}, 0
 TEST(Depth, OfLongThrowRawComesAsItWas) { expect_exact({DepthStream::kLongThrow, false}, 1.5, 3); }
 
 TEST(Depth, OfLongThrowAsPngComesAsItWas) { expect_exact({DepthStream::kLongThrow, true}, 1.5, 3); }
+
+/// 45 a second from a headset that has 30 pairs a second.
+TEST(Depth, OfAhatComesAtTheRateOfTheDevice) {
+  const sim::SimOptions sim = depth_session(0.6);
+  const Direct direct(sim, DepthStream::kAhat);
+  const Served all = served_depth(sim, {DepthStream::kAhat, false}, 10, direct);
+  ASSERT_GE(all.frames.size(), 10u);
+  constexpr double kTickS = 1e-7;
+  for (std::size_t i = 1; i < all.frames.size(); ++i) {
+    EXPECT_NEAR(seconds(all.frames[i].time - all.frames[i - 1].time), 1.0 / 45.0, kTickS);
+  }
+}
 
 /// H.264 of a quarter of the depth: steps of 4 mm, and the codec's errors.
 TEST(Depth, OfAhatAsH264ComesWithinItsSteps) {

@@ -1,6 +1,8 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <vector>
 
 #include "hal/api/depth_camera.h"
@@ -144,6 +146,76 @@ TEST(SimDepth, IsTheSameForTheSameSeedAndAnotherForAnother) {
   EXPECT_TRUE(a.range_mm == b.range_mm);
   EXPECT_TRUE(a.brightness == b.brightness);
   EXPECT_FALSE(a.range_mm == picture_after(*third, 12).range_mm);
+}
+
+/// All that a caller gets who asks after every so many pairs, until the stream ends.
+std::vector<DepthFrame> pictures_of(SimHeadset& headset, int pairs_a_time = 1) {
+  std::vector<DepthFrame> pictures;
+  StereoFrame pair;
+  DepthFrame frame;
+  for (int pairs = 1; *headset.cameras().next(pair) == Next::kFrame; ++pairs) {
+    while (pairs % pairs_a_time == 0 &&
+           *headset.depth_cameras().front()->next(frame) == Next::kFrame) {
+      EXPECT_LE(frame.time, pair.time);
+      pictures.push_back(frame);
+    }
+  }
+  return pictures;
+}
+
+/// Its own clock ticks at 45 Hz, whatever the pairs' rate: 45 pictures in the second of 30 pairs.
+TEST(SimDepth, OfAhatComesAtItsOwnRate) {
+  const auto headset = opened(with_depth(DepthStream::kAhat));
+  const auto pictures = pictures_of(*headset);
+  ASSERT_EQ(pictures.size(), 45u);
+  constexpr double kTickS = 1e-7;
+  for (std::size_t i = 1; i < pictures.size(); ++i) {
+    EXPECT_EQ(pictures[i].sequence, pictures[i - 1].sequence + 1);
+    EXPECT_NEAR(seconds(pictures[i].time - pictures[i - 1].time), 1.0 / 45.0, kTickS);
+  }
+}
+
+/// Where the head was between two pairs, and what was seen from there.
+TEST(SimDepth, BetweenTwoPairsIsPosedAsTheHeadMoves) {
+  SimOptions options = with_depth(DepthStream::kAhat);
+  options.limit_s = 0.2;
+  options.error_model.head_sway_m = 0.012;
+  options.error_model.head_sway_rad = 0.03;
+  const auto headset = opened(options);
+  std::map<Timestamp, Transform<World, Rig>> pairs;
+  StereoFrame pair;
+  DepthFrame frame;
+  int between = 0;
+  while (*headset->cameras().next(pair) == Next::kFrame) {
+    pairs[pair.time] = *pair.world_from_rig;
+    while (*headset->depth_cameras().front()->next(frame) == Next::kFrame) {
+      const auto after = pairs.lower_bound(frame.time);
+      if (after == pairs.begin()) {
+        continue;
+      }
+      const auto before = std::prev(after);
+      const double part =
+          seconds(frame.time - before->first) / seconds(after->first - before->first);
+      const auto expected = interpolated(before->second, after->second, part);
+      EXPECT_LT((frame.world_from_rig->translation() - expected.translation()).norm(), 1e-9);
+      EXPECT_NE(frame.world_from_rig->translation(), before->second.translation());
+      const auto beyond = beyond_table_m(*headset, frame, 0.004);
+      ASSERT_GT(beyond.size(), frame.range_mm.pixels.size() / 4);
+      EXPECT_NEAR(mean_of(beyond), 0.0, 0.0002);
+      between += part < 1.0 ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(between, 5) << "of nine: one is before the first pair, three fall on pairs";
+}
+
+TEST(SimDepth, WaitsForACallerForTwoPairsAtMost) {
+  const auto headset = opened(with_depth(DepthStream::kAhat));
+  const auto pictures = pictures_of(*headset, 10);
+  std::vector<std::int64_t> numbers;
+  for (const DepthFrame& picture : pictures) {
+    numbers.push_back(picture.sequence);
+  }
+  EXPECT_THAT(numbers, ::testing::ElementsAre(13, 14, 15, 28, 29, 30, 43, 44, 45));
 }
 
 TEST(SimDepth, EndsWithThePairs) {
