@@ -113,10 +113,10 @@ function(orthonav_test name)
     orthonav_test_headers(test_${name})
     target_compile_options(test_${name} PRIVATE "$<$<CONFIG:Release>:-O0>")
   endif()
-  # A whole operation of 45 s takes ten minutes under ThreadSanitizer, and longer when several run
-  # at once.
+  # A whole operation of 45 s takes ten minutes under ThreadSanitizer or an emulator, and longer when
+  # several run at once.
   set(timeout 600)
-  if(ORTHONAV_SANITIZE)
+  if(ORTHONAV_SANITIZE OR CMAKE_CROSSCOMPILING_EMULATOR)
     set(timeout 3600)
   endif()
   if(test_SHARDS)
