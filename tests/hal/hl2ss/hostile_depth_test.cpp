@@ -105,7 +105,7 @@ TEST(HostileDepth, StampsTeachNobodyTheTime) {
   server.depth = [](std::int64_t turn) {
     auto packet = HostileServer::good_depth(turn);
     const std::uint64_t ahead = static_cast<std::uint64_t>(HostileServer::ticks_of(turn)) +
-                                (turn % 2 == 0 ? 50'000'000u : 1'000'000'000'000u);
+                                (turn % 2 == 0 ? 90'000'000u : 1'000'000'000'000u);
     std::memcpy(packet.data(), &ahead, sizeof(ahead));
     return packet;
   };
@@ -120,12 +120,13 @@ TEST(HostileDepth, StampsTeachNobodyTheTime) {
   EXPECT_THAT(depth_of(headset->statistics()).last_trouble,
               ::testing::ContainsRegex("ahead of the headset's clock|10 s from the cameras'"));
   EXPECT_EQ(headset->statistics().clock_restarts, 0);
-  // The newest pair still counts as current: the clock was not carried 5 s ahead.
+  // The newest pair still counts as current: the clock was not carried 9 s ahead. The server's
+  // stamps may lag by seconds, since they count its turns and a busy machine lets it wait.
   EXPECT_TRUE(orthonav::test::wait_until([&] {
     const auto next = headset->cameras().next(pair);
     return next && *next == Next::kFrame;
   }));
-  EXPECT_LT(seconds(headset->clock().now() - pair.time), 2.0);
+  EXPECT_LT(seconds(headset->clock().now() - pair.time), 8.0);
 }
 
 /// A pose that contradicts the cameras' is of another map: the picture comes without it.
