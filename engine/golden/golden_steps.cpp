@@ -112,7 +112,7 @@ GoldenScene digitizing() {
 
 GoldenScene refused() {
   GoldenScene golden = step("digitize_refused", "orange path, the reason in the status line",
-                            kDigitize, "refused: error expected 2.3 mm; stroke the left facet");
+                            kDigitize, "refused: error expected 2.3 mm; digitize the left facet");
   add_paths(golden, false);
   return golden;
 }

@@ -15,7 +15,7 @@ constexpr const char* kOneOf100 =
     translatable("1 of 100 errors at the screws would exceed %.1f mm, limit %.1f mm");
 constexpr const char* kThroughBone = translatable(
     "the pointer would have gone through bone at %.0f %% of the points, limit %.0f %%");
-constexpr const char* kRejectAndStroke = translatable("reject and stroke again");
+constexpr const char* kRejectAndDigitize = translatable("reject and digitize again");
 
 /// The words for a number and its limit, and the unit in which it is shown.
 struct LimitWords {
@@ -112,7 +112,7 @@ void append_part(std::string& out, const char* format, const nav::BonePlace& pla
 }  // namespace
 
 void append(std::string& out, const nav::BonePlace& place) {
-  append_part(out, translated("stroke the %s"), place);
+  append_part(out, translated("digitize the %s"), place);
 }
 
 void append(std::string& out, const nav::UncertainMotion& motion) {
@@ -186,7 +186,7 @@ void append(std::string& out, const nav::CheckAdvice& advice) {
       out += ' ';
       append_beside_limit(out, translated("%.1f mm off, limit %.1f mm"), advice.value_m * 1e3,
                           advice.limit_m * 1e3);
-      out.append(": ").append(translated(kRejectAndStroke));
+      out.append(": ").append(translated(kRejectAndDigitize));
       break;
     case nav::CheckAdvice::Kind::kTouchMore:
       out.append(translated("touch 1 more place")).append(": ");
@@ -194,7 +194,7 @@ void append(std::string& out, const nav::CheckAdvice& advice) {
       break;
     case nav::CheckAdvice::Kind::kUncertain:
       append_beside_limit(out, translated(kOneOf100), advice.value_m * 1e3, advice.limit_m * 1e3);
-      out.append(": ").append(translated(kRejectAndStroke));
+      out.append(": ").append(translated(kRejectAndDigitize));
       break;
   }
 }

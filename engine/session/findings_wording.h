@@ -23,7 +23,7 @@ void append_expected_error(std::string& out, double expected_m, bool registratio
 /// " (registration only)": follows an expected error that leaves out the errors common to all
 /// strokes.
 void append_registration_only(std::string& out);
-/// "stroke the left lamina".
+/// "digitize the left lamina".
 void append(std::string& out, const nav::BonePlace& place);
 /// "cranial-caudal shift (0.4 mm at the screws)".
 void append(std::string& out, const nav::UncertainMotion& motion);
@@ -34,7 +34,7 @@ void append(std::string& out, std::span<const nav::RefusalReason> reasons);
 /// What is wrong with the check points, and what to do; nothing if all is well.
 void append(std::string& out, const nav::CheckAdvice& advice);
 
-/// "expected error 0.6 mm, stroke the left lamina".
+/// "expected error 0.6 mm, digitize the left lamina".
 void append(std::string& out, const Coaching& coaching);
 /// The same in parts; the separator comes before the first.
 void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator);

@@ -29,7 +29,7 @@ struct Told {
   std::string stroke;
 };
 const Told kEnglish{"reference lost", "NOT SAVED",
-                    "stroke the right lower facet and root of the transverse process"};
+                    "digitize the right lower facet and root of the transverse process"};
 const Told kGerman{"reference verloren", "NICHT GESICHERT",
                    "abfahren: Facette und Querfortsatzbasis unten rechts"};
 

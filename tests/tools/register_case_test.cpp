@@ -141,7 +141,7 @@ TEST_P(RegisterCase, CarriesEveryFigureAndHowFarTheNextBestPoseIs) {
   EXPECT_THAT(report["ambiguity"].get<std::string>(), StartsWith("unambiguous: "));
   EXPECT_FALSE(report.contains("fits_better"));
   EXPECT_THAT(report["weakest"].get<std::string>(), HasSubstr(" mm at the screws)"));
-  EXPECT_THAT(report["advice"].get<std::string>(), StartsWith("stroke the "));
+  EXPECT_THAT(report["advice"].get<std::string>(), StartsWith("digitize the "));
   ASSERT_EQ(report["screws"].size(), 2U);
   double worst = 0.0;
   double worst_95 = 0.0;
@@ -191,7 +191,7 @@ TEST_P(RegisterCase, SaysWhyNotAndWhatToStrokeNext) {
   ASSERT_EQ(called.code, 1) << called.out;
   EXPECT_THAT(called.out, StartsWith("refused: "));
   EXPECT_THAT(called.err, StartsWith("orthonav: refused: "));
-  EXPECT_THAT(called.err, HasSubstr("orthonav: to improve: stroke the "));
+  EXPECT_THAT(called.err, HasSubstr("orthonav: to improve: digitize the "));
 }
 
 TEST_P(RegisterCase, TakesTheBallAtThePointersEndIntoAccount) {

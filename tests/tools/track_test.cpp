@@ -273,7 +273,7 @@ TEST_F(TrackBadInput, IsReadToItsLastWholePairAndLeavesNoCsvWhereThereIsNone) {
   const Called cut = track_cut_at(std::filesystem::file_size(tar) / 2 + 1000);
   EXPECT_EQ(cut.code, 0) << cut.err;
   EXPECT_THAT(cut.err, HasSubstr("read to its last whole pair, 1 in all (VLC RF.tar is cut off"));
-  EXPECT_THAT(cut.out, HasSubstr("1 stereo pairs"));
+  EXPECT_THAT(cut.out, HasSubstr("1 stereo pair,"));
   std::filesystem::remove(folder_.file("poses.csv"));
   const Called none = track_cut_at(1000);
   EXPECT_EQ(none.code, 2);

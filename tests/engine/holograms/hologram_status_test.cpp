@@ -100,7 +100,7 @@ TEST(StatusRows, HoldAShortTextOnOne) {
 TEST(StatusRows, WrapBetweenWordsWithoutASeparatorAtTheirEdges) {
   const Parted text = Parted()
                           .add(Importance::kFigures, "", words(9))
-                          .add(Importance::kNext, "; ", "stroke the left lamina now");
+                          .add(Importance::kNext, "; ", "digitize the left lamina now");
   const auto rows = text.rows();
   EXPECT_FALSE(rows[1].empty());
   for (const std::string& row : rows) {
@@ -108,7 +108,7 @@ TEST(StatusRows, WrapBetweenWordsWithoutASeparatorAtTheirEdges) {
     EXPECT_NE(row.front(), ' ');
     EXPECT_NE(row.back(), ';');
   }
-  EXPECT_THAT(rows[0] + " " + rows[1], EndsWith("; stroke the left lamina now"));
+  EXPECT_THAT(rows[0] + " " + rows[1], EndsWith("; digitize the left lamina now"));
 }
 
 TEST(StatusRows, KeepTheCommaOfASentenceThatGoesOnInTheNextRow) {
@@ -132,26 +132,26 @@ TEST(StatusRows, DropTheLeastImportantFirstAndSaySo) {
     for (std::size_t i = 0; i < more; ++i) {
       text.add(Importance::kMore, "; ", std::to_string(i) + " " + words(6));
     }
-    text.add(Importance::kNext, "; ", "stroke the left lamina");
+    text.add(Importance::kNext, "; ", "digitize the left lamina");
     const auto rows = text.rows();
     return rows[0] + "/" + rows[1];
   };
   EXPECT_THAT(with(1), HasSubstr("0 abc"));
-  EXPECT_THAT(with(1), EndsWith("stroke the left lamina"));
+  EXPECT_THAT(with(1), EndsWith("digitize the left lamina"));
   EXPECT_THAT(with(5), HasSubstr("refused"));
   EXPECT_THAT(with(5), HasSubstr("0 abc")) << "of equals the first stays";
   EXPECT_THAT(with(5), ::testing::Not(HasSubstr("2 abc")));
-  EXPECT_THAT(with(5), EndsWith("stroke the left lamina …"));
+  EXPECT_THAT(with(5), EndsWith("digitize the left lamina …"));
 }
 
 TEST(StatusRows, KeepDangerAndWhatToDoLongest) {
   const auto rows = Parted()
                         .add(Importance::kDanger, "", "guide lost")
                         .add(Importance::kMessage, "; ", words(40))
-                        .add(Importance::kNext, "; ", "stroke the left lamina")
+                        .add(Importance::kNext, "; ", "digitize the left lamina")
                         .add(Importance::kHeard, " | ", "heard: " + words(12))
                         .rows();
-  EXPECT_THAT(rows, ElementsAre("guide lost; stroke the left lamina …", ""));
+  EXPECT_THAT(rows, ElementsAre("guide lost; digitize the left lamina …", ""));
 }
 
 TEST(StatusRows, CutWhatIsTooLongByItself) {

@@ -257,7 +257,7 @@ TEST(RegistrationFigures, SayHowSureInPlainWords) {
   EXPECT_THAT(certainty_of(level),
               AllOf(StartsWith("95 of 100 errors at the screws are expected to be below 0.6"),
                     HasSubstr("Least certain: cranial-caudal shift (0.4 mm at the screws). To "
-                              "improve: stroke the left lamina.")));
+                              "improve: digitize the left lamina.")));
   level.registration.accepted = false;
   EXPECT_THAT(certainty_of(level), StartsWith("Were this pose right, "));
 }

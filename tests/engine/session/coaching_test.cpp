@@ -12,10 +12,10 @@ namespace {
 TEST(Coaching, SaysWhatToExpectAndWhereToStroke) {
   nav::Registration r = promising();
   EXPECT_EQ(text_of(coaching_from(r)),
-            "expected error 2.4 mm (registration only), stroke the left lamina");
+            "expected error 2.4 mm (registration only), digitize the left lamina");
   r.predicted_tre_m = std::numeric_limits<double>::infinity();
   EXPECT_EQ(text_of(coaching_from(r)),
-            "expected error -- mm (registration only), stroke the left lamina");
+            "expected error -- mm (registration only), digitize the left lamina");
 }
 
 TEST(Coaching, SaysWhenItIsEnough) {
@@ -45,14 +45,14 @@ TEST(Coaching, SendsWhoStrokesOverTissueToTheBone) {
 TEST(Coaching, AddsWhatAllStrokesShare) {
   nav::Registration r = promising();
   r.common.tip_m = 0.001;
-  EXPECT_EQ(text_of(coaching_from(r)), "expected error 3.0 mm, stroke the left lamina");
+  EXPECT_EQ(text_of(coaching_from(r)), "expected error 3.0 mm, digitize the left lamina");
 }
 
 TEST(Coaching, PromisesNoErrorOfAPoseThatMayBeTheWrongOne) {
   nav::Registration r = promising();
   r.log_likelihood_ratio = 3.0;
   r.predicted_tre_m = 0.0006;
-  EXPECT_EQ(text_of(coaching_from(r)), "ambiguous, stroke the left lamina");
+  EXPECT_EQ(text_of(coaching_from(r)), "ambiguous, digitize the left lamina");
 }
 
 TEST(Coaching, SaysWhatElseStandsAgainstASmallError) {

@@ -228,7 +228,7 @@ TEST_F(JournalTest, TellsWhatBestSaysOfARegistrationAndThePlacesTouchedToCheckIt
   EXPECT_DOUBLE_EQ(line["expected_tre_mm"], 0.8);
   EXPECT_DOUBLE_EQ(line["tre_95_mm"], 1.4);
   EXPECT_EQ(line["weakest"], "flexion/extension (1.2 mm at the screws)");
-  EXPECT_EQ(line["advice"], "stroke the left upper lamina");
+  EXPECT_EQ(line["advice"], "digitize the left upper lamina");
   EXPECT_EQ(line["fits_better"], "L4");
   EXPECT_EQ(line["warning"], "pointer: tag 3.2 % smaller than stated, check print and unit");
   ASSERT_EQ(by_what["check point"].size(), 2u);

@@ -39,7 +39,7 @@ TEST(Wording, NeverSaysThatANumberExceedsItself) {
   EXPECT_EQ(text_of_reason(Reason::kRmse, 0.00300001, 0.003),
             "registration RMSE just over 3.0 mm, limit 3.0 mm");
   EXPECT_EQ(text_of(nav::CheckAdvice{nav::CheckAdvice::Kind::kReject, 4, 0.002003, 0.002}),
-            "check point 4 is 2.003 mm off, limit 2.000 mm: reject and stroke again");
+            "check point 4 is 2.003 mm off, limit 2.000 mm: reject and digitize again");
   EXPECT_EQ(line_with(Message(TouchNotRecorded{TouchNotRecorded::What::kHead,
                                                {TouchRefusal::Kind::kTipMoved, 0.00304, 0.003}})),
             "head not recorded: tip moved 3.04 mm, limit 3.00 mm");
@@ -76,11 +76,11 @@ TEST(Wording, NamesTheMotionBehindAnError) {
 TEST(Wording, SaysWhereToStroke) {
   using Part = nav::BonePlace::Part;
   using Height = nav::BonePlace::Height;
-  EXPECT_EQ(text_of(kLeftLamina), "stroke the left lamina");
+  EXPECT_EQ(text_of(kLeftLamina), "digitize the left lamina");
   EXPECT_EQ(text_of(nav::BonePlace{Part::kFacet, Side::kRight, Height::kUpper}),
-            "stroke the right upper facet and root of the transverse process");
+            "digitize the right upper facet and root of the transverse process");
   EXPECT_EQ(text_of(nav::BonePlace{Part::kSpinousProcess, {}, Height::kLower}),
-            "stroke the lower spinous process");
+            "digitize the lower spinous process");
 }
 
 TEST(Wording, AsksForCheckPoints) {
@@ -94,7 +94,7 @@ TEST(Wording, AsksForCheckPoints) {
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchOffLine, 1, 0.005, 0.0}),
             "touch 1 more place, 5 mm off the line of the others");
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kReject, 4, 0.0031, 0.002}),
-            "check point 4 is 3.1 mm off, limit 2.0 mm: reject and stroke again");
+            "check point 4 is 3.1 mm off, limit 2.0 mm: reject and digitize again");
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchMore, 1, 0.0026, 0.002}),
             "touch 1 more place: 1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm");
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kUncertain, 1, 0.0026, 0.002}),
@@ -107,9 +107,9 @@ TEST(Wording, SaysWhatStrokesAreWorth) {
   coaching.unique = true;
   coaching.expected_m = 0.0024;
   coaching.stroke_next = kLeftLamina;
-  EXPECT_EQ(text_of(coaching), "expected error 2.4 mm, stroke the left lamina");
+  EXPECT_EQ(text_of(coaching), "expected error 2.4 mm, digitize the left lamina");
   EXPECT_EQ(line_with(StrokesSoFar{120, &coaching}),
-            "120 points | expected error 2.4 mm, stroke the left lamina");
+            "120 points | expected error 2.4 mm, digitize the left lamina");
   coaching.against = nav::RefusalReason{Reason::kNoise, 0.0019, 0.0016, {}, {}};
   EXPECT_EQ(text_of(coaching),
             "expected error 2.4 mm, the points scatter 1.9 mm about the surface, limit 1.6 mm");
@@ -119,7 +119,7 @@ TEST(Wording, SaysWhatStrokesAreWorth) {
   EXPECT_EQ(text_of(coaching), "expected error -- mm, enough to register");
   coaching.unique = coaching.enough = false;
   coaching.against.reset();
-  EXPECT_EQ(text_of(coaching), "ambiguous, stroke the left lamina")
+  EXPECT_EQ(text_of(coaching), "ambiguous, digitize the left lamina")
       << "no error is promised of a pose that may be the wrong one";
 }
 
@@ -130,7 +130,7 @@ TEST(Wording, SaysWhyARegistrationWasRefusedAndWhatToDo) {
   refused.stroke_next = kLeftLamina;
   EXPECT_EQ(line_with(Message(refused)),
             "refused: the points scatter 1.9 mm about the surface, limit 1.6 mm; the points fit "
-            "level L3 as well; stroke the left lamina");
+            "level L3 as well; digitize the left lamina");
   refused.another_level_fits = true;
   EXPECT_EQ(line_with(Message(refused)),
             "refused: the points scatter 1.9 mm about the surface, limit 1.6 mm; the points fit "

@@ -57,7 +57,7 @@ TEST(Wording, SaysWhichPartsGiveWayFirst) {
   for (std::size_t i = 0; i < kExpected.size(); ++i) {
     EXPECT_EQ(parts.parts[i].importance, kExpected[i]) << i;
   }
-  EXPECT_EQ(text.substr(parts.parts[3].begin), "; stroke the left lamina | heard: next");
+  EXPECT_EQ(text.substr(parts.parts[3].begin), "; digitize the left lamina | heard: next");
   std::string plain;
   append_beside_step(plain, line);
   EXPECT_EQ(plain, text) << "asking for the parts changes no word";
