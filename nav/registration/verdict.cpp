@@ -8,10 +8,35 @@ namespace {
 
 /// A smaller field can't be distinguished from a segmentation's own error.
 constexpr double kUneven_m = 0.0003;
+/// The scatter of points about the surface that is believed to be the hand's where the tip is at
+/// the first height on average, and at the second one and higher.
+constexpr double kLow_m = 0.0015;
+constexpr double kHigh_m = 0.0025;
+constexpr double kMostScatterHigh_m = 0.0010;
 /// A size counts as off from this many SDs.
 constexpr double kCertainSds = 1.8;
 /// Root mean square error at the screws above which a pose is not good enough for pressed places.
 constexpr double kMostProvisional_m = 0.004;
+
+/// The most that the points may scatter with a tip that is so high above the bone on average. Soft
+/// tissue so thick is uneven: such scatter is tissue, even if it looks like an unsteady hand.
+double most_scatter_m(double standoff_m, double most_low_m) {
+  const double high = std::clamp((standoff_m - kLow_m) / (kHigh_m - kLow_m), 0.0, 1.0);
+  return std::lerp(most_low_m, std::min(most_low_m, kMostScatterHigh_m), high);
+}
+
+/// What calls soft tissue by name, where something does; `refused` for other reasons already.
+std::optional<RefusalReason> soft_tissue(const Registration& r, double max_noise_m, bool refused) {
+  using Kind = RefusalReason::Kind;
+  const double most_m = most_scatter_m(r.standoff_m, max_noise_m);
+  if (most_m < max_noise_m && r.noise_m > most_m) {
+    return RefusalReason{Kind::kSoftTissue, r.noise_m, most_m, {}, {}, r.stroke_next};
+  }
+  if (refused && r.field_sd_m > kUneven_m) {
+    return RefusalReason{Kind::kSoftTissue, r.field_sd_m, kUneven_m, {}, {}, r.stroke_next};
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -38,8 +63,8 @@ std::vector<RefusalReason> reasons_against(const Registration& r,
   if (const auto reason = error_at_screws(r, o)) {
     reasons.push_back(*reason);
   }
-  if (!reasons.empty() && r.field_sd_m > kUneven_m) {
-    reasons.push_back({Kind::kSoftTissue, r.field_sd_m, kUneven_m, {}, {}, r.stroke_next});
+  if (const auto reason = soft_tissue(r, o.max_noise_m, !reasons.empty())) {
+    reasons.push_back(*reason);
   }
   if (!(std::abs(r.size - 1.0) <= std::max(o.max_size_off, kCertainSds * r.size_sd))) {
     reasons.push_back({Kind::kModelSize, r.size, o.max_size_off, {}, {}, {}});

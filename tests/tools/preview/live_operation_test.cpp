@@ -99,7 +99,7 @@ TEST(LiveOperation, HearsTheKeyboardAtTheNextPair) {
   EXPECT_EQ(stage.run_to(3)->at.step, engine::Step::kDigitize);
 }
 
-TEST(LiveOperation, NeedsNoGuideToShowWhereThePointerIs) {
+TEST(LiveOperation, TakesTheBuiltInGuideWhereToolsHaveNone) {
   Stage stage;
   const test::TemporaryFolder folder;
   OperationSource pointer = source();
@@ -111,10 +111,10 @@ TEST(LiveOperation, NeedsNoGuideToShowWhereThePointerIs) {
       LiveOperation::open(pointer, perfect_room(), stage.gate, stage.keyboard, stage.timeline);
   ASSERT_TRUE(live.ok()) << live.error().message;
   (*live)->start();
-  const auto later = stage.run_to(60);
-  ASSERT_EQ(later->tools.size(), 2u);
-  EXPECT_EQ(later->tools[0].status, PoseStatus::kMeasured);
-  EXPECT_EQ(later->tools[1].name, "guide");
+  const auto third = stage.run_to(3);
+  ASSERT_EQ(third->tools.size(), 2u);
+  EXPECT_EQ(third->tools[0].name, "pointer");
+  EXPECT_EQ(third->tools[1].name, "guide");
 }
 
 TEST(LiveOperation, RefusesAHeadsetThatHasADisplay) {
