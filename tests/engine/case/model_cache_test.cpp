@@ -109,7 +109,7 @@ TEST_F(ModelFiles, AreMadeAnewWhenTheyAreNotWhatTheyShouldBe) {
   expect_made_anew(bytes_.substr(0, bytes_.size() / 2), "not as long");
   expect_made_anew(bytes_.substr(0, bytes_.size() - 1), "not as long");
   expect_made_anew(bytes_ + '\0', "not as long");
-  expect_made_anew(std::string(bytes_.size(), 'x'), "no prepared model");
+  expect_made_anew(std::string(bytes_.size(), 'x'), "not a prepared model");
   std::string flipped = bytes_;
   flipped[flipped.size() / 3] = static_cast<char>(flipped[flipped.size() / 3] ^ 1);
   expect_made_anew(flipped, "checksum");

@@ -98,7 +98,7 @@ TEST(Wording, AsksForCheckPoints) {
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchMore, 1, 0.0026, 0.002}),
             "touch 1 more place: 1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm");
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kUncertain, 1, 0.0026, 0.002}),
-            "1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm: reject and stroke "
+            "1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm: reject and digitize "
             "again");
 }
 

@@ -122,7 +122,7 @@ TEST(IgtlServer, DropsWhoSendsSomethingElseAndServesTheRest) {
       "GET / HTTP/1.1\r\nHost: localhost\r\nUser-Agent: something long\r\n\r\n";
   bad.send({http.begin(), http.end()});
   ASSERT_TRUE(wait_until([&] { return server->counts().dropped == 1; }));
-  EXPECT_THAT(server->counts().last_drop, HasSubstr("no OpenIGTLink message"));
+  EXPECT_THAT(server->counts().last_drop, HasSubstr("not an OpenIGTLink message"));
   IgtlClient greedy(server->port());
   Bytes large = frame(1);
   large[44] = 1;  // 2^40 bytes are to come
