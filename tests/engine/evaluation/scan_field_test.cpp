@@ -37,7 +37,7 @@ TEST(ScanField, RefusesWhatIsNoCtWithMetal) {
   EXPECT_THAT(refusal_of(nan), HasSubstr("not a number"));
   Volume labels = plain();
   labels.values[0] = 0.0F;
-  EXPECT_THAT(refusal_of(labels), HasSubstr("no CT in HU: its least value is 0, limit -30"));
+  EXPECT_THAT(refusal_of(labels), HasSubstr("not a CT in HU: its least value is 0, limit -30"));
   Volume bare = plain();
   bare.values[50] = 1999.0F;
   EXPECT_THAT(refusal_of(bare), HasSubstr("no metal in the scan: its largest value is 1999 HU"));
