@@ -29,7 +29,7 @@ double most_scatter_m(double standoff_m, double most_low_m) {
 std::optional<RefusalReason> soft_tissue(const Registration& r, double max_noise_m, bool refused) {
   using Kind = RefusalReason::Kind;
   const double most_m = most_scatter_m(r.standoff_m, max_noise_m);
-  if (most_m < max_noise_m && r.noise_m > most_m) {
+  if (r.noise_m > most_m && r.noise_m <= max_noise_m) {
     return RefusalReason{Kind::kSoftTissue, r.noise_m, most_m, {}, {}, r.stroke_next};
   }
   if (refused && r.field_sd_m > kUneven_m) {

@@ -52,7 +52,7 @@ TEST(Verdict, ScatterHighAboveTheBoneAsksForPressedPlaces) {
 
 TEST(Verdict, ScatterBeyondAnyHandIsNoise) {
   EXPECT_THAT(kinds_against(good(0.0, 0.0017)), ElementsAre(Kind::kNoise));
-  EXPECT_THAT(kinds_against(good(0.003, 0.0017)), ElementsAre(Kind::kNoise, Kind::kSoftTissue));
+  EXPECT_THAT(kinds_against(good(0.003, 0.0017)), ElementsAre(Kind::kNoise));
 }
 
 }  // namespace
