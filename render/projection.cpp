@@ -31,6 +31,15 @@ Float3 transformed(const Matrix4& m, Float3 p) {
   return {dot(row(m, 0), p) + m[12], dot(row(m, 1), p) + m[13], dot(row(m, 2), p) + m[14]};
 }
 
+Float3 transformed_back(const Matrix4& m, Float3 p) {
+  // Columns and rows are those of a rotation times the scale: the inverse is the transpose over the
+  // scale squared.
+  const Float3 off = p - Float3{m[12], m[13], m[14]};
+  return (1.0f / dot(row(m, 0), row(m, 0))) * Float3{dot({m[0], m[1], m[2]}, off),
+                                                     dot({m[4], m[5], m[6]}, off),
+                                                     dot({m[8], m[9], m[10]}, off)};
+}
+
 Matrix4 rigid_inverse(const Matrix4& m) {
   const Float3 translation = {m[12], m[13], m[14]};
   const Float3 x = {m[0], m[1], m[2]};

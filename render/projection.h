@@ -29,6 +29,8 @@ struct Head {
 [[nodiscard]] Matrix4 multiplied(const Matrix4& a, const Matrix4& b);
 /// The product with (p, 1); the last row is taken as (0, 0, 0, 1).
 [[nodiscard]] Float3 transformed(const Matrix4& m, Float3 p);
+/// The point that `transformed` takes to p, of a rotation, a scale and a translation.
+[[nodiscard]] Float3 transformed_back(const Matrix4& m, Float3 p);
 /// The inverse of a rotation and a translation.
 [[nodiscard]] Matrix4 rigid_inverse(const Matrix4& m);
 

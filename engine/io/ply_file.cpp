@@ -120,8 +120,9 @@ Status read_vertices(const Element& element, Values& values, PlyFile& file) {
   Row row;
   for (std::size_t i = 0; i < element.count; ++i) {
     if (!read_row(element, element.properties.size(), values, row)) {
-      return values.ended() ? ends_early(element, i)
-                            : Error{"vertex " + std::to_string(i) + " is not a number"};
+      return values.ended()
+                 ? ends_early(element, i)
+                 : Error{"vertex " + std::to_string(i) + " has a value that is not a number"};
     }
     const Vec3 v{row.values[columns[0]], row.values[columns[1]], row.values[columns[2]]};
     if (!v.is_finite()) {
@@ -140,8 +141,9 @@ Status read_faces(const Element& element, Values& values, PlyFile& file) {
   Row row;
   for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
     if (!read_row(element, corners, values, row)) {
-      return values.ended() ? ends_early(element, i)
-                            : Error{"face " + std::to_string(i) + " is not a number"};
+      return values.ended()
+                 ? ends_early(element, i)
+                 : Error{"face " + std::to_string(i) + " has a value that is not a number"};
     }
     for (const double corner : row.list) {
       if (!(corner >= 0.0 && corner < static_cast<double>(file.vertices.size()))) {

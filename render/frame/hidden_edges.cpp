@@ -8,16 +8,6 @@
 namespace orthonav::render {
 namespace {
 
-/// Into the frame of a placed surface. Its columns are those of a rotation times the scale.
-Float3 into_model(const Matrix4& world_from_model, Float3 in_world) {
-  const Matrix4& m = world_from_model;
-  const Float3 x = {m[0], m[1], m[2]};
-  const Float3 y = {m[4], m[5], m[6]};
-  const Float3 z = {m[8], m[9], m[10]};
-  const Float3 off = in_world - Float3{m[12], m[13], m[14]};
-  return (1.0f / dot(x, x)) * Float3{dot(x, off), dot(y, off), dot(z, off)};
-}
-
 float height(const Float4& plane, Float3 p) {
   return plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.w;
 }
@@ -31,8 +21,8 @@ struct HiddenPart {
 /// The part that lies behind all planes (Cyrus & Beck 1978).
 HiddenPart hidden_part(std::span<const Float4> planes, const Matrix4& world_from_model,
                        const Segment3& in_world) {
-  const Segment3 s = {into_model(world_from_model, in_world.from),
-                      into_model(world_from_model, in_world.to)};
+  const Segment3 s = {transformed_back(world_from_model, in_world.from),
+                      transformed_back(world_from_model, in_world.to)};
   HiddenPart part;
   for (const Float4& plane : planes) {
     const float from = height(plane, s.from);

@@ -120,14 +120,9 @@ Float4 lengthened(const Float4& edge, bool at_begin, bool at_end) {
   return {edge.x - before * x, edge.y - before * y, edge.z + after * x, edge.w + after * y};
 }
 
-/// The origin of the eye's frame. The rows of the matrix are those of a rotation times the scale:
-/// its inverse is the transpose over the scale squared.
-Float3 eye_in_model(const Matrix4& eye_from_model) {
-  const Matrix4& m = eye_from_model;
-  const Float3 x = {m[0], m[4], m[8]};
-  const Float3 y = {m[1], m[5], m[9]};
-  const Float3 z = {m[2], m[6], m[10]};
-  return (-1.0f / dot(x, x)) * (m[12] * x + m[13] * y + m[14] * z);
+/// Where the eye is in a model's own frame.
+Float3 eye_in_model(const View& view, const Matrix4& world_from_model) {
+  return transformed_back(multiplied(view.eye_from_world, world_from_model), {0, 0, 0});
 }
 
 /// Whether each triangle faces the eye.
@@ -191,7 +186,7 @@ void SurfaceEdges::hide(const View& view, PixelSize size, const PlacedSurface& s
               std::max(box_px.w, at.y_px)};
   }
   hidden.add(surface, box_px);
-  const Float3 eye = eye_in_model(multiplied(view.eye_from_world, surface.world_from_model));
+  const Float3 eye = eye_in_model(view, surface.world_from_model);
   find_faces(planes_, eye, scratch.faces);
   for (std::size_t i = 0; i < planes_.size(); ++i) {
     if (scratch.faces[i] == 1) {
@@ -233,8 +228,7 @@ void SurfaceEdges::seen_by(const View& view, PixelSize size, const PlacedSurface
                            const HiddenEdges& hidden, EdgeScratch& scratch,
                            std::vector<Float4>& edges) const {
   const Matrix4& world_from_model = surface.world_from_model;
-  find_faces(planes_, eye_in_model(multiplied(view.eye_from_world, world_from_model)),
-             scratch.faces);
+  find_faces(planes_, eye_in_model(view, world_from_model), scratch.faces);
   const Matrix4 clip_from = clip_from_world(view);
   find_shown(multiplied(clip_from, world_from_model), size, scratch);
   scratch.axes.assign(positions_.size(), 0);

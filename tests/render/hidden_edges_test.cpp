@@ -6,19 +6,13 @@
 
 #include "render/frame/surface_edges.h"
 #include "render/shapes.h"
+#include "tests/render/test_renderer.h"
 
 namespace orthonav::render {
 namespace {
 
 constexpr PixelSize kPicture = {200, 120};
 constexpr float kBall_m = 0.02f;
-
-View ahead() {
-  View view;
-  view.tan_left = view.tan_right = 0.5f;
-  view.tan_up = view.tan_down = 0.3f;
-  return view;
-}
 
 /// One metre away, with the middle of its image at (100, 65); it covers four pixels around that.
 PlacedSurface ball(bool veil) { return {1, veil, placed_at({0, -0.025f, -1})}; }
@@ -48,15 +42,15 @@ std::vector<Float4> edges_of_square(float depth_m, bool veil, const HiddenEdges&
   mesh.indices = {0, 1, 3, 1, 2, 3};
   EdgeScratch scratch;
   std::vector<Float4> edges;
-  SurfaceEdges(mesh).seen_by(ahead(), kPicture, {2, veil, placed_at({0, 0, -depth_m})}, hidden,
-                             scratch, edges);
+  SurfaceEdges(mesh).seen_by(TestRenderer::straight_ahead(), kPicture,
+                             {2, veil, placed_at({0, 0, -depth_m})}, hidden, scratch, edges);
   return edges;
 }
 
 HiddenEdges hidden_by(const MeshData& mesh, const PlacedSurface& surface) {
   EdgeScratch scratch;
   HiddenEdges hidden;
-  SurfaceEdges(mesh).hide(ahead(), kPicture, surface, scratch, hidden);
+  SurfaceEdges(mesh).hide(TestRenderer::straight_ahead(), kPicture, surface, scratch, hidden);
   return hidden;
 }
 
@@ -98,7 +92,8 @@ TEST(HiddenEdges, AreNeverASurfacesOwn) {
   const auto count = [&](const HiddenEdges& hidden) {
     EdgeScratch scratch;
     std::vector<Float4> edges;
-    edges_of_ball.seen_by(ahead(), kPicture, ball(false), hidden, scratch, edges);
+    edges_of_ball.seen_by(TestRenderer::straight_ahead(), kPicture, ball(false), hidden, scratch,
+                          edges);
     return edges.size();
   };
   EXPECT_GT(count({}), 20u);

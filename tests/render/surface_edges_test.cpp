@@ -5,23 +5,18 @@
 #include <cmath>
 
 #include "render/shapes.h"
+#include "tests/render/test_renderer.h"
 
 namespace orthonav::render {
 namespace {
 
 constexpr PixelSize kImage = {200, 120};
 
-View straight_ahead() {
-  View view;
-  view.tan_left = view.tan_right = 0.5f;
-  view.tan_up = view.tan_down = 0.3f;
-  return view;
-}
-
 std::vector<Float4> seen(const MeshData& mesh, const Matrix4& place) {
   EdgeScratch scratch;
   std::vector<Float4> edges;
-  SurfaceEdges(mesh).seen_by(straight_ahead(), kImage, {0, false, place}, {}, scratch, edges);
+  SurfaceEdges(mesh).seen_by(TestRenderer::straight_ahead(), kImage, {0, false, place}, {}, scratch,
+                             edges);
   return edges;
 }
 
