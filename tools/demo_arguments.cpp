@@ -53,8 +53,8 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
       ->check(some_text())
       ->capture_default_str();
   add_levels_option(demo, arguments.levels);
-  auto* fast = demo.add_flag("--fast", arguments.fast,
-                             "as fast as the machine goes (default: unless --realtime)");
+  auto* fast =
+      demo.add_flag("--fast", arguments.fast, "as fast as the machine goes, unless --realtime");
   demo.add_flag("--realtime", arguments.realtime, "30 frames a second")->excludes(fast);
   demo.add_option("--record", arguments.record, "also record the session into this new folder")
       ->check(some_text());
