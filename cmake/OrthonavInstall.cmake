@@ -5,14 +5,15 @@ include(CMakePackageConfigHelpers)
 get_property(orthonav_libraries GLOBAL PROPERTY ORTHONAV_LIBRARIES)
 set(orthonav_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/orthonav")
 
-# Building the targets orthonav and manual is enough to install everything but the pages of the headers.
-add_dependencies(orthonav ${orthonav_libraries})
 install(TARGETS ${orthonav_libraries} EXPORT orthonavTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
 install(EXPORT orthonavTargets NAMESPACE orthonav:: DESTINATION "${orthonav_package_folder}" COMPONENT dev)
-install(TARGETS orthonav RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime)
 # Headers of libraries that are not installed, which no program includes.
 set(ORTHONAV_NOT_INSTALLED "^(render/font_maker|engine/(golden|scan|evaluation)|hal/igtl)/")
+if(ORTHONAV_HEADSET)
+  set(ORTHONAV_NOT_INSTALLED
+      "^(render/font_maker|engine/(golden|scan|evaluation|planning|print)|hal/(hl2ss|igtl|desktop|voice|open))/")
+endif()
 foreach(folder base hal nav render engine)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${folder}/*.h")
   list(FILTER headers EXCLUDE REGEX "${ORTHONAV_NOT_INSTALLED}")
@@ -40,8 +41,6 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/orthonav-doc" COMPONENT doc)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" "${PROJECT_SOURCE_DIR}/tools/example"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/orthonav-doc" COMPONENT doc)
-include(OrthonavManual)
-include(OrthonavApi)
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/orthonavConfig.cmake.in"
                               "${PROJECT_BINARY_DIR}/orthonavConfig.cmake"
@@ -55,4 +54,13 @@ install(FILES "${PROJECT_BINARY_DIR}/orthonavConfig.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindPocketSphinx.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/OrthonavImported.cmake"
         DESTINATION "${orthonav_package_folder}" COMPONENT dev)
-include(OrthonavPackages)
+
+# The command, and what is made with it.
+if(TARGET orthonav)
+  # Building the targets orthonav and manual is enough to install everything but the pages of the headers.
+  add_dependencies(orthonav ${orthonav_libraries})
+  install(TARGETS orthonav RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime)
+  include(OrthonavManual)
+  include(OrthonavApi)
+  include(OrthonavPackages)
+endif()

@@ -170,7 +170,7 @@ void print(const engine::Evaluation& evaluation) {
   print_text(
       "             angle        entry  entry (axis)  target  depth   dia-  clear-  95 %%\n");
   print_text(
-      "screw        deg          mm     mm            mm      mm      meter ance mm above   "
+      "screw        °            mm     mm            mm      mm      meter ance mm above   "
       "grade\n");
   for (const engine::EvaluatedLevel& level : evaluation.levels) {
     if (!level.registration) {

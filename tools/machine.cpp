@@ -166,8 +166,11 @@ std::vector<Offer> offers_of_machine(const std::string& root) {
   offers.push_back(validation_layer(root));
   offers.push_back(video_encoder());
   offers.push_back(phantom_case());
-  offers.push_back({"Headset", Finding::kFound,
-                    "sim: (simulated), replay:PATH (recorded), hl2ss://HOST, openxr:+URI", ""});
+  offers.push_back(
+      {"Headset", Finding::kFound,
+       "sim: (simulated), replay:PATH (recorded), hl2ss://HOST, openxr:+URI, igtl://HOST "
+       "(tools that another program tracks)",
+       ""});
   offers.push_back(openxr_runtime(root));
   offers.push_back(microphone(root));
   offers.push_back(voice_model(root));

@@ -11,7 +11,7 @@ std::string number(const std::optional<double>& value, double scale, const char*
   if (!value) {
     return "-";
   }
-  return printed("%.2f %s", *value * scale, unit);
+  return printed("%.2f%s", *value * scale, unit);
 }
 
 }  // namespace
@@ -29,20 +29,21 @@ std::string operation_summary(const engine::OperationResult& result) {
       continue;
     }
     out += level.label + ": " + (level.accepted ? "accepted" : "not accepted") + " after " +
-           how_many(level.attempts, "attempt") + ", RMSE " + number(level.rmse_m, 1e3, "mm") +
-           ", TRE " + number(level.tre_m, 1e3, "mm") + ", " +
+           how_many(level.attempts, "attempt") + ", RMSE " + number(level.rmse_m, 1e3, " mm") +
+           ", TRE " + number(level.tre_m, 1e3, " mm") + ", " +
            (level.points ? std::to_string(*level.points) : "-") + " points in " +
-           number(level.digitization_s, 1.0, "s") + "\n";
+           number(level.digitization_s, 1.0, " s") + "\n";
     for (const engine::ScrewOutcome& screw : level.screws) {
       out += "  " + std::string(name_of(screw.side)) + ": angle error " +
-             number(screw.angle_error_rad, kDegreesPerRadian, "deg") + ", entry error " +
-             number(screw.entry_error_m, 1e3, "mm") + "\n";
+             number(screw.angle_error_rad, kDegreesPerRadian, "°") + ", entry error " +
+             number(screw.entry_error_m, 1e3, " mm") + "\n";
     }
   }
   for (const engine::RodOutcome& rod : result.rods) {
-    out += "rod " + std::string(name_of(rod.side)) + ": length " + number(rod.length_m, 1e3, "mm") +
-           ", length error " + number(rod.length_error_m, 1e3, "mm") + ", head error " +
-           number(rod.head_error_m, 1e3, "mm") + "\n";
+    out += "rod " + std::string(name_of(rod.side)) + ": length " +
+           number(rod.length_m, 1e3, " mm") + ", length error " +
+           number(rod.length_error_m, 1e3, " mm") + ", head error " +
+           number(rod.head_error_m, 1e3, " mm") + "\n";
   }
   out += how_many(result.loop.displayed, "frame") + " displayed\n";
   return out;

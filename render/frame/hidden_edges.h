@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/frame/frame_items.h"
 #include "render/pixel_rect.h"
 #include "render/projection.h"
 #include "render/scene.h"

@@ -1,13 +1,6 @@
 # Installs the package into a folder of its own, or uses that of the system where BUILD is not given; builds the
 # examples against it and runs them. COMMAND is `orthonav`.
-# Fails as soon as a step fails, and shows what it said.
-function(step)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
-  if(NOT status EQUAL 0)
-    message(FATAL_ERROR "${ARGV}\n${said}")
-  endif()
-  set(said "${said}" PARENT_SCOPE)
-endfunction()
+include("${CMAKE_CURRENT_LIST_DIR}/step.cmake")
 
 file(REMOVE_RECURSE "${WORK}")
 set(link "")

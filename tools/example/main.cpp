@@ -20,7 +20,7 @@ struct Printer : LoopObserver {
     std::printf("%s  %s", step_text(guidance.status.at).c_str(),
                 detail_text(guidance.status).c_str());
     if (guidance.tool && guidance.tool->measured) {
-      std::printf("  %.1f deg off the plan, tip %.1f mm from the entry",
+      std::printf("  %.1f° off the plan, tip %.1f mm from the entry",
                   guidance.tool->measured->angle_rad * 57.2958,
                   guidance.tool->measured->tip_to_entry_m * 1e3);
     }

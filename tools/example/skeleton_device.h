@@ -1,12 +1,10 @@
 #pragma once
 
 #include <orthonav/hal/api/devices.h>
-#include <cstdlib>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
+
+#include "must.h"
 
 namespace mine {
 
@@ -63,24 +61,15 @@ class SkeletonDevice : public Headset, Clock, StereoCamera, HeadTracker, Clicker
   int next_ = 0;
 };
 
-/// A camera without distortion; a real device reads its own.
-inline Result<StereoCalibration> calibration() {
-  const auto camera = CameraModel::from_brown_conrady({640, 480, 450, 450, 320, 240});
-  if (!camera) {
-    return camera.error();
-  }
-  StereoCalibration both{*camera, *camera, {}, {}};
-  both.right_from_rig = Transform<RightCamera, Rig>(Mat3::identity(), {-0.1, 0, 0});
-  return both;
+/// Cameras without distortion; a real device reads its own.
+inline StereoCalibration calibration() {
+  const CameraModel camera = must(CameraModel::from_brown_conrady({640, 480, 450, 450, 320, 240}));
+  return {camera, camera, {}, {Mat3::identity(), {-0.1, 0, 0}}};
 }
 
 inline Result<std::unique_ptr<Headset>> open_skeleton(const std::string& pairs) {
-  auto cameras = calibration();
-  if (!cameras) {
-    return cameras.error();
-  }
   return std::unique_ptr<Headset>(
-      std::make_unique<SkeletonDevice>(std::move(*cameras), std::atoi(pairs.c_str())));
+      std::make_unique<SkeletonDevice>(calibration(), std::atoi(pairs.c_str())));
 }
 
 }  // namespace mine

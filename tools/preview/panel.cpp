@@ -146,8 +146,9 @@ void draw_error_sources(PreviewModel& model, const PanelFacts& facts,
     group = source.group;
     double shown = error_model.*source.value * source.scale;
     char format[32];
-    std::snprintf(format, sizeof format, "%%.3g %s%s", source.unit[0] == '%' ? "%" : "",
-                  source.unit);
+    const std::string_view unit = source.unit;
+    std::snprintf(format, sizeof format, "%%.3g%s%s%s", unit.starts_with("°") ? "" : " ",
+                  unit.starts_with('%') ? "%" : "", source.unit);
     const bool changed = error_model.*source.value != facts.running->*source.value;
     ImGui::PushID(&source);
     ImGui::SetNextItemWidth(130.0f);

@@ -19,7 +19,7 @@ std::string PreviewApp::next_name(const std::string& ending) const {
 }
 
 Status PreviewApp::take_screenshot(const std::string& name) {
-  const fs::path path = fs::path(options_.out) / name;
+  const fs::path path = png_path(options_.out, name);
   const Status taken = write_screenshot(*window_, path);
   facts_.note = taken ? "wrote " + path.string() : taken.error().message;
   // A script that gets no picture has failed; a person reads the reason.

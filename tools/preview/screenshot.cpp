@@ -22,6 +22,10 @@ std::string numbered_name(const std::string& folder, const std::string& beginnin
   }
 }
 
+fs::path png_path(const fs::path& folder, const std::string& name) {
+  return folder / (fs::path(name).extension() == ".png" ? name : name + ".png");
+}
+
 Status write_screenshot(const Window& window, const fs::path& path) {
   const RgbaImage image = window.screenshot();
   if (image.pixels.empty()) {

@@ -12,6 +12,10 @@ namespace orthonav::preview {
 [[nodiscard]] std::string numbered_name(const std::string& folder, const std::string& beginning,
                                         const std::string& ending);
 
+/// A file of this name in that folder; ".png" is added where the name lacks it.
+[[nodiscard]] std::filesystem::path png_path(const std::filesystem::path& folder,
+                                             const std::string& name);
+
 /// What the window shows, as PNG; its folder is made.
 Status write_screenshot(const Window& window, const std::filesystem::path& path);
 

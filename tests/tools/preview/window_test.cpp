@@ -25,7 +25,7 @@ screenshot guide.png
 key 4
 screenshot guide-without-trajectory.png
 key 4
-screenshot guide-again.png
+screenshot guide-again
 key o
 drag 30 10
 screenshot orbit.png

@@ -134,7 +134,7 @@ Status PlanApp::save() {
 
 /// A script that gets no picture has failed; a person reads the reason.
 Status PlanApp::take_screenshot(const std::string& name) {
-  const fs::path path = fs::path(options_.out) / name;
+  const fs::path path = png_path(options_.out, name);
   const Status taken = write_screenshot(*window_, path);
   model_.set_note(taken ? "wrote " + path.string() : taken.error().message);
   return script_ ? taken : Status{};
