@@ -85,6 +85,9 @@ void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
   if (visible_.rods) {
     add_rods(guidance, scene);
   }
+  if (visible_.lying_rod) {
+    add_lying_rod(*visible_.lying_rod, scene);
+  }
   add_status(guidance, scene);
   if (guidance.anchor) {
     take_to_map(guidance.anchor->world_from_anchored, scene);

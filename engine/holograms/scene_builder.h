@@ -35,7 +35,7 @@ class SceneBuilder {
 
  private:
   struct Tube {
-    std::vector<Point<World>> heads;  ///< for which the tube was made
+    std::vector<Point<World>> points;  ///< heads or axis, for which the tube was made
     std::shared_ptr<const render::MeshData> mesh;
   };
 
@@ -49,6 +49,7 @@ class SceneBuilder {
   void add_tool_guidance(const nav::ScrewGuidance& shown, render::Scene& scene);
   void add_virtual_twin(const PlacedScrew& screw, render::Scene& scene);
   void add_rods(const Guidance& guidance, render::Scene& scene);
+  void add_lying_rod(const LyingRod& rod, render::Scene& scene);
   void add_status(const Guidance& guidance, render::Scene& scene);
   const std::shared_ptr<const render::MeshData>& surface_of(const LevelState& level);
   const std::shared_ptr<const render::MeshData>& tinted_surface_of(const LevelState& level,
@@ -64,6 +65,7 @@ class SceneBuilder {
   // The renderer keeps its copies by pointer: one surface per level, one tube per rod, made once.
   std::map<const nav::VertebraModel*, std::shared_ptr<const render::MeshData>> surfaces_;
   std::vector<Tube> tubes_;
+  Tube lying_tube_;
   std::shared_ptr<const render::MeshData> tinted_;  ///< of the registration shown last
   const render::MeshData* tinted_from_ = nullptr;   ///< the surface that it was made of
   // Reused from frame to frame.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/render_values.h"
+#include "engine/holograms/rod_in_hand_hologram.h"
 #include "engine/holograms/scene_builder.h"
 #include "render/shapes.h"
 
@@ -36,10 +38,10 @@ const std::shared_ptr<const render::MeshData>& SceneBuilder::tinted_surface_of(
 const std::shared_ptr<const render::MeshData>& SceneBuilder::tube_of(std::size_t i,
                                                                      const RodState& rod) {
   Tube& tube = tubes_[i];
-  if (tube.heads == rod.heads) {
+  if (tube.points == rod.heads) {
     return tube.mesh;
   }
-  tube.heads = rod.heads;
+  tube.points = rod.heads;
   tube.mesh.reset();
   if (rod.rod) {
     std::vector<render::Float3> path;
@@ -50,6 +52,14 @@ const std::shared_ptr<const render::MeshData>& SceneBuilder::tube_of(std::size_t
         render::make_tube(path, static_cast<float>(rod.rod->diameter_m / 2.0)));
   }
   return tube.mesh;
+}
+
+void SceneBuilder::add_lying_rod(const LyingRod& rod, render::Scene& scene) {
+  if (lying_tube_.points != rod.axis) {
+    lying_tube_ = {rod.axis, engine::tube_of(rod)};
+  }
+  // Beside those of the left and the right rod.
+  add_rod_in_hand(scene, rod, lying_tube_.mesh, label_of(HologramKind::kRod, 3));
 }
 
 }  // namespace orthonav::engine

@@ -8,6 +8,7 @@
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
 #include "engine/session/numbers_wording.h"
+#include "engine/session/rod_wording.h"
 #include "engine/session/wire_wording.h"
 #include "engine/session/wording.h"
 
@@ -64,6 +65,9 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
   }
   if (visible.rods) {
     write_rods(guidance, rules, frame);
+  }
+  if (visible.lying_rod) {
+    write_lying_rod(*visible.lying_rod, frame);
   }
   frame.holograms.resize(used_);
 }
@@ -214,6 +218,15 @@ void ShownFrameWriter::write_rods(const Guidance& guidance, const VisibilityRule
       hologram.points_in_world.push_back(head + offset);
     }
   }
+}
+
+void ShownFrameWriter::write_lying_rod(const LyingRod& rod, ShownFrame& frame) {
+  ShownHologram& hologram = add(frame, HologramKind::kRod);
+  if (rod.next) {
+    append_next_bend(hologram.text, *rod.next);
+    hologram.points_in_world.push_back(rod.bend.at);
+  }
+  hologram.points_in_world.insert(hologram.points_in_world.end(), rod.axis.begin(), rod.axis.end());
 }
 
 void ShownFrameWriter::write_status(const StatusLine& line, const Visibility& visible,

@@ -30,6 +30,7 @@ class ShownFrameWriter {
   void write_cross(const PlacedScrew& screw, const VisibleCross& visible,
                    const VisibilityRules& rules, ShownFrame& frame);
   void write_rods(const Guidance& guidance, const VisibilityRules& rules, ShownFrame& frame);
+  void write_lying_rod(const LyingRod& rod, ShownFrame& frame);
   void write_angle(std::optional<double> angle_rad, ShownFrame& frame);
   void write_numbers(const nav::ScrewNumbers& numbers, nav::Side side, ShownFrame& frame);
   void write_status(const StatusLine& line, const Visibility& visible, ShownFrame& frame);

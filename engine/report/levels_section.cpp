@@ -62,13 +62,20 @@ std::string rods_section(const json& report) {
                    {"heads touched"},
                    {"length", "mm"},
                    {"length error", "mm"},
-                   {"error of the heads", "mm"}});
+                   {"error of the heads", "mm"},
+                   {"bends measured", "\u00b0"}});
   for (const json& side : rod.value("sides", json::array())) {
     table.row(html_escaped(text_in(side, "side")));
     table.cell(figure(side, "heads", 0));
     table.cell(figure(side, "length_mm", 1));
     table.cell(figure(side, "length_error_mm", 2));
     table.cell(figure(side, "head_error_mm", 2));
+    std::string measured;
+    for (const json& bend : side.value("measured", json::array())) {
+      measured += (measured.empty() ? "" : ", ") + figure(bend, "angle_deg", 1) + " \u00b1 " +
+                  figure(bend, "angle_se_deg", 1);
+    }
+    table.cell(measured.empty() ? "\u2013" : measured);
   }
   return html + (table.empty() ? "" : table.html()) + "</section>";
 }

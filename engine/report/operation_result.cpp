@@ -101,7 +101,10 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
     if (rod.rod) {
       outcome.length_m = rod.rod->length_m;
     }
-    result.rods.push_back(outcome);
+    for (const RodBendInHand& bend : rod.measured) {
+      outcome.measured.push_back(bend.found);
+    }
+    result.rods.push_back(std::move(outcome));
   }
   result.loop = std::move(loop);
   return result;

@@ -90,6 +90,7 @@ struct RodOutcome {
   std::optional<double> length_m;
   std::optional<double> length_error_m;  ///< template relative to the spline through the true heads
   std::optional<double> head_error_m;    ///< mean distance of a touched head from the true one
+  std::vector<nav::MeasuredBend> measured = {};  ///< the bends that were measured in hand
 };
 
 /// The measured result of one operation. Values that depend on the machine's speed are only in

@@ -93,6 +93,8 @@ enum class Action : std::uint8_t {
   kDropTouch,
   kRecordHead,
   kDropHead,
+  kMeasureRod,
+  kSaveRod,
   kFinishRod,
   kMoveRod,
   kToggleTwin,
@@ -105,6 +107,6 @@ enum class Action : std::uint8_t {
   kShowGuidance,
   kForgetMap,
 };
-inline constexpr std::size_t kActionCount = 49;
+inline constexpr std::size_t kActionCount = 51;
 
 }  // namespace orthonav::engine

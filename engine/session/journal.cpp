@@ -52,38 +52,6 @@ Json plan_of(const std::vector<PlannedLevel>& levels) {
   return plan;
 }
 
-/// The instructions to bend the rod, or why there are none.
-void put_instructions(Json& line, const RodState& rod) {
-  if (!rod.no_instructions.empty()) {
-    line["no_instructions"] = rod.no_instructions;
-  }
-  if (!rod.instructions) {
-    return;
-  }
-  line["cut_length_mm"] = rod.instructions->cut_length_m() * 1e3;
-  Json instructions = Json::array();
-  for (const nav::RodInstruction& bend : rod.instructions->bends) {
-    instructions.push_back(Json{{"arc_length_mm", bend.arc.centre_m * 1e3},
-                                {"roll_deg", degrees(bend.arc.roll_rad)},
-                                {"angle_deg", degrees(bend.arc.angle_rad)},
-                                {"set_deg", degrees(bend.set_rad)}});
-  }
-  line["instructions"] = instructions;
-}
-
-/// How sure the touched heads are, and what is expected of the rod.
-void put_certainty(Json& line, const RodState& rod) {
-  Json touched = Json::array();
-  for (std::size_t head = 0; head < rod.touched.heads(); ++head) {
-    touched.push_back(
-        Json{{"touches", rod.touched.touches_of(head)}, {"sd_mm", rod.touched.sd_m(head) * 1e3}});
-  }
-  line["touched"] = touched;
-  if (rod.expected) {
-    line["expected_within_share"] = rod.expected->within;
-  }
-}
-
 }  // namespace
 
 PlannedLevel planned(const std::string& label, const std::vector<nav::ScrewPlan>& screws) {
@@ -209,24 +177,6 @@ void Journal::accepted(Timestamp time, const LevelState& level, std::string_view
   if (level.registration->tre_95_m > 0.0) {
     line["tre_95_mm"] = level.registration->tre_95_m * 1e3;
   }
-  add_line(*log_, line, kDurable);
-}
-
-void Journal::rod_done(Timestamp time, const RodState& rod) {
-  Json line = journal_line(file_ticks(time), time, "rod");
-  line["side"] = name_of(rod.side);
-  line["heads"] = rod.heads.size();
-  if (rod.rod) {
-    line["length_mm"] = rod.rod->length_m * 1e3;
-    Json bends = Json::array();
-    for (const nav::RodBend& bend : rod.rod->bends) {
-      bends.push_back(
-          Json{{"arc_length_mm", bend.arc_length_m * 1e3}, {"angle_deg", degrees(bend.angle_rad)}});
-    }
-    line["bends"] = bends;
-  }
-  put_instructions(line, rod);
-  put_certainty(line, rod);
   add_line(*log_, line, kDurable);
 }
 

@@ -178,13 +178,31 @@ class Reading {
       replay_.replanned(line.text("level"), side_of(line), planned_in_surgery(line), line);
     } else if (what == "head" || what == "head dropped") {
       replay_.head(side_of(line), what == "head", line);
-    } else if (what == "rod") {
-      replay_.rod_done(recorded_rod_of(line));
+    } else if (what.starts_with("rod")) {
+      take_rod_line(what, line);
     } else if (what == "ended") {
       record_.reason = line.text_or("reason", "");
       ended_ = true;
     } else if (what != "not understood" && what != "asked from outside") {
-      line.refuse("what", "\"" + what.substr(0, 40) + "\" is unknown");
+      refuse_unknown(what, line);
+    }
+  }
+
+  static void refuse_unknown(const std::string& what, const JsonNode& line) {
+    line.refuse("what", "\"" + what.substr(0, 40) + "\" is unknown");
+  }
+
+  void take_rod_line(const std::string& what, const JsonNode& line) {
+    if (what == "rod") {
+      replay_.rod_done(recorded_rod_of(line));
+    } else if (what == "rod bend") {
+      replay_.rod_bend_measured(side_of(line), recorded_rod_bend_of(line), line);
+    } else if (what == "rod bend dropped") {
+      replay_.rod_bend_dropped(side_of(line));
+    } else if (what == "rod given up" || what == "rod kept") {
+      replay_.rod_given_up(side_of(line), what == "rod given up");
+    } else {
+      refuse_unknown(what, line);
     }
   }
 

@@ -91,6 +91,34 @@ RodTemplating::RodTemplating(bool left_planned, bool right_planned)
   rods_[1].side = nav::Side::kRight;
 }
 
+void RodTemplating::collect(const WatchedTools& tools) {
+  if (measuring_.on()) {
+    measuring_.collect(tools);
+  } else {
+    add_tip(touch_, tools, tools.pointer());
+  }
+}
+
+bool RodTemplating::stroke(Action action, Timestamp time) {
+  if (measuring_.on()) {
+    measuring_.button(action, time);
+  }
+  return measuring_.on();
+}
+
+void RodTemplating::measure_rod(OperationInWork& work, Timestamp time) {
+  touch_ = {};
+  measuring_.next(rod(), work, time);
+}
+
+void RodTemplating::save_rod(OperationInWork& work, Timestamp time) {
+  if (!measuring_.on()) {
+    return work.messages.say(NotPossibleNow{Event::kSaySave}, time);
+  }
+  measuring_.save(rod(), work, time);
+  expect();
+}
+
 void RodTemplating::drop_touch(OperationInWork& work, Timestamp time) {
   touch_.drop();
   work.messages.say(
@@ -98,6 +126,9 @@ void RodTemplating::drop_touch(OperationInWork& work, Timestamp time) {
 }
 
 void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
+  if (measuring_.on()) {
+    return;  // a short stroke
+  }
   const TouchedPlace place = take_place(touch_, work, time);
   const auto* head = std::get_if<nav::PressedPlace>(&place);
   if (!head) {
@@ -117,6 +148,10 @@ void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
 }
 
 void RodTemplating::drop_head(OperationInWork& work, Timestamp time) {
+  if (measuring_.on() || measuring_.given_up()) {
+    measuring_.drop(rod(), work, time);
+    return expect();
+  }
   const auto dropped = rod().touched.drop_last();
   if (!dropped) {
     return work.messages.say(NothingToDelete{NothingToDelete::What::kHead}, time);
@@ -138,6 +173,8 @@ Event RodTemplating::finish_rod(OperationInWork& work, Timestamp time) {
 
 bool RodTemplating::finish() {
   rod().done = true;
+  rod().lying.reset();
+  measuring_.forget();
   const bool another = current_ + 1 < rods_.size() && planned_[current_ + 1];
   if (another) {
     ++current_;
@@ -152,8 +189,7 @@ void RodTemplating::instruct(const SessionOptions& options, std::span<const Leve
     rod().no_instructions = "the direction of no screw is known";
     return;
   }
-  nav::RodBending bending = options.rod_bending;
-  bending.diameter_m = options.rod_diameter_m;
+  const nav::RodBending bending = options.bending();
   const auto cut =
       nav::rod_cut(shape, directions_of(screws), seating_of(screws, options, bending.overhang_m));
   auto told = cut ? nav::rod_instructions(cut->seats_m, bending)
@@ -178,9 +214,15 @@ void RodTemplating::expect() {
   rod().expected->least_sure = heads[rod().expected->least_sure];
 }
 
-HeadsSoFar RodTemplating::state() const {
+StepState RodTemplating::state() const {
+  return measuring_.on() ? StepState(measuring_.state(current())) : StepState(heads_so_far());
+}
+
+HeadsSoFar RodTemplating::heads_so_far() const {
   const RodState& now = current();
-  HeadsSoFar out{now.heads.size()};
+  HeadsSoFar out;
+  out.count = now.heads.size();
+  out.given_up = measuring_.given_up();
   if (!now.touched.empty()) {
     out.last = now.touched.last();
   }
@@ -199,6 +241,9 @@ void RodTemplating::bend(OperationInWork& work, Timestamp time) {
   rod().instructions.reset();
   rod().no_instructions.clear();
   rod().expected.reset();
+  rod().measured.clear();
+  rod().lying.reset();
+  measuring_.forget();
   if (rod().heads.size() < 2) {
     return;
   }
@@ -214,7 +259,14 @@ void RodTemplating::bend(OperationInWork& work, Timestamp time) {
   instruct(work.options, work.levels);
 }
 
-void RodTemplating::write(Guidance& out) const {
+void RodTemplating::write(Guidance& out) {
+  if (rod().lying && out.display_time > rod().lying->shown_until) {
+    rod().lying.reset();
+  }
+  out.rod_stroked = measuring_.on();
+  if (out.rod_stroked) {
+    out.regions = measuring_.strokes();
+  }
   out.rods = rods_;
   out.rods_moved_away = moved_away_;
 }
@@ -237,6 +289,7 @@ void RodTemplating::forget_map() {
     }
   }
   touch_ = {};
+  measuring_.forget();
 }
 
 }  // namespace orthonav::engine

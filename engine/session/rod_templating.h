@@ -5,6 +5,7 @@
 #include <span>
 
 #include "engine/session/operation_in_work.h"
+#include "engine/session/rod_measuring.h"
 
 namespace orthonav::engine {
 
@@ -20,15 +21,23 @@ class RodTemplating {
   RodTemplating(bool left_planned, bool right_planned);
 
   /// Begins the first rod or the next one; an earlier press does not count as a touch of its heads.
-  void begin() { touch_ = {}; }
+  void begin() {
+    touch_ = {};
+    measuring_.forget();
+  }
   void begin_touch() { touch_.begin(); }
   void end_touch() { touch_.release(); }
   void drop_touch(OperationInWork& work, Timestamp time);
   /// Once for each pair of the step.
-  void collect(const WatchedTools& tools) { add_tip(touch_, tools, tools.pointer()); }
+  void collect(const WatchedTools& tools);
+  /// While a rod in hand is measured the button strokes it; false otherwise.
+  [[nodiscard]] bool stroke(Action action, Timestamp time);
+  /// RodMeasuring: "next" and "save".
+  void measure_rod(OperationInWork& work, Timestamp time);
+  void save_rod(OperationInWork& work, Timestamp time);
   /// Records the touched place as the next head, or as one more touch of the head it is at.
   void record_head(OperationInWork& work, Timestamp time);
-  /// Takes the last touch back.
+  /// Takes the last touch back, or what was last done to measure the rod.
   void drop_head(OperationInWork& work, Timestamp time);
   /// The rod is done; false if no other is left to do.
   bool finish();
@@ -43,8 +52,9 @@ class RodTemplating {
 
   [[nodiscard]] const RodState& current() const { return rods_[current_]; }
   [[nodiscard]] std::span<const RodState> rods() const { return rods_; }
-  void write(Guidance& out) const;
-  [[nodiscard]] HeadsSoFar state() const;
+  /// Hides a rod in hand that may no longer lie where it was stroked.
+  void write(Guidance& out);
+  [[nodiscard]] StepState state() const;
 
  private:
   [[nodiscard]] RodState& rod() { return rods_[current_]; }
@@ -55,12 +65,14 @@ class RodTemplating {
   void instruct(const SessionOptions& options, std::span<const LevelState> levels);
   /// Says of the instructed rod how surely it will lie in the true heads.
   void expect();
+  [[nodiscard]] HeadsSoFar heads_so_far() const;
 
   std::array<RodState, 2> rods_;  ///< left, right
   std::array<bool, 2> planned_;
   std::size_t current_ = 0;
   bool moved_away_ = false;
   Touch touch_;
+  RodMeasuring measuring_;  ///< of the current rod
 };
 
 }  // namespace orthonav::engine

@@ -42,6 +42,12 @@ std::vector<std::string> DrillAstray::check() const {
   return problems;
 }
 
+nav::RodBending SessionOptions::bending() const {
+  nav::RodBending bending = rod_bending;
+  bending.diameter_m = rod_diameter_m;
+  return bending;
+}
+
 std::vector<std::string> SessionOptions::check() const {
   std::vector<std::string> problems;
   const auto add = [&problems](const char* of, const std::vector<std::string>& more) {
@@ -62,6 +68,7 @@ std::vector<std::string> SessionOptions::check() const {
   add("", check_points.check());
   add("", landmark.check());
   add("", heads.check());
+  add("", rod_in_hand.check());
   add("", placed.check());
   add("drill: ", drill.check());
   add("astray: ", astray.check());

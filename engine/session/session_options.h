@@ -9,6 +9,7 @@
 #include "engine/session/method_steps.h"
 #include "engine/session/placed_wire.h"
 #include "engine/session/replan_limits.h"
+#include "engine/session/rod_in_hand.h"
 #include "engine/session/tip_check.h"
 #include "engine/session/touched_heads.h"
 #include "nav/guidance/drill_watch.h"
@@ -37,6 +38,7 @@ struct SessionOptions {
   double head_to_seat_m = nav::RodSeating{}.head_to_seat_m;
   /// Its own diameter is ignored in favour of `rod_diameter_m`.
   nav::RodBending rod_bending;
+  RodInHandRules rod_in_hand;
   /// If the tips scatter more than this over one click (root mean square about their mean), a screw
   /// head or check point was not touched at rest. Noise and tremor at the end of a 130 mm lever
   /// already cause up to 2.5 mm over three pairs in the simulated room; a moving tip causes 5 mm
@@ -68,6 +70,8 @@ struct SessionOptions {
   /// A deleted path fades over this time.
   Duration fade = std::chrono::milliseconds(300);
 
+  /// `rod_bending` with `rod_diameter_m`.
+  [[nodiscard]] nav::RodBending bending() const;
   /// SD along an axis of the map's movement until now relative to the mean of places that were
   /// spread evenly over this time.
   [[nodiscard]] double drift_since_m(Duration spread) const;

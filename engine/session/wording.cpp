@@ -12,6 +12,7 @@
 #include "engine/session/message_wording.h"
 #include "engine/session/numbers_wording.h"
 #include "engine/session/part_wording.h"
+#include "engine/session/rod_wording.h"
 #include "engine/session/said.h"
 #include "engine/session/saved_wording.h"
 #include "engine/session/wire_wording.h"
@@ -132,7 +133,12 @@ struct StateWriter {
                      heads.bends);
     }
     write_head(text, heads, "; ");
+    if (heads.given_up) {
+      text.begin(Importance::kNext, "; ");
+      out += translated("the rod in hand is given up: bend another");
+    }
   }
+  void operator()(const RodInHandSoFar& rod) { write_rod_in_hand(text, rod); }
 };
 
 }  // namespace

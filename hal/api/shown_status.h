@@ -49,7 +49,7 @@ enum class Notice : std::uint8_t {
   kConfirmDelete,    ///< another "delete" removes a saved region
   kRegistrationRefused,
   kChecksMissing,     ///< "accept", before the check points confirm it
-  kTouchNotRecorded,  ///< of a check point, the landmark or a head
+  kTouchNotRecorded,  ///< of a check point, the landmark, a head or a rod
   kLandmarkMissing,   ///< "next", before the landmark was touched
   kLandmarkMoved,     ///< it is not where it was: the registration is verified again
   kBoneUnchecked,     ///< for too long: the landmark must be touched again

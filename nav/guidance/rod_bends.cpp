@@ -11,6 +11,7 @@
 #include "base/angle.h"
 #include "base/length_text.h"
 #include "base/printed.h"
+#include "base/translation.h"
 #include "nav/guidance/rod_bends_check.h"
 
 namespace orthonav::nav {
@@ -225,13 +226,14 @@ Result<RodInstructions> rod_instructions_after(const RodInstructions& plan,
   }
   if (fit->worst_off_m > kLost_m) {
     return Error{
-        printed("rod can't be brought nearer to its seats than %s after bend %zu, limit "
-                "%.1f mm: begin another",
+        printed(translatable("rod can't be brought nearer to its seats than %s after bend %zu, "
+                             "limit %.1f mm: begin another"),
                 in_mm_outside(fit->worst_off_m, 0.0, kLost_m).c_str(), made.size(), kLost_m * 1e3)};
   }
   if (!fit->clear) {
     return Error{
-        printed("after bend %zu a bend would lie in a tulip: begin another rod", made.size())};
+        printed(translatable("after bend %zu a bend would lie in a tulip: begin another rod"),
+                made.size())};
   }
   rod.fit = *std::move(fit);
   return told(std::move(rod), plan.seats_m, made.size(), plan.reach_m, *spring_back);

@@ -1,7 +1,7 @@
 #include "nav/guidance/rod_shape.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace orthonav::nav {
 namespace {
@@ -9,14 +9,6 @@ namespace {
 constexpr int kChordsOfArc = 8;
 /// Below this angle the series of sine and cosine is exact enough.
 constexpr double kNearlyStraight_rad = 1e-4;
-
-/// A place on the axis with the frame carried along it.
-struct RodPlace {
-  Vec3 at_m;
-  Vec3 line{1.0, 0.0, 0.0};
-  Vec3 beside{0.0, 1.0, 0.0};
-  Vec3 along{0.0, 0.0, 1.0};
-};
 
 RodPlace beyond_arc(const RodPlace& from, double width_m, double angle_rad, double roll_rad) {
   const Vec3 towards = std::cos(roll_rad) * from.line + std::sin(roll_rad) * from.beside;
@@ -44,6 +36,23 @@ std::vector<RodStraight> rod_straights(std::span<const RodArc> arcs, double leng
   }
   straights.push_back({place.at_m, place.along, begin_m, length_m});
   return straights;
+}
+
+RodPlace rod_place(std::span<const RodArc> arcs, double at_m) {
+  RodPlace place;
+  double begin_m = 0.0;
+  for (const RodArc& arc : arcs) {
+    const double bent_from_m = arc.centre_m - 0.5 * arc.width_m;
+    if (at_m <= bent_from_m) {
+      break;
+    }
+    place.at_m += (bent_from_m - begin_m) * place.along;
+    const double part = std::min(1.0, (at_m - bent_from_m) / arc.width_m);
+    place = beyond_arc(place, part * arc.width_m, part * arc.angle_rad, arc.roll_rad);
+    begin_m = bent_from_m + part * arc.width_m;
+  }
+  place.at_m += (at_m - begin_m) * place.along;
+  return place;
 }
 
 std::vector<Vec3> rod_axis(std::span<const RodArc> arcs, double length_m) {

@@ -25,6 +25,14 @@ struct RodStraight {
   double end_m = 0.0;
 };
 
+/// A place on the axis, with the frame that the rod carries along it without twist.
+struct RodPlace {
+  Vec3 at_m;
+  Vec3 line{1.0, 0.0, 0.0};    ///< towards the drawn line
+  Vec3 beside{0.0, 1.0, 0.0};  ///< a quarter turn from it, positive about `along`
+  Vec3 along{0.0, 0.0, 1.0};   ///< towards the last end
+};
+
 // The rod's own frame: origin at its first end, z along its first straight towards the last end, x
 // towards the drawn line.
 
@@ -32,6 +40,9 @@ struct RodStraight {
 /// does not turn about the axis, and the axis keeps its length. The arcs must be in order and must
 /// not overlap.
 [[nodiscard]] std::vector<RodStraight> rod_straights(std::span<const RodArc> arcs, double length_m);
+
+/// The place on the axis `at_m` from the first end.
+[[nodiscard]] RodPlace rod_place(std::span<const RodArc> arcs, double at_m);
 
 /// The axis as a chain of chords from the first end to the last, eight per arc: less than 0.03 mm
 /// off an arc of 20 mm length and 27 mm radius.

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "base/angle.h"
+
 #include "tests/engine/session/status_wording.h"
 
 namespace orthonav::engine::wording_test {
@@ -63,6 +65,27 @@ TEST(Wording, SaysWhichPartsGiveWayFirst) {
   EXPECT_EQ(plain, text) << "asking for the parts changes no word";
 }
 
+TEST(Wording, SaysHowARodInHandStands) {
+  EXPECT_EQ(line_with(RodInHandSoFar{0, true, 1}),
+            "stroke the straight rod from its first end on 3 sides, then say save; if bend 1 is "
+            "made, say next; 1 point");
+  EXPECT_EQ(line_with(RodInHandSoFar{2, true, 120}),
+            "bend 2 made: stroke the rod from its first end on 3 sides, then say save; 120 points");
+  const NextBend first{1, 0.0633, 0.0, 18.5 * kRadiansPerDegree};
+  EXPECT_EQ(line_with(RodInHandSoFar{0, false, 0, nullptr, 0.1124, first, true}),
+            "cut to 112.4 mm; bend 1: 63 mm, towards the line, set 18.5°, then say next; shown "
+            "where it was stroked");
+  nav::MeasuredBend bend;
+  bend.arc.angle_rad = 12.1 * kRadiansPerDegree;
+  bend.angle_se_rad = 0.5 * kRadiansPerDegree;
+  const NextBend next{3, 0.1084, 40.0 * kRadiansPerDegree, 17.2 * kRadiansPerDegree};
+  EXPECT_EQ(line_with(RodInHandSoFar{2, false, 0, &bend, {}, next}),
+            "bend 2: 12.1 ± 0.5°; bend 3: 108 mm, roll 40°, set 17.2°, then say next; no longer "
+            "shown: it may have moved");
+  EXPECT_EQ(line_with(RodInHandSoFar{2, false, 0, &bend, {}, {}, true}),
+            "bend 2: 12.1 ± 0.5°; all bends are made, say done; shown where it was stroked");
+}
+
 TEST(Wording, SaysHowAStepStands) {
   EXPECT_EQ(line_with(StepState{}), "");
   EXPECT_EQ(line_with(StrokesSoFar{1}), "1 point");
@@ -81,6 +104,8 @@ TEST(Wording, SaysHowAStepStands) {
   EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1, HeadTouch{1, {}, 0.0001, 3, 0.00041}, 0}),
             "3 heads, cut to 90.0 mm, 1 bend; head 2: 3 touches, ± 0.4 mm; 1.0 mm not sure: touch "
             "head 1 again");
+  EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1, {}, {}, true}),
+            "3 heads, cut to 90.0 mm, 1 bend; the rod in hand is given up: bend another");
   nav::CheckVerdict verdict;
   verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};
   EXPECT_EQ(line_with(ChecksSoFar{0.0008, 1, -0.0007, &verdict}),
@@ -160,6 +185,14 @@ TEST(Wording, SaysEveryMessage) {
             "bone not checked for 49 s, the map may have drifted 1.4 mm: touch the dimple");
   EXPECT_EQ(line_with(Message(NoRod{{"2 heads lie 0.4 mm apart, at least 1.0 mm"}})),
             "no rod: 2 heads lie 0.4 mm apart, at least 1.0 mm");
+  using enum RodNotMeasured::Kind;
+  EXPECT_EQ(line_with(Message(RodNotMeasured{kNoInstructions})),
+            "no rod to bend: touch its heads first");
+  EXPECT_EQ(line_with(Message(RodNotMeasured{kMeasureFirst, 2})),
+            "bend 2 is not measured: stroke the rod, then say save");
+  EXPECT_EQ(line_with(Message(RodNotMeasured{kAllMade})), "all bends are made, say done");
+  EXPECT_EQ(line_with(Message(RodNotMeasured{kOneSide})),
+            "rod not measured: stroked on one side alone: stroke it on 3 sides");
   EXPECT_EQ(line_with(Message(MapMoved{Step::kDigitize})),
             "the headset's map moved: digitize again");
   EXPECT_EQ(line_with(Message(MapMoved{Step::kRod})),

@@ -115,6 +115,16 @@ TEST(RodStroke, OnePassAloneTellsLittle) {
   };
   EXPECT_GT(se_rad({0.5}), 3.0 * se_rad(around(0.5)));
   EXPECT_LE(se_rad({0.5}), RodStrokeRules{}.angle_sd_rad);
+  const auto one_sided = [](const std::vector<double>& sides_rad, double noise_m) {
+    return measured_bend(as_instructed(0.05, 0.1), kLength_m, kDiameter_m,
+                         stroke(kTwoBends, noise_m, sides_rad))
+        ->one_sided;
+  };
+  for (const double noise_m : {0.0, 0.0005, 0.001}) {
+    EXPECT_GT(one_sided({0.5}, noise_m), 0.8);
+    EXPECT_LT(one_sided({0.5, 2.6}, noise_m), 0.7) << "a third of a turn apart";
+    EXPECT_LT(one_sided(around(0.5), noise_m), 0.3);
+  }
 }
 
 /// Over many noisy strokes the errors match the standard errors.
@@ -157,6 +167,43 @@ TEST(RodStroke, CannotFeelTheRollOfTheFirstBend) {
   EXPECT_NEAR(found->roll_se_rad, RodStrokeRules{}.roll_sd_rad, 1e-3);
 }
 
+TEST(LaidRod, LiesWhereTheStrokeRan) {
+  const auto found = laid_rod(kLength_m, kDiameter_m, stroke({}, 0.0008, around(0.5)));
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  // The stroke's ends are known to the noise of one point; across the rod, all points tell.
+  const Vec3 along = rotation_from_vector({1.1, -2.0, 0.4}).column(2);
+  const Vec3 off_m = found->rod_in_points_m - Vec3{0.3, -0.1, 0.7};
+  EXPECT_LT(std::abs(off_m.dot(along)), 0.003);
+  EXPECT_LT((off_m - off_m.dot(along) * along).norm(), 0.0005);
+  EXPECT_LT((found->points_from_rod.column(2) - along).norm(), 0.01) << "from its first end";
+  EXPECT_LT((found->points_from_rod * found->points_from_rod.transposed()).row(0).norm() - 1.0,
+            1e-9);
+  EXPECT_NEAR(found->length_m, kLength_m, 0.004);
+  EXPECT_NEAR(found->rms_m, 0.0008, 0.0002);
+}
+
+/// A rod that is not cut yet is longer: it begins where the stroke begins.
+TEST(LaidRod, MayBeLongerThanItWillBe) {
+  const auto found = laid_rod(0.112, kDiameter_m, stroke({}, 0.0, around(0.5)));
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_NEAR(found->length_m, kLength_m, 0.001);
+  EXPECT_LT((found->rod_in_points_m - Vec3{0.3, -0.1, 0.7}).norm(), 0.001);
+}
+
+TEST(LaidRod, RefusesWhatIsNoStrokeOfAStraightRod) {
+  const auto refusal = [](double length_m, const std::vector<Vec3>& points) {
+    const auto found = laid_rod(length_m, kDiameter_m, points);
+    return found.ok() ? std::string() : found.error().message;
+  };
+  EXPECT_EQ(refusal(kLength_m, std::vector<Vec3>(29)), "stroke of the rod has 29 points, limit 30");
+  EXPECT_EQ(refusal(0.2, stroke({}, 0.0, around(0.5))),
+            "stroke is 159 mm long, the rod 200 mm: stroke it from end to end");
+  EXPECT_THAT(refusal(kLength_m, std::vector<Vec3>(40)), HasSubstr("stroke it from end to end"));
+  const std::vector<RodArc> bent = {{0.08, 0.02, 0.44, 0.0}};
+  EXPECT_THAT(refusal(0.15, stroke(bent, 0.0, around(0.5))),
+              HasSubstr("off the rod (rms), limit 2.0 mm"));
+}
+
 TEST(RodStroke, RefusesWhatIsNoStrokeOfThatRod) {
   const auto refusal = [](const std::vector<RodArc>& arcs, const std::vector<Vec3>& points) {
     const auto found = measured_bend(arcs, kLength_m, kDiameter_m, points);
@@ -165,7 +212,10 @@ TEST(RodStroke, RefusesWhatIsNoStrokeOfThatRod) {
   auto points = stroke(kTwoBends, 0.0, {0.0});
   EXPECT_EQ(refusal({}, points), "stroke of a rod without a bend: there is nothing to measure");
   EXPECT_EQ(refusal(kTwoBends, std::vector<Vec3>(29)), "stroke of the rod has 29 points, limit 30");
-  EXPECT_THAT(refusal(kTwoBends, std::vector<Vec3>(40)), HasSubstr("stroke of the rod: "));
+  EXPECT_THAT(refusal(kTwoBends, std::vector<Vec3>(40)),
+              HasSubstr("stroke is 0 mm long, the rod 15"));
+  EXPECT_THAT(refusal(kTwoBends, stroke(kTwoBends, 0.0, around(0.5), 0.0, 0.08)),
+              HasSubstr(": stroke it from end to end"));
   points[7].z = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusal(kTwoBends, points), "point 8 of the stroke is not finite");
   EXPECT_THAT(refusal(kTwoBends, stroke(kTwoBends, 0.008, {0.0, 3.0})),

@@ -1,0 +1,106 @@
+#include "engine/session/rod_wording.h"
+
+#include "base/angle.h"
+#include "base/printed.h"
+#include "engine/session/said.h"
+
+namespace orthonav::engine {
+namespace {
+
+void write_to_stroke(PartedText text, const RodInHandSoFar& rod) {
+  text.begin(Importance::kNext);
+  if (rod.made == 0) {
+    text.out += translated(
+        "stroke the straight rod from its first end on 3 sides, then say save; if bend 1 is made, "
+        "say "
+        "next");
+  } else {
+    append_printed(
+        text.out,
+        translated("bend %zu made: stroke the rod from its first end on 3 sides, then say save"),
+        rod.made);
+  }
+  text.begin(Importance::kCount, "; ");
+  append_printed(text.out, rod.points == 1 ? translated("%zu point") : translated("%zu points"),
+                 rod.points);
+}
+
+void write_to_do(PartedText text, const RodInHandSoFar& rod, const char* separator) {
+  text.begin(Importance::kNext, separator);
+  if (rod.cut_to_m) {
+    append_cut(text.out, *rod.cut_to_m);
+    text.out += "; ";
+  }
+  if (!rod.next) {
+    text.out += translated("all bends are made, say done");
+    return;
+  }
+  append_next_bend(text.out, *rod.next);
+  text.out += ", ";
+  text.out += translated("then say next");
+}
+
+}  // namespace
+
+void append_next_bend(std::string& out, const NextBend& bend) {
+  const double set_deg = degrees(bend.set_rad);
+  if (bend.number == 1) {
+    append_printed(out, translated("bend %zu: %.0f mm, towards the line, set %.1f°"), bend.number,
+                   bend.at_m * 1e3, set_deg);
+    return;
+  }
+  append_printed(out, translated("bend %zu: %.0f mm, roll %.0f°, set %.1f°"), bend.number,
+                 bend.at_m * 1e3, degrees(bend.roll_rad), set_deg);
+}
+
+void append_cut(std::string& out, double length_m) {
+  append_printed(out, translated("cut to %s"), said_mm(length_m).c_str());
+}
+
+void write_rod_in_hand(PartedText text, const RodInHandSoFar& rod) {
+  if (rod.stroking) {
+    return write_to_stroke(text, rod);
+  }
+  const char* separator = "";
+  if (rod.last != nullptr) {
+    text.begin(Importance::kMessage);
+    append_printed(text.out, translated("bend %zu: %.1f ± %.1f°"), rod.made,
+                   degrees(rod.last->arc.angle_rad), degrees(rod.last->angle_se_rad));
+    separator = "; ";
+  }
+  write_to_do(text, rod, separator);
+  text.begin(Importance::kMessage, "; ");
+  text.out += rod.shown ? translated("shown where it was stroked")
+                        : translated("no longer shown: it may have moved");
+}
+
+void write_rod_not_measured(PartedText text, const RodNotMeasured& message) {
+  using enum RodNotMeasured::Kind;
+  std::string& out = text.out;
+  text.begin(Importance::kMessage);
+  switch (message.kind) {
+    case kNoInstructions:
+      out += translated("no rod to bend: touch its heads first");
+      return;
+    case kMeasureFirst:
+      append_printed(out, translated("bend %zu is not measured: stroke the rod, then say save"),
+                     message.made);
+      return;
+    case kAllMade:
+      out += translated("all bends are made, say done");
+      return;
+    case kRefused:
+      out.append(translated("rod not measured:")).append(" ");
+      if (message.why) {
+        append_retold(out, message.why->message);
+      }
+      return;
+    case kOneSide:
+      out += translated("rod not measured: stroked on one side alone");
+      text.begin(Importance::kNext, ": ");
+      out += translated("stroke it on 3 sides");
+      return;
+  }
+}
+
+}  // namespace orthonav::engine
