@@ -29,6 +29,7 @@ std::vector<GoldenScene> golden_scenes() {
   golden::add_precision_scenes(scenes);
   golden::add_number_scenes(scenes);
   golden::add_other_scenes(scenes);
+  golden::add_rod_scenes(scenes);
   golden::add_step_scenes(scenes);
   golden::add_placed_scenes(scenes);
   golden::add_view_scenes(scenes);

@@ -91,11 +91,20 @@ class Finder {
     }
   }
 
+  /// The axis of a rod in hand, and the arrow on it.
+  void add_rod_line(const render::LineItem& line) {
+    for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+      add(Kind::kNamed, line.label, std::span(line.points).subspan(i, 2), kRodRadius_m);
+    }
+  }
+
   void add_lines(const render::Scene& scene) {
     for (const render::LineItem& line : scene.lines) {
       const bool cross = kind_of(line.label) == HologramKind::kCross;
       if (line.closed && line.points.size() > 4 && (cross || names_something(line.label))) {
         add_ring(line);
+      } else if (!line.closed && kind_of(line.label) == HologramKind::kRod) {
+        add_rod_line(line);
       } else if (kind_of(line.label) == HologramKind::kTrajectory && line.points.size() == 2) {
         add_trajectory(line);
       }

@@ -22,7 +22,7 @@ constexpr float kMarkWidth_m = 0.0012f;
 constexpr float kTowards_m = 0.020f;
 constexpr float kTowardsHead_m = 0.004f;
 constexpr float kTextUp = 2.5f;  // in heights of the text
-constexpr float kBeyondRod_m = 0.014f;
+constexpr float kAxisWidth_m = 0.0008f;
 
 /// From the mark's rim to where the far end goes.
 void add_towards(render::Scene& scene, Float3 at, Float3 along, Float3 towards,
@@ -62,9 +62,11 @@ void add_rod_in_hand(render::Scene& scene, const LyingRod& rod,
                      std::shared_ptr<const render::MeshData> tube, render::Label label) {
   add_mesh(scene, std::move(tube), render::kIdentity, look::colours().rod, label);
   scene.meshes.back().style = render::MeshStyle::kRim;
-  const Float3 first = to_float3(rod.axis.front().v);
-  const Float3 away = render::unit_or(first - to_float3(rod.axis.back().v), {0, 1, 0});
-  add_rod_text(scene, first + kBeyondRod_m * away, -0.5f, 0.004f, label) =
+  add_line(scene, {}, kAxisWidth_m, look::colours().rod, label);
+  for (const Point<World>& at : rod.axis) {
+    scene.lines.back().points.push_back(to_float3(at.v));
+  }
+  add_rod_text(scene, to_float3(rod.axis.front().v), -kTextUp - 1.0f, 0.004f, label) =
       translated(words::kWhereStroked);
   if (rod.next) {
     const Float3 at = to_float3(rod.bend.at.v);
