@@ -8,9 +8,6 @@
 namespace orthonav::engine::golden {
 namespace {
 
-/// Beside those of the left and the right rod.
-constexpr render::Label kLyingRodLabel = label_of(HologramKind::kRod, 3);
-
 constexpr double kRodLength_m = 0.118;
 
 /// Instructions of which the first `made` bends are made.
@@ -38,9 +35,9 @@ GoldenScene in_hand(const std::string& name, const std::string& what, std::size_
   LyingRod rod = lying_rod(instructed(made), world_from_rod,
                            {0.020 - 0.5 * kRodLength_m, 0.040, 0.0}, length_m);
   rod.diameter_m = 0.0055;
-  add_rod_in_hand(golden.scene, rod, tube_of(rod), kLyingRodLabel);
-  golden.covered.push_back({kLyingRodLabel, to_float3(rod.axis.front().v)});
-  golden.covered.push_back({kLyingRodLabel, to_float3(rod.axis.back().v)});
+  add_rod_in_hand(golden.scene, rod, tube_of(rod));
+  golden.covered.push_back({kRodInHandLabel, to_float3(rod.axis.front().v)});
+  golden.covered.push_back({kRodInHandLabel, to_float3(rod.axis.back().v)});
   return golden;
 }
 

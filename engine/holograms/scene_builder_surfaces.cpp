@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/rod_in_hand_hologram.h"
 #include "engine/holograms/scene_builder.h"
@@ -58,8 +57,7 @@ void SceneBuilder::add_lying_rod(const LyingRod& rod, render::Scene& scene) {
   if (lying_tube_.points != rod.axis) {
     lying_tube_ = {rod.axis, engine::tube_of(rod)};
   }
-  // Beside those of the left and the right rod.
-  add_rod_in_hand(scene, rod, lying_tube_.mesh, label_of(HologramKind::kRod, 3));
+  add_rod_in_hand(scene, rod, lying_tube_.mesh);
 }
 
 }  // namespace orthonav::engine

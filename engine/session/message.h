@@ -128,8 +128,8 @@ struct RodNotMeasured {
     kOneSide,         ///< it was stroked on one side alone
   };
   Kind kind = Kind::kRefused;
-  std::size_t made = 0;
-  std::optional<Error> why = {};
+  std::size_t made = 0;           ///< of kMeasureFirst
+  std::optional<Error> why = {};  ///< of kRefused
 };
 struct MapMoved {
   Step step;

@@ -1,6 +1,5 @@
 #include "engine/session/rod_in_hand.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "nav/guidance/rod_shape.h"
@@ -10,14 +9,6 @@ namespace {
 
 /// A stroke tells a rod's length to about this.
 constexpr double kNotCut_m = 0.004;
-
-std::vector<nav::RodArc> made_bends_of(const nav::RodInstructions& instructions) {
-  std::vector<nav::RodArc> arcs;
-  for (std::size_t k = 0; k < instructions.made; ++k) {
-    arcs.push_back(instructions.bends[k].arc);
-  }
-  return arcs;
-}
 
 }  // namespace
 
@@ -35,6 +26,14 @@ std::vector<std::string> RodInHandRules::check() const {
   return problems;
 }
 
+std::vector<nav::RodArc> first_bends(const nav::RodInstructions& instructions, std::size_t count) {
+  std::vector<nav::RodArc> arcs;
+  for (std::size_t k = 0; k < count; ++k) {
+    arcs.push_back(instructions.bends[k].arc);
+  }
+  return arcs;
+}
+
 std::optional<NextBend> next_bend_of(const nav::RodInstructions& instructions) {
   const std::size_t made = instructions.made;
   if (made >= instructions.bends.size()) {
@@ -46,7 +45,7 @@ std::optional<NextBend> next_bend_of(const nav::RodInstructions& instructions) {
 
 LyingRod lying_rod(const nav::RodInstructions& instructions, const Mat3& world_from_rod,
                    Vec3 rod_in_world, double length_m) {
-  const std::vector<nav::RodArc> made = made_bends_of(instructions);
+  const std::vector<nav::RodArc> made = first_bends(instructions, instructions.made);
   const auto mark = [&](const nav::RodPlace& place) {
     return RodMark{{rod_in_world + world_from_rod * place.at_m}, world_from_rod * place.along};
   };

@@ -65,6 +65,10 @@ struct LyingRod {
   Timestamp shown_until{};
 };
 
+/// The first `count` bends of the instructions, of which there are as many at least.
+[[nodiscard]] std::vector<nav::RodArc> first_bends(const nav::RodInstructions& instructions,
+                                                   std::size_t count);
+
 /// The first bend that is not made; none if all are.
 [[nodiscard]] std::optional<NextBend> next_bend_of(const nav::RodInstructions& instructions);
 

@@ -119,17 +119,14 @@ std::optional<LyingRod> RodMeasuring::measured_after_bend(RodState& rod, Operati
                                                           Timestamp time) {
   const nav::RodInstructions& planned = *rod.instructions;
   const RodInHandRules& rules = work.options.rod_in_hand;
-  std::vector<nav::RodArc> made;
-  for (std::size_t k = 0; k < *made_; ++k) {
-    made.push_back(planned.bends[k].arc);
-  }
+  std::vector<nav::RodArc> made = first_bends(planned, *made_);
   const auto found = bend_as_stroked(made, planned.cut_length_m(), work.options, points_m);
   if (!found) {
-    refuse_rod(work, {RodNotMeasured::Kind::kRefused, *made_, found.error()}, time);
+    refuse_rod(work, {RodNotMeasured::Kind::kRefused, 0, found.error()}, time);
     return std::nullopt;
   }
   if (found->one_sided > rules.most_one_sided) {
-    refuse_rod(work, {RodNotMeasured::Kind::kOneSide, *made_}, time);
+    refuse_rod(work, {RodNotMeasured::Kind::kOneSide}, time);
     return std::nullopt;
   }
   made.back() = found->arc;

@@ -14,7 +14,7 @@ namespace orthonav::engine {
 /// what is left to bend; "delete" goes back step by step, at last to touching heads.
 class RodMeasuring {
  public:
-  /// A rod is being measured, so that presses are strokes and no touches of heads.
+  /// A rod is being measured, so presses are strokes, not touches of heads.
   [[nodiscard]] bool on() const { return made_.has_value(); }
   /// The last measurement showed that the rod can't be brought to its seats any more.
   [[nodiscard]] bool given_up() const { return lost_.has_value(); }

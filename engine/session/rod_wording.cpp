@@ -11,9 +11,8 @@ void write_to_stroke(PartedText text, const RodInHandSoFar& rod) {
   text.begin(Importance::kNext);
   if (rod.made == 0) {
     text.out += translated(
-        "stroke the straight rod from its first end on 3 sides, then say save; if bend 1 is made, "
-        "say "
-        "next");
+        "stroke the straight rod from its first end on 3 sides, then say save; if bend 1 is "
+        "made, say next");
   } else {
     append_printed(
         text.out,

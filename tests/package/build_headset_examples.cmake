@@ -13,7 +13,7 @@ step("${CMAKE_COMMAND}" -S "${EXAMPLE}" -B "${WORK}/build" -G "${GENERATOR}" ${c
      "-DCMAKE_PREFIX_PATH=${WORK}/prefix")
 step("${CMAKE_COMMAND}" --build "${WORK}/build")
 if(EXISTS "${WORK}/build/device")
-  message(FATAL_ERROR "the device's example was built, which opens headsets that run beside a desktop")
+  message(FATAL_ERROR "the example device was built, although hal_open is not installed")
 endif()
 step(${EMULATOR} "${WORK}/build/register_points")
 if(NOT said MATCHES "accepted, error to expect at the screws 0[.][0-4]")
