@@ -16,6 +16,17 @@ constexpr int kQuarter = 4;
 constexpr int kMiddleOfQuarter = 2;
 constexpr int kNearestCoded = 64;
 
+VideoProfile profile_of(DepthCoding coding) {
+  switch (coding) {
+    case DepthCoding::kH264:
+      return VideoProfile::kH264Base;
+    case DepthCoding::kHevc:
+      return VideoProfile::kHevc;
+    default:
+      return VideoProfile::kRaw;
+  }
+}
+
 std::uint16_t squared(std::uint8_t root) {
   return static_cast<std::uint16_t>(unsigned{root} * unsigned{root});
 }
@@ -33,12 +44,11 @@ std::vector<std::uint8_t> request_bytes(const DepthWish& wish, std::uint32_t bit
   std::vector<std::uint8_t> bytes = {static_cast<std::uint8_t>(Mode::kVideoAndPose), 1};
   if (wish.stream == DepthStream::kLongThrow) {
     // The PNG's filter: 0 leaves the choice to the device, 255 in the low byte asks for none.
-    append(bytes, std::uint32_t{wish.coded ? 0U : 255U});
+    append(bytes, std::uint32_t{wish.coding == DepthCoding::kPng ? 0U : 255U});
     return bytes;
   }
   append(bytes, kDepthWithBrightness);
-  append(bytes,
-         static_cast<std::uint8_t>(wish.coded ? VideoProfile::kH264Base : VideoProfile::kRaw));
+  append(bytes, static_cast<std::uint8_t>(profile_of(wish.coding)));
   append(bytes, kDefaultLevel);
   append(bytes, bitrate);
   append(bytes, std::uint8_t{1});

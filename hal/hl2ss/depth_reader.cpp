@@ -30,13 +30,15 @@ Result<std::unique_ptr<DepthReader>> DepthReader::create(
   auto reader =
       std::unique_ptr<DepthReader>(new DepthReader(wish, bitrate, camera, stamps, meter, pictures));
   const DepthFormat& format = reader->format_;
-  if (wish.coded && wish.stream == DepthStream::kAhat) {
-    auto decoder = H264Decoder::create(format.width_px, format.height_px);
+  if (wish.coding == DepthCoding::kH264 || wish.coding == DepthCoding::kHevc) {
+    auto decoder = VideoDecoder::create(
+        wish.coding == DepthCoding::kHevc ? VideoCodec::kHevc : VideoCodec::kH264, format.width_px,
+        format.height_px);
     if (!decoder) {
       return decoder.error();
     }
-    reader->h264_ = std::move(*decoder);
-  } else if (wish.coded) {
+    reader->video_ = std::move(*decoder);
+  } else if (wish.coding == DepthCoding::kPng) {
     auto decoder = PngDecoder::create(format.width_px, format.height_px);
     if (!decoder) {
       return decoder.error();
@@ -47,8 +49,8 @@ Result<std::unique_ptr<DepthReader>> DepthReader::create(
 }
 
 std::vector<std::uint8_t> DepthReader::opening() {
-  if (h264_) {
-    h264_->restart();
+  if (video_) {
+    video_->restart();
   }
   underway_.clear();
   return request_bytes(wish_, bitrate_);
@@ -84,8 +86,8 @@ Status DepthReader::take(const Packet& packet, Timestamp time) {
 }
 
 Status DepthReader::take_picture(Bytes picture) {
-  if (h264_) {
-    const auto decoded = take_h264(picture);
+  if (video_) {
+    const auto decoded = take_video(picture);
     if (!decoded) {
       return decoded.error();
     }
@@ -115,9 +117,9 @@ Status DepthReader::take_png(Bytes picture) {
   return take_raw(bytes_);
 }
 
-Result<bool> DepthReader::take_h264(Bytes picture) {
+Result<bool> DepthReader::take_video(Bytes picture) {
   const std::int64_t unit = underway_.add({picture_.time, picture_.world_from_rig});
-  const auto decoded = h264_->decode(picture, unit, luma_, &bytes_);
+  const auto decoded = video_->decode(picture, unit, luma_, &bytes_);
   if (!decoded) {
     return decoded.error();
   }

@@ -7,10 +7,10 @@
 #include "hal/hl2ss/depth_calibration.h"
 #include "hal/hl2ss/depth_format.h"
 #include "hal/hl2ss/depth_mailbox.h"
-#include "hal/hl2ss/h264_decoder.h"
 #include "hal/hl2ss/packet_port.h"
 #include "hal/hl2ss/png_decoder.h"
 #include "hal/hl2ss/units_underway.h"
+#include "hal/hl2ss/video_decoder.h"
 
 namespace orthonav::hl2ss {
 
@@ -47,7 +47,7 @@ class DepthReader final : public PacketPort {
   Status take_raw(Bytes picture);
   Status take_png(Bytes picture);
   /// Whether a picture came out, in `picture_` with its own time and pose.
-  Result<bool> take_h264(Bytes picture);
+  Result<bool> take_video(Bytes picture);
   void publish();
 
   DepthWish wish_;
@@ -57,7 +57,7 @@ class DepthReader final : public PacketPort {
   const StampTeller& stamps_;
   ArrivalMeter& meter_;
   DepthMailbox& pictures_;
-  std::unique_ptr<H264Decoder> h264_;
+  std::unique_ptr<VideoDecoder> video_;
   std::unique_ptr<PngDecoder> png_;
 
   DepthFrame picture_;

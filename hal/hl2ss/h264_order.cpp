@@ -4,62 +4,14 @@
 #include <array>
 #include <string>
 
+#include "hal/hl2ss/annex_b.h"
+
 namespace orthonav::hl2ss {
 namespace {
 
 constexpr std::uint8_t kSlice = 1;
 constexpr std::uint8_t kKeySlice = 5;
 constexpr std::uint8_t kSequenceParameters = 7;
-/// Everything read from a unit lies in its first bytes, except in a parameter set with scaling
-/// lists.
-constexpr std::size_t kMostRead = 512;
-
-/// The bits of a unit, highest first, without emulation prevention bytes.
-class BitReader {
- public:
-  explicit BitReader(Bytes unit) {
-    int zeros = 0;
-    for (const std::uint8_t byte : unit.first(std::min(unit.size(), kMostRead))) {
-      if (zeros >= 2 && byte == 3) {
-        zeros = 0;
-        continue;
-      }
-      zeros = byte == 0 ? zeros + 1 : 0;
-      bytes_[count_++] = byte;
-    }
-  }
-  std::uint32_t bits(std::uint32_t count) {
-    std::uint32_t value = 0;
-    for (; count > 0; --count) {
-      if (at_ / 8 >= count_) {
-        ok_ = false;
-        return 0;
-      }
-      value = value << 1 | (bytes_[at_ / 8] >> (7 - at_ % 8) & 1u);
-      ++at_;
-    }
-    return value;
-  }
-  /// Exp-Golomb (9.1).
-  std::uint32_t golomb() {
-    std::uint32_t zeros = 0;
-    while (ok_ && bits(1) == 0) {
-      ++zeros;
-    }
-    if (!ok_ || zeros > 31) {
-      ok_ = false;
-      return 0;
-    }
-    return zeros == 0 ? 0 : (1u << zeros) - 1 + bits(zeros);
-  }
-  [[nodiscard]] bool ok() const { return ok_; }
-
- private:
-  std::array<std::uint8_t, kMostRead> bytes_{};
-  std::size_t count_ = 0;
-  std::size_t at_ = 0;
-  bool ok_ = true;
-};
 
 void skip_scaling_list(BitReader& reader, int size) {
   std::int64_t last = 8;
@@ -105,25 +57,6 @@ std::uint32_t frame_num_bits(Bytes unit) {
   }
   const std::uint32_t bits = reader.golomb() + 4;
   return reader.ok() && bits <= 16 ? bits : 0;
-}
-
-/// The next unit's payload from `at` on; `at` moves past it; empty at the end.
-Bytes next_unit(Bytes stream, std::size_t& at) {
-  const auto start_code = [&](std::size_t i) {
-    return i + 3 <= stream.size() && stream[i] == 0 && stream[i + 1] == 0 && stream[i + 2] == 1;
-  };
-  while (at < stream.size() && !start_code(at)) {
-    ++at;
-  }
-  if (at >= stream.size()) {
-    return {};
-  }
-  const std::size_t begin = at + 3;
-  at = begin;
-  while (at < stream.size() && !start_code(at)) {
-    ++at;
-  }
-  return stream.subspan(begin, at - begin);
 }
 
 }  // namespace

@@ -3,19 +3,15 @@
 #include <cstdint>
 #include <optional>
 
-#include "base/result.h"
-#include "hal/hl2ss/bytes.h"
+#include "hal/hl2ss/picture_order.h"
 
 namespace orthonav::hl2ss {
 
-/// Detects missing pictures in a stream of H.264 access units (Annex B), by `frame_num` of their
-/// slice headers (ITU-T H.264, 7.3.2.1, 7.3.3 and 7.4.3). libavcodec decodes the units after a
-/// missing picture without an error, and the result is a wrong picture.
-class H264Order {
+/// By `frame_num` of the slice headers (ITU-T H.264, 7.3.2.1, 7.3.3 and 7.4.3).
+class H264Order final : public PictureOrder {
  public:
-  /// Takes the next access unit; an Error if a picture that it depends on never arrived.
-  Status follow(Bytes access_unit);
-  void restart() { last_.reset(); }
+  Status follow(Bytes access_unit) override;
+  void restart() override { last_.reset(); }
 
  private:
   struct Picture {

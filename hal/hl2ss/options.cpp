@@ -12,7 +12,9 @@ constexpr const char* kKnownKeys =
     "known are profile=raw|h264, stamps=late|exact, scene=on|off, depth=STREAM, port=BASE, "
     "standin=PORT and token=FILE";
 constexpr const char* kKnownDepth =
-    "must be ahat, ahat-h264, long-throw or long-throw-png (research mode runs one of the two)";
+    "must be ahat, ahat-h264, ahat-hevc, long-throw or long-throw-png (research mode runs one of "
+    "the "
+    "two)";
 constexpr int kMaxPort = 65535;
 
 Result<int> port_of(const std::string& key, std::string_view text, int largest) {
@@ -44,11 +46,12 @@ Status choose(const std::string& key, std::string_view name, const Choice<T>& on
 }
 
 Status choose_depth(std::string_view name, Hl2ssOptions& options) {
-  constexpr std::array<Choice<DepthWish>, 4> kWishes = {{
-      {"ahat", {DepthStream::kAhat, false}},
-      {"ahat-h264", {DepthStream::kAhat, true}},
-      {"long-throw", {DepthStream::kLongThrow, false}},
-      {"long-throw-png", {DepthStream::kLongThrow, true}},
+  constexpr std::array<Choice<DepthWish>, 5> kWishes = {{
+      {"ahat", {DepthStream::kAhat, DepthCoding::kRaw}},
+      {"ahat-h264", {DepthStream::kAhat, DepthCoding::kH264}},
+      {"ahat-hevc", {DepthStream::kAhat, DepthCoding::kHevc}},
+      {"long-throw", {DepthStream::kLongThrow, DepthCoding::kRaw}},
+      {"long-throw-png", {DepthStream::kLongThrow, DepthCoding::kPng}},
   }};
   for (const auto& wish : kWishes) {
     if (wish.name == name) {

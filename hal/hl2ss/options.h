@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,10 +15,11 @@
 
 namespace orthonav::hl2ss {
 
-/// The depth stream to request: raw, or AHaT as H.264 and long throw as PNG.
+enum class DepthCoding : std::uint8_t { kRaw, kH264, kHevc, kPng };
+/// The depth stream to request: raw, AHaT as H.264 or HEVC, or long throw as PNG.
 struct DepthWish {
   DepthStream stream = DepthStream::kAhat;  ///< kAhat or kLongThrow
-  bool coded = false;
+  DepthCoding coding = DepthCoding::kRaw;
 };
 
 struct Hl2ssOptions {
@@ -43,9 +45,9 @@ struct Hl2ssOptions {
 };
 
 /// What follows `hl2ss:` in a URI:
-/// `//HOST[?profile=raw|h264&stamps=late|exact&scene=on|off&depth=ahat|ahat-h264|long-throw|`
-/// `long-throw-png&port=BASE&standin=PORT&token=FILE]`. An Error says what is wrong and names the
-/// known keys.
+/// `//HOST[?profile=raw|h264&stamps=late|exact&scene=on|off&depth=ahat|ahat-h264|ahat-hevc|`
+/// `long-throw|long-throw-png&port=BASE&standin=PORT&token=FILE]`. An Error says what is wrong and
+/// names the known keys.
 Result<Hl2ssOptions> options_of(std::string_view after_scheme);
 
 }  // namespace orthonav::hl2ss

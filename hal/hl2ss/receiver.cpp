@@ -75,9 +75,9 @@ Status Receiver::add_cameras() {
   const Duration silence = options_.standin_port > 0 ? kPacedSilence : kSilence;
   ImageSink& sink = *this;
   for (const CameraSide side : {CameraSide::kLeft, CameraSide::kRight}) {
-    std::unique_ptr<H264Decoder> decoder;
+    std::unique_ptr<VideoDecoder> decoder;
     if (options_.profile != VideoProfile::kRaw) {
-      auto made = H264Decoder::create(kImageWidthPx, kImageHeightPx);
+      auto made = VideoDecoder::create(VideoCodec::kH264, kImageWidthPx, kImageHeightPx);
       if (!made) {
         return made.error();
       }

@@ -2,12 +2,12 @@
 
 #include <memory>
 
-#include "hal/hl2ss/h264_decoder.h"
 #include "hal/hl2ss/packet_stream.h"
 #include "hal/hl2ss/pairer.h"
 #include "hal/hl2ss/stamp_check.h"
 #include "hal/hl2ss/units_underway.h"
 #include "hal/hl2ss/video.h"
+#include "hal/hl2ss/video_decoder.h"
 
 namespace orthonav::hl2ss {
 
@@ -24,7 +24,7 @@ class ImageSink {
 class VideoStream final : public PacketStream {
  public:
   /// `decoder` is null for raw images.
-  VideoStream(CameraSide side, const VideoRequest& request, std::unique_ptr<H264Decoder> decoder,
+  VideoStream(CameraSide side, const VideoRequest& request, std::unique_ptr<VideoDecoder> decoder,
               ArrivalMeter& meter, HeadsetTime& time, ImageSink& sink)
       : PacketStream(side == CameraSide::kLeft ? "left camera" : "right camera",
                      {kMaxImagePayload, true}, meter, time),
@@ -50,7 +50,7 @@ class VideoStream final : public PacketStream {
 
   CameraSide side_;
   VideoRequest request_;
-  std::unique_ptr<H264Decoder> decoder_;
+  std::unique_ptr<VideoDecoder> decoder_;
   ImageSink& sink_;
   StampCheck stamps_;
   CameraImage image_;

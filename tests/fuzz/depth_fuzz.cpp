@@ -4,10 +4,10 @@
 
 #include "hal/hl2ss/depth_calibration.h"
 #include "hal/hl2ss/depth_format.h"
-#include "hal/hl2ss/h264_decoder.h"
 #include "hal/hl2ss/png_decoder.h"
 #include "hal/hl2ss/server/depth_bytes.h"
 #include "hal/hl2ss/server/depth_request.h"
+#include "hal/hl2ss/video_decoder.h"
 #include "hal/sim/depth_model.h"
 #include "tests/fuzz/input_file.h"
 
@@ -43,8 +43,8 @@ void decode_png(Bytes input) {
   }
 }
 
-void decode_h264(Bytes input) {
-  auto decoder = hl2ss::H264Decoder::create(512, 512);
+void decode_video(hl2ss::VideoCodec coding, Bytes input) {
+  auto decoder = hl2ss::VideoDecoder::create(coding, 512, 512);
   insist(decoder.ok());
   GreyImage luma;
   std::vector<std::uint8_t> chroma;
@@ -85,7 +85,7 @@ void fuzz_depth(Bytes input) {
     return;
   }
   const Bytes rest = input.subspan(1);
-  switch (input[0] % 5) {
+  switch (input[0] % 6) {
     case 0:
       return ask_server(rest);
     case 1:
@@ -93,7 +93,9 @@ void fuzz_depth(Bytes input) {
     case 2:
       return decode_png(rest);
     case 3:
-      return decode_h264(rest);
+      return decode_video(hl2ss::VideoCodec::kH264, rest);
+    case 5:
+      return decode_video(hl2ss::VideoCodec::kHevc, rest);
     default:
       return read_calibration(rest);
   }

@@ -71,7 +71,7 @@ Result<std::vector<std::uint8_t>> CameraPort::pictured(const VideoRequest& reque
   }
   // A new client must get a key frame first.
   if (!encoder_ || encoded_stream_ != stream) {
-    auto encoder = H264Encoder::create(
+    auto encoder = VideoEncoder::create(
         {request.bitrate,
          static_cast<int>(std::clamp(request.options.value_or(VideoOptions{}).gop_size,
                                      std::uint64_t{1}, kMaxGopSize)),

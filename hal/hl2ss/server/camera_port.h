@@ -7,8 +7,8 @@
 #include "base/mutex.h"
 #include "base/random.h"
 #include "hal/hl2ss/server/faults.h"
-#include "hal/hl2ss/server/h264_encoder.h"
 #include "hal/hl2ss/server/port.h"
+#include "hal/hl2ss/server/video_encoder.h"
 #include "hal/hl2ss/video.h"
 
 namespace orthonav::hl2ss {
@@ -65,7 +65,7 @@ class CameraPort {
   std::int64_t stream_ ORTHONAV_GUARDED_BY(mutex_) = 0;  ///< counts the requests
   std::int64_t encoded_stream_ = -1;
   std::int64_t images_ = 0;
-  std::unique_ptr<H264Encoder> encoder_;
+  std::unique_ptr<VideoEncoder> encoder_;
   std::vector<std::uint8_t> held_back_;
   std::int64_t faults_done_ = 0;
   Port port_{{[this](Bytes said) { return understand(said); }, [] {},

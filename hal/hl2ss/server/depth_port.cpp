@@ -43,17 +43,18 @@ Result<std::size_t> DepthPort::understand(Bytes said) {
 
 Result<std::vector<std::uint8_t>> DepthPort::pictured(const DepthAsked& asked, std::int64_t request,
                                                       const DepthFrame& frame) {
-  if (!asked.coded) {
+  if (asked.coding == DepthCoding::kRaw) {
     return raw_depth_bytes(stream_, frame);
   }
-  if (stream_ == DepthStream::kLongThrow) {
+  if (asked.coding == DepthCoding::kPng) {
     return long_throw_png(frame);
   }
   // A new client must get a key frame first.
   if (!encoder_ || encoded_request_ != request) {
-    auto encoder = H264Encoder::create({asked.bitrate, asked.gop_size, 1, frame.range_mm.width_px,
-                                        frame.range_mm.height_px,
-                                        std::max(1, kAhatFramesPerSecond / asked.every)});
+    auto encoder = VideoEncoder::create(
+        {asked.bitrate, asked.gop_size, 1, frame.range_mm.width_px, frame.range_mm.height_px,
+         std::max(1, kAhatFramesPerSecond / asked.every),
+         asked.coding == DepthCoding::kHevc ? VideoCodec::kHevc : VideoCodec::kH264});
     if (!encoder) {
       return encoder.error();
     }

@@ -7,8 +7,8 @@
 #include "base/mutex.h"
 #include "hal/api/depth_camera.h"
 #include "hal/hl2ss/server/depth_request.h"
-#include "hal/hl2ss/server/h264_encoder.h"
 #include "hal/hl2ss/server/port.h"
+#include "hal/hl2ss/server/video_encoder.h"
 
 namespace orthonav::hl2ss {
 
@@ -37,7 +37,7 @@ class DepthPort {
   std::int64_t requests_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::int64_t encoded_request_ = -1;
   std::int64_t pictures_ = 0;
-  std::unique_ptr<H264Encoder> encoder_;
+  std::unique_ptr<VideoEncoder> encoder_;
   Port port_{{[this](Bytes said) { return understand(said); }, [] {},
               [this] {
                 const MutexLock lock(mutex_);

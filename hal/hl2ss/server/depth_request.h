@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "hal/api/depth_camera.h"
 #include "hal/hl2ss/bytes.h"
+#include "hal/hl2ss/options.h"
 
 namespace orthonav::hl2ss {
 
@@ -14,15 +15,15 @@ namespace orthonav::hl2ss {
 struct DepthAsked {
   enum class What : std::uint8_t { kPictures, kPicturesWithPoses, kCalibration };
   What what = What::kPicturesWithPoses;
-  int every = 1;       ///< one of this many pictures is sent
-  bool coded = false;  ///< H.264 or PNG
+  int every = 1;  ///< one of this many pictures is sent
+  DepthCoding coding = DepthCoding::kRaw;
   std::uint32_t bitrate = 1;
   int gop_size = 45;
   std::size_t bytes = 0;  ///< of the request
 };
 
-/// Nothing while bytes are missing; an Error for an invalid request, and for HEVC and Zdepth, which
-/// this server can't encode.
+/// Nothing while bytes are missing; an Error for an invalid request, and for Zdepth, which this
+/// server can't encode.
 Result<std::optional<DepthAsked>> understand_depth_request(DepthStream stream, Bytes said);
 
 }  // namespace orthonav::hl2ss

@@ -80,9 +80,13 @@ void expect_recorded(const DepthWish& wish, double limit_s) {
   }
 }
 
-TEST(DepthRecorded, OfAhatComesBack) { expect_recorded({DepthStream::kAhat, false}, 0.4); }
+TEST(DepthRecorded, OfAhatComesBack) {
+  expect_recorded({DepthStream::kAhat, DepthCoding::kRaw}, 0.4);
+}
 
-TEST(DepthRecorded, OfLongThrowComesBack) { expect_recorded({DepthStream::kLongThrow, true}, 1.2); }
+TEST(DepthRecorded, OfLongThrowComesBack) {
+  expect_recorded({DepthStream::kLongThrow, DepthCoding::kPng}, 1.2);
+}
 
 }  // namespace
 }  // namespace orthonav::hl2ss

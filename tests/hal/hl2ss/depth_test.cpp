@@ -177,17 +177,23 @@ void expect_exact(const DepthWish& wish, double limit_s, std::size_t enough) {
   EXPECT_THAT(all.frames, SizeIs(static_cast<std::size_t>(std::distance(first, last) + 1)));
 }
 
-TEST(Depth, OfAhatRawComesAsItWas) { expect_exact({DepthStream::kAhat, false}, 0.6, 6); }
+TEST(Depth, OfAhatRawComesAsItWas) {
+  expect_exact({DepthStream::kAhat, DepthCoding::kRaw}, 0.6, 6);
+}
 
-TEST(Depth, OfLongThrowRawComesAsItWas) { expect_exact({DepthStream::kLongThrow, false}, 1.5, 3); }
+TEST(Depth, OfLongThrowRawComesAsItWas) {
+  expect_exact({DepthStream::kLongThrow, DepthCoding::kRaw}, 1.5, 3);
+}
 
-TEST(Depth, OfLongThrowAsPngComesAsItWas) { expect_exact({DepthStream::kLongThrow, true}, 1.5, 3); }
+TEST(Depth, OfLongThrowAsPngComesAsItWas) {
+  expect_exact({DepthStream::kLongThrow, DepthCoding::kPng}, 1.5, 3);
+}
 
 /// 45 a second from a headset that has 30 pairs a second.
 TEST(Depth, OfAhatComesAtTheRateOfTheDevice) {
   const sim::SimOptions sim = depth_session(0.6);
   const Direct direct(sim, DepthStream::kAhat);
-  const Served all = served_depth(sim, {DepthStream::kAhat, false}, 10, direct);
+  const Served all = served_depth(sim, {DepthStream::kAhat, DepthCoding::kRaw}, 10, direct);
   ASSERT_GE(all.frames.size(), 10u);
   constexpr double kTickS = 1e-7;
   for (std::size_t i = 1; i < all.frames.size(); ++i) {
@@ -195,11 +201,11 @@ TEST(Depth, OfAhatComesAtTheRateOfTheDevice) {
   }
 }
 
-/// H.264 of a quarter of the depth: steps of 4 mm, and the codec's errors.
-TEST(Depth, OfAhatAsH264ComesWithinItsSteps) {
+/// A quarter of the depth as video: steps of 4 mm, and the codec's errors.
+void expect_within_steps(DepthCoding coding, double most_off) {
   const sim::SimOptions sim = depth_session(0.6);
   const Direct direct(sim, DepthStream::kAhat);
-  const Served all = served_depth(sim, {DepthStream::kAhat, true}, 6, direct);
+  const Served all = served_depth(sim, {DepthStream::kAhat, coding}, 6, direct);
   ASSERT_GE(all.frames.size(), 6u);
   for (const DepthFrame& frame : all.frames) {
     const DepthFrame& same = direct.frames.at(frame.time);
@@ -220,18 +226,22 @@ TEST(Depth, OfAhatAsH264ComesWithinItsSteps) {
       off += std::abs(told - true_mm) > 6 ? 1 : 0;
     }
     EXPECT_GT(both, same.range_mm.pixels.size() / 2);
-    EXPECT_LT(off, both / 1000) << "of " << both;
+    EXPECT_LT(static_cast<double>(off), most_off * static_cast<double>(both)) << "of " << both;
     EXPECT_LT(ghosts, both / 100) << "of " << both;
     EXPECT_LT(std::abs(sum_mm / static_cast<double>(both)), 1.0);
   }
 }
+
+TEST(Depth, OfAhatAsH264ComesWithinItsSteps) { expect_within_steps(DepthCoding::kH264, 0.001); }
+
+TEST(Depth, OfAhatAsHevcComesWithinItsSteps) { expect_within_steps(DepthCoding::kHevc, 0.002); }
 
 /// The pairs are the same, to the bit, whether depth comes beside them or not.
 TEST(Depth, ChangesNothingOfThePairs) {
   sim::SimOptions sim = depth_session(0.31);
   sim.render = true;
   ServedRoom room(sim, paced());
-  const auto headset = connect(room, {DepthStream::kAhat, false});
+  const auto headset = connect(room, {DepthStream::kAhat, DepthCoding::kRaw});
   ASSERT_NE(headset, nullptr);
   auto direct = sim::SimHeadset::open(bare_room(), sim);
   ASSERT_TRUE(direct.ok());
@@ -262,7 +272,8 @@ TEST(Depth, ThatIsRefusedLeavesTheRest) {
   sim::SimOptions sim = depth_session(0.5);
   sim.depth = {DepthStream::kLongThrow};
   ServedRoom room(sim, paced());
-  const auto headset = connect(room, {DepthStream::kAhat, false}, std::chrono::milliseconds(200));
+  const auto headset =
+      connect(room, {DepthStream::kAhat, DepthCoding::kRaw}, std::chrono::milliseconds(200));
   ASSERT_NE(headset, nullptr);
   EXPECT_THAT(headset->depth_cameras(), SizeIs(0));
   EXPECT_THAT(headset->depth_trouble(), ::testing::HasSubstr("no depth camera ahat: port "));

@@ -17,7 +17,7 @@ std::unique_ptr<Hl2ssHeadset> open_with_depth(HostileServer& server) {
   server.depth_calibration = ahat_answer();
   server.start();
   Hl2ssOptions options = server.client();
-  options.depth = DepthWish{DepthStream::kAhat, false};
+  options.depth = DepthWish{DepthStream::kAhat, DepthCoding::kRaw};
   auto headset = Hl2ssHeadset::open(options);
   EXPECT_TRUE(headset.ok()) << headset.error().message;
   return headset ? std::move(*headset) : nullptr;
@@ -177,7 +177,7 @@ TEST(HostileDepth, WithABadCalibrationIsLeftOutByName) {
   std::fill_n(server.depth_calibration.begin() + kScaleAt, 4, std::uint8_t{0});
   server.start();
   Hl2ssOptions options = server.client();
-  options.depth = DepthWish{DepthStream::kAhat, true};
+  options.depth = DepthWish{DepthStream::kAhat, DepthCoding::kH264};
   const auto headset = Hl2ssHeadset::open(options);
   ASSERT_TRUE(headset.ok()) << headset.error().message;
   EXPECT_THAT((*headset)->depth_cameras(), SizeIs(0));

@@ -3,22 +3,27 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/image.h"
 #include "base/result.h"
 #include "hal/hl2ss/bytes.h"
-#include "hal/hl2ss/h264_order.h"
+#include "hal/hl2ss/picture_order.h"
+#include "hal/hl2ss/protocol.h"
 
 namespace orthonav::hl2ss {
 
-/// Decodes H.264 access units to pictures, one in, one out, with libavcodec. Incompletely decoded
-/// pictures are discarded: after damage nothing is returned until the next key frame.
-class H264Decoder {
+/// Decodes access units to pictures, one in, one out, with libavcodec. Incompletely decoded
+/// pictures are discarded: after damage nothing is returned until the next key frame. Of HEVC,
+/// libavcodec does not notice all damage within a picture; it is for streams that nothing is guided
+/// by.
+class VideoDecoder {
  public:
   /// For pictures of this size only. Both sides must be even.
-  static Result<std::unique_ptr<H264Decoder>> create(int width_px, int height_px);
-  ~H264Decoder();
+  static Result<std::unique_ptr<VideoDecoder>> create(VideoCodec coding, int width_px,
+                                                      int height_px);
+  ~VideoDecoder();
 
   /// Decodes one access unit's luma into `image` and returns the number (`unit`) of the access unit
   /// that the picture belongs to; nothing if no picture came out. An Error names the damage; the
@@ -31,15 +36,17 @@ class H264Decoder {
 
  private:
   struct Codec;
-  H264Decoder(std::unique_ptr<Codec> codec, int width_px, int height_px);
+  VideoDecoder(VideoCodec coding, std::unique_ptr<Codec> codec, int width_px, int height_px);
+  [[nodiscard]] Error failed(const std::string& what) const;
   Result<std::optional<std::int64_t>> take_picture(GreyImage& image,
                                                    std::vector<std::uint8_t>* chroma);
   [[nodiscard]] Status check_picture(bool with_chroma) const;
 
+  VideoCodec coding_;
   std::unique_ptr<Codec> codec_;
   int width_px_;
   int height_px_;
-  H264Order order_;
+  std::unique_ptr<PictureOrder> order_;
 };
 
 }  // namespace orthonav::hl2ss

@@ -6,12 +6,13 @@
 
 #include "base/image.h"
 #include "base/result.h"
+#include "hal/hl2ss/protocol.h"
 
 namespace orthonav::hl2ss {
 
-/// Encodes pictures as H.264 access units in Annex B, one in, one out, with libx264. The same
+/// Encodes pictures as access units in Annex B, one in, one out, with libx264 or libx265. The same
 /// pictures give the same bytes.
-class H264Encoder {
+class VideoEncoder {
  public:
   struct Options {
     std::uint32_t bitrate = 12'000'000;
@@ -20,16 +21,17 @@ class H264Encoder {
     int width_px = 640;
     int height_px = 480;
     int frames_per_second = 30;
+    VideoCodec coding = VideoCodec::kH264;
   };
-  static Result<std::unique_ptr<H264Encoder>> create(const Options& options);
-  ~H264Encoder();
+  static Result<std::unique_ptr<VideoEncoder>> create(const Options& options);
+  ~VideoEncoder();
   /// `chroma`: the two other planes one after the other, each half as wide and high; empty: grey.
   Result<std::vector<std::uint8_t>> encode(const GreyImage& luma,
                                            const std::vector<std::uint8_t>* chroma = nullptr);
 
  private:
   struct Codec;
-  explicit H264Encoder(std::unique_ptr<Codec> codec);
+  explicit VideoEncoder(std::unique_ptr<Codec> codec);
   std::unique_ptr<Codec> codec_;
 };
 

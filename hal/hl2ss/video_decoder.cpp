@@ -1,8 +1,10 @@
-#include "hal/hl2ss/h264_decoder.h"
+#include "hal/hl2ss/video_decoder.h"
 
 #include <algorithm>
 #include <string>
 
+#include "hal/hl2ss/h264_order.h"
+#include "hal/hl2ss/hevc_order.h"
 #include "hal/hl2ss/libav_codec.h"
 
 extern "C" {
@@ -30,24 +32,42 @@ void append_plane(const std::uint8_t* rows, std::ptrdiff_t stride, int width, in
   }
 }
 
+std::unique_ptr<PictureOrder> order_of(VideoCodec coding) {
+  if (coding == VideoCodec::kHevc) {
+    return std::make_unique<HevcOrder>();
+  }
+  return std::make_unique<H264Order>();
+}
+
 }  // namespace
 
-struct H264Decoder::Codec : LibavCodec {
+struct VideoDecoder::Codec : LibavCodec {
   bool waits_for_key = true;
 };
 
-H264Decoder::H264Decoder(std::unique_ptr<Codec> codec, int width_px, int height_px)
-    : codec_(std::move(codec)), width_px_(width_px), height_px_(height_px) {}
-H264Decoder::~H264Decoder() = default;
+VideoDecoder::VideoDecoder(VideoCodec coding, std::unique_ptr<Codec> codec, int width_px,
+                           int height_px)
+    : coding_(coding),
+      codec_(std::move(codec)),
+      width_px_(width_px),
+      height_px_(height_px),
+      order_(order_of(coding)) {}
+VideoDecoder::~VideoDecoder() = default;
 
-Result<std::unique_ptr<H264Decoder>> H264Decoder::create(int width_px, int height_px) {
-  const AVCodec* h264 = avcodec_find_decoder(AV_CODEC_ID_H264);
-  if (h264 == nullptr) {
-    return Error{"libavcodec has no H.264 decoder"};
+Error VideoDecoder::failed(const std::string& what) const {
+  return Error{std::string(name_of(coding_)) + what};
+}
+
+Result<std::unique_ptr<VideoDecoder>> VideoDecoder::create(VideoCodec coding, int width_px,
+                                                           int height_px) {
+  const AVCodec* found =
+      avcodec_find_decoder(coding == VideoCodec::kHevc ? AV_CODEC_ID_HEVC : AV_CODEC_ID_H264);
+  if (found == nullptr) {
+    return Error{std::string("libavcodec has no ") + name_of(coding) + " decoder"};
   }
   auto codec = std::make_unique<Codec>();
-  if (!codec->allocate(h264)) {
-    return Error{"out of memory for the H.264 decoder"};
+  if (!codec->allocate(found)) {
+    return Error{std::string("out of memory for the ") + name_of(coding) + " decoder"};
   }
   // Threads would delay pictures; damage must be reported, never concealed.
   codec->context->thread_count = 1;
@@ -55,32 +75,33 @@ Result<std::unique_ptr<H264Decoder>> H264Decoder::create(int width_px, int heigh
   codec->context->err_recognition = AV_EF_EXPLODE | AV_EF_BITSTREAM | AV_EF_BUFFER;
   // Concealment stays on, and concealed pictures are refused by their flag (`take_picture`):
   // libavcodec 5.1 keeps its table of complete macroblocks only for concealment, and without it
-  // reports every picture with several slices as damaged. Prevents printing by the library; errors
-  // are returned as codes.
+  // reports every H.264 picture with several slices as damaged. Prevents printing by the library;
+  // errors are returned as codes.
   codec->context->log_level_offset = AV_LOG_MAX_OFFSET;
-  if (const int code = avcodec_open2(codec->context, h264, nullptr); code < 0) {
-    return Error{"H.264 decoder: " + libav_reason(code)};
+  if (const int code = avcodec_open2(codec->context, found, nullptr); code < 0) {
+    return Error{std::string(name_of(coding)) + " decoder: " + libav_reason(code)};
   }
-  return std::unique_ptr<H264Decoder>(new H264Decoder(std::move(codec), width_px, height_px));
+  return std::unique_ptr<VideoDecoder>(
+      new VideoDecoder(coding, std::move(codec), width_px, height_px));
 }
 
-void H264Decoder::restart() {
+void VideoDecoder::restart() {
   avcodec_flush_buffers(codec_->context);
   codec_->waits_for_key = true;
-  order_.restart();
+  order_->restart();
 }
 
-Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::int64_t unit,
-                                                        GreyImage& image,
-                                                        std::vector<std::uint8_t>* chroma) {
+Result<std::optional<std::int64_t>> VideoDecoder::decode(Bytes access_unit, std::int64_t unit,
+                                                         GreyImage& image,
+                                                         std::vector<std::uint8_t>* chroma) {
   Codec& codec = *codec_;
-  Status whole = order_.follow(access_unit);
+  Status whole = order_->follow(access_unit);
   if (!whole) {
     restart();
   }
   if (const int code = av_new_packet(codec.packet, static_cast<int>(access_unit.size()));
       code < 0) {
-    return Error{"H.264 decoder: " + libav_reason(code)};
+    return failed(" decoder: " + libav_reason(code));
   }
   std::copy(access_unit.begin(), access_unit.end(), codec.packet->data);
   codec.packet->pts = unit;
@@ -88,7 +109,7 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
   av_packet_unref(codec.packet);
   if (sent < 0) {
     restart();
-    return Error{"H.264 picture is damaged: " + libav_reason(sent)};
+    return failed(" picture is damaged: " + libav_reason(sent));
   }
   auto picture = take_picture(image, chroma);
   if (!picture) {
@@ -101,22 +122,22 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
   return picture;
 }
 
-Status H264Decoder::check_picture(bool with_chroma) const {
+Status VideoDecoder::check_picture(bool with_chroma) const {
   const AVFrame& frame = *codec_->frame;
   if (frame.width != width_px_ || frame.height != height_px_) {
-    return Error{"H.264 picture is " + std::to_string(frame.width) + "x" +
-                 std::to_string(frame.height) + " px, must be " + std::to_string(width_px_) + "x" +
-                 std::to_string(height_px_)};
+    return failed(" picture is " + std::to_string(frame.width) + "x" +
+                  std::to_string(frame.height) + " px, must be " + std::to_string(width_px_) + "x" +
+                  std::to_string(height_px_));
   }
   if (with_chroma ? !has_plain_chroma(frame.format) : !has_plain_luma(frame.format)) {
-    return Error{"H.264 picture has pixel format " + std::to_string(frame.format) +
-                 ", must be 8-bit 4:2:0"};
+    return failed(" picture has pixel format " + std::to_string(frame.format) +
+                  ", must be 8-bit 4:2:0");
   }
   return {};
 }
 
-Result<std::optional<std::int64_t>> H264Decoder::take_picture(GreyImage& image,
-                                                              std::vector<std::uint8_t>* chroma) {
+Result<std::optional<std::int64_t>> VideoDecoder::take_picture(GreyImage& image,
+                                                               std::vector<std::uint8_t>* chroma) {
   Codec& codec = *codec_;
   AVFrame* frame = codec.frame;
   const int code = avcodec_receive_frame(codec.context, frame);
@@ -124,13 +145,13 @@ Result<std::optional<std::int64_t>> H264Decoder::take_picture(GreyImage& image,
     return std::optional<std::int64_t>{};
   }
   if (code < 0) {
-    return Error{"H.264 picture is damaged: " + libav_reason(code)};
+    return failed(" picture is damaged: " + libav_reason(code));
   }
   if (frame->key_frame != 0) {
     codec.waits_for_key = false;
   }
   if (frame->decode_error_flags != 0 || (frame->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
-    return Error{"H.264 picture is damaged"};
+    return failed(" picture is damaged");
   }
   if (codec.waits_for_key) {
     return std::optional<std::int64_t>{};
