@@ -11,7 +11,7 @@ constexpr int kDrawEvery = 15;
 
 }  // namespace
 
-engine::OperationOptions options_of(const DemoArguments& arguments) {
+Result<engine::OperationOptions> options_of(const DemoArguments& arguments) {
   engine::OperationOptions options;
   options.method = arguments.method;
   options.levels = arguments.levels;
@@ -20,6 +20,9 @@ engine::OperationOptions options_of(const DemoArguments& arguments) {
   options.sim.seed = arguments.seed;
   if (arguments.perfect) {
     options.sim.error_model = sim::ErrorModel::perfect();
+  }
+  if (Status set = arguments.surgeon.set_in(options.sim.guidance, options.sim.error_model); !set) {
+    return set.error();
   }
   if (arguments.pace) {
     options.sim.error_model.pace = *arguments.pace;
@@ -67,6 +70,7 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
   demo.add_flag("--no-video", arguments.no_video, "write no operation.mp4");
   demo.add_flag("--perfect", arguments.perfect, "every source of error at zero");
   add_reference_flag(demo, arguments.reference);
+  arguments.surgeon.add_to(demo);
   arguments.onlookers.add_to(demo);
   arguments.calibration.add_to(demo);
   arguments.limits.add_to(demo);

@@ -11,6 +11,7 @@
 #include "tools/kept_operation.h"
 #include "tools/limit_arguments.h"
 #include "tools/onlookers.h"
+#include "tools/surgeon_arguments.h"
 #include "tools/wearer_arguments.h"
 
 namespace orthonav::tools {
@@ -33,6 +34,7 @@ struct DemoArguments {
   bool json = false;
   int threads = 2;
   std::optional<double> pace;
+  SurgeonArguments surgeon;
   CalibrationArgument calibration;
   WearerArguments wearer;
   LimitArguments limits;
@@ -41,7 +43,8 @@ struct DemoArguments {
 
 /// Adds the options that fill them in.
 void add_demo_arguments(CLI::App& demo, DemoArguments& arguments);
-[[nodiscard]] engine::OperationOptions options_of(const DemoArguments& arguments);
+/// Refuses an unknown instrument.
+[[nodiscard]] Result<engine::OperationOptions> options_of(const DemoArguments& arguments);
 /// For the log of the operation.
 [[nodiscard]] KeptOperation::About about_demo(const DemoArguments& arguments,
                                               const std::string& case_name);

@@ -62,11 +62,15 @@ class Demo {
     if (!levels) {
       return bad_input("--levels: " + levels.error().message);
     }
+    auto options = options_of(arguments_);
+    if (!options) {
+      return bad_input(options.error().message);
+    }
     const Status opened = onlookers_.open(arguments_.onlookers);
     if (const Status ready = opened ? prepare(*source, *levels) : opened; !ready) {
       return bad_input(ready.error().message);
     }
-    auto result = operate(*source);
+    auto result = operate(*source, std::move(*options));
     if (!result) {
       return ended(result.error().message);
     }
@@ -156,8 +160,8 @@ class Demo {
     return {};
   }
 
-  Result<engine::OperationResult> operate(const engine::Case& source) {
-    engine::OperationOptions options = options_of(arguments_);
+  Result<engine::OperationResult> operate(const engine::Case& source,
+                                          engine::OperationOptions options) {
     options.reference_places = kept_.reference_places();
     readings_ = std::make_unique<ReadingCurves>(view_.get());
     OperationProgress progress(readings_.get());
@@ -208,6 +212,7 @@ class Demo {
     const bool film = video_ && note(video_->finish());
     const DemoReport report{.date = kept_.begun(),
                             .perfect = arguments_.perfect,
+                            .surgeon = arguments_.surgeon.described(),
                             .video = film,
                             .plots = readings_->plots(arguments_.limits.grades()),
                             .pictures = pictures_.written()};

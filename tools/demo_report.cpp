@@ -44,6 +44,7 @@ std::vector<std::string> notes_of(const DemoReport& report) {
                       ? "Simulated operating room with every source of error at zero."
                       : "Simulated operating room: cameras, head, map, hands and wires err by the "
                         "documented magnitudes (docs/accuracy.md).");
+  notes.push_back(report.surgeon);
   notes.push_back(
       "Tracking, registration and guidance saw camera images, head poses, clicker and voice alone; "
       "errors were computed afterwards against what really happened.");

@@ -11,7 +11,6 @@
 #include "engine/io/atomic_file.h"
 #include "engine/study/left_out.h"
 #include "engine/study/study_definition.h"
-#include "hal/sim/instruments.h"
 #include "tools/arguments.h"
 #include "tools/build_name.h"
 #include "tools/case_source.h"
@@ -59,14 +58,9 @@ namespace {
 
 /// Applies the options other than method and profile.
 Status choose(const StudyArguments& arguments, engine::OperationOptions& operation) {
-  for (const auto& [name, guidance] : sim::kGuidanceNames) {
-    operation.sim.guidance = arguments.guidance == name ? guidance : operation.sim.guidance;
-  }
-  if (!arguments.instrument.empty()) {
-    if (Status known = sim::use_instrument(arguments.instrument, operation.sim.error_model);
-        !known) {
-      return Error{"--instrument: " + known.error().message};
-    }
+  if (Status set = arguments.surgeon.set_in(operation.sim.guidance, operation.sim.error_model);
+      !set) {
+    return set;
   }
   if (!arguments.tools.empty()) {
     auto tools = engine::load_tools(arguments.tools);
@@ -183,8 +177,8 @@ std::string operation_words(const StudyArguments& arguments, const std::string& 
   words += arguments.perfect ? " --perfect" : "";
   words += arguments.navigation_alone ? " --navigation-alone" : "";
   words += arguments.reference ? " --reference" : "";
-  add("--guidance", arguments.guidance);
-  add("--instrument", arguments.instrument);
+  add("--guidance", arguments.surgeon.guidance);
+  add("--instrument", arguments.surgeon.instrument);
   add("--tools", arguments.tools.empty() ? "" : absolute_path(arguments.tools));
   for (const std::string& step : arguments.without) {
     add("--without", step);
@@ -214,14 +208,6 @@ int write_joined(const JsonOutput& json, const std::string& page,
 }
 
 namespace {
-
-std::vector<std::string> guidance_names() {
-  std::vector<std::string> names;
-  for (const sim::NamedGuidance& one : sim::kGuidanceNames) {
-    names.emplace_back(one.name);
-  }
-  return names;
-}
 
 /// Options for how many operations, and where.
 void add_cohort_options(CLI::App& study, StudyArguments& arguments) {
@@ -282,15 +268,7 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
           "steps of the method that are left out: check-points, landmark, tips, axis, tag-sizes, "
           "wire, redo, numbers, reference")
       ->delimiter(',');
-  study
-      .add_option(
-          "--guidance", arguments.guidance,
-          "what the surgeon goes by: overlay, numbers or \"closed loop\" (default: numbers)")
-      ->check(CLI::IsMember(guidance_names()));
-  study
-      .add_option("--instrument", arguments.instrument,
-                  "wire, cannula, \"sleeved drill\", screw or \"robot arm\"")
-      ->check(some_text());
+  arguments.surgeon.add_to(study);
   study.add_option("-t,--tools", arguments.tools, "tools file (default: the built-in ones)")
       ->check(some_text());
   add_cohort_options(study, arguments);

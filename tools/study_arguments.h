@@ -9,6 +9,7 @@
 #include "engine/study/system_profile.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
+#include "tools/surgeon_arguments.h"
 
 namespace orthonav::tools {
 
@@ -30,10 +31,9 @@ struct StudyArguments {
   bool navigation_alone = false;
   bool reference = false;
   std::vector<std::string> without;  ///< steps of the method that are left out
-  std::string guidance;              ///< empty: the profile's, or numbers
-  std::string instrument;            ///< empty: the profile's, or as documented
-  std::string tools;                 ///< file; empty: the built-in ones
-  std::string slurm;                 ///< folder of an array job; empty: on this machine
+  SurgeonArguments surgeon;
+  std::string tools;  ///< file; empty: the built-in ones
+  std::string slurm;  ///< folder of an array job; empty: on this machine
   int slurm_tasks = 0;
   std::string report;  ///< HTML page; empty: none
   std::vector<std::string> merged;

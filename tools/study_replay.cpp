@@ -11,7 +11,7 @@ namespace {
 /// guidance and the method of its profile, measured on pixels.
 bool can_be_shown(const StudyArguments& arguments) {
   if (arguments.navigation_alone || arguments.reference || !arguments.without.empty() ||
-      !arguments.guidance.empty() || !arguments.instrument.empty() || !arguments.tools.empty()) {
+      arguments.surgeon.is_given() || !arguments.tools.empty()) {
     return false;
   }
   const auto system = arguments.profile.empty()

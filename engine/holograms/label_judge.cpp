@@ -5,6 +5,7 @@
 
 #include "engine/holograms/hologram_cross.h"
 #include "engine/holograms/hologram_label.h"
+#include "engine/holograms/rod_in_hand_hologram.h"
 #include "render/float3.h"
 #include "render/frame/frame_items.h"
 
@@ -22,7 +23,7 @@ constexpr int kBlocked = 1000;  // times the harm
 constexpr int kOverLine = 10;   // more than any place nearby costs
 constexpr int kOutOfView = 12;
 constexpr int kLed = 20;
-constexpr int kGuidingOutOfView = 60;  // more than a leader costs
+constexpr int kGuidingOutOfView = 60;  // also of what is to be done next; more than a leader costs
 constexpr float kLeaderRadius_m = 0.0003f;
 // Height of the depth's place, kept free under an angle that has no depth at the moment.
 constexpr float kDepthCaps = 4.0f / 7.0f;
@@ -150,7 +151,8 @@ LabelVerdict LabelJudge::judge(const render::Scene& scene, const LabelSubject& s
     const OutlineInEyes line = eyes_.outline(leader(subject, at), kLeaderRadius_m);
     verdict.blocked += kOverLeader * crossed(line, margins.own);
   }
-  const int out_of_view = subject.rank == LabelRank::kGuiding ? kGuidingOutOfView : kOutOfView;
+  const bool instructs = subject.rank == LabelRank::kGuiding || item.label == kRodInHandLabel;
+  const int out_of_view = instructs ? kGuidingOutOfView : kOutOfView;
   verdict.cost = kBlocked * verdict.blocked + (over_line ? kOverLine : 0) + (at.led ? kLed : 0) +
                  (eyes_.in_view(box) ? 0 : out_of_view) + static_cast<int>(place);
   return verdict;

@@ -36,18 +36,30 @@ std::optional<nav::TagCorners> exact_corners(const CameraModel& camera,
   return diagonal_px < model.least_px ? std::nullopt : std::optional(corners);
 }
 
+template <class CameraFrame>
+void look_from(const Transform<CameraFrame, Rig>& camera_from_rig, const sim::RoomState& now,
+               sim::TagOcclusion& occlusion) {
+  const auto camera_from_room = camera_from_rig * now.room_from_rig.inverse();
+  occlusion.look(now, {camera_from_room.rotation(), camera_from_room.translation()});
+}
+
 }  // namespace
 
 ModelledSightings::ModelledSightings(const sim::SimHeadset& room, const MeasurementModel& model)
     : room_(&room),
       model_(model),
       random_(Random(room.options().seed).fork("measurement model")),
+      left_(room.room()),
+      right_(room.room()),
       trails_(room.room().tools.size()),
       seen_(room.room().tools.size()),
       near_(room.room().tools.size()) {}
 
 void ModelledSightings::look(const StereoFrame& frame) {
   const sim::RoomState now = room_->state();
+  const StereoCalibration& cameras = room_->actual_calibration();
+  look_from(cameras.left_from_rig, now, left_);
+  look_from(cameras.right_from_rig, now, right_);
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     look_at(i, frame, now);
   }
@@ -75,12 +87,16 @@ void ModelledSightings::look_at(std::size_t tool, const StereoFrame& frame,
     return;
   }
   const double worse = covered ? model_.drop_factor : 1.0;
-  seen.left_px = with_errors(
-      exact_corners(cameras.left, cameras.left_from_rig, near_[tool], size_m, flaws, model_),
-      trail.lasting.left_px, trail.before_left, random, dt_s, worse);
-  seen.right_px = with_errors(
-      exact_corners(cameras.right, cameras.right_from_rig, near_[tool], size_m, flaws, model_),
-      trail.lasting.right_px, trail.before_right, random, dt_s, worse);
+  const auto exact = [&](const auto& camera, const auto& camera_from_rig,
+                         const sim::TagOcclusion& occlusion) {
+    return occlusion.hides(tool)
+               ? std::nullopt
+               : exact_corners(camera, camera_from_rig, near_[tool], size_m, flaws, model_);
+  };
+  seen.left_px = with_errors(exact(cameras.left, cameras.left_from_rig, left_),
+                             trail.lasting.left_px, trail.before_left, random, dt_s, worse);
+  seen.right_px = with_errors(exact(cameras.right, cameras.right_from_rig, right_),
+                              trail.lasting.right_px, trail.before_right, random, dt_s, worse);
 }
 
 bool ModelledSightings::is_blinded(std::size_t tool, const sim::RoomState& now) const {

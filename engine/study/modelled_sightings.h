@@ -6,13 +6,14 @@
 #include "base/random.h"
 #include "engine/study/measurement_model.h"
 #include "hal/sim/sim_headset.h"
+#include "hal/sim/tag_occlusion.h"
 #include "nav/tracking/corner_pose.h"
 
 namespace orthonav::engine {
 
-/// Where the two cameras of a simulated room see its tools: the true corners through the true
-/// cameras, with the errors of a measurement model. Draws from a separate stream per pair and tool,
-/// so that the order of queries does not matter.
+/// Where the two cameras of a simulated room see its tools: the true corners of tags that nothing
+/// hides through the true cameras, with the errors of a measurement model. Draws from a separate
+/// stream per pair and tool, so that the order of queries does not matter.
 class ModelledSightings {
  public:
   /// The room must outlive it.
@@ -47,6 +48,8 @@ class ModelledSightings {
   const sim::SimHeadset* room_;
   MeasurementModel model_;
   Random random_;
+  sim::TagOcclusion left_;
+  sim::TagOcclusion right_;
   std::vector<Trail> trails_;
   std::vector<nav::StereoCorners> seen_;
   std::vector<Transform<Rig, Marker>> near_;

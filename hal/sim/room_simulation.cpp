@@ -139,15 +139,16 @@ void RoomSimulation::let_surgeon_act(RoomState& now) {
 }
 
 /// The reference is clamped to the patient, facing the head's initial position, and moves with
-/// them.
+/// them. Its arm reaches to the surgeon's side of the wound: there no tool comes between it and the
+/// cameras, since a tag that is held above the wound hides what lies beyond.
 void RoomSimulation::leave_reference(RoomState& now) {
-  constexpr Vec3 kBesideTheSite_m{-0.02, 0.0, 0.13};
+  constexpr Vec3 kOnTheSurgeonsSide_m{0.12, 0.0, -0.08};
   const auto reference = layout_.tool(ToolKind::kReference);
   if (!reference) {
     return;
   }
   if (!room_from_reference_) {
-    put(now, *reference, {layout_.middle() + kBesideTheSite_m, {0, 1, 0}, 0.0}, std::nullopt);
+    put(now, *reference, {layout_.middle() + kOnTheSurgeonsSide_m, {0, 1, 0}, 0.0}, std::nullopt);
     room_from_reference_ = now.room_from_marker[*reference];
   }
   const bool is_due = wires_driven_ >= bump_.after_wires;

@@ -48,6 +48,8 @@ class Surgeon {
   /// up.
   static constexpr double kPatience_s = 60.0;
   static constexpr int kRepeats = 5;
+  /// Without a reading or a hologram for this long the surgeon acts.
+  static constexpr double kLost_s = 1.0;
   /// How long a tool or a hologram may stay out of sight.
   static constexpr double kLongPatience_s = 300.0;
   /// Most refusals and rejections of a level.
@@ -164,6 +166,8 @@ class Surgeon {
   bool regain_reading(const Aim& aim, double lost_s, double tick_s);
   /// Turns the tag to and fro and leans over, so that the cameras find it again.
   void show_tag(const Aim& aim, double since_s, double tick_s);
+  /// Leans to either side of `from`, ever farther, for nothing is shown: one tag may hide another.
+  void lean(Point<Room> site, Vec3 from, double since_s);
 
   // surgeon_placing.cpp
   /// Measures the wire of the screw that was drilled, and keeps or redoes it.

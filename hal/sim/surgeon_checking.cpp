@@ -19,6 +19,9 @@ constexpr double kTouchLift_m = 0.02;
 constexpr double kSettle_s = 1.0;
 constexpr double kDabSettle_s = 0.6;
 constexpr double kReadLine_s = 0.5;
+/// Looking from another side before a touch is tried again.
+constexpr double kAside_rad = 0.12;
+constexpr double kLeanAndSettle_s = 2.0;
 /// A glance at the line, near the tip, shows whether the touch was taken.
 constexpr double kDabGlance_s = 0.15;
 /// Upper bound on the width of a vertebra.
@@ -106,8 +109,14 @@ Script Surgeon::click_at_rest(const StepOnDisplay& step, Vec3 normal, double set
 }
 
 Script Surgeon::click_until_taken(const StepOnDisplay& step, double settle_s, double read_s) {
+  const Vec3 from = body_.posture().head.from_gaze;
   for (int repeat = 0; repeat <= kRepeats && in_step(step); ++repeat) {
-    co_await body_.rest(repeat == 0 ? settle_s : kSettle_s);
+    if (repeat > 0) {
+      // A tag may be hidden from here, by another one or by the hand.
+      const double aside_rad = kAside_rad * (repeat % 2 == 0 ? -repeat : repeat + 1);
+      body_.posture().head.from_gaze = rotation_from_vector({0, aside_rad, 0}) * from;
+    }
+    co_await body_.rest(repeat == 0 ? settle_s : kLeanAndSettle_s);
     co_await body_.click();
     co_await body_.rest(read_s);
     if (!told(Notice::kTouchNotRecorded)) {

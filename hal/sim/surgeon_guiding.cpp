@@ -107,6 +107,8 @@ Script Surgeon::look_at_entry(const StepOnDisplay& step, std::size_t level, Side
   Vec3 axes;
   int frames = 0;
   Duration looked{};
+  const Vec3 from = body_.posture().head.from_gaze;
+  Timestamp last_seen = body_.now();
   for (Timestamp before = body_.now(); looked < from_seconds(look_s); before = body_.now()) {
     co_await body_.next_tick();
     if (body_.now() > patience) {
@@ -119,8 +121,12 @@ Script Surgeon::look_at_entry(const StepOnDisplay& step, std::size_t level, Side
     const ShownHologram* path = eyes_->find(HologramKind::kTrajectory);
     if (!sees_now() || !spot || spot->points_in_world.empty() || !path ||
         path->points_in_world.size() < 3) {
+      if (const double lost_s = seconds(body_.now() - last_seen); lost_s > kLost_s) {
+        lean(layout_->site(level), from, lost_s - kLost_s);
+      }
       continue;
     }
+    last_seen = body_.now();
     const Vec3 axis =
         eyes_->place(path->points_in_world[0]) - eyes_->place(path->points_in_world[2]);
     const Point<Room> place = seen_at_rest(spot->points_in_world[0]);
@@ -159,13 +165,24 @@ Script Surgeon::drill(const Aim& aim, Vec3 rotation_of_wire) {
   const double length_s = body_.slowness() * kDriving_s;
   const Timestamp begin = body_.now();
   Timestamp before = begin;
+  Timestamp last_seen = begin;
+  double held_s = 0.0;
   DeviationMemory memory;
   Vec3 corrected;
   for (double t = 0.0; t < 1.0;) {
     co_await body_.next_tick();
-    t = std::min(1.0, seconds(body_.now() - begin) / length_s);
     if (guidance_ == GuidanceProfile::kClosedLoop) {
-      if (const auto reading = read_rotation(aim)) {
+      const auto reading = read_rotation(aim);
+      const double lost_s = seconds(body_.now() - last_seen);
+      if (!reading && lost_s > kLost_s && lost_s < kPatience_s) {
+        // Nobody drills on by numbers that are gone.
+        held_s += seconds(body_.now() - before);
+        before = body_.now();
+        lean({aim.on_bone.point}, body_.best_view(aim.outwards), lost_s - kLost_s);
+        continue;
+      }
+      if (reading) {
+        last_seen = body_.now();
         memory.add(*reading);
         if (const auto acted_on = memory.newest(body_.now() - from_seconds(kReaction_s))) {
           const double part = kGain_per_s * seconds(body_.now() - before);
@@ -174,6 +191,7 @@ Script Surgeon::drill(const Aim& aim, Vec3 rotation_of_wire) {
       }
     }
     before = body_.now();
+    t = std::min(1.0, (seconds(body_.now() - begin) - held_s) / length_s);
     const double way = minimum_jerk(t);
     Grip& grip = body_.posture().grip;
     // The axis of the wire is the chord of its way, which turns by half of what the hand does.

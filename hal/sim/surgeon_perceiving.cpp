@@ -45,11 +45,20 @@ Script Surgeon::read_offset(const StepOnDisplay& step, const Aim& aim,
   std::optional<Timestamp> last;
   const Timestamp patience = body_.now() + from_seconds(kPatienceForNumbers_s);
   const Timestamp start = body_.now();
+  Timestamp before = start;
+  Timestamp last_seen = start;
   while (body_.now() < patience && in_step(step) &&
          (body_.now() - start < from_seconds(kReading_s) || readings < kFewestNumbers)) {
     co_await body_.next_tick();
+    const double tick_s = seconds(body_.now() - before);
+    before = body_.now();
     const auto numbers = read_numbers(*eyes_, aim.directions);
-    if (!sees_now() || eyes_->seen_at() == last || !numbers) {
+    if (!sees_now() || !numbers) {
+      regain_reading(aim, seconds(body_.now() - last_seen), tick_s);
+      continue;
+    }
+    last_seen = body_.now();
+    if (eyes_->seen_at() == last) {
       continue;
     }
     last = eyes_->seen_at();

@@ -22,8 +22,6 @@ constexpr double kReadoutFloor_rad = 0.05 * kRadiansPerDegree;
 /// After this long the surgeon accepts a larger deviation.
 constexpr double kStrict_s = 6.0;
 constexpr double kDoublesEvery_s = 4.0;
-/// Without a reading for this long the surgeon acts.
-constexpr double kLost_s = 1.0;
 /// For this long they lean only a little to either side.
 constexpr double kLeans_s = 6.0;
 
@@ -96,11 +94,14 @@ bool Surgeon::regain_reading(const Aim& aim, double lost_s, double tick_s) {
 
 void Surgeon::show_tag(const Aim& aim, double since_s, double tick_s) {
   body_.posture().grip.roll_rad += tick_s * 0.7 * std::cos(2.0 * since_s);
+  lean({aim.on_bone.point}, body_.best_view(aim.outwards), since_s);
+}
+
+void Surgeon::lean(Point<Room> site, Vec3 from, double since_s) {
   // A tag hidden for this long stays hidden from here: the surgeon leans further aside.
   const double reach_rad = std::clamp(0.25 * (since_s - kLeans_s) / kLeans_s, 0.25, 1.0);
-  const double lean = reach_rad * std::sin(0.5 * since_s);
-  body_.look({aim.on_bone.point},
-             rotation_from_vector({0, lean, 0}) * body_.best_view(aim.outwards));
+  const double aside_rad = reach_rad * std::sin(0.5 * since_s);
+  body_.look(site, rotation_from_vector({0, aside_rad, 0}) * from);
 }
 
 Script Surgeon::settle(const Aim& aim, double content_rad, bool& settled) {

@@ -44,6 +44,8 @@ TEST(DemoCommand, RefusesWhatItCannotDoAndLeavesNothing) {
                  "no level 'T1' (it has: L1, L2, L3, L4, L5)");
   expect_refusal(orthonav({"demo", "--out", out, "--levels", "L5,L5"}), "named twice");
   expect_refusal(orthonav({"demo", "--out", out, "--device", "no such device"}), "no such device");
+  expect_refusal(orthonav({"demo", "--out", out, "--instrument", "saw"}),
+                 "--instrument: instrument 'saw': unknown");
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 

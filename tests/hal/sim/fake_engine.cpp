@@ -65,6 +65,7 @@ int FakeEngine::run() {
 
 void FakeEngine::enter(const StepOnDisplay& step) {
   step_ = step;
+  view_at_first_.reset();
   notice_ = Notice::kNone;
   checks_ = ChecksAsked::kNone;
   history_.push_back(name_of(step));

@@ -31,6 +31,9 @@ struct EngineOptions {
   bool peeks = false;
   double blind_from_s = 0.0;  ///< the tools are lost in this span of time
   double blind_to_s = 0.0;
+  /// Nothing of a screw is shown unless the head has turned this far about the vertical since the
+  /// screw's step began: one tag hides another.
+  double shown_aside_rad = 0.0;
   bool deaf = false;            ///< hears no voice
   int lost_touches = 0;         ///< the first touches are not recorded
   int check_points = 0;         ///< asked for in `verify`
@@ -85,6 +88,7 @@ class FakeEngine {
   void draw_vertebra(ShownFrame& shown) const;
   /// H13 for a tip off the entry and an axis out of the bone, all in World.
   void draw_numbers(ShownFrame& shown, const TestScrew& screw, Vec3 tip_m, Vec3 axis) const;
+  [[nodiscard]] bool is_hidden(const RoomState& state);
   void draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const;
   void draw_guide(ShownFrame& shown, const TestScrew& screw, Point<World> entry, Vec3 outwards,
                   const RoomState& state) const;
@@ -102,6 +106,7 @@ class FakeEngine {
   std::size_t screw_ = 0;
   bool guided_here_ = false;  ///< `screw_` is one of this level
   StepOnDisplay step_;
+  std::optional<Vec3> view_at_first_;  ///< of the screw's step
   Notice notice_ = Notice::kNone;
   ChecksAsked checks_ = ChecksAsked::kNone;
   bool pressed_ = false;

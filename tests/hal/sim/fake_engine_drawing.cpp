@@ -18,7 +18,7 @@ void FakeEngine::draw(const StereoFrame& frame) {
   if (step_.step == Step::kVerify) {
     draw_vertebra(shown);
   }
-  if (step_.step == Step::kGuide) {
+  if (step_.step == Step::kGuide && !is_hidden(state)) {
     draw_screw(shown, state, blind);
   }
   static_cast<void>(headset_.display().shown(shown));
@@ -33,6 +33,15 @@ void FakeEngine::draw_vertebra(ShownFrame& shown) const {
     model.points_in_world.push_back(world_from_vertebra(level_label()) * Point<Vertebra>{extreme});
   }
   shown.holograms.push_back(model);
+}
+
+bool FakeEngine::is_hidden(const RoomState& state) {
+  const Vec3 view = state.room_from_rig.rotation() * Vec3{0, 0, 1};
+  const Vec3 level = Vec3{view.x, 0.0, view.z}.normalized();
+  if (!view_at_first_) {
+    view_at_first_ = level;
+  }
+  return angle_between_rad(level, *view_at_first_) < options_.shown_aside_rad;
 }
 
 void FakeEngine::draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const {

@@ -177,6 +177,21 @@ TEST(Surgeon, WaitsWhileTheToolIsLostAndLooksFromFurtherAndFurtherAside) {
   }
 }
 
+TEST(Surgeon, LeansAsideWhereNothingIsShownOfAScrew) {
+  const TestCase test_case = synthetic_case();
+  auto headset = SimHeadset::open(test_case.room, without_pixels(6, ErrorModel::perfect()));
+  ASSERT_TRUE(headset.ok());
+  EngineOptions hidden;
+  hidden.shown_aside_rad = 0.35;
+  FakeEngine engine(**headset, test_case, hidden);
+  ASSERT_GT(engine.run(), 0);
+  EXPECT_EQ(engine.history().back(), "done");
+  ASSERT_EQ((*headset)->truth().wires.size(), 4U);
+  for (const ScrewError& error : screw_errors(test_case, (*headset)->truth())) {
+    EXPECT_LT(error.angle_rad, 0.05 * kDeg);
+  }
+}
+
 TEST(Surgeon, DoesTheSameAgainWithTheSameSeed) {
   const TestCase test_case = synthetic_case();
   std::vector<std::pair<std::vector<ClickerEvent>, std::vector<Phrase>>> events;
