@@ -130,6 +130,7 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
 
 sim::SimOptions sim_options(const OperationOptions& options) {
   sim::SimOptions sim = options.sim;
+  sim.relies_on_reference = options.use_reference;
   sim.render = sim.render && options.measurement == Measurement::kPixels && !options.navigation;
   return sim;
 }

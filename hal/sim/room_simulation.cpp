@@ -31,6 +31,7 @@ RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, 
       tremor_rad_(Random(options.seed).fork("tremor rotation"), error_model_.tremor_rad,
                   kSlowestTremor_hz, kFastestTremor_hz),
       spine_(Random(options.seed).fork("spine"), error_model_),
+      relies_on_reference_(options.relies_on_reference),
       bump_(options.reference_bump),
       bumping_(Random(options.seed).fork("bump")),
       shift_(options.patient_shift),
@@ -45,9 +46,9 @@ RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, 
   }
   states_.resize(kKept, nothing);
   if (options.surgeon && layout_.levels() > 0) {
-    surgeon_ =
-        std::make_unique<Surgeon>(layout_, error_model_, Random(options.seed).fork("surgeon"),
-                                  eyes_, StandingMetal(truth_), options.guidance);
+    surgeon_ = std::make_unique<Surgeon>(
+        layout_, error_model_, Random(options.seed).fork("surgeon"), eyes_, StandingMetal(truth_),
+        options.guidance, options.relies_on_reference);
   }
   step();
 }
@@ -139,16 +140,18 @@ void RoomSimulation::let_surgeon_act(RoomState& now) {
 }
 
 /// The reference is clamped to the patient, facing the head's initial position, and moves with
-/// them. Its arm reaches to the surgeon's side of the wound: there no tool comes between it and the
-/// cameras, since a tag that is held above the wound hides what lies beyond.
+/// them. If it is used, its arm reaches to the surgeon's side of the wound: there no tool comes
+/// between it and the cameras, since a tag that is held above the wound hides what lies beyond.
 void RoomSimulation::leave_reference(RoomState& now) {
   constexpr Vec3 kOnTheSurgeonsSide_m{0.12, 0.0, -0.08};
+  constexpr Vec3 kBeyondTheWound_m{-0.02, 0.0, 0.13};
   const auto reference = layout_.tool(ToolKind::kReference);
   if (!reference) {
     return;
   }
   if (!room_from_reference_) {
-    put(now, *reference, {layout_.middle() + kOnTheSurgeonsSide_m, {0, 1, 0}, 0.0}, std::nullopt);
+    const Vec3 beside_m = relies_on_reference_ ? kOnTheSurgeonsSide_m : kBeyondTheWound_m;
+    put(now, *reference, {layout_.middle() + beside_m, {0, 1, 0}, 0.0}, std::nullopt);
     room_from_reference_ = now.room_from_marker[*reference];
   }
   const bool is_due = wires_driven_ >= bump_.after_wires;

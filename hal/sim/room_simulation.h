@@ -103,6 +103,7 @@ class RoomSimulation {
   Vec3 back_against_level_m_{};  ///< of the back relative to the bone, when the wire pierced it
   /// Set at the first step, with the patient at rest.
   std::optional<Transform<Room, Marker>> room_from_reference_;
+  bool relies_on_reference_;
   ReferenceBump bump_;
   Random bumping_;
   PatientShift shift_;

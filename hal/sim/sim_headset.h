@@ -38,6 +38,9 @@ struct SimOptions {
   Pace pace = Pace::kFast;
   double frame_rate_hz = 30.0;
   GuidanceProfile guidance = GuidanceProfile::kNumbers;
+  /// The system relies on the reference in the room: its tag is then on the surgeon's side of the
+  /// wound, and the surgeon sees to it that no tool hides it. Otherwise it lies beyond the wound.
+  bool relies_on_reference = false;
   ReferenceBump reference_bump;
   PatientShift patient_shift;
   /// The scripted surgeon operates; without one the tools hover over the table in slow motion.

@@ -85,7 +85,8 @@ struct OverlayComparison {
 }  // namespace
 
 Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
-                 const Eyes& eyes, StandingMetal metal, GuidanceProfile guidance)
+                 const Eyes& eyes, StandingMetal metal, GuidanceProfile guidance,
+                 bool relies_on_reference)
     : layout_(&layout),
       error_model_(&error_model),
       eyes_(&eyes),
@@ -93,6 +94,7 @@ Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const 
       body_(random.fork("hand"), error_model, slowness_of(error_model, random.fork("pace")),
             standing_at(layout)),
       guidance_(guidance),
+      relies_on_reference_(relies_on_reference),
       checking_(random.fork("checking")),
       seating_(random.fork("seating")),
       sleeving_(random.fork("sleeving")),

@@ -34,7 +34,8 @@ class Surgeon {
   /// The layout and the eyes must outlive it. Only the display tells the surgeon how the metal in
   /// the bones lies relative to the plan.
   Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
-          const Eyes& eyes, StandingMetal metal, GuidanceProfile guidance);
+          const Eyes& eyes, StandingMetal metal, GuidanceProfile guidance,
+          bool relies_on_reference);
 
   /// Acts until `now`.
   void tick(Timestamp now, const Bearings& bearings);
@@ -193,6 +194,7 @@ class Surgeon {
   StandingMetal metal_;
   SurgeonBody body_;
   GuidanceProfile guidance_;
+  bool relies_on_reference_;  ///< two tags are needed, of which one may hide the other
   Vec3 misread_rad_{};  ///< of the angle; drawn before the wire goes in, constant while it does
   Bearings bearings_;
   Random checking_;  ///< a separate stream: without touches, the others stay the same

@@ -111,12 +111,13 @@ Script Surgeon::click_at_rest(const StepOnDisplay& step, Vec3 normal, double set
 Script Surgeon::click_until_taken(const StepOnDisplay& step, double settle_s, double read_s) {
   const Vec3 from = body_.posture().head.from_gaze;
   for (int repeat = 0; repeat <= kRepeats && in_step(step); ++repeat) {
-    if (repeat > 0) {
+    const bool aside = repeat > 0 && relies_on_reference_;
+    if (aside) {
       // A tag may be hidden from here, by another one or by the hand.
       const double aside_rad = kAside_rad * (repeat % 2 == 0 ? -repeat : repeat + 1);
       body_.posture().head.from_gaze = rotation_from_vector({0, aside_rad, 0}) * from;
     }
-    co_await body_.rest(repeat == 0 ? settle_s : kLeanAndSettle_s);
+    co_await body_.rest(aside ? kLeanAndSettle_s : (repeat == 0 ? settle_s : kSettle_s));
     co_await body_.click();
     co_await body_.rest(read_s);
     if (!told(Notice::kTouchNotRecorded)) {

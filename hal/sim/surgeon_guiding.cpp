@@ -121,7 +121,8 @@ Script Surgeon::look_at_entry(const StepOnDisplay& step, std::size_t level, Side
     const ShownHologram* path = eyes_->find(HologramKind::kTrajectory);
     if (!sees_now() || !spot || spot->points_in_world.empty() || !path ||
         path->points_in_world.size() < 3) {
-      if (const double lost_s = seconds(body_.now() - last_seen); lost_s > kLost_s) {
+      if (const double lost_s = seconds(body_.now() - last_seen);
+          relies_on_reference_ && lost_s > kLost_s) {
         lean(layout_->site(level), from, lost_s - kLost_s);
       }
       continue;
@@ -174,7 +175,7 @@ Script Surgeon::drill(const Aim& aim, Vec3 rotation_of_wire) {
     if (guidance_ == GuidanceProfile::kClosedLoop) {
       const auto reading = read_rotation(aim);
       const double lost_s = seconds(body_.now() - last_seen);
-      if (!reading && lost_s > kLost_s && lost_s < kPatience_s) {
+      if (relies_on_reference_ && !reading && lost_s > kLost_s && lost_s < kPatience_s) {
         // Nobody drills on by numbers that are gone.
         held_s += seconds(body_.now() - before);
         before = body_.now();

@@ -54,7 +54,9 @@ Script Surgeon::read_offset(const StepOnDisplay& step, const Aim& aim,
     before = body_.now();
     const auto numbers = read_numbers(*eyes_, aim.directions);
     if (!sees_now() || !numbers) {
-      regain_reading(aim, seconds(body_.now() - last_seen), tick_s);
+      if (relies_on_reference_) {
+        regain_reading(aim, seconds(body_.now() - last_seen), tick_s);
+      }
       continue;
     }
     last_seen = body_.now();

@@ -179,7 +179,9 @@ TEST(Surgeon, WaitsWhileTheToolIsLostAndLooksFromFurtherAndFurtherAside) {
 
 TEST(Surgeon, LeansAsideWhereNothingIsShownOfAScrew) {
   const TestCase test_case = synthetic_case();
-  auto headset = SimHeadset::open(test_case.room, without_pixels(6, ErrorModel::perfect()));
+  SimOptions options = without_pixels(6, ErrorModel::perfect());
+  options.relies_on_reference = true;
+  auto headset = SimHeadset::open(test_case.room, options);
   ASSERT_TRUE(headset.ok());
   EngineOptions hidden;
   hidden.shown_aside_rad = 0.35;
