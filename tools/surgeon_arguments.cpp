@@ -1,10 +1,6 @@
 #include "tools/surgeon_arguments.h"
 
-#include <algorithm>
-#include <array>
 #include <CLI/Validators.hpp>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "hal/sim/instruments.h"
@@ -36,24 +32,8 @@ void SurgeonArguments::add_to(CLI::App& command) {
 }
 
 std::string SurgeonArguments::described() const {
-  constexpr std::array<std::pair<std::string_view, const char*>, 5> kPlaced = {{
-      {"wire", "a wire that nothing supports"},
-      {"cannula", "a cannula"},
-      {"sleeved drill", "a drill in a sleeve"},
-      {"screw", "a drill in a sleeve, then the screw in its hole"},
-      {"robot arm", "a drill held by a robot's arm"},
-  }};
-  const std::string_view placed = instrument.empty() ? kPlaced[0].first : instrument;
-  const auto* with = std::find_if(kPlaced.begin(), kPlaced.end(),
-                                  [&](const auto& one) { return one.first == placed; });
-  std::string by = "the angle by the number, the entry as shown";
-  if (guidance == "overlay") {
-    by = "entry and trajectory as shown over the bone";
-  } else if (guidance == "closed loop") {
-    by = "entry and angle by the numbers, also while drilling";
-  }
-  return "The surgeon works with " + (with == kPlaced.end() ? instrument : with->second) +
-         " and goes by " + by + ".";
+  return "The simulated surgeon uses: " + (instrument.empty() ? "wire" : instrument) +
+         "; guidance: " + (guidance.empty() ? "numbers" : guidance) + " (docs/accuracy.md).";
 }
 
 Status SurgeonArguments::set_in(sim::GuidanceProfile& profile, sim::ErrorModel& error_model) const {

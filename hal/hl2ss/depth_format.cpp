@@ -17,14 +17,11 @@ constexpr int kMiddleOfQuarter = 2;
 constexpr int kNearestCoded = 64;
 
 VideoProfile profile_of(DepthCoding coding) {
-  switch (coding) {
-    case DepthCoding::kH264:
-      return VideoProfile::kH264Base;
-    case DepthCoding::kHevc:
-      return VideoProfile::kHevc;
-    default:
-      return VideoProfile::kRaw;
+  const auto codec = codec_of(coding);
+  if (!codec) {
+    return VideoProfile::kRaw;
   }
+  return *codec == VideoCodec::kHevc ? VideoProfile::kHevc : VideoProfile::kH264Base;
 }
 
 std::uint16_t squared(std::uint8_t root) {

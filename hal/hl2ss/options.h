@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,7 +14,6 @@
 
 namespace orthonav::hl2ss {
 
-enum class DepthCoding : std::uint8_t { kRaw, kH264, kHevc, kPng };
 /// The depth stream to request: raw, AHaT as H.264 or HEVC, or long throw as PNG.
 struct DepthWish {
   DepthStream stream = DepthStream::kAhat;  ///< kAhat or kLongThrow

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace orthonav::hl2ss {
 
@@ -53,6 +54,21 @@ enum class VideoProfile : std::uint8_t {
 enum class VideoCodec : std::uint8_t { kH264, kHevc };
 [[nodiscard]] constexpr const char* name_of(VideoCodec codec) {
   return codec == VideoCodec::kHevc ? "HEVC" : "H.264";
+}
+
+/// How a depth stream is coded: AHaT raw or as video, long throw raw or as PNG.
+enum class DepthCoding : std::uint8_t { kRaw, kH264, kHevc, kPng };
+[[nodiscard]] constexpr std::optional<VideoCodec> codec_of(DepthCoding coding) {
+  switch (coding) {
+    case DepthCoding::kH264:
+      return VideoCodec::kH264;
+    case DepthCoding::kHevc:
+      return VideoCodec::kHevc;
+    case DepthCoding::kRaw:
+    case DepthCoding::kPng:
+      break;
+  }
+  return std::nullopt;
 }
 
 /// An image and its trailer; a coded picture larger than the raw one is damaged.

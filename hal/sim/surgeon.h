@@ -167,8 +167,11 @@ class Surgeon {
   bool regain_reading(const Aim& aim, double lost_s, double tick_s);
   /// Turns the tag to and fro and leans over, so that the cameras find it again.
   void show_tag(const Aim& aim, double since_s, double tick_s);
-  /// Leans to either side of `from`, ever farther, for nothing is shown: one tag may hide another.
+  /// Leans to either side of `from`, farther and farther.
   void lean(Point<Room> site, Vec3 from, double since_s);
+  /// Leans once nothing has been shown for a while, where the system relies on a reference: one tag
+  /// may hide the other. Returns whether it does.
+  bool lean_where_lost(Point<Room> site, Vec3 from, double lost_s);
 
   // surgeon_placing.cpp
   /// Measures the wire of the screw that was drilled, and keeps or redoes it.

@@ -121,10 +121,7 @@ Script Surgeon::look_at_entry(const StepOnDisplay& step, std::size_t level, Side
     const ShownHologram* path = eyes_->find(HologramKind::kTrajectory);
     if (!sees_now() || !spot || spot->points_in_world.empty() || !path ||
         path->points_in_world.size() < 3) {
-      if (const double lost_s = seconds(body_.now() - last_seen);
-          relies_on_reference_ && lost_s > kLost_s) {
-        lean(layout_->site(level), from, lost_s - kLost_s);
-      }
+      lean_where_lost(layout_->site(level), from, seconds(body_.now() - last_seen));
       continue;
     }
     last_seen = body_.now();
@@ -164,10 +161,9 @@ Script Surgeon::drive_wire(std::size_t level, Side side, const Aim& aim) {
 Script Surgeon::drill(const Aim& aim, Vec3 rotation_of_wire) {
   const Grip pierced = body_.posture().grip;
   const double length_s = body_.slowness() * kDriving_s;
-  const Timestamp begin = body_.now();
+  Timestamp begin = body_.now();
   Timestamp before = begin;
   Timestamp last_seen = begin;
-  double held_s = 0.0;
   DeviationMemory memory;
   Vec3 corrected;
   for (double t = 0.0; t < 1.0;) {
@@ -175,11 +171,11 @@ Script Surgeon::drill(const Aim& aim, Vec3 rotation_of_wire) {
     if (guidance_ == GuidanceProfile::kClosedLoop) {
       const auto reading = read_rotation(aim);
       const double lost_s = seconds(body_.now() - last_seen);
-      if (relies_on_reference_ && !reading && lost_s > kLost_s && lost_s < kPatience_s) {
+      if (!reading && lost_s < kPatience_s &&
+          lean_where_lost({aim.on_bone.point}, body_.best_view(aim.outwards), lost_s)) {
         // Nobody drills on by numbers that are gone.
-        held_s += seconds(body_.now() - before);
+        begin += body_.now() - before;
         before = body_.now();
-        lean({aim.on_bone.point}, body_.best_view(aim.outwards), lost_s - kLost_s);
         continue;
       }
       if (reading) {
@@ -192,7 +188,7 @@ Script Surgeon::drill(const Aim& aim, Vec3 rotation_of_wire) {
       }
     }
     before = body_.now();
-    t = std::min(1.0, (seconds(body_.now() - begin) - held_s) / length_s);
+    t = std::min(1.0, seconds(body_.now() - begin) / length_s);
     const double way = minimum_jerk(t);
     Grip& grip = body_.posture().grip;
     // The axis of the wire is the chord of its way, which turns by half of what the hand does.

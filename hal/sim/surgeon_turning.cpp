@@ -104,6 +104,14 @@ void Surgeon::lean(Point<Room> site, Vec3 from, double since_s) {
   body_.look(site, rotation_from_vector({0, aside_rad, 0}) * from);
 }
 
+bool Surgeon::lean_where_lost(Point<Room> site, Vec3 from, double lost_s) {
+  const bool leans = relies_on_reference_ && lost_s > kLost_s;
+  if (leans) {
+    lean(site, from, lost_s - kLost_s);
+  }
+  return leans;
+}
+
 Script Surgeon::settle(const Aim& aim, double content_rad, bool& settled) {
   co_await body_.rest(kReaction_s / body_.slowness());
   const Timestamp start = body_.now();

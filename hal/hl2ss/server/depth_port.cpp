@@ -43,18 +43,16 @@ Result<std::size_t> DepthPort::understand(Bytes said) {
 
 Result<std::vector<std::uint8_t>> DepthPort::pictured(const DepthAsked& asked, std::int64_t request,
                                                       const DepthFrame& frame) {
-  if (asked.coding == DepthCoding::kRaw) {
-    return raw_depth_bytes(stream_, frame);
-  }
-  if (asked.coding == DepthCoding::kPng) {
-    return long_throw_png(frame);
+  const auto codec = codec_of(asked.coding);
+  if (!codec) {
+    return asked.coding == DepthCoding::kPng ? long_throw_png(frame)
+                                             : raw_depth_bytes(stream_, frame);
   }
   // A new client must get a key frame first.
   if (!encoder_ || encoded_request_ != request) {
-    auto encoder = VideoEncoder::create(
-        {asked.bitrate, asked.gop_size, 1, frame.range_mm.width_px, frame.range_mm.height_px,
-         std::max(1, kAhatFramesPerSecond / asked.every),
-         asked.coding == DepthCoding::kHevc ? VideoCodec::kHevc : VideoCodec::kH264});
+    auto encoder = VideoEncoder::create({asked.bitrate, asked.gop_size, 1, frame.range_mm.width_px,
+                                         frame.range_mm.height_px,
+                                         std::max(1, kAhatFramesPerSecond / asked.every), *codec});
     if (!encoder) {
       return encoder.error();
     }

@@ -6,7 +6,7 @@
 #include "base/result.h"
 #include "hal/api/depth_camera.h"
 #include "hal/hl2ss/bytes.h"
-#include "hal/hl2ss/options.h"
+#include "hal/hl2ss/protocol.h"
 
 namespace orthonav::hl2ss {
 
