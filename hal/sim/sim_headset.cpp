@@ -175,7 +175,7 @@ Result<std::unique_ptr<SimHeadset>> SimHeadset::open(RoomDescription room,
       return status.error();
     }
   }
-  const StereoCalibration reported = hololens2_calibration();
+  const StereoCalibration& reported = hololens2_calibration();
   auto actual = perturbed(reported, options.error_model, Random(options.seed).fork("calibration"));
   if (!actual) {
     return actual.error();
