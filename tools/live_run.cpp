@@ -110,6 +110,7 @@ class LiveRun {
     }
     OpenOptions open_options;
     open_options.room = engine::room_of(*source, *operation, engine::built_in_tools());
+    open_options.sim.relies_on_reference = arguments_.reference;
     if (const Status opened = open_headset(open_options); !opened) {
       return opened.error();
     }

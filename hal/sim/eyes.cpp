@@ -64,6 +64,16 @@ std::size_t Eyes::readings(HologramKind kind, std::span<double> out) const {
   return count;
 }
 
+std::optional<Point<World>> Eyes::find_place_to_touch() const {
+  for (const ShownHologram& hologram : view_.holograms) {
+    if (hologram.kind == HologramKind::kCheckPoint && !hologram.reading &&
+        !hologram.points_in_world.empty()) {
+      return hologram.points_in_world.front();
+    }
+  }
+  return std::nullopt;
+}
+
 const ShownHologram* Eyes::find_entry(std::string_view level, Side side) const {
   for (const ShownHologram& hologram : view_.holograms) {
     if (hologram.kind == HologramKind::kEntry && hologram.level == level && hologram.side == side) {

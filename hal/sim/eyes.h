@@ -28,6 +28,8 @@ class Eyes {
   /// The numbers on the holograms of that kind in the frame in view, in their order; returns how
   /// many, at most the size of `out`.
   std::size_t readings(HologramKind kind, std::span<double> out) const;
+  /// The first place that the display shows as still to be touched, if any.
+  [[nodiscard]] std::optional<Point<World>> find_place_to_touch() const;
   /// The entry point of that screw, or null.
   [[nodiscard]] const ShownHologram* find_entry(std::string_view level, Side side) const;
   /// Where a hologram's point appears in the room.

@@ -89,6 +89,9 @@ class Surgeon {
   Script click_until_taken(const StepOnDisplay& step, double settle_s, double read_s);
   /// Spread over the surface that can be stroked, each well away from the earlier ones.
   [[nodiscard]] std::vector<BoneSpot> places_to_check(std::size_t level);
+  /// On that surface, nearest to where the display shows a place to be touched; nothing if it shows
+  /// none.
+  [[nodiscard]] std::optional<BoneSpot> place_shown(std::size_t level);
   [[nodiscard]] bool told(Notice notice) const {
     return eyes_->status() && eyes_->status()->notice == notice;
   }
@@ -140,7 +143,10 @@ class Surgeon {
 
   // surgeon_perceiving.cpp
   /// A random error of a perceived place: larger along the line of sight than across it.
-  [[nodiscard]] Vec3 misperceived(Point<Room> place, double across_sd_m);
+  [[nodiscard]] Vec3 misperceived(Point<Room> place, double across_sd_m) {
+    return misperceived(body_.random(), place, across_sd_m);
+  }
+  [[nodiscard]] Vec3 misperceived(Random& random, Point<Room> place, double across_sd_m) const;
   /// Motion with the breath of the level being worked on.
   [[nodiscard]] Vec3 moved_m() const { return bearings_.levels_moved_m[body_.posture().level]; }
   /// Where a hologram's point appears, relative to a patient who does not breathe.

@@ -34,6 +34,10 @@ constexpr double kApart_m = 0.005;
 constexpr std::size_t kKnown = 8;
 constexpr std::size_t kMostTakenBack = 2;
 constexpr double kTakeBack_s = 1.5;
+/// So many places the surgeon chooses, so that the check does not depend on what is checked; from
+/// then on they touch where the display shows a place.
+constexpr std::size_t kOwnChoice = 3;
+constexpr double kSpotsApart_m = 0.001;
 /// The largest number of places that count, if the line keeps asking.
 constexpr std::size_t kMostPlaces = 48;
 /// The very ends of strokes are not touched, since the tip would slip off.
@@ -73,6 +77,28 @@ std::vector<BoneSpot> Surgeon::places_to_check(std::size_t level) {
     places.push_back(*farthest);
   }
   return places;
+}
+
+std::optional<BoneSpot> Surgeon::place_shown(std::size_t level) {
+  const auto shown = eyes_->find_place_to_touch();
+  if (!shown) {
+    return std::nullopt;
+  }
+  const Point<Room> seen = seen_at_rest(*shown);
+  const Vec3 off = misperceived(checking_, seen, error_model_->overlay_perception_m);
+  const Vec3 wanted = (layout_->room_from_vertebra(level).inverse() * Point<Room>{seen.v + off}).v;
+  std::optional<BoneSpot> nearest;
+  for (const StrokeRegion& region : regions_[level]) {
+    for (const Stroke& stroke : region.strokes) {
+      for (double along_m = 0.0; along_m <= stroke.length_m(); along_m += kSpotsApart_m) {
+        const BoneSpot spot = stroke.on_tissue(along_m, kPressedTissue);
+        if (!nearest || (spot.point - wanted).norm() < (nearest->point - wanted).norm()) {
+          nearest = spot;
+        }
+      }
+    }
+  }
+  return nearest;
 }
 
 Script Surgeon::touch_place(const StepOnDisplay& step, const BoneSpot& place) {
@@ -142,7 +168,8 @@ Script Surgeon::check_by_touch(std::size_t level, bool& fits) {
     if (!in_step(step) || !asked(ChecksAsked::kTouchMore)) {
       break;
     }
-    const BoneSpot& place = places[touch % places.size()];
+    const auto shown = touch < kOwnChoice ? std::nullopt : place_shown(level);
+    const BoneSpot place = shown.value_or(places[touch % places.size()]);
     const auto& room_from_vertebra = layout_->room_from_vertebra(level);
     co_await touch_place(step, {(room_from_vertebra * Point<Vertebra>{place.point}).v,
                                 (room_from_vertebra * Direction<Vertebra>{place.normal}).v});

@@ -20,8 +20,8 @@ constexpr double kMisread_m = 0.001;
 
 }  // namespace
 
-Vec3 Surgeon::misperceived(Point<Room> place, double across_sd_m) {
-  const Vec3 off = normal_vector(body_.random(), across_sd_m);
+Vec3 Surgeon::misperceived(Random& random, Point<Room> place, double across_sd_m) const {
+  const Vec3 off = normal_vector(random, across_sd_m);
   const Vec3 sight = (place - bearings_.eyes).normalized();
   const double more = std::max(1.0, error_model_->perception_depth_ratio) - 1.0;
   return off + more * off.dot(sight) * sight;

@@ -25,8 +25,8 @@ struct CheckPointRules {
   /// errors at the screws may exceed `wanted_tre_99_m` and the next place would reduce the expected
   /// error by at least the fraction `least_gain`. After that the limits of any registration apply.
   std::size_t enough = 40;
-  double wanted_tre_99_m = 0.001;
-  double least_gain = 0.005;
+  double wanted_tre_99_m = 0.0008;
+  double least_gain = 0.002;
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;

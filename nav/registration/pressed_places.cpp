@@ -161,7 +161,7 @@ std::optional<NextPlace> place_to_press(const VertebraModel& model, const Regist
                                         const PressModel& press,
                                         const PoseSearchRegistrationOptions& options,
                                         double apart_m) {
-  constexpr std::size_t kMostTried = 150;
+  constexpr std::size_t kMostTried = 250;
   constexpr double kOnBone_m = 0.003;
   const auto targets = targets_of(model, options);
   const auto world_from_vertebra = fit.moved(strokes.world_from_vertebra);

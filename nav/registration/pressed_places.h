@@ -75,7 +75,7 @@ struct NextPlace {
 };
 
 /// Two places nearer to each other than this add little more than one.
-inline constexpr double kPressesApart_m = 0.005;
+inline constexpr double kPressesApart_m = 0.003;
 
 /// The place on the stroked bone that reduces the error at the worst target most if pressed in
 /// addition to the others, at least `apart_m` from them. Empty if none reduces it.

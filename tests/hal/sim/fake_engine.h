@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,9 +35,11 @@ struct EngineOptions {
   /// Nothing of a screw is shown unless the head has turned this far about the vertical since the
   /// screw's step began: one tag hides another.
   double shown_aside_rad = 0.0;
-  bool deaf = false;            ///< hears no voice
-  int lost_touches = 0;         ///< the first touches are not recorded
-  int check_points = 0;         ///< asked for in `verify`
+  bool deaf = false;     ///< hears no voice
+  int lost_touches = 0;  ///< the first touches are not recorded
+  int check_points = 0;  ///< asked for in `verify`
+  /// Shown as the place to be touched next in every `verify`; in Vertebra.
+  std::optional<Vec3> place_to_touch;
   bool off = false;             ///< the touched places turn out too far off
   bool landmark = false;        ///< asked for in `accepted`, before every screw
   bool wire = false;            ///< measured in `placed`, after every screw

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hal/sim/bone_surface.h"
+#include "hal/sim/stroke_plan.h"
 #include "tests/hal/sim/fake_engine.h"
 
 namespace orthonav::sim {
@@ -29,6 +30,42 @@ TEST(CheckingSurgeon, TouchesSpreadPlacesOfTheBoneUntilNoMoreAreAskedFor) {
           EXPECT_GT((touched[i] - touched[j]).norm(), 0.016);
         }
       }
+    }
+  }
+}
+
+TEST(CheckingSurgeon, ChoosesThreePlacesAndThenTouchesWhereTheDisplayShowsOne) {
+  const TestCase test_case = synthetic_case();
+  const RoomLevel& level = test_case.room.levels.front();
+  const Stroke stroke = plan_strokes(level).front().strokes.front();
+  const Vec3 shown = stroke.at(0.3 * stroke.length_m()).point;
+  for (const double perception_m : {0.0, 0.003}) {
+    ErrorModel error_model = ErrorModel::perfect();
+    error_model.overlay_perception_m = perception_m;
+    auto headset = SimHeadset::open(test_case.room, without_pixels(1, error_model));
+    ASSERT_TRUE(headset.ok()) << headset.error().message;
+    EngineOptions options;
+    options.check_points = 9;
+    options.place_to_touch = shown;
+    FakeEngine engine(**headset, test_case, options);
+    EXPECT_GT(engine.run(), 0);
+    const auto& touched = engine.levels().at(level.label).checks_in_vertebra;
+    ASSERT_EQ(touched.size(), 9U);
+    double farthest_m = 0.0;
+    for (std::size_t i = 0; i < touched.size(); ++i) {
+      const double off_m = (touched[i] - shown).norm();
+      EXPECT_LT((BoneSurface(level).closest(touched[i]).point - touched[i]).norm(), 0.0003);
+      if (i < 3) {
+        EXPECT_GT((touched[i] - touched[(i + 1) % 3]).norm(), 0.016) << "their own choice";
+      } else {
+        farthest_m = std::max(farthest_m, off_m);
+      }
+    }
+    if (perception_m == 0.0) {
+      EXPECT_LT(farthest_m, 0.001);
+    } else {
+      EXPECT_GT(farthest_m, 0.001) << "as well as they see where it is";
+      EXPECT_LT(farthest_m, 0.015);
     }
   }
 }

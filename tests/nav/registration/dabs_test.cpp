@@ -202,7 +202,7 @@ TEST(Dabs, AProposalKnowsWhatTheModelLeavesOfIt) {
   const Eighth eighth = eighth_place(bone, off);
   EXPECT_GT(eighth.left, 1.0 - 0.15);
   EXPECT_LT(eighth.left, 1.0 - 0.01);
-  EXPECT_GT(eighth.nearest_m, 0.008) << "beside another one the model is as wrong";
+  EXPECT_GT(eighth.nearest_m, 1.5 * kPressesApart_m) << "beside another one the model is as wrong";
 }
 
 }  // namespace
