@@ -18,10 +18,9 @@ void FakeEngine::draw(const StereoFrame& frame) {
   if (step_.step == Step::kVerify) {
     draw_vertebra(shown);
     if (options_.place_to_touch) {
-      shown.holograms.push_back(
-          {.kind = HologramKind::kCheckPoint,
-           .points_in_world = {world_from_vertebra(level_label()) *
-                               Point<Vertebra>{*options_.place_to_touch}}});
+      shown.holograms.push_back({.kind = HologramKind::kCheckPoint,
+                                 .points_in_world = {world_from_vertebra(level_label()) *
+                                                     Point<Vertebra>{*options_.place_to_touch}}});
     }
   }
   if (step_.step == Step::kGuide && !is_hidden(state)) {
