@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "engine/case/operation_plan.h"
-#include "engine/study/system_profile.h"
+#include "engine/study/study_profile.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
@@ -40,25 +40,24 @@ struct PreviewArguments {
   PlanWindowArguments plan;
 };
 
-/// Takes the room, the guidance and the method of a published system. Refuses a system that
-/// consists of more.
+/// Takes the room, the guidance and the method of a profile. Refuses one that consists of more.
 Status take_profile(PreviewArguments& arguments) {
   if (arguments.profile.empty()) {
     return {};
   }
-  const auto system = engine::system_named(arguments.profile);
-  if (!system) {
-    return system.error();
+  const auto profile = engine::profile_named(arguments.profile);
+  if (!profile) {
+    return profile.error();
   }
-  if (!system->can_be_previewed()) {
+  if (!profile->can_be_previewed()) {
     return Error{
         "--profile " + arguments.profile +
         ": the preview can't show it: it states its navigation, uses the reference, leaves "
         "steps out or exposes more"};
   }
-  arguments.method = system->method;
-  arguments.options.room.guidance = system->guidance;
-  arguments.options.room.error_model = system->magnitudes;
+  arguments.method = profile->method;
+  arguments.options.room.guidance = profile->guidance;
+  arguments.options.room.error_model = profile->magnitudes;
   return {};
 }
 
@@ -236,7 +235,7 @@ void add_room_options(CLI::App& preview, PreviewArguments& arguments) {
       ->excludes(seed);
   preview
       .add_option("--profile", arguments.profile,
-                  "the room of a published system, by its name or as a file")
+                  "the setting of a study: liebmann-2019 (the publication's), or a file")
       ->check(some_text());
   preview.add_flag("--perfect", arguments.perfect, "every source of error at zero");
   preview

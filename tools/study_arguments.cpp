@@ -84,11 +84,11 @@ Result<engine::StudyOptions> options_of(const StudyArguments& arguments) {
   options.operation = study_operation();
   options.operation.method = arguments.method;
   if (!arguments.profile.empty()) {
-    const auto system = engine::system_named(arguments.profile);
-    if (!system) {
-      return system.error();
+    const auto profile = engine::profile_named(arguments.profile);
+    if (!profile) {
+      return profile.error();
     }
-    system->apply(options.operation);
+    profile->apply(options.operation);
   }
   if (arguments.measurement == "model") {
     options.operation.measurement = engine::Measurement::kModel;
@@ -127,13 +127,6 @@ engine::OperationOptions study_operation() {
   engine::OperationOptions operation;
   operation.tools = engine::built_in_tools();
   operation.loop.draw_every = 0;
-  return operation;
-}
-
-engine::OperationOptions modelled_operation(const engine::SystemProfile& system) {
-  engine::OperationOptions operation = study_operation();
-  system.apply(operation);
-  operation.measurement = engine::Measurement::kModel;
   return operation;
 }
 
@@ -253,7 +246,7 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
   add_method_option(study, arguments.method);
   study
       .add_option("--profile", arguments.profile,
-                  "a published system, by its name or as a file (data/systems.json)")
+                  "the setting: liebmann-2019 (the publication's), or a file")
       ->check(some_text());
   study
       .add_option("--measurement", arguments.measurement,

@@ -6,7 +6,7 @@
 
 #include "engine/study/study.h"
 #include "engine/study/study_page.h"
-#include "engine/study/system_profile.h"
+#include "engine/study/study_profile.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
 #include "tools/surgeon_arguments.h"
@@ -54,8 +54,7 @@ Result<engine::StudyOptions> options_of(const StudyArguments& arguments);
 [[nodiscard]] int jobs_or_cores(int jobs);
 /// An operation of a study: the built-in tools, no pictures.
 [[nodiscard]] engine::OperationOptions study_operation();
-/// The same for a published system, in the measurement model.
-[[nodiscard]] engine::OperationOptions modelled_operation(const engine::SystemProfile& system);
+
 /// The path made absolute.
 [[nodiscard]] std::string absolute_path(const std::string& path);
 /// The same for a profile: its name, or the absolute path of its file.

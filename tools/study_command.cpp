@@ -17,9 +17,7 @@
 #include "tools/study_compare.h"
 #include "tools/study_replay.h"
 #include "tools/study_rods.h"
-#include "tools/study_sensitivity.h"
 #include "tools/study_slurm.h"
-#include "tools/study_systems.h"
 
 namespace orthonav::tools {
 namespace {
@@ -135,8 +133,6 @@ void add_study_command(CLI::App& app, Action& action, StopSignals& signals) {
                                    "merge joins shards, compare sets "
                                    "two studies beside each other");
   add_options(*study, *arguments);
-  add_systems_command(*study, action);
-  add_sensitivity_command(*study, action);
   add_rods_command(*study, action);
   add_compare_command(*study, action);
   auto* merge_command = study->add_subcommand("merge", "Joins the results of shards");

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "engine/study/system_profile.h"
+#include "engine/study/study_profile.h"
 
 namespace orthonav::tools {
 namespace {
@@ -14,10 +14,10 @@ bool can_be_shown(const StudyArguments& arguments) {
       arguments.surgeon.is_given() || !arguments.tools.empty()) {
     return false;
   }
-  const auto system = arguments.profile.empty()
-                          ? Result<engine::SystemProfile>(engine::SystemProfile())
-                          : engine::system_named(arguments.profile);
-  return system.ok() && system->can_be_previewed();
+  const auto profile = arguments.profile.empty()
+                           ? Result<engine::StudyProfile>(engine::StudyProfile())
+                           : engine::profile_named(arguments.profile);
+  return profile.ok() && profile->can_be_previewed();
 }
 
 std::string preview_of(const StudyArguments& arguments, const std::string& folder,

@@ -11,7 +11,7 @@
 #include "engine/report/html_text.h"
 #include "engine/report/report_values.h"
 #include "engine/study/study_page_frame.h"
-#include "engine/study/system_table.h"
+#include "engine/study/study_statistics.h"
 
 namespace orthonav::engine {
 namespace {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "engine/report/report_values.h"
+#include "nav/evaluation/errors.h"
 
 namespace orthonav::engine {
 namespace {
@@ -68,6 +70,29 @@ double probability_of_at_most(int hits, int of, double p) {
 }
 
 }  // namespace
+
+std::optional<ClusteredMean> mean_over(const nlohmann::json& study, std::string_view key,
+                                       bool per_screw) {
+  if (!study.is_object() || !study.contains("runs")) {
+    return std::nullopt;
+  }
+  std::vector<double> all;
+  std::vector<double> of_operations;
+  for (const nlohmann::json& run : study["runs"]) {
+    const std::vector<double> values = values_of(run, key, per_screw);
+    if (!values.empty()) {
+      of_operations.push_back(nav::summarize(values).mean);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+  }
+  if (all.empty()) {
+    return std::nullopt;
+  }
+  const nav::Summary over_all = nav::summarize(all);
+  const nav::Summary over_operations = nav::summarize(of_operations);
+  return ClusteredMean{over_all.count, over_operations.count, over_all.mean, over_all.sd,
+                       over_operations.sd / std::sqrt(static_cast<double>(over_operations.count))};
+}
 
 double upper_limit_95(int hits, int of) {
   if (hits >= of) {

@@ -1,8 +1,25 @@
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string_view>
 
 namespace orthonav::engine {
+
+/// A quantity over the operations of a study.
+struct ClusteredMean {
+  std::size_t values = 0;
+  std::size_t operations = 0;
+  double mean = 0.0;
+  double sd = 0.0;
+  /// Standard error of the mean, from the means of operations, since the screws of one operation
+  /// share errors.
+  double standard_error = 0.0;
+};
+/// The mean of `key` over every screw, or every level, in a study; nothing if there is no value.
+[[nodiscard]] std::optional<ClusteredMean> mean_over(const nlohmann::json& study,
+                                                     std::string_view key, bool per_screw);
 
 /// Statistics of a study's accepted registrations.
 struct RegistrationQuality {

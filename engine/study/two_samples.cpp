@@ -9,7 +9,6 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr int kDraws = 4000;
 
 /// Lentz's evaluation of the continued fraction of I_x(a, b).
 double beta_fraction(double x, double a, double b) {
@@ -57,16 +56,6 @@ double student_p(double t, double freedom) {
   return incomplete_beta(freedom / (freedom + t * t), 0.5 * freedom, 0.5);
 }
 
-double welch_p(const KnownMean& a, const KnownMean& b) {
-  const double va = a.standard_error * a.standard_error;
-  const double vb = b.standard_error * b.standard_error;
-  if (!(va + vb > 0.0)) {
-    return a.mean == b.mean ? 1.0 : 0.0;
-  }
-  const double freedom = (va + vb) * (va + vb) / (va * va / a.freedom + vb * vb / b.freedom);
-  return student_p((a.mean - b.mean) / std::sqrt(va + vb), freedom);
-}
-
 double equivalence_p(std::span<const double> differences, double margin) {
   const nav::Summary summary = nav::summarize(differences);
   if (summary.count < 3) {
@@ -79,30 +68,6 @@ double equivalence_p(std::span<const double> differences, double margin) {
   }
   const double both = student_p(inside / error, static_cast<double>(summary.count) - 1.0);
   return inside > 0.0 ? 0.5 * both : 1.0 - 0.5 * both;
-}
-
-double resampled_sd_p(std::span<const std::vector<double>> groups, std::size_t n, double sd,
-                      std::uint64_t seed) {
-  Random random = Random(seed).fork("resampled SD");
-  int above = 0;
-  int below = 0;
-  std::vector<double> drawn;
-  for (int draw = 0; draw < kDraws; ++draw) {
-    drawn.clear();
-    while (drawn.size() < n) {
-      const auto which =
-          static_cast<std::size_t>(random.uniform() * static_cast<double>(groups.size()));
-      for (const double value : groups[which]) {
-        if (drawn.size() < n) {
-          drawn.push_back(value);
-        }
-      }
-    }
-    const double found = nav::summarize(drawn).sd;
-    above += found >= sd ? 1 : 0;
-    below += found <= sd ? 1 : 0;
-  }
-  return std::min(1.0, 2.0 * (std::min(above, below) + 1.0) / (kDraws + 1.0));
 }
 
 }  // namespace orthonav::engine

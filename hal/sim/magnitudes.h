@@ -18,7 +18,7 @@ struct Magnitude {
   /// or the surgeon can't finish.
   double lowest = 0.0;
   double highest = 0.0;
-  /// The plausible range, over which sensitivities are studied. Equal: not studied.
+  /// The plausible range.
   double low = 0.0;
   double high = 0.0;
   std::string_view source;

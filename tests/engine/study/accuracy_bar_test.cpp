@@ -8,7 +8,7 @@
 #include "engine/phantom/phantom.h"
 #include "engine/study/study.h"
 #include "engine/study/study_comparison.h"
-#include "engine/study/system_table.h"
+#include "engine/study/study_statistics.h"
 
 namespace orthonav::engine {
 namespace {

@@ -8,7 +8,7 @@
 #include "engine/phantom/phantom.h"
 #include "engine/study/guided_statistics.h"
 #include "engine/study/study_definition.h"
-#include "engine/study/system_profile.h"
+#include "engine/study/study_profile.h"
 
 namespace orthonav::engine::left_out_test {
 namespace {
@@ -59,19 +59,18 @@ TEST(LeftOut, IsPartOfWhatAStudyIs) {
 }
 
 TEST(LeftOut, AProfileMayLeaveOutStepsAndUseTheReference) {
-  const std::string text = R"({"systems": [{"name": "a", "title": "b", "method": "best",
-    "guidance": "closed loop", "instrument": "sleeved drill", "reference": true,
-    "without": ["tips", "numbers"], "published": {}}]})";
-  const auto systems = parse_systems(text, "file");
-  ASSERT_TRUE(systems.ok()) << systems.error().message;
+  const std::string text = R"({"name": "a", "method": "best", "guidance": "closed loop",
+    "instrument": "sleeved drill", "reference": true, "without": ["tips", "numbers"]})";
+  const auto profile = parse_profile(text, "file");
+  ASSERT_TRUE(profile.ok()) << profile.error().message;
   OperationOptions options;
-  systems->front().apply(options);
+  profile->apply(options);
   EXPECT_TRUE(options.use_reference);
   EXPECT_FALSE(options.session.steps.tips);
   EXPECT_EQ(options.sim.guidance, sim::GuidanceProfile::kNumbers);
-  const std::string wrong = R"({"systems": [{"name": "a", "title": "b", "method": "best",
-    "guidance": "numbers", "instrument": "wire", "without": ["luck"], "published": {}}]})";
-  EXPECT_THAT(parse_systems(wrong, "file").error().message, HasSubstr("'luck'"));
+  const std::string wrong = R"({"name": "a", "method": "best", "guidance": "numbers",
+    "instrument": "wire", "without": ["luck"]})";
+  EXPECT_THAT(parse_profile(wrong, "file").error().message, HasSubstr("'luck'"));
 }
 
 OperationOptions modelled() {

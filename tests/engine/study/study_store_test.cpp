@@ -10,7 +10,7 @@
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
 #include "engine/study/study_definition.h"
-#include "engine/study/system_profile.h"
+#include "engine/study/study_profile.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orthonav::engine {
@@ -129,7 +129,11 @@ TEST_F(StudyStoreTest, ShardsOfStatedNavigationJoinToTheBytesOfOneProcess) {
   const Case spine = phantom({"L5"});
   StudyOptions options = short_runs();
   options.runs = 2;
-  system_named("magic-leap-porcine")->apply(options.operation);
+  const auto profile = parse_profile(R"({"name": "stated", "guidance": "closed loop",
+    "instrument": "cannula", "navigation": {"target_mm": 0.8, "angle_deg": 0.5}})",
+                                     "file");
+  ASSERT_TRUE(profile.ok()) << profile.error().message;
+  profile->apply(options.operation);
   const auto whole = run_study({&spine, 1}, options);
   ASSERT_TRUE(whole.ok()) << whole.error().message;
   EXPECT_THAT(whole->text, HasSubstr("\"method\": \"stated\""));

@@ -1,13 +1,13 @@
 #include <nlohmann/json.hpp>
 
+#include "engine/study/study_profile.h"
 #include "engine/study/study_reading.h"
-#include "engine/study/system_profile.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {
 
-/// What studies read: profiles of systems, and results of another study; the first byte chooses.
-void fuzz_systems(std::span<const std::uint8_t> input) {
+/// What studies read: a profile, and results of another study; the first byte chooses.
+void fuzz_profile(std::span<const std::uint8_t> input) {
   if (input.empty()) {
     return;
   }
@@ -19,14 +19,12 @@ void fuzz_systems(std::span<const std::uint8_t> input) {
     }
     return;
   }
-  const auto systems = engine::parse_systems(text, "systems");
-  if (!systems) {
-    insist_one_line(systems.error());
+  const auto profile = engine::parse_profile(text, "profile");
+  if (!profile) {
+    insist_one_line(profile.error());
     return;
   }
-  for (const engine::SystemProfile& system : *systems) {
-    insist(!system.name.empty());
-  }
+  insist(!profile->name.empty());
 }
 
 }  // namespace orthonav::fuzz

@@ -1,4 +1,4 @@
-#include "engine/study/system_profile.h"
+#include "engine/study/study_profile.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/study/study_statistics.h"
-#include "engine/study/system_table.h"
 
 namespace orthonav::engine {
 namespace {
@@ -14,60 +13,54 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-json system_json() {
+json profile_json() {
   return {{"name", "one"},
-          {"title", "One"},
           {"method", "paper"},
           {"guidance", "numbers"},
           {"instrument", "wire"},
-          {"magnitudes", {{"tissue_m", 0.001}}},
-          {"published", {{"angle_deg", {{"mean", 3.0}, {"sd", 1.0}}}, {"screws", 25}}}};
+          {"magnitudes", {{"tissue_m", 0.001}}}};
 }
 
-Result<std::vector<SystemProfile>> parsed(const json& system) {
-  return parse_systems(json{{"systems", {system}}}.dump(), "mine.json");
+Result<StudyProfile> parsed(const json& profile) {
+  return parse_profile(profile.dump(), "mine.json");
 }
 
-TEST(SystemProfile, EveryPublishedSystemReads) {
-  EXPECT_GE(published_systems().size(), 10u);
-  int fitted = 0;
-  for (const SystemProfile& system : published_systems()) {
-    // shi-2025 reached its registration and placed no screw: it has an error at the screws alone.
-    EXPECT_TRUE(system.entry_mm || system.angle_deg || system.tre_mm) << system.name;
-    fitted += system.fitted ? 1 : 0;
-  }
-  EXPECT_EQ(fitted, 2) << "frozen on two systems";
+TEST(StudyProfile, OfThePublicationIsThePaperWithAWire) {
+  const auto profile = profile_named("liebmann-2019");
+  ASSERT_TRUE(profile.ok()) << profile.error().message;
+  EXPECT_EQ(profile->method, "paper");
+  EXPECT_EQ(profile->magnitudes.wire_bending_rad, sim::ErrorModel().wire_bending_rad);
+  EXPECT_TRUE(profile->can_be_previewed());
 }
 
-TEST(SystemProfile, TakesItsMagnitudesOverItsInstruments) {
-  json system = system_json();
-  system["magnitudes"]["wire_bending_rad"] = 0.011;
-  const auto read = parsed(system);
+TEST(StudyProfile, TakesItsMagnitudesOverItsInstruments) {
+  json profile = profile_json();
+  profile["magnitudes"]["wire_bending_rad"] = 0.011;
+  const auto read = parsed(profile);
   ASSERT_TRUE(read.ok()) << read.error().message;
-  EXPECT_EQ(read->front().magnitudes.wire_bending_rad, 0.011);
-  EXPECT_EQ(read->front().magnitudes.tissue_m, 0.001);
-  EXPECT_EQ(read->front().screws, 25);
+  EXPECT_EQ(read->magnitudes.wire_bending_rad, 0.011);
+  EXPECT_EQ(read->magnitudes.tissue_m, 0.001);
 }
 
-TEST(SystemProfile, ExposesTheLaminaeUnlessItSaysMore) {
-  json system = system_json();
-  EXPECT_EQ(parsed(system)->front().exposure, sim::Exposure::kLaminae);
-  system["exposure"] = "transverse processes";
-  const auto read = parsed(system);
+TEST(StudyProfile, ExposesTheLaminaeUnlessItSaysMore) {
+  json profile = profile_json();
+  EXPECT_EQ(parsed(profile)->exposure, sim::Exposure::kLaminae);
+  profile["exposure"] = "transverse processes";
+  const auto read = parsed(profile);
   ASSERT_TRUE(read.ok()) << read.error().message;
   OperationOptions options;
-  read->front().apply(options);
+  read->apply(options);
   EXPECT_EQ(options.exposure, sim::Exposure::kTransverseProcesses);
 }
 
 // Otherwise the preview would show a different operation from the study's.
-TEST(SystemProfile, IsPreviewedWhereThePreviewShowsAllOfIt) {
+TEST(StudyProfile, IsPreviewedWhereThePreviewShowsAllOfIt) {
   const auto shown = [](const char* key, const json& value) {
-    json system = system_json();
-    system[key] = value;
-    const auto read = parsed(system);
+    json profile = profile_json();
+    profile[key] = value;
+    const auto read = parsed(profile);
     EXPECT_TRUE(read.ok()) << read.error().message;
-    return read.ok() && read->front().can_be_previewed();
+    return read.ok() && read->can_be_previewed();
   };
   EXPECT_TRUE(shown("instrument", "cannula"));
   EXPECT_FALSE(shown("navigation", {{"target_mm", 2.0}, {"angle_deg", 1.0}}));
@@ -76,36 +69,35 @@ TEST(SystemProfile, IsPreviewedWhereThePreviewShowsAllOfIt) {
   EXPECT_FALSE(shown("exposure", "transverse processes"));
 }
 
-TEST(SystemProfile, AStatedNavigationHoldsWhatTheRoomWouldAdd) {
-  json system = system_json();
-  system["navigation"] = {{"target_mm", 2.0}, {"angle_deg", 1.0}};
-  const auto read = parsed(system);
+TEST(StudyProfile, AStatedNavigationHoldsWhatTheRoomWouldAdd) {
+  json profile = profile_json();
+  profile["navigation"] = {{"target_mm", 2.0}, {"angle_deg", 1.0}};
+  const auto read = parsed(profile);
   ASSERT_TRUE(read.ok()) << read.error().message;
-  ASSERT_TRUE(read->front().navigation.has_value());
-  EXPECT_DOUBLE_EQ(read->front().navigation->target_m, 0.002);
-  EXPECT_EQ(read->front().magnitudes.map_drift_m_per_sqrt_s, 0.0);
-  EXPECT_GT(read->front().magnitudes.wire_bending_rad, 0.0);
+  ASSERT_TRUE(read->navigation.has_value());
+  EXPECT_DOUBLE_EQ(read->navigation->target_m, 0.002);
+  EXPECT_EQ(read->magnitudes.map_drift_m_per_sqrt_s, 0.0);
+  EXPECT_GT(read->magnitudes.wire_bending_rad, 0.0);
 }
 
-TEST(SystemProfile, RefusesWhatItDoesNotKnow) {
+TEST(StudyProfile, RefusesWhatItDoesNotKnow) {
   const auto refused = [](const char* key, const json& value) {
-    json system = system_json();
-    system[key] = value;
-    const auto read = parsed(system);
+    json profile = profile_json();
+    profile[key] = value;
+    const auto read = parsed(profile);
     return read.ok() ? std::string("accepted") : read.error().message;
   };
-  EXPECT_THAT(refused("guidance", "by smell"), HasSubstr("mine.json: systems[0].guidance"));
+  EXPECT_THAT(refused("guidance", "by smell"), HasSubstr("mine.json: guidance"));
   EXPECT_THAT(refused("exposure", "all of it"),
               HasSubstr("'all of it' is unknown (known: laminae, transverse processes)"));
   EXPECT_THAT(refused("instrument", "spoon"), HasSubstr("'spoon': unknown"));
   EXPECT_THAT(refused("method", "third"), HasSubstr("third"));
   EXPECT_THAT(refused("magnitudes", {{"tissue_m", 5.0}}), HasSubstr("tissue_m is 5, must lie in"));
-  EXPECT_EQ(
-      refused("magnitudes", {{"tissue_m", 0.001}, {"tisue_m", 0.001}}),
-      "mine.json: systems[0].magnitudes.tisue_m is unknown: no magnitude of the simulated room "
-      "has that name");
-  EXPECT_THAT(system_named("nobody").error().message,
-              HasSubstr("--profile nobody: neither a file nor a known system (known: liebmann"));
+  EXPECT_EQ(refused("magnitudes", {{"tissue_m", 0.001}, {"tisue_m", 0.001}}),
+            "mine.json: magnitudes.tisue_m is unknown: no magnitude of the simulated room has that "
+            "name");
+  EXPECT_EQ(profile_named("nobody").error().message,
+            "--profile nobody: neither a file nor liebmann-2019");
 }
 
 json study_of(const std::vector<std::vector<double>>& angles_of_operations) {
@@ -120,7 +112,7 @@ json study_of(const std::vector<std::vector<double>>& angles_of_operations) {
   return {{"runs", runs}};
 }
 
-TEST(SystemTable, TheScrewsOfOneOperationCountOnce) {
+TEST(ClusteredMean, TheScrewsOfOneOperationCountOnce) {
   // Two operations whose screws agree: the mean is known no better than two values tell.
   const auto mean = mean_over(study_of({{1, 1, 1, 1}, {3, 3, 3, 3}}), "angle_error_deg", true);
   ASSERT_TRUE(mean.has_value());
@@ -129,24 +121,6 @@ TEST(SystemTable, TheScrewsOfOneOperationCountOnce) {
   EXPECT_EQ(mean->operations, 2u);
   EXPECT_DOUBLE_EQ(mean->standard_error, 1.0);
   EXPECT_FALSE(mean_over(study_of({{1.0}}), "entry_error_mm", true).has_value());
-}
-
-TEST(SystemTable, AgreesWithinTwoStandardErrorsAndNotBeyond) {
-  const SystemProfile system = parsed(system_json())->front();
-  // The published mean 3.0 has a standard error of 0.2; this one adds none.
-  const auto verdict = [&](double angle) {
-    const auto found = predictions_of(system, study_of({{angle}, {angle}}));
-    EXPECT_EQ(found.size(), 1u);
-    return found.front();
-  };
-  EXPECT_TRUE(verdict(3.39).agrees());
-  EXPECT_FALSE(verdict(3.41).agrees());
-  EXPECT_NEAR(verdict(3.41).z, 2.05, 1e-9);
-  EXPECT_FALSE(verdict(3.0).assumed_error);
-  EXPECT_FALSE(*verdict(3.0).spread_agrees()) << "no scatter at all is not one of 1.0";
-  EXPECT_GT(verdict(3.39).mean_p, 0.05);
-  EXPECT_LT(verdict(3.42).mean_p, 0.05);
-  EXPECT_LT(*verdict(3.0).sd_p, 0.01);
 }
 
 json level_off_by(double error_mm, double sd_mm) {
