@@ -8,7 +8,7 @@ namespace orthonav::sim {
 
 /// Every imperfection of the simulated operating room. `perfect()` has all of them at zero. Each
 /// line says where its default comes from: a measurement, a publication, or our own estimate
-/// ("estimate": not published for this device or this hand). For vectors, SD is per axis.
+/// ("a guess": not published for this device or this hand). For vectors, SD is per axis.
 /// docs/accuracy.md discusses which of them decide the outcome.
 struct ErrorModel {
   // The camera: HoloLens 2 front cameras. Grey values are of 255.
