@@ -70,7 +70,11 @@ int run(int argc, char** argv) {
   StopSignals signals;  // before any thread
   keep_memory_reserve();
   register_igtl_tracker();
-  CLI::App app{"orthonav: standalone mixed-reality navigation for orthopaedic surgery", "orthonav"};
+  CLI::App app{
+      "orthonav: standalone mixed-reality navigation for orthopaedic surgery. Tried in simulation "
+      "and on "
+      "stand-ins, never yet on a headset or a patient.",
+      "orthonav"};
   app.require_subcommand(1);
   app.set_version_flag("--version", ORTHONAV_VERSION);
   Action action;
