@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/printed.h"
+#include "base/random.h"
 #include "base/translation.h"
 #include "nav/registration/registration.h"
 #include "nav/statistics/symmetric_eigen.h"
@@ -70,17 +71,6 @@ Matrix6 information(const std::vector<Touch>& sorted, Vec3 centre_m) {
     i = j;
   }
   return sum;
-}
-
-/// Quantile of the standard normal distribution, by bisection: it is rarely needed.
-double normal_quantile(double probability) {
-  double low = -8.0;
-  double high = 8.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (0.5 * std::erfc(-middle / std::sqrt(2.0)) < probability ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
 }
 
 }  // namespace
