@@ -9,11 +9,6 @@
 namespace orthonav::render {
 namespace {
 
-Float3 middle(const MeshItem& item) {
-  const Matrix4& m = item.world_from_model;
-  return {m[12], m[13], m[14]};
-}
-
 Float3 middle(const LineItem& item) {
   Float3 sum;
   for (const Float3 point : item.points) {
@@ -27,6 +22,13 @@ Float3 middle(const TriangleItem& item) {
 }
 
 /// Squared distance from the point between the eyes.
+float distance2(const MeshItem& item, const Head& head, const BoxOf& box_of) {
+  const Box box = box_of(item);
+  const Float3 from_head =
+      transformed(item.world_from_model, 0.5f * (box.low + box.high)) - head.position;
+  return dot(from_head, from_head);
+}
+
 template <class Item>
 float distance2(const Item& item, const Head& head) {
   const Float3 from_head = middle(item) - head.position;
@@ -51,7 +53,7 @@ std::partial_ordering compare_points(const Range& a, const Range& b) {
 
 bool content_less(const MeshItem& a, const MeshItem& b) {
   const auto key_of = [](const MeshItem& item) {
-    return std::tuple(item.world_from_model, key(item.colour), item.style,
+    return std::tuple(item.world_from_model, key(item.colour), key(item.tint), item.style,
                       item.mesh->positions.size(), item.mesh->indices.size());
   };
   if (const auto order = key_of(a) <=> key_of(b); order != 0) {
@@ -66,7 +68,7 @@ bool content_less(const MeshItem& a, const MeshItem& b) {
   if (const auto order = compare_points(a.mesh->normals, b.mesh->normals); order != 0) {
     return order < 0;
   }
-  return a.mesh->indices < b.mesh->indices;
+  return std::tie(a.mesh->indices, a.mesh->tints) < std::tie(b.mesh->indices, b.mesh->tints);
 }
 
 bool content_less(const LineItem& a, const LineItem& b) {
@@ -100,13 +102,14 @@ bool content_less(const TextItem& a, const TextItem& b) {
                                       });
 }
 
-template <class Item>
-void sort_items(std::span<const Item> items, const Head& head, std::vector<std::uint32_t>& order) {
+template <class Item, class Distance2>
+void sort_items(std::span<const Item> items, const Distance2& distance2_of,
+                std::vector<std::uint32_t>& order) {
   order.resize(items.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-    const float a = distance2(items[i], head);
-    const float b = distance2(items[j], head);
+    const float a = distance2_of(items[i]);
+    const float b = distance2_of(items[j]);
     if (a != b) {
       return a > b;
     }
@@ -117,11 +120,19 @@ void sort_items(std::span<const Item> items, const Head& head, std::vector<std::
   });
 }
 
+/// Of items whose middle is seen from the items themselves.
+template <class Item>
+void sort_items(std::span<const Item> items, const Head& head, std::vector<std::uint32_t>& order) {
+  sort_items(
+      items, [&](const Item& item) { return distance2(item, head); }, order);
+}
+
 }  // namespace
 
-void sort_for_drawing(std::span<const MeshItem> items, const Head& head,
+void sort_for_drawing(std::span<const MeshItem> items, const Head& head, const BoxOf& box_of,
                       std::vector<std::uint32_t>& order) {
-  sort_items(items, head, order);
+  sort_items(
+      items, [&](const MeshItem& item) { return distance2(item, head, box_of); }, order);
 }
 void sort_for_drawing(std::span<const LineItem> items, const Head& head,
                       std::vector<std::uint32_t>& order) {

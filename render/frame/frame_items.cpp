@@ -34,7 +34,7 @@ Matrix4 world_from_caps(const TextItem& item, const Head& head) {
 }
 
 void FrameItems::build(const Scene& scene, const std::vector<View>& views, const Font& font,
-                       float least_rad, HeadTexts head_texts) {
+                       const BoxOf& box_of, float least_rad, HeadTexts head_texts) {
   translucent_meshes_.clear();
   solids_.clear();
   triangles_.clear();
@@ -47,7 +47,7 @@ void FrameItems::build(const Scene& scene, const std::vector<View>& views, const
   for (const View& view : views) {
     eyes_.push_back(transformed(rigid_inverse(view.eye_from_world), {0, 0, 0}));
   }
-  sort_for_drawing(scene.meshes, head, order_);
+  sort_for_drawing(scene.meshes, head, box_of, order_);
   for (const std::uint32_t i : order_) {
     const MeshItem& item = scene.meshes[i];
     (is_opaque(item) ? solids_ : translucent_meshes_).push_back({&item, {}});

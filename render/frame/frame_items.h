@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -60,9 +59,10 @@ struct PixelSize {
 /// when a frame is larger than all before it.
 class FrameItems {
  public:
-  /// Points of lines are left out where that moves the line by less than `least_rad`.
+  /// `box_of` gives a mesh's bounding box. Points of lines are left out where that moves the line
+  /// by less than `least_rad`.
   void build(const Scene& scene, const std::vector<View>& views, const Font& font,
-             float least_rad = 0, HeadTexts head_texts = HeadTexts::kDrawn);
+             const BoxOf& box_of, float least_rad = 0, HeadTexts head_texts = HeadTexts::kDrawn);
 
   template <class LevelOf>
   void set_levels(const LevelOf& level_of) {
@@ -74,10 +74,8 @@ class FrameItems {
   }
 
   /// Finds where each item may appear in the views of one pass, and the regions that hold all
-  /// items: no two regions share a pixel, and each item lies in one region. `box_of` gives a mesh's
-  /// bounding box.
-  void place(std::span<const View> views, PixelSize size,
-             const std::function<Box(const MeshItem&)>& box_of);
+  /// items: no two regions share a pixel, and each item lies in one region.
+  void place(std::span<const View> views, PixelSize size, const BoxOf& box_of);
   [[nodiscard]] const std::vector<PixelRect>& regions() const { return regions_; }
 
   [[nodiscard]] const std::vector<MeshDraw>& translucent_meshes() const {

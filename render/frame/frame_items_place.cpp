@@ -24,8 +24,7 @@ PixelRect FrameItems::bounds_of(const TextDraw& draw, ScreenBounds& bounds) cons
   return bounds.rect();
 }
 
-void FrameItems::place(std::span<const View> views, PixelSize size,
-                       const std::function<Box(const MeshItem&)>& box_of) {
+void FrameItems::place(std::span<const View> views, PixelSize size, const BoxOf& box_of) {
   ScreenBounds bounds(views, size.width_px, size.height_px);
   regions_.clear();
   for (auto* meshes : {&translucent_meshes_, &solids_}) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 
 #include "render/pixel_rect.h"
@@ -14,6 +15,8 @@ struct Box {
   Float3 high;
 };
 [[nodiscard]] Box box_of(const MeshData& mesh);
+/// Looks up the box of an item's mesh, which takes too long to be found anew in each frame.
+using BoxOf = std::function<Box(const MeshItem&)>;
 
 /// Collects the pixels that the convex hull of points may touch in one or two views, never too few:
 /// a hull that crosses the near plane may be anywhere. Rectangles are clipped to the image.

@@ -29,8 +29,9 @@ FrameItems covering_items(const Font& font) {
   scene.triangles.push_back({kLabel, {Float3{-9, -9, -1}, {9, -9, -1}, {0, 9, -1}}, {}});
   FrameItems items;
   const std::vector<View> views(kViews);
-  items.build(scene, views, font);
-  items.place(views, {kSide_px, kSide_px}, [](const MeshItem&) { return Box{}; });
+  const auto no_box = [](const MeshItem&) { return Box{}; };
+  items.build(scene, views, font, no_box);
+  items.place(views, {kSide_px, kSide_px}, no_box);
   return items;
 }
 

@@ -220,7 +220,9 @@ Status SceneDrawing::take(const Scene& scene) {
 void SceneDrawing::build(const Scene& scene, const std::vector<View>& views, PixelSize size,
                          PassKind kind, DrawnViews drawn, HeadTexts head_texts) {
   const float rad = pixel_rad(views, size);
-  items_.build(scene, views, font_, kUnseen_px * rad, head_texts);
+  items_.build(
+      scene, views, font_, [this](const MeshItem& item) { return meshes_.find(item.mesh)->box; },
+      kUnseen_px * rad, head_texts);
   items_.set_levels([&](const MeshItem& item) {
     const GpuMesh& copy = *meshes_.find(item.mesh);
     const float error_m = kSurface_px * rad * nearest_m(item, copy.box, views);

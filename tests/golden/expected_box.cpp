@@ -63,7 +63,8 @@ Box box_of_shapes(const GoldenScene& golden, render::Label label, std::size_t vi
   // does.
   const render::Font font;
   render::FrameItems items;
-  items.build(alone.scene, golden.views, font);
+  items.build(alone.scene, golden.views, font,
+              [](const render::MeshItem& item) { return render::box_of(*item.mesh); });
   for (const render::SpanDraw& line : items.lines()) {
     for (std::uint32_t i = 0; i < 2 * line.count; ++i) {
       const render::Float4& p = items.data()[line.first + i];

@@ -15,7 +15,12 @@ using Order = std::vector<std::uint32_t>;
 template <class Item>
 Order order_of(const std::vector<Item>& items, const Head& head = {}) {
   Order order;
-  sort_for_drawing(items, head, order);
+  if constexpr (std::is_same_v<Item, MeshItem>) {
+    sort_for_drawing(
+        items, head, [](const MeshItem& item) { return box_of(*item.mesh); }, order);
+  } else {
+    sort_for_drawing(items, head, order);
+  }
   return order;
 }
 
@@ -56,6 +61,25 @@ TEST(DrawOrder, TellsMeshesApartByNormalsAndIndicesToo) {
   other = sphere;
   std::swap(other.indices[0], other.indices[1]);
   expect_order_by_content(sphere, other);
+}
+
+TEST(DrawOrder, GoesByWhereMeshesAreAndNotByTheirOrigins) {
+  // Both are modelled in the world: their origins are one.
+  const auto sphere_at = [](float z_m) {
+    MeshData sphere = make_sphere(0.05f);
+    for (Float3& p : sphere.positions) {
+      p.z += z_m;
+    }
+    MeshItem item;
+    item.mesh = std::make_shared<const MeshData>(std::move(sphere));
+    return item;
+  };
+  MeshItem far = sphere_at(-2);
+  far.label = 2;
+  MeshItem near = sphere_at(-1);
+  near.label = 1;
+  EXPECT_THAT(order_of(std::vector{near, far}), ElementsAre(1, 0));
+  EXPECT_THAT(order_of(std::vector{far, near}), ElementsAre(0, 1));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/shapes.h"
 #include "tests/render/test_renderer.h"
 #include "tests/render/test_scenes.h"
 
@@ -26,6 +27,40 @@ TEST(Order, OfSubmissionNeverChangesAFrame) {
     EXPECT_EQ(renderer.labels(scene, TestRenderer::straight_ahead()), labels);
     scene.texts.pop_back();
     EXPECT_NE(renderer.draw(scene, TestRenderer::straight_ahead()), image) << "the twin";
+  }
+}
+
+/// Two meshes at one place, whose tints alone tell them apart: the item's, or the vertices'.
+TEST(Order, OfMeshesThatDifferInTintsAloneNeverChangesAFrame) {
+  auto tinted = make_sphere(0.1f);
+  tinted.tints.assign(tinted.positions.size(), 1.0f);
+  auto untinted = tinted;
+  untinted.tints.assign(tinted.positions.size(), 0.0f);
+  MeshItem item;
+  item.label = 1;
+  item.world_from_model[14] = -1;
+  item.mesh = std::make_shared<const MeshData>(tinted);
+  item.tint = {1, 0, 0, 1};
+  MeshItem other_tint = item;
+  other_tint.tint = {0, 0, 1, 1};
+  MeshItem other_mesh = item;
+  other_mesh.mesh = std::make_shared<const MeshData>(untinted);
+  for (const MeshItem& other : {other_tint, other_mesh}) {
+    for (const float opacity : {1.0f, 0.5f}) {
+      std::array items = {item, other};
+      for (MeshItem& each : items) {
+        each.colour.a = each.tint.a = opacity;
+      }
+      TestRenderer renderer(64, 64, Blend::kOver);
+      const auto drawn = [&](const MeshItem& first, const MeshItem& second) {
+        Scene scene;
+        scene.meshes.push_back(first);
+        scene.meshes.push_back(second);
+        return renderer.draw(scene, TestRenderer::straight_ahead());
+      };
+      EXPECT_EQ(drawn(items[0], items[1]), drawn(items[1], items[0])) << opacity;
+      EXPECT_NE(drawn(items[0], items[0]), drawn(items[1], items[1])) << "the twin";
+    }
   }
 }
 
