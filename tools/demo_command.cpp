@@ -41,6 +41,7 @@ class Demo {
   Demo(DemoArguments arguments, StopSignals& signals)
       : arguments_(std::move(arguments)), signals_(signals), pictures_(arguments_.out) {
     signals_.let_finish();
+    signals_.outlast_terminal();
     limit_memory();
   }
 

@@ -1,15 +1,40 @@
 #include "tools/event_log.h"
 
-#include <spdlog/sinks/basic_file_sink.h>
+#include <fcntl.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+#include <system_error>
 #include <vector>
 
+#include "base/how_many.h"
 #include "engine/session/part_wording.h"
 #include "engine/session/saved_wording.h"
 
 namespace orthonav::tools {
+namespace {
+
+class UnblockedSink : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit UnblockedSink(UnblockedOutput& output) : output_(output) {}
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    output_.add({line.data(), line.size()});
+  }
+  void flush_() override {}
+
+  UnblockedOutput& output_;
+};
+
+}  // namespace
 
 void EventLogArguments::add_to(CLI::App& command) {
   command.add_option("--log", file, "adds what happens to this file, line by line")
@@ -19,16 +44,24 @@ void EventLogArguments::add_to(CLI::App& command) {
 }
 
 EventLog::EventLog() = default;
-EventLog::~EventLog() = default;
+EventLog::~EventLog() { tell_losses(); }
 
 Status EventLog::open(const EventLogArguments& arguments) {
   std::vector<spdlog::sink_ptr> sinks;
-  try {
-    if (!arguments.file.empty()) {
-      sinks.push_back(std::make_shared<spdlog::sinks::basic_file_sink_mt>(arguments.file));
+  if (!arguments.file.empty()) {
+    std::error_code told_by_open;
+    std::filesystem::create_directories(std::filesystem::path(arguments.file).parent_path(),
+                                        told_by_open);
+    const int file = ::open(arguments.file.c_str(),
+                            O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666);
+    if (file < 0) {
+      return Error{"--log: " + arguments.file +
+                       ": cannot be written: " + std::generic_category().message(errno),
+                   ErrorCode::kIo};
     }
-  } catch (const spdlog::spdlog_ex& error) {
-    return Error{"--log: " + arguments.file + ": " + error.what(), ErrorCode::kIo};
+    file_ = arguments.file;
+    output_ = std::make_unique<UnblockedOutput>(file, UnblockedOutput::Closes::kAtTheEnd);
+    sinks.push_back(std::make_shared<UnblockedSink>(*output_));
   }
   if (arguments.verbose) {
     sinks.push_back(std::make_shared<spdlog::sinks::stderr_sink_mt>());
@@ -101,7 +134,21 @@ void EventLog::ended(const engine::LoopReport& report) {
   }
   log_->info("{} frames shown, {}", report.displayed,
              report.done ? "operation complete" : "operation incomplete");
-  log_->flush();
+}
+
+void EventLog::tell_losses() {
+  if (!output_) {
+    return;
+  }
+  const bool settled = output_->settle();
+  if (settled && output_->lost() == 0) {
+    return;
+  }
+  const int problem = output_->error_number();
+  std::fprintf(
+      stderr, "orthonav: --log: %s: %s missing%s: %s\n", file_.c_str(),
+      how_many(output_->lost(), "line").c_str(), settled ? "" : " and its end",
+      problem == 0 ? "the disk is too slow" : std::generic_category().message(problem).c_str());
 }
 
 }  // namespace orthonav::tools

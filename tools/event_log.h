@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "engine/live/frame_loop.h"
 #include "tools/status_changes.h"
+#include "tools/unblocked_output.h"
 
 namespace spdlog {
 class logger;
@@ -23,7 +24,8 @@ struct EventLogArguments {
 
 /// A log for people: steps, messages to the surgeon and failures of the headset, one line each with
 /// wall time and headset time. Verbose: also which tools were lost and found and which commands
-/// were heard, and everything on standard error too. The clinical record is the journal.
+/// were heard, and everything on standard error too. No line waits for the disk; those that a slow
+/// disk could not take are counted and told at the end. The clinical record is the journal.
 class EventLog : public engine::LoopObserver {
  public:
   EventLog();
@@ -38,7 +40,12 @@ class EventLog : public engine::LoopObserver {
   void ended(const engine::LoopReport& report);
 
  private:
-  std::shared_ptr<spdlog::logger> log_;  ///< null: no log is requested
+  /// On standard error, if the file lacks lines.
+  void tell_losses();
+
+  std::string file_;
+  std::unique_ptr<UnblockedOutput> output_;  ///< the file; null: none
+  std::shared_ptr<spdlog::logger> log_;      ///< null: no log is requested
   StatusChanges changes_;
   std::string heard_;
   bool lost_ = false;

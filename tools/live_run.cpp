@@ -36,6 +36,7 @@ class LiveRun {
   LiveRun(RunArguments arguments, StopSignals& signals)
       : arguments_(std::move(arguments)), signals_(signals) {
     signals_.let_finish();
+    signals_.outlast_terminal();
     limit_memory();
   }
 
@@ -60,7 +61,12 @@ class LiveRun {
       return bad_input(files_.close(report.error().message));
     }
     const engine::OperationResult result = result_of(std::move(*report));
-    if (const Status finished = finish(result); !finished) {
+    const std::string text = engine::report_json(result);
+    const Status finished = files_.finish(result, text, room_ != nullptr);
+    // The files are on the disk before a terminal that nobody reads can hold this up.
+    std::fputs(arguments_.json ? text.c_str() : operation_summary(result).c_str(), stdout);
+    print_figures(result.loop);
+    if (!finished) {
       return bad_input(finished.error().message);
     }
     tell_what_is_kept(signals_, {arguments_.out, arguments_.record});
@@ -256,16 +262,14 @@ class LiveRun {
     return about;
   }
 
-  Status finish(const engine::OperationResult& result) {
-    const std::string report = engine::report_json(result);
-    std::fputs(arguments_.json ? report.c_str() : operation_summary(result).c_str(), stdout);
-    if (arguments_.stats) {
-      print_stats(result.loop);
+  void print_figures(const engine::LoopReport& loop) {
+    if (!arguments_.stats) {
+      return;
     }
-    if (const auto connection = headset_->connection(); connection && arguments_.stats) {
+    print_stats(loop);
+    if (const auto connection = headset_->connection()) {
       std::fputs(connection_report(*connection).c_str(), stderr);
     }
-    return files_.finish(result, report, room_ != nullptr);
   }
 
   RunArguments arguments_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/guarded.h"
+#include "base/last_words.h"
 #include "tools/bad_command_line.h"
 #include "tools/command.h"
 #include "tools/help_text.h"
@@ -19,10 +20,18 @@
 
 namespace orthonav::tools {
 
+namespace {
+
+/// A message as the one line that is printed.
+std::string one_line(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  return "orthonav: " + message + "\n";
+}
+
+}  // namespace
+
 int bad_input(const std::string& message) {
-  std::string line = message;
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  std::fprintf(stderr, "orthonav: %s\n", line.c_str());
+  std::fputs(one_line(message).c_str(), stderr);
   return kBadInput;
 }
 
@@ -93,7 +102,7 @@ int run(int argc, char** argv) {
 
 /// Called when an exception leaves an unguarded thread. Journal and log are on the disk by then.
 void end_in_one_line() {
-  bad_input(orthonav::ended_by_exception("a thread").message);
+  last_words(one_line(orthonav::ended_by_exception("a thread").message));
   std::_Exit(kBadInput);
 }
 

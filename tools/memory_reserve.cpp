@@ -8,8 +8,8 @@
 #include <atomic>
 #include <csignal>
 #include <new>
-#include <string_view>
 
+#include "base/last_words.h"
 #include "base/sanitizers.h"
 
 namespace orthonav::tools {
@@ -37,8 +37,7 @@ bool free_memory_reserve() {
   if (kept == nullptr) {
     return false;
   }
-  constexpr std::string_view kLine = "orthonav: out of memory: ending in order\n";
-  (void)!::write(STDERR_FILENO, kLine.data(), kLine.size());
+  last_words("orthonav: out of memory: ending in order\n");
   ::munmap(kept, kReserveBytes);
   ::kill(::getpid(), SIGTERM);
   return true;

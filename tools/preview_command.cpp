@@ -269,6 +269,7 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   add_config_option(*preview);
   preview->callback([arguments, &action, &signals] {
     action = [arguments, &signals] {
+      signals.outlast_terminal();
       limit_memory();
       if (const Status spoken = arguments->wearer.use(); !spoken) {
         return bad_input(spoken.error().message);

@@ -162,6 +162,7 @@ int watch(hl2ss::Server& server, SceneWatch& scene, std::int64_t sessions,
 }
 
 int serve(ServeArguments arguments, StopSignals& signals) {
+  signals.outlast_terminal();
   const auto faults = hl2ss::faults_of(arguments.faults);
   if (!faults) {
     return bad_input("--faults: " + faults.error().message);

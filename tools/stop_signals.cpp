@@ -2,8 +2,9 @@
 
 #include <pthread.h>
 #include <unistd.h>
-#include <cstdio>
 #include <utility>
+
+#include "base/last_words.h"
 
 namespace orthonav::tools {
 namespace {
@@ -13,7 +14,14 @@ constexpr int kOver = SIGUSR1;
 /// The exit code by which shells report a program that a signal ended.
 constexpr int kEndedBySignal = 128;
 
-const char* name_of_signal(int signal) { return signal == SIGINT ? "SIGINT" : "SIGTERM"; }
+std::string name_of_signal(int signal) {
+  return signal == SIGINT ? "SIGINT" : signal == SIGHUP ? "SIGHUP" : "SIGTERM";
+}
+
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
 
 }  // namespace
 
@@ -22,6 +30,10 @@ StopSignals::StopSignals() {
   for (const int signal : {SIGINT, SIGTERM, kOver}) {
     sigaddset(&waited_for_, signal);
   }
+  if (!is_ignored(SIGHUP)) {
+    sigaddset(&waited_for_, SIGHUP);
+  }
+  std::signal(SIGPIPE, SIG_IGN);
   pthread_sigmask(SIG_BLOCK, &waited_for_, &mask_before_);
   waiter_ = std::thread([this] { wait(); });
 }
@@ -44,6 +56,11 @@ void StopSignals::on_stop(std::function<void()> stop) {
   if (stop_ && caught_ != 0) {
     stop_();
   }
+}
+
+void StopSignals::outlast_terminal() {
+  const MutexLock lock(mutex_);
+  standard_error_.emplace();
 }
 
 std::optional<std::string> StopSignals::caught() const {
@@ -71,17 +88,25 @@ void StopSignals::wait() {
 
 void StopSignals::take(int signal) {
   const MutexLock lock(mutex_);
-  if (caught_ != 0) {
+  if (signal != SIGHUP && std::exchange(asked_, true)) {
     _exit(kEndedBySignal + signal);
   }
   if (!finishes_) {
-    std::fprintf(stderr, "\northonav: stopped by %s; every file that it wrote is whole\n",
-                 name_of_signal(signal));
+    last_words("\northonav: stopped by " + name_of_signal(signal) +
+               "; every file that it wrote is whole\n");
     _exit(kEndedBySignal + signal);
   }
+  if (caught_ != 0) {
+    return;
+  }
   caught_ = signal;
-  std::fprintf(stderr, "\northonav: %s: finishing what was begun; once more ends at once\n",
-               name_of_signal(signal));
+  const std::string line = "\northonav: " + name_of_signal(signal) +
+                           ": finishing what was begun; once more ends at once\n";
+  if (standard_error_) {
+    standard_error_->add(line);
+  } else {
+    last_words(line);
+  }
   if (stop_) {
     stop_();
   }

@@ -44,11 +44,11 @@ xdotool key i; there preview-001.png
 xdotool mousemove --window $window 160 20 mousedown 1
 for x in 162 164 166 168; do xdotool mousemove --window $window $x 20; done
 xdotool mouseup 1 key i; there preview-002.png
-kill -TERM $pid
+kill -HUP $pid
 wait $pid
 )";
-  EXPECT_EQ(shell(mouse), 143) << content("out");
-  EXPECT_THAT(content("out"), HasSubstr("wrote ./plan-001\n")) << "even when it is stopped";
+  EXPECT_EQ(shell(mouse), 129) << content("out");
+  EXPECT_THAT(content("out"), HasSubstr("wrote ./plan-001\n")) << "even when its terminal closes";
   EXPECT_GT(different(picture("preview-001.png"), picture("preview-002.png")), 1000u);
 }
 
