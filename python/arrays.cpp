@@ -5,11 +5,10 @@
 #include <cstring>
 #include <limits>
 
+#include "base/printed.h"
+
 namespace orthonav::python {
 namespace {
-
-/// Nothing that is navigated is farther away; beyond it squares of lengths become meaningless.
-constexpr double kFarthest_m = 1e4;
 
 std::string text_of(const py::object& value) { return py::str(value).cast<std::string>(); }
 
@@ -129,18 +128,19 @@ GreyImage grey_from(const py::object& value, const std::string& name) {
   return image;
 }
 
-std::array<double, 16> matrix_from(const py::object& value, const std::string& name) {
+std::array<double, 16> matrix_from(const py::object& value, const std::string& name,
+                                   double farthest_m) {
   const auto numbers = numbers_from(value, name, {4, 4});
   std::array<double, 16> matrix{};
   std::copy(numbers.begin(), numbers.end(), matrix.begin());
   if (matrix[12] != 0.0 || matrix[13] != 0.0 || matrix[14] != 0.0 || matrix[15] != 1.0) {
     throw Refused(name + ": its last row must be 0 0 0 1");
   }
-  for (const std::size_t i : {3U, 7U, 11U}) {
-    if (std::abs(matrix[i]) > kFarthest_m) {
-      throw Refused(name + ": shifts by " + std::to_string(matrix[i]) +
-                    " m, limit 10000 m (is it in millimetres?)");
-    }
+  const double shift_m = std::hypot(matrix[3], matrix[7], matrix[11]);
+  if (!(shift_m <= farthest_m)) {
+    throw Refused(
+        name + ": " +
+        printed("shifts by %.6g m, limit %g m (is it in millimetres?)", shift_m, farthest_m));
   }
   return matrix;
 }

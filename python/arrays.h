@@ -49,12 +49,18 @@ enum class Nan { kRefused, kMeansNothing };
                                                                        const std::string& name);
 /// uint8, rows by columns.
 [[nodiscard]] GreyImage grey_from(const py::object& value, const std::string& name);
+/// How far a pose may shift. A pose given in millimetres lies farther away than any in metres: in
+/// World a headset's map spans a building, a camera lies on the rig that it belongs to.
+inline constexpr double kFarthestInWorld_m = 100.0;
+inline constexpr double kFarthestOnRig_m = 10.0;
 /// The 16 numbers of a 4x4 matrix whose last row is 0 0 0 1.
-[[nodiscard]] std::array<double, 16> matrix_from(const py::object& value, const std::string& name);
+[[nodiscard]] std::array<double, 16> matrix_from(const py::object& value, const std::string& name,
+                                                 double farthest_m);
 
 template <class A, class B>
-[[nodiscard]] Transform<A, B> transform_from(const py::object& value, const std::string& name) {
-  const auto pose = Transform<A, B>::from_row_major(matrix_from(value, name));
+[[nodiscard]] Transform<A, B> transform_from(const py::object& value, const std::string& name,
+                                             double farthest_m = kFarthestInWorld_m) {
+  const auto pose = Transform<A, B>::from_row_major(matrix_from(value, name, farthest_m));
   if (!pose) {
     throw Refused(name + ": " + pose.error().message);
   }

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 #include <optional>
 
+#include "base/printed.h"
 #include "engine/session/guiding.h"
 #include "nav/guidance/anatomical_deviation.h"
 #include "python/arrays.h"
@@ -44,6 +45,19 @@ nav::TrackedPose pose_from(const py::object& pose) {
   return {transform_from<World, Marker>(pose, "pose"), {}, PoseStatus::kMeasured, {}};
 }
 
+/// Poses in millimetres that lie near the origin of World pass for metres, but not both of them for
+/// a tool at its screw.
+void check_distance(Point<World> tip, Point<World> entry) {
+  constexpr double kFarthestFromScrew_m = 3.0;
+  const double distance_m = (tip - entry).norm();
+  if (!(distance_m <= kFarthestFromScrew_m)) {
+    throw Refused(
+        printed("pose: puts the tip %.6g m from the screw's entry, limit %g m (are pose and "
+                "registration in metres?)",
+                distance_m, kFarthestFromScrew_m));
+  }
+}
+
 GuidedTool guide(const Model& model, const nav::ScrewPlan& screw, const py::object& registration,
                  const nav::ToolGeometry& tool, const py::object& pose) {
   check_screw(*model.prepared, screw);
@@ -51,6 +65,8 @@ GuidedTool guide(const Model& model, const nav::ScrewPlan& screw, const py::obje
   level.plan = {"", model.prepared, {screw}, {}};
   level.registration = registration_from(registration);
   const nav::TrackedPose measured = pose_from(pose);
+  check_distance(measured.value * tool.tip_in_marker,
+                 level.registration->world_from_vertebra * screw.entry);
   const engine::ToolInVertebra there = engine::in_vertebra(*level.registration, measured, tool, {});
   return {nav::guide(level.registration->world_from_vertebra, screw,
                      measured.value * tool.tip_in_marker, (measured.value * tool.axis_in_marker).v),
@@ -100,6 +116,9 @@ void bind_clearance(py::class_<GuidedTool>& guidance) {
 }
 
 }  // namespace
+
+template <>
+inline constexpr bool kIsBound<GuidedTool> = true;
 
 void bind_guidance(py::module_& module) {
   using nav::AnatomicalDeviation;

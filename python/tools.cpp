@@ -5,6 +5,7 @@
 #include "engine/case/tool_file.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/values.h"
 
 namespace orthonav::python {
 namespace {

@@ -28,8 +28,9 @@ CameraModel camera_from_lookup(const py::object& unit_plane) {
 
 StereoCalibration rig_from(const CameraModel& left, const CameraModel& right,
                            const py::object& left_from_rig, const py::object& right_from_rig) {
-  return {left, right, transform_from<LeftCamera, Rig>(left_from_rig, "left_from_rig"),
-          transform_from<RightCamera, Rig>(right_from_rig, "right_from_rig")};
+  return {left, right,
+          transform_from<LeftCamera, Rig>(left_from_rig, "left_from_rig", kFarthestOnRig_m),
+          transform_from<RightCamera, Rig>(right_from_rig, "right_from_rig", kFarthestOnRig_m)};
 }
 
 /// Pairs as Python gives them. They pass the contract of all devices, so that a tracker gets only
@@ -104,6 +105,15 @@ class Recording {
  private:
   std::unique_ptr<replay::ReplayHeadset> headset_;
 };
+
+}  // namespace
+
+template <>
+inline constexpr bool kIsBound<Tracker> = true;
+template <>
+inline constexpr bool kIsBound<Recording> = true;
+
+namespace {
 
 /// None if the tool is lost, since its last pose is not its present one.
 template <class Read>

@@ -106,9 +106,19 @@ refused("time_s", track, time_s=float("nan"))
 refused("time_s", track, time_s=1e300)
 refused("world_from_rig", track, world_from_rig=np.zeros((4, 4)))
 refused("millimetres", track, world_from_rig=changed(np.eye(4), 1e200, 0, 3))
+refused("world_from_rig: shifts by 707.107 m, limit 100 m", track,
+        world_from_rig=changed(changed(np.eye(4), 500, 0, 3), -500, 2, 3))
+refused("right_from_rig: shifts by 98 m, limit 10 m", orthonav.Rig, camera, camera, np.eye(4),
+        changed(np.eye(4), -98, 0, 3))
+refused("world_from_rig: has shape", track, world_from_rig=np.eye(4).ravel())
+refused("world_from_rig: holds nan", track, world_from_rig=changed(np.eye(4), np.nan, 0, 0))
+refused("world_from_rig", track, world_from_rig=np.diag([1, 1, -1, 1]))
 assert track()[0].status == "lost" and track(time_s=2.0)[0].world_from_marker is None
 refused("2", track, time_s=2.0)
 assert track(time_s=3.0, world_from_rig=None)[0].status == "lost"
+# Far from where the headset's map began, in metres; columns first in memory, as MATLAB has them.
+far = np.asfortranarray(changed(changed(np.eye(4), 60, 0, 3), -70, 2, 3))
+assert track(time_s=3.5, world_from_rig=far)[0].status == "lost"
 # Rows that are not beside each other in memory.
 assert len(track(time_s=4.0, left=np.zeros((96, 128), np.uint8)[::2, ::2])) == 1
 
@@ -128,6 +138,13 @@ refused("registration: has shape", told, registration=np.eye(3))
 refused("registration", told, registration=object())
 refused("registration", told, registration=None)
 refused("pose: holds nan", told, pose=np.full((4, 4), np.nan))
+# In millimetres: beyond what a map spans, or, near its origin, beyond any reach of the screw.
+refused("pose: shifts by 500 m", told, pose=changed(np.eye(4), 500, 0, 3))
+refused("registration: shifts by 500 m", told, registration=changed(np.eye(4), 500, 0, 3))
+refused("are pose and registration in metres?", told, pose=changed(np.eye(4), 80, 0, 3))
+refused("are pose and registration in metres?", told, registration=changed(np.eye(4), 80, 0, 3))
+refused("mm", register, 1e3 * points)
+assert told(registration=far, pose=far).depth_m is not None
 refused("not measured", told, pose=track(time_s=5.0)[0])
 
 # Scenes.
@@ -139,6 +156,55 @@ refused("width_px", orthonav.render_text, (scene % "").replace("32", "1e9"))
 refused("nowhere", orthonav.render_file, "/nowhere.json")
 refused("no such", orthonav.render_text, scene % "", device="no such card")
 refused("nowhere", orthonav.render_text, scene % '{"type": "vertebra", "mesh": "nowhere.stl"}')
+
+
+
+# Python can make an object that it never initializes. It is refused wherever it goes, of every class.
+def never_initialized(call, *arguments):
+    try:
+        call(*arguments)
+    except TypeError as error:
+        assert "initialized" in str(error) or "__init__" in str(error), error
+        return
+    raise AssertionError(f"{call}{arguments} took an object that was never initialized")
+
+
+class Forgetful(orthonav.Tracker):
+    def __init__(self):
+        pass
+
+
+never_initialized(Forgetful)
+never_initialized(orthonav.Tracker.track, Forgetful.__new__(Forgetful), grey, grey, 6.0, np.eye(4))
+blank = {name: kind.__new__(kind) for name, kind in vars(orthonav).items()
+         if isinstance(kind, type) and kind is not orthonav.Error}
+assert len(blank) == 13, sorted(blank)
+for name, thing in blank.items():
+    for member, value in vars(type(thing)).items():
+        if isinstance(value, property):
+            never_initialized(getattr, thing, member)
+never_initialized(blank["Tracker"].track, grey, grey, 6.0, np.eye(4))
+never_initialized(next, blank["Recording"])
+never_initialized(orthonav.Rig, blank["Camera"], camera, np.eye(4), np.eye(4))
+never_initialized(orthonav.Tracker, blank["Rig"], [guide])
+never_initialized(orthonav.Tracker, rig, [guide, blank["Tool"]])
+never_initialized(orthonav.register, blank["VertebraModel"], points)
+never_initialized(orthonav.register, model, points, [blank["Screw"]])
+never_initialized(orthonav.guide, model, blank["Screw"], np.eye(4), guide, np.eye(4))
+never_initialized(orthonav.guide, model, screw, blank["Registration"], guide, np.eye(4))
+never_initialized(orthonav.guide, model, screw, np.eye(4), guide, blank["TrackedTool"])
+# One whose initialization failed is none either; a subclass that does it right is as good as its base.
+failed = orthonav.Tracker.__new__(orthonav.Tracker)
+refused("tools", failed.__init__, rig, [guide, guide])
+never_initialized(failed.track, grey, grey, 1.0, np.eye(4))
+
+
+class Mine(orthonav.Tracker):
+    def __init__(self):
+        super().__init__(rig, [guide])
+
+
+assert Mine().track(grey, grey, 1.0, np.eye(4))[0].status == "lost"
 
 # Another kind of argument altogether is Python's own TypeError, as everywhere.
 try:
