@@ -81,8 +81,7 @@ int run(int argc, char** argv) {
   register_igtl_tracker();
   CLI::App app{
       "orthonav: standalone mixed-reality navigation for orthopaedic surgery. Tried in simulation "
-      "and on "
-      "stand-ins, never yet on a headset or a patient.",
+      "and on stand-ins, never yet on a headset or a patient.",
       "orthonav"};
   app.require_subcommand(1);
   app.set_version_flag("--version", ORTHONAV_VERSION);
