@@ -5,6 +5,7 @@
 #include "base/how_many.h"
 #include "base/joined.h"
 #include "engine/session/wording.h"
+#include "hal/net/host_port.h"
 #include "tools/arguments.h"
 #include "tools/igtl_messages.h"
 #include "tools/listening_place.h"
@@ -92,8 +93,9 @@ Result<std::unique_ptr<igtl::Server>> serve_igtl(const IgtlArguments& arguments,
     return Error{"--igtl, --igtl-allow, --igtl-token: " + server.error().message,
                  server.error().code};
   }
-  std::fprintf(stderr, "OpenIGTLink at %s:%d%s%s\n", options->address.c_str(), (*server)->port(),
-               options->token.is_asked_for() ? "; clients bring the token" : "", clients);
+  std::fprintf(stderr, "OpenIGTLink at %s:%d%s%s\n", net::before_port(options->address).c_str(),
+               (*server)->port(), options->token.is_asked_for() ? "; clients bring the token" : "",
+               clients);
   return server;
 }
 

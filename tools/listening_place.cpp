@@ -1,26 +1,25 @@
 #include "tools/listening_place.h"
 
-#include <charconv>
 #include <utility>
+
+#include "hal/net/host_port.h"
 
 namespace orthonav::tools {
 
 Result<ListeningPlace> listening_place(const std::string& option, const std::string& text) {
-  constexpr int kMostPort = 65535;
-  ListeningPlace place;
-  const std::size_t colon = text.rfind(':');
-  if (colon != std::string::npos) {
-    place.host = text.substr(0, colon);
+  const auto refused = [&](const std::string& why) {
+    return Error{option + " \"" + text + "\": " + why +
+                 "; must be PORT or ADDRESS:PORT, with a port from 0 to 65535"};
+  };
+  if (text.find(':') == std::string::npos) {
+    const auto port = net::port_from("port", text, 0);
+    return port ? Result(ListeningPlace{.port = *port}) : refused(port.error().message);
   }
-  const std::string port = colon == std::string::npos ? text : text.substr(colon + 1);
-  const char* const last = port.data() + port.size();
-  const auto [end, problem] = std::from_chars(port.data(), last, place.port);
-  if (problem != std::errc() || end != last || place.port < 0 || place.port > kMostPort ||
-      place.host.empty()) {
-    return Error{option + " \"" + text +
-                 "\": must be PORT or ADDRESS:PORT, with a port from 0 to 65535"};
+  const auto place = net::host_and_port(text, 0);
+  if (!place || !place->port) {
+    return refused(place ? "names no port" : place.error().message);
   }
-  return place;
+  return ListeningPlace{place->host, *place->port};
 }
 
 Result<net::Token> token_asked_for(const std::string& option, const std::string& file) {

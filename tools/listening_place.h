@@ -13,8 +13,8 @@ struct ListeningPlace {
   int port = 0;
 };
 
-/// From "PORT", which is for this machine only, or "ADDRESS:PORT". `option`, such as "--web",
-/// begins an Error.
+/// From "PORT", which is for this machine only, or "ADDRESS:PORT", "[ADDRESS]:PORT". `option`, such
+/// as "--web", begins an Error.
 Result<ListeningPlace> listening_place(const std::string& option, const std::string& text);
 
 /// The token in a file, which is made where there is none; without a file nobody is asked for one.

@@ -9,6 +9,7 @@
 #include "engine/study/sim_scenario.h"
 #include "hal/api/as_headset.h"
 #include "hal/hl2ss/server/server.h"
+#include "hal/net/host_port.h"
 #include "hal/sim/sim_headset.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
@@ -73,8 +74,8 @@ void say_where(const hl2ss::Server& server, const ServeArguments& arguments) {
   std::fprintf(stderr,
                "serving a HoloLens 2 at %s, ports from %d on; in another window:\n"
                "  orthonav run --headset 'hl2ss://%s?port=%d%s'\n",
-               options.host.c_str(), server.first_port(), options.host.c_str(), server.first_port(),
-               side.c_str());
+               options.host.c_str(), server.first_port(), net::before_port(options.host).c_str(),
+               server.first_port(), side.c_str());
 }
 
 /// Draws what the headset's scene shows, a picture a second while it shows anything, and films it.
@@ -167,6 +168,12 @@ int serve(ServeArguments arguments, StopSignals& signals) {
   if (!faults) {
     return bad_input("--faults: " + faults.error().message);
   }
+  const auto place = net::host_and_port(arguments.server.host);
+  if (!place || place->port) {
+    return bad_input("--host \"" + arguments.server.host +
+                     "\": " + (place ? "--port names the first port" : place.error().message));
+  }
+  arguments.server.host = place->host;
   arguments.server.faults = *faults;
   arguments.server.seed = arguments.seed;
   const auto token = token_asked_for("--token", arguments.token_file);

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "hal/net/allowed.h"
+#include "hal/net/host_port.h"
 #include "tools/listening_place.h"
 
 namespace orthonav::tools {
@@ -21,7 +22,7 @@ std::string name_for_browsers(const std::string& host, const net::Endpoint& addr
       ::gethostname(name.data(), name.size() - 1) == 0) {
     return name.data();
   }
-  return host.find(':') == std::string::npos ? host : "[" + host + "]";
+  return net::before_port(host);
 }
 
 }  // namespace
@@ -57,8 +58,9 @@ std::string WebAccess::url(int port) const {
 
 bool WebAccess::lets_in(std::string_view host, std::string_view cookies) const {
   if (!token_.is_asked_for()) {
-    const std::string_view name = host.substr(0, host.rfind(':'));
-    return name == "127.0.0.1" || name == "localhost";
+    const auto asked = net::host_and_port(host);
+    return asked &&
+           (asked->host == "127.0.0.1" || asked->host == "localhost" || asked->host == "::1");
   }
   while (!cookies.empty()) {
     const std::size_t end = std::min(cookies.find(';'), cookies.size());

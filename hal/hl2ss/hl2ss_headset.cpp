@@ -9,6 +9,7 @@
 #include "hal/hl2ss/depth_receiver.h"
 #include "hal/hl2ss/door.h"
 #include "hal/hl2ss/receiver.h"
+#include "hal/net/host_port.h"
 
 namespace orthonav::hl2ss {
 namespace {
@@ -181,7 +182,7 @@ class ConnectedHeadset final : public Hl2ssHeadset {
         clicker_(*receiver_),
         voice_(*receiver_),
         display_(*receiver_) {}
-  [[nodiscard]] std::string name() const override { return "hl2ss://" + host_; }
+  [[nodiscard]] std::string name() const override { return "hl2ss://" + net::before_port(host_); }
   [[nodiscard]] const Clock& clock() const override { return receiver_->clock(); }
   [[nodiscard]] std::int64_t epoch_ticks_100ns() const override { return epoch_ticks_; }
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }

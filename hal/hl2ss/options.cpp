@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <set>
+
+#include "hal/net/host_port.h"
 
 namespace orthonav::hl2ss {
 namespace {
@@ -15,18 +16,7 @@ constexpr const char* kKnownDepth =
     "must be ahat, ahat-h264, ahat-hevc, long-throw or long-throw-png (research mode runs one of "
     "the "
     "two)";
-constexpr int kMaxPort = 65535;
-
-Result<int> port_of(const std::string& key, std::string_view text, int largest) {
-  int port = 0;
-  const auto [rest, code] = std::from_chars(text.data(), text.data() + text.size(), port);
-  if (text.empty() || code != std::errc{} || rest != text.data() + text.size() || port < 1 ||
-      port > largest) {
-    return Error{key + " \"" + std::string(text) + "\" must be a whole number from 1 to " +
-                 std::to_string(largest)};
-  }
-  return port;
-}
+constexpr int kMostFirstPort = net::kMostPort - kLastOffset;
 
 template <class T>
 struct Choice {
@@ -96,7 +86,7 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
     options.token_file = value;
     return {};
   }
-  const auto port = port_of(key, value, key == "port" ? kMaxPort - kLastOffset : kMaxPort);
+  const auto port = net::port_from(key, value, 1, key == "port" ? kMostFirstPort : net::kMostPort);
   if (!port) {
     return port.error();
   }
@@ -108,26 +98,28 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
 
 Result<Hl2ssOptions> options_of(std::string_view after_scheme) {
   if (!after_scheme.starts_with("//")) {
-    return Error{"hl2ss: is followed by //HOST; " + std::string(kKnownKeys)};
+    return Error{"hl2ss: is followed by //HOST[:PORT]; " + std::string(kKnownKeys)};
   }
   after_scheme.remove_prefix(2);
   const std::size_t question = after_scheme.find('?');
+  const auto place = net::host_and_port(after_scheme.substr(0, question));
+  if (!place) {
+    return place.error();
+  }
   Hl2ssOptions options;
-  options.host = after_scheme.substr(0, question);
-  if (options.host.size() > 2 && options.host.front() == '[' && options.host.back() == ']') {
-    options.host = options.host.substr(1, options.host.size() - 2);
-  }
-  if (options.host.empty()) {
-    return Error{"names no host after hl2ss://"};
-  }
-  if (options.host.find_first_of("/@ ") != std::string::npos) {
-    return Error{"host \"" + options.host + "\" must be a name or an address"};
+  options.host = place->host;
+  std::set<std::string> seen;
+  if (place->port) {
+    if (*place->port > kMostFirstPort) {
+      return net::port_from("port", std::to_string(*place->port), 1, kMostFirstPort).error();
+    }
+    options.first_port = *place->port;
+    seen.insert("port");
   }
   if (question == std::string_view::npos) {
     return options;
   }
   std::string_view rest = after_scheme.substr(question + 1);
-  std::set<std::string> seen;
   for (;;) {
     const std::size_t end = rest.find('&');
     if (const Status applied = apply(rest.substr(0, end), seen, options); !applied) {

@@ -43,9 +43,9 @@ struct Hl2ssOptions {
 };
 
 /// What follows `hl2ss:` in a URI:
-/// `//HOST[?profile=raw|h264&stamps=late|exact&scene=on|off&depth=ahat|ahat-h264|ahat-hevc|`
-/// `long-throw|long-throw-png&port=BASE&standin=PORT&token=FILE]`. An Error says what is wrong and
-/// names the known keys.
+/// `//HOST[:PORT][?profile=raw|h264&stamps=late|exact&scene=on|off&depth=ahat|ahat-h264|ahat-hevc|`
+/// `long-throw|long-throw-png&port=BASE&standin=PORT&token=FILE]`; PORT is BASE. An Error says what
+/// is wrong and names the known keys.
 Result<Hl2ssOptions> options_of(std::string_view after_scheme);
 
 }  // namespace orthonav::hl2ss

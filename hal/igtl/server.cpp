@@ -7,15 +7,17 @@
 #include "base/joined.h"
 #include "hal/igtl/server_thread.h"
 #include "hal/net/allowed.h"
+#include "hal/net/host_port.h"
 
 namespace orthonav::igtl {
 std::vector<std::string> ServerOptions::check() const {
   std::vector<std::string> problems;
-  in_addr parsed{};
-  if (::inet_pton(AF_INET, address.c_str(), &parsed) != 1) {
-    problems.push_back("address \"" + address + "\" must be four numbers, as in 127.0.0.1");
+  in6_addr parsed{};
+  if (::inet_pton(AF_INET, address.c_str(), &parsed) != 1 &&
+      ::inet_pton(AF_INET6, address.c_str(), &parsed) != 1) {
+    problems.push_back("address \"" + address + "\" must be numbers, as in 127.0.0.1 or [::1]");
   }
-  if (port < 0 || port > 65535) {
+  if (port < 0 || port > net::kMostPort) {
     problems.push_back("port " + std::to_string(port) + " must be 0 to 65535");
   }
   if (!(most_hz > 0.0) || !std::isfinite(most_hz)) {

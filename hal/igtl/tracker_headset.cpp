@@ -6,6 +6,7 @@
 #include "base/joined.h"
 #include "hal/api/absent_devices.h"
 #include "hal/igtl/pose_receiver.h"
+#include "hal/net/host_port.h"
 
 namespace orthonav::igtl {
 namespace {
@@ -89,7 +90,8 @@ class TrackerHeadset final : public Headset {
 }  // namespace
 
 Result<std::unique_ptr<Headset>> open_tracker(const TrackerOptions& options) {
-  const std::string name = "igtl://" + options.host + ":" + std::to_string(options.port);
+  const std::string name =
+      "igtl://" + net::before_port(options.host) + ":" + std::to_string(options.port);
   const auto endpoint = net::resolve(options.host);
   if (!endpoint) {
     return Error{name + ": " + endpoint.error().message, endpoint.error().code};

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "hal/net/socket.h"
@@ -90,6 +91,18 @@ TEST(ServeHl2ss, SaysWhichPortIsTaken) {
       orthonav({"serve-hl2ss", "--port", std::to_string(kPort), "--levels", "L5"});
   EXPECT_EQ(called.code, 2);
   EXPECT_THAT(called.err, HasSubstr("port 27312: Address already in use"));
+}
+
+TEST(ServeHl2ss, TakesItsHostAndItsPortApart) {
+  for (const auto& [host, why] : std::to_array<std::pair<const char*, const char*>>(
+           {{"127.0.0.1:3800", "--port names the first port"},
+            {"::1", "in brackets, as in [::1]"},
+            {"3800", "must be a name, or four numbers"}})) {
+    const Called called = orthonav({"serve-hl2ss", "--host", host, "--levels", "L5"});
+    EXPECT_EQ(called.code, 2) << host;
+    EXPECT_THAT(called.err, HasSubstr(std::string("--host \"") + host + "\": "));
+    EXPECT_THAT(called.err, HasSubstr(why));
+  }
 }
 
 TEST(Doctor, LooksAtTheHeadsetsPorts) {

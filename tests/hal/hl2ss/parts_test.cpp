@@ -222,6 +222,8 @@ TEST(Uri, NamesHostProfileAndPorts) {
   EXPECT_EQ(all->first_port, 21000);
   EXPECT_EQ(all->standin_port, 21019);
   EXPECT_EQ(all->profile, VideoProfile::kH264Base);
+  EXPECT_EQ(options_of("//192.168.1.7:21000")->first_port, 21000);
+  EXPECT_EQ(options_of("//[::1]:21000?scene=off")->first_port, 21000);
 }
 
 TEST(Uri, IsRefusedWithWhatIsKnown) {
@@ -250,7 +252,11 @@ TEST(Uri, IsRefusedWithWhatIsKnown) {
   EXPECT_EQ(options_of("//a?depth=ahat-hevc")->depth->coding, DepthCoding::kHevc);
   EXPECT_THAT(refusal("//a?port=0"), HasSubstr("from 1 to 65517"));
   EXPECT_THAT(refusal("//a?port=65535"), HasSubstr("from 1 to 65517"));
+  EXPECT_THAT(refusal("//a:65518"), HasSubstr("from 1 to 65517"));
   EXPECT_THAT(refusal("//a?port=1&port=2"), HasSubstr("twice"));
+  EXPECT_THAT(refusal("//a:1?port=2"), HasSubstr("\"port\" is given twice"));
+  EXPECT_THAT(refusal("//::1"), HasSubstr("in brackets"));
+  EXPECT_THAT(refusal("//3800"), HasSubstr("must be a name, or four numbers"));
   EXPECT_THAT(refusal("//a?"), HasSubstr("unknown key \"\""));
 }
 

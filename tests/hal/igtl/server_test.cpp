@@ -197,7 +197,7 @@ TEST(IgtlServer, RefusesAPortThatIsTakenAndAddressesThatAreNone) {
   options.port = 70000;
   const auto bad = Server::start(options);
   ASSERT_FALSE(bad.ok());
-  EXPECT_THAT(bad.error().message, HasSubstr("must be four numbers"));
+  EXPECT_THAT(bad.error().message, HasSubstr("must be numbers, as in 127.0.0.1 or [::1]"));
   EXPECT_THAT(bad.error().message, HasSubstr("port 70000"));
 }
 

@@ -40,6 +40,10 @@ TEST(WebAccessTest, IsThisMachinesAloneUnlessAnAddressIsNamed) {
   EXPECT_TRUE(access->lets_in("localhost:8080", ""));
   EXPECT_FALSE(access->lets_in("hospital.example:8080", ""));
   EXPECT_EQ(refusal("127.0.0.2:0"), "taken");
+  const auto of_version_6 = WebAccess::of("[::1]:8080", {});
+  ASSERT_TRUE(of_version_6);
+  EXPECT_EQ(of_version_6->host(), "::1");
+  EXPECT_TRUE(of_version_6->lets_in("[::1]:8080", "")) << "as a browser writes it";
 }
 
 TEST(WebAccessTest, RefusesOtherMachinesWithoutAToken) {
@@ -50,7 +54,8 @@ TEST(WebAccessTest, RefusesOtherMachinesWithoutAToken) {
 }
 
 TEST(WebAccessTest, RefusesWhatIsNoPort) {
-  for (const char* at : {"", "x", "-1", "65536", "1.5", "127.0.0.1:", ":80", "127.0.0.1:80x"}) {
+  for (const char* at : {"", "x", "-1", "65536", "1.5", "127.0.0.1:", ":80", "127.0.0.1:80x",
+                         "::1:80", "[::1]", "[::1]80", "8080:80", "127.0.0.1:80:81"}) {
     EXPECT_THAT(refusal(at), HasSubstr("must be PORT or ADDRESS:PORT")) << at;
   }
 }
@@ -73,9 +78,9 @@ TEST(WebAccessTest, SendsABrowserToTheMachineByNameWhereEveryAddressIsServed) {
   ASSERT_EQ(gethostname(name.data(), name.size()), 0);
   const std::string page = std::string("http://") + name.data() + ":80/?token=" + kToken;
   EXPECT_EQ(WebAccess::of("0.0.0.0:80", file)->url(80), page);
-  EXPECT_EQ(WebAccess::of(":::80", file)->url(80), page);
+  EXPECT_EQ(WebAccess::of("[::]:80", file)->url(80), page);
   EXPECT_EQ(WebAccess::of("0.0.0.0:80", file)->host(), "0.0.0.0") << "where to listen";
-  EXPECT_EQ(WebAccess::of("::1:80", {})->url(80), "http://[::1]:80/");
+  EXPECT_EQ(WebAccess::of("[::1]:80", {})->url(80), "http://[::1]:80/");
 }
 
 TEST(WebAccessTest, RefusesATokenFileThatOthersReadOrThatHoldsNone) {
