@@ -8,10 +8,49 @@ namespace {
 
 constexpr std::size_t kMostOthers = 16;
 
+bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Where "To" stands between two names: each begins with a capital or a number, unless `anyhow`.
+std::vector<std::size_t> separators(const std::string& name, bool anyhow) {
+  // Fewer letters are rather a part of a word: "motor".
+  constexpr std::size_t kFewestLetters = 3;
+  std::vector<std::size_t> found;
+  for (std::size_t at = 1; at + 2 < name.size(); ++at) {
+    const bool capital = name[at] == 'T' && name[at + 1] == 'o';
+    const bool any = (name[at] == 'T' || name[at] == 't') &&
+                     (name[at + 1] == 'O' || name[at + 1] == 'o') && at >= kFewestLetters &&
+                     at + 2 + kFewestLetters <= name.size();
+    if (anyhow ? any : capital && (is_upper(name[at + 2]) || is_digit(name[at + 2]))) {
+      found.push_back(at);
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
+Result<std::optional<NamedFrames>> frames_named(const std::string& transform) {
+  auto at = separators(transform, false);
+  if (at.empty()) {
+    at = separators(transform, true);
+  }
+  if (at.empty()) {
+    return std::optional<NamedFrames>();
+  }
+  if (at.size() > 1) {
+    return Error{transform + " says \"To\" more than once, so its frame is not known"};
+  }
+  return std::optional(NamedFrames{transform.substr(0, at[0]), transform.substr(at[0] + 2)});
+}
+
 PoseFrames::PoseFrames(PoseFramesOptions options)
-    : options_(std::move(options)), told_(options_.tools.size()) {}
+    : options_(std::move(options)), told_(options_.tools.size()) {
+  for (std::size_t i = 0; i < told_.size(); ++i) {
+    const auto frames = frames_named(options_.tools[i].transform);
+    told_[i].of = frames && *frames ? (*frames)->of : "";
+  }
+}
 
 std::optional<std::size_t> PoseFrames::tool_of(const std::string& transform) {
   for (std::size_t i = 0; i < options_.tools.size(); ++i) {
@@ -27,10 +66,12 @@ std::optional<std::size_t> PoseFrames::tool_of(const std::string& transform) {
 }
 
 void PoseFrames::take(const SentPose& pose, Timestamp time, Timestamp now) {
+  begun_ = begun_.value_or(now);
   const auto tool = tool_of(pose.name);
   if (!tool) {
-    return;
+    return look_for_tool_elsewhere(pose.name, now);
   }
+  told_[*tool].heard_at = now;
   heard_at_ = now;
   const bool of_open = open_ && time >= *open_ - kOneMoment && time <= *open_ + kOneMoment;
   if (open_ && (!of_open || told_[*tool].now) && time > *open_) {
@@ -51,6 +92,27 @@ void PoseFrames::take(const SentPose& pose, Timestamp time, Timestamp now) {
   if (std::all_of(told_.begin(), told_.end(), [](const Told& each) { return each.now; })) {
     close();
   }
+}
+
+void PoseFrames::look_for_tool_elsewhere(const std::string& transform, Timestamp now) {
+  for (std::size_t i = 0; i < told_.size(); ++i) {
+    Told& told = told_[i];
+    if (told.complained || told.of.empty() || !transform.starts_with(told.of) ||
+        now - told.heard_at.value_or(*begun_) <= kSentOtherwise) {
+      continue;
+    }
+    const auto frames = frames_named(transform);
+    if (frames && *frames && (*frames)->of == told.of) {
+      told.complained = true;
+      complaint_ = options_.tools[i].tool + " comes as " + transform + ", in frame \"" +
+                   (*frames)->in + "\", and not as " + options_.tools[i].transform +
+                   ": it is not used; have it sent in the frame of the others";
+    }
+  }
+}
+
+std::optional<std::string> PoseFrames::take_complaint() {
+  return std::exchange(complaint_, std::nullopt);
 }
 
 void PoseFrames::note(std::size_t tool, const SentPose& pose, Timestamp time) {
@@ -102,7 +164,10 @@ void PoseFrames::forget() {
     told.now = false;
     told.pose.reset();
     told.ever = false;
+    told.heard_at.reset();
+    told.complained = false;
   }
+  begun_.reset();
 }
 
 std::size_t PoseFrames::heard() const {

@@ -6,11 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "base/time.h"
 #include "hal/api/measured_tool.h"
 #include "hal/igtl/pose_message.h"
 
 namespace orthonav::igtl {
+
+/// What the name of a transform says: `AToB` is the pose of A in B.
+struct NamedFrames {
+  std::string of;
+  std::string in;
+};
+/// Absent if the name holds no "To". Capitals decide where it is: "ToolToTracker" has one, and so
+/// has "tooltotracker" for lack of any. An Error if several are possible.
+Result<std::optional<NamedFrames>> frames_named(const std::string& transform);
 
 /// A tool and the name of the transform that another program sends for it.
 struct NamedTransform {
@@ -37,6 +47,8 @@ class PoseFrames {
  public:
   /// Poses stamped no further apart than this belong to one moment: half a millimetre at 250 mm/s.
   static constexpr Duration kOneMoment = std::chrono::milliseconds(2);
+  /// A tool not heard for longer than this may be sent in another frame instead.
+  static constexpr Duration kSentOtherwise = std::chrono::seconds(1);
   /// How long a frame waits for tools that may be out of sight.
   static constexpr Duration kWaitForRest = std::chrono::milliseconds(10);
   /// After this long without a pose no tool is in sight, which is reported by frames without tools.
@@ -50,6 +62,9 @@ class PoseFrames {
   /// when all tools are in it, a later moment has begun, or it has waited long enough. Times
   /// strictly increase.
   [[nodiscard]] std::optional<PoseFrame> next(Timestamp now);
+  /// The name of a transform that is a tool's pose in another frame than asked for, where that tool
+  /// is not sent otherwise: each tool once, until `forget`.
+  [[nodiscard]] std::optional<std::string> take_complaint();
   /// The connection is new: an incomplete frame is dropped.
   void forget();
 
@@ -67,8 +82,12 @@ class PoseFrames {
     bool now = false;  ///< in the frame being assembled
     std::optional<Transform<Rig, Marker>> pose;
     Timestamp since{};  ///< when this identical pose first arrived
+    std::string of;     ///< as its transform's name says; empty: it does not
+    std::optional<Timestamp> heard_at;
+    bool complained = false;
   };
   [[nodiscard]] std::optional<std::size_t> tool_of(const std::string& transform);
+  void look_for_tool_elsewhere(const std::string& transform, Timestamp now);
   void close();
   void note(std::size_t tool, const SentPose& pose, Timestamp time);
 
@@ -82,6 +101,8 @@ class PoseFrames {
   std::int64_t out_of_order_ = 0;
   std::int64_t replaced_ = 0;
   std::vector<std::string> others_;
+  std::optional<Timestamp> begun_;  ///< when this connection's first pose came
+  std::optional<std::string> complaint_;
 };
 
 }  // namespace orthonav::igtl

@@ -2,11 +2,14 @@
 
 #include <poll.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "base/guarded.h"
 #include "base/joined.h"
+#include "base/printed.h"
 
 namespace orthonav::igtl {
 namespace {
@@ -15,9 +18,10 @@ namespace {
 constexpr int kTurn_ms = 5;
 constexpr int kReadsATurn = 16;
 constexpr std::size_t kMostBytesPerSecond = std::size_t{32} << 20;
-/// Poses delayed by more than this are useless; a new connection is likely to remove the cause.
-constexpr Duration kTooLate = std::chrono::seconds(1);
-constexpr Duration kTooLateFor = std::chrono::seconds(5);
+/// A connection that is made this much more slowly than the fastest one tells of a slow network, on
+/// which messages are late indeed.
+constexpr auto kSlower = std::chrono::milliseconds(50);
+constexpr std::size_t kMostToTell = 8;
 
 }  // namespace
 
@@ -54,17 +58,7 @@ void PoseReceiver::run() {
 void PoseReceiver::turn(short revents, HostTime now) {
   const bool is_new = link_.step(revents, now) == net::Link::Step::kConnected;
   if (is_new) {
-    // A tracker sends nothing while all tools are out of sight: silence alone does not mean a lost
-    // connection.
-    net::keep_alive(link_.socket());
-    incoming_ = Incoming(this);
-    sender_.forget();
-    frames_.forget();
-    late_since_.reset();
-    const MutexLock lock(mutex_);
-    ++stream_.connections;
-    // The tracker's frame may no longer be where it was before.
-    map_epoch_ += std::exchange(was_connected_, true) ? 1 : 0;
+    begin_connection();
   }
   if (!link_.is_connected()) {
     tell();
@@ -81,6 +75,24 @@ void PoseReceiver::turn(short revents, HostTime now) {
   tell();
 }
 
+void PoseReceiver::begin_connection() {
+  // A tracker sends nothing while all tools are out of sight: silence alone does not mean a lost
+  // connection.
+  net::keep_alive(link_.socket());
+  incoming_ = Incoming(this);
+  // What is known of the sender's clock shows that messages on a slow network are late.
+  const HostClock::duration shortest = shortest_round_trip_.value_or(link_.round_trip());
+  if (link_.round_trip() <= shortest + kSlower) {
+    sender_.forget();
+  }
+  shortest_round_trip_ = std::min(shortest, link_.round_trip());
+  frames_.forget();
+  const MutexLock lock(mutex_);
+  ++stream_.connections;
+  // The tracker's frame may no longer be where it was before.
+  map_epoch_ += std::exchange(was_connected_, true) ? 1 : 0;
+}
+
 void PoseReceiver::read_all(HostTime now) {
   std::array<std::uint8_t, 16384> room{};
   for (int i = 0; i < kReadsATurn; ++i) {
@@ -94,7 +106,6 @@ void PoseReceiver::read_all(HostTime now) {
     arrived_ = clock_.now();
     Status taken = count_bytes(*count, now);
     taken = taken ? incoming_.take(std::span(room).first(*count)) : taken;
-    taken = taken ? watch_lateness(arrived_) : taken;
     if (!taken) {
       return lose(taken.error().message, now);
     }
@@ -110,18 +121,6 @@ Status PoseReceiver::count_bytes(std::size_t count, HostTime now) {
   return Error{"sends more than " + std::to_string(kMostBytesPerSecond) + " bytes a second"};
 }
 
-Status PoseReceiver::watch_lateness(Timestamp now) {
-  if (sender_.late() <= kTooLate) {
-    late_since_.reset();
-    return {};
-  }
-  late_since_ = late_since_.value_or(now);
-  if (now - *late_since_ <= kTooLateFor) {
-    return {};
-  }
-  return Error{"poses come " + std::to_string(seconds(sender_.late())) + " s late"};
-}
-
 Status PoseReceiver::read(const Header& header, Bytes body) {
   const auto poses = poses_in(header, body);
   {
@@ -135,19 +134,44 @@ Status PoseReceiver::read(const Header& header, Bytes body) {
   if (!poses) {
     return {};  // the stream continues after it
   }
-  const Timestamp time = sender_.time_of(header.timestamp, arrived_);
-  for (const SentPose& pose : *poses) {
-    frames_.take(pose, time, arrived_);
+  const Timestamp time = sender_.time_of(header.timestamp, arrived_, header.device);
+  if (const auto step = sender_.take_step()) {
+    complain("the sender's clock was set " +
+             std::string(*step > Duration::zero() ? "forward" : "back") + " by " +
+             printed("%.3f", std::abs(seconds(*step))) +
+             " s: its poses were not used until it was known again");
+    const MutexLock lock(mutex_);
+    ++clock_steps_;
+  }
+  if (sender_.known()) {
+    for (const SentPose& pose : *poses) {
+      frames_.take(pose, time, arrived_);
+    }
+  }
+  if (const auto complaint = frames_.take_complaint()) {
+    complain(*complaint);
+  }
+  if (sender_.wants_new_connection()) {
+    return Error{"poses come " + std::to_string(seconds(sender_.late())) + " s late"};
   }
   return {};
+}
+
+/// Told with the next call of `next`. What nobody asks for is not kept for ever.
+void PoseReceiver::complain(const std::string& what) {
+  const MutexLock lock(mutex_);
+  stream_.last_trouble = what;
+  if (to_tell_.size() < kMostToTell) {
+    to_tell_.push_back({"igtl: " + options_.host + ": " + what, ErrorCode::kUnavailable});
+  }
 }
 
 void PoseReceiver::lose(const std::string& why, HostTime now) {
   link_.drop(why, now);
   const MutexLock lock(mutex_);
   waiting_.reset();
-  lost_ = why;
   stream_.last_trouble = why;
+  to_tell_.assign(1, {"igtl: " + options_.host + ": connection lost: " + why, ErrorCode::kLost});
 }
 
 void PoseReceiver::publish(const PoseFrame& frame) {
@@ -175,10 +199,10 @@ Result<Next> PoseReceiver::next(StereoFrame& frame) {
   if (!died_) {
     return died_.error();
   }
-  if (lost_) {
-    return Error{"igtl: " + options_.host +
-                     ": connection lost: " + std::exchange(lost_, std::nullopt).value_or(""),
-                 ErrorCode::kLost};
+  if (!to_tell_.empty()) {
+    Error first = std::move(to_tell_.front());
+    to_tell_.erase(to_tell_.begin());
+    return first;
   }
   if (!waiting_) {
     return Next::kNone;
@@ -221,6 +245,7 @@ ConnectionStatistics PoseReceiver::statistics() const {
   all.pairs = frames_out_;
   all.dropped = dropped_;
   all.map_moves = map_epoch_;
+  all.clock_restarts = clock_steps_;
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "base/mutex.h"
 #include "hal/api/devices.h"
@@ -39,8 +40,9 @@ class PoseReceiver final : private MessageReader {
   PoseReceiver& operator=(const PoseReceiver&) = delete;
 
   [[nodiscard]] const Clock& clock() const { return clock_; }
-  /// As StereoCamera::do_next. An Error once for each lost connection, and at every call after the
-  /// receiver's thread has ended.
+  /// As StereoCamera::do_next. An Error once for each lost connection, for each time that the
+  /// sender's clock was set, and for each tool that comes in another frame than asked for; at every
+  /// call after the receiver's thread has ended.
   Result<Next> next(StereoFrame& frame) ORTHONAV_EXCLUDES(mutex_);
   /// Time of the newest frame.
   [[nodiscard]] std::optional<Timestamp> newest() const ORTHONAV_EXCLUDES(mutex_);
@@ -55,7 +57,8 @@ class PoseReceiver final : private MessageReader {
   void turn(short revents, HostTime now);
   void read_all(HostTime now);
   Status count_bytes(std::size_t count, HostTime now);
-  Status watch_lateness(Timestamp now);
+  void begin_connection() ORTHONAV_EXCLUDES(mutex_);
+  void complain(const std::string& what) ORTHONAV_EXCLUDES(mutex_);
   void lose(const std::string& why, HostTime now) ORTHONAV_EXCLUDES(mutex_);
   void publish(const PoseFrame& frame) ORTHONAV_EXCLUDES(mutex_);
   void tell() ORTHONAV_EXCLUDES(mutex_);
@@ -73,18 +76,19 @@ class PoseReceiver final : private MessageReader {
   SenderClock sender_;
   PoseFrames frames_;
   Timestamp arrived_{};  ///< arrival time of the bytes being read
-  std::optional<Timestamp> late_since_;
+  std::optional<HostClock::duration> shortest_round_trip_;
   bool was_connected_ = false;  ///< ever
   net::RateLimit bytes_;
 
   mutable Mutex mutex_;
   std::optional<PoseFrame> waiting_ ORTHONAV_GUARDED_BY(mutex_);
   std::optional<Timestamp> newest_ ORTHONAV_GUARDED_BY(mutex_);
-  std::optional<std::string> lost_ ORTHONAV_GUARDED_BY(mutex_);
+  std::vector<Error> to_tell_ ORTHONAV_GUARDED_BY(mutex_);
   Status died_ ORTHONAV_GUARDED_BY(mutex_);  ///< why its thread ended
   std::int64_t map_epoch_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::int64_t sequence_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::int64_t dropped_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::int64_t clock_steps_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::int64_t frames_out_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   StreamStatistics stream_ ORTHONAV_GUARDED_BY(mutex_);
   bool heard_ ORTHONAV_GUARDED_BY(mutex_) = false;

@@ -6,15 +6,16 @@
 
 #include "base/units.h"
 #include "hal/api/uri_query.h"
+#include "hal/igtl/header.h"
+#include "hal/net/host_port.h"
 
 namespace orthonav::igtl {
 namespace {
 
 constexpr const char* kForm =
     "igtl: is followed by //HOST[:PORT]?TOOL=TRANSFORM&..., as in "
-    "//10.0.0.5?pointer=ProbeToTracker&reference=ReferenceToTracker; further keys are rms_mm, "
-    "rms_deg and frozen_ms";
-constexpr int kMostPort = 65535;
+    "//10.0.0.5?pointer=ProbeToTracker&reference=ReferenceToTracker; further keys are port, "
+    "rms_mm, rms_deg and frozen_ms";
 constexpr std::size_t kMostTools = 32;
 constexpr double kMostRms = 10.0;  ///< mm, and degrees
 constexpr double kMostFrozen_ms = 60000.0;
@@ -31,33 +32,12 @@ Error out_of_range(std::string_view key, std::string_view value, const std::stri
   return Error{std::string(key) + " \"" + std::string(value) + "\" must " + range};
 }
 
-Status take_address(std::string_view address, TrackerOptions& options) {
-  std::string_view host = address;
-  std::string_view port;
-  // [::1]:18944: the address of version 6 holds colons of its own.
-  if (const std::size_t bracket = address.find(']');
-      address.starts_with('[') && bracket != address.npos) {
-    host = address.substr(1, bracket - 1);
-    port = address.substr(bracket + 1);
-  } else if (const std::size_t colon = address.find(':'); colon != address.npos) {
-    host = address.substr(0, colon);
-    port = address.substr(colon);
+Status take_port(std::string_view text, TrackerOptions& options) {
+  const auto port = net::port_from("port", text);
+  if (!port) {
+    return port.error();
   }
-  if (host.empty()) {
-    return Error{std::string("names no host; ") + kForm};
-  }
-  if (host.find_first_of("/@ ") != host.npos) {
-    return Error{"host \"" + std::string(host) + "\" must be a name or an address"};
-  }
-  options.host = host;
-  if (port.empty()) {
-    return {};
-  }
-  const auto number = number_of<int>(port.substr(1));
-  if (!port.starts_with(':') || !number || *number < 1 || *number > kMostPort) {
-    return out_of_range("port", port.substr(1), "be a whole number from 1 to 65535");
-  }
-  options.port = *number;
+  options.port = *port;
   return {};
 }
 
@@ -85,10 +65,12 @@ Status take_tool(std::string_view tool, std::string_view transform, TrackerOptio
   if (tool.empty() || transform.empty()) {
     return Error{"\"" + std::string(tool) + "\" must name a transform; " + kForm};
   }
+  const std::string_view sent = transform.substr(0, kNameBytes);
   for (const NamedTransform& other : options.tools) {
-    if (other.transform == transform) {
+    if (other.transform.substr(0, kNameBytes) == sent) {
       return Error{other.tool + " and " + std::string(tool) + " can't both be " +
-                   std::string(transform)};
+                   std::string(sent) +
+                   (sent == transform ? "" : ": names are sent with 20 bytes at most")};
     }
   }
   if (options.tools.size() == kMostTools) {
@@ -96,6 +78,35 @@ Status take_tool(std::string_view tool, std::string_view transform, TrackerOptio
   }
   options.tools.push_back({std::string(tool), std::string(transform)});
   return {};
+}
+
+/// Poses in different frames look right until the patient moves.
+Status check_frames(const std::vector<NamedTransform>& tools) {
+  std::string listed;
+  std::optional<std::string> common;
+  bool one_frame = true;
+  for (const NamedTransform& each : tools) {
+    const std::string which = each.tool + "=" + each.transform;
+    const auto named = frames_named(each.transform);
+    if (!named && tools.size() > 1) {
+      return Error{each.tool + "=" + named.error().message};
+    }
+    const NamedFrames frames = named ? named->value_or(NamedFrames{}) : NamedFrames{};
+    if (!frames.of.empty() && frames.of == frames.in) {
+      return Error{which + " is no pose: of a frame in itself. All tools, the patient reference " +
+                   "too, are sent in the tracker's own frame, as in " + frames.of + "ToTracker"};
+    }
+    one_frame = one_frame && frames.in == common.value_or(frames.in);
+    common = frames.in;
+    listed += (listed.empty() ? "" : ", ") + which +
+              (frames.in.empty() ? " in none that it states" : " in \"" + frames.in + "\"");
+  }
+  if (one_frame) {
+    return {};
+  }
+  return Error{"the tools are in different frames: " + listed +
+               "; they must be in one, the tracker's own: name transforms to that frame, and have "
+               "the sender send them (PlusServer: TransformNames)"};
 }
 
 bool is_number_key(std::string_view key) {
@@ -119,25 +130,32 @@ Result<TrackerOptions> tracker_options_of(std::string_view after_scheme) {
   }
   after_scheme.remove_prefix(2);
   const std::size_t question = after_scheme.find('?');
-  TrackerOptions options;
-  if (const Status taken = take_address(after_scheme.substr(0, question), options); !taken) {
-    return taken.error();
+  const auto place = net::host_and_port(after_scheme.substr(0, question));
+  if (!place) {
+    return place.error();
   }
+  TrackerOptions options;
+  options.host = place->host;
+  options.port = place->port.value_or(kUsualPort);
   const auto items = question == after_scheme.npos ? std::vector<UriItem>()
                                                    : uri_items(after_scheme.substr(question + 1));
   for (const UriItem& item : items) {
-    if (item.again) {
+    if (item.again || (item.key == "port" && place->port)) {
       return Error{"key \"" + item.key + "\" is given twice"};
     }
     const std::string value = item.value.value_or("");
-    const Status taken = is_number_key(item.key) ? take_number(item.key, value, options)
-                                                 : take_tool(item.key, value, options);
+    const Status taken = item.key == "port"        ? take_port(value, options)
+                         : is_number_key(item.key) ? take_number(item.key, value, options)
+                                                   : take_tool(item.key, value, options);
     if (!taken) {
       return taken.error();
     }
   }
   if (options.tools.empty()) {
     return Error{std::string("names no tool; ") + kForm};
+  }
+  if (const Status good = check_frames(options.tools); !good) {
+    return good.error();
   }
   return options;
 }

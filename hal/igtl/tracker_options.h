@@ -31,8 +31,8 @@ struct TrackerOptions {
 };
 
 /// What follows `igtl:` in a URI:
-/// `//HOST[:PORT]?TOOL=TRANSFORM&...[&rms_mm=N&rms_deg=N&frozen_ms=N]`. An Error says what is wrong
-/// with it.
+/// `//HOST[:PORT]?TOOL=TRANSFORM&...[&port=N&rms_mm=N&rms_deg=N&frozen_ms=N]`. An Error says what
+/// is wrong with it.
 Result<TrackerOptions> tracker_options_of(std::string_view after_scheme);
 
 }  // namespace orthonav::igtl

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <thread>
 
+#include "base/stopwatch.h"
 #include "tests/support/pose_server.h"
 
 namespace orthonav::igtl::tracker_headset_test {
@@ -39,6 +40,7 @@ TEST(IgtlTrackerUri, NamesHostPortToolsAndWhatIsStatedOfThem) {
   EXPECT_EQ(options->frozen_after, Duration::zero());
   EXPECT_EQ(tracker_options_of("//[::1]:7?a=AToB")->port, 7);
   EXPECT_EQ(tracker_options_of("//[::1]?a=AToB")->host, "::1");
+  EXPECT_EQ(tracker_options_of("//h?port=18945&a=AToB")->port, 18945) << "which is no tool";
 }
 
 TEST(IgtlTrackerUri, RefusesWhatItCantMean) {
@@ -48,12 +50,46 @@ TEST(IgtlTrackerUri, RefusesWhatItCantMean) {
   EXPECT_THAT(refusal("//h?rms_mm=1"), HasSubstr("names no tool"));
   EXPECT_THAT(refusal("//h:0?a=AToB"), HasSubstr("port \"0\" must be"));
   EXPECT_THAT(refusal("//h:1x?a=AToB"), HasSubstr("port \"1x\" must be"));
+  EXPECT_THAT(refusal("//h?a=AToB&port=0"), HasSubstr("port \"0\" must be"));
+  EXPECT_THAT(refusal("//h:1?a=AToB&port=2"), HasSubstr("\"port\" is given twice"));
+  EXPECT_THAT(refusal("//h?port=1&a=AToB&port=1"), HasSubstr("\"port\" is given twice"));
+  EXPECT_THAT(refusal("//::1?a=AToB"), HasSubstr("in brackets"));
   EXPECT_THAT(refusal("//h?a"), HasSubstr("\"a\" must name a transform"));
   EXPECT_THAT(refusal("//h?a=AToB&a=CToB"), HasSubstr("given twice"));
   EXPECT_THAT(refusal("//h?a=AToB&b=AToB"), HasSubstr("a and b can't both be AToB"));
   EXPECT_THAT(refusal("//h?a=AToB&rms_mm=0"), HasSubstr("rms_mm \"0\" must be"));
   EXPECT_THAT(refusal("//h?a=AToB&rms_deg=nan"), HasSubstr("rms_deg \"nan\" must be"));
   EXPECT_THAT(refusal("//h?a=AToB&frozen_ms=-1"), HasSubstr("frozen_ms \"-1\" must lie"));
+}
+
+TEST(IgtlTrackerUri, TakesToolsThatAreInOneFrame) {
+  for (const char* tools :
+       {"a=StylusToTracker&b=ReferenceToTracker", "a=StylusToReference&b=GuideToReference",
+        "a=Stylus&b=Guide&c=Tool", "a=Tracker0&b=Tracker1", "a=stylustotracker&b=reftotracker",
+        "a=AToBToC", "a=ScrewdriverTipToTracker&b=RefToTracker"}) {
+    const auto options = tracker_options_of(std::string("//h?") + tools);
+    EXPECT_TRUE(options.ok()) << options.error().message;
+  }
+}
+
+TEST(IgtlTrackerUri, RefusesToolsInDifferentFramesByName) {
+  EXPECT_EQ(refusal("//h?pointer=StylusToReference&reference=ReferenceToTracker"),
+            "the tools are in different frames: pointer=StylusToReference in \"Reference\", "
+            "reference=ReferenceToTracker in \"Tracker\"; they must be in one, the tracker's own: "
+            "name transforms to that frame, and have the sender send them (PlusServer: "
+            "TransformNames)");
+  for (const char* tools :
+       {"a=StylusToTracker&b=TrackerToReference", "a=StylusToGuide&b=GuideToTracker",
+        "a=AToB&b=CToB&c=DToE", "a=stylustoreference&b=referencetotracker",
+        "a=stylustotracker&b=ReferenceToTracker", "a=StylusToTracker&b=ReferenceToTRACKER",
+        "a=Stylus&b=ReferenceToTracker", "a=ScrewdriverTipToTrac&b=RefToTracker"}) {
+    EXPECT_THAT(refusal(std::string("//h?") + tools), HasSubstr("are in different frames: a="));
+  }
+  EXPECT_THAT(refusal("//h?a=AToBToC&b=DToC"), HasSubstr("a=AToBToC says \"To\" more than once"));
+  EXPECT_THAT(refusal("//h?a=StylusToReference&b=ReferenceToReference"),
+              HasSubstr("b=ReferenceToReference is no pose: of a frame in itself"));
+  EXPECT_THAT(refusal("//h?a=ScrewdriverHandleToTracker&b=ScrewdriverHandleToTool"),
+              HasSubstr("a and b can't both be ScrewdriverHandleToT"));
 }
 
 /// A tracker that sends, and the headset that represents it.
@@ -157,6 +193,31 @@ TEST_F(IgtlTracker, HangsUpOnWhatIsNoOpenIgtLinkAndCallsAgain) {
   send(0.005);
   ASSERT_TRUE(take());
   EXPECT_EQ(lost_, 1);
+}
+
+TEST_F(IgtlTracker, SaysThatTheSendersClockWasSetAndGoesOnOnceItIsKnown) {
+  open();
+  const Stopwatch since;
+  const double begun_s = stamp_s_;
+  std::string said;
+  ASSERT_TRUE(wait_until([&] {
+    // Each message that came is followed by the next; the clock is set back by 3 s.
+    stamp_s_ = begun_s - 3.0 + 1e-3 * since.elapsed_ms();
+    const std::int64_t had = headset_->connection()->streams.front().packets;
+    send(1e-6 * since.elapsed_ms());
+    (void)wait_until([&] { return headset_->connection()->streams.front().packets >= had + 2; });
+    const auto next = headset_->cameras().next(frame_);
+    EXPECT_TRUE(!next || *next != Next::kFrame || frame_.tools.empty()) << "its age is not known";
+    said = next ? "" : next.error().message;
+    return !next;
+  }));
+  EXPECT_THAT(said, AllOf(HasSubstr("igtl: 127.0.0.1: the sender's clock was set back by 3."),
+                          HasSubstr("its poses were not used until it was known again")));
+  EXPECT_EQ(headset_->connection()->clock_restarts, 1);
+  stamp_s_ = begun_s - 3.0 + 1e-3 * since.elapsed_ms();
+  send(0.006);
+  ASSERT_TRUE(take());
+  EXPECT_EQ(frame_.map_epoch, 0) << "the tracker stands where it stood";
 }
 
 /// The final result of opening; it is tried again if the machine was too busy.
