@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/session/wording.h"
 #include "tools/igtl_messages.h"
 #include "tools/igtl_requests.h"
 
@@ -46,49 +47,24 @@ void IgtlCommands::take(Timestamp until, std::vector<engine::Request>& requests)
   taken_until_ = until;
 }
 
-void IgtlCommands::asked_from_outside(const engine::Request& request) {
-  finish();
-  asking_ = Outcome{request.from, request.text, false, {}};
-  decided_ = false;
-}
-
-void IgtlCommands::happened(Timestamp /*time*/, engine::Step /*from*/, engine::Event event,
-                            engine::Cell answer) {
-  // Later events of the same step do not belong to this request.
-  if (!asking_ || std::exchange(decided_, true)) {
-    return;
+void IgtlCommands::request_answered(const engine::Request& request, bool taken,
+                                    const engine::Message* why_not) {
+  std::string why;
+  if (why_not != nullptr) {
+    engine::append(why, *why_not);
+  } else if (!taken) {
+    why = "\"" + request.text + "\" is not a command";
   }
-  asking_->taken = event != engine::Event::kSayReplan && answer.action != engine::Action::kRefuse &&
-                   answer.action != engine::Action::kIgnore;
-}
-
-void IgtlCommands::not_understood(const Phrase& phrase) {
-  decided_ = decided_ || (asking_ && phrase.text == asking_->asked);
-}
-
-void IgtlCommands::replanned(Timestamp /*time*/, const engine::LevelState& /*level*/,
-                             const engine::Replan& /*asked*/,
-                             const engine::ScrewReplanned& /*done*/) {
-  if (asking_) {
-    asking_->taken = true;
-  }
-}
-
-void IgtlCommands::finish() {
-  if (asking_) {
-    heard_.push_back(std::move(*asking_));
-    asking_.reset();
-  }
+  answered_.push_back({request.from, request.text, true, std::move(why)});
 }
 
 bool IgtlCommands::owe_answers() const {
   const MutexLock lock(mutex_);
-  return asking_ || !heard_.empty() || !refused_.empty();
+  return !answered_.empty() || !refused_.empty();
 }
 
 std::vector<std::uint8_t> IgtlCommands::answers(const std::string& status, std::uint64_t stamp) {
-  finish();
-  std::vector<Outcome> all = std::exchange(heard_, {});
+  std::vector<Outcome> all = std::exchange(answered_, {});
   {
     const MutexLock lock(mutex_);
     std::move(refused_.begin(), refused_.end(), std::back_inserter(all));
@@ -96,14 +72,20 @@ std::vector<std::uint8_t> IgtlCommands::answers(const std::string& status, std::
   }
   std::vector<std::uint8_t> out;
   for (const Outcome& each : all) {
+    const bool taken = each.why_not.empty();
     nlohmann::ordered_json line = {
-        {"client", each.client}, {"asked", each.asked}, {"taken", each.taken}};
-    line[each.why.empty() ? "status" : "why"] = each.why.empty() ? status : each.why;
+        {"client", each.client}, {"asked", each.asked}, {"taken", taken}};
+    if (!taken) {
+      line["why"] = each.why_not;
+    }
+    if (each.heard) {
+      line["status"] = status;
+    }
     const std::string what = each.client + ": " + each.asked;
-    if (each.why.empty()) {
-      log_.say(what + (each.taken ? ": taken" : ": not taken"));
+    if (taken) {
+      log_.say(what + ": taken");
     } else {
-      log_.warn(what + ": refused: " + each.why);
+      log_.warn(what + ": not taken: " + each.why_not);
     }
     const auto message = igtl_answer(line, stamp);
     out.insert(out.end(), message.begin(), message.end());

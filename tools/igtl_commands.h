@@ -41,12 +41,8 @@ class IgtlCommands : public igtl::TextListener,
       ORTHONAV_EXCLUDES(mutex_);
   void take(Timestamp until, std::vector<engine::Request>& requests) override
       ORTHONAV_EXCLUDES(mutex_);
-  void asked_from_outside(const engine::Request& request) override;
-  void happened(Timestamp time, engine::Step from, engine::Event event,
-                engine::Cell answer) override;
-  void not_understood(const Phrase& phrase) override;
-  void replanned(Timestamp time, const engine::LevelState& level, const engine::Replan& asked,
-                 const engine::ScrewReplanned& done) override;
+  void request_answered(const engine::Request& request, bool taken,
+                        const engine::Message* why_not) override;
 
  private:
   struct Waiting {
@@ -57,10 +53,9 @@ class IgtlCommands : public igtl::TextListener,
   struct Outcome {
     std::string client;
     std::string asked;
-    bool taken = false;
-    std::string why;  ///< set if it did not reach the session
+    bool heard = false;   ///< it reached the session
+    std::string why_not;  ///< why it had no effect; empty: it had
   };
-  void finish();
 
   EventLog& log_;
   mutable Mutex mutex_;
@@ -69,10 +64,7 @@ class IgtlCommands : public igtl::TextListener,
   std::optional<Timestamp> taken_until_ ORTHONAV_GUARDED_BY(mutex_);
   std::vector<Outcome> refused_ ORTHONAV_GUARDED_BY(mutex_);
 
-  // Used by the tracking thread only.
-  std::optional<Outcome> asking_;  ///< the request being handled
-  bool decided_ = false;           ///< whether it has been decided
-  std::vector<Outcome> heard_;
+  std::vector<Outcome> answered_;  ///< used by the tracking thread only
 };
 
 }  // namespace orthonav::tools

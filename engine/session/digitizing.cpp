@@ -72,6 +72,8 @@ void Digitizing::save_region(OperationInWork& work, Timestamp time) {
   if (saved_in(regions()) > before) {
     // If the button is still down, the next region has already begun after it.
     work.observer->region_saved(time, work.level(), last_saved(regions()));
+  } else {
+    work.messages.say(NotPossibleNow{Event::kSaySave}, time);
   }
 }
 

@@ -33,7 +33,19 @@ struct ToNotice {
   Notice operator()(const Ended& /*m*/) const { return Notice::kEnded; }
 };
 
+template <class... Kinds>
+bool is_any(const Message& message) {
+  return (std::holds_alternative<Kinds>(message) || ...);
+}
+
 }  // namespace
+
+bool is_refusal(const Message& message) {
+  // A new kind of message is a refusal until it stands here.
+  return !is_any<std::monostate, LandmarkMoved, BoneUnchecked, TipCorrected, AxisCorrected,
+                 ScrewRedone, ScrewReplanned, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>(
+      message);
+}
 
 Notice notice_of(const Message& message) { return std::visit(ToNotice{}, message); }
 

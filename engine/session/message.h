@@ -155,6 +155,8 @@ using Message = std::variant<std::monostate, NotPossibleNow, NotUnderstood, Said
          std::holds_alternative<ReplanRefusal>(message) ||
          std::holds_alternative<ScrewReplanned>(message);
 }
+/// Whether it says that a command had no effect, or none until it is said again.
+[[nodiscard]] bool is_refusal(const Message& message);
 /// The subject of the message, for the display.
 [[nodiscard]] Notice notice_of(const Message& message);
 

@@ -7,6 +7,7 @@ namespace orthonav::engine {
 void Messages::say(Message message, Timestamp time) {
   message_ = std::move(message);
   message_until_ = time + message_for_;
+  ++said_;
 }
 
 void Messages::echo(const Phrase& phrase, bool sure, const std::string& from) {

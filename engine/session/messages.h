@@ -21,6 +21,8 @@ class Messages {
   /// Something was accepted, so the last message is settled.
   void clear() { message_ = {}; }
   void expire(Timestamp now);
+  /// How often anything was said.
+  [[nodiscard]] std::int64_t said() const { return said_; }
   /// Null: none.
   [[nodiscard]] const Message* message() const {
     return std::holds_alternative<std::monostate>(message_) ? nullptr : &message_;
@@ -32,6 +34,7 @@ class Messages {
   Duration heard_for_;
   Message message_;
   Timestamp message_until_{};
+  std::int64_t said_ = 0;
   std::optional<HeardCommand> heard_;
   Timestamp heard_until_{};
 };

@@ -27,6 +27,9 @@ class ObserverList : public SessionObserver {
   void asked_from_outside(const Request& request) override {
     tell(&SessionObserver::asked_from_outside, request);
   }
+  void request_answered(const Request& request, bool taken, const Message* why_not) override {
+    tell(&SessionObserver::request_answered, request, taken, why_not);
+  }
   void not_understood(const Phrase& phrase) override {
     tell(&SessionObserver::not_understood, phrase);
   }

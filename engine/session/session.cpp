@@ -117,9 +117,18 @@ void Session::answer_inputs(const Inputs& inputs) {
     } else if (said <= asked) {
       handle(hear(work_, steps_, inputs.phrases[p++]), said);
     } else {
-      handle(hear(work_, steps_, inputs.requests[r++]), asked);
+      answer_request(inputs.requests[r++]);
     }
   }
+}
+
+void Session::answer_request(const Request& request) {
+  const std::int64_t said = work_.messages.said();
+  const std::optional<Event> event = hear(work_, steps_, request);
+  handle(event, request.time);
+  const Message* const answer = work_.messages.said() > said ? work_.messages.message() : nullptr;
+  const Message* const why_not = answer != nullptr && is_refusal(*answer) ? answer : nullptr;
+  work_.observer->request_answered(request, event && why_not == nullptr, why_not);
 }
 
 void Session::handle(std::optional<Raised> raised, Timestamp time) {

@@ -83,6 +83,7 @@ class Session {
   Session(Operation operation, WatchedTools tools, Method method, const SessionOptions& options);
 
   void answer_inputs(const Inputs& inputs);
+  void answer_request(const Request& request);
   /// The table's answer to an event, and to those that its action raises.
   void handle(std::optional<Raised> raised, Timestamp time);
   /// Does what the table asks for (session_actions.cpp). Returns the event that results, if any.

@@ -21,6 +21,10 @@ class SessionObserver {
   virtual void happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell /*answer*/) {}
   /// Another program made a request; what it causes is reported next.
   virtual void asked_from_outside(const Request& /*request*/) {}
+  /// What became of the last request: whether it had an effect, or what the surgeon was told why it
+  /// had none; null: it is not a command.
+  virtual void request_answered(const Request& /*request*/, bool /*taken*/,
+                                const Message* /*why_not*/) {}
   /// A phrase is not a command here, or was not understood well enough.
   virtual void not_understood(const Phrase& /*phrase*/) {}
   /// A region was saved, the last one of the level.

@@ -32,6 +32,16 @@ class Listener : public SessionObserver {
       heard.emplace_back(name_of(event));
     }
   }
+  void request_answered(const Request& request, bool taken, const Message* why_not) override {
+    EXPECT_FALSE(taken && why_not != nullptr);
+    std::string why = "no command";
+    if (why_not != nullptr) {
+      why.clear();
+      append(why, *why_not);
+    }
+    answer = request.text + ": " + (taken ? "taken" : why);
+  }
+  std::string answer;  ///< the last one
   void not_understood(const Phrase& phrase) override {
     heard.push_back("not understood " + phrase.text);
   }
@@ -48,7 +58,15 @@ Request plan(Vec3 entry, Vec3 target, double radius_m = kRadius_m, const std::st
 }
 
 struct Requests4 : ScriptedOperation {
-  Requests4() { session().observe(&listener); }
+  explicit Requests4(Verification verification = Verification::kByEye)
+      : ScriptedOperation({"L4", "L5"}, test::three_places(), verification) {
+    session().observe(&listener);
+  }
+  /// What is answered to a command.
+  const std::string& answer_to(const std::string& text) {
+    asks(command(text));
+    return listener.answer;
+  }
   Listener listener;
 };
 
@@ -77,6 +95,44 @@ TEST(RequestedCommand, AcceptsNothingBeforeItWasShown) {
   s.asks(command("accept"));
   EXPECT_EQ(s.session().current_step(), Step::kVerify);
   s.asks(command("accept"));
+  EXPECT_EQ(s.session().current_step(), Step::kAccepted);
+}
+
+TEST(RequestedCommand, IsAnsweredByWhatBecameOfIt) {
+  Requests4 s;
+  EXPECT_EQ(s.answer_to("next"), "next: not possible now: \"next\"");
+  EXPECT_EQ(s.answer_to("begin"), "begin: no command");
+  EXPECT_EQ(s.answer_to("start"), "start: taken");
+  EXPECT_EQ(s.answer_to("save"), "save: not possible now: \"save\"") << "nothing was stroked";
+  EXPECT_THAT(s.answer_to("delete"), HasSubstr("delete: nothing"));
+  s.strokes(10);
+  EXPECT_EQ(s.answer_to("save"), "save: taken");
+  EXPECT_THAT(s.answer_to("delete"), HasSubstr("\"delete\" again")) << "not yet";
+  EXPECT_EQ(s.answer_to("delete"), "delete: taken");
+}
+
+TEST(RequestedCommand, ThatHadNothingToActOnIsNotTaken) {
+  Requests4 s;
+  s.registers_first_level();
+  EXPECT_NE(s.answer_to("accept"), "accept: taken") << "before it was shown";
+  EXPECT_EQ(s.answer_to("accept"), "accept: taken");
+  EXPECT_EQ(s.answer_to("accept"), "accept: not possible now: \"accept\"");
+  EXPECT_EQ(s.answer_to("next"), "next: taken");
+  EXPECT_EQ(s.session().current_step(), Step::kGuide);
+  EXPECT_EQ(s.answer_to("twin"), "twin: taken");
+  EXPECT_EQ(s.answer_to("accept"), "accept: not possible now: \"accept\"");
+}
+
+TEST(RequestedCommand, ThatTheChecksDoNotBearOutIsNotTaken) {
+  Requests4 s(Verification::kByTouch);
+  s.registers_first_level();
+  s.pairs(2);
+  EXPECT_THAT(s.answer_to("accept"), ::testing::Not(HasSubstr("taken")));
+  EXPECT_EQ(s.session().current_step(), Step::kVerify);
+  EXPECT_THAT(s.answer_to("delete"), HasSubstr("delete: nothing")) << "no place was touched";
+  s.checks_by_touch();
+  EXPECT_EQ(s.answer_to("accept"), "accept: taken") << "the control";
+  EXPECT_THAT(s.answer_to("next"), ::testing::Not(HasSubstr("taken"))) << "the landmark first";
   EXPECT_EQ(s.session().current_step(), Step::kAccepted);
 }
 

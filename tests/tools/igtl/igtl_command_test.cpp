@@ -70,12 +70,14 @@ TEST(IgtlCommand, AnswersWhatItsClientsAskWhereTheyMay) {
   }
   ASSERT_EQ(answers.size(), 2u);
   std::sort(answers.begin(), answers.end(),
-            [](const auto& a, const auto& b) { return a.contains("why") && !b.contains("why"); });
+            [](const auto& a, const auto& b) { return a["asked"] < b["asked"]; });
   EXPECT_EQ(answers[0]["taken"], false);
   EXPECT_EQ(answers[0]["why"], "\"begin\" is not a command");
   EXPECT_EQ(answers[1]["asked"], "plan L4 left");
   EXPECT_EQ(answers[1]["client"], "127.0.0.1");
   EXPECT_EQ(answers[1]["taken"], false) << "no level is accepted yet";
+  EXPECT_THAT(answers[1]["why"].get<std::string>(), HasSubstr("not possible now"));
+  EXPECT_TRUE(answers[1].contains("status")) << "it got to the operation";
   ASSERT_TRUE(test::wait_until([&] { return command.takes_signals(); }));
   command.send(SIGTERM);
   EXPECT_THAT(command.wait().err, HasSubstr("its clients may command"));
@@ -117,7 +119,8 @@ TEST(IgtlCommand, RunsOnToolsThatAnotherProgramTracks) {
 }
 
 TEST(IgtlCommand, RefusesPlacesWhereNobodyCanListen) {
-  for (const std::string at : {"port", "70000", "localhost:18944", "1.2.3.4.5:18944"}) {
+  for (const std::string at : {"port", "70000", "localhost:18944", "1.2.3.4.5:18944", "::1:18944",
+                               "[::1]", "18944:18944", "127.0.0.1:1:2"}) {
     const test::Called called = test::orthonav({"run", "--frames", "1", "--igtl", at});
     EXPECT_EQ(called.code, 2) << at;
     EXPECT_THAT(called.err, HasSubstr("--igtl \"" + at + "\": "));
