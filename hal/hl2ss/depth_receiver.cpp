@@ -1,7 +1,5 @@
 #include "hal/hl2ss/depth_receiver.h"
 
-#include <poll.h>
-
 #include <array>
 #include <string>
 #include <utility>
@@ -72,9 +70,7 @@ void DepthReceiver::run() {
       const MutexLock lock(mutex_);
       watched[1] = {connection_->fd(), connection_->events(), 0};
     }
-    if (::poll(watched.data(), watched.size(), kDepthTurnMs) < 0) {
-      continue;
-    }
+    net::wait_for_news(watched, kDepthTurnMs);
     if (watched[0].revents != 0) {
       wake_up_.clear();
     }

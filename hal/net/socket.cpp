@@ -118,6 +118,19 @@ Result<std::vector<std::uint8_t>> ask_once(const Endpoint& host, int port, Bytes
 
 }  // namespace
 
+void wait_for_news(std::span<pollfd> watched, int timeout_ms) {
+  if (::poll(watched.data(), watched.size(), timeout_ms) >= 0) {
+    return;
+  }
+  const bool interrupted = errno == EINTR;
+  for (pollfd& each : watched) {
+    each.revents = 0;
+  }
+  if (!interrupted) {
+    std::this_thread::sleep_for(milliseconds(timeout_ms));
+  }
+}
+
 Socket::~Socket() {
   if (fd_ >= 0) {
     ::close(fd_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <poll.h>
 #include <sys/socket.h>
 
 #include <chrono>
@@ -53,6 +54,10 @@ struct Endpoint {
 };
 /// By name or numeric address; a name lookup may block.
 Result<Endpoint> resolve(const std::string& host);
+
+/// poll(), for at most this long. Where the system refuses it (too many files, no memory), nothing
+/// is new, and the call lasts as long, so that whoever asks again does not spin.
+void wait_for_news(std::span<pollfd> watched, int timeout_ms);
 
 /// Starts connecting without waiting.
 Result<Socket> begin_connect(Endpoint host, int port);

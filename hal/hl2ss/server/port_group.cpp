@@ -55,7 +55,7 @@ void PortGroup::turn() {
     const bool waits = !member.port->has_client() && !member.is_free();
     watched_.push_back({waits ? -1 : member.port->fd(), member.port->events(), 0});
   }
-  (void)::poll(watched_.data(), watched_.size(), kTurnMs);
+  net::wait_for_news(watched_, kTurnMs);
   const HostTime now = HostClock::now();
   for (std::size_t i = 0; i < members_.size(); ++i) {
     Port& port = *members_[i].port;

@@ -1,6 +1,7 @@
 #include "hal/net/socket.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <array>
 
@@ -15,6 +16,25 @@ class SocketCodes : public ::testing::Test {
   Socket listener_ = listen_at(here_, 0).value();
   const int port_ = port_of(listener_);
 };
+
+/// With fewer files allowed than watched, poll() is refused: nothing is new, and nobody spins.
+TEST(WaitingForNews, TakesItsTimeWherePollIsRefused) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  std::array<pollfd, 8> watched{};
+  watched.fill({-1, POLLIN, POLLIN});
+  rlimit few = before;
+  few.rlim_cur = watched.size() - 1;
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+  const HostTime begin = HostClock::now();
+  wait_for_news(watched, 5);
+  const auto took = HostClock::now() - begin;
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_GE(took, std::chrono::milliseconds(5));
+  for (const pollfd& each : watched) {
+    EXPECT_EQ(each.revents, 0);
+  }
+}
 
 TEST_F(SocketCodes, OfAPortWhereNobodyListensIsUnavailable) {
   EXPECT_TRUE(reach(here_, port_, soon()).ok());
