@@ -38,10 +38,12 @@ void read_view(const JsonNode& view, SceneFile& file) {
   if (render::length(render::cross(up, target - eye)) < 1e-6f) {
     view.refuse("up", "must not lie along the line of sight");
   }
-  file.width_px =
-      static_cast<int>(number_or(view, "width_px", file.width_px, kSmallest_px, kLargest_px, "px"));
-  file.height_px = static_cast<int>(
-      number_or(view, "height_px", file.height_px, kSmallest_px, kLargest_px, "px"));
+  const auto pixels = [&view](const char* key, int fallback) {
+    (void)number_or(view, key, fallback, kSmallest_px, kLargest_px, "px");
+    return view.has(key) ? view.integer(key) : fallback;
+  };
+  file.width_px = pixels("width_px", file.width_px);
+  file.height_px = pixels("height_px", file.height_px);
   const double width_deg = number_or(view, "width_deg", 43.0, 1.0, 150.0, "deg");
   const double apart_mm = number_or(view, "eyes_apart_mm", 63.0, 0.0, 100.0, "mm");
   const auto across = static_cast<float>(std::tan(0.5 * width_deg * kRadiansPerDegree));

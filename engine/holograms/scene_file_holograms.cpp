@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "base/printed.h"
 #include "engine/holograms/hologram_cross.h"
 #include "engine/holograms/hologram_parts.h"
 #include "engine/holograms/hologram_status.h"
@@ -37,6 +38,9 @@ void add_path(const JsonNode& node, Label label, Scene& scene) {
   if (node.has("distances_mm")) {
     std::vector<float> distances_m;
     for (const double mm : node.numbers("distances_mm", samples.size())) {
+      if (!(std::abs(mm) <= kFarthest_mm)) {
+        node.refuse("distances_mm", "holds " + printed("%g", mm) + ", must lie within 10000 mm");
+      }
       distances_m.push_back(static_cast<float>(mm * 1e-3));
     }
     return add_residual_path(scene, samples, distances_m, label);
@@ -65,7 +69,12 @@ void add_bone(const JsonNode& node, const std::string& folder, Label label, Scen
     for (const std::size_t offset : {3U, 7U, 11U}) {
       rows[offset] *= 1e-3;
     }
-    place = to_matrix(rows);
+    const auto rigid = Transform<World, Vertebra>::from_row_major(rows);
+    if (!rigid || rows[12] != 0.0 || rows[13] != 0.0 || rows[14] != 0.0 || rows[15] != 1.0) {
+      return node.refuse("world_from_vertebra",
+                         rigid ? "must end with the row 0, 0, 0, 1" : rigid.error().message);
+    }
+    place = to_matrix(rigid->row_major());
   }
   add_vertebra(scene, mesh_data(*mesh), place, label);
 }
@@ -99,12 +108,11 @@ void add_cross(const JsonNode& node, Label label, Scene& scene) {
 }
 
 void add_depth_text(const JsonNode& node, Label label, Scene& scene) {
-  const double sd_m = node.has("sd_mm") ? node.number("sd_mm") * 1e-3 : 0.0;
-  if (!(sd_m >= 0.0)) {
-    node.refuse("sd_mm", "must not be below 0");
-  }
-  const auto depth = nav::DepthWriter().write({node.number("depth_mm") * 1e-3, sd_m},
-                                              node.number("to_target_mm") * 1e-3);
+  const double sd_m =
+      node.has("sd_mm") ? number_between(node, "sd_mm", 0.0, 1000.0, "mm") * 1e-3 : 0.0;
+  const double to_target_mm = number_between(node, "to_target_mm", -1000.0, 1000.0, "mm");
+  const auto depth =
+      nav::DepthWriter().write({node.number("depth_mm") * 1e-3, sd_m}, to_target_mm * 1e-3);
   if (!depth) {
     node.refuse("depth_mm", "must lie within 1000 mm");
   }
@@ -113,16 +121,15 @@ void add_depth_text(const JsonNode& node, Label label, Scene& scene) {
 }
 
 void add_rod_through(const JsonNode& node, Label label, Scene& scene) {
-  const double diameter_m = node.has("diameter_mm") ? node.number("diameter_mm") * 1e-3 : 0.0055;
+  const double diameter_m = node.has("diameter_mm")
+                                ? number_between(node, "diameter_mm", 1.0, 15.0, "mm") * 1e-3
+                                : 0.0055;
   std::vector<Vec3> heads_m;
   for (const Vec3 head_mm : node.vec3s("heads_mm")) {
     heads_m.push_back(head_mm * 1e-3);
   }
   RodHologram hologram;
-  std::vector<Float3> heads;
-  for (const Vec3 head : heads_m) {
-    heads.push_back(to_float3(head));
-  }
+  const std::vector<Float3> heads = places_from(node, "heads_mm");
   std::vector<RodBendMark> bends;
   if (heads.size() > 1) {
     const auto rod = nav::rod_template(heads_m, diameter_m);
@@ -166,7 +173,8 @@ void add_check(const JsonNode& node, Label label, Scene& scene) {
   if (!node.has("distance_mm")) {
     return add_place_to_check(scene, place, label);
   }
-  const double distance_m = node.number("distance_mm") * 1e-3;
+  const double distance_m =
+      number_between(node, "distance_mm", -kFarthest_mm, kFarthest_mm, "mm") * 1e-3;
   add_check_point(scene, place, distance_text(distance_m), std::abs(distance_m) <= 0.002, label);
 }
 
@@ -201,6 +209,7 @@ struct Kind {
   const char* type;
   Label number;
   void (*add)(const JsonNode&, const std::string& folder, Label, Scene&);
+  const char* keys;  ///< besides `type`
 };
 
 template <void (*kAdd)(const JsonNode&, Label, Scene&)>
@@ -220,20 +229,22 @@ void add_angle(const JsonNode& node, Label label, Scene& scene) {
                     angle_text(angle_from(node)), grade_from(node), label);
 }
 
-constexpr std::array<Kind, 14> kKinds = {{{"path", 1, plain<add_path>},
-                                          {"vertebra", 2, add_bone},
-                                          {"entry", 3, plain<add_entry_point>},
-                                          {"trajectory", 4, plain<add_plan>},
-                                          {"triangle", 5, plain<add_triangle>},
-                                          {"angle", 6, plain<add_angle>},
-                                          {"cross", 7, plain<add_cross>},
-                                          {"twin", 8, add_twin_of},
-                                          {"depth", 9, plain<add_depth_text>},
-                                          {"rod", 10, plain<add_rod_through>},
-                                          {"status", 11, plain<add_status>},
-                                          {"check_point", 12, plain<add_check>},
-                                          {"line", kFree, plain<add_free_line>},
-                                          {"text", kFree, plain<add_free_text>}}};
+constexpr std::array<Kind, 14> kKinds = {
+    {{"path", 1, plain<add_path>, "samples_mm state opacity distances_mm"},
+     {"vertebra", 2, add_bone, "mesh unit world_from_vertebra"},
+     {"entry", 3, plain<add_entry_point>, "position_mm normal text done side"},
+     {"trajectory", 4, plain<add_plan>, "entry_mm target_mm"},
+     {"triangle", 5, plain<add_triangle>, "entry_mm tool_mm plan_mm angle_deg"},
+     {"angle", 6, plain<add_angle>, "entry_mm tool_mm angle_deg"},
+     {"cross", 7, plain<add_cross>,
+      "site_mm outward eye_mm up tip_offset_mm top_offset_mm angle_deg lost"},
+     {"twin", 8, add_twin_of, "site_mm beside of"},
+     {"depth", 9, plain<add_depth_text>, "entry_mm tool_mm depth_mm to_target_mm sd_mm"},
+     {"rod", 10, plain<add_rod_through>, "heads_mm diameter_mm shift_mm"},
+     {"status", 11, plain<add_status>, "text tools"},
+     {"check_point", 12, plain<add_check>, "position_mm distance_mm"},
+     {"line", kFree, plain<add_free_line>, "points_mm width_mm colour dash_mm closed"},
+     {"text", kFree, plain<add_free_text>, "position_mm text height_mm colour"}}};
 
 }  // namespace
 
@@ -253,6 +264,12 @@ void add_hologram(const JsonNode& node, const std::string& folder, std::size_t k
       known += std::string(known.empty() ? "" : ", ") + kind.type;
     }
     return node.refuse("type", "is \"" + type + "\", must be one of " + known);
+  }
+  for (const std::string& key : node.keys()) {
+    const std::string known = " " + std::string(found->keys) + " ";
+    if (key != "type" && known.find(" " + key + " ") == std::string::npos) {
+      return node.refuse(key.c_str(), "is unknown; " + type + " has " + found->keys);
+    }
   }
   const auto label = 100 * found->number + static_cast<Label>(std::min<std::size_t>(k, 99));
   found->add(node, folder, label, scene);

@@ -14,7 +14,15 @@ namespace {
 
 using render::Float3;
 
-constexpr double kFarthest_mm = 10'000.0;
+/// Refuses a place that is farther away than any room is large.
+Vec3 near_origin(const JsonNode& node, const char* key, Vec3 place_mm) {
+  for (const double mm : {place_mm.x, place_mm.y, place_mm.z}) {
+    if (!(std::abs(mm) <= kFarthest_mm)) {
+      node.refuse(key, "holds " + printed("%g", mm) + ", must lie within 10000 mm of the origin");
+    }
+  }
+  return place_mm;
+}
 
 }  // namespace
 
@@ -33,13 +41,7 @@ float length_from(const JsonNode& node, const char* key, double low_mm, double h
 }
 
 Float3 place_from(const JsonNode& node, const char* key) {
-  const Vec3 place_mm = node.vec3(key);
-  for (const double mm : {place_mm.x, place_mm.y, place_mm.z}) {
-    if (!(std::abs(mm) <= kFarthest_mm)) {
-      node.refuse(key, "must lie within 10000 mm of the origin");
-    }
-  }
-  return to_float3(place_mm * 1e-3);
+  return to_float3(near_origin(node, key, node.vec3(key)) * 1e-3);
 }
 
 Float3 direction_from(const JsonNode& node, const char* key) {
@@ -54,7 +56,7 @@ Float3 direction_from(const JsonNode& node, const char* key) {
 std::vector<Float3> places_from(const JsonNode& node, const char* key) {
   std::vector<Float3> places;
   for (const Vec3 place_mm : node.vec3s(key)) {
-    places.push_back(to_float3(place_mm * 1e-3));
+    places.push_back(to_float3(near_origin(node, key, place_mm) * 1e-3));
   }
   return places;
 }
@@ -77,7 +79,7 @@ std::optional<double> angle_from(const JsonNode& node) {
   if (!node.has("angle_deg")) {
     return std::nullopt;
   }
-  return node.number("angle_deg") * kRadiansPerDegree;
+  return number_between(node, "angle_deg", 0.0, 180.0, "deg") * kRadiansPerDegree;
 }
 
 Grade grade_from(const JsonNode& node) { return grade_of(angle_from(node).value_or(1.0)); }

@@ -13,6 +13,9 @@ namespace orthonav::engine {
 
 // Reads values from a node of a scene file; problems are noted in its document.
 
+/// Limit of every coordinate and distance.
+inline constexpr double kFarthest_mm = 10'000.0;
+
 /// A number between limits, which an error message names.
 [[nodiscard]] double number_between(const JsonNode& node, const char* key, double low, double high,
                                     const char* unit);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 
+#include "base/printed.h"
 #include "engine/io/json_document.h"
 #include "engine/io/text_fields.h"
 
@@ -13,22 +15,25 @@ namespace {
 /// Longer than any step of an operation takes, even on a slow machine.
 constexpr Duration kPatience = std::chrono::seconds(300);
 
+/// Nine hours of pairs.
+constexpr double kMostPairs = 1e6;
+
 constexpr auto kWords = std::to_array<ScriptWord>({
-    {"key", Follows::kKey},          // down and up
-    {"press", Follows::kKey},        // down
-    {"release", Follows::kKey},      // up
-    {"say", Follows::kText},         // as the surgeon says it
-    {"until", Follows::kText},       // waits until the step begins with this
-    {"first", Follows::kText},       // the same, then pauses and shows its first pair
-    {"pause", Follows::kNothing},    // waits until nothing moves any more
-    {"pairs", Follows::kNumber},     // waits until that many more have passed
-    {"scrub", Follows::kNumber},     // pauses, and waits until that pair is shown
-    {"wait", Follows::kNumber},      // lets that many pictures of the window go by
-    {"drag", Follows::kTwoNumbers},  // orbits by hundredths of the picture's height
-    {"zoom", Follows::kNumber},
-    {"hide", Follows::kNumber},
-    {"show", Follows::kNumber},
-    {"resize", Follows::kTwoNumbers},
+    {"key", Follows::kKey},                           // down and up
+    {"press", Follows::kKey},                         // down
+    {"release", Follows::kKey},                       // up
+    {"say", Follows::kText},                          // as the surgeon says it
+    {"until", Follows::kText},                        // waits until the step begins with this
+    {"first", Follows::kText},                        // the same, then pauses, shows its first pair
+    {"pause", Follows::kNothing},                     // waits until nothing moves any more
+    {"pairs", Follows::kWhole, 0, kMostPairs},        // waits until that many more have passed
+    {"scrub", Follows::kWhole, 0, kMostPairs},        // pauses, waits until that pair is shown
+    {"wait", Follows::kWhole, 0, 10'000},             // lets that many pictures of the window go by
+    {"drag", Follows::kTwoNumbers, -10'000, 10'000},  // orbits by hundredths of the height
+    {"zoom", Follows::kNumber, -100, 100},
+    {"hide", Follows::kWhole, 1, kLastHologram},
+    {"show", Follows::kWhole, 1, kLastHologram},
+    kResize,
     {"screenshot", Follows::kText},
 });
 
@@ -126,16 +131,30 @@ Status Script::check(const ScriptLine& line, std::span<const ScriptWord> words) 
         return error(line, "there is no key \"" + line.rest + "\"");
       }
       return {};
+    case Follows::kWhole:
     case Follows::kNumber:
-      if (!numbers_in(line.rest, 1)) {
-        return error(line, "needs a number");
-      }
-      return {};
+    case Follows::kTwoWhole:
     case Follows::kTwoNumbers:
       break;
   }
-  if (!numbers_in(line.rest, 2)) {
-    return error(line, "needs two numbers");
+  return check_numbers(line, *word);
+}
+
+Status Script::check_numbers(const ScriptLine& line, const ScriptWord& word) const {
+  const bool two = word.follows == Follows::kTwoWhole || word.follows == Follows::kTwoNumbers;
+  const bool whole = word.follows == Follows::kWhole || word.follows == Follows::kTwoWhole;
+  const int count = two ? 2 : 1;
+  const auto numbers = numbers_in(line.rest, count);
+  if (!numbers) {
+    return error(line, two ? "needs two numbers" : "needs a number");
+  }
+  for (int i = 0; i < count; ++i) {
+    const double number = (*numbers)[static_cast<std::size_t>(i)];
+    if (!(number >= word.low && number <= word.high) || (whole && number != std::floor(number))) {
+      return error(line, printed("%g", number) + " must be a" + (whole ? " whole" : "") +
+                             " number from " + printed("%.0f", word.low) + " to " +
+                             printed("%.0f", word.high));
+    }
   }
   return {};
 }

@@ -30,13 +30,25 @@ struct ScriptLine {
   std::string rest;
 };
 
-/// What follows a word.
-enum class Follows : std::uint8_t { kNothing, kText, kKey, kNumber, kTwoNumbers };
+/// What follows a word: numbers are whole or any.
+enum class Follows : std::uint8_t {
+  kNothing,
+  kText,
+  kKey,
+  kWhole,
+  kNumber,
+  kTwoWhole,
+  kTwoNumbers
+};
 /// A word that a line can begin with.
 struct ScriptWord {
   std::string_view word;
   Follows follows = Follows::kNothing;
+  double low = 0.0;  ///< of its numbers
+  double high = 0.0;
 };
+/// The window's size in pixels.
+inline constexpr ScriptWord kResize{"resize", Follows::kTwoWhole, 64, 16'384};
 /// Those of a previewed operation.
 [[nodiscard]] std::span<const ScriptWord> script_words();
 /// One or two numbers; nothing if there are others, or more.
@@ -65,6 +77,7 @@ class Script {
   Script(std::string name, std::vector<ScriptLine> lines)
       : name_(std::move(name)), lines_(std::move(lines)) {}
   [[nodiscard]] Status check(const ScriptLine& line, std::span<const ScriptWord> words) const;
+  [[nodiscard]] Status check_numbers(const ScriptLine& line, const ScriptWord& word) const;
   [[nodiscard]] Error error(const ScriptLine& line, const std::string& why) const;
   /// False: it must wait and be tried again.
   bool perform(const ScriptLine& line, PreviewModel& model, const ScriptStage& stage);

@@ -95,6 +95,41 @@ TEST_F(SceneFiles, SayWhatWhereAndTheLimit) {
   EXPECT_EQ(said_about(R"({"type": "check_point", "position_mm": [0, 1, 0]})"), "nothing");
 }
 
+TEST_F(SceneFiles, RefuseNumbersThatNothingCanHave) {
+  EXPECT_THAT(said_about(R"({"type": "line", "points_mm": [[0,0,0],[2e4,0,0]], "width_mm": 1})"),
+              HasSubstr("points_mm holds 20000, must lie within 10000 mm of the origin"));
+  const std::string angle = R"({"type": "angle", "entry_mm": [0,0,0], "tool_mm": [0,9,0], )";
+  for (const char* bad : {R"("angle_deg": -1})", R"("angle_deg": 181})", R"("angle_degree": 3})"}) {
+    EXPECT_THAT(said_about((angle + bad).c_str()), HasSubstr("holograms[3].angle_deg")) << bad;
+  }
+  EXPECT_EQ(said_about((angle + R"("angle_deg": 180})").c_str()), "nothing");
+  EXPECT_THAT(
+      said_about(R"({"type": "check_point", "position_mm": [0,0,0], "distance_mm": 1e300})"),
+      HasSubstr("distance_mm"));
+  EXPECT_THAT(said_about(R"({"type": "rod", "heads_mm": [[0,0,0]], "diameter_mm": -5})"),
+              HasSubstr("diameter_mm is -5"));
+  EXPECT_THAT(said_about(R"({"type": "depth", "entry_mm": [0,0,0], "tool_mm": [0,9,0],
+                             "depth_mm": 3, "to_target_mm": 30, "sd_mm": 1e9})"),
+              HasSubstr("sd_mm is 1"));
+  json scene = example();
+  scene["view"]["width_px"] = 640.5;
+  EXPECT_THAT(loaded(scene).error().message, HasSubstr("view.width_px"));
+}
+
+TEST_F(SceneFiles, RefuseABoneThatIsMirroredOrStretched) {
+  std::ofstream((folder_.path() / "bone.obj").string())
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const auto placed = [this](const std::string& rows) {
+    return said_about(
+        (R"({"type": "vertebra", "mesh": "bone.obj", "world_from_vertebra": [)" + rows + "]}")
+            .c_str());
+  };
+  EXPECT_EQ(placed("1,0,0,5, 0,1,0,6, 0,0,1,7, 0,0,0,1"), "nothing");
+  EXPECT_THAT(placed("-1,0,0,5, 0,1,0,6, 0,0,1,7, 0,0,0,1"), HasSubstr("mirrors"));
+  EXPECT_THAT(placed("2,0,0,5, 0,2,0,6, 0,0,2,7, 0,0,0,1"), HasSubstr("not rigid"));
+  EXPECT_THAT(placed("1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1"), HasSubstr("row 0, 0, 0, 1"));
+}
+
 TEST_F(SceneFiles, RefuseAViewThatSeesNothing) {
   json scene = example();
   scene["view"]["target_mm"] = scene["view"]["eye_mm"];

@@ -30,7 +30,7 @@ struct Bench : ModelBench {
 TEST(Script, WaitsForAStepAndTakesOnePictureACall) {
   Bench bench;
   Script script =
-      Script::parse("until digitize # a remark\nscreenshot a.png\nresize 64 48\nkey s\n", "t")
+      Script::parse("until digitize # a remark\nscreenshot a.png\nresize 640 480\nkey s\n", "t")
           .value();
   ASSERT_TRUE(bench.go_on(script).ok());
   bench.show(1, {Step::kSetup, {}, {}});
@@ -40,7 +40,7 @@ TEST(Script, WaitsForAStepAndTakesOnePictureACall) {
   ASSERT_TRUE(bench.go_on(script).ok());
   EXPECT_THAT(bench.taken, ElementsAre("a.png"));
   ASSERT_TRUE(bench.go_on(script).ok());
-  EXPECT_THAT(bench.taken, ElementsAre("a.png", "640048"));
+  EXPECT_THAT(bench.taken, ElementsAre("a.png", "6400480"));
   EXPECT_FALSE(script.done());
   ASSERT_TRUE(bench.go_on(script).ok());
   EXPECT_TRUE(script.done());
@@ -110,6 +110,28 @@ TEST(Script, RefusesWhatItDoesNotKnow) {
     const auto script = Script::parse(std::string("key s\n") + bad, "t");
     ASSERT_FALSE(script.ok()) << bad;
     EXPECT_THAT(script.error().message, HasSubstr("t:2: ")) << bad;
+  }
+}
+
+TEST(Script, RefusesNumbersThatNothingCanHave) {
+  for (const char* bad :
+       {"resize 63 480",   "resize 640 16385", "resize -1 480", "resize 640.5 480",
+        "resize 1e99 480", "resize nan 480",   "show 0",        "show 14",
+        "show 99",         "hide -3",          "hide 1.5",      "pairs -1",
+        "pairs 2.5",       "pairs 1000001",    "pairs 7 8",     "scrub -1",
+        "wait -1",         "wait 1e9",         "zoom 101",      "zoom inf",
+        "drag 1e9 0",      "drag 0 nan",       "drag 1 2 3",    "zoom 3x"}) {
+    const auto script = Script::parse(std::string("key s\n") + bad, "t");
+    ASSERT_FALSE(script.ok()) << bad;
+    EXPECT_THAT(script.error().message, HasSubstr("t:2: ")) << bad;
+  }
+  EXPECT_EQ(Script::parse("show 99", "t").error().message,
+            "t:1: show: 99 must be a whole number from 1 to 13");
+  EXPECT_EQ(Script::parse("\nresize 63 480", "t").error().message,
+            "t:2: resize: 63 must be a whole number from 64 to 16384");
+  for (const char* good : {"resize 64 16384", "show 1", "hide 13", "pairs 0", "pairs 1000000",
+                           "scrub 0", "wait 0", "zoom -100", "drag -10000 0.5"}) {
+    EXPECT_TRUE(Script::parse(good, "t").ok()) << good;
   }
 }
 

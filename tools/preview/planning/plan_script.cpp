@@ -15,7 +15,7 @@ constexpr auto kPlanWords = std::to_array<ScriptWord>({
     {"say", Follows::kText},     // a change, as typed in the panel
     {"select", Follows::kText},  // "L4 left"
     {"drag", Follows::kText},    // "axial target 2 -1.5": mm to the right and up
-    {"resize", Follows::kTwoNumbers},
+    kResize,
     {"screenshot", Follows::kText},
 });
 
