@@ -65,7 +65,10 @@ Result<std::vector<Offer>> offers_of_recording(const std::string& folder) {
   std::vector<Offer> offers = {
       {"Recording: stereo pairs", Finding::kFound,
        how_many(summary.pairs, "pair") + ", " + std::to_string(summary.pairs_without_pose) +
-           " without a pose, " + span_after(start, start, summary.last_ticks_100ns),
+           " without a pose, " +
+           (summary.missing > 0 ? std::to_string(summary.missing) + " missing by their numbers, "
+                                : "") +
+           span_after(start, start, summary.last_ticks_100ns),
        ""}};
   if (!summary.cut.empty()) {
     offers.push_back({"Recording: cut off", Finding::kOptional, summary.cut,

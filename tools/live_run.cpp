@@ -88,6 +88,7 @@ class LiveRun {
     if (ground_truth_) {
       ground_truth_->evaluate(session.levels(), result);
     }
+    result.recorded = files_.recorded();
     end_note_.explain(result);
     explain_stop(signals_, result);
     return result;

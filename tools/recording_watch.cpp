@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "base/how_many.h"
 #include "engine/session/saved_wording.h"
 
 namespace orthonav::tools {
@@ -24,12 +25,29 @@ engine::Saved RecordingWatch::saved(Timestamp now, Duration lately) const {
 
 void RecordingWatch::stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*inputs*/,
                              const engine::Guidance& /*guidance*/) {
+  if (const replay::RecordedCounts counts = recorder_->counts();
+      !told_losses_ && counts.lost_pairs + counts.lost_others > 0) {
+    told_losses_ = true;
+    warn("the disk is too slow for the recording: pairs are being lost from it");
+  }
   if (told_ || !recorder_->recording_failed()) {
     return;
   }
   told_ = true;
-  const std::string line = std::string(engine::text_of(engine::Saved::kNotRecorded)) +
-                           " from here on: " + recorder_->recording_status().error().message;
+  warn(std::string(engine::text_of(engine::Saved::kNotRecorded)) +
+       " from here on: " + recorder_->recording_status().error().message);
+}
+
+void RecordingWatch::ended() {
+  const replay::RecordedCounts counts = recorder_->counts();
+  if (counts.lost_pairs + counts.lost_others > 0) {
+    warn("the disk was too slow for the recording: it lacks " + std::to_string(counts.lost_pairs) +
+         " of " + how_many(counts.pairs, "pair") + " that came, and " +
+         std::to_string(counts.lost_others) + " depth pictures, poses and events");
+  }
+}
+
+void RecordingWatch::warn(const std::string& line) {
   log_.warn(line);
   std::fprintf(stderr, "orthonav: %s\n", line.c_str());
 }

@@ -56,6 +56,14 @@ Status RunFiles::record(engine::AssembledOperation& operation, const std::string
   return {};
 }
 
+std::optional<engine::RecordedPairs> RunFiles::recorded() const {
+  if (!recorder_) {
+    return std::nullopt;
+  }
+  const replay::RecordedCounts counts = recorder_->counts();
+  return engine::RecordedPairs{counts.pairs, counts.lost_pairs};
+}
+
 Status RunFiles::finish(const engine::OperationResult& result, const std::string& report,
                         bool simulated) {
   Status first = kept_.finish(result.completed, result.why_not);
@@ -74,6 +82,7 @@ Status RunFiles::finish(const engine::OperationResult& result, const std::string
   }
   if (recorder_) {
     note(recorder_->close());
+    recording_->ended();
   }
   return first;
 }
@@ -90,6 +99,7 @@ std::string RunFiles::close(std::string reason) {
   }
   if (recorder_) {
     note(recorder_->close());
+    recording_->ended();
   }
   return reason;
 }

@@ -43,6 +43,7 @@ class CalibratedHeadset : public ForwardingHeadset {
    private:
     [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
     Result<Next> do_next(StereoFrame& frame) override { return inner_.next(frame); }
+    bool do_tap(PairTap* tap) override { return inner_.tap(tap); }
 
     StereoCamera& inner_;
     StereoCalibration calibration_;

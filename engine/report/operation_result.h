@@ -93,6 +93,12 @@ struct RodOutcome {
   std::vector<nav::MeasuredBend> measured = {};  ///< the bends that were measured in hand
 };
 
+/// The pairs of an operation that was recorded.
+struct RecordedPairs {
+  std::int64_t received = 0;  ///< from the cameras
+  std::int64_t lost = 0;      ///< of these, not in the recording, since the disk was too slow
+};
+
 /// The measured result of one operation. Values that depend on the machine's speed are only in
 /// `loop`.
 struct OperationResult {
@@ -109,6 +115,7 @@ struct OperationResult {
   std::vector<RodOutcome> rods;                 ///< empty if no side has two screws
   LoopReport loop;
   Status recording;  ///< why the session's recording is incomplete, if one was requested
+  std::optional<RecordedPairs> recorded;  ///< absent: no device's own pairs were recorded
 };
 
 /// The outcome from the session alone, without the truth.

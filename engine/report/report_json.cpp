@@ -197,6 +197,10 @@ std::string report_json(const OperationResult& result) {
     out["levels"].push_back(level_json(level));
   }
   out["rod"] = rods_json(result.rods);
+  if (result.recorded) {
+    out["recording"] =
+        Json{{"pairs_received", result.recorded->received}, {"pairs_lost", result.recorded->lost}};
+  }
   out["frames"] = Json{{"displayed", result.loop.displayed}};
   put_quantile(out["frames"], "median_ms", result.loop.intervals_ms, 0.5);
   put_quantile(out["frames"], "p99_ms", result.loop.intervals_ms, 0.99);

@@ -56,6 +56,15 @@ struct StereoFrame {
   void clear();
 };
 
+/// Sees pairs as a device receives them.
+class PairTap {
+ public:
+  virtual ~PairTap() = default;
+  /// Called on the thread that receives them, in order, before `next` can return the pair. Must not
+  /// wait.
+  virtual void received(const StereoFrame& pair) = 0;
+};
+
 /// Pull interface of the camera pair. Contract, kept by the public call for every device: times
 /// strictly increase, both images have the calibration's size, sequence numbers increase, the map's
 /// epoch never decreases, a pose is a rigid motion; after kEnd there is only kEnd. A frame that
@@ -73,10 +82,15 @@ class StereoCamera {
   [[nodiscard]] std::span<const std::string> measured_tools() const { return do_measured_tools(); }
   /// Fills `frame` with the next pair, never the same one twice. Does not block.
   Result<Next> next(StereoFrame& frame);
+  /// From now on `tap`, which is borrowed, sees every pair that arrives, also those for which
+  /// `next` is asked too late; unlike next's, they are not checked. Null: none does, and once this
+  /// returns, none is being called. False: there is nothing to see before `next` returns it.
+  bool tap(PairTap* tap) { return do_tap(tap); }
 
  private:
   [[nodiscard]] virtual const StereoCalibration& do_calibration() const = 0;
   [[nodiscard]] virtual std::span<const std::string> do_measured_tools() const { return {}; }
+  virtual bool do_tap(PairTap* /*tap*/) { return false; }
   virtual Result<Next> do_next(StereoFrame& frame) = 0;
 
   FrameOrder order_;

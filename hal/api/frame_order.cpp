@@ -11,8 +11,8 @@ bool is_rigid(const Transform<World, Rig>& pose) {
          orthonormality_error(pose.rotation()) <= kMaxPoseDeviation;
 }
 
-Status FrameOrder::check(std::string_view what, Timestamp time, std::int64_t sequence,
-                         std::int64_t map_epoch) const {
+Status FrameOrder::check_order(std::string_view what, Timestamp time, std::int64_t sequence,
+                               std::int64_t map_epoch) const {
   const std::string name(what);
   if (last_.time && time <= *last_.time) {
     return Error{name + ": time " + in_seconds(time) + " does not come after " +

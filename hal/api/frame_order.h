@@ -40,16 +40,7 @@ class FrameOrder {
     }
     Result<Next> answer = do_next();
     if (answer && *answer == Next::kFrame) {
-      Status good = check(what, frame.time, frame.sequence, frame.map_epoch);
-      if (good) {
-        good = check_images();
-      }
-      if (good) {
-        good = check_pose(what, frame.time, frame.world_from_rig);
-      }
-      if (good) {
-        last_ = {frame.time, frame.sequence, frame.map_epoch};
-      } else {
+      if (const Status good = check(what, frame, check_images); !good) {
         answer = good.error();
       }
     }
@@ -58,6 +49,21 @@ class FrameOrder {
     }
     ended_ = answer && *answer == Next::kEnd;
     return answer;
+  }
+  /// Whether it may follow the ones before it, which are those that passed.
+  template <class Frame, class CheckImages>
+  Status check(std::string_view what, const Frame& frame, const CheckImages& check_images) {
+    Status good = check_order(what, frame.time, frame.sequence, frame.map_epoch);
+    if (good) {
+      good = check_images();
+    }
+    if (good) {
+      good = check_pose(what, frame.time, frame.world_from_rig);
+    }
+    if (good) {
+      last_ = {frame.time, frame.sequence, frame.map_epoch};
+    }
+    return good;
   }
 
  private:
@@ -69,8 +75,8 @@ class FrameOrder {
   Last last_;
   bool ended_ = false;
 
-  [[nodiscard]] Status check(std::string_view what, Timestamp time, std::int64_t sequence,
-                             std::int64_t map_epoch) const;
+  [[nodiscard]] Status check_order(std::string_view what, Timestamp time, std::int64_t sequence,
+                                   std::int64_t map_epoch) const;
   [[nodiscard]] static Status check_pose(std::string_view what, Timestamp time,
                                          const std::optional<Transform<World, Rig>>& pose);
 };

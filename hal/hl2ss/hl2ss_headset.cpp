@@ -123,6 +123,10 @@ class Cameras final : public StereoCamera {
     taken_ = frame.time;
     return Next::kFrame;
   }
+  bool do_tap(PairTap* tap) override {
+    receiver_.pairs().tap(tap);
+    return true;
+  }
 
   Receiver& receiver_;
   StereoCalibration calibration_;

@@ -36,9 +36,17 @@ void PairMailbox::put(const Pairer::Pair& pair, std::int64_t map_epoch) {
   std::swap(newest_.left, pair.left.image);
   std::swap(newest_.right, pair.right.image);
   arrived_ = std::max(pair.left.arrived, pair.right.arrived);
+  if (tap_ != nullptr) {
+    tap_->received(newest_);
+  }
   waits_ = true;
   ++figures_.pairs;
   note(figures_.publish_ms, next_publish_, arrived_);
+}
+
+void PairMailbox::tap(PairTap* tap) {
+  const MutexLock lock(mutex_);
+  tap_ = tap;
 }
 
 std::optional<Timestamp> PairMailbox::waiting() const {

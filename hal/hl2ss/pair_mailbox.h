@@ -15,6 +15,8 @@ class PairMailbox {
  public:
   /// The pair must be later than the one before it.
   void put(const Pairer::Pair& pair, std::int64_t map_epoch);
+  /// Null: nobody sees the pairs that are put.
+  void tap(PairTap* tap);
   /// The time of the waiting pair.
   [[nodiscard]] std::optional<Timestamp> waiting() const;
   /// Copies it into `frame`; false when none waits.
@@ -40,6 +42,7 @@ class PairMailbox {
 
   mutable Mutex mutex_;
   StereoFrame newest_ ORTHONAV_GUARDED_BY(mutex_);
+  PairTap* tap_ ORTHONAV_GUARDED_BY(mutex_) = nullptr;
   bool waits_ ORTHONAV_GUARDED_BY(mutex_) = false;
   std::int64_t next_sequence_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   HostTime arrived_ ORTHONAV_GUARDED_BY(mutex_){};

@@ -15,7 +15,7 @@ Mount mount_of(const RigOnHead& rig) {
 }
 
 /// The other headset's pairs; with the display's poses and maps if the cameras are mounted on it.
-class Cameras : public StereoCamera {
+class Cameras : public StereoCamera, private PairTap {
  public:
   Cameras(StereoCamera& inner, const XrDisplay& display, bool mounted)
       : inner_(inner), display_(display), mounted_(mounted) {}
@@ -31,6 +31,20 @@ class Cameras : public StereoCamera {
     if (!answer || *answer != Next::kFrame) {
       return answer;
     }
+    place(frame);
+    return answer;
+  }
+  bool do_tap(PairTap* tap) override {
+    inner_.tap(nullptr);
+    tap_ = tap;
+    return inner_.tap(tap != nullptr ? this : nullptr);
+  }
+  void received(const StereoFrame& pair) override {
+    placed_ = pair;
+    place(placed_);
+    tap_->received(placed_);
+  }
+  void place(StereoFrame& frame) const {
     if (mounted_) {
       const auto pose = display_.world_from_rig(frame.time);
       frame.world_from_rig.reset();
@@ -39,9 +53,10 @@ class Cameras : public StereoCamera {
       }
     }
     frame.map_epoch += display_.map_epoch(frame.time);
-    return answer;
   }
 
+  PairTap* tap_ = nullptr;
+  StereoFrame placed_;  ///< for the tap, on its thread
   StereoCamera& inner_;
   const XrDisplay& display_;
   bool mounted_;

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <deque>
 #include <optional>
+#include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "base/guarded.h"
 #include "base/mutex.h"
+#include "base/stopwatch.h"
 #include "hal/replay/layout.h"
 #include "hal/replay/recording_writer.h"
 
@@ -14,31 +20,114 @@ namespace orthonav::replay {
 
 namespace {
 
-/// The writer until its first failure, and that failure.
+/// Four seconds of pairs and depth. Lines, which are small, may add a sixth.
+constexpr std::size_t kMostBytes = std::size_t{96} << 20U;
+constexpr std::size_t kMostBytesWithLines = std::size_t{112} << 20U;
+/// As long as a pair may wait for the disk where time goes on meanwhile.
+constexpr auto kMostWait = std::chrono::milliseconds(1);
+
+struct PairToWrite {
+  StereoFrame frame;
+  Timestamp clock{};
+};
+struct DepthToWrite {
+  const DepthCalibration* calibration = nullptr;
+  DepthFrame frame;
+  Timestamp clock{};
+};
+struct AnswerToWrite {
+  std::int64_t sequence = 0;
+  Tracked<Transform<World, Rig>> answer;
+};
+using ToWrite = std::variant<PairToWrite, DepthToWrite, AnswerToWrite, Delivered<ClickerEvent>,
+                             Delivered<Phrase>>;
+
+std::size_t bytes_of(const ToWrite& what) {
+  if (const auto* pair = std::get_if<PairToWrite>(&what)) {
+    return pair->frame.left.pixels.size() + pair->frame.right.pixels.size();
+  }
+  if (const auto* depth = std::get_if<DepthToWrite>(&what)) {
+    return 2 * (depth->frame.range_mm.pixels.size() + depth->frame.brightness.pixels.size());
+  }
+  return sizeof(ToWrite);
+}
+
+/// The writer until its first failure, and that failure; what is to be written, and the thread that
+/// writes it.
 class Tape {
  public:
-  explicit Tape(std::unique_ptr<RecordingWriter> writer) : writer_(std::move(writer)) {}
+  Tape(std::unique_ptr<RecordingWriter> writer, const Clock& clock)
+      : clock_(clock), writer_(std::move(writer)), thread_([this] { work(); }) {}
+  ~Tape() { static_cast<void>(close()); }
+  Tape(const Tape&) = delete;
+  Tape& operator=(const Tape&) = delete;
 
-  /// Calls `write` with the writer while recording is on.
-  template <class Write>
-  void record(const Write& write) {
-    if (!running_.load()) {
-      return;
+  /// Never waits.
+  void pair(const StereoFrame& frame) {
+    PairToWrite what{{}, clock_.now()};
+    const std::size_t bytes = frame.left.pixels.size() + frame.right.pixels.size();
+    {
+      const MutexLock lock(mutex_);
+      if (!running_) {
+        return;
+      }
+      ++counts_.pairs;
+      if (bytes_ + bytes > kMostBytes) {
+        ++counts_.lost_pairs;
+        return;
+      }
+      bytes_ += bytes;
+      if (!spare_.empty()) {  // its buffers are used again
+        what.frame = std::move(spare_.back());
+        spare_.pop_back();
+      }
     }
-    // Another thread may have closed it meanwhile: a late write is not a failure.
-    if (Status status = write(*writer_); !status && running_.load()) {
-      fail(status);
+    what.frame = frame;
+    const MutexLock lock(mutex_);
+    add(std::move(what));
+  }
+  void depth(const DepthCalibration& calibration, const DepthFrame& frame) {
+    DepthToWrite what{&calibration, frame, clock_.now()};
+    const MutexLock lock(mutex_);
+    add_within(kMostBytes, std::move(what));
+  }
+  /// An event, or an answer of the head tracker.
+  template <class Line>
+  void line(Line what) {
+    const MutexLock lock(mutex_);
+    add_within(kMostBytesWithLines, std::move(what));
+  }
+  /// Waits until everything is written: for a millisecond, and for as long as the device's time
+  /// stands still.
+  void settle() {
+    const MutexLock lock(mutex_);
+    for (bool goes_on = false; running_ && !is_written() && !goes_on;) {
+      const Timestamp before = clock_.now();
+      changed_.wait_until(mutex_, Stopwatch().after(kMostWait));
+      goes_on = clock_.now() != before;
     }
   }
+
   [[nodiscard]] Status status() const {
     const MutexLock lock(mutex_);
     return failure_;
   }
   [[nodiscard]] bool failed() const { return failed_.load(); }
+  [[nodiscard]] RecordedCounts counts() const {
+    const MutexLock lock(mutex_);
+    return counts_;
+  }
   Status close() {
-    if (running_.exchange(false)) {
-      if (Status status = writer_->close(); !status) {
-        fail(status);
+    {
+      const MutexLock lock(mutex_);
+      running_ = false;
+      closing_ = true;
+      changed_.notify_all();
+    }
+    if (thread_.joinable()) {
+      thread_.join();
+      if (!failed_.load()) {
+        note(guarded("recorder", [this] { return writer_->close(); }));
       }
     }
     return status();
@@ -47,26 +136,91 @@ class Tape {
   std::atomic<std::int64_t> newest_sequence{-1};
 
  private:
-  std::unique_ptr<RecordingWriter> writer_;
-  std::atomic<bool> running_{true};
-  std::atomic<bool> failed_{false};
-  mutable Mutex mutex_;
-  Status failure_ ORTHONAV_GUARDED_BY(mutex_);
-
-  void fail(const Status& status) {
+  [[nodiscard]] bool is_written() const ORTHONAV_REQUIRES(mutex_) {
+    return waiting_.empty() && !writing_;
+  }
+  void add(ToWrite what) ORTHONAV_REQUIRES(mutex_) {
+    waiting_.push_back(std::move(what));
+    changed_.notify_all();
+  }
+  void add_within(std::size_t most_bytes, ToWrite what) ORTHONAV_REQUIRES(mutex_) {
+    if (!running_) {
+      return;
+    }
+    if (bytes_ + bytes_of(what) > most_bytes) {
+      ++counts_.lost_others;
+      return;
+    }
+    bytes_ += bytes_of(what);
+    add(std::move(what));
+  }
+  void work() {
+    while (std::optional<ToWrite> what = next()) {
+      note(guarded("recorder", [&] {
+        return std::visit([this](const auto& each) { return write(each); }, *what);
+      }));
+      const MutexLock lock(mutex_);
+      bytes_ -= bytes_of(*what);
+      if (auto* pair = std::get_if<PairToWrite>(&*what)) {
+        spare_.push_back(std::move(pair->frame));
+      }
+      writing_ = false;
+      changed_.notify_all();
+    }
+  }
+  /// Waits for it; absent at the end.
+  std::optional<ToWrite> next() {
     const MutexLock lock(mutex_);
-    running_ = false;
-    if (failure_.ok()) {
-      failure_ = status;
+    while (waiting_.empty() && !closing_ && !failed_.load()) {
+      changed_.wait(mutex_);
+    }
+    if (waiting_.empty() || failed_.load()) {
+      return std::nullopt;
+    }
+    ToWrite what = std::move(waiting_.front());
+    waiting_.pop_front();
+    writing_ = true;
+    return what;
+  }
+  Status write(const PairToWrite& pair) { return writer_->frame(pair.frame, pair.clock); }
+  Status write(const DepthToWrite& depth) {
+    return writer_->depth(*depth.calibration, depth.frame, depth.clock);
+  }
+  Status write(const AnswerToWrite& answer) {
+    return writer_->head_answer(answer.sequence, answer.answer);
+  }
+  template <class Event>
+  Status write(const Delivered<Event>& event) {
+    return writer_->event(event);
+  }
+  void note(const Status& done) {
+    const MutexLock lock(mutex_);
+    if (!done && failure_.ok()) {
+      running_ = false;
+      failure_ = done;
       failed_ = true;
     }
   }
+
+  const Clock& clock_;
+  std::unique_ptr<RecordingWriter> writer_;  ///< of the thread, while there is one
+  std::atomic<bool> failed_{false};
+  mutable Mutex mutex_;
+  ConditionVariable changed_;
+  std::deque<ToWrite> waiting_ ORTHONAV_GUARDED_BY(mutex_);
+  std::vector<StereoFrame> spare_ ORTHONAV_GUARDED_BY(mutex_);
+  std::size_t bytes_ ORTHONAV_GUARDED_BY(mutex_) = 0;  ///< that wait or are being written
+  bool writing_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  bool running_ ORTHONAV_GUARDED_BY(mutex_) = true;
+  bool closing_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  RecordedCounts counts_ ORTHONAV_GUARDED_BY(mutex_);
+  Status failure_ ORTHONAV_GUARDED_BY(mutex_);
+  std::thread thread_;
 };
 
 class RecordingDepth : public DepthCamera {
  public:
-  RecordingDepth(Headset& headset, DepthCamera& inner, Tape& tape)
-      : headset_(headset), inner_(inner), tape_(tape) {}
+  RecordingDepth(DepthCamera& inner, Tape& tape) : inner_(inner), tape_(tape) {}
   /// Records all available frames.
   void drain() {
     for (auto answer = next(unseen_); answer && *answer == Next::kFrame;) {
@@ -75,7 +229,6 @@ class RecordingDepth : public DepthCamera {
   }
 
  private:
-  Headset& headset_;
   DepthCamera& inner_;
   Tape& tape_;
   DepthFrame unseen_;
@@ -88,38 +241,64 @@ class RecordingDepth : public DepthCamera {
     if (!answer || *answer != Next::kFrame) {
       return answer;
     }
-    tape_.record([&](RecordingWriter& w) {
-      return w.depth(inner_.calibration(), frame, headset_.clock().now());
-    });
+    tape_.depth(inner_.calibration(), frame);
     return answer;
   }
 };
 using RecordingDepths = std::vector<std::unique_ptr<RecordingDepth>>;
 
-class RecordingCamera : public StereoCamera {
+class RecordingCamera : public StereoCamera, private PairTap {
  public:
   /// Drains the given depth cameras at each call.
   RecordingCamera(Headset& inner, Tape& tape, const RecordingDepths& drained)
-      : inner_(inner), tape_(tape), drained_(drained) {}
+      : inner_(inner), tape_(tape), drained_(drained), tapped_(inner.cameras().tap(this)) {}
+  ~RecordingCamera() override { untap(); }
+  RecordingCamera(const RecordingCamera&) = delete;
+  RecordingCamera& operator=(const RecordingCamera&) = delete;
+  /// Records nothing that comes after this.
+  void untap() { inner_.cameras().tap(nullptr); }
 
  private:
   Headset& inner_;
   Tape& tape_;
   const RecordingDepths& drained_;
+  FrameOrder order_;
+  bool tapped_;
 
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return inner_.cameras().calibration();
   }
   Result<Next> do_next(StereoFrame& frame) override {
     auto answer = inner_.cameras().next(frame);
-    if (answer && *answer == Next::kFrame) {
-      tape_.record([&](RecordingWriter& w) { return w.frame(frame, inner_.clock().now()); });
-      tape_.newest_sequence = frame.sequence;
+    const bool came = answer && *answer == Next::kFrame;
+    if (came && !tapped_) {
+      tape_.pair(frame);
     }
     for (const auto& depth : drained_) {
       depth->drain();
     }
+    if (came) {
+      tape_.newest_sequence = frame.sequence;
+      if (!tapped_) {
+        tape_.settle();
+      }
+    }
     return answer;
+  }
+  /// Records what `next` would return: a pair that breaks the contract would make the recording
+  /// unreadable.
+  void received(const StereoFrame& pair) override {
+    const StereoCalibration& cameras = do_calibration();
+    const auto check = [&]() -> Status {
+      const auto fits = [](const char* which, const GreyImage& image, const CameraModel& camera) {
+        return check_size("camera pair", which, image, camera.width_px(), camera.height_px());
+      };
+      const Status left = fits("left", pair.left, cameras.left);
+      return left ? fits("right", pair.right, cameras.right) : left;
+    };
+    if (order_.check("camera pair", pair, check)) {
+      tape_.pair(pair);
+    }
   }
 };
 
@@ -133,7 +312,7 @@ class RecordingHead : public HeadTracker {
 
   [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
     const auto answer = inner_.head().world_from_rig(at);
-    tape_.record([&](RecordingWriter& w) { return w.head_answer(tape_.newest_sequence, answer); });
+    tape_.line(AnswerToWrite{tape_.newest_sequence, answer});
     return answer;
   }
 };
@@ -160,9 +339,7 @@ class RecordingEvents : public Device {
     for (std::size_t i = before; i < events.size(); ++i) {
       const bool late = asked_until_ && events[i].time <= *asked_until_;
       available_ = std::max(available_, late ? std::min(until, kLatest) : events[i].time);
-      tape_.record([&](RecordingWriter& w) {
-        return w.event(Delivered<Event>{events[i], available_});
-      });
+      tape_.line(Delivered<Event>{events[i], available_});
     }
     asked_until_ = std::max(asked_until_.value_or(until), until);
     return status;
@@ -189,15 +366,15 @@ class Recorder : public RecordingHeadset {
       : RecordingHeadset(inner),
         owned_(std::move(owned)),
         inner_(inner),
-        tape_(std::move(writer)),
+        tape_(std::move(writer), inner.clock()),
         clicker_(inner_.clicker(), tape_),
         voice_(inner_.voice(), tape_) {
     RecordingDepths& depths = takes_depth ? drained_ : passed_on_;
     for (DepthCamera* camera : inner_.depth_cameras()) {
-      depths.push_back(std::make_unique<RecordingDepth>(inner_, *camera, tape_));
+      depths.push_back(std::make_unique<RecordingDepth>(*camera, tape_));
     }
   }
-  ~Recorder() override { static_cast<void>(tape_.close()); }
+  ~Recorder() override = default;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
@@ -209,7 +386,11 @@ class Recorder : public RecordingHeadset {
   [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(passed_on_); }
   [[nodiscard]] Status recording_status() const override { return tape_.status(); }
   [[nodiscard]] bool recording_failed() const override { return tape_.failed(); }
-  Status close() override { return tape_.close(); }
+  [[nodiscard]] RecordedCounts counts() const override { return tape_.counts(); }
+  Status close() override {
+    cameras_.untap();
+    return tape_.close();
+  }
 
  private:
   std::unique_ptr<Headset> owned_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -16,14 +17,26 @@ struct RecorderOptions {
   bool takes_depth = false;
 };
 
+/// What came to a recording.
+struct RecordedCounts {
+  std::int64_t pairs = 0;       ///< that the cameras delivered
+  std::int64_t lost_pairs = 0;  ///< of these, not recorded since the disk was too slow
+  std::int64_t lost_others =
+      0;  ///< depth pictures, answers of the head tracker and events likewise
+};
+
 /// A headset that forwards everything to another one and records it: images, depth, head poses,
 /// answers of the head tracker, clicker and voice. It writes StreamRecorder's layout and a few more
-/// files (docs/recordings.md), so that ReplayHeadset delivers the same session to the bit.
+/// files (docs/recordings.md). Where every pair is taken (a simulation, a replay), ReplayHeadset
+/// delivers the same session to the bit. From a device that receives pairs on its own
+/// (`StereoCamera::tap`), all of them are recorded, also those that the session asked for too late.
 ///
 /// Writes into `folder` + ".part" and renames on close(); an interrupted recording stays there. A
-/// recording that fails (a full disk) never disturbs the session: everything is passed on
-/// unchanged, recording stops, and recording_status() and close() say why. Each call writes on its
-/// own thread; cameras, depth cameras and close() must use the same one.
+/// thread of its own writes, and a recording never disturbs the session: everything is passed on
+/// unchanged. On a disk that is too slow at most 96 MiB wait; beyond that pairs are lost and
+/// counted. Where time stands still until the next pair is asked for, `next` waits for the disk and
+/// nothing is lost. If the disk fails (it is full), recording stops, and recording_status() and
+/// close() say why.
 class RecordingHeadset : public ForwardingHeadset {
  public:
   /// Refuses a folder that exists and is not empty, one left over under the temporary name, and
@@ -39,9 +52,11 @@ class RecordingHeadset : public ForwardingHeadset {
   [[nodiscard]] virtual Status recording_status() const = 0;
   /// Whether it failed: callable at every step from any thread, never waits.
   [[nodiscard]] virtual bool recording_failed() const = 0;
-  /// Finishes the files and gives the folder its name. Nothing is recorded after that, but the
-  /// devices continue. A recording without a single pair is an error. The destructor closes too,
-  /// but can't report whether that succeeded.
+  /// Callable like recording_failed().
+  [[nodiscard]] virtual RecordedCounts counts() const = 0;
+  /// Waits for what is still to be written, finishes the files and gives the folder its name.
+  /// Nothing is recorded after that, but the devices continue. A recording without a single pair is
+  /// an error. The destructor closes too, but can't report whether that succeeded.
   virtual Status close() = 0;
 
  protected:

@@ -1,5 +1,8 @@
 #include "hal/replay/recording.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "hal/replay/calibration_files.h"
@@ -251,6 +254,11 @@ Result<Recording> read_recording(const std::filesystem::path& folder, RecordedSt
   }
   RecordingSummary& summary = recording.summary;
   summary.pairs = static_cast<std::int64_t>(recording.pairs.size());
+  // Numbers come from a file and may be far apart.
+  const auto numbers = static_cast<std::uint64_t>(recording.pairs.back().sequence) -
+                       static_cast<std::uint64_t>(recording.pairs.front().sequence) + 1;
+  summary.missing = static_cast<std::int64_t>(std::min(
+      numbers - recording.pairs.size(), std::uint64_t{std::numeric_limits<std::int64_t>::max()}));
   summary.first_ticks_100ns = recording.pairs.front().left.ticks;
   summary.last_ticks_100ns = recording.pairs.back().left.ticks;
   summary.left_unpaired =

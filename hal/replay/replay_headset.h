@@ -36,6 +36,7 @@ struct RecordingSummary {
   std::int64_t right_unpaired = 0;  ///< the same for right images
   std::int64_t repeated = 0;        ///< images with a repeated time of their camera
   std::int64_t pairs_without_pose = 0;
+  std::int64_t missing = 0;         ///< pairs by their numbers: lost, or not taken in time
   std::string cut;                  ///< in one line, where it was truncated; empty: it was finished
   std::vector<DepthSummary> depth;  ///< of each stream; an unreadable one is not among the cameras
 };

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <condition_variable>
 #include <cstdio>
 #include <filesystem>
 #include <mutex>
@@ -22,6 +23,8 @@ std::string g_folder;     ///< as given
 std::string g_canonical;  ///< as resolved from descriptors
 std::vector<std::string> g_made;
 std::optional<std::pair<std::string, int>> g_fails;
+std::condition_variable g_changed;
+std::string g_held;
 
 /// The path as reported; nothing if the file lies elsewhere.
 std::optional<std::string> told(const std::string& path) {
@@ -63,8 +66,10 @@ bool may_with(const char* call, int file) {
   if (!g_watching) {
     return true;
   }
-  const std::scoped_lock lock(g_mutex);
-  return may(call, told_of(file));
+  std::unique_lock lock(g_mutex);
+  const auto told = told_of(file);
+  g_changed.wait(lock, [&] { return !told || g_held != std::string(call) + " " + *told; });
+  return may(call, told);
 }
 
 bool may_name(const char* call, const std::string& from, const std::string& to) {
@@ -142,11 +147,20 @@ FileCalls::FileCalls(const std::string& folder) {
   g_watching = true;
 }
 
-FileCalls::~FileCalls() { g_watching = false; }
+FileCalls::~FileCalls() {
+  g_watching = false;
+  hold({});
+}
 
 std::vector<std::string> FileCalls::made() {
   const std::scoped_lock lock(g_mutex);
   return g_made;
+}
+
+void FileCalls::hold(const std::string& call) {
+  const std::scoped_lock lock(g_mutex);
+  g_held = call;
+  g_changed.notify_all();
 }
 
 void FileCalls::fail_next(const std::string& call, int error_number) {

@@ -22,6 +22,9 @@ class FileCalls {
   /// The next call recorded as `call` does nothing and fails with this error; those after it work
   /// again.
   static void fail_next(const std::string& call, int error_number);
+  /// From now on a write recorded as `call` waits, as on a disk that hangs; empty: none does any
+  /// more.
+  static void hold(const std::string& call);
 };
 
 }  // namespace orthonav::test

@@ -285,5 +285,35 @@ TEST(PairMailbox, TellsALossOnceAndADeathAtEveryQuestion) {
   }
 }
 
+TEST(PairMailbox, ShowsItsTapEveryPair) {
+  struct Seen : PairTap {
+    std::vector<std::int64_t> sequences;
+    void received(const StereoFrame& pair) override {
+      EXPECT_EQ(pair.left.pixels.front(), static_cast<std::uint8_t>(pair.sequence));
+      sequences.push_back(pair.sequence);
+    }
+  } seen;
+  PairMailbox pairs;
+  const auto put = [&](int number) {
+    CameraImage left, right;
+    left.time = right.time = Timestamp(Duration(number));
+    left.image = right.image = GreyImage(2, 1);
+    left.image.pixels.front() = static_cast<std::uint8_t>(number);
+    pairs.put({left, right}, 0);
+  };
+  pairs.tap(&seen);
+  for (int number = 0; number < 5; ++number) {
+    put(number);
+  }
+  StereoFrame frame;
+  EXPECT_TRUE(pairs.take(frame));
+  EXPECT_EQ(frame.sequence, 4) << "the newest alone";
+  EXPECT_FALSE(pairs.take(frame));
+  EXPECT_EQ(seen.sequences, (std::vector<std::int64_t>{0, 1, 2, 3, 4}));
+  pairs.tap(nullptr);
+  put(5);
+  EXPECT_EQ(seen.sequences.size(), 5u);
+}
+
 }  // namespace
 }  // namespace orthonav::hl2ss
