@@ -3,13 +3,11 @@
 // has its own thread and its own benchmark.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <array>
 #include <optional>
-#include <vector>
 
+#include "base/histogram.h"
 #include "base/stopwatch.h"
-#include "bench/quantile.h"
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
 #include "engine/study/simulated_operation.h"
@@ -18,21 +16,21 @@
 namespace orthonav {
 namespace {
 
-/// Wall time from the end of one pair's step to the end of the next one's.
+/// Wall time from the end of one pair's step to the end of the next one's: the room and the step.
 class PairTimes : public engine::LoopObserver {
  public:
   void stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*inputs*/,
                const engine::Guidance& /*guidance*/) override {
     if (since_last_) {
-      ms_.push_back(since_last_->elapsed_ms());
+      ms_.add(since_last_->elapsed_ms());
     }
     since_last_.emplace();
   }
-  [[nodiscard]] const std::vector<double>& ms() const { return ms_; }
+  [[nodiscard]] const Histogram& ms() const { return ms_; }
 
  private:
   std::optional<Stopwatch> since_last_;
-  std::vector<double> ms_;
+  Histogram ms_;
 };
 
 void operation(benchmark::State& state) {
@@ -47,16 +45,12 @@ void operation(benchmark::State& state) {
       state.SkipWithError(result.error().message.c_str());
       return;
     }
-    const std::vector<double>& step = result->loop.step_wall_ms;
-    std::vector<double> room;
-    for (std::size_t i = 0; i + 1 < step.size() && i < pairs.ms().size(); ++i) {
-      room.push_back(pairs.ms()[i] - step[i + 1]);
-    }
-    state.counters["pairs"] = static_cast<double>(step.size());
-    state.counters["room_ms_median"] = quantile(room, 0.5);
-    state.counters["room_ms_p99"] = quantile(room, 0.99);
-    state.counters["step_ms_median"] = quantile(step, 0.5);
-    state.counters["step_ms_p99"] = quantile(step, 0.99);
+    const Histogram& step = result->loop.step_wall_ms;
+    state.counters["pairs"] = static_cast<double>(step.count());
+    state.counters["pair_ms_mean"] = pairs.ms().mean().value_or(0.0);
+    state.counters["step_ms_mean"] = step.mean().value_or(0.0);
+    state.counters["step_ms_median"] = step.quantile(0.5).value_or(0.0);
+    state.counters["step_ms_p99"] = step.quantile(0.99).value_or(0.0);
   }
 }
 /// What the readout of a screw's clearance costs in every pair: the clearance alone, and with its

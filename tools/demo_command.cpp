@@ -80,8 +80,8 @@ class Demo {
     std::fputs(
         arguments_.json ? engine::report_json(*result).c_str() : operation_summary(*result).c_str(),
         stdout);
-    if (!written) {
-      return bad_input(written.error().message);
+    if (const Status whole = joined_errors(result->loop.ended, written); !whole) {
+      return bad_input(whole.error().message);
     }
     tell_how_it_ended(result->completed);
     return result->completed ? kDone : kNo;
@@ -190,7 +190,7 @@ class Demo {
       return arguments_.resume ? Status() : remove_earlier_results(out_->path());
     };
     auto result = engine::run_operation(source, options, hooks);
-    onlookers_.ended(result ? &result->loop : nullptr);
+    onlookers_.ended(result ? result->loop : engine::LoopReport{.ended = result.error()});
     return result;
   }
 

@@ -132,6 +132,9 @@ void EventLog::ended(const engine::LoopReport& report) {
     log_->warn("{} failures of devices, the last: {}", report.failures + report.draw_failures,
                report.last_failure);
   }
+  if (!report.ended) {
+    log_->error("{}", report.ended.error().message);
+  }
   log_->info("{} frames shown, {}", report.displayed,
              report.done ? "operation complete" : "operation incomplete");
 }

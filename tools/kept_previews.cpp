@@ -55,12 +55,12 @@ Status KeptPreviews::begin(engine::AssembledOperation& operation, const std::str
   return kept_->begin(operation, folder_->path().string(), about);
 }
 
-void KeptPreviews::ended(const Result<engine::LoopReport>& report) {
+void KeptPreviews::ended(const engine::LoopReport& report) {
   if (!kept_) {
     return;
   }
-  const std::string reason = report ? "the preview was closed" : report.error().message;
-  if (const Status kept = kept_->finish(report && report->done, reason); !kept) {
+  const std::string reason = report.ended ? "the preview was closed" : report.ended.error().message;
+  if (const Status kept = kept_->finish(report.done, reason); !kept) {
     std::fprintf(stderr, "orthonav: %s\n", kept.error().message.c_str());
   }
   kept_.reset();  // a later start is a separate operation

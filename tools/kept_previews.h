@@ -28,7 +28,7 @@ class KeptPreviews {
   Status begin(engine::AssembledOperation& operation, const std::string& case_name,
                const std::string& method, const sim::SimHeadset* room);
   /// Call after the operation has ended; reports on standard error what was not saved.
-  void ended(const Result<engine::LoopReport>& report);
+  void ended(const engine::LoopReport& report);
 
  private:
   std::optional<OutFolder> folder_;  ///< none: nothing is kept

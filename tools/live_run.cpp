@@ -52,22 +52,19 @@ class LiveRun {
     }
     onlookers_.draw_over_camera(*operation_, joined_->cameras().calibration(), presenting_.sink());
     signals_.on_stop([this] { operation_->stop(); });
-    auto report = operation_->run();
+    engine::LoopReport report = operation_->run();
     signals_.on_stop(nullptr);
     progress.end();
     presenting_.end(arguments_.stats);
-    onlookers_.ended(report ? &*report : nullptr);
-    if (!report) {
-      return bad_input(files_.close(report.error().message));
-    }
-    const engine::OperationResult result = result_of(std::move(*report));
+    onlookers_.ended(report);
+    const engine::OperationResult result = result_of(std::move(report));
     const std::string text = engine::report_json(result);
-    const Status finished = files_.finish(result, text, room_ != nullptr);
+    const Status kept = files_.finish(result, text, room_ != nullptr);
     // The files are on the disk before a terminal that nobody reads can hold this up.
     std::fputs(arguments_.json ? text.c_str() : operation_summary(result).c_str(), stdout);
     print_figures(result.loop);
-    if (!finished) {
-      return bad_input(finished.error().message);
+    if (const Status whole = joined_errors(result.loop.ended, kept); !whole) {
+      return bad_input(whole.error().message);
     }
     tell_what_is_kept(signals_, {arguments_.out, arguments_.record});
     const bool enough = arguments_.frames > 0 && result.loop.displayed >= arguments_.frames;

@@ -48,10 +48,8 @@ Status Onlookers::Pictures::picture(const RgbaImage& image, const engine::Snapsh
   return {};
 }
 
-void Onlookers::ended(const engine::LoopReport* report) {
-  if (report != nullptr) {
-    log_.ended(*report);
-  }
+void Onlookers::ended(const engine::LoopReport& report) {
+  log_.ended(report);
   if (view_ && !view_->problem().empty()) {
     std::fprintf(stderr, "orthonav: the dashboard showed the left camera alone: %s\n",
                  view_->problem().c_str());

@@ -36,7 +36,7 @@ class Onlookers {
   /// Takes pictures of what the surgeon sees, for the dashboard.
   [[nodiscard]] PictureSink* pictures() { return &pictures_; }
   /// The run is over; null: it failed. Reports on standard error which clients were served.
-  void ended(const engine::LoopReport* report);
+  void ended(const engine::LoopReport& report);
   [[nodiscard]] EventLog& log() { return log_; }
 
  private:

@@ -184,7 +184,7 @@ int preview_window(PreviewArguments arguments, StopSignals& signals) {
     igtl.watch(operation);
     return kept.begin(operation, name, method, room);
   };
-  source->ended = [&kept](const Result<engine::LoopReport>& report) { kept.ended(report); };
+  source->ended = [&kept](const engine::LoopReport& report) { kept.ended(report); };
   preview::PreviewApp app(arguments.options, std::move(*script));
   if (const Status opened = app.open_window(); !opened) {
     return bad_input(opened.error().message);

@@ -16,6 +16,12 @@ void tell_of_earlier(const engine::Journal& journal) {
   }
 }
 
+Status joined_errors(const Status& ended, const Status& written) {
+  return ended || written ? (ended ? written : ended)
+                          : Status(Error{ended.error().message + "; " + written.error().message,
+                                         ended.error().code});
+}
+
 Status RunFiles::open_journal(const std::string& folder, const engine::JournalHeader& header) {
   auto out = OutFolder::create("--out", folder);
   if (!out) {

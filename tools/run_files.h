@@ -18,6 +18,8 @@ namespace orthonav::tools {
 /// Reports on standard error where earlier journals in the same folder were moved, if there were
 /// any.
 void tell_of_earlier(const engine::Journal& journal);
+/// In one line: why the run ended, and what of it could not be written.
+[[nodiscard]] Status joined_errors(const Status& ended, const Status& written);
 
 /// The files that `run` writes: journal and reports in one folder, a recording in another, each
 /// only if requested.

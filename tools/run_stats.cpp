@@ -8,6 +8,13 @@
 namespace orthonav::tools {
 namespace {
 
+void print_times(const char* what, const Histogram& ms) {
+  if (!ms.empty()) {
+    std::fprintf(stderr, "%-28s %8.1f ms, p99 %8.1f ms\n", what, *ms.quantile(0.5),
+                 *ms.quantile(0.99));
+  }
+}
+
 void print_times(const char* what, const std::vector<double>& ms) {
   const auto median = engine::quantile(ms, 0.5);
   const auto p99 = engine::quantile(ms, 0.99);

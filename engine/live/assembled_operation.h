@@ -58,7 +58,7 @@ class AssembledOperation {
   void go_through(Headset& wrapper) { loop_.use(wrapper); }
 
   /// As `FrameLoop::run`. Call it only once.
-  Result<LoopReport> run() { return loop_.run(); }
+  [[nodiscard]] LoopReport run() { return loop_.run(); }
   /// Ends early, from any thread.
   void stop() { loop_.stop(); }
 

@@ -17,21 +17,19 @@ constexpr auto kNoPairPause = std::chrono::milliseconds(1);
 
 }  // namespace
 
-Result<LoopReport> FrameLoop::run() {
+LoopReport FrameLoop::run() {
+  LoopReport report;
   const std::vector<std::string> problems = options_.check();
   if (!problems.empty()) {
-    return Error{"loop: " + joined(problems)};
+    report.ended = Error{"loop: " + joined(problems)};
+    return report;
   }
-  LoopReport report;
   heard_at_ = headset_->clock().now();
   beats_.emplace(headset_->clock(), kStallAfter);
   session_.watch_work(&*beats_);
   const bool draws = sink_ && options_.draw_every > 0;
-  const Status ended = draws ? loop_and_draw(report) : loop(nullptr, report);
+  report.ended = draws ? loop_and_draw(report) : loop(nullptr, report);
   session_.watch_work(nullptr);
-  if (!ended) {
-    return ended.error();
-  }
   report.done = session_.current_step() == Step::kDone;
   return report;
 }
@@ -53,7 +51,7 @@ Status FrameLoop::loop(SnapshotQueue* queue, LoopReport& report) {
 }
 
 Status FrameLoop::loop_until_over(SnapshotQueue* queue, LoopReport& report) {
-  while (!finished(report)) {
+  while (!finished(report, report.last_frame)) {
     const auto more = next_frame(queue, report);
     if (!more) {
       return more.error();
@@ -87,7 +85,8 @@ Status FrameLoop::tolerate(const Status& status, int& in_a_row, LoopReport& repo
 
 /// False at the end of the stream. While no pair comes, guidance on the last one is taken back.
 Result<bool> FrameLoop::next_frame(SnapshotQueue* queue, LoopReport& report) {
-  while (!stop_) {
+  // While no pair comes, time passes all the same.
+  while (!finished(report, report.last_frame + (headset_->clock().now() - heard_at_))) {
     const auto next = [&] {
       const Working working(&*beats_, Part::kCamera);
       return headset_->cameras().next(frame_);
@@ -119,17 +118,23 @@ Status FrameLoop::wait_for_pair(SnapshotQueue* queue, LoopReport& report) {
     guiding_since_.reset();
   }
   const Duration silent = headset_->clock().now() - heard_at_;
-  if (silent > options_.longest_silence) {
+  const bool none_within = !first_frame_ && options_.max_time > Duration::zero();
+  const Duration limit = none_within ? std::min(options_.longest_silence, options_.max_time)
+                                     : options_.longest_silence;
+  if (silent > limit) {
     return Error{headset_->name() + ": no camera pair for " + std::to_string(seconds(silent)) +
-                 " s (limit " + std::to_string(seconds(options_.longest_silence)) + " s)"};
+                 " s (limit " + std::to_string(seconds(limit)) + " s)"};
   }
   std::this_thread::sleep_for(kNoPairPause);
   return {};
 }
 
 /// The display time of a frame submitted now.
-Timestamp FrameLoop::next_display_time() const {
-  return headset_->display().predicted_display_time(headset_->clock().now());
+Timestamp FrameLoop::next_display_time() {
+  const Timestamp now = headset_->clock().now();
+  const Timestamp display_time = headset_->display().predicted_display_time(now);
+  ahead_ns_ = (display_time - now).count();
+  return display_time;
 }
 
 /// Shows, in the same way as every frame, guidance that no longer guides. If the display fails here
@@ -214,7 +219,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   builder_.update(guidance, std::max(guidance.display_time, next_display_time()));
   builder_.write_shown(guidance, shown_);
   const Status shown = headset_->display().shown(shown_);
-  report.step_wall_ms.push_back(watch.elapsed_ms());
+  report.step_wall_ms.add(watch.elapsed_ms());
   if (const Status over = tolerate(shown, display_errors_, report); !over) {
     return over;
   }
@@ -229,17 +234,18 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
 void FrameLoop::count_displayed(const Guidance& guidance, SnapshotQueue* queue,
                                 LoopReport& report) {
   if (last_display_) {
-    report.intervals_ms.push_back(seconds(guidance.display_time - *last_display_) * 1e3);
+    report.intervals_ms.add(seconds(guidance.display_time - *last_display_) * 1e3);
   }
   last_display_ = guidance.display_time;
-  report.photon_ages_ms.push_back(seconds(guidance.display_time - guidance.frame_time) * 1e3);
+  report.photon_ages_ms.add(seconds(guidance.display_time - guidance.frame_time) * 1e3);
   const std::int64_t frame = report.displayed++;
   if (queue && frame % options_.draw_every == 0) {
     capture(*queue, guidance, frame);
   }
 }
 
-bool FrameLoop::finished(const LoopReport& report) {
+/// Whether the run is over, the device's clock having reached this time.
+bool FrameLoop::finished(const LoopReport& report, Timestamp reached) {
   if (stop_) {
     return true;
   }
@@ -247,7 +253,7 @@ bool FrameLoop::finished(const LoopReport& report) {
     return true;
   }
   if (options_.max_time > Duration::zero() && first_frame_ &&
-      report.last_frame - *first_frame_ >= options_.max_time) {
+      reached - *first_frame_ >= options_.max_time) {
     return true;
   }
   if (session_.current_step() != Step::kDone) {
@@ -256,7 +262,7 @@ bool FrameLoop::finished(const LoopReport& report) {
   if (!done_since_) {
     done_since_ = report.last_frame;
   }
-  return report.last_frame - *done_since_ >= options_.after_done;
+  return reached - *done_since_ >= options_.after_done;
 }
 
 }  // namespace orthonav::engine

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/histogram.h"
 #include "engine/holograms/scene_builder.h"
 #include "engine/live/heartbeats.h"
 #include "engine/live/snapshot_queue.h"
@@ -51,7 +52,8 @@ struct LoopOptions {
   /// snapshot is drawn, and the speed of drawing has no effect.
   bool real_time = false;
   std::int64_t max_frames = 0;  ///< ends after this many displayed frames; 0: no limit
-  /// Ends once the pairs span this much of the device's clock; 0: no limit.
+  /// Ends once this much of the device's clock has passed since the first pair, though no more
+  /// pairs come; 0: no limit. Without any pair in this time the cameras count as gone for good.
   Duration max_time = Duration::zero();
   Duration after_done = std::chrono::seconds(1);  ///< how long it continues once the rod is done
   int max_errors_in_a_row = 30;  ///< of one device or the sink; beyond it the run ends
@@ -65,6 +67,9 @@ struct LoopOptions {
 /// What the loop measured. Times of the device's clock are part of the result; wall times depend on
 /// the machine.
 struct LoopReport {
+  /// Why it ended, if a device or the sink failed for good, a thread died, or an option is invalid.
+  /// All else is what was measured until then.
+  Status ended;
   std::int64_t displayed = 0;
   std::int64_t failures = 0;  ///< of any device, with the reason of the last
   std::string last_failure;
@@ -75,13 +80,13 @@ struct LoopReport {
   std::int64_t dropped_snapshots = 0;
   bool done = false;  ///< the workflow reached its end
   Timestamp last_frame{};
-  std::vector<double> intervals_ms;  ///< device clock, between displayed frames
+  Histogram intervals_ms;  ///< device clock, between displayed frames
   /// Device clock, from the middle of a pair's exposure until its display time: capture to
   /// photon.
-  std::vector<double> photon_ages_ms;
+  Histogram photon_ages_ms;
   /// Wall time of tracking and everything after it, per pair, without waiting for the drawing.
-  std::vector<double> step_wall_ms;
-  std::vector<double> draw_wall_ms;  ///< wall time of the sink, per snapshot
+  Histogram step_wall_ms;
+  Histogram draw_wall_ms;  ///< wall time of the sink, per snapshot
 };
 
 /// From stereo pairs to the display: tracking on the calling thread, drawing on a separate thread.
@@ -107,10 +112,10 @@ class FrameLoop {
   /// Ends the run early, from any thread.
   void stop() { stop_ = true; }
 
-  /// Runs until the stream ends, the operation is done, or the limit is reached. An Error if a
-  /// device or the sink fails for good, or an option is invalid. However it ends, the last frame
-  /// shown contains no guidance.
-  Result<LoopReport> run();
+  /// Runs until the stream ends, the operation is done, or the limit is reached; see
+  /// `LoopReport::ended` for what else can end it. However it ends, the last frame shown contains
+  /// no guidance.
+  [[nodiscard]] LoopReport run();
 
  private:
   Status loop(SnapshotQueue* queue, LoopReport& report);
@@ -120,9 +125,10 @@ class FrameLoop {
   Result<bool> next_frame(SnapshotQueue* queue, LoopReport& report);
   Status wait_for_pair(SnapshotQueue* queue, LoopReport& report);
   void take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
-  [[nodiscard]] Timestamp next_display_time() const;
+  [[nodiscard]] Timestamp next_display_time();
   // frame_loop_drawing.cpp
   Status loop_and_draw(LoopReport& report);
+  [[nodiscard]] Timestamp lights_up() const;
   Status draw_all(SnapshotQueue& queue, LoopReport& drawing);
   Status draw_into_sink(const Snapshot& snapshot);
   void warn_of_stall(const Snapshot* last, std::optional<Part>& warned, LoopReport& drawing);
@@ -132,7 +138,7 @@ class FrameLoop {
   Status tolerate(const Status& status, int& in_a_row, LoopReport& report);
   void count_displayed(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
   void capture(SnapshotQueue& queue, const Guidance& guidance, std::int64_t frame);
-  [[nodiscard]] bool finished(const LoopReport& report);
+  [[nodiscard]] bool finished(const LoopReport& report, Timestamp reached);
 
   Headset* headset_;
   Session& session_;
@@ -142,6 +148,10 @@ class FrameLoop {
   SnapshotSink* sink_ = nullptr;
   Requests* requests_ = nullptr;
   std::atomic<bool> stop_ = false;
+  /// From submitting a frame until it lights up, as the display last said. A display is asked on
+  /// the tracking thread alone, and the drawing thread goes by this: it must know what is too old
+  /// while the tracking thread hangs.
+  std::atomic<Duration::rep> ahead_ns_ = 0;
 
   std::optional<Heartbeats> beats_;  ///< while it runs
   std::optional<Part> stalled_;      ///< at the last pair

@@ -19,6 +19,11 @@ static_assert(kStallAfter + kLookEvery <= std::chrono::milliseconds(500),
 
 }  // namespace
 
+/// When a frame that is drawn now lights up.
+Timestamp FrameLoop::lights_up() const {
+  return headset_->clock().now() + Duration(ahead_ns_.load());
+}
+
 /// The loop, with a thread beside it that draws. If both fail, the loop's Error is returned.
 Status FrameLoop::loop_and_draw(LoopReport& report) {
   SnapshotQueue queue(options_.real_time ? SnapshotQueue::WhenFull::kDropOldest
@@ -41,7 +46,7 @@ Status FrameLoop::loop_and_draw(LoopReport& report) {
   if (drawing.failures > 0) {
     report.last_failure = drawing.last_failure;
   }
-  report.draw_wall_ms = std::move(drawing.draw_wall_ms);
+  report.draw_wall_ms = drawing.draw_wall_ms;
   report.dropped_snapshots = queue.dropped();
   return tracked ? drawn : tracked;
 }
@@ -90,7 +95,7 @@ void FrameLoop::warn_of_stall(const Snapshot* last, std::optional<Part>& warned,
   const Snapshot& before = last ? *last : none;
   Snapshot warning;
   warning.frame = before.frame;
-  warning.display_time = next_display_time();
+  warning.display_time = lights_up();
   warning.step = before.step;
   warning.map_epoch = before.map_epoch;
   warning.blank = true;
@@ -130,14 +135,14 @@ Status FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing) {
   // them, so it shows neither what is too old nor what hangs.
   while (Snapshot* snapshot =
              options_.real_time ? await_snapshot(queue, last, drawing) : queue.take()) {
-    if (options_.real_time && snapshot->expires && next_display_time() > *snapshot->expires) {
+    if (options_.real_time && snapshot->expires && lights_up() > *snapshot->expires) {
       hide_tool_guidance(snapshot->scene);
       snapshot->tool_time.reset();
     }
     if (status.ok()) {
       const Stopwatch watch;
       const Status drawn = draw_into_sink(*snapshot);
-      drawing.draw_wall_ms.push_back(watch.elapsed_ms());
+      drawing.draw_wall_ms.add(watch.elapsed_ms());
       drawing.drawn += drawn ? 1 : 0;
       status = tolerate(drawn, in_a_row, drawing);
       if (!status) {

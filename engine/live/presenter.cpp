@@ -16,13 +16,6 @@ constexpr auto kIdlePause = std::chrono::milliseconds(5);
 constexpr auto kLongestGoodbye = std::chrono::seconds(2);
 // More would not add information.
 constexpr std::size_t kMostProblems = 20;
-constexpr std::size_t kMostTimes = 100'000;
-
-void add_time(std::vector<double>& times_ms, double time_ms) {
-  if (times_ms.size() < kMostTimes) {
-    times_ms.push_back(time_ms);
-  }
-}
 
 }  // namespace
 
@@ -158,8 +151,8 @@ void Presenter::present(const DisplayFrame& frame, double waited_ms) {
     report_.late += late ? 1 : 0;
     report_.missed += frame.missed;
     report_.period = frame.period;
-    add_time(report_.wait_ms, waited_ms);
-    add_time(report_.submit_ms, submitting.elapsed_ms());
+    report_.wait_ms.add(waited_ms);
+    report_.submit_ms.add(submitting.elapsed_ms());
     gaze_ = renderer_->gaze();
   }
   note_panel();
@@ -228,7 +221,7 @@ bool Presenter::draw_scene(const DisplayFrame& frame) {
     options_.on_drawn(renderer_->drawn(), renderer_->views());
   }
   const MutexLock lock(mutex_);
-  add_time(report_.latch_ms, renderer_->renderer().last_timing().total_ms);
+  report_.latch_ms.add(renderer_->renderer().last_timing().total_ms);
   return true;
 }
 

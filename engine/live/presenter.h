@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/histogram.h"
 #include "base/mutex.h"
 #include "engine/holograms/label_layout.h"
 #include "engine/live/display_renderer.h"
@@ -27,10 +28,10 @@ struct PresentReport {
   Duration period{};                  ///< of the display, as last predicted
   std::vector<std::string> problems;  ///< the first few, one line each
   /// Wall time from asking for the head's pose until the frame is submitted to the device.
-  std::vector<double> latch_ms;
+  Histogram latch_ms;
   // Wall times of each frame: waiting until the display begins it, and submitting it.
-  std::vector<double> wait_ms;
-  std::vector<double> submit_ms;
+  Histogram wait_ms;
+  Histogram submit_ms;
 };
 
 struct PresenterOptions {

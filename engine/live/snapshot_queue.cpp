@@ -3,6 +3,7 @@
 namespace orthonav::engine {
 
 SnapshotQueue::SnapshotQueue(WhenFull when_full) : when_full_(when_full), slots_(kSlots) {
+  ready_.reserve(kSlots);
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     slots_[i].slot = i;
     free_.push_back(&slots_[i]);
@@ -11,7 +12,7 @@ SnapshotQueue::SnapshotQueue(WhenFull when_full) : when_full_(when_full), slots_
 
 void SnapshotQueue::drop_oldest() {
   free_.push_back(ready_.front());
-  ready_.pop_front();
+  ready_.erase(ready_.begin());
   ++dropped_;
 }
 
@@ -26,8 +27,9 @@ Snapshot* SnapshotQueue::acquire() {
   if (closed_) {
     return nullptr;
   }
-  Snapshot* slot = free_.back();
-  free_.pop_back();
+  // In turn, so that all have grown to the scene before long.
+  Snapshot* slot = free_.front();
+  free_.erase(free_.begin());
   return slot;
 }
 
@@ -62,7 +64,7 @@ Snapshot* SnapshotQueue::take_next() {
     drop_oldest();
   }
   Snapshot* next = ready_.front();
-  ready_.pop_front();
+  ready_.erase(ready_.begin());
   return next;
 }
 

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <vector>
 
@@ -65,7 +64,7 @@ class SnapshotQueue {
   mutable Mutex mutex_;
   ConditionVariable changed_;
   std::vector<Snapshot*> free_ ORTHONAV_GUARDED_BY(mutex_);
-  std::deque<Snapshot*> ready_ ORTHONAV_GUARDED_BY(mutex_);
+  std::vector<Snapshot*> ready_ ORTHONAV_GUARDED_BY(mutex_);  ///< the oldest first
   bool closed_ ORTHONAV_GUARDED_BY(mutex_) = false;
   std::int64_t dropped_ ORTHONAV_GUARDED_BY(mutex_) = 0;
 };

@@ -134,6 +134,9 @@ void EndNote::explain(OperationResult& result) const {
     }
   }
   result.why_not = "ended at " + std::string(name_of(step_)) + unfinished + refused_;
+  if (!result.loop.ended) {
+    result.why_not += "; " + result.loop.ended.error().message;
+  }
 }
 
 std::optional<double> quantile(std::vector<double> values, double fraction) {

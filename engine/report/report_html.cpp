@@ -64,45 +64,26 @@ std::string cut_off_text(const std::vector<ReportPlot>& plots) {
   return html;
 }
 
-/// Wall time over the run: at most a thousand points per curve, each the slowest frame of its bin,
-/// so that no hitch is hidden.
-ReportPlot timing_plot(const std::vector<ReportTiming>& timings) {
-  ReportPlot plot{
-      "Time of each frame on this machine", "frame, counted for each kind", "ms of wall time", {}};
-  for (const ReportTiming& timing : timings) {
-    ReportCurve curve{timing.name, {}, {}};
-    const std::size_t bin = std::max<std::size_t>(1, timing.ms.size() / 1000);
-    for (std::size_t i = 0; i < timing.ms.size(); i += bin) {
-      const auto last =
-          timing.ms.begin() + static_cast<std::ptrdiff_t>(std::min(i + bin, timing.ms.size()));
-      curve.x.push_back(static_cast<double>(i));
-      curve.y.push_back(
-          *std::max_element(timing.ms.begin() + static_cast<std::ptrdiff_t>(i), last));
-    }
-    plot.curves.push_back(std::move(curve));
-  }
-  return plot;
-}
-
 std::string timing_section(const json& report, const std::vector<ReportTiming>& timings) {
   const json& frames = object_in(report, "frames");
   std::string html =
       "<section id=timing><h2>Frame timing</h2><p>" + figure(frames, "displayed", 0) +
       " frames displayed, " + figure(frames, "median_ms", 1) + " ms apart (median), " +
       figure(frames, "p99_ms", 1) + " ms (99th percentile), on the headset\u2019s clock.</p>";
-  HtmlTable table({{"on this machine"}, {"median", "ms"}, {"99 %", "ms"}, {"n"}});
+  HtmlTable table(
+      {{"on this machine"}, {"median", "ms"}, {"99 %", "ms"}, {"slowest", "ms"}, {"n"}});
   for (const ReportTiming& timing : timings) {
     const auto at = [&timing](double fraction) {
-      const auto value = quantile(timing.ms, fraction);
+      const auto value = timing.ms.quantile(fraction);
       return value ? html_number(*value, 2) : std::string(kNoValue);
     };
     table.row(html_escaped(timing.name));
     table.cell(at(0.5));
     table.cell(at(0.99));
-    table.cell(std::to_string(timing.ms.size()));
+    table.cell(at(1.0));
+    table.cell(std::to_string(timing.ms.count()));
   }
-  return html + (table.empty() ? "" : table.html()) +
-         "<div class=plots id=timing-plots></div></section>";
+  return html + (table.empty() ? "" : table.html()) + "</section>";
 }
 
 json plot_json(const ReportPlot& plot, const char* place) {
@@ -128,9 +109,6 @@ json plots_json(const ReportContent& content) {
   json out = json::array();
   for (const ReportPlot& plot : content.plots) {
     out.push_back(plot_json(plot, "reading-plots"));
-  }
-  if (!content.timings.empty()) {
-    out.push_back(plot_json(timing_plot(content.timings), "timing-plots"));
   }
   return out;
 }

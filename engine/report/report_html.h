@@ -45,7 +45,7 @@ struct ReportPlot {
 /// Wall-clock cost of one kind of work, in milliseconds per frame.
 struct ReportTiming {
   std::string name;  ///< "track a stereo pair"
-  std::vector<double> ms;
+  Histogram ms;
 };
 
 struct ReportContent {

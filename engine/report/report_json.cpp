@@ -18,9 +18,8 @@ void put_mm(Json& object, const char* key, const std::optional<double>& metres) 
   }
 }
 
-void put_quantile(Json& object, const char* key, const std::vector<double>& values,
-                  double fraction) {
-  if (const auto value = quantile(values, fraction)) {
+void put_quantile(Json& object, const char* key, const Histogram& values, double fraction) {
+  if (const auto value = values.quantile(fraction)) {
     object[key] = *value;
   }
 }
@@ -162,9 +161,10 @@ Json rods_json(const std::vector<RodOutcome>& rods) {
   return out;
 }
 
-Json series(const std::vector<double>& values) {
-  Json out{{"count", values.size()}};
+Json series(const Histogram& values) {
+  Json out{{"count", values.count()}};
   put_quantile(out, "median_ms", values, 0.5);
+  put_quantile(out, "p95_ms", values, 0.95);
   put_quantile(out, "p99_ms", values, 0.99);
   put_quantile(out, "max_ms", values, 1.0);
   return out;

@@ -60,11 +60,11 @@ Status tell_opened(const OperationHooks& hooks, sim::SimHeadset& room, const Met
 }
 
 /// Runs the operation, which can be stopped from outside meanwhile.
-Result<LoopReport> run_until_done(const OperationHooks& hooks, AssembledOperation& live) {
+LoopReport run_until_done(const OperationHooks& hooks, AssembledOperation& live) {
   if (hooks.can_stop) {
     hooks.can_stop([&live] { live.stop(); });
   }
-  auto report = live.run();
+  const LoopReport report = live.run();
   if (hooks.can_stop) {
     hooks.can_stop(nullptr);
   }
@@ -113,12 +113,8 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   if (const Status opened = tell_opened(hooks, room, method, live.session()); !opened) {
     return opened.error();
   }
-  auto report = run_until_done(hooks, live);
-  if (!report) {
-    return report.error();
-  }
   OperationResult result =
-      outcome_of(live.session().levels(), live.session().rods(), std::move(*report));
+      outcome_of(live.session().levels(), live.session().rods(), run_until_done(hooks, live));
   result.calibration = calibration_in_use(live.session().tracker());
   // A recording that failed must not cost the operation its result.
   if (*recorder) {

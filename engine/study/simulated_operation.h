@@ -67,7 +67,8 @@ struct OperationHooks {
 
 /// A whole operation in the simulated room, from camera frames to rods, and its evaluation. The
 /// same case, options and seed give the same result, regardless of hooks. An Error means bad input;
-/// an incomplete operation is a result with `completed` false.
+/// an incomplete operation is a result with `completed` false, and one that a device or a thread
+/// ended, which `loop.ended` says.
 Result<OperationResult> run_operation(const Case& source, const OperationOptions& options,
                                       const OperationHooks& hooks = {});
 /// The same with an operation already planned on this case, with its models prepared.

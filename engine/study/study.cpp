@@ -163,8 +163,10 @@ class Workers {
     under_way_[run] = std::move(end);
   }
 
+  /// A run that something other than its operation ended is no result of the method.
   void take(std::size_t i, const Result<OperationResult>& result) {
-    auto report = result ? Result<std::string>(report_json(*result)) : result.error();
+    const Status ended = result ? result->loop.ended : Status(result.error());
+    auto report = ended ? Result<std::string>(report_json(*result)) : ended.error();
     const MutexLock lock(mutex_);
     if (stopped_ && result && !result->completed) {
       return;  // the run may have been ended for that reason
@@ -174,8 +176,8 @@ class Workers {
     if (store_ && stored_.ok()) {
       const Job& job = jobs_[i];
       stored_ = store_->add({job.number, job.source->name, job.seed,
-                             result ? **reports_[i] : std::string(),
-                             result ? std::string() : result.error().message});
+                             ended ? **reports_[i] : std::string(),
+                             ended ? std::string() : ended.error().message});
       if (!stored_) {
         stop_all();
       }

@@ -103,12 +103,11 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults, doubl
   MapLog map_log;
   assembled->observe(&map_log);
   auto report = assembled->run();
-  EXPECT_TRUE(report.ok()) << report.error().message;
-  if (!report) {
+  EXPECT_TRUE(report.ended.ok()) << report.ended.error().message;
+  if (!report.ended) {
     return done;
   }
-  done.result =
-      outcome_of(assembled->session().levels(), assembled->session().rods(), std::move(*report));
+  done.result = outcome_of(assembled->session().levels(), assembled->session().rods(), report);
   done.statistics = (*headset)->statistics();
   done.map_moves = map_log.moved;
   headset->reset();

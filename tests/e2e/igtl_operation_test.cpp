@@ -183,11 +183,11 @@ Operated operate(bool reference) {
   (*live)->observe(static_cast<SessionObserver*>(&hider));
   (*live)->observe(static_cast<LoopObserver*>(&hider));
   const auto report = (*live)->run();
-  EXPECT_TRUE(report.ok()) << report.error().message;
-  if (!report) {
+  EXPECT_TRUE(report.ended.ok()) << report.ended.error().message;
+  if (!report.ended) {
     return out;
   }
-  out.result = outcome_of((*live)->session().levels(), (*live)->session().rods(), *report);
+  out.result = outcome_of((*live)->session().levels(), (*live)->session().rods(), report);
   end.explain(out.result);
   truth.evaluate((*live)->session().levels(), out.result);
   return out;

@@ -220,7 +220,7 @@ TEST(Operation, ARecordingReplaysToIdenticalPosesAndSteps) {
   PoseLog again;
   again.session = &(*operation)->session();
   (*operation)->observe(&again);
-  ASSERT_TRUE((*operation)->run().ok());
+  ASSERT_TRUE((*operation)->run().ended.ok());
   fs::remove_all(folder);
 
   ASSERT_EQ(again.lines.size(), live.poses.size());

@@ -67,11 +67,11 @@ Result<std::string> replayed(const char* recording, std::ostream& poses) {
   PoseWriter writer((*operation)->session(), poses);
   (*operation)->observe(&writer);
   auto report = (*operation)->run();
-  if (!report) {
-    return report.error();
+  if (!report.ended) {
+    return report.ended.error();
   }
-  return report_json(outcome_of((*operation)->session().levels(), (*operation)->session().rods(),
-                                *std::move(report)));
+  return report_json(
+      outcome_of((*operation)->session().levels(), (*operation)->session().rods(), report));
 }
 
 }  // namespace

@@ -92,14 +92,15 @@ class Attempt {
     };
     hooks.assembled = [&](engine::AssembledOperation& live) { return keep(live); };
     const auto result = engine::run_operation(source_, planned_, options(), hooks);
+    const Status ended = result ? result->loop.ended : Status(result.error());
     const bool done = result && result->completed;
     row_.why_not = result ? result->why_not : result.error().message;
     if (!log_) {
-      return fail("operation", result.error());
+      return fail("operation", ended.error());
     }
     row_.stalls += result ? result->loop.stalls : 0;
-    if (!result && device_losses(flaky_->done()) == 0) {
-      fail("operation", result.error());
+    if (!ended && device_losses(flaky_->done()) == 0) {
+      fail("operation", ended.error());
     }
     if (const Status closed = (*journal)->finish({}); !closed) {
       fail("journal", closed.error());

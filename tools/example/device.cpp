@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
   const auto assembled = must(engine::assemble_operation(*headset, std::move(operation),
                                                          must(engine::method_named("best")),
                                                          engine::built_in_tools()));
-  const auto report = must(assembled->run());
+  const engine::LoopReport report = assembled->run();
   std::printf("%s: %lld frames shown\n", headset->name().c_str(),
               static_cast<long long>(report.displayed));
+  must(report.ended);
 }

@@ -41,5 +41,5 @@ int main(int argc, char** argv) {
                                            must(method_named("best")), built_in_tools(), options));
   Printer printer;
   assembled->observe(&printer);
-  must(assembled->run());
+  must(assembled->run().ended);
 }

@@ -120,10 +120,8 @@ void LiveOperation::start() {
 }
 
 void LiveOperation::run() {
-  const auto report = operation_->run();
-  if (!report) {
-    outcome_ = report.error();
-  }
+  const engine::LoopReport report = operation_->run();
+  outcome_ = report.ended;
   if (tell_end_) {
     tell_end_(report);
   }

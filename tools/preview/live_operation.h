@@ -27,7 +27,7 @@ struct OperationSource {
   /// is one; an Error refuses the start. May be null.
   std::function<Status(engine::AssembledOperation&, const sim::SimHeadset*)> assembled;
   /// Called with the outcome of each operation, on its thread, while it still exists.
-  std::function<void(const Result<engine::LoopReport>&)> ended;
+  std::function<void(const engine::LoopReport&)> ended;
 };
 
 /// An operation that runs in its own thread: pairs come through the gate, moments go into the
@@ -71,7 +71,7 @@ class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink
   /// Kept here rather than with the drawing, since moments may be viewed in any order.
   engine::LabelLayout labels_;
   std::vector<render::View> eye_;
-  std::function<void(const Result<engine::LoopReport>&)> tell_end_;
+  std::function<void(const engine::LoopReport&)> tell_end_;
   std::atomic<bool> ended_ = false;
   Status outcome_;
   std::thread thread_;

@@ -67,8 +67,8 @@ TEST_F(AssembledOperationTest, RunsFromPairsToWhatIsShown) {
   (*operation)->observe(&first);
   (*operation)->observe(&second);
   const auto report = (*operation)->run();
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->displayed, 5);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.displayed, 5);
   EXPECT_EQ(counting.pairs, 5);
   EXPECT_THAT(first.heard, ::testing::ElementsAre("abracadabra"));
   EXPECT_EQ(second.heard, first.heard);
@@ -83,8 +83,8 @@ TEST_F(AssembledOperationTest, GoesThroughAWrapperPutAroundTheHeadsetLater) {
   fake::FailingHeadset losing(headset, {.camera = {{1, fake::CameraFault::kDrop}}});
   (*operation)->go_through(losing);
   const auto report = (*operation)->run();
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->displayed, 4);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.displayed, 4);
 }
 
 TEST_F(AssembledOperationTest, AStopBeforeItRunsIsNotForgotten) {
@@ -93,8 +93,8 @@ TEST_F(AssembledOperationTest, AStopBeforeItRunsIsNotForgotten) {
   ASSERT_TRUE(operation.ok()) << operation.error().message;
   (*operation)->stop();
   const auto report = (*operation)->run();
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->displayed, 0);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.displayed, 0);
 }
 
 TEST_F(AssembledOperationTest, NamesEveryProblemOfItsOptions) {

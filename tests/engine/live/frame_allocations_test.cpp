@@ -5,9 +5,12 @@
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/label_layout.h"
 #include "engine/holograms/scene_builder.h"
+#include "hal/api/forwarding_headset.h"
+#include "hal/fake/scripted.h"
 #include "tests/engine/live/guided_scene.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/rod_on_table.h"
+#include "tests/support/scripted_pairs.h"
 
 namespace orthonav::engine {
 namespace {
@@ -150,6 +153,108 @@ TEST_F(FrameAllocations, OfAnotherSceneAreCounted) {
   guide_with_twin();
   const Guidance& g = s.pair();
   EXPECT_GT(allocations_of([&] { Frames().make(g); }), 0u);
+}
+
+/// Delivers the same dark pair, every 33 ms of its clock.
+class EndlessCamera : public StereoCamera {
+ public:
+  EndlessCamera(fake::FakeHeadset& inner, int count) : inner_(inner), left_(count) {}
+
+ private:
+  fake::FakeHeadset& inner_;
+  int left_;
+  std::int64_t next_ = 0;
+  const StereoFrame pair_ = test::dark_pair(0);
+  [[nodiscard]] const StereoCalibration& do_calibration() const override {
+    return inner_.cameras().calibration();
+  }
+  Result<Next> do_next(StereoFrame& frame) override {
+    if (left_-- == 0) {
+      return Next::kEnd;
+    }
+    const Timestamp time = inner_.clock().now() + test::kPair;
+    inner_.manual_clock().set(time);
+    frame = pair_;
+    frame.sequence = next_++;
+    frame.time = time;
+    return Next::kFrame;
+  }
+};
+
+class ForgetfulDisplay : public Display {
+ private:
+  [[nodiscard]] Duration do_latency() const override { return std::chrono::milliseconds(16); }
+  Status do_shown(const ShownFrame&) override { return {}; }
+};
+
+class EndlessHeadset : public ForwardingHeadset {
+ public:
+  EndlessHeadset(fake::FakeHeadset& inner, int count)
+      : ForwardingHeadset(inner), cameras_(inner, count) {}
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] Display& display() override { return display_; }
+
+ private:
+  EndlessCamera cameras_;
+  ForgetfulDisplay display_;
+};
+
+/// Counts what any thread allocates from a pair on.
+class Counting : public LoopObserver, public SnapshotSink {
+ public:
+  explicit Counting(int warm) : warm_(warm) {}
+  void stepped(const StereoFrame&, const Inputs&, const Guidance&) override {
+    if (warm_-- == 0) {
+      before_ = test::allocation_count();
+    }
+    counted = test::allocation_count() - before_;
+  }
+  Status draw(const Snapshot&) override { return {}; }
+  std::size_t counted = 0;
+
+ private:
+  int warm_;
+  std::size_t before_ = 0;
+};
+
+/// Longer than a vector of one value a pair goes without growing.
+constexpr int kWarmPairs = 150;
+constexpr int kPairs = 600;
+
+TEST(FrameLoopAllocations, AreNoneHoweverLongItRuns) {
+  for (const bool real_time : {false, true}) {
+    SCOPED_TRACE(real_time);
+    GuidedScene scene;
+    scene.guide();
+    fake::FakeHeadset inner(test::pairs(0));
+    EndlessHeadset headset(inner, kPairs);
+    SceneBuilder builder;
+    LoopOptions options;
+    options.real_time = real_time;
+    FrameLoop loop(headset, scene.s.session(), builder, options);
+    Counting counting(kWarmPairs);
+    loop.observe(&counting);
+    loop.draw_into(&counting);
+    const LoopReport report = loop.run();
+    ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+    EXPECT_EQ(report.displayed, kPairs);
+    EXPECT_EQ(report.step_wall_ms.count(), kPairs);
+    EXPECT_EQ(counting.counted, 0u);
+  }
+}
+
+TEST(FrameLoopAllocations, OfTheFirstPairsAreCounted) {
+  GuidedScene scene;
+  scene.guide();
+  fake::FakeHeadset inner(test::pairs(0));
+  EndlessHeadset headset(inner, 5);
+  SceneBuilder builder;
+  FrameLoop loop(headset, scene.s.session(), builder, {});
+  Counting counting(0);
+  loop.observe(&counting);
+  loop.draw_into(&counting);
+  ASSERT_TRUE(loop.run().ended.ok());
+  EXPECT_GT(counting.counted, 0u);
 }
 
 }  // namespace

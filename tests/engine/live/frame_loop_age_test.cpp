@@ -63,8 +63,8 @@ TEST_F(GuidingLoop, TakesGuidanceBackWhilePairsFail) {
   }
   fake::FailingHeadset headset(inner, faults);
   const auto report = run(headset);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->blanked, 1);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.blanked, 1);
   const auto frames = inner.display().frames();
   // Five pairs, one frame that takes back, three pairs, the end.
   ASSERT_EQ(frames.size(), 10u);
@@ -86,8 +86,8 @@ TEST_F(GuidingLoop, TakesGuidanceBackWhileNoPairComes) {
   fake::FakeHeadset inner(std::move(script));
   WaitingHeadset headset(inner);
   const auto report = run(headset);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->blanked, 1);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.blanked, 1);
   const auto frames = inner.display().frames();
   ASSERT_EQ(frames.size(), 5u);
   EXPECT_FALSE(shows_triangle(frames[2]));
@@ -104,8 +104,39 @@ TEST_F(GuidingLoop, EndsWhenNoPairEverComesAgain) {
   WaitingHeadset headset(inner);
   options.longest_silence = std::chrono::milliseconds(500);
   const auto report = run(headset);
-  ASSERT_FALSE(report.ok());
-  EXPECT_THAT(report.error().message, ::testing::HasSubstr("no camera pair for"));
+  ASSERT_FALSE(report.ended.ok());
+  EXPECT_THAT(report.ended.error().message, ::testing::HasSubstr("no camera pair for"));
+}
+
+/// A camera that delivers pairs until its server is gone; what the run asks for is said in
+/// `options`.
+fake::Script gone_after(int delivered) {
+  fake::Script script = pairs(delivered);
+  for (int i = 0; i < 1000; ++i) {
+    script.camera.emplace_back(Next::kNone);
+  }
+  return script;
+}
+
+TEST_F(GuidingLoop, EndsAfterTheTimeAskedForThoughNoPairComes) {
+  fake::FakeHeadset inner(gone_after(4));
+  WaitingHeadset headset(inner);
+  options.max_time = std::chrono::seconds(12);
+  const auto report = run(headset);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.displayed, 4);
+  const Duration ran = inner.manual_clock().now() - (kStart + kPair);
+  EXPECT_GE(ran, options.max_time);
+  EXPECT_LE(ran, options.max_time + std::chrono::milliseconds(40));
+}
+
+TEST_F(GuidingLoop, ATimeInWhichNoPairCameAtAllIsNoRun) {
+  fake::FakeHeadset inner(gone_after(0));
+  WaitingHeadset headset(inner);
+  options.max_time = std::chrono::seconds(12);
+  const auto report = run(headset);
+  ASSERT_FALSE(report.ended.ok());
+  EXPECT_THAT(report.ended.error().message, ::testing::HasSubstr("no camera pair for 12."));
 }
 
 TEST_F(GuidingLoop, AnAnswerWithoutAPairDoesNotExcuseTheErrorsAroundIt) {
@@ -116,7 +147,7 @@ TEST_F(GuidingLoop, AnAnswerWithoutAPairDoesNotExcuseTheErrorsAroundIt) {
   }
   fake::FakeHeadset headset(std::move(script));
   options.max_errors_in_a_row = 5;
-  EXPECT_FALSE(run(headset).ok());
+  EXPECT_FALSE(run(headset).ended.ok());
 }
 
 TEST_F(GuidingLoop, LeavesOnlyTheStatusLineHoweverItEnds) {
@@ -126,9 +157,9 @@ TEST_F(GuidingLoop, LeavesOnlyTheStatusLineHoweverItEnds) {
   }
   options.max_errors_in_a_row = 5;
   fake::FakeHeadset failing(std::move(script));
-  EXPECT_FALSE(run(failing).ok());
+  EXPECT_FALSE(run(failing).ended.ok());
   fake::FakeHeadset ending(pairs(3));
-  EXPECT_TRUE(run(ending).ok());
+  EXPECT_TRUE(run(ending).ended.ok());
   for (fake::FakeHeadset* headset : {&failing, &ending}) {
     const auto frames = headset->display().frames();
     ASSERT_EQ(frames.size(), 4u);
@@ -156,7 +187,7 @@ TEST_F(GuidingLoop, HidesWhatGrewTooOldWhileItWasTracked) {
   for (const auto& [takes_ms, shown] : {std::pair{83, true}, std::pair{85, false}}) {
     fake::FakeHeadset headset(pairs(1));
     SlowTracking slow(headset.manual_clock(), std::chrono::milliseconds(takes_ms));
-    ASSERT_TRUE(run(headset, &slow).ok());
+    ASSERT_TRUE(run(headset, &slow).ended.ok());
     const auto frames = headset.display().frames();
     ASSERT_FALSE(frames.empty());
     EXPECT_EQ(shows_triangle(frames[0]), shown) << takes_ms;
@@ -176,7 +207,7 @@ class PairsOfGuidance : public SnapshotSink {
 TEST_F(GuidingLoop, TellsTheDrawerOfWhichPairGuidanceIs) {
   fake::FakeHeadset headset(pairs(2));
   PairsOfGuidance drawn;
-  ASSERT_TRUE(run(headset, nullptr, &drawn).ok());
+  ASSERT_TRUE(run(headset, nullptr, &drawn).ended.ok());
   ASSERT_EQ(drawn.tool_times.size(), 3u);
   EXPECT_EQ(drawn.tool_times[0], test::kStart + kPair);
   EXPECT_EQ(drawn.tool_times[1], test::kStart + 2 * kPair);

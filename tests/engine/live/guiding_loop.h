@@ -23,8 +23,7 @@ class GuidingLoop : public ::testing::Test {
     s.tracker().guide = test::guide_at({0.015, 0.020, 0.0}, 0.1);
     s.pair();
   }
-  Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr,
-                         SnapshotSink* sink = nullptr) {
+  LoopReport run(Headset& headset, LoopObserver* observer = nullptr, SnapshotSink* sink = nullptr) {
     SceneBuilder builder;
     FrameLoop loop(headset, s.session(), builder, options);
     loop.observe(observer);

@@ -38,8 +38,8 @@ TEST_F(WatchedLoop, WhatHangsBeforeTheFirstPairIsNamedToo) {
               }});
   Told told;
   const auto report = run(headset, &told);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->stalls, 1);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.stalls, 1);
   EXPECT_THAT(told.parts(), ElementsAre(Part::kCamera)) << "as onlookers hear it";
 }
 
@@ -52,8 +52,8 @@ TEST_F(WatchedLoop, ATrackerThatHangsAtTheFirstPairIsNamed) {
     }
   });
   const auto report = run(inner, &slow);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->stalls, 1);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.stalls, 1);
 }
 
 /// Stroking, with a trial of the coach about to begin.
@@ -66,7 +66,7 @@ class CoachedLoop : public ::testing::Test {
     s.does({ClickerAction::kPress});
     s.pairs(static_cast<int>(Coach::kFewestSamples) - 10);
   }
-  Result<LoopReport> run(Headset& headset) {
+  LoopReport run(Headset& headset) {
     SceneBuilder builder;
     FrameLoop loop(headset, s.session(), builder, options);
     loop.draw_into(&sink);
@@ -89,10 +89,10 @@ TEST_F(CoachedLoop, ACoachThatHangsIsNamedBeforeItIsAwaited) {
     }
   };
   const auto report = run(headset);
-  ASSERT_TRUE(report.ok()) << report.error().message;
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
   EXPECT_GE(trials, 1);
-  EXPECT_GE(report->stalls, 1);
-  EXPECT_EQ(report->displayed, 60) << "and it goes on";
+  EXPECT_GE(report.stalls, 1);
+  EXPECT_EQ(report.displayed, 60) << "and it goes on";
 }
 
 TEST_F(CoachedLoop, IsNotTimedByPairsThatComeFasterThanTime) {
@@ -110,17 +110,17 @@ TEST_F(CoachedLoop, IsNotTimedByPairsThatComeFasterThanTime) {
     }
   };
   const auto report = run(headset);
-  ASSERT_TRUE(report.ok()) << report.error().message;
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
   EXPECT_GE(trials, 1);
-  EXPECT_EQ(report->stalls, 0) << "time that only pairs make says nothing about the coach";
+  EXPECT_EQ(report.stalls, 0) << "time that only pairs make says nothing about the coach";
 }
 
 TEST_F(CoachedLoop, ACoachThatDiesEndsTheRunInOrder) {
   fake::FakeHeadset headset(pairs(60));
   s.before_registering = [] { throw std::bad_alloc(); };
   const auto report = run(headset);
-  ASSERT_FALSE(report.ok());
-  EXPECT_EQ(report.error().message, "coach: out of memory");
+  ASSERT_FALSE(report.ended.ok());
+  EXPECT_EQ(report.ended.error().message, "coach: out of memory");
   EXPECT_TRUE(headset.display().frames().back().holograms.empty());
 }
 

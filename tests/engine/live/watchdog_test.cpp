@@ -15,8 +15,8 @@ TEST_F(WatchedLoop, ACameraThatHangsIsNamedByTheDrawer) {
   fake::FakeHeadset inner(pairs(3));
   EventfulHeadset headset(inner, {1, [&] { hang_until_drawn(inner, Part::kCamera); }});
   const auto report = run(headset);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->stalls, 1);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.stalls, 1);
   EXPECT_TRUE(shows_triangle(inner.display().frames().at(2))) << "and it goes on with the next";
 }
 
@@ -25,9 +25,9 @@ TEST_F(WatchedLoop, AWarningThatCannotBeDrawnIsCounted) {
   sink.warns = false;
   EventfulHeadset headset(inner, {1, [&] { hang_until_drawn(inner, Part::kCamera); }});
   const auto report = run(headset);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->draw_failures, 1);
-  EXPECT_EQ(report->last_failure, "no warnings");
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.draw_failures, 1);
+  EXPECT_EQ(report.last_failure, "no warnings");
 }
 
 TEST_F(WatchedLoop, ATrackerThatHangsIsNamedByTheDrawer) {
@@ -39,8 +39,8 @@ TEST_F(WatchedLoop, ATrackerThatHangsIsNamedByTheDrawer) {
     }
   });
   const auto report = run(inner, &slow);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->stalls, 1);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.stalls, 1);
 }
 
 TEST_F(WatchedLoop, AVoiceThatHangsInItsPollIsNamedByTheDrawer) {
@@ -51,7 +51,7 @@ TEST_F(WatchedLoop, AVoiceThatHangsInItsPollIsNamedByTheDrawer) {
     }
     return Status{};
   });
-  ASSERT_TRUE(run(headset).ok());
+  ASSERT_TRUE(run(headset).ended.ok());
 }
 
 TEST_F(WatchedLoop, AVoiceThatSaysItStalledHidesGuidanceAndEndsNothing) {
@@ -64,8 +64,8 @@ TEST_F(WatchedLoop, AVoiceThatSaysItStalledHidesGuidanceAndEndsNothing) {
   std::vector<std::optional<Part>> stalled;
   Stepped see([&](const Guidance& guidance) { stalled.push_back(guidance.status.stalled); });
   const auto report = run(headset, &see);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->stalls, 1);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.stalls, 1);
   const auto frames = inner.display().frames();
   ASSERT_EQ(frames.size(), kPairs + 1u);
   ASSERT_EQ(stalled.size(), static_cast<std::size_t>(kPairs));
@@ -92,12 +92,12 @@ TEST_F(WatchedLoop, ARendererThatHangsIsNamedByTheTracker) {
     sink.let_go = sink.let_go || named >= 3;
   });
   const auto report = run(headset, &see);
-  ASSERT_TRUE(report.ok()) << report.error().message;
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
   const auto frames = headset.display().frames();
   ASSERT_TRUE(first.has_value());
   ASSERT_GT(frames.size(), *first);
   EXPECT_TRUE(frames[*first].holograms.empty());
-  EXPECT_GE(report->stalls, 1);
+  EXPECT_GE(report.stalls, 1);
 }
 
 TEST_F(WatchedLoop, APresenterThatHangsByItselfIsNamedToo) {
@@ -106,7 +106,7 @@ TEST_F(WatchedLoop, APresenterThatHangsByItselfIsNamedToo) {
   std::vector<std::optional<Part>> stalled;
   Stepped see([&](const Guidance& guidance) { stalled.push_back(guidance.status.stalled); });
   const auto report = run(headset, &see);
-  ASSERT_TRUE(report.ok()) << report.error().message;
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
   ASSERT_FALSE(stalled.empty());
   EXPECT_EQ(stalled.front(), Part::kRenderer);
 }
@@ -114,8 +114,8 @@ TEST_F(WatchedLoop, APresenterThatHangsByItselfIsNamedToo) {
 TEST_F(WatchedLoop, NothingIsNamedWhileAllGoWell) {
   fake::FakeHeadset headset(pairs(40));
   const auto report = run(headset);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->stalls, 0);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.stalls, 0);
   EXPECT_TRUE(sink.stalls().empty());
   EXPECT_TRUE(shows_triangle(headset.display().frames().at(39)));
 }
@@ -128,8 +128,8 @@ TEST_F(WatchedLoop, WhoeverDiesOnTheTrackingThreadIsNamedAndNothingIsGuided) {
     }
   });
   const auto report = run(inner, &dies);
-  ASSERT_FALSE(report.ok());
-  EXPECT_EQ(report.error().message, "tracker: out of memory");
+  ASSERT_FALSE(report.ended.ok());
+  EXPECT_EQ(report.ended.error().message, "tracker: out of memory");
   const auto frames = inner.display().frames();
   ASSERT_EQ(frames.size(), 4u) << "three pairs, and one that takes back";
   EXPECT_TRUE(frames.back().holograms.empty());
@@ -137,8 +137,8 @@ TEST_F(WatchedLoop, WhoeverDiesOnTheTrackingThreadIsNamedAndNothingIsGuided) {
   fake::FakeHeadset other(pairs(9));
   EventfulHeadset camera(other, {3, [] { throw std::runtime_error("driver"); }});
   const auto of_camera = run(camera);
-  ASSERT_FALSE(of_camera.ok());
-  EXPECT_EQ(of_camera.error().message, "camera: ended by an exception: driver");
+  ASSERT_FALSE(of_camera.ended.ok());
+  EXPECT_EQ(of_camera.ended.error().message, "camera: ended by an exception: driver");
   EXPECT_TRUE(other.display().frames().back().holograms.empty());
 }
 
@@ -159,9 +159,9 @@ TEST_F(WatchedLoop, ASimulationDoesNotDependOnHowFastItIsDrawn) {
     }
   });
   const auto report = run(headset, &goes_on);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->stalls, 0);
-  EXPECT_EQ(report->displayed, 60);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.stalls, 0);
+  EXPECT_EQ(report.displayed, 60);
 }
 
 TEST_F(WatchedLoop, ARendererThatDiesEndsTheRunInOrder) {
@@ -170,8 +170,8 @@ TEST_F(WatchedLoop, ARendererThatDiesEndsTheRunInOrder) {
     fake::FakeHeadset headset(pairs(500));
     sink.dies_at = 0;
     const auto report = run(headset);
-    ASSERT_FALSE(report.ok()) << waits;
-    EXPECT_EQ(report.error().message, "renderer: ended by an exception: driver");
+    ASSERT_FALSE(report.ended.ok()) << waits;
+    EXPECT_EQ(report.ended.error().message, "renderer: ended by an exception: driver");
     EXPECT_TRUE(headset.display().frames().back().holograms.empty());
   }
 }

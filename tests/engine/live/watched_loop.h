@@ -149,7 +149,7 @@ class Stepped : public LoopObserver {
 class WatchedLoop : public GuidingLoop {
  protected:
   WatchedLoop() { options.real_time = true; }
-  Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr) {
+  LoopReport run(Headset& headset, LoopObserver* observer = nullptr) {
     return GuidingLoop::run(headset, observer, &sink);
   }
   /// Hangs the part that calls it: from when guidance is drawn, for longer than a part may take,

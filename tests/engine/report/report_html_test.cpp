@@ -97,7 +97,8 @@ ReportContent whole_content() {
                            {{"L4 left", {0, 1, 2, 3}, {71.3, 6.5, 6.0, 1.0}}},
                            {{2.0, "good below 2.0°"}, {5.0, "poor above 5.0°"}},
                            6.0});
-  content.timings.push_back({"tracking", {1.0, 2.0}});
+  content.timings.push_back({"tracking", {}});
+  content.timings.back().ms.add(1.0);
   content.notes = {"a note"};
   return content;
 }

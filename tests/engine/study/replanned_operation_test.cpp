@@ -77,10 +77,10 @@ TEST(ReplannedOperation, TheWireFollowsThePlanInUse) {
   live->observe(&end);
   live->observe(static_cast<SessionObserver*>(&headset));
   const auto report = live->run();
-  ASSERT_TRUE(report) << report.error().message;
-  OperationResult result = outcome_of(live->session().levels(), live->session().rods(), *report);
+  ASSERT_TRUE(report.ended) << report.ended.error().message;
+  OperationResult result = outcome_of(live->session().levels(), live->session().rods(), report);
   end.explain(result);
-  ASSERT_TRUE(report->done) << result.why_not;
+  ASSERT_TRUE(report.done) << result.why_not;
   truth.evaluate(live->session().levels(), result);
   const auto& screws = result.levels[0].screws;
   ASSERT_EQ(screws.size(), 2u);

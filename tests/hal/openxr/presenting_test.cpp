@@ -176,10 +176,8 @@ TEST_F(RuntimeTest, TellsHowOldTheHeadsPoseIsWithEachFrame) {
   ASSERT_TRUE(show(golden("guidance").scene).ok());
   ASSERT_TRUE(eventually([&] { return count_drawn() >= 10; }));
   const engine::PresentReport report = presenter_->stop();
-  ASSERT_EQ(report.latch_ms.size(), static_cast<std::size_t>(report.drawn));
-  for (const double latch_ms : report.latch_ms) {
-    EXPECT_GT(latch_ms, 0.0);
-  }
+  ASSERT_EQ(report.latch_ms.count(), report.drawn);
+  EXPECT_GT(report.latch_ms.quantile(0.0).value_or(0.0), 0.0);
 }
 
 std::string refusal(RuntimeTraits traits, Headset& headset) {

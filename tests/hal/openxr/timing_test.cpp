@@ -31,8 +31,8 @@ TEST_F(TimingTest, KeepsAccountOfLateAndMissedFrames) {
   EXPECT_EQ(report.missed, 4);
   EXPECT_GE(report.late, 1);
   EXPECT_EQ(report.period, Duration(traits.period_ns));
-  EXPECT_EQ(report.wait_ms.size(), static_cast<std::size_t>(report.frames));
-  EXPECT_EQ(report.submit_ms.size(), static_cast<std::size_t>(report.frames));
+  EXPECT_EQ(report.wait_ms.count(), report.frames);
+  EXPECT_EQ(report.submit_ms.count(), report.frames);
 }
 
 }  // namespace

@@ -60,8 +60,8 @@ class OperationOnOpenxr : public RuntimeTest {
     operation_->draw_into(presenter_.get());
     operation_->observe(observer);
     auto report = operation_->run();
-    EXPECT_TRUE(report.ok()) << report.error().message;
-    return report ? *report : engine::LoopReport{};
+    EXPECT_TRUE(report.ended.ok()) << report.ended.error().message;
+    return report;
   }
 
   std::unique_ptr<engine::AssembledOperation> operation_;
