@@ -122,18 +122,13 @@ void Journal::registered(Timestamp time, const LevelState& level,
   tell_registration(time, level, outcome, false);
 }
 
-void Journal::tell_restored(Timestamp time, const LevelState& level) {
-  if (level.registration && registered_.count(level.plan.label) == 0) {
-    const bool provisional = !level.registration->accepted;
-    tell_registration(time, level, {level.registration, std::nullopt, provisional}, true);
-  }
+void Journal::registration_restored(Timestamp time, const LevelState& level) {
+  const bool provisional = !level.registration->accepted;
+  tell_registration(time, level, {level.registration, std::nullopt, provisional}, true);
 }
 
 void Journal::tell_registration(Timestamp time, const LevelState& level,
                                 const RegistrationOutcome& outcome, bool restored) {
-  if (outcome.passed()) {
-    registered_.insert(level.plan.label);
-  }
   Json line = journal_line(file_ticks(time), time, "registration", level);
   line["attempt"] = level.attempts;
   line["accepted"] = outcome.passed();
@@ -142,6 +137,7 @@ void Journal::tell_registration(Timestamp time, const LevelState& level,
   }
   if (restored) {
     line["restored"] = true;
+    line["accepted_earlier"] = level.accepted;
   }
   if (!outcome.passed()) {
     line["reason"] = refusal_text(outcome);
@@ -169,7 +165,6 @@ void Journal::tell_registration(Timestamp time, const LevelState& level,
 }
 
 void Journal::accepted(Timestamp time, const LevelState& level, std::string_view /*shown*/) {
-  tell_restored(time, level);
   Json line = journal_line(file_ticks(time), time, "accepted", level);
   line["check_points"] = level.check_points.size();
   line["world_from_vertebra_mm"] = matrix_mm(level.registration->world_from_vertebra.row_major());

@@ -65,6 +65,7 @@ class Journal : public SessionObserver {
   void not_understood(const Phrase& phrase) override;
   void registered(Timestamp time, const LevelState& level,
                   const RegistrationOutcome& outcome) override;
+  void registration_restored(Timestamp time, const LevelState& level) override;
   void accepted(Timestamp time, const LevelState& level, std::string_view shown) override;
   void check_point_recorded(Timestamp time, const LevelState& level) override;
   void check_point_dropped(Timestamp time, const LevelState& level) override;
@@ -93,8 +94,6 @@ class Journal : public SessionObserver {
  private:
   Journal(std::unique_ptr<LineLog> log, std::int64_t epoch_ticks_100ns)
       : log_(std::move(log)), epoch_ticks_100ns_(epoch_ticks_100ns) {}
-  /// Writes a registration of a resumed operation, which is also in an earlier journal.
-  void tell_restored(Timestamp time, const LevelState& level);
   void tell_registration(Timestamp time, const LevelState& level,
                          const RegistrationOutcome& outcome, bool restored);
   [[nodiscard]] std::int64_t file_ticks(Timestamp time) const {
@@ -103,8 +102,7 @@ class Journal : public SessionObserver {
 
   std::unique_ptr<LineLog> log_;
   std::int64_t epoch_ticks_100ns_;
-  Timestamp newest_{};                ///< time of the newest line
-  std::set<std::string> registered_;  ///< labels of levels whose registration was written
+  Timestamp newest_{};  ///< time of the newest line
 };
 
 }  // namespace orthonav::engine

@@ -42,6 +42,7 @@ RecordedRegistration registration_of(const JsonNode& line, Timestamp time) {
   found.level = line.text("level");
   found.attempt = line.integer("attempt");
   found.passed = line.flag_or("accepted", false);
+  found.accepted_earlier = line.flag_or("accepted_earlier", false);
   found.reason = line.text_or("reason", "");
   found.warning = line.text_or("warning", "");
   if (line.has("points")) {

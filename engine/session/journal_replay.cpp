@@ -124,6 +124,7 @@ void JournalReplay::registered(RecordedRegistration found, const JsonNode& line)
   level_ = static_cast<std::size_t>(level - record_.levels.data());
   level->attempts = std::max(level->attempts, found.attempt);
   if (found.passed) {
+    level->accepted = found.accepted_earlier;
     level->registration = record_.registrations.size();
     level->digitization_s.reset();
     if (first_press_) {

@@ -77,7 +77,6 @@ void Journal::calibration_found(Timestamp time, const CalibrationInUse& found) {
 
 void Journal::screw_done(Timestamp time, const LevelState& level, std::size_t screw,
                          const ToolGuidance* at_depth) {
-  tell_restored(time, level);
   JournalLine line = journal_line(file_ticks(time), time, "screw", level);
   line["side"] = name_of(level.plan.screws[screw].side);
   if (at_depth && at_depth->measured) {

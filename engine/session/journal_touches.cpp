@@ -10,7 +10,6 @@ namespace orthonav::engine {
 // What was touched: check points, the landmark, screw heads.
 
 void Journal::check_point_recorded(Timestamp time, const LevelState& level) {
-  tell_restored(time, level);
   const nav::CheckPoint& point = level.check_points.back();
   JournalLine line = journal_line(file_ticks(time), time, "check point", level);
   line["number"] = level.check_points.size();
@@ -28,7 +27,6 @@ void Journal::check_point_dropped(Timestamp time, const LevelState& level) {
 
 void Journal::landmark_touched(Timestamp time, const LevelState& level,
                                const LandmarkTouch& touch) {
-  tell_restored(time, level);
   JournalLine line = journal_line(file_ticks(time), time, "landmark", level);
   line["first"] = touch.first;
   if (touch.first) {

@@ -53,6 +53,9 @@ class ObserverList : public SessionObserver {
                   const RegistrationOutcome& outcome) override {
     tell(&SessionObserver::registered, time, level, outcome);
   }
+  void registration_restored(Timestamp time, const LevelState& level) override {
+    tell(&SessionObserver::registration_restored, time, level);
+  }
   void check_point_recorded(Timestamp time, const LevelState& level) override {
     tell(&SessionObserver::check_point_recorded, time, level);
   }

@@ -99,6 +99,12 @@ std::optional<Event> Resuming::go_on(OperationInWork& work, SessionSteps& steps,
   if (!resumed_) {
     return std::nullopt;
   }
+  for (const LevelState& earlier : work.levels) {
+    if (!told_finished_ && earlier.finished() && earlier.registration) {
+      work.observer->registration_restored(time, earlier);
+    }
+  }
+  told_finished_ = true;
   if (level.finished()) {
     return steps.rods.left_to_do() ? Event::kNoScrewLeft : Event::kNoRodPlanned;
   }
@@ -110,8 +116,9 @@ std::optional<Event> Resuming::go_on(OperationInWork& work, SessionSteps& steps,
   }
   const bool landmark_tells = level.accepted && work.anchored() && work.options.steps.landmark &&
                               level.landmark.has_value();
+  level.accepted = landmark_tells;
+  work.observer->registration_restored(time, level);
   if (!landmark_tells) {
-    level.accepted = false;
     return Event::kRegistrationRestored;
   }
   // If the landmark has moved, its registration is verified again.

@@ -24,6 +24,7 @@ class Resuming {
 
  private:
   bool resumed_ = false;
+  bool told_finished_ = false;                     ///< which levels were finished
   std::vector<std::vector<nav::Region>> regions_;  ///< saved regions of each level, until it begins
 };
 

@@ -44,6 +44,8 @@ class SessionObserver {
   /// A registration was asked for.
   virtual void registered(Timestamp /*time*/, const LevelState& /*level*/,
                           const RegistrationOutcome& /*outcome*/) {}
+  /// A resumed operation has this registration of an earlier session, and whether it was accepted.
+  virtual void registration_restored(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// A place was touched to verify the level's registration: the last of its check points.
   virtual void check_point_recorded(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The last check point was taken back; `level` no longer has it.

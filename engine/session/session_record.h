@@ -59,8 +59,9 @@ struct RecordedRegistration {
   std::string level;
   int attempt = 0;
   bool passed = false;
-  std::string reason;   ///< why not
-  std::string warning;  ///< about the pointer it was made with
+  bool accepted_earlier = false;  ///< of a resumed operation: in the session that made it
+  std::string reason;             ///< why not
+  std::string warning;            ///< about the pointer it was made with
   std::optional<std::size_t> points;
   std::optional<double> rmse_m;
   std::optional<double> runner_up_rmse_m;

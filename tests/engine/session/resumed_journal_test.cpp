@@ -18,7 +18,7 @@ using ::testing::Not;
 
 /// The second journal of an operation that was killed in that step of the first level and then
 /// continued to the end.
-std::string second_journal(Step killed_in) {
+std::string second_journal(Step killed_in, Step ends_in = Step::kDone) {
   test::MemoryEnv env;
   {
     auto s = test::touched_operation(true);
@@ -40,11 +40,16 @@ std::string second_journal(Step killed_in) {
   const auto journal = Journal::create(path, header).value();
   ObserverList both({journal.get(), r.log.get()});
   r.operation->session().observe(&both);
-  test::ScriptedSurgeon(*r.operation).finish();
+  test::ScriptedSurgeon surgeon(*r.operation);
+  while (r.operation->session().current_step() != ends_in && surgeon.act()) {
+  }
   EXPECT_TRUE(is_ok(journal->finish({})));
   const auto read = read_journal(path);
   EXPECT_TRUE(is_ok(read));
-  if (read) {
+  if (read && ends_in != Step::kDone) {
+    EXPECT_TRUE(read->levels.at(0).accepted) << "in the session before, and not taken back";
+  } else if (read) {
+    EXPECT_TRUE(read->levels.at(0).accepted);
     EXPECT_TRUE(read->levels.at(0).registration.has_value()) << "as it was restored";
     EXPECT_TRUE(read->levels.at(1).registration.has_value());
     EXPECT_EQ(read->registrations.size(), 2u) << "each told once";
@@ -60,6 +65,16 @@ TEST(ResumedJournal, TellsTheRestoredRegistrationBeforeWhatHangsOnIt) {
     EXPECT_EQ(journal.find("\"restored\"", restored + 1), std::string::npos)
         << "L5 was registered in this one";
   }
+}
+
+TEST(ResumedJournal, HasALevelAsAcceptedThatWasAcceptedInAnEarlierOne) {
+  for (const Step step : {Step::kAccepted, Step::kGuide, Step::kPlaced}) {
+    second_journal(step, Step::kGuide);
+  }
+}
+
+TEST(ResumedJournal, HasALevelAsAcceptedThatWasFinishedInAnEarlierOne) {
+  second_journal(Step::kRod, Step::kRod);
 }
 
 TEST(ResumedJournal, RestoresNothingThatIsStrokedAgain) {
