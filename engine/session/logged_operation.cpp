@@ -48,7 +48,19 @@ class Applied {
       case kHeadDropped:
       case kRod:
         return apply_to_rod();
-      default:
+      case kRegion:
+      case kRegionDropped:
+      case kRegistration:
+      case kCheckPoint:
+      case kCheckPointDropped:
+      case kAccepted:
+      case kAcceptanceWithdrawn:
+      case kLandmark:
+      case kLandmarkDropped:
+      case kLevelCleared:
+      case kPlan:
+      case kWire:
+      case kScrew:
         return apply_to_level();
     }
   }
@@ -110,21 +122,32 @@ class Applied {
       case kWire:
       case kScrew:
         return apply_to_screw(level);
-      default:
-        return apply_touch(level);
-    }
-  }
-
-  void apply_touch(LoggedLevel& level) {
-    using enum OperationRecord;
-    if (type_ == kCheckPoint) {
-      ++level.check_points;
-    } else if (type_ == kCheckPointDropped) {
-      level.check_points -= level.check_points > 0 ? 1 : 0;
-    } else if (type_ == kLandmark && node_.flag_or("first", false)) {
-      level.landmark = landmark_from(node_.child("landmark"));
-    } else if (type_ == kLandmarkDropped && !node_.flag_or("stays", false)) {
-      level.landmark.reset();
+      case kCheckPoint:
+        ++level.check_points;
+        return;
+      case kCheckPointDropped:
+        level.check_points -= level.check_points > 0 ? 1 : 0;
+        return;
+      case kLandmark:
+        if (node_.flag_or("first", false)) {
+          level.landmark = landmark_from(node_.child("landmark"));
+        }
+        return;
+      case kLandmarkDropped:
+        if (!node_.flag_or("stays", false)) {
+          level.landmark.reset();
+        }
+        return;
+      case kBegun:
+      case kPlacesForgotten:
+      case kReferences:
+      case kGuide:
+      case kResumed:
+      case kEnded:
+      case kHead:
+      case kHeadDropped:
+      case kRod:
+        return;  // of no level
     }
   }
 

@@ -16,8 +16,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// The refusals that only concern a sleeve over a wire.
-void append_sleeve_refusal(std::string& out, const TouchRefusal& why) {
+void append_refusal(std::string& out, const TouchRefusal& why) {
   using enum TouchRefusal::Kind;
   const auto length = [&](const char* format) {
     append_beside_limit(out, format, why.value_m * 1e3, why.limit_m * 1e3);
@@ -26,6 +25,27 @@ void append_sleeve_refusal(std::string& out, const TouchRefusal& why) {
     append_beside_limit(out, format, degrees(why.turn_rad), degrees(why.turn_limit_rad));
   };
   switch (why.kind) {
+    case kPressAgain:
+      out += translated("press again");
+      break;
+    case kPointerNotSeen:
+      out += translated("pointer not seen");
+      break;
+    case kTipMoved:
+      length(translated("tip moved %.1f mm, limit %.1f mm"));
+      break;
+    case kHeldTooLong:
+      out += translated("hold too long");
+      break;
+    case kTooMany:
+      append_printed(out, translated("there are %zu already"), nav::kMostCheckPoints);
+      break;
+    case kTouchesApart:
+      length(translated("touches %.1f mm apart, limit %.1f mm: touch it anew"));
+      break;
+    case kTooNear:
+      length(translated("%.0f mm from the reference, at least %.0f mm: make it farther away"));
+      break;
     case kGuideNotSeen:
       out += translated("guide not seen all the while");
       break;
@@ -51,46 +71,6 @@ void append_sleeve_refusal(std::string& out, const TouchRefusal& why) {
     case kAngleUnsure:
       angle(translated("angle known to ± %.1f°, limit %.1f°"));
       break;
-    default:
-      break;
-  }
-}
-
-void append_refusal(std::string& out, const TouchRefusal& why) {
-  switch (why.kind) {
-    case TouchRefusal::Kind::kPressAgain:
-      out += translated("press again");
-      break;
-    case TouchRefusal::Kind::kPointerNotSeen:
-      out += translated("pointer not seen");
-      break;
-    case TouchRefusal::Kind::kTipMoved:
-      append_beside_limit(out, translated("tip moved %.1f mm, limit %.1f mm"), why.value_m * 1e3,
-                          why.limit_m * 1e3);
-      break;
-    case TouchRefusal::Kind::kHeldTooLong:
-      out += translated("hold too long");
-      break;
-    case TouchRefusal::Kind::kTooMany:
-      append_printed(out, translated("there are %zu already"), nav::kMostCheckPoints);
-      break;
-    case TouchRefusal::Kind::kTouchesApart:
-      append_beside_limit(out, translated("touches %.1f mm apart, limit %.1f mm: touch it anew"),
-                          why.value_m * 1e3, why.limit_m * 1e3);
-      break;
-    case TouchRefusal::Kind::kTooNear:
-      append_beside_limit(
-          out, translated("%.0f mm from the reference, at least %.0f mm: make it farther away"),
-          why.value_m * 1e3, why.limit_m * 1e3);
-      break;
-    case TouchRefusal::Kind::kGuideNotSeen:
-    case TouchRefusal::Kind::kReferenceNotSeen:
-    case TouchRefusal::Kind::kSleeveTurned:
-    case TouchRefusal::Kind::kOffTheScrew:
-    case TouchRefusal::Kind::kAcrossTheScrew:
-    case TouchRefusal::Kind::kEntryUnsure:
-    case TouchRefusal::Kind::kAngleUnsure:
-      append_sleeve_refusal(out, why);
   }
 }
 
