@@ -35,6 +35,9 @@ class Clock {
  public:
   virtual ~Clock() = default;
   [[nodiscard]] virtual Timestamp now() const = 0;
+  /// Whether time passes by itself. Otherwise pairs advance it: while the next pair waits, so does
+  /// time.
+  [[nodiscard]] virtual bool runs_by_itself() const { return true; }
 };
 
 }  // namespace orthonav

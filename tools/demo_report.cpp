@@ -26,12 +26,14 @@ const char* caption_of(Step step) {
   constexpr std::array<const char*, kStepCount> kCaptions = {
       "The tools are found in both cameras; nothing is registered yet.",
       "The pointer strokes the bone: one colour while recording, another once saved.",
+      "The pose of the vertebra that fits the strokes is computed.",
       "The registered vertebra is laid over the bone to be judged before use.",
       "The registration was accepted: entry points appear.",
       "Entry, planned trajectory, the triangle towards the tool's axis, and the angle.",
       "The sleeve is set over the wire: the line beside the plan is how it stands.",
       "The heads are touched one by one; the rod follows as a spline through them.",
       "The operation is over."};
+  static_assert(kCaptions.back() != nullptr, "every step has its caption");
   return kCaptions[static_cast<std::size_t>(step)];
 }
 

@@ -113,8 +113,8 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   }
   // H1: the surgeon still compares the paths with the hologram while verifying; after acceptance
   // they would only cover the bone.
-  out.paths = g.step == Step::kDigitize || g.step == Step::kVerify ||
-              (g.step == Step::kRod && g.rod_stroked);
+  out.paths = g.step == Step::kDigitize || g.step == Step::kRegistering ||
+              g.step == Step::kVerify || (g.step == Step::kRod && g.rod_stroked);
   // H2, H12: only the level that is to be verified; gone with a rejected registration.
   if (g.step == Step::kVerify && g.level < g.levels.size()) {
     out.vertebra = placed(g.levels[g.level]);

@@ -181,10 +181,11 @@ std::optional<Part> FrameLoop::stalled() const {
   }
   // A clock that only pairs advance can't time other threads: they would be late at random, and a
   // simulation would depend on the machine's speed.
-  if (!options_.real_time) {
-    return std::nullopt;
+  if (sink_ && options_.real_time && beats_->drawing_stalled()) {
+    return Part::kRenderer;
   }
-  return sink_ && beats_->drawing_stalled() ? Part::kRenderer : beats_->stalled_beside();
+  return options_.real_time || headset_->clock().runs_by_itself() ? beats_->stalled_beside()
+                                                                  : std::nullopt;
 }
 
 void FrameLoop::count_stall(std::optional<Part> now, LoopReport& report) {
@@ -203,6 +204,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   inputs.phrases = phrases_;
   inputs.requests = asked_;
   inputs.stalled = stalled();
+  inputs.time_runs = headset_->clock().runs_by_itself();
   count_stall(inputs.stalled, report);
   // A frame will be submitted from now on; the images took a while to arrive.
   inputs.display_time = headset_->display().predicted_display_time(heard_at_);

@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::int64_t kRests = std::numeric_limits<std::int64_t>::max();
 /// The parts on the tracking thread, innermost first.
-constexpr std::array kOfTracking = {Part::kCoach, Part::kVoice, Part::kCamera, Part::kTracker};
+constexpr std::array kOfTracking = {Part::kRegistration, Part::kCoach, Part::kVoice, Part::kCamera,
+                                    Part::kTracker};
 
 }  // namespace
 
@@ -37,14 +38,14 @@ void Heartbeats::ends_beside(Part part) {
   beside_[static_cast<std::size_t>(part)].store(kRests, std::memory_order_release);
 }
 
-bool Heartbeats::late(std::int64_t since_ns, Timestamp now) const {
-  return since_ns != kRests && now - Timestamp(Duration(since_ns)) > limit_;
+bool Heartbeats::late(std::int64_t since_ns, Timestamp now, Duration limit) {
+  return since_ns != kRests && now - Timestamp(Duration(since_ns)) > limit;
 }
 
 std::optional<Part> Heartbeats::stalled_beside() const {
   const Timestamp now = clock_.now();
   for (std::size_t part = 0; part < kPartCount; ++part) {
-    if (late(beside_[part].load(std::memory_order_acquire), now)) {
+    if (late(beside_[part].load(std::memory_order_acquire), now, kTaskStallsAfter)) {
       return Part{static_cast<std::uint8_t>(part)};
     }
   }

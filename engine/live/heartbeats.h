@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <optional>
 
 #include "base/time.h"
@@ -9,12 +10,17 @@
 
 namespace orthonav::engine {
 
+/// A task beside the tracking thread, which nothing waits for, has stalled after this: many times
+/// as long as a registration takes that is compared with every level of a spine.
+inline constexpr Duration kTaskStallsAfter = std::chrono::seconds(10);
+
 /// When each part began its current work, by the device's clock. The tracking thread and the
 /// drawing thread watch each other with it (docs/watchdogs.md). Callable from any thread; never
 /// waits.
 class Heartbeats : public WorkWatch {
  public:
-  /// A part that works on one thing for longer than `limit` has stalled.
+  /// A part that works on one thing for longer than `limit` has stalled; a task beside the tracking
+  /// thread has after `kTaskStallsAfter`.
   Heartbeats(const Clock& clock, Duration limit);
   void begins(Part part) override;
   void ends(Part part) override;
@@ -25,8 +31,7 @@ class Heartbeats : public WorkWatch {
   /// hang.
   [[nodiscard]] std::optional<Part> tracking_stalled() const;
   [[nodiscard]] bool drawing_stalled() const { return stalled(Part::kRenderer, clock_.now()); }
-  /// The part whose task beside the tracking thread takes longer than the limit. Absent if none
-  /// does.
+  /// The part whose task beside the tracking thread has stalled. Absent if none has.
   [[nodiscard]] std::optional<Part> stalled_beside() const;
   /// The innermost part at work on the tracking thread, however long it has been at work.
   [[nodiscard]] std::optional<Part> tracking() const;
@@ -38,8 +43,10 @@ class Heartbeats : public WorkWatch {
   [[nodiscard]] std::int64_t since(Part part) const {
     return at_work_[static_cast<std::size_t>(part)].load(std::memory_order_acquire);
   }
-  [[nodiscard]] bool late(std::int64_t since_ns, Timestamp now) const;
-  [[nodiscard]] bool stalled(Part part, Timestamp now) const { return late(since(part), now); }
+  [[nodiscard]] static bool late(std::int64_t since_ns, Timestamp now, Duration limit);
+  [[nodiscard]] bool stalled(Part part, Timestamp now) const {
+    return late(since(part), now, limit_);
+  }
 
   const Clock& clock_;
   Duration limit_;

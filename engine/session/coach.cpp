@@ -42,76 +42,91 @@ Coaching coaching_from(const nav::Registration& registration) {
 
 void Coach::watch(WorkWatch* watch) {
   watch_ = watch;
-  if (watch_ && pairs_left_ > 0) {
+  told_begun_ = watch_ != nullptr && under_way_ && !worker_.idle();
+  if (told_begun_) {
     watch_->begins_beside(Part::kCoach);
   }
 }
 
+void Coach::look(bool waits) {
+  waits_ = waits;
+  if (told_begun_ && worker_.idle()) {
+    tell_ended();
+  }
+}
+
 void Coach::step(const OperatedLevel& level, std::span<const nav::Region> regions) {
-  look_at_trial();
-  if (pairs_left_ > 0 && --pairs_left_ == 0) {
-    take_answer();
+  pairs_left_ -= pairs_left_ > 0 ? 1 : 0;
+  if (awaited_ && pairs_left_ == 0 && (waits_ || worker_.idle())) {
+    wait();
+    awaited_ = false;
+    newest_ = std::move(answer_);
   }
   const std::size_t samples = samples_in(regions);
   if (samples < kFewestSamples) {
     // The last answer may be about strokes that have since been deleted.
     newest_.reset();
     asked_samples_ = 0;
-  } else if (pairs_left_ == 0 &&
-             (samples < asked_samples_ || samples >= asked_samples_ + kNewSamples)) {
+  } else if (!awaited_ && (samples < asked_samples_ || samples >= asked_samples_ + kNewSamples) &&
+             is_free()) {
     asked_samples_ = samples;
     start(level, regions);
   }
 }
 
 void Coach::forget() {
-  if (std::exchange(pairs_left_, 0) > 0) {
+  awaited_ = false;
+  pairs_left_ = 0;
+  if (under_way_ && waits_) {
     wait();
   }
   asked_samples_ = 0;
   newest_.reset();
 }
 
+bool Coach::is_free() {
+  if (under_way_ && worker_.idle()) {
+    wait();
+  }
+  return !under_way_;
+}
+
 void Coach::start(const OperatedLevel& level, std::span<const nav::Region> regions) {
-  level_ = &level;
+  model_ = level.model;
+  screws_ = level.screws;
   points_.clear();
   for (const nav::Region& region : regions) {
     for (const nav::Sample& sample : region.samples) {
       points_.push_back(sample.tip_in_world);
     }
   }
+  awaited_ = under_way_ = true;
   pairs_left_ = kPairsToAnswer;
-  answered_ = false;
+  told_begun_ = watch_ != nullptr;
   if (watch_) {
     watch_->begins_beside(Part::kCoach);
   }
   worker_.start([](void* coach) { static_cast<Coach*>(coach)->run(); }, this);
 }
 
-void Coach::take_answer() {
-  wait();
-  newest_ = std::move(answer_);
-}
-
-void Coach::look_at_trial() {
-  if (watch_ && pairs_left_ > 0 && answered_) {
-    watch_->ends_beside(Part::kCoach);
-  }
-}
-
+/// For the trial under way, whose exception is rethrown here.
 void Coach::wait() {
   const Working working(watch_, Part::kCoach);
+  under_way_ = false;
   worker_.wait();
-  if (watch_) {
+  tell_ended();
+}
+
+void Coach::tell_ended() {
+  if (std::exchange(told_begun_, false) && watch_) {
     watch_->ends_beside(Part::kCoach);
   }
 }
 
 void Coach::run() {
   // Whether another level fits better is checked for a real registration, not on partial strokes.
-  const auto result = registrar_({*level_->model, points_, level_->screws, {}, common_});
+  const auto result = registrar_({*model_, points_, screws_, {}, common_});
   answer_ = result ? std::optional(coaching_from(*result)) : std::nullopt;
-  answered_ = true;
 }
 
 }  // namespace orthonav::engine

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <atomic>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -27,8 +27,9 @@ struct Coaching {
 
 /// Runs trial registrations beside the frame loop while the surgeon strokes, to tell what the
 /// strokes are worth; the level stays unregistered. A trial starts after `kNewSamples` new samples
-/// and is answered exactly `kPairsToAnswer` pairs later, waiting for it if necessary, so the same
-/// pairs give the same answers on any machine. One thread at a time.
+/// and is answered `kPairsToAnswer` pairs later: exactly then where it is waited for, so that the
+/// same pairs give the same answers on any machine, otherwise once it has ended. One thread at a
+/// time.
 class Coach {
  public:
   /// 2 s of stroking at 30 pairs a second.
@@ -40,32 +41,35 @@ class Coach {
   explicit Coach(Registrar registrar, const nav::CommonErrors& common = {})
       : registrar_(std::move(registrar)), common_(common) {
     points_.reserve(kReservedPoints);
+    screws_.reserve(kReservedScrews);
   }
 
   /// Sets the watch to be notified when a trial begins and ends, and while this waits for its
   /// answer; null: none. Borrowed.
   void watch(WorkWatch* watch);
-  /// Once for each pair of stroking, with everything stroked so far. The level must stay until
-  /// `forget` or the end.
+  /// Once for each pair of any step: whether trials are waited for from now on. At first they are.
+  void look(bool waits);
+  /// Once for each pair of stroking, with everything stroked so far.
   void step(const OperatedLevel& level, std::span<const nav::Region> regions);
   /// A real registration of this many samples was refused; `coaching` is what they are worth.
   void tell(Coaching coaching, std::size_t samples) {
     newest_ = std::move(coaching);
     asked_samples_ = samples;
   }
-  /// The strokes are gone or no longer needed; waits for a trial under way and drops its answer.
+  /// The strokes are gone or no longer needed: drops the answer of a trial under way.
   void forget();
   [[nodiscard]] const std::optional<Coaching>& newest() const { return newest_; }
 
  private:
   /// Five minutes of stroking a level: starting a trial does not allocate.
   static constexpr std::size_t kReservedPoints = 9000;
+  static constexpr std::size_t kReservedScrews = 8;
 
   void start(const OperatedLevel& level, std::span<const nav::Region> regions);
-  void take_answer();
-  /// Notifies the watch if the trial has ended.
-  void look_at_trial();
+  /// Whether no trial is under way, whose answer nobody awaits.
+  [[nodiscard]] bool is_free();
   void wait();
+  void tell_ended();
   void run();
 
   Registrar registrar_;
@@ -73,12 +77,16 @@ class Coach {
   WorkWatch* watch_ = nullptr;
   std::optional<Coaching> newest_;
   std::size_t asked_samples_ = 0;  ///< of the last trial
-  int pairs_left_ = 0;             ///< until the answer of the trial under way; 0: none is
+  bool waits_ = true;
+  bool awaited_ = false;     ///< the answer of a trial
+  int pairs_left_ = 0;       ///< until it is taken
+  bool under_way_ = false;   ///< a trial that was not waited for yet
+  bool told_begun_ = false;  ///< the watch knows of it
 
-  std::atomic<bool> answered_ = false;  ///< the trial under way has its answer
-
-  // Inputs and answer of the trial, owned by the worker while it is under way.
-  const OperatedLevel* level_ = nullptr;
+  // Inputs and answer of the trial, owned by the worker while it is under way. A trial may outlast
+  // the step, in which screws are changed.
+  std::shared_ptr<const nav::VertebraModel> model_;
+  std::vector<nav::ScrewPlan> screws_;
   std::vector<Point<World>> points_;
   std::optional<Coaching> answer_;
   nav::Worker worker_;  ///< ends first

@@ -35,13 +35,14 @@ Message message_about(const RegistrationOutcome& outcome) {
 
 }  // namespace
 
-Digitizing::Digitizing(const OperationInWork& work) {
+Digitizing::Digitizing(const OperationInWork& work) : registering_(work.method.registrar) {
   if (work.method.coaching) {
     coach_ = std::make_unique<Coach>(work.method.registrar, work.options.common);
   }
 }
 
 void Digitizing::watch_work(WorkWatch* watch) {
+  registering_.watch(watch);
   if (coach_) {
     coach_->watch(watch);
   }
@@ -109,72 +110,87 @@ Message Digitizing::dropped(Timestamp time) {
   return ConfirmDelete{last_saved(regions()).samples.size()};
 }
 
-Event Digitizing::register_level(OperationInWork& work, Timestamp time) {
+std::optional<Event> Digitizing::register_level(OperationInWork& work, Timestamp time) {
   LevelState& level = work.level();
   const WatchedTools& tools = work.tools;
   level.tag_size.reset();
   if (const auto fraction = tools.tag_size_off(tools.pointer())) {
     level.tag_size = TagSizeWarning{tools.geometry(tools.pointer()).name, *fraction};
   }
-  const RegistrationOutcome outcome = registered(work, time);
-  if (!outcome.passed()) {
-    work.messages.say(message_about(outcome), time);
-  }
-  work.observer->registered(time, level, outcome);
-  return outcome.passed() ? Event::kRegistered : Event::kRegistrationRefused;
-}
-
-RegistrationOutcome Digitizing::registered(OperationInWork& work, Timestamp time) {
-  LevelState& level = work.level();
   nav::Digitizer& digitizer = strokes_.digitizer;
   digitizer.release(time);
   // Unsaved samples are not registered: the two clicks that ask for the registration are not
   // strokes.
   digitizer.drop();
-  ++level.attempts;
   // The trial under way is no longer needed, and would take processor time from this registration.
-  forget_coaching();
-  const std::vector<Point<World>> points = digitizer.saved_points();
-  const std::vector<double> sds_m = digitizer.saved_point_sds_m();
-  const std::vector<Vec3> shafts = digitizer.saved_shafts();
+  forget_work();
   nav::CommonErrors common = work.options.common;
   common.map_m =
       std::hypot(common.map_m, work.options.drift_since_m(time - level.first_press.value_or(time)));
-  const auto result = work.method.registrar(
-      {*level.plan.model, points, level.plan.screws, level.plan.neighbours, common, sds_m, shafts});
+  RegistrationJob job{level.plan,
+                      digitizer.saved_points(),
+                      digitizer.saved_point_sds_m(),
+                      digitizer.saved_shafts(),
+                      common,
+                      time,
+                      {}};
+  if (work.waits) {
+    return take(work, registering_.now(std::move(job)), time);
+  }
+  registering_.begin(std::move(job));
+  return std::nullopt;
+}
+
+std::optional<Event> Digitizing::look(OperationInWork& work, Timestamp time) {
+  if (coach_) {
+    coach_->look(work.waits);
+  }
+  auto job = registering_.answer();
+  return job ? std::optional(take(work, std::move(*job), time)) : std::nullopt;
+}
+
+Event Digitizing::take(OperationInWork& work, RegistrationJob job, Timestamp time) {
+  LevelState& level = work.level();
+  const Result<nav::Registration>& result = *job.found;
   RegistrationOutcome outcome;
+  ++level.attempts;
   level.newest.reset();
   if (!result) {
     outcome.error = result.error();
   } else {
     outcome.result = *result;
     outcome.provisional = result->provisional && work.method.verification == Verification::kByTouch;
-    level.newest = RegistrationAttempt{points, *result};
+    level.newest = RegistrationAttempt{std::move(job.points), *result};
   }
   if (outcome.passed()) {
     level.registration = *result;
     const nav::Anchor* anchor = work.tools.tracker().anchor();
     level.registered_on_map = anchor ? std::optional(anchor->world_from_anchored) : std::nullopt;
     level.predicted = nav::predicted_errors(*result, level.plan.screws);
-    level.digitization_s = level.first_press ? seconds(time - *level.first_press) : 0.0;
-  } else if (result && coach_) {
-    coach_->tell(coaching_from(*result), digitizer.saved_count());
+    level.digitization_s = level.first_press ? seconds(job.asked - *level.first_press) : 0.0;
+  } else {
+    work.messages.say(message_about(outcome), time);
+    if (result && coach_) {
+      coach_->tell(coaching_from(*result), strokes_.digitizer.saved_count());
+    }
   }
-  return outcome;
+  work.observer->registered(time, level, outcome);
+  return outcome.passed() ? Event::kRegistered : Event::kRegistrationRefused;
 }
 
 void Digitizing::clear() {
-  forget_coaching();
+  forget_work();
   // A region that was deleted a moment ago still fades.
   strokes_.digitizer = nav::Digitizer{};
 }
 
 void Digitizing::forget_map() {
-  forget_coaching();
+  forget_work();
   strokes_ = Strokes{};
 }
 
-void Digitizing::forget_coaching() {
+void Digitizing::forget_work() {
+  registering_.forget();
   if (coach_) {
     coach_->forget();
   }

@@ -8,6 +8,7 @@
 
 #include "engine/session/coach.h"
 #include "engine/session/operation_in_work.h"
+#include "engine/session/registering.h"
 #include "engine/session/registration_outcome.h"
 
 namespace orthonav::engine {
@@ -18,8 +19,10 @@ class Digitizing {
  public:
   explicit Digitizing(const OperationInWork& work);
 
-  /// Sets the watch to be notified while this waits for the coach; null: none. Borrowed.
+  /// Sets the watch to be notified of what is computed beside the session; null: none. Borrowed.
   void watch_work(WorkWatch* watch);
+  /// Once for each pair of any step: the answer of a registration that is computed beside it.
+  [[nodiscard]] std::optional<Event> look(OperationInWork& work, Timestamp time);
 
   void press(LevelState& level, Timestamp time);
   void release(Timestamp time) { strokes_.digitizer.release(time); }
@@ -29,8 +32,8 @@ class Digitizing {
   /// A saved region is deleted only when "delete" is said twice.
   void drop_region(OperationInWork& work, Timestamp time);
   /// Registers the saved regions and drops the rest. A registration that passes becomes the
-  /// level's.
-  [[nodiscard]] Event register_level(OperationInWork& work, Timestamp time);
+  /// level's. Absent: it is computed beside the session, and `look` has the answer.
+  [[nodiscard]] std::optional<Event> register_level(OperationInWork& work, Timestamp time);
   /// Another level, or this one anew.
   void clear();
   /// Takes over the saved regions of a resumed operation.
@@ -54,11 +57,12 @@ class Digitizing {
     return strokes_.digitizer.regions();
   }
   [[nodiscard]] Message dropped(Timestamp time);
-  [[nodiscard]] RegistrationOutcome registered(OperationInWork& work, Timestamp time);
-  /// Ends a trial under way: its strokes are gone or no longer needed.
-  void forget_coaching();
+  [[nodiscard]] Event take(OperationInWork& work, RegistrationJob job, Timestamp time);
+  /// Drops trials and registrations under way: their strokes are gone or no longer needed.
+  void forget_work();
 
   Strokes strokes_;
+  Registering registering_;
   std::unique_ptr<Coach> coach_;  ///< null: no coaching
 };
 

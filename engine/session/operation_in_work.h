@@ -37,6 +37,7 @@ struct OperationInWork {
   std::size_t level_in_work = 0;  ///< an index into `levels`
   Step step = Step::kSetup;
   std::optional<Part> stalled;  ///< in the newest pair; nothing is guided then
+  bool waits = true;            ///< for what is computed beside it: time stands still meanwhile
   Messages messages;
   SessionObserver nobody;
   SessionObserver* observer = &nobody;  ///< never null. Borrowed.

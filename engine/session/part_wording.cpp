@@ -12,7 +12,10 @@ constexpr std::array<const char*, kPartCount> kStalledTexts = {
     translatable("tracker stalled: nothing is guided"),
     translatable("renderer stalled: nothing is guided"),
     translatable("coach stalled: nothing is guided"),
-    translatable("voice stalled: nothing is guided")};
+    translatable("voice stalled: nothing is guided"),
+    translatable("registration stalled: nothing is guided")};
+
+static_assert(kStalledTexts.back() != nullptr, "every part has its text");
 
 }  // namespace
 

@@ -79,8 +79,10 @@ const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   // Events must not be answered with measurements from another map.
   handle(watching_.look_at_map(frame, work_), now);
   work_.stalled = inputs.stalled;
+  work_.waits = !inputs.time_runs;
   // Events first: a press before this pair makes this pair a sample, a release before it does not.
   answer_inputs(inputs);
+  handle(steps_.digitizing.look(work_, now), now);
   work_.tools.track(frame);
   handle(watching_.look_at_places(work_), now);
   handle(watching_.look_for_reference(work_, now), now);

@@ -32,6 +32,9 @@ struct Inputs {
   Timestamp display_time{};              ///< of the frame made from this step
   std::optional<Part> stalled;           ///< hides all guidance
   std::span<const Request> requests{};   ///< of other programs, in order of time
+  /// Time passes by itself (`Clock::runs_by_itself`), so that no pair waits for a registration or
+  /// the coach. Otherwise their answers come at fixed pairs, however fast the machine is.
+  bool time_runs = false;
 };
 
 /// One operation from setup to done: values in, guidance out. Reads no clock and no device, so the
@@ -99,7 +102,7 @@ class Session {
 
   OperationInWork work_;
   Workflow workflow_;
-  SessionSteps steps_;  ///< destroyed before the levels: a trial of the coach may be reading one
+  SessionSteps steps_;
   Watching watching_;
   Resuming resuming_;
   Publication publication_;

@@ -20,6 +20,7 @@ void in_touched_step(SessionSteps& steps, Step step, const Do& act) {
       return act(steps.rods);
     case Step::kSetup:
     case Step::kDigitize:
+    case Step::kRegistering:
     case Step::kGuide:
     case Step::kDone:
       break;
@@ -100,6 +101,7 @@ void SessionSteps::collect(const OperationInWork& work) {
     case Step::kRod:
       return rods.collect(work.tools);
     case Step::kSetup:
+    case Step::kRegistering:
     case Step::kGuide:
     case Step::kDone:
       return;
@@ -116,6 +118,7 @@ std::optional<std::size_t> SessionSteps::tool(const OperationInWork& work) const
   const MethodSteps& of_method = work.options.steps;
   switch (work.step) {
     case Step::kDigitize:
+    case Step::kRegistering:
     case Step::kRod:
       return pointer;
     case Step::kVerify:
@@ -141,6 +144,7 @@ StepOnDisplay SessionSteps::on_display(const OperationInWork& work) const {
     case Step::kDone:
       return {work.step, {}, {}};
     case Step::kDigitize:
+    case Step::kRegistering:
     case Step::kVerify:
     case Step::kAccepted:
       return {work.step, level.plan.label, {}};
@@ -168,6 +172,7 @@ StepState SessionSteps::state(const OperationInWork& work) const {
     case Step::kRod:
       return rods.state();
     case Step::kSetup:
+    case Step::kRegistering:
     case Step::kDone:
       return {};
   }

@@ -21,7 +21,7 @@ constexpr bool one_of(Step step, std::initializer_list<Step> steps) {
   using tool_steps_detail::one_of;
   switch (role) {
     case ToolRole::kPointer:
-      return one_of(step, {kDigitize, kVerify, kAccepted, kRod});
+      return one_of(step, {kDigitize, kRegistering, kVerify, kAccepted, kRod});
     case ToolRole::kGuide:
       return one_of(step, {kAccepted, kGuide, kPlaced});
     case ToolRole::kAwl:  // makes the dimple, and opens the cortex

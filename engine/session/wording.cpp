@@ -24,9 +24,10 @@ constexpr std::string_view kBetweenParts = " | ";
 
 std::string_view word_of(Step step) {
   constexpr std::array<const char*, kStepCount> kWords = {
-      translatable("setup"),    translatable("digitize"), translatable("verify"),
-      translatable("accepted"), translatable("guide"),    translatable("placed"),
-      translatable("rod"),      translatable("done")};
+      translatable("setup"),  translatable("digitize"), translatable("registering"),
+      translatable("verify"), translatable("accepted"), translatable("guide"),
+      translatable("placed"), translatable("rod"),      translatable("done")};
+  static_assert(kWords.back() != nullptr, "every step has its word");
   return translated(kWords[static_cast<std::size_t>(step)]);
 }
 

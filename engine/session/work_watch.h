@@ -7,8 +7,8 @@
 namespace orthonav::engine {
 
 /// The parts of an operation that can hang independently.
-enum class Part : std::uint8_t { kCamera, kTracker, kRenderer, kCoach, kVoice };
-inline constexpr std::size_t kPartCount = 5;
+enum class Part : std::uint8_t { kCamera, kTracker, kRenderer, kCoach, kVoice, kRegistration };
+inline constexpr std::size_t kPartCount = 6;
 
 /// Notified when a part begins and ends its work, from any thread. Must not allocate or block.
 class WorkWatch {

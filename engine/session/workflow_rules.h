@@ -52,9 +52,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDigitize, kHold, kIgnore, kDigitize},
     {kDigitize, kSaySave, kSaveRegion, kDigitize},
     {kDigitize, kSayDelete, kDropRegion, kDigitize},
-    {kDigitize, kDoubleClick, kRegister, kDigitize},
-    {kDigitize, kRegistered, kShowRegistration, kVerify},
-    {kDigitize, kRegistrationRefused, kCountRefusal, kDigitize},
+    {kDigitize, kDoubleClick, kRegister, kRegistering},
     {kDigitize, kRegistrationRestored, kShowRegistration, kVerify},
     {kDigitize, kAcceptanceRestored, kExpectLandmark, kAccepted},
     {kDigitize, kNoScrewLeft, kBeginRod, kRod},
@@ -66,6 +64,22 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDigitize, kReferenceHidden, kWarnLost, kDigitize},
     {kDigitize, kReferenceSeen, kIgnore, kDigitize},
     {kDigitize, kReferenceMoved, kForgetMap, kDigitize},
+
+    // The registration is computed beside the session where time passes by itself. Nothing that the
+    // surgeon says changes what it is computed from; a button has no meaning until it is answered.
+    {kRegistering, kRegistered, kShowRegistration, kVerify},
+    {kRegistering, kRegistrationRefused, kCountRefusal, kDigitize},
+    {kRegistering, kPress, kIgnore, kRegistering},
+    {kRegistering, kRelease, kIgnore, kRegistering},
+    {kRegistering, kClick, kIgnore, kRegistering},
+    {kRegistering, kHold, kIgnore, kRegistering},
+    {kRegistering, kTrackingLost, kWarnLost, kRegistering},
+    {kRegistering, kPoseStale, kHideGuidance, kRegistering},
+    {kRegistering, kTrackingRegained, kShowGuidance, kRegistering},
+    {kRegistering, kMapMoved, kForgetMap, kDigitize},
+    {kRegistering, kReferenceHidden, kWarnLost, kRegistering},
+    {kRegistering, kReferenceSeen, kIgnore, kRegistering},
+    {kRegistering, kReferenceMoved, kForgetMap, kDigitize},
 
     // The surgeon looks at the hologram on the bone and touches places that were not stroked for it.
     // The only way on is their own word, and it counts once the touched places bear it out.

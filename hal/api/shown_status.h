@@ -16,6 +16,7 @@ namespace orthonav {
 enum class Step : std::uint8_t {
   kSetup,
   kDigitize,
+  kRegistering,
   kVerify,
   kAccepted,
   kGuide,
@@ -23,7 +24,7 @@ enum class Step : std::uint8_t {
   kRod,
   kDone
 };
-inline constexpr std::size_t kStepCount = 8;
+inline constexpr std::size_t kStepCount = 9;
 
 /// A step, with its level and side.
 struct StepOnDisplay {

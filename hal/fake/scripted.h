@@ -18,6 +18,7 @@ class ManualClock : public Clock {
  public:
   explicit ManualClock(Timestamp start = Timestamp{}) : now_(start) {}
   [[nodiscard]] Timestamp now() const override { return now_.load(); }
+  [[nodiscard]] bool runs_by_itself() const override { return false; }
   void set(Timestamp now) { now_ = now; }
   void advance(Duration by) { now_ = now_.load() + by; }
 

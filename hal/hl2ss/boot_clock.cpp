@@ -116,6 +116,11 @@ void BootClock::round_trip(Duration took) {
   shortest_trip_ = std::min(shortest_trip_.value_or(took), took);
 }
 
+bool BootClock::runs_by_itself() const {
+  const MutexLock lock(mutex_);
+  return !paced_;
+}
+
 void BootClock::paced(Timestamp now, HostTime at) {
   const MutexLock lock(mutex_);
   paced_ = now;

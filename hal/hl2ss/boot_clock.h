@@ -49,6 +49,8 @@ class StampReader {
 class BootClock : public Clock {
  public:
   [[nodiscard]] Timestamp now() const override;
+  /// Not while it is paced.
+  [[nodiscard]] bool runs_by_itself() const override;
   /// A packet with this time arrived.
   void heard(Timestamp stamp, HostTime at);
   void round_trip(Duration took);

@@ -35,6 +35,7 @@ class ReplayClock : public Clock {
   [[nodiscard]] Timestamp now() const override {
     return realtime_ ? start_ + (wall_.now() - opened_) : progress_.clock.load();
   }
+  [[nodiscard]] bool runs_by_itself() const override { return realtime_; }
 
  private:
   const Progress& progress_;

@@ -26,6 +26,7 @@ class SimClock final : public Clock {
     }
     return Timestamp(Duration(now_ns_.load()));
   }
+  [[nodiscard]] bool runs_by_itself() const override { return pace_ == Pace::kRealtime; }
   void set(Timestamp now) { now_ns_.store(now.time_since_epoch().count()); }
 
  private:

@@ -126,7 +126,9 @@ Script Surgeon::await_verdict(std::size_t level, StepOnDisplay step) {
   for (int repeat = 0; repeat <= kRepeats; ++repeat) {
     const Timestamp end = body_.now() + from_seconds(kPatience_s);
     while (body_.now() < end) {
-      if (!in_step(step)) {
+      const bool computed =
+          eyes_->status() && step_now().step == Step::kRegistering;  // and not answered yet
+      if (!in_step(step) && !computed) {
         co_return;
       }
       if (told(Notice::kRegistrationRefused)) {

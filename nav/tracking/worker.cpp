@@ -37,6 +37,11 @@ void Worker::wait() {
   }
 }
 
+bool Worker::idle() {
+  const MutexLock lock(mutex_);
+  return !task_;
+}
+
 void Worker::loop() {
   for (;;) {
     void (*task)(void*) = nullptr;

@@ -21,6 +21,8 @@ class Worker {
   /// Returns when the task has ended; its writes are then visible to the caller. An exception that
   /// it threw is rethrown here.
   void wait();
+  /// Whether the task has ended: `wait` would return at once.
+  [[nodiscard]] bool idle();
 
  private:
   void loop();

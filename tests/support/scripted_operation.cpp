@@ -123,6 +123,7 @@ const engine::Guidance& ScriptedOperation::pair() {
   inputs.requests = requests_;
   inputs.display_time = now_ + latency;
   inputs.stalled = stalled;
+  inputs.time_runs = time_runs;
   const engine::Guidance& guidance = session_->step(frame, inputs);
   clicks_.clear();
   phrases_.clear();

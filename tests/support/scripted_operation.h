@@ -78,10 +78,11 @@ class ScriptedOperation {
   nav::Registration registration;              ///< the next registration's result
   std::optional<std::string> unusable;         ///< or why there is none
   std::vector<std::size_t> registered_points;  ///< of each registration asked for
-  std::function<void()> before_registering;    ///< may be null; for the coach, called on its thread
+  std::function<void()> before_registering;    ///< may be null; called on the thread that computes
   Duration latency = std::chrono::milliseconds(16);
   std::int64_t map_epoch = 0;           ///< of the next pairs
   std::optional<engine::Part> stalled;  ///< in the next pairs
+  bool time_runs = false;               ///< as `engine::Inputs` have it
 
  private:
   const engine::Guidance& registers_level();

@@ -53,6 +53,9 @@ class ScriptedSurgeon {
         return measure();
       case Step::kRod:
         return touch_heads();
+      case Step::kRegistering:
+        s_.pair();
+        return true;
       case Step::kDone:
         return false;
     }

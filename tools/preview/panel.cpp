@@ -19,8 +19,8 @@ void draw_step(const Moment& moment) {
   for (std::size_t i = 0; i < engine::kStepCount; ++i) {
     const auto step = static_cast<engine::Step>(i);
     const bool now = step == moment.at.step;
-    // Two rows: eight names are too long for one.
-    if (i != 0 && i != 4) {
+    // Two rows: nine names are too long for one.
+    if (i != 0 && i != 5) {
       ImGui::SameLine(0.0f, 6.0f);
     }
     ImGui::TextColored(now ? kGood : kDim, "%s%s", now ? "\u25b6 " : "",

@@ -46,7 +46,7 @@ TEST(Heartbeats, NameATaskBesideTheTrackerWithoutNamingTheTracker) {
   fake::ManualClock clock;
   Heartbeats beats(clock, kStallAfter);
   beats.begins_beside(Part::kCoach);
-  clock.advance(kStallAfter);
+  clock.advance(kTaskStallsAfter);
   EXPECT_EQ(beats.stalled_beside(), std::nullopt);
   clock.advance(Duration(1));
   EXPECT_EQ(beats.stalled_beside(), Part::kCoach);

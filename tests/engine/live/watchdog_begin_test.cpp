@@ -56,6 +56,25 @@ TEST_F(WatchedLoop, ATrackerThatHangsAtTheFirstPairIsNamed) {
   EXPECT_EQ(report.stalls, 1);
 }
 
+/// As of a headset: time does not wait for a pair.
+class RunningHeadset : public ForwardingHeadset {
+ public:
+  explicit RunningHeadset(fake::FakeHeadset& inner) : ForwardingHeadset(inner), clock_(inner) {}
+  [[nodiscard]] const Clock& clock() const override { return clock_; }
+  void advance(Duration by) { clock_.ahead_ns += by.count(); }
+
+ private:
+  struct Running : public Clock {
+    explicit Running(fake::FakeHeadset& of) : inner(of) {}
+    [[nodiscard]] Timestamp now() const override {
+      return inner.clock().now() + Duration(ahead_ns.load());
+    }
+    fake::FakeHeadset& inner;
+    std::atomic<Duration::rep> ahead_ns = 0;
+  };
+  Running clock_;
+};
+
 /// Stroking, with a trial of the coach about to begin.
 class CoachedLoop : public ::testing::Test {
  protected:
@@ -66,9 +85,10 @@ class CoachedLoop : public ::testing::Test {
     s.does({ClickerAction::kPress});
     s.pairs(static_cast<int>(Coach::kFewestSamples) - 10);
   }
-  LoopReport run(Headset& headset) {
+  LoopReport run(Headset& headset, LoopObserver* observer = nullptr) {
     SceneBuilder builder;
     FrameLoop loop(headset, s.session(), builder, options);
+    loop.observe(observer);
     loop.draw_into(&sink);
     return loop.run();
   }
@@ -77,22 +97,29 @@ class CoachedLoop : public ::testing::Test {
   LoopOptions options;
 };
 
-TEST_F(CoachedLoop, ACoachThatHangsIsNamedBeforeItIsAwaited) {
-  fake::FakeHeadset headset(pairs(60));
-  std::atomic<int> trials = 0;
-  // On the coach's thread. Once the frame loop waits for the answer, no time passes any more: what
-  // names the coach by then is the beginning of its trial.
+TEST_F(CoachedLoop, ACoachThatHangsIsNamedAndHoldsUpNothing) {
+  fake::FakeHeadset inner(pairs(60));
+  RunningHeadset headset(inner);
+  std::atomic<bool> hangs = false;
+  std::atomic<bool> let_go = false;
   s.before_registering = [&] {
-    if (trials++ == 0) {
-      headset.manual_clock().advance(kStallAfter + Duration(1));
-      EXPECT_TRUE(wait_until([&] { return sink.drew_stall_of(Part::kCoach); }));
-    }
+    headset.advance(kTaskStallsAfter + Duration(1));
+    hangs = true;
+    EXPECT_TRUE(wait_until([&] { return let_go.load(); }));
   };
-  const auto report = run(headset);
+  std::optional<Part> named;
+  Stepped see([&, pair = 0](const Guidance& guidance) mutable {
+    named = guidance.status.stalled ? guidance.status.stalled : named;
+    if (++pair == 30) {
+      EXPECT_TRUE(wait_until([&] { return hangs.load(); }));
+    }
+  });
+  const auto report = run(headset, &see);
+  let_go = true;
   ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
-  EXPECT_GE(trials, 1);
-  EXPECT_GE(report.stalls, 1);
-  EXPECT_EQ(report.displayed, 60) << "and it goes on";
+  EXPECT_EQ(named, Part::kCoach);
+  EXPECT_EQ(report.stalls, 1);
+  EXPECT_EQ(report.displayed, 60);
 }
 
 TEST_F(CoachedLoop, IsNotTimedByPairsThatComeFasterThanTime) {
@@ -122,6 +149,77 @@ TEST_F(CoachedLoop, ACoachThatDiesEndsTheRunInOrder) {
   ASSERT_FALSE(report.ended.ok());
   EXPECT_EQ(report.ended.error().message, "coach: out of memory");
   EXPECT_TRUE(headset.display().frames().back().holograms.empty());
+}
+
+/// Strokes are saved and their registration is asked for; it begins before the loop does.
+class RegisteringLoop : public CoachedLoop {
+ protected:
+  RegisteringLoop() {
+    s.does({ClickerAction::kRelease});
+    s.says("save");
+    s.time_runs = true;
+  }
+  LoopReport run() {
+    Stepped see([this, pair = 0](const Guidance& guidance) mutable {
+      named = guidance.status.stalled ? guidance.status.stalled : named;
+      begun = true;
+      if (++pair == kPairs / 2) {
+        EXPECT_TRUE(wait_until([this] { return acted.load(); }));
+      }
+    });
+    return CoachedLoop::run(headset, &see);
+  }
+  static constexpr int kPairs = 60;
+  fake::FakeHeadset inner{pairs(kPairs)};
+  RunningHeadset headset{inner};
+  std::optional<Part> named;        ///< as stalled
+  std::atomic<bool> begun = false;  ///< the loop
+  std::atomic<bool> acted = false;  ///< the registration did what it is to do in the first half
+  std::atomic<bool> let_go = false;
+};
+
+TEST_F(RegisteringLoop, ARegistrationThatTakesLongHoldsUpNothingAndIsNoStall) {
+  s.before_registering = [&] {
+    headset.advance(kTaskStallsAfter / 2);
+    acted = true;
+    EXPECT_TRUE(wait_until([&] { return let_go.load(); }));
+  };
+  ASSERT_EQ(s.does({ClickerAction::kDoubleClick}).step, Step::kRegistering);
+  const auto report = run();  // would hang here if a pair waited
+  let_go = true;
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.displayed, kPairs);
+  EXPECT_EQ(report.stalls, 0);
+  EXPECT_EQ(named, std::nullopt);
+}
+
+TEST_F(RegisteringLoop, ARegistrationThatDoesNotReturnIsNamed) {
+  s.before_registering = [&] {
+    EXPECT_TRUE(wait_until([&] { return begun.load(); }));
+    headset.advance(kTaskStallsAfter + Duration(1));
+    acted = true;
+    EXPECT_TRUE(wait_until([&] { return let_go.load(); }));
+  };
+  s.does({ClickerAction::kDoubleClick});
+  const auto report = run();
+  let_go = true;
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(named, Part::kRegistration);
+  EXPECT_EQ(report.stalls, 1);
+  EXPECT_EQ(report.displayed, kPairs);
+}
+
+TEST_F(RegisteringLoop, ARegistrationThatDiesEndsTheRunInOrder) {
+  s.before_registering = [&] {
+    acted = true;
+    throw std::bad_alloc();
+  };
+  s.does({ClickerAction::kDoubleClick});
+  const auto report = run();
+  ASSERT_FALSE(report.ended.ok());
+  EXPECT_EQ(report.ended.error().message, "registration: out of memory");
+  EXPECT_LT(report.displayed, kPairs);
+  EXPECT_TRUE(inner.display().frames().back().holograms.empty());
 }
 
 }  // namespace

@@ -178,6 +178,38 @@ TEST_F(CoachTest, TellsOfItsTrialsAndThatItIsAwaited) {
   EXPECT_TRUE(coach.newest().has_value());
 }
 
+TEST_F(CoachTest, WhereTimeRunsNoPairWaitsForATrial) {
+  coach.look(false);
+  gate.set_open(false);
+  stroke(200);
+  pairs(4 * Coach::kPairsToAnswer);  // would hang here if one waited
+  EXPECT_FALSE(coach.newest().has_value());
+  gate.set_open(true);
+  ASSERT_TRUE(test::wait_until([&] {
+    pairs(1);
+    return coach.newest().has_value();
+  }));
+  EXPECT_DOUBLE_EQ(coach.newest()->expected_m, 0.1 / 200.0);
+}
+
+TEST_F(CoachTest, WhereTimeRunsAForgottenTrialIsNotWaitedForEither) {
+  coach.look(false);
+  gate.set_open(false);
+  stroke(200);
+  pairs(1);
+  ASSERT_TRUE(test::wait_until([&] { return gate.at_the_gate == 1; }));
+  coach.forget();  // would hang here
+  stroke(100);
+  pairs(4 * Coach::kPairsToAnswer);
+  EXPECT_EQ(gate.at_the_gate, 1) << "the next begins once it has ended";
+  gate.set_open(true);
+  ASSERT_TRUE(test::wait_until([&] {
+    pairs(1);
+    return coach.newest().has_value();
+  }));
+  EXPECT_DOUBLE_EQ(coach.newest()->expected_m, 0.1 / 300.0) << "of the next, not the forgotten one";
+}
+
 TEST_F(CoachTest, ATrialThatDiesDoesSoWhereItIsAwaited) {
   Coach other(
       [](const RegistrationRequest&) -> Result<nav::Registration> { throw std::bad_alloc(); });

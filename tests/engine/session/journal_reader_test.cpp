@@ -48,8 +48,9 @@ TEST(JournalReader, TellsTheWholeOperationAsTheSessionHasIt) {
     course.push_back(step.step);
   }
   using enum Step;
-  EXPECT_THAT(course, ::testing::ElementsAre(kDigitize, kVerify, kAccepted, kGuide, kDigitize,
-                                             kVerify, kAccepted, kGuide, kRod));
+  EXPECT_THAT(course,
+              ::testing::ElementsAre(kDigitize, kRegistering, kVerify, kAccepted, kGuide, kDigitize,
+                                     kRegistering, kVerify, kAccepted, kGuide, kRod));
 }
 
 TEST(JournalReader, KnowsWhatWasAcceptedAfterTouching) {

@@ -34,8 +34,8 @@ TEST(Workflow, IsWrittenDownAsItIs) {
 
 TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
   // Raised by the session itself, in these steps only.
-  constexpr std::pair<Step, Event> kRaised[] = {{Step::kDigitize, Event::kRegistered},
-                                                {Step::kDigitize, Event::kRegistrationRefused},
+  constexpr std::pair<Step, Event> kRaised[] = {{Step::kRegistering, Event::kRegistered},
+                                                {Step::kRegistering, Event::kRegistrationRefused},
                                                 {Step::kDigitize, Event::kRegistrationRestored},
                                                 {Step::kDigitize, Event::kAcceptanceRestored},
                                                 {Step::kDigitize, Event::kNoScrewLeft},
@@ -200,9 +200,18 @@ TEST(Workflow, LosingAToolNeverChangesTheStep) {
 }
 
 TEST(Workflow, AStalePoseHidesWhereverAToolIsUsed) {
-  for (const Step step :
-       {Step::kDigitize, Step::kVerify, Step::kAccepted, Step::kGuide, Step::kPlaced, Step::kRod}) {
+  for (const Step step : {Step::kDigitize, Step::kRegistering, Step::kVerify, Step::kAccepted,
+                          Step::kGuide, Step::kPlaced, Step::kRod}) {
     EXPECT_EQ(answer(step, Event::kPoseStale).action, Action::kHideGuidance) << name_of(step);
+  }
+}
+
+TEST(Workflow, OnlyItsAnswerOrALostPlaceEndsARegistration) {
+  for (std::size_t e = 0; e < kEventCount; ++e) {
+    const auto event = static_cast<Event>(e);
+    const bool ends = event == Event::kRegistered || event == Event::kRegistrationRefused ||
+                      event == Event::kMapMoved || event == Event::kReferenceMoved;
+    EXPECT_EQ(answer(Step::kRegistering, event).next != Step::kRegistering, ends) << name_of(event);
   }
 }
 
