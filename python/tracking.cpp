@@ -42,6 +42,8 @@ class GivenPairs : public StereoCamera {
 
  private:
   [[nodiscard]] const StereoCalibration& do_calibration() const override { return rig_; }
+  /// The caller's own pairs: a test picture, cameras on a stand.
+  [[nodiscard]] MayRepeat do_may_repeat() const override { return {true, true}; }
   Result<Next> do_next(StereoFrame& frame) override {
     frame = std::move(given_);
     frame.sequence = ++sequence_;
@@ -96,7 +98,11 @@ class Recording {
   [[nodiscard]] const StereoCalibration& rig() const { return headset_->cameras().calibration(); }
   StereoFrame next() {
     StereoFrame frame;
-    if (value_of(headset_->cameras().next(frame)) != Next::kFrame) {
+    auto next = headset_->cameras().next(frame);
+    while (!next && frame.repeats) {  // old pictures under new times are left out
+      next = headset_->cameras().next(frame);
+    }
+    if (value_of(std::move(next)) != Next::kFrame) {
       throw py::stop_iteration();
     }
     return frame;

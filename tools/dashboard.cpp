@@ -17,6 +17,7 @@
 #include "embedded/dashboard_html.h"
 #include "engine/io/image_file.h"
 #include "engine/session/part_wording.h"
+#include "engine/session/wording.h"
 #include "tools/dashboard_state.h"
 #include "tools/web_access.h"
 
@@ -264,6 +265,13 @@ void Dashboard::show(const RgbaImage& picture, const std::string& what) {
 void Dashboard::part_stalled(engine::Part part) {
   const WearersLanguage language;
   server_->tell_stall(engine::stalled_text(part));
+}
+
+void Dashboard::withdrawn(const engine::Guidance& guidance) {
+  if (!guidance.blank) {
+    const WearersLanguage language;
+    server_->tell_stall(engine::detail_text(guidance.status));
+  }
 }
 
 void Dashboard::note_changes() {

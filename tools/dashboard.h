@@ -38,6 +38,7 @@ class Dashboard : public engine::LoopObserver {
   void show(const RgbaImage& picture, const std::string& what);
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
+  void withdrawn(const engine::Guidance& guidance) override;
   void part_stalled(engine::Part part) override;
   [[nodiscard]] int port() const;
 

@@ -122,6 +122,18 @@ void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*
   }
 }
 
+void EventLog::failed(const std::string& why) { warn(why); }
+
+void EventLog::withdrawn(const engine::Guidance& guidance) {
+  if (!log_ || guidance.blank) {
+    return;
+  }
+  changes_.look(guidance.display_time, guidance.status);
+  if (!changes_.new_message().empty()) {
+    log_->warn("{:.2f} s: message: {}", changes_.time_s(), changes_.new_message());
+  }
+}
+
 void EventLog::part_stalled(engine::Part part) { warn(std::string(engine::stalled_text(part))); }
 
 void EventLog::ended(const engine::LoopReport& report) {
@@ -131,6 +143,10 @@ void EventLog::ended(const engine::LoopReport& report) {
   if (report.failures + report.draw_failures > 0) {
     log_->warn("{} failures of devices, the last: {}", report.failures + report.draw_failures,
                report.last_failure);
+  }
+  if (report.repeated > 0) {
+    log_->warn("{} not used, since a picture or the head's pose repeats",
+               how_many(report.repeated, "pair"));
   }
   if (!report.ended) {
     log_->error("{}", report.ended.error().message);

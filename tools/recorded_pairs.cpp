@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "base/how_many.h"
 #include "engine/session/method.h"
 #include "tools/count_progress.h"
 
@@ -16,12 +17,23 @@ Status for_each_pair(replay::ReplayHeadset& recording,
   }
   CountProgress progress("stereo pairs", recording.summary().pairs);
   StereoFrame frame;
+  std::int64_t repeated = 0;
   for (;;) {
     const Result<Next> next = recording.cameras().next(frame);
+    if (!next && frame.repeats) {
+      ++repeated;
+      progress.add_one();
+      continue;
+    }
     if (!next) {
       return next.error();
     }
     if (*next == Next::kEnd) {
+      if (repeated > 0) {
+        std::fprintf(stderr,
+                     "orthonav: warning: %s left out, since a picture or the head's pose repeats\n",
+                     how_many(repeated, "pair").c_str());
+      }
       return {};
     }
     if (*next == Next::kNone) {

@@ -234,7 +234,10 @@ void add_faults(CLI::App& serve, ServeArguments& arguments) {
           "--faults", arguments.faults,
           "probabilities for each pair: gap=P, lose=P, unlocated=P, reorder=P, stall=P, "
           "half=P, cut=P, misstamp=P, corrupt=P; for each frame of the scene: scene_stall=P, "
-          "scene_refuse=P, scene_cut=P; jump=N: World jumps at pair N; all: 0.01 of each")
+          "scene_refuse=P, scene_cut=P; all: 0.01 of each; jump=N: World jumps at pair N; from "
+          "pair N on, for lasting=M pairs (0: to the end): freeze_pictures=N, freeze_left=N, "
+          "freeze_right=N, freeze_poses=N, shift_right=N (stamps a pair late), only_left=N, "
+          "clock_back=N (by clock_back_s=0.5)")
       ->check(some_text());
   serve.add_option("--slices", arguments.server.slices, "of each H.264 picture")
       ->check(whole_number(1))

@@ -42,6 +42,7 @@ class CalibratedHeadset : public ForwardingHeadset {
 
    private:
     [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
+    [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
     Result<Next> do_next(StereoFrame& frame) override { return inner_.next(frame); }
     bool do_tap(PairTap* tap) override { return inner_.tap(tap); }
 

@@ -93,12 +93,23 @@ Result<bool> FrameLoop::next_frame(SnapshotQueue* queue, LoopReport& report) {
     }();
     if (next && *next == Next::kFrame) {
       camera_errors_ = 0;
+      repeats_.reset();
       return true;
     }
     if (next && *next == Next::kEnd) {
       return false;
     }
-    if (!next) {
+    if (!next && frame_.repeats) {
+      // The device is there, and may go on at any time: no failure that ends an operation.
+      ++report.repeated;
+      repeats_ = frame_.repeats;
+      heard_at_ = headset_->clock().now();
+    } else if (!next) {
+      if (next.error().message != report.last_failure) {
+        for (LoopObserver* observer : observers_) {
+          observer->failed(next.error().message);
+        }
+      }
       if (const Status over = tolerate(Status(next.error()), camera_errors_, report); !over) {
         return over.error();
       }
@@ -112,18 +123,26 @@ Result<bool> FrameLoop::next_frame(SnapshotQueue* queue, LoopReport& report) {
 
 Status FrameLoop::wait_for_pair(SnapshotQueue* queue, LoopReport& report) {
   const Timestamp display_time = next_display_time();
+  const Duration silent = headset_->clock().now() - heard_at_;
+  if (silent > kStallAfter) {
+    repeats_.reset();  // not even old pairs come any more
+  }
   if (guiding_since_ && display_time - *guiding_since_ > session_.options().stale_after) {
-    take_back(session_.expire(display_time), queue, report);
+    take_back(session_.expire(display_time, repeats_), queue, report);
     ++report.blanked;
     guiding_since_.reset();
+    told_repeats_ = repeats_;
+  } else if (!guiding_since_ && report.blanked > 0 && told_repeats_ != repeats_) {
+    take_back(session_.expire(display_time, repeats_), queue, report);
+    told_repeats_ = repeats_;
   }
-  const Duration silent = headset_->clock().now() - heard_at_;
   const bool none_within = !first_frame_ && options_.max_time > Duration::zero();
   const Duration limit = none_within ? std::min(options_.longest_silence, options_.max_time)
                                      : options_.longest_silence;
   if (silent > limit) {
     return Error{headset_->name() + ": no camera pair for " + std::to_string(seconds(silent)) +
-                 " s (limit " + std::to_string(seconds(limit)) + " s)"};
+                 " s (limit " + std::to_string(seconds(limit)) + " s)" +
+                 (report.last_failure.empty() ? "" : "; " + report.last_failure)};
   }
   std::this_thread::sleep_for(kNoPairPause);
   return {};
@@ -140,6 +159,9 @@ Timestamp FrameLoop::next_display_time() {
 /// Shows, in the same way as every frame, guidance that no longer guides. If the display fails here
 /// it may keep showing the old frame, which can then only be reported.
 void FrameLoop::take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report) {
+  for (LoopObserver* observer : observers_) {
+    observer->withdrawn(guidance);
+  }
   builder_.update(guidance);
   builder_.write_shown(guidance, shown_);
   shown_.display_time = std::max(guidance.display_time, last_display_time_ + Duration(1));

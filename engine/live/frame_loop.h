@@ -21,6 +21,10 @@ class LoopObserver {
   virtual ~LoopObserver() = default;
   virtual void stepped(const StereoFrame& /*frame*/, const Inputs& /*inputs*/,
                        const Guidance& /*guidance*/) {}
+  /// A device failed, and the reason differs from the last one.
+  virtual void failed(const std::string& /*why*/) {}
+  /// No pair guides any more: the guidance of the last one was withdrawn, or it is told why again.
+  virtual void withdrawn(const Guidance& /*guidance*/) {}
   /// A snapshot was filled and is about to go to the rendering thread.
   virtual void captured(const Snapshot& /*snapshot*/) {}
   /// The tracking thread hangs in that part; called once per stall, on the rendering thread, if
@@ -73,8 +77,9 @@ struct LoopReport {
   std::int64_t displayed = 0;
   std::int64_t failures = 0;  ///< of any device, with the reason of the last
   std::string last_failure;
-  std::int64_t blanked = 0;  ///< times that guidance was removed because pairs stopped
-  std::int64_t stalls = 0;   ///< times that guidance was hidden because a part stalled
+  std::int64_t blanked = 0;   ///< times that guidance was removed because pairs stopped
+  std::int64_t repeated = 0;  ///< pairs not used since a picture or the head's pose repeats
+  std::int64_t stalls = 0;    ///< times that guidance was hidden because a part stalled
   std::int64_t drawn = 0;
   std::int64_t draw_failures = 0;  ///< of the sink; each with its reason in `last_failure`
   std::int64_t dropped_snapshots = 0;
@@ -167,6 +172,8 @@ class FrameLoop {
   Timestamp last_display_time_ = Timestamp::min();  ///< of any frame
   Timestamp heard_at_{};                    ///< when the last pair arrived, or the loop began
   std::optional<Timestamp> guiding_since_;  ///< mid-exposure of the pair that is being shown
+  std::optional<Repeated> repeats_;         ///< in every pair since the last good one
+  std::optional<Repeated> told_repeats_;    ///< to the wearer, when guidance was withdrawn
   std::optional<Timestamp> done_since_;
   std::optional<Timestamp> first_frame_;  ///< mid-exposure of the first pair
   int camera_errors_ = 0;                 ///< in a row, each

@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "engine/session/replan.h"
 #include "engine/session/workflow.h"
+#include "hal/api/repeat_watch.h"
 #include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
 #include "nav/registration/findings.h"
@@ -138,7 +139,10 @@ struct MapMoved {
 struct ReferenceMoved {
   Step step;
 };
-struct NoImages {};
+/// The cameras deliver no images, or only old ones.
+struct NoImages {
+  std::optional<Repeated> repeats = {};
+};
 struct Ended {};
 
 /// Nothing, or one of these.

@@ -232,9 +232,18 @@ struct MessageWriter {
       out += translated("touch this rod's heads again");
     }
   }
-  void operator()(const NoImages& /*m*/) {
+  void operator()(const NoImages& m) {
     text.begin(Importance::kDanger);
-    out += translated("no camera images");
+    if (!m.repeats) {
+      out += translated("no camera images");
+      return;
+    }
+    constexpr std::array<const char*, 4> kTexts = {
+        translatable("left camera repeats its picture: nothing is guided"),
+        translatable("right camera repeats its picture: nothing is guided"),
+        translatable("both cameras repeat their pictures: nothing is guided"),
+        translatable("head tracking repeats its pose: nothing is guided")};
+    out += translated(kTexts[static_cast<std::size_t>(*m.repeats)]);
   }
   void operator()(const Ended& /*m*/) {
     text.begin(Importance::kDanger);

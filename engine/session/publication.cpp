@@ -1,5 +1,7 @@
 #include "engine/session/publication.h"
 
+#include <utility>
+
 #include "engine/session/numbers_wording.h"
 
 namespace orthonav::engine {
@@ -92,7 +94,7 @@ Saved Publication::saved(const OperationInWork& work) const {
                  : Saved::kNothingNew;
 }
 
-const Guidance& Publication::expire(Timestamp display_time, OperationInWork& work,
+const Guidance& Publication::expire(Timestamp display_time, Message why, OperationInWork& work,
                                     SessionSteps& steps) {
   guidance_.display_time = display_time;
   guidance_.tool.reset();
@@ -102,16 +104,15 @@ const Guidance& Publication::expire(Timestamp display_time, OperationInWork& wor
   guidance_.status = {};
   guidance_.status.at = steps.on_display(work);
   guidance_.status.saved = saved(work);
-  why_no_guidance_ = NoImages{};
+  why_no_guidance_ = std::move(why);
   guidance_.status.message = &why_no_guidance_;
   return guidance_;
 }
 
 const Guidance& Publication::end(Timestamp display_time, OperationInWork& work,
                                  SessionSteps& steps) {
-  expire(display_time, work, steps);
+  expire(display_time, Ended{}, work, steps);
   guidance_.blank = true;
-  why_no_guidance_ = Ended{};
   return guidance_;
 }
 

@@ -18,8 +18,9 @@ class Publication {
   /// next call.
   const Guidance& publish(const StereoFrame& frame, Timestamp display_time, OperationInWork& work,
                           SessionSteps& steps, const Watching& watching);
-  /// No pair arrives: withdraws the guidance of the last one.
-  const Guidance& expire(Timestamp display_time, OperationInWork& work, SessionSteps& steps);
+  /// No pair arrives: withdraws the guidance of the last one, and says why.
+  const Guidance& expire(Timestamp display_time, Message why, OperationInWork& work,
+                         SessionSteps& steps);
   /// The session is over: only the status line remains.
   const Guidance& end(Timestamp display_time, OperationInWork& work, SessionSteps& steps);
 

@@ -93,8 +93,8 @@ const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   return publication_.publish(frame, inputs.display_time, work_, steps_, watching_);
 }
 
-const Guidance& Session::expire(Timestamp display_time) {
-  return publication_.expire(display_time, work_, steps_);
+const Guidance& Session::expire(Timestamp display_time, std::optional<Repeated> repeats) {
+  return publication_.expire(display_time, NoImages{repeats}, work_, steps_);
 }
 
 const Guidance& Session::end(Timestamp display_time) {

@@ -64,9 +64,9 @@ class Session {
   /// the step's work. The result is valid until the next call.
   const Guidance& step(const StereoFrame& frame, const Inputs& inputs);
 
-  /// No pair has arrived for longer than guidance may stay: withdraws the guidance of the last one.
-  /// The next step continues normally.
-  const Guidance& expire(Timestamp display_time);
+  /// No pair has arrived for longer than guidance may stay, or only such that repeat what came
+  /// before: withdraws the guidance of the last one. The next step continues normally.
+  const Guidance& expire(Timestamp display_time, std::optional<Repeated> repeats = std::nullopt);
   /// The session is over: only the status line remains.
   const Guidance& end(Timestamp display_time);
 

@@ -125,13 +125,26 @@ void StereoFrame::clear() {
 
 Result<Next> StereoCamera::next(StereoFrame& frame) {
   constexpr const char* kWhat = "camera pair";
-  return order_.next(
+  frame.repeats.reset();
+  auto answer = order_.next(
       kWhat, frame, [&] { return do_next(frame); },
       [&] {
         Status good = check_images(kWhat, frame, calibration());
         good = good ? check_covariance(kWhat, frame) : good;
         return good ? check_tools(kWhat, frame, measured_tools()) : good;
       });
+  if (!answer || *answer != Next::kFrame) {
+    return answer;
+  }
+  const auto repeats =
+      repeats_.look(frame.left, frame.right, frame.world_from_rig, may_repeat(), frame.repeats);
+  frame.repeats = repeats;
+  if (!repeats) {
+    return answer;
+  }
+  const Error old{std::string(kWhat) + " at " + in_seconds(frame.time) + ": " + text_of(*repeats)};
+  frame.clear();
+  return old;
 }
 
 Tracked<Transform<World, Rig>> HeadTracker::world_from_rig(Timestamp at) const {

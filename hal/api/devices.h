@@ -18,6 +18,7 @@
 #include "hal/api/display.h"
 #include "hal/api/frame_order.h"
 #include "hal/api/measured_tool.h"
+#include "hal/api/repeat_watch.h"
 
 namespace orthonav {
 
@@ -51,6 +52,9 @@ struct StereoFrame {
   /// Tools that the device itself measured at `time`, each at most once; tools that it did not see
   /// are left out. Empty for a device that does not track tools itself.
   std::vector<MeasuredTool> tools;
+  /// Why a pair came back empty: it repeats what came before. Set with the Error, and absent with
+  /// any other; a device that decodes its pictures sets it where only it can tell.
+  std::optional<Repeated> repeats;
 
   /// Empties it and keeps the buffers, so that the next frame allocates nothing.
   void clear();
@@ -67,9 +71,10 @@ class PairTap {
 
 /// Pull interface of the camera pair. Contract, kept by the public call for every device: times
 /// strictly increase, both images have the calibration's size, sequence numbers increase, the map's
-/// epoch never decreases, a pose is a rigid motion; after kEnd there is only kEnd. A frame that
-/// breaks the contract results in an Error and is not passed on (`frame` comes back empty); the
-/// stream continues with the next good frame.
+/// epoch never decreases, a pose is a rigid motion, neither a picture nor, while pictures change,
+/// the head's pose repeats under a new time; after kEnd there is only kEnd. A frame that breaks the
+/// contract results in an Error and is not passed on (`frame` comes back empty, and `repeats` says
+/// whether it is an old one); the stream continues with the next good frame.
 ///
 /// A device that measures tools itself names them, and its frames carry their poses; if it has no
 /// cameras, its calibration and images are empty.
@@ -80,6 +85,8 @@ class StereoCamera {
   /// Names of the tools that the device itself measures; the same at every call. Empty: tools are
   /// found in its images.
   [[nodiscard]] std::span<const std::string> measured_tools() const { return do_measured_tools(); }
+  /// What may repeat at this device; nothing where sensors are behind it.
+  [[nodiscard]] MayRepeat may_repeat() const { return do_may_repeat(); }
   /// Fills `frame` with the next pair, never the same one twice. Does not block.
   Result<Next> next(StereoFrame& frame);
   /// From now on `tap`, which is borrowed, sees every pair that arrives, also those for which
@@ -91,9 +98,11 @@ class StereoCamera {
   [[nodiscard]] virtual const StereoCalibration& do_calibration() const = 0;
   [[nodiscard]] virtual std::span<const std::string> do_measured_tools() const { return {}; }
   virtual bool do_tap(PairTap* /*tap*/) { return false; }
+  [[nodiscard]] virtual MayRepeat do_may_repeat() const { return {}; }
   virtual Result<Next> do_next(StereoFrame& frame) = 0;
 
   FrameOrder order_;
+  RepeatWatch repeats_;
 };
 
 /// Where the head is, was or will be. Contract: the answer has the requested time; more than

@@ -54,8 +54,7 @@ Result<Next> FailingCamera::do_next(StereoFrame& frame) {
   if (fault) {
     answer = spoiled(*fault, frame);
   }
-  last_time_ = frame.time;
-  last_sequence_ = frame.sequence;
+  last_ = frame;
   return answer;
 }
 
@@ -74,10 +73,19 @@ Result<Next> FailingCamera::spoiled(CameraFault fault, StereoFrame& frame) {
       frame.right.pixels.pop_back();
       break;
     case CameraFault::kTimeBack:
-      frame.time = last_time_;
+      frame.time = last_.time;
       break;
     case CameraFault::kSequenceBack:
-      frame.sequence = last_sequence_;
+      frame.sequence = last_.sequence;
+      break;
+    case CameraFault::kLeftAgain:
+      frame.left = last_.left;
+      break;
+    case CameraFault::kRightAgain:
+      frame.right = last_.right;
+      break;
+    case CameraFault::kPoseAgain:
+      frame.world_from_rig = last_.world_from_rig;
       break;
     case CameraFault::kMirroredPose:
       frame.world_from_rig = mirrored(pose);

@@ -24,6 +24,9 @@ enum class CameraFault {
   kShortBuffer,   ///< the right image holds fewer bytes than its size requires
   kTimeBack,      ///< stamped like the pair before it
   kSequenceBack,  ///< numbered like the pair before it
+  kLeftAgain,     ///< with the left image of the pair before it
+  kRightAgain,    ///< with the right image of the pair before it
+  kPoseAgain,     ///< with the head's pose of the pair before it
   kMirroredPose,
   kNanPose,
   kNoPose,  ///< the head is not located: allowed
@@ -51,8 +54,7 @@ class FailingCamera : public StereoCamera {
   StereoCamera& inner_;
   std::vector<Fault<CameraFault>> faults_;
   std::int64_t call_ = 0;
-  Timestamp last_time_{};
-  std::int64_t last_sequence_ = 0;
+  StereoFrame last_;  ///< as passed on
 
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return inner_.calibration();
@@ -60,6 +62,7 @@ class FailingCamera : public StereoCamera {
   [[nodiscard]] std::span<const std::string> do_measured_tools() const override {
     return inner_.measured_tools();
   }
+  [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
   Result<Next> do_next(StereoFrame& frame) override;
   Result<Next> spoiled(CameraFault fault, StereoFrame& frame);
 };

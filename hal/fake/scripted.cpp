@@ -6,8 +6,11 @@
 namespace orthonav::fake {
 
 ScriptedCamera::ScriptedCamera(StereoCalibration calibration, std::vector<CameraStep> steps,
-                               ManualClock& clock)
-    : calibration_(std::move(calibration)), steps_(std::move(steps)), clock_(clock) {}
+                               ManualClock& clock, MayRepeat may_repeat)
+    : calibration_(std::move(calibration)),
+      steps_(std::move(steps)),
+      clock_(clock),
+      may_repeat_(may_repeat) {}
 
 Result<Next> ScriptedCamera::do_next(StereoFrame& frame) {
   if (next_ == steps_.size()) {
@@ -107,7 +110,7 @@ Status RememberingDisplay::do_shown(const ShownFrame& frame) {
 FakeHeadset::FakeHeadset(Script script)
     : epoch_ticks_100ns_(script.epoch_ticks_100ns),
       clock_(script.clock_start),
-      cameras_(std::move(script.calibration), std::move(script.camera), clock_),
+      cameras_(std::move(script.calibration), std::move(script.camera), clock_, script.may_repeat),
       head_(std::move(script.head), clock_),
       clicker_(std::move(script.clicker)),
       voice_(std::move(script.voice)),

@@ -32,15 +32,18 @@ using CameraStep = std::variant<StereoFrame, Next, Error>;
 /// Plays its steps, one per call, then ends. A delivered pair sets the clock to its time.
 class ScriptedCamera : public StereoCamera {
  public:
-  ScriptedCamera(StereoCalibration calibration, std::vector<CameraStep> steps, ManualClock& clock);
+  ScriptedCamera(StereoCalibration calibration, std::vector<CameraStep> steps, ManualClock& clock,
+                 MayRepeat may_repeat);
 
  private:
   StereoCalibration calibration_;
   std::vector<CameraStep> steps_;
   std::size_t next_ = 0;
   ManualClock& clock_;
+  MayRepeat may_repeat_;
 
   [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
+  [[nodiscard]] MayRepeat do_may_repeat() const override { return may_repeat_; }
   Result<Next> do_next(StereoFrame& frame) override;
 };
 
@@ -139,6 +142,8 @@ struct Script {
   Duration display_latency{};
   Timestamp clock_start{};
   std::int64_t epoch_ticks_100ns = 0;
+  /// No sensor: most scripts show the same picture all the time.
+  MayRepeat may_repeat{true, true};
 };
 
 class FakeHeadset : public Headset {

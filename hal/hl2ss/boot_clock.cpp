@@ -76,6 +76,12 @@ std::optional<Timestamp> StampReader::told(std::uint64_t ticks, HostTime at) con
   return last_ && now && follows(*last_, *now) ? time_of(*now) : std::nullopt;
 }
 
+void StampReader::set_by(Duration by) {
+  set_by_ += by;
+  offset_ticks_ -= by / Duration(100);
+  ++restarts_;
+}
+
 std::optional<std::int64_t> BootClock::best_offset_ns() const {
   std::optional<std::int64_t> best;
   for (const Second& second : seconds_) {
@@ -119,6 +125,11 @@ void BootClock::round_trip(Duration took) {
 bool BootClock::runs_by_itself() const {
   const MutexLock lock(mutex_);
   return !paced_;
+}
+
+void BootClock::restart() {
+  const MutexLock lock(mutex_);
+  seconds_ = {};
 }
 
 void BootClock::paced(Timestamp now, HostTime at) {

@@ -19,6 +19,10 @@ class StampReader {
   [[nodiscard]] std::optional<Timestamp> time_of(std::uint64_t ticks, HostTime at);
   /// The same without updating anything; nothing for a stamp far from those received so far.
   [[nodiscard]] std::optional<Timestamp> told(std::uint64_t ticks, HostTime at) const;
+  /// The headset's clock was set by this: times go on as if it had not been.
+  void set_by(Duration by);
+  /// A time as it would be had the clock never been set.
+  [[nodiscard]] Timestamp as_stamped(Timestamp time) const { return time + set_by_; }
   /// The stamp that corresponds to time zero of the device; known from the first stamp on.
   [[nodiscard]] std::int64_t base_ticks() const { return base_ticks_; }
   [[nodiscard]] std::int64_t restarts() const { return restarts_; }
@@ -40,6 +44,7 @@ class StampReader {
   std::optional<Heard> doubted_;
   int doubted_in_a_row_ = 0;
   std::int64_t restarts_ = 0;
+  Duration set_by_{};
 };
 
 /// The headset's clock as estimated on this machine: each packet was sent no earlier than it was
@@ -54,6 +59,8 @@ class BootClock : public Clock {
   /// A packet with this time arrived.
   void heard(Timestamp stamp, HostTime at);
   void round_trip(Duration took);
+  /// Earlier stamps mean nothing any more.
+  void restart();
   /// As long as these calls keep coming, the clock stands at `now` until the next one: a stand-in
   /// waits for its client, and its time advances only with the pairs.
   void paced(Timestamp now, HostTime at);

@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/printed.h"
 #include "hal/hl2ss/calibration.h"
 #include "hal/hl2ss/depth_receiver.h"
 #include "hal/hl2ss/door.h"
@@ -100,6 +101,9 @@ class Cameras final : public StereoCamera {
 
  private:
   [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
+  [[nodiscard]] MayRepeat do_may_repeat() const override {
+    return receiver_.standin() ? receiver_.standin()->may_repeat() : MayRepeat{};
+  }
   Result<Next> do_next(StereoFrame& frame) override {
     StandinStream* standin = receiver_.standin();
     // A request for the next pair means that the caller is done with the last one.
@@ -233,12 +237,12 @@ class ConnectedHeadset final : public Hl2ssHeadset {
   std::string depth_trouble_;
 };
 
-Status wait_for_image(const Receiver& receiver, const Hl2ssOptions& options, HostTime deadline,
-                      const StandinStream* standin) {
-  while (!receiver.has_heard() || (standin && !standin->display_latency())) {
+Status wait_for_pair(const Receiver& receiver, const Hl2ssOptions& options, HostTime deadline,
+                     const StandinStream* standin) {
+  while (!receiver.has_paired() || (standin && !standin->display_latency())) {
     if (HostClock::now() >= deadline) {
       const std::string why = receiver.troubles();
-      return Error{"no image within " + std::to_string(seconds(options.open_within)) + " s" +
+      return Error{printed("no pair of images within %.1f s", seconds(options.open_within)) +
                        (why.empty() ? "" : "; " + why),
                    ErrorCode::kUnavailable};
     }
@@ -268,7 +272,7 @@ Result<std::unique_ptr<Hl2ssHeadset>> Hl2ssHeadset::open(const Hl2ssOptions& opt
   if (!receiver) {
     return trouble_with(options.host, receiver.error());
   }
-  if (const Status came = wait_for_image(**receiver, options, deadline, (*receiver)->standin());
+  if (const Status came = wait_for_pair(**receiver, options, deadline, (*receiver)->standin());
       !came) {
     return trouble_with(options.host, came.error());
   }

@@ -10,9 +10,11 @@ void PacketStream::heard(const Packet& packet, HostTime at) {
     return;
   }
   Stamped stamped{*time, at};
-  if (const Status right = check_stamp(packet, *time); right) {
-    time_.clock.heard(*time, at);
-    stamped.in_order = meter_.heard(*time, at);
+  if (const Status right = check_stamp(packet, time_.stamps.as_stamped(*time)); right) {
+    // It may just have shown that the clock was set.
+    stamped.time = time_.stamps.told(packet.ticks, at).value_or(*time);
+    time_.clock.heard(stamped.time, at);
+    stamped.in_order = meter_.heard(stamped.time, at);
   } else {
     stamped.is_trusted = false;
     meter_.refused(right.error().message);

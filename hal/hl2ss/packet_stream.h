@@ -26,7 +26,8 @@ class PacketStream : public PacketPort {
     bool in_order = true;    ///< after all packets before it
     bool is_trusted = true;  ///< `check_stamp` found nothing wrong
   };
-  /// An Error says why the stamp must be wrong: the packet's time is then not used.
+  /// An Error says why the stamp must be wrong: the packet's time is then not used. `stamp` is as
+  /// if the headset's clock had never been set.
   virtual Status check_stamp(const Packet& /*packet*/, Timestamp /*stamp*/) { return {}; }
   /// An Error says what was wrong with this packet; the stream continues.
   virtual Status take(const Packet& packet, const Stamped& stamped) = 0;

@@ -33,6 +33,7 @@ void PairMailbox::put(const Pairer::Pair& pair, std::int64_t map_epoch) {
   newest_.map_epoch = map_epoch;
   newest_.time = pair.left.time;
   newest_.world_from_rig = pair.left.world_from_rig;
+  newest_.repeats = of_pictures(pair.left.repeats, pair.right.repeats);
   std::swap(newest_.left, pair.left.image);
   std::swap(newest_.right, pair.right.image);
   arrived_ = std::max(pair.left.arrived, pair.right.arrived);
@@ -64,6 +65,7 @@ bool PairMailbox::take(StereoFrame& frame) {
   frame.map_epoch = newest_.map_epoch;
   frame.time = newest_.time;
   frame.world_from_rig = newest_.world_from_rig;
+  frame.repeats = newest_.repeats;
   copy(newest_.left, frame.left);
   copy(newest_.right, frame.right);
   note(figures_.take_ms, next_take_, arrived_);

@@ -16,6 +16,7 @@ struct CameraImage {
   HostTime arrived{};  ///< arrival of its last byte
   std::optional<Transform<World, Rig>> world_from_rig;
   GreyImage image;
+  bool repeats = false;  ///< coded anew, but the picture before it
 };
 
 enum class CameraSide : std::uint8_t { kLeft, kRight };

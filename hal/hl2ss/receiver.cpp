@@ -1,12 +1,12 @@
 #include "hal/hl2ss/receiver.h"
 
-#include <poll.h>
-
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/findings.h"
 #include "base/guarded.h"
+#include "base/printed.h"
 #include "hal/api/research_mode.h"
 
 namespace orthonav::hl2ss {
@@ -22,6 +22,13 @@ constexpr Duration kPacedSilence = std::chrono::minutes(2);
 constexpr Duration kMostAhead = std::chrono::milliseconds(100);
 /// How often timed actions are checked.
 constexpr int kTurnMs = 10;
+/// Without a pair for this long, the reasons are told, as when opening.
+constexpr Duration kNoPairFor = std::chrono::seconds(8);
+/// Both cameras believe a clock that was set after the same number of pictures, and by the same.
+constexpr Duration kLeapTogether = std::chrono::seconds(1);
+constexpr Duration kSameLeap = std::chrono::milliseconds(10);
+
+std::int64_t came(const StreamStatistics& stream) { return stream.packets + stream.damaged; }
 
 }  // namespace
 
@@ -147,9 +154,7 @@ void Receiver::run() {
         watched.push_back({stream.connection->fd(), stream.connection->events(), 0});
       }
     }
-    if (::poll(watched.data(), watched.size(), kTurnMs) < 0) {
-      continue;
-    }
+    net::wait_for_news(watched, kTurnMs);
     if (watched[0].revents != 0) {
       wake_up_.clear();
     }
@@ -163,6 +168,7 @@ void Receiver::run() {
         time_.clock.round_trip(connection.round_trip());
       }
     }
+    tell_no_pair(now);
   }
   const MutexLock lock(mutex_);
   for (const Stream& stream : streams_) {
@@ -171,7 +177,6 @@ void Receiver::run() {
 }
 
 void Receiver::take(CameraSide side, CameraImage& image) {
-  heard_ = true;
   if (time_.stamps.restarts() != restarts_) {
     restarts_ = time_.stamps.restarts();
     pairer_.forget();
@@ -194,6 +199,11 @@ void Receiver::publish(const Pairer::Pair& pair) {
     return;
   }
   newest_pair_ = pair.left.time;
+  paired_ = true;
+  paired_or_told_ = HostClock::now();
+  for (std::size_t i = 0; i < came_until_pair_.size(); ++i) {
+    came_until_pair_[i] = came(streams_[i].meter->statistics());
+  }
   was_lost_ = false;
   if (pose && map_.moved(pair.left.time, *pose)) {
     ++map_epoch_;
@@ -205,12 +215,41 @@ void Receiver::publish(const Pairer::Pair& pair) {
   pairs_.put(pair, map_epoch_);
 }
 
-void Receiver::lost(CameraSide /*side*/) {
+/// A clock that was set shows in both cameras at once; in one alone, its first image was wrong.
+void Receiver::leapt(CameraSide side, Duration by) {
+  const HostTime now = HostClock::now();
+  const auto mine = static_cast<std::size_t>(side);
+  leaps_[mine] = Leap{by, now};
+  const auto& other = leaps_[1 - mine];
+  if (!other || now - other->at > kLeapTogether || std::chrono::abs(by - other->by) > kSameLeap) {
+    return;
+  }
+  leaps_ = {};
+  time_.stamps.set_by(by);
+  time_.clock.restart();
+  pairs_.fail(Error{printed(
+      "hl2ss: %s: the headset's clock was set %s by %.3f s: pairs go on by it",
+      options_.host.c_str(), by < Duration::zero() ? "back" : "forward", std::abs(seconds(by)))});
+}
+
+void Receiver::tell_no_pair(HostTime now) {
+  if (!newest_pair_ || now - paired_or_told_ < kNoPairFor) {
+    return;
+  }
+  paired_or_told_ = now;
+  pairs_.fail(Error{"hl2ss: " + options_.host + ": no pair of images for 8 s; " + why_no_pair(),
+                    ErrorCode::kUnavailable});
+}
+
+void Receiver::lost(CameraSide side) {
   was_lost_ = true;
   pairer_.forget();
   pairs_.clear();
   head_.lose();
-  pairs_.fail(Error{"hl2ss: " + options_.host + ": connection lost", ErrorCode::kLost});
+  const StreamStatistics& camera = streams_[static_cast<std::size_t>(side)].meter->statistics();
+  pairs_.fail(Error{
+      "hl2ss: " + options_.host + ": connection lost; " + camera.name + ": " + camera.last_trouble,
+      ErrorCode::kLost});
 }
 
 Result<Timestamp> Receiver::time_of(std::uint64_t ticks, HostTime at) const {
@@ -256,13 +295,29 @@ ConnectionStatistics Receiver::statistics() const {
 
 std::string Receiver::troubles() const {
   const MutexLock lock(mutex_);
+  return why_no_pair();
+}
+
+std::string Receiver::why_no_pair() const {
   std::string all;
-  for (const Stream& stream : streams_) {
-    const StreamStatistics& each = stream.meter->statistics();
-    if (each.last_trouble.empty() || (stream.connection->is_connected() && each.damaged == 0)) {
-      continue;
+  const auto add = [&all](const std::string& name, const std::string& trouble) {
+    all += (all.empty() ? "" : "; ") + name + ": " + trouble;
+  };
+  bool cameras_send = true;
+  for (std::size_t i = 0; i < streams_.size(); ++i) {
+    const StreamStatistics& each = streams_[i].meter->statistics();
+    const bool is_connected = streams_[i].connection->is_connected();
+    const bool is_camera = i < came_until_pair_.size();
+    const bool is_silent = is_camera && came(each) == came_until_pair_[i];
+    cameras_send = cameras_send && !(is_camera && (is_silent || each.damaged > 0));
+    if (is_connected && is_silent) {
+      add(each.name, "connected, but sends no image");
+    } else if (!each.last_trouble.empty() && (!is_connected || each.damaged > 0)) {
+      add(each.name, each.last_trouble);
     }
-    all += (all.empty() ? "" : "; ") + each.name + ": " + each.last_trouble;
+  }
+  if (cameras_send) {
+    add("cameras", "send, but no two images of one moment");
   }
   return all;
 }

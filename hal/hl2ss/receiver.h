@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <optional>
@@ -50,12 +51,12 @@ class Receiver final : private ImageSink {
   [[nodiscard]] ObjectDisplay* scene() { return scene_; }
   /// Starts listening at the first call.
   [[nodiscard]] Microphone& microphone();
-  /// Whether a front camera has sent anything; the base of its stamps is then known.
-  [[nodiscard]] bool has_heard() const { return heard_.load(); }
+  /// Whether both cameras have sent pictures of one moment; the base of their stamps is then known.
+  [[nodiscard]] bool has_paired() const { return paired_.load(); }
   [[nodiscard]] std::int64_t base_ticks() const;
   [[nodiscard]] ConnectionStatistics statistics() const;
-  /// The last errors of streams that are not connected, and the reasons for refused packets of the
-  /// others.
+  /// The last errors of streams that are not connected, the reasons for refused packets of the
+  /// others, and which of the cameras sends nothing.
   [[nodiscard]] std::string troubles() const;
 
   /// The lateness of stamps that remains with the requested options on a HoloLens 2.
@@ -81,6 +82,9 @@ class Receiver final : private ImageSink {
   // Called by the streams, which `run` drives under the mutex.
   void take(CameraSide side, CameraImage& image) override ORTHONAV_REQUIRES(mutex_);
   void lost(CameraSide side) override ORTHONAV_REQUIRES(mutex_);
+  void leapt(CameraSide side, Duration by) override ORTHONAV_REQUIRES(mutex_);
+  void tell_no_pair(HostTime now) ORTHONAV_REQUIRES(mutex_);
+  [[nodiscard]] std::string why_no_pair() const ORTHONAV_REQUIRES(mutex_);
   void publish(const Pairer::Pair& pair) ORTHONAV_REQUIRES(mutex_);
 
   net::Endpoint host_;
@@ -91,7 +95,7 @@ class Receiver final : private ImageSink {
   HeadTrack head_;
   Inbox<ClickerEvent> clicks_;
   Inbox<Phrase> phrases_;
-  std::atomic<bool> heard_ = false;
+  std::atomic<bool> paired_ = false;
   std::atomic<bool> stop_ = false;
 
   StandinStream* standin_ = nullptr;  ///< made before the thread starts, never changed
@@ -105,6 +109,14 @@ class Receiver final : private ImageSink {
   std::int64_t restarts_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   bool was_lost_ ORTHONAV_GUARDED_BY(mutex_) = false;  ///< since the last pair
   std::optional<Timestamp> newest_pair_ ORTHONAV_GUARDED_BY(mutex_);
+  HostTime paired_or_told_ ORTHONAV_GUARDED_BY(mutex_) = HostClock::now();
+  std::array<std::int64_t, 2> came_until_pair_
+      ORTHONAV_GUARDED_BY(mutex_) = {};  ///< of each camera
+  struct Leap {
+    Duration by{};
+    HostTime at{};
+  };
+  std::array<std::optional<Leap>, 2> leaps_ ORTHONAV_GUARDED_BY(mutex_);  ///< of each camera
   std::int64_t late_pairs_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::thread thread_;
 };

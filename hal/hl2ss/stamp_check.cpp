@@ -31,6 +31,7 @@ double StampCheck::ahead_s(const Moment& from, const Moment& to) {
 Status StampCheck::check(Timestamp stamp, std::uint64_t sensor_ticks) {
   const Moment next{stamp, sensor_ticks};
   const double off_s = trusted_ ? ahead_s(*trusted_, next) : 0.0;
+  leapt_.reset();
   if (std::abs(off_s) > kMaxOffS) {
     doubt(next);
     if (votes_ < kBelievedAfter) {
@@ -39,6 +40,7 @@ Status StampCheck::check(Timestamp stamp, std::uint64_t sensor_ticks) {
                          : "stamp %.1f ms after where the sensor's clock puts it, limit %.1f ms",
                      std::abs(off_s) * 1e3, kMaxOffS * 1e3);
     }
+    leapt_ = from_seconds(off_s);
   }
   trusted_ = next;
   doubted_.reset();

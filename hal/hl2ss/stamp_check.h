@@ -19,6 +19,9 @@ class StampCheck {
   /// Checks the next image of one camera. An Error says why its time can't be used; if images keep
   /// contradicting the past but mostly agree with one another, they are accepted after 20.
   Status check(Timestamp stamp, std::uint64_t sensor_ticks);
+  /// By how much the stamps leapt, if the image checked last is the one from which on that is
+  /// believed: the clock was set, or the first image was wrong.
+  [[nodiscard]] std::optional<Duration> leapt() const { return leapt_; }
   /// For a new connection, which may have new clocks.
   void restart() { *this = {}; }
 
@@ -34,6 +37,7 @@ class StampCheck {
   std::optional<Moment> trusted_;
   std::optional<Moment> doubted_;
   int votes_ = 0;  ///< for the doubted moment
+  std::optional<Duration> leapt_;
 };
 
 }  // namespace orthonav::hl2ss

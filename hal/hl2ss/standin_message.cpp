@@ -8,7 +8,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x324e534f;  // "OSN2"
+constexpr std::uint32_t kMagic = 0x334e534f;  // "OSN3"
 constexpr std::size_t kHeadBytes = 5;
 
 void write(std::vector<std::uint8_t>& bytes, const StandinHello& hello) {
@@ -16,6 +16,8 @@ void write(std::vector<std::uint8_t>& bytes, const StandinHello& hello) {
   append(bytes, static_cast<std::uint8_t>(hello.paced));
   append(bytes, std::int64_t{hello.display_latency.count()});
   append_time(bytes, hello.clock);
+  append(bytes, static_cast<std::uint8_t>(hello.may_repeat.pictures));
+  append(bytes, static_cast<std::uint8_t>(hello.may_repeat.head_pose));
 }
 void write(std::vector<std::uint8_t>& bytes, const StandinClicks& clicks) {
   append(bytes, static_cast<std::uint32_t>(clicks.events.size()));
@@ -43,6 +45,8 @@ Status read(ByteReader& reader, StandinHello& hello) {
   hello.paced = reader.take<std::uint8_t>() != 0;
   hello.display_latency = Duration(reader.take<std::int64_t>());
   hello.clock = take_time(reader);
+  hello.may_repeat.pictures = reader.take<std::uint8_t>() != 0;
+  hello.may_repeat.head_pose = reader.take<std::uint8_t>() != 0;
   if (hello.display_latency < Duration::zero() || hello.display_latency > std::chrono::seconds(1)) {
     return Error{"stand-in: display latency must lie within 0 to 1 s"};
   }

@@ -17,6 +17,7 @@ struct StandinHello {
   bool paced = false;  ///< the next pair is sent when the client is done with the last one
   Duration display_latency{};
   Timestamp clock{};
+  MayRepeat may_repeat{};  ///< as the served headset says of itself
 };
 /// Server: events of the button.
 struct StandinClicks {

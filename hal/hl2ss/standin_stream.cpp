@@ -39,6 +39,7 @@ Status StandinStream::take(const StandinMessage& message) {
   const MutexLock lock(mutex_);
   if (const auto* hello = std::get_if<StandinHello>(&message)) {
     hello_ = *hello;
+    may_repeat_ = hello->may_repeat;
     if (hello->paced) {
       time_.clock.paced(hello->clock, HostClock::now());
     }
@@ -49,7 +50,9 @@ Status StandinStream::take(const StandinMessage& message) {
   }
   if (const auto* clicks = std::get_if<StandinClicks>(&message)) {
     for (const ClickerEvent& event : clicks->events) {
-      inbox_.put(event);
+      // Events come in order; those of a server that began anew lie in the past until its time
+      // has caught up.
+      (void)inbox_.put(event);
     }
   } else if (const auto* up_to = std::get_if<StandinUpTo>(&message)) {
     if (up_to_.size() == kMostUpTo) {
@@ -115,6 +118,11 @@ bool StandinStream::has_ended() const {
 std::optional<Duration> StandinStream::display_latency() const {
   const MutexLock lock(mutex_);
   return hello_ ? std::optional(hello_->display_latency) : std::nullopt;
+}
+
+MayRepeat StandinStream::may_repeat() const {
+  const MutexLock lock(mutex_);
+  return may_repeat_;
 }
 
 }  // namespace orthonav::hl2ss

@@ -29,6 +29,8 @@ class StandinStream final : public Protocol {
   /// Whether there are no more pairs.
   [[nodiscard]] bool has_ended() const;
   [[nodiscard]] std::optional<Duration> display_latency() const;
+  /// What may repeat at the headset that the server stands in for; as said last.
+  [[nodiscard]] MayRepeat may_repeat() const;
 
  private:
   Status take(const StandinMessage& message);
@@ -47,6 +49,7 @@ class StandinStream final : public Protocol {
   /// For pairs not handed out yet.
   std::deque<StandinUpTo> up_to_ ORTHONAV_GUARDED_BY(mutex_);
   bool ended_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  MayRepeat may_repeat_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
 }  // namespace orthonav::hl2ss

@@ -18,6 +18,8 @@ class ImageSink {
   /// May swap the image's buffers for others.
   virtual void take(CameraSide side, CameraImage& image) = 0;
   virtual void lost(CameraSide side) = 0;
+  /// From this camera's next picture on, its stamps are believed to have leapt by this.
+  virtual void leapt(CameraSide side, Duration by) = 0;
 };
 
 /// One front camera with poses, raw or decoded.
@@ -54,6 +56,7 @@ class VideoStream final : public PacketStream {
   ImageSink& sink_;
   StampCheck stamps_;
   CameraImage image_;
+  GreyImage last_picture_;  ///< decoded before it
   UnitsUnderway<Underway> underway_;
 };
 

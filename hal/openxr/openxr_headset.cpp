@@ -24,6 +24,7 @@ class Cameras : public StereoCamera, private PairTap {
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return inner_.calibration();
   }
+  [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
   Result<Next> do_next(StereoFrame& frame) override {
     // The frame is reused, and a device whose map never moves does not write this field.
     frame.map_epoch = 0;

@@ -89,10 +89,16 @@ Status take_device(std::string_view line, RecordedDevice& device) {
       return Error{"stamps_late_ns must lie in [0, 100000000]"};
     }
     device.stamps_late = Duration(*value);
+  } else if (fields[0] == "pictures_may_repeat" || fields[0] == "head_pose_may_repeat") {
+    if (*value != 0 && *value != 1) {
+      return Error{std::string(fields[0]) + " must be 0 or 1"};
+    }
+    MayRepeat& may = device.may_repeat;
+    (fields[0].front() == 'p' ? may.pictures : may.head_pose) = *value == 1;
   } else {
     return Error{
-        "key is unknown; known are epoch_ticks_100ns, display_latency_ns, clock_start_ns and "
-        "stamps_late_ns"};
+        "key is unknown; known are epoch_ticks_100ns, display_latency_ns, clock_start_ns, "
+        "stamps_late_ns, pictures_may_repeat and head_pose_may_repeat"};
   }
   return {};
 }
@@ -198,6 +204,12 @@ std::string device_text(const RecordedDevice& device) {
   if (device.clock_start) {
     text += "\nclock_start_ns,";
     append_number(text, std::int64_t{device.clock_start->time_since_epoch().count()});
+  }
+  if (device.may_repeat.pictures) {
+    text += "\npictures_may_repeat,1";
+  }
+  if (device.may_repeat.head_pose) {
+    text += "\nhead_pose_may_repeat,1";
   }
   return text + "\n";
 }

@@ -268,6 +268,7 @@ class RecordingCamera : public StereoCamera, private PairTap {
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return inner_.cameras().calibration();
   }
+  [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.cameras().may_repeat(); }
   Result<Next> do_next(StereoFrame& frame) override {
     auto answer = inner_.cameras().next(frame);
     const bool came = answer && *answer == Next::kFrame;
@@ -416,6 +417,7 @@ Result<std::unique_ptr<RecordingHeadset>> make(Headset& inner, std::unique_ptr<H
   device.epoch_ticks_100ns = inner.epoch_ticks_100ns();
   device.display_latency = inner.display().predicted_display_time(Timestamp{}) - Timestamp{};
   device.clock_start = inner.clock().now();
+  device.may_repeat = inner.cameras().may_repeat();
   auto writer =
       RecordingWriter::create(folder, inner.cameras().calibration(), device, options.tools_json);
   if (!writer) {

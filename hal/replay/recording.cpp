@@ -92,6 +92,7 @@ Status add_device(const std::filesystem::path& folder, RecordedStamps stamps,
   recording.epoch_ticks_100ns = device.epoch_ticks_100ns.value_or(epoch_of(first_ticks)) +
                                 recording.stamps_late / Duration(100);
   recording.display_latency = device.display_latency;
+  recording.may_repeat = device.may_repeat;
   const bool listed = is_there(folder / kFramesFile);
   if (Status s =
           listed ? add_listed(folder, recording) : add_paired(folder, kStreamRecorder, recording);

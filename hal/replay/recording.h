@@ -32,6 +32,7 @@ struct RecordedDevice {
   Duration display_latency{};
   std::optional<Timestamp> clock_start;
   std::optional<Duration> stamps_late;  ///< in files from another recorder
+  MayRepeat may_repeat;
 };
 
 /// A checked folder, without the pixels.
@@ -47,6 +48,7 @@ struct Recording {
   Duration stamps_late{};  ///< of the front cameras' files; corrected everywhere else
   Timestamp clock_start{};
   Duration display_latency{};
+  MayRepeat may_repeat;
   std::string tools_json;
   std::vector<RecordedDepth> depth;
   RecordingSummary summary;

@@ -30,6 +30,7 @@ class ReplayCamera : public StereoCamera {
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return recording_.calibration;
   }
+  [[nodiscard]] MayRepeat do_may_repeat() const override { return recording_.may_repeat; }
   Result<Next> do_next(StereoFrame& frame) override {
     if (next_ == recording_.pairs.size()) {
       progress_.pairs_over = true;

@@ -45,6 +45,12 @@ Timestamp SimCameras::delivery_of(std::int64_t number) const {
   return time_of(number) + half_exposure_ + kReadout;
 }
 
+MayRepeat SimCameras::do_may_repeat() const {
+  const ErrorModel& model = options_.error_model;
+  return {!renderer_ || (model.shot_noise == 0.0 && model.read_noise_grey == 0.0),
+          model.head_pose_noise_m == 0.0 && model.head_pose_noise_rad == 0.0};
+}
+
 Result<Next> SimCameras::do_next(StereoFrame& frame) {
   if (options_.pace == Pace::kRealtime) {
     const Timestamp now = room_.clock.now();

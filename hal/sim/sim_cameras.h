@@ -18,6 +18,8 @@ class SimCameras final : public StereoCamera {
 
  private:
   [[nodiscard]] const StereoCalibration& do_calibration() const override { return reported_; }
+  /// A perfect camera or a perfect head tracker in a room at rest.
+  [[nodiscard]] MayRepeat do_may_repeat() const override;
   Result<Next> do_next(StereoFrame& frame) override;
 
   [[nodiscard]] Timestamp time_of(std::int64_t number) const;

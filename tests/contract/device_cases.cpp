@@ -64,6 +64,7 @@ class Prompting : public ForwardingHeadset {
     [[nodiscard]] const StereoCalibration& do_calibration() const override {
       return inner_.cameras().calibration();
     }
+    [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.cameras().may_repeat(); }
     Result<Next> do_next(StereoFrame& frame) override {
       auto answer = inner_.cameras().next(frame);
       if (!answer || *answer != Next::kFrame) {
@@ -182,6 +183,7 @@ class Waiting : public ForwardingHeadset {
     [[nodiscard]] const StereoCalibration& do_calibration() const override {
       return inner_.cameras().calibration();
     }
+    [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.cameras().may_repeat(); }
     Result<Next> do_next(StereoFrame& frame) override {
       Result<Next> answer = Next::kNone;
       static_cast<void>(wait_until([&] {

@@ -64,14 +64,18 @@ TEST_P(BrokenPair, LeavesAnEmptyFrame) {
 
 INSTANTIATE_TEST_SUITE_P(
     Every, BrokenPair,
-    ::testing::Values(CameraCase{"Error", CameraFault::kError, "simulated failure"},
-                      CameraCase{"WrongSize", CameraFault::kWrongSize, "left image is 640x479 px"},
-                      CameraCase{"ShortBuffer", CameraFault::kShortBuffer, "307199 bytes"},
-                      CameraCase{"TimeBack", CameraFault::kTimeBack, "does not come after"},
-                      CameraCase{"SequenceBack", CameraFault::kSequenceBack,
-                                 "sequence number 1 does not come after 1"},
-                      CameraCase{"MirroredPose", CameraFault::kMirroredPose, "not a rigid motion"},
-                      CameraCase{"NanPose", CameraFault::kNanPose, "not a rigid motion"}),
+    ::testing::Values(
+        CameraCase{"Error", CameraFault::kError, "simulated failure"},
+        CameraCase{"WrongSize", CameraFault::kWrongSize, "left image is 640x479 px"},
+        CameraCase{"ShortBuffer", CameraFault::kShortBuffer, "307199 bytes"},
+        CameraCase{"TimeBack", CameraFault::kTimeBack, "does not come after"},
+        CameraCase{"SequenceBack", CameraFault::kSequenceBack,
+                   "sequence number 1 does not come after 1"},
+        CameraCase{"LeftAgain", CameraFault::kLeftAgain, "the left camera repeats its picture"},
+        CameraCase{"RightAgain", CameraFault::kRightAgain, "the right camera repeats its picture"},
+        CameraCase{"PoseAgain", CameraFault::kPoseAgain, "head tracking repeats its pose"},
+        CameraCase{"MirroredPose", CameraFault::kMirroredPose, "not a rigid motion"},
+        CameraCase{"NanPose", CameraFault::kNanPose, "not a rigid motion"}),
     [](const auto& broken) { return broken.param.name; });
 
 TEST(MapEpoch, ThatFallsIsReportedAndNotPassedOn) {

@@ -111,6 +111,8 @@ std::vector<Message> messages() {
       Message(MapMoved{Step::kDigitize}),
       Message(MapMoved{Step::kRod}),
       Message(NoImages{}),
+      Message(NoImages{Repeated::kBothPictures}),
+      Message(NoImages{Repeated::kHeadPose}),
       Message(Ended{})};
 }
 

@@ -62,6 +62,7 @@ class FlakyHeadset : public ForwardingHeadset {
     [[nodiscard]] const StereoCalibration& do_calibration() const override {
       return inner_.calibration();
     }
+    [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
     Result<Next> do_next(StereoFrame& frame) override;
     void begin_trouble();
     StereoCamera& inner_;

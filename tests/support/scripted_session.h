@@ -114,6 +114,7 @@ inline fake::Script scripted_session(int frames = 12) {
   script.calibration = scripted_calibration();
   script.display_latency = std::chrono::microseconds(16'667);
   script.clock_start = scripted_time(-1);
+  script.may_repeat = {};
   for (int i = 0; i < frames; ++i) {
     if (i == 3) {
       script.camera.emplace_back(Next::kNone);

@@ -35,6 +35,8 @@ class SkeletonDevice : public Headset, Clock, StereoCamera, HeadTracker, Clicker
     return Timestamp{} + next_ * std::chrono::microseconds(33333);
   }
   [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
+  /// It has no sensors. A real device leaves this out: what repeats there is old.
+  [[nodiscard]] MayRepeat do_may_repeat() const override { return {true, true}; }
   Result<Next> do_next(StereoFrame& frame) override {
     if (next_ == pairs_) {
       return Next::kEnd;

@@ -33,7 +33,14 @@ int main(int argc, char** argv) {
   StereoFrame frame;
   double next_s = 0.0;
   int pairs = 0;
-  while (must(cameras.next(frame)) == Next::kFrame) {
+  for (;;) {
+    auto next = cameras.next(frame);
+    if (!next && frame.repeats) {
+      continue;  // an old picture under a new time
+    }
+    if (must(std::move(next)) != Next::kFrame) {
+      break;
+    }
     ++pairs;
     const auto states = tracker->track(frame);
     const double time_s = seconds(frame.time.time_since_epoch());

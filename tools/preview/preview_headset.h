@@ -39,6 +39,7 @@ class PreviewHeadset : public ForwardingHeadset {
     [[nodiscard]] std::span<const std::string> do_measured_tools() const override {
       return inner_.measured_tools();
     }
+    [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
     Result<Next> do_next(StereoFrame& frame) override;
 
     StereoCamera& inner_;

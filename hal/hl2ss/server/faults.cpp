@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "base/joined.h"
@@ -24,9 +25,23 @@ constexpr std::array<std::pair<std::string_view, double Faults::*>, 12> kProbabi
     {"scene_refuse", &Faults::scene_refuse},
     {"scene_cut", &Faults::scene_cut},
 }};
+constexpr std::array<std::pair<std::string_view, std::optional<std::int64_t> Faults::*>, 7> kFrom =
+    {{
+        {"freeze_pictures", &Faults::freeze_pictures},
+        {"freeze_left", &Faults::freeze_left},
+        {"freeze_right", &Faults::freeze_right},
+        {"freeze_poses", &Faults::freeze_poses},
+        {"shift_right", &Faults::shift_right},
+        {"only_left", &Faults::only_left},
+        {"clock_back", &Faults::clock_back},
+    }};
 constexpr const char* kKnown =
     "known are gap, lose, unlocated, reorder, stall, half, cut, misstamp, corrupt, "
-    "scene_stall, scene_refuse, scene_cut (probabilities), jump=PAIR and all";
+    "scene_stall, scene_refuse, scene_cut (probabilities), jump, freeze_pictures, freeze_left, "
+    "freeze_right, freeze_poses, shift_right, only_left, clock_back, lasting (numbers of pairs), "
+    "clock_back_s and all";
+constexpr double kMostPairs = 1e9;
+constexpr double kLongestClockBack_s = 3600.0;
 /// Probability of each fault if all are requested.
 constexpr double kALittle = 0.01;
 
@@ -44,8 +59,25 @@ Status apply(std::string_view item, Faults& faults) {
   const char* end = value.data() + value.size();
   const auto [rest, code] = std::from_chars(value.data(), end, number);
   const bool is_number = !value.empty() && code == std::errc{} && rest == end;
-  if (key == "jump" && is_number && number >= 0.0 && number <= 1e9) {
-    faults.jump_at.push_back(static_cast<std::int64_t>(number));
+  if (is_number && number >= 0.0 && number <= kMostPairs && number == std::floor(number)) {
+    const auto pair = static_cast<std::int64_t>(number);
+    if (key == "jump") {
+      faults.jump_at.push_back(pair);
+      return {};
+    }
+    if (key == "lasting") {
+      faults.lasting = pair;
+      return {};
+    }
+    for (const auto& [name, member] : kFrom) {
+      if (key == name) {
+        faults.*member = pair;
+        return {};
+      }
+    }
+  }
+  if (key == "clock_back_s" && is_number && number > 0.0 && number <= kLongestClockBack_s) {
+    faults.clock_back_by = from_seconds(number);
     return {};
   }
   for (const auto& [name, member] : kProbabilities) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/result.h"
+#include "base/time.h"
 #include "base/vec.h"
 
 namespace orthonav::hl2ss {
@@ -30,11 +32,30 @@ struct Faults {
   Vec3 jump_m{0.3, 0.05, -0.2};
   double jump_rad = 0.4;  ///< about +y
 
+  // From the pair with this number on, for `lasting` pairs or, if that is 0, to the end.
+  std::optional<std::int64_t> freeze_pictures;  ///< both cameras repeat their pictures
+  std::optional<std::int64_t> freeze_left;      ///< one of them does
+  std::optional<std::int64_t> freeze_right;
+  std::optional<std::int64_t> freeze_poses;  ///< every image is sent with the same pose
+  /// The right camera's images are stamped a pair late, so that left and right are of different
+  /// moments.
+  std::optional<std::int64_t> shift_right;
+  std::optional<std::int64_t> only_left;   ///< the right camera sends nothing
+  std::optional<std::int64_t> clock_back;  ///< the headset's clock is set back, but no sensor's
+  std::int64_t lasting = 0;
+  Duration clock_back_by = std::chrono::milliseconds(500);
+
+  /// Whether a fault from that pair on strikes the pair `number`.
+  [[nodiscard]] bool strikes(std::optional<std::int64_t> from, std::int64_t number) const {
+    return from && number >= *from && (lasting == 0 || number < *from + lasting);
+  }
+
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// "gap=0.02,cut=0.005,jump=300", or "all" for a little of each.
+/// "gap=0.02,cut=0.005,jump=300,freeze_left=90,lasting=60", or "all" for a little of each of the
+/// probable ones.
 Result<Faults> faults_of(std::string_view text);
 
 }  // namespace orthonav::hl2ss

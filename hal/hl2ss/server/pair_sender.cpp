@@ -18,10 +18,26 @@ constexpr int kSamplesAPair = kMicrophoneHz / 30;
 /// The first pairs open the connection and have no faults.
 constexpr std::int64_t kUntouchedPairs = 3;
 
+/// The picture as sent: while it is frozen, the one with which that began.
+const GreyImage& sent(const GreyImage& picture, bool frozen, GreyImage& kept) {
+  if (!frozen) {
+    kept.clear();
+    return picture;
+  }
+  if (kept.pixels.empty()) {
+    kept = picture;
+  }
+  return kept;
+}
+
 }  // namespace
 
 void PairSender::restart() {
   pairs_ = 0;
+  frozen_left_.clear();
+  frozen_right_.clear();
+  last_right_.clear();
+  frozen_pose_.reset();
   const MutexLock lock(mutex_);
   jumped_from_world_ = {};
 }
@@ -44,6 +60,7 @@ Result<bool> PairSender::send(Headset& headset, const StereoFrame& frame) {
   if (std::count(faults_.jump_at.begin(), faults_.jump_at.end(), number) > 0) {
     jump();
   }
+  back_ = strikes(faults_.clock_back) ? faults_.clock_back_by : Duration::zero();
   send_events(headset, frame);
   const bool gap = strikes(faults_.gap);
   const bool unlocated = strikes(faults_.unlocated);
@@ -51,26 +68,47 @@ Result<bool> PairSender::send(Headset& headset, const StereoFrame& frame) {
     return false;
   }
   CameraPort::Image image;
-  image.ticks = ticks_100ns(frame.time);
+  image.ticks = ticks_100ns(frame.time - back_);
   const Duration sensor_time = frame.time.time_since_epoch() + kSensorAhead;
   image.sensor_ticks = static_cast<std::uint64_t>(sensor_time.count());
-  image.picture = &frame.left;
+  const bool both_freeze = strikes(faults_.freeze_pictures);
+  image.picture = &sent(frame.left, strikes(faults_.freeze_left) || both_freeze, frozen_left_);
   image.spoil = number >= kUntouchedPairs;
+  const bool pose_freezes = strikes(faults_.freeze_poses);
   image.world_from_rig_after = [&](Duration after) {
-    return unlocated ? std::nullopt : world_from_rig(headset, frame, after);
+    const auto pose = unlocated ? std::nullopt : world_from_rig(headset, frame, after);
+    if (!pose_freezes) {
+      frozen_pose_.reset();
+      return pose;
+    }
+    if (!frozen_pose_) {
+      frozen_pose_ = pose;
+    }
+    return frozen_pose_;
   };
   const auto left = left_.send(image);
   image.ticks += kRightLaterTicks;
   image.sensor_ticks += static_cast<std::uint64_t>(kRightSensorAhead.count());
-  image.picture = &frame.right;
-  const auto right = right_.send(image);
+  image.picture = &sent(frame.right, strikes(faults_.freeze_right) || both_freeze, frozen_right_);
+  const bool shifts = strikes(faults_.shift_right) && !last_right_.pixels.empty();
+  GreyImage next_right;
+  if (faults_.shift_right) {
+    next_right = *image.picture;
+  }
+  if (shifts) {
+    image.picture = &last_right_;
+  }
+  const bool alone = strikes(faults_.only_left);
+  const auto right = alone ? Result<bool>(false) : right_.send(image);
+  last_right_ = std::move(next_right);
   if (!left) {
     return left;
   }
   if (!right) {
     return right;
   }
-  return *left && *right;
+  // While a clock that was set is doubted, nothing is taken.
+  return *left && *right && back_ == Duration::zero();
 }
 
 /// The pose in the client's world.
@@ -96,8 +134,11 @@ void PairSender::send_events(Headset& headset, const StereoFrame& frame) {
   std::vector<Phrase> phrases;
   (void)headset.clicker().poll(frame.time, clicks);
   (void)headset.voice().poll(frame.time, phrases);
+  for (Phrase& phrase : phrases) {
+    phrase.time -= back_;
+  }
   sides_.tell(clicks, phrases, {frame.time, headset.clock().now()});
-  const std::int64_t ticks = ticks_100ns(frame.time);
+  const std::int64_t ticks = ticks_100ns(frame.time - back_);
   // Two packets per pair, as on the headset. The head is the rig here, since it is not used for
   // navigation.
   std::optional<Transform<World, Eye>> head;
@@ -120,6 +161,12 @@ void PairSender::jump() {
   jumped_from_world_ =
       Transform<World, World>(rotation_from_vector({0, faults_.jump_rad, 0}), faults_.jump_m) *
       jumped_from_world_;
+}
+
+bool PairSender::strikes(const std::optional<std::int64_t>& from) {
+  const bool strike = faults_.strikes(from, pairs_ - 1);
+  struck_ += strike ? 1 : 0;
+  return strike;
 }
 
 bool PairSender::strikes(double probability) {

@@ -40,6 +40,8 @@ class PairSender {
   void send_events(Headset& headset, const StereoFrame& frame);
   void jump();
   bool strikes(double probability);
+  /// Whether a fault from that pair on strikes this one.
+  bool strikes(const std::optional<std::int64_t>& from);
 
   Faults faults_;
   Random random_;
@@ -48,6 +50,11 @@ class PairSender {
   SidePorts& sides_;
   std::int64_t pairs_ = 0;
   std::int64_t struck_ = 0;
+  GreyImage frozen_left_;
+  GreyImage frozen_right_;
+  GreyImage last_right_;
+  std::optional<Transform<World, Rig>> frozen_pose_;
+  Duration back_{};  ///< by which the headset's clock is set back
   mutable Mutex mutex_;
   Transform<World, World> jumped_from_world_ ORTHONAV_GUARDED_BY(mutex_);
 };

@@ -137,7 +137,7 @@ class RunningServer final : public Server {
     });
     const Timestamp now = headset.clock().now();
     const Duration latency = headset.display().predicted_display_time(now) - now;
-    sides_.greet({options_.paced, latency, now});
+    sides_.greet({options_.paced, latency, now, headset.cameras().may_repeat()});
     depth_.begin(headset);
   }
   void end_session() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/case/tool_file.h"
+#include "engine/session/wording.h"
 #include "engine/study/simulated_operation.h"
 #include "hal/fake/failing.h"
 #include "tests/engine/live/guiding_loop.h"
@@ -36,6 +37,7 @@ class WaitingCamera : public StereoCamera {
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return inner_.cameras().calibration();
   }
+  [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.cameras().may_repeat(); }
   Result<Next> do_next(StereoFrame& frame) override {
     auto next = inner_.cameras().next(frame);
     if (next && *next == Next::kNone) {
@@ -75,6 +77,79 @@ TEST_F(GuidingLoop, TakesGuidanceBackWhilePairsFail) {
   EXPECT_LE(frames[5].display_time - frames[4].pose_time,
             s.session().options().stale_after + kPair);
   EXPECT_TRUE(shows_triangle(frames[6])) << "and goes on with the next pair";
+}
+
+/// 50 pairs of a headset with sensors, of which those from 5 to 44 repeat something.
+fake::Script with_repeats(Repeated what) {
+  fake::Script script = pairs(50);
+  script.may_repeat = {};
+  for (int i = 0; i < 50; ++i) {
+    const auto number = [&](bool repeats) {
+      return static_cast<std::uint8_t>(repeats && i >= 5 && i < 45 ? 4 : i);
+    };
+    const bool both = what == Repeated::kBothPictures;
+    auto& frame = std::get<StereoFrame>(script.camera[static_cast<std::size_t>(i)]);
+    frame.left = GreyImage(640, 480, number(both || what == Repeated::kLeftPicture));
+    frame.right = GreyImage(640, 480, number(both || what == Repeated::kRightPicture));
+    frame.world_from_rig = Transform<World, Rig>(
+        Mat3::identity(), {1e-5 * number(what == Repeated::kHeadPose), 0.0, 0.0});
+  }
+  return script;
+}
+
+/// Keeps what the wearer is told while nothing guides.
+class Withdrawals : public LoopObserver {
+ public:
+  std::vector<std::string> told;
+  void withdrawn(const Guidance& guidance) override {
+    told.push_back(detail_text(guidance.status));
+  }
+};
+
+TEST_F(GuidingLoop, TakesGuidanceBackAndSaysWhyWhileAPictureOrThePoseRepeats) {
+  const std::pair<Repeated, const char*> cases[] = {
+      {Repeated::kLeftPicture, "left camera repeats its picture: nothing is guided"},
+      {Repeated::kRightPicture, "right camera repeats its picture: nothing is guided"},
+      {Repeated::kBothPictures, "both cameras repeat their pictures: nothing is guided"},
+      {Repeated::kHeadPose, "head tracking repeats its pose: nothing is guided"}};
+  for (const auto& [what, words] : cases) {
+    fake::FakeHeadset headset(with_repeats(what));
+    Withdrawals observer;
+    const auto report = run(headset, &observer);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_EQ(report->blanked, 1);
+    EXPECT_EQ(report->repeated, 41) << "and the first one after it, which is not trusted yet";
+    EXPECT_EQ(report->failures, 0);
+    EXPECT_THAT(observer.told, ::testing::ElementsAre(words, "ended"));
+    const auto frames = headset.display().frames();
+    // Five pairs, one frame that takes back, four pairs, the end.
+    ASSERT_EQ(frames.size(), 11u);
+    EXPECT_TRUE(shows_triangle(frames[4]));
+    EXPECT_FALSE(shows_triangle(frames[5]));
+    EXPECT_EQ(notice_of(frames[5]), Notice::kNoImages);
+    EXPECT_THAT(frames[5].status->text, ::testing::HasSubstr(words));
+    EXPECT_LE(frames[5].display_time - frames[4].pose_time,
+              s.session().options().stale_after + kPair);
+    EXPECT_TRUE(shows_triangle(frames[6])) << "and goes on";
+    s.pair();
+  }
+}
+
+/// Each picture twice, as from a stream at twice its camera's rate: guided on the first of both.
+TEST_F(GuidingLoop, LeavesOutASecondOfTheSamePictureAlone) {
+  fake::Script script = pairs(20);
+  script.may_repeat = {};
+  for (int i = 0; i < 20; ++i) {
+    auto& frame = std::get<StereoFrame>(script.camera[static_cast<std::size_t>(i)]);
+    frame.left = frame.right = GreyImage(640, 480, static_cast<std::uint8_t>(i / 2));
+    frame.world_from_rig = Transform<World, Rig>(Mat3::identity(), {1e-5 * i, 0.0, 0.0});
+  }
+  fake::FakeHeadset headset(std::move(script));
+  const auto report = run(headset);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->repeated, 10);
+  EXPECT_EQ(report->displayed, 10);
+  EXPECT_EQ(report->blanked, 0);
 }
 
 TEST_F(GuidingLoop, TakesGuidanceBackWhileNoPairComes) {

@@ -53,6 +53,7 @@ class EventfulCamera : public StereoCamera {
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return inner_.calibration();
   }
+  [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
   Result<Next> do_next(StereoFrame& frame) override {
     if (pair_++ == at_.pair) {
       at_.happens();

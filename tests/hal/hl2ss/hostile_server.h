@@ -43,7 +43,7 @@ class HostileServer {
     const GreyImage picture(640, 480, static_cast<std::uint8_t>(turn));
     auto packet = image_packet(ticks_of(turn) + later, picture.pixels,
                                {static_cast<std::uint64_t>(100 * ticks_of(turn)), 1, 1});
-    append_pose(packet, Transform<World, Rig>{});
+    append_pose(packet, Transform<World, Rig>(Mat3::identity(), {1e-5 * double(turn), 0, 0}));
     return packet;
   }
   static std::vector<std::uint8_t> depth_payload() {

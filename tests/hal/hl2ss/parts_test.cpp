@@ -96,6 +96,18 @@ TEST(BootClock, StandsStillWhilePaced) {
   EXPECT_LT(clock.now(), Timestamp(seconds(60)));
 }
 
+/// An offset from before the clock was set back would make every pair look older by that much.
+TEST(BootClock, ForgetsWhatItHeardBeforeTheClockWasSet) {
+  BootClock clock;
+  const HostTime now = HostClock::now();
+  clock.heard(Timestamp(seconds(500)), now);
+  clock.restart();
+  clock.heard(Timestamp(seconds(400)), now);
+  EXPECT_EQ(clock.offset(), Timestamp(seconds(400)).time_since_epoch() -
+                                std::chrono::duration_cast<Duration>(now.time_since_epoch()));
+  EXPECT_GE(clock.now(), Timestamp(seconds(500))) << "but never goes back";
+}
+
 TEST(ArrivalMeter, MeasuresGapsJitterAndOrder) {
   ArrivalMeter meter("left camera", Duration(33'333'333));
   const auto hears = [&](int stamp_ms, int at_ms) {
@@ -270,6 +282,18 @@ TEST(Faults, AreReadFromText) {
   EXPECT_THAT(faults_of("gap").error().message, HasSubstr("known are gap, lose"));
   EXPECT_THAT(faults_of("gap=2").error().message, HasSubstr("gap must lie in [0, 1]"));
   EXPECT_THAT(faults_of("gap=nan").error().message, HasSubstr("gap must lie"));
+  const auto frozen = faults_of("freeze_left=90,lasting=60,clock_back=5,clock_back_s=0.25");
+  ASSERT_TRUE(frozen.ok()) << frozen.error().message;
+  EXPECT_EQ(frozen->freeze_left, 90);
+  EXPECT_FALSE(frozen->strikes(frozen->freeze_left, 89));
+  EXPECT_TRUE(frozen->strikes(frozen->freeze_left, 149));
+  EXPECT_FALSE(frozen->strikes(frozen->freeze_left, 150));
+  EXPECT_EQ(frozen->clock_back_by, milliseconds(250));
+  EXPECT_FALSE(frozen->freeze_right.has_value());
+  EXPECT_TRUE(faults_of("freeze_poses=0")->strikes(0, 100'000)) << "to the end";
+  for (const char* bad : {"freeze_left=1.5", "freeze_left=-1", "only_left", "clock_back_s=0"}) {
+    EXPECT_THAT(faults_of(bad).error().message, HasSubstr("is not understood")) << bad;
+  }
 }
 
 TEST(PairMailbox, TellsALossOnceAndADeathAtEveryQuestion) {

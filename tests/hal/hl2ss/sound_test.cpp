@@ -15,7 +15,6 @@ using orthonav::test::ServedRoom;
 TEST(SoundOfAHeadset, IsTheMeanOfBothChannels) {
   sim::SimOptions sim;
   sim.surgeon = false;
-  sim.render = false;
   sim.limit_s = 60.0;
   sim.pace = sim::Pace::kRealtime;
   ServerOptions server;
@@ -49,7 +48,6 @@ TEST(SoundOfAHeadset, IsTheMeanOfBothChannels) {
 TEST(SoundOfAHeadset, IsDroppedWhereNobodyReads) {
   sim::SimOptions sim;
   sim.surgeon = false;
-  sim.render = false;
   sim.limit_s = 60.0;
   ServerOptions server;
   server.paced = true;

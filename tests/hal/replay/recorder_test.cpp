@@ -9,10 +9,12 @@
 #include <thread>
 
 #include "hal/fake/failing.h"
+#include "hal/replay/layout.h"
 #include "hal/replay/replay_headset.h"
 #include "tests/hal/replay/recorded.h"
 #include "tests/support/recorded_session.h"
 #include "tests/support/scripted_session.h"
+#include "tests/support/stream_recorder_folder.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orthonav::replay::recorder_test {
@@ -59,6 +61,46 @@ TEST(Recorder, RecordsAReplayAsTheSameFiles) {
   }
   constexpr int kFilesOfARecording = 15 + 2 * 5 + 1;  // two depth streams, the map of one
   EXPECT_EQ(files, kFilesOfARecording);
+}
+
+/// What a device without sensors says of itself is recorded with it; of any other recording, old
+/// pictures and poses under new times are refused.
+TEST(Recorder, KeepsWhetherItsPairsMayRepeat) {
+  fake::Script script = scripted_session();
+  script.may_repeat = {true, true};
+  StereoFrame* before = nullptr;
+  for (fake::CameraStep& step : script.camera) {
+    auto* frame = std::get_if<StereoFrame>(&step);
+    if (frame && before && frame->sequence == 2) {
+      frame->right = before->right;
+    }
+    if (frame && before && frame->sequence == 10) {
+      frame->world_from_rig = before->world_from_rig;
+    }
+    before = frame ? frame : before;
+  }
+  const TemporaryFolder folder;
+  const SessionLog live = record(headset(script), folder / "session");
+  EXPECT_TRUE(live.errors.empty());
+  {
+    auto replayed = ReplayHeadset::open(folder / "session");
+    ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+    expect_same(play(**replayed), live);
+  }
+  const auto device = folder / "session" / kDeviceFile;
+  std::string text = content_of(device);
+  for (const std::string key : {"pictures_may_repeat,1\n", "head_pose_may_repeat,1\n"}) {
+    ASSERT_NE(text.find(key), std::string::npos) << text;
+    text.erase(text.find(key), key.size());
+  }
+  orthonav::test::write_text(device, text);
+  auto of_sensors = ReplayHeadset::open(folder / "session");
+  ASSERT_TRUE(of_sensors.ok()) << of_sensors.error().message;
+  const SessionLog log = play(**of_sensors);
+  EXPECT_EQ(log.moments.size(), live.moments.size() - 2);
+  ASSERT_EQ(log.errors.size(), 2u);
+  EXPECT_NE(log.errors[0].find("the right camera repeats its picture"), std::string::npos);
+  EXPECT_NE(log.errors[1].find("head tracking repeats its pose"), std::string::npos);
 }
 
 TEST(Recorder, KeepsWhenTheMapMoved) {

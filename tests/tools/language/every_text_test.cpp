@@ -177,6 +177,9 @@ TEST_F(EveryText, OfTheMessagesIsTranslated) {
         Message(ScrewRedone{0.0034, 0.0018}), Message(NoImages{}), Message(Ended{})}) {
     expect_said(message);
   }
+  for (const Repeated repeats : each_up_to(Repeated::kHeadPose)) {
+    expect_said(NoImages{repeats});
+  }
   EXPECT_EQ(std::variant_size_v<Message>, 27u) << "a new message belongs here";
 }
 
