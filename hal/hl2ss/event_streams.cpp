@@ -145,7 +145,14 @@ void VoiceStream::hear(const VoiceResult& result, HostTime at) {
   }
   const Timestamp time = spoken_at(result, at);
   meter_.counted();
-  inbox_.put({phrases_[result.index], result.confidence_of_phrase(), time});
+  const std::string& text = phrases_[result.index];
+  if (inbox_.put({text, result.confidence_of_phrase(), time})) {
+    return;
+  }
+  // What was said after it has been answered already. It is shown as not sure, so that it is said
+  // again, and not acted upon.
+  while (!inbox_.put({text, 0.0, inbox_.last_taken().value_or(time)})) {
+  }
 }
 
 }  // namespace orthonav::hl2ss
