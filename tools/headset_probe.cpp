@@ -68,6 +68,8 @@ Result<std::vector<Offer>> offers_of_recording(const std::string& folder) {
            " without a pose, " +
            (summary.missing > 0 ? std::to_string(summary.missing) + " missing by their numbers, "
                                 : "") +
+           (summary.map_jumps > 0 ? "its map jumps " + how_many(summary.map_jumps, "time") + ", "
+                                  : "") +
            span_after(start, start, summary.last_ticks_100ns),
        ""}};
   if (!summary.cut.empty()) {

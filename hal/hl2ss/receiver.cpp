@@ -194,6 +194,10 @@ void Receiver::take(CameraSide side, CameraImage& image) {
 void Receiver::publish(const Pairer::Pair& pair) {
   // The right camera's pose may be of a different moment; the pair uses the left one's.
   const auto& pose = pair.left.world_from_rig;
+  // Stamps that repeat are not delivered, but the watch must know of them.
+  if (pose && map_.moved(pair.left.time, *pose)) {
+    ++map_epoch_;
+  }
   if (newest_pair_ && pair.left.time <= *newest_pair_) {
     ++late_pairs_;
     return;
@@ -205,9 +209,6 @@ void Receiver::publish(const Pairer::Pair& pair) {
     came_until_pair_[i] = came(streams_[i].meter->statistics());
   }
   was_lost_ = false;
-  if (pose && map_.moved(pair.left.time, *pose)) {
-    ++map_epoch_;
-  }
   // The head first, since the pair's consumer asks for it at once.
   if (pose) {
     head_.add(pair.left.time, *pose, map_epoch_);

@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "base/mutex.h"
+#include "hal/api/map_watch.h"
 #include "hal/hl2ss/connection.h"
 #include "hal/hl2ss/event_streams.h"
-#include "hal/hl2ss/map_watch.h"
+#include "hal/hl2ss/head_track.h"
 #include "hal/hl2ss/options.h"
 #include "hal/hl2ss/pair_mailbox.h"
 #include "hal/hl2ss/scene_stream.h"

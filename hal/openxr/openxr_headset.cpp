@@ -1,7 +1,9 @@
 #include "hal/openxr/openxr_headset.h"
 
+#include <atomic>
 #include <utility>
 
+#include "hal/api/map_watch.h"
 #include "hal/openxr/shared_clicker.h"
 #include "hal/openxr/xr_display.h"
 
@@ -15,12 +17,22 @@ Mount mount_of(const RigOnHead& rig) {
 }
 
 /// The other headset's pairs; with the display's poses and maps if the cameras are mounted on it.
+/// Not every runtime tells when its map moves, so the poses are watched as well.
 class Cameras : public StereoCamera, private PairTap {
  public:
   Cameras(StereoCamera& inner, const XrDisplay& display, bool mounted)
       : inner_(inner), display_(display), mounted_(mounted) {}
+  /// When the newest map began that the runtime did not tell of. From any thread.
+  [[nodiscard]] Timestamp jumped() const { return jumped_.load(); }
 
  private:
+  /// The maps of one run of pairs: those that `next` returns, or those that the tap sees.
+  struct Maps {
+    MapWatch watch;
+    std::int64_t told_epoch = 0;
+    std::int64_t jumps = 0;  ///< that the runtime did not tell of
+  };
+
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return inner_.calibration();
   }
@@ -32,7 +44,9 @@ class Cameras : public StereoCamera, private PairTap {
     if (!answer || *answer != Next::kFrame) {
       return answer;
     }
-    place(frame);
+    if (place(frame, next_)) {
+      jumped_ = frame.time;
+    }
     return answer;
   }
   bool do_tap(PairTap* tap) override {
@@ -42,39 +56,60 @@ class Cameras : public StereoCamera, private PairTap {
   }
   void received(const StereoFrame& pair) override {
     placed_ = pair;
-    place(placed_);
+    static_cast<void>(place(placed_, received_));
     tap_->received(placed_);
   }
-  void place(StereoFrame& frame) const {
+  /// Whether the map jumped there untold.
+  bool place(StereoFrame& frame, Maps& maps) const {
+    const std::int64_t told_epoch = display_.map_epoch(frame.time);
+    const bool is_told = std::exchange(maps.told_epoch, told_epoch) != told_epoch;
+    bool jumped = false;
     if (mounted_) {
       const auto pose = display_.world_from_rig(frame.time);
       frame.world_from_rig.reset();
       if (pose.status == PoseStatus::kMeasured) {
         frame.world_from_rig = pose.value;
+        if (is_told) {
+          maps.watch.break_off();
+        }
+        jumped = maps.watch.moved(frame.time, pose.value) && !is_told;
       }
     }
-    frame.map_epoch += display_.map_epoch(frame.time);
+    maps.jumps += jumped ? 1 : 0;
+    frame.map_epoch += told_epoch + maps.jumps;
+    return jumped;
   }
 
-  PairTap* tap_ = nullptr;
-  StereoFrame placed_;  ///< for the tap, on its thread
   StereoCamera& inner_;
   const XrDisplay& display_;
   bool mounted_;
+  Maps next_;
+  std::atomic<Timestamp> jumped_{Timestamp::min()};
+  // On the thread that receives pairs.
+  PairTap* tap_ = nullptr;
+  StereoFrame placed_;
+  Maps received_;
 };
 
 class Head : public HeadTracker {
  public:
-  Head(const HeadTracker& inner, const XrDisplay& display, bool mounted)
-      : inner_(inner), display_(display), mounted_(mounted) {}
+  Head(const HeadTracker& inner, const XrDisplay& display, const Cameras& cameras, bool mounted)
+      : inner_(inner), display_(display), cameras_(cameras), mounted_(mounted) {}
 
  private:
   [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
-    return mounted_ ? display_.world_from_rig(at) : inner_.world_from_rig(at);
+    if (!mounted_) {
+      return inner_.world_from_rig(at);
+    }
+    if (at < cameras_.jumped()) {
+      return {{}, at, PoseStatus::kLost, {}};
+    }
+    return display_.world_from_rig(at);
   }
 
   const HeadTracker& inner_;
   const XrDisplay& display_;
+  const Cameras& cameras_;
   bool mounted_;
 };
 
@@ -107,7 +142,7 @@ class Composite : public OpenxrHeadset {
         inner_(std::move(cameras)),
         pixels_(mount_of(rig), inner_->clock(), inner_->head()),
         cameras_(inner_->cameras(), pixels_, rig.mounted),
-        head_(inner_->head(), pixels_, rig.mounted),
+        head_(inner_->head(), pixels_, cameras_, rig.mounted),
         clicker_(pixels_, inner_->clicker()),
         words_(inner_->display(), inner_->clock(), pixels_, rig.mounted) {}
 

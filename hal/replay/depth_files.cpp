@@ -8,6 +8,7 @@
 #include "hal/replay/frame_files.h"
 #include "hal/replay/hololens1_files.h"
 #include "hal/replay/layout.h"
+#include "hal/replay/map_jumps.h"
 #include "hal/replay/text.h"
 
 namespace orthonav::replay {
@@ -107,8 +108,15 @@ void add_brightness(RecordedDepth& depth) {
   depth.summary.brightness_unpaired = static_cast<std::int64_t>(images.size()) - used;
 }
 
+/// The poses, and the maps that begin where they jump.
 void add_poses(const PosesByTicks& poses, RecordedDepth& depth) {
+  EpochsByTicks recorded;
+  for (const RecordedDepthFrame& frame : depth.frames) {
+    recorded.emplace(frame.range.ticks, frame.map_epoch);
+  }
+  const auto jumps = map_jumps(poses, recorded);
   for (RecordedDepthFrame& frame : depth.frames) {
+    frame.map_epoch += jumps_until(jumps, frame.range.ticks);
     const auto found = poses.find(frame.range.ticks);
     if (found != poses.end()) {
       frame.world_from_rig = found->second;

@@ -71,13 +71,21 @@ Status add_listed(const std::filesystem::path& folder, Recording& recording) {
   return {};
 }
 
+EpochsByTicks recorded_epochs(const Recording& recording) {
+  EpochsByTicks epochs;
+  for (const RecordedPair& pair : recording.pairs) {
+    epochs.emplace(pair.left.ticks, pair.map_epoch);
+  }
+  return epochs;
+}
+
 Status add_poses(const std::filesystem::path& path, const PosesByTicks& poses,
-                 Recording& recording) {
+                 const std::vector<std::int64_t>& jumps, Recording& recording) {
+  const EpochsByTicks recorded = recorded_epochs(recording);
   std::map<std::int64_t, Timestamp> exact_times;
-  std::map<std::int64_t, std::int64_t> map_epochs;
   for (RecordedPair& pair : recording.pairs) {
     exact_times.emplace(pair.left.ticks, pair.time);
-    map_epochs.emplace(pair.left.ticks, pair.map_epoch);
+    pair.map_epoch += jumps_until(jumps, pair.left.ticks);
     const auto found = poses.find(pair.left.ticks);
     if (found != poses.end()) {
       pair.world_from_rig = found->second;
@@ -87,6 +95,7 @@ Status add_poses(const std::filesystem::path& path, const PosesByTicks& poses,
   }
   std::vector<HeadSample> samples;
   samples.reserve(poses.size());
+  std::int64_t jumped = 0;
   for (const auto& [ticks, pose] : poses) {
     const auto exact = exact_times.find(ticks);
     const auto time = exact != exact_times.end()
@@ -95,12 +104,13 @@ Status add_poses(const std::filesystem::path& path, const PosesByTicks& poses,
     if (!time) {
       return time.error();
     }
-    // A pose without a pair belongs to the map of the next pair, or of the last one.
-    const auto epoch = map_epochs.lower_bound(ticks);
-    samples.push_back(
-        {*time, pose, (epoch == map_epochs.end() ? std::prev(epoch) : epoch)->second});
+    samples.push_back({*time, pose, epoch_at(recorded, ticks) + jumps_until(jumps, ticks)});
+    if (std::exchange(jumped, jumps_until(jumps, ticks)) != jumps_until(jumps, ticks)) {
+      recording.jumps.push_back(*time);
+    }
   }
   recording.head = HeadHistory(std::move(samples));
+  recording.summary.map_jumps = static_cast<std::int64_t>(jumps.size());
   return {};
 }
 

@@ -161,9 +161,10 @@ Status add_camera_poses(const std::filesystem::path& folder, Recording& recordin
       }
     }
   }
+  const auto jumps = map_jumps(*poses, recorded_epochs(recording));
   const bool is_late = recording.stamps_late != Duration::zero();
-  return add_poses(path, is_late ? poses_at_exposure(*poses, recording.stamps_late) : *poses,
-                   recording);
+  return add_poses(path, is_late ? poses_at_exposure(*poses, recording.stamps_late, jumps) : *poses,
+                   jumps, recording);
 }
 
 /// StreamRecorder's and our own.
@@ -211,7 +212,7 @@ Status read_hololens1(const std::filesystem::path& folder, Recording& recording)
     return right.error();
   }
   if (Status s = add_poses(folder / (std::string(kHololens1Left) + ".csv"), left->world_from_rig,
-                           recording);
+                           map_jumps(left->world_from_rig, recorded_epochs(recording)), recording);
       !s) {
     return s;
   }

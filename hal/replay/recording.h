@@ -42,6 +42,8 @@ struct Recording {
   ImageTar right;
   std::vector<RecordedPair> pairs;
   HeadHistory head;
+  /// When each map begins that the recording itself does not tell of.
+  std::vector<Timestamp> jumps;
   HeadAnswers head_answers;
   RecordedEvents events;
   std::int64_t epoch_ticks_100ns = 0;

@@ -1,5 +1,6 @@
 #include "hal/replay/replay_headset.h"
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <utility>
@@ -89,8 +90,13 @@ class ReplayHead : public HeadTracker {
   const Progress& progress_;
 
   [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
+    const Timestamp known_until = progress_.frame_time.load();
     const auto answered = recording_.head_answers.find(progress_.sequence.load(), at);
-    return answered ? *answered : recording_.head.at(at, progress_.frame_time.load());
+    // A device that did not notice a jump answered for the time before it too.
+    const bool is_of_older_map =
+        std::any_of(recording_.jumps.begin(), recording_.jumps.end(),
+                    [&](Timestamp jump) { return at < jump && jump <= known_until; });
+    return answered && !is_of_older_map ? *answered : recording_.head.at(at, known_until);
   }
 };
 

@@ -37,6 +37,7 @@ struct RecordingSummary {
   std::int64_t repeated = 0;        ///< images with a repeated time of their camera
   std::int64_t pairs_without_pose = 0;
   std::int64_t missing = 0;         ///< pairs by their numbers: lost, or not taken in time
+  std::int64_t map_jumps = 0;       ///< found in the poses, without those that it tells of
   std::string cut;                  ///< in one line, where it was truncated; empty: it was finished
   std::vector<DepthSummary> depth;  ///< of each stream; an unreadable one is not among the cameras
 };
@@ -78,10 +79,11 @@ struct ReplayOptions {
 ///
 /// Depth streams are its depth cameras. A damaged one is left out, and the summary says why: a
 /// session needs only pairs. A truncated one is read up to its last whole pair, and the summary
-/// says where. The time of a pair is its left image's. The head is known up to the last frame,
-/// predicted beyond it, lost where two recorded poses lie more than HeadTracker::kMaxHeadPrediction
-/// apart. The tools are described by the text of its tools.json, if there is one. The display shows
-/// nothing; its latency is the recorded one.
+/// says where. The time of a pair is its left image's. Where the poses jump as no head moves, a new
+/// map begins, as with a live headset, besides those that the recording tells of. The head is known
+/// up to the last frame, predicted beyond it, lost where two recorded poses lie more than
+/// HeadTracker::kMaxHeadPrediction apart. The tools are described by the text of its tools.json, if
+/// there is one. The display shows nothing; its latency is the recorded one.
 class ReplayHeadset : public Headset {
  public:
   /// Refuses, in one line that names file, field, value and limit, anything missing, not finite,

@@ -4,7 +4,7 @@
 
 #include "hal/hl2ss/arrival_meter.h"
 #include "hal/hl2ss/boot_clock.h"
-#include "hal/hl2ss/map_watch.h"
+#include "hal/hl2ss/head_track.h"
 #include "hal/hl2ss/options.h"
 #include "hal/hl2ss/pair_mailbox.h"
 #include "hal/hl2ss/server/faults.h"
@@ -132,68 +132,6 @@ Timestamp pair_time(int n) { return Timestamp(Duration(33'333'333) * n); }
 Transform<World, Rig> head_at(int n) {
   const double t = n / 30.0;
   return {rotation_from_vector({0.0, 1.2 * t, 0.2}), {0.5 * t, 1.6, 0.1}};
-}
-
-TEST(MapWatch, LetsAHeadMove) {
-  MapWatch watch;
-  for (int n = 0; n < 300; ++n) {
-    if (n % 17 == 5) {
-      continue;  // gaps
-    }
-    EXPECT_FALSE(watch.moved(pair_time(n), head_at(n))) << n;
-  }
-}
-
-TEST(MapWatch, LetsAHeadStartAndStopAsFastAsHeadsDo) {
-  MapWatch watch;
-  double speed = 0.0;
-  double place = 0.0;
-  for (int n = 0; n < 60; ++n) {
-    speed += n % 20 < 5 ? 20.0 / 30.0 : (n % 20 >= 15 ? -20.0 / 30.0 : 0.0);
-    if (std::abs(speed) > 1.5) {
-      speed = std::copysign(1.5, speed);
-    }
-    place += speed / 30.0;
-    EXPECT_FALSE(watch.moved(pair_time(n), {Mat3::identity(), {place, 0, 0}})) << n;
-  }
-}
-
-TEST(MapWatch, FindsAJumpOnceAndGoesOn) {
-  const Transform<World, World> moved(rotation_from_vector({0, 0.3, 0}), {0.06, 0, 0});
-  MapWatch watch;
-  int moves = 0;
-  for (int n = 0; n < 60; ++n) {
-    moves += watch.moved(pair_time(n), n < 30 ? head_at(n) : moved * head_at(n)) ? 1 : 0;
-  }
-  EXPECT_EQ(moves, 1);
-}
-
-TEST(MapWatch, FindsAShiftOfSixCentimetres) {
-  for (const double translation_m : {0.06, 0.02}) {
-    MapWatch watch;
-    int moves = 0;
-    for (int n = 0; n < 20; ++n) {
-      moves += watch.moved(pair_time(n), {Mat3::identity(), {n < 10 ? 0.0 : translation_m, 0, 0}});
-    }
-    EXPECT_EQ(moves, translation_m > 0.05 ? 1 : 0) << "the smaller one may be a head's start";
-  }
-}
-
-/// A head that moves on steadily while stamps leap: the poses show that the map stayed.
-TEST(MapWatch, IsNotMovedByAStamp) {
-  MapWatch watch;
-  for (int n = 0; n < 300; ++n) {
-    const bool back = n % 7 == 6;
-    EXPECT_FALSE(watch.moved(pair_time(n) - milliseconds(back ? 100 : 0), head_at(n))) << n;
-  }
-}
-
-TEST(MapWatch, VouchesForNothingAfterALongSilence) {
-  for (const int silence_s : {9, 11}) {
-    MapWatch watch;
-    EXPECT_FALSE(watch.moved(pair_time(0), head_at(0)));
-    EXPECT_EQ(watch.moved(pair_time(0) + seconds(silence_s), head_at(0)), silence_s > 10);
-  }
 }
 
 TEST(HeadTrack, KnowsBetweenPosesAndALittleBeyond) {

@@ -210,6 +210,24 @@ TEST_F(MountedTest, TheMapsEpochRisesWithAMoveAndANewSession) {
   EXPECT_EQ(epoch(), 2);
 }
 
+TEST_F(MountedTest, TheMapsEpochRisesWithAJumpThatTheRuntimeDoesNotTellOf) {
+  StereoFrame frame;
+  const auto at = [](float x) {
+    return [x](XrTime) { return XrPosef{{0, 0, 0, 1}, {x, 1.6f, 0}}; };
+  };
+  runtime().set_head(at(0));
+  ASSERT_TRUE(next_frame(frame));
+  ASSERT_TRUE(next_frame(frame));
+  const Timestamp before = frame.time;
+  EXPECT_EQ(frame.map_epoch, 0);
+  runtime().set_head(at(0.02f));
+  EXPECT_EQ(epoch(), 0) << "the twin: a head's move";
+  runtime().set_head(at(0.423f));
+  EXPECT_EQ(epoch(), 1);
+  EXPECT_EQ(epoch(), 1);
+  EXPECT_EQ(headset_->head().world_from_rig(before).status, PoseStatus::kLost);
+}
+
 TEST_F(MountedTest, WithoutSessionTheHeadIsLostAndPairsHaveNoPose) {
   presenter_->stop();
   StereoFrame frame;

@@ -110,6 +110,21 @@ TEST(Hololens1, ComesBackAsItWasWritten) {
   EXPECT_EQ((*replay)->summary().pairs_without_pose, 1);
 }
 
+TEST(Hololens1, BeginsANewMapWhereThePosesJump) {
+  std::vector<StereoFrame> frames = frames_of_noise();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].world_from_rig = Transform<World, Rig>(Mat3::identity(), {i < 2 ? 0.0 : 0.423, 0, 0});
+  }
+  const Hololens1Folder folder(skewed_cameras(), frames);
+  const auto replay = ReplayHeadset::open(folder.path());
+  ASSERT_TRUE(replay.ok()) << replay.error().message;
+  StereoFrame frame;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    ASSERT_EQ(*(*replay)->cameras().next(frame), Next::kFrame);
+    EXPECT_EQ(frame.map_epoch, i < 2 ? 0 : 1) << i;
+  }
+}
+
 TEST(ReplayPace, FollowsTheWallInRealTime) {
   const Hololens1Folder folder(skewed_cameras(), frames_of_noise());
   fake::ManualClock wall;

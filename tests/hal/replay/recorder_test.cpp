@@ -124,6 +124,37 @@ TEST(Recorder, KeepsWhenTheMapMoved) {
   EXPECT_GT(log.moments.back().frame.map_epoch, 0);
 }
 
+/// The map jumps at the sixth pair, and the recorded device knows of it or does not.
+TEST(Recorder, KeepsWhatTheDeviceSaysOfAJumpAndAddsWhatItDoesNot) {
+  for (const std::int64_t known : {3, 0}) {
+    fake::Script script = scripted_session();
+    int pair = 0;
+    for (fake::CameraStep& step : script.camera) {
+      if (auto* frame = std::get_if<StereoFrame>(&step); frame != nullptr && ++pair >= 6) {
+        frame->map_epoch = known;
+        if (frame->world_from_rig) {
+          frame->world_from_rig =
+              Transform<World, World>(Mat3::identity(), {0.423, 0, 0}) * *frame->world_from_rig;
+        }
+      }
+    }
+    const TemporaryFolder folder;
+    const SessionLog live = record(std::make_unique<fake::FakeHeadset>(script), folder / "session");
+    auto replayed = ReplayHeadset::open(folder / "session");
+    ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+    const SessionLog log = play(**replayed);
+    if (known != 0) {
+      expect_same(live, log);
+      continue;
+    }
+    ASSERT_EQ(log.moments.size(), live.moments.size());
+    EXPECT_EQ(log.moments.front().frame.map_epoch, 0);
+    EXPECT_EQ(log.moments.back().frame.map_epoch, 1);
+    const Timestamp first = log.moments.front().frame.time;
+    EXPECT_EQ((*replayed)->head().world_from_rig(first).status, PoseStatus::kLost);
+  }
+}
+
 TEST(Recorder, WritesTheLayoutThatOtherReadersKnow) {
   const TemporaryFolder folder;
   record(headset(), folder / "session");

@@ -243,6 +243,69 @@ TEST_F(ReplayedHead, AnswersEveryTimeThereIs) {
   }
 }
 
+/// Twelve poses of a head that rests, in a map that jumps along x at the sixth; images from some
+/// pair on.
+class JumpingFolder {
+ public:
+  explicit JumpingFolder(double jump_m, int first_image = 0)
+      : folder_(ticks_from(first_image), ticks_from(first_image)) {
+    std::string poses;
+    for (int n = 0; n < kPoses; ++n) {
+      poses += std::to_string(StreamRecorderFolder::kStart + n * kFrame) + ",1,0,0," +
+               std::to_string(n < 6 ? 0.0 : jump_m) + ",0,1,0,1.6,0,0,1,0,0,0,0,1\n";
+    }
+    folder_.write("VLC LF_rig2world.txt", poses);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
+
+ private:
+  static constexpr int kPoses = 12;
+  StreamRecorderFolder folder_;
+
+  static std::vector<std::int64_t> ticks_from(int first) {
+    std::vector<std::int64_t> ticks;
+    for (int n = first; n < kPoses; ++n) {
+      ticks.push_back(n * kFrame);
+    }
+    return ticks;
+  }
+};
+
+TEST(ReplayedMap, BeginsAnewWhereThePosesJump) {
+  for (const auto stamps : {RecordedStamps::kExact, RecordedStamps::kByRecorder}) {
+    // The smallest is found live too; 4 cm may be a head's start.
+    for (const double jump_m : {0.423, 0.06, 0.04}) {
+      const JumpingFolder folder(jump_m);
+      const auto headset = opened(folder.path(), stamps);
+      ASSERT_TRUE(headset);
+      const bool jumps = jump_m > 0.05;
+      EXPECT_EQ(headset->summary().map_jumps, jumps ? 1 : 0) << jump_m;
+      StereoFrame frame;
+      Timestamp fourth{};
+      for (int n = 0; n < 12; ++n) {
+        ASSERT_EQ(*headset->cameras().next(frame), Next::kFrame);
+        fourth = n == 4 ? frame.time : fourth;
+        EXPECT_EQ(frame.map_epoch, jumps && n >= 6 ? 1 : 0) << jump_m << ", pair " << n;
+        if (jumps) {
+          EXPECT_EQ(frame.world_from_rig->translation().x, n < 6 ? 0.0 : jump_m) << n;
+        }
+      }
+      const auto before = headset->head().world_from_rig(fourth);
+      EXPECT_EQ(before.status, jumps ? PoseStatus::kLost : PoseStatus::kMeasured) << jump_m;
+    }
+  }
+}
+
+TEST(ReplayedMap, JumpsAtAPoseWithoutAPair) {
+  const JumpingFolder folder(0.423, 8);
+  const auto headset = opened(folder.path());
+  ASSERT_TRUE(headset);
+  EXPECT_EQ(headset->summary().map_jumps, 1);
+  StereoFrame frame;
+  ASSERT_EQ(*headset->cameras().next(frame), Next::kFrame);
+  EXPECT_EQ(frame.map_epoch, 1);
+}
+
 TEST(Sample, GivesEveryPairAndPoseOfTheRecordingBesideTheProject) {
   const std::filesystem::path path =
       std::filesystem::path(ORTHONAV_SHARED_DIR) / "recordings" / "streamrecorder-sample";
@@ -271,6 +334,7 @@ TEST(Sample, GivesEveryPairAndPoseOfTheRecordingBesideTheProject) {
     EXPECT_TRUE(times.contains(std::stoll(line))) << line;
   }
   EXPECT_EQ(headset->cameras().calibration().left_from_rig.rotation()[0][1], 1.0);
+  EXPECT_EQ(headset->summary().map_jumps, 0);
 }
 
 }  // namespace

@@ -9,28 +9,6 @@
 
 namespace orthonav::hl2ss {
 
-/// Detects that the map has moved: two consecutive poses show a motion that no head could have
-/// made. A wrong stamp alone does not count.
-class MapWatch {
- public:
-  /// Takes the next pose; true if World has changed from this pose on. A pose no later than the one
-  /// before is ignored.
-  bool moved(Timestamp time, const Transform<World, Rig>& world_from_rig);
-  /// The next pose lies in another map.
-  void break_off() { broken_off_ = true; }
-
- private:
-  struct Seen {
-    Timestamp time{};
-    Transform<World, Rig> world_from_rig;
-  };
-  [[nodiscard]] bool is_possible(const Seen& next) const;
-
-  std::optional<Seen> last_;
-  std::optional<Seen> before_;  ///< the one before it, close enough in time to give a speed
-  bool broken_off_ = false;
-};
-
 /// Poses of the last seconds. The head is measured at and between them, predicted at constant
 /// velocity beyond, and lost where they lie too far apart or in another map. Thread-safe.
 class HeadTrack final : public HeadTracker {
