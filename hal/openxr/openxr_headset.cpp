@@ -62,13 +62,13 @@ class Cameras : public StereoCamera, private PairTap {
   /// Whether the map jumped there untold.
   bool place(StereoFrame& frame, Maps& maps) const {
     const std::int64_t told_epoch = display_.map_epoch(frame.time);
-    const bool is_told = std::exchange(maps.told_epoch, told_epoch) != told_epoch;
     bool jumped = false;
     if (mounted_) {
       const auto pose = display_.world_from_rig(frame.time);
       frame.world_from_rig.reset();
       if (pose.status == PoseStatus::kMeasured) {
         frame.world_from_rig = pose.value;
+        const bool is_told = std::exchange(maps.told_epoch, told_epoch) != told_epoch;
         if (is_told) {
           maps.watch.break_off();
         }
