@@ -39,6 +39,7 @@ class EventLog : public engine::LoopObserver {
   void failed(const std::string& why) override;
   void withdrawn(const engine::Guidance& guidance) override;
   void part_stalled(engine::Part part) override;
+  void device_failed(const std::string& why) override { warn(why); }
   void ended(const engine::LoopReport& report);
 
  private:

@@ -27,6 +27,14 @@ void OperationProgress::stepped(const StereoFrame& frame, const engine::Inputs& 
   }
 }
 
+void OperationProgress::device_failed(const std::string& why) {
+  bar_.clear();
+  std::fprintf(stderr, "orthonav: warning: %s\n", why.c_str());
+  if (next_) {
+    next_->device_failed(why);
+  }
+}
+
 void OperationProgress::captured(const engine::Snapshot& snapshot) {
   if (next_) {
     next_->captured(snapshot);

@@ -183,14 +183,34 @@ Status FrameLoop::poll_commands(LoopReport& report) {
   if (requests_ != nullptr) {
     requests_->take(frame_.time, asked_);
   }
+  const auto tell_of = [&](const Status& failed, int before) {
+    for (LoopObserver* observer : observers_) {
+      if (!failed && before == 0) {
+        observer->device_failed(failed.error().message);
+      }
+    }
+  };
   const Status clicked = headset_->clicker().poll(frame_.time, clicks_);
-  if (const Status over = tolerate(clicked, clicker_errors_, report); !over) {
+  tell_of(clicked, no_clicker_ ? 1 : clicker_errors_);
+  // One that is not there now may come back: the status line says so meanwhile.
+  const bool was_away = no_clicker_;
+  no_clicker_ = !clicked && clicked.error().code == ErrorCode::kUnavailable;
+  if (no_clicker_ && !was_away) {
+    ++report.failures;
+    report.last_failure = clicked.error().message;
+  }
+  if (const Status over = no_clicker_ ? Status{} : tolerate(clicked, clicker_errors_, report);
+      !over) {
     return over;
   }
   const Working working(&*beats_, Part::kVoice);
   const Status heard = headset_->voice().poll(frame_.time, phrases_);
   voice_stalled_ = !heard && heard.error().code == ErrorCode::kUnavailable;
-  return voice_stalled_ ? Status{} : tolerate(heard, voice_errors_, report);
+  if (voice_stalled_) {
+    return {};
+  }
+  tell_of(heard, voice_errors_);
+  return tolerate(heard, voice_errors_, report);
 }
 
 /// The hanging part outside this thread, if any.
@@ -227,6 +247,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   inputs.requests = asked_;
   inputs.stalled = stalled();
   inputs.time_runs = headset_->clock().runs_by_itself();
+  inputs.no_clicker = no_clicker_;
   count_stall(inputs.stalled, report);
   // A frame will be submitted from now on; the images took a while to arrive.
   inputs.display_time = headset_->display().predicted_display_time(heard_at_);

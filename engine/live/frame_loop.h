@@ -30,6 +30,8 @@ class LoopObserver {
   /// The tracking thread hangs in that part; called once per stall, on the rendering thread, if
   /// snapshots are drawn in real time.
   virtual void part_stalled(Part /*part*/) {}
+  /// The clicker or the voice failed, or is not there; called once per failure.
+  virtual void device_failed(const std::string& /*why*/) {}
 };
 
 /// Draws snapshots, on the rendering thread.
@@ -161,6 +163,7 @@ class FrameLoop {
   std::optional<Heartbeats> beats_;  ///< while it runs
   std::optional<Part> stalled_;      ///< at the last pair
   bool voice_stalled_ = false;
+  bool no_clicker_ = false;
 
   // Reused from pair to pair.
   StereoFrame frame_;

@@ -38,6 +38,7 @@ struct OperationInWork {
   Step step = Step::kSetup;
   std::optional<Part> stalled;  ///< in the newest pair; nothing is guided then
   bool waits = true;            ///< for what is computed beside it: time stands still meanwhile
+  bool no_clicker = false;      ///< in the newest pair
   Messages messages;
   SessionObserver nobody;
   SessionObserver* observer = &nobody;  ///< never null. Borrowed.

@@ -42,6 +42,7 @@ void Publication::publish_status(OperationInWork& work, SessionSteps& steps,
   StatusLine& line = guidance_.status;
   line.at = steps.on_display(work);
   line.stalled = work.stalled;
+  line.no_clicker = work.no_clicker;
   publish_tool(work, steps, watching);
   publish_instruments(work, steps);
   steps.replanning.show(guidance_.display_time);

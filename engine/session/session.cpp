@@ -80,6 +80,7 @@ const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   handle(watching_.look_at_map(frame, work_), now);
   work_.stalled = inputs.stalled;
   work_.waits = !inputs.time_runs;
+  work_.no_clicker = inputs.no_clicker;
   // Events first: a press before this pair makes this pair a sample, a release before it does not.
   answer_inputs(inputs);
   handle(steps_.digitizing.look(work_, now), now);

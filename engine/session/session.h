@@ -31,6 +31,7 @@ struct Inputs {
   std::span<const Phrase> phrases;       ///< in order of time
   Timestamp display_time{};              ///< of the frame made from this step
   std::optional<Part> stalled;           ///< hides all guidance
+  bool no_clicker = false;               ///< none is there now; the status line says so
   std::span<const Request> requests{};   ///< of other programs, in order of time
   /// Time passes by itself (`Clock::runs_by_itself`), so that no pair waits for a registration or
   /// the coach. Otherwise their answers come at fixed pairs, however fast the machine is.

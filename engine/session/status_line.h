@@ -111,6 +111,7 @@ struct StatusLine {
   const HeardCommand* heard = nullptr;  ///< null: nothing recently
   Saved saved = Saved::kNothingNew;
   std::optional<Part> stalled;  ///< hangs, so nothing is guided
+  bool no_clicker = false;      ///< it is not there now
 };
 
 /// What is asked of a surgeon who verifies by touch, as far as the line says it.

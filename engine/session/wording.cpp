@@ -201,6 +201,10 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     write_wire(text, *wire, "; ");
   }
   write_unused_tool(text, line, out.size() > begin ? "; " : "");
+  if (line.no_clicker) {
+    text.begin(Importance::kNext, out.size() > begin ? "; " : "");
+    out += translated("no clicker");
+  }
   write_saved(text, line.saved, out.size() > begin ? "; " : "");
 }
 

@@ -17,14 +17,18 @@ constexpr std::size_t kMaxChanges = 1024;
 /// CLOCK_MONOTONIC, by which the kernel stamps events.
 Duration monotonic_now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
-bool is_there(const std::string& path) {
-  std::error_code code;
-  return path.find('/') != std::string::npos && std::filesystem::exists(path, code);
-}
-
 bool is_device(const std::string& path) {
   std::error_code code;
   return std::filesystem::is_character_file(path, code);
+}
+
+/// Whether a clicker is named by its place and not by its name: by a path, or by a file or FIFO of
+/// the working directory.
+bool is_place(const std::string& name) {
+  std::error_code code;
+  const auto status = std::filesystem::status(name, code);
+  return name.find('/') != std::string::npos || std::filesystem::is_regular_file(status) ||
+         std::filesystem::is_fifo(status);
 }
 
 }  // namespace
@@ -59,7 +63,13 @@ Result<std::unique_ptr<EvdevClicker>> EvdevClicker::open(const ClickerOptions& o
     return Error{joined(problems)};
   }
   std::unique_ptr<EvdevClicker> clicker(new EvdevClicker(options, clock));
-  if (is_there(options.device)) {
+  std::error_code code;
+  const bool place = is_place(options.device);
+  // Only the kernel's folder of devices gets new ones: a file that is missing elsewhere is an
+  // error.
+  const bool later = options.device.starts_with("/dev/") &&
+                     !std::filesystem::exists(options.device, code) && !code;
+  if (place && !later) {
     if (Status taken = clicker->take_up(options.device); !taken) {
       return taken.error();
     }
@@ -73,15 +83,14 @@ Result<std::unique_ptr<EvdevClicker>> EvdevClicker::open(const ClickerOptions& o
   }
   clicker->folder_.emplace(std::move(*folder));
   if (!clicker->keys_) {
-    if (Status found = clicker->find(); !found) {
-      return found.error();
-    }
+    clicker->find();
   }
   return clicker;
 }
 
 Status EvdevClicker::take_up(const std::string& path) {
-  auto keys = is_device(path) ? open_evdev_keys(path, options_.keys) : open_recorded_keys(path);
+  auto keys = is_device(path) ? open_evdev_keys(path, options_.keys)
+                              : open_recorded_keys(path, options_.keys.codes);
   if (!keys) {
     return keys.error();
   }
@@ -89,38 +98,56 @@ Status EvdevClicker::take_up(const std::string& path) {
   return {};
 }
 
-/// The first device that suits. One that can't be opened yet (udev sets its permissions a moment
-/// after it appears) is tried again at the next change of the folder.
-Status EvdevClicker::find() {
-  if (options_.device.find('/') != std::string::npos) {
-    if (is_there(options_.device)) {
-      (void)take_up(options_.device);
+/// Takes up the first device that suits, or remembers why none could be. One that can't be opened
+/// yet (udev sets its permissions a moment after it appears) is tried again at the next change of
+/// the folder.
+void EvdevClicker::find() {
+  std::error_code code;
+  if (is_place(options_.device)) {
+    if (!std::filesystem::exists(options_.device, code)) {
+      absent_ =
+          Error{"clicker " + options_.device + ": is not plugged in", ErrorCode::kUnavailable};
+    } else if (const Status taken = take_up(options_.device); !taken) {
+      absent_ = Error{taken.error().message, ErrorCode::kUnavailable};
     }
-    return {};
+    return;
   }
+  absent_ =
+      Error{"clicker: no device in " + options_.folder +
+                (options_.device.empty() ? " suits" : " is called \"" + options_.device + "\""),
+            ErrorCode::kUnavailable};
+  std::string refused;
   for (const std::string& path : folder_->devices()) {
     const auto device = describe_evdev(path);
-    if (!device || device->name.find(options_.device) == std::string::npos) {
+    if (!device) {
+      refused = refused.empty() ? device.error().message : refused;
       continue;
     }
     const bool suits = options_.full_keyboard == device->full_keyboard;
-    if (options_.device.empty() && !suits) {
+    if (device->name.find(options_.device) == std::string::npos ||
+        (options_.device.empty() && !suits)) {
       continue;
     }
-    if (take_up(path)) {
-      return {};
+    if (const Status taken = take_up(path); taken) {
+      return;
+    } else {
+      refused = taken.error().message;
     }
   }
-  return {};
+  if (!refused.empty()) {
+    absent_ = Error{absent_.error().message + "; " + refused, ErrorCode::kUnavailable};
+  }
 }
 
 Status EvdevClicker::read_keys() {
   if (folder_ && folder_->changed() && !keys_) {
-    if (Status found = find(); !found) {
-      return found;
-    }
+    find();
   }
-  if (!keys_ || finished_) {
+  if (!keys_) {
+    return absent_;
+  }
+  // A recording is read no faster than it is played, since only so much is kept.
+  if (!keys_->live() && changes_.size() > kMaxChanges / 2) {
     return {};
   }
   read_.clear();
@@ -137,15 +164,13 @@ Status EvdevClicker::read_keys() {
   if (read) {
     return {};
   }
-  // Keys held when the device disappeared count as released.
+  // Keys held when the source disappeared, or when an event of it was refused, count as released.
   for (const int code : std::vector<int>(down_)) {
     press_or_release(code, false, now);
   }
-  if (!folder_) {
-    finished_ = true;
-  }
   if (folder_) {
     keys_.reset();
+    absent_ = Error{read.error().message, ErrorCode::kUnavailable};
   }
   return read;
 }
@@ -198,11 +223,13 @@ void EvdevClicker::tell(Timestamp until, std::vector<ClickerEvent>& events) {
 }
 
 Status EvdevClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events) {
-  const Status read = read_keys();
+  if (Status read = read_keys(); !read && untold_) {
+    untold_ = std::move(read);
+  }
+  const std::size_t before = events.size();
   tell(until, events);
-  // Events from before the device disappeared are delivered first; its absence is reported by the
-  // next call.
-  return events.empty() ? read : Status();
+  // With an error no event is passed on: those from before come first, and the next call says it.
+  return events.size() == before ? std::exchange(untold_, Status()) : Status();
 }
 
 }  // namespace orthonav::desktop

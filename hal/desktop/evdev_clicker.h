@@ -27,11 +27,12 @@ struct ClickerOptions {
 
 /// Keys of a Bluetooth clicker, a keyboard or a foot pedal as one button, which is down while any
 /// of the chosen keys is. A device that disappears releases the button; when it comes back, it is
-/// used again. `poll` does all the work and never waits.
+/// used again. While there is no device, and while nobody writes to a FIFO, `poll` says so with
+/// `ErrorCode::kUnavailable`. It does all the work and never waits.
 class EvdevClicker : public Clicker {
  public:
-  /// Borrows the headset's clock. Refuses invalid options, and a path that exists but is not a
-  /// device; a device that is not there yet is waited for.
+  /// Borrows the headset's clock. Refuses invalid options, a file that is missing or can't be read,
+  /// and what is not a device; a device that is not there yet is waited for.
   static Result<std::unique_ptr<EvdevClicker>> open(const ClickerOptions& options,
                                                     const Clock& clock);
   /// Name of the device in use; empty while there is none.
@@ -48,7 +49,8 @@ class EvdevClicker : public Clicker {
   Timestamp opened_at_{};
   std::optional<InputFolder> folder_;
   std::unique_ptr<KeyEvents> keys_;
-  bool finished_ = false;        ///< a file that failed is not read again
+  Status absent_;                ///< why there is no device, while `keys_` is null
+  Status untold_;                ///< what was refused or disappeared, until `poll` can say it
   std::vector<KeyEvent> read_;   // reused
   std::vector<int> down_;        ///< codes of the keys that are down
   std::vector<Change> changes_;  ///< of the button, not delivered yet
@@ -57,7 +59,7 @@ class EvdevClicker : public Clicker {
 
   EvdevClicker(const ClickerOptions& options, const Clock& clock);
   Status do_poll(Timestamp until, std::vector<ClickerEvent>& events) override;
-  Status find();
+  void find();
   Status take_up(const std::string& path);
   Status read_keys();
   void press_or_release(int code, bool down, Timestamp time);

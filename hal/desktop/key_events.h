@@ -13,7 +13,7 @@ namespace orthonav::desktop {
 struct KeyEvent {
   int code = 0;  ///< as in linux/input-event-codes.h
   bool down = false;
-  Duration at{};  ///< by the source's own clock: CLOCK_MONOTONIC for a device, any for a file
+  Duration at{};  ///< by CLOCK_MONOTONIC, or since the first event of a file
   friend bool operator==(const KeyEvent&, const KeyEvent&) = default;
 };
 
@@ -21,10 +21,11 @@ struct KeyEvent {
 class KeyEvents {
  public:
   virtual ~KeyEvents() = default;
-  /// Appends the events since the last call, up to a limit; does not block. An Error: the source is
-  /// gone for good.
+  /// Appends the events since the last call, up to a limit; does not block. Errors: kLost, the
+  /// source is gone for good; kUnavailable, nothing comes from it now; others refuse an event.
   virtual Status read(std::vector<KeyEvent>& events) = 0;
-  /// Whether its times are those of CLOCK_MONOTONIC; otherwise they count from the source's start.
+  /// Whether its times are those of CLOCK_MONOTONIC; otherwise they count from a file's first
+  /// event.
   [[nodiscard]] virtual bool live() const = 0;
   [[nodiscard]] virtual std::string name() const = 0;
 };
@@ -46,8 +47,12 @@ struct KeyChoice {
 /// be stopped with it.
 [[nodiscard]] Result<std::unique_ptr<KeyEvents>> open_evdev_keys(const std::string& path,
                                                                  const KeyChoice& choice);
-/// Recorded `struct input_event`s, from a file or from a FIFO that another program writes to.
-[[nodiscard]] Result<std::unique_ptr<KeyEvents>> open_recorded_keys(const std::string& path);
+/// `struct input_event`s from a file, or from a FIFO that another program writes to. Refuses a file
+/// that can't be read, holds anything else, mixes clocks, or in which none of `codes` is pressed.
+/// An event in a FIFO may be stamped by any clock of this machine that devices are read with; one
+/// whose stamp fits none is refused when it is read.
+[[nodiscard]] Result<std::unique_ptr<KeyEvents>> open_recorded_keys(const std::string& path,
+                                                                    const std::vector<int>& codes);
 
 /// The properties of a device node, without keeping it open: used to choose one, and by `doctor`.
 struct KeyDevice {

@@ -95,6 +95,11 @@ std::vector<std::int16_t> mono_samples(SNDFILE& file, const SF_INFO& info) {
 
 Result<std::unique_ptr<Microphone>> open_wav_microphone(const std::filesystem::path& path,
                                                         const Clock& clock) {
+  // A FIFO would be waited for, and a device never ends.
+  std::error_code code;
+  if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code)) {
+    return file_error(path, "is not a file");
+  }
   SF_INFO info{};
   const std::unique_ptr<SNDFILE, CloseSound> file(sf_open(path.c_str(), SFM_READ, &info));
   if (!file) {

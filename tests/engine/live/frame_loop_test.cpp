@@ -4,6 +4,8 @@
 
 #include <thread>
 
+#include "engine/session/wording.h"
+#include "hal/api/forwarding_headset.h"
 #include "hal/fake/failing.h"
 #include "tests/support/scripted_operation.h"
 #include "tests/support/scripted_pairs.h"
@@ -130,6 +132,46 @@ TEST(FrameLoop, ASceneThatIsRefusedDoesNotBlackOutTheOthers) {
   EXPECT_EQ(sink.frames.size(), 20u);
   EXPECT_EQ(report.draw_failures, 3);
   EXPECT_EQ(report.last_failure, "display unplugged");
+}
+
+/// A headset whose clicker is not there while the pairs of [3, 53) come.
+class AwayClicker : public ForwardingHeadset, private Clicker {
+ public:
+  explicit AwayClicker(Headset& inner) : ForwardingHeadset(inner) {}
+  [[nodiscard]] Clicker& clicker() override { return *this; }
+
+ private:
+  int polls_ = 0;
+  Status do_poll(Timestamp, std::vector<ClickerEvent>&) override {
+    const int poll = polls_++;
+    return poll >= 3 && poll < 53 ? Status(Error{"no pedal", ErrorCode::kUnavailable}) : Status();
+  }
+};
+
+TEST(FrameLoop, SaysWhileThereIsNoClickerAndGoesOn) {
+  struct Watching : LoopObserver {
+    void stepped(const StereoFrame&, const Inputs&, const Guidance& guidance) override {
+      std::string text;
+      append_status(text, guidance.status);
+      shown += text.find("no clicker") != std::string::npos ? 1 : 0;
+    }
+    void device_failed(const std::string& why) override { told.push_back(why); }
+    int shown = 0;
+    std::vector<std::string> told;
+  } watching;
+  fake::FakeHeadset inner(pairs(60));
+  AwayClicker headset(inner);
+  const auto navigation = session();
+  SceneBuilder builder;
+  FrameLoop loop(headset, *navigation, builder, {});
+  loop.observe(&watching);
+  const auto report = loop.run();
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->displayed, 60);
+  EXPECT_EQ(watching.shown, 50);
+  EXPECT_THAT(watching.told, ::testing::ElementsAre("no pedal"));
+  EXPECT_EQ(report->failures, 1);
+  EXPECT_EQ(report->last_failure, "no pedal");
 }
 
 TEST(FrameLoop, GoesOnAfterFailuresOfEveryDevice) {

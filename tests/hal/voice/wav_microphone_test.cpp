@@ -1,6 +1,7 @@
 #include "hal/desktop/wav_microphone.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <array>
 
@@ -42,6 +43,13 @@ TEST(WavMicrophone, RefusesWhatIsNoSoundFile) {
     EXPECT_FALSE(desktop::open_wav_microphone(folder.with("bad.wav", bytes), clock).ok());
   }
   EXPECT_FALSE(desktop::open_wav_microphone(folder.file("absent.wav"), clock).ok());
+  // A FIFO would be waited for until somebody writes.
+  ASSERT_EQ(::mkfifo(folder.file("fifo").c_str(), 0600), 0);
+  for (const std::string& path : {folder.file("fifo"), folder.path().string()}) {
+    const auto microphone = desktop::open_wav_microphone(path, clock);
+    ASSERT_FALSE(microphone.ok());
+    EXPECT_EQ(microphone.error().message, path + ": is not a file");
+  }
 }
 
 }  // namespace

@@ -128,6 +128,8 @@ TEST_F(EveryText, OfWarningsIsTranslated) {
     lost.saved = saved;
     expect_translated(detail_text(lost));
   }
+  lost.no_clicker = true;
+  expect_translated(detail_text(lost));
   for (std::size_t part = 0; part < kPartCount; ++part) {
     StatusLine stalled;
     stalled.stalled = static_cast<Part>(part);
