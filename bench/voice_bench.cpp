@@ -1,8 +1,10 @@
 // Commands and other speech, spoken by espeak-ng, against noise: how many commands are heard, how
-// many are heard without having been said, and how long it takes. With --tuning, uses the voices
+// many are heard without having been said, in talk and as other words after the wake word, and how
+// long it takes. With --tuning, uses the voices
 // and texts on which the thresholds were chosen; otherwise those not used for that. Nothing is
 // stored.
 #include <algorithm>
+#include <array>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
@@ -10,6 +12,7 @@
 #include <memory>
 #include <optional>
 
+#include "bench/wilson.h"
 #include "engine/session/spoken_commands.h"
 #include "hal/voice/command_spotter.h"
 #include "tests/support/noisy_speech.h"
@@ -30,6 +33,7 @@ struct Options {
   bool fresh = false;
   bool single = false;
   bool quick = false;
+  bool addressed = false;
   bool show = false;
   double minutes = 10.0;
   std::optional<double> least_log_odds;
@@ -146,8 +150,10 @@ void say_one(CommandSpotter& spotter, const std::string& command, const Options&
 
 void print(const char* name, const std::map<std::string, Tally>& tallies) {
   for (const auto& [key, tally] : tallies) {
-    std::printf("%-10s %-12s said %4d  heard %6.1f %%  mistaken %5.1f %%\n", name, key.c_str(),
-                tally.said, 100.0 * tally.heard / tally.said, 100.0 * tally.mistaken / tally.said);
+    const FractionInterval heard = wilson(tally.heard, static_cast<std::size_t>(tally.said));
+    std::printf("%-10s %-12s said %4d  heard %6.1f %% (%.1f to %.1f)  mistaken %5.1f %%\n", name,
+                key.c_str(), tally.said, 100.0 * tally.heard / tally.said, 100.0 * heard.low,
+                100.0 * heard.high, 100.0 * tally.mistaken / tally.said);
   }
 }
 
@@ -230,13 +236,76 @@ void measure_false_accepts(const Options& options, Waking waking, double snr_db)
               snr_db, heard_s / 60.0, 600.0 * total / heard_s, accepted["delete"]);
 }
 
+/// Words that are no commands where a command is expected: whatever is heard with certainty is
+/// wrong.
+void measure_other_words(const Options& options, const char* name,
+                         std::span<const std::string_view> words) {
+  const VoiceSet set = set_of(options);
+  Random random(30 + set.seed);
+  std::map<std::string, Tally> by_condition;
+  std::map<std::string, int> taken_for;
+  int said_words = 0;
+  int taken = 0;
+  std::size_t count = 0;
+  for (const std::string_view voice : set.voices) {
+    const auto spotter = new_spotter(options, Waking::kAlways);
+    for (const std::string_view word : words) {
+      constexpr std::array kSnrsDb = {kClean, 20.0, 15.0, 10.0};
+      const std::size_t at = count++;
+      const double snr_db = kSnrsDb[at % kSnrsDb.size()];
+      const auto noise = static_cast<Noise>(at / kSnrsDb.size() % 3);
+      const int speed = 120 + 40 * static_cast<int>(at % 3);
+      const auto said = spoken("ortho " + std::string(word), {std::string(voice), speed});
+      if (!said) {
+        continue;
+      }
+      const auto phrase = phrase_in_room(*said, noise, snr_db, random, set.babble);
+      bool sure = false;
+      listen(*spotter, phrase.sound, [&](const SpokenCommand& found, double) {
+        if (options.show) {
+          std::printf("\"ortho %s\" %s %d %.0f dB %s: %s %.2f\n", std::string(word).c_str(),
+                      std::string(voice).c_str(), speed, snr_db, name_of(noise), found.text.c_str(),
+                      found.confidence);
+        }
+        if (found.confidence >= 0.5) {
+          sure = true;
+          taken_for[found.text] += 1;
+        }
+      });
+      said_words += 1;
+      taken += sure ? 1 : 0;
+      Tally& tally = by_condition[snr_db < kClean ? std::to_string(static_cast<int>(snr_db)) + " dB"
+                                                  : std::string("clean")];
+      tally.said += 1;
+      tally.mistaken += sure ? 1 : 0;
+    }
+    count += 1;  // every word meets every condition
+  }
+  const FractionInterval interval = wilson(taken, static_cast<std::size_t>(said_words));
+  std::printf("%s: said %d, taken for a command %d (%.1f %%, %.1f to %.1f %%)\n", name, said_words,
+              taken, 100.0 * taken / said_words, 100.0 * interval.low, 100.0 * interval.high);
+  for (const auto& [condition, tally] : by_condition) {
+    std::printf("  %-6s said %4d, taken %3d\n", condition.c_str(), tally.said, tally.mistaken);
+  }
+  for (const auto& [command, times] : taken_for) {
+    std::printf("  as %s: %d\n", command.c_str(), times);
+  }
+}
+
 int run(const Options& options) {
   std::printf("voice, %s set\n", set_of(options).name);
-  Options single = options;
-  single.single = true;
-  measure_recall(single);
+  if (!options.addressed) {
+    Options single = options;
+    single.single = true;
+    measure_recall(single);
+  }
   measure_recall(options);
-  if (options.minutes <= 0.0) {
+  std::printf("\nother words after the wake word\n");
+  measure_other_words(options, "asked for", kAskedWords);
+  measure_other_words(options, options.tuning ? "weighed" : "unseen",
+                      options.tuning ? std::span<const std::string_view>(kTuningWords)
+                                     : std::span<const std::string_view>(kUnseenWords));
+  if (options.minutes <= 0.0 || options.addressed) {
     return 0;
   }
   std::printf("\nother speech\n");
@@ -257,6 +326,7 @@ int main(int argc, char** argv) {
   app.add_flag("--tuning", options.tuning, "the voices and texts that thresholds were chosen on");
   app.add_flag("--fresh", options.fresh, "voices that nothing was decided on")
       ->excludes("--tuning");
+  app.add_flag("--addressed", options.addressed, "only what is said after the wake word");
   app.add_flag("--quick", options.quick, "one speed instead of three");
   app.add_flag("--show", options.show, "everything that was heard");
   app.add_option("--minutes", options.minutes, "of other speech")->capture_default_str();
