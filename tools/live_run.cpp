@@ -85,7 +85,7 @@ class LiveRun {
     if (ground_truth_) {
       ground_truth_->evaluate(session.levels(), result);
     }
-    result.recorded = files_.recorded();
+    result.recorded = files_.end_recording();
     end_note_.explain(result);
     explain_stop(signals_, result);
     return result;

@@ -1,3 +1,6 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -75,7 +78,18 @@ void add_commands(CLI::App& app, Action& action, StopSignals& signals) {
   add_track_command(app, action);
 }
 
+/// A standard stream that was closed (`2>&-`) would give its number to the next file opened, and
+/// what is printed would go into that file: a journal. Standard output stays one that fails.
+void reserve_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) < 0) {
+      (void)::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+    }
+  }
+}
+
 int run(int argc, char** argv) {
+  reserve_standard_streams();
   StopSignals signals;  // before any thread
   keep_memory_reserve();
   register_igtl_tracker();

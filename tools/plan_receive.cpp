@@ -175,6 +175,7 @@ int receive(PlanDesk& desk, const ReceiveArguments& arguments, StopSignals& sign
 }
 
 int run_receive(const ReceiveArguments& arguments, StopSignals& signals) {
+  signals.outlast_terminal();
   const auto sizes = arguments.screws.sizes();
   if (!sizes) {
     return bad_input(sizes.error().message);

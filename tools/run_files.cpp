@@ -62,10 +62,11 @@ Status RunFiles::record(engine::AssembledOperation& operation, const std::string
   return {};
 }
 
-std::optional<engine::RecordedPairs> RunFiles::recorded() const {
+std::optional<engine::RecordedPairs> RunFiles::end_recording() {
   if (!recorder_) {
     return std::nullopt;
   }
+  recorder_->stop();
   const replay::RecordedCounts counts = recorder_->counts();
   return engine::RecordedPairs{counts.pairs, counts.lost_pairs};
 }

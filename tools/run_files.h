@@ -38,8 +38,8 @@ class RunFiles {
                 const std::vector<nav::ToolGeometry>& tools, EventLog& log);
   /// Null: none.
   [[nodiscard]] engine::Journal* journal() const { return journal_.get(); }
-  /// What came to the recording so far; absent: nothing is recorded.
-  [[nodiscard]] std::optional<engine::RecordedPairs> recorded() const;
+  /// Ends the recording, which `finish` closes, and returns what came to it; absent: none.
+  std::optional<engine::RecordedPairs> end_recording();
 
   /// Writes the reports first, so that no later failure can lose the measurements, then closes the
   /// rest. Returns the first failure.

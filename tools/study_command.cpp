@@ -77,6 +77,7 @@ bool wants_so_many(const StudyArguments& arguments) {
 }
 
 int run_study(const StudyArguments& arguments, StopSignals& signals) {
+  signals.outlast_terminal();
   const auto method = engine::method_named(arguments.method);
   if (!method) {
     return bad_input(method.error().message);

@@ -97,11 +97,12 @@ class Tape {
     const MutexLock lock(mutex_);
     add_within(kMostBytesWithLines, std::move(what));
   }
-  /// Waits until everything is written: for a millisecond, and for as long as the device's time
-  /// stands still.
+  /// Waits until everything so far is written: for a millisecond, and for as long as the device's
+  /// time stands still.
   void settle() {
     const MutexLock lock(mutex_);
-    for (bool goes_on = false; running_ && !is_written() && !goes_on;) {
+    const std::int64_t last = added_;
+    for (bool goes_on = false; running_ && written_ < last && !goes_on;) {
       const Timestamp before = clock_.now();
       changed_.wait_until(mutex_, Stopwatch().after(kMostWait));
       goes_on = clock_.now() != before;
@@ -116,6 +117,10 @@ class Tape {
   [[nodiscard]] RecordedCounts counts() const {
     const MutexLock lock(mutex_);
     return counts_;
+  }
+  void stop() {
+    const MutexLock lock(mutex_);
+    running_ = false;
   }
   Status close() {
     {
@@ -136,11 +141,9 @@ class Tape {
   std::atomic<std::int64_t> newest_sequence{-1};
 
  private:
-  [[nodiscard]] bool is_written() const ORTHONAV_REQUIRES(mutex_) {
-    return waiting_.empty() && !writing_;
-  }
   void add(ToWrite what) ORTHONAV_REQUIRES(mutex_) {
     waiting_.push_back(std::move(what));
+    ++added_;
     changed_.notify_all();
   }
   void add_within(std::size_t most_bytes, ToWrite what) ORTHONAV_REQUIRES(mutex_) {
@@ -164,7 +167,7 @@ class Tape {
       if (auto* pair = std::get_if<PairToWrite>(&*what)) {
         spare_.push_back(std::move(pair->frame));
       }
-      writing_ = false;
+      ++written_;
       changed_.notify_all();
     }
   }
@@ -179,7 +182,6 @@ class Tape {
     }
     ToWrite what = std::move(waiting_.front());
     waiting_.pop_front();
-    writing_ = true;
     return what;
   }
   Status write(const PairToWrite& pair) { return writer_->frame(pair.frame, pair.clock); }
@@ -210,7 +212,8 @@ class Tape {
   std::deque<ToWrite> waiting_ ORTHONAV_GUARDED_BY(mutex_);
   std::vector<StereoFrame> spare_ ORTHONAV_GUARDED_BY(mutex_);
   std::size_t bytes_ ORTHONAV_GUARDED_BY(mutex_) = 0;  ///< that wait or are being written
-  bool writing_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  std::int64_t added_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::int64_t written_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   bool running_ ORTHONAV_GUARDED_BY(mutex_) = true;
   bool closing_ ORTHONAV_GUARDED_BY(mutex_) = false;
   RecordedCounts counts_ ORTHONAV_GUARDED_BY(mutex_);
@@ -388,6 +391,10 @@ class Recorder : public RecordingHeadset {
   [[nodiscard]] Status recording_status() const override { return tape_.status(); }
   [[nodiscard]] bool recording_failed() const override { return tape_.failed(); }
   [[nodiscard]] RecordedCounts counts() const override { return tape_.counts(); }
+  void stop() override {
+    cameras_.untap();
+    tape_.stop();
+  }
   Status close() override {
     cameras_.untap();
     return tape_.close();

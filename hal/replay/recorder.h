@@ -54,6 +54,8 @@ class RecordingHeadset : public ForwardingHeadset {
   [[nodiscard]] virtual bool recording_failed() const = 0;
   /// Callable like recording_failed().
   [[nodiscard]] virtual RecordedCounts counts() const = 0;
+  /// Records nothing that comes from now on; does not wait.
+  virtual void stop() = 0;
   /// Waits for what is still to be written, finishes the files and gives the folder its name.
   /// Nothing is recorded after that, but the devices continue. A recording without a single pair is
   /// an error. The destructor closes too, but can't report whether that succeeded.

@@ -34,5 +34,16 @@ TEST(TerminalFaults, OneThatIsGoneCostsItsOutputAloneAndTheExitCodeSaysSo) {
   EXPECT_TRUE(all_is_kept(run));
 }
 
+TEST(TerminalFaults, OneThatWasNeverThereLeavesNoTextInAFile) {
+  ShortRun run;
+  const Called called = run.run([] {
+    ::close(STDERR_FILENO);
+    ::close(STDOUT_FILENO);
+  });
+  EXPECT_EQ(called.code, 2) << "standard output could not be written";
+  EXPECT_TRUE(all_is_kept(run));
+  expect_readable(run);
+}
+
 }  // namespace
 }  // namespace orthonav::test::terminal_faults_test
