@@ -89,7 +89,7 @@ TEST_F(SceneFiles, SayWhatWhereAndTheLimit) {
               HasSubstr("holograms[3].samples_mm point 1 must be 3 finite numbers"));
   EXPECT_THAT(said_about(R"({"type": "vertebra", "mesh": "absent.stl"})"), HasSubstr("absent.stl"));
   EXPECT_THAT(said_about(R"({"type": "check_point", "position_mm": [0, 1e9, 0]})"),
-              HasSubstr("position_mm must lie within 10000 mm of the origin"));
+              HasSubstr("position_mm holds 1e+09, must lie within 10000 mm of the origin"));
   EXPECT_THAT(said_about(R"({"type": "twin", "site_mm": [0,0,0], "beside": [0,0,0], "of": []})"),
               HasSubstr("beside has no direction"));
   EXPECT_EQ(said_about(R"({"type": "check_point", "position_mm": [0, 1, 0]})"), "nothing");
@@ -118,7 +118,7 @@ TEST_F(SceneFiles, RefuseNumbersThatNothingCanHave) {
 
 TEST_F(SceneFiles, RefuseABoneThatIsMirroredOrStretched) {
   std::ofstream((folder_.path() / "bone.obj").string())
-      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+      << "v 0 0 0\nv 60 0 0\nv 0 60 0\nv 0 0 60\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   const auto placed = [this](const std::string& rows) {
     return said_about(
         (R"({"type": "vertebra", "mesh": "bone.obj", "world_from_vertebra": [)" + rows + "]}")
