@@ -3,14 +3,19 @@
 
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "tests/support/tag_scene.h"
+#include "tests/support/wait_until.h"
 #include "tests/tools/faults/failing_disk.h"
 #include "tests/tools/faults/short_run.h"
+#include "tests/tools/tag_recording.h"
 
 namespace orthonav::test::disk_faults_test {
 namespace {
@@ -119,6 +124,29 @@ TEST_F(DiskFaults, OfARecordingAreToldAtOnceAndTheOperationGoesOn) {
       << "with the second pair of three";
   EXPECT_THAT(log, HasSubstr("3 frames shown"));
   expect_readable(run_);
+}
+
+/// A device that fails for good: the images of a recording are cut off while it is replayed.
+TEST(DeviceThatFails, LeavesTheReportsOfWhatWasMeasured) {
+  const ScratchFolder folder;
+  write_one_level_case(folder.file("case"));
+  const std::string out = folder.file("out");
+  bring_prepared_model(out);
+  const std::string recording = folder.file("recording");
+  record(recording, test_calibration(), std::vector<std::vector<PlacedTag>>(std::size_t{70}));
+  StartedCommand command({"run", "--case", folder.file("case"), "--headset",
+                          "replay:" + recording + "?pace=realtime", "--out", out});
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(out + "/session.orthonav.part"); }));
+  std::filesystem::resize_file(recording + "/VLC LF.tar", std::uintmax_t{1} << 20U);
+  const Called ended = command.wait();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("31 failures in a row (limit 30)"));
+  const auto report = nlohmann::json::parse(content_of(out + "/report.json"));
+  EXPECT_GE(report["frames"]["displayed"], 1);
+  EXPECT_THAT(report["why_not"].get<std::string>(),
+              ::testing::AllOf(HasSubstr("ended at setup of L5"), HasSubstr("31 failures")));
+  EXPECT_TRUE(std::filesystem::exists(out + "/report.html"));
+  EXPECT_THAT(content_of(out + "/session.orthonav"), HasSubstr("31 failures in a row"));
 }
 
 }  // namespace
