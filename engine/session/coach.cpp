@@ -50,8 +50,13 @@ void Coach::watch(WorkWatch* watch) {
 
 void Coach::look(bool waits) {
   waits_ = waits;
-  if (told_begun_ && worker_.idle()) {
+  if (!under_way_ || !worker_.idle()) {
+    return;
+  }
+  if (awaited_) {
     tell_ended();
+  } else {
+    wait();
   }
 }
 

@@ -35,7 +35,7 @@ class Coach {
   /// 2 s of stroking at 30 pairs a second.
   static constexpr std::size_t kNewSamples = 60;
   static constexpr std::size_t kFewestSamples = 100;
-  /// Half a second: several times the duration of a trial, so that waiting is rare.
+  /// Half a second: several times the duration of a trial, so that its answer is usually there.
   static constexpr int kPairsToAnswer = 15;
 
   explicit Coach(Registrar registrar, const nav::CommonErrors& common = {})
@@ -66,7 +66,7 @@ class Coach {
   static constexpr std::size_t kReservedScrews = 8;
 
   void start(const OperatedLevel& level, std::span<const nav::Region> regions);
-  /// Whether no trial is under way, whose answer nobody awaits.
+  /// Whether no trial is under way, forgotten ones included.
   [[nodiscard]] bool is_free();
   void wait();
   void tell_ended();
