@@ -18,6 +18,14 @@ constexpr double kDrawn = 60.0;
 // noisy room the noise counts against silence too.
 constexpr double kLeastAroundInQuiet = -90.0;
 constexpr double kLeastAroundInNoise = -300.0;
+// A logistic regression over commands and other words of the tuning voices (docs/voice-lab.md).
+// Likelihood ratios beyond these limits say no more.
+constexpr double kLeastOver = -4.0;
+constexpr double kMostOver = 3.0;
+constexpr double kOverWeight = 1.92;
+constexpr double kOddsWeight = 0.143;
+constexpr double kNoisyWeight = 0.58;
+constexpr double kLine = 0.47;
 
 }  // namespace
 
@@ -40,6 +48,7 @@ std::optional<CommandEvidence> evidence_of(const Recognition& heard, const std::
   }
   found.evidence /= found.frames;
   found.evidence_around = heard.evidence_around;
+  found.over_sounds = heard.evidence_over_sounds;
   found.above_background_db = above_background_db;
   return found;
 }
@@ -79,6 +88,15 @@ double log_odds(const CommandEvidence& evidence, const EvidenceWeights& weights)
   }
   const auto lowest = std::ranges::min_element(weights.commands, {}, weight);
   return sum_from(0.0) + (lowest == weights.commands.end() ? 0.0 : (*lowest).*weight);
+}
+
+double log_odds_over_other_words(const CommandEvidence& evidence, double log_odds) {
+  if (!evidence.wake) {
+    return log_odds;
+  }
+  return kLine + kOddsWeight * log_odds +
+         kOverWeight * std::clamp(evidence.over_sounds, kLeastOver, kMostOver) +
+         kNoisyWeight * noisiness(evidence.above_background_db);
 }
 
 }  // namespace orthonav::voice

@@ -19,6 +19,7 @@ struct CommandEvidence {
   std::optional<RecognizedWord> wake;  ///< the wake word, if one preceded them
   double evidence_around = 0.0;        ///< `Recognition::evidence_around`
   double above_background_db = 0.0;    ///< of the loudest 50 ms
+  double over_sounds = 0.0;            ///< `Recognition::evidence_over_sounds`
 };
 
 /// Separates the wake word from the command. Nothing if no command was heard, or if more than a
@@ -53,5 +54,10 @@ struct EvidenceWeights {
 /// as said. A command without a row in `weights` gets the lowest weight of all rows, that of the
 /// command most often heard by mistake.
 [[nodiscard]] double log_odds(const CommandEvidence& evidence, const EvidenceWeights& weights);
+
+/// The natural logarithm of the odds that this command and no other word followed the wake word, by
+/// those odds and by how much better the command explains the sound than anything else: at zero it
+/// counts as said. The odds themselves, if no wake word was heard.
+[[nodiscard]] double log_odds_over_other_words(const CommandEvidence& evidence, double log_odds);
 
 }  // namespace orthonav::voice

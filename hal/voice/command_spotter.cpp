@@ -36,7 +36,7 @@ std::vector<std::string> SpotterOptions::check() const {
   if (commands.empty()) {
     problems.push_back("voice: no command to listen for");
   }
-  if (!std::isfinite(least_log_odds) || !std::isfinite(more_log_odds_to_delete)) {
+  if (!std::isfinite(least_log_odds) || !std::isfinite(more_log_odds_to_decide)) {
     problems.push_back("voice: log odds must be finite");
   }
   if (segments.margin_ms < 400) {
@@ -59,7 +59,8 @@ Result<std::unique_ptr<CommandSpotter>> CommandSpotter::create(const SpotterOpti
   if (const auto problems = options.check(); !problems.empty()) {
     return Error{joined(problems)};
   }
-  auto recognizer = PhraseRecognizer::create(options.phrases(), options.acoustic_model);
+  auto recognizer =
+      PhraseRecognizer::create(options.phrases(), options.wake_word, options.acoustic_model);
   if (!recognizer) {
     return recognizer.error();
   }
@@ -94,9 +95,14 @@ std::optional<SpokenCommand> CommandSpotter::judge(const SpeechSegment& segment)
 }
 
 double CommandSpotter::confidence_of(const CommandEvidence& evidence) const {
-  const double least = options_.least_log_odds +
-                       (evidence.command == "delete" ? options_.more_log_odds_to_delete : 0.0);
-  const double confidence = 1.0 / (1.0 + std::exp(least - log_odds(evidence, options_.weights)));
+  // The odds say that a command was said, the comparison that no other word was: both must.
+  const bool deletes = evidence.command == "delete";
+  const bool decides = deletes || evidence.command == "accept" || evidence.command == "start";
+  const double more = options_.more_log_odds_to_decide;
+  const double said = log_odds(evidence, options_.weights) - (deletes ? more : 0.0);
+  const double over = log_odds_over_other_words(evidence, said) - (decides ? more : 0.0);
+  const double odds = evidence.wake ? std::min(said, over) : said;
+  const double confidence = 1.0 / (1.0 + std::exp(options_.least_log_odds - odds));
   const bool quiet = evidence.above_background_db >= options_.quiet_above_db;
   const bool counts = evidence.wake || options_.waking == Waking::kNever ||
                       (options_.waking == Waking::kInNoise && quiet);

@@ -37,8 +37,8 @@ struct SpotterOptions {
   EvidenceWeights weights = kTrainedWeights;
   /// A command counts above this (`log_odds`).
   double least_log_odds = 0.0;
-  /// "delete" destroys data and needs more.
-  double more_log_odds_to_delete = 1.0;
+  /// "delete" destroys data, "accept" and "start" are acted upon at once: they need more.
+  double more_log_odds_to_decide = 1.0;
   SegmentOptions segments;
   CleanerOptions cleaner;
   std::filesystem::path acoustic_model = default_acoustic_model();

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -23,9 +25,17 @@ namespace {
 
 constexpr const char* kCommands = "commands";
 constexpr const char* kAnything = "anything";
+constexpr const char* kAnswer = "answer";
 
 // PocketSphinx counts likelihoods in powers of 1.0001, in units of 1024.
 const double kNatural = 1024.0 * std::log(1.0001);
+
+/// By how much more likely an answer is, as a logarithm, than its sound alone says: a command that
+/// it resembles must be clearly ahead. "Stop" and "start" differ in one sound, and the means are
+/// adapted to the latter.
+constexpr double kAnswerAhead = 40.0;
+/// The evidence where the same segment, heard with every sound, is another phrase.
+constexpr double kOtherPhrase = -100.0;
 
 struct FreeConfig {
   void operator()(cmd_ln_t* config) const { cmd_ln_free_r(config); }
@@ -42,6 +52,11 @@ std::set<std::string> words_of(const std::vector<std::string>& phrases) {
   return words;
 }
 
+/// An answer's name in a grammar: some are among the other words too, said in another way.
+std::string answer_word(const Pronunciation& answer) {
+  return "answer-" + std::string(answer.word);
+}
+
 std::string phrases_grammar(const std::vector<std::string>& phrases) {
   std::string grammar = "#JSGF V1.0; grammar g; public <phrase> = ";
   for (std::size_t i = 0; i < phrases.size(); ++i) {
@@ -50,17 +65,34 @@ std::string phrases_grammar(const std::vector<std::string>& phrases) {
   return grammar + ";";
 }
 
-/// Any sounds in any order, or words that resemble a phrase.
-std::string anything_grammar() {
-  std::string grammar = "#JSGF V1.0; grammar g; public <anything> = (";
+/// Any sounds in any order.
+std::string sounds() {
+  std::string some = "(";
   for (std::size_t i = 0; i < kPhones.size(); ++i) {
-    grammar += (i ? " | " : "") + sound_word(kPhones[i]);
+    some += (i ? " | " : "") + sound_word(kPhones[i]);
   }
-  grammar += ")+";
+  return some + ")+";
+}
+
+/// Any sounds, or words that resemble a phrase.
+std::string anything() {
+  std::string text = sounds();
   for (const Pronunciation& other : kOthers) {
-    grammar += " | " + std::string(other.word);
+    text += " | " + std::string(other.word);
   }
-  return grammar + ";";
+  return text;
+}
+
+std::string grammar_of(const std::string& phrase) {
+  return "#JSGF V1.0; grammar g; public <phrase> = " + phrase + ";";
+}
+
+std::string answers() {
+  std::string text;
+  for (const Pronunciation& answer : kAnswers) {
+    text += (text.empty() ? "" : " | ") + answer_word(answer);
+  }
+  return text;
 }
 
 Result<MemoryFile> in_memory(std::string_view content) {
@@ -99,7 +131,8 @@ std::filesystem::path default_acoustic_model() {
 }
 
 Result<std::unique_ptr<PhraseRecognizer>> PhraseRecognizer::create(
-    const std::vector<std::string>& phrases, const std::filesystem::path& model) {
+    const std::vector<std::string>& phrases, const std::string& wake_word,
+    const std::filesystem::path& model) {
   std::error_code code;
   if (!std::filesystem::exists(model / "mdef", code)) {
     return Error{"voice: no acoustic model in " + model.string() + " (Debian: pocketsphinx-en-us)",
@@ -107,11 +140,16 @@ Result<std::unique_ptr<PhraseRecognizer>> PhraseRecognizer::create(
   }
   err_set_logfp(nullptr);
   std::unique_ptr<PhraseRecognizer> recognizer(new PhraseRecognizer);
-  if (Status opened = recognizer->open(model); !opened) {
-    return opened.error();
-  }
-  if (Status added = recognizer->add_words(); !added) {
-    return added.error();
+  recognizer->wake_word_ = wake_word;
+  for (const bool every_sound : {false, true}) {
+    auto decoder = open(model, every_sound);
+    if (!decoder) {
+      return decoder.error();
+    }
+    if (Status added = add_words(decoder->get()); !added) {
+      return added.error();
+    }
+    (every_sound ? recognizer->comparing_ : recognizer->decoder_) = *std::move(decoder);
   }
   if (Status listening = recognizer->add_grammars(phrases); !listening) {
     return listening.error();
@@ -119,7 +157,8 @@ Result<std::unique_ptr<PhraseRecognizer>> PhraseRecognizer::create(
   return recognizer;
 }
 
-Status PhraseRecognizer::open(const std::filesystem::path& model) {
+Result<PhraseRecognizer::Decoder> PhraseRecognizer::open(const std::filesystem::path& model,
+                                                         bool every_sound) {
   const auto means = adapted_means(model);
   if (!means) {
     return means.error();
@@ -134,19 +173,21 @@ Status PhraseRecognizer::open(const std::filesystem::path& model) {
     return silences.error();
   }
   const std::string hmm = model.string();
+  // The model's own feat.params come after "-cmn none": PocketSphinx takes the mean of the cepstra
+  // that it is given out of them, in place.
   const std::unique_ptr<cmd_ln_t, FreeConfig> config(
       cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-mean", means->path().c_str(),
                   "-sendump", mixtures->path().c_str(), "-fdict", silences->path().c_str(), "-cmn",
                   "none", "-remove_silence", "no", "-remove_noise", "no", "-bestpath", "no",
-                  "-logfn", "/dev/null", nullptr));
+                  "-compallsen", every_sound ? "yes" : "no", "-logfn", "/dev/null", nullptr));
   if (!config) {
     return Error{"voice: PocketSphinx refuses its options"};
   }
-  decoder_.reset(ps_init(config.get()));
-  if (!decoder_) {
+  Decoder decoder(ps_init(config.get()));
+  if (!decoder) {
     return Error{"voice: PocketSphinx can't read the acoustic model in " + hmm};
   }
-  return {};
+  return decoder;
 }
 
 Status PhraseRecognizer::add_grammars(const std::vector<std::string>& phrases) {
@@ -157,18 +198,25 @@ Status PhraseRecognizer::add_grammars(const std::vector<std::string>& phrases) {
       return Error{"voice: nobody knows how \"" + word + "\" is pronounced"};
     }
   }
-  if (ps_set_jsgf_string(decoder_.get(), kCommands, phrases_grammar(phrases).c_str()) != 0) {
-    return Error{"voice: PocketSphinx refuses the grammar of the phrases"};
+  for (ps_decoder_t* decoder : {decoder_.get(), comparing_.get()}) {
+    if (ps_set_jsgf_string(decoder, kCommands, phrases_grammar(phrases).c_str()) != 0) {
+      return Error{"voice: PocketSphinx refuses the grammar of the phrases"};
+    }
   }
-  if (ps_set_jsgf_string(decoder_.get(), kAnything, anything_grammar().c_str()) != 0) {
+  const auto after_wake_word = [&](const std::string& what) {
+    return grammar_of(wake_word_ + " (" + what + ")");
+  };
+  if (ps_set_jsgf_string(decoder_.get(), kAnything, grammar_of(anything()).c_str()) != 0 ||
+      ps_set_jsgf_string(comparing_.get(), kAnything, after_wake_word(anything()).c_str()) != 0 ||
+      ps_set_jsgf_string(comparing_.get(), kAnswer, after_wake_word(answers()).c_str()) != 0) {
     return Error{"voice: PocketSphinx refuses its grammar of other sounds"};
   }
   return {};
 }
 
-Status PhraseRecognizer::add_words() {
+Status PhraseRecognizer::add_words(ps_decoder_s* decoder) {
   const auto add = [&](const std::string& word, const std::string& sounds) {
-    return ps_add_word(decoder_.get(), word.c_str(), sounds.c_str(), FALSE) >= 0;
+    return ps_add_word(decoder, word.c_str(), sounds.c_str(), FALSE) >= 0;
   };
   for (const auto& list :
        {std::span<const Pronunciation>(kSpoken), std::span<const Pronunciation>(kOthers)}) {
@@ -176,6 +224,11 @@ Status PhraseRecognizer::add_words() {
       if (!add(std::string(p.word), std::string(p.sounds))) {
         return Error{"voice: PocketSphinx refuses the pronunciation of " + std::string(p.word)};
       }
+    }
+  }
+  for (const Pronunciation& answer : kAnswers) {
+    if (!add(answer_word(answer), std::string(answer.sounds))) {
+      return Error{"voice: PocketSphinx refuses the pronunciation of " + answer_word(answer)};
     }
   }
   for (const std::string_view phone : kPhones) {
@@ -186,9 +239,10 @@ Status PhraseRecognizer::add_words() {
   return {};
 }
 
-std::vector<PhraseRecognizer::Part> PhraseRecognizer::decode(const char* search,
+/// Alters the cepstra: PocketSphinx takes their mean out.
+std::vector<PhraseRecognizer::Part> PhraseRecognizer::decode(ps_decoder_s* decoder,
+                                                             const char* search,
                                                              std::vector<Cepstrum>& cepstra) {
-  ps_decoder_t* decoder = decoder_.get();
   std::vector<mfcc_t*> rows;
   rows.reserve(cepstra.size());
   for (Cepstrum& cepstrum : cepstra) {
@@ -219,13 +273,14 @@ std::vector<PhraseRecognizer::Part> PhraseRecognizer::decode(const char* search,
 Recognition PhraseRecognizer::recognize(std::span<const std::int16_t> samples) {
   std::vector<Cepstrum> cepstra = cepstra_of(ps_get_fe(decoder_.get()), samples);
   const auto frames = static_cast<int>(cepstra.size());
-  const std::vector<Part> phrase = decode(kCommands, cepstra);
+  const std::vector<Part> phrase = decode(decoder_.get(), kCommands, cepstra);
   // If no phrase fits to the end, the decoder returns one that ended earlier.
   if (phrase.empty() || phrase.back().last < frames - 1) {
     return {};
   }
+  // The weights of the evidence were trained with the mean taken out twice here.
   std::vector<double> anything(cepstra.size(), 0.0);
-  for (const Part& part : decode(kAnything, cepstra)) {
+  for (const Part& part : decode(decoder_.get(), kAnything, cepstra)) {
     for (int t = part.first; t <= std::min(part.last, frames - 1); ++t) {
       anything[static_cast<std::size_t>(t)] = part.score / (part.last - part.first + 1);
     }
@@ -246,7 +301,47 @@ Recognition PhraseRecognizer::recognize(std::span<const std::int16_t> samples) {
           {part.word.substr(0, part.word.find('(')), length, evidence / length});
     }
   }
+  if (!recognition.words.empty() && recognition.words.front().word == wake_word_) {
+    recognition.evidence_over_sounds = over_sounds(samples, recognition.words);
+  }
   return recognition;
+}
+
+/// Every search hears the same features, and their likelihoods are relative to the same sounds.
+double PhraseRecognizer::over_sounds(std::span<const std::int16_t> samples,
+                                     const std::vector<RecognizedWord>& words) {
+  const std::vector<Cepstrum> cepstra = cepstra_of(ps_get_fe(decoder_.get()), samples);
+  const auto heard_by = [&](const char* search) {
+    std::vector<Cepstrum> own = cepstra;
+    std::vector<Part> parts = decode(comparing_.get(), search, own);
+    if (!parts.empty() && parts.back().last < static_cast<int>(cepstra.size()) - 1) {
+      parts.clear();
+    }
+    return parts;
+  };
+  const auto score_of = [](const std::vector<Part>& parts) {
+    return parts.empty()
+               ? -std::numeric_limits<double>::infinity()
+               : std::accumulate(parts.begin(), parts.end(), 0.0,
+                                 [](double sum, const Part& part) { return sum + part.score; });
+  };
+  const std::vector<Part> phrase = heard_by(kCommands);
+  int frames = 0;
+  std::size_t at = 0;
+  bool same = true;
+  for (const Part& part : phrase) {
+    if (part.word.find_first_of("<(") == 0) {
+      continue;
+    }
+    same = same && at < words.size() && part.word.substr(0, part.word.find('(')) == words[at].word;
+    frames += at++ == 0 ? 0 : part.last - part.first + 1;
+  }
+  if (!same || at != words.size() || frames == 0) {
+    return kOtherPhrase;
+  }
+  const double others =
+      std::max(score_of(heard_by(kAnything)), score_of(heard_by(kAnswer)) + kAnswerAhead);
+  return std::isfinite(others) ? (score_of(phrase) - others) / frames : 0.0;
 }
 
 }  // namespace orthonav::voice

@@ -104,6 +104,20 @@ inline constexpr Pronunciation kOthers[] = {
     {"ten", "T EH N"},
 };
 
+/// Words that are said where a command is expected.
+inline constexpr Pronunciation kAnswers[] = {
+    {"no", "N OW"},
+    {"yes", "Y EH S"},
+    {"confirm", "K AH N F ER M"},
+    {"undo", "AH N D UW"},
+    {"okay", "OW K EY"},
+    {"okay-british", "AH K EY"},
+    {"reset", "R IY S EH T"},
+    {"reset-short", "R IH S EH T"},
+    {"stop", "S T AA P"},
+    {"stop-british", "S T AO P"},
+};
+
 inline constexpr std::array<std::string_view, 39> kPhones = {
     "AA", "AE", "AH", "AO", "AW", "AY", "B",  "CH", "D", "DH", "EH", "ER", "EY",
     "F",  "G",  "HH", "IH", "IY", "JH", "K",  "L",  "M", "N",  "NG", "OW", "OY",

@@ -62,7 +62,8 @@ class Listener {
  public:
   Listener() {
     options_.commands = engine::trained_commands();
-    auto recognizer = PhraseRecognizer::create(options_.phrases(), options_.acoustic_model);
+    auto recognizer =
+        PhraseRecognizer::create(options_.phrases(), options_.wake_word, options_.acoustic_model);
     if (!recognizer) {
       give_up(recognizer.error().message);
     }

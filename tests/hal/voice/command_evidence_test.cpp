@@ -80,6 +80,17 @@ TEST(CommandEvidence, OfEveryKindSpeaksForTheCommand) {
   }
 }
 
+TEST(CommandEvidence, OfAnotherWordOutweighsWhatIsLikelyOtherwise) {
+  CommandEvidence evidence = likely();
+  evidence.over_sounds = 0.5;
+  EXPECT_GT(log_odds_over_other_words(evidence, 4.0), 0.0);
+  evidence.over_sounds = -1.5;
+  EXPECT_LT(log_odds_over_other_words(evidence, 4.0), 0.0);
+  EXPECT_LT(log_odds_over_other_words(evidence, 9.0), 0.0) << "however well it fits by itself";
+  evidence.wake.reset();
+  EXPECT_EQ(log_odds_over_other_words(evidence, 4.0), 4.0) << "nothing was compared";
+}
+
 TEST(CommandEvidence, OfAHurriedWakeWordSaysLess) {
   CommandEvidence hurried = likely();
   hurried.wake->frames = 18;

@@ -109,6 +109,18 @@ TEST(CommandSpotter, HearsNoCommandInTheTalkOfTheRoom) {
   EXPECT_THAT(sure_texts(commands), IsEmpty());
 }
 
+TEST(CommandSpotter, TakesNoOtherWordAfterTheWakeWordForACommand) {
+  const auto heard = spotter(Waking::kAlways);
+  ASSERT_NE(heard, nullptr);
+  std::vector<SpokenCommand> commands;
+  heard->push(quiet_room({"ortho stop", "ortho okay", "ortho yes", "ortho no", "ortho confirm",
+                          "ortho undo", "ortho reset"}),
+              commands);
+  EXPECT_THAT(sure_texts(commands), IsEmpty());
+  heard->push(quiet_room({"ortho accept"}), commands);
+  EXPECT_THAT(sure_texts(commands), ::testing::ElementsAre("accept")) << "which is one";
+}
+
 TEST(CommandSpotter, WaitsForTheWakeWord) {
   EXPECT_EQ(SpotterOptions().waking, Waking::kAlways);
   const auto heard = spotter(Waking::kAlways);
