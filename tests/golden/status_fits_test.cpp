@@ -152,7 +152,6 @@ std::vector<StatusLine> lines_about(const Message& message, const Coaching& coac
         line.at = {static_cast<Step>(step), "L4", Side::kRight};
         line.tool = "reference";
         line.tool_lost = warning == 1;
-        line.no_clicker = warning == 1;
         if (warning == 2) {
           line.tag_size_off = -0.0321;
         }
