@@ -13,12 +13,16 @@ endif()
 step("${CMAKE_COMMAND}" -S "${EXAMPLE}" -B "${WORK}/build" -G "${GENERATOR}" ${link}
      "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix")
 step("${CMAKE_COMMAND}" --build "${WORK}/build")
-# Eight seconds of the operation: long enough for the surgeon to have stroked the bone.
-step("${WORK}/build/example" 240)
-if(NOT said MATCHES "digitize L4  [1-9][0-9]* points")
-  message(FATAL_ERROR "the example tracked nothing:\n${said}")
+# The first program that a developer runs guides its screw, and one that does not says so by its exit code.
+step("${WORK}/build/example")
+if(NOT said MATCHES "guide L4 left" OR NOT said MATCHES "off the plan, tip [0-9.]+ mm beside the axis"
+   OR NOT said MATCHES "L4: the screw is in")
+  message(FATAL_ERROR "the example guided no screw:\n${said}")
 endif()
-
+execute_process(COMMAND "${WORK}/build/example" 40 RESULT_VARIABLE status OUTPUT_VARIABLE said)
+if(NOT status EQUAL 1 OR NOT said MATCHES "L4: no screw is in")
+  message(FATAL_ERROR "an example cut short ended with ${status}:\n${said}")
+endif()
 
 # The operation of so few pairs ends before the workflow does, and the command says so by its exit code.
 set(recording "${WORK}/recording")
