@@ -7,11 +7,10 @@
 namespace orthonav::tools {
 namespace {
 
-std::string number(const std::optional<double>& value, double scale, const char* unit) {
-  if (!value) {
-    return "-";
-  }
-  return printed("%.2f%s", *value * scale, unit);
+/// ", RMSE 1.60 mm"; nothing where there is no value.
+std::string part(const char* what, const std::optional<double>& value, double scale,
+                 const char* unit) {
+  return value ? std::string(", ") + what + printed(" %.2f%s", *value * scale, unit) : "";
 }
 
 }  // namespace
@@ -29,21 +28,25 @@ std::string operation_summary(const engine::OperationResult& result) {
       continue;
     }
     out += level.label + ": " + (level.accepted ? "accepted" : "not accepted") + " after " +
-           how_many(level.attempts, "attempt") + ", RMSE " + number(level.rmse_m, 1e3, " mm") +
-           ", TRE " + number(level.tre_m, 1e3, " mm") + ", " +
-           (level.points ? std::to_string(*level.points) : "-") + " points in " +
-           number(level.digitization_s, 1.0, " s") + "\n";
+           how_many(level.attempts, "attempt") + part("RMSE", level.rmse_m, 1e3, " mm") +
+           part("TRE", level.tre_m, 1e3, " mm") +
+           (level.points ? ", " + how_many(*level.points, "point") : "") +
+           part("digitized in", level.digitization_s, 1.0, " s") + "\n";
     for (const engine::ScrewOutcome& screw : level.screws) {
-      out += "  " + std::string(name_of(screw.side)) + ": angle error " +
-             number(screw.angle_error_rad, kDegreesPerRadian, "°") + ", entry error " +
-             number(screw.entry_error_m, 1e3, " mm") + "\n";
+      if (screw.done) {
+        out += "  " + std::string(name_of(screw.side)) + ": done" +
+               part("angle error", screw.angle_error_rad, kDegreesPerRadian, "°") +
+               part("entry error", screw.entry_error_m, 1e3, " mm") + "\n";
+      }
     }
   }
   for (const engine::RodOutcome& rod : result.rods) {
-    out += "rod " + std::string(name_of(rod.side)) + ": length " +
-           number(rod.length_m, 1e3, " mm") + ", length error " +
-           number(rod.length_error_m, 1e3, " mm") + ", head error " +
-           number(rod.head_error_m, 1e3, " mm") + "\n";
+    if (rod.length_m) {
+      out += "rod " + std::string(name_of(rod.side)) + ": " + how_many(rod.heads, "head") +
+             part("length", rod.length_m, 1e3, " mm") +
+             part("length error", rod.length_error_m, 1e3, " mm") +
+             part("head error", rod.head_error_m, 1e3, " mm") + "\n";
+    }
   }
   out += how_many(result.loop.displayed, "frame") + " displayed\n";
   return out;

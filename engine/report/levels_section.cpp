@@ -32,14 +32,17 @@ std::string levels_section(const json& report) {
                    {"points"},
                    {"time", "s"}});
   for (const json& level : report["levels"]) {
+    const bool tried = value_of(level, "attempts").value_or(0.0) > 0.0;
+    const auto cell = [&](const char* key, int decimals, const char* note = "") {
+      table.cell(tried ? figure(level, key, decimals) + note : "");
+    };
     table.row(html_escaped(text_in(level, "label")));
     table.cell(verdict_on(level));
-    table.cell(figure(level, "rmse_mm", 2));
-    table.cell(figure(level, "predicted_tre_mm", 2) +
-               (is_true(level, "registration_only") ? kRegistrationOnlyHtml : ""));
-    table.cell(figure(level, "tre_mm", 2));
-    table.cell(figure(level, "points", 0));
-    table.cell(figure(level, "digitization_s", 1));
+    cell("rmse_mm", 2);
+    cell("predicted_tre_mm", 2, is_true(level, "registration_only") ? kRegistrationOnlyHtml : "");
+    cell("tre_mm", 2);
+    cell("points", 0);
+    cell("digitization_s", 1);
   }
   return table.empty() ? ""
                        : "<section id=levels><h2>Registration</h2>" + table.html() +
@@ -50,34 +53,38 @@ std::string levels_section(const json& report) {
 }
 
 std::string rods_section(const json& report) {
-  const json& rod = object_in(report, "rod");
-  if (rod.empty()) {
-    return "<section id=rods><h2>Rod template</h2><p>No rod was templated.</p></section>";
-  }
-  std::string html = "<section id=rods><h2>Rod template</h2><p>Length <b>" +
-                     figure(rod, "length_mm", 1) + " mm</b>, length error " +
-                     figure(rod, "length_error_mm", 2) + " mm, error of the heads " +
-                     figure(rod, "head_error_mm", 2) + " mm.</p>";
-  HtmlTable table({{"side"},
-                   {"heads touched"},
-                   {"length", "mm"},
-                   {"length error", "mm"},
-                   {"error of the heads", "mm"},
-                   {"bends measured", "\u00b0"}});
-  for (const json& side : rod.value("sides", json::array())) {
-    table.row(html_escaped(text_in(side, "side")));
-    table.cell(figure(side, "heads", 0));
-    table.cell(figure(side, "length_mm", 1));
-    table.cell(figure(side, "length_error_mm", 2));
-    table.cell(figure(side, "head_error_mm", 2));
-    std::string measured;
-    for (const json& bend : side.value("measured", json::array())) {
-      measured += (measured.empty() ? "" : ", ") + figure(bend, "angle_deg", 1) + " \u00b1 " +
-                  figure(bend, "angle_se_deg", 1);
+  std::string rods;
+  const json& first = object_in(report, "rod");
+  for (const json& rod : first.value("sides", json::array({first}))) {
+    const auto put = [&rods, &rod](const char* what, const char* key, int decimals) {
+      if (value_of(rod, key)) {
+        rods += what + figure(rod, key, decimals) + " mm";
+      }
+    };
+    const auto heads = value_of(rod, "heads");
+    if (!value_of(rod, "length_mm") && heads.value_or(0.0) <= 0.0) {
+      continue;
     }
-    table.cell(measured.empty() ? "\u2013" : measured);
+    rods += "<p>" + html_escaped(text_in(rod, "side")) + ": ";
+    if (value_of(rod, "length_mm")) {
+      rods += "length <b>" + figure(rod, "length_mm", 1) + " mm</b>";
+    } else {
+      rods += "no template";
+    }
+    if (heads) {
+      rods += ", heads touched " + figure(rod, "heads", 0);
+    }
+    put(", length error ", "length_error_mm", 2);
+    put(", error of the heads ", "head_error_mm", 2);
+    std::string measured;
+    for (const json& bend : rod.value("measured", json::array())) {
+      measured += (measured.empty() ? ", bends measured " : ", ") + figure(bend, "angle_deg", 1) +
+                  " \u00b1 " + figure(bend, "angle_se_deg", 1) + "\u00b0";
+    }
+    rods += measured + ".</p>";
   }
-  return html + (table.empty() ? "" : table.html()) + "</section>";
+  return "<section id=rods><h2>Rods</h2>" + (rods.empty() ? "<p>No rod was templated.</p>" : rods) +
+         "</section>";
 }
 
 }  // namespace orthonav::engine

@@ -124,39 +124,20 @@ Json one_rod_json(const RodOutcome& rod) {
   return out;
 }
 
-/// Over both sides: the mean length, the length error largest in magnitude, the mean head error.
-/// Empty where no rod was planned.
+/// Each rod in `sides`, and the first one that has a template also by itself. Empty where no rod
+/// was planned.
 Json rods_json(const std::vector<RodOutcome>& rods) {
   Json out = Json::object();
-  if (rods.empty()) {
-    return out;
-  }
-  double length = 0.0;
-  double head = 0.0;
-  int lengths = 0;
-  int heads = 0;
-  std::optional<double> worst;
+  Json sides = Json::array();
   for (const RodOutcome& rod : rods) {
-    if (rod.length_m) {
-      length += *rod.length_m, ++lengths;
-    }
-    if (rod.head_error_m) {
-      head += *rod.head_error_m, ++heads;
-    }
-    if (rod.length_error_m && (!worst || std::abs(*rod.length_error_m) > std::abs(*worst))) {
-      worst = rod.length_error_m;
+    sides.push_back(one_rod_json(rod));
+    if (out.empty() && rod.length_m) {
+      out = sides.back();
+      out.erase("measured");
     }
   }
-  if (lengths > 0) {
-    out["length_mm"] = length / lengths * 1e3;
-  }
-  put_mm(out, "length_error_mm", worst);
-  if (heads > 0) {
-    out["head_error_mm"] = head / heads * 1e3;
-  }
-  out["sides"] = Json::array();
-  for (const RodOutcome& rod : rods) {
-    out["sides"].push_back(one_rod_json(rod));
+  if (!sides.empty()) {
+    out["sides"] = std::move(sides);
   }
   return out;
 }

@@ -26,19 +26,20 @@ std::string size_of(const json& screw) {
 }
 
 /// A cell with an error against the truth, and its limit.
-void error_cell(HtmlTable& table, const std::optional<double>& value, double limit) {
-  table.cell(value ? html_number_beside(*value, limit, 1) : kNoValue,
+void error_cell(HtmlTable& table, const std::optional<double>& value, double limit,
+                const char* none) {
+  table.cell(value ? html_number_beside(*value, limit, 1) : none,
              value && *value > limit ? "bad" : "");
 }
 
 /// Against the truth where one is known, else as tracked: "2.9 A", "2.0 A 93 % as tracked".
-void clearance_cell(HtmlTable& table, const json& screw) {
+void clearance_cell(HtmlTable& table, const json& screw, const char* none) {
   const json& tracked = object_in(screw, "tracked");
   const bool known = value_of(screw, "clearance_mm").has_value();
   const json& from = known ? screw : tracked;
   const auto clearance = value_of(from, "clearance_mm");
   if (!clearance) {
-    table.cell(kNoValue);
+    table.cell(none);
     return;
   }
   table.cell(html_number(*clearance, 1) + " " + html_escaped(text_in(from, "grade")) +
@@ -50,11 +51,12 @@ void put_screw(HtmlTable& table, const std::string& name, const json& screw) {
   const bool placed = is_placed(screw);
   table.row(html_escaped(name) + (placed ? "" : " <small>not placed</small>"));
   table.cell(size_of(screw));
-  error_cell(table, value_of(screw, "angle_error_deg"), degrees(kOnTarget_rad));
-  error_cell(table, value_of(screw, "entry_error_mm"), kOnTarget_m * 1e3);
-  table.cell(figure(object_in(screw, "executed"), "depth_mm", 1));
-  clearance_cell(table, screw);
-  table.cell(wire_as_placed(screw));
+  const char* none = placed ? kNoValue : "";
+  error_cell(table, value_of(screw, "angle_error_deg"), degrees(kOnTarget_rad), none);
+  error_cell(table, value_of(screw, "entry_error_mm"), kOnTarget_m * 1e3, none);
+  table.cell(placed ? figure(object_in(screw, "executed"), "depth_mm", 1) : "");
+  clearance_cell(table, screw, none);
+  table.cell(placed || screw.contains("wire") ? wire_as_placed(screw) : "");
   if (const json& change = object_in(screw, "planned_in_surgery"); !change.empty()) {
     table.below("planned in surgery: " + html_escaped(text_in(change, "text")));
   }

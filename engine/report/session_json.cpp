@@ -145,26 +145,20 @@ void put_certainty(Json& side, const RecordedRod& rod) {
   }
 }
 
-/// As report.json has it: the mean length, and each side.
+/// As report.json has it: each rod in `sides`, and the first one that has a template by itself.
 Json recorded_rods_json(const std::vector<RecordedRod>& rods) {
   Json out = Json::object();
-  double sum_m = 0.0;
-  int lengths = 0;
   Json sides = Json::array();
   for (const RecordedRod& rod : rods) {
     Json side{{"side", name_of(rod.side)}, {"heads", rod.heads}};
     put_length_mm(side, "length_mm", rod.length_m);
-    if (rod.length_m) {
-      sum_m += *rod.length_m;
-      ++lengths;
+    if (out.empty() && rod.length_m) {
+      out = side;
     }
     put_instructions(side, rod);
     put_measured(side, rod);
     put_certainty(side, rod);
     sides.push_back(std::move(side));
-  }
-  if (lengths > 0) {
-    out["length_mm"] = sum_m / lengths * 1e3;
   }
   if (!sides.empty()) {
     out["sides"] = std::move(sides);

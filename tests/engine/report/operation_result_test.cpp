@@ -7,11 +7,16 @@
 
 #include "engine/case/operation_plan.h"
 #include "engine/phantom/phantom.h"
+#include "engine/report/levels_section.h"
 #include "engine/report/screws_section.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 OperationResult measured() {
   OperationResult result;
@@ -55,9 +60,7 @@ TEST(ReportJson, HoldsWhatTheFormatSays) {
   EXPECT_NEAR(level["screws"][0]["angle_error_deg"].get<double>(), 2.8648, 1e-4);
   EXPECT_DOUBLE_EQ(level["screws"][0]["entry_error_mm"], 2.5);
   EXPECT_FALSE(level["screws"][1].contains("entry_error_mm")) << "the wire missed the bone";
-  EXPECT_DOUBLE_EQ(json["rod"]["length_mm"], 41.0);
-  EXPECT_DOUBLE_EQ(json["rod"]["length_error_mm"], -3.0);
-  EXPECT_DOUBLE_EQ(json["rod"]["head_error_mm"], 1.5);
+  EXPECT_EQ(json["rod"]["side"], "left");
   EXPECT_EQ(json["frames"]["displayed"], 101);
   EXPECT_NEAR(json["frames"]["median_ms"], 50.0, 0.005 * 50.0);
   EXPECT_NEAR(json["frames"]["p99_ms"], 99.0, 0.005 * 99.0);
@@ -128,6 +131,52 @@ TEST(ReportJson, LeavesErrorsOutWhereThereIsNoTruth) {
   EXPECT_FALSE(json["levels"][0].contains("tre_mm"));
   EXPECT_FALSE(json["levels"][0]["screws"][0].contains("angle_error_deg"));
   EXPECT_FALSE(json["rod"].contains("length_error_mm"));
+}
+
+TEST(ReportJson, HasOneLengthOfEachRodAndNoMean) {
+  OperationResult result = measured();
+  const auto rod = [&] { return nlohmann::json::parse(report_json(result))["rod"]; };
+  ASSERT_EQ(rod()["sides"].size(), 2u);
+  EXPECT_DOUBLE_EQ(rod()["sides"][0]["length_mm"], 40.0);
+  EXPECT_DOUBLE_EQ(rod()["sides"][1]["length_mm"], 42.0);
+  EXPECT_EQ(rod()["side"], "left");
+  EXPECT_DOUBLE_EQ(rod()["length_mm"], 40.0);
+  EXPECT_DOUBLE_EQ(rod()["length_error_mm"], 1.0);
+  EXPECT_DOUBLE_EQ(rod()["head_error_mm"], 2.0);
+  result.rods[0] = {nav::Side::kLeft, 1, {}, {}, {}};
+  EXPECT_EQ(rod()["side"], "right") << "the left rod has no template";
+  EXPECT_DOUBLE_EQ(rod()["length_mm"], 42.0);
+  result.rods[1] = {nav::Side::kRight, 0, {}, {}, {}};
+  EXPECT_FALSE(rod().contains("length_mm"));
+}
+
+TEST(ReportHtml, HasEachRodByItselfAndNoneThatWasNotTouched) {
+  OperationResult result = measured();
+  const auto page = [&] { return rods_section(nlohmann::json::parse(report_json(result))); };
+  EXPECT_THAT(page(), AllOf(HasSubstr("<p>left: length <b>40.0 mm</b>, heads touched 2, length "
+                                      "error 1.00 mm, error of the heads 2.00 mm.</p>"),
+                            HasSubstr("<p>right: length <b>42.0 mm</b>, heads touched 2")));
+  result.rods = {{nav::Side::kLeft, 2, 0.040, {}, {}}, {nav::Side::kRight, 0, {}, {}, {}}};
+  EXPECT_THAT(page(), HasSubstr("<p>left: length <b>40.0 mm</b>, heads touched 2.</p></section>"));
+  result.rods[0] = {nav::Side::kLeft, 1, {}, {}, {}};
+  EXPECT_THAT(page(), HasSubstr("<p>left: no template, heads touched 1.</p></section>"));
+  result.rods[0].heads = 0;
+  EXPECT_THAT(page(), HasSubstr("No rod was templated"));
+}
+
+TEST(ReportHtml, LeavesCellsOfWhatWasNotAttemptedEmpty) {
+  OperationResult result = measured();
+  const auto page = [&] {
+    const auto report = nlohmann::json::parse(report_json(result));
+    return levels_section(report) + screws_section(report);
+  };
+  EXPECT_THAT(page(), HasSubstr("RMSE [mm]\">1.60</td>"));
+  EXPECT_THAT(page(), HasSubstr("entry error [mm]\">\u2013</td>")) << "the wire missed the bone";
+  result.levels[0] = {};
+  result.levels[0].label = "L4";
+  result.levels[0].screws.push_back({nav::Side::kLeft, false, {}, {}});
+  EXPECT_THAT(page(), HasSubstr("not placed"));
+  EXPECT_THAT(page(), Not(HasSubstr("\u2013</td>")));
 }
 
 TEST(ReportJson, HasTheBendsThatWereMeasuredInHand) {
