@@ -7,6 +7,7 @@
 #include "engine/io/atomic_file.h"
 #include "engine/io/video_writer.h"
 #include "engine/session/journal.h"
+#include "engine/study/sim_scenario.h"
 #include "engine/study/simulated_operation.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
@@ -68,7 +69,7 @@ class Demo {
       return bad_input(options.error().message);
     }
     const Status opened = onlookers_.open(arguments_.onlookers);
-    if (const Status ready = opened ? prepare(*source, *levels) : opened; !ready) {
+    if (const Status ready = opened ? prepare(*source, *levels, *options) : opened; !ready) {
       return bad_input(ready.error().message);
     }
     auto result = operate(*source, std::move(*options));
@@ -119,7 +120,8 @@ class Demo {
     return bad_input(reason);
   }
 
-  Status prepare(const engine::Case& source, const std::vector<std::string>& levels) {
+  Status prepare(const engine::Case& source, const std::vector<std::string>& levels,
+                 const engine::OperationOptions& options) {
     SurgeonViewOptions view_options;
     view_options.device = arguments_.device;
     auto view = SurgeonView::create(view_options);
@@ -135,6 +137,8 @@ class Demo {
     engine::JournalHeader header{
         ORTHONAV_VERSION, "sim:", arguments_.method, source.name, arguments_.seed, 0, {}};
     header.patient_reference = arguments_.reference;
+    header.errors = engine::errors_in_use(engine::errors_in(options.sim.error_model),
+                                          {.patient_reference = arguments_.reference});
     for (const std::string& label : levels) {
       header.levels.push_back(engine::planned(label, source.find(label)->screws));
     }

@@ -27,7 +27,6 @@ engine::OperationIdentity identity_of(const engine::Session& session,
                           about.method, about.patient_reference);
   identity.room = about.room;
   identity.begun = wall_time();
-  identity.common = about.common;
   return identity;
 }
 
@@ -76,13 +75,15 @@ Status KeptOperation::resume(engine::AssembledOperation& operation,
   return {};
 }
 
-Status KeptOperation::begin_anew(const engine::Session& session, const std::string& folder,
-                                 const About& about, engine::RecordWriter::Waits waits) {
+Status KeptOperation::begin_anew(const engine::AssembledOperation& operation,
+                                 const std::string& folder, const About& about,
+                                 engine::RecordWriter::Waits waits) {
   using engine::RecordLog;
-  const engine::OperationIdentity identity = identity_of(session, about);
+  engine::OperationIdentity identity = identity_of(operation.session(), about);
+  identity.common = operation.errors().common();
   begun_ = identity.begun;
   auto log = engine::OperationLog::begin(
-      env_, folder, identity, session.levels(), waits,
+      env_, folder, identity, operation.session().levels(), waits,
       about.replaces_earlier ? RecordLog::Earlier::kReplaced : RecordLog::Earlier::kKept);
   if (!log) {
     return log.error();
@@ -103,7 +104,7 @@ Status KeptOperation::begin(engine::AssembledOperation& operation, const std::st
     return same;
   }
   if (Status begun =
-          found_ ? resume(operation, waits) : begin_anew(operation.session(), folder, about, waits);
+          found_ ? resume(operation, waits) : begin_anew(operation, folder, about, waits);
       !begun) {
     return begun;
   }

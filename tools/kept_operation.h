@@ -19,8 +19,7 @@ class KeptOperation {
     std::string case_name;
     std::string method;
     bool patient_reference = false;
-    std::string room;  ///< a simulated patient; empty: a real one
-    nav::CommonErrors common;
+    std::string room;                ///< a simulated patient; empty: a real one
     bool time_stands_still = false;  ///< simulated time, while the disk writes
     bool replaces_earlier = false;   ///< overwrites the folder's earlier log
 
@@ -54,8 +53,8 @@ class KeptOperation {
 
  private:
   Status resume(engine::AssembledOperation& operation, engine::RecordWriter::Waits waits);
-  Status begin_anew(const engine::Session& session, const std::string& folder, const About& about,
-                    engine::RecordWriter::Waits waits);
+  Status begin_anew(const engine::AssembledOperation& operation, const std::string& folder,
+                    const About& about, engine::RecordWriter::Waits waits);
 
   engine::PosixEnv env_;
   std::optional<engine::OperationLog::Found> found_;

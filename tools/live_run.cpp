@@ -80,6 +80,7 @@ class LiveRun {
     result.method = method_.name;
     result.case_name = case_name_;
     result.patient_reference = arguments_.reference;
+    result.errors = operation_->errors();
     result.calibration = engine::calibration_in_use(session.tracker());
     result.seed = room_ ? std::optional(room_->options().seed) : std::nullopt;
     if (ground_truth_) {
@@ -181,7 +182,11 @@ class LiveRun {
     engine::AssemblyOptions options;
     options.use_reference = arguments_.reference;
     options.reference_places = files_.kept().reference_places();
-    options.session.common = arguments_.common.in_metres();
+    if (room_) {
+      options.errors = engine::errors_in(room_->options().error_model);
+      engine::tell_instruments(room_->options().error_model, options.session);
+    }
+    arguments_.common.set_in(options.errors);
     options.session.replan.sizes = sizes_;
     arguments_.limits.set_in(options);
     options.loop.max_frames = arguments_.frames;
@@ -234,6 +239,7 @@ class LiveRun {
                                  headset_->epoch_ticks_100ns(),
                                  {}};
     header.patient_reference = arguments_.reference;
+    header.errors = operation_->errors();
     for (const engine::LevelState& level : operation_->session().levels()) {
       header.levels.push_back(engine::planned(level.plan.label, level.plan.screws));
     }
@@ -253,7 +259,6 @@ class LiveRun {
     about.case_name = case_name_;
     about.method = method_.name;
     about.patient_reference = arguments_.reference;
-    about.common = arguments_.common.in_metres();
     if (room_) {
       about.simulate(room_->options().seed);
     }

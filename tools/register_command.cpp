@@ -162,7 +162,7 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
                   "Radius of a ball at the pointer's end, whose centre the points are")
       ->check(finite_number(0, kLargestTip_mm))
       ->capture_default_str();
-  arguments.common.add_to(command);
+  arguments.common.add_to(command, {});
   command
       .add_option("--cache", arguments.cache,
                   "Folder that keeps prepared models for the next time (default: nothing is kept)")

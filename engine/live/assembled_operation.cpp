@@ -35,8 +35,9 @@ std::vector<std::string> AssemblyOptions::check() const {
 }
 
 AssembledOperation::AssembledOperation(Headset& headset, std::unique_ptr<Session> session,
-                                       const AssemblyOptions& options)
+                                       const ErrorsInUse& errors, const AssemblyOptions& options)
     : session_(std::move(session)),
+      errors_(errors),
       builder_(options.visibility),
       loop_(headset, *session_, builder_, options.loop) {
   session_->observe(&observers_);
@@ -52,10 +53,13 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
   if (!tracker) {
     return tracker.error();
   }
+  const ErrorsInUse errors =
+      errors_in_use(options.errors, {.measures_tools = !headset.cameras().measured_tools().empty(),
+                                     .patient_reference = options.use_reference});
   SessionOptions session_options = options.session;
+  session_options.common = errors.common();
+  session_options.map_drift_m_per_sqrt_s = errors.map_drift_m_per_sqrt_s.sd;
   if (options.use_reference) {
-    // Nothing is fixed to the map, so its drift causes no error in what is shown.
-    session_options.map_drift_m_per_sqrt_s = 0.0;
     if (!method.anchors) {
       return Error{"method '" + method.name + "': uses no patient reference"};
     }
@@ -73,7 +77,7 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
   if (!session) {
     return session.error();
   }
-  return std::make_unique<AssembledOperation>(headset, std::move(*session), options);
+  return std::make_unique<AssembledOperation>(headset, std::move(*session), errors, options);
 }
 
 }  // namespace orthonav::engine

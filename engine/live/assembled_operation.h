@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/live/frame_loop.h"
+#include "engine/session/known_errors.h"
 #include "engine/session/method.h"
 #include "engine/session/observer_list.h"
 #include "nav/tracking/anchored_tracker.h"
@@ -16,7 +17,9 @@ struct AssemblyOptions {
   /// Visible tools are searched for around their predictions, and the whole image only every tenth
   /// pair.
   nav::TrackerOptions tracker{.full_search_interval = 10};
+  /// Its errors that all strokes share are decided by `errors`.
   SessionOptions session;
+  KnownErrors errors;
   /// Everything is relative to the patient reference among the tools instead of the headset's map.
   /// The published method has no reference and is refused with this option.
   bool use_reference = false;
@@ -35,7 +38,7 @@ struct AssemblyOptions {
 /// loop that feeds it pairs. All arguments are borrowed and must outlive it.
 class AssembledOperation {
  public:
-  AssembledOperation(Headset& headset, std::unique_ptr<Session> session,
+  AssembledOperation(Headset& headset, std::unique_ptr<Session> session, const ErrorsInUse& errors,
                      const AssemblyOptions& options);
   AssembledOperation(const AssembledOperation&) = delete;
   AssembledOperation& operator=(const AssembledOperation&) = delete;
@@ -63,10 +66,13 @@ class AssembledOperation {
   void stop() { loop_.stop(); }
 
   [[nodiscard]] const Session& session() const { return *session_; }
+  /// What the session counts with of the errors that all strokes share.
+  [[nodiscard]] const ErrorsInUse& errors() const { return errors_; }
 
  private:
   ObserverList observers_;
   std::unique_ptr<Session> session_;
+  ErrorsInUse errors_;
   SceneBuilder builder_;
   FrameLoop loop_;
 };

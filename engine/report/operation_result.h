@@ -10,6 +10,7 @@
 #include "engine/report/registration_figures.h"
 #include "engine/session/calibration_in_use.h"
 #include "engine/session/guidance.h"
+#include "engine/session/known_errors.h"
 #include "engine/session/session_observer.h"
 #include "nav/guidance/changed_screw.h"
 #include "nav/guidance/screw_cylinder.h"
@@ -105,8 +106,9 @@ struct OperationResult {
   std::string method;
   std::optional<std::uint64_t> seed;  ///< absent without random draws: a real headset
   std::string case_name;
-  bool patient_reference = false;  ///< World was relative to one instead of the headset's map
-  bool completed = false;          ///< every level accepted, every screw done, the rods too
+  bool patient_reference = false;     ///< World was relative to one instead of the headset's map
+  std::optional<ErrorsInUse> errors;  ///< that all strokes share, as the operation counted with
+  bool completed = false;             ///< every level accepted, every screw done, the rods too
   /// If not completed, where it ended and the last refusal: "ended at digitize L4: registration
   /// RMSE 3.4 mm, limit 3.0 mm". Empty when it completed.
   std::string why_not;

@@ -166,6 +166,9 @@ std::string report_json(const OperationResult& result) {
   if (result.patient_reference) {
     out["patient_reference"] = true;
   }
+  if (result.errors) {
+    out["common_errors"] = errors_json(*result.errors);
+  }
   out["completed"] = result.completed;
   if (!result.why_not.empty()) {
     out["why_not"] = result.why_not;

@@ -189,6 +189,9 @@ std::string session_json(const SessionRecord& session) {
   if (session.patient_reference) {
     out["patient_reference"] = *session.patient_reference;
   }
+  if (session.errors) {
+    out["common_errors"] = errors_json(*session.errors);
+  }
   out["completed"] = session.completed();
   if (session.cut) {
     out["why_not"] = ending_of(session);

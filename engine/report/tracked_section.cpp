@@ -130,11 +130,33 @@ std::string cameras_text(const json& found) {
          " %, neither taken into account.</p>";
 }
 
+/// "tip 0.40 (assumed)".
+std::string error_text(const json& errors, const char* name, const char* key, const char* unit) {
+  const json& error = object_in(errors, name);
+  return figure(error, key, 2) + unit + " (" + html_escaped(text_in(error, "source")) + ")";
+}
+
+/// With which errors the expected ones count, and who says so.
+std::string errors_text(const json& report) {
+  const json& errors = object_in(report, "common_errors");
+  if (errors.empty()) {
+    return "<p>Errors that all strokes share: not recorded.</p>";
+  }
+  const bool drifts =
+      value_of(object_in(errors, "map_drift"), "sd_mm_per_sqrt_s").value_or(0.0) > 0.0;
+  return "<p>Errors that all strokes share, SD along an axis, as counted with: tip " +
+         error_text(errors, "tip", "sd_mm", " mm") + ", cameras " +
+         error_text(errors, "cameras", "sd_mm", " mm") + ", map " +
+         (drifts ? error_text(errors, "map_drift", "sd_mm_per_sqrt_s", " mm/\u221as")
+                 : error_text(errors, "map", "sd_mm", " mm")) +
+         ". Assumed: nobody said, and such devices usually are so.</p>";
+}
+
 }  // namespace
 
 std::string tracked_section(const json& report) {
-  std::string html =
-      "<section id=tracked><h2>As tracked, without a truth</h2>" + table_of_tools(report);
+  std::string html = "<section id=tracked><h2>As tracked, without a truth</h2>" +
+                     table_of_tools(report) + errors_text(report);
   const auto found = report.find("calibration");
   if (found == report.end() || !found->is_object()) {
     return html + "<p>Tags and cameras in use: not recorded.</p></section>";

@@ -71,15 +71,19 @@ Result<std::unique_ptr<Journal>> Journal::create(const std::string& path,
   if (!log) {
     return log.error();
   }
-  add_line(**log, Json{{"format", "orthonav session"},
-                       {"format_version", 1},
-                       {"orthonav", header.version},
-                       {"device", header.device},
-                       {"method", header.method},
-                       {"case", header.case_name},
-                       {"seed", header.seed},
-                       {"patient_reference", header.patient_reference},
-                       {"levels", plan_of(header.levels)}});
+  Json line{{"format", "orthonav session"},
+            {"format_version", 1},
+            {"orthonav", header.version},
+            {"device", header.device},
+            {"method", header.method},
+            {"case", header.case_name},
+            {"seed", header.seed},
+            {"patient_reference", header.patient_reference},
+            {"levels", plan_of(header.levels)}};
+  if (header.errors) {
+    line["common_errors"] = errors_json(*header.errors);
+  }
+  add_line(**log, line);
   return std::unique_ptr<Journal>(new Journal(std::move(*log), header.epoch_ticks_100ns));
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/io/line_log.h"
+#include "engine/session/known_errors.h"
 #include "engine/session/session_observer.h"
 
 namespace orthonav::engine {
@@ -44,6 +45,7 @@ struct JournalHeader {
   std::int64_t epoch_ticks_100ns = 0;  ///< Headset::epoch_ticks_100ns
   std::vector<PlannedLevel> levels;    ///< in the order of the operation
   bool patient_reference = false;      ///< World is attached to one instead of to the headset's map
+  std::optional<ErrorsInUse> errors;   ///< that all strokes share
 };
 
 /// The event log of a session: one JSON object per line, the first of which is the header. Times

@@ -121,6 +121,9 @@ class Reading {
     if (line.has("patient_reference")) {
       record_.patient_reference = line.flag_or("patient_reference", false);
     }
+    if (line.has("common_errors")) {
+      record_.errors = errors_from(line.child("common_errors"));
+    }
     if (!line.has("levels")) {
       return;
     }

@@ -179,6 +179,7 @@ struct SessionRecord {
   /// World was attached to a patient reference instead of to the headset's map; absent in older
   /// journals.
   std::optional<bool> patient_reference;
+  std::optional<ErrorsInUse> errors;  ///< that all strokes share; absent in older journals
   bool has_plan = false;  ///< the levels and screws are those of the plan, whether reached or not
   std::size_t lines = 0;  ///< number of lines read, including the header
   bool cut = false;       ///< it has no end: the process was killed, or the machine went down

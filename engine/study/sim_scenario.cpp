@@ -69,8 +69,7 @@ sim::RoomDescription room_of(const Case& source, const Operation& operation,
   return room;
 }
 
-void tell_common_errors(const sim::ErrorModel& room, bool sizes_estimated,
-                        SessionOptions& session) {
+KnownErrors errors_in(const sim::ErrorModel& room, bool sizes_estimated) {
   double cameras_m2 = 0.0;
   for (const Shift& shift : kOfCamerasAndTags) {
     const double sd_m = shift.m_per_unit * room.*shift.magnitude;
@@ -79,17 +78,23 @@ void tell_common_errors(const sim::ErrorModel& room, bool sizes_estimated,
   if (!sizes_estimated) {
     cameras_m2 += kOfSizeAsStated_m * kOfSizeAsStated_m * room.tag_scale * room.tag_scale;
   }
-  session.common.cameras_m = std::sqrt(cameras_m2);
-  session.common.tip_m = kOfTip * room.tip_calibration_m;
+  constexpr double kSecondsAMinute = 60.0;
+  const double drift =
+      std::hypot(room.map_drift_m_per_sqrt_s,
+                 room.map_step_m * std::sqrt(room.map_steps_per_min / kSecondsAMinute));
+  KnownErrors known;
+  known.tip_m = ErrorSd{kOfTip * room.tip_calibration_m, ErrorSource::kRoom};
+  known.cameras_m = ErrorSd{std::sqrt(cameras_m2), ErrorSource::kRoom};
+  known.map_drift_m_per_sqrt_s = ErrorSd{drift, ErrorSource::kRoom};
+  return known;
+}
+
+void tell_instruments(const sim::ErrorModel& room, SessionOptions& session) {
   session.placed.tip_sd_m = room.tip_calibration_m;
   session.placed.axis_sd_rad = room.axis_calibration_rad;
   session.placed.play_rad = room.sleeve_play_rad;
   session.astray = {std::hypot(room.wire_bending_rad, room.hand_drilling_corrected_rad),
                     room.wire_skiving_m};
-  constexpr double kSecondsAMinute = 60.0;
-  session.map_drift_m_per_sqrt_s =
-      std::hypot(room.map_drift_m_per_sqrt_s,
-                 room.map_step_m * std::sqrt(room.map_steps_per_min / kSecondsAMinute));
 }
 
 }  // namespace orthonav::engine

@@ -4,6 +4,7 @@
 
 #include "engine/case/case.h"
 #include "engine/case/operation.h"
+#include "engine/session/known_errors.h"
 #include "engine/session/session_options.h"
 #include "hal/sim/error_model.h"
 #include "hal/sim/room.h"
@@ -16,9 +17,10 @@ namespace orthonav::engine {
 [[nodiscard]] sim::RoomDescription room_of(const Case& source, const Operation& operation,
                                            const std::vector<nav::ToolGeometry>& tools);
 
-/// Tells an operation in this room what all strokes have in common, how well the guide is known,
-/// and how far drills go astray: the SDs that follow from those from which the room draws, not the
-/// drawn values. `sizes_estimated`: sizes of tags are estimated in use.
-void tell_common_errors(const sim::ErrorModel& room, bool sizes_estimated, SessionOptions& session);
+/// What all strokes in this room have in common: the SDs that follow from those from which it
+/// draws, not the drawn values. `sizes_estimated`: sizes of tags are estimated in use.
+[[nodiscard]] KnownErrors errors_in(const sim::ErrorModel& room, bool sizes_estimated = true);
+/// Tells an operation in this room how well the guide is known, and how far drills go astray.
+void tell_instruments(const sim::ErrorModel& room, SessionOptions& session);
 
 }  // namespace orthonav::engine

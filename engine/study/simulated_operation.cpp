@@ -81,7 +81,8 @@ Result<std::unique_ptr<AssembledOperation>> assembled_in(
     return headset.error();
   }
   AssemblyOptions assembly = options;
-  tell_common_errors(options.sim.error_model, options.correct_tag_sizes, assembly.session);
+  assembly.errors = errors_in(options.sim.error_model, options.correct_tag_sizes);
+  tell_instruments(options.sim.error_model, assembly.session);
   auto live = assemble_operation(**headset, std::move(operation), method, tools, assembly);
   const Status taken = live && hooks.assembled ? hooks.assembled(**live) : Status();
   return taken ? std::move(live) : taken.error();
@@ -115,6 +116,7 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   }
   OperationResult result =
       outcome_of(live.session().levels(), live.session().rods(), run_until_done(hooks, live));
+  result.errors = live.errors();
   result.calibration = calibration_in_use(live.session().tracker());
   // A recording that failed must not cost the operation its result.
   if (*recorder) {

@@ -119,6 +119,9 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   }
   EXPECT_GT(lines, 20);
   EXPECT_THAT(content_of(out + "/operation.mp4"), HasSubstr("ftyp"));
+  const Called run = orthonav({"run", "--levels", "L5", "--frames", "2", "--json"});
+  EXPECT_EQ(json::parse(run.out)["common_errors"], report["common_errors"]);
+  EXPECT_NEAR(registration["common_sd_mm"]["cameras"].get<double>(), 0.46, 0.005);
 }
 
 TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
@@ -142,6 +145,34 @@ TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
   EXPECT_EQ(again.code, 1) << again.err;
   EXPECT_EQ(json::parse(again.out)["frames"]["displayed"], 6);
   EXPECT_FALSE(json::parse(again.out).contains("seed")) << "a recording has none";
+
+  // What all strokes share: the room's, and the same assumed where nobody says.
+  const json room = report["common_errors"];
+  const json assumed = json::parse(again.out)["common_errors"];
+  for (const auto& [name, key] : {std::pair("tip", "sd_mm"), std::pair("cameras", "sd_mm"),
+                                  std::pair("map_drift", "sd_mm_per_sqrt_s")}) {
+    EXPECT_EQ(room[name]["source"], "simulated room") << name;
+    EXPECT_EQ(assumed[name]["source"], "assumed") << name;
+    EXPECT_GT(room[name][key], 0.1) << name;
+    EXPECT_NEAR(room[name][key].get<double>(), assumed[name][key].get<double>(), 0.005) << name;
+  }
+}
+
+TEST(RunCommand, CountsWithTheCommonErrorsThatAreGiven) {
+  const ScratchFolder folder;
+  const std::string out = folder.file("out");
+  const Called given =
+      orthonav({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--frames", "2", "--json",
+                "--out", out, "--tip-sd-mm", "1.5", "--map-sd-mm", "0.2"});
+  ASSERT_EQ(given.code, 0) << given.err;
+  const json errors = json::parse(given.out)["common_errors"];
+  EXPECT_EQ(errors["tip"], (json{{"sd_mm", 1.5}, {"source", "given"}}));
+  EXPECT_EQ(errors["cameras"]["source"], "simulated room");
+  EXPECT_EQ(errors["map"], (json{{"sd_mm", 0.2}, {"source", "given"}}));
+  EXPECT_EQ(errors["map_drift"]["sd_mm_per_sqrt_s"], 0.0) << "what is given counts instead";
+  const std::string journal = content_of(out + "/session.orthonav");
+  EXPECT_EQ(json::parse(journal.substr(0, journal.find('\n')))["common_errors"], errors);
+  EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("tip 1.50 mm (given), cameras 0.46 mm"));
 }
 
 TEST(RunCommand, GoesOnWithTheOperationOfAFolderAndWithNoOther) {

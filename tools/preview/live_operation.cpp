@@ -103,6 +103,10 @@ Status LiveOperation::prepare(const OperationSource& source) {
   }
   engine::AssemblyOptions options{.loop = loop_options()};
   options.session.replan.sizes = source.screw_sizes;
+  if (room_) {
+    options.errors = engine::errors_in(room_->options().error_model);
+    engine::tell_instruments(room_->options().error_model, options.session);
+  }
   auto assembled = engine::assemble_operation(gated_, source.operation, source.method,
                                               with_guide(*tools), options);
   if (!assembled) {

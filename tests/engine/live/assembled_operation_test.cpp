@@ -110,7 +110,7 @@ TEST_F(AssembledOperationTest, NamesEveryProblemOfItsOptions) {
 
 TEST_F(AssembledOperationTest, TheMapsDriftIsNoErrorBesideAPatientReference) {
   fake::FakeHeadset headset(test::pairs(1));
-  options_.session.map_drift_m_per_sqrt_s = 0.0003;
+  options_.errors.map_drift_m_per_sqrt_s = ErrorSd{0.0003, ErrorSource::kGiven};
   Method method = blind(asked_);
   method.anchors = true;
   method.create_tracker = [](const auto&...) -> Result<std::unique_ptr<nav::ToolTracker>> {
@@ -180,8 +180,34 @@ class MeasuringHeadset : public fake::FakeHeadset, private StereoCamera {
   [[nodiscard]] std::span<const std::string> do_measured_tools() const override { return names_; }
   Result<Next> do_next(StereoFrame& /*frame*/) override { return Next::kEnd; }
   StereoCalibration calibration_;
-  std::vector<std::string> names_ = {"pointer"};
+  std::vector<std::string> names_ = {"pointer", "guide", "reference"};
 };
+
+TEST_F(AssembledOperationTest, CountsWithWhatSuchDevicesUsuallyAreOffWhereNobodySays) {
+  fake::FakeHeadset headset(test::pairs(1));
+  const auto of = [&](Headset& any) {
+    const auto operation = assembled(any);
+    EXPECT_TRUE(operation.ok());
+    if (operation) {
+      const SessionOptions& counts = (*operation)->session().options();
+      EXPECT_EQ(counts.common.sd_m(), (*operation)->errors().common().sd_m());
+    }
+    return operation ? (*operation)->errors() : ErrorsInUse{};
+  };
+  const ErrorsInUse assumed = of(headset);
+  EXPECT_NEAR(assumed.common().sd_m(), 0.00061, 1e-5);
+  EXPECT_EQ(assumed.tip_m.source, ErrorSource::kAssumed);
+  EXPECT_GT(assumed.map_drift_m_per_sqrt_s.sd, 0.0);
+  MeasuringHeadset tracker;
+  EXPECT_LT(of(tracker).cameras_m.sd, assumed.cameras_m.sd);
+  EXPECT_EQ(of(tracker).map_drift_m_per_sqrt_s.source, ErrorSource::kNone) << "it stands still";
+  options_.errors.tip_m = ErrorSd{0.001, ErrorSource::kGiven};
+  options_.errors.map_m = ErrorSd{0.0, ErrorSource::kGiven};
+  EXPECT_EQ(of(headset).tip_m.sd, 0.001);
+  EXPECT_EQ(of(headset).cameras_m.sd, assumed.cameras_m.sd);
+  EXPECT_EQ(of(headset).map_drift_m_per_sqrt_s.sd, 0.0);
+  EXPECT_EQ(errors_in_use({}, {.patient_reference = true}).map_drift_m_per_sqrt_s.sd, 0.0);
+}
 
 TEST(ToolsKnownTo, AHeadsetThatMeasuresToolsItselfAreNotGuessed) {
   MeasuringHeadset headset;
