@@ -146,6 +146,7 @@ void print(const TrackArguments& arguments, const TrackSummary& summary,
         out["tools"].back()["tag_size"] = as_json(*size);
       }
     }
+    out["pairs_refused"] = tracker.picture_agreement().refused;
     if (alignment) {
       out["stereo_alignment"] = as_json(*alignment);
     }
@@ -159,6 +160,10 @@ void print(const TrackArguments& arguments, const TrackSummary& summary,
   for (std::size_t i = 0; i < tools.size(); ++i) {
     print_text("%s (id %d): measured in %lld\n", tools[i].name.c_str(), tools[i].marker.id,
                static_cast<long long>(summary.measured[i]));
+  }
+  if (const auto refused = tracker.picture_agreement().refused; refused > 0) {
+    print_text("%s refused: the two cameras' pictures do not belong together\n",
+               how_many(refused, "stereo pair").c_str());
   }
   if (alignment) {
     print(*alignment);

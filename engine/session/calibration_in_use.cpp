@@ -25,6 +25,7 @@ CalibrationInUse calibration_in_use(const nav::ToolTracker& tracker) {
         found->rotation_rad.norm(), found->applied,     found->focal_fraction, found->focal_sd,
         found->baseline_fraction,   found->baseline_sd, found->pairs};
   }
+  out.pairs_refused = tracker.picture_agreement().refused;
   return out;
 }
 
@@ -37,6 +38,9 @@ JournalLine calibration_json(const CalibrationInUse& found) {
                     {"sd_percent", size.sd / kPercent}});
   }
   JournalLine out = JournalLine::object();
+  if (found.pairs_refused > 0) {
+    out["pairs_refused"] = found.pairs_refused;
+  }
   if (!found.tags.empty()) {
     out["tags"] = std::move(tags);
   } else {
@@ -59,6 +63,9 @@ JournalLine calibration_json(const CalibrationInUse& found) {
 
 CalibrationInUse calibration_of(const JsonNode& line) {
   CalibrationInUse out;
+  if (line.has("pairs_refused")) {
+    out.pairs_refused = static_cast<std::int64_t>(line.number("pairs_refused"));
+  }
   if (line.has("tags")) {
     for (const JsonNode& size : line.list("tags")) {
       out.tags.push_back({size.text("tool"), size.number("applied_percent") * kPercent,

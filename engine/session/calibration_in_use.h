@@ -35,6 +35,7 @@ struct CamerasInUse {
 struct CalibrationInUse {
   std::vector<TagSizeInUse> tags;
   std::optional<CamerasInUse> cameras;
+  std::int64_t pairs_refused = 0;  ///< since their two pictures contradict each other
 };
 
 [[nodiscard]] CalibrationInUse calibration_in_use(const nav::ToolTracker& tracker);

@@ -60,6 +60,7 @@ void Publication::publish_tool(const OperationInWork& work, const SessionSteps& 
   StatusLine& line = guidance_.status;
   line.tool = {};
   line.tool_lost = false;
+  line.pictures_apart = work.tools.pictures_apart();
   line.tag_size_off.reset();
   if (const auto tool = steps.tool(work)) {
     line.tool = work.tools.geometry(*tool).name;

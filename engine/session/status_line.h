@@ -102,6 +102,8 @@ struct StatusLine {
   StepOnDisplay at;
   std::string_view tool;               ///< of the step, if it has one
   bool tool_lost = false;              ///< it was seen before
+  /// The two cameras' pictures contradict each other, so that nothing is measured.
+  bool pictures_apart = false;
   std::optional<double> tag_size_off;  ///< its tag is larger than stated by this fraction
   /// How far the guide's depth stop lets the drill go past the target of the selected screw.
   std::optional<double> stop_past_target_m;

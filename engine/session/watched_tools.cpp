@@ -131,6 +131,12 @@ std::optional<double> WatchedTools::tag_size_off(std::size_t tool) const {
   return size && size->disagrees ? std::optional(size->fraction) : std::nullopt;
 }
 
+bool WatchedTools::pictures_apart() const {
+  // The time for which poses are predicted: from then on it shows.
+  constexpr std::int64_t kPairsUntilTold = 3;
+  return tracker_->picture_agreement().refused_in_a_row > kPairsUntilTold;
+}
+
 double WatchedTools::tag_size_difference_sd() const {
   return tracker_->tag_size_difference_sd(pointer_, guide_);
 }

@@ -58,6 +58,9 @@ class WatchedTools {
   /// The fraction by which a tag is larger than its tool's definition says, which makes poses
   /// wrong. Absent if all is well.
   [[nodiscard]] std::optional<double> tag_size_off(std::size_t tool) const;
+  /// The two pictures of the newest pairs are not of the same moment, or the cameras were just
+  /// turned against each other.
+  [[nodiscard]] bool pictures_apart() const;
   /// SD of the size difference between the tags of pointer and guide, as a fraction.
   [[nodiscard]] double tag_size_difference_sd() const;
 

@@ -169,6 +169,9 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
   if (line.stalled) {
     text.begin(Importance::kDanger);
     out += stalled_text(*line.stalled);
+  } else if (line.pictures_apart) {
+    text.begin(Importance::kDanger);
+    out += translated("the two cameras' pictures do not belong together");
   } else if (line.tool_lost) {
     text.begin(Importance::kDanger);
     append_with(out, translated("%s lost"), line.tool);

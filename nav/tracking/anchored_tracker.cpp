@@ -57,6 +57,9 @@ class AnchoredTracker final : public ToolTracker {
   [[nodiscard]] std::optional<StereoAlignment> alignment() const override {
     return tracker_->alignment();
   }
+  [[nodiscard]] PictureAgreement picture_agreement() const override {
+    return tracker_->picture_agreement();
+  }
   [[nodiscard]] std::optional<TagSize> tag_size(std::size_t tool) const override {
     return tracker_->tag_size(tool);
   }

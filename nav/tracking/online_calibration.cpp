@@ -4,6 +4,7 @@
 #include <cmath>
 #include <Eigen/Dense>
 #include <limits>
+#include <utility>
 
 namespace orthonav::nav {
 namespace {
@@ -15,6 +16,18 @@ using PairMatrix = Eigen::Matrix<double, kCalibrationUnknowns, kCalibrationUnkno
 
 double precision(double sd) { return 1.0 / (sd * sd); }
 
+/// The probability of a larger chi-square with an even number of degrees of freedom.
+double by_chance(double chi_square, int degrees) {
+  const double half = 0.5 * std::max(chi_square, 0.0);
+  double term = std::exp(-half);
+  double sum = term;
+  for (int k = 1; k < degrees / 2; ++k) {
+    term *= half / k;
+    sum += term;
+  }
+  return sum;
+}
+
 }  // namespace
 
 /// The remaining correction, with the sizes eliminated.
@@ -25,7 +38,7 @@ struct OnlineCalibration::Estimate {
 };
 
 OnlineCalibration::OnlineCalibration(std::size_t tools, const CalibrationOptions& options)
-    : options_(options), tools_(tools) {}
+    : options_(options), tools_(tools), kept_(tools) {}
 
 void OnlineCalibration::add(std::size_t tool, const CalibrationEquations& pair) {
   const Eigen::Map<const PairMatrix> information(pair.information.data());
@@ -51,15 +64,52 @@ double OnlineCalibration::size_change(const Tool& tool, const Camera& cameras) c
   return (tool.right - prior * tool.applied - cross.dot(x)) / (tool.information + prior);
 }
 
-std::optional<OnlineCalibration::Estimate> OnlineCalibration::estimate() const {
-  if (pairs_ == 0) {
-    return std::nullopt;
+void OnlineCalibration::restart() {
+  information_ = {};
+  right_ = {};
+  for (Tool& tool : tools_) {
+    tool = {{}, 0.0, 0.0, tool.applied};
   }
+  pairs_ = 0;
+}
+
+bool OnlineCalibration::explains(std::span<const ToolEquations> pair) {
+  double contradiction = 0.0;
+  int tags = 0;
+  const Priors priors{precision(options_.max_rotation_rad), options_.any_size_sd};
+  const auto before = estimate(priors);
+  // The pair is added for the moment; copying keeps the memory.
+  const auto information = information_;
+  const auto right = right_;
+  const std::int64_t pairs = pairs_;
+  kept_ = tools_;
+  for (const auto& [tool, equations] : pair) {
+    contradiction += options_.independent_fraction * equations.contradiction;
+    tags += equations.tags;
+    add(tool, equations);
+  }
+  const auto after = estimate(priors);
+  information_ = information;
+  right_ = right;
+  pairs_ = pairs;
+  std::swap(tools_, kept_);
+  if (tags == 0 || !before || !after) {
+    return true;
+  }
+  return by_chance(contradiction - (after->gain - before->gain), 6 * tags) >= options_.chance;
+}
+
+std::optional<OnlineCalibration::Estimate> OnlineCalibration::estimate() const {
+  return pairs_ == 0 ? std::nullopt : estimate({0.0, options_.size_sd});
+}
+
+std::optional<OnlineCalibration::Estimate> OnlineCalibration::estimate(const Priors& priors) const {
   CamerasMatrix information = Eigen::Map<const CamerasMatrix>(information_.data());
   CamerasVector right = Eigen::Map<const CamerasVector>(right_.data());
+  information.topLeftCorner<3, 3>().diagonal().array() += priors.rotation_precision;
   information(kFocalUnknown, kFocalUnknown) += precision(options_.focal_sd);
   information(kBaselineUnknown, kBaselineUnknown) += precision(options_.baseline_sd);
-  const double prior = precision(options_.size_sd);
+  const double prior = precision(priors.size_sd);
   double gain = 0.0;
   for (const Tool& tool : tools_) {
     const Eigen::Map<const CamerasVector> cross(tool.cross.data());

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "nav/tracking/stereo_alignment.h"
@@ -19,11 +20,21 @@ inline constexpr std::size_t kBaselineUnknown = 4;
 inline constexpr std::size_t kTagSizeUnknown = 5;
 inline constexpr std::size_t kCalibrationUnknowns = 6;
 
-/// Least-squares equations from one pair and one tool that both cameras saw, for the deviation of
-/// the calibration from the one that poses are computed with; pose and light are eliminated.
+/// Least-squares equations from one pair and the tags of one tool that both cameras saw, for the
+/// deviation of the calibration from the one that poses are computed with; the tags' poses and
+/// their light are eliminated.
 struct CalibrationEquations {
   std::array<double, kCalibrationUnknowns * kCalibrationUnknowns> information{};  ///< symmetric
   std::array<double, kCalibrationUnknowns> right{};
+  /// By how much the squared, normalised error would fall if each camera had its own pose of every
+  /// tag: how strongly the two pictures contradict each other with the calibration as it is.
+  double contradiction = 0.0;
+  int tags = 0;
+};
+
+struct ToolEquations {
+  std::size_t tool = 0;
+  CalibrationEquations equations;
 };
 
 struct CalibrationOptions {
@@ -34,6 +45,10 @@ struct CalibrationOptions {
   /// By how much the squared, normalised error must fall: with 3 rotations and 3 tools this happens
   /// by chance in 1 of 100,000 cases.
   double significance = 35.0;
+  /// Two pictures of one moment contradict each other this much in one of a million pairs. Tags
+  /// of a wrong size are another fault, so for this the sizes' prior is that of all printers.
+  double chance = 1e-6;
+  double any_size_sd = 0.05;
   /// A correction is applied if it turns the camera by more than this, a twentieth of a pixel, or
   /// changes a tag's size by more than this.
   double min_rotation_rad = 0.00015;
@@ -58,6 +73,14 @@ class OnlineCalibration {
   explicit OnlineCalibration(std::size_t tools, const CalibrationOptions& options = {});
 
   void add(std::size_t tool, const CalibrationEquations& pair);
+  /// Whether the two pictures of a pair may be of the same moment: whether what is left of their
+  /// contradiction, after the calibration has explained what it can within its own uncertainty,
+  /// happens by chance. One entry per tool that both cameras saw. A pair has the weight with which
+  /// it counts for the calibration, since errors of light and lens contradict each other too.
+  [[nodiscard]] bool explains(std::span<const ToolEquations> pair);
+  /// Forgets every pair; what was applied stays applied.
+  void restart();
+  [[nodiscard]] std::int64_t pairs() const { return pairs_; }
   /// Computes the correction that the caller must apply now, and counts it as applied. False,
   /// without a correction, while it is not certain, too small to matter, or beyond the limits.
   bool correct();
@@ -82,6 +105,11 @@ class OnlineCalibration {
     double applied = 0.0;  ///< logarithm of the factor
   };
   struct Estimate;
+  struct Priors {
+    double rotation_precision = 0.0;  ///< 0: all rotations are equally likely
+    double size_sd = 0.0;
+  };
+  [[nodiscard]] std::optional<Estimate> estimate(const Priors& priors) const;
   [[nodiscard]] std::optional<Estimate> estimate() const;
   [[nodiscard]] double size_change(const Tool& tool, const Camera& cameras) const;
   void apply(const Camera& cameras);
@@ -90,6 +118,7 @@ class OnlineCalibration {
   std::array<double, kCameraUnknowns * kCameraUnknowns> information_{};
   Camera right_{};
   std::vector<Tool> tools_;
+  std::vector<Tool> kept_;  ///< scratch
   Vec3 applied_rad_{};
   Vec3 rotation_rad_{};
   bool applied_ = false;

@@ -252,36 +252,72 @@ std::optional<CalibrationEquations> PhotometricSolver::calibration_equations(
   if (!fit.left || !fit.right || equations_.size() != views.size()) {
     return std::nullopt;
   }
+  CalibrationEquations out;
+  for (std::size_t l = 0; l < views.size(); ++l) {
+    std::size_t r = 0;
+    while (r < views.size() && !(views[r].right && views[r].used && views[r].tag == views[l].tag)) {
+      ++r;
+    }
+    if (!views[l].right && views[l].used && r < views.size()) {
+      add_tag(fit.rig_from_marker, views[l], view_equations(l, views[l]), views[r],
+              view_equations(r, views[r]), out);
+    }
+  }
+  return out.tags > 0 ? std::optional(out) : std::nullopt;
+}
+
+ReducedView PhotometricSolver::view_equations(std::size_t index, const TagView& view) const {
+  return reduced(equations_.at(index), view.light);
+}
+
+ReducedView PhotometricSolver::shifted(const TagView& view, const ReducedView& at_best,
+                                       const Transform<Rig, Marker>& best,
+                                       const Transform<Rig, Marker>& pose) {
+  const Transform<Marker, Marker> apart = pose.inverse() * best;
+  const Vec3 turn = vector_from_rotation(apart.rotation());
+  Vector6 motion;
+  motion << apart.translation().x, apart.translation().y, apart.translation().z, turn.x, turn.y,
+      turn.z;
+  ReducedView out = at_best;
+  Eigen::Map<Vector6>(out.right.data()) +=
+      Eigen::Map<const Matrix6>(at_best.normal.data()) *
+      (tag_by_tool(view.marker_from_tag, view.tag->cell_m()) * motion);
+  return out;
+}
+
+/// The tag has its own pose: how it is mounted says nothing about the cameras.
+void PhotometricSolver::add_tag(const Transform<Rig, Marker>& pose, const TagView& left,
+                                const ReducedView& of_left, const TagView& right,
+                                const ReducedView& of_right, CalibrationEquations& out) const {
   const Vec3 baseline_m =
       (calibration_.right_from_rig * calibration_.left_from_rig.inverse()).translation();
-  Matrix6 pose = Matrix6::Zero();
+  Eigen::Map<Matrix6> information(out.information.data());
+  Eigen::Map<Vector6> gradient(out.right.data());
+  MotionEquations both;
   Matrix6 cross = Matrix6::Zero();
-  Matrix6 normal = Matrix6::Zero();
-  Vector6 pose_right = Vector6::Zero();
-  Vector6 right = Vector6::Zero();
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const TagView& view = views[i];
-    if (!view.used) {
-      continue;
-    }
-    const ReducedView own = reduced(equations_[i], view.light);
+  double alone = 0.0;  // by which the error falls with a pose for each camera
+  for (const bool is_right : {false, true}) {
+    const TagView& view = is_right ? right : left;
+    const ReducedView& own = is_right ? of_right : of_left;
     const Eigen::Map<const Matrix6> own_normal(own.normal.data());
     const Eigen::Map<const Vector6> own_right(own.right.data());
     const double cell_m = view.tag->cell_m();
     const Matrix6 motion = tag_by_tool(view.marker_from_tag, cell_m);
-    const Matrix6 by_calibration = tag_by_calibration(camera_from_tag(view, fit.rig_from_marker),
-                                                      view.right ? &baseline_m : nullptr, cell_m);
-    pose += motion.transpose() * own_normal * motion;
-    pose_right += motion.transpose() * own_right;
+    const Matrix6 by_calibration =
+        tag_by_calibration(camera_from_tag(view, pose), is_right ? &baseline_m : nullptr, cell_m);
+    both.normal += motion.transpose() * own_normal * motion;
+    both.right += motion.transpose() * own_right;
     cross += motion.transpose() * own_normal * by_calibration;
-    normal += by_calibration.transpose() * own_normal * by_calibration;
-    right += by_calibration.transpose() * own_right;
+    information += by_calibration.transpose() * own_normal * by_calibration;
+    gradient += by_calibration.transpose() * own_right;
+    alone += own_right.dot(own_normal.ldlt().solve(own_right));
   }
-  const Eigen::LDLT<Matrix6> solver(pose);
-  CalibrationEquations out;
-  Eigen::Map<Matrix6>(out.information.data()) = normal - cross.transpose() * solver.solve(cross);
-  Eigen::Map<Vector6>(out.right.data()) = right - cross.transpose() * solver.solve(pose_right);
-  return out;
+  const Eigen::LDLT<Matrix6> solver(both.normal);
+  const Vector6 step = solver.solve(both.right);
+  information -= cross.transpose() * solver.solve(cross);
+  gradient -= cross.transpose() * step;
+  out.contradiction += alone - both.right.dot(step);
+  ++out.tags;
 }
 
 }  // namespace orthonav::nav

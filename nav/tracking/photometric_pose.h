@@ -8,6 +8,7 @@
 #include "base/tracked.h"
 #include "hal/api/devices.h"
 #include "nav/tracking/online_calibration.h"
+#include "nav/tracking/photometric_reduced.h"
 #include "nav/tracking/photometric_view.h"
 
 namespace orthonav::nav {
@@ -60,6 +61,15 @@ class PhotometricSolver {
   /// The calibration equations of the last fit; nothing if only one camera was used.
   [[nodiscard]] std::optional<CalibrationEquations> calibration_equations(
       const PhotometricFit& fit, std::span<const TagView> views) const;
+  /// The equations of one view of the last fit.
+  [[nodiscard]] ReducedView view_equations(std::size_t index, const TagView& view) const;
+  /// The equations of a view at `pose`, from those at the pose that fits it best.
+  [[nodiscard]] static ReducedView shifted(const TagView& view, const ReducedView& at_best,
+                                           const Transform<Rig, Marker>& best,
+                                           const Transform<Rig, Marker>& pose);
+  /// Adds the calibration equations of a tag that both cameras saw, at a pose.
+  void add_tag(const Transform<Rig, Marker>& pose, const TagView& left, const ReducedView& of_left,
+               const TagView& right, const ReducedView& of_right, CalibrationEquations& out) const;
   /// Pixels per unit of the unit plane, near the middle of the left or the right image.
   [[nodiscard]] double focal_px(bool right) const {
     return right ? right_rays_.focal_px : left_rays_.focal_px;

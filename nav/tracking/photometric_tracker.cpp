@@ -10,6 +10,8 @@ namespace {
 /// A prediction may be off by this many SDs plus this many pixels.
 constexpr double kDoubtSd = 3.0;
 constexpr double kFewestDoubtPx = 1.0;
+/// After this many refused pairs in a row that agree with one another, the cameras were turned.
+constexpr std::int64_t kBelievedPairs = 30;
 
 }  // namespace
 
@@ -25,7 +27,10 @@ PhotometricTracker::PhotometricTracker(const StereoCalibration& calibration,
       options_(options),
       near_(std::move(near)),
       full_search_(std::move(whole)),
-      calibration_(tools_.size()) {
+      calibration_(tools_.size()),
+      other_calibration_(tools_.size()),
+      fits_(tools_.size()) {
+  equations_.reserve(tools_.size());
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     trails_.push_back({std::move(followers[i]), PoseFilter{}, {}, {}, {}});
     states_.push_back({i, {}, {}, 0.0});
@@ -38,33 +43,106 @@ std::span<const ToolState> PhotometricTracker::track(const StereoFrame& frame) {
   if (std::exchange(map_epoch_, frame.map_epoch) != frame.map_epoch) {
     forget_map();
   }
-  std::size_t tracked = 0;
+  is_refused_ = is_accepted_ = false;
+  if (follow_all(frame)) {
+    find_lost(frame);
+  }
+  if (is_refused_) {
+    ++agreement_.refused;
+    ++agreement_.refused_in_a_row;
+    last_refused_ = pairs_;
+  } else if (is_accepted_ || pairs_ - last_refused_ > 2 * options_.full_search_interval) {
+    // A tool that is out of sight says nothing any more.
+    agreement_.refused_in_a_row = 0;
+  }
+  return states_;
+}
+
+bool PhotometricTracker::follow_all(const StereoFrame& frame) {
+  equations_.clear();
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     states_[i] = {i, {}, {}, 0.0};
     states_[i].world_from_marker.time = frame.time;
-    if (frame.world_from_rig && follow(i, frame)) {
-      ++tracked;
+    fits_[i] = frame.world_from_rig ? follow(i, frame) : std::nullopt;
+    if (fits_[i] && fits_[i]->calibration) {
+      equations_.push_back({i, *fits_[i]->calibration});
     }
   }
+  // Together they show most.
+  if (!calibration_.explains(equations_)) {
+    refuse(equations_);
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+      predict(i, frame);
+    }
+    return false;
+  }
+  accept(equations_);
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    if (fits_[i]) {
+      measure(i, frame, *fits_[i]);
+    }
+  }
+  return true;
+}
+
+void PhotometricTracker::find_lost(const StereoFrame& frame) {
   calibrate();
+  std::size_t tracked = 0;
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    tracked += is_measured(i) ? 1 : 0;
+  }
   if (!frame.world_from_rig || tracked == tools_.size()) {
-    return states_;
+    return;
   }
   look_for_lost(frame, tracked > 0);
   bool missing = false;
+  equations_.clear();
   for (std::size_t i = 0; i < tools_.size(); ++i) {
+    contradiction_.reset();
     if (is_measured(i) || find(i, frame)) {
       continue;
     }
+    if (contradiction_) {
+      equations_.push_back(*contradiction_);
+    }
     missing = true;
     predict(i, frame);
+  }
+  if (!equations_.empty()) {
+    refuse(equations_);
   }
   // While other tools are tracked, the whole image is searched in the background until the next
   // pair.
   if (missing && (tracked > 0 || any_recent(frame.time)) && is_turn()) {
     full_search_->start(frame);
   }
-  return states_;
+}
+
+void PhotometricTracker::accept(std::span<const ToolEquations> pair) {
+  if (pair.empty()) {
+    return;
+  }
+  is_accepted_ = true;
+  other_since_ = pairs_;
+  other_calibration_ = calibration_;
+  other_calibration_.restart();
+}
+
+/// Cameras that were knocked agree with themselves from then on; pictures of different moments do
+/// so only as long as nothing moves, and then they are right.
+void PhotometricTracker::refuse(std::span<const ToolEquations> pair) {
+  is_refused_ = true;
+  if (!other_calibration_.explains(pair)) {
+    other_since_ = pairs_;
+    other_calibration_ = calibration_;
+    other_calibration_.restart();
+  }
+  for (const auto& [tool, equations] : pair) {
+    other_calibration_.add(tool, equations);
+  }
+  if (pairs_ - other_since_ >= kBelievedPairs) {
+    calibration_ = other_calibration_;
+  }
 }
 
 std::optional<StereoAlignment> PhotometricTracker::alignment() const {
@@ -116,16 +194,17 @@ bool PhotometricTracker::any_recent(Timestamp time) const {
   });
 }
 
-bool PhotometricTracker::follow(std::size_t i, const StereoFrame& frame) {
+std::optional<ToolFit> PhotometricTracker::follow(std::size_t i, const StereoFrame& frame) {
   Trail& trail = trails_[i];
   if (!trail.filter.follows(frame.time, options_.coast)) {
-    return false;
+    return std::nullopt;
   }
   const TrackedPose ahead = trail.filter.predicted(frame.time);
   const Transform<Rig, Marker> expected = frame.world_from_rig->inverse() * ahead.value;
   const double variance =
       std::max({ahead.covariance[0], ahead.covariance[7], ahead.covariance[14]});
-  return take(i, frame, expected, kDoubtSd * std::sqrt(variance) + pixel_m(expected));
+  return trail.follower.follow(frame, expected, kDoubtSd * std::sqrt(variance) + pixel_m(expected),
+                               solver_, search_);
 }
 
 double PhotometricTracker::pixel_m(const Transform<Rig, Marker>& pose) const {
@@ -135,32 +214,44 @@ double PhotometricTracker::pixel_m(const Transform<Rig, Marker>& pose) const {
 bool PhotometricTracker::take(std::size_t i, const StereoFrame& frame,
                               const Transform<Rig, Marker>& expected, double doubt_m,
                               bool by_both) {
-  Trail& trail = trails_[i];
-  const auto fit = trail.follower.follow(frame, expected, doubt_m, solver_, search_);
+  const auto fit = trails_[i].follower.follow(frame, expected, doubt_m, solver_, search_);
   if (!fit || (by_both && !(fit->left && fit->right))) {
     return false;
   }
   if (fit->calibration) {
-    calibration_.add(i, *fit->calibration);
+    const ToolEquations own{i, *fit->calibration};
+    if (!calibration_.explains({&own, 1})) {
+      contradiction_ = own;
+      return false;
+    }
+    accept({&own, 1});
   }
-  if (fit->left && fit->right && trail.size.is_due()) {
-    if (const auto size = trail.follower.measured_size(frame, fit->rig_from_marker, solver_)) {
+  measure(i, frame, *fit);
+  return true;
+}
+
+void PhotometricTracker::measure(std::size_t i, const StereoFrame& frame, const ToolFit& fit) {
+  Trail& trail = trails_[i];
+  if (fit.calibration && fit.left && fit.right) {
+    calibration_.add(i, *fit.calibration);
+  }
+  if (fit.left && fit.right && trail.size.is_due()) {
+    if (const auto size = trail.follower.measured_size(frame, fit.rig_from_marker, solver_)) {
       trail.size.add(*size);
     }
   }
-  TrackedPose measured{*frame.world_from_rig * fit->rig_from_marker, frame.time,
+  TrackedPose measured{*frame.world_from_rig * fit.rig_from_marker, frame.time,
                        PoseStatus::kMeasured,
-                       rotated(fit->covariance_in_rig, frame.world_from_rig->rotation())};
+                       rotated(fit.covariance_in_rig, frame.world_from_rig->rotation())};
   trail.filter.update(measured, trail.follower.exposure_s());
   ToolState& state = states_[i];
   state.world_from_marker = trail.filter.state();
   state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
   add_head(state, frame);
-  state.cameras = (fit->left ? 1 : 0) + (fit->right ? 1 : 0);
-  state.pair = PairPose{fit->rig_from_marker, fit->covariance_in_rig, trail.follower.exposure_s()};
+  state.cameras = (fit.left ? 1 : 0) + (fit.right ? 1 : 0);
+  state.pair = PairPose{fit.rig_from_marker, fit.covariance_in_rig, trail.follower.exposure_s()};
   trail.last_seen = state.world_from_marker.value;
   trail.last_time = frame.time;
-  return true;
 }
 
 void PhotometricTracker::predict(std::size_t i, const StereoFrame& frame) {

@@ -29,6 +29,7 @@ class PhotometricTracker final : public ToolTracker {
   [[nodiscard]] std::span<const ToolGeometry> tools() const override { return tools_; }
   [[nodiscard]] std::optional<StereoAlignment> alignment() const override;
   [[nodiscard]] std::optional<TagSize> tag_size(std::size_t tool) const override;
+  [[nodiscard]] PictureAgreement picture_agreement() const override { return agreement_; }
   [[nodiscard]] double tag_size_difference_sd(std::size_t tool, std::size_t other) const override {
     return calibration_.size_difference_sd(tool, other);
   }
@@ -55,12 +56,21 @@ class PhotometricTracker final : public ToolTracker {
   /// The length that `kFewestDoubtPx` covers at the tool's distance.
   [[nodiscard]] double pixel_m(const Transform<Rig, Marker>& pose) const;
 
-  // For tool `i`, in a frame whose `world_from_rig` is known. True: its pose was measured.
-  bool follow(std::size_t i, const StereoFrame& frame);
-  /// Fits the pose, starting from `expected`. `by_both`: it counts only if both cameras agree on
-  /// it.
+  /// For fits by both cameras that can be of one moment, and for those that can't.
+  void accept(std::span<const ToolEquations> pair);
+  void refuse(std::span<const ToolEquations> pair);
+  /// Measures the tools that are followed. False: the pair was refused.
+  bool follow_all(const StereoFrame& frame);
+  void find_lost(const StereoFrame& frame);
+
+  // For tool `i`, in a frame whose `world_from_rig` is known.
+  /// Fits the pose of a tool that was seen recently.
+  [[nodiscard]] std::optional<ToolFit> follow(std::size_t i, const StereoFrame& frame);
+  /// Fits the pose, starting from `expected`, and measures it if the pictures agree. `by_both`: it
+  /// counts only if both cameras saw it.
   bool take(std::size_t i, const StereoFrame& frame, const Transform<Rig, Marker>& expected,
             double doubt_m, bool by_both = false);
+  void measure(std::size_t i, const StereoFrame& frame, const ToolFit& fit);
   bool find(std::size_t i, const StereoFrame& frame);
   bool find(std::size_t i, const MarkerDefinition& marker,
             const Transform<Tag, Marker>& tag_from_marker, const StereoFrame& frame);
@@ -89,6 +99,17 @@ class PhotometricTracker final : public ToolTracker {
   std::vector<Trail> trails_;
   std::vector<ToolState> states_;
   OnlineCalibration calibration_;
+  /// Of refused pairs that agree with one another, from this one on.
+  OnlineCalibration other_calibration_;
+  std::int64_t other_since_ = 0;
+  PictureAgreement agreement_;
+  std::int64_t last_refused_ = 0;  ///< pair
+  // Of the newest pair.
+  bool is_refused_ = false;
+  bool is_accepted_ = false;
+  std::optional<ToolEquations> contradiction_;  ///< of the tool that is being looked for
+  std::vector<std::optional<ToolFit>> fits_;
+  std::vector<ToolEquations> equations_;
   std::int64_t pairs_ = -1;
   std::int64_t map_epoch_ = 0;
 };

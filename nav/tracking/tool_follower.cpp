@@ -136,6 +136,7 @@ Result<ToolFollower> ToolFollower::create(const ToolGeometry& tool) {
     return Error{"tool '" + tool.name + "': " + added.error().message};
   }
   follower.light_.resize(follower.views_.size());
+  follower.found_.resize(follower.views_.size());
   return follower;
 }
 
@@ -158,6 +159,7 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
     view.tag = &tags_[i / 2];
     view.light = light_[i];
     view.used = false;
+    found_[i] = 0;
     const CameraFromTag seen = solver.camera_from_tag(view, pose);
     if (!faces(seen)) {
       continue;
@@ -171,6 +173,7 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
                                              : solver.calibration().left_from_rig.rotation();
     translation.add(camera_of(solver, view), camera_from_rig, seen.translation_m, match->offset_px);
     view.used = any = true;
+    found_[i] = 1;
   }
   if (!any) {
     return false;
@@ -219,8 +222,49 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
     }
   }
   learn_exposure(frame, fit->rig_from_marker, solver);
-  return ToolFit{fit->rig_from_marker, rotated(fit->covariance, fit->rig_from_marker.rotation()),
-                 fit->left, fit->right, solver.calibration_equations(*fit, views_)};
+  ToolFit out{fit->rig_from_marker, rotated(fit->covariance, fit->rig_from_marker.rotation()),
+              fit->left, fit->right, solver.calibration_equations(*fit, views_)};
+  if (fit->left != fit->right) {
+    out.calibration = contradiction(frame, *fit, solver, search);
+  }
+  return out;
+}
+
+std::optional<CalibrationEquations> ToolFollower::contradiction(const StereoFrame& frame,
+                                                                const PhotometricFit& fit,
+                                                                PhotometricSolver& solver,
+                                                                TagSearch& search) {
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const std::size_t other = i ^ 1U;
+    if (!views_[i].used || views_[other].used || found_[other] == 0) {
+      continue;
+    }
+    const ReducedView of_fit = solver.view_equations(i, views_[i]);
+    alone_ = views_[other];
+    alone_.light = light_[other];
+    alone_.used = true;
+    const auto alone = solver.solve(frame, fit.rig_from_marker,
+                                    kUndisplacedCells * alone_.tag->cell_m(), {&alone_, 1});
+    if (!alone || alone_.kept_fraction < kKeptByOne) {
+      continue;  // it is hidden there
+    }
+    const CellMatch match =
+        search.match(image_of(frame, alone_), camera_of(solver, alone_), *alone_.tag,
+                     solver.camera_from_tag(alone_, alone->rig_from_marker));
+    if (match.correlation < kBelieved || match.code < kSameId) {
+      continue;
+    }
+    const ReducedView of_other = PhotometricSolver::shifted(
+        alone_, solver.view_equations(0, alone_), alone->rig_from_marker, fit.rig_from_marker);
+    CalibrationEquations out;
+    if (alone_.right) {
+      solver.add_tag(fit.rig_from_marker, views_[i], of_fit, alone_, of_other, out);
+    } else {
+      solver.add_tag(fit.rig_from_marker, alone_, of_other, views_[i], of_fit, out);
+    }
+    return out;
+  }
+  return std::nullopt;
 }
 
 void ToolFollower::learn_exposure(const StereoFrame& frame, const Transform<Rig, Marker>& pose,

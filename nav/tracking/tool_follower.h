@@ -20,7 +20,8 @@ struct ToolFit {
   PoseCovariance covariance_in_rig{};
   bool left = false;
   bool right = false;
-  std::optional<CalibrationEquations> calibration;  ///< where both cameras saw it
+  /// Where both cameras saw it, even if only one of them at this pose.
+  std::optional<CalibrationEquations> calibration;
 };
 
 /// Finds a tool near its expected pose and measures it photometrically, with all cameras that see
@@ -55,6 +56,12 @@ class ToolFollower {
                     const PhotometricSolver& solver, TagSearch& search);
   [[nodiscard]] bool looks_right(const StereoFrame& frame, const PhotometricFit& fit,
                                  const PhotometricSolver& solver, TagSearch& search) const;
+  /// For a fit to the pictures of one camera: what the other one says alone, if it shows a tag as
+  /// well, but elsewhere.
+  [[nodiscard]] std::optional<CalibrationEquations> contradiction(const StereoFrame& frame,
+                                                                  const PhotometricFit& fit,
+                                                                  PhotometricSolver& solver,
+                                                                  TagSearch& search);
   void learn_exposure(const StereoFrame& frame, const Transform<Rig, Marker>& pose,
                       const PhotometricSolver& solver);
 
@@ -62,6 +69,7 @@ class ToolFollower {
   std::vector<double> stated_sizes_m_;
   std::vector<TagView> views_;     ///< every tag in both cameras
   std::vector<Photometry> light_;  ///< of the views, from the last good fit
+  std::vector<char> found_;        ///< whether each view's tag was found near where it is expected
   ExposureEstimator exposure_;
   TagView alone_;  ///< scratch
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -46,6 +47,12 @@ struct ToolState {
 /// arm from the rig to the tag. Without a stated error, nothing is added.
 void add_head(ToolState& state, const StereoFrame& frame);
 
+/// Whether the pairs' two pictures are of the same moment.
+struct PictureAgreement {
+  std::int64_t refused = 0;           ///< pairs whose pictures contradict each other
+  std::int64_t refused_in_a_row = 0;  ///< up to the newest pair in which that can be told
+};
+
 struct TrackerOptions {
   /// 1: search the whole of both images in every pair. n: only around predictions, and the whole
   /// image every n-th pair while something is missing.
@@ -71,6 +78,9 @@ class ToolTracker {
   /// How the two cameras appear to be rotated relative to their reported calibration; nothing from
   /// a method that does not estimate it, or before it is known.
   [[nodiscard]] virtual std::optional<StereoAlignment> alignment() const { return std::nullopt; }
+  /// How many pairs were refused because their two pictures can't be of the same moment; none by a
+  /// method that does not look.
+  [[nodiscard]] virtual PictureAgreement picture_agreement() const { return {}; }
   /// How large the tags of a tool appear, relative to its definition; nothing from a method that
   /// does not estimate it, or before it is known.
   [[nodiscard]] virtual std::optional<TagSize> tag_size(std::size_t /*tool*/) const {

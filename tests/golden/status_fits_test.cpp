@@ -147,7 +147,7 @@ std::vector<StatusLine> lines_about(const Message& message, const Coaching& coac
   std::vector<StatusLine> lines;
   for (int step = 0; step < static_cast<int>(kStepCount); ++step) {
     for (const StepState& state : states) {
-      for (const int warning : {0, 1, 2}) {
+      for (const int warning : {0, 1, 2, 3}) {
         StatusLine line;
         line.at = {static_cast<Step>(step), "L4", Side::kRight};
         line.tool = "reference";
@@ -155,6 +155,7 @@ std::vector<StatusLine> lines_about(const Message& message, const Coaching& coac
         if (warning == 2) {
           line.tag_size_off = -0.0321;
         }
+        line.pictures_apart = warning == 3;
         line.message = none ? nullptr : &message;
         line.state = state;
         line.heard = &heard;

@@ -211,7 +211,10 @@ TEST(Wording, TheLossOfTheToolComesBeforeAnyMessage) {
   EXPECT_EQ(detail_text(line), "guide lost") << "in place of how the step stands";
   line.message = &message;
   EXPECT_EQ(detail_text(line), "guide lost; not possible now: \"accept\"");
-  line.tool_lost = false;
+  line.pictures_apart = true;
+  EXPECT_EQ(detail_text(line),
+            "the two cameras' pictures do not belong together; not possible now: \"accept\"");
+  line.tool_lost = line.pictures_apart = false;
   line.tag_size_off = -0.032;
   EXPECT_EQ(detail_text(line),
             "guide: tag 3.2 % smaller than stated, check print and unit; not possible now: "

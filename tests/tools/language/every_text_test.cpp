@@ -121,6 +121,9 @@ TEST_F(EveryText, OfWarningsIsTranslated) {
     line.stop_past_target_m = 0.004;
     expect_translated(detail_text(line));
   }
+  StatusLine apart;
+  apart.pictures_apart = true;
+  expect_translated(detail_text(apart));
   StatusLine lost;
   lost.tool = "guide";
   lost.tool_lost = true;
