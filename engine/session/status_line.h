@@ -100,8 +100,8 @@ struct HeardCommand {
 /// pointers and views look into the session: valid until its next step.
 struct StatusLine {
   StepOnDisplay at;
-  std::string_view tool;               ///< of the step, if it has one
-  bool tool_lost = false;              ///< it was seen before
+  std::string_view tool;   ///< of the step, if it has one
+  bool tool_lost = false;  ///< it was seen before
   /// The two cameras' pictures contradict each other, so that nothing is measured.
   bool pictures_apart = false;
   std::optional<double> tag_size_off;  ///< its tag is larger than stated by this fraction

@@ -9,7 +9,6 @@
 namespace orthonav::engine {
 namespace {
 
-
 /// Lentz's evaluation of the continued fraction of I_x(a, b).
 double beta_fraction(double x, double a, double b) {
   constexpr double kTiny = 1e-300;
