@@ -31,7 +31,8 @@ Status for_each_pair(replay::ReplayHeadset& recording,
     if (*next == Next::kEnd) {
       if (repeated > 0) {
         std::fprintf(stderr,
-                     "orthonav: warning: %s left out, since a picture or the head's pose repeats\n",
+                     "orthonav: warning: %s left out, since a picture or the head's pose repeats; "
+                     "where no sensor was recorded, device.csv says so (docs/recordings.md)\n",
                      how_many(repeated, "pair").c_str());
       }
       return {};

@@ -122,6 +122,8 @@ TEST(TrackHololens1, FindsATagWhereItWas) {
         stereo_frame(calibration, {tag}, Timestamp(std::chrono::milliseconds(33 * i)));
     frame.world_from_rig =
         Transform<World, Rig>(rotation_from_vector({0.4, 0.01 * i, -1.0}), {0.3, 1.5, 0.002 * i});
+    // A sensor's noise: pictures that are the same to the bit are old ones.
+    frame.left.pixels[0] = frame.right.pixels[0] = static_cast<std::uint8_t>(i);
     frames.push_back(frame);
   }
   const orthonav::test::Hololens1Folder recording(calibration, frames);
