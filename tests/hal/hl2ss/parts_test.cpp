@@ -248,7 +248,7 @@ TEST(PairMailbox, TellsALossOnceAndADeathAtEveryQuestion) {
 }
 
 TEST(PairMailbox, ShowsItsTapEveryPair) {
-  struct Seen : PairTap {
+  struct Watcher : PairTap {
     std::vector<std::int64_t> sequences;
     void received(const StereoFrame& pair) override {
       EXPECT_EQ(pair.left.pixels.front(), static_cast<std::uint8_t>(pair.sequence));
