@@ -234,7 +234,7 @@ void Receiver::leapt(CameraSide side, Duration by) {
 }
 
 void Receiver::tell_no_pair(HostTime now) {
-  if (!newest_pair_ || now - paired_or_told_ < kNoPairFor) {
+  if (!newest_pair_ || now - paired_or_told_ < kNoPairFor || (standin_ && standin_->is_paced())) {
     return;
   }
   paired_or_told_ = now;

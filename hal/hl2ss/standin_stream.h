@@ -29,6 +29,8 @@ class StandinStream final : public Protocol {
   /// Whether there are no more pairs.
   [[nodiscard]] bool has_ended() const;
   [[nodiscard]] std::optional<Duration> display_latency() const;
+  /// Whether it waits for its client, which may compute for as long as it likes.
+  [[nodiscard]] bool is_paced() const;
   /// What may repeat at the headset that the server stands in for; as said last.
   [[nodiscard]] MayRepeat may_repeat() const;
 
