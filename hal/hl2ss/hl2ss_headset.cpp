@@ -128,6 +128,9 @@ class Cameras final : public StereoCamera {
     return Next::kFrame;
   }
   bool do_tap(PairTap* tap) override {
+    if (receiver_.standin() && receiver_.standin()->is_paced()) {
+      return false;
+    }
     receiver_.pairs().tap(tap);
     return true;
   }

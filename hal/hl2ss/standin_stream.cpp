@@ -110,6 +110,11 @@ bool StandinStream::admits(Timestamp pair_time) {
   return true;
 }
 
+bool StandinStream::is_paced() const {
+  const MutexLock lock(mutex_);
+  return hello_ && hello_->paced;
+}
+
 bool StandinStream::has_ended() const {
   const MutexLock lock(mutex_);
   return ended_;
