@@ -211,6 +211,7 @@ TEST_F(RegisteringLoop, ARegistrationThatDoesNotReturnIsNamed) {
 
 TEST_F(RegisteringLoop, ARegistrationThatDiesEndsTheRunInOrder) {
   s.before_registering = [&] {
+    EXPECT_TRUE(wait_until([&] { return begun.load(); }));
     acted = true;
     throw std::bad_alloc();
   };
@@ -219,6 +220,7 @@ TEST_F(RegisteringLoop, ARegistrationThatDiesEndsTheRunInOrder) {
   ASSERT_FALSE(report.ended.ok());
   EXPECT_EQ(report.ended.error().message, "registration: out of memory");
   EXPECT_LT(report.displayed, kPairs);
+  ASSERT_FALSE(inner.display().frames().empty());
   EXPECT_TRUE(inner.display().frames().back().holograms.empty());
 }
 
