@@ -24,7 +24,7 @@ LoopReport FrameLoop::run() {
     report.ended = Error{"loop: " + joined(problems)};
     return report;
   }
-  heard_at_ = headset_->clock().now();
+  heard_at_ = alive_at_ = headset_->clock().now();
   beats_.emplace(headset_->clock(), kStallAfter);
   session_.watch_work(&*beats_);
   const bool draws = sink_ && options_.draw_every > 0;
@@ -103,7 +103,7 @@ Result<bool> FrameLoop::next_frame(SnapshotQueue* queue, LoopReport& report) {
       // The device is there, and may go on at any time: no failure that ends an operation.
       ++report.repeated;
       repeats_ = frame_.repeats;
-      heard_at_ = headset_->clock().now();
+      alive_at_ = headset_->clock().now();
     } else if (!next) {
       if (next.error().message != report.last_failure) {
         for (LoopObserver* observer : observers_) {
@@ -123,7 +123,7 @@ Result<bool> FrameLoop::next_frame(SnapshotQueue* queue, LoopReport& report) {
 
 Status FrameLoop::wait_for_pair(SnapshotQueue* queue, LoopReport& report) {
   const Timestamp display_time = next_display_time();
-  const Duration silent = headset_->clock().now() - heard_at_;
+  const Duration silent = headset_->clock().now() - alive_at_;
   if (silent > kStallAfter) {
     repeats_.reset();  // not even old pairs come any more
   }
@@ -237,7 +237,7 @@ void FrameLoop::count_stall(std::optional<Part> now, LoopReport& report) {
 
 Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   const Stopwatch watch;
-  heard_at_ = headset_->clock().now();
+  heard_at_ = alive_at_ = headset_->clock().now();
   if (const Status over = poll_commands(report); !over) {
     return over;
   }

@@ -174,6 +174,7 @@ class FrameLoop {
   std::optional<Timestamp> last_display_;           ///< of a pair's frame, for the intervals
   Timestamp last_display_time_ = Timestamp::min();  ///< of any frame
   Timestamp heard_at_{};                    ///< when the last pair arrived, or the loop began
+  Timestamp alive_at_{};                    ///< the same, or when an old pair came again
   std::optional<Timestamp> guiding_since_;  ///< mid-exposure of the pair that is being shown
   std::optional<Repeated> repeats_;         ///< in every pair since the last good one
   std::optional<Repeated> told_repeats_;    ///< to the wearer, when guidance was withdrawn

@@ -116,10 +116,10 @@ TEST_F(GuidingLoop, TakesGuidanceBackAndSaysWhyWhileAPictureOrThePoseRepeats) {
     fake::FakeHeadset headset(with_repeats(what));
     Withdrawals observer;
     const auto report = run(headset, &observer);
-    ASSERT_TRUE(report.ok()) << report.error().message;
-    EXPECT_EQ(report->blanked, 1);
-    EXPECT_EQ(report->repeated, 41) << "and the first one after it, which is not trusted yet";
-    EXPECT_EQ(report->failures, 0);
+    ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+    EXPECT_EQ(report.blanked, 1);
+    EXPECT_EQ(report.repeated, 41) << "and the first one after it, which is not trusted yet";
+    EXPECT_EQ(report.failures, 0);
     EXPECT_THAT(observer.told, ::testing::ElementsAre(words, "ended"));
     const auto frames = headset.display().frames();
     // Five pairs, one frame that takes back, four pairs, the end.
@@ -146,10 +146,19 @@ TEST_F(GuidingLoop, LeavesOutASecondOfTheSamePictureAlone) {
   }
   fake::FakeHeadset headset(std::move(script));
   const auto report = run(headset);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->repeated, 10);
-  EXPECT_EQ(report->displayed, 10);
-  EXPECT_EQ(report->blanked, 0);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.repeated, 10);
+  EXPECT_EQ(report.displayed, 10);
+  EXPECT_EQ(report.blanked, 0);
+}
+
+TEST_F(GuidingLoop, EndsAfterTheTimeAskedForThoughAPictureRepeats) {
+  fake::FakeHeadset headset(with_repeats(Repeated::kLeftPicture));
+  options.max_time = 10 * kPair;
+  const auto report = run(headset);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.displayed, 5);
+  EXPECT_EQ(report.repeated, 6) << "until the tenth interval is over";
 }
 
 TEST_F(GuidingLoop, TakesGuidanceBackWhileNoPairComes) {
