@@ -159,7 +159,7 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
     view.tag = &tags_[i / 2];
     view.light = light_[i];
     view.used = false;
-    found_[i] = 0;
+    found_[i].reset();
     const CameraFromTag seen = solver.camera_from_tag(view, pose);
     if (!faces(seen)) {
       continue;
@@ -172,8 +172,10 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
     const Mat3& camera_from_rig = view.right ? solver.calibration().right_from_rig.rotation()
                                              : solver.calibration().left_from_rig.rotation();
     translation.add(camera_of(solver, view), camera_from_rig, seen.translation_m, match->offset_px);
+    TranslationInSpace alone;
+    alone.add(camera_of(solver, view), camera_from_rig, seen.translation_m, match->offset_px);
+    found_[i] = Transform<Rig, Marker>{pose.rotation(), pose.translation() + alone.solved()};
     view.used = any = true;
-    found_[i] = 1;
   }
   if (!any) {
     return false;
@@ -236,15 +238,15 @@ std::optional<CalibrationEquations> ToolFollower::contradiction(const StereoFram
                                                                 TagSearch& search) {
   for (std::size_t i = 0; i < views_.size(); ++i) {
     const std::size_t other = i ^ 1U;
-    if (!views_[i].used || views_[other].used || found_[other] == 0) {
+    if (!views_[i].used || views_[other].used || !found_[other]) {
       continue;
     }
     const ReducedView of_fit = solver.view_equations(i, views_[i]);
     alone_ = views_[other];
     alone_.light = light_[other];
     alone_.used = true;
-    const auto alone = solver.solve(frame, fit.rig_from_marker,
-                                    kUndisplacedCells * alone_.tag->cell_m(), {&alone_, 1});
+    const auto alone =
+        solver.solve(frame, *found_[other], kUndisplacedCells * alone_.tag->cell_m(), {&alone_, 1});
     if (!alone || alone_.kept_fraction < kKeptByOne) {
       continue;  // it is hidden there
     }

@@ -69,7 +69,8 @@ class ToolFollower {
   std::vector<double> stated_sizes_m_;
   std::vector<TagView> views_;     ///< every tag in both cameras
   std::vector<Photometry> light_;  ///< of the views, from the last good fit
-  std::vector<char> found_;        ///< whether each view's tag was found near where it is expected
+  /// Where each view alone puts the tool, if its tag was found near where it is expected.
+  std::vector<std::optional<Transform<Rig, Marker>>> found_;
   ExposureEstimator exposure_;
   TagView alone_;  ///< scratch
 };
