@@ -9,6 +9,7 @@
 #include "base/side.h"
 #include "base/time.h"
 #include "engine/session/calibration_in_use.h"
+#include "engine/session/known_errors.h"
 #include "engine/session/workflow.h"
 #include "nav/guidance/changed_screw.h"
 #include "nav/guidance/executed_trajectory.h"

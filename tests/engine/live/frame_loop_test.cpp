@@ -166,12 +166,12 @@ TEST(FrameLoop, SaysWhileThereIsNoClickerAndGoesOn) {
   FrameLoop loop(headset, *navigation, builder, {});
   loop.observe(&watching);
   const auto report = loop.run();
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->displayed, 60);
+  ASSERT_TRUE(report.ended.ok()) << report.ended.error().message;
+  EXPECT_EQ(report.displayed, 60);
   EXPECT_EQ(watching.shown, 50);
   EXPECT_THAT(watching.told, ::testing::ElementsAre("no pedal"));
-  EXPECT_EQ(report->failures, 1);
-  EXPECT_EQ(report->last_failure, "no pedal");
+  EXPECT_EQ(report.failures, 1);
+  EXPECT_EQ(report.last_failure, "no pedal");
 }
 
 TEST(FrameLoop, GoesOnAfterFailuresOfEveryDevice) {
