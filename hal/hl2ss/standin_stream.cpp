@@ -125,11 +125,6 @@ std::optional<Duration> StandinStream::display_latency() const {
   return hello_ ? std::optional(hello_->display_latency) : std::nullopt;
 }
 
-bool StandinStream::is_paced() const {
-  const MutexLock lock(mutex_);
-  return hello_ && hello_->paced;
-}
-
 MayRepeat StandinStream::may_repeat() const {
   const MutexLock lock(mutex_);
   return may_repeat_;

@@ -26,13 +26,12 @@ class StandinStream final : public Protocol {
   /// Whether a pair of this time may be handed out: the server has sent all events up to it. If so,
   /// the clock of a paced server is set to it.
   bool admits(Timestamp pair_time);
-  /// Whether it sends a pair only when the client is done with the last one: none is passed over.
+  /// Whether it sends a pair only when the client is done with the last one, which may compute for
+  /// as long as it likes: none is passed over.
   [[nodiscard]] bool is_paced() const;
   /// Whether there are no more pairs.
   [[nodiscard]] bool has_ended() const;
   [[nodiscard]] std::optional<Duration> display_latency() const;
-  /// Whether it waits for its client, which may compute for as long as it likes.
-  [[nodiscard]] bool is_paced() const;
   /// What may repeat at the headset that the server stands in for; as said last.
   [[nodiscard]] MayRepeat may_repeat() const;
 
