@@ -110,6 +110,14 @@ void PhotometricTracker::find_lost(const StereoFrame& frame) {
   }
   if (!equations_.empty()) {
     refuse(equations_);
+    // What was found in these pictures too hangs on them alone.
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+      if (is_measured(i) && !fits_[i]) {
+        states_[i] = {i, {}, {}, 0.0};
+        states_[i].world_from_marker.time = frame.time;
+        trails_[i].filter.stop();
+      }
+    }
   }
   // While other tools are tracked, the whole image is searched in the background until the next
   // pair.

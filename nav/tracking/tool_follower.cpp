@@ -21,6 +21,9 @@ constexpr double kSameId = 0.5;
 /// The fraction of a tag that a single camera must see: with less, a wrong pose may explain the
 /// rest.
 constexpr double kKeptByOne = 0.7;
+/// Where the fit to both pictures keeps less of a tag in one, something hides it there, or the two
+/// pictures contradict each other and the robust fit leaves out what does.
+constexpr double kKeptByBoth = 0.88;
 /// An image with less of a tag than this is not used.
 constexpr double kLeastFraction = 0.5;
 /// A tag tilted by more than 80° is practically a line.
@@ -226,47 +229,52 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
   learn_exposure(frame, fit->rig_from_marker, solver);
   ToolFit out{fit->rig_from_marker, rotated(fit->covariance, fit->rig_from_marker.rotation()),
               fit->left, fit->right, solver.calibration_equations(*fit, views_)};
-  if (fit->left != fit->right) {
-    out.calibration = contradiction(frame, *fit, solver, search);
+  const bool doubtful = std::any_of(views_.begin(), views_.end(), [](const TagView& view) {
+    return view.used && view.kept_fraction < kKeptByBoth;
+  });
+  if (doubtful || fit->left != fit->right) {
+    if (const auto alone = equations_alone(frame, *fit, solver, search)) {
+      out.calibration = alone;
+    }
   }
   return out;
 }
 
-std::optional<CalibrationEquations> ToolFollower::contradiction(const StereoFrame& frame,
-                                                                const PhotometricFit& fit,
-                                                                PhotometricSolver& solver,
-                                                                TagSearch& search) {
-  for (std::size_t i = 0; i < views_.size(); ++i) {
-    const std::size_t other = i ^ 1U;
-    if (!views_[i].used || views_[other].used || !found_[other]) {
-      continue;
+std::optional<CalibrationEquations> ToolFollower::equations_alone(const StereoFrame& frame,
+                                                                  const PhotometricFit& fit,
+                                                                  PhotometricSolver& solver,
+                                                                  TagSearch& search) {
+  // What one view says of the tool's pose, as equations at the pose of the fit.
+  const auto says = [&](std::size_t i) -> std::optional<ReducedView> {
+    if (!views_[i].used && !found_[i]) {
+      return std::nullopt;
     }
-    const ReducedView of_fit = solver.view_equations(i, views_[i]);
-    alone_ = views_[other];
-    alone_.light = light_[other];
+    alone_ = views_[i];
+    alone_.light = light_[i];
     alone_.used = true;
-    const auto alone =
-        solver.solve(frame, *found_[other], kUndisplacedCells * alone_.tag->cell_m(), {&alone_, 1});
-    if (!alone || alone_.kept_fraction < kKeptByOne) {
-      continue;  // it is hidden there
+    const auto best = solver.solve(frame, views_[i].used ? fit.rig_from_marker : *found_[i],
+                                   kUndisplacedCells * alone_.tag->cell_m(), {&alone_, 1});
+    if (!best || alone_.kept_fraction < kKeptByOne) {
+      return std::nullopt;  // it is hidden there
     }
     const CellMatch match =
         search.match(image_of(frame, alone_), camera_of(solver, alone_), *alone_.tag,
-                     solver.camera_from_tag(alone_, alone->rig_from_marker));
+                     solver.camera_from_tag(alone_, best->rig_from_marker));
     if (match.correlation < kBelieved || match.code < kSameId) {
-      continue;
+      return std::nullopt;
     }
-    const ReducedView of_other = PhotometricSolver::shifted(
-        alone_, solver.view_equations(0, alone_), alone->rig_from_marker, fit.rig_from_marker);
-    CalibrationEquations out;
-    if (alone_.right) {
-      solver.add_tag(fit.rig_from_marker, views_[i], of_fit, alone_, of_other, out);
-    } else {
-      solver.add_tag(fit.rig_from_marker, alone_, of_other, views_[i], of_fit, out);
+    return PhotometricSolver::shifted(alone_, solver.view_equations(0, alone_),
+                                      best->rig_from_marker, fit.rig_from_marker);
+  };
+  CalibrationEquations out;
+  for (std::size_t left = 0; left < views_.size(); left += 2) {
+    const auto of_left = says(left);
+    const auto of_right = of_left ? says(left + 1) : std::nullopt;
+    if (of_right) {
+      solver.add_tag(fit.rig_from_marker, views_[left], *of_left, views_[left + 1], *of_right, out);
     }
-    return out;
   }
-  return std::nullopt;
+  return out.tags > 0 ? std::optional(out) : std::nullopt;
 }
 
 void ToolFollower::learn_exposure(const StereoFrame& frame, const Transform<Rig, Marker>& pose,

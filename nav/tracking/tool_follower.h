@@ -56,12 +56,13 @@ class ToolFollower {
                     const PhotometricSolver& solver, TagSearch& search);
   [[nodiscard]] bool looks_right(const StereoFrame& frame, const PhotometricFit& fit,
                                  const PhotometricSolver& solver, TagSearch& search) const;
-  /// For a fit to the pictures of one camera: what the other one says alone, if it shows a tag as
-  /// well, but elsewhere.
-  [[nodiscard]] std::optional<CalibrationEquations> contradiction(const StereoFrame& frame,
-                                                                  const PhotometricFit& fit,
-                                                                  PhotometricSolver& solver,
-                                                                  TagSearch& search);
+  /// The calibration equations from what each camera says alone, at the pose of a fit: where the
+  /// pictures contradict each other, a robust fit to both leaves out what does. Nothing if no tag
+  /// is seen by both.
+  [[nodiscard]] std::optional<CalibrationEquations> equations_alone(const StereoFrame& frame,
+                                                                    const PhotometricFit& fit,
+                                                                    PhotometricSolver& solver,
+                                                                    TagSearch& search);
   void learn_exposure(const StereoFrame& frame, const Transform<Rig, Marker>& pose,
                       const PhotometricSolver& solver);
 

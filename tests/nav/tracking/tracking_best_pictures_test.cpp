@@ -32,7 +32,7 @@ struct PicturesRun {
   double worst_m = 0.0;  ///< of the guide's tip, where it was measured
 };
 
-/// Tracks with the right pictures this much too old from pair 20 on.
+/// Tracks with the right pictures this much too old from the twentieth pair on.
 PicturesRun tracked_pictures(int pairs, double late_s, double noise_grey, Vec3 turned_rad,
                              double sway = 1.0) {
   const StereoCalibration truth = test::test_calibration();
