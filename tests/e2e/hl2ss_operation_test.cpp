@@ -98,6 +98,8 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults, doubl
   }
   AssemblyOptions assembly;
   assembly.loop.draw_every = 0;
+  const ErrorSd none{0.0, ErrorSource::kRoom};
+  assembly.errors = {none, none, {}, none};
   auto assembled = *assemble_operation(**headset, std::move(operation), *method_named("best"),
                                        built_in_tools(), assembly);
   MapLog map_log;

@@ -39,7 +39,7 @@ struct DepthScene {
 
   /// The pose of the test's rig at a picture.
   static Transform<World, Rig> pose(int index) {
-    return {rotation_from_vector({0.05 * index, 0.1, -1.3}), {0.2, 0.1 * index, 0.3}};
+    return {rotation_from_vector({0.05 * index, 0.1, -1.3}), {0.2, 0.05 * index, 0.3}};
   }
   /// Pictures at these ticks, all located.
   static std::vector<Picture> located(std::initializer_list<std::int64_t> ticks) {
