@@ -168,6 +168,7 @@ class EndlessCamera : public StereoCamera {
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return inner_.cameras().calibration();
   }
+  [[nodiscard]] MayRepeat do_may_repeat() const override { return {true, true}; }
   Result<Next> do_next(StereoFrame& frame) override {
     if (left_-- == 0) {
       return Next::kEnd;

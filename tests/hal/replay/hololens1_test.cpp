@@ -113,7 +113,8 @@ TEST(Hololens1, ComesBackAsItWasWritten) {
 TEST(Hololens1, BeginsANewMapWhereThePosesJump) {
   std::vector<StereoFrame> frames = frames_of_noise();
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames[i].world_from_rig = Transform<World, Rig>(Mat3::identity(), {i < 2 ? 0.0 : 0.423, 0, 0});
+    frames[i].world_from_rig = Transform<World, Rig>(
+        Mat3::identity(), {i < 2 ? 0.0 : 0.423, 1e-5 * static_cast<double>(i), 0});
   }
   const Hololens1Folder folder(skewed_cameras(), frames);
   const auto replay = ReplayHeadset::open(folder.path());

@@ -243,8 +243,8 @@ TEST_F(ReplayedHead, AnswersEveryTimeThereIs) {
   }
 }
 
-/// Twelve poses of a head that rests, in a map that jumps along x at the sixth; images from some
-/// pair on.
+/// Twelve poses of a head that hardly moves, in a map that jumps along x at the sixth; images from
+/// some pair on.
 class JumpingFolder {
  public:
   explicit JumpingFolder(double jump_m, int first_image = 0)
@@ -252,7 +252,8 @@ class JumpingFolder {
     std::string poses;
     for (int n = 0; n < kPoses; ++n) {
       poses += std::to_string(StreamRecorderFolder::kStart + n * kFrame) + ",1,0,0," +
-               std::to_string(n < 6 ? 0.0 : jump_m) + ",0,1,0,1.6,0,0,1,0,0,0,0,1\n";
+               std::to_string(n < 6 ? 0.0 : jump_m) + ",0,1,0," + std::to_string(1.6 + 1e-5 * n) +
+               ",0,0,1,0,0,0,0,1\n";
     }
     folder_.write("VLC LF_rig2world.txt", poses);
   }
