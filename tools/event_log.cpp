@@ -122,7 +122,7 @@ void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*
   }
 }
 
-void EventLog::failed(const std::string& why) { warn(why); }
+void EventLog::cameras_failed(const std::string& why) { warn(why); }
 
 void EventLog::withdrawn(const engine::Guidance& guidance) {
   if (!log_ || guidance.blank) {

@@ -36,10 +36,10 @@ class EventLog : public engine::LoopObserver {
   void warn(const std::string& line);
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
-  void failed(const std::string& why) override;
+  void cameras_failed(const std::string& why) override;
   void withdrawn(const engine::Guidance& guidance) override;
   void part_stalled(engine::Part part) override;
-  void device_failed(const std::string& why) override { warn(why); }
+  void input_failed(const std::string& why) override { warn(why); }
   void ended(const engine::LoopReport& report);
 
  private:

@@ -27,11 +27,27 @@ void OperationProgress::stepped(const StereoFrame& frame, const engine::Inputs& 
   }
 }
 
-void OperationProgress::device_failed(const std::string& why) {
+void OperationProgress::warn(const std::string& why) {
   bar_.clear();
   std::fprintf(stderr, "orthonav: warning: %s\n", why.c_str());
+}
+
+void OperationProgress::cameras_failed(const std::string& why) {
+  // Pairs may fail thirty times a second, each for a reason with its own time in it.
+  constexpr double kQuiet_ms = 5000.0;
+  if (!cameras_warned_ || cameras_warned_->elapsed_ms() >= kQuiet_ms) {
+    cameras_warned_.emplace();
+    warn(why);
+  }
   if (next_) {
-    next_->device_failed(why);
+    next_->cameras_failed(why);
+  }
+}
+
+void OperationProgress::input_failed(const std::string& why) {
+  warn(why);
+  if (next_) {
+    next_->input_failed(why);
   }
 }
 

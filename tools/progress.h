@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "base/stopwatch.h"
 #include "engine/live/frame_loop.h"
 #include "tools/operation_estimate.h"
 #include "tools/progress_bar.h"
@@ -17,16 +19,20 @@ class OperationProgress : public engine::LoopObserver {
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   void captured(const engine::Snapshot& snapshot) override;
-  void device_failed(const std::string& why) override;
+  void cameras_failed(const std::string& why) override;
+  void input_failed(const std::string& why) override;
   /// The operation has ended: its line is cleared.
   void end() { bar_.clear(); }
 
  private:
+  void warn(const std::string& why);
+
   engine::LoopObserver* next_;
   ProgressBar bar_;
   OperationEstimate estimate_;
   std::optional<StepOnDisplay> step_;
   Timestamp first_{};
+  std::optional<Stopwatch> cameras_warned_;
 };
 
 }  // namespace orthonav::tools

@@ -107,7 +107,7 @@ Result<bool> FrameLoop::next_frame(SnapshotQueue* queue, LoopReport& report) {
     } else if (!next) {
       if (next.error().message != report.last_failure) {
         for (LoopObserver* observer : observers_) {
-          observer->failed(next.error().message);
+          observer->cameras_failed(next.error().message);
         }
       }
       if (const Status over = tolerate(Status(next.error()), camera_errors_, report); !over) {
@@ -186,7 +186,7 @@ Status FrameLoop::poll_commands(LoopReport& report) {
   const auto tell_of = [&](const Status& failed, int before) {
     for (LoopObserver* observer : observers_) {
       if (!failed && before == 0) {
-        observer->device_failed(failed.error().message);
+        observer->input_failed(failed.error().message);
       }
     }
   };

@@ -21,8 +21,8 @@ class LoopObserver {
   virtual ~LoopObserver() = default;
   virtual void stepped(const StereoFrame& /*frame*/, const Inputs& /*inputs*/,
                        const Guidance& /*guidance*/) {}
-  /// A device failed, and the reason differs from the last one.
-  virtual void failed(const std::string& /*why*/) {}
+  /// The cameras delivered an error, and the reason differs from the last one.
+  virtual void cameras_failed(const std::string& /*why*/) {}
   /// No pair guides any more: the guidance of the last one was withdrawn, or it is told why again.
   virtual void withdrawn(const Guidance& /*guidance*/) {}
   /// A snapshot was filled and is about to go to the rendering thread.
@@ -31,7 +31,7 @@ class LoopObserver {
   /// snapshots are drawn in real time.
   virtual void part_stalled(Part /*part*/) {}
   /// The clicker or the voice failed, or is not there; called once per failure.
-  virtual void device_failed(const std::string& /*why*/) {}
+  virtual void input_failed(const std::string& /*why*/) {}
 };
 
 /// Draws snapshots, on the rendering thread.

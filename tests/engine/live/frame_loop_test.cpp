@@ -155,7 +155,7 @@ TEST(FrameLoop, SaysWhileThereIsNoClickerAndGoesOn) {
       append_status(text, guidance.status);
       shown += text.find("no clicker") != std::string::npos ? 1 : 0;
     }
-    void device_failed(const std::string& why) override { told.push_back(why); }
+    void input_failed(const std::string& why) override { told.push_back(why); }
     int shown = 0;
     std::vector<std::string> told;
   } watching;
