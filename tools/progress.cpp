@@ -32,6 +32,15 @@ void OperationProgress::warn(const std::string& why) {
   std::fprintf(stderr, "orthonav: warning: %s\n", why.c_str());
 }
 
+void OperationProgress::withdrawn(const engine::Guidance& guidance) {
+  if (!guidance.blank) {
+    warn(engine::detail_text(guidance.status));
+  }
+  if (next_) {
+    next_->withdrawn(guidance);
+  }
+}
+
 void OperationProgress::cameras_failed(const std::string& why) {
   // Pairs may fail thirty times a second, each for a reason with its own time in it.
   constexpr double kQuiet_ms = 5000.0;

@@ -19,6 +19,7 @@ class OperationProgress : public engine::LoopObserver {
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   void captured(const engine::Snapshot& snapshot) override;
+  void withdrawn(const engine::Guidance& guidance) override;
   void cameras_failed(const std::string& why) override;
   void input_failed(const std::string& why) override;
   /// The operation has ended: its line is cleared.
