@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <mutex>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/how_many.h"
@@ -107,6 +108,10 @@ void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*
       fails && status.saved != not_kept_) {
     not_kept_ = status.saved;
     log_->warn("{:.2f} s: the status line says {}", time_s, engine::text_of(not_kept_));
+  }
+  if (!std::exchange(pictures_apart_, status.pictures_apart) && pictures_apart_) {
+    log_->warn("{:.2f} s: the two cameras' pictures do not belong together: nothing is measured",
+               time_s);
   }
   if (status.tool_lost != lost_) {
     lost_ = status.tool_lost;

@@ -52,6 +52,7 @@ class EventLog : public engine::LoopObserver {
   StatusChanges changes_;
   std::string heard_;
   bool lost_ = false;
+  bool pictures_apart_ = false;
   engine::Saved not_kept_ = engine::Saved::kNothingNew;  ///< as last reported
 };
 
