@@ -148,7 +148,7 @@ TEST(OverTcp, H264AWholeOperationIsExactWithinTheCodecsNoise) {
 TEST(OverTcp, RawIsAsExactAsTheDirectRunThroughEveryFaultAndAJumpWhileGuiding) {
   hl2ss::Faults faults = *hl2ss::faults_of("all");
   faults.stall = 0.002;  // a third of a second each
-  faults.jump_at = {900};
+  faults.jump_at = {945};
   const Operated done = operate(hl2ss::VideoProfile::kRaw, faults, 6.0);
   EXPECT_TRUE(done.result.completed);
   EXPECT_THAT(done.map_moves, ::testing::ElementsAre(Step::kGuide));
