@@ -144,12 +144,14 @@ std::string errors_text(const json& report) {
   }
   const bool drifts =
       value_of(object_in(errors, "map_drift"), "sd_mm_per_sqrt_s").value_or(0.0) > 0.0;
-  return "<p>Errors that all strokes share, SD along an axis, as counted with: tip " +
-         error_text(errors, "tip", "sd_mm", " mm") + ", cameras " +
-         error_text(errors, "cameras", "sd_mm", " mm") + ", map " +
-         (drifts ? error_text(errors, "map_drift", "sd_mm_per_sqrt_s", " mm/\u221as")
-                 : error_text(errors, "map", "sd_mm", " mm")) +
-         ". Assumed: nobody said, and such devices usually are so.</p>";
+  const std::string counted =
+      "tip " + error_text(errors, "tip", "sd_mm", " mm") + ", cameras " +
+      error_text(errors, "cameras", "sd_mm", " mm") + ", map " +
+      (drifts ? error_text(errors, "map_drift", "sd_mm_per_sqrt_s", " mm/\u221as")
+              : error_text(errors, "map", "sd_mm", " mm"));
+  const bool assumes = counted.find("(assumed)") != std::string::npos;
+  return "<p>Errors that all strokes share, SD along an axis, as counted with: " + counted + "." +
+         (assumes ? " Assumed: nobody said, and such devices usually are so." : "") + "</p>";
 }
 
 }  // namespace
