@@ -10,6 +10,7 @@
 #include "base/guarded.h"
 #include "base/joined.h"
 #include "base/printed.h"
+#include "hal/net/socket.h"
 
 namespace orthonav::igtl {
 namespace {
@@ -48,9 +49,7 @@ PoseReceiver::~PoseReceiver() {
 void PoseReceiver::run() {
   while (!stop_) {
     std::array<pollfd, 2> watched = {{{wake_up_.fd(), POLLIN, 0}, {link_.fd(), link_.events(), 0}}};
-    if (::poll(watched.data(), watched.size(), kTurn_ms) < 0) {
-      watched[1].revents = 0;
-    }
+    net::wait_for_news(watched, kTurn_ms);
     turn(watched[1].revents, HostClock::now());
   }
 }

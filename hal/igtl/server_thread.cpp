@@ -6,6 +6,7 @@
 
 #include "base/guarded.h"
 #include "hal/igtl/message.h"
+#include "hal/net/socket.h"
 
 namespace orthonav::igtl {
 namespace {
@@ -110,7 +111,7 @@ void ServerThread::wait(HostTime now) {
   }
   const auto left = std::chrono::ceil<milliseconds>(until - now).count();
   const int timeout = static_cast<int>(std::clamp<std::int64_t>(left, 0, 1000));
-  (void)::poll(watched.data(), watched.size(), timeout);
+  net::wait_for_news(watched, timeout);
   if ((watched[0].revents & POLLIN) != 0) {
     wake_up_.clear();
   }
