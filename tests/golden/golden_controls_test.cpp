@@ -28,9 +28,9 @@ struct Caught {
   }
 };
 
-/// The table of docs/golden-images.md that says which spoilt pictures are noticed.
+/// The table of tests/golden/controls.md that says which spoilt pictures are noticed.
 std::string line_of_table(const std::string& scene) {
-  std::ifstream file(ORTHONAV_SOURCE_DIR "/docs/golden-images.md");
+  std::ifstream file(ORTHONAV_SOURCE_DIR "/tests/golden/controls.md");
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with("| `" + scene + "` |")) {
       return line;
@@ -70,7 +70,7 @@ TEST_P(GoldenControls, AreNoticedAllAsTheTableSays) {
   for (const Caught& caught : {hidden, shifted, digit, dim, mirror, swapped}) {
     row += " " + caught.cell() + " |";
   }
-  EXPECT_EQ(line_of_table(golden_.name), row) << "docs/golden-images.md is stale";
+  EXPECT_EQ(line_of_table(golden_.name), row) << "tests/golden/controls.md is stale";
 }
 
 /// All scenes, but of guidance from nine places (three distances × three rolls) only three, so that
