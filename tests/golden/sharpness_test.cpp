@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Sharpness,
                          ::testing::Values("guidance", "h1_saved", "h2_vertebra", "h5_red",
                                            "h10_rod"));
 
-/// docs/rendering.md has the errors of every scene; texts are drawn alike.
+/// docs/lab/rendering.md has the errors of every scene; texts are drawn alike.
 TEST_P(Sharpness, IsGreaterWithComputedCoverageThanWithFourSamples) {
   const std::vector<GoldenScene> scenes = golden_scenes();
   GoldenScene scene = *std::find_if(scenes.begin(), scenes.end(),
