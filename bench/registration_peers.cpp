@@ -6,7 +6,7 @@
 #include "base/random.h"
 #include "nav/geometry/absolute_orientation.h"
 #include "nav/geometry/triangle.h"
-#include "nav/registration/principal_axes.h"
+#include "nav/geometry/principal_axes.h"
 
 namespace orthonav::bench {
 

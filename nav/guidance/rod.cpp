@@ -9,7 +9,7 @@
 #include "base/printed.h"
 #include "base/translation.h"
 #include "nav/geometry/spline.h"
-#include "nav/registration/principal_axes.h"
+#include "nav/geometry/principal_axes.h"
 
 namespace orthonav::nav {
 namespace {

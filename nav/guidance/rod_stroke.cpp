@@ -8,7 +8,7 @@
 #include "base/translation.h"
 #include "nav/geometry/absolute_orientation.h"
 #include "nav/guidance/rod_stroke_fit.h"
-#include "nav/registration/principal_axes.h"
+#include "nav/geometry/principal_axes.h"
 
 namespace orthonav::nav {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "nav/geometry/absolute_orientation.h"
-#include "nav/registration/icp.h"
+#include "nav/published/icp.h"
 
 namespace orthonav::nav {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/printed.h"
 #include "base/translation.h"
-#include "nav/registration/principal_axes.h"
+#include "nav/geometry/principal_axes.h"
 #include "nav/registration/registration.h"
 
 namespace orthonav::nav {

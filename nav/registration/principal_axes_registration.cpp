@@ -5,7 +5,7 @@
 
 #include "base/translation.h"
 #include "nav/registration/coarse.h"
-#include "nav/registration/icp.h"
+#include "nav/published/icp.h"
 #include "nav/registration/registration.h"
 #include "nav/registration/tre.h"
 

@@ -14,7 +14,7 @@
 #include "nav/geometry/mesh.h"
 #include "nav/registration/findings.h"
 #include "nav/registration/pose_search.h"
-#include "nav/registration/principal_axes.h"
+#include "nav/geometry/principal_axes.h"
 #include "nav/registration/tre.h"
 
 namespace orthonav::nav {

@@ -6,7 +6,7 @@
 
 #include "nav/evaluation/errors.h"
 #include "nav/guidance/predicted_error.h"
-#include "nav/registration/icp.h"
+#include "nav/published/icp.h"
 #include "nav/registration/tre.h"
 #include "tests/support/mesh_builder.h"
 #include "tests/support/refusal_kinds.h"

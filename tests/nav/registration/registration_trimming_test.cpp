@@ -5,7 +5,7 @@
 
 #include "nav/geometry/closest_grid.h"
 #include "nav/geometry/triangle.h"
-#include "nav/registration/principal_axes.h"
+#include "nav/geometry/principal_axes.h"
 #include "nav/registration/trimming.h"
 #include "tests/support/mesh_builder.h"
 #include "tests/support/registration_builder.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "nav/tracking/corner_filter.h"
+#include "nav/published/corner_filter.h"
 
 namespace orthonav::nav {
 namespace {

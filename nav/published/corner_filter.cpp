@@ -1,4 +1,4 @@
-#include "nav/tracking/corner_filter.h"
+#include "nav/published/corner_filter.h"
 
 #include <algorithm>
 #include <cmath>

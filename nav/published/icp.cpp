@@ -1,4 +1,4 @@
-#include "nav/registration/icp.h"
+#include "nav/published/icp.h"
 
 #include <cmath>
 #include <limits>

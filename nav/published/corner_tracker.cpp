@@ -1,7 +1,7 @@
 #include <cmath>
 #include <utility>
 
-#include "nav/tracking/corner_filter.h"
+#include "nav/published/corner_filter.h"
 #include "nav/tracking/pair_detector.h"
 #include "nav/tracking/tag_matching.h"
 #include "nav/tracking/tool_tracker.h"

@@ -1,4 +1,4 @@
-#include "nav/registration/principal_axes.h"
+#include "nav/geometry/principal_axes.h"
 
 #include <algorithm>
 #include <cmath>
