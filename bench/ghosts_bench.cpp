@@ -10,6 +10,7 @@
 
 #include "base/random.h"
 #include "hal/sim/hololens2.h"
+#include "nav/published/corner_tracker.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::bench {
@@ -122,7 +123,7 @@ int main(int argc, char** argv) {
   using namespace orthonav::bench;
   const int pairs = std::max((argc > 1 ? std::atoi(argv[1]) : 20000) / 2, 1);
   const auto best = created(nav::create_photometric_tracker);
-  const auto paper = created(nav::create_corner_tracker);
+  const auto paper = created(nav::published::create_corner_tracker);
   int best_ghosts = 0;
   int paper_ghosts = 0;
   StereoFrame frame;

@@ -4,6 +4,7 @@
 
 #include "bench/registration_peers.h"
 #include "engine/session/findings_wording.h"
+#include "nav/published/registration.h"
 
 namespace orthonav::bench {
 namespace {
@@ -35,11 +36,26 @@ Fitted told_by(const Result<nav::Registration>& r) {
   return fitted;
 }
 
+/// The published method refuses nothing.
+Fitted told_as_published(const Result<std::array<nav::published::IcpResult, 2>>& r) {
+  Fitted fitted;
+  if (!r) {
+    fitted.reason = r.error().message;
+    return fitted;
+  }
+  fitted.found = true;
+  fitted.accepted = true;
+  fitted.world_from_vertebra = r->front().world_from_vertebra;
+  fitted.rmse_m = r->front().rmse_m;
+  return fitted;
+}
+
 RegistrationMethod paper() {
   return {"paper",
           [](const BenchLevel& level) -> Fit {
             return [model = level.model](std::span<const Point<World>> points) {
-              return told_by(nav::register_by_principal_axes(*model, points));
+              return told_as_published(nav::published::register_points(
+                  model->reachable(), model->reachable_surface(), points));
             };
           },
           true};

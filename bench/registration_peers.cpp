@@ -4,49 +4,30 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "nav/geometry/absolute_orientation.h"
 #include "nav/geometry/triangle.h"
-#include "nav/geometry/principal_axes.h"
+#include "nav/published/registration.h"
 
 namespace orthonav::bench {
 
 std::vector<Transform<Vertebra, World>> published_starts(std::span<const SurfaceSample> model,
                                                          std::span<const Point<World>> points) {
-  const auto extremes_of = [](const std::vector<Vec3>& v) {
-    return nav::extreme_points(v, nav::principal_axes(v));
-  };
   std::vector<Vec3> surface;
   surface.reserve(model.size());
   for (const SurfaceSample& sample : model) {
     surface.push_back(sample.point_m);
   }
-  const auto model_extremes = extremes_of(surface);
   std::vector<Vec3> strokes;
   strokes.reserve(points.size());
   for (const Point<World>& point : points) {
     strokes.push_back(point.v);
   }
-  const auto extremes = extremes_of(strokes);
-  constexpr bool kRotated[4][3] = {
-      {false, false, false}, {false, true, true}, {true, false, true}, {true, true, false}};
-  std::vector<nav::RigidFit> fits;
-  for (const auto& rotated : kRotated) {
-    std::array<Vec3, 6> from = extremes;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (rotated[axis]) {
-        std::swap(from[2 * axis], from[2 * axis + 1]);
-      }
-    }
-    const auto fit = nav::absolute_orientation(from, model_extremes);
-    if (fit) {
-      fits.push_back(*fit);
-    }
-  }
-  std::stable_sort(fits.begin(), fits.end(),
-                   [](const auto& a, const auto& b) { return a.rmse_m < b.rmse_m; });
+  const auto poses = nav::published::coarse_poses(nav::published::extreme_points(surface),
+                                                  nav::published::extreme_points(strokes));
   std::vector<Transform<Vertebra, World>> starts;
-  for (std::size_t i = 0; i < std::min<std::size_t>(fits.size(), 2); ++i) {
-    starts.emplace_back(fits[i].rotation, fits[i].translation_m);
+  if (poses) {
+    for (const Transform<World, Vertebra>& pose : *poses) {
+      starts.push_back(pose.inverse());
+    }
   }
   return starts;
 }

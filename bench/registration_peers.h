@@ -28,9 +28,8 @@ struct SurfaceSample {
 [[nodiscard]] std::vector<SurfaceSample> exposed(const std::vector<SurfaceSample>& samples,
                                                  const std::vector<nav::ScrewPlan>& screws);
 
-/// The published start: the six extreme points along the principal axes of strokes and model are
-/// paired and fitted (Liebmann et al. 2019, eq. 1). Axes have no sign: of the four proper ways to
-/// pair them, the two that fit best, the better one first. Empty for strokes on a line.
+/// The two published starts (Liebmann et al. 2019, eq. 1 and 2), with the sampled surface as the
+/// model's points. Empty for strokes on a line.
 [[nodiscard]] std::vector<Transform<Vertebra, World>> published_starts(
     std::span<const SurfaceSample> model, std::span<const Point<World>> points);
 

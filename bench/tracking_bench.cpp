@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "nav/published/corner_tracker.h"
 #include "nav/tracking/tool_tracker.h"
 #include "tests/support/tag_scene.h"
 
@@ -39,7 +40,7 @@ void track_pair(benchmark::State& bench) {
   TrackerOptions options;
   options.full_search_interval = static_cast<int>(bench.range(0));
   options.parallel = bench.range(1) != 0;
-  auto tracker = create_corner_tracker(calibration, two_tools(), options);
+  auto tracker = published::create_corner_tracker(calibration, two_tools(), options);
   if (!tracker) {
     std::abort();
   }

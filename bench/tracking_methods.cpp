@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bench/aruco_methods.h"
+#include "nav/published/corner_tracker.h"
 #include "nav/tracking/tag_matching.h"
 #include "nav/tracking/tag_pose.h"
 #include "nav/tracking/tool_tracker.h"
@@ -85,7 +86,8 @@ Track tracked_by_corners(const Sequence& sequence, Detect detect) {
 std::vector<Method> tracking_methods() {
   std::vector<Method> methods{
       {"`best`", [](const Sequence& s) { return tracker(s, nav::create_photometric_tracker); }},
-      {"`paper`", [](const Sequence& s) { return tracker(s, nav::create_corner_tracker); }},
+      {"`paper`",
+       [](const Sequence& s) { return tracker(s, nav::published::create_corner_tracker); }},
       {"AprilTag, decimate 1", [](const Sequence& s) { return apriltag(s, 1.0); }},
       {"AprilTag, decimate 2", [](const Sequence& s) { return apriltag(s, 2.0); }}};
   add_aruco_methods(methods);

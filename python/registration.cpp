@@ -69,8 +69,9 @@ void bind_result(py::module_& module) {
       .def_property_readonly("rmse_m", result(&Registration::rmse_m))
       .def_property_readonly(
           "predicted_error_m", result(&Registration::predicted_tre_m),
-          "root mean square error to expect at the worst screw (\"paper\": at the centre of the\n"
-          "bone), of the registration alone; infinite where the points leave a motion open")
+          "root mean square error to expect at the worst screw, of the registration alone; "
+          "infinite\n"
+          "where the points leave a motion open, and with \"paper\", which predicts none")
       .def_property_readonly("error_99_m", result(&Registration::tre_99_m),
                              "what 99 of 100 errors are below at the worst screw; 0 with \"paper\"")
       .def_property_readonly(

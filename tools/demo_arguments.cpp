@@ -13,16 +13,17 @@ constexpr int kDrawEvery = 15;
 
 Result<engine::OperationOptions> options_of(const DemoArguments& arguments) {
   engine::OperationOptions options;
-  options.method = arguments.method;
+  const engine::SetUp set_up = arguments.set_up.chosen();
+  options.method = set_up.method;
   options.levels = arguments.levels;
   options.tools = engine::built_in_tools();
-  options.use_reference = arguments.reference;
+  options.use_reference = set_up.reference;
   options.sim.seed = arguments.seed;
   if (arguments.perfect) {
     options.sim.error_model = sim::ErrorModel::perfect();
   }
-  if (Status set = arguments.surgeon.set_in(options.sim.guidance, options.sim.error_model); !set) {
-    return set.error();
+  if (Status told = set_up.tell(options.sim); !told) {
+    return Error{"--instrument: " + told.error().message};
   }
   if (arguments.pace) {
     options.sim.error_model.pace = *arguments.pace;
@@ -39,8 +40,9 @@ Result<engine::OperationOptions> options_of(const DemoArguments& arguments) {
 KeptOperation::About about_demo(const DemoArguments& arguments, const std::string& case_name) {
   KeptOperation::About about;
   about.case_name = case_name;
-  about.method = arguments.method;
-  about.patient_reference = arguments.reference;
+  const engine::SetUp set_up = arguments.set_up.chosen();
+  about.method = set_up.method;
+  about.patient_reference = set_up.reference;
   about.simulate(arguments.seed);
   about.replaces_earlier = true;
   return about;
@@ -48,7 +50,7 @@ KeptOperation::About about_demo(const DemoArguments& arguments, const std::strin
 
 void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
   add_case_option(demo, arguments.case_folder);
-  add_method_option(demo, arguments.method);
+  arguments.set_up.add_to(demo);
   demo.add_option("-s,--seed", arguments.seed, "seed of every random number")
       ->check(seed_number())
       ->capture_default_str();
@@ -69,8 +71,6 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
                 "continue the last operation in the folder of the results (docs/journal.md)");
   demo.add_flag("--no-video", arguments.no_video, "write no operation.mp4");
   demo.add_flag("--perfect", arguments.perfect, "every source of error at zero");
-  add_reference_flag(demo, arguments.reference);
-  arguments.surgeon.add_to(demo);
   arguments.onlookers.add_to(demo);
   arguments.calibration.add_to(demo);
   arguments.limits.add_to(demo);

@@ -11,7 +11,7 @@
 #include "tools/kept_operation.h"
 #include "tools/limit_arguments.h"
 #include "tools/onlookers.h"
-#include "tools/surgeon_arguments.h"
+#include "tools/set_up_arguments.h"
 #include "tools/wearer_arguments.h"
 
 namespace orthonav::tools {
@@ -19,7 +19,6 @@ namespace orthonav::tools {
 /// The arguments of `orthonav demo`.
 struct DemoArguments {
   std::string case_folder;
-  std::string method = "best";
   std::uint64_t seed = 1;
   std::string out = "orthonav-demo";
   std::vector<std::string> levels;
@@ -28,13 +27,12 @@ struct DemoArguments {
   bool realtime = false;
   bool fast = false;
   bool perfect = false;
-  bool reference = false;
   bool resume = false;
   bool no_video = false;
   bool json = false;
   int threads = 2;
   std::optional<double> pace;
-  SurgeonArguments surgeon;
+  SetUpArguments set_up;
   CalibrationArgument calibration;
   WearerArguments wearer;
   LimitArguments limits;

@@ -40,14 +40,17 @@ constexpr int kVideoRate = 20;
 class Demo {
  public:
   Demo(DemoArguments arguments, StopSignals& signals)
-      : arguments_(std::move(arguments)), signals_(signals), pictures_(arguments_.out) {
+      : arguments_(std::move(arguments)),
+        set_up_(arguments_.set_up.chosen()),
+        signals_(signals),
+        pictures_(arguments_.out) {
     signals_.let_finish();
     signals_.outlast_terminal();
     limit_memory();
   }
 
   int run() {
-    const auto method = engine::method_named(arguments_.method);
+    const auto method = engine::method_named(set_up_.method);
     if (!method) {
       return bad_input(method.error().message);
     }
@@ -135,10 +138,10 @@ class Demo {
     }
     out_.emplace(std::move(*out));
     engine::JournalHeader header{
-        ORTHONAV_VERSION, "sim:", arguments_.method, source.name, arguments_.seed, 0, {}};
-    header.patient_reference = arguments_.reference;
+        ORTHONAV_VERSION, "sim:", set_up_.method, source.name, arguments_.seed, 0, {}};
+    header.patient_reference = set_up_.reference;
     header.errors = engine::errors_in_use(engine::errors_in(options.sim.error_model),
-                                          {.patient_reference = arguments_.reference});
+                                          {.patient_reference = set_up_.reference});
     for (const std::string& label : levels) {
       header.levels.push_back(engine::planned(label, source.find(label)->screws));
     }
@@ -217,7 +220,7 @@ class Demo {
     const bool film = video_ && note(video_->finish());
     const DemoReport report{.date = kept_.begun(),
                             .perfect = arguments_.perfect,
-                            .surgeon = arguments_.surgeon.described(),
+                            .surgeon = described(set_up_),
                             .video = film,
                             .plots = readings_->plots(arguments_.limits.grades()),
                             .pictures = pictures_.written()};
@@ -227,6 +230,7 @@ class Demo {
   }
 
   DemoArguments arguments_;
+  engine::SetUp set_up_;
   StopSignals& signals_;
   bool began_ = false;            ///< the room is open, the first pair is next
   std::optional<OutFolder> out_;  ///< destroyed last: the files in it are dropped first

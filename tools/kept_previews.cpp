@@ -39,7 +39,7 @@ Status KeptPreviews::open(const KeepArguments& arguments) {
 }
 
 Status KeptPreviews::begin(engine::AssembledOperation& operation, const std::string& case_name,
-                           const std::string& method, const sim::SimHeadset* room) {
+                           const engine::SetUp& set_up, const sim::SimHeadset* room) {
   if (!folder_) {
     return {};
   }
@@ -48,11 +48,16 @@ Status KeptPreviews::begin(engine::AssembledOperation& operation, const std::str
   }
   KeptOperation::About about;
   about.case_name = case_name;
-  about.method = method;
+  about.method = set_up.method;
+  about.patient_reference = set_up.reference;
   if (room != nullptr) {
     about.simulate(room->options().seed);
   }
   return kept_->begin(operation, folder_->path().string(), about);
+}
+
+std::vector<nav::ReferencePlace> KeptPreviews::reference_places() const {
+  return kept_ ? kept_->reference_places() : std::vector<nav::ReferencePlace>();
 }
 
 void KeptPreviews::ended(const engine::LoopReport& report) {

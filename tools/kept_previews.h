@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/study/set_up.h"
 #include "hal/sim/sim_headset.h"
 #include "tools/kept_operation.h"
 #include "tools/out_folder.h"
@@ -26,7 +27,9 @@ class KeptPreviews {
   Status open(const KeepArguments& arguments);
   /// Resumes that operation the first time, or begins another one.
   Status begin(engine::AssembledOperation& operation, const std::string& case_name,
-               const std::string& method, const sim::SimHeadset* room);
+               const engine::SetUp& set_up, const sim::SimHeadset* room);
+  /// Where patient references lie in the World of the operation to be resumed.
+  [[nodiscard]] std::vector<nav::ReferencePlace> reference_places() const;
   /// Call after the operation has ended; reports on standard error what was not saved.
   void ended(const engine::LoopReport& report);
 

@@ -34,7 +34,9 @@ namespace {
 class LiveRun {
  public:
   LiveRun(RunArguments arguments, StopSignals& signals)
-      : arguments_(std::move(arguments)), signals_(signals) {
+      : arguments_(std::move(arguments)),
+        set_up_(chosen_for(arguments_.set_up, arguments_.headset)),
+        signals_(signals) {
     signals_.let_finish();
     signals_.outlast_terminal();
     limit_memory();
@@ -79,7 +81,7 @@ class LiveRun {
         engine::outcome_of(session.levels(), session.rods(), std::move(report));
     result.method = method_.name;
     result.case_name = case_name_;
-    result.patient_reference = arguments_.reference;
+    result.patient_reference = set_up_.reference;
     result.errors = operation_->errors();
     result.calibration = engine::calibration_in_use(session.tracker());
     result.seed = room_ ? std::optional(room_->options().seed) : std::nullopt;
@@ -93,7 +95,7 @@ class LiveRun {
   }
 
   Status open() {
-    auto method = engine::method_named(arguments_.method);
+    auto method = engine::method_named(set_up_.method);
     if (!method) {
       return method.error();
     }
@@ -115,7 +117,10 @@ class LiveRun {
     }
     OpenOptions open_options;
     open_options.room = engine::room_of(*source, *operation, engine::built_in_tools());
-    open_options.sim.relies_on_reference = arguments_.reference;
+    open_options.room.exposure = engine::strokes_of(set_up_.method);
+    if (const Status told = set_up_.tell(open_options.sim); !told) {
+      return Error{"--instrument: " + told.error().message};
+    }
     if (const Status opened = open_headset(open_options); !opened) {
       return opened.error();
     }
@@ -153,6 +158,9 @@ class LiveRun {
 
   /// Checks everything possible before the models are prepared, which takes seconds.
   Status check_arguments() {
+    if (!is_simulated(arguments_.headset) && arguments_.set_up.tells_surgeon()) {
+      return Error{"--guidance and --instrument are for the simulated surgeon (--headset sim:)"};
+    }
     if (const Status good = check_headset_uri(arguments_.headset); !good) {
       return good;
     }
@@ -180,7 +188,7 @@ class LiveRun {
 
   engine::AssemblyOptions assembly_options() {
     engine::AssemblyOptions options;
-    options.use_reference = arguments_.reference;
+    options.use_reference = set_up_.reference;
     options.reference_places = files_.kept().reference_places();
     if (room_) {
       options.errors = engine::errors_in(room_->options().error_model);
@@ -238,7 +246,7 @@ class LiveRun {
                                  room_ ? room_->options().seed : 0,
                                  headset_->epoch_ticks_100ns(),
                                  {}};
-    header.patient_reference = arguments_.reference;
+    header.patient_reference = set_up_.reference;
     header.errors = operation_->errors();
     for (const engine::LevelState& level : operation_->session().levels()) {
       header.levels.push_back(engine::planned(level.plan.label, level.plan.screws));
@@ -258,7 +266,7 @@ class LiveRun {
     KeptOperation::About about;
     about.case_name = case_name_;
     about.method = method_.name;
-    about.patient_reference = arguments_.reference;
+    about.patient_reference = set_up_.reference;
     if (room_) {
       about.simulate(room_->options().seed);
     }
@@ -276,6 +284,7 @@ class LiveRun {
   }
 
   RunArguments arguments_;
+  engine::SetUp set_up_;
   StopSignals& signals_;
   engine::Method method_;
   std::optional<std::vector<nav::ToolGeometry>> tools_;

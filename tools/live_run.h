@@ -9,6 +9,7 @@
 #include "tools/limit_arguments.h"
 #include "tools/onlookers.h"
 #include "tools/screw_arguments.h"
+#include "tools/set_up_arguments.h"
 #include "tools/stop_signals.h"
 #include "tools/wearer_arguments.h"
 
@@ -18,7 +19,6 @@ namespace orthonav::tools {
 struct RunArguments {
   std::string headset = "sim:";
   std::string case_folder;
-  std::string method = "best";
   std::vector<std::string> levels;
   std::string tools_file;
   std::string clicker = "headset";
@@ -33,7 +33,7 @@ struct RunArguments {
   WearerArguments wearer;
   std::int64_t frames = 0;
   double for_s = 0.0;  ///< of the device's clock; 0: no limit
-  bool reference = false;
+  SetUpArguments set_up;
   bool resume = false;
   bool json = false;
   bool stats = false;

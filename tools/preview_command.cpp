@@ -15,6 +15,7 @@
 #include "tools/plan_window.h"
 #include "tools/preview/preview_app.h"
 #include "tools/screw_arguments.h"
+#include "tools/set_up_arguments.h"
 #include "tools/stopped_run.h"
 #include "tools/wearer_arguments.h"
 
@@ -24,9 +25,9 @@ namespace {
 struct PreviewArguments {
   std::string headset = "sim:";
   std::string case_folder;
-  std::string method = "best";
   std::vector<std::string> levels;
   std::string tools_file;
+  SetUpArguments set_up;
   ScrewArguments screws;
   std::string script;
   std::string models;
@@ -40,10 +41,14 @@ struct PreviewArguments {
   PlanWindowArguments plan;
 };
 
-/// Takes the room, the guidance and the method of a profile. Refuses one that consists of more.
-Status take_profile(PreviewArguments& arguments) {
+/// Sets the room as asked for, or as in a profile. Refuses a profile that consists of more.
+Result<engine::SetUp> set_up_of(PreviewArguments& arguments) {
+  engine::SetUp set_up = chosen_for(arguments.set_up, arguments.headset);
   if (arguments.profile.empty()) {
-    return {};
+    if (const Status told = set_up.tell(arguments.options.room); !told) {
+      return Error{"--instrument: " + told.error().message};
+    }
+    return set_up;
   }
   const auto profile = engine::profile_named(arguments.profile);
   if (!profile) {
@@ -55,18 +60,21 @@ Status take_profile(PreviewArguments& arguments) {
         ": the preview can't show it: it states its navigation, uses the reference, leaves "
         "steps out or exposes more"};
   }
-  arguments.method = profile->method;
+  set_up.method = profile->method;
+  set_up.reference = false;
   arguments.options.room.guidance = profile->guidance;
   arguments.options.room.error_model = profile->magnitudes;
-  return {};
+  return set_up;
 }
 
 /// The operation to be previewed, still without the prepared models.
-Result<preview::OperationSource> source_of(const PreviewArguments& arguments) {
+Result<preview::OperationSource> source_of(const PreviewArguments& arguments,
+                                           const engine::SetUp& set_up) {
   preview::OperationSource source;
   source.headset = arguments.headset;
   source.tools_file = arguments.tools_file;
-  auto method = engine::method_named(arguments.method);
+  source.use_reference = set_up.reference;
+  auto method = engine::method_named(set_up.method);
   if (!method) {
     return method.error();
   }
@@ -157,10 +165,11 @@ int plan_window(const PreviewArguments& arguments, StopSignals& signals) {
 }
 
 int preview_window(PreviewArguments arguments, StopSignals& signals) {
-  if (const Status taken = take_profile(arguments); !taken) {
-    return bad_input(taken.error().message);
+  const auto set_up = set_up_of(arguments);
+  if (!set_up) {
+    return bad_input(set_up.error().message);
   }
-  auto source = source_of(arguments);
+  auto source = source_of(arguments, *set_up);
   if (!source) {
     return bad_input(source.error().message);
   }
@@ -179,11 +188,12 @@ int preview_window(PreviewArguments arguments, StopSignals& signals) {
   if (const Status opened = kept.open(arguments.keep); !opened) {
     return bad_input(opened.error().message);
   }
-  source->assembled = [&igtl, &kept, name = source->source.name, method = arguments.method](
+  source->assembled = [&igtl, &kept, name = source->source.name, set_up = *set_up](
                           engine::AssembledOperation& operation, const sim::SimHeadset* room) {
     igtl.watch(operation);
-    return kept.begin(operation, name, method, room);
+    return kept.begin(operation, name, set_up, room);
   };
+  source->reference_places = [&kept] { return kept.reference_places(); };
   source->ended = [&kept](const engine::LoopReport& report) { kept.ended(report); };
   preview::PreviewApp app(arguments.options, std::move(*script));
   if (const Status opened = app.open_window(); !opened) {
@@ -255,7 +265,7 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
       ->capture_default_str();
   add_case_option(*preview, arguments->case_folder);
   add_room_options(*preview, *arguments);
-  add_method_option(*preview, arguments->method);
+  arguments->set_up.add_to(*preview);
   add_levels_option(*preview, arguments->levels);
   add_tools_option(*preview, arguments->tools_file);
   arguments->screws.add_to(*preview);

@@ -28,7 +28,9 @@ void print_screws(const engine::RegisteredLevel& level) {
 
 void print(const engine::RegisteredLevel& level, const engine::FigureFrame& frame) {
   const nav::Registration& r = level.registration;
-  print_text("%s: %zu points, RMSE %.2f mm", r.accepted ? "accepted" : "refused", r.points,
+  const bool judged = r.noise_m > 0.0 || !r.accepted;  // `paper` does not judge
+  print_text("%s: %zu points, RMSE %.2f mm",
+             !judged ? "not judged, look at it" : (r.accepted ? "accepted" : "refused"), r.points,
              r.rmse_m * 1e3);
   if (engine::runner_up_distance(level)) {
     print_text(", next best pose %.2f mm", r.runner_up_rmse_m * 1e3);
@@ -120,7 +122,7 @@ constexpr const char* kRegisterFooter =
     "for column vectors, by rows: from the model (in its file's axes; a case's in LPS; in the\n"
     "points' unit) to the points.\n"
     "predicted_tre_mm: root mean square error to expect at the worst of the plan's entries and\n"
-    "targets; without a plan, where screws usually go (paper: at the model's centre).\n"
+    "targets; without a plan, where screws usually go (paper predicts none: null).\n"
     "Without what all points share (--tip-sd-mm and the others), errors to expect are those of "
     "the\n"
     "registration alone. The limits are about these.\n"

@@ -51,10 +51,9 @@ void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
       ->check(some_text())
       ->capture_default_str();
   add_case_option(*run, arguments->case_folder);
-  add_method_option(*run, arguments->method);
+  arguments->set_up.add_to(*run);
   add_levels_option(*run, arguments->levels);
   add_tools_option(*run, arguments->tools_file);
-  add_reference_flag(*run, arguments->reference);
   arguments->common.add_to(
       *run, {"assumed to be 0.4", "assumed to be 0.46, of a tracker 0.25; docs/headsets.md",
              "assumed to be 0.11 mm/sqrt(s); with --reference none"});

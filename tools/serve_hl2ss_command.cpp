@@ -6,6 +6,7 @@
 #include "base/how_many.h"
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
+#include "engine/study/set_up.h"
 #include "engine/study/sim_scenario.h"
 #include "hal/api/as_headset.h"
 #include "hal/hl2ss/server/server.h"
@@ -16,6 +17,7 @@
 #include "tools/command.h"
 #include "tools/listening_place.h"
 #include "tools/scene_drawing.h"
+#include "tools/set_up_arguments.h"
 #include "tools/stop_signals.h"
 
 namespace orthonav::tools {
@@ -27,6 +29,7 @@ struct ServeArguments {
   std::vector<std::string> levels;
   std::uint64_t seed = 1;
   bool perfect = false;
+  SetUpArguments set_up;
   double pace = 1.0;
   std::string faults;
   std::int64_t sessions = 0;
@@ -50,12 +53,17 @@ Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) 
   if (!operation) {
     return operation.error();
   }
+  const engine::SetUp set_up = arguments.set_up.chosen();
   auto room = engine::room_of(*source, *operation, engine::built_in_tools());
+  room.exposure = engine::strokes_of(set_up.method);
   sim::SimOptions options;
   options.seed = arguments.seed;
   if (arguments.perfect) {
     options.error_model = sim::ErrorModel::perfect();
     options.depth_errors = sim::DepthErrors::none();
+  }
+  if (const Status told = set_up.tell(options); !told) {
+    return Error{"--instrument: " + told.error().message};
   }
   options.error_model.pace = arguments.pace;
   options.depth = {DepthStream::kAhat, DepthStream::kLongThrow};
@@ -71,11 +79,14 @@ void say_where(const hl2ss::Server& server, const ServeArguments& arguments) {
   if (options.token.is_asked_for()) {
     side += "&token=" + arguments.token_file;
   }
+  const engine::SetUp set_up = arguments.set_up.chosen();
+  const std::string with = (set_up.method == "best" ? "" : " --method " + set_up.method) +
+                           std::string(set_up.reference ? " --reference" : "");
   std::fprintf(stderr,
                "serving a HoloLens 2 at %s, ports from %d on; in another window:\n"
-               "  orthonav run --headset 'hl2ss://%s?port=%d%s'\n",
+               "  orthonav run --headset 'hl2ss://%s?port=%d%s'%s\n",
                options.host.c_str(), server.first_port(), net::before_port(options.host).c_str(),
-               server.first_port(), side.c_str());
+               server.first_port(), side.c_str(), with.c_str());
 }
 
 /// Draws what the headset's scene shows, a picture a second while it shows anything, and films it.
@@ -271,6 +282,7 @@ void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals
   add_levels_option(*serve_hl2ss, arguments->levels);
   serve_hl2ss->add_option("-s,--seed", arguments->seed, "of the simulation and the faults")
       ->capture_default_str();
+  arguments->set_up.add_to(*serve_hl2ss);
   serve_hl2ss->add_flag("--perfect", arguments->perfect, "a room without noise or error");
   serve_hl2ss->add_option("--pace", arguments->pace, "of the surgeon, 1: as most people work")
       ->capture_default_str();

@@ -5,35 +5,19 @@
 
 #include "hal/sim/instruments.h"
 #include "tools/arguments.h"
+#include "tools/set_up_arguments.h"
 
 namespace orthonav::tools {
-namespace {
-
-std::vector<std::string> guidance_names() {
-  std::vector<std::string> names;
-  for (const sim::NamedGuidance& one : sim::kGuidanceNames) {
-    names.emplace_back(one.name);
-  }
-  return names;
-}
-
-}  // namespace
-
 void SurgeonArguments::add_to(CLI::App& command) {
   command
-      .add_option(
-          "--guidance", guidance,
-          "what the surgeon goes by: overlay, numbers or \"closed loop\" (default: numbers)")
+      .add_option("--guidance", guidance,
+                  "what the surgeon goes by: overlay, numbers, \"closed loop\" or published "
+                  "(default: numbers)")
       ->check(CLI::IsMember(guidance_names()));
   command
       .add_option("--instrument", instrument,
                   "wire, cannula, \"sleeved drill\", screw or \"robot arm\" (default: wire)")
       ->check(some_text());
-}
-
-std::string SurgeonArguments::described() const {
-  return "The simulated surgeon uses: " + (instrument.empty() ? "wire" : instrument) +
-         "; guidance: " + (guidance.empty() ? "numbers" : guidance) + " (docs/accuracy.md).";
 }
 
 Status SurgeonArguments::set_in(sim::GuidanceProfile& profile, sim::ErrorModel& error_model) const {

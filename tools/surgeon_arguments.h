@@ -9,15 +9,13 @@
 
 namespace orthonav::tools {
 
-/// `--guidance` and `--instrument`: how the simulated surgeon places screws.
+/// `--guidance` and `--instrument` of a study: how the simulated surgeon places screws.
 struct SurgeonArguments {
   std::string guidance;    ///< empty: as it is, by the numbers unless a profile says otherwise
   std::string instrument;  ///< empty: as it is, a wire unless a profile says otherwise
 
   void add_to(CLI::App& command);
   [[nodiscard]] bool is_given() const { return !guidance.empty() || !instrument.empty(); }
-  /// For a report: what the surgeon works with and goes by, a sentence.
-  [[nodiscard]] std::string described() const;
   /// Changes what was given. Refuses an unknown instrument.
   [[nodiscard]] Status set_in(sim::GuidanceProfile& profile, sim::ErrorModel& error_model) const;
 };

@@ -10,6 +10,7 @@
 #include "engine/case/operation.h"
 #include "engine/session/findings_wording.h"
 #include "nav/guidance/predicted_error.h"
+#include "nav/published/registration.h"
 
 namespace orthonav::engine {
 namespace {
@@ -28,22 +29,14 @@ PlaceError error_at(const nav::Registration& r, Point<Vertebra> place) {
 std::vector<Point<Vertebra>> places_of(const RegisteredLevel& level) {
   std::vector<Point<Vertebra>> places = nav::entries_and_targets(level.screws);
   if (places.empty()) {
-    for (const Vec3& extreme : level.model->reachable_extremes()) {
-      places.push_back({extreme});
-    }
+    const auto extremes = nav::published::extreme_points(level.model->reachable().vertices_m);
+    places = {{extremes.e1}, {extremes.e2}, {extremes.e3}};
   }
   return places;
 }
 
-/// `best` says how much worse the next pose explains the points; `paper` compares residuals.
-bool tells_log_likelihood_ratio(const nav::Registration& r) { return r.noise_m > 0.0; }
-
-bool tells_apart(const nav::Registration& r) {
-  return tells_log_likelihood_ratio(r)
-             ? r.log_likelihood_ratio >=
-                   nav::PoseSearchRegistrationOptions{}.min_log_likelihood_ratio
-             : r.runner_up_rmse_m >= nav::RegistrationOptions{}.min_runner_up_ratio * r.rmse_m;
-}
+/// Whether the method judges its pose and predicts errors; `paper` does neither.
+bool is_judged(const nav::Registration& r) { return r.noise_m > 0.0; }
 
 /// By how much the model may be of another size than the bone, with 95 % probability.
 double size_may_be_off(const nav::Registration& r) {
@@ -52,7 +45,7 @@ double size_may_be_off(const nav::Registration& r) {
 
 /// What the points could not show, in words; empty if nothing.
 std::string not_checked(const nav::Registration& r) {
-  if (!tells_log_likelihood_ratio(r)) {
+  if (!is_judged(r)) {
     return "";
   }
   std::string out;
@@ -95,7 +88,7 @@ double worst_rms_m(const RegisteredLevel& level) {
 }
 
 std::optional<double> worst_within_95_m(const RegisteredLevel& level) {
-  if (level.screws.empty() && !tells_log_likelihood_ratio(level.registration)) {
+  if (!is_judged(level.registration) && !level.registration.uncertainty) {
     return std::nullopt;
   }
   if (level.screws.empty()) {
@@ -134,7 +127,9 @@ std::string ambiguity_of(const RegisteredLevel& level) {
   const std::string unchecked = not_checked(r);
   const auto other = runner_up_distance(level);
   if (!other) {
-    return "unambiguous: no other pose comes near to explaining the points" + unchecked;
+    return is_judged(r)
+               ? "unambiguous: no other pose comes near to explaining the points" + unchecked
+               : "judged by eye: both coarse poses end in this one";
   }
   const std::string where =
       formatted(level.screws.empty()
@@ -142,12 +137,14 @@ std::string ambiguity_of(const RegisteredLevel& level) {
                       " by %.0f degrees, explains the points "
                     : "%.0f mm away at the screws and turned by %.0f degrees, explains the points ",
                 other->apart_m * 1e3, degrees(other->rotation_rad));
-  const std::string by =
-      tells_log_likelihood_ratio(r)
-          ? formatted(" (margin %.0f, at least %.0f)", r.log_likelihood_ratio,
-                      nav::PoseSearchRegistrationOptions{}.min_log_likelihood_ratio)
-          : formatted(" (RMSE %.2f against %.2f mm)", r.runner_up_rmse_m * 1e3, r.rmse_m * 1e3);
-  return tells_apart(r)
+  if (!is_judged(r)) {
+    return "judged by eye: the other of the two poses, " + where +
+           formatted("with an RMSE of %.2f mm (this one %.2f mm)", r.runner_up_rmse_m * 1e3,
+                     r.rmse_m * 1e3);
+  }
+  const double limit = nav::PoseSearchRegistrationOptions{}.min_log_likelihood_ratio;
+  const std::string by = formatted(" (margin %.0f, at least %.0f)", r.log_likelihood_ratio, limit);
+  return r.log_likelihood_ratio >= limit
              ? "unambiguous: the next best pose, " + where + "clearly worse" + by + unchecked
              : "ambiguous: another pose, " + where + "nearly as well" + by + unchecked;
 }
@@ -170,9 +167,7 @@ std::string certainty_of(const RegisteredLevel& level) {
   const auto within = worst_within_95_m(level);
   const char* where = level.screws.empty() ? "where screws usually go" : "at the screws";
   if (!within) {
-    out =
-        formatted("An error of %.2f mm (root mean square) is to be expected at the model's centre.",
-                  r.predicted_tre_m * 1e3);
+    out = "The published method predicts no error: it is judged by eye.";
   } else if (std::isfinite(*within)) {
     // The scatter about a pose that may be wrong means nothing.
     out =

@@ -26,15 +26,6 @@ struct LimitWords {
 LimitWords words_about(nav::RefusalReason::Kind kind) {
   using enum nav::RefusalReason::Kind;
   switch (kind) {
-    case kRmse:
-      return {translatable("registration RMSE %.1f mm, limit %.1f mm"), 1e3};
-    case kRunnerUpRmse:
-      return {translatable("another pose fits nearly as well (%.2f times the RMSE, at least %.2f)"),
-              1.0};
-    case kTreAtCentre:
-      return {translatable("the points leave the bone loose: %.1f mm error expected at its centre, "
-                           "limit %.1f mm"),
-              1e3};
     case kNoise:
       return {translatable("the points scatter %.1f mm about the surface, limit %.1f mm"), 1e3};
     case kInliers:

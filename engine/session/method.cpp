@@ -1,12 +1,36 @@
 #include "engine/session/method.h"
 
+#include <limits>
+
 #include "nav/guidance/predicted_error.h"
+#include "nav/published/corner_tracker.h"
+#include "nav/published/registration.h"
 
 namespace orthonav::engine {
 namespace {
 
+/// Never refused: the surgeon judges it by eye. The paper predicts no error.
 Result<nav::Registration> by_paper(const RegistrationRequest& request) {
-  return nav::register_by_principal_axes(request.model, request.points_in_world);
+  constexpr std::size_t kFewestPoints = 3;
+  if (const Status s = nav::validate_points(request.points_in_world, kFewestPoints); !s) {
+    return s.error();
+  }
+  const auto refined = nav::published::register_points(
+      request.model.reachable(), request.model.reachable_surface(), request.points_in_world);
+  if (!refined) {
+    return refined.error();
+  }
+  const auto& [shown, other] = *refined;
+  nav::Registration out;
+  out.accepted = true;
+  out.world_from_vertebra = shown.world_from_vertebra;
+  out.rmse_m = shown.rmse_m;
+  out.iterations = shown.iterations;
+  out.runner_up = other.world_from_vertebra;
+  out.runner_up_rmse_m = other.rmse_m;
+  out.points = request.points_in_world.size();
+  out.predicted_tre_m = std::numeric_limits<double>::infinity();
+  return out;
 }
 
 Result<nav::Registration> by_pose_search(const RegistrationRequest& request) {
@@ -45,7 +69,9 @@ Result<Method> method_named(const std::string& name) {
         true};
   }
   if (name == "paper") {
-    return Method{name, &nav::create_corner_tracker, &by_paper, Verification::kByEye, false, false};
+    return Method{name,      &nav::published::create_corner_tracker,
+                  &by_paper, Verification::kByEye,
+                  false,     false};
   }
   return unknown(name);
 }

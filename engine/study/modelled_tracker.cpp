@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/study/modelled_sightings.h"
+#include "nav/published/corner_tracker.h"
 #include "nav/tracking/corner_pose.h"
 #include "nav/tracking/pair_detector.h"
 #include "nav/tracking/pose_filter.h"
@@ -196,8 +197,8 @@ Result<std::unique_ptr<nav::ToolTracker>> create_modelled_tracker(
     bool correct_tag_sizes) {
   const MeasurementModel model = MeasurementModel::of(method);
   if (method == "paper") {
-    return nav::create_tracker_of_corners(calibration, std::move(tools), options,
-                                          std::make_unique<ModelledFinder>(room, model));
+    return nav::published::create_tracker_of_corners(calibration, std::move(tools), options,
+                                                     std::make_unique<ModelledFinder>(room, model));
   }
   if (Status status = nav::check(calibration, tools, options); !status) {
     return status.error();

@@ -69,6 +69,10 @@ sim::RoomDescription room_of(const Case& source, const Operation& operation,
   return room;
 }
 
+sim::Exposure strokes_of(std::string_view method) {
+  return method == "paper" ? sim::Exposure::kTrainedPattern : sim::Exposure::kLaminae;
+}
+
 KnownErrors errors_in(const sim::ErrorModel& room, bool sizes_estimated) {
   double cameras_m2 = 0.0;
   for (const Shift& shift : kOfCamerasAndTags) {

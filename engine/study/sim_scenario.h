@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "engine/case/case.h"
@@ -16,6 +17,10 @@ namespace orthonav::engine {
 /// operated in its order. The tools are made exactly as in `tools`.
 [[nodiscard]] sim::RoomDescription room_of(const Case& source, const Operation& operation,
                                            const std::vector<nav::ToolGeometry>& tools);
+
+/// Where its surgeons stroke: with `paper` in the pattern that the publication's were trained in,
+/// else the laminae.
+[[nodiscard]] sim::Exposure strokes_of(std::string_view method);
 
 /// What all strokes in this room have in common: the SDs that follow from those from which it
 /// draws, not the drawn values. `sizes_estimated`: sizes of tags are estimated in use.

@@ -192,7 +192,7 @@ Result<OperationResult> run_operation(const Case& source, Operation planned,
     return Error{joined(problems)};
   }
   sim::RoomDescription description = room_of(source, planned, options.tools);
-  description.exposure = options.exposure;
+  description.exposure = options.exposure.value_or(strokes_of(options.method));
   auto room = sim::SimHeadset::open(std::move(description), sim_options(options));
   if (!room) {
     return room.error();

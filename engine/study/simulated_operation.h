@@ -32,7 +32,8 @@ struct OperationOptions : AssemblyOptions {
   std::optional<StatedNavigation> navigation;
   std::vector<std::string> levels;  ///< empty: the two lowest of the case
   std::vector<nav::ToolGeometry> tools;
-  sim::Exposure exposure = sim::Exposure::kLaminae;
+  /// Absent: as the method is used (`strokes_of`, sim_scenario.h).
+  std::optional<sim::Exposure> exposure;
   sim::SimOptions sim;
   /// In the measurement model: poses of `best` use the tag sizes estimated in use.
   bool correct_tag_sizes = true;

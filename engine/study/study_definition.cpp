@@ -89,8 +89,8 @@ std::string definition_of(std::span<const Case> cases, const StudyOptions& optio
            {"runs", static_cast<std::size_t>(options.runs)},
            {"first_seed", options.first_seed},
            {"magnitudes", magnitudes}};
-  if (operation.exposure != sim::Exposure::kLaminae) {
-    out["exposure"] = static_cast<int>(operation.exposure);
+  if (operation.exposure) {
+    out["exposure"] = static_cast<int>(*operation.exposure);
   }
   if (!operation.left_out.empty()) {
     out["left_out"] = operation.left_out;

@@ -17,9 +17,10 @@ struct NamedExposure {
   std::string_view name;
   sim::Exposure value;
 };
-constexpr std::array<NamedExposure, 2> kExposure = {{
+constexpr std::array<NamedExposure, 3> kExposure = {{
     {"laminae", sim::Exposure::kLaminae},
     {"transverse processes", sim::Exposure::kTransverseProcesses},
+    {"trained pattern", sim::Exposure::kTrainedPattern},
 }};
 
 /// The one of `known` that `key` names; refuses other names.
@@ -96,7 +97,7 @@ void read_ways(const JsonNode& profile, StudyProfile& out) {
   }
   read_name(profile, "guidance", sim::kGuidanceNames, out.guidance);
   if (profile.has("exposure")) {
-    read_name(profile, "exposure", kExposure, out.exposure);
+    read_name(profile, "exposure", kExposure, out.exposure.emplace());
   }
   out.reference = profile.flag_or("reference", false);
   read_without(profile, out);
@@ -109,7 +110,7 @@ void read_ways(const JsonNode& profile, StudyProfile& out) {
 }  // namespace
 
 bool StudyProfile::can_be_previewed() const {
-  return !navigation && !reference && without.empty() && exposure == sim::Exposure::kLaminae;
+  return !navigation && !reference && without.empty() && !exposure;
 }
 
 void StudyProfile::apply(OperationOptions& options) const {
@@ -149,6 +150,7 @@ Result<StudyProfile> profile_named(const std::string& name_or_file) {
     StudyProfile publication;
     publication.name = kPublication;
     publication.method = "paper";
+    publication.guidance = sim::GuidanceProfile::kPublished;
     publication.instrument = "wire";
     return publication;
   }

@@ -16,9 +16,9 @@ struct StudyProfile {
   std::optional<StatedNavigation> navigation;  ///< replaces our own method
   sim::GuidanceProfile guidance = sim::GuidanceProfile::kNumbers;
   std::string instrument;
-  bool reference = false;            ///< everything is relative to the patient reference
-  std::vector<std::string> without;  ///< steps of the method (left_out.h)
-  sim::Exposure exposure = sim::Exposure::kLaminae;
+  bool reference = false;                 ///< everything is relative to the patient reference
+  std::vector<std::string> without;       ///< steps of the method (left_out.h)
+  std::optional<sim::Exposure> exposure;  ///< absent: as the method is used
   sim::ErrorModel magnitudes;
 
   /// Its settings, for operations.

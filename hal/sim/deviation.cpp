@@ -61,6 +61,20 @@ std::optional<Deviation> read_deviation(const Eyes& eyes) {
   return Deviation{*eyes.seen_at(), rotation_of(lean, planned, angle_rad)};
 }
 
+std::optional<Deviation> read_triangle(const Eyes& eyes) {
+  const ShownHologram* triangle = find_places(eyes, HologramKind::kTriangle, 3);
+  const ShownHologram* number = eyes.find(HologramKind::kAngle);
+  if (!triangle || !number || !number->reading) {
+    return std::nullopt;
+  }
+  const Vec3 planned = from_first(eyes, *triangle, 2);
+  const Vec3 lean = from_first(eyes, *triangle, 1);
+  if (!(planned.norm() > kShortest_m) || !lean.is_finite()) {
+    return std::nullopt;
+  }
+  return Deviation{*eyes.seen_at(), rotation_of(lean, planned, *number->reading)};
+}
+
 void DeviationMemory::add(const Deviation& reading) {
   if (count_ > 0 && back(0).seen_at == reading.seen_at) {
     return;

@@ -22,6 +22,11 @@ struct Deviation {
 /// a degree.
 [[nodiscard]] std::optional<Deviation> read_deviation(const Eyes& eyes);
 
+/// Reads it off triangle and number alone, as published: the triangle gives the direction, the
+/// number the size. With the tip beside the entry, the triangle closes at another angle. Nothing if
+/// a part is missing.
+[[nodiscard]] std::optional<Deviation> read_triangle(const Eyes& eyes);
+
 /// The readings of the last seconds, one per displayed frame.
 class DeviationMemory {
  public:

@@ -11,6 +11,7 @@ enum class GuidanceProfile : std::uint8_t {
   kOverlay,     ///< entry and trajectory as shown over the bone; no number is read
   kNumbers,     ///< the entry as shown; the angle by number, triangle and cross
   kClosedLoop,  ///< entry and angle by the numbers at the cross, also while drilling
+  kPublished,   ///< the entry as shown; the angle by number and triangle (Liebmann et al. 2019)
 };
 
 struct NamedGuidance {
@@ -18,10 +19,11 @@ struct NamedGuidance {
   GuidanceProfile value;
 };
 /// The names in profiles and on command lines.
-inline constexpr std::array<NamedGuidance, 3> kGuidanceNames = {{
+inline constexpr std::array<NamedGuidance, 4> kGuidanceNames = {{
     {"overlay", GuidanceProfile::kOverlay},
     {"numbers", GuidanceProfile::kNumbers},
     {"closed loop", GuidanceProfile::kClosedLoop},
+    {"published", GuidanceProfile::kPublished},
 }};
 
 }  // namespace orthonav::sim

@@ -46,11 +46,15 @@ struct TagFlaws {
   std::vector<TagDrop> drops;
 };
 
-/// How much of a bone is exposed and can be stroked from behind.
+/// How much of a bone is exposed, and stroked from behind.
 enum class Exposure : std::uint8_t {
-  kLaminae,             ///< spinous process, laminae and facets, out to the roots of the
-                        ///< transverse processes
-  kTransverseProcesses  ///< also these to their ends, as for a posterolateral fusion
+  kLaminae,              ///< spinous process, laminae and facets, out to the roots of the
+                         ///< transverse processes
+  kTransverseProcesses,  ///< also these to their ends, as for a posterolateral fusion
+  /// Both transverse processes along their length to the tips, the crest and the lower end of the
+  /// spinous process, and the laminae: the places whose extremes the published registration
+  /// compares (nav/published/registration.h).
+  kTrainedPattern
 };
 
 /// The content of the operating room; fixed for a session.

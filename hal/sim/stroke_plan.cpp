@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "hal/sim/surface_map.h"
@@ -26,7 +27,7 @@ struct Outwards {
   double most_m;
 };
 constexpr Outwards outwards(Exposure exposure) {
-  return exposure == Exposure::kLaminae ? Outwards{0.65, 0.030} : Outwards{0.95, 0.060};
+  return exposure == Exposure::kTransverseProcesses ? Outwards{0.95, 0.060} : Outwards{0.65, 0.030};
 }
 
 /// The part of a vertebra that a pointer reaches from behind: its posterior half, as far out as it
@@ -202,6 +203,71 @@ void append(std::vector<StrokeRegion>& regions, const std::vector<Run>& runs) {
   }
 }
 
+/// A transverse process from its root to its tip, three times: along its middle outwards, along its
+/// upper edge back, along its lower edge outwards again. Empty where none is seen from behind.
+std::vector<Run> along_transverse_process(const RoomLevel& level, const SurfaceMap& from_behind,
+                                          const Reach& reach, double side) {
+  constexpr double kMiddle = 0.5;
+  constexpr double kUpperEdge = 0.8;
+  constexpr double kLowerEdge = 0.2;
+  // The process is followed from its tip inwards: what joins it there (facet, mammillary process)
+  // begins with a step.
+  constexpr double kWidens_m = 0.0005;  // at either edge, from one column of the map to the next
+
+  BoneSpot tip;
+  double farthest_m = 0.0;
+  for (const Vec3 vertex : level.vertices_m) {
+    const double aside_m = side * (vertex.x - reach.midline_x_m);
+    if (vertex.y > reach.lowest_y_m && aside_m > farthest_m) {
+      farthest_m = aside_m;
+      tip = {vertex, Vec3{side, 1.0, 0.0}.normalized()};
+    }
+  }
+  struct Column {
+    double u_m, low_m, high_m;
+  };
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::vector<Column> columns;  // from the tip inwards
+  const auto seen = [&](double u_m, double v_m) {
+    const auto spot = from_behind.at({u_m, v_m});
+    return spot && spot->point.y > reach.lowest_y_m ? spot : std::nullopt;
+  };
+  for (double aside_m = farthest_m; aside_m > reach.half_width_m; aside_m -= SurfaceMap::kStep_m) {
+    const double u_m = reach.midline_x_m + side * aside_m;
+    Column column{u_m, kNone, -kNone};
+    const double low_m = columns.empty() ? from_behind.low().y : columns.back().low_m - kWidens_m;
+    const double high_m =
+        columns.empty() ? from_behind.high().y : columns.back().high_m + kWidens_m;
+    for (double v_m = low_m; v_m <= high_m; v_m += SurfaceMap::kStep_m) {
+      if (seen(u_m, v_m)) {
+        column.low_m = std::min(column.low_m, v_m);
+        column.high_m = std::max(column.high_m, v_m);
+      }
+    }
+    if (column.low_m < column.high_m) {
+      columns.push_back(column);
+    }
+  }
+  std::vector<Run> runs;
+  for (const double at : {kMiddle, kUpperEdge, kLowerEdge}) {
+    Run outwards;
+    for (auto column = columns.rbegin(); column != columns.rend(); ++column) {
+      if (const auto spot =
+              seen(column->u_m, column->low_m + at * (column->high_m - column->low_m))) {
+        outwards.push_back(*spot);
+      }
+    }
+    outwards.push_back(tip);
+    if (at == kUpperEdge) {
+      std::reverse(outwards.begin(), outwards.end());
+    }
+    if (outwards.size() > 1) {
+      runs.push_back(outwards);
+    }
+  }
+  return runs;
+}
+
 }  // namespace
 
 BoneSpot Stroke::at(double along_m) const {
@@ -240,6 +306,15 @@ std::vector<StrokeRegion> plan_strokes(const RoomLevel& level, Exposure exposure
   };
   sweep_behind(kHalfMidline_m, reach.half_width_m);
   sweep_behind(-kHalfMidline_m, -reach.half_width_m);
+  if (exposure == Exposure::kTrainedPattern) {
+    for (const double side : {1.0, -1.0}) {
+      append(regions, along_transverse_process(level, from_behind, reach, side));
+    }
+    // The crest to and fro, twice, down to its lower end.
+    sweep_behind(-kLinePitch_m / 2, kLinePitch_m / 2);
+    sweep_behind(kLinePitch_m / 4, -kLinePitch_m / 4);
+    return regions;
+  }
   for (const double side : {1.0, -1.0}) {
     const SurfaceMap oblique(level, {side * std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0});
     const auto flank = [&reach, side](const BoneSpot& spot) {

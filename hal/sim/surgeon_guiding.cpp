@@ -55,6 +55,7 @@ Script Surgeon::aim_tool(const StepOnDisplay& step, std::size_t level, const Aim
     case GuidanceProfile::kOverlay:
       co_await align_by_eye(step, aim);
       break;
+    case GuidanceProfile::kPublished:
     case GuidanceProfile::kNumbers:
       co_await rotate_tool(step, aim);
       break;

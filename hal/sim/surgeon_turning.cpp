@@ -70,6 +70,9 @@ std::optional<Deviation> Surgeon::read_rotation(const Aim& aim) const {
   if (!sees_now()) {
     return std::nullopt;
   }
+  if (guidance_ == GuidanceProfile::kPublished) {
+    return read_triangle(*eyes_);
+  }
   if (guidance_ != GuidanceProfile::kClosedLoop) {
     return read_deviation(*eyes_);
   }

@@ -46,15 +46,4 @@ PrincipalAxes principal_axes(std::span<const Vec3> points_m, std::span<const dou
   return result;
 }
 
-std::array<Vec3, 6> extreme_points(std::span<const Vec3> points_m, const PrincipalAxes& axes) {
-  std::array<Vec3, 6> extremes;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto along = [&](Vec3 a, Vec3 b) { return axes.axes[k].dot(a) < axes.axes[k].dot(b); };
-    const auto [least, greatest] = std::minmax_element(points_m.begin(), points_m.end(), along);
-    extremes[2 * k] = *least;
-    extremes[2 * k + 1] = *greatest;
-  }
-  return extremes;
-}
-
 }  // namespace orthonav::nav

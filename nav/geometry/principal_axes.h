@@ -19,9 +19,4 @@ struct PrincipalAxes {
 [[nodiscard]] PrincipalAxes principal_axes(std::span<const Vec3> points_m,
                                            std::span<const double> weights = {});
 
-/// The outermost points along each axis (Liebmann et al. 2019, eq. 1): lowest and highest along the
-/// first, the second, the third.
-[[nodiscard]] std::array<Vec3, 6> extreme_points(std::span<const Vec3> points_m,
-                                                 const PrincipalAxes& axes);
-
 }  // namespace orthonav::nav

@@ -8,8 +8,8 @@
 #include "base/angle.h"
 #include "base/printed.h"
 #include "base/translation.h"
-#include "nav/geometry/spline.h"
 #include "nav/geometry/principal_axes.h"
+#include "nav/geometry/spline.h"
 
 namespace orthonav::nav {
 namespace {

@@ -7,8 +7,8 @@
 #include "base/printed.h"
 #include "base/translation.h"
 #include "nav/geometry/absolute_orientation.h"
-#include "nav/guidance/rod_stroke_fit.h"
 #include "nav/geometry/principal_axes.h"
+#include "nav/guidance/rod_stroke_fit.h"
 
 namespace orthonav::nav {
 namespace {

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace orthonav::nav {
+namespace orthonav::nav::published {
 namespace {
 
-// When the model holds, 95 % of the squared innovations of eight coordinates lie below this
-// (chi-square, 8 degrees of freedom).
-constexpr double kInnovationLimit = 15.5;
 constexpr double kCoordinates = 8.0;
 // A tag that has moved farther than its own extent from the prediction is a new sighting.
 constexpr double kJumpOfExtent = 1.0;
@@ -34,14 +31,14 @@ void CornerFilter::start(const Corners& measured_px, Timestamp time) {
   velocity_px_ = {};
   position_variance_ = options_.noise_px * options_.noise_px;
   covariance_ = 0.0;
-  velocity_variance_ = options_.first_velocity_px * options_.first_velocity_px;
+  velocity_variance_ = options_.first_velocity_px_per_s * options_.first_velocity_px_per_s;
 }
 
 void CornerFilter::advance(double dt_s) {
   for (std::size_t i = 0; i < position_px_.size(); ++i) {
     position_px_[i] = position_px_[i] + dt_s * velocity_px_[i];
   }
-  const double q = options_.acceleration_px;
+  const double q = options_.acceleration_px2_per_s3;
   position_variance_ +=
       2.0 * dt_s * covariance_ + dt_s * dt_s * velocity_variance_ + q * dt_s * dt_s * dt_s / 3.0;
   covariance_ += dt_s * velocity_variance_ + q * dt_s * dt_s / 2.0;
@@ -50,14 +47,6 @@ void CornerFilter::advance(double dt_s) {
 
 void CornerFilter::correct(const Corners& measured_px) {
   const double noise = options_.noise_px * options_.noise_px;
-  const double innovation = squared_distance(measured_px, position_px_);
-  if (innovation > kInnovationLimit * (position_variance_ + noise)) {
-    const double inflation =
-        std::max(1.0, (innovation / kCoordinates - noise) / position_variance_);
-    position_variance_ *= inflation;
-    covariance_ *= inflation;
-    velocity_variance_ *= inflation;
-  }
   const double total = position_variance_ + noise;
   const double gain = position_variance_ / total;
   const double velocity_gain = covariance_ / total;
@@ -92,4 +81,4 @@ CornerFilter::Prediction CornerFilter::predicted(Timestamp time) const {
   return {ahead.position_px_, std::sqrt(ahead.position_variance_)};
 }
 
-}  // namespace orthonav::nav
+}  // namespace orthonav::nav::published

@@ -5,22 +5,24 @@
 #include "base/time.h"
 #include "base/vec.h"
 
-namespace orthonav::nav {
+namespace orthonav::nav::published {
 
+/// The paper states none of them.
 struct CornerFilterOptions {
-  /// Spectral density of the white acceleration, px²/s³ (Bar-Shalom, Li & Kirubarajan 2001, 6.2.2).
-  double acceleration_px = 400.0;
+  /// Spectral density of the white acceleration, px²/s³ (Bar-Shalom, Li & Kirubarajan 2001, 6.2.2):
+  /// the least with which the filter follows a stroke of 25 px, once a second, within the noise of
+  /// one measurement (lag 0.09 px; with a fifth of it 0.29 px). Tremor is that much smoothed, and
+  /// the noise of a tag at rest by 8 %.
+  double acceleration_px2_per_s3 = 2000.0;
   /// SD of a measured corner coordinate, px.
   double noise_px = 0.1;
   /// SD of the velocity of a newly visible tag, px/s.
-  double first_velocity_px = 400.0;
+  double first_velocity_px_per_s = 400.0;
 };
 
-/// Constant-velocity Kalman filters for the four corners of one tag in one camera. Corners are
-/// filtered independently; with equal noise and equal history all eight coordinates share their
-/// covariance, so it is kept once. If the innovations of the whole tag exceed what the model
-/// allows, the prediction's covariance is inflated to fit them (a strong tracking filter: Zhou &
-/// Frank 1996), so that a sudden start or turn of the hand isn't smoothed away.
+/// A constant-velocity Kalman filter for each of the four corners of one tag in one camera
+/// (Liebmann et al. 2019, section 3.1). With equal noise and equal history all eight coordinates
+/// share their covariance, so it is kept once.
 class CornerFilter {
  public:
   using Corners = std::array<Vec2, 4>;
@@ -62,4 +64,4 @@ class CornerFilter {
   double velocity_variance_ = 0.0;
 };
 
-}  // namespace orthonav::nav
+}  // namespace orthonav::nav::published

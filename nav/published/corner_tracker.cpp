@@ -1,12 +1,12 @@
+#include "nav/published/corner_tracker.h"
+
 #include <cmath>
 #include <utility>
 
 #include "nav/published/corner_filter.h"
-#include "nav/tracking/pair_detector.h"
 #include "nav/tracking/tag_matching.h"
-#include "nav/tracking/tool_tracker.h"
 
-namespace orthonav::nav {
+namespace orthonav::nav::published {
 namespace {
 
 // A box around a prediction: margin for the quiet zone and for rotation, for the filter's
@@ -23,10 +23,8 @@ class PaperTracker final : public ToolTracker {
         tools_(std::move(tools)),
         options_(options),
         detector_(std::move(detector)) {
-    const CornerFilterOptions filter{options.corner_acceleration_px2_per_s3,
-                                     options.corner_noise_px};
     for (std::size_t i = 0; i < tools_.size(); ++i) {
-      trails_.push_back({CornerFilter(filter), CornerFilter(filter), {}, {}});
+      trails_.push_back({});
       states_.push_back({i, {}, {}, 0.0});
     }
   }
@@ -224,4 +222,4 @@ Result<std::unique_ptr<ToolTracker>> create_tracker_of_corners(const StereoCalib
   return tracker;
 }
 
-}  // namespace orthonav::nav
+}  // namespace orthonav::nav::published

@@ -6,7 +6,7 @@
 
 #include "nav/geometry/absolute_orientation.h"
 
-namespace orthonav::nav {
+namespace orthonav::nav::published {
 namespace {
 
 /// Closest points of the surface to the digitized points under one pose; keeps the last ones, which
@@ -68,4 +68,4 @@ Result<IcpResult> refine_icp(const SurfaceIndex& surface,
   return result;
 }
 
-}  // namespace orthonav::nav
+}  // namespace orthonav::nav::published

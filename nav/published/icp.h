@@ -6,11 +6,11 @@
 #include "base/transform.h"
 #include "nav/geometry/mesh.h"
 
-namespace orthonav::nav {
+namespace orthonav::nav::published {
 
 struct IcpOptions {
-  int max_iterations = 100;
-  double converged_m = 1e-6;  ///< a smaller change of the RMSE ends it
+  int max_iterations = 200;
+  double converged_m = 1e-8;  ///< a smaller change of the RMSE ends it; ICP converges slowly
 };
 
 struct IcpResult {
@@ -24,6 +24,7 @@ struct IcpResult {
 /// depends on the start. An Error if the closest points are collinear.
 Result<IcpResult> refine_icp(const SurfaceIndex& surface,
                              std::span<const Point<World>> points_in_world,
-                             const Transform<World, Vertebra>& start, const IcpOptions& options);
+                             const Transform<World, Vertebra>& start,
+                             const IcpOptions& options = {});
 
-}  // namespace orthonav::nav
+}  // namespace orthonav::nav::published

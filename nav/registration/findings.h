@@ -48,9 +48,6 @@ inline constexpr std::string_view kSeveralLevels = "several levels";
 /// One reason why a registration must not be used for guidance: what was found, and the limit.
 struct RefusalReason {
   enum class Kind : std::uint8_t {
-    kRmse,                ///< m
-    kRunnerUpRmse,        ///< the runner-up's RMSE divided by that of the best
-    kTreAtCentre,         ///< m, expected at the centre of the bone
     kNoise,               ///< m, SD of the points about the surface
     kInliers,             ///< fraction of the points
     kCoverage,            ///< fraction of the reachable surface
@@ -64,7 +61,7 @@ struct RefusalReason {
     kMirrored,            ///< log-likelihood ratio of the model's mirror image
   };
 
-  Kind kind = Kind::kRmse;
+  Kind kind = Kind::kNoise;
   double value = 0.0;
   double limit = 0.0;
   std::optional<UncertainMotion> motion;  ///< behind an error at the screws, where it is known

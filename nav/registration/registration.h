@@ -12,9 +12,9 @@
 #include "base/transform.h"
 #include "nav/geometry/closest_grid.h"
 #include "nav/geometry/mesh.h"
+#include "nav/geometry/principal_axes.h"
 #include "nav/registration/findings.h"
 #include "nav/registration/pose_search.h"
-#include "nav/geometry/principal_axes.h"
 #include "nav/registration/tre.h"
 
 namespace orthonav::nav {
@@ -55,9 +55,8 @@ class VertebraModel {
   }
   /// Approximate closest points by fast look-up.
   [[nodiscard]] const ClosestGrid& reachable_grid() const { return reachable_grid_; }
-  /// Principal axes of the reachable surface (by area) and its extreme points along them.
+  /// Principal axes of the reachable surface, by area.
   [[nodiscard]] const PrincipalAxes& reachable_axes() const { return reachable_axes_; }
-  [[nodiscard]] const std::array<Vec3, 6>& reachable_extremes() const { return extremes_; }
   /// For the search of every pose.
   [[nodiscard]] const SearchField& search_field() const { return search_field_; }
 
@@ -71,20 +70,7 @@ class VertebraModel {
   SurfaceIndex reachable_surface_;
   ClosestGrid reachable_grid_;
   PrincipalAxes reachable_axes_;
-  std::array<Vec3, 6> extremes_;
   SearchField search_field_;
-};
-
-struct RegistrationOptions {
-  std::size_t min_points = 100;
-  int max_iterations = 200;
-  double converged_m = 1e-8;  ///< change of the RMSE that ends ICP, which converges slowly
-  double max_rmse_m = 0.003;  ///< above: refused
-  /// Least accepted ratio of the runner-up's RMSE to the RMSE. With full strokes a wrong pose fits
-  /// at least twice as badly; if two poses fit equally well, the strokes are ambiguous.
-  double min_runner_up_ratio = 1.25;
-  /// Error to expect at the model's centre (nav/registration/tre.h); above: refused.
-  double max_predicted_tre_m = 0.003;
 };
 
 /// Another vertebra of the patient, to which the strokes might belong.
@@ -145,8 +131,8 @@ struct Registration {
   std::size_t points = 0;
   /// The remaining uncertainty, including common errors; absent if a motion is undetermined.
   std::optional<PoseUncertainty> uncertainty;
-  /// Root mean square error to expect from the registration alone: with `paper` at the centre of
-  /// the model, with `best` at the worst target. Infinite if a motion is undetermined.
+  /// Root mean square error to expect from the registration alone, at the worst target. Infinite if
+  /// a motion is undetermined, and with `paper`, which predicts none.
   double predicted_tre_m = 0.0;
 
   // Reported by `best` only; zero or empty with `paper`.
@@ -178,14 +164,6 @@ struct Registration {
   std::string fits_better;  ///< label of a neighbouring level that fits the points as well or
                             ///< better
 };
-
-/// The published method: PCA extreme points (paper eq. 1) give the coarse poses, of which the two
-/// best configurations are kept (nav/registration/coarse.h says where this goes beyond eq. 2); ICP
-/// (Besl & McKay 1992) refines both on the reachable surface; the smaller RMSE wins. An Error means
-/// unusable input (too few, collinear or non-finite points).
-Result<Registration> register_by_principal_axes(const VertebraModel& model,
-                                                std::span<const Point<World>> points_in_world,
-                                                const RegistrationOptions& options = {});
 
 /// Searches all poses and fits the best ones exactly and robustly (docs/registration.md). Accepted
 /// only if nothing else explains the points, the error to expect at every target is small, and no

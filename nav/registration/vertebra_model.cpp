@@ -121,7 +121,6 @@ VertebraModel::VertebraModel(Surfaces surfaces, ClosestGrid grid, SearchField fi
       reachable_surface_(std::move(surfaces.reachable_surface)),
       reachable_grid_(std::move(grid)),
       reachable_axes_(axes_by_area(reachable_)),
-      extremes_(extreme_points(reachable_.vertices_m, reachable_axes_)),
       search_field_(std::move(field)) {}
 
 }  // namespace orthonav::nav

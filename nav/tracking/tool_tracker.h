@@ -15,7 +15,6 @@
 
 namespace orthonav::nav {
 
-class TagFinder;
 struct Anchor;
 
 using TrackedPose = Tracked<Transform<World, Marker>>;
@@ -62,10 +61,6 @@ struct TrackerOptions {
   bool parallel = true;
   /// How long a tool that is not seen is predicted before it is lost.
   Duration coast = std::chrono::milliseconds(100);
-  /// Spectral density of the corner filter's white acceleration, px²/s³, and its measurement SD.
-  /// Small, since the filter adapts by itself when a hand accelerates more than that.
-  double corner_acceleration_px2_per_s3 = 400.0;
-  double corner_noise_px = 0.1;
 };
 
 /// Tracks every tool through stereo pairs. One thread at a time.
@@ -101,19 +96,6 @@ class ToolTracker {
   /// are in the headset's map.
   [[nodiscard]] virtual const Anchor* anchor() const { return nullptr; }
 };
-
-/// The published method (Liebmann et al. 2019, section 3.1): AprilTag corners in both images,
-/// a constant-velocity Kalman filter for each corner, look-up to the unit plane, the closest point
-/// between the two rays, absolute orientation.
-Result<std::unique_ptr<ToolTracker>> create_corner_tracker(const StereoCalibration& calibration,
-                                                           std::vector<ToolGeometry> tools,
-                                                           const TrackerOptions& options = {});
-
-/// The same with corners found elsewhere.
-Result<std::unique_ptr<ToolTracker>> create_tracker_of_corners(const StereoCalibration& calibration,
-                                                               std::vector<ToolGeometry> tools,
-                                                               const TrackerOptions& options,
-                                                               std::unique_ptr<TagFinder> finder);
 
 /// Finds the pose at which the tool's printed tags explain both images at once, starting from a
 /// prediction (docs/tracking.md). Whole images are searched only for lost tools.

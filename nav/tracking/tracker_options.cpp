@@ -27,13 +27,6 @@ Status check(const StereoCalibration& calibration, const std::vector<ToolGeometr
   if (options.coast < Duration::zero()) {
     return Error{"tracker: coast is negative"};
   }
-  if (!(options.corner_acceleration_px2_per_s3 > 0.0) ||
-      !std::isfinite(options.corner_acceleration_px2_per_s3)) {
-    return Error{"tracker: corner_acceleration_px2_per_s3 must be positive"};
-  }
-  if (!(options.corner_noise_px > 0.0) || !std::isfinite(options.corner_noise_px)) {
-    return Error{"tracker: corner_noise_px must be positive"};
-  }
   return {};
 }
 

@@ -6,8 +6,8 @@
 #include <orthonav/engine/live/assembled_operation.h>
 #include <orthonav/engine/phantom/phantom.h>
 #include <orthonav/engine/session/wording.h>
+#include <orthonav/engine/study/set_up.h>
 #include <orthonav/engine/study/sim_scenario.h>
-#include <orthonav/hal/sim/instruments.h>
 #include <orthonav/hal/sim/sim_headset.h>
 
 #include "must.h"
@@ -36,8 +36,9 @@ struct Printer : LoopObserver {
 std::unique_ptr<Headset> open_room(const Case& spine, const Operation& operation) {
   sim::SimOptions options;
   options.seed = 2;
-  options.guidance = sim::GuidanceProfile::kClosedLoop;
-  must(sim::use_instrument("sleeved drill", options.error_model));
+  SetUp set_up = SetUp::best();
+  set_up.reference = false;  // on the headset's map, which takes less time
+  must(set_up.tell(options));
   options.error_model.pace = 8.0;
   return must(sim::SimHeadset::open(room_of(spine, operation, built_in_tools()), options));
 }

@@ -58,6 +58,7 @@ Result<std::unique_ptr<LiveOperation>> LiveOperation::open(const OperationSource
                                                            Keyboard& keyboard, Timeline& timeline) {
   OpenOptions options;
   options.room = engine::room_of(source.source, source.operation, engine::built_in_tools());
+  options.room.exposure = engine::strokes_of(source.method.name);
   options.sim = room;
   auto opened = open_with_room(source.headset, options);
   if (!opened) {
@@ -103,6 +104,10 @@ Status LiveOperation::prepare(const OperationSource& source) {
   }
   engine::AssemblyOptions options{.loop = loop_options()};
   options.session.replan.sizes = source.screw_sizes;
+  options.use_reference = source.use_reference;
+  if (source.reference_places) {
+    options.reference_places = source.reference_places();
+  }
   if (room_) {
     options.errors = engine::errors_in(room_->options().error_model);
     engine::tell_instruments(room_->options().error_model, options.session);

@@ -22,6 +22,9 @@ struct OperationSource {
   engine::Method method;
   engine::Operation operation;  ///< its models are shared by all starts
   engine::ScrewSizes screw_sizes = engine::ScrewSizes::built_in();
+  bool use_reference = false;
+  /// Where references lie in the World of an operation to be resumed; null: none is.
+  std::function<std::vector<nav::ReferencePlace>()> reference_places;
   std::string tools_file;  ///< empty: the headset's own description of its tools
   /// Called with the operation of every start before it runs, and with the simulated room, if there
   /// is one; an Error refuses the start. May be null.

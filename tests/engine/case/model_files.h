@@ -34,7 +34,6 @@ inline bool same(const nav::VertebraModel& a, const nav::VertebraModel& b) {
   return same(a.parts(), b.parts()) && a.mesh().vertices_m == b.mesh().vertices_m &&
          a.reachable().vertices_m == b.reachable().vertices_m &&
          a.reachable().triangles == b.reachable().triangles &&
-         a.reachable_extremes() == b.reachable_extremes() &&
          a.search_field().cells().cost == b.search_field().cells().cost;
 }
 

@@ -95,7 +95,7 @@ TEST(Session, RegistersWhatWasSavedAndOnlyThat) {
 TEST(Session, StaysInDigitizeWithTheReasonWhenTheNumbersRefuse) {
   ScriptedOperation s;
   s.registration.accepted = false;
-  s.registration.reasons = {{nav::RefusalReason::Kind::kRmse, 0.0034, 0.003, {}, {}}};
+  s.registration.reasons = {{nav::RefusalReason::Kind::kNoise, 0.0034, 0.003, {}, {}}};
   s.tracker().pointer = pointer_at({0, 0.02, 0});
   s.says("start");
   s.strokes(5);
@@ -104,7 +104,7 @@ TEST(Session, StaysInDigitizeWithTheReasonWhenTheNumbersRefuse) {
   EXPECT_EQ(g.step, Step::kDigitize);
   ASSERT_NE(said<RegistrationRefused>(g), nullptr);
   ASSERT_EQ(said<RegistrationRefused>(g)->reasons.size(), 1u);
-  EXPECT_EQ(said<RegistrationRefused>(g)->reasons[0].kind, nav::RefusalReason::Kind::kRmse);
+  EXPECT_EQ(said<RegistrationRefused>(g)->reasons[0].kind, nav::RefusalReason::Kind::kNoise);
   EXPECT_EQ(g.levels[0].attempts, 1);
   EXPECT_FALSE(g.levels[0].registration.has_value());
   // The saved regions stay: more strokes may make it pass.

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "nav/geometry/closest_grid.h"
-#include "nav/geometry/triangle.h"
 #include "nav/geometry/principal_axes.h"
+#include "nav/geometry/triangle.h"
 #include "nav/registration/trimming.h"
 #include "tests/support/mesh_builder.h"
 #include "tests/support/registration_builder.h"
@@ -115,15 +115,6 @@ TEST(PrincipalAxes, WeighPointsAsTold) {
   const std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const std::vector<double> weights = {1.0, 1.0, 2.0};
   EXPECT_LT((principal_axes(points, weights).centre_m - Vec3{0.25, 0.5, 0}).norm(), 1e-15);
-}
-
-TEST(ExtremePoints, AreTheOutermostAlongEachAxis) {
-  const std::vector<Vec3> points = {{5, 0, 0}, {-6, 0, 0}, {0, 3, 0}, {0, -4, 0},
-                                    {0, 0, 1}, {0, 0, -2}, {0, 0, 0}};
-  const auto extremes = extreme_points(points, principal_axes(points));
-  EXPECT_THAT(extremes, ::testing::UnorderedElementsAre(points[0], points[1], points[2], points[3],
-                                                        points[4], points[5]));
-  EXPECT_LT((extremes[0] - extremes[1]).norm() - 11.0, 1e-12);
 }
 
 TEST(ClosestGrid, StaysWithinTwiceItsCellOfTheTrueDistance) {

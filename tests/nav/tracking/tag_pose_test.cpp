@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/random.h"
-#include "tests/nav/tracking/paper_tracking.h"
+#include "tests/nav/published/paper_tracking.h"
 
 namespace orthonav::nav::tracking_paper_test {
 namespace {

@@ -193,7 +193,8 @@ TEST(BestTracker, IsFarBetterThanThePublishedMethodOnTheSample) {
     EXPECT_EQ(count, 60);
     return std::sqrt(sum / count);
   };
-  EXPECT_LT(tip_rms_m(create_photometric_tracker), 0.10 * tip_rms_m(create_corner_tracker));
+  EXPECT_LT(tip_rms_m(create_photometric_tracker),
+            0.10 * tip_rms_m(published::create_corner_tracker));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <map>
 
+#include "nav/published/corner_tracker.h"
 #include "nav/tracking/tool_tracker.h"
 #include "tests/support/sample_recording.h"
 
@@ -132,7 +133,7 @@ class RecordedSample : public ::testing::Test {
 
   // Errors by tag id; every visible tag must be measured and nothing else.
   std::map<int, Errors> tracked(const TrackerOptions& options) {
-    auto tracker = create_corner_tracker(sample_->calibration, sample_->tools, options);
+    auto tracker = published::create_corner_tracker(sample_->calibration, sample_->tools, options);
     EXPECT_TRUE(tracker.ok());
     std::map<int, Errors> errors;
     for (const StereoFrame& frame : sample_->frames) {
@@ -169,15 +170,6 @@ TEST_F(RecordedSample, TipIsAsGoodAsDoneByHand) {
     RecordProperty("tip_um_" + std::to_string(id), static_cast<int>(errors.tip_rms_m() * 1e6));
     RecordProperty("tip_by_hand_um_" + std::to_string(id),
                    static_cast<int>(by_hand[id].tip_rms_m() * 1e6));
-  }
-}
-
-TEST_F(RecordedSample, FilteringHelpsTheTip) {
-  // An acceleration density without bounds switches the filter off.
-  const auto filtered = tracked({});
-  const auto unfiltered = tracked({.corner_acceleration_px2_per_s3 = 1e9});
-  for (const auto& [id, errors] : filtered) {
-    EXPECT_LT(errors.tip_rms_m(), 0.95 * unfiltered.at(id).tip_rms_m()) << "tag " << id;
   }
 }
 

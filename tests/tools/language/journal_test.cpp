@@ -17,7 +17,7 @@ std::string journal_of_an_operation() {
     builder.update(guidance);
     builder.write_scene(guidance, scene);
   };
-  s.operation.registration.reasons = {{nav::RefusalReason::Kind::kRmse, 0.004, 0.003, {}, {}, {}}};
+  s.operation.registration.reasons = {{nav::RefusalReason::Kind::kNoise, 0.004, 0.003, {}, {}, {}}};
   s.operation.registration.accepted = false;
   draw(s.operation.registers_first_level());
   s.operation.registration.reasons.clear();

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/nav/tracking/paper_tracking.h"
+#include "tests/nav/published/paper_tracking.h"
 
 namespace orthonav::nav::tracking_paper_test {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "nav/published/corner_tracker.h"
 #include "nav/tracking/tool_tracker.h"
 #include "tests/support/tag_scene.h"
 
@@ -38,7 +39,7 @@ inline std::vector<ToolGeometry> two_tools() {
 
 inline std::unique_ptr<ToolTracker> tracker(const TrackerOptions& options = {},
                                             std::vector<ToolGeometry> tools = two_tools()) {
-  auto made = create_corner_tracker(calibration(), std::move(tools), options);
+  auto made = published::create_corner_tracker(calibration(), std::move(tools), options);
   if (!made) {
     throw std::runtime_error(made.error().message);
   }

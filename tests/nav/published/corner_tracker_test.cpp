@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/nav/tracking/paper_tracking.h"
+#include "tests/nav/published/paper_tracking.h"
 #include "tests/support/allocation_count.h"
 
 namespace orthonav::nav::tracking_paper_test {
@@ -181,7 +181,7 @@ TEST(PaperTracker, SurvivesTimeStandingStill) {
 
 std::string refusal(const TrackerOptions& options, std::vector<ToolGeometry> tools = two_tools(),
                     const StereoCalibration& cameras = calibration()) {
-  auto made = create_corner_tracker(cameras, std::move(tools), options);
+  auto made = published::create_corner_tracker(cameras, std::move(tools), options);
   return made ? "" : made.error().message;
 }
 
@@ -193,9 +193,6 @@ TEST(PaperTracker, RefusesBadToolsOptionsAndCameras) {
   EXPECT_THAT(refusal({.full_search_interval = 0}), HasSubstr("full_search_interval 0"));
   EXPECT_THAT(refusal({.decimate = 7}), HasSubstr("decimate"));
   EXPECT_THAT(refusal({.coast = std::chrono::milliseconds(-1)}), HasSubstr("coast"));
-  EXPECT_THAT(refusal({.corner_acceleration_px2_per_s3 = 0}),
-              HasSubstr("corner_acceleration_px2_per_s3"));
-  EXPECT_THAT(refusal({.corner_noise_px = std::nan("")}), HasSubstr("corner_noise_px"));
   EXPECT_THAT(refusal({}, two_tools(), {}), HasSubstr("no camera model"));
 }
 
