@@ -193,6 +193,8 @@ class LiveRun {
     if (room_) {
       options.errors = engine::errors_in(room_->options().error_model);
       engine::tell_instruments(room_->options().error_model, options.session);
+      options.visibility.cross_and_depth =
+          room_->options().guidance != sim::GuidanceProfile::kPublished;
     }
     arguments_.common.set_in(options.errors);
     options.session.replan.sizes = sizes_;

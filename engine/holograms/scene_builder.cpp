@@ -4,10 +4,13 @@
 
 #include "base/translation.h"
 #include "engine/holograms/anchored_frame.h"
+#include "engine/holograms/hologram_colours.h"
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_numbers.h"
+#include "engine/holograms/hologram_parts.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
+#include "nav/published/stroke_pattern.h"
 
 namespace orthonav::engine {
 namespace {
@@ -74,6 +77,9 @@ void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
   const WearersLanguage language;
   scene.clear();
   add_paths(guidance, scene);
+  if (visible_.stroke_pattern) {
+    add_stroke_pattern(guidance, scene);
+  }
   if (visible_.vertebra) {
     add_bone(*visible_.vertebra, guidance.unstroked, scene);
     add_check_points(*visible_.vertebra, guidance.to_check, scene);
@@ -129,6 +135,38 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
     if (left > 0.0) {
       add(guidance.dropped->region, kMostInstances, static_cast<float>(std::min(left, 1.0)));
     }
+  }
+}
+
+/// The bone from behind, smaller than it is, low on the left of the view, with the strokes over it.
+void SceneBuilder::add_stroke_pattern(const Guidance& guidance, render::Scene& scene) {
+  constexpr Vec3 kIn_view_m{-0.10, -0.06, -0.50};
+  constexpr double kScale = 0.6;
+  constexpr float kWidth_m = 0.0012F;
+  constexpr render::Label kLabel = label_of(HologramKind::kPath, kMostInstances - 1);
+  const LevelState& level = guidance.levels[guidance.level];
+  const nav::VertebraModel& model = *level.plan.model;
+  const auto [found, made] = patterns_.try_emplace(&model);
+  if (made) {
+    found->second = nav::published::stroke_pattern(model.reachable(), model.reachable_surface());
+  }
+  // Seen from behind: the patient's left on the left, superior up, posterior towards the eyes.
+  const Mat3 view_from_vertebra = Mat3::from_columns({-1, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  const Transform<World, Rig>& head = *guidance.head;
+  const Mat3 rotation = head.rotation() * view_from_vertebra;
+  const Vec3 middle_m = bounds_of(model.reachable()).centre();
+  const Vec3 shift = (head * Point<Rig>{kIn_view_m}).v - kScale * (rotation * middle_m);
+  std::array<double, 16> placed = Transform<World, Vertebra>(rotation, shift).row_major();
+  for (const std::size_t i : {0U, 1U, 2U, 4U, 5U, 6U, 8U, 9U, 10U}) {
+    placed[i] *= kScale;
+  }
+  add_vertebra(scene, surface_of(level), to_matrix(placed), kLabel);
+  for (const std::vector<Vec3>& line : found->second) {
+    points_.clear();
+    for (const Vec3 place : line) {
+      points_.push_back(to_float3(kScale * (rotation * place) + shift));
+    }
+    add_line(scene, points_, kWidth_m, look::kWhite, kLabel);
   }
 }
 

@@ -44,6 +44,7 @@ class SceneBuilder {
   void add_bone(const PlacedLevel& at, std::span<const float> unstroked, render::Scene& scene);
   void add_check_points(const PlacedLevel& at, std::span<const Point<World>> to_check,
                         render::Scene& scene);
+  void add_stroke_pattern(const Guidance& guidance, render::Scene& scene);
   void add_entries(render::Scene& scene);
   void add_screw(const PlacedScrew& screw, render::Scene& scene);
   void add_tool_guidance(const nav::ScrewGuidance& shown, render::Scene& scene);
@@ -64,6 +65,8 @@ class SceneBuilder {
   ShownFrameWriter shown_;
   // The renderer keeps its copies by pointer: one surface per level, one tube per rod, made once.
   std::map<const nav::VertebraModel*, std::shared_ptr<const render::MeshData>> surfaces_;
+  /// The lines of its pattern, in the frame of the model.
+  std::map<const nav::VertebraModel*, std::vector<std::vector<Vec3>>> patterns_;
   std::vector<Tube> tubes_;
   Tube lying_tube_;
   std::shared_ptr<const render::MeshData> tinted_;  ///< of the registration shown last

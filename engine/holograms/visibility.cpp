@@ -53,9 +53,11 @@ void decide_tool(const ToolGuidance* fresh, const VisibilityRules& rules, Visibi
     if (where.tip_to_entry_m <= rules.triangle_within_m) {
       out.triangle = &fresh->shown;
       out.measurement = measured;
-      out.numbers = measured && fresh->numbers ? &*fresh->numbers : nullptr;
-      out.depth = measured && fresh->depth ? &*fresh->depth : nullptr;
-      out.clearance = measured && fresh->shown_clearance ? &*fresh->shown_clearance : nullptr;
+      if (measured && rules.cross_and_depth) {
+        out.numbers = fresh->numbers ? &*fresh->numbers : nullptr;
+        out.depth = fresh->depth ? &*fresh->depth : nullptr;
+        out.clearance = fresh->shown_clearance ? &*fresh->shown_clearance : nullptr;
+      }
       out.pose_time = fresh->pose_time;
     }
   }
@@ -115,6 +117,8 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   // they would only cover the bone.
   out.paths = g.step == Step::kDigitize || g.step == Step::kRegistering ||
               g.step == Step::kVerify || (g.step == Step::kRod && g.rod_stroked);
+  out.stroke_pattern =
+      rules.stroke_pattern && g.step == Step::kDigitize && g.head && g.level < g.levels.size();
   // H2, H12: only the level that is to be verified; gone with a rejected registration.
   if (g.step == Step::kVerify && g.level < g.levels.size()) {
     out.vertebra = placed(g.levels[g.level]);
@@ -131,7 +135,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
     decide_tool(tool, rules, out);
     // H13: a frame shown so late that its pose is too old is as unwatched as a pair without one.
     out.drill = tool ? g.drill : g.drill.unwatched();
-    if (g.head) {
+    if (g.head && rules.cross_and_depth) {
       decide_cross(*out.trajectory, *g.head, tool, out);
     }
     // H8: only where the surgeon asked for it, since it takes their eyes off the patient.

@@ -14,6 +14,10 @@ struct VisibilityRules {
   double triangle_within_m = 0.040;  ///< of the tip from the entry
   double rod_moved_away_m = 0.150;
   GradeLimits grades;
+  /// H7 and H9, and the numbers beside them (H13), which the publication does not have.
+  bool cross_and_depth = true;
+  /// In `digitize`, a picture of the pattern in which the published method's surgeon strokes.
+  bool stroke_pattern = false;
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
@@ -47,6 +51,7 @@ struct VisibleCross {
 /// is valid only as long as that guidance is.
 struct Visibility {
   bool paths = false;                               ///< H1
+  bool stroke_pattern = false;                      ///< the picture of where to stroke
   std::optional<PlacedLevel> vertebra;              ///< H2 and H12, of the current level
   std::vector<PlacedLevel> entries_of;              ///< H3: the levels whose entry points are shown
   bool entry_labels = false;                        ///< their names too

@@ -35,11 +35,12 @@ std::vector<std::string> AssemblyOptions::check() const {
 }
 
 AssembledOperation::AssembledOperation(Headset& headset, std::unique_ptr<Session> session,
-                                       const ErrorsInUse& errors, const AssemblyOptions& options)
+                                       const ErrorsInUse& errors, const VisibilityRules& visibility,
+                                       const LoopOptions& loop)
     : session_(std::move(session)),
       errors_(errors),
-      builder_(options.visibility),
-      loop_(headset, *session_, builder_, options.loop) {
+      builder_(visibility),
+      loop_(headset, *session_, builder_, loop) {
   session_->observe(&observers_);
 }
 
@@ -77,7 +78,10 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
   if (!session) {
     return session.error();
   }
-  return std::make_unique<AssembledOperation>(headset, std::move(*session), errors, options);
+  VisibilityRules visibility = options.visibility;
+  visibility.stroke_pattern = visibility.stroke_pattern || method.shows_pattern;
+  return std::make_unique<AssembledOperation>(headset, std::move(*session), errors, visibility,
+                                              options.loop);
 }
 
 }  // namespace orthonav::engine

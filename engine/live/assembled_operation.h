@@ -39,7 +39,7 @@ struct AssemblyOptions {
 class AssembledOperation {
  public:
   AssembledOperation(Headset& headset, std::unique_ptr<Session> session, const ErrorsInUse& errors,
-                     const AssemblyOptions& options);
+                     const VisibilityRules& visibility, const LoopOptions& loop);
   AssembledOperation(const AssembledOperation&) = delete;
   AssembledOperation& operator=(const AssembledOperation&) = delete;
 

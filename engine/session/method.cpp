@@ -64,14 +64,19 @@ Result<Registrar> registrar_named(const std::string& name) {
 
 Result<Method> method_named(const std::string& name) {
   if (name == "best") {
-    return Method{
-        name, &nav::create_photometric_tracker, &by_pose_search, Verification::kByTouch, true,
-        true};
+    return Method{.name = name,
+                  .create_tracker = &nav::create_photometric_tracker,
+                  .registrar = &by_pose_search,
+                  .verification = Verification::kByTouch,
+                  .coaching = true,
+                  .anchors = true};
   }
   if (name == "paper") {
-    return Method{name,      &nav::published::create_corner_tracker,
-                  &by_paper, Verification::kByEye,
-                  false,     false};
+    return Method{.name = name,
+                  .create_tracker = &nav::published::create_corner_tracker,
+                  .registrar = &by_paper,
+                  .verification = Verification::kByEye,
+                  .shows_pattern = true};
   }
   return unknown(name);
 }

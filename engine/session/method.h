@@ -40,6 +40,8 @@ struct Method {
   Verification verification = Verification::kByTouch;
   /// Trial registrations of the strokes so far tell what to expect and what to stroke.
   bool coaching = false;
+  /// Step `digitize` shows a picture of the strokes that the registration needs.
+  bool shows_pattern = false;
   /// Its tracker gives the poses of single pairs, so World can be attached to a patient reference.
   bool anchors = false;
 };

@@ -111,6 +111,8 @@ Status LiveOperation::prepare(const OperationSource& source) {
   if (room_) {
     options.errors = engine::errors_in(room_->options().error_model);
     engine::tell_instruments(room_->options().error_model, options.session);
+    options.visibility.cross_and_depth =
+        room_->options().guidance != sim::GuidanceProfile::kPublished;
   }
   auto assembled = engine::assemble_operation(gated_, source.operation, source.method,
                                               with_guide(*tools), options);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hal/sim/stroke_plan.h"
+#include "nav/published/stroke_pattern.h"
 #include "nav/registration/registration.h"
 #include "tests/support/registration_builder.h"
 
@@ -124,6 +125,23 @@ TEST_F(TrainedStrokes, OfTheLaminaeAloneEndElsewhereAndAreNotRefused) {
   ASSERT_TRUE(r.ok());
   EXPECT_GT(test::worst_screw_error_m(*level_, (*r)[0].world_from_vertebra, d.truth),
             kRightPose_m);
+}
+
+TEST_F(TrainedStrokes, AreWhatThePictureShows) {
+  const auto lines = stroke_pattern(model_->reachable(), model_->reachable_surface());
+  const ExtremePoints e = extreme_points(model_->reachable().vertices_m);
+  // The picture is coarse: it shows which process, not which millimetre.
+  constexpr double kReached_m = 0.008;
+  for (const Vec3 place : {e.e1, e.e2, e.e3}) {
+    double nearest_m = 1.0;
+    for (const auto& line : lines) {
+      for (const Vec3 on : line) {
+        nearest_m = std::min(nearest_m, (on - place).norm());
+        EXPECT_LT(std::abs(model_->surface().nearest(on)->distance_m), 1e-6) << "on the bone";
+      }
+    }
+    EXPECT_LT(nearest_m, kReached_m);
+  }
 }
 
 TEST_F(TrainedStrokes, IcpEndsWhereItBeganWhenItBeganRight) {
