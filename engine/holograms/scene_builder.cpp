@@ -140,7 +140,7 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
 
 /// The bone from behind, smaller than it is, low on the left of the view, with the strokes over it.
 void SceneBuilder::add_stroke_pattern(const Guidance& guidance, render::Scene& scene) {
-  constexpr Vec3 kIn_view_m{-0.10, -0.06, -0.50};
+  constexpr Vec3 kIn_view_m{-0.035, 0.0, -0.50};
   constexpr double kScale = 0.6;
   constexpr float kWidth_m = 0.0012F;
   constexpr render::Label kLabel = label_of(HologramKind::kPath, kMostInstances - 1);
