@@ -1,9 +1,11 @@
 #include "nav/guidance/rod_cut.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
 
+#include "base/angle.h"
 #include "base/printed.h"
 #include "nav/geometry/spline.h"
 
@@ -64,7 +66,53 @@ Status check_rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
   return check_rod_distance("overhang of the rod", seating.overhang_m, 0.0, kLongestOverhang_m);
 }
 
+/// Of the rod at each head, unit vectors: exact where the heads lie on a circle.
+std::vector<Vec3> tangents_at(std::span<const Vec3> heads_m) {
+  std::vector<Vec3> chords;
+  for (std::size_t i = 1; i < heads_m.size(); ++i) {
+    chords.push_back(heads_m[i] - heads_m[i - 1]);
+  }
+  std::vector<Vec3> tangents(heads_m.size());
+  for (std::size_t i = 1; i < chords.size(); ++i) {
+    // A chord is off the tangent by half its arc, so the shorter one counts more.
+    const double before_m = chords[i - 1].norm();
+    const double after_m = chords[i].norm();
+    tangents[i] =
+        (after_m / before_m * chords[i - 1] + before_m / after_m * chords[i]).normalized();
+  }
+  const auto mirrored = [](Vec3 tangent, Vec3 chord) {
+    const Vec3 along = chord.normalized();
+    return 2.0 * along.dot(tangent) * along - tangent;
+  };
+  const bool straight = chords.size() == 1;
+  tangents.front() = straight ? chords.front().normalized() : mirrored(tangents[1], chords.front());
+  tangents.back() =
+      straight ? chords.back().normalized() : mirrored(tangents[chords.size() - 1], chords.back());
+  return tangents;
+}
+
 }  // namespace
+
+Result<std::vector<Vec3>> to_bone_across(const RodTemplate& rod, Vec3 to_bone) {
+  if (rod.heads_m.size() < 2) {
+    return Error{printed("rod to cut needs at least 2 screw heads, got %zu", rod.heads_m.size())};
+  }
+  const double length = to_bone.norm();
+  if (!(std::isfinite(length) && length > 0.0)) {
+    return Error{"direction to the bone is zero or not finite"};
+  }
+  std::vector<Vec3> across;
+  for (const Vec3 along : tangents_at(rod.heads_m)) {
+    const Vec3 left = to_bone - to_bone.dot(along) * along;
+    const double off_rad = std::asin(std::min(1.0, left.norm() / length));
+    if (!(off_rad >= kLeastOffRod_rad)) {
+      return Error{printed("direction to the bone is %s° off the rod, at least 30° needed",
+                           value_beside(degrees(off_rad), degrees(kLeastOffRod_rad), 1).c_str())};
+    }
+    across.push_back(left.normalized());
+  }
+  return across;
+}
 
 Result<RodCut> rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
                        const RodSeating& seating) {

@@ -28,6 +28,15 @@ struct RodCut {
   double cut_length_m = 0.0;     ///< seated length plus the overhang at both ends
 };
 
+/// The least angle between the rod and `to_bone` of `to_bone_across`.
+inline constexpr double kLeastOffRod_rad = 0.5235987755982988;  // 30°
+
+/// The way from each head to its seat where no screw's own direction is known: `to_bone` (any
+/// length but zero) without its part along the rod, because a tulip stands square to the rod in it.
+/// Unit vectors, in the order of `rod.heads_m`. Refuses fewer than 2 heads, and a `to_bone` that is
+/// not finite or less than 30° off the rod at a head.
+Result<std::vector<Vec3>> to_bone_across(const RodTemplate& rod, Vec3 to_bone);
+
 /// Limits of what `rod_cut` takes.
 inline constexpr double kDeepestSeat_m = 0.03;
 inline constexpr double kHighestSeat_m = 0.015;

@@ -44,6 +44,37 @@ std::string refusal(const RodTemplate& rod, std::span<const Vec3> to_bone,
   return cut.ok() ? "" : cut.error().message;
 }
 
+/// The direction is off the screws' mean by 25° along the rod and 20° to the side, as a pointer is
+/// held.
+TEST(ToBoneAcross, FindsTheSeatsOfALordosisByOneDirectionForAllHeads) {
+  const Arc arc = arc_of(0.15, 0.2, 5);
+  const Vec3 mean = arc.outwards[2];
+  const Vec3 along = Vec3{1, 0, 0}.cross(mean);
+  const Vec3 pointed = mean + std::tan(0.436) * along + std::tan(0.349) * Vec3{1, 0, 0};
+  const auto across = to_bone_across(arc.rod, pointed);
+  ASSERT_TRUE(across.ok()) << across.error().message;
+  ASSERT_EQ(across->size(), 5U);
+  const double best_m = rod_cut(arc.rod, arc.outwards, {0.006, 0.0})->seated_length_m;
+  const double found_m = rod_cut(arc.rod, *across, {0.006, 0.0})->seated_length_m;
+  EXPECT_NEAR(found_m, best_m, 0.0005) << "of 4.8 mm that the depth adds";
+  const std::vector<Vec3> alike(5, pointed);
+  EXPECT_LT(rod_cut(arc.rod, alike, {0.006, 0.0})->seated_length_m, best_m - 0.004)
+      << "control: not square to the rod";
+}
+
+TEST(ToBoneAcross, RefusesADirectionAlongTheRod) {
+  const auto tilted = [](double off_deg) {
+    const double off_rad = off_deg * 3.14159265358979 / 180.0;
+    return to_bone_across(straight_rod(), {0.0, -std::sin(off_rad), std::cos(off_rad)});
+  };
+  EXPECT_TRUE(tilted(30.1).ok());
+  ASSERT_FALSE(tilted(29.9).ok());
+  EXPECT_EQ(tilted(29.9).error().message,
+            "direction to the bone is 29.9° off the rod, at least 30° needed");
+  ASSERT_FALSE(to_bone_across(straight_rod(), {}).ok());
+  EXPECT_THAT(to_bone_across(straight_rod(), {}).error().message, HasSubstr("zero or not finite"));
+}
+
 TEST(RodCut, AddsTheOverhangAtBothEndsOfAStraightRod) {
   const std::vector<Vec3> to_bone(4, 3.0 * kAnterior);  // of any length
   const auto cut = rod_cut(straight_rod(), to_bone, {0.006, 0.005});
