@@ -50,10 +50,8 @@ Base base_of(const engine::Guidance& guidance) {
 }
 
 void append_tools(const engine::Session& session, const Base& base, Timestamp time, Bytes& out) {
-  const auto tools = session.tracker().tools();
   for (const nav::ToolState& state : session.tool_states()) {
-    const nav::ToolGeometry& tool =
-        state.tool == session.guide() ? session.guide_geometry() : tools[state.tool];
+    const nav::ToolGeometry& tool = session.geometry(state.tool);
     const bool is_base = tool.role == nav::ToolRole::kReference && base.name == "Reference";
     if (state.world_from_marker.status != PoseStatus::kMeasured || is_base) {
       continue;

@@ -54,8 +54,10 @@ std::vector<std::string> Case::check(CaseUse use) const {
   std::vector<std::string> problems;
   const bool bare = std::all_of(levels.begin(), levels.end(),
                                 [](const CaseLevel& level) { return level.screws.empty(); });
-  if (levels.empty()) {
-    problems.push_back("levels is empty");
+  if (levels.empty() && use != CaseUse::kRods) {
+    problems.push_back(
+        "levels is empty, at least 1 needed, unless rods alone are bent (orthonav run "
+        "--rods-only)");
   } else if (use == CaseUse::kOperation && bare) {
     problems.push_back("no level has screws (orthonav plan auto places them)");
   }

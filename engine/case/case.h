@@ -27,6 +27,7 @@ struct CaseLevel {
 enum class CaseUse : std::uint8_t {
   kOperation,  ///< at least one level has screws
   kPlanning,   ///< screws may be missing everywhere, since they are still to be planned
+  kRods,       ///< rods alone: levels may be missing too, since nothing is registered
 };
 
 /// The subject of an operation: the preoperative models and the plan. A level without screws is a

@@ -2,12 +2,16 @@
 
 #include <set>
 
+#include "base/how_many.h"
+
 namespace orthonav::engine {
 
 std::vector<std::string> Operation::check() const {
   std::vector<std::string> problems;
-  if (levels.empty()) {
-    problems.push_back("operation: no level, at least 1 needed");
+  if (levels.empty() && !rods_alone) {
+    problems.push_back("operation: no level, at least 1 needed, unless it is of rods alone");
+  } else if (rods_alone && !levels.empty()) {
+    problems.push_back("operation: of rods alone, but has " + how_many(levels.size(), "level"));
   }
   std::set<std::string> labels;
   for (const OperatedLevel& level : levels) {

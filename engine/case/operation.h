@@ -36,9 +36,11 @@ struct Operation {
   std::string case_name;
   std::vector<OperatedLevel> levels;
   std::vector<SpineLevel> spine;  ///< all of the case, from the lowest
+  /// The screws are in already: nothing is registered, and rods alone are bent. Has no levels.
+  bool rods_alone = false;
 
-  /// Every problem at once: no level, a level without model, label or screw, labels twice. Empty
-  /// when all is well.
+  /// Every problem at once: no level, or one in an operation of rods alone; a level without model,
+  /// label or screw; labels twice. Empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
 };
 

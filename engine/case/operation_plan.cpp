@@ -74,6 +74,15 @@ std::vector<std::string> two_lowest(const Case& source) {
   return labels;
 }
 
+Operation without_levels(const Case& source) {
+  Operation operation;
+  operation.case_name = source.name;
+  for (const CaseLevel* level : from_the_lowest(source)) {
+    operation.spine.push_back({level->label, level->centre_in_spine().v.z});
+  }
+  return operation;
+}
+
 }  // namespace
 
 Status check_level(const Case& source, const std::string& label) {
@@ -119,11 +128,7 @@ Result<Operation> plan_operation(const Case& source, const std::vector<std::stri
   if (!ordered) {
     return ordered.error();
   }
-  Operation operation;
-  operation.case_name = source.name;
-  for (const CaseLevel* level : from_the_lowest(source)) {
-    operation.spine.push_back({level->label, level->centre_in_spine().v.z});
-  }
+  Operation operation = without_levels(source);
   PreparedLevels prepared(source, cache);
   for (const std::string& label : *ordered) {
     const auto model = prepared.model(label);
@@ -145,6 +150,12 @@ Result<Operation> plan_operation(const Case& source, const std::vector<std::stri
     }
     operation.levels.push_back(std::move(level));
   }
+  return operation;
+}
+
+Operation plan_rods_alone(const Case& source) {
+  Operation operation = without_levels(source);
+  operation.rods_alone = true;
   return operation;
 }
 

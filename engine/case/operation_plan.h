@@ -26,4 +26,7 @@ Result<Operation> plan_operation(const Case& source, const std::vector<std::stri
                                  ModelCache& cache);
 Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels = {});
 
+/// Of rods alone: whatever levels the case has, none is prepared or registered.
+[[nodiscard]] Operation plan_rods_alone(const Case& source);
+
 }  // namespace orthonav::engine

@@ -149,6 +149,9 @@ struct RodState {
   /// template, or for the reason in `no_instructions`.
   std::optional<nav::RodInstructions> instructions;
   std::string no_instructions;
+  /// The seats by which `instructions` bend it lie this far from the touched places, square to the
+  /// rod, to where the pointer pointed. Absent: along the planned screws.
+  std::optional<double> seat_by_pointer_m;
   /// Whether it will lie in the true heads; `least_sure` is a head, in order of first touch. Absent
   /// without instructions.
   std::optional<nav::RodExpectation> expected;
@@ -156,6 +159,8 @@ struct RodState {
   std::vector<RodBendInHand> measured;
   /// The rod in hand as it lay when it was stroked; absent once that may no longer hold.
   std::optional<LyingRod> lying;
+  std::optional<Timestamp> first_touch;  ///< of a head
+  std::optional<double> took_s;          ///< from then until it was done
   bool done = false;
   /// Finished, and the map has moved since: kept for the report, shown nowhere.
   bool map_moved = false;

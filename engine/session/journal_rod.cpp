@@ -18,6 +18,9 @@ void put_instructions(JournalLine& line, const RodState& rod) {
     return;
   }
   line["cut_length_mm"] = rod.instructions->cut_length_m() * 1e3;
+  if (rod.seat_by_pointer_m) {
+    line["seat_by_pointer_mm"] = *rod.seat_by_pointer_m * 1e3;
+  }
   JournalLine instructions = JournalLine::array();
   for (const nav::RodInstruction& bend : rod.instructions->bends) {
     instructions.push_back(JournalLine{{"arc_length_mm", bend.arc.centre_m * 1e3},
@@ -93,6 +96,9 @@ void Journal::rod_done(Timestamp time, const RodState& rod) {
                                   {"angle_deg", degrees(bend.angle_rad)}});
     }
     line["bends"] = bends;
+  }
+  if (rod.took_s) {
+    line["time_s"] = *rod.took_s;
   }
   put_instructions(line, rod);
   put_certainty(line, rod);

@@ -59,6 +59,10 @@ std::string with_or_without(bool reference) {
 
 }  // namespace
 
+std::string levels_text(const OperationIdentity& identity) {
+  return identity.levels.empty() ? "rods alone" : "levels " + joined(identity.levels, ", ");
+}
+
 OperationIdentity identity_of(const std::string& case_name, std::span<const LevelState> levels,
                               std::span<const nav::ToolGeometry> tools, const std::string& method,
                               bool patient_reference) {
@@ -83,8 +87,7 @@ Status check_same(const OperationIdentity& recorded, const OperationIdentity& no
     return refused(name, "is of case '" + recorded.case_name + "', not of '" + now.case_name + "'");
   }
   if (recorded.levels != now.levels) {
-    return refused(name,
-                   "is of levels " + joined(recorded.levels) + ", not of " + joined(now.levels));
+    return refused(name, "is of " + levels_text(recorded) + ", not of " + levels_text(now));
   }
   if (recorded.models_hash != now.models_hash) {
     return refused(name, "is of another patient: the models of case '" + now.case_name + "' were " +

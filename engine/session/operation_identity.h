@@ -32,6 +32,9 @@ struct OperationIdentity {
                                             std::span<const nav::ToolGeometry> tools,
                                             const std::string& method, bool patient_reference);
 
+/// "levels L4, L5", or "rods alone".
+[[nodiscard]] std::string levels_text(const OperationIdentity& identity);
+
 /// Refuses, in one line, to continue `recorded` as `now` if patient, plan, tools or method differ.
 /// `name` is the file that `recorded` was read from.
 Status check_same(const OperationIdentity& recorded, const OperationIdentity& now,

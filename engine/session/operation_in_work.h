@@ -23,8 +23,11 @@ struct OperationInWork {
   OperationInWork(const OperationInWork&) = delete;
   OperationInWork& operator=(const OperationInWork&) = delete;
 
+  /// Not where rods alone are bent.
   [[nodiscard]] LevelState& level() { return levels[level_in_work]; }
   [[nodiscard]] const LevelState& level() const { return levels[level_in_work]; }
+  /// There is nothing to register: the screws are in, and rods alone are bent.
+  [[nodiscard]] bool rods_alone() const { return levels.empty(); }
   /// Whether World is attached to a patient reference.
   [[nodiscard]] bool anchored() const { return tools.tracker().anchor() != nullptr; }
   /// Whether there is an observer.

@@ -81,7 +81,8 @@ void Publication::publish_tool(const OperationInWork& work, const SessionSteps& 
 void Publication::publish_instruments(const OperationInWork& work, const SessionSteps& steps) {
   StatusLine& line = guidance_.status;
   in_hand_.look(work.tools, work.step, steps.tool(work),
-                at_work(work.step) ? &work.level() : nullptr, guidance_.frame_time);
+                at_work(work.step) && !work.rods_alone() ? &work.level() : nullptr,
+                guidance_.frame_time);
   const auto unused = in_hand_.unused();
   line.unused_tool =
       unused ? std::string_view(work.tools.geometry(*unused).name) : std::string_view();

@@ -8,12 +8,14 @@
 namespace orthonav::engine {
 namespace {
 
+constexpr std::string_view kSides[] = {"left", "right"};
+
 std::string listed(const std::vector<std::string>& parts) { return joined(parts, ", "); }
 
 std::string what_it_was(const OperationLog::Found& found) {
   const OperationIdentity& identity = found.operation.identity;
-  std::string line = "resuming " + found.path + ": case '" + identity.case_name + "', levels " +
-                     listed(identity.levels) + ", begun " + identity.begun + ", " +
+  std::string line = "resuming " + found.path + ": case '" + identity.case_name + "', " +
+                     levels_text(identity) + ", begun " + identity.begun + ", " +
                      how_many(found.records, "record");
   if (found.operation.resumed > 0) {
     line += ", resumed before";
@@ -72,7 +74,6 @@ std::vector<std::string> lost(const OperationLog::Found& found, const LoggedOper
       lines.push_back("lost: of " + before.levels[i].label + " " + listed(parts));
     }
   }
-  constexpr std::string_view kSides[] = {"left", "right"};
   for (std::size_t i = 0; i < before.rods.size(); ++i) {
     if (before.rods[i].heads > after.rods[i].heads) {
       lines.push_back("lost: of the " + std::string(kSides[i]) + " rod " +
@@ -96,7 +97,15 @@ std::vector<std::string> resume_lines(const OperationLog::Found& found) {
   after.go_on();
   std::vector<std::string> lines = {what_it_was(found)};
   const std::vector<std::string> screws = placed(found.operation);
-  lines.push_back("placed: " + (screws.empty() ? "no screw" : listed(screws)));
+  if (!after.levels.empty()) {
+    lines.push_back("placed: " + (screws.empty() ? "no screw" : listed(screws)));
+  }
+  for (std::size_t i = 0; i < after.rods.size(); ++i) {
+    if (after.rods[i].done && after.rods[i].heads > 0) {
+      lines.push_back("done: the " + std::string(kSides[i]) + " rod, " +
+                      how_many(after.rods[i].heads, "head"));
+    }
+  }
   for (const LoggedLevel& level : after.levels) {
     if (std::string line = to_verify(level); !line.empty()) {
       lines.push_back(std::move(line));

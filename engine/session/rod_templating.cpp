@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "nav/guidance/rod_cut.h"
-
 namespace orthonav::engine {
 namespace {
 
@@ -91,6 +89,12 @@ RodTemplating::RodTemplating(bool left_planned, bool right_planned)
   rods_[1].side = nav::Side::kRight;
 }
 
+std::optional<Event> RodTemplating::begin() {
+  touch_ = {};
+  measuring_.forget();
+  return left_to_do() ? std::nullopt : std::optional(Event::kNoSideLeft);
+}
+
 void RodTemplating::collect(const WatchedTools& tools) {
   if (measuring_.on()) {
     measuring_.collect(tools);
@@ -138,11 +142,15 @@ void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
   if (rod().touched.empty()) {
     rod().touched = TouchedHeads(work.options.heads, work.anchored());
   }
-  const auto added = rod().touched.add(*head);
+  const std::size_t pointer = work.tools.pointer();
+  const Direction<World> shaft = work.tools.watch(pointer).last_measured_pose().value *
+                                 work.tools.geometry(pointer).axis_in_marker;
+  const auto added = rod().touched.add(*head, shaft.v);
   if (const auto* refusal = std::get_if<TouchRefusal>(&added)) {
     return work.messages.say(TouchNotRecorded{TouchNotRecorded::What::kHead, *refusal}, time);
   }
   rod().heads = rod().touched.places();
+  rod().first_touch = rod().first_touch.value_or(time);
   bend(work, time);
   work.observer->head_recorded(time, current().side, std::get<HeadTouch>(added));
 }
@@ -167,6 +175,9 @@ void RodTemplating::drop_head(OperationInWork& work, Timestamp time) {
 }
 
 Event RodTemplating::finish_rod(OperationInWork& work, Timestamp time) {
+  if (rod().first_touch && rod().rod) {
+    rod().took_s = seconds(time - *rod().first_touch);
+  }
   work.observer->rod_done(time, current());
   return finish() ? Event::kAnotherSide : Event::kNoSideLeft;
 }
@@ -182,16 +193,27 @@ bool RodTemplating::finish() {
   return another;
 }
 
-void RodTemplating::instruct(const SessionOptions& options, std::span<const LevelState> levels) {
+Result<nav::RodCut> RodTemplating::seats(const SessionOptions& options,
+                                         std::span<const LevelState> levels, double overhang_m) {
   const nav::RodTemplate& shape = *rod().rod;
   const auto screws = nearest_screws(shape.heads_m, screws_in_world(levels, rod().side));
-  if (screws.empty()) {
-    rod().no_instructions = "the direction of no screw is known";
-    return;
+  if (!screws.empty()) {
+    return nav::rod_cut(shape, directions_of(screws), seating_of(screws, options, overhang_m));
   }
+  if (!levels.empty()) {
+    return Error{"the direction of no screw is known"};
+  }
+  const auto to_bone = nav::to_bone_across(shape, rod().touched.pointed());
+  if (!to_bone) {
+    return Error{"by the pointer the " + to_bone.error().message};
+  }
+  rod().seat_by_pointer_m = options.head_to_seat_m;
+  return nav::rod_cut(shape, *to_bone, {options.head_to_seat_m, overhang_m, {}});
+}
+
+void RodTemplating::instruct(const SessionOptions& options, std::span<const LevelState> levels) {
   const nav::RodBending bending = options.bending();
-  const auto cut =
-      nav::rod_cut(shape, directions_of(screws), seating_of(screws, options, bending.overhang_m));
+  const auto cut = seats(options, levels, bending.overhang_m);
   auto told = cut ? nav::rod_instructions(cut->seats_m, bending)
                   : Result<nav::RodInstructions>(cut.error());
   if (told) {
@@ -214,13 +236,15 @@ void RodTemplating::expect() {
   rod().expected->least_sure = heads[rod().expected->least_sure];
 }
 
-StepState RodTemplating::state() const {
-  return measuring_.on() ? StepState(measuring_.state(current())) : StepState(heads_so_far());
+StepState RodTemplating::state(bool unplanned) const {
+  return measuring_.on() ? StepState(measuring_.state(current()))
+                         : StepState(heads_so_far(unplanned));
 }
 
-HeadsSoFar RodTemplating::heads_so_far() const {
+HeadsSoFar RodTemplating::heads_so_far(bool unplanned) const {
   const RodState& now = current();
   HeadsSoFar out;
+  out.unplanned = unplanned;
   out.count = now.heads.size();
   out.given_up = measuring_.given_up();
   if (!now.touched.empty()) {
@@ -229,6 +253,7 @@ HeadsSoFar RodTemplating::heads_so_far() const {
   if (now.instructions) {
     out.cut_length_m = now.instructions->cut_length_m();
     out.bends = now.instructions->bends.size();
+    out.seat_by_pointer_m = now.seat_by_pointer_m;
   }
   if (now.expected && now.expected->within < kExpectedEnough) {
     out.touch_again = now.expected->least_sure;
@@ -240,6 +265,7 @@ void RodTemplating::bend(OperationInWork& work, Timestamp time) {
   rod().rod.reset();
   rod().instructions.reset();
   rod().no_instructions.clear();
+  rod().seat_by_pointer_m.reset();
   rod().expected.reset();
   rod().measured.clear();
   rod().lying.reset();

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "engine/session/operation_in_work.h"
 #include "engine/session/rod_measuring.h"
+#include "nav/guidance/rod_cut.h"
 
 namespace orthonav::engine {
 
@@ -15,16 +17,15 @@ namespace orthonav::engine {
 [[nodiscard]] bool any_rod_planned(std::span<const LevelState> levels);
 
 /// The step in which the heads of the screws are touched, first of the left rod, then of the right
-/// one, and a rod is bent through them. A side without a rod in the plan is skipped.
+/// one, and a rod is bent through them. A side without a rod in the plan is skipped; without a plan
+/// neither is.
 class RodTemplating {
  public:
   RodTemplating(bool left_planned, bool right_planned);
 
   /// Begins the first rod or the next one; an earlier press does not count as a touch of its heads.
-  void begin() {
-    touch_ = {};
-    measuring_.forget();
-  }
+  /// `kNoSideLeft` if all were done before the operation was resumed.
+  [[nodiscard]] std::optional<Event> begin();
   void begin_touch() { touch_.begin(); }
   void end_touch() { touch_.release(); }
   void drop_touch(OperationInWork& work, Timestamp time);
@@ -54,18 +55,22 @@ class RodTemplating {
   [[nodiscard]] std::span<const RodState> rods() const { return rods_; }
   /// Hides a rod in hand that may no longer lie where it was stroked.
   void write(Guidance& out);
-  [[nodiscard]] StepState state() const;
+  /// `unplanned`: no plan says which sides have a rod.
+  [[nodiscard]] StepState state(bool unplanned) const;
 
  private:
   [[nodiscard]] RodState& rod() { return rods_[current_]; }
   /// Makes the template from the present heads, and the instructions to bend it, or says why there
-  /// is no template. How deep the rod lies below a head depends on the nearest screw of this side
-  /// among the registered levels.
+  /// is no template.
   void bend(OperationInWork& work, Timestamp time);
   void instruct(const SessionOptions& options, std::span<const LevelState> levels);
+  /// Where the rod lies below the touched heads: along the nearest screw of this side among the
+  /// registered levels; where rods alone are bent, to where the pointer pointed.
+  [[nodiscard]] Result<nav::RodCut> seats(const SessionOptions& options,
+                                          std::span<const LevelState> levels, double overhang_m);
   /// Says of the instructed rod how surely it will lie in the true heads.
   void expect();
-  [[nodiscard]] HeadsSoFar heads_so_far() const;
+  [[nodiscard]] HeadsSoFar heads_so_far(bool unplanned) const;
 
   std::array<RodState, 2> rods_;  ///< left, right
   std::array<bool, 2> planned_;

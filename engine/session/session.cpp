@@ -47,7 +47,7 @@ Result<std::unique_ptr<Session>> Session::create(Operation operation,
   if (!problems.empty()) {
     return Error{joined(problems)};
   }
-  auto tools = WatchedTools::create(std::move(tracker));
+  auto tools = WatchedTools::create(std::move(tracker), operation.rods_alone);
   if (!tools) {
     return tools.error();
   }
@@ -64,7 +64,7 @@ Result<std::unique_ptr<Session>> Session::create(Operation operation,
 Session::Session(Operation operation, WatchedTools tools, Method method,
                  const SessionOptions& options)
     : work_(std::move(operation), std::move(tools), std::move(method), options),
-      workflow_(workflow_of(options.steps)),
+      workflow_(workflow_of(options.steps, work_.rods_alone())),
       steps_(work_) {}
 
 Status Session::resume(const LoggedOperation& logged) {

@@ -42,7 +42,8 @@ struct Inputs {
 /// same inputs give the same outputs, live, simulated or replayed. One thread at a time.
 class Session {
  public:
-  /// Refuses invalid operations and options, and tools without a pointer and a guide.
+  /// Refuses invalid operations and options, and tools without a pointer, or without a guide where
+  /// screws are placed.
   static Result<std::unique_ptr<Session>> create(Operation operation,
                                                  std::unique_ptr<nav::ToolTracker> tracker,
                                                  Method method, const SessionOptions& options = {});
@@ -77,11 +78,12 @@ class Session {
   [[nodiscard]] std::span<const RodState> rods() const { return steps_.rods.rods(); }
   [[nodiscard]] std::span<const nav::ToolState> tool_states() const { return work_.tools.states(); }
   [[nodiscard]] const nav::ToolTracker& tracker() const { return work_.tools.tracker(); }
-  /// The index of the guide among the tools, and its geometry as described or since corrected.
-  [[nodiscard]] std::size_t guide() const { return work_.tools.guide(); }
-  [[nodiscard]] const nav::ToolGeometry& guide_geometry() const {
-    return work_.tools.geometry(work_.tools.guide());
+  /// A tool's geometry as described, or, of the guide, as since corrected.
+  [[nodiscard]] const nav::ToolGeometry& geometry(std::size_t tool) const {
+    return work_.tools.geometry(tool);
   }
+  /// The index of the guide among the tools. There must be one: not where rods alone are bent.
+  [[nodiscard]] std::size_t guide() const { return work_.tools.guide(); }
 
  private:
   Session(Operation operation, WatchedTools tools, Method method, const SessionOptions& options);

@@ -37,8 +37,8 @@ SessionSteps::SessionSteps(const OperationInWork& work)
       guiding(work.options.drill),
       placing(work.options),
       replanning(work.options.replan),
-      rods(rod_planned(work.levels, nav::Side::kLeft),
-           rod_planned(work.levels, nav::Side::kRight)) {}
+      rods(work.rods_alone() || rod_planned(work.levels, nav::Side::kLeft),
+           work.rods_alone() || rod_planned(work.levels, nav::Side::kRight)) {}
 
 void SessionSteps::expect_landmark(const OperationInWork& work) {
   landmarking = Landmarking(work.options.landmark);
@@ -114,7 +114,6 @@ bool SessionSteps::consent(OperationInWork& work, Timestamp said) {
 
 std::optional<std::size_t> SessionSteps::tool(const OperationInWork& work) const {
   const std::size_t pointer = work.tools.pointer();
-  const std::size_t guide = work.tools.guide();
   const MethodSteps& of_method = work.options.steps;
   switch (work.step) {
     case Step::kDigitize:
@@ -125,11 +124,12 @@ std::optional<std::size_t> SessionSteps::tool(const OperationInWork& work) const
       return of_method.check_points ? std::optional(pointer) : std::nullopt;
     case Step::kAccepted:
       // Once the landmark is touched, the guide is next.
-      return of_method.dimple() ? std::optional(landmarking.touched() ? guide : pointer)
-                                : std::nullopt;
+      return of_method.dimple()
+                 ? std::optional(landmarking.touched() ? work.tools.guide() : pointer)
+                 : std::nullopt;
     case Step::kGuide:
     case Step::kPlaced:
-      return guide;
+      return work.tools.guide();
     case Step::kSetup:
     case Step::kDone:
       return std::nullopt;
@@ -138,7 +138,6 @@ std::optional<std::size_t> SessionSteps::tool(const OperationInWork& work) const
 }
 
 StepOnDisplay SessionSteps::on_display(const OperationInWork& work) const {
-  const LevelState& level = work.level();
   switch (work.step) {
     case Step::kSetup:
     case Step::kDone:
@@ -147,10 +146,10 @@ StepOnDisplay SessionSteps::on_display(const OperationInWork& work) const {
     case Step::kRegistering:
     case Step::kVerify:
     case Step::kAccepted:
-      return {work.step, level.plan.label, {}};
+      return {work.step, work.level().plan.label, {}};
     case Step::kGuide:
     case Step::kPlaced:
-      return {work.step, level.plan.label, level.plan.screws[guiding.screw()].side};
+      return {work.step, work.level().plan.label, work.level().plan.screws[guiding.screw()].side};
     case Step::kRod:
       return {work.step, {}, rods.current().side};
   }
@@ -170,7 +169,7 @@ StepState SessionSteps::state(const OperationInWork& work) const {
     case Step::kPlaced:
       return placing.state();
     case Step::kRod:
-      return rods.state();
+      return rods.state(work.rods_alone());
     case Step::kSetup:
     case Step::kRegistering:
     case Step::kDone:

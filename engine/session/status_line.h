@@ -74,6 +74,11 @@ struct HeadsSoFar {
   std::optional<std::size_t> touch_again = {};
   /// The rod in hand can't be brought to the heads: another is begun.
   bool given_up = false;
+  /// No plan says whether this side has a rod: the surgeon does, by touching heads or by "done".
+  bool unplanned = false;
+  /// The rod is taken to lie this far from the touched places, towards the bone, since no planned
+  /// screw tells it.
+  std::optional<double> seat_by_pointer_m = {};
 };
 /// While a rod in hand is measured.
 struct RodInHandSoFar {

@@ -25,10 +25,11 @@ std::vector<std::string> HeadTouchRules::check() const {
   return problems;
 }
 
-std::variant<HeadTouch, TouchRefusal> TouchedHeads::add(const nav::PressedPlace& touched) {
+std::variant<HeadTouch, TouchRefusal> TouchedHeads::add(const nav::PressedPlace& touched,
+                                                        Vec3 shaft) {
   const std::optional<std::size_t> head = head_near(touched.place);
   if (!head) {
-    touches_.push_back({heads_++, touched});
+    touches_.push_back({heads_++, touched, shaft});
     return last();
   }
   const double others = static_cast<double>(touches_of(*head));
@@ -39,7 +40,7 @@ std::variant<HeadTouch, TouchRefusal> TouchedHeads::add(const nav::PressedPlace&
   if (!(apart_m <= limit_m)) {
     return TouchRefusal{TouchRefusal::Kind::kTouchesApart, apart_m, limit_m};
   }
-  touches_.push_back({*head, touched});
+  touches_.push_back({*head, touched, shaft});
   return last();
 }
 
@@ -96,6 +97,14 @@ double TouchedHeads::sd_m(std::size_t head) const {
   return std::hypot(
       sd_of_mean(stated_sd_m(head), squares_m2, 3.0, static_cast<double>(touches_of(head))),
       tracking_sd_m());
+}
+
+Vec3 TouchedHeads::pointed() const {
+  Vec3 sum;
+  for (const OneTouch& touch : touches_) {
+    sum += -touch.shaft;
+  }
+  return sum;
 }
 
 HeadTouch TouchedHeads::last() const {

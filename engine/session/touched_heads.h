@@ -49,9 +49,10 @@ class TouchedHeads {
   TouchedHeads() = default;
   TouchedHeads(HeadTouchRules rules, bool anchored) : rules_(rules), anchored_(anchored) {}
 
-  /// Records a touch: of a new head, or once more of one nearby. Refused if it is farther from the
-  /// other touches of its head than they scatter.
-  [[nodiscard]] std::variant<HeadTouch, TouchRefusal> add(const nav::PressedPlace& touched);
+  /// Records a touch: of a new head, or once more of one nearby. `shaft`: the pointer's, from the
+  /// tip back, unit. Refused if it is farther from the other touches of its head than they scatter.
+  [[nodiscard]] std::variant<HeadTouch, TouchRefusal> add(const nav::PressedPlace& touched,
+                                                          Vec3 shaft = {});
   /// Takes the last touch back, and its head with it if it was the only one. Returns it as it was
   /// recorded; nothing if there is none.
   std::optional<HeadTouch> drop_last();
@@ -65,6 +66,9 @@ class TouchedHeads {
   /// Standard error of a head's place along an axis: from the scatter of its touches, in which the
   /// SD stated for one touch counts as much as three of them, and from tracking.
   [[nodiscard]] double sd_m(std::size_t head) const;
+  /// Where the pointer pointed at the heads, on average: towards the bone, as it came from outside.
+  /// Of any length; zero without a touch.
+  [[nodiscard]] Vec3 pointed() const;
   /// The newest touch; requires one.
   [[nodiscard]] HeadTouch last() const;
 
@@ -72,6 +76,7 @@ class TouchedHeads {
   struct OneTouch {
     std::size_t head = 0;
     nav::PressedPlace at;
+    Vec3 shaft;
   };
   [[nodiscard]] Point<World> place_of(std::size_t head) const;
   /// The stated SD of one touch of that head.

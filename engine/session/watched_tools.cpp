@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "base/check.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -51,20 +53,26 @@ void note_papers(const nav::TrackedPose& pose, const nav::ToolGeometry& tool, To
 
 }  // namespace
 
-Result<WatchedTools> WatchedTools::create(std::unique_ptr<nav::ToolTracker> tracker) {
+Result<WatchedTools> WatchedTools::create(std::unique_ptr<nav::ToolTracker> tracker,
+                                          bool rods_alone) {
   const auto pointer = only_tool(tracker->tools(), nav::ToolRole::kPointer, "pointer");
   if (!pointer) {
     return pointer.error();
   }
   const auto guide = only_tool(tracker->tools(), nav::ToolRole::kGuide, "guide");
-  if (!guide) {
+  if (!guide && !rods_alone) {
     return guide.error();
   }
-  return WatchedTools(std::move(tracker), *pointer, *guide);
+  return WatchedTools(std::move(tracker), *pointer, guide ? std::optional(*guide) : std::nullopt);
+}
+
+std::size_t WatchedTools::guide() const {
+  ORTHONAV_CHECK(guide_.has_value());
+  return *guide_;
 }
 
 WatchedTools::WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_t pointer,
-                           std::size_t guide)
+                           std::optional<std::size_t> guide)
     : tracker_(std::move(tracker)), pointer_(pointer), guide_(guide) {
   watches_.resize(tracker_->tools().size());
   for (const nav::ToolGeometry& tool : tracker_->tools()) {
@@ -138,7 +146,7 @@ bool WatchedTools::pictures_apart() const {
 }
 
 double WatchedTools::tag_size_difference_sd() const {
-  return tracker_->tag_size_difference_sd(pointer_, guide_);
+  return tracker_->tag_size_difference_sd(pointer_, guide());
 }
 
 }  // namespace orthonav::engine

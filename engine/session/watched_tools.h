@@ -20,12 +20,13 @@ struct ReferencePost {
   Point<World> foot;
 };
 
-/// The tools of an operation, including exactly one pointer and one guide, and what the pairs so
-/// far have shown of each.
+/// The tools of an operation, including exactly one pointer and, unless it is of rods alone, one
+/// guide, and what the pairs so far have shown of each.
 class WatchedTools {
  public:
-  /// Refuses tools without a pointer and a guide.
-  static Result<WatchedTools> create(std::unique_ptr<nav::ToolTracker> tracker);
+  /// Refuses tools without a pointer, and without a guide where screws are placed.
+  static Result<WatchedTools> create(std::unique_ptr<nav::ToolTracker> tracker,
+                                     bool rods_alone = false);
 
   void track(const StereoFrame& frame);
   /// Forgets the poses, which are void.
@@ -34,23 +35,25 @@ class WatchedTools {
   void lose_sight();
 
   [[nodiscard]] std::size_t pointer() const { return pointer_; }
-  [[nodiscard]] std::size_t guide() const { return guide_; }
+  [[nodiscard]] bool has_guide() const { return guide_.has_value(); }
+  /// There must be one.
+  [[nodiscard]] std::size_t guide() const;
   /// The first patient reference; nothing if there is none.
   [[nodiscard]] std::optional<std::size_t> first_reference() const;
   /// Where the patient references were last measured; those never measured are left out.
   [[nodiscard]] std::vector<ReferencePost> reference_posts() const;
   [[nodiscard]] const ToolWatch& watch(std::size_t tool) const { return watches_[tool]; }
   [[nodiscard]] const nav::ToolGeometry& geometry(std::size_t tool) const {
-    return tool == guide_ && corrected_guide_ ? *corrected_guide_ : tracker_->tools()[tool];
+    return guide_ == tool && corrected_guide_ ? *corrected_guide_ : tracker_->tools()[tool];
   }
   /// Replaces the described tip of the guide until the end of the operation.
   void correct_guide_tip(Point<Marker> tip_in_marker) {
-    corrected_guide_ = geometry(guide_);
+    corrected_guide_ = geometry(guide());
     corrected_guide_->tip_in_marker = tip_in_marker;
   }
   /// Likewise its axis.
   void correct_guide_axis(Direction<Marker> axis_in_marker) {
-    corrected_guide_ = geometry(guide_);
+    corrected_guide_ = geometry(guide());
     corrected_guide_->axis_in_marker = axis_in_marker;
   }
   /// The pointer's tip as last measured, no longer than `within` before `now`.
@@ -69,12 +72,13 @@ class WatchedTools {
   [[nodiscard]] const nav::ToolTracker& tracker() const { return *tracker_; }
 
  private:
-  WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_t pointer, std::size_t guide);
+  WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_t pointer,
+               std::optional<std::size_t> guide);
 
   std::unique_ptr<nav::ToolTracker> tracker_;
   std::optional<nav::ToolGeometry> corrected_guide_;
   std::size_t pointer_ = 0;
-  std::size_t guide_ = 0;
+  std::optional<std::size_t> guide_;
   std::span<const nav::ToolState> states_;
   std::vector<ToolWatch> watches_;
   std::vector<ToolSight> sights_;

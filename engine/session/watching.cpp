@@ -53,9 +53,11 @@ std::optional<Event> Watching::look_at_tool(const OperationInWork& work,
 
 std::optional<Raised> Watching::look_at_drift(const OperationInWork& work, const Guiding& guiding,
                                               Timestamp now) const {
+  if (work.step != Step::kGuide) {
+    return std::nullopt;
+  }
   const auto& found = work.level().bone_found;
-  if (work.step != Step::kGuide || !found || !work.options.steps.landmark ||
-      guiding.drill().phase != nav::DrillPhase::kAway ||
+  if (!found || !work.options.steps.landmark || guiding.drill().phase != nav::DrillPhase::kAway ||
       !(found->walked_sd_m(now) > work.options.landmark.most_walked_m)) {
     return std::nullopt;
   }

@@ -133,6 +133,18 @@ struct StateWriter {
       append_printed(out, heads.bends == 1 ? translated("%zu bend") : translated("%zu bends"),
                      heads.bends);
     }
+    if (heads.seat_by_pointer_m) {
+      const double seat_m = *heads.seat_by_pointer_m;
+      text.begin(Importance::kFigures, ", ");
+      append_printed(out,
+                     seat_m < 0.0 ? translated("rod %s above the touches")
+                                  : translated("rod %s below the touches"),
+                     said_mm(std::abs(seat_m)).c_str());
+    }
+    if (heads.unplanned && heads.count == 0) {
+      text.begin(Importance::kNext, "; ");
+      out += translated("touch the screw heads of this side; if it has none, say done");
+    }
     write_head(text, heads, "; ");
     if (heads.given_up) {
       text.begin(Importance::kNext, "; ");

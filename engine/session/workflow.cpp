@@ -120,15 +120,22 @@ std::string unquoted(std::string_view text) {
   return out;
 }
 
+void append_arrow(std::string& out, const Rule& rule, const char* where) {
+  out += "    " + std::string(name_of(rule.step)) + " --> " + std::string(name_of(rule.next)) +
+         " : " + where + unquoted(name_of(rule.event)) + " / " + unquoted(name_of(rule.action)) +
+         "\n";
+}
+
 void append_state_diagram(std::string& out) {
   out += "```mermaid\nstateDiagram-v2\n    [*] --> setup\n";
+  for (const Rule& rule : workflow_detail::kRulesRodsAlone) {
+    append_arrow(out, rule, "rods alone, ");
+  }
   for (const Rule& rule : workflow_detail::kRules) {
     // Events that are ignored would only hide the arrows that matter.
-    if (rule.action == Action::kIgnore) {
-      continue;
+    if (rule.action != Action::kIgnore) {
+      append_arrow(out, rule, "");
     }
-    out += "    " + std::string(name_of(rule.step)) + " --> " + std::string(name_of(rule.next)) +
-           " : " + unquoted(name_of(rule.event)) + " / " + unquoted(name_of(rule.action)) + "\n";
   }
   out += "    done --> [*]\n```\n";
 }
@@ -171,7 +178,11 @@ void append_rules(std::string& out, const auto& rules) {
 
 void append_instead(std::string& out) {
   out +=
-      "Where the eye alone verifies (`paper`), these answers stand instead. A study that leaves "
+      "Where rods alone are bent (`--rods-only`), nothing is registered and no screw is "
+      "guided:\n\n";
+  append_rules(out, workflow_detail::kRulesRodsAlone);
+  out +=
+      "\nWhere the eye alone verifies (`paper`), these answers stand instead. A study that leaves "
       "out check points,\nthe dimple or the measurement of wires has the rows of `verify`, "
       "`accepted` or `guide`; without the\nlandmark, that of `digitize`:\n\n";
   append_rules(out, workflow_detail::kRulesByEye);

@@ -35,7 +35,7 @@ constexpr bool is_by_eye(Step step, const MethodSteps& steps) {
 }
 
 /// Every cell starts as a refusal that stays in its step; the rules overwrite their cells.
-constexpr Table make_table(const MethodSteps& steps) {
+constexpr Table make_table(const MethodSteps& steps, bool rods_alone) {
   Table table{};
   for (std::size_t step = 0; step < kStepCount; ++step) {
     for (Cell& cell : table[step]) {
@@ -57,6 +57,9 @@ constexpr Table make_table(const MethodSteps& steps) {
   } else if (steps.landmark && !steps.wire) {
     std::for_each(kRulesWireUnmeasured.begin(), kRulesWireUnmeasured.end(), write);
   }
+  if (rods_alone) {
+    std::for_each(kRulesRodsAlone.begin(), kRulesRodsAlone.end(), write);
+  }
   return table;
 }
 
@@ -72,7 +75,8 @@ consteval bool rules_are_unique(const auto& rules) {
   return true;
 }
 static_assert(rules_are_unique(kRules) && rules_are_unique(kRulesByEye) &&
-                  rules_are_unique(kRulesTouchedOnce) && rules_are_unique(kRulesWireUnmeasured),
+                  rules_are_unique(kRulesTouchedOnce) && rules_are_unique(kRulesWireUnmeasured) &&
+                  rules_are_unique(kRulesRodsAlone),
               "two rules of the workflow share a cell");
 }  // namespace workflow_detail
 
@@ -84,11 +88,12 @@ enum class Verification : std::uint8_t {
 
 using Workflow = workflow_detail::Table;
 
-/// The table with only these steps of the method.
-[[nodiscard]] constexpr Workflow workflow_of(const MethodSteps& steps) {
-  return workflow_detail::make_table(steps);
+/// The table with only these steps of the method; with `rods_alone` it goes from setup to the rods.
+[[nodiscard]] constexpr Workflow workflow_of(const MethodSteps& steps, bool rods_alone = false) {
+  return workflow_detail::make_table(steps, rods_alone);
 }
 inline constexpr Workflow kWorkflow = workflow_of(MethodSteps{});
+inline constexpr Workflow kWorkflowRodsAlone = workflow_of(MethodSteps{}, true);
 inline constexpr Workflow kWorkflowByEye = workflow_of(MethodSteps::none());
 
 /// A table's answer: every step answers every event.

@@ -211,6 +211,11 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDone, kReferenceMoved, kForgetMap, kDone},
 });
 
+/// The answer that differs where rods alone are bent.
+inline constexpr auto kRulesRodsAlone = std::to_array<Rule>({
+    {kSetup, kSayStart, kBeginRod, kRod},
+});
+
 /// The answers that differ if verification is by eye alone.
 inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kDigitize, kAcceptanceRestored, kRefuse, kDigitize},

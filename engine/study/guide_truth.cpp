@@ -72,7 +72,7 @@ void GuideTruth::look(Timestamp time, const Guidance& guidance) {
   }
   const auto& room_from_marker =
       now.room_from_marker[static_cast<std::size_t>(made - room.tools.begin())];
-  const nav::ToolGeometry& believed = session_.guide_geometry();
+  const nav::ToolGeometry& believed = session_.geometry(session_.guide());
   const auto truth = axis_in(room_from_vertebra->inverse() * room_from_marker, made->tip_in_marker,
                              made->axis_in_marker);
   const auto tracked =

@@ -74,6 +74,7 @@ engine::Operation operation_of(const std::vector<std::string>& labels) {
   static const auto kBone = nav::VertebraModel::prepare(box_bone()).value();
   engine::Operation operation;
   operation.case_name = "boxes";
+  operation.rods_alone = labels.empty();
   for (const std::string& label : labels) {
     operation.levels.push_back({label, kBone, two_screws()});
   }
@@ -90,6 +91,9 @@ ScriptedOperation::ScriptedOperation(std::vector<std::string> labels,
   registration.points = 300;
   auto tracker = std::make_unique<ScriptedTracker>();
   tracker_ = tracker.get();
+  if (labels.empty() && !reference && !other) {
+    tracker->has_pointer_alone();
+  }
   if (reference) {
     tracker->hang_on_reference();
   }

@@ -17,6 +17,7 @@ nav::TriangleMesh box_bone();
 /// One screw on each side on top of that box (its posterior face, +y), pointing straight in (-y).
 std::vector<nav::ScrewPlan> two_screws();
 
+/// Without labels: of rods alone.
 engine::Operation operation_of(const std::vector<std::string>& labels);
 
 /// With a patient reference many more places would be asked for; tests of other matters touch
@@ -28,7 +29,7 @@ engine::Operation operation_of(const std::vector<std::string>& labels);
 }
 
 /// A session whose surgeon, tools and registrations are scripted line by line. Pairs come every 33
-/// ms.
+/// ms. One of rods alone has no guide, unless it has a reference or another tool.
 class ScriptedOperation {
  public:
   explicit ScriptedOperation(std::vector<std::string> labels = {"L4", "L5"},

@@ -23,6 +23,11 @@ void ScriptedTracker::hang_on_reference() {
   hangs_on_reference_ = true;
 }
 
+void ScriptedTracker::has_pointer_alone() {
+  tools_.resize(1);
+  states_.resize(1);
+}
+
 void ScriptedTracker::add_other(const nav::ToolGeometry& tool) {
   tools_.push_back(tool);
   states_.resize(tools_.size());

@@ -27,6 +27,8 @@ class ScriptedTracker : public nav::ToolTracker {
   std::optional<Transform<World, Marker>> reference_pose;  ///< absent: not reported
   nav::Anchor reference;                                   ///< its reported state
   std::optional<nav::TagSize> size;                        ///< of every tool
+  /// There is no guide; call before anything is added and before the session is made.
+  void has_pointer_alone();
   /// Adds a further tool, after the others; call before the session is made.
   void add_other(const nav::ToolGeometry& tool);
   std::optional<Transform<World, Marker>> other;  ///< the pose of that tool

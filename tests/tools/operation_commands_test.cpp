@@ -188,7 +188,7 @@ TEST(RunCommand, GoesOnWithTheOperationOfAFolderAndWithNoOther) {
   ASSERT_FALSE(log.empty());
   expect_refusal(orthonav({"run", "--headset", "sim:?seed=3", "--levels", "L4", "--frames", "6",
                            "--out", out, "--resume"}),
-                 "is of levels L5, not of L4");
+                 "is of levels L5, not of levels L4");
   expect_refusal(orthonav({"run", "--headset", "sim:?seed=4", "--levels", "L5", "--frames", "6",
                            "--out", out, "--resume"}),
                  "is of the simulated patient 'seed 3', not of 'seed 4'");

@@ -48,7 +48,9 @@ TEST(Case, RefusesATargetThatStandsOutOfTheBoneByMoreThanItsRadius) {
 
 TEST(Case, NamesEveryProblemAtOnce) {
   Case bad;
-  EXPECT_THAT(bad.check(), ElementsAre("levels is empty"));
+  EXPECT_THAT(bad.check(), ElementsAre("levels is empty, at least 1 needed, unless rods alone are "
+                                       "bent (orthonav run --rods-only)"));
+  EXPECT_THAT(bad.check(CaseUse::kRods), ::testing::IsEmpty());
   const nav::ScrewPlan screw{nav::Side::kLeft, {{0.02, 0.03, 0}}, {{0.01, -0.01, 0}}, 0.003};
   bad.levels = {{"L4", box_mesh(), {screw}, {}}, {"L4", box_mesh(), {}, {}}, {"", {}, {screw}, {}}};
   EXPECT_THAT(bad.check(),

@@ -239,7 +239,10 @@ TEST(ResumedSession, OfAnotherPatientIsRefusedInOneLine) {
               HasSubstr("was begun with method 'scripted', not 'paper'"));
   EXPECT_THAT(refusal([](auto& other) { other.patient_reference = false; }),
               HasSubstr("was begun with a patient reference, not without"));
-  EXPECT_THAT(refusal([](auto& other) { other.levels = {"L4"}; }), HasSubstr("is of levels"));
+  EXPECT_EQ(refusal([](auto& other) { other.levels = {"L4"}; }),
+            "operation.log: is of levels L4, L5, not of levels L4");
+  EXPECT_EQ(refusal([](auto& other) { other.levels = {}; }),
+            "operation.log: is of levels L4, L5, not of rods alone");
   EXPECT_THAT(refusal([](auto& other) { other.room = "seed 2"; }), HasSubstr("simulated patient"));
 }
 

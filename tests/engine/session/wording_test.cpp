@@ -106,6 +106,12 @@ TEST(Wording, SaysHowAStepStands) {
             "head 1 again");
   EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1, {}, {}, true}),
             "3 heads, cut to 90.0 mm, 1 bend; the rod in hand is given up: bend another");
+  EXPECT_EQ(line_with(HeadsSoFar{0, {}, 0, {}, {}, false, true}),
+            "0 heads; touch the screw heads of this side; if it has none, say done");
+  EXPECT_EQ(line_with(HeadsSoFar{2, 0.05, 0, {}, {}, false, true, 0.006}),
+            "2 heads, cut to 50.0 mm, 0 bends, rod 6.0 mm below the touches");
+  EXPECT_EQ(line_with(HeadsSoFar{2, 0.05, 0, {}, {}, false, false, -0.003}),
+            "2 heads, cut to 50.0 mm, 0 bends, rod 3.0 mm above the touches");
   nav::CheckVerdict verdict;
   verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};
   EXPECT_EQ(line_with(ChecksSoFar{0.0008, 1, -0.0007, &verdict}),

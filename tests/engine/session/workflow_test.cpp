@@ -98,6 +98,24 @@ TEST(Workflow, EveryStepCanBeReachedAndAllButTheLastCanBeLeft) {
   }
 }
 
+TEST(Workflow, OfRodsAloneReachesTheRodsAndNothingThatNeedsARegistration) {
+  std::set<Step> reached = {Step::kSetup};
+  std::set<Step> with_levels = {Step::kSetup};
+  for (std::size_t round = 0; round < kStepCount; ++round) {
+    const auto follow = [](const Workflow& table, std::set<Step>& steps) {
+      for (const Step step : std::set<Step>(steps)) {
+        for (std::size_t e = 0; e < kEventCount; ++e) {
+          steps.insert(answer(table, step, static_cast<Event>(e)).next);
+        }
+      }
+    };
+    follow(kWorkflowRodsAlone, reached);
+    follow(kWorkflow, with_levels);
+  }
+  EXPECT_EQ(reached, (std::set<Step>{Step::kSetup, Step::kRod, Step::kDone}));
+  EXPECT_EQ(with_levels.size(), kStepCount) << "control: the other table reaches them";
+}
+
 class EveryVerification : public ::testing::TestWithParam<Verification> {};
 INSTANTIATE_TEST_SUITE_P(Workflow, EveryVerification,
                          ::testing::Values(Verification::kByTouch, Verification::kByEye));
