@@ -66,11 +66,29 @@ sim::RoomDescription room_of(const Case& source, const Operation& operation,
   for (const OperatedLevel& level : operation.levels) {
     room.operated.push_back(level.label);
   }
+  for (const CaseLevel& level : source.levels) {
+    if (!operation.rods_alone || level.screws.empty()) {
+      continue;
+    }
+    room.operated.push_back(level.label);
+    for (const nav::ScrewPlan& screw : level.screws) {
+      room.screws.push_back(
+          {level.label, screw.side, screw.entry, (screw.target - screw.entry).normalized()});
+    }
+  }
   return room;
 }
 
 sim::Exposure strokes_of(std::string_view method) {
   return method == "paper" ? sim::Exposure::kTrainedPattern : sim::Exposure::kLaminae;
+}
+
+Status check_standing_screws(const Operation& operation, const sim::RoomDescription& room) {
+  if (operation.rods_alone && room.screws.empty()) {
+    return Error{"case '" + operation.case_name +
+                 "' has no screws, so none stands in the simulated room: name a case with a plan"};
+  }
+  return {};
 }
 
 KnownErrors errors_in(const sim::ErrorModel& room, bool sizes_estimated) {

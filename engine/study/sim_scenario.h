@@ -14,13 +14,18 @@
 namespace orthonav::engine {
 
 /// The simulated operating room of a case: it contains every level, and those of the operation are
-/// operated in its order. The tools are made exactly as in `tools`.
+/// operated in its order. Where rods alone are bent, every planned screw stands in it, exactly as
+/// planned. The tools are made exactly as in `tools`.
 [[nodiscard]] sim::RoomDescription room_of(const Case& source, const Operation& operation,
                                            const std::vector<nav::ToolGeometry>& tools);
 
 /// Where its surgeons stroke: with `paper` in the pattern that the publication's were trained in,
 /// else the laminae.
 [[nodiscard]] sim::Exposure strokes_of(std::string_view method);
+
+/// Refuses rods alone where no screw stands in the room.
+[[nodiscard]] Status check_standing_screws(const Operation& operation,
+                                           const sim::RoomDescription& room);
 
 /// What all strokes in this room have in common: the SDs that follow from those from which it
 /// draws, not the drawn values. `sizes_estimated`: sizes of tags are estimated in use.

@@ -178,6 +178,9 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
   if (const auto problems = options.check(); !problems.empty()) {
     return Error{joined(problems)};
   }
+  if (options.rods_alone) {
+    return run_operation(source, plan_rods_alone(source), options, hooks);
+  }
   ModelCache none;
   auto operation = plan_operation(source, options.levels, hooks.models ? *hooks.models : none);
   if (!operation) {
@@ -194,6 +197,9 @@ Result<OperationResult> run_operation(const Case& source, Operation planned,
   }
   sim::RoomDescription description = room_of(source, planned, options.tools);
   description.exposure = options.exposure.value_or(strokes_of(options.method));
+  if (const Status standing = check_standing_screws(planned, description); !standing) {
+    return standing.error();
+  }
   auto room = sim::SimHeadset::open(std::move(description), sim_options(options));
   if (!room) {
     return room.error();

@@ -31,6 +31,8 @@ struct OperationOptions : AssemblyOptions {
   /// Replaces the method: a published system's navigation, in the measurement model.
   std::optional<StatedNavigation> navigation;
   std::vector<std::string> levels;  ///< empty: the two lowest of the case
+  /// Every screw of the case stands in the room, and rods alone are bent.
+  bool rods_alone = false;
   std::vector<nav::ToolGeometry> tools;
   /// Absent: as the method is used (`strokes_of`, sim_scenario.h).
   std::optional<sim::Exposure> exposure;

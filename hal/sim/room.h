@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/side.h"
 #include "base/time.h"
 #include "base/transform.h"
 #include "hal/api/described_tools.h"
@@ -23,6 +24,18 @@ struct RoomLevel {
   /// The most posterior, left, right and superior vertices of the model made from the bone; if
   /// there is none, those of the bone itself.
   std::optional<std::array<std::uint32_t, 4>> extremes = {};
+};
+
+/// A screw that stands in its bone from the start.
+struct StandingScrew {
+  std::string level;
+  Side side = Side::kLeft;
+  Point<Vertebra> entry;
+  Vec3 direction;  ///< unit, into the bone
+
+  /// The top of its head, where it is touched.
+  [[nodiscard]] Point<Vertebra> head() const { return entry - kHeadOverEntry_m * direction; }
+  static constexpr double kHeadOverEntry_m = 0.010;
 };
 
 /// Which vertices these are.
@@ -62,6 +75,8 @@ struct RoomDescription {
   std::vector<RoomLevel> levels;  ///< may be empty: a table and tools only
   std::vector<RoomTool> tools;
   std::vector<std::string> operated;  ///< labels to be operated, in order; empty: all
+  /// Then the surgeon only touches their heads, and needs neither guide nor bone to stroke.
+  std::vector<StandingScrew> screws = {};
   Exposure exposure = Exposure::kLaminae;
   std::vector<TagFlaws> tag_flaws = {};  ///< one for each tool; empty: none has any
 };

@@ -84,6 +84,16 @@ Status check_room(const RoomDescription& room) {
       return Error{"room: operated level \"" + label + "\" does not exist"};
     }
   }
+  for (const StandingScrew& screw : room.screws) {
+    const double length = screw.direction.norm();
+    if (!labels.contains(screw.level)) {
+      return Error{"room screw in \"" + screw.level + "\": that level does not exist"};
+    }
+    if (!screw.entry.v.is_finite() || !(length > 0.999 && length < 1.001)) {
+      return Error{"room screw in \"" + screw.level +
+                   "\": its entry is not finite or its direction has no length of 1"};
+    }
+  }
   std::set<std::pair<std::string, int>> tags;
   for (const RoomTool& tool : room.tools) {
     if (Status status = check_tool(tool); !status) {

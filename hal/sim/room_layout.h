@@ -11,7 +11,8 @@ namespace orthonav::sim {
 
 /// Refuses a room with broken meshes, labels or tools, in one line each.
 Status check_room(const RoomDescription& room);
-/// Refuses a sound room in which a surgeon can't operate: no pointer, no guide, nothing to stroke.
+/// Refuses a sound room in which a surgeon can't operate: no pointer; where screws are to be
+/// placed, no guide, nothing to stroke.
 Status check_surgery(const RoomDescription& room);
 
 /// How the patient lies: prone, posterior up, the middle of the operated levels above the room's

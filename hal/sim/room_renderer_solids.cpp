@@ -154,6 +154,19 @@ ToolBodies::ToolBodies(const RoomDescription& room) {
     add_drops(body.flaws, body.rods);
     bodies_.push_back(std::move(body));
   }
+  for (const StandingScrew& screw : room.screws) {
+    const auto level =
+        std::find_if(room.levels.begin(), room.levels.end(),
+                     [&screw](const RoomLevel& other) { return other.label == screw.level; });
+    constexpr double kNeck_m = 0.0028;
+    constexpr double kHead_m = 0.0055;
+    const Vec3 top = screw.head().v;
+    const Vec3 inside = top + kHead_m * screw.direction;
+    Capsule ball = rod(inside, inside, kHead_m, kHead_m, 0.55F, 0.6F, kSteel);
+    ball.rank = 1;  // over its neck
+    heads_.push_back({static_cast<std::size_t>(level - room.levels.begin()),
+                      {rod(screw.entry.v, inside, kNeck_m, kNeck_m, 0.5F, 0.5F, kSteel), ball}});
+  }
 }
 
 void ToolBodies::gather(const RoomState& state, const Transform<LeftCamera, Room>& camera_from_room,
@@ -167,6 +180,20 @@ void ToolBodies::gather(const RoomState& state, const Transform<LeftCamera, Room
   for (std::size_t i = 0; i < known; ++i) {
     if (state.tool_present[i]) {
       add_tool(i, state.room_from_marker[i], camera_from_room, viewer, gloss, solids);
+    }
+  }
+  for (const Head& head : heads_) {
+    if (head.level >= state.room_from_vertebra.size()) {
+      continue;
+    }
+    const auto camera_from_vertebra = camera_from_room * state.room_from_vertebra[head.level];
+    for (Capsule part : head.parts) {
+      part.a = (camera_from_vertebra * Point<Vertebra>{part.a}).v;
+      part.b = (camera_from_vertebra * Point<Vertebra>{part.b}).v;
+      part.tool = static_cast<int>(bodies_.size());
+      if (clip_near(part)) {
+        solids.capsules.push_back(part);
+      }
     }
   }
   if (state.hand) {

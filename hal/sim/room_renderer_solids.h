@@ -41,7 +41,7 @@ struct Capsule {
   float albedo = 0.5F;
   float gloss = 0.0F;
   Tint tint{1, 1, 1};
-  int tool = -1;  ///< the hand: -1
+  int tool = -1;  ///< the hand: -1; a screw: beyond all tools
   int rank = 0;   ///< decides within one tool; above 1 it lies on the face of the plate
 };
 
@@ -51,7 +51,8 @@ struct Solids {
   std::vector<Capsule> capsules;
 };
 
-/// Tools and hand as bodies. Built once per room; `gather` reuses the vectors given.
+/// Tools, hand and the heads of standing screws as bodies. Built once per room; `gather` reuses the
+/// vectors given.
 class ToolBodies {
  public:
   explicit ToolBodies(const RoomDescription& room);
@@ -73,7 +74,14 @@ class ToolBodies {
                 const Transform<LeftCamera, Room>& camera_from_room, Vec3 viewer, double gloss,
                 Solids& solids) const;
 
+  /// A standing screw's neck and head, in its Vertebra.
+  struct Head {
+    std::size_t level = 0;
+    std::array<Capsule, 2> parts;
+  };
+
   std::vector<Body> bodies_;
+  std::vector<Head> heads_;
 };
 
 }  // namespace orthonav::sim

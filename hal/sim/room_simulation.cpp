@@ -44,6 +44,10 @@ RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, 
   for (const RoomLevel& level : room_.levels) {
     breath_fractions_.push_back(fraction_of_breath(level.label));
   }
+  for (const StandingScrew& screw : room_.screws) {
+    truth_.heads.push_back({screw.level, screw.side,
+                            layout_.room_from_vertebra(*layout_.find(screw.level)) * screw.head()});
+  }
   states_.resize(kKept, nothing);
   if (options.surgeon && layout_.levels() > 0) {
     surgeon_ = std::make_unique<Surgeon>(

@@ -56,7 +56,6 @@ AdvancingWire RoomSimulation::pierce(const Drilling& drilling) {
 }
 
 void RoomSimulation::leave_wire() {
-  constexpr double kHeadOverEntry_m = 0.010;
   const Drilling& driven = wire_->last();
   const auto& room_from_vertebra = layout_.room_from_vertebra(driven.level);
   const Vec3 straight = wire_->direction(guide_inwards(driven.level));
@@ -70,8 +69,8 @@ void RoomSimulation::leave_wire() {
   ++wires_driven_;
   truth_.wires.push_back(
       {label, driven.side, wire_->entry(), direction, kept(steps_ - 1).time, wire_->pierced()});
-  truth_.heads.push_back(
-      {label, driven.side, room_from_vertebra * (wire_->entry() - kHeadOverEntry_m * direction)});
+  const StandingScrew screw{label, driven.side, wire_->entry(), direction};
+  truth_.heads.push_back({label, driven.side, room_from_vertebra * screw.head()});
   wire_.reset();
 }
 

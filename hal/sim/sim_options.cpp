@@ -54,6 +54,9 @@ Status check_surgery(const RoomDescription& room) {
   if (!layout.tool(ToolKind::kPointer)) {
     return Error{"room: the surgeon has no pointer"};
   }
+  if (!room.screws.empty()) {
+    return {};
+  }
   if (!layout.tool(ToolKind::kGuide)) {
     return Error{"room: the surgeon has no guide"};
   }

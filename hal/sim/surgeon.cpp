@@ -108,7 +108,8 @@ Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const 
     body_.posture().level = layout.operated().front();
   }
   const Random tissue = random.fork("tissue");
-  for (const std::size_t level : layout.operated()) {
+  const bool strokes = layout.room().screws.empty();
+  for (const std::size_t level : strokes ? layout.operated() : std::vector<std::size_t>()) {
     regions_[level] = plan_strokes(layout.room().levels[level], layout.room().exposure);
     cover_with_tissue(regions_[level], error_model.tissue_m, tissue.fork(level));
   }
