@@ -1,7 +1,9 @@
 #include "engine/report/levels_section.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/how_many.h"
 #include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/report_values.h"
@@ -19,6 +21,39 @@ std::string verdict_on(const json& level) {
   return std::string(is_true(level, "accepted") ? "<span class=good>accepted</span>"
                                                 : "<span class=bad>refused</span>") +
          " <small>attempt " + figure(level, "attempts", 0) + "</small>";
+}
+
+/// How the rod was to be cut and bent, and where its seats were taken to lie; or why nothing says
+/// so.
+std::string instructions_of(const json& rod) {
+  if (const std::string why = text_in(rod, "no_instructions"); !why.empty()) {
+    return "<p class=notes>No instructions to bend it: " + html_escaped(why) + ".</p>";
+  }
+  if (!value_of(rod, "cut_length_mm")) {
+    return "";
+  }
+  HtmlTable table({{"bend"},
+                   {"place from its first end", "mm"},
+                   {"roll", "\u00b0"},
+                   {"set", "\u00b0"},
+                   {"to remain", "\u00b0"}});
+  std::size_t number = 0;
+  for (const json& bend : rod.value("instructions", json::array())) {
+    table.row(std::to_string(++number));
+    table.cell(figure(bend, "arc_length_mm", 1));
+    table.cell(figure(bend, "roll_deg", 0));
+    table.cell(figure(bend, "set_deg", 1));
+    table.cell(figure(bend, "angle_deg", 1));
+  }
+  std::string html = "<p>Cut to <b>" + figure(rod, "cut_length_mm", 1) + " mm</b>, " +
+                     how_many(number, "bend") + ".</p>" + (table.empty() ? "" : table.html());
+  if (const auto seat_mm = value_of(rod, "seat_by_pointer_mm")) {
+    html += "<p class=notes>The middle of the rod is taken to lie " +
+            html_number(std::abs(*seat_mm), 1) + (*seat_mm < 0.0 ? " mm above" : " mm below") +
+            " the touched places, square to the rod at each head. Down is where the pointer "
+            "pointed, since no registered screw tells it.</p>";
+  }
+  return html;
 }
 
 }  // namespace
@@ -76,12 +111,15 @@ std::string rods_section(const json& report) {
     }
     put(", length error ", "length_error_mm", 2);
     put(", error of the heads ", "head_error_mm", 2);
+    if (value_of(rod, "time_s")) {
+      rods += ", in " + figure(rod, "time_s", 0) + " s";
+    }
     std::string measured;
     for (const json& bend : rod.value("measured", json::array())) {
       measured += (measured.empty() ? ", bends measured " : ", ") + figure(bend, "angle_deg", 1) +
                   " \u00b1 " + figure(bend, "angle_se_deg", 1) + "\u00b0";
     }
-    rods += measured + ".</p>";
+    rods += measured + ".</p>" + instructions_of(rod);
   }
   return "<section id=rods><h2>Rods</h2>" + (rods.empty() ? "<p>No rod was templated.</p>" : rods) +
          "</section>";

@@ -91,6 +91,12 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
     result.completed = result.completed && level.accepted;
     result.levels.push_back(std::move(level));
   }
+  // "done" skips a side without a rod; one that was done before a resume has lost its places.
+  result.completed =
+      result.completed &&
+      (!levels.empty() || std::any_of(rods.begin(), rods.end(), [](const RodState& rod) {
+        return rod.done && (rod.rod || rod.map_moved);
+      }));
   for (const RodState& rod : rods) {
     if (rod.heads.empty() && !rod_planned(levels, rod.side)) {
       continue;
@@ -98,9 +104,13 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
     RodOutcome outcome;
     outcome.side = rod.side;
     outcome.heads = rod.heads.size();
+    outcome.took_s = rod.took_s;
     if (rod.rod) {
       outcome.length_m = rod.rod->length_m;
     }
+    outcome.instructions = rod.instructions;
+    outcome.no_instructions = rod.no_instructions;
+    outcome.seat_by_pointer_m = rod.seat_by_pointer_m;
     for (const RodBendInHand& bend : rod.measured) {
       outcome.measured.push_back(bend.found);
     }
@@ -133,7 +143,9 @@ void EndNote::explain(OperationResult& result) const {
       unfinished = " of " + level.label;
     }
   }
-  result.why_not = "ended at " + std::string(name_of(step_)) + unfinished + refused_;
+  const bool no_rod = step_ == Step::kDone && result.levels.empty();
+  result.why_not = no_rod ? "no rod: no side has two heads"
+                          : "ended at " + std::string(name_of(step_)) + unfinished + refused_;
   if (!result.loop.ended) {
     result.why_not += "; " + result.loop.ended.error().message;
   }

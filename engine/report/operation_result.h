@@ -92,6 +92,10 @@ struct RodOutcome {
   std::optional<double> length_error_m;  ///< template relative to the spline through the true heads
   std::optional<double> head_error_m;    ///< mean distance of a touched head from the true one
   std::vector<nav::MeasuredBend> measured = {};  ///< the bends that were measured in hand
+  std::optional<double> took_s = {};  ///< from the first touch of a head until it was done
+  std::optional<nav::RodInstructions> instructions = {};
+  std::string no_instructions = {};              ///< why there are none
+  std::optional<double> seat_by_pointer_m = {};  ///< as `RodState` has it
 };
 
 /// The pairs of an operation that was recorded.
@@ -108,7 +112,8 @@ struct OperationResult {
   std::string case_name;
   bool patient_reference = false;     ///< World was relative to one instead of the headset's map
   std::optional<ErrorsInUse> errors;  ///< that all strokes share, as the operation counted with
-  bool completed = false;             ///< every level accepted, every screw done, the rods too
+  /// Every level accepted, every screw done, the rods too; of rods alone, at least one.
+  bool completed = false;
   /// If not completed, where it ended and the last refusal: "ended at digitize L4: registration
   /// RMSE 3.4 mm, limit 3.0 mm". Empty when it completed.
   std::string why_not;

@@ -31,6 +31,9 @@ void put_row(HtmlTable& table, const nlohmann::json& report, const PaperRow& row
 }  // namespace
 
 std::string paper_section(const nlohmann::json& report) {
+  if (is_of_rods_alone(report)) {
+    return "";  // the paper measured no rod
+  }
   // Only a simulated room has a seed.
   const bool simulated = report.contains("seed");
   HtmlTable table({{"mean \u00b1 SD"},

@@ -162,6 +162,15 @@ std::string notes_section(const std::vector<std::string>& notes) {
   return notes.empty() ? "" : html + "</ul></section>";
 }
 
+/// Of screws alone.
+std::string plots_section(const json& report, const ReportContent& content) {
+  return is_of_rods_alone(report)
+             ? ""
+             : "<section id=plots><h2>Errors and readings</h2><div class=plots "
+               "id=error-plots></div><div class=plots id=reading-plots></div>" +
+                   cut_off_text(content.plots) + "</section>";
+}
+
 /// The data of the plots, and the scripts that draw them.
 std::string scripts(const json& report, const ReportContent& content) {
   std::string html = "<script type=\"application/json\" id=plot-data>" +
@@ -190,10 +199,7 @@ Result<std::string> report_html(const ReportContent& content) {
   }
   html += content.spine.section("The spine with its screws", html_escaped(content.spine_note)) +
           *registrations + rods_section(report) + pictures_section(content) +
-          paper_section(report) +
-          "<section id=plots><h2>Errors and readings</h2><div class=plots id=error-plots></div>"
-          "<div class=plots id=reading-plots></div>" +
-          cut_off_text(content.plots) + "</section>" + tracked_section(report) +
+          paper_section(report) + plots_section(report, content) + tracked_section(report) +
           timing_section(report, content.timings) + notes_section(content.notes) + "</main>" +
           scripts(report, content) + "</body></html>\n";
   return html;

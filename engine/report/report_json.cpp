@@ -114,6 +114,23 @@ Json one_rod_json(const RodOutcome& rod) {
   put_mm(out, "length_mm", rod.length_m);
   put_mm(out, "length_error_mm", rod.length_error_m);
   put_mm(out, "head_error_mm", rod.head_error_m);
+  if (rod.took_s) {
+    out["time_s"] = *rod.took_s;
+  }
+  if (!rod.no_instructions.empty()) {
+    out["no_instructions"] = rod.no_instructions;
+  }
+  if (rod.instructions) {
+    out["cut_length_mm"] = rod.instructions->cut_length_m() * 1e3;
+    put_mm(out, "seat_by_pointer_mm", rod.seat_by_pointer_m);
+    out["instructions"] = Json::array();
+    for (const nav::RodInstruction& bend : rod.instructions->bends) {
+      out["instructions"].push_back(Json{{"arc_length_mm", bend.arc.centre_m * 1e3},
+                                         {"roll_deg", degrees(bend.arc.roll_rad)},
+                                         {"angle_deg", degrees(bend.arc.angle_rad)},
+                                         {"set_deg", degrees(bend.set_rad)}});
+    }
+  }
   for (const nav::MeasuredBend& bend : rod.measured) {
     out["measured"].push_back(Json{{"angle_deg", degrees(bend.arc.angle_rad)},
                                    {"angle_se_deg", degrees(bend.angle_se_rad)},
@@ -134,6 +151,7 @@ Json rods_json(const std::vector<RodOutcome>& rods) {
     if (out.empty() && rod.length_m) {
       out = sides.back();
       out.erase("measured");
+      out.erase("instructions");
     }
   }
   if (!sides.empty()) {

@@ -46,6 +46,13 @@ bool is_true(const nlohmann::json& object, std::string_view key) {
   return found != nullptr && found->is_boolean() && found->get<bool>();
 }
 
+bool is_of_rods_alone(const nlohmann::json& report) {
+  const nlohmann::json& session = object_in(report, "session");
+  const bool planned = !session.contains("plan_recorded") || is_true(session, "plan_recorded");
+  const nlohmann::json* const levels = find_in(report, "levels");
+  return planned && levels != nullptr && levels->is_array() && levels->empty();
+}
+
 void for_each_screw(const nlohmann::json& report,
                     const std::function<void(const nlohmann::json& level, const std::string& name,
                                              const nlohmann::json& screw)>& take) {

@@ -28,6 +28,9 @@ struct ReportQuantity {
 /// Whether it is there and true.
 [[nodiscard]] bool is_true(const nlohmann::json& object, std::string_view key);
 
+/// Of an operation of rods alone: its plan is known and has no level.
+[[nodiscard]] bool is_of_rods_alone(const nlohmann::json& report);
+
 /// Calls `take(level, name, screw)` for every screw of a report, where the name is "L4 left".
 void for_each_screw(const nlohmann::json& report,
                     const std::function<void(const nlohmann::json& level, const std::string& name,

@@ -77,6 +77,9 @@ std::string screws_section(const json& report) {
     put_screw(table, name, screw);
     truth = truth || has_truth(screw);
   });
+  if (is_of_rods_alone(report)) {
+    return "";
+  }
   if (table.empty()) {
     return "<section id=screws><h2>Screws</h2><p>None planned.</p></section>";
   }

@@ -7,6 +7,7 @@
 #include "embedded/report_css.h"
 #include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
+#include "engine/report/report_values.h"
 #include "engine/report/session_notes.h"
 #include "engine/report/session_report.h"
 #include "engine/report/session_rods.h"
@@ -250,13 +251,18 @@ std::string session_page(const SessionRecord& session, const std::string& source
       "</b></p></header><main>";
   const nlohmann::json figures = nlohmann::json::parse(session_json(session));
   put_ending(session, verdict_of(figures), html);
-  put_screws(session, html);
-  put_levels(session, html);
+  const bool rods_alone = is_of_rods_alone(figures);
+  if (!rods_alone) {
+    put_screws(session, html);
+    put_levels(session, html);
+  }
   html += session_rods(session);
-  put_registrations(session, html);
+  if (!rods_alone) {
+    put_registrations(session, html);
+  }
   html += tracked_section(figures);
   put_steps(session, html);
-  html += guide_notes(session);
+  html += rods_alone ? "" : guide_notes(session);
   return html +
          "<ul class=notes><li>From the journal alone: the date, digitized points, images, frame "
          "times and errors against the truth are not recorded in it.</li><li>Times are of the "

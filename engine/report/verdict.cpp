@@ -1,6 +1,7 @@
 #include "engine/report/verdict.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
@@ -62,6 +63,24 @@ std::string accuracy_text(const Counts& n) {
   return n.wires == 0 ? unknown
                       : unknown + ", " + std::to_string(n.wires_within) + " of " +
                             how_many(n.wires, "measured wire") + " within the limits";
+}
+
+/// "2 rods templated; their lengths within 0.4 mm, against the simulation's truth".
+std::string rods_text(const json& report) {
+  std::size_t rods = 0;
+  std::size_t known = 0;
+  double worst_mm = 0.0;
+  for (const json& rod : object_in(report, "rod").value("sides", json::array())) {
+    const auto error_mm = value_of(rod, "length_error_mm");
+    rods += value_of(rod, "length_mm") ? 1 : 0;
+    known += error_mm ? 1 : 0;
+    worst_mm = std::max(worst_mm, std::abs(error_mm.value_or(0.0)));
+  }
+  return how_many(rods, "rod") + " templated" +
+         (known == 0 ? ""
+                     : "; " + std::string(known == 1 ? "its length" : "their lengths") +
+                           " within " + html_number(worst_mm, 1) + " mm" + kAgainstTruth) +
+         ", without a registration.";
 }
 
 /// What is wrong with a screw according to the truth; empty if nothing is, or there is no truth.
@@ -162,6 +181,9 @@ Verdict verdict_of(const json& report) {
   const std::size_t all = planned ? n.screws : n.placed;
   out.counts = (planned ? std::to_string(n.placed) + " of " : std::string()) +
                how_many(all, "screw") + " placed" + accuracy_text(n) + ".";
+  if (is_of_rods_alone(report)) {
+    out.counts = rods_text(report);
+  }
   out.line += ": " + out.counts;
   return out;
 }

@@ -287,6 +287,33 @@ TEST(OperationPlan, TakesTheTwoLowestOfOneScanWhereAllModelsShareAFrame) {
   EXPECT_THAT(levels_to_operate(scan).value(), ::testing::ElementsAre("L5", "L4"));
 }
 
+TEST(OperationResult, OfRodsAloneIsCompleteOnlyWithARod) {
+  const auto outcome = [](int heads) {
+    test::ScriptedOperation s(std::vector<std::string>{});
+    EndNote end;
+    s.session().observe(&end);
+    s.says("start");
+    for (int i = 0; i < heads; ++i) {
+      s.touches({0.02, 0.03, 0.04 * i});
+    }
+    s.says("done");
+    s.says("done");
+    OperationResult result = outcome_of(s.session().levels(), s.session().rods(), {.done = true});
+    end.explain(result);
+    return result;
+  };
+  EXPECT_FALSE(outcome(1).completed);
+  EXPECT_EQ(outcome(1).why_not, "no rod: no side has two heads");
+  const OperationResult whole = outcome(2);
+  EXPECT_TRUE(whole.completed);
+  ASSERT_EQ(whole.rods.size(), 1u) << "a side without heads has no rod";
+  const auto side = nlohmann::json::parse(report_json(whole))["rod"]["sides"][0];
+  EXPECT_GT(side["time_s"].get<double>(), 0.0);
+  EXPECT_NEAR(side["cut_length_mm"].get<double>(), 50.0, 1e-3);
+  EXPECT_DOUBLE_EQ(side["seat_by_pointer_mm"].get<double>(), 6.0);
+  EXPECT_EQ(side["instructions"], nlohmann::json::array());
+}
+
 TEST(OperationPlan, RefusesLevelsThatAreNotThereOrNamedTwice) {
   const Case lumbar = phantom({"L4", "L5"});
   const auto unknown = plan_operation(lumbar, {"L9"});

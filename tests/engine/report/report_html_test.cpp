@@ -112,6 +112,28 @@ TEST(ReportHtml, BeginsWithWhatASurgeonAsksAndEndsWithTiming) {
   EXPECT_TRUE(std::is_sorted(places.begin(), places.end())) << ::testing::PrintToString(places);
 }
 
+TEST(ReportHtml, OfRodsAloneIsAboutRodsAndClaimsNoScrew) {
+  constexpr const char* kRods =
+      R"({"completed":true,"seed":1,"levels":[],"rod":{"sides":[{"side":"left","heads":3,
+       "length_mm":80.0,"length_error_mm":-0.34,"head_error_mm":0.9,"time_s":21.4,
+       "cut_length_mm":92.3,"seat_by_pointer_mm":-3.0,
+       "instructions":[{"arc_length_mm":45.2,"roll_deg":0,"angle_deg":12.1,"set_deg":15.3}]},
+       {"side":"right","heads":2,"length_mm":40.0,"length_error_mm":0.1,
+       "no_instructions":"direction to the bone is 20° off the rod"}]}})";
+  const std::string html = report_html({.report_json = kRods}).value();
+  EXPECT_THAT(html, HasSubstr("Operation completed: 2 rods templated; their lengths within 0.3 mm, "
+                              "against the simulation\u2019s truth, without a registration."));
+  EXPECT_THAT(html, HasSubstr("in 21 s"));
+  EXPECT_THAT(html, HasSubstr("Cut to <b>92.3 mm</b>, 1 bend."));
+  EXPECT_THAT(html, HasSubstr(">15.3</td>"));
+  EXPECT_THAT(html, HasSubstr("taken to lie 3.0 mm above the touched places"));
+  EXPECT_THAT(html, HasSubstr("No instructions to bend it: direction to the bone is 20°"));
+  for (const char* section : {"id=screws", "id=levels", "id=paper", "id=plots"}) {
+    EXPECT_THAT(html, Not(HasSubstr(section)));
+    EXPECT_THAT(report_html(whole_content()).value(), HasSubstr(section)) << "control";
+  }
+}
+
 TEST(ReportHtml, HasTheDateThatItIsToldAndReadsNoClock) {
   ReportContent content = whole_content();
   const std::string html = report_html(content).value();
