@@ -140,7 +140,7 @@ class Demo {
     engine::JournalHeader header{
         ORTHONAV_VERSION, "sim:", set_up_.method, source.name, arguments_.seed, 0, {}};
     header.patient_reference = set_up_.reference;
-    header.errors = engine::errors_in_use(engine::errors_in(options.sim.error_model),
+    header.errors = engine::errors_in_use(engine::errors_in(options.sim),
                                           {.patient_reference = set_up_.reference});
     for (const std::string& label : levels) {
       header.levels.push_back(engine::planned(label, source.find(label)->screws));

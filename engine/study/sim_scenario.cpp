@@ -91,32 +91,38 @@ Status check_standing_screws(const Operation& operation, const sim::RoomDescript
   return {};
 }
 
-KnownErrors errors_in(const sim::ErrorModel& room, bool sizes_estimated) {
+KnownErrors errors_in(const sim::SimOptions& room, bool sizes_estimated) {
+  const sim::ErrorModel& drawn = room.error_model;
   double cameras_m2 = 0.0;
   for (const Shift& shift : kOfCamerasAndTags) {
-    const double sd_m = shift.m_per_unit * room.*shift.magnitude;
+    const double sd_m = shift.m_per_unit * drawn.*shift.magnitude;
     cameras_m2 += sd_m * sd_m;
   }
   if (!sizes_estimated) {
-    cameras_m2 += kOfSizeAsStated_m * kOfSizeAsStated_m * room.tag_scale * room.tag_scale;
+    cameras_m2 += kOfSizeAsStated_m * kOfSizeAsStated_m * drawn.tag_scale * drawn.tag_scale;
   }
   constexpr double kSecondsAMinute = 60.0;
   const double drift =
-      std::hypot(room.map_drift_m_per_sqrt_s,
-                 room.map_step_m * std::sqrt(room.map_steps_per_min / kSecondsAMinute));
+      std::hypot(drawn.map_drift_m_per_sqrt_s,
+                 drawn.map_step_m * std::sqrt(drawn.map_steps_per_min / kSecondsAMinute));
+  const auto told = [&](double sd) {
+    return ErrorSd{room.told_sd_factor * sd, ErrorSource::kRoom};
+  };
   KnownErrors known;
-  known.tip_m = ErrorSd{kOfTip * room.tip_calibration_m, ErrorSource::kRoom};
-  known.cameras_m = ErrorSd{std::sqrt(cameras_m2), ErrorSource::kRoom};
-  known.map_drift_m_per_sqrt_s = ErrorSd{drift, ErrorSource::kRoom};
+  known.tip_m = told(kOfTip * drawn.tip_calibration_m);
+  known.cameras_m = told(std::sqrt(cameras_m2));
+  known.map_drift_m_per_sqrt_s = told(drift);
   return known;
 }
 
-void tell_instruments(const sim::ErrorModel& room, SessionOptions& session) {
-  session.placed.tip_sd_m = room.tip_calibration_m;
-  session.placed.axis_sd_rad = room.axis_calibration_rad;
-  session.placed.play_rad = room.sleeve_play_rad;
-  session.astray = {std::hypot(room.wire_bending_rad, room.hand_drilling_corrected_rad),
-                    room.wire_skiving_m};
+void tell_instruments(const sim::SimOptions& room, SessionOptions& session) {
+  const sim::ErrorModel& drawn = room.error_model;
+  const double told = room.told_sd_factor;
+  session.placed.tip_sd_m = told * drawn.tip_calibration_m;
+  session.placed.axis_sd_rad = told * drawn.axis_calibration_rad;
+  session.placed.play_rad = told * drawn.sleeve_play_rad;
+  session.astray = {told * std::hypot(drawn.wire_bending_rad, drawn.hand_drilling_corrected_rad),
+                    told * drawn.wire_skiving_m};
 }
 
 }  // namespace orthonav::engine

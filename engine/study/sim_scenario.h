@@ -7,8 +7,8 @@
 #include "engine/case/operation.h"
 #include "engine/session/known_errors.h"
 #include "engine/session/session_options.h"
-#include "hal/sim/error_model.h"
 #include "hal/sim/room.h"
+#include "hal/sim/sim_headset.h"
 #include "nav/tracking/tool.h"
 
 namespace orthonav::engine {
@@ -28,9 +28,11 @@ namespace orthonav::engine {
                                            const sim::RoomDescription& room);
 
 /// What all strokes in this room have in common: the SDs that follow from those from which it
-/// draws, not the drawn values. `sizes_estimated`: sizes of tags are estimated in use.
-[[nodiscard]] KnownErrors errors_in(const sim::ErrorModel& room, bool sizes_estimated = true);
-/// Tells an operation in this room how well the guide is known, and how far drills go astray.
-void tell_instruments(const sim::ErrorModel& room, SessionOptions& session);
+/// draws, not the drawn values, times `told_sd_factor`. `sizes_estimated`: sizes of tags are
+/// estimated in use.
+[[nodiscard]] KnownErrors errors_in(const sim::SimOptions& room, bool sizes_estimated = true);
+/// Tells an operation in this room how well the guide is known, and how far drills go astray, both
+/// times `told_sd_factor`.
+void tell_instruments(const sim::SimOptions& room, SessionOptions& session);
 
 }  // namespace orthonav::engine

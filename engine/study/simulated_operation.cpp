@@ -81,8 +81,8 @@ Result<std::unique_ptr<AssembledOperation>> assembled_in(
     return headset.error();
   }
   AssemblyOptions assembly = options;
-  assembly.errors = errors_in(options.sim.error_model, options.correct_tag_sizes);
-  tell_instruments(options.sim.error_model, assembly.session);
+  assembly.errors = errors_in(options.sim, options.correct_tag_sizes);
+  tell_instruments(options.sim, assembly.session);
   assembly.visibility.cross_and_depth = options.sim.guidance != sim::GuidanceProfile::kPublished;
   auto live = assemble_operation(**headset, std::move(operation), method, tools, assembly);
   const Status taken = live && hooks.assembled ? hooks.assembled(**live) : Status();

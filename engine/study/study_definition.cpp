@@ -89,6 +89,9 @@ std::string definition_of(std::span<const Case> cases, const StudyOptions& optio
            {"runs", static_cast<std::size_t>(options.runs)},
            {"first_seed", options.first_seed},
            {"magnitudes", magnitudes}};
+  if (operation.sim.told_sd_factor != 1.0) {
+    out["told_sd_factor"] = operation.sim.told_sd_factor;
+  }
   if (operation.exposure) {
     out["exposure"] = static_cast<int>(*operation.exposure);
   }

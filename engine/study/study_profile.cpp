@@ -110,7 +110,7 @@ void read_ways(const JsonNode& profile, StudyProfile& out) {
 }  // namespace
 
 bool StudyProfile::can_be_previewed() const {
-  return !navigation && !reference && without.empty() && !exposure;
+  return !navigation && !reference && without.empty() && !exposure && told_sd_factor == 1.0;
 }
 
 void StudyProfile::apply(OperationOptions& options) const {
@@ -119,6 +119,7 @@ void StudyProfile::apply(OperationOptions& options) const {
   options.exposure = exposure;
   options.sim.guidance = guidance;
   options.sim.error_model = magnitudes;
+  options.sim.told_sd_factor = told_sd_factor;
   options.use_reference = reference;
   for (const std::string& step : without) {
     static_cast<void>(leave_out(step, options));  // known since it was read
@@ -135,8 +136,14 @@ Result<StudyProfile> parse_profile(std::string_view text, const std::string& nam
   out.name = root.text("name");
   read_ways(root, out);
   read_magnitudes(root, out.magnitudes);
-  for (const std::string& problem : out.magnitudes.check()) {
-    root.refuse(problem);
+  if (root.has("told_sd_factor")) {
+    out.told_sd_factor = root.number("told_sd_factor");
+  }
+  sim::SimOptions room;
+  room.error_model = out.magnitudes;
+  room.told_sd_factor = out.told_sd_factor;
+  if (const Status possible = room.check(); !possible) {
+    root.refuse(possible.error().message);
   }
   if (const Status status = document->status(); !status) {
     return status.error();

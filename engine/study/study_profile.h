@@ -20,6 +20,7 @@ struct StudyProfile {
   std::vector<std::string> without;       ///< steps of the method (left_out.h)
   std::optional<sim::Exposure> exposure;  ///< absent: as the method is used
   sim::ErrorModel magnitudes;
+  double told_sd_factor = 1.0;  ///< as `SimOptions` has it
 
   /// Its settings, for operations.
   void apply(OperationOptions& options) const;

@@ -12,10 +12,11 @@ constexpr double kFastest_hz = 2.0;
 
 }  // namespace
 
-HeadTrack::HeadTrack(const Random& random, const ErrorModel& error_model)
+HeadTrack::HeadTrack(const Random& random, const ErrorModel& error_model, double told_sd_factor)
     : random_(random),
       noise_m_(error_model.head_pose_noise_m),
       noise_rad_(error_model.head_pose_noise_rad),
+      told_variance_factor_(told_sd_factor * told_sd_factor),
       fresh_(std::sqrt(1.0 - error_model.head_pose_lasting)),
       lasting_m_(random.fork("lasting position"),
                  noise_m_ * std::sqrt(error_model.head_pose_lasting), kSlowest_hz, kFastest_hz),
@@ -61,8 +62,8 @@ Tracked<Transform<World, Rig>> HeadTrack::at(Timestamp time, Timestamp known) co
     return answer;
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    answer.covariance[i * 7] = noise_m_ * noise_m_;
-    answer.covariance[(i + 3) * 7] = noise_rad_ * noise_rad_;
+    answer.covariance[i * 7] = told_variance_factor_ * noise_m_ * noise_m_;
+    answer.covariance[(i + 3) * 7] = told_variance_factor_ * noise_rad_ * noise_rad_;
   }
   const Node& newest = back(steps);
   if (time >= newest.time) {

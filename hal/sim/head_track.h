@@ -15,7 +15,8 @@ namespace orthonav::sim {
 /// well). Remembers 256 frames. Not thread-safe.
 class HeadTrack {
  public:
-  HeadTrack(const Random& random, const ErrorModel& error_model);
+  /// The covariance that it states is of SDs `told_sd_factor` times those of its noise.
+  HeadTrack(const Random& random, const ErrorModel& error_model, double told_sd_factor);
   /// The true poses at a frame and a moment before it.
   void add(std::int64_t frame, Timestamp time, const Transform<World, Rig>& pose, Timestamp before,
            const Transform<World, Rig>& pose_before);
@@ -46,6 +47,7 @@ class HeadTrack {
   Random random_;
   double noise_m_;
   double noise_rad_;
+  double told_variance_factor_;
   double fresh_ = 1.0;  ///< the part of the noise's SD that is new in every frame
   SmoothNoise3 lasting_m_;
   SmoothNoise3 lasting_rad_;

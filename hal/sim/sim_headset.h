@@ -35,6 +35,9 @@ struct PatientShift {
 struct SimOptions {
   std::uint64_t seed = 1;
   ErrorModel error_model;
+  /// The SDs that a session in the room is told of its errors, relative to those from which the
+  /// room draws them.
+  double told_sd_factor = 1.0;
   Pace pace = Pace::kFast;
   double frame_rate_hz = 30.0;
   GuidanceProfile guidance = GuidanceProfile::kNumbers;

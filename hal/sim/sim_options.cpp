@@ -13,6 +13,7 @@ namespace {
 constexpr double kLongest_s = 86400.0;
 constexpr double kFastestRate_hz = 240.0;
 constexpr double kFarthest_m = 0.05;
+constexpr double kFarthestToldSd = 10.0;
 
 }  // namespace
 
@@ -20,6 +21,9 @@ Status SimOptions::check() const {
   const auto problems = error_model.check();
   if (!problems.empty()) {
     return Error{joined(problems)};
+  }
+  if (!(told_sd_factor >= 1.0 / kFarthestToldSd && told_sd_factor <= kFarthestToldSd)) {
+    return Error{"told_sd_factor is " + printed("%g", told_sd_factor) + ", must lie in [0.1, 10]"};
   }
   if (!(frame_rate_hz >= 1.0 && frame_rate_hz <= kFastestRate_hz)) {
     return Error{"simulated frame rate is " + printed("%f", frame_rate_hz) +

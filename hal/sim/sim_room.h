@@ -47,7 +47,8 @@ struct SimRoom {
   SimRoom(RoomDescription room, const SimOptions& options, Vec3 eyes_in_rig)
       : clock(options.pace),
         simulation(std::move(room), options, eyes_in_rig, kSimStart),
-        head(Random(options.seed).fork("head tracker"), options.error_model) {}
+        head(Random(options.seed).fork("head tracker"), options.error_model,
+             options.told_sd_factor) {}
   /// The description of the room, which never changes.
   [[nodiscard]] const RoomDescription& described() const ORTHONAV_NO_THREAD_SAFETY_ANALYSIS {
     return simulation.room();

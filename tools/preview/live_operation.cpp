@@ -109,8 +109,8 @@ Status LiveOperation::prepare(const OperationSource& source) {
     options.reference_places = source.reference_places();
   }
   if (room_) {
-    options.errors = engine::errors_in(room_->options().error_model);
-    engine::tell_instruments(room_->options().error_model, options.session);
+    options.errors = engine::errors_in(room_->options());
+    engine::tell_instruments(room_->options(), options.session);
     options.visibility.cross_and_depth =
         room_->options().guidance != sim::GuidanceProfile::kPublished;
   }

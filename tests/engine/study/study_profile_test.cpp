@@ -5,6 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/phantom/phantom.h"
+#include "engine/study/sim_scenario.h"
+#include "engine/study/study_definition.h"
 #include "engine/study/study_statistics.h"
 
 namespace orthonav::engine {
@@ -53,6 +56,37 @@ TEST(StudyProfile, ExposesTheLaminaeUnlessItSaysMore) {
   EXPECT_EQ(options.exposure, sim::Exposure::kTransverseProcesses);
 }
 
+/// Everything that a session is told is off by the factor; the room itself, and so its errors,
+/// stay.
+TEST(StudyProfile, TellsTheSessionSdsThatAreOffByAFactor) {
+  const Case spine = phantom({"L5"});
+  StudyOptions right;
+  StudyOptions wrong;
+  parsed(profile_json())->apply(right.operation);
+  json profile = profile_json();
+  profile["told_sd_factor"] = 2.0;
+  const auto read = parsed(profile);
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  read->apply(wrong.operation);
+  const KnownErrors known = errors_in(right.operation.sim);
+  const KnownErrors told = errors_in(wrong.operation.sim);
+  EXPECT_GT(known.tip_m->sd, 0.0);
+  EXPECT_DOUBLE_EQ(told.tip_m->sd, 2.0 * known.tip_m->sd);
+  EXPECT_DOUBLE_EQ(told.cameras_m->sd, 2.0 * known.cameras_m->sd);
+  EXPECT_DOUBLE_EQ(told.map_drift_m_per_sqrt_s->sd, 2.0 * known.map_drift_m_per_sqrt_s->sd);
+  SessionOptions of_right;
+  SessionOptions of_wrong;
+  tell_instruments(right.operation.sim, of_right);
+  tell_instruments(wrong.operation.sim, of_wrong);
+  EXPECT_DOUBLE_EQ(of_wrong.placed.tip_sd_m, 2.0 * of_right.placed.tip_sd_m);
+  EXPECT_DOUBLE_EQ(of_wrong.placed.axis_sd_rad, 2.0 * of_right.placed.axis_sd_rad);
+  EXPECT_DOUBLE_EQ(of_wrong.astray.direction_rad, 2.0 * of_right.astray.direction_rad);
+  EXPECT_EQ(wrong.operation.sim.error_model.tip_calibration_m,
+            right.operation.sim.error_model.tip_calibration_m);
+  EXPECT_NE(definition_of({&spine, 1}, wrong), definition_of({&spine, 1}, right))
+      << "another study, whose results must not be joined with these";
+}
+
 // Otherwise the preview would show a different operation from the study's.
 TEST(StudyProfile, IsPreviewedWhereThePreviewShowsAllOfIt) {
   const auto shown = [](const char* key, const json& value) {
@@ -65,6 +99,7 @@ TEST(StudyProfile, IsPreviewedWhereThePreviewShowsAllOfIt) {
   EXPECT_TRUE(shown("instrument", "cannula"));
   EXPECT_FALSE(shown("navigation", {{"target_mm", 2.0}, {"angle_deg", 1.0}}));
   EXPECT_FALSE(shown("reference", true));
+  EXPECT_FALSE(shown("told_sd_factor", 2.0));
   EXPECT_FALSE(shown("without", {"tips"}));
   EXPECT_FALSE(shown("exposure", "transverse processes"));
 }
@@ -92,6 +127,8 @@ TEST(StudyProfile, RefusesWhatItDoesNotKnow) {
               HasSubstr("'all of it' is unknown (known: laminae, transverse processes)"));
   EXPECT_THAT(refused("instrument", "spoon"), HasSubstr("'spoon': unknown"));
   EXPECT_THAT(refused("method", "third"), HasSubstr("third"));
+  EXPECT_EQ(refused("told_sd_factor", 20),
+            "mine.json: told_sd_factor is 20, must lie in [0.1, 10]");
   EXPECT_THAT(refused("magnitudes", {{"tissue_m", 5.0}}), HasSubstr("tissue_m is 5, must lie in"));
   EXPECT_EQ(refused("magnitudes", {{"tissue_m", 0.001}, {"tisue_m", 0.001}}),
             "mine.json: magnitudes.tisue_m is unknown: no magnitude of the simulated room has that "

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <limits>
+#include <optional>
 
 #include "hal/sim/hololens2.h"
 #include "hal/sim/sim_headset.h"
@@ -11,21 +12,28 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(HeadStatement, OfTheSimulatedHeadsetIsItsNoise) {
-  SimOptions options;
-  options.render = false;
-  auto headset = SimHeadset::open({}, options);
-  ASSERT_TRUE(headset.ok()) << headset.error().message;
-  StereoFrame frame;
-  ASSERT_TRUE((*headset)->cameras().next(frame).ok());
-  ASSERT_TRUE(frame.head_covariance.has_value());
-  const ErrorModel& model = options.error_model;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const double sd = i < 3 ? model.head_pose_noise_m : model.head_pose_noise_rad;
-    EXPECT_DOUBLE_EQ((*frame.head_covariance)[7 * i], sd * sd);
+TEST(HeadStatement, OfTheSimulatedHeadsetIsItsNoiseTimesTheFactorToldOf) {
+  std::optional<Transform<World, Rig>> reported;
+  for (const double factor : {1.0, 2.0}) {
+    SimOptions options;
+    options.render = false;
+    options.told_sd_factor = factor;
+    auto headset = SimHeadset::open({}, options);
+    ASSERT_TRUE(headset.ok()) << headset.error().message;
+    StereoFrame frame;
+    ASSERT_TRUE((*headset)->cameras().next(frame).ok());
+    ASSERT_TRUE(frame.head_covariance.has_value());
+    const ErrorModel& model = options.error_model;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const double sd = factor * (i < 3 ? model.head_pose_noise_m : model.head_pose_noise_rad);
+      EXPECT_DOUBLE_EQ((*frame.head_covariance)[7 * i], sd * sd);
+    }
+    EXPECT_EQ(reported.value_or(*frame.world_from_rig), *frame.world_from_rig)
+        << "what is told changes nothing that is drawn";
+    reported = frame.world_from_rig;
+    frame.clear();
+    EXPECT_FALSE(frame.head_covariance.has_value());
   }
-  frame.clear();
-  EXPECT_FALSE(frame.head_covariance.has_value());
 }
 
 /// A camera pair with one statement about its head.

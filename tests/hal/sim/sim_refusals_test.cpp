@@ -32,6 +32,13 @@ TEST(SimHeadset, RefusesWhatMakesNoSenseInOneLine) {
   options.frame_rate_hz = 200.0;
   options.error_model.exposure_s = 0.02;
   EXPECT_THAT(refusal(room, options), HasSubstr("longer than a frame"));
+  options = hovering();
+  for (const double factor : {0.0, 10.1, std::numeric_limits<double>::quiet_NaN()}) {
+    options.told_sd_factor = factor;
+    EXPECT_THAT(refusal(room, options), HasSubstr("must lie in [0.1, 10]")) << factor;
+  }
+  options.told_sd_factor = 10.0;
+  EXPECT_EQ(refusal(room, options), "accepted");
 }
 
 TEST(SimHeadset, RefusesBrokenRooms) {
