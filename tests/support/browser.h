@@ -26,7 +26,7 @@ inline std::string said_by(const std::string& command) {
 
 /// For tests that skip without a browser, which the build does not require.
 inline bool has_browser() { return !said_by("command -v chromium").empty(); }
-inline constexpr const char* kNoBrowser = "chromium is not installed: the page was not opened";
+inline constexpr const char* kNoBrowser = "needs chromium";
 
 /// Whether pages may draw with WebGL, on the processor: that takes the browser longer to start.
 enum class BrowserDraws { kPlain, kWebGl };

@@ -22,7 +22,7 @@ class CalibrateStereo : public ::testing::Test {
   void SetUp() override {
     boards_ = shared("recordings/opencv-stereo-chessboard");
     if (boards_.empty()) {
-      GTEST_SKIP() << "the photographs of a chessboard are not here";
+      GTEST_SKIP() << "needs shared/recordings/opencv-stereo-chessboard";
     }
   }
   Called stereo(const std::string& left, const std::string& right,

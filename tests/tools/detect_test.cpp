@@ -112,7 +112,7 @@ std::vector<Corners> truth_of(const std::string& file) {
 TEST(DetectCommand, FindsEveryTagOfThePhotographs) {
   const std::string folder = shared("recordings/apriltag-testdata");
   if (folder.empty()) {
-    GTEST_SKIP() << "AprilTag's photographs are not here";
+    GTEST_SKIP() << "needs shared/recordings/apriltag-testdata";
   }
   // The truth has one more tag than the list, and it is found.
   expect_as_listed(folder, 1);
@@ -121,7 +121,7 @@ TEST(DetectCommand, FindsEveryTagOfThePhotographs) {
 TEST(DetectCommand, FindsEveryTagOfTheMeasuredSeries) {
   const std::string folder = shared("recordings/dt-apriltags");
   if (folder.empty()) {
-    GTEST_SKIP() << "the dt-apriltags images are not here";
+    GTEST_SKIP() << "needs shared/recordings/dt-apriltags";
   }
   expect_as_listed(folder, 0);
 }
@@ -155,7 +155,7 @@ PhotographErrors photograph_errors(const std::string& folder, const std::string&
 TEST(DetectCommand, PutsCornersWhereThePhotographsTruthHasThem) {
   const std::string folder = shared("recordings/apriltag-testdata");
   if (folder.empty()) {
-    GTEST_SKIP() << "AprilTag's photographs are not here";
+    GTEST_SKIP() << "needs shared/recordings/apriltag-testdata";
   }
   const PhotographErrors errors = photograph_errors(folder, "edges");
   EXPECT_EQ(errors.unmatched_tags, 0u);
@@ -167,7 +167,7 @@ TEST(DetectCommand, PutsCornersWhereThePhotographsTruthHasThem) {
 TEST(DetectCommand, GivesTheLibrarysOwnCornersWhenAsked) {
   const std::string folder = shared("recordings/apriltag-testdata");
   if (folder.empty()) {
-    GTEST_SKIP() << "AprilTag's photographs are not here";
+    GTEST_SKIP() << "needs shared/recordings/apriltag-testdata";
   }
   const PhotographErrors as_truth = photograph_errors(folder, "none");
   EXPECT_LT(as_truth.mean_px, kSamePx);
@@ -213,7 +213,7 @@ TEST(DetectCommand, RefusesBadInputInOneLine) {
 TEST(DetectCommand, LooksForTheFamilyItIsGiven) {
   const std::string folder = shared("recordings/dt-apriltags");
   if (folder.empty()) {
-    GTEST_SKIP() << "the dt-apriltags images are not here";
+    GTEST_SKIP() << "needs shared/recordings/dt-apriltags";
   }
   const std::string image = folder + "/test_image_multiple_02.png";
   EXPECT_THAT(ids_of(detected({image, "--family", "tag25h9"})["images"][0]), IsEmpty());

@@ -61,7 +61,7 @@ TEST(PrintCommand, PrintsTagsAtTheirSizes) {
   EXPECT_THAT(folder.names(), ElementsAre("tags.pdf"));
   const std::string image = rendered(pdf, folder.file("page"));
   if (image.empty()) {
-    GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
+    GTEST_SKIP() << "needs pdftoppm (poppler-utils)";
   }
   const auto seen = seen_in(image);
   ASSERT_EQ(seen.size(), 6u);
@@ -94,7 +94,7 @@ TEST(PrintCommand, PrintsTheTagsOfATool) {
   EXPECT_THAT(called.out, HasSubstr("2 tags on 1 page"));
   const std::string image = rendered(pdf, folder.file("page"));
   if (image.empty()) {
-    GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
+    GTEST_SKIP() << "needs pdftoppm (poppler-utils)";
   }
   const auto seen = seen_in(image);
   ASSERT_EQ(seen.size(), 2u);
@@ -118,7 +118,7 @@ TEST(PrintCommand, PrintsABoardAndItsDescription) {
   EXPECT_EQ(board["border_cells"], 1);
   const std::string image = rendered(pdf, folder.file("page"));
   if (image.empty()) {
-    GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
+    GTEST_SKIP() << "needs pdftoppm (poppler-utils)";
   }
   const auto seen = seen_in(image);
   ASSERT_EQ(seen.size(), 12u);

@@ -37,7 +37,7 @@ class RegisterCase : public ::testing::TestWithParam<const char*> {
     } else {
       folder_of_case_ = shared("anatomy/" + std::string(GetParam()));
       if (folder_of_case_.empty()) {
-        GTEST_SKIP() << "shared anatomy is absent";
+        GTEST_SKIP() << "needs shared/anatomy";
       }
       case_ = engine::load_case(folder_of_case_).value();
     }

@@ -78,7 +78,7 @@ class TrackCommand : public ::testing::Test {
   void SetUp() override {
     sample_ = shared(kSample);
     if (sample_.empty()) {
-      GTEST_SKIP() << "the recorded sample is not here";
+      GTEST_SKIP() << "needs shared/recordings/streamrecorder-sample";
     }
   }
   /// The sample was rendered at its stamps.

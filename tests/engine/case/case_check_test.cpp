@@ -62,7 +62,7 @@ TEST(Case, NamesEveryProblemAtOnce) {
 TEST(Case, ReadsTheRealSpines) {
   const std::filesystem::path anatomy = std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy";
   if (!std::filesystem::exists(anatomy)) {
-    GTEST_SKIP() << "no " << anatomy;
+    GTEST_SKIP() << "needs shared/anatomy";
   }
   for (const auto& [name, levels] :
        {std::pair{"visible-human", 5u}, {"morph-a", 4u}, {"morph-b", 4u}, {"shape-mean", 4u}}) {

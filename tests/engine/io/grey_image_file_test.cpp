@@ -62,7 +62,7 @@ class Photograph : public ::testing::TestWithParam<const char*> {
   void SetUp() override {
     content_ = content_of(std::string(ORTHONAV_SHARED_DIR) + "/recordings/" + GetParam());
     if (content_.empty()) {
-      GTEST_SKIP() << GetParam() << " is not here";
+      GTEST_SKIP() << "needs shared/recordings/" << GetParam();
     }
   }
   std::string content_;

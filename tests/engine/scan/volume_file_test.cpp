@@ -116,7 +116,7 @@ class SharedScan : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(folder_)) {
-      GTEST_SKIP() << "no " << folder_;
+      GTEST_SKIP() << "needs shared/ct/totalsegmentator";
     }
   }
   std::filesystem::path folder_ = orthonav::test::test_data("ct/totalsegmentator");

@@ -241,7 +241,7 @@ TEST(CameraModel, TakesTheFactoryTableOfARealDevice) {
   for (const std::string side : {"leftfront", "rightfront"}) {
     const std::string path = kShared + "/recordings/hololens2-calibration/rm_vlc_" + side;
     if (!std::filesystem::exists(path)) {
-      GTEST_SKIP() << path << " is not here";
+      GTEST_SKIP() << "needs shared/recordings/hololens2-calibration";
     }
     const std::vector<float> uv2xy = floats_of(path + "/uv2xy.bin");
     ASSERT_EQ(uv2xy.size(), 640u * 480u * 2u);
@@ -260,7 +260,7 @@ TEST(CameraModel, TakesTheTablesOfARecording) {
   for (const std::string side : {"LF", "RF"}) {
     const std::string path = kShared + "/recordings/streamrecorder-sample/VLC " + side + "_lut.bin";
     if (!std::filesystem::exists(path)) {
-      GTEST_SKIP() << path << " is not here";
+      GTEST_SKIP() << "needs shared/recordings/streamrecorder-sample";
     }
     const std::vector<float> rays = floats_of(path);
     ASSERT_EQ(rays.size(), 640u * 480u * 3u);

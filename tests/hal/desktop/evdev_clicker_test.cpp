@@ -313,7 +313,7 @@ TEST(EvdevKeys, RefusesWhatIsNoEventDevice) {
 /// A device that appears after the clicker was opened, and disappears again.
 TEST(EvdevClicker, TakesUpADeviceThatIsPluggedIn) {
   if (::access("/dev/uinput", W_OK) != 0) {
-    GTEST_SKIP() << "no /dev/uinput that may be written";
+    GTEST_SKIP() << "needs /dev/uinput, writable";
   }
   const fake::ManualClock clock;
   ClickerOptions options;

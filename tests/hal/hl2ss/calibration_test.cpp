@@ -57,7 +57,7 @@ TEST(Calibration, OfARealDeviceIsTaken) {
   const std::string folder =
       std::string(ORTHONAV_SHARED_DIR) + "/recordings/hololens2-calibration/rm_vlc_leftfront";
   if (!std::filesystem::exists(folder)) {
-    GTEST_SKIP() << folder << " is not here";
+    GTEST_SKIP() << "needs shared/recordings/hololens2-calibration";
   }
   const auto bytes_of = [&](const char* name) {
     std::ifstream in(folder + "/" + name, std::ios::binary);

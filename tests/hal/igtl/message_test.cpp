@@ -59,7 +59,7 @@ class SharedBytes : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(folder_)) {
-      GTEST_SKIP() << "no " << folder_;
+      GTEST_SKIP() << "needs shared/openigtlink";
     }
   }
   Bytes bytes(const std::string& name) const {

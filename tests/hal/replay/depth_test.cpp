@@ -272,12 +272,12 @@ TEST(Depth, OfTheRecordedSampleCanBeRead) {
   const std::filesystem::path sample =
       std::filesystem::path(ORTHONAV_SHARED_DIR) / "recordings/streamrecorder-sample";
   if (!std::filesystem::exists(sample)) {
-    GTEST_SKIP() << "the recorded sample is not here";
+    GTEST_SKIP() << "needs shared/recordings/streamrecorder-sample";
   }
   RecordedDepths depths = read_depths(sample);
   ASSERT_THAT(depths.unreadable, IsEmpty());
   if (depths.streams.empty()) {
-    GTEST_SKIP() << "the recorded sample has no depth";
+    GTEST_SKIP() << "needs depth in shared/recordings/streamrecorder-sample";
   }
   DepthFrame frame;
   for (RecordedDepth& depth : depths.streams) {

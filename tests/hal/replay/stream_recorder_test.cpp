@@ -311,7 +311,7 @@ TEST(Sample, GivesEveryPairAndPoseOfTheRecordingBesideTheProject) {
   const std::filesystem::path path =
       std::filesystem::path(ORTHONAV_SHARED_DIR) / "recordings" / "streamrecorder-sample";
   if (!std::filesystem::exists(path)) {
-    GTEST_SKIP() << "no sample recording at " << path;
+    GTEST_SKIP() << "needs shared/recordings/streamrecorder-sample";
   }
   const auto headset = opened(path);
   ASSERT_TRUE(headset);

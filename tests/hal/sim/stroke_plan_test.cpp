@@ -91,7 +91,7 @@ TEST(StrokePlan, DoesNotDependOnTheModelsOrigin) {
 TEST(StrokePlan, DoesNotDependOnARealModelsOrigin) {
   const auto test_case = visible_human_case({"L4"});
   if (!test_case) {
-    GTEST_SKIP() << "no anatomy beside the sources";
+    GTEST_SKIP() << "needs tests/data/anatomy";
   }
   for (const RoomLevel& level : test_case->room.levels) {
     if (level.label == "L4") {

@@ -63,7 +63,7 @@ TEST(Surgeon, KeepsThePaperPaceOnEveryRealVertebra) {
   for (const char* label : {"L1", "L2", "L3", "L4", "L5"}) {
     const auto test_case = visible_human_case({label});
     if (!test_case) {
-      GTEST_SKIP() << "no anatomy beside the sources";
+      GTEST_SKIP() << "needs tests/data/anatomy";
     }
     ErrorModel model = ErrorModel::perfect();
     const Digitized d = digitized(*test_case, 1, model);
@@ -119,7 +119,7 @@ Surgeons many(const TestCase& test_case, int seeds, const ErrorModel& error_mode
 TEST(Surgeon, KeepsThePaperPaceOnARealVertebra) {
   const auto test_case = visible_human_case({"L4"});
   if (!test_case) {
-    GTEST_SKIP() << "no anatomy beside the sources";
+    GTEST_SKIP() << "needs tests/data/anatomy";
   }
   constexpr int kSeeds = 40;
   const Surgeons all = many(*test_case, kSeeds, {});

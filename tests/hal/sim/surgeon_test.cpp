@@ -219,7 +219,7 @@ TEST(Surgeon, DoesTheSameAgainWithTheSameSeed) {
 TEST(Surgeon, StrokesLieOnTheBoneAndSpreadOverItsBack) {
   const auto test_case = visible_human_case({"L3", "L4"});
   if (!test_case) {
-    GTEST_SKIP() << "no anatomy beside the sources";
+    GTEST_SKIP() << "needs tests/data/anatomy";
   }
   auto headset = SimHeadset::open(test_case->room, without_pixels(1, ErrorModel::perfect()));
   ASSERT_TRUE(headset.ok()) << headset.error().message;

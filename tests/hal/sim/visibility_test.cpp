@@ -117,7 +117,7 @@ std::map<std::string, Count> count_tags(const TestCase& test_case, std::uint64_t
 TEST(Visibility, SurgeonKeepsTheTagInUseInBothImages) {
   const auto test_case = visible_human_case({"L4", "L5"});
   if (!test_case) {
-    GTEST_SKIP() << "no anatomy beside the sources";
+    GTEST_SKIP() << "needs tests/data/anatomy";
   }
   const auto counts = count_tags(*test_case, 1);
   ASSERT_EQ(counts.size(), 6U) << "two digitizations and four screws";

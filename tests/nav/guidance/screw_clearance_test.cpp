@@ -239,7 +239,7 @@ TEST(ScrewClearance, OnRealVertebraeIsWhatBruteForceFinds) {
 TEST(ScrewClearance, StandsASmallDefectOfTheMesh) {
   const auto level = test::anatomy_level("shape-mean/L3");
   if (!level) {
-    GTEST_SKIP() << "the shared anatomy is not here";
+    GTEST_SKIP() << "needs shared/anatomy";
   }
   const auto screw = *cylinder_of(level->screws[0]);
   const auto whole = *least_clearance(SurfaceIndex(level->mesh), screw);

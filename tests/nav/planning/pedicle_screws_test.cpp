@@ -151,7 +151,7 @@ TEST(PedicleScrews, RefuseWhatIsNoVertebraAndAnEmptyList) {
 TEST(PedicleScrews, AreOfGradeAOnEveryRealVertebra) {
   const auto levels = test::anatomy_levels();
   if (levels.empty()) {
-    GTEST_SKIP() << "shared anatomy is absent";
+    GTEST_SKIP() << "needs shared/anatomy";
   }
   for (const test::AnatomyLevel& level : levels) {
     const SurfaceIndex bone(level.mesh);

@@ -70,7 +70,7 @@ class TrainedStrokes : public ::testing::Test {
   void SetUp() override {
     level_ = test::anatomy_level("visible-human/L4");
     if (!level_) {
-      GTEST_SKIP() << "no anatomy";
+      GTEST_SKIP() << "needs shared/anatomy";
     }
     model_ = VertebraModel::prepare(level_->mesh).value();
   }

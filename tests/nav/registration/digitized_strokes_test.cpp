@@ -43,7 +43,7 @@ class DigitizedStrokesTest : public ::testing::Test {
   static void TearDownTestSuite() { meshes_.clear(), surfaces_.clear(); }
   void SetUp() override {
     if (meshes_.empty()) {
-      GTEST_SKIP() << "shared anatomy is absent";
+      GTEST_SKIP() << "needs shared/anatomy";
     }
   }
   static DigitizedStrokes strokes(std::size_t level, StrokeVariant variant, std::uint64_t seed,

@@ -62,7 +62,7 @@ TEST(Trimming, KeepsTheBackAndDropsCanalAndFront) {
 TEST(Trimming, LeavesTheBodyOutOfEveryRealVertebraAndKeepsWhatIsStroked) {
   const auto levels = test::anatomy_levels();
   if (levels.empty()) {
-    GTEST_SKIP() << "shared anatomy is absent";
+    GTEST_SKIP() << "needs shared/anatomy";
   }
   for (const auto& level : levels) {
     const auto model = VertebraModel::prepare(level.mesh);

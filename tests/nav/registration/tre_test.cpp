@@ -27,7 +27,7 @@ class PredictedError : public ::testing::Test {
   static void TearDownTestSuite() { model_.reset(), level_.reset(); }
   void SetUp() override {
     if (!level_) {
-      GTEST_SKIP() << "shared anatomy is absent";
+      GTEST_SKIP() << "needs shared/anatomy";
     }
   }
   /// The least-squares pose of the points on the bone.

@@ -170,7 +170,7 @@ TEST(BestTracker, RefusesATagThatItsFamilyDoesNotHave) {
 TEST(BestTracker, IsFarBetterThanThePublishedMethodOnTheSample) {
   const auto sample = test::load_sample();
   if (!sample) {
-    GTEST_SKIP() << "shared/recordings/streamrecorder-sample is absent";
+    GTEST_SKIP() << "needs shared/recordings/streamrecorder-sample";
   }
   const auto tip_rms_m = [&](auto create) {
     auto tracker = create(sample->calibration, sample->tools, TrackerOptions{});

@@ -127,7 +127,7 @@ class RecordedSample : public ::testing::Test {
   void SetUp() override {
     sample_ = test::load_sample();
     if (!sample_) {
-      GTEST_SKIP() << "the recorded sample is not here";
+      GTEST_SKIP() << "needs shared/recordings/streamrecorder-sample";
     }
   }
 

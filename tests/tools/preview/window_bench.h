@@ -23,7 +23,7 @@ class WindowTest : public ::testing::Test {
   void SetUp() override {
     for (const char* needed : {"Xvfb", "xdotool"}) {
       if (std::system((std::string("command -v ") + needed + " >/dev/null").c_str()) != 0) {
-        GTEST_SKIP() << needed << " is not installed (tools/setup installs it)";
+        GTEST_SKIP() << "needs " << needed << " (tools/setup installs it)";
       }
     }
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
