@@ -6,11 +6,13 @@
 #include <filesystem>
 
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
 
 namespace orthonav::engine {
 namespace {
 
 using orthonav::test::content_of;
+using orthonav::test::test_data;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -60,7 +62,7 @@ TEST(GreyImageFile, RefusesWhatIsNoImage) {
 class Photograph : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    content_ = content_of(std::string(ORTHONAV_SHARED_DIR) + "/recordings/" + GetParam());
+    content_ = content_of(test_data(std::string("recordings/") + GetParam()));
     if (content_.empty()) {
       GTEST_SKIP() << "needs shared/recordings/" << GetParam();
     }
