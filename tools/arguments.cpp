@@ -84,6 +84,24 @@ CLI::Option* add_levels_option(CLI::App& command, std::vector<std::string>& leve
   return command.add_option("-l,--levels", levels, what)->delimiter(',')->type_name("L4,L5");
 }
 
+void add_rods_only_flag(CLI::App& command, bool& rods_only, CLI::Option& levels) {
+  command
+      .add_flag("--rods-only", rods_only,
+                "the screws are in: bend rods alone, by touching their heads; no registration "
+                "(docs/rods.md)")
+      ->excludes(&levels);
+}
+
+void RodsOnlyArguments::add_to(CLI::App& command, CLI::Option& levels) {
+  add_rods_only_flag(command, rods_only, levels);
+  command
+      .add_option("--seat-mm", seat_mm,
+                  "from where a head is touched to the rod's middle, negative away from the bone, "
+                  "where the list of screws does not say")
+      ->check(finite_number(-15, 30))
+      ->capture_default_str();
+}
+
 CLI::Option* add_tools_option(CLI::App& command, std::string& file) {
   return command
       .add_option("-t,--tools", file,

@@ -37,6 +37,15 @@ CLI::Option* add_method_option(CLI::App& command, std::string& method,
 CLI::Option* add_levels_option(
     CLI::App& command, std::vector<std::string>& levels,
     const std::string& what = "levels to operate (default: the two lowest)");
+/// `--rods-only`, which excludes `levels`.
+void add_rods_only_flag(CLI::App& command, bool& rods_only, CLI::Option& levels);
+/// That and `--seat-mm`, of every command that runs operations.
+struct RodsOnlyArguments {
+  bool rods_only = false;
+  double seat_mm = 6.0;
+
+  void add_to(CLI::App& command, CLI::Option& levels);
+};
 /// `-t,--tools` of commands that do not require it.
 CLI::Option* add_tools_option(CLI::App& command, std::string& file);
 /// `--reference`, of every command that runs operations.

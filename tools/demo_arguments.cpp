@@ -16,6 +16,8 @@ Result<engine::OperationOptions> options_of(const DemoArguments& arguments) {
   const engine::SetUp set_up = arguments.set_up.chosen();
   options.method = set_up.method;
   options.levels = arguments.levels;
+  options.rods_alone = arguments.rods.rods_only;
+  options.session.head_to_seat_m = arguments.rods.seat_mm * 1e-3;
   options.tools = engine::built_in_tools();
   options.use_reference = set_up.reference;
   options.sim.seed = arguments.seed;
@@ -57,7 +59,7 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
   demo.add_option("-o,--out", arguments.out, "folder of the results")
       ->check(some_text())
       ->capture_default_str();
-  add_levels_option(demo, arguments.levels);
+  arguments.rods.add_to(demo, *add_levels_option(demo, arguments.levels));
   auto* fast =
       demo.add_flag("--fast", arguments.fast, "as fast as the machine goes, unless --realtime");
   demo.add_flag("--realtime", arguments.realtime, "30 frames a second")->excludes(fast);

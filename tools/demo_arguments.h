@@ -32,6 +32,7 @@ struct DemoArguments {
   bool json = false;
   int threads = 2;
   std::optional<double> pace;
+  RodsOnlyArguments rods;
   SetUpArguments set_up;
   CalibrationArgument calibration;
   WearerArguments wearer;

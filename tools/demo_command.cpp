@@ -36,6 +36,10 @@ namespace fs = std::filesystem;
 /// Frames of the film in a second.
 constexpr int kVideoRate = 20;
 
+constexpr const char* kTouchesHeads =
+    "The screws of the plan stand in the bones, exactly as planned; nothing that navigates knows "
+    "where. The surgeon touches their heads with the pointer, one after the other.";
+
 /// Everything that a demo needs besides the operation itself; created before anything is written.
 class Demo {
  public:
@@ -59,11 +63,14 @@ class Demo {
         return bad_input(found.error().message);
       }
     }
-    const auto source = load_checked_case(arguments_.case_folder);
+    const bool rods_only = arguments_.rods.rods_only;
+    const auto source = load_checked_case(
+        arguments_.case_folder, rods_only ? engine::CaseUse::kRods : engine::CaseUse::kOperation);
     if (!source) {
       return bad_input(source.error().message);
     }
-    const auto levels = engine::levels_to_operate(*source, arguments_.levels);
+    const auto levels = rods_only ? Result<std::vector<std::string>>(std::vector<std::string>())
+                                  : engine::levels_to_operate(*source, arguments_.levels);
     if (!levels) {
       return bad_input("--levels: " + levels.error().message);
     }
@@ -218,12 +225,13 @@ class Demo {
     tell_of_earlier(*journal_);
     note(pictures_.finish());
     const bool film = video_ && note(video_->finish());
-    const DemoReport report{.date = kept_.begun(),
-                            .perfect = arguments_.perfect,
-                            .surgeon = described(set_up_),
-                            .video = film,
-                            .plots = readings_->plots(arguments_.limits.grades()),
-                            .pictures = pictures_.written()};
+    const DemoReport report{
+        .date = kept_.begun(),
+        .perfect = arguments_.perfect,
+        .surgeon = arguments_.rods.rods_only ? kTouchesHeads : described(set_up_),
+        .video = film,
+        .plots = readings_->plots(arguments_.limits.grades()),
+        .pictures = pictures_.written()};
     note(write_demo_report(out_->path(), result, report));
     note(result.recording);
     return first;

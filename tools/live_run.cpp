@@ -103,7 +103,9 @@ class LiveRun {
     if (const Status good = check_arguments(); !good) {
       return good;
     }
-    const auto source = load_checked_case(arguments_.case_folder);
+    const bool rods_only = arguments_.rods.rods_only;
+    const auto source = load_checked_case(
+        arguments_.case_folder, rods_only ? engine::CaseUse::kRods : engine::CaseUse::kOperation);
     if (!source) {
       return source.error();
     }
@@ -111,7 +113,8 @@ class LiveRun {
     if (!arguments_.out.empty()) {
       models_ = engine::ModelCache((std::filesystem::path(arguments_.out) / "models").string());
     }
-    auto operation = engine::plan_operation(*source, arguments_.levels, models_);
+    auto operation = rods_only ? engine::plan_rods_alone(*source)
+                               : engine::plan_operation(*source, arguments_.levels, models_);
     if (!operation) {
       return operation.error();
     }
@@ -124,8 +127,35 @@ class LiveRun {
     if (const Status opened = open_headset(open_options); !opened) {
       return opened.error();
     }
+    if (rods_only) {
+      if (const Status standing = look_at_case_of_rods(*source, *operation); !standing) {
+        return standing.error();
+      }
+    }
     warn_of_sizes(*operation, sizes_);
     return start(std::move(*operation));
+  }
+
+  /// A case is only the patient's name here, unless the room is simulated: then its screws stand in
+  /// it.
+  Status look_at_case_of_rods(const engine::Case& source, const engine::Operation& operation) {
+    if (room_) {
+      return engine::check_standing_screws(operation, room_->room());
+    }
+    if (arguments_.case_folder.empty()) {
+      case_name_ = "not stated";
+      return {};
+    }
+    std::size_t screws = 0;
+    for (const engine::CaseLevel& level : source.levels) {
+      screws += level.screws.size();
+    }
+    if (screws > 0) {
+      std::fprintf(stderr,
+                   "orthonav: rods alone: the %zu planned screws of case '%s' are not guided\n",
+                   screws, source.name.c_str());
+    }
+    return {};
   }
 
   /// Opens the headset with the clicker and voice joined to it.
@@ -198,6 +228,7 @@ class LiveRun {
     }
     arguments_.common.set_in(options.errors);
     options.session.replan.sizes = sizes_;
+    options.session.head_to_seat_m = arguments_.rods.seat_mm * 1e-3;
     arguments_.limits.set_in(options);
     options.loop.max_frames = arguments_.frames;
     options.loop.max_time = from_seconds(arguments_.for_s);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/arguments.h"
 #include "tools/calibration_argument.h"
 #include "tools/common_error_arguments.h"
 #include "tools/limit_arguments.h"
@@ -25,6 +26,7 @@ struct RunArguments {
   std::string voice = "headset";
   std::string record;
   std::string out;
+  RodsOnlyArguments rods;
   CommonErrorArguments common;
   ScrewArguments screws;
   CalibrationArgument calibration;

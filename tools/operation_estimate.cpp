@@ -40,8 +40,8 @@ double OperationEstimate::fraction(Timestamp time, const engine::Guidance& guida
     step_ = guidance.status.at;
     step_began_ = time;
   }
-  // A rod joins levels.
-  double all_s = guidance.levels.size() > 1 ? kRods_s : 0.0;
+  // A rod joins levels; without levels there are rods alone.
+  double all_s = guidance.levels.size() != 1 ? kRods_s : 0.0;
   double done_s = done_of_s(usual_s(guidance.step), seconds(time - step_began_));
   for (const engine::LevelState& level : guidance.levels) {
     const double screws = static_cast<double>(level.screw_done.size());

@@ -52,7 +52,7 @@ void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
       ->capture_default_str();
   add_case_option(*run, arguments->case_folder);
   arguments->set_up.add_to(*run);
-  add_levels_option(*run, arguments->levels);
+  arguments->rods.add_to(*run, *add_levels_option(*run, arguments->levels));
   add_tools_option(*run, arguments->tools_file);
   arguments->common.add_to(
       *run, {"assumed to be 0.4", "assumed to be 0.46, of a tracker 0.25; docs/headsets.md",

@@ -27,6 +27,7 @@ struct ServeArguments {
   hl2ss::ServerOptions server;
   std::string case_folder;
   std::vector<std::string> levels;
+  bool rods_only = false;
   std::uint64_t seed = 1;
   bool perfect = false;
   SetUpArguments set_up;
@@ -49,7 +50,9 @@ Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) 
     return source.error();
   }
   engine::ModelCache models;
-  const auto operation = engine::plan_operation(*source, arguments.levels, models);
+  const auto operation = arguments.rods_only
+                             ? engine::plan_rods_alone(*source)
+                             : engine::plan_operation(*source, arguments.levels, models);
   if (!operation) {
     return operation.error();
   }
@@ -279,7 +282,8 @@ void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals
   hl2ss::ServerOptions& server = arguments->server;
   add_ports(*serve_hl2ss, *arguments);
   add_case_option(*serve_hl2ss, arguments->case_folder);
-  add_levels_option(*serve_hl2ss, arguments->levels);
+  add_rods_only_flag(*serve_hl2ss, arguments->rods_only,
+                     *add_levels_option(*serve_hl2ss, arguments->levels));
   serve_hl2ss->add_option("-s,--seed", arguments->seed, "of the simulation and the faults")
       ->capture_default_str();
   arguments->set_up.add_to(*serve_hl2ss);

@@ -204,6 +204,54 @@ TEST(RunCommand, GoesOnWithTheOperationOfAFolderAndWithNoOther) {
   EXPECT_TRUE(std::filesystem::exists(out + "/operation-1.log")) << "nothing is overwritten";
 }
 
+TEST(RodsOnly, AreRefusedWhereTheyFitNothing) {
+  const ScratchFolder folder;
+  const std::string rods = folder.file("rods");
+  std::filesystem::create_directories(rods);
+  std::ignore = folder.with("rods/case.json", R"({"name": "Miller", "levels": []})");
+  expect_refusal(orthonav({"run", "--case", rods}),
+                 "levels is empty, at least 1 needed, unless rods alone are bent (orthonav run "
+                 "--rods-only)");
+  expect_refusal(orthonav({"demo", "--case", rods, "--out", folder.file("out")}),
+                 "levels is empty, at least 1 needed");
+  expect_refusal(orthonav({"demo", "--rods-only", "--case", rods, "--out", folder.file("out")}),
+                 "case 'Miller' has no screws, so none stands in the simulated room");
+  expect_refusal(orthonav({"run", "--rods-only", "--case", rods}),
+                 "case 'Miller' has no screws, so none stands in the simulated room");
+  expect_refusal(orthonav({"run", "--rods-only", "--levels", "L5"}),
+                 "--levels excludes --rods-only");
+  expect_refusal(orthonav({"run", "--rods-only", "--seat-mm", "31"}), "--seat-mm");
+}
+
+/// Recorded in the simulated room, then played: as with any device, no case is needed.
+TEST(RodsOnly, NeedNoCaseOnAHeadset) {
+  const ScratchFolder folder;
+  const std::string recording = folder.file("recording");
+  const std::string out = folder.file("out");
+  const std::vector<std::string> run = {
+      "run", "--rods-only", "--headset", "sim:?seed=3", "--json", "--frames", "6", "--out", out};
+  std::vector<std::string> recorded = run;
+  recorded.insert(recorded.end(), {"--record", recording});
+  const Called live = orthonav(recorded);
+  ASSERT_EQ(live.code, 0) << live.err;
+  EXPECT_EQ(json::parse(live.out)["levels"], json::array());
+  EXPECT_EQ(json::parse(live.out)["why_not"], "ended at setup");
+  EXPECT_EQ(json::parse(live.out)["case"], "phantom");
+  const Called again =
+      orthonav({"run", "--rods-only", "--headset", "replay:" + recording, "--json"});
+  EXPECT_EQ(again.code, 1) << again.err;
+  EXPECT_EQ(json::parse(again.out)["case"], "not stated");
+  const std::string page = folder.file("page.html");
+  ASSERT_EQ(orthonav({"report", out, "--out", page}).code, 0);
+  EXPECT_THAT(content_of(page), HasSubstr("0 rods templated, without a registration"));
+
+  std::vector<std::string> resume = run;
+  resume.emplace_back("--resume");
+  const Called resumed = orthonav(resume);
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("case 'phantom', rods alone, begun"));
+}
+
 TEST(RunCommand, RefusesBadInput) {
   const ScratchFolder folder;
   expect_refusal(orthonav({"run", "--levels", "L5", "--headset", "holo:"}), "unknown scheme");
