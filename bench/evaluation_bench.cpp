@@ -12,6 +12,7 @@
 #include "engine/case/case_file.h"
 #include "engine/evaluation/evaluation.h"
 #include "tests/support/operated_spine.h"
+#include "tests/support/test_data.h"
 #include "tests/support/voxelised_scan.h"
 
 namespace {
@@ -90,7 +91,7 @@ void add_operation(const engine::Case& subject, std::uint64_t seed, Random& rand
 Result<std::vector<engine::Case>> loaded_cases(const std::vector<std::string>& names) {
   std::vector<engine::Case> cases;
   for (const std::string& name : names) {
-    auto loaded = engine::load_case(std::string(ORTHONAV_SHARED_DIR) + "/anatomy/" + name);
+    auto loaded = engine::load_case(test::test_data("anatomy/" + name).string());
     if (!loaded) {
       return loaded.error();
     }
@@ -122,11 +123,12 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app("Errors of orthonav evaluate on computed scans of the shared anatomy");
+  CLI::App app("Errors of orthonav evaluate on computed scans of real anatomy");
   app.add_option("--scans", arguments.scans, "operations, two vertebrae and four screws each");
   app.add_option("--seed", arguments.seed, "of the first");
   app.add_option("--slices-mm", arguments.slices_mm)->delimiter(',');
-  app.add_option("--cases", arguments.cases)->delimiter(',');
+  app.add_option("--cases", arguments.cases, "folders of tests/data/anatomy or ../shared/anatomy")
+      ->delimiter(',');
   app.add_option("--streaks", arguments.streaks);
   app.add_option("--bow-mm", arguments.bow_mm, "of wires");
   app.add_option("--missing", arguments.missing, "share of screws that are not there");

@@ -39,9 +39,8 @@ struct RodStepDurations {
 ///
 /// Two values are fitted, both only to the *control* arm of the publication: `pace` to its 465 s
 /// and `eye_length_sd` to its 4 of 18 rods of the right length. The result of the arm with the
-/// template is a prediction, and nothing may be tuned to it. It was made once, over 10,000 rods: 93
-/// % of the right length (published: 15 of 18, 83 %) in 478 s (published: 374 s). The model agrees
-/// on the length; it does not explain the shorter time.
+/// template is not fitted, and nothing may be tuned to it. It agrees on the length, and does not
+/// explain the published shorter time (docs/accuracy.md, "Rods").
 struct RodExperimentOptions {
   std::size_t rods = 18;  ///< in each arm, as published
 
