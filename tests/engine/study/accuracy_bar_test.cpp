@@ -30,10 +30,10 @@ struct TableRow {
   double mean;
   double sd;  ///< over screws, or levels
 };
-constexpr std::array<TableRow, 4> kPaperRows = {{{"angle_error_deg", true, 3.83, 1.63},
-                                                 {"entry_error_mm", true, 3.05, 1.56},
-                                                 {"tre_mm", false, 3.32, 1.01},
-                                                 {"rmse_mm", false, 1.59, 0.17}}};
+constexpr std::array<TableRow, 4> kPaperRows = {{{"angle_error_deg", true, 3.40, 1.85},
+                                                 {"entry_error_mm", true, 2.78, 1.56},
+                                                 {"tre_mm", false, 3.14, 1.01},
+                                                 {"rmse_mm", false, 1.49, 0.16}}};
 constexpr std::array<TableRow, 4> kBestRows = {{{"angle_error_deg", true, 3.31, 1.79},
                                                 {"entry_error_mm", true, 2.34, 1.19},
                                                 {"tre_mm", false, 1.55, 0.61},
@@ -46,7 +46,7 @@ struct TableDifference {
   double half_width;
 };
 constexpr std::array<TableDifference, 4> kDifferences = {
-    {{-0.68, 0.38}, {-0.61, 0.38}, {-1.81, 0.34}, {-0.16, 0.06}}};
+    {{-0.17, 0.39}, {-0.52, 0.32}, {-1.63, 0.36}, {-0.04, 0.07}}};
 
 /// Two standard errors to either side hold 95 % of random results.
 constexpr double kStandardErrors = 2.0;
@@ -54,7 +54,7 @@ constexpr double kStandardErrors = 2.0;
 /// The bar of a mean over n operations. The screws of an operation share a part of their errors,
 /// which the table does not state; if they shared all of it, n operations would count only as n
 /// screws, so SD / sqrt(n) is the largest possible standard error. That of the table's own mean is
-/// added. For the angle of `paper`: 2 * 1.63 * sqrt(1/8 + 1/40) = 1.26 degrees.
+/// added. For the angle of `paper`: 2 * 1.85 * sqrt(1/8 + 1/40) = 1.43 degrees.
 double bar_of(double sd, std::size_t operations) {
   return kStandardErrors * sd *
          std::sqrt(1.0 / static_cast<double>(operations) + 1.0 / kOperationsOfTable);
@@ -67,8 +67,8 @@ bool within_bar(const nlohmann::json& study, const TableRow& row) {
 }
 
 /// The SD of an operation's difference, from the table's interval over at most 40 operations:
-/// half width / 1.96 * sqrt(40). The error at the screws: 1.10 mm, its bar for eight operations
-/// 0.85 mm.
+/// half width / 1.96 * sqrt(40). The error at the screws: 1.16 mm, its bar for eight operations
+/// 0.90 mm.
 bool within_bar(const ComparedQuantity& found, const TableDifference& row) {
   const double sd = row.half_width / 1.96 * std::sqrt(kOperationsOfTable);
   return found.operations.size() >= kFewestOperations &&
@@ -169,9 +169,8 @@ TEST_F(AccuracyBar, BestIsBetterThanPaperByWhatTheTableSays) {
 TEST_F(AccuracyBar, StudiesInEachOthersPlaceFailWhereTheyDiffer) {
   const auto found = compare_studies({paper(), best()}, {"paper", "best"});
   ASSERT_TRUE(found.ok()) << found.error().message;
-  for (const std::size_t i : {std::size_t{2}, std::size_t{3}}) {  // error at the screws, RMSE
-    EXPECT_FALSE(within_bar(found->quantities[i], kDifferences[i])) << kCompared[i].name;
-  }
+  constexpr std::size_t kAtScrews = 2;  // the only one in which the methods clearly differ
+  EXPECT_FALSE(within_bar(found->quantities[kAtScrews], kDifferences[kAtScrews]));
 }
 
 }  // namespace
