@@ -12,13 +12,13 @@
 #include <memory>
 #include <optional>
 
+#include "bench/phrase_in_room.h"
+#include "bench/voice_sets.h"
+#include "bench/voice_texts.h"
 #include "bench/wilson.h"
 #include "engine/session/spoken_commands.h"
 #include "hal/voice/command_spotter.h"
 #include "tests/support/noisy_speech.h"
-#include "tools/voice/phrase_in_room.h"
-#include "tools/voice/voice_sets.h"
-#include "tools/voice/voice_texts.h"
 
 namespace orthonav::bench {
 namespace {
@@ -31,7 +31,6 @@ constexpr double kClean = 60.0;  ///< dB: a silent room
 struct Options {
   bool tuning = false;
   bool fresh = false;
-  bool single = false;
   bool quick = false;
   bool addressed = false;
   bool show = false;
@@ -78,10 +77,9 @@ double worked_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-std::unique_ptr<CommandSpotter> new_spotter(const Options& bench, Waking waking) {
+std::unique_ptr<CommandSpotter> new_spotter(const Options& bench) {
   SpotterOptions options;
-  options.commands = engine::trained_commands();
-  options.waking = waking;
+  options.commands = engine::recognized_commands();
   if (bench.least_log_odds) {
     options.least_log_odds = *bench.least_log_odds;
   }
@@ -114,7 +112,7 @@ void listen(CommandSpotter& spotter, std::span<const std::int16_t> sound, Heard 
 
 void say_one(CommandSpotter& spotter, const std::string& command, const Options& options,
              const Speaker& speaker, Noise noise, double snr_db, Random& random, Figures& figures) {
-  const auto said = spoken(options.single ? command : "ortho " + command, speaker);
+  const auto said = spoken("ortho " + command, speaker);
   if (!said) {
     return;
   }
@@ -168,8 +166,6 @@ double quantile(std::vector<double> values, double fraction) {
 
 void measure_recall(const Options& options) {
   const VoiceSet set = set_of(options);
-  // Recall measures what the recogniser hears; whether a single word counts in noise is a policy.
-  const Waking waking = options.single ? Waking::kNever : Waking::kAlways;
   Random random(10 + set.seed);
   Figures figures;
   std::size_t count = 0;
@@ -177,10 +173,10 @@ void measure_recall(const Options& options) {
       options.quick ? std::vector<int>{150} : std::vector<int>{120, 160, 200};
   for (const std::string_view voice : set.voices) {
     // One surgeon each, in a room whose noise changes.
-    const auto spotter = new_spotter(options, waking);
+    const auto spotter = new_spotter(options);
     for (const double snr_db : {kClean, 20.0, 15.0, 10.0}) {
       for (const int speed : speeds) {
-        for (const std::string& command : engine::trained_commands()) {
+        for (const std::string& command : engine::recognized_commands()) {
           const auto noise = static_cast<Noise>(count++ % 3);
           say_one(*spotter, command, options, {std::string(voice), speed}, noise, snr_db, random,
                   figures);
@@ -189,8 +185,7 @@ void measure_recall(const Options& options) {
     }
     count += 1;  // every command meets every noise
   }
-  std::printf("\n%s, %zu voices\n", options.single ? "single words" : "with the wake word",
-              set.voices.size());
+  std::printf("\n%zu voices\n", set.voices.size());
   print("command", figures.by_command);
   print("condition", figures.by_condition);
   print("all", {{"", figures.all}});
@@ -198,9 +193,9 @@ void measure_recall(const Options& options) {
               quantile(figures.latencies_ms, 0.5), quantile(figures.latencies_ms, 0.99));
 }
 
-void measure_false_accepts(const Options& options, Waking waking, double snr_db) {
+void measure_false_accepts(const Options& options, double snr_db) {
   const VoiceSet set = set_of(options);
-  const auto spotter = new_spotter(options, waking);
+  const auto spotter = new_spotter(options);
   Random random(20 + set.seed);
   std::map<std::string, int> accepted;
   double heard_s = 0.0;
@@ -229,11 +224,8 @@ void measure_false_accepts(const Options& options, Waking waking, double snr_db)
       total += 1;
     });
   }
-  std::printf("%-28s %4.1f dB, %.1f min: %.1f false accepts in 10 min, %d of them delete\n",
-              waking == Waking::kNever    ? "single words and wake word"
-              : waking == Waking::kAlways ? "wake word alone"
-                                          : "wake word in noise",
-              snr_db, heard_s / 60.0, 600.0 * total / heard_s, accepted["delete"]);
+  std::printf("%4.1f dB, %.1f min: %.1f false accepts in 10 min, %d of them delete\n", snr_db,
+              heard_s / 60.0, 600.0 * total / heard_s, accepted["delete last"]);
 }
 
 /// Words that are no commands where a command is expected: whatever is heard with certainty is
@@ -248,7 +240,7 @@ void measure_other_words(const Options& options, const char* name,
   int taken = 0;
   std::size_t count = 0;
   for (const std::string_view voice : set.voices) {
-    const auto spotter = new_spotter(options, Waking::kAlways);
+    const auto spotter = new_spotter(options);
     for (const std::string_view word : words) {
       constexpr std::array kSnrsDb = {kClean, 20.0, 15.0, 10.0};
       const std::size_t at = count++;
@@ -297,11 +289,6 @@ void measure_other_words(const Options& options, const char* name,
 
 int run(const Options& options) {
   std::printf("voice, %s set\n", set_of(options).name);
-  if (!options.addressed) {
-    Options single = options;
-    single.single = true;
-    measure_recall(single);
-  }
   measure_recall(options);
   std::printf("\nother words after the wake word\n");
   measure_other_words(options, "asked for", kAskedWords);
@@ -312,10 +299,8 @@ int run(const Options& options) {
     return 0;
   }
   std::printf("\nother speech\n");
-  for (const Waking waking : {Waking::kNever, Waking::kInNoise, Waking::kAlways}) {
-    for (const double snr_db : {kClean, 20.0, 10.0}) {
-      measure_false_accepts(options, waking, snr_db);
-    }
+  for (const double snr_db : {kClean, 20.0, 10.0}) {
+    measure_false_accepts(options, snr_db);
   }
   return 0;
 }

@@ -35,12 +35,12 @@ bool has_word(std::string_view text, std::string_view word) {
   return false;
 }
 
-/// The first command that the English text tells the wearer to say and the other does not. Texts
-/// use "accept" and "reject" for nothing else, "done" and others only after "say".
+/// The first command that the English text tells the wearer to say and the other does not. "Drill"
+/// is one only after "say".
 std::optional<std::string> lost_command(std::string_view english, std::string_view text) {
   const bool say = has_word(english, "say");
   for (std::string& command : engine::spoken_commands()) {
-    const bool told = say || command == "accept" || command == "reject";
+    const bool told = say || command != "drill";
     if (told && has_word(english, command) && !has_word(text, command)) {
       return std::move(command);
     }

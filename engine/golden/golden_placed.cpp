@@ -34,9 +34,10 @@ void add_placed_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(placed("placed", "plan and a cyan line beside it, numbers with SDs, a tick",
                           "placed: 0.8 ± 0.7°, 0.6 ± 0.5 mm from the plan",
                           "0.8 ± 0.7°, 0.6 ± 0.5 mm", 0.8, 0.0006f, true));
-  scenes.push_back(placed("placed_beyond", "plan and a red line that leaves it, a red rim, a cross",
-                          "angle 4.1°, limit 2.0°: say accept to keep it, delete to redo it",
-                          "4.1 ± 0.7°, 1.7 ± 0.5 mm", 4.1, 0.0017f, false));
+  scenes.push_back(
+      placed("placed_beyond", "plan and a red line that leaves it, a red rim, a cross",
+             "angle 4.1°, limit 2.0°: say accept result to keep it, delete last to redo it",
+             "4.1 ± 0.7°, 1.7 ± 0.5 mm", 4.1, 0.0017f, false));
 }
 
 }  // namespace orthonav::engine::golden

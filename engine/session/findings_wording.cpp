@@ -15,7 +15,7 @@ constexpr const char* kOneOf100 =
     translatable("1 of 100 errors at the screws would exceed %.1f mm, limit %.1f mm");
 constexpr const char* kThroughBone = translatable(
     "the pointer would have gone through bone at %.0f %% of the points, limit %.0f %%");
-constexpr const char* kRejectAndDigitize = translatable("reject and digitize again");
+constexpr const char* kRejectAndDigitize = translatable("reject level and digitize again");
 
 /// The words for a number and its limit, and the unit in which it is shown.
 struct LimitWords {

@@ -9,16 +9,17 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr const char* kSayAccept = translatable("say accept to correct it");
+constexpr const char* kSayAccept = translatable("say accept result to correct it");
 
 /// The guide's tip and the pointer's: what is to be done, or how far apart they were.
 void write_tips(PartedText text, const TipCheck& tips, std::string_view separator) {
   std::string& out = text.out;
   if (tips.due()) {
     text.begin(Importance::kNext, separator);
-    out += tips.for_screw()
-               ? translated("put the guide's tip in it too, held as for the screw, or say next")
-               : translated("put the guide's tip in it too, or say next");
+    out +=
+        tips.for_screw()
+            ? translated("put the guide's tip in it too, held as for the screw, or say go to next")
+            : translated("put the guide's tip in it too, or say go to next");
     return;
   }
   if (!tips.last() || tips.last()->corrected) {

@@ -11,6 +11,7 @@
 #include "engine/session/replan_wording.h"
 #include "engine/session/rod_wording.h"
 #include "engine/session/said.h"
+#include "engine/session/spoken_commands.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {
@@ -87,7 +88,12 @@ struct MessageWriter {
           "not possible now: a screw is changed once its level is accepted, before it is drilled");
       return;
     }
-    append_with(out, translated("not possible now: %s"), translated(name_of(m.event)));
+    const char* format = translated("not possible now: %s");
+    if (const auto phrase = phrase_of(m.event)) {
+      append_with(out, format, "\"" + std::string(*phrase) + "\"");
+    } else {
+      append_with(out, format, translated(name_of(m.event)));
+    }
   }
   void operator()(const NotUnderstood& /*m*/) {
     text.begin(Importance::kMessage);
@@ -108,10 +114,11 @@ struct MessageWriter {
   void operator()(const ConfirmDelete& m) {
     text.begin(Importance::kNext);
     if (m.points == 1) {
-      out += translated("say delete again to drop the last saved point");
+      out += translated("say delete last again to drop the last saved point");
       return;
     }
-    append_printed(out, translated("say delete again to drop the last saved %zu points"), m.points);
+    append_printed(out, translated("say delete last again to drop the last saved %zu points"),
+                   m.points);
   }
   void operator()(const RegistrationRefused& m) {
     text.begin(Importance::kMessage);
@@ -161,7 +168,7 @@ struct MessageWriter {
                             : translated("the patient or the map moved %.1f mm, limit %.1f mm"),
                         m.off_m * 1e3, m.limit_m * 1e3);
     text.begin(Importance::kNext, ": ");
-    out += translated("check again or reject");
+    out += translated("check again or reject level");
   }
   void operator()(const BoneUnchecked& m) {
     text.begin(Importance::kDanger);
@@ -192,7 +199,8 @@ struct MessageWriter {
         out,
         m.redone == 1 ? translated("redone once already") : translated("redone %d times already"),
         m.redone);
-    out.append(": ").append(translated("say delete again to redo it, accept to keep it"));
+    out.append(": ").append(
+        translated("say delete last again to redo it, accept result to keep it"));
   }
   void operator()(const ScrewRedone& m) {
     text.begin(Importance::kMessage);

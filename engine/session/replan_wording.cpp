@@ -158,7 +158,7 @@ void write_breach(PartedText text, const ReplanRefusal& refusal) {
                       refusal.value * 1e3, refusal.limit * 1e3);
   append_towards(text.out, refusal.towards);
   text.begin(Importance::kNext, ": ");
-  text.out += translated("say accept to take it");
+  text.out += translated("say accept result to take it");
 }
 
 }  // namespace

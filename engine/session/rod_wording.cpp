@@ -11,12 +11,13 @@ void write_to_stroke(PartedText text, const RodInHandSoFar& rod) {
   text.begin(Importance::kNext);
   if (rod.made == 0) {
     text.out += translated(
-        "stroke the straight rod from its first end on 3 sides, then say save; if bend 1 is "
-        "made, say next");
+        "stroke the straight rod from its first end on 3 sides, then say save points; if bend 1 is "
+        "made, say go to next");
   } else {
     append_printed(
         text.out,
-        translated("bend %zu made: stroke the rod from its first end on 3 sides, then say save"),
+        translated(
+            "bend %zu made: stroke the rod from its first end on 3 sides, then say save points"),
         rod.made);
   }
   text.begin(Importance::kCount, "; ");
@@ -31,12 +32,12 @@ void write_to_do(PartedText text, const RodInHandSoFar& rod, const char* separat
     text.out += "; ";
   }
   if (!rod.next) {
-    text.out += translated("all bends are made, say done");
+    text.out += translated("all bends are made, say finish rod");
     return;
   }
   append_next_bend(text.out, *rod.next);
   text.out += ", ";
-  text.out += translated("then say next");
+  text.out += translated("then say go to next");
 }
 
 }  // namespace
@@ -82,11 +83,12 @@ void write_rod_not_measured(PartedText text, const RodNotMeasured& message) {
       out += translated("no rod to bend: touch its heads first");
       return;
     case kMeasureFirst:
-      append_printed(out, translated("bend %zu is not measured: stroke the rod, then say save"),
+      append_printed(out,
+                     translated("bend %zu is not measured: stroke the rod, then say save points"),
                      message.made);
       return;
     case kAllMade:
-      out += translated("all bends are made, say done");
+      out += translated("all bends are made, say finish rod");
       return;
     case kRefused:
       out.append(translated("rod not measured:")).append(" ");

@@ -16,7 +16,7 @@ namespace orthonav::engine {
 void append_next_bend(std::string& out, const NextBend& bend);
 /// "cut to 112.4 mm".
 void append_cut(std::string& out, double length_m);
-/// "bend 1: 12.1 ± 0.3°; bend 2: 63 mm, roll 40°, set 18.5°, then say next".
+/// "bend 1: 12.1 ± 0.3°; bend 2: 63 mm, roll 40°, set 18.5°, then say go to next".
 void write_rod_in_hand(PartedText text, const RodInHandSoFar& rod);
 void write_rod_not_measured(PartedText text, const RodNotMeasured& message);
 

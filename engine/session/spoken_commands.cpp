@@ -1,47 +1,60 @@
 #include "engine/session/spoken_commands.h"
 
+#include <algorithm>
 #include <array>
-#include <utility>
 
 namespace orthonav::engine {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Event>, 10> kCommands = {{
-    {"start", Event::kSayStart},
-    {"save", Event::kSaySave},
-    {"delete", Event::kSayDelete},
-    {"accept", Event::kSayAccept},
-    {"reject", Event::kSayReject},
-    {"next", Event::kSayNext},
-    {"done", Event::kSayDone},
-    {"move rod", Event::kSayMoveRod},
-    {"twin", Event::kSayTwin},
-    {"drill", Event::kSayDrill},
+struct Command {
+  std::string_view name;
+  std::string_view phrase;
+  Event event;
+};
+
+// Phrases are long and unlike what else is said in a room: words of one syllable sound like too
+// many others ("stop" like "start").
+constexpr std::array<Command, 10> kCommands = {{
+    {"start", "begin guiding", Event::kSayStart},
+    {"save", "save points", Event::kSaySave},
+    {"delete", "delete last", Event::kSayDelete},
+    {"accept", "accept result", Event::kSayAccept},
+    {"reject", "reject level", Event::kSayReject},
+    {"next", "go to next", Event::kSayNext},
+    {"done", "finish rod", Event::kSayDone},
+    {"move rod", "move template", Event::kSayMoveRod},
+    {"twin", "twin screw", Event::kSayTwin},
+    {"drill", "drill", Event::kSayDrill},
 }};
 
 }  // namespace
 
 std::vector<std::string> spoken_commands() {
-  std::vector<std::string> commands;
-  for (const auto& command : kCommands) {
-    commands.emplace_back(command.first);
+  std::vector<std::string> phrases;
+  for (const Command& command : kCommands) {
+    phrases.emplace_back(command.phrase);
   }
-  return commands;
+  return phrases;
 }
 
-std::vector<std::string> trained_commands() {
-  std::vector<std::string> commands = spoken_commands();
-  std::erase(commands, "drill");
-  return commands;
+std::vector<std::string> recognized_commands() {
+  std::vector<std::string> phrases = spoken_commands();
+  std::erase(phrases, "drill");
+  return phrases;
 }
 
-std::optional<Event> command_event(std::string_view phrase) {
-  for (const auto& [command, event] : kCommands) {
-    if (command == phrase) {
-      return event;
+std::optional<Event> command_event(std::string_view text) {
+  for (const Command& command : kCommands) {
+    if (command.phrase == text || command.name == text) {
+      return command.event;
     }
   }
   return std::nullopt;
+}
+
+std::optional<std::string_view> phrase_of(Event event) {
+  const auto* const command = std::ranges::find(kCommands, event, &Command::event);
+  return command == kCommands.end() ? std::nullopt : std::optional(command->phrase);
 }
 
 }  // namespace orthonav::engine

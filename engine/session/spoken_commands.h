@@ -9,15 +9,18 @@
 
 namespace orthonav::engine {
 
-/// Every phrase that a session understands, lower case.
+/// What is said for each command, lower case: "go to next". Keys, scripts and logs use a command's
+/// name: "next".
 [[nodiscard]] std::vector<std::string> spoken_commands();
 
-/// The commands that our own recognition was trained on (tools/voice/train). The others come from
-/// the headset's recognition and from scripts; the session also detects by itself what they
-/// announce.
-[[nodiscard]] std::vector<std::string> trained_commands();
+/// Those that our own recognition knows. The others come from the headset's recognition and from
+/// scripts; the session also detects by itself what they announce.
+[[nodiscard]] std::vector<std::string> recognized_commands();
 
-/// What a phrase asks for; nothing if it is not a command.
-[[nodiscard]] std::optional<Event> command_event(std::string_view phrase);
+/// What a phrase or a command's name asks for; nothing if it is not a command.
+[[nodiscard]] std::optional<Event> command_event(std::string_view text);
+
+/// What is said for an event; nothing if it is not a command.
+[[nodiscard]] std::optional<std::string_view> phrase_of(Event event);
 
 }  // namespace orthonav::engine

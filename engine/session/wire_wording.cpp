@@ -18,7 +18,7 @@ void write_wire(PartedText text, const WireSoFar& state, std::string_view separa
   std::string& out = text.out;
   if (state.wire == nullptr) {
     text.begin(Importance::kNext, separator);
-    out += translated("set the sleeve over the wire, turn it and click, or say next");
+    out += translated("set the sleeve over the wire, turn it and click, or say go to next");
     return;
   }
   const PlacedWire& wire = *state.wire;
@@ -41,7 +41,7 @@ void write_wire(PartedText text, const WireSoFar& state, std::string_view separa
   }
   text.begin(Importance::kNext, ": ");
   if (wire.kept) {
-    out += translated("kept, say next");
+    out += translated("kept, say go to next");
   } else {
     out += translated(state.no_other_entry ? words::kNoOtherEntry : words::kKeepOrRedo);
   }

@@ -54,9 +54,10 @@ inline constexpr const char* kHeadNotLocated =
 inline constexpr const char* kNotYet = translatable("not yet:");
 inline constexpr const char* kTouchDimple = translatable("touch the dimple");
 inline constexpr const char* kMakeDimple = translatable("make a dimple in this bone and touch it");
-inline constexpr const char* kKeepOrRedo = translatable("say accept to keep it, delete to redo it");
+inline constexpr const char* kKeepOrRedo =
+    translatable("say accept result to keep it, delete last to redo it");
 inline constexpr const char* kNoOtherEntry =
-    translatable("no other entry stays inside the bone, say accept to keep it");
+    translatable("no other entry stays inside the bone, say accept result to keep it");
 /// Between the angle of a bend and its place along the rod.
 inline constexpr const char* kAt = translatable("at");
 }  // namespace words

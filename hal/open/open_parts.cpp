@@ -20,7 +20,6 @@ constexpr const char* kClickers = "known are headset, none, evdev:[PATH|NAME] an
 constexpr const char* kVoices = "known are headset, none, mic:[NAME], headset-mic: and wav:FILE";
 constexpr const char* kClickerKeys =
     "known are keys=NAME,..., double_ms=N, hold_ms=N, debounce_ms=N and share";
-constexpr const char* kVoiceKeys = "known is wake=always, wake=noise or wake=never";
 
 /// The parts of "scheme:rest?key=value&key".
 struct PartUri {
@@ -167,29 +166,6 @@ Result<std::unique_ptr<Clicker>> open_clicker(const std::string& uri, const Cloc
   return std::unique_ptr<Clicker>(std::move(*clicker));
 }
 
-namespace {
-
-Result<voice::Waking> waking_of(const PartUri& cut, const std::string& uri) {
-  voice::Waking waking = voice::SpotterOptions{}.waking;
-  for (const auto& [key, value] : cut.items) {
-    if (key != "wake") {
-      return bad_part("voice", uri, "unknown key \"" + key + "\"; " + kVoiceKeys);
-    }
-    if (value == "always") {
-      waking = voice::Waking::kAlways;
-    } else if (value == "noise") {
-      waking = voice::Waking::kInNoise;
-    } else if (value == "never") {
-      waking = voice::Waking::kNever;
-    } else {
-      return bad_part("voice", uri, kVoiceKeys);
-    }
-  }
-  return waking;
-}
-
-}  // namespace
-
 Result<std::unique_ptr<Voice>> open_voice(const std::string& uri,
                                           const std::vector<std::string>& commands,
                                           const Clock& clock, Headset* headset) {
@@ -206,13 +182,12 @@ Result<std::unique_ptr<Voice>> open_voice(const std::string& uri,
   if (cut->scheme != "mic" && cut->scheme != "wav" && cut->scheme != "headset-mic") {
     return bad_part("voice", uri, std::string("is unknown; ") + kVoices);
   }
-  const auto waking = waking_of(*cut, uri);
-  if (!waking) {
-    return waking.error();
+  if (!cut->items.empty()) {
+    return bad_part("voice", uri,
+                    "unknown key \"" + cut->items.front().first + "\": a voice has none");
   }
   voice::SpotterOptions options;
   options.commands = commands;
-  options.waking = *waking;
   const bool file = cut->scheme == "wav";
   auto microphone = file ? desktop::open_wav_microphone(cut->rest, clock)
                     : cut->scheme == "headset-mic"

@@ -23,8 +23,7 @@ Result<std::unique_ptr<Clicker>> open_clicker(const std::string& uri, const Cloc
 ///   mic:                 the default microphone; mic:NAME (a part of its name)
 ///   headset-mic:         the headset's own microphone, listened to here
 ///   wav:FILE             a sound file, played as the clock advances
-/// followed by ?wake=always|noise|never: when a command needs "ortho" before it (default: always).
-/// `commands` are the phrases listened for. Borrows the clock and the headset.
+/// `commands` are the phrases listened for, each after "ortho". Borrows the clock and the headset.
 Result<std::unique_ptr<Voice>> open_voice(const std::string& uri,
                                           const std::vector<std::string>& commands,
                                           const Clock& clock, Headset* headset = nullptr);

@@ -93,7 +93,7 @@ Script Surgeon::record(std::size_t level, const StrokeRegion& region, bool slips
     body_.release();
   }
   co_await body_.rest(kLookingBack * around_s);
-  body_.say(slips ? "delete" : "save");
+  body_.say(slips ? "delete last" : "save points");
   co_await body_.rest(kAfterWord * around_s);
 }
 

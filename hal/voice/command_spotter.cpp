@@ -14,29 +14,12 @@ constexpr double kHardlyLikely = 0.25;
 
 }  // namespace
 
-std::vector<std::string> SpotterOptions::phrases() const {
-  std::vector<std::string> phrases;
-  for (const std::string& command : commands) {
-    phrases.push_back(wake_word + " " + command);
-    phrases.push_back(command);
-  }
-  return phrases;
-}
-
-std::optional<CommandEvidence> evidence_in(const SpeechSegment& segment,
-                                           const SpotterOptions& options,
-                                           PhraseRecognizer& recognizer) {
-  const Recognition heard =
-      recognizer.recognize(cleaned(segment.samples, kBackgroundSamples, options.cleaner));
-  return evidence_of(heard, options.wake_word, segment.above_background_db);
-}
-
 std::vector<std::string> SpotterOptions::check() const {
   std::vector<std::string> problems;
   if (commands.empty()) {
     problems.push_back("voice: no command to listen for");
   }
-  if (!std::isfinite(least_log_odds) || !std::isfinite(more_log_odds_to_decide)) {
+  if (!std::isfinite(least_log_odds)) {
     problems.push_back("voice: log odds must be finite");
   }
   if (segments.margin_ms < 400) {
@@ -60,7 +43,7 @@ Result<std::unique_ptr<CommandSpotter>> CommandSpotter::create(const SpotterOpti
     return Error{joined(problems)};
   }
   auto recognizer =
-      PhraseRecognizer::create(options.phrases(), options.wake_word, options.acoustic_model);
+      PhraseRecognizer::create(options.commands, options.wake_word, options.acoustic_model);
   if (!recognizer) {
     return recognizer.error();
   }
@@ -83,31 +66,17 @@ void CommandSpotter::push(std::span<const std::int16_t> samples,
 }
 
 std::optional<SpokenCommand> CommandSpotter::judge(const SpeechSegment& segment) {
-  const auto evidence = evidence_in(segment, options_, *recognizer_);
-  if (!evidence) {
+  const auto evidence = evidence_of(
+      recognizer_->recognize(cleaned(segment.samples, kBackgroundSamples)), options_.wake_word);
+  if (!evidence ||
+      std::ranges::find(options_.commands, evidence->command) == options_.commands.end()) {
     return std::nullopt;
   }
-  const double confidence = confidence_of(*evidence);
+  const double confidence = 1.0 / (1.0 + std::exp(options_.least_log_odds - log_odds(*evidence)));
   if (confidence < kHardlyLikely) {
     return std::nullopt;
   }
   return SpokenCommand{evidence->command, confidence, segment.begin, segment.end};
-}
-
-double CommandSpotter::confidence_of(const CommandEvidence& evidence) const {
-  // The odds say that a command was said, the comparison that no other word was: both must.
-  const bool deletes = evidence.command == "delete";
-  const bool decides = deletes || evidence.command == "accept" || evidence.command == "start";
-  const double more = options_.more_log_odds_to_decide;
-  const double said = log_odds(evidence, options_.weights) - (deletes ? more : 0.0);
-  const double over = log_odds_over_other_words(evidence, said) - (decides ? more : 0.0);
-  const double odds = evidence.wake ? std::min(said, over) : said;
-  const double confidence = 1.0 / (1.0 + std::exp(options_.least_log_odds - odds));
-  const bool quiet = evidence.above_background_db >= options_.quiet_above_db;
-  const bool counts = evidence.wake || options_.waking == Waking::kNever ||
-                      (options_.waking == Waking::kInNoise && quiet);
-  // It was heard but is not executed; the status line says so.
-  return counts ? confidence : std::min(confidence, 0.49);
 }
 
 }  // namespace orthonav::voice

@@ -10,50 +10,23 @@
 
 #include "base/result.h"
 #include "hal/voice/command_evidence.h"
-#include "hal/voice/command_weights.h"
 #include "hal/voice/phrase_recognizer.h"
 #include "hal/voice/speech_cleaner.h"
 #include "hal/voice/speech_segments.h"
 
 namespace orthonav::voice {
 
-/// When a command needs the wake word before it.
-enum class Waking {
-  kAlways,   ///< every command needs it
-  kInNoise,  ///< not needed if the voice stands out clearly from the background
-  kNever     ///< no command needs it
-};
-
 struct SpotterOptions {
-  std::vector<std::string> commands;  ///< lower case: "save", "move rod"
-  std::string wake_word = "ortho";
-  /// Single words still cause more than one false accept in ten minutes of talk, even in a silent
-  /// room (docs/voice.md).
-  Waking waking = Waking::kAlways;
-  /// A room counts as quiet if the loudest syllable is this much above the background.
-  double quiet_above_db = 26.0;
-  /// The trained weights. A command without trained weights still works, with the strictest of the
-  /// others' weights.
-  EvidenceWeights weights = kTrainedWeights;
+  std::vector<std::string> commands;  ///< lower case: "save points"
+  std::string wake_word = "ortho";    ///< said before each command
   /// A command counts above this (`log_odds`).
   double least_log_odds = 0.0;
-  /// "delete" destroys data, "accept" and "start" are acted upon at once: they need more.
-  double more_log_odds_to_decide = 1.0;
   SegmentOptions segments;
-  CleanerOptions cleaner;
   std::filesystem::path acoustic_model = default_acoustic_model();
 
-  /// The phrases of the commands' grammar: each with the wake word and alone, regardless of which
-  /// count, since a grammar without single words would take "save" for "ortho save".
-  [[nodiscard]] std::vector<std::string> phrases() const;
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
 };
-
-/// Cleans a segment and recognises it; nothing if it contains no command.
-[[nodiscard]] std::optional<CommandEvidence> evidence_in(const SpeechSegment& segment,
-                                                         const SpotterOptions& options,
-                                                         PhraseRecognizer& recognizer);
 
 /// A command as it was spoken.
 struct SpokenCommand {
@@ -84,7 +57,6 @@ class CommandSpotter {
 
   explicit CommandSpotter(const SpotterOptions& options);
   [[nodiscard]] std::optional<SpokenCommand> judge(const SpeechSegment& segment);
-  [[nodiscard]] double confidence_of(const CommandEvidence& evidence) const;
 };
 
 }  // namespace orthonav::voice

@@ -26,27 +26,22 @@ struct RecognizedWord {
   double evidence = 0.0;
 };
 
-/// The phrase that a segment of speech, from one silence to the next, sounds most like.
+/// The wake word and the command that a segment of speech, from one silence to the next, sounds
+/// most like.
 struct Recognition {
-  std::vector<RecognizedWord> words;  ///< in their order; empty if no phrase fits at all
+  std::vector<RecognizedWord> words;  ///< in their order; empty if none fits at all
   /// How much better silence explains the rest of the segment than other sounds: the natural
   /// logarithm of the likelihood ratio. Far below zero: more than the phrase was said.
   double evidence_around = 0.0;
-  /// Where the wake word comes first: how much better the phrase explains the segment than the wake
-  /// word and anything else after it, as the natural logarithm of the likelihood ratio per 10 ms
-  /// of what follows it. Below zero: another word followed.
-  double evidence_over_sounds = 0.0;
 };
 
-/// Decides which of a few phrases a segment of speech is: PocketSphinx with a grammar of the
-/// phrases, compared with a second grammar in which any sounds, and words that resemble a phrase,
-/// may follow one another, and with a third in which any sounds follow the wake word. The acoustic
-/// model's means are adapted to words in noise after cleaning (data/voice_means.bin,
-/// tools/voice/train). One thread at a time.
+/// Decides which command follows the wake word in a segment of speech: PocketSphinx with a grammar
+/// of the commands and of other phrases that begin alike, compared with a second grammar in which
+/// any sounds may follow one another. One thread at a time.
 class PhraseRecognizer {
  public:
-  /// Refuses a missing model, and phrases with a word whose pronunciation is not known.
-  static Result<std::unique_ptr<PhraseRecognizer>> create(const std::vector<std::string>& phrases,
+  /// Refuses a missing model, and commands with a word whose pronunciation is not known.
+  static Result<std::unique_ptr<PhraseRecognizer>> create(const std::vector<std::string>& commands,
                                                           const std::string& wake_word,
                                                           const std::filesystem::path& model);
   /// Takes samples at `kSpeechRateHz`.
@@ -63,20 +58,12 @@ class PhraseRecognizer {
     int last = 0;
     double score = 0.0;  ///< natural logarithm of its likelihood
   };
-  using Decoder = std::unique_ptr<ps_decoder_s, Free>;
-  Decoder decoder_;
-  /// Computes the likelihood of every sound, so that two of its searches can be compared: otherwise
-  /// likelihoods are relative to the best of those sounds that a search looks at.
-  Decoder comparing_;
+  std::unique_ptr<ps_decoder_s, Free> decoder_;
   std::string wake_word_;
 
-  static Result<Decoder> open(const std::filesystem::path& model, bool every_sound);
-  static Status add_words(ps_decoder_s* decoder);
-  Status add_grammars(const std::vector<std::string>& phrases);
-  static std::vector<Part> decode(ps_decoder_s* decoder, const char* search,
-                                  std::vector<Cepstrum>& cepstra);
-  double over_sounds(std::span<const std::int16_t> samples,
-                     const std::vector<RecognizedWord>& words);
+  Status add_words();
+  Status add_grammars(const std::vector<std::string>& commands);
+  std::vector<Part> decode(const char* search, std::vector<Cepstrum> cepstra);
 };
 
 }  // namespace orthonav::voice

@@ -13,8 +13,7 @@ namespace orthonav::voice {
 using Cepstrum = std::array<float, 13>;
 
 /// From cleaned samples at `kSpeechRateHz`, by PocketSphinx's front end; empty if there are too
-/// few. Their zero point is fixed: the mean over one word depends more on the word than on the
-/// microphone, and the acoustic model was adapted to different microphones.
+/// few.
 [[nodiscard]] std::vector<Cepstrum> cepstra_of(fe_s* front_end,
                                                std::span<const std::int16_t> samples);
 

@@ -34,7 +34,7 @@ TEST(Wording, NeverSaysThatANumberExceedsItself) {
   EXPECT_EQ(text_of_reason(Reason::kNoise, 0.00300001, 0.003),
             "the points scatter just over 3.0 mm about the surface, limit 3.0 mm");
   EXPECT_EQ(text_of(nav::CheckAdvice{nav::CheckAdvice::Kind::kReject, 4, 0.002003, 0.002}),
-            "check point 4 is 2.003 mm off, limit 2.000 mm: reject and digitize again");
+            "check point 4 is 2.003 mm off, limit 2.000 mm: reject level and digitize again");
   EXPECT_EQ(line_with(Message(TouchNotRecorded{TouchNotRecorded::What::kHead,
                                                {TouchRefusal::Kind::kTipMoved, 0.00304, 0.003}})),
             "head not recorded: tip moved 3.04 mm, limit 3.00 mm");
@@ -89,12 +89,13 @@ TEST(Wording, AsksForCheckPoints) {
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchOffLine, 1, 0.005, 0.0}),
             "touch 1 more place, 5 mm off the line of the others");
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kReject, 4, 0.0031, 0.002}),
-            "check point 4 is 3.1 mm off, limit 2.0 mm: reject and digitize again");
+            "check point 4 is 3.1 mm off, limit 2.0 mm: reject level and digitize again");
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchMore, 1, 0.0026, 0.002}),
             "touch 1 more place: 1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm");
-  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kUncertain, 1, 0.0026, 0.002}),
-            "1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm: reject and digitize "
-            "again");
+  EXPECT_EQ(
+      text_of(nav::CheckAdvice{Kind::kUncertain, 1, 0.0026, 0.002}),
+      "1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm: reject level and digitize "
+      "again");
 }
 
 TEST(Wording, SaysWhatStrokesAreWorth) {

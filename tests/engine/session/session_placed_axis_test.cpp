@@ -60,7 +60,7 @@ TEST_F(PlacedSession, TheAxisIsCorrectedWithConsentBeforeTheNextScrew) {
   s.touches_dimple();
   EXPECT_EQ(said<AxisCorrected>(s.pair()), nullptr) << "not without a word";
   EXPECT_THAT(detail_text(s.pair().status),
-              HasSubstr("guide's axis 1.1° off: say accept to correct it"));
+              HasSubstr("guide's axis 1.1° off: say accept result to correct it"));
   s.says("accept");
   ASSERT_NE(said<AxisCorrected>(s.pair()), nullptr);
   EXPECT_THAT(detail_text(s.pair().status), HasSubstr("guide's axis corrected by 1.1°"));

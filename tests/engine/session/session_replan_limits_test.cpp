@@ -83,7 +83,7 @@ TEST_F(SessionReplan, ABreachIsRefusedUntilItIsAccepted) {
   const double reach_m = 24 * kMm + 35 * kMm * std::sin(9 * kRadiansPerDegree) +
                          3.25 * kMm * std::cos(9 * kRadiansPerDegree);
   EXPECT_NEAR(said<ReplanRefusal>(g)->value, 30 * kMm - reach_m, kSearch_m + 1e-5);
-  EXPECT_THAT(detail_text(g.status), HasSubstr("(tip): say accept to take it"));
+  EXPECT_THAT(detail_text(g.status), HasSubstr("(tip): say accept result to take it"));
   EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 0.0, kExact)
       << "not before it is accepted";
   const Guidance& taken = s.says("accept");

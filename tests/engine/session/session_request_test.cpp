@@ -100,10 +100,11 @@ TEST(RequestedCommand, AcceptsNothingBeforeItWasShown) {
 
 TEST(RequestedCommand, IsAnsweredByWhatBecameOfIt) {
   Requests4 s;
-  EXPECT_EQ(s.answer_to("next"), "next: not possible now: \"next\"");
+  EXPECT_EQ(s.answer_to("next"), "next: not possible now: \"go to next\"");
   EXPECT_EQ(s.answer_to("begin"), "begin: no command");
   EXPECT_EQ(s.answer_to("start"), "start: taken");
-  EXPECT_EQ(s.answer_to("save"), "save: not possible now: \"save\"") << "nothing was stroked";
+  EXPECT_EQ(s.answer_to("save"), "save: not possible now: \"save points\"")
+      << "nothing was stroked";
   EXPECT_THAT(s.answer_to("delete"), HasSubstr("delete: nothing"));
   s.tracker().pointer = test::pointer_at({0, 0.02, 0});
   s.strokes(5);
@@ -117,11 +118,11 @@ TEST(RequestedCommand, ThatHadNothingToActOnIsNotTaken) {
   s.registers_first_level();
   EXPECT_NE(s.answer_to("accept"), "accept: taken") << "before it was shown";
   EXPECT_EQ(s.answer_to("accept"), "accept: taken");
-  EXPECT_EQ(s.answer_to("accept"), "accept: not possible now: \"accept\"");
+  EXPECT_EQ(s.answer_to("accept"), "accept: not possible now: \"accept result\"");
   EXPECT_EQ(s.answer_to("next"), "next: taken");
   EXPECT_EQ(s.session().current_step(), Step::kGuide);
   EXPECT_EQ(s.answer_to("twin"), "twin: taken");
-  EXPECT_EQ(s.answer_to("accept"), "accept: not possible now: \"accept\"");
+  EXPECT_EQ(s.answer_to("accept"), "accept: not possible now: \"accept result\"");
 }
 
 TEST(RequestedCommand, ThatTheChecksDoNotBearOutIsNotTaken) {

@@ -114,7 +114,7 @@ TEST_F(RodInHandSession, MeasuresABendAndInstructsWhatIsLeft) {
   EXPECT_LT((rod().lying->bend.at.v - in_world(place.at_m)).norm(), 0.002);
   EXPECT_THAT(detail_text(g.status), StartsWith("bend 1: "));
   EXPECT_THAT(detail_text(g.status), HasSubstr("; bend 2: "));
-  EXPECT_THAT(detail_text(g.status), HasSubstr(", then say next"));
+  EXPECT_THAT(detail_text(g.status), HasSubstr(", then say go to next"));
 }
 
 TEST_F(RodInHandSession, GoesOnToTheLastBend) {
@@ -125,7 +125,7 @@ TEST_F(RodInHandSession, GoesOnToTheLastBend) {
     const Guidance& g = made.is_bent_and_measured(s);
     ASSERT_EQ(rod().measured.size(), bend) << detail_text(g.status);
   }
-  EXPECT_THAT(detail_text(s.pair().status), HasSubstr("all bends are made, say done"));
+  EXPECT_THAT(detail_text(s.pair().status), HasSubstr("all bends are made, say finish rod"));
   EXPECT_EQ(refusal(s.says("next")), RodNotMeasured::Kind::kAllMade);
   EXPECT_EQ(step_of(s.says("done")), "rod right");
   EXPECT_EQ(rod().measured.size(), told().bends.size()) << "kept for the report";

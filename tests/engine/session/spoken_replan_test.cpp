@@ -165,7 +165,7 @@ TEST(ReplanWording, EveryRefusalHasItsReasonInOneLine) {
   write(PartedText{text}, ReplanRefusal{kBreach, -0.0013, 0.0, 0.0, 0.0, "medial"});
   EXPECT_EQ(text,
             "screw not changed: breaks through the cortex: clearance -1.3 mm, limit 0.0 mm "
-            "(medial): say accept to take it");
+            "(medial): say accept result to take it");
 }
 
 TEST(ReplanWording, SaysHowAScrewDiffersFromItsPlanBeforeSurgery) {

@@ -7,27 +7,29 @@ namespace orthonav::engine::wording_test {
 namespace {
 
 TEST(Wording, AsksForTheSleeveAndTellsHowTheWireStands) {
-  EXPECT_EQ(line_with(WireSoFar{}), "set the sleeve over the wire, turn it and click, or say next");
+  EXPECT_EQ(line_with(WireSoFar{}),
+            "set the sleeve over the wire, turn it and click, or say go to next");
   const PlacedWire within = wire_off(0.8, 0.0006);
   EXPECT_EQ(line_with(WireSoFar{&within}), "placed: 0.8 ± 0.9°, 0.6 ± 0.6 mm from the plan");
   const PlacedWire turned = wire_off(2.04, 0.0006);
-  EXPECT_EQ(line_with(WireSoFar{&turned}),
-            "placed: 2.0 ± 0.9°, 0.6 ± 0.6 mm from the plan; angle 2.04°, limit 2.00°: say accept "
-            "to keep it, delete to redo it");
+  EXPECT_EQ(
+      line_with(WireSoFar{&turned}),
+      "placed: 2.0 ± 0.9°, 0.6 ± 0.6 mm from the plan; angle 2.04°, limit 2.00°: say accept result "
+      "to keep it, delete last to redo it");
   PlacedWire off = wire_off(2.6, 0.0031);
   EXPECT_EQ(line_with(WireSoFar{&off, true}),
             "placed: 2.6 ± 0.9°, 3.1 ± 0.6 mm from the plan; angle 2.6°, limit 2.0°; entry 3.1 mm, "
-            "limit 2.0 mm: no other entry stays inside the bone, say accept to keep it");
+            "limit 2.0 mm: no other entry stays inside the bone, say accept result to keep it");
   off.kept = true;
   EXPECT_EQ(line_with(WireSoFar{&off}),
             "placed: 2.6 ± 0.9°, 3.1 ± 0.6 mm from the plan; angle 2.6°, limit 2.0°; entry 3.1 mm, "
-            "limit 2.0 mm: kept, say next");
+            "limit 2.0 mm: kept, say go to next");
   StatusLine lost;
   lost.tool = "guide";
   lost.tool_lost = true;
   lost.state = WireSoFar{};
   EXPECT_EQ(detail_text(lost),
-            "guide lost; set the sleeve over the wire, turn it and click, or say next");
+            "guide lost; set the sleeve over the wire, turn it and click, or say go to next");
 }
 
 TEST(Wording, SaysWhyAWireWasNotMeasuredAndWhatBecomesOfIt) {
@@ -53,13 +55,13 @@ TEST(Wording, SaysWhyAWireWasNotMeasuredAndWhatBecomesOfIt) {
   EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kWire})),
             "measure the wire first");
   EXPECT_EQ(line_with(Message(WireUndecided{})),
-            "not yet: say accept to keep it, delete to redo it");
+            "not yet: say accept result to keep it, delete last to redo it");
   EXPECT_EQ(line_with(Message(NoOtherEntry{})),
-            "no other entry stays inside the bone, say accept to keep it");
+            "no other entry stays inside the bone, say accept result to keep it");
   EXPECT_EQ(line_with(Message(ConfirmRedo{1})),
-            "redone once already: say delete again to redo it, accept to keep it");
+            "redone once already: say delete last again to redo it, accept result to keep it");
   EXPECT_EQ(line_with(Message(ConfirmRedo{2})),
-            "redone 2 times already: say delete again to redo it, accept to keep it");
+            "redone 2 times already: say delete last again to redo it, accept result to keep it");
   EXPECT_EQ(line_with(Message(ScrewRedone{0.0034, 0.0018})),
             "new entry 3.4 mm from the hole, clearance 1.8 mm: take the wire out and touch the "
             "dimple");

@@ -66,24 +66,28 @@ TEST(Wording, SaysWhichPartsGiveWayFirst) {
 }
 
 TEST(Wording, SaysHowARodInHandStands) {
-  EXPECT_EQ(line_with(RodInHandSoFar{0, true, 1}),
-            "stroke the straight rod from its first end on 3 sides, then say save; if bend 1 is "
-            "made, say next; 1 point");
+  EXPECT_EQ(
+      line_with(RodInHandSoFar{0, true, 1}),
+      "stroke the straight rod from its first end on 3 sides, then say save points; if bend 1 is "
+      "made, say go to next; 1 point");
   EXPECT_EQ(line_with(RodInHandSoFar{2, true, 120}),
-            "bend 2 made: stroke the rod from its first end on 3 sides, then say save; 120 points");
+            "bend 2 made: stroke the rod from its first end on 3 sides, then say save points; 120 "
+            "points");
   const NextBend first{1, 0.0633, 0.0, 18.5 * kRadiansPerDegree};
-  EXPECT_EQ(line_with(RodInHandSoFar{0, false, 0, nullptr, 0.1124, first, true}),
-            "cut to 112.4 mm; bend 1: 63 mm, towards the line, set 18.5°, then say next; shown "
-            "where it was stroked");
+  EXPECT_EQ(
+      line_with(RodInHandSoFar{0, false, 0, nullptr, 0.1124, first, true}),
+      "cut to 112.4 mm; bend 1: 63 mm, towards the line, set 18.5°, then say go to next; shown "
+      "where it was stroked");
   nav::MeasuredBend bend;
   bend.arc.angle_rad = 12.1 * kRadiansPerDegree;
   bend.angle_se_rad = 0.5 * kRadiansPerDegree;
   const NextBend next{3, 0.1084, 40.0 * kRadiansPerDegree, 17.2 * kRadiansPerDegree};
-  EXPECT_EQ(line_with(RodInHandSoFar{2, false, 0, &bend, {}, next}),
-            "bend 2: 12.1 ± 0.5°; bend 3: 108 mm, roll 40°, set 17.2°, then say next; no longer "
-            "shown: it may have moved");
+  EXPECT_EQ(
+      line_with(RodInHandSoFar{2, false, 0, &bend, {}, next}),
+      "bend 2: 12.1 ± 0.5°; bend 3: 108 mm, roll 40°, set 17.2°, then say go to next; no longer "
+      "shown: it may have moved");
   EXPECT_EQ(line_with(RodInHandSoFar{2, false, 0, &bend, {}, {}, true}),
-            "bend 2: 12.1 ± 0.5°; all bends are made, say done; shown where it was stroked");
+            "bend 2: 12.1 ± 0.5°; all bends are made, say finish rod; shown where it was stroked");
 }
 
 TEST(Wording, SaysHowAStepStands) {
@@ -149,7 +153,8 @@ TEST(Wording, AsksForTheLandmarkAndTellsHowItWasFound) {
 TEST(Wording, SaysEveryMessage) {
   using What = TouchNotRecorded::What;
   using Touch = TouchRefusal::Kind;
-  EXPECT_EQ(line_with(Message(NotPossibleNow{Event::kSayAccept})), "not possible now: \"accept\"");
+  EXPECT_EQ(line_with(Message(NotPossibleNow{Event::kSayAccept})),
+            "not possible now: \"accept result\"");
   EXPECT_EQ(line_with(Message(NotUnderstood{})), "not understood");
   EXPECT_EQ(line_with(Message(SaidBeforeShown{})),
             "not accepted: said before the hologram was shown");
@@ -158,9 +163,10 @@ TEST(Wording, SaysEveryMessage) {
   EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kCheckPoint})),
             "no check point to delete");
   EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kHead})), "no head to delete");
-  EXPECT_EQ(line_with(Message(ConfirmDelete{1})), "say delete again to drop the last saved point");
+  EXPECT_EQ(line_with(Message(ConfirmDelete{1})),
+            "say delete last again to drop the last saved point");
   EXPECT_EQ(line_with(Message(ConfirmDelete{5})),
-            "say delete again to drop the last saved 5 points");
+            "say delete last again to drop the last saved 5 points");
   EXPECT_EQ(line_with(Message(ChecksMissing{{nav::CheckAdvice::Kind::kTouchApart, 3, 0.015}})),
             "not accepted: touch 3 places, 15 mm apart");
   EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kHead, {Touch::kTipMoved, 0.0032, 0.003}})),
@@ -184,9 +190,9 @@ TEST(Wording, SaysEveryMessage) {
             "not yet: make a dimple in this bone and touch it");
   EXPECT_EQ(line_with(Message(LandmarkMissing{true})), "not yet: touch the dimple");
   EXPECT_EQ(line_with(Message(LandmarkMoved{0.0023, 0.0014, false})),
-            "the patient or the map moved 2.3 mm, limit 1.4 mm: check again or reject");
+            "the patient or the map moved 2.3 mm, limit 1.4 mm: check again or reject level");
   EXPECT_EQ(line_with(Message(LandmarkMoved{0.00161, 0.0016, true})),
-            "the reference moved 1.61 mm, limit 1.60 mm: check again or reject");
+            "the reference moved 1.61 mm, limit 1.60 mm: check again or reject level");
   EXPECT_EQ(line_with(Message(BoneUnchecked{49.2, 0.0014})),
             "bone not checked for 49 s, the map may have drifted 1.4 mm: touch the dimple");
   EXPECT_EQ(line_with(Message(NoRod{{"2 heads lie 0.4 mm apart, at least 1.0 mm"}})),
@@ -195,8 +201,8 @@ TEST(Wording, SaysEveryMessage) {
   EXPECT_EQ(line_with(Message(RodNotMeasured{kNoInstructions})),
             "no rod to bend: touch its heads first");
   EXPECT_EQ(line_with(Message(RodNotMeasured{kMeasureFirst, 2})),
-            "bend 2 is not measured: stroke the rod, then say save");
-  EXPECT_EQ(line_with(Message(RodNotMeasured{kAllMade})), "all bends are made, say done");
+            "bend 2 is not measured: stroke the rod, then say save points");
+  EXPECT_EQ(line_with(Message(RodNotMeasured{kAllMade})), "all bends are made, say finish rod");
   EXPECT_EQ(line_with(Message(RodNotMeasured{kOneSide})),
             "rod not measured: stroked on one side alone: stroke it on 3 sides");
   EXPECT_EQ(line_with(Message(MapMoved{Step::kDigitize})),
@@ -216,15 +222,16 @@ TEST(Wording, TheLossOfTheToolComesBeforeAnyMessage) {
   line.state = HeadsSoFar{2};
   EXPECT_EQ(detail_text(line), "guide lost") << "in place of how the step stands";
   line.message = &message;
-  EXPECT_EQ(detail_text(line), "guide lost; not possible now: \"accept\"");
+  EXPECT_EQ(detail_text(line), "guide lost; not possible now: \"accept result\"");
   line.pictures_apart = true;
-  EXPECT_EQ(detail_text(line),
-            "the two cameras' pictures do not belong together; not possible now: \"accept\"");
+  EXPECT_EQ(
+      detail_text(line),
+      "the two cameras' pictures do not belong together; not possible now: \"accept result\"");
   line.tool_lost = line.pictures_apart = false;
   line.tag_size_off = -0.032;
   EXPECT_EQ(detail_text(line),
             "guide: tag 3.2 % smaller than stated, check print and unit; not possible now: "
-            "\"accept\"");
+            "\"accept result\"");
 }
 
 TEST(Wording, WhatIsToBeTouchedCountsOnBesideAWarning) {

@@ -61,7 +61,7 @@ TEST(OpenVoice, NamesWhatItKnows) {
                 AllOf(HasSubstr("known are headset, none, mic:"), HasSubstr(uri)));
   }
   EXPECT_THAT(voice_refusal("wav:x.wav?loud"), HasSubstr("unknown key \"loud\""));
-  EXPECT_THAT(voice_refusal("wav:x.wav?wake=maybe"), HasSubstr("wake=always"));
+  EXPECT_THAT(voice_refusal("wav:x.wav?wake=never"), HasSubstr("unknown key \"wake\""));
   EXPECT_THAT(voice_refusal("wav:/nowhere/x.wav"), HasSubstr("/nowhere/x.wav"));
   EXPECT_THAT(voice_refusal("mic:no such microphone"), HasSubstr("no such microphone"));
   const fake::ManualClock clock;

@@ -158,13 +158,13 @@ void FakeEngine::measured_wire() {
 }
 
 void FakeEngine::answer_about_wire(const std::string& phrase) {
-  if (phrase == "accept") {
+  if (phrase == "accept result") {
     checks_ = ChecksAsked::kPassed;
-  } else if (phrase == "delete" && options_.no_other_entry) {
+  } else if (phrase == "delete last" && options_.no_other_entry) {
     checks_ = ChecksAsked::kKeepWire;
-  } else if (phrase == "delete") {
+  } else if (phrase == "delete last") {
     enter({Step::kGuide, level_label(), case_.screws[screw_].side});
-  } else if (phrase == "next" && checks_ != ChecksAsked::kDecideOnWire) {
+  } else if (phrase == "go to next" && checks_ != ChecksAsked::kDecideOnWire) {
     next_screw();
   }
 }
@@ -199,33 +199,33 @@ void FakeEngine::take(const Phrase& phrase) {
     return;
   }
   DigitizedLevel& level = levels_[level_label()];
-  if (step_.step == Step::kSetup && phrase.text == "start") {
+  if (step_.step == Step::kSetup && phrase.text == "begin guiding") {
     enter({Step::kDigitize, level_label(), {}});
-  } else if ((step_.step == Step::kDigitize) && phrase.text == "save") {
+  } else if ((step_.step == Step::kDigitize) && phrase.text == "save points") {
     level.saved_samples += static_cast<int>(region_.size());
     level.samples_in_vertebra.insert(level.samples_in_vertebra.end(), region_.begin(),
                                      region_.end());
     region_.clear();
-  } else if ((step_.step == Step::kDigitize) && phrase.text == "delete") {
+  } else if ((step_.step == Step::kDigitize) && phrase.text == "delete last") {
     ++level.deleted_regions;
     region_.clear();
-  } else if ((step_.step == Step::kVerify) && phrase.text == "accept") {
+  } else if ((step_.step == Step::kVerify) && phrase.text == "accept result") {
     enter({Step::kAccepted, level_label(), {}});
     checks_ = options_.landmark ? ChecksAsked::kTouchMore : ChecksAsked::kNone;
-  } else if ((step_.step == Step::kVerify) && phrase.text == "reject") {
+  } else if ((step_.step == Step::kVerify) && phrase.text == "reject level") {
     level = {};
     first_press_.reset();
     enter({Step::kDigitize, level_label(), {}});
-  } else if (step_.step == Step::kGuide && options_.wire && phrase.text == "next") {
+  } else if (step_.step == Step::kGuide && options_.wire && phrase.text == "go to next") {
     look_at_wire();
   } else if (step_.step == Step::kPlaced) {
     answer_about_wire(phrase.text);
   } else if (((step_.step == Step::kAccepted) || (step_.step == Step::kGuide)) &&
-             phrase.text == "next") {
+             phrase.text == "go to next") {
     next_screw();
-  } else if (step_ == StepOnDisplay{Step::kRod, {}, Side::kLeft} && phrase.text == "done") {
+  } else if (step_ == StepOnDisplay{Step::kRod, {}, Side::kLeft} && phrase.text == "finish rod") {
     enter({Step::kRod, {}, Side::kRight});
-  } else if (step_ == StepOnDisplay{Step::kRod, {}, Side::kRight} && phrase.text == "done") {
+  } else if (step_ == StepOnDisplay{Step::kRod, {}, Side::kRight} && phrase.text == "finish rod") {
     enter({Step::kDone, {}, {}});
   }
 }

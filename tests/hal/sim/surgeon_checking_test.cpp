@@ -104,8 +104,9 @@ TEST(CheckingSurgeon, TouchesNothingWhereTheLineAsksForNothing) {
   ASSERT_TRUE(headset.ok()) << headset.error().message;
   FakeEngine engine(**headset, test_case);
   EXPECT_GT(engine.run(), 0);
-  const auto accept = std::find_if(engine.phrases().begin(), engine.phrases().end(),
-                                   [](const Phrase& phrase) { return phrase.text == "accept"; });
+  const auto accept =
+      std::find_if(engine.phrases().begin(), engine.phrases().end(),
+                   [](const Phrase& phrase) { return phrase.text == "accept result"; });
   ASSERT_NE(accept, engine.phrases().end());
   // The double click that asked for the registration is the last that was clicked.
   const auto after = std::find_if(engine.clicks().begin(), engine.clicks().end(),
@@ -133,7 +134,7 @@ TEST(CheckingSurgeon, CheckingDrawsFromARandomStreamOfItsOwn) {
     ASSERT_LT(i, std::min(spoken[0].size(), spoken[1].size()));
     EXPECT_EQ(spoken[0][i].text, spoken[1][i].text) << i;
     EXPECT_EQ(spoken[0][i].confidence, spoken[1][i].confidence) << spoken[0][i].text;
-  } while (spoken[0][i++].text != "next");
+  } while (spoken[0][i++].text != "go to next");
   EXPECT_GT(spoken[1][i - 1].time, spoken[0][i - 1].time) << "the touches took their time";
 }
 

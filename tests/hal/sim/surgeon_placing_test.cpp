@@ -65,7 +65,7 @@ TEST(PlacingSurgeon, SetsTheSleeveOverEveryWireAndClicks) {
     EXPECT_LT(angle_rad, kExact_rad);
     EXPECT_LT(off_m, kExact_m);
   }
-  EXPECT_EQ(count_of(operated.engine.phrases(), "delete"), 0U);
+  EXPECT_EQ(count_of(operated.engine.phrases(), "delete last"), 0U);
 }
 
 TEST(PlacingSurgeon, TheSleeveHasItsPlayAndTheHandNoTremorInIt) {
@@ -93,7 +93,7 @@ TEST(PlacingSurgeon, RedoesOnceWhatLiesBeyondALimitAndTheNewWireTakesItsPlace) {
   options.wires_off = 1;
   const Operated operated(options);
   ASSERT_EQ(operated.engine.history().back(), "done");
-  EXPECT_EQ(count_of(operated.engine.phrases(), "delete"), 1U);
+  EXPECT_EQ(count_of(operated.engine.phrases(), "delete last"), 1U);
   const Truth& truth = operated.headset->truth();
   EXPECT_EQ(truth.wires.size(), operated.test_case.screws.size()) << "one of each screw";
   EXPECT_EQ(truth.heads.size(), operated.test_case.screws.size());
@@ -109,7 +109,7 @@ TEST(PlacingSurgeon, KeepsTheSecondWireOfAScrewWhateverItIs) {
   options.wires_off = 2;
   const Operated operated(options);
   ASSERT_EQ(operated.engine.history().back(), "done");
-  EXPECT_EQ(count_of(operated.engine.phrases(), "delete"), 1U);
+  EXPECT_EQ(count_of(operated.engine.phrases(), "delete last"), 1U);
   EXPECT_FALSE(operated.headset->truth().surgeon_gave_up);
 }
 
@@ -119,7 +119,7 @@ TEST(PlacingSurgeon, KeepsWhatCannotBeRedone) {
   options.no_other_entry = true;
   const Operated operated(options);
   ASSERT_EQ(operated.engine.history().back(), "done");
-  EXPECT_EQ(count_of(operated.engine.phrases(), "delete"), 1U);
+  EXPECT_EQ(count_of(operated.engine.phrases(), "delete last"), 1U);
   EXPECT_EQ(operated.headset->truth().wires.size(), operated.test_case.screws.size());
 }
 

@@ -136,7 +136,7 @@ TEST(Surgeon, GivesUpWhenNobodyListens) {
   EXPECT_GT(frames, 360 * 30);
   EXPECT_LT(frames, 400 * 30);
   EXPECT_EQ(std::count_if(engine.phrases().begin(), engine.phrases().end(),
-                          [](const Phrase& phrase) { return phrase.text == "start"; }),
+                          [](const Phrase& phrase) { return phrase.text == "begin guiding"; }),
             6);
 }
 

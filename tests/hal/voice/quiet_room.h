@@ -11,8 +11,9 @@
 
 namespace orthonav::voice::voice_test {
 
-inline const std::vector<std::string> kCommands = {"start", "save", "delete",   "accept", "reject",
-                                                   "next",  "done", "move rod", "twin"};
+inline const std::vector<std::string> kCommands = {"begin guiding", "save points",   "delete last",
+                                                   "accept result", "reject level",  "go to next",
+                                                   "finish rod",    "move template", "twin screw"};
 
 inline std::vector<std::int16_t> said(const std::string& text) {
   const auto samples = orthonav::test::spoken(text, {"en-us", 150});

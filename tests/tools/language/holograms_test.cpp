@@ -26,7 +26,7 @@ std::string all_text(const render::Scene& scene) {
 }
 
 /// The commands that are heard in this operation.
-constexpr const char* kHeard = "start|save|accept|next";
+constexpr const char* kHeard = "start|save|accept result|accept|go to next|next";
 
 /// What the display draws, and what a headset is told, in no language but the wearer's.
 void expect_translated(SceneBuilder& builder, const Guidance& guidance) {

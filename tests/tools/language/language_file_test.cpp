@@ -13,12 +13,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 const std::vector<std::string> kTexts = {"tool lost", "tip moved %.1f mm, limit %.1f mm",
-                                         "say accept to take it", "only %.0f %% of it"};
+                                         "say accept result to take it", "only %.0f %% of it"};
 
 std::vector<LanguageLine> german() {
   return {{"tool lost", "Werkzeug verloren", 1},
           {"tip moved %.1f mm, limit %.1f mm", "Spitze %.1f mm verrutscht, Grenze %.1f mm", 2},
-          {"say accept to take it", "zum Übernehmen accept sagen", 3},
+          {"say accept result to take it", "zum Übernehmen accept result sagen", 3},
           {"only %.0f %% of it", "nur %.0f %% davon", 4}};
 }
 
@@ -69,14 +69,14 @@ TEST(Language, KeepsEveryNumber) {
 
 TEST(Language, KeepsTheCommands) {
   EXPECT_EQ(refusal_with(2, "zum Übernehmen annehmen sagen"),
-            "my.toml:3: the translation of \"say accept to take it\" lacks the command "
-            "\"accept\", which is said in English");
+            "my.toml:3: the translation of \"say accept result to take it\" lacks the command "
+            "\"accept result\", which is said in English");
   EXPECT_NE(refusal_with(2, "acceptieren"), "") << "a part of a word is not a command";
-  const std::vector<std::string> texts = {"check again or reject", "the tip is done"};
+  const std::vector<std::string> texts = {"check again or reject level", "the tip is done"};
   const auto checked = checked_translation(
       "my.toml", {{texts[1], "fertig", 1}, {texts[0], "erneut prüfen", 2}}, texts);
   ASSERT_FALSE(checked);
-  EXPECT_THAT(checked.error().message, HasSubstr("lacks the command \"reject\""));
+  EXPECT_THAT(checked.error().message, HasSubstr("lacks the command \"reject level\""));
 }
 
 TEST(Language, HoldsOnlyWhatTheDisplayShows) {

@@ -35,9 +35,10 @@ class PseudoLanguage {
 /// The words in a text that are neither numbers and units nor names of the operation: tools,
 /// levels, commands in quotation marks, or `heard`.
 inline std::string english_left(const std::string& text, const std::string& heard = "mm") {
-  const std::regex allowed(
-      "\\b(mm|inf|pointer|guide|reference|L[0-9]|" + heard +
-      ")\\b|\"(start|save|delete|accept|reject|next|done|move rod|twin|drill)\"");
+  const std::regex allowed("\\b(mm|inf|pointer|guide|reference|L[0-9]|" + heard +
+                           ")\\b|\"(begin guiding|save points|delete last|accept result|reject "
+                           "level|go to next|finish rod|move "
+                           "template|twin screw|drill)\"");
   static const std::regex kNoLetters("[^A-Za-z\"]+");
   return std::regex_replace(std::regex_replace(text, allowed, ""), kNoLetters, "");
 }

@@ -13,20 +13,9 @@ inline constexpr std::string_view kTestVoices[] = {
 inline constexpr std::string_view kFreshVoices[] = {
     "en-us+john",   "gmw/en+m8",        "en-gb-x-rp+iven",        "en-gb-scotland+gustave",
     "en-029+pedro", "en-us-nyc+miguel", "en-gb-x-gbclan+grandma", "en-gb-x-gbcwmd+announcer"};
-/// Thresholds were chosen on these.
+/// The weights of the evidence and the line were chosen on these.
 inline constexpr std::string_view kTuningVoices[] = {
     "en-us-nyc", "en-us+f4",          "en-gb-x-gbclan+m2", "en-gb-x-gbcwmd+f5", "en-us+m6",
     "gmw/en+f4", "en-gb-scotland+f4", "en-029+m6",         "en-gb-x-rp+f5"};
-
-/// The acoustic model was adapted to these variants, each in half of the accents.
-inline constexpr std::string_view kTrainingAccents[] = {
-    "en-us",     "gmw/en",         "en-gb-scotland", "en-gb-x-rp",
-    "en-us-nyc", "en-gb-x-gbclan", "en-029",         "en-gb-x-gbcwmd"};
-inline constexpr std::string_view kTrainingVariants[] = {
-    "Alex",    "Alicia",   "Andrea", "Andy",  "Annie",   "Denis",  "Gene",   "Hugo",
-    "Jacky",   "Lee",      "Marco",  "Mario", "Michael", "Mike",   "anika",  "aunty",
-    "belinda", "benjamin", "boris",  "david", "ed",      "edward", "linda",  "max",
-    "michel",  "paul",     "quincy", "rob",   "robert",  "sandro", "shelby", "steph",
-    "travis",  "victor",   "zac",    "m4",    "m5",      "caleb",  "adam",   "antonio"};
 
 }  // namespace orthonav::bench

@@ -2,10 +2,8 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "hal/voice/speech_segments.h"
 #include "tests/support/noisy_speech.h"
 
 namespace orthonav::bench {
@@ -23,23 +21,6 @@ inline PhraseInRoom phrase_in_room(std::span<const std::int16_t> said, test::Noi
   const std::int64_t end = track.speech(said).second;
   track.silence(0.6);
   return {track.with_noise(noise, snr_db, random, babble), end};
-}
-
-/// The segments that a new segmenter finds, each with its sound.
-inline std::vector<voice::SpeechSegment> cut_out(std::span<const std::int16_t> sound) {
-  voice::SpeechSegmenter segmenter;
-  std::vector<voice::SpeechSegment> told;
-  segmenter.push(sound, told);
-  std::vector<voice::SpeechSegment> ended;
-  for (std::size_t i = 0; i < told.size(); ++i) {
-    if (!told[i].ended) {
-      continue;
-    }
-    // The announcement before its end held the sound.
-    ended.push_back(std::move(told[i]));
-    ended.back().samples = std::move(told[i - 1].samples);
-  }
-  return ended;
 }
 
 }  // namespace orthonav::bench

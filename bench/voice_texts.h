@@ -39,21 +39,9 @@ inline constexpr std::string_view kTuningTalk[] = {
     "That one is mine.",
 };
 
-/// Phrases that resemble the wake word and a command: the weights were trained with these as well
-/// as with the first set.
-inline constexpr std::string_view kNearWakeWord[] = {
-    "author",   "authors",     "often", "also",       "order",  "auto",      "although",
-    "or so",    "or the",      "other", "ought to",   "others", "off the",   "Arthur",
-    "orthodox", "orthopaedic", "offer", "altogether", "awful",  "are those", "north"};
-inline constexpr std::string_view kNearCommands[] = {
-    "start",  "safe", "saved",  "delayed", "accepted", "except", "the next one", "neck",
-    "text",   "down", "one",    "twins",   "tin",      "right",  "rejected",     "object",
-    "stop",   "star", "roads",  "move on", "delete",   "save",   "twin",         "done",
-    "reject", "next", "accept", "move it", "same",     "day",    "unknown",      "that"};
-
-/// Words that are no commands, said after the wake word where one is expected. The first are
-/// competitors in the recogniser's grammar, the second weighed the evidence; the third are in
-/// neither, nor in any text above, and are measured.
+/// Words that are no commands, said after the wake word where one is expected: the answers that are
+/// given most; those on which the evidence was weighed; and those that are measured, among them
+/// parts of commands and commands' names.
 inline constexpr std::string_view kAskedWords[] = {"stop",    "okay", "yes",  "no",
                                                    "confirm", "undo", "reset"};
 inline constexpr std::string_view kTuningWords[] = {
@@ -110,28 +98,32 @@ inline constexpr std::string_view kTuningWords[] = {
     "when",          "wire",          "zero",
     "zoom"};
 inline constexpr std::string_view kUnseenWords[] = {
-    "accent",        "accept none",  "adept",          "again",      "agree",   "art",
-    "asset",         "athlete",      "attempt",        "backward",   "battery", "best",
-    "calibrate",     "cancel",       "check",          "choose",     "come on", "correct",
-    "decline",       "delegate",     "delete nothing", "deletes",    "delight", "depart",
-    "discard",       "drill",        "dung",           "eight",      "elect",   "enough",
-    "enter",         "erase",        "exact",          "excerpt",    "expect",  "extract",
-    "false",         "five",         "forget",         "fun",        "gave",    "glasses",
-    "good",          "good morning", "headset",        "heart",      "hello",   "higher",
-    "hold on",       "home",         "image",          "implant",    "improve", "inept",
-    "keep",          "less",         "light",          "load",       "louder",  "mark",
-    "measure",       "menu",         "message",        "mood",       "motor",   "move road",
-    "move the lamp", "nexus",        "not this one",   "not yet",    "nothing", "nun",
-    "open",          "over",         "pedicle",        "perfect",    "photo",   "plan",
-    "play",          "pointer",      "power",          "quieter",    "ready",   "reboot",
-    "record",        "regret",       "remove",         "remove rod", "removed", "restart",
-    "retract",       "sacrum",       "sane",           "saving",     "scalpel", "screen",
-    "select",        "settings",     "seven",          "show",       "slave",   "sleep",
-    "slower",        "smaller",      "sorry",          "sort",       "stack",   "stars",
-    "startle",       "status",       "store",          "sun",        "table",   "tap",
-    "target",        "that's it",    "thin",           "too far",    "town",    "train",
-    "true",          "video",        "wait",           "wave",       "weather", "what now",
-    "wrong",         "yes please"};
+    "accent",        "accept none",  "adept",          "again",       "agree",       "art",
+    "asset",         "athlete",      "attempt",        "backward",    "battery",     "best",
+    "calibrate",     "cancel",       "check",          "choose",      "come on",     "correct",
+    "decline",       "delegate",     "delete nothing", "deletes",     "delight",     "depart",
+    "discard",       "drill",        "dung",           "eight",       "elect",       "enough",
+    "enter",         "erase",        "exact",          "excerpt",     "expect",      "extract",
+    "false",         "five",         "forget",         "fun",         "gave",        "glasses",
+    "good",          "good morning", "headset",        "heart",       "hello",       "higher",
+    "hold on",       "home",         "image",          "implant",     "improve",     "inept",
+    "keep",          "less",         "light",          "load",        "louder",      "mark",
+    "measure",       "menu",         "message",        "mood",        "motor",       "move road",
+    "move the lamp", "nexus",        "not this one",   "not yet",     "nothing",     "nun",
+    "open",          "over",         "pedicle",        "perfect",     "photo",       "plan",
+    "play",          "pointer",      "power",          "quieter",     "ready",       "reboot",
+    "record",        "regret",       "remove",         "remove rod",  "removed",     "restart",
+    "retract",       "sacrum",       "sane",           "saving",      "scalpel",     "screen",
+    "select",        "settings",     "seven",          "show",        "slave",       "sleep",
+    "slower",        "smaller",      "sorry",          "sort",        "stack",       "stars",
+    "startle",       "status",       "store",          "sun",         "table",       "tap",
+    "target",        "that's it",    "thin",           "too far",     "town",        "train",
+    "true",          "video",        "wait",           "wave",        "weather",     "what now",
+    "wrong",         "yes please",   "start",          "save",        "delete",      "accept",
+    "reject",        "next",         "done",           "twin",        "begin",       "stop guiding",
+    "end guiding",   "save it",      "save plan",      "delete it",   "delete plan", "accept it",
+    "accept plan",   "reject it",    "reject result",  "go to start", "finish it",   "finish level",
+    "move it away",  "two screws"};
 
 inline constexpr std::string_view kTestTalk[] = {
     "I'll save that for later, when we are on the other side.",
