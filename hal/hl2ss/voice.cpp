@@ -24,6 +24,8 @@ std::vector<std::string> workflow_phrases() {
           "move template",
           "twin screw",
           "drill",
+          "save",    // as in the publication
+          "delete",
           "move cranial one",
           "move caudal one",
           "move medial one",
