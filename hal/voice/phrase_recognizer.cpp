@@ -126,9 +126,10 @@ Status PhraseRecognizer::add_grammars(const std::vector<std::string>& commands) 
       ckd_free(sounds);
     }
   }
-  // Without commands alone, the wake word would be found in what precedes one; without other
-  // endings, "delete it" would be heard as the command that begins alike.
+  // Without commands alone, the wake word would be found in what precedes one; without answers and
+  // other endings, "confirm" and "delete it" would be heard as what they resemble most.
   std::vector<std::string> phrases = commands;
+  phrases.insert(phrases.end(), kAnswers.begin(), kAnswers.end());
   for (const std::string& command : commands) {
     phrases.push_back(command.substr(0, command.find(' ')) + " [" +
                       any_of(std::vector<std::string>(kOtherEndings.begin(), kOtherEndings.end())) +

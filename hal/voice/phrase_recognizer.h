@@ -36,8 +36,8 @@ struct Recognition {
 };
 
 /// Decides which command follows the wake word in a segment of speech: PocketSphinx with a grammar
-/// of the commands and of other phrases that begin alike, compared with a second grammar in which
-/// any sounds may follow one another. One thread at a time.
+/// of the commands, of usual answers and of phrases that begin like a command, compared with a
+/// second grammar in which any sounds may follow one another. One thread at a time.
 class PhraseRecognizer {
  public:
   /// Refuses a missing model, and commands with a word whose pronunciation is not known.

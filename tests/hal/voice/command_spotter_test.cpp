@@ -104,15 +104,10 @@ TEST(CommandSpotter, TakesNoOtherWordAfterTheWakeWordForACommand) {
   const auto heard = spotter();
   ASSERT_NE(heard, nullptr);
   for (const char* word :
-       {"stop",         "okay",      "yes",       "no",        "confirm",   "undo",
-        "reset",  // answers
-        "start",        "save",      "delete",    "accept",    "reject",    "next",
-        "done",         "twin",                                                           // names
-        "stop guiding", "begin",     "save plan", "delete it", "accept it", "reject it",  // parts
-        "go to start",  "finish it", "move it",   "cancel",    "wrong",     "thin",
-        "five",  // others
-        "stack",        "nun",       "drill",     "hold on",   "continue",  "measure",
-        "screen",       "record"}) {
+       {"stop",      "okay",      "yes",       "no",        "confirm",     "undo",
+        "reset",     "start",     "delete",    "accept",    "next",        "stop guiding",
+        "save plan", "delete it", "accept it", "reject it", "go to start", "cancel",
+        "five",      "stack",     "hold on",   "continue"}) {
     std::vector<SpokenCommand> commands;
     heard->push(quiet_room({std::string("ortho ") + word}), commands);
     EXPECT_THAT(sure_texts(commands), IsEmpty()) << word;
@@ -120,6 +115,21 @@ TEST(CommandSpotter, TakesNoOtherWordAfterTheWakeWordForACommand) {
   std::vector<SpokenCommand> commands;
   heard->push(quiet_room({"ortho accept result"}), commands);
   EXPECT_THAT(sure_texts(commands), ::testing::ElementsAre("accept result")) << "which is one";
+}
+
+TEST(CommandSpotter, TakesNoAnswerInNoiseForACommand) {
+  const auto heard = spotter();
+  ASSERT_NE(heard, nullptr);
+  Random random(11);
+  for (const char* answer : {"stop", "okay", "yes", "no", "confirm", "undo", "reset"}) {
+    Soundtrack sound;
+    sound.silence(1.5);
+    sound.speech(said(std::string("ortho ") + answer));
+    sound.silence(0.6);
+    std::vector<SpokenCommand> commands;
+    heard->push(sound.with_noise(Noise::kWhite, 10.0, random), commands);
+    EXPECT_THAT(sure_texts(commands), IsEmpty()) << answer;
+  }
 }
 
 TEST(CommandSpotter, WaitsForTheWakeWord) {
