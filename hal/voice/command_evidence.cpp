@@ -17,8 +17,10 @@ constexpr double kFramesWeight = 0.044;
 constexpr double kLeastEvidence = -8.0;
 constexpr double kLeastAround = -300.0;
 constexpr double kMostAround = 50.0;
-// The wake words of all tuning voices lie above -4.6: below, it was not said.
+// The wake words of all tuning voices lie above -4.6 and last longer than this: otherwise it was
+// not said.
 constexpr double kLeastWake = -5.5;
+constexpr int kLeastWakeFrames = 24;
 constexpr double kNotSaid = -100.0;
 
 }  // namespace
@@ -29,6 +31,7 @@ std::optional<CommandEvidence> evidence_of(const Recognition& heard, const std::
   }
   CommandEvidence found;
   found.wake = heard.words.front().evidence;
+  found.wake_frames = heard.words.front().frames;
   found.around = heard.evidence_around;
   for (std::size_t i = 1; i < heard.words.size(); ++i) {
     const RecognizedWord& word = heard.words[i];
@@ -42,7 +45,7 @@ std::optional<CommandEvidence> evidence_of(const Recognition& heard, const std::
 }
 
 double log_odds(const CommandEvidence& evidence) {
-  if (evidence.wake < kLeastWake) {
+  if (evidence.wake < kLeastWake || evidence.wake_frames < kLeastWakeFrames) {
     return kNotSaid;
   }
   return kConstant + kEvidenceWeight * std::max(evidence.evidence, kLeastEvidence) +

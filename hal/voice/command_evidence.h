@@ -15,6 +15,7 @@ struct CommandEvidence {
   double least = 0.0;     ///< of its words
   int frames = 0;         ///< of 10 ms, over all its words
   double wake = 0.0;      ///< of the wake word
+  int wake_frames = 0;    ///< of 10 ms
   double around = 0.0;    ///< `Recognition::evidence_around`
 };
 

@@ -7,7 +7,7 @@ namespace orthonav::voice {
 namespace {
 
 /// What "ortho save points" sounds like when it was said, at half a second each.
-CommandEvidence likely() { return {"save points", -1.0, -1.5, 80, -1.0, -10.0}; }
+CommandEvidence likely() { return {"save points", -1.0, -1.5, 80, -1.0, 50, -10.0}; }
 
 TEST(CommandEvidence, TakesTheWakeWordAndTheCommandApart) {
   const auto evidence =
@@ -18,6 +18,7 @@ TEST(CommandEvidence, TakesTheWakeWordAndTheCommandApart) {
   EXPECT_NEAR(evidence->evidence, (20.0 * 1.0 - 30.0 * 0.5) / 50.0, 1e-12);
   EXPECT_EQ(evidence->least, -0.5);
   EXPECT_EQ(evidence->wake, 0.5);
+  EXPECT_EQ(evidence->wake_frames, 40);
   EXPECT_EQ(evidence->around, -7.0);
 }
 
@@ -39,6 +40,9 @@ TEST(CommandEvidence, CountsWhereItIsGoodAndNotWhereItIsBad) {
   poor = likely();
   poor.wake = -6.0;
   EXPECT_LT(log_odds(poor), 0.0) << "another wake word";
+  poor = likely();
+  poor.wake_frames = 20;
+  EXPECT_LT(log_odds(poor), 0.0) << "too short for the wake word";
   poor = likely();
   poor.around = -300.0;
   EXPECT_LT(log_odds(poor), 0.0) << "more was said";
