@@ -23,10 +23,9 @@ TEST(Compare, AllowsTwoStepsAChannelAndNotThree) {
   const RgbaImage expected = grey(9, 7, 80);
   RgbaImage actual = expected;
   actual.pixels[4 * (3 * 9 + 5) + 1] = 82;
-  EXPECT_TRUE(compare_colour(expected, actual).alike());
+  EXPECT_EQ(compare_colour(expected, actual).outside, 0u);
   actual.pixels[4 * (3 * 9 + 5) + 1] = 83;
   const ColourDifference difference = compare_colour(expected, actual);
-  EXPECT_FALSE(difference.alike());
   EXPECT_EQ(difference.outside, 1u);
   EXPECT_EQ(difference.worst, 3);
   EXPECT_EQ(difference.worst_x_px, 5);
@@ -38,6 +37,17 @@ TEST(Compare, SeesDarkerAsWellAsBrighter) {
   const RgbaImage expected = grey(4, 4, 80);
   RgbaImage actual = expected;
   actual.pixels[0] = 77;
+  EXPECT_EQ(compare_colour(expected, actual).outside, 1u);
+}
+
+TEST(Compare, AllowsAsManyPixelsAsProcessorsDifferInAndNoMore) {
+  const RgbaImage expected = grey(4, 4, 80);
+  RgbaImage actual = expected;
+  for (std::size_t pixel = 0; pixel < kEdgePixels; ++pixel) {
+    actual.pixels[4 * pixel] = 255;
+    EXPECT_TRUE(compare_colour(expected, actual).alike());
+  }
+  actual.pixels[4 * kEdgePixels] = 255;
   EXPECT_FALSE(compare_colour(expected, actual).alike());
 }
 
