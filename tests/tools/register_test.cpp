@@ -158,9 +158,13 @@ TEST_P(RegisterCommand, TellsOfThePublishedMethodWhatItKnows) {
   ASSERT_EQ(called.code, 0) << called.err;
   const json report = json::parse(called.out);
   EXPECT_EQ(report["method"], "paper");
-  EXPECT_LT(error_m(report, 1e3), kRight_m);
-  EXPECT_GT(report["runner_up_rmse_mm"].get<double>(), 1.25 * report["rmse_mm"].get<double>());
-  EXPECT_THAT(report["ambiguity"].get<std::string>(), StartsWith("unambiguous: "));
+  // These strokes are not in its pattern, so it may be wrong, and does not know.
+  EXPECT_EQ(report["accepted"], true);
+  EXPECT_THAT(report["ambiguity"].get<std::string>(), StartsWith("judged by eye: "));
+  EXPECT_TRUE(report["predicted_tre_mm"].is_null());
+  if (report.contains("runner_up_rmse_mm")) {
+    EXPECT_GE(report["runner_up_rmse_mm"].get<double>(), report["rmse_mm"].get<double>());
+  }
   for (const char* key : {"noise_mm", "inlier_share", "coverage_share", "runner_up_margin"}) {
     EXPECT_FALSE(report.contains(key)) << key << " is not known to it";
   }
