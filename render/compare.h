@@ -14,9 +14,9 @@ namespace orthonav::render {
 /// The allowed difference of 8-bit colours on the pinned software rasterizer: rounding of the last
 /// blend.
 inline constexpr int kColourTolerance = 2;
-/// Pixels that may lie beyond it: where an edge passes a sample, another kind of processor may round
-/// to its other side (measured: two; docs/decisions/0027-pictures-to-the-bit.md). A digit that
-/// changes, or a hologram that moves by a pixel, is dozens.
+/// Pixels that may lie beyond it: where an edge passes a sample, another kind of processor may
+/// round to its other side (measured: two; docs/decisions/0027-pictures-to-the-bit.md). A digit
+/// that changes, or a hologram that moves by a pixel, is dozens.
 inline constexpr std::size_t kEdgePixels = 3;
 
 struct ColourDifference {

@@ -45,9 +45,11 @@ TEST(StudyProfile, TakesItsMagnitudesOverItsInstruments) {
   EXPECT_EQ(read->magnitudes.tissue_m, 0.001);
 }
 
-TEST(StudyProfile, ExposesTheLaminaeUnlessItSaysMore) {
+TEST(StudyProfile, StrokesAsTheMethodIsUsedUnlessItSaysMore) {
   json profile = profile_json();
-  EXPECT_EQ(parsed(profile)->exposure, sim::Exposure::kLaminae);
+  EXPECT_FALSE(parsed(profile)->exposure.has_value());
+  EXPECT_EQ(strokes_of("best"), sim::Exposure::kLaminae);
+  EXPECT_EQ(strokes_of("paper"), sim::Exposure::kTrainedPattern);
   profile["exposure"] = "transverse processes";
   const auto read = parsed(profile);
   ASSERT_TRUE(read.ok()) << read.error().message;
@@ -123,8 +125,9 @@ TEST(StudyProfile, RefusesWhatItDoesNotKnow) {
     return read.ok() ? std::string("accepted") : read.error().message;
   };
   EXPECT_THAT(refused("guidance", "by smell"), HasSubstr("mine.json: guidance"));
-  EXPECT_THAT(refused("exposure", "all of it"),
-              HasSubstr("'all of it' is unknown (known: laminae, transverse processes)"));
+  EXPECT_THAT(
+      refused("exposure", "all of it"),
+      HasSubstr("'all of it' is unknown (known: laminae, transverse processes, trained pattern)"));
   EXPECT_THAT(refused("instrument", "spoon"), HasSubstr("'spoon': unknown"));
   EXPECT_THAT(refused("method", "third"), HasSubstr("third"));
   EXPECT_EQ(refused("told_sd_factor", 20),
