@@ -24,7 +24,7 @@ std::vector<std::string> workflow_phrases() {
           "move template",
           "twin screw",
           "drill",
-          "save",    // as in the publication
+          "save",  // as in the publication
           "delete",
           "move cranial one",
           "move caudal one",

@@ -17,11 +17,20 @@ namespace {
 /// The limit of the paper's screws; a pose in the wrong place is off by 10 mm and more.
 constexpr double kRightPose_m = 0.002;
 
-/// A flat cross of five pairs about `centre_m`: pa1 along x (reach 6), pa2 along y (reach 3 and -4).
+/// A flat cross of five pairs about `centre_m`: pa1 along x (reach 6), pa2 along y (reach 3 and
+/// -4).
 std::vector<Vec3> cross_about(Vec3 centre_m) {
   std::vector<Vec3> points;
-  for (const Vec3 p : {Vec3{6, 0, 0}, {-6, 0, 0}, {5, 0, 0}, {-5, 0, 0}, {0, 3, 0}, {0, -4, 0},
-                       {0, 2, 0}, {0, 0, 1}, {0, 0, -1}, {0, 0, 0}}) {
+  for (const Vec3 p : {Vec3{6, 0, 0},
+                       {-6, 0, 0},
+                       {5, 0, 0},
+                       {-5, 0, 0},
+                       {0, 3, 0},
+                       {0, -4, 0},
+                       {0, 2, 0},
+                       {0, 0, 1},
+                       {0, 0, -1},
+                       {0, 0, 0}}) {
     points.push_back(centre_m + p);
   }
   return points;
@@ -31,7 +40,8 @@ TEST(ExtremePoints, AreThoseOfEquation1AboutTheCentroid) {
   for (const Vec3 centre : {Vec3{0, 0, 0}, Vec3{100, -50, 20}}) {
     const ExtremePoints e = extreme_points(cross_about(centre));
     EXPECT_EQ((e.e1 - e.e2).norm(), 12.0);
-    EXPECT_EQ((e.e3 - centre).norm(), 4.0) << "the longer end of the second axis, whatever its sign";
+    EXPECT_EQ((e.e3 - centre).norm(), 4.0)
+        << "the longer end of the second axis, whatever its sign";
     EXPECT_EQ(e.e3.y, centre.y - 4.0);
   }
   // The control: about the origin the place of the whole cloud would decide. Here that favours the
@@ -123,8 +133,7 @@ TEST_F(TrainedStrokes, OfTheLaminaeAloneEndElsewhereAndAreNotRefused) {
   const auto d = stroked(5, 0.0005, sim::Exposure::kLaminae);
   const auto r = registered(d);
   ASSERT_TRUE(r.ok());
-  EXPECT_GT(test::worst_screw_error_m(*level_, (*r)[0].world_from_vertebra, d.truth),
-            kRightPose_m);
+  EXPECT_GT(test::worst_screw_error_m(*level_, (*r)[0].world_from_vertebra, d.truth), kRightPose_m);
 }
 
 TEST_F(TrainedStrokes, AreWhatThePictureShows) {
