@@ -21,11 +21,11 @@ Result<engine::OperationOptions> options_of(const DemoArguments& arguments) {
   options.tools = engine::built_in_tools();
   options.use_reference = set_up.reference;
   options.sim.seed = arguments.seed;
-  if (arguments.perfect) {
-    options.sim.error_model = sim::ErrorModel::perfect();
-  }
   if (Status told = set_up.tell(options.sim); !told) {
     return Error{"--instrument: " + told.error().message};
+  }
+  if (arguments.perfect) {
+    options.sim.error_model = sim::ErrorModel::perfect();
   }
   if (arguments.pace) {
     options.sim.error_model.pace = *arguments.pace;

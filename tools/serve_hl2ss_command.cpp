@@ -61,12 +61,12 @@ Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) 
   room.exposure = engine::strokes_of(set_up.method);
   sim::SimOptions options;
   options.seed = arguments.seed;
+  if (const Status told = set_up.tell(options); !told) {
+    return Error{"--instrument: " + told.error().message};
+  }
   if (arguments.perfect) {
     options.error_model = sim::ErrorModel::perfect();
     options.depth_errors = sim::DepthErrors::none();
-  }
-  if (const Status told = set_up.tell(options); !told) {
-    return Error{"--instrument: " + told.error().message};
   }
   options.error_model.pace = arguments.pace;
   options.depth = {DepthStream::kAhat, DepthStream::kLongThrow};
