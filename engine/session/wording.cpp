@@ -143,7 +143,7 @@ struct StateWriter {
     }
     if (heads.unplanned && heads.count == 0) {
       text.begin(Importance::kNext, "; ");
-      out += translated("touch the screw heads of this side; if it has none, say done");
+      out += translated("touch the screw heads of this side; if it has none, say finish rod");
     }
     write_head(text, heads, "; ");
     if (heads.given_up) {

@@ -111,7 +111,7 @@ TEST(Wording, SaysHowAStepStands) {
   EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1, {}, {}, true}),
             "3 heads, cut to 90.0 mm, 1 bend; the rod in hand is given up: bend another");
   EXPECT_EQ(line_with(HeadsSoFar{0, {}, 0, {}, {}, false, true}),
-            "0 heads; touch the screw heads of this side; if it has none, say done");
+            "0 heads; touch the screw heads of this side; if it has none, say finish rod");
   EXPECT_EQ(line_with(HeadsSoFar{2, 0.05, 0, {}, {}, false, true, 0.006}),
             "2 heads, cut to 50.0 mm, 0 bends, rod 6.0 mm below the touches");
   EXPECT_EQ(line_with(HeadsSoFar{2, 0.05, 0, {}, {}, false, false, -0.003}),
