@@ -28,15 +28,14 @@ void print_screws(const engine::RegisteredLevel& level) {
 
 void print(const engine::RegisteredLevel& level, const engine::FigureFrame& frame) {
   const nav::Registration& r = level.registration;
-  const bool judged = r.noise_m > 0.0 || !r.accepted;  // `paper` does not judge
-  print_text("%s: %zu points, RMSE %.2f mm",
-             !judged ? "not judged, look at it" : (r.accepted ? "accepted" : "refused"), r.points,
-             r.rmse_m * 1e3);
+  const bool judged = engine::is_judged(r);
+  const char* verdict = !r.accepted ? "refused" : judged ? "accepted" : "not judged, look at it";
+  print_text("%s: %zu points, RMSE %.2f mm", verdict, r.points, r.rmse_m * 1e3);
   if (engine::runner_up_distance(level)) {
     print_text(", next best pose %.2f mm", r.runner_up_rmse_m * 1e3);
   }
   print_text("\n");
-  if (r.noise_m > 0.0) {
+  if (judged) {
     print_text(
         "%.0f %% of the points on the bone, scatter %.2f mm, estimated offset of the tip above it "
         "%.2f mm (corrected); %.0f effective points; %.0f %% of the surface stroked\n",

@@ -138,7 +138,7 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
   }
 }
 
-/// The bone from behind, smaller than it is, low on the left of the view, with the strokes over it.
+/// The bone from behind, smaller than it is, on the left of the view, with the strokes over it.
 void SceneBuilder::add_stroke_pattern(const Guidance& guidance, render::Scene& scene) {
   constexpr Vec3 kIn_view_m{-0.035, 0.0, -0.50};
   constexpr double kScale = 0.6;

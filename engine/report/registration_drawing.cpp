@@ -277,7 +277,7 @@ std::string registration_legend(const RegisteredLevel& level, const Registration
          " mm<em>points inside the bone, on it, outside it</em></span>";
   if (scene.off_bone > 0) {
     out += std::string("<span><b class=cross>\u00d7</b>outlier") +
-           (level.registration.noise_m > 0.0 ? ", not used" : "") + "</span>";
+           (is_judged(level.registration) ? ", not used" : "") + "</span>";
   }
   if (!scene.checks.empty()) {
     out += "<span><b class=cross>\u25c7</b>touched to verify it</span>";

@@ -35,9 +35,6 @@ std::vector<Point<Vertebra>> places_of(const RegisteredLevel& level) {
   return places;
 }
 
-/// Whether the method judges its pose and predicts errors; `paper` does neither.
-bool is_judged(const nav::Registration& r) { return r.noise_m > 0.0; }
-
 /// By how much the model may be of another size than the bone, with 95 % probability.
 double size_may_be_off(const nav::Registration& r) {
   return std::abs(r.size - 1.0) + 1.96 * r.size_sd;

@@ -55,6 +55,8 @@ struct RunnerUpDistance {
 /// Nothing if there was no other pose to compare with.
 [[nodiscard]] std::optional<RunnerUpDistance> runner_up_distance(const RegisteredLevel& level);
 
+/// Whether the method judges its pose and predicts errors; `paper` does neither.
+[[nodiscard]] inline bool is_judged(const nav::Registration& r) { return r.noise_m > 0.0; }
 /// Whether the points tell the bone from its own mirror image. If not, a model or points with left
 /// and right swapped would look the same.
 [[nodiscard]] bool sides_told_apart(const nav::Registration& r);

@@ -60,7 +60,7 @@ void put_runner_up(Json& out, const RegisteredLevel& level, const FigureFrame& f
   const auto distance = runner_up_distance(level);
   if (distance) {
     out["runner_up_rmse_mm"] = mm_or_null(r.runner_up_rmse_m);
-    if (r.noise_m > 0.0) {
+    if (is_judged(r)) {
       out["runner_up_margin"] = r.log_likelihood_ratio;
     }
     out["runner_up_distance_mm"] = mm_or_null(distance->apart_m);
@@ -74,7 +74,7 @@ void put_fit(Json& out, const nav::Registration& r) {
   out["points"] = r.points;
   out["iterations"] = r.iterations;
   out["rmse_mm"] = mm_or_null(r.rmse_m);
-  if (!(r.noise_m > 0.0)) {
+  if (!is_judged(r)) {
     return;  // `paper` has no more figures
   }
   out["noise_mm"] = mm_or_null(r.noise_m);
@@ -92,7 +92,7 @@ void put_expected(Json& out, const RegisteredLevel& level) {
   if (const auto within = worst_within_95_m(level)) {
     out["predicted_tre_95_mm"] = mm_or_null(*within);
   }
-  if (r.noise_m > 0.0) {
+  if (is_judged(r)) {
     out["predicted_tre_99_mm"] = mm_or_null(r.tre_99_m);
     out["tissue_sd_mm"] = r.field_sd_m * 1e3;
     out["correlation_across_strokes"] = r.correlation_across_strokes;

@@ -104,11 +104,10 @@ Result<std::string> section_of(const DrawnLevel& drawn, double widest_mm) {
     return tissue;
   }
   const nav::Registration& r = drawn.level.registration;
-  const bool judged = r.noise_m > 0.0;  // `paper` judges nothing
   return "<section class=registration><h2>" + title_of(drawn.level) + ": " +
-         (!r.accepted ? "<span class=bad>refused</span>"
-          : judged    ? "<span class=good>passed the numeric checks</span>"
-                      : "shown, not judged") +
+         (!r.accepted    ? "<span class=bad>refused</span>"
+          : is_judged(r) ? "<span class=good>passed the numeric checks</span>"
+                         : "shown, not judged") +
          "</h2>" + in_words(drawn.level) + views(drawn, widest_mm) + *tissue +
          figures_table(drawn.level) + "</section>";
 }

@@ -34,7 +34,7 @@ std::vector<PlacedPoint> placed(const RegisteredLevel& level) {
 /// Scatter of the points about the surface: as registered, or else by the median, which outliers
 /// don't move.
 double scatter_m(const std::vector<PlacedPoint>& points, const nav::Registration& r) {
-  if (r.noise_m > 0.0 || points.empty()) {
+  if (is_judged(r) || points.empty()) {
     return r.noise_m;
   }
   std::vector<double> sizes;
@@ -82,7 +82,7 @@ std::vector<nav::EstimatedHeight> heights_of(const RegisteredLevel& level,
     return r.heights;
   }
   std::vector<nav::EstimatedHeight> out;
-  if (r.noise_m > 0.0 && shows_tissue(r)) {
+  if (is_judged(r) && shows_tissue(r)) {
     for (const PlacedPoint& p : points) {
       if (!p.off_bone) {
         out.push_back({{p.place_m}, p.residual_m + r.standoff_m});

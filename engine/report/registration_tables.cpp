@@ -90,8 +90,6 @@ JudgedFigure within_99_figure(double within_m) {
   return at_most(within_m * 1e3, 2, nav::PoseSearchRegistrationOptions{}.max_tre_99_m * 1e3, 1);
 }
 
-bool is_best(const RegisteredLevel& level) { return level.registration.noise_m > 0.0; }
-
 /// Whether expected errors include more than the registration's own, to which the limits apply.
 bool holds_common(const RegisteredLevel& level) { return level.registration.common.sd_m() > 0.0; }
 
@@ -156,8 +154,8 @@ std::string figures_table(const RegisteredLevel& level) {
       "class=why>meaning</th></tr></thead>"
       "<tbody>" +
       figure_row("Points", plain(static_cast<double>(r.points), 0), "digitized and registered") +
-      (is_best(level) ? rows_of_best(level) : rows_of_paper(level));
-  if (is_best(level)) {
+      (is_judged(level.registration) ? rows_of_best(level) : rows_of_paper(level));
+  if (is_judged(level.registration)) {
     out += rows_of_error(level);
   }
   out += row_of_checks(level);
@@ -169,7 +167,7 @@ std::string screws_table(const RegisteredLevel& level) {
     return "";
   }
   const bool accepted = level.registration.accepted;
-  const bool judged = is_best(level) && !holds_common(level);
+  const bool judged = is_judged(level.registration) && !holds_common(level);
   const auto head = [&](const std::string& name, const JudgedFigure& of) {
     return "<th>" + name + (judged ? " <small>" + limit_text(of) + "</small>" : "") + "</th>";
   };
