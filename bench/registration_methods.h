@@ -44,8 +44,7 @@ struct RegistrationMethod {
   std::string name;
   /// Does all the work that is possible before the strokes are known.
   std::function<Fit(const BenchLevel&)> prepare;
-  /// Peers do not judge their own result: theirs count as accepted by the published method's rule,
-  /// the RMSE alone.
+  /// Peers do not judge their own result: theirs count as accepted by one rule, the RMSE alone.
   bool judges = false;
 };
 
