@@ -1,10 +1,11 @@
-# Of the Insight Toolkit: the readers for DICOM, NIfTI and NRRD as the target ItkReaders::ItkReaders, and those of
-# transforms with their writers, which tests hold ours against, as ItkReaders::ItkTransforms.
+# Of the Insight Toolkit: the readers for DICOM (with GDCM, on which that one is built) and NRRD as the target
+# ItkReaders::ItkReaders, and those of transforms with their writers, which tests hold ours against, as
+# ItkReaders::ItkTransforms.
 # ITKConfig.cmake would look for every module's dependencies (HDF5, curl, executables of GDCM).
 find_path(ItkReaders_INCLUDE_DIR itkImageIOBase.h PATH_SUFFIXES ITK-5.4 ITK-5.3 ITK-5.2)
 find_path(ItkReaders_GDCM_INCLUDE_DIR gdcmTrace.h PATH_SUFFIXES gdcm-3.0)
 set(itk_readers_required ItkReaders_INCLUDE_DIR ItkReaders_GDCM_INCLUDE_DIR)
-set(itk_readers ITKIOGDCM ITKIONIFTI ITKIONRRD ITKIOImageBase ITKCommon itksys itkvnl gdcmCommon)
+set(itk_readers ITKIOGDCM ITKIONRRD ITKIOImageBase ITKCommon itksys itkvnl gdcmMSFF gdcmDICT gdcmDSED gdcmCommon)
 set(itk_transforms ITKIOTransformHDF5 ITKIOTransformInsightLegacy ITKIOTransformBase ITKTransformFactory ITKTransform
     ITKCommon itksys itkvnl)
 foreach(group itk_readers itk_transforms)

@@ -35,6 +35,8 @@ struct CaseArguments {
   std::vector<std::string> levels;
   std::string name;
   std::string out;
+  bool list = false;
+  bool unusual = false;
   JsonOutput json;
 };
 
@@ -42,13 +44,24 @@ Error in_file(const std::string& path, const Error& error) {
   return {path + ": " + error.message, error.code};
 }
 
+/// Says what the reader mended.
+Result<engine::Volume> loaded(const std::string& path, const std::string& series = {}) {
+  auto volume = engine::load_volume(path, series);
+  if (volume) {
+    for (const std::string& note : volume->notes) {
+      std::fprintf(stderr, "orthonav: %s: %s\n", path.c_str(), note.c_str());
+    }
+  }
+  return volume;
+}
+
 Result<engine::ScanLevels> levels_of_labels(const CaseArguments& arguments) {
-  const auto labels = engine::load_volume(arguments.labels);
+  const auto labels = loaded(arguments.labels);
   if (!labels) {
     return labels.error();
   }
   if (!arguments.volume.empty()) {
-    const auto scan = engine::load_volume(arguments.volume, arguments.series);
+    const auto scan = loaded(arguments.volume, arguments.series);
     if (!scan) {
       return scan.error();
     }
@@ -56,13 +69,14 @@ Result<engine::ScanLevels> levels_of_labels(const CaseArguments& arguments) {
       return in_file(arguments.labels, s.error());
     }
   }
-  auto made = engine::scan_levels(*labels, arguments.convention, arguments.levels);
+  auto made =
+      engine::scan_levels(*labels, arguments.convention, arguments.levels, arguments.unusual);
   return made ? std::move(made)
               : Result<engine::ScanLevels>(in_file(arguments.labels, made.error()));
 }
 
 Result<engine::ScanLevels> levels_of_threshold(const CaseArguments& arguments) {
-  const auto scan = engine::load_volume(arguments.volume, arguments.series);
+  const auto scan = loaded(arguments.volume, arguments.series);
   if (!scan) {
     return scan.error();
   }
@@ -159,9 +173,44 @@ std::string case_name(const CaseArguments& arguments) {
   return folder.lexically_normal().parent_path().filename().string();
 }
 
+/// Prints the series in a folder of DICOM, one below the other.
+int run_list(const CaseArguments& arguments) {
+  const auto series = engine::list_series(arguments.volume);
+  if (!series) {
+    return bad_input(series.error().message);
+  }
+  nlohmann::ordered_json json = {{"series", nlohmann::ordered_json::array()}};
+  for (const engine::SeriesSummary& each : *series) {
+    const auto mm = [&](std::size_t axis) { return each.spacing_m[axis] * 1e3; };
+    json["series"].push_back({{"uid", each.uid},
+                              {"description", each.description},
+                              {"modality", each.modality},
+                              {"slices", each.slices},
+                              {"columns", each.size[0]},
+                              {"rows", each.size[1]},
+                              {"spacing_mm", {mm(0), mm(1), mm(2)}},
+                              {"tilt_deg", each.tilt_deg},
+                              {"problem", each.problem}});
+    if (arguments.json.on_stdout()) {
+      continue;
+    }
+    print_text("%s\n  %s, %d slices of %d x %d", each.uid.c_str(),
+               each.modality.empty() ? "no modality" : each.modality.c_str(), each.slices,
+               each.size[0], each.size[1]);
+    print_text(", voxels %.2f x %.2f x %.2f mm, tilt %.1f°", mm(0), mm(1), mm(2), each.tilt_deg);
+    print_text("%s%s%s\n", each.description.empty() ? "" : ", \"", each.description.c_str(),
+               each.description.empty() ? "" : "\"");
+    if (!each.problem.empty()) {
+      print_text("  cannot be read: %s\n", each.problem.c_str());
+    }
+  }
+  const Status written = arguments.json.write(json);
+  return written ? kDone : bad_input(written.error().message);
+}
+
 /// Writes the case of the levels that were made, and what is to be known about them.
 template <class Levels>
-int save(const CaseArguments& arguments, const Result<Levels>& made) {
+int save(const CaseArguments& arguments, const Result<Levels>& made, const std::string& unusual) {
   if (!made) {
     return bad_input(made.error().message);
   }
@@ -169,11 +218,17 @@ int save(const CaseArguments& arguments, const Result<Levels>& made) {
   if (!folder) {
     return bad_input(folder.error().message);
   }
-  const Status saved = engine::save_case(arguments.out, case_of(*made, case_name(arguments)));
+  engine::Case subject = case_of(*made, case_name(arguments));
+  subject.unusual = unusual;
+  const Status saved = engine::save_case(arguments.out, subject);
   if (const Status s = saved ? arguments.json.write(levels_json(*made)) : saved; !s) {
     return bad_input(s.error().message);
   }
   warn(*made);
+  if (!unusual.empty()) {
+    std::fprintf(stderr, "orthonav: warning: unusual spine: %s (noted in case.json)\n",
+                 unusual.c_str());
+  }
   if (arguments.threshold_hu) {
     std::fprintf(
         stderr,
@@ -190,6 +245,13 @@ int run_make(const CaseArguments& arguments) {
   if (Status s = arguments.json.check(); !s) {
     return bad_input(s.error().message);
   }
+  if (arguments.list) {
+    return arguments.volume.empty() ? bad_input("--list needs --volume DICOM-FOLDER")
+                                    : run_list(arguments);
+  }
+  if (arguments.out.empty()) {
+    return bad_input("--out: where shall the case be written?");
+  }
   if (Status s = check(arguments); !s) {
     return bad_input(s.error().message);
   }
@@ -198,23 +260,32 @@ int run_make(const CaseArguments& arguments) {
     return bad_input(arguments.out + "/case.json: is there already");
   }
   if (arguments.meshes.any()) {
-    return save(arguments, arguments.meshes.read(arguments.volume, arguments.series));
+    std::string unusual;
+    const auto made = arguments.meshes.read(arguments.volume, arguments.series,
+                                            arguments.unusual ? &unusual : nullptr);
+    return save(arguments, made, unusual);
   }
-  return save(arguments, arguments.threshold_hu ? levels_of_threshold(arguments)
-                                                : levels_of_labels(arguments));
+  const auto made =
+      arguments.threshold_hu ? levels_of_threshold(arguments) : levels_of_labels(arguments);
+  return save(arguments, made, made ? made->unusual : std::string());
 }
 
 void add_inputs(CLI::App& command, CaseArguments& arguments) {
   command
       .add_option(
           "--volume", arguments.volume,
-          "CT: .nii, .nii.gz, .nrrd, or a folder of DICOM slices; with --labels or --mesh only "
-          "to check that they lie on bone")
+          "CT: .nii, .nii.gz, .nrrd, or a folder of DICOM; with --labels or --mesh only to check "
+          "that they lie on bone")
       ->check(some_text())
       ->type_name("SCAN");
   command
       .add_option("--series", arguments.series, "UID of the series, where a folder holds several")
       ->check(some_text());
+  command.add_flag("--list", arguments.list,
+                   "lists the DICOM series below --volume, makes nothing");
+  command.add_flag("--unusual", arguments.unusual,
+                   "goes on with an unusual count or size of vertebrae (four or six lumbar ones, a "
+                   "child); the case notes it");
   command
       .add_option("--labels", arguments.labels,
                   "segmentation: .seg.nrrd of 3D Slicer, or a label map (.nii, .nii.gz, .nrrd)")
@@ -245,7 +316,6 @@ void add_case_command(CLI::App& app, Action& action) {
   make->add_option("--name", arguments->name, "name of the case (default: that of the folder)")
       ->check(some_text());
   make->add_option("-o,--out", arguments->out, "the case folder, without a case.json yet")
-      ->required()
       ->check(some_text())
       ->type_name("DIR");
   arguments->json.add_to(*make);

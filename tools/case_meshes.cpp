@@ -49,7 +49,8 @@ void CaseMeshes::add_to(CLI::App& command) {
 }
 
 Result<std::vector<engine::MeshLevel>> CaseMeshes::read(const std::string& volume,
-                                                        const std::string& series) const {
+                                                        const std::string& series,
+                                                        std::string* unusual) const {
   std::vector<engine::CaseLevel> meshes;
   for (const std::string& given : files_) {
     auto level = read_level(given, *engine::metres_per_unit_from(units_), frame_);
@@ -58,7 +59,7 @@ Result<std::vector<engine::MeshLevel>> CaseMeshes::read(const std::string& volum
     }
     meshes.push_back(*std::move(level));
   }
-  auto levels = engine::mesh_levels(std::move(meshes));
+  auto levels = engine::mesh_levels(std::move(meshes), unusual);
   if (!levels) {
     return Error{"--mesh: " + levels.error().message, levels.error().code};
   }
@@ -75,7 +76,7 @@ Result<std::vector<engine::MeshLevel>> CaseMeshes::read(const std::string& volum
 }
 
 engine::Case case_of(const std::vector<engine::MeshLevel>& made, const std::string& name) {
-  engine::Case out{name, {}, {}};
+  engine::Case out{name, {}, {}, {}};
   for (const engine::MeshLevel& each : made) {
     out.levels.push_back(each.level);
   }

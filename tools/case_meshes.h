@@ -17,9 +17,10 @@ class CaseMeshes {
   [[nodiscard]] bool any() const { return !files_.empty(); }
   /// The levels in the unit and axes that their files or the options state. Refuses a file whose
   /// axes nobody states, as `mesh_levels` does, and meshes that do not lie on the bone of that scan
-  /// ("": not checked).
+  /// ("": not checked). `unusual`: as in `check_places`.
   [[nodiscard]] Result<std::vector<engine::MeshLevel>> read(const std::string& volume,
-                                                            const std::string& series) const;
+                                                            const std::string& series,
+                                                            std::string* unusual) const;
 
  private:
   std::vector<std::string> files_;

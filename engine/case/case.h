@@ -36,6 +36,7 @@ struct Case {
   std::string name;
   std::string folder;  ///< empty for the built-in phantom
   std::vector<CaseLevel> levels;
+  std::string unusual;  ///< what is unusual about the spine, as `case make` noted it; else empty
 
   [[nodiscard]] const CaseLevel* find(const std::string& label) const;
   /// An earlier level, in the order of the case, that lies in the same place; nullptr if there is

@@ -205,6 +205,7 @@ Result<Case> load_case(const std::string& folder, CaseUse use, const TransformRe
   Case subject;
   subject.folder = folder;
   subject.name = root.text_or("name", fs::path(folder).filename().string());
+  subject.unusual = root.text_or("unusual", "");
   const auto metres_per_unit = declared_metres_per_unit(root);
   const std::vector<Entry> entries = entries_of(root);
   const auto placed = static_cast<std::size_t>(

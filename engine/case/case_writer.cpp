@@ -106,6 +106,9 @@ Status save_case(const std::string& folder, const Case& subject) {
     return s;
   }
   ordered_json root = {{"name", subject.name}, {"units", "mm"}, {"levels", ordered_json::array()}};
+  if (!subject.unusual.empty()) {
+    root["unusual"] = subject.unusual;
+  }
   for (const CaseLevel& level : subject.levels) {
     ordered_json entry = {{"label", level.label}, {"model", model_name(level.label)}};
     if (!level.screws.empty()) {

@@ -61,7 +61,8 @@ double usual_distance_m(const std::string& upper, const std::string& lower) {
   return sum_m;
 }
 
-Status check_places(const std::vector<LevelPlace>& from_the_head, const std::string& hint) {
+Status check_places(const std::vector<LevelPlace>& from_the_head, const std::string& hint,
+                    std::string* unusual) {
   constexpr double kLeastRatio = 0.72, kMostRatio = 1.35;
   if (from_the_head.size() < 2) {
     return {};
@@ -79,10 +80,14 @@ Status check_places(const std::vector<LevelPlace>& from_the_head, const std::str
   }
   const double ratio = measured_m / usual_m;
   if (!(ratio >= kLeastRatio && ratio <= kMostRatio)) {
-    return Error{printed("%s to %s measure %.0f mm, usual are %.0f mm: ",
-                         from_the_head.front().label.c_str(), from_the_head.back().label.c_str(),
-                         measured_m * 1e3, usual_m * 1e3) +
-                 hint};
+    const std::string said =
+        printed("%s to %s measure %.0f mm, usual are %.0f mm", from_the_head.front().label.c_str(),
+                from_the_head.back().label.c_str(), measured_m * 1e3, usual_m * 1e3);
+    if (unusual == nullptr) {
+      return Error{said + ": " + hint +
+                   " For four or six lumbar vertebrae, T13 or a child: --unusual"};
+    }
+    *unusual = said;
   }
   return {};
 }

@@ -27,8 +27,10 @@ struct LevelPlace {
 
 /// Signs that vertebrae have the names of others: from the head down they lie out of order, or
 /// too near together or too far apart (0.72 and 1.35 times the usual distance). The Error ends
-/// with `hint`.
-Status check_places(const std::vector<LevelPlace>& from_the_head, const std::string& hint);
+/// with `hint`. With `unusual`, distances are no reason to refuse (four or six lumbar vertebrae, a
+/// child): what is unusual about them is written there.
+Status check_places(const std::vector<LevelPlace>& from_the_head, const std::string& hint,
+                    std::string* unusual = nullptr);
 
 /// Samples of vertebrae in a scan, which tell whether they lie on its bone.
 class BoneSamples {

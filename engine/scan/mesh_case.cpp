@@ -39,7 +39,7 @@ Status check_names(const std::vector<CaseLevel>& meshes) {
 
 }  // namespace
 
-Result<std::vector<MeshLevel>> mesh_levels(std::vector<CaseLevel> meshes) {
+Result<std::vector<MeshLevel>> mesh_levels(std::vector<CaseLevel> meshes, std::string* unusual) {
   if (Status s = check_names(meshes); !s) {
     return s.error();
   }
@@ -50,14 +50,16 @@ Result<std::vector<MeshLevel>> mesh_levels(std::vector<CaseLevel> meshes) {
   for (const CaseLevel& level : meshes) {
     places.push_back({level.label, nav::bounds_of(level.mesh).centre()});
   }
-  const Case together{"", {}, std::move(meshes)};
+  const Case together{"", {}, std::move(meshes), {}};
   for (std::size_t i = 1; i < together.levels.size(); ++i) {
     if (const CaseLevel* other = together.overlapped_by(i)) {
       return Error{together.levels[i].label + " lies in the same place as " + other->label +
                    ": each is in a frame of its own; the meshes must be of one scan"};
     }
   }
-  if (Status s = check_places(places, "are these meshes of one scan, with their own names?"); !s) {
+  if (Status s =
+          check_places(places, "are these meshes of one scan, with their own names?", unusual);
+      !s) {
     return s.error();
   }
   std::vector<MeshLevel> levels;

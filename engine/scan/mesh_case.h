@@ -20,8 +20,9 @@ struct MeshLevel {
 /// from the head down. Refuses names that are not those of a vertebra (C1-C7, T1-T13, L1-L6, S1)
 /// or that repeat; what `check_places` refuses; and axes in which the vertebra has its canal only
 /// once it is turned by 180° about the patient's long axis: RAS that was taken for LPS, or the
-/// other way round.
-Result<std::vector<MeshLevel>> mesh_levels(std::vector<CaseLevel> meshes);
+/// other way round. `unusual`: as in `check_places`.
+Result<std::vector<MeshLevel>> mesh_levels(std::vector<CaseLevel> meshes,
+                                           std::string* unusual = nullptr);
 
 /// Refuses vertebrae that do not lie on the bone of the scan, as `BoneSamples` does, by places
 /// inside them every 2 mm.

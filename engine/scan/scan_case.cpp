@@ -67,30 +67,32 @@ Vec3 middle_m(const Volume& labels, const LabelledLevel& level) {
   return labels.grid.place_m(sum / std::max(count, 1.0));
 }
 
-Status check_label_places(const Volume& labels, const std::vector<LabelledLevel>& levels) {
+Status check_label_places(const Volume& labels, const std::vector<LabelledLevel>& levels,
+                          std::string* unusual) {
   std::vector<LevelPlace> places;
   for (const LabelledLevel& level : levels) {
     places.push_back({level.label, middle_m(labels, level)});
   }
-  return check_places(places, "is it another convention?");
+  return check_places(places, "is it another convention?", unusual);
 }
 
 }  // namespace
 
 Result<ScanLevels> scan_levels(const Volume& labels, const std::string& convention,
-                               const std::vector<std::string>& wanted) {
+                               const std::vector<std::string>& wanted, bool unusual) {
   const auto there = labelled_levels(labels, convention);
   if (!there) {
     return there.error();
   }
-  if (Status s = check_wanted(*there, wanted); !s) {
-    return s.error();
-  }
-  if (Status s = check_label_places(labels, *there); !s) {
+  if (Status s = check_wanted(there->levels, wanted); !s) {
     return s.error();
   }
   ScanLevels out;
-  for (const LabelledLevel& labelled : *there) {
+  out.left_out = there->left_out;
+  if (Status s = check_label_places(labels, there->levels, unusual ? &out.unusual : nullptr); !s) {
+    return s.error();
+  }
+  for (const LabelledLevel& labelled : there->levels) {
     const bool asked = std::find(wanted.begin(), wanted.end(), labelled.label) != wanted.end();
     if (!asked && (!wanted.empty() || !made_unasked(labelled.label))) {
       continue;
@@ -142,7 +144,7 @@ Status check_on_bone(const Volume& labels, const std::string& convention, const 
   if (!levels) {
     return levels.error();
   }
-  for (const LabelledLevel& level : *levels) {
+  for (const LabelledLevel& level : levels->levels) {
     for_each_voxel(labels, level, [&](const std::array<int, 3>& at) {
       samples->add(labels.grid.place_m(vector_of(at)));
     });
@@ -151,7 +153,7 @@ Status check_on_bone(const Volume& labels, const std::string& convention, const 
 }
 
 Case case_of(const ScanLevels& made, const std::string& name) {
-  Case out{name, {}, {}};
+  Case out{name, {}, {}, made.unusual};
   for (const ScanLevel& level : made.levels) {
     out.levels.push_back({level.label, level.surface.mesh, {}, {}});
   }

@@ -21,14 +21,15 @@ struct ScanLevel {
 struct ScanLevels {
   std::vector<ScanLevel> levels;      ///< from the head down
   std::vector<std::string> left_out;  ///< one line each: why a label did not become a level
+  std::string unusual;                ///< what is unusual about their distances; empty: nothing
 };
 
 /// Makes a mesh of each vertebra of a label map. `wanted` empty: every complete one, T1 to L6;
 /// those cut by the border of the scan are left out. Otherwise only these: one that is missing,
 /// cut, or not a vertebra is refused. Refuses as `labelled_levels` does, and a map without a
-/// complete vertebra.
+/// complete vertebra. `unusual`: as in `check_places`.
 Result<ScanLevels> scan_levels(const Volume& labels, const std::string& convention,
-                               const std::vector<std::string>& wanted);
+                               const std::vector<std::string>& wanted, bool unusual = false);
 
 /// Makes a mesh of each connected part of at least 5 cm3 and at least that density, as "part1" and
 /// so on. Parts that do not have the size of a vertebra are left out.

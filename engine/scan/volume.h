@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/angle.h"
 #include "base/result.h"
 #include "base/vec.h"
 
@@ -62,6 +63,19 @@ struct VolumeGrid {
 /// is not finite.
 [[nodiscard]] Status check_grid(const VolumeGrid& grid);
 
+/// The angle by which a grid's axes may miss right angles, from the rounding of its numbers; as
+/// much as a gantry tilt may (`stacked`).
+inline constexpr double kMostShear_rad = 0.2 * kRadiansPerDegree;
+
+/// How far three directions are from right angles at most, rad; pi/2 where one of them is zero.
+[[nodiscard]] double shear_rad(const std::array<Vec3, 3>& steps);
+
+/// The grid whose voxels are `steps_m` apart, in LPS, from the first one's centre. Axes that miss
+/// right angles by no more than `kMostShear_rad` are turned evenly to the nearest right ones about
+/// the grid's middle, with a note; what misses them by more is refused, and as `check_grid` does.
+Result<VolumeGrid> squared_grid(const std::array<int, 3>& size, const std::array<Vec3, 3>& steps_m,
+                                Vec3 origin_m, std::vector<std::string>& notes);
+
 /// A scan (HU) or a label map, as stored in its file. Several layers lie one after another, voxel
 /// by voxel: value = values[voxel * layers + layer].
 struct Volume {
@@ -69,6 +83,7 @@ struct Volume {
   std::size_t layers = 1;
   std::vector<float> values;                  ///< whole numbers up to 2^24 exactly
   std::map<std::string, std::string> fields;  ///< text in the file (`Segment0_Name`)
+  std::vector<std::string> notes;             ///< what was mended or left out, a line each
 };
 
 }  // namespace orthonav::engine

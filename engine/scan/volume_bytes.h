@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "base/result.h"
+#include "engine/scan/dicom_order.h"
 #include "engine/scan/volume.h"
 
 namespace orthonav::engine {
@@ -11,5 +13,9 @@ namespace orthonav::engine {
 /// file can't be written.
 bool write_volume(int file, const Result<Volume>& volume);
 Result<Volume> volume_of(std::string_view bytes);
+
+/// The same for a list of series.
+bool write_series(int file, const std::vector<SeriesSummary>& series);
+std::vector<SeriesSummary> series_of(std::string_view bytes);
 
 }  // namespace orthonav::engine

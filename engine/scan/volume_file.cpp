@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "engine/scan/child_process.h"
+#include "engine/scan/dicom_folder.h"
 #include "engine/scan/volume_bytes.h"
 #include "engine/scan/volume_reader.h"
 
@@ -28,7 +29,7 @@ ChildLimits limits_for(const std::string& path) {
     return {std::chrono::seconds(10 + bytes / kBytesASecond), kLargestFile};
   }
   std::uintmax_t bytes = 0;
-  for (const auto& entry : fs::directory_iterator(path, code)) {
+  for (const auto& entry : fs::recursive_directory_iterator(path, code)) {
     const std::uintmax_t size = entry.is_regular_file(code) ? entry.file_size(code) : 0;
     bytes += code ? 0 : size;
   }
@@ -44,6 +45,24 @@ Result<Volume> load_volume(const std::string& path, const std::string& series) {
     return Error{path + ": " + bytes.error().message, bytes.error().code};
   }
   return volume_of(bytes->view());
+}
+
+Result<std::vector<SeriesSummary>> list_series(const std::string& path) {
+  std::error_code code;
+  if (!fs::exists(path, code)) {
+    return Error{path + ": no such file or folder", ErrorCode::kNotFound};
+  }
+  const auto bytes = bytes_from_child(limits_for(path), [&](int file) {
+    return write_series(file, summaries_of(dicom_slices(path)));
+  });
+  if (!bytes) {
+    return Error{path + ": " + bytes.error().message, bytes.error().code};
+  }
+  auto series = series_of(bytes->view());
+  if (series.empty()) {
+    return Error{path + ": no DICOM slices"};
+  }
+  return series;
 }
 
 }  // namespace orthonav::engine

@@ -66,13 +66,4 @@ Status check_names_no_other_file(const std::string& path) {
   return {};
 }
 
-Status check_voxels(const std::string& path, std::uint64_t bytes) {
-  constexpr std::uint64_t kNiftiHeader = 348;
-  if (const Status enough = check_long_enough(path, bytes); !enough) {
-    return enough;
-  }
-  return path.ends_with(".nrrd") ? check_names_no_other_file(path)
-                                 : check_whole(path, kNiftiHeader + bytes);
-}
-
 }  // namespace orthonav::engine

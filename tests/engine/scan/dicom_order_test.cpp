@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/angle.h"
-#include "engine/scan/dicom_fields.h"
 
 namespace orthonav::engine::dicom_order_test {
 namespace {
@@ -36,13 +35,6 @@ std::string refusal(std::vector<SliceHeader> all) {
   return stack ? std::string() : stack.error().message;
 }
 
-TEST(DicomFields, AreReadWithoutTheirPadding) {
-  EXPECT_EQ(dicom_numbers("-249.5\\-437.25\\-804.5 "),
-            (std::vector<double>{-249.5, -437.25, -804.5}));
-  EXPECT_EQ(dicom_text(std::string("1.2.3\0", 6)), "1.2.3");
-  EXPECT_EQ(dicom_text("Spine  1.0 "), "Spine  1.0");
-}
-
 TEST(DicomOrder, SortsByPlaceAlongTheNormal) {
   const auto stack = stacked(slices());
   ASSERT_TRUE(stack.ok()) << stack.error().message;
@@ -66,6 +58,36 @@ TEST(DicomOrder, RefusesGapsAndSlicesAtOnePlace) {
   auto rounded = slices();
   rounded[0].position_m.z += 0.00003;  // the header's digits
   EXPECT_EQ(refusal(rounded), "") << "the twin";
+}
+
+TEST(DicomOrder, ReadsPositionsThatWereRoundedAndRefusesASliceThatWasShifted) {
+  auto rounded = slices();
+  for (SliceHeader& s : rounded) {
+    s.position_m.z = std::round(s.position_m.z * 0.3125 * 1e4) * 1e-4;  // 0.625 mm to 0.1 mm
+  }
+  const auto stack = stacked(rounded);
+  ASSERT_TRUE(stack.ok()) << stack.error().message;
+  EXPECT_NEAR(stack->grid.spacing_m.z, 0.000625, 0.1e-3 / 9);
+  auto shifted = slices();
+  shifted[4].position_m.x += 0.0005;
+  EXPECT_THAT(refusal(shifted), HasSubstr("4.dcm lies 0.50 mm off the even ladder"));
+  auto uneven = slices();
+  uneven[4].position_m.z += 0.0005;
+  EXPECT_THAT(refusal(uneven), HasSubstr("4.dcm lies 0.50 mm off the even ladder"));
+}
+
+TEST(DicomOrder, ASeriesThatIsNoCtDoesNotCountBesideOneThatIs) {
+  auto all = slices();
+  all[0].series = "9.9";
+  all[0].ct = false;
+  EXPECT_EQ(one_series(all, "")->size(), 9u);
+  EXPECT_EQ(one_series(all, "9.9")->size(), 1u);
+  for (SliceHeader& s : all) {
+    s.ct = false;
+    s.problem = "is of modality MR, must be CT";
+  }
+  EXPECT_FALSE(one_series(all, "").ok()) << "two series, none of CT";
+  EXPECT_THAT(refusal({all.begin() + 1, all.end()}), HasSubstr("is of modality MR"));
 }
 
 TEST(DicomOrder, RefusesGantryTilt) {

@@ -116,7 +116,7 @@ TEST(ScanCase, TellsTheLevelsOfASegmentationByTheirNames) {
                    {"Segment2_Name", "aorta"},       {"Segment2_LabelValue", "1"},
                    {"Segment3_Name", "L2"},          {"Segment3_LabelValue", "9"}};
   EXPECT_THAT(names_of(*scan_levels(labels, "", {})), ElementsAre("L4", "L5"));
-  labels.fields["Segment1_Name"] = "L5 again";
+  labels.fields["Segment1_Name"] = "LWK 5";
   const auto twice = scan_levels(labels, "", {});
   ASSERT_FALSE(twice.ok());
   EXPECT_THAT(twice.error().message, HasSubstr("two segments are named L5"));
