@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "engine/session/event.h"
@@ -108,9 +107,5 @@ inline constexpr Workflow kWorkflowByEye = workflow_of(MethodSteps::none());
 using orthonav::name_of;
 [[nodiscard]] std::string_view name_of(Event event);
 [[nodiscard]] std::string_view name_of(Action action);
-
-/// The workflow as shown in docs/safety.md: a mermaid diagram of the changes of step, the whole
-/// table, and the answers that differ if verification is by eye alone or a study leaves out a step.
-[[nodiscard]] std::string workflow_diagram();
 
 }  // namespace orthonav::engine
