@@ -23,8 +23,8 @@ struct CommandEvidence {
 [[nodiscard]] std::optional<CommandEvidence> evidence_of(const Recognition& heard,
                                                          const std::string& wake_word);
 
-/// The natural logarithm of the odds that this command was said, and nothing else: at zero it
-/// counts as said.
+/// The natural logarithm of the odds that this command was said, and nothing else: at zero it is as
+/// likely as not. What counts as said: `SpotterOptions::least_log_odds`.
 [[nodiscard]] double log_odds(const CommandEvidence& evidence);
 
 }  // namespace orthonav::voice
