@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/angle.h"
+#include "base/printed.h"
 #include "engine/io/grey_image_file.h"
 #include "engine/io/json_writer.h"
 #include "nav/calibration/stereo_board.h"
@@ -96,6 +98,21 @@ Result<Views> views_in(const StereoArguments& arguments, const nav::Chessboard& 
     progress.add_one();
   }
   return found;
+}
+
+/// Whether an image without the board shows one of a column and a row less: somebody counted
+/// squares.
+bool shows_one_less(const Views& views, const nav::Chessboard& board) {
+  constexpr std::size_t kMostTried = 4;
+  const nav::Chessboard less{board.columns - 1, board.rows - 1, board.square_m};
+  for (std::size_t i = 0; i < std::min(kMostTried, views.skipped.size()); ++i) {
+    nav::ImageSize any;
+    const auto corners = corners_in(views.skipped[i], less, any);
+    if (less.check().empty() && corners && *corners) {
+      return true;
+    }
+  }
+  return false;
 }
 
 nlohmann::ordered_json json_of(const BrownConrady& camera) {
@@ -197,6 +214,12 @@ int run_stereo_images(const StereoArguments& arguments) {
   const auto views = views_in(arguments, *board);
   if (!views) {
     return bad_input(views.error().message);
+  }
+  if (views->views.empty() && shows_one_less(*views, *board)) {
+    return bad_input(
+        printed("--chessboard: no board of %dx%d inner corners is seen, but one of "
+                "%dx%d is: count inner corners, not squares",
+                board->columns, board->rows, board->columns - 1, board->rows - 1));
   }
   for (const std::string& name : views->skipped) {
     std::fprintf(stderr, "orthonav: skipped: %s: no board of %s, or no partner\n", name.c_str(),

@@ -1,5 +1,6 @@
 #include "tools/case_meshes.h"
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "engine/io/mesh_file.h"
@@ -25,9 +26,13 @@ Result<engine::CaseLevel> read_level(const std::string& given, double metres_per
     return mesh ? Error{file + ": does not say its axes; state them with --frame LPS or RAS"}
                 : mesh.error();
   }
-  auto mesh = engine::load_mesh(file, metres_per_unit, stated.value_or(engine::Axes::kLps));
+  std::string note;
+  auto mesh = engine::load_mesh(file, metres_per_unit, stated.value_or(engine::Axes::kLps), &note);
   if (!mesh) {
     return mesh.error();
+  }
+  if (!note.empty()) {
+    std::fprintf(stderr, "orthonav: warning: %s\n", note.c_str());
   }
   return engine::CaseLevel{given.substr(0, equals), *std::move(mesh), {}, {}};
 }

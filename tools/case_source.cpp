@@ -1,5 +1,7 @@
 #include "tools/case_source.h"
 
+#include <cstdio>
+
 #include "engine/phantom/phantom.h"
 #include "engine/scan/transform_file.h"
 
@@ -7,7 +9,16 @@ namespace orthonav::tools {
 
 Result<engine::Case> load_checked_case(const std::string& folder, engine::CaseUse use) {
   if (!folder.empty()) {
-    return engine::load_case(folder, use, engine::load_transform);
+    auto subject = engine::load_case(folder, use, engine::load_transform);
+    if (subject && !subject->unusual.empty()) {
+      subject->notes.push_back(folder + ": unusual spine: " + subject->unusual);
+    }
+    if (subject) {
+      for (const std::string& note : subject->notes) {
+        std::fprintf(stderr, "orthonav: warning: %s\n", note.c_str());
+      }
+    }
+    return subject;
   }
   engine::Case spine = engine::phantom();
   if (const auto problems = spine.check(); !problems.empty()) {

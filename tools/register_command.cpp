@@ -61,19 +61,9 @@ void print_refusal(const nav::Registration& r, const std::string& transform) {
     std::fprintf(stderr, "orthonav: %s: not written, since the registration is refused\n",
                  transform.c_str());
   }
-  if (!r.accepted && r.stroke_next) {
+  if (!r.accepted && r.stroke_next && r.fits_better.empty()) {
     std::fprintf(stderr, "orthonav: to improve: %s\n", engine::text_of(*r.stroke_next).c_str());
   }
-}
-
-Result<RegisterInputs> inputs_for(const RegisterOutputs& outputs,
-                                  const RegisterArguments& arguments) {
-  auto inputs = load_register_inputs(arguments);
-  if (!inputs) {
-    return inputs;
-  }
-  const Status suited = outputs.check_inputs(*inputs, arguments.points);
-  return suited ? inputs : suited.error();
 }
 
 int run_register(const RegisterArguments& arguments, const RegisterOutputs& outputs) {
@@ -84,7 +74,9 @@ int run_register(const RegisterArguments& arguments, const RegisterOutputs& outp
   if (const Status s = outputs.check(); !s) {
     return bad_input(s.error().message);
   }
-  const auto inputs = inputs_for(outputs, arguments);
+  const auto inputs = load_register_inputs(arguments, [&](const RegisterInputs& points) {
+    return outputs.check_inputs(points, arguments.points);
+  });
   if (!inputs) {
     return bad_input(inputs.error().message);
   }

@@ -1,7 +1,9 @@
 #include "tools/register_inputs.h"
 
+#include <cstdio>
 #include <memory>
 
+#include "engine/case/likely_mistakes.h"
 #include "engine/case/model_cache.h"
 #include "engine/case/operation_plan.h"
 #include "engine/case/plan_file.h"
@@ -20,18 +22,20 @@ using engine::Axes;
 /// common.
 Result<nav::TriangleMesh> load_model(const RegisterArguments& arguments,
                                      const std::optional<engine::Plan>& plan, Axes axes) {
-  if (plan) {
-    return engine::load_mesh(arguments.model, plan->metres_per_unit, axes);
+  std::string note;
+  const auto in_unit = [&](double metres_per_unit) {
+    return engine::load_mesh(arguments.model, metres_per_unit, axes, &note);
+  };
+  auto mesh = in_unit(plan ? plan->metres_per_unit : arguments.units == "m" ? 1.0 : 1e-3);
+  if (!mesh && !plan && arguments.units == "m") {
+    if (auto in_millimetres = in_unit(1e-3)) {
+      mesh = std::move(in_millimetres);
+    }
   }
-  if (arguments.units != "m") {
-    return engine::load_mesh(arguments.model, 1e-3, axes);
+  if (mesh && !note.empty()) {
+    std::fprintf(stderr, "orthonav: warning: %s\n", note.c_str());
   }
-  auto in_metres = engine::load_mesh(arguments.model, 1.0, axes);
-  if (in_metres) {
-    return in_metres;
-  }
-  auto in_millimetres = engine::load_mesh(arguments.model, 1e-3, axes);
-  return in_millimetres ? in_millimetres : in_metres;
+  return mesh;
 }
 
 Status load_points(const RegisterArguments& arguments, RegisterInputs& inputs) {
@@ -42,10 +46,13 @@ Status load_points(const RegisterArguments& arguments, RegisterInputs& inputs) {
   const double given_m = arguments.units == "m" ? 1.0 : 1e-3;
   inputs.frame.points_unit_m = file->metres_per_unit.value_or(given_m);
   inputs.points_axes = file->axes;
+  std::vector<Vec3> places_m;
   for (const Vec3& p : file->points) {
     inputs.points.push_back({inputs.frame.points_unit_m * p});
+    places_m.push_back(inputs.frame.points_unit_m * p);
   }
-  return {};
+  const Status scale = engine::check_scale(places_m, file->metres_per_unit.has_value());
+  return scale ? Status{} : Status{Error{arguments.points + ": " + scale.error().message}};
 }
 
 Status load_single_level(const RegisterArguments& arguments, engine::ModelCache& models,
@@ -72,6 +79,9 @@ Status load_single_level(const RegisterArguments& arguments, engine::ModelCache&
       return screws.error();
     }
     inputs.level.screws = std::move(*screws);
+  }
+  if (const Status facing = engine::check_facing(*mesh); !plan && !facing) {
+    return Error{arguments.model + ": " + facing.error().message};
   }
   inputs.frame.model_axes = engine::declared_axes(arguments.model).value_or(axes);
   auto model = models.prepared(*mesh);
@@ -119,12 +129,17 @@ Status check_together(const RegisterArguments& a) {
 
 }  // namespace
 
-Result<RegisterInputs> load_register_inputs(const RegisterArguments& arguments) {
+Result<RegisterInputs> load_register_inputs(
+    const RegisterArguments& arguments,
+    const std::function<Status(const RegisterInputs&)>& check_points) {
   if (const Status s = check_together(arguments); !s) {
     return s.error();
   }
   RegisterInputs inputs;
   if (const Status s = load_points(arguments, inputs); !s) {
+    return s.error();
+  }
+  if (const Status s = check_points(inputs); !s) {
     return s.error();
   }
   engine::ModelCache models(arguments.cache);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +35,10 @@ struct RegisterInputs {
 };
 
 /// Reads and checks every file that the arguments name. Prepared models are kept once all is well;
-/// problems with them are reported on standard error.
-Result<RegisterInputs> load_register_inputs(const RegisterArguments& arguments);
+/// problems with them are reported on standard error. `check_points` may refuse once the points are
+/// read, before the model is prepared.
+Result<RegisterInputs> load_register_inputs(
+    const RegisterArguments& arguments,
+    const std::function<Status(const RegisterInputs&)>& check_points);
 
 }  // namespace orthonav::tools

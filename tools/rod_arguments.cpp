@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/case/likely_mistakes.h"
 #include "engine/case/points_file.h"
 #include "engine/case/spring_back_file.h"
 #include "engine/io/text_fields.h"
@@ -28,7 +29,9 @@ Result<std::vector<Vec3>> load_heads_m(const RodHeadArguments& arguments) {
   for (const Vec3& p : file->points) {
     heads_m.push_back(unit_m * p);
   }
-  return heads_m;
+  const Status scale = engine::check_scale(heads_m, file->metres_per_unit.has_value());
+  return scale ? Result<std::vector<Vec3>>(heads_m)
+               : Error{arguments.heads + ": " + scale.error().message};
 }
 
 Result<Vec3> direction_from(const std::string& text) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/length_text.h"
 #include "engine/case/operation.h"
 #include "engine/case/screw_place.h"
 #include "engine/io/inside_folder.h"
@@ -12,6 +13,8 @@ namespace {
 
 /// Centres of neighbouring lumbar vertebrae lie 30 mm and more apart; closer ones intersect.
 constexpr double kMinLevelSpacing_m = 0.015;
+/// From one end of the spine to the other.
+constexpr double kMaxLevelSpacing_m = 1.0;
 
 std::optional<std::string> screw_problem(const nav::SurfaceIndex& bone,
                                          const nav::TriangleMesh& mesh,
@@ -77,6 +80,12 @@ std::vector<std::string> Case::check(CaseUse use) const {
     }
     if (const CaseLevel* other = overlapped_by(i)) {
       problems.push_back(which + " lies in " + other->label + " (see spine_from_model)");
+    }
+    const double far_m = (level.centre_in_spine() - levels.front().centre_in_spine()).norm();
+    if (far_m > kMaxLevelSpacing_m) {
+      problems.push_back(which + " lies " + in_mm(far_m) + " from " + levels.front().label +
+                         ", limit " + in_mm(kMaxLevelSpacing_m) +
+                         ": is the unit of spine_from_model (case.json, units) another one?");
     }
     if (level.mesh.triangles.empty()) {
       problems.push_back(which + " has no surface");

@@ -37,6 +37,7 @@ struct Case {
   std::string folder;  ///< empty for the built-in phantom
   std::vector<CaseLevel> levels;
   std::string unusual;  ///< what is unusual about the spine, as `case make` noted it; else empty
+  std::vector<std::string> notes;  ///< of reading it: what was left out, a line each
 
   [[nodiscard]] const CaseLevel* find(const std::string& label) const;
   /// An earlier level, in the order of the case, that lies in the same place; nullptr if there is

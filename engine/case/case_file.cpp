@@ -135,7 +135,7 @@ Status place(const Entry& entry, const Reading& reading, Axes model_axes, CaseLe
   return {};
 }
 
-Result<CaseLevel> loaded(const Entry& entry, const Reading& reading) {
+Result<CaseLevel> loaded(const Entry& entry, const Reading& reading, std::string& note) {
   const std::string& folder = reading.folder;
   const Result<Plan> plan = plan_of(entry, folder, reading.metres_per_unit);
   if (!plan) {
@@ -149,7 +149,7 @@ Result<CaseLevel> loaded(const Entry& entry, const Reading& reading) {
   if (!model) {
     return model.error();
   }
-  Result<CaseLevel> level = load_level(*model, *plan);
+  Result<CaseLevel> level = load_level(*model, *plan, &note);
   if (!level) {
     return level.error();
   }
@@ -163,9 +163,13 @@ Result<CaseLevel> loaded(const Entry& entry, const Reading& reading) {
 
 Status load_levels(const std::vector<Entry>& entries, const Reading& reading, Case& subject) {
   for (const Entry& entry : entries) {
-    Result<CaseLevel> level = loaded(entry, reading);
+    std::string note;
+    Result<CaseLevel> level = loaded(entry, reading, note);
     if (!level) {
       return level.error();
+    }
+    if (!note.empty()) {
+      subject.notes.push_back(note);
     }
     subject.levels.push_back(std::move(level).value());
   }
@@ -174,8 +178,8 @@ Status load_levels(const std::vector<Entry>& entries, const Reading& reading, Ca
 
 }  // namespace
 
-Result<CaseLevel> load_level(const std::string& model, const Plan& plan) {
-  Result<nav::TriangleMesh> mesh = load_mesh(model, plan.metres_per_unit, plan.axes);
+Result<CaseLevel> load_level(const std::string& model, const Plan& plan, std::string* note) {
+  Result<nav::TriangleMesh> mesh = load_mesh(model, plan.metres_per_unit, plan.axes, note);
   if (!mesh) {
     return mesh.error();
   }

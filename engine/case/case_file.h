@@ -11,7 +11,8 @@
 namespace orthonav::engine {
 
 /// Reads a model in the unit and frame that its plan declares, with the plan's screws on it.
-Result<CaseLevel> load_level(const std::string& model, const Plan& plan);
+Result<CaseLevel> load_level(const std::string& model, const Plan& plan,
+                             std::string* note = nullptr);
 
 /// Reads the transform file at that path.
 using TransformReader = std::function<Result<StoredTransform>(const std::string& path)>;

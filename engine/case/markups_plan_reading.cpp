@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <optional>
+#include <regex>
 #include <string_view>
+#include <vector>
 
 #include "base/one_line.h"
+#include "base/printed.h"
 #include "engine/case/line_name.h"
 #include "engine/case/markups_plan.h"
 #include "engine/io/slicer_markups.h"
@@ -11,25 +14,53 @@
 namespace orthonav::engine {
 namespace {
 
-/// The radius from `diameter=5.5`, in the file's unit; 0 if none is stated.
-double stated_radius(const Markup& markup) {
-  for (const std::string& text : {lower_case(markup.description), lower_case(markup.name)}) {
-    std::size_t at = text.find("diameter");
-    if (at == std::string::npos) {
-      continue;
+double decimal(std::string digits) {
+  std::replace(digits.begin(), digits.end(), ',', '.');
+  return number_from(digits).value_or(0.0);
+}
+
+/// The diameters that a text states, in the file's unit: `diameter=5.5`, `Durchmesser: 6,5`,
+/// `Ø6.5`, and the size of a screw, `6.5x45`, always mm.
+Result<std::vector<double>> diameters_in(const std::string& text, double metres_per_unit) {
+  static const std::regex kStated(
+      "(?:diameter|durchmesser|\\bdia\\b|\xC3\x98|\xC3\xB8|\xE2\x8C\x80)\\s*[=:]?\\s*"
+      "([0-9]+(?:[.,][0-9]+)?)?");
+  static const std::regex kSize(
+      "(?:^|[^0-9.,])([0-9]{1,2}(?:[.,][0-9]+)?)\\s*(?:mm)?\\s*(?:x|\xC3\x97)\\s*([0-9]{2,3})");
+  std::vector<double> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), kStated), end; at != end; ++at) {
+    if (!(*at)[1].matched) {
+      return Error{"names a diameter without a number, must be as in diameter=6.5"};
     }
-    at = text.find_first_not_of(" \t", at + std::string("diameter").size());
-    if (at == std::string::npos || text[at] != '=') {
-      continue;
-    }
-    at = text.find_first_not_of(" \t", at + 1);
-    if (at == std::string::npos) {
-      continue;
-    }
-    const std::size_t end = std::min(text.find_first_not_of("0123456789.", at), text.size());
-    return number_from(text.substr(at, end - at)).value_or(0.0) / 2.0;
+    found.push_back(decimal((*at)[1]));
   }
-  return 0.0;
+  for (std::sregex_iterator at(text.begin(), text.end(), kSize), end; at != end; ++at) {
+    const double diameter_mm = decimal((*at)[1]), length_mm = decimal((*at)[2]);
+    if (diameter_mm >= 2.0 && diameter_mm <= 12.0 && length_mm <= 120.0) {
+      found.push_back(diameter_mm * 1e-3 / metres_per_unit);
+    }
+  }
+  return found;
+}
+
+/// The radius that name or description states, in the file's unit; 0 if none is stated. Refuses two
+/// that differ.
+Result<double> stated_radius(const Markup& markup, double metres_per_unit) {
+  double radius = 0.0;
+  for (const std::string& text : {markup.description, markup.name}) {
+    constexpr std::size_t kMostText = 4096;  // std::regex recurses
+    const auto diameters = diameters_in(lower_case(text.substr(0, kMostText)), metres_per_unit);
+    if (!diameters) {
+      return diameters.error();
+    }
+    for (const double diameter : *diameters) {
+      if (radius != 0.0 && diameter / 2.0 != radius) {
+        return Error{printed("states two diameters, %g and %g", 2.0 * radius, diameter)};
+      }
+      radius = diameter / 2.0;
+    }
+  }
+  return radius;
 }
 
 /// The text after `accept_breach=` in the description, up to the end of the line.
@@ -111,9 +142,12 @@ Status add(const Pair& pair, Plan& plan) {
   const auto point = [&](std::size_t i) {
     return Point<Vertebra>{to_lps(pair.points[i].position, plan.axes) * plan.metres_per_unit};
   };
+  const auto radius = stated_radius(*pair.markup, plan.metres_per_unit);
+  if (!radius) {
+    return Error{pair.where + " " + radius.error().message};
+  }
   plan.screws.push_back({pair.where, side_of(name), point(0), point(1),
-                         stated_radius(*pair.markup) * plan.metres_per_unit,
-                         accepted_breach(*pair.markup)});
+                         *radius * plan.metres_per_unit, accepted_breach(*pair.markup)});
   return {};
 }
 

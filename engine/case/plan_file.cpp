@@ -148,6 +148,9 @@ Result<Plan> load_plan(const std::string& path) {
   if (lower_case(path).ends_with(".fcsv")) {
     return Error{path + ": an .fcsv file holds no lines; save the screws as .mrk.json lines"};
   }
+  if (Status s = check_no_scene(path, "save the screws' lines as .mrk.json"); !s) {
+    return s.error();
+  }
   auto plan = is_markups_name(path) ? plan_from_markups(load_markups(path), path)
                                     : plan_from_json(JsonDocument::read(path));
   return plan ? checked(path, std::move(*plan)) : plan;

@@ -1,6 +1,8 @@
 #include "engine/case/points_file.h"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "engine/io/json_document.h"
 #include "engine/io/ply_file.h"
@@ -10,50 +12,110 @@
 namespace orthonav::engine {
 namespace {
 
-/// The columns of x, y, z and, if any, the region.
-struct Columns {
+/// How a table is written.
+struct Table {
+  char separator = ',';
   std::array<std::size_t, 3> coordinate = {0, 1, 2};
   std::optional<std::size_t> region;
+  std::optional<std::size_t> defined;  ///< of Slicer's table: 0 for a point that was not placed
+  std::optional<Axes> axes;            ///< of Slicer's table
+  std::size_t columns = 0;             ///< of the header; 0: there is none
 };
 
-Result<Columns> columns_from_header(const std::vector<std::string>& names) {
-  std::array<std::optional<std::size_t>, 4> found;
-  const std::array<std::string, 4> wanted = {"x", "y", "z", "region"};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    for (std::size_t w = 0; w < wanted.size(); ++w) {
-      if (lower_case(names[i]) == wanted[w]) {
-        if (found[w]) {
-          return Error{"column " + wanted[w] + " stands twice in the header"};
-        }
-        found[w] = i;
-      }
+char separator_of(const std::string& first_line) {
+  for (const char separator : {';', '\t'}) {
+    if (first_line.find(separator) != std::string::npos) {
+      return separator;
     }
   }
-  for (std::size_t w = 0; w < 3; ++w) {
-    if (!found[w]) {
-      return Error{"the header has no column " + wanted[w]};
-    }
-  }
-  return Columns{{*found[0], *found[1], *found[2]}, found[3]};
+  return ',';
 }
 
+/// The axes that the names of three columns state.
+struct CoordinateNames {
+  std::array<std::string, 3> names;
+  std::optional<Axes> axes;
+};
+
+const std::array<CoordinateNames, 3>& coordinate_names() {
+  static const std::array<CoordinateNames, 3> kNames = {
+      {{{"x", "y", "z"}, {}}, {{"r", "a", "s"}, Axes::kRas}, {{"l", "p", "s"}, Axes::kLps}}};
+  return kNames;
+}
+
+Result<std::optional<std::size_t>> column_of(const std::vector<std::string>& header,
+                                             const std::string& name) {
+  const auto found = std::find(header.begin(), header.end(), name);
+  if (found == header.end()) {
+    return std::optional<std::size_t>();
+  }
+  if (std::find(found + 1, header.end(), name) != header.end()) {
+    return Error{"column " + name + " stands twice in the header"};
+  }
+  return std::optional(static_cast<std::size_t>(found - header.begin()));
+}
+
+/// Whether the fields name columns, and not numbers.
 bool is_header(const std::vector<std::string>& fields) {
-  for (const std::string& field : fields) {
-    if (lower_case(field) == "x") {
-      return true;
-    }
-  }
-  return false;
+  return std::any_of(fields.begin(), fields.end(), [](const std::string& field) {
+    return field == "x" || field == "r" || field == "l";
+  });
 }
 
-Result<Vec3> point_from(const std::vector<std::string>& fields, const Columns& columns) {
+Status read_header(const std::vector<std::string>& header, Table& table) {
+  for (const CoordinateNames& set : coordinate_names()) {
+    if (std::find(header.begin(), header.end(), set.names[0]) == header.end()) {
+      continue;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto column = column_of(header, set.names[i]);
+      if (!column) {
+        return column.error();
+      }
+      if (!*column) {
+        return Error{"the header has no column " + set.names[i]};
+      }
+      table.coordinate[i] = **column;
+    }
+    table.axes = set.axes;
+  }
+  for (const auto& [name, place] :
+       {std::pair{"region", &table.region}, {"defined", &table.defined}}) {
+    const auto column = column_of(header, name);
+    if (!column) {
+      return column.error();
+    }
+    *place = *column;
+  }
+  table.columns = header.size();
+  return {};
+}
+
+/// A number with a point, or with a comma where that separates no fields.
+std::optional<double> number_in(std::string field, char separator) {
+  if (separator != ',' && std::count(field.begin(), field.end(), ',') == 1 &&
+      field.find('.') == std::string::npos) {
+    std::replace(field.begin(), field.end(), ',', '.');
+  }
+  return number_from(field);
+}
+
+Result<Vec3> point_from(const std::vector<std::string>& fields, const Table& table) {
+  const std::size_t most = table.columns != 0 ? table.columns : 4;
+  const bool whole = std::none_of(fields.begin(), fields.end(), [](const std::string& field) {
+    return field.find('.') != std::string::npos;
+  });
+  if (table.separator == ',' && whole && fields.size() > most) {
+    return Error{"has " + std::to_string(fields.size()) +
+                 " fields: are commas both decimal and between the fields? Separate them with ;"};
+  }
   Vec3 point;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t column = columns.coordinate[static_cast<std::size_t>(axis)];
+    const std::size_t column = table.coordinate[static_cast<std::size_t>(axis)];
     if (column >= fields.size()) {
       return Error{"has " + std::to_string(fields.size()) + " fields, must hold x,y,z"};
     }
-    const auto value = number_from(fields[column]);
+    const auto value = number_in(fields[column], table.separator);
     if (!value) {
       return Error{"field \"" + fields[column].substr(0, 40) + "\" is not a number"};
     }
@@ -62,42 +124,52 @@ Result<Vec3> point_from(const std::vector<std::string>& fields, const Columns& c
   return point;
 }
 
+std::vector<std::string> in_lower_case(std::vector<std::string> fields) {
+  std::transform(fields.begin(), fields.end(), fields.begin(), lower_case);
+  return fields;
+}
+
 Result<PointsFile> csv_points(const std::string& text, const std::string& path) {
   PointsFile file;
-  Columns columns;
+  Table table;
   bool first = true;
   int line_number = 0;
-  for (std::string line : lines_of(text)) {
+  for (const std::string& line : lines_of(text)) {
     ++line_number;
     const std::string where = path + ": line " + std::to_string(line_number) + ": ";
-    if (line_number == 1 && line.starts_with("\xEF\xBB\xBF")) {
-      line.erase(0, 3);
-    }
     if (line.empty() || line.starts_with('#')) {
       continue;
     }
-    const std::vector<std::string> fields = split(line, ',');
+    if (first) {
+      table.separator = separator_of(line);
+    }
+    const std::vector<std::string> fields = split_quoted(line, table.separator);
     if (std::exchange(first, false)) {
-      if (is_header(fields)) {
-        const Result<Columns> named = columns_from_header(fields);
-        if (!named) {
+      if (const auto names = in_lower_case(fields); is_header(names)) {
+        if (const Status named = read_header(names, table); !named) {
           return Error{where + named.error().message};
         }
-        columns = *named;
         continue;
       }
       if (fields.size() > 3) {
-        columns.region = 3;
+        table.region = 3;
       }
     }
-    const Result<Vec3> point = point_from(fields, columns);
+    if (table.defined && *table.defined < fields.size() && fields[*table.defined] == "0") {
+      continue;
+    }
+    const Result<Vec3> point = point_from(fields, table);
     if (!point) {
       return Error{where + point.error().message};
     }
     file.points.push_back(*point);
-    if (columns.region) {
-      file.regions.push_back(*columns.region < fields.size() ? fields[*columns.region] : "");
+    if (table.region) {
+      file.regions.push_back(*table.region < fields.size() ? fields[*table.region] : "");
     }
+  }
+  file.axes = table.axes;
+  if (table.axes) {
+    file.metres_per_unit = 1e-3;  // Slicer's
   }
   return file;
 }
@@ -117,6 +189,9 @@ PointsFile points_of(const MarkupsFile& markups) {
 
 Result<PointsFile> read_points(const std::string& path) {
   const std::string name = lower_case(path);
+  if (Status s = check_no_scene(path, "save its points as .mrk.json"); !s) {
+    return s.error();
+  }
   if (is_markups_name(path)) {
     const Result<MarkupsFile> markups =
         name.ends_with(".fcsv") ? load_fcsv(path) : load_markups(path);
@@ -130,7 +205,7 @@ Result<PointsFile> read_points(const std::string& path) {
     return text.error();
   }
   if (!name.ends_with(".ply")) {
-    return csv_points(*text, path);
+    return csv_points(as_utf8(*text), path);
   }
   Result<std::vector<Vec3>> points = ply_points(*text, path);
   if (!points) {

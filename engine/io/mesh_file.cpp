@@ -19,6 +19,7 @@
 #include "engine/io/json_document.h"
 #include "engine/io/ply_file.h"
 #include "engine/io/polygon.h"
+#include "engine/io/slicer_markups.h"
 
 namespace orthonav::engine {
 namespace {
@@ -51,7 +52,12 @@ Status readable(const std::string& path) {
   }
   const std::string extension = extension_of(path);
   if (extension != ".stl" && extension != ".ply" && extension != ".obj") {
-    return Error{path + ": must be an STL, PLY or OBJ file"};
+    if (Status s = check_no_scene(path, "save its model as .stl"); !s) {
+      return s;
+    }
+    const bool vtk = extension == ".vtk" || extension == ".vtp" || extension == ".vtu";
+    return Error{path + ": must be an STL, PLY or OBJ file" +
+                 (vtk ? "; 3D Slicer and ParaView save a model as such" : "")};
   }
   return {};
 }
@@ -174,7 +180,8 @@ std::optional<Axes> declared_axes(const std::string& path) {
   return word ? axes_from(*word) : std::nullopt;
 }
 
-Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_unit, Axes axes) {
+Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_unit, Axes axes,
+                                    std::string* note) {
   if (Status status = readable(path); !status) {
     return status.error();
   }
@@ -192,9 +199,16 @@ Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_u
   for (Vec3& v : mesh.vertices_m) {
     v = to_lps(v, used) * metres_per_unit;
   }
-  Result<nav::TriangleMesh> checked = nav::checked_vertebra(std::move(mesh));
+  nav::MainPart main = nav::main_part(std::move(mesh));
+  Result<nav::TriangleMesh> checked = nav::checked_vertebra(std::move(main.mesh));
   if (!checked) {
     return Error{path + ": " + checked.error().message};
+  }
+  if (note != nullptr && main.left_out > 0) {
+    *note =
+        path + ": " + std::to_string(main.left_out) +
+        (main.left_out == 1 ? " part apart from the bone was" : " parts apart from the bone were") +
+        " left out (islands or cavities)";
   }
   return checked;
 }

@@ -16,6 +16,9 @@ namespace {
 constexpr std::array<std::string_view, 4> kFirstColumns = {"id", "x", "y", "z"};
 constexpr std::size_t kFirstCoordinate = 1;
 constexpr std::size_t kLabelColumn = 11;
+/// After the declared columns version 5 writes whether a point was placed (2) or not (undefined,
+/// preview, missing): vtkMRMLMarkupsFiducialStorageNode.
+constexpr std::size_t kStatusColumn = 14;
 
 std::vector<MarkupPoint> defined_points(const JsonNode& markup) {
   std::vector<MarkupPoint> points;
@@ -88,6 +91,13 @@ Status read_remark(const std::string& remark, const std::string& where, std::opt
 
 }  // namespace
 
+Status check_no_scene(const std::string& path, const std::string& instead) {
+  const std::string name = lower_case(path);
+  return name.ends_with(".mrml") || name.ends_with(".mrb")
+             ? Status{Error{path + ": is a scene of 3D Slicer: " + instead}}
+             : Status{};
+}
+
 bool is_markups_name(const std::string& path) {
   const std::string name = lower_case(path);
   return name.ends_with(".mrk.json") || name.ends_with(".fcsv");
@@ -133,7 +143,11 @@ Result<MarkupsFile> load_fcsv(const std::string& path) {
         return read.error();
       }
     } else if (!line.empty()) {
-      const std::vector<std::string> fields = split(line, ',');
+      const std::vector<std::string> fields = split_quoted(line, ',');
+      if (fields.size() > kStatusColumn && fields[kStatusColumn] != "2" &&
+          fields[kStatusColumn] != "") {
+        continue;
+      }
       Vec3 position;
       for (int axis = 0; axis < 3; ++axis) {
         const std::size_t column = kFirstCoordinate + static_cast<std::size_t>(axis);

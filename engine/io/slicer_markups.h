@@ -40,6 +40,9 @@ Result<MarkupsFile> markups_in(const Result<JsonDocument>& document, const std::
 /// `# columns` do not begin as Slicer writes them.
 Result<MarkupsFile> load_fcsv(const std::string& path);
 
+/// Refuses a scene of 3D Slicer (`.mrml`, `.mrb`): it names its parts, which have files of their
+/// own. `instead`: what to export, as in "save its points as .mrk.json".
+Status check_no_scene(const std::string& path, const std::string& instead);
 [[nodiscard]] bool is_markups_name(const std::string& path);
 
 }  // namespace orthonav::engine

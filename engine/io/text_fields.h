@@ -11,10 +11,15 @@ namespace orthonav::engine {
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 /// The fields of one line; spaces, tabs and a carriage return around a field are dropped.
 [[nodiscard]] std::vector<std::string> split(std::string_view line, char separator);
+/// The same, where a field in double quotes may hold the separator, and "" one quote (RFC 4180).
+[[nodiscard]] std::vector<std::string> split_quoted(std::string_view line, char separator);
 /// The lines of a text, with or without carriage returns.
 [[nodiscard]] std::vector<std::string> lines_of(std::string_view text);
 /// A finite number and nothing else, with a decimal point in any locale.
 [[nodiscard]] std::optional<double> number_from(std::string_view text);
 [[nodiscard]] std::string lower_case(std::string text);
+/// A text file's bytes as UTF-8 without a byte order mark: UTF-16 is told by its mark (Excel's
+/// "Unicode text").
+[[nodiscard]] std::string as_utf8(std::string bytes);
 
 }  // namespace orthonav::engine

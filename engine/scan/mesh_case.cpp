@@ -3,24 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/io/patient_axes.h"
+#include "engine/case/likely_mistakes.h"
 #include "engine/scan/level_places.h"
 #include "nav/planning/canal.h"
 
 namespace orthonav::engine {
 namespace {
-
-bool has_canal(const nav::TriangleMesh& mesh) {
-  return nav::find_canal(mesh, nav::SurfaceIndex(mesh)).has_value();
-}
-
-/// LPS read as RAS, or RAS as LPS.
-nav::TriangleMesh in_other_axes(nav::TriangleMesh mesh) {
-  for (Vec3& v : mesh.vertices_m) {
-    v = to_lps(v, Axes::kRas);
-  }
-  return mesh;
-}
 
 Status check_names(const std::vector<CaseLevel>& meshes) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -64,11 +52,10 @@ Result<std::vector<MeshLevel>> mesh_levels(std::vector<CaseLevel> meshes, std::s
   }
   std::vector<MeshLevel> levels;
   for (const CaseLevel& level : together.levels) {
-    const bool canal = has_canal(level.mesh);
-    if (!canal && has_canal(in_other_axes(level.mesh))) {
-      return Error{level.label +
-                   " faces backward: its axes are RAS and not LPS, or LPS and not RAS"};
+    if (const Status facing = check_facing(level.mesh); !facing) {
+      return Error{level.label + " " + facing.error().message};
     }
+    const bool canal = nav::find_canal(level.mesh, nav::SurfaceIndex(level.mesh)).has_value();
     levels.push_back({level, nav::solid_of(level.mesh).volume_m3, canal});
   }
   return levels;

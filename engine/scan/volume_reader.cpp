@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "engine/io/slicer_markups.h"
 #include "engine/io/text_fields.h"
 #include "engine/scan/dicom_folder.h"
 #include "engine/scan/nifti_file.h"
@@ -27,10 +28,10 @@ Result<Volume> read_volume(const std::string& path, const std::string& series) {
   if (is_dicom(path)) {
     return read_dicom(path, series);
   }
-  if (name.ends_with(".mrml") || name.ends_with(".mrb")) {
-    return Error{path +
-                 ": is a scene of 3D Slicer; export its volume as .nrrd and its segmentation "
-                 "as .seg.nrrd"};
+  if (Status s =
+          check_no_scene(path, "export its volume as .nrrd and its segmentation as .seg.nrrd");
+      !s) {
+    return s.error();
   }
   return Error{path + ": must be .nii, .nii.gz, .nrrd, DICOM or a folder of it"};
 }

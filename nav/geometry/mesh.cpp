@@ -262,4 +262,53 @@ TriangleMesh part_of(const TriangleMesh& mesh, std::span<const std::uint32_t> fa
   return part;
 }
 
+MainPart main_part(TriangleMesh mesh) {
+  for (const auto& t : mesh.triangles) {
+    if (std::max({t[0], t[1], t[2]}) >= mesh.vertices_m.size()) {
+      return {std::move(mesh), 0};
+    }
+  }
+  struct Part {
+    std::vector<std::uint32_t> faces;
+    bool closed = true;
+    double volume_m3 = 0.0;
+  };
+  const std::vector<std::uint32_t> numbers =
+      parts_of(mesh, std::vector<bool>(mesh.triangles.size(), true));
+  std::map<std::uint32_t, Part> parts;
+  for (std::uint32_t face = 0; face < numbers.size(); ++face) {
+    parts[numbers[face]].faces.push_back(face);
+  }
+  if (parts.size() < 2) {
+    return {std::move(mesh), 0};
+  }
+  const std::vector<DirectedEdge> edges = sorted_edges(mesh);
+  std::vector<bool> open(mesh.vertices_m.size(), false);
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t j = i;
+    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) {
+      ++j;
+    }
+    if (j - i != 2) {
+      open[edges[i].low] = true;
+    }
+    i = j;
+  }
+  const Part* main = nullptr;
+  for (auto& [number, part] : parts) {
+    const TriangleMesh own = part_of(mesh, part.faces);
+    part.volume_m3 = std::abs(solid_of(own).volume_m3);
+    for (const std::uint32_t face : part.faces) {
+      for (const std::uint32_t v : mesh.triangles[face]) {
+        part.closed = part.closed && !open[v];
+      }
+    }
+    if (main == nullptr ||
+        std::pair(part.closed, part.volume_m3) > std::pair(main->closed, main->volume_m3)) {
+      main = &part;
+    }
+  }
+  return {part_of(mesh, main->faces), parts.size() - 1};
+}
+
 }  // namespace orthonav::nav

@@ -53,6 +53,15 @@ std::vector<std::uint32_t> parts_of(const TriangleMesh& mesh, const std::vector<
 /// The mesh of these faces, which must be the given mesh's own, with the vertices that they use.
 TriangleMesh part_of(const TriangleMesh& mesh, std::span<const std::uint32_t> faces);
 
+/// The largest part by the volume that it encloses, of the closed ones where there are any, and how
+/// many others were left out: islands of a segmentation, cavities in the bone. A mesh that names
+/// vertices it does not have comes back as it is.
+struct MainPart {
+  TriangleMesh mesh;
+  std::size_t left_out = 0;
+};
+[[nodiscard]] MainPart main_part(TriangleMesh mesh);
+
 struct SurfacePoint {
   Vec3 point_m;
   Vec3 normal;  ///< of the triangle, outward

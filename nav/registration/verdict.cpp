@@ -75,6 +75,10 @@ std::vector<RefusalReason> reasons_against(const Registration& r,
   if (!r.fits_better.empty()) {
     reasons.push_back({Kind::kFitsOtherLevel, 0.0, 0.0, {}, r.fits_better});
   }
+  // Strokes of another bone have other faults too: what they are comes first.
+  std::stable_partition(reasons.begin(), reasons.end(), [](const RefusalReason& reason) {
+    return reason.kind == Kind::kFitsOtherLevel || reason.kind == Kind::kMirrored;
+  });
   return reasons;
 }
 

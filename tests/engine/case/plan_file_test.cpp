@@ -178,7 +178,18 @@ TEST(PlanFile, ReadsSideAndDiameterHoweverTheyAreWritten) {
   ASSERT_TRUE(left.ok()) << left.error().message;
   EXPECT_EQ(left->level, "L4");
   EXPECT_EQ(left->screws[0].side, nav::Side::kLeft);
-  EXPECT_EQ(left->screws[0].radius_m, 0.0) << "not written as diameter=";
+  EXPECT_NEAR(left->screws[0].radius_m, 0.003, kRounding_m);
+  for (const char* said : {"diameter=6,5", "diameter: 6.5", "Durchmesser 6,5 mm", "Ø6.5", "ø 6,5",
+                           "6.5x45", "6,5 x 45", "screw 6.5 × 45 mm", "diameter=6.5, 6.5x45"}) {
+    const auto stated = loaded(markups(line("L4 left", said)), name);
+    ASSERT_TRUE(stated.ok()) << said << stated.error().message;
+    EXPECT_NEAR(stated->screws[0].radius_m, 0.00325, kRounding_m) << said;
+  }
+  EXPECT_EQ(loaded(markups(line("L4 left", "seen at 10x400")), name)->screws[0].radius_m, 0.0);
+  EXPECT_THAT(refusal(markups(line("L4 left", "diameter=thick")), name),
+              HasSubstr("names a diameter without a number"));
+  EXPECT_THAT(refusal(markups(line("L4 left 6.5x45", "diameter=5.5")), name),
+              HasSubstr("states two diameters, 5.5 and 6.5"));
   const auto long_name = loaded(markups(line(std::string(300000, 'x') + " left")), name);
   EXPECT_TRUE(long_name.ok()) << "a name of any length";
 }

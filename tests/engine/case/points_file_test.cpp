@@ -56,7 +56,54 @@ TEST(PointsFile, NamesTheLineThatIsNoPoint) {
   EXPECT_THAT(refusal("p.csv", "x,y,z\n1,2,inf\n"), HasSubstr("line 2: field \"inf\""));
   EXPECT_THAT(refusal("p.csv", "x,y\n1,2\n"), HasSubstr("no column z"));
   EXPECT_THAT(refusal("p.csv", "x,y,z,x\n1,2,3,4\n"), HasSubstr("column x stands twice"));
-  EXPECT_THAT(refusal("p.csv", "1;2;3\n"), HasSubstr("line 1"));
+  EXPECT_THAT(refusal("p.csv", "1:2:3\n"), HasSubstr("line 1"));
+}
+
+TEST(PointsFile, ReadsTablesAsSpreadsheetsWriteThem) {
+  const std::string utf16 = [] {
+    std::string out = "\xFF\xFE";
+    for (const char c : std::string("x\ty\tz\tregion\r\n1,5\t-2\t3\tfacet\r\n")) {
+      out += c;
+      out += '\0';
+    }
+    return out;
+  }();
+  for (const std::string& text :
+       {std::string("x;y;z;region\n1,5;-2;3;facet\n"),
+        std::string("\xEF\xBB\xBFx;y;z;region\r\n1.5;-2;3;facet\r\n"),
+        std::string("\"x\",\"y\",\"z\",\"region\"\n\"1.5\",\"-2\",\"3\",\"facet\"\n"), utf16}) {
+    const auto file = loaded("p.csv", text);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_THAT(file->points, ElementsAre(Vec3{1.5, -2, 3}));
+    EXPECT_THAT(file->regions, ElementsAre("facet"));
+  }
+  EXPECT_THAT(loaded("p.csv", "1,5;2;3\n")->points, ElementsAre(Vec3{1.5, 2, 3}));
+  EXPECT_THAT(refusal("p.csv", "x,y,z\n1,5,2,5,3,5\n"), HasSubstr("Separate them with ;"));
+  EXPECT_THAT(refusal("p.csv", "1,5,2,5,3,5\n"), HasSubstr("Separate them with ;"));
+  EXPECT_THAT(refusal("p.csv", "x;y;z\n1.234,5;2;3\n"), HasSubstr("is not a number"));
+}
+
+TEST(PointsFile, ReadsSlicersTableInItsAxes) {
+  const auto ras = loaded("p.csv",
+                          "label,r,a,s,defined,selected,visible,locked,description\n"
+                          "F-1,1.5,2,3,1,1,1,0,\"a, b\"\nF-2,0,0,0,0,1,1,0,\n");
+  ASSERT_TRUE(ras.ok()) << ras.error().message;
+  EXPECT_THAT(ras->points, ElementsAre(Vec3{1.5, 2, 3}));
+  EXPECT_EQ(ras->axes, Axes::kRas);
+  EXPECT_EQ(ras->metres_per_unit, 1e-3);
+  const auto lps = loaded("p.csv", "label,l,p,s,defined\nF-1,1.5,2,3,1\n");
+  ASSERT_TRUE(lps.ok()) << lps.error().message;
+  EXPECT_EQ(lps->axes, Axes::kLps);
+}
+
+TEST(PointsFile, LeavesUnplacedPointsOut) {
+  const auto file = loaded("p.fcsv",
+                           "# CoordinateSystem = LPS\n"
+                           "1,1,2,3,0,0,0,1,1,1,0,F-1,\"a, b\",node,2,0\n"
+                           "2,0,0,0,0,0,0,1,1,1,0,F-2,,node,0,0\n"
+                           "3,0,0,0,0,0,0,1,1,1,0,F-3,,node,3,0\n");
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  EXPECT_THAT(file->points, ElementsAre(Vec3{1, 2, 3}));
 }
 
 TEST(PointsFile, RefusesFilesWithoutPoints) {

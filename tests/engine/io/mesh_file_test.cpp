@@ -45,6 +45,39 @@ std::string ply_box(const std::string& vertices) {
   return ply;
 }
 
+TEST(MeshFile, LeavesIslandsAndCavitiesOutAndSaysSo) {
+  const TemporaryFolder folder;
+  // A box of 60 mm, a hollow of 10 mm in it, a crumb of 5 mm far to the right, and an open sheet.
+  std::string obj;
+  int first = 1;
+  const auto box = [&](double size, double x, bool inward) {
+    for (int corner = 0; corner < 8; ++corner) {
+      obj += "v " + std::to_string(x + ((corner & 1) != 0 ? size : 0)) + " " +
+             std::to_string((corner & 2) != 0 ? size : 0) + " " +
+             std::to_string((corner & 4) != 0 ? size : 0) + "\n";
+    }
+    for (const std::array<int, 4>& f : std::vector<std::array<int, 4>>{
+             {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+      obj += "f";
+      for (std::size_t i = 0; i < 4; ++i) {
+        obj += " " + std::to_string(first + f[inward ? 3 - i : i]);
+      }
+      obj += "\n";
+    }
+    first += 8;
+  };
+  box(5, 200, false);
+  box(60, 0, false);
+  box(10, 20, true);
+  obj += "v -300 0 0\nv -300 400 0\nv -300 0 400\nf 25 26 27\n";
+  std::string note;
+  const auto mesh = load_mesh(folder.with("bone.obj", obj), kMm, Axes::kLps, &note);
+  ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+  EXPECT_NEAR(nav::bounds_of(*mesh).centre().x, 0.030, 1e-9) << "the midline is the bone's";
+  EXPECT_NEAR(nav::solid_of(*mesh).volume_m3, 0.06 * 0.06 * 0.06, 1e-9);
+  EXPECT_THAT(note, HasSubstr("bone.obj: 3 parts apart from the bone were left out"));
+}
+
 TEST(MeshFile, WeldsTheCornersOfAnStl) {
   const TemporaryFolder folder;
   ASSERT_TRUE(save_stl(folder.file("box.stl"), box_mesh()).ok());
