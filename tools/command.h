@@ -42,6 +42,7 @@ void add_register_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_rod_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action, StopSignals& signals);
+void add_sample_command(CLI::App& app, Action& action);
 void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals);
 void add_study_command(CLI::App& app, Action& action, StopSignals& signals);
 void add_track_command(CLI::App& app, Action& action);

@@ -73,6 +73,7 @@ void add_commands(CLI::App& app, Action& action, StopSignals& signals) {
   add_report_command(app, action);
   add_rod_command(app, action);
   add_run_command(app, action, signals);
+  add_sample_command(app, action);
   add_serve_hl2ss_command(app, action, signals);
   add_study_command(app, action, signals);
   add_track_command(app, action);

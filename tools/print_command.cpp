@@ -81,7 +81,9 @@ int run_tags(const TagArguments& arguments) {
 }
 
 int run_tool(const TagArguments& arguments) {
-  const auto tools = engine::load_tools(arguments.tools_file);
+  const bool built_in = arguments.tools_file.empty();
+  const auto tools =
+      built_in ? Result(engine::built_in_tools()) : engine::load_tools(arguments.tools_file);
   if (!tools) {
     return bad_input(tools.error().message);
   }
@@ -98,8 +100,8 @@ int run_tool(const TagArguments& arguments) {
     }
   }
   if (tags.empty()) {
-    return bad_input(arguments.tools_file + ": no tool \"" + arguments.name + "\", there are " +
-                     known);
+    return bad_input((built_in ? "built-in tools" : arguments.tools_file) + ": no tool \"" +
+                     arguments.name + "\", there are " + known);
   }
   return print_tags(arguments, tags, "orthonav tool tags");
 }
@@ -202,7 +204,8 @@ void add_tags(CLI::App& print, Action& action) {
 void add_tool(CLI::App& print, Action& action) {
   auto arguments = std::make_shared<TagArguments>();
   CLI::App* command = print.add_subcommand("tool", "The tags of tools, at their sizes");
-  command->add_option("TOOLS", arguments->tools_file, "Tool definitions (JSON)")->required();
+  command->add_option("TOOLS", arguments->tools_file,
+                      "Tool definitions (JSON; default: the built-in tools)");
   command->add_option("--name", arguments->name, "Only this tool")->check(some_text());
   add_quiet_option(*command, *arguments);
   arguments->page.add_to(*command);
