@@ -133,7 +133,7 @@ Status write_sample(const fs::path& folder) {
         save_scan(folder / "labels.nrrd", before.labels),
         save_scan(folder / "after.nrrd", after.ct),
         engine::write_file(folder / "points.csv", digitized(subject->levels.front())),
-        engine::save_tools(folder / "tools.json", engine::built_in_tools())}) {
+        engine::save_tools(folder / "tools.json", sample_tools())}) {
     if (!status) {
       return status;
     }
@@ -181,7 +181,9 @@ int run_sample(const std::string& name) {
 }
 
 constexpr const char* kSampleFooter =
-    "\ntools.json   the built-in pointer, drill guide and patient reference\n"
+    "\ntools.json   the built-in pointer, drill guide and patient reference; the pointer's tip is "
+    "1.5 mm\n"
+    "             off, as if found with a ruler\n"
     "ct.nrrd      a computed CT of L4 and L5 of the built-in phantom, labels.nrrd its "
     "segmentation\n"
     "             (--convention verse)\n"

@@ -14,21 +14,22 @@ namespace orthonav::tools {
 namespace {
 
 constexpr double kRate_hz = 10.0;
-/// Of the tip from where the tool file says.
+constexpr const char* kPointer = "pointer";
+/// Of the tip in the tool file.
 const Vec3 kTipError_m{0.0010, -0.0010, 0.0005};
 const Vec3 kEyes_m{0.05, 0.45, 0.35};  ///< of the wearer, in Room: the table is at y = 0
 const Vec3 kDimple_m{0.10, 0.02, 0.0};
 const Vec3 kBoard_m{-0.12, 0.0, 0.08};  ///< its origin, flat on the table
 
-/// The built-in pointer as it was made.
-sim::RoomTool made_pointer(const nav::ToolGeometry& stated) {
+sim::RoomTool built_in_pointer() {
+  const nav::ToolGeometry pointer = engine::tool_named(engine::built_in_tools(), kPointer).value();
   sim::RoomTool tool;
-  tool.name = stated.name;
-  tool.family = stated.marker.family;
-  tool.id = stated.marker.id;
-  tool.size_m = stated.marker.size_m;
-  tool.tip_in_marker = {stated.tip_in_marker.v + kTipError_m};
-  tool.axis_in_marker = stated.axis_in_marker.v;
+  tool.name = pointer.name;
+  tool.family = pointer.marker.family;
+  tool.id = pointer.marker.id;
+  tool.size_m = pointer.marker.size_m;
+  tool.tip_in_marker = pointer.tip_in_marker;
+  tool.axis_in_marker = pointer.axis_in_marker.v;
   return tool;
 }
 
@@ -36,13 +37,9 @@ sim::RoomTool made_pointer(const nav::ToolGeometry& stated) {
 class Recorder {
  public:
   static Result<Recorder> create(const std::string& folder) {
-    const auto tools = engine::built_in_tools();
-    const auto pointer = std::find_if(
-        tools.begin(), tools.end(),
-        [](const nav::ToolGeometry& tool) { return tool.role == nav::ToolRole::kPointer; });
     auto writer = replay::RecordingWriter::create(folder, sim::hololens2_calibration(), {},
-                                                  engine::tools_text(tools));
-    return writer ? Result<Recorder>(Recorder(std::move(*writer), made_pointer(*pointer)))
+                                                  engine::tools_text(sample_tools()));
+    return writer ? Result<Recorder>(Recorder(std::move(*writer)))
                   : Result<Recorder>(writer.error());
   }
 
@@ -77,8 +74,8 @@ class Recorder {
  private:
   static constexpr Vec3 kUpright{0.0, 1.0, 0.0};
 
-  Recorder(std::unique_ptr<replay::RecordingWriter> writer, sim::RoomTool pointer)
-      : writer_(std::move(writer)), pointer_(std::move(pointer)) {
+  explicit Recorder(std::unique_ptr<replay::RecordingWriter> writer)
+      : writer_(std::move(writer)), pointer_(built_in_pointer()) {
     sim::RoomDescription room;
     room.tools = {pointer_};
     renderer_ = std::make_unique<sim::StereoRenderer>(room, sim::ErrorModel{},
@@ -126,6 +123,16 @@ class Recorder {
 };
 
 }  // namespace
+
+std::vector<nav::ToolGeometry> sample_tools() {
+  auto tools = engine::built_in_tools();
+  for (nav::ToolGeometry& tool : tools) {
+    if (tool.name == kPointer) {
+      tool.tip_in_marker = {tool.tip_in_marker.v + kTipError_m};
+    }
+  }
+  return tools;
+}
 
 Status record_pivoting(const std::string& folder) {
   auto recorder = Recorder::create(folder);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <CLI/Validators.hpp>
+#include <cstdint>
 #include <vector>
 
 #include "tools/arguments.h"
@@ -22,9 +23,11 @@ void SetUpArguments::add_to(CLI::App& command) {
                    "wire (docs/published.md)");
   command.add_option("-m,--method", method, "best or paper (default: best)")
       ->type_name("best|paper");
-  command.add_flag("--reference,!--no-reference", reference,
-                   "everything hangs on the patient reference instead of the headset's map "
-                   "(default in the simulated room)");
+  // A flag with the optional itself would set it to false where it is not given.
+  command.add_flag_function(
+      "--reference,!--no-reference", [this](std::int64_t count) { reference = count > 0; },
+      "positions are relative to the patient reference instead of the headset's map (default in "
+      "the simulated room)");
   command
       .add_option("--guidance", guidance,
                   "what the simulated surgeon goes by: overlay, numbers, \"closed loop\" or "

@@ -158,6 +158,19 @@ TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
   }
 }
 
+TEST(RunCommand, HasThePatientReferenceUnlessItIsDeclined) {
+  for (const auto& [flags, has] : std::vector<std::pair<std::vector<std::string>, bool>>{
+           {{}, true}, {{"--no-reference"}, false}, {{"--as-published"}, false}}) {
+    std::vector<std::string> all = {"run",      "--headset", "sim:?perfect", "--levels", "L4",
+                                    "--frames", "1",         "--json"};
+    all.insert(all.end(), flags.begin(), flags.end());
+    const Called called = orthonav(all);
+    ASSERT_EQ(called.code, 0) << called.err;
+    EXPECT_EQ(json::parse(called.out).value("patient_reference", false), has)
+        << testing::PrintToString(flags);
+  }
+}
+
 TEST(RunCommand, CountsWithTheCommonErrorsThatAreGiven) {
   const ScratchFolder folder;
   const std::string out = folder.file("out");
