@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include "base/how_many.h"
+#include "base/printed.h"
 #include "engine/case/case_file.h"
 #include "engine/case/operation_plan.h"
 #include "engine/case/screw_place.h"
@@ -61,7 +63,11 @@ void bind_screw(py::module_& module) {
       .def_property_readonly("side", [](const nav::ScrewPlan& s) { return name_of(s.side); })
       .def_property_readonly("entry", [](const nav::ScrewPlan& s) { return array_of(s.entry.v); })
       .def_property_readonly("target", [](const nav::ScrewPlan& s) { return array_of(s.target.v); })
-      .def_readonly("radius_m", &nav::ScrewPlan::radius_m);
+      .def_readonly("radius_m", &nav::ScrewPlan::radius_m)
+      .def("__repr__", [](const nav::ScrewPlan& s) {
+        return printed("<Screw %s, %.1f x %.1f mm>", name_of(s.side), 2e3 * s.radius_m,
+                       1e3 * (s.target - s.entry).norm());
+      });
 }
 
 }  // namespace
@@ -83,7 +89,11 @@ void bind_cases(py::module_& module) {
                              [](const engine::CaseLevel& l) { return array_of(l.mesh.vertices_m); })
       .def_property_readonly("triangles",
                              [](const engine::CaseLevel& l) { return array_of(l.mesh.triangles); })
-      .def_readonly("screws", &engine::CaseLevel::screws);
+      .def_readonly("screws", &engine::CaseLevel::screws)
+      .def("__repr__", [](const engine::CaseLevel& l) {
+        return "<Level " + l.label + ": " + how_many(l.mesh.triangles.size(), "triangle") + ", " +
+               how_many(l.screws.size(), "screw") + ">";
+      });
   py::class_<Model>(module, "VertebraModel", "A vertebra, prepared for registration and guidance.")
       .def(py::init(&prepare), py::arg("vertices"), py::arg("triangles"),
            "vertices: Nx3, metres, in the patient's axes (LPS); triangles: Mx3 indices. Takes a\n"
@@ -93,7 +103,10 @@ void bind_cases(py::module_& module) {
           "(vertices, triangles)")
       .def_property_readonly(
           "reachable", [](const Model& m) { return arrays_of(m.prepared->reachable()); },
-          "(vertices, triangles) of what a pointer can reach from behind");
+          "(vertices, triangles) of what a pointer can reach from behind")
+      .def("__repr__", [](const Model& m) {
+        return "<VertebraModel: " + how_many(m.prepared->mesh().triangles.size(), "triangle") + ">";
+      });
   module.def("phantom", &phantom, py::arg("labels") = std::vector<std::string>{},
              "The levels of the built-in spine, L1 to L5, or those named.");
   module.def("load_case", &load_case, py::arg("folder"), "The levels of a case folder.");

@@ -1,6 +1,8 @@
 #include <pybind11/stl.h>
 #include <optional>
 
+#include "base/angle.h"
+#include "base/length_text.h"
 #include "base/printed.h"
 #include "engine/session/guiding.h"
 #include "nav/guidance/anatomical_deviation.h"
@@ -125,6 +127,12 @@ void bind_guidance(py::module_& module) {
   using nav::ScrewGuidance;
   py::class_<GuidedTool> guidance(module, "Guidance", "A tool against a planned screw.");
   guidance
+      .def("__repr__",
+           [](const GuidedTool& g) {
+             return printed("<Guidance: %.1f deg, ", g.against_plan.angle_rad * kDegreesPerRadian) +
+                    in_mm(g.against_plan.to_target_m) + " to target, tip " +
+                    in_mm(g.against_plan.tip_off_axis_m) + " off the axis>";
+           })
       .def_property_readonly("angle_rad", against_plan(&ScrewGuidance::angle_rad),
                              "between the tool's axis and the planned one")
       .def_property_readonly("depth_m", against_plan(&ScrewGuidance::depth_m),

@@ -1,6 +1,8 @@
 #include <pybind11/stl.h>
 #include <optional>
 
+#include "base/joined.h"
+#include "base/length_text.h"
 #include "engine/session/findings_wording.h"
 #include "engine/session/method.h"
 #include "nav/guidance/predicted_error.h"
@@ -59,6 +61,12 @@ void bind_result(py::module_& module) {
   using nav::Registration;
   py::class_<RegisteredBone>(module, "Registration",
                              "Where the bone is, and whether anything may be guided on it.")
+      .def("__repr__",
+           [](const RegisteredBone& b) {
+             return b.registration.accepted
+                        ? "<Registration: accepted, RMSE " + in_mm(b.registration.rmse_m, 2) + ">"
+                        : "<Registration: not accepted: " + joined(reasons_of(b)) + ">";
+           })
       .def_property_readonly("accepted", result(&Registration::accepted))
       .def_property_readonly("reasons", &reasons_of, "why it is not accepted, a line each")
       .def_property_readonly("stroke_next", &stroke_next,
@@ -91,7 +99,11 @@ void bind_registration(py::module_& module) {
       .def_property_readonly("side",
                              [](const nav::PredictedScrewError& e) { return name_of(e.side); })
       .def_readonly("entry_m", &nav::PredictedScrewError::entry_m)
-      .def_readonly("target_m", &nav::PredictedScrewError::target_m);
+      .def_readonly("target_m", &nav::PredictedScrewError::target_m)
+      .def("__repr__", [](const nav::PredictedScrewError& e) {
+        return std::string("<ScrewError ") + name_of(e.side) + ": entry " + in_mm(e.entry_m, 2) +
+               ", target " + in_mm(e.target_m, 2) + ">";
+      });
   bind_result(module);
   module.def(
       "register", &register_points, py::arg("model"), py::arg("points"),

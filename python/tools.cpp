@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/joined.h"
+#include "base/printed.h"
 #include "engine/case/tool_file.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
@@ -53,7 +54,11 @@ void bind_tools(py::module_& module) {
       .def_property_readonly("tip_in_marker",
                              [](const ToolGeometry& t) { return array_of(t.tip_in_marker.v); })
       .def_property_readonly("axis_in_marker",
-                             [](const ToolGeometry& t) { return array_of(t.axis_in_marker.v); });
+                             [](const ToolGeometry& t) { return array_of(t.axis_in_marker.v); })
+      .def("__repr__", [](const ToolGeometry& t) {
+        return printed("<Tool %s: %s, tag %s %d, %.1f mm>", t.name.c_str(), nav::name_of(t.role),
+                       t.marker.family.c_str(), t.marker.id, 1e3 * t.marker.size_m);
+      });
   module.def("load_tools", &load_tools, py::arg("path"), "The tools of a file (JSON).");
   module.def("built_in_tools", &engine::built_in_tools,
              "The pointer, the drill guide and the patient reference that are printed.");

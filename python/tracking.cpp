@@ -2,7 +2,10 @@
 #include <cmath>
 #include <optional>
 
+#include "base/joined.h"
+#include "base/length_text.h"
 #include "base/pose_status_name.h"
+#include "base/printed.h"
 #include "engine/session/method.h"
 #include "hal/replay/replay_headset.h"
 #include "python/arrays.h"
@@ -64,6 +67,13 @@ class Tracker {
         tracker_(value_of(
             value_of(engine::method_named(method)).create_tracker(rig, std::move(tools), {}))) {}
 
+  [[nodiscard]] std::vector<std::string> tools() const {
+    std::vector<std::string> names;
+    for (const nav::ToolGeometry& tool : tracker_->tools()) {
+      names.push_back(tool.name);
+    }
+    return names;
+  }
   std::vector<TrackedTool> track(const py::object& left, const py::object& right, double time_s,
                                  const py::object& world_from_rig) {
     if (!(std::abs(time_s) < kLongest_s)) {
@@ -94,7 +104,8 @@ class Tracker {
 class Recording {
  public:
   explicit Recording(const std::string& folder)
-      : headset_(value_of(replay::ReplayHeadset::open(folder))) {}
+      : folder_(folder), headset_(value_of(replay::ReplayHeadset::open(folder))) {}
+  [[nodiscard]] const std::string& folder() const { return folder_; }
   [[nodiscard]] const StereoCalibration& rig() const { return headset_->cameras().calibration(); }
   StereoFrame next() {
     StereoFrame frame;
@@ -109,6 +120,7 @@ class Recording {
   }
 
  private:
+  std::string folder_;
   std::unique_ptr<replay::ReplayHeadset> headset_;
 };
 
@@ -127,6 +139,10 @@ auto unless_lost(Read read) {
   return [read](const TrackedTool& tool) -> py::object {
     return tool.lost() ? py::none() : py::object(read(tool));
   };
+}
+
+std::string size_of(const CameraModel& camera) {
+  return printed("%d x %d px", camera.width_px(), camera.height_px());
 }
 
 void bind_cameras(py::module_& module) {
@@ -148,7 +164,8 @@ void bind_cameras(py::module_& module) {
           "unit_plane: rows x columns x 2, the direction (x/z, y/z) of each pixel's centre;\n"
           "NaN where a pixel sees nothing.")
       .def_property_readonly("width_px", &CameraModel::width_px)
-      .def_property_readonly("height_px", &CameraModel::height_px);
+      .def_property_readonly("height_px", &CameraModel::height_px)
+      .def("__repr__", [](const CameraModel& c) { return "<Camera: " + size_of(c) + ">"; });
   py::class_<StereoCalibration>(module, "Rig", "A stereo pair of cameras.")
       .def(py::init(&rig_from), py::arg("left"), py::arg("right"), py::arg("left_from_rig"),
            py::arg("right_from_rig"))
@@ -157,11 +174,21 @@ void bind_cameras(py::module_& module) {
       .def_property_readonly("left_from_rig",
                              [](const StereoCalibration& r) { return array_of(r.left_from_rig); })
       .def_property_readonly("right_from_rig",
-                             [](const StereoCalibration& r) { return array_of(r.right_from_rig); });
+                             [](const StereoCalibration& r) { return array_of(r.right_from_rig); })
+      .def("__repr__", [](const StereoCalibration& r) {
+        const Vec3 apart_m =
+            r.left_from_rig.inverse().translation() - r.right_from_rig.inverse().translation();
+        return "<Rig: " + size_of(r.left) + ", baseline " + in_mm(apart_m.norm()) + ">";
+      });
 }
 
 void bind_pairs(py::module_& module) {
   py::class_<StereoFrame>(module, "Pair", "Two images of the same moment.")
+      .def("__repr__",
+           [](const StereoFrame& f) {
+             return printed("<Pair: %.3f s, %d x %d px>", seconds(f.time.time_since_epoch()),
+                            f.left.width_px, f.left.height_px);
+           })
       .def_property_readonly("left", [](const StereoFrame& f) { return array_of(f.left); })
       .def_property_readonly("right", [](const StereoFrame& f) { return array_of(f.right); })
       .def_property_readonly(
@@ -177,6 +204,7 @@ void bind_pairs(py::module_& module) {
                         "A recorded session (docs/recordings.md). Its pairs, one after another.")
       .def(py::init<const std::string&>(), py::arg("folder"))
       .def_property_readonly("rig", &Recording::rig)
+      .def("__repr__", [](const Recording& r) { return "<Recording " + r.folder() + ">"; })
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__", &Recording::next);
 }
@@ -184,6 +212,10 @@ void bind_pairs(py::module_& module) {
 void bind_tracker(py::module_& module) {
   py::class_<TrackedTool>(module, "TrackedTool", "A tool after one pair.")
       .def_readonly("tool", &TrackedTool::tool)
+      .def("__repr__",
+           [](const TrackedTool& t) {
+             return "<TrackedTool " + t.tool + ": " + name_of(t.pose().status) + ">";
+           })
       .def_property_readonly(
           "status", [](const TrackedTool& tool) { return name_of(tool.pose().status); },
           "\"measured\", \"predicted\" or \"lost\"")
@@ -210,7 +242,9 @@ void bind_tracker(py::module_& module) {
            "One state for each tool, in their order. left, right: uint8, rows x columns; time_s "
            "has\n"
            "to increase from pair to pair; world_from_rig: where the headset was, an identity for\n"
-           "cameras that stand still, None while nobody knows.");
+           "cameras that stand still, None while nobody knows.")
+      .def("__repr__",
+           [](const Tracker& t) { return "<Tracker: " + joined(t.tools(), ", ") + ">"; });
 }
 
 }  // namespace

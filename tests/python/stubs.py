@@ -53,6 +53,8 @@ def check_class(name, node, problems):
     for key in properties.keys() & have.keys():
         if not same_plain_type(properties[key], have[key].fget.__doc__):
             problems.append(f"{name}.{key}: {ast.unparse(properties[key].returns)}, {have[key].fget.__doc__.strip()}")
+    if "__repr__" not in vars(real):
+        problems.append(f"{name}: is shown by its address alone")
     made = {k for k, v in vars(real).items()
             if (not k.startswith("_") or k in ("__iter__", "__next__")) and not isinstance(v, property)}
     if re.match(r"__init__\(", (real.__init__.__doc__ or "").strip()):
@@ -88,6 +90,11 @@ def main():
     level = orthonav.phantom(["L5"])[0]
     if level.vertices.dtype != numpy.float64 or level.triangles.dtype != numpy.uint32:
         problems.append(f"arrays: {level.vertices.dtype}, {level.triangles.dtype}")
+    for thing, shown in ((level.screws[0], "<Screw left, 6.0 x 45.0 mm>"), (level, "<Level L5: "),
+                         (orthonav.built_in_tools()[0], "<Tool pointer: pointer, tag tag36h11 3, 70.0 mm>"),
+                         (orthonav.VertebraModel(level.vertices, level.triangles), "<VertebraModel: ")):
+        if not repr(thing).startswith(shown):
+            problems.append(f"{thing!r}: does not begin with {shown}")
     for problem in problems:
         print(problem, file=sys.stderr)
     return 1 if problems else 0
