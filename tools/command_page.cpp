@@ -5,16 +5,10 @@
 #include <map>
 #include <sstream>
 
+#include "base/joined.h"
+
 namespace orthonav::tools {
 namespace {
-
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string out;
-  for (const std::string& word : words) {
-    out += (out.empty() ? "" : between) + word;
-  }
-  return out;
-}
 
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts;
@@ -41,13 +35,11 @@ std::string usual_value(const std::string& option) {
                                                             {"--headset", "URI"},
                                                             {"--host", "ADDRESS"},
                                                             {"--ids", "LIST"},
-                                                            {"--instrument", "NAME"},
                                                             {"--level", "LEVEL"},
                                                             {"--material", "NAME"},
                                                             {"--models", "DIR"},
                                                             {"--name", "NAME"},
                                                             {"--out", "PATH"},
-                                                            {"--page", "NAME"},
                                                             {"--pointer", "NAME"},
                                                             {"--profile", "NAME"},
                                                             {"--record", "DIR"},
@@ -92,6 +84,10 @@ void read_value(const CLI::Option& option, OptionRow& row) {
     row.choices = split(row.value, '|');
   } else if (const std::size_t colon = row.value.find(':'); colon != std::string::npos) {
     row.value = row.value.substr(colon + 1);  // "TEXT:WIDTHxHEIGHT"
+  }
+  // What stands for any text is nothing to choose.
+  for (const char* any : {"FILE", "DIR", "LIST"}) {
+    std::erase(row.choices, any);
   }
   if (row.value == "INT" || row.value == "UINT") {
     row.value = "N";

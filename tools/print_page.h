@@ -12,7 +12,7 @@ struct PageArguments {
   std::string out;
 
   void add_to(CLI::App& command) {
-    command.add_option("--page", page, "Paper: A4, Letter or A3")->capture_default_str();
+    command.add_option("--page", page, "Paper")->type_name("A4|Letter|A3")->capture_default_str();
     command.add_flag("--landscape", landscape, "The paper on its side");
     command.add_option("-o,--out", out, "The PDF file")->required()->type_name("FILE");
   }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/joined.h"
+#include "hal/sim/instruments.h"
 #include "tools/arguments.h"
 
 namespace orthonav::tools {
@@ -30,14 +32,12 @@ void SetUpArguments::add_to(CLI::App& command) {
       "the simulated room)");
   command
       .add_option("--guidance", guidance,
-                  "what the simulated surgeon goes by: overlay, numbers, \"closed loop\" or "
-                  "published (default: closed loop)")
+                  "what the simulated surgeon goes by (default: closed loop)")
       ->check(CLI::IsMember(guidance_names()));
   command
-      .add_option("--instrument", instrument,
-                  "of the simulated surgeon: wire, cannula, \"sleeved drill\", screw or \"robot "
-                  "arm\" (default: sleeved drill)")
-      ->check(some_text());
+      .add_option("--instrument", instrument, "of the simulated surgeon (default: sleeved drill)")
+      ->check(some_text())
+      ->type_name(joined(sim::instrument_names(), "|"));
 }
 
 engine::SetUp SetUpArguments::chosen() const {

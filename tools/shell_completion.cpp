@@ -1,7 +1,8 @@
 #include "tools/shell_completion.h"
 
-#include <algorithm>
 #include <vector>
+
+#include "base/joined.h"
 
 namespace orthonav::tools {
 namespace {
@@ -13,27 +14,19 @@ void add_ways(const CommandPage& page, std::string& out) {
   }
 }
 
-std::string spaced(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) {
-    out += (out.empty() ? "" : " ") + word;
-  }
-  return out;
-}
+/// A line each, since a choice may have blanks.
+std::string lines(const std::vector<std::string>& words) { return joined(words, "\n"); }
 
 void add_choices(const CommandPage& page, std::string& out) {
   for (const OptionRow& option : page.options) {
-    const bool has_blanks =
-        std::any_of(option.choices.begin(), option.choices.end(),
-                    [](const std::string& s) { return s.find(' ') != std::string::npos; });
-    if (option.choices.empty() || has_blanks) {
+    if (option.choices.empty()) {
       continue;
     }
     std::string names;
     for (const std::string& name : option.names) {
       names += (names.empty() ? "\"" : "|\"") + page.way + " " + name + "\"";
     }
-    out += "    " + names + ") words=\"" + spaced(option.choices) + "\" ;;\n";
+    out += "    " + names + ") words=\"" + lines(option.choices) + "\" ;;\n";
   }
   for (const CommandPage& command : page.commands) {
     add_choices(command, out);
@@ -45,10 +38,13 @@ void add_words(const CommandPage& page, std::string& out) {
   for (const CommandPage& command : page.commands) {
     words.push_back(command.way.substr(page.way.size() + 1));
   }
+  for (const OptionRow& argument : page.arguments) {
+    words.insert(words.end(), argument.choices.begin(), argument.choices.end());
+  }
   for (const OptionRow& option : page.options) {
     words.push_back(option.name());
   }
-  out += "      \"" + page.way + "\") words=\"" + spaced(words) + "\" ;;\n";
+  out += "      \"" + page.way + "\") words=\"" + lines(words) + "\" ;;\n";
   for (const CommandPage& command : page.commands) {
     add_words(command, out);
   }
@@ -66,7 +62,7 @@ std::string bash_completion(const CommandPage& page) {
   return R"(# Completes orthonav in bash: source this, or put it into ~/.local/share/bash-completion/completions/orthonav.
 # In zsh: autoload -U +X bashcompinit && bashcompinit first.
 _orthonav() {
-  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} way=orthonav words="" i
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} way=orthonav words="" i IFS=$'\n'
   for ((i = 1; i < COMP_CWORD; ++i)); do
     case "$way ${COMP_WORDS[i]}" in
       )" +

@@ -14,7 +14,7 @@ void WearerArguments::add_to(CLI::App& command) {
       .add_option("--language", language_,
                   "of holograms and status line: en, de or a file (docs/languages.md)")
       ->check(some_text())
-      ->type_name("LANGUAGE")
+      ->type_name("en|de|FILE")
       ->capture_default_str();
   command
       .add_option(
@@ -22,7 +22,7 @@ void WearerArguments::add_to(CLI::App& command) {
           "of holograms: standard, colour-blind, or changes as in good=#40C4FF,poor=#FF3B1F "
           "(docs/holograms.md)")
       ->check(some_text())
-      ->type_name("COLOURS")
+      ->type_name("standard|colour-blind|LIST")
       ->capture_default_str();
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/joined.h"
+
 namespace orthonav::sim {
 namespace {
 
@@ -25,15 +27,20 @@ constexpr std::array<Instrument, 5> kInstruments = {{
 
 }  // namespace
 
+std::vector<std::string> instrument_names() {
+  std::vector<std::string> names;
+  for (const Instrument& instrument : kInstruments) {
+    names.emplace_back(instrument.name);
+  }
+  return names;
+}
+
 Status use_instrument(std::string_view name, ErrorModel& error_model) {
   const auto* found = std::find_if(kInstruments.begin(), kInstruments.end(),
                                    [&](const Instrument& i) { return i.name == name; });
   if (found == kInstruments.end()) {
-    std::string known;
-    for (const Instrument& instrument : kInstruments) {
-      known += (known.empty() ? "" : ", ") + std::string(instrument.name);
-    }
-    return Error{"instrument '" + std::string(name) + "': unknown (known: " + known + ")"};
+    return Error{"instrument '" + std::string(name) +
+                 "': unknown (known: " + joined(instrument_names(), ", ") + ")"};
   }
   error_model.wire_bending_rad = found->bending_rad;
   error_model.wire_skiving_m = found->skiving_m;

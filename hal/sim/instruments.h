@@ -2,11 +2,15 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/result.h"
 #include "hal/sim/error_model.h"
 
 namespace orthonav::sim {
+
+/// The instruments that `use_instrument` knows.
+[[nodiscard]] std::vector<std::string> instrument_names();
 
 /// Sets the values that depend on an instrument: bending, slip, how a screw follows its hole, and,
 /// with a robot's arm, the hand. Known are `wire` (an unsupported K-wire), `cannula`, `sleeved

@@ -101,7 +101,7 @@ TEST(Help, OfEveryCommandIsThereAndNamesTheMistypedWord) {
               HasSubstr("did you mean make? (see orthonav case --"));
   EXPECT_THAT(orthonav({"run", "--headest", "x"}).err,
               HasSubstr("unknown option: --headest; did you mean --headset? (see orthonav run --"));
-  EXPECT_THAT(orthonav({"doctor", "more"}).err, HasSubstr("one word too many: more (see"));
+  EXPECT_THAT(orthonav({"doctor", "more"}).err, HasSubstr("unexpected argument: more (see"));
 }
 
 /// Calls `look` with the help of this command and of all below it.
@@ -176,7 +176,8 @@ std::string completed(const std::vector<std::string>& words) {
     script += "'" + word + "' ";
   }
   script += ")\nCOMP_CWORD=" + std::to_string(words.size() - 1) +
-            "\ncd /usr && _orthonav; echo \"${COMPREPLY[*]}\" >" + folder.file("offered") + "\n";
+            "\ncd /usr && _orthonav; IFS=,; echo \"${COMPREPLY[*]}\" >" + folder.file("offered") +
+            "\n";
   EXPECT_EQ(std::system(("bash " + folder.with("complete", script)).c_str()), 0);
   const std::string offered = content_of(folder.file("offered"));
   return offered.substr(0, offered.find('\n'));
@@ -186,8 +187,14 @@ TEST(Completion, OffersCommandsOptionsChoicesAndFiles) {
   EXPECT_EQ(completed({"orthonav", "ru"}), "run");
   EXPECT_EQ(completed({"orthonav", "calibrate", "st"}), "stereo");
   EXPECT_EQ(completed({"orthonav", "run", "--met"}), "--method");
-  EXPECT_EQ(completed({"orthonav", "run", "-m", ""}), "best paper");
+  EXPECT_EQ(completed({"orthonav", "run", "-m", ""}), "best,paper");
   EXPECT_EQ(completed({"orthonav", "track", "loc"}), "local");
+  EXPECT_EQ(completed({"orthonav", "demo", "--guidance", ""}),
+            "overlay,numbers,closed loop,published");
+  EXPECT_EQ(completed({"orthonav", "run", "--instrument", "ro"}), "robot arm");
+  EXPECT_EQ(completed({"orthonav", "case", "make", "--convention", "v"}), "verse");
+  EXPECT_EQ(completed({"orthonav", "run", "--language", ""}), "en,de");
+  EXPECT_EQ(completed({"orthonav", "completion", "z"}), "zsh");
 }
 
 }  // namespace
