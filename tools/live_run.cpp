@@ -17,6 +17,7 @@
 #include "tools/case_source.h"
 #include "tools/command.h"
 #include "tools/connection_report.h"
+#include "tools/disk_space.h"
 #include "tools/joined_parts.h"
 #include "tools/memory_reserve.h"
 #include "tools/model_notes.h"
@@ -213,6 +214,8 @@ class LiveRun {
     if (const Status opened = onlookers_.open(arguments_.onlookers); !opened) {
       return opened;
     }
+    warn_of_space("--record", arguments_.record, recording_bytes(arguments_.for_s));
+    warn_of_space("--out", arguments_.out, kResultBytes);
     return arguments_.resume ? files_.kept().find(arguments_.out) : Status{};
   }
 
