@@ -97,6 +97,7 @@ void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*
   const engine::StatusLine& status = guidance.status;
   changes_.look(frame.time, status);
   const double time_s = changes_.time_s();
+  tell_untold();
   if (!changes_.new_step().empty()) {
     log_->info("{:.2f} s: step: {}", time_s, changes_.new_step());
   }
@@ -127,6 +128,13 @@ void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*
   }
 }
 
+void EventLog::tell_untold() {
+  if (changes_.untold() > 0) {
+    log_->info("{:.2f} s: the message above came back {}", changes_.time_s(),
+               how_many(changes_.untold(), "time"));
+  }
+}
+
 void EventLog::cameras_failed(const std::string& why) { warn(why); }
 
 void EventLog::withdrawn(const engine::Guidance& guidance) {
@@ -134,6 +142,7 @@ void EventLog::withdrawn(const engine::Guidance& guidance) {
     return;
   }
   changes_.look(guidance.display_time, guidance.status);
+  tell_untold();
   if (!changes_.new_message().empty()) {
     log_->warn("{:.2f} s: message: {}", changes_.time_s(), changes_.new_message());
   }

@@ -43,6 +43,7 @@ class EventLog : public engine::LoopObserver {
   void ended(const engine::LoopReport& report);
 
  private:
+  void tell_untold();
   /// On standard error, if the file lacks lines.
   void tell_losses();
 

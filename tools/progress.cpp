@@ -1,7 +1,9 @@
 #include "tools/progress.h"
 
 #include <cstdio>
+#include <utility>
 
+#include "base/how_many.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::tools {
@@ -27,8 +29,21 @@ void OperationProgress::stepped(const StereoFrame& frame, const engine::Inputs& 
   }
 }
 
+void OperationProgress::tell_untold() {
+  if (const int times = std::exchange(untold_, 0); times > 0) {
+    std::fprintf(stderr, "orthonav: the warning above came back %s\n",
+                 how_many(times, "time").c_str());
+  }
+}
+
 void OperationProgress::warn(const std::string& why) {
+  if (why == warned_) {
+    ++untold_;
+    return;
+  }
   bar_.clear();
+  tell_untold();
+  warned_ = why;
   std::fprintf(stderr, "orthonav: warning: %s\n", why.c_str());
 }
 

@@ -23,10 +23,15 @@ class OperationProgress : public engine::LoopObserver {
   void cameras_failed(const std::string& why) override;
   void input_failed(const std::string& why) override;
   /// The operation has ended: its line is cleared.
-  void end() { bar_.clear(); }
+  void end() {
+    bar_.clear();
+    tell_untold();
+  }
 
  private:
+  /// One that repeats is printed once, then how often it came.
   void warn(const std::string& why);
+  void tell_untold();
 
   engine::LoopObserver* next_;
   ProgressBar bar_;
@@ -34,6 +39,8 @@ class OperationProgress : public engine::LoopObserver {
   std::optional<StepOnDisplay> step_;
   Timestamp first_{};
   std::optional<Stopwatch> cameras_warned_;
+  std::string warned_;
+  int untold_ = 0;
 };
 
 }  // namespace orthonav::tools
