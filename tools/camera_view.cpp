@@ -8,7 +8,6 @@
 #include "engine/holograms/label_layout.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
-#include "engine/live/rectified_camera.h"
 #include "render/renderer.h"
 
 namespace orthonav::tools {
@@ -59,27 +58,40 @@ GreyImage empty_image(const StereoCalibration& cameras) {
 
 }  // namespace
 
+UprightCamera::UprightCamera(const StereoCalibration& cameras)
+    : view_(view_of(cameras)), camera_(cameras) {
+  picture_.width_px = kWidth_px;
+  picture_.height_px = height_px_of(view_);
+  picture_.pixels.resize(kEmpty.size() * static_cast<std::size_t>(picture_.width_px) *
+                         static_cast<std::size_t>(picture_.height_px));
+}
+
+RgbaImage& UprightCamera::picture_of(const GreyImage& left) {
+  for (std::size_t i = 0; i < picture_.pixels.size(); i += kEmpty.size()) {
+    std::copy(kEmpty.begin(), kEmpty.end(), picture_.pixels.begin() + static_cast<long>(i));
+  }
+  camera_.draw(left, view_, picture_);
+  return picture_;
+}
+
 /// Lives on the drawing thread.
 class CameraView::Drawing {
  public:
   static Result<Drawing> create(const StereoCalibration& cameras) {
-    const render::View view = view_of(cameras);
+    UprightCamera camera(cameras);
     render::RendererOptions options;
-    options.width_px = kWidth_px;
-    options.height_px = height_px_of(view);
+    options.width_px = camera.width_px();
+    options.height_px = camera.height_px();
     options.blend = render::Blend::kOver;
     auto renderer = render::Renderer::create(options);
     if (!renderer) {
       return renderer.error();
     }
-    return Drawing(cameras, view, options.height_px, std::move(*renderer));
+    return Drawing(std::move(camera), std::move(*renderer));
   }
 
   Result<const RgbaImage*> picture_of(const Moment& moment) {
-    for (std::size_t i = 0; i < background_.pixels.size(); i += kEmpty.size()) {
-      std::copy(kEmpty.begin(), kEmpty.end(), background_.pixels.begin() + static_cast<long>(i));
-    }
-    camera_.draw(moment.behind.left, views_[0], background_);
+    const RgbaImage& background = camera_.picture_of(moment.behind.left);
     if (moment.behind.world_from_rig) {
       const auto eye_from_world =
           (*moment.behind.world_from_rig * camera_.rig_from_eye()).inverse();
@@ -89,7 +101,7 @@ class CameraView::Drawing {
     } else {
       engine::write_head_lost(moment.scene, scene_);
     }
-    const Status drawn = renderer_->draw(scene_, views_, {&background_}, images_);
+    const Status drawn = renderer_->draw(scene_, views_, {&background}, images_);
     if (!drawn) {
       return drawn.error();
     }
@@ -97,21 +109,14 @@ class CameraView::Drawing {
   }
 
  private:
-  Drawing(const StereoCalibration& cameras, const render::View& view, int height_px,
-          std::unique_ptr<render::Renderer> renderer)
-      : camera_(cameras), renderer_(std::move(renderer)), views_(1, view) {
-    background_.width_px = kWidth_px;
-    background_.height_px = height_px;
-    background_.pixels.resize(kEmpty.size() * static_cast<std::size_t>(kWidth_px) *
-                              static_cast<std::size_t>(height_px));
-  }
+  Drawing(UprightCamera camera, std::unique_ptr<render::Renderer> renderer)
+      : camera_(std::move(camera)), renderer_(std::move(renderer)), views_(1, camera_.view()) {}
 
-  engine::RectifiedCamera camera_;
+  UprightCamera camera_;
   std::unique_ptr<render::Renderer> renderer_;
   std::vector<render::View> views_;
   engine::LabelLayout labels_;
   render::Scene scene_;
-  RgbaImage background_;
   std::vector<RgbaImage> images_;
 };
 

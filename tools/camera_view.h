@@ -10,8 +10,27 @@
 
 #include "base/mutex.h"
 #include "engine/live/frame_loop.h"
+#include "engine/live/rectified_camera.h"
 
 namespace orthonav::tools {
+
+/// The left camera's image as onlookers see it: upright in the headset's axes, rectified, as wide
+/// as the image at its middle and no higher than wide. One thread.
+class UprightCamera {
+ public:
+  explicit UprightCamera(const StereoCalibration& cameras);
+  /// The image drawn into a picture of its own, valid until the next call.
+  RgbaImage& picture_of(const GreyImage& left);
+  [[nodiscard]] const render::View& view() const { return view_; }
+  [[nodiscard]] Transform<Rig, Eye> rig_from_eye() const { return camera_.rig_from_eye(); }
+  [[nodiscard]] int width_px() const { return picture_.width_px; }
+  [[nodiscard]] int height_px() const { return picture_.height_px; }
+
+ private:
+  render::View view_;
+  engine::RectifiedCamera camera_;
+  RgbaImage picture_;
+};
 
 /// The left camera's image with the holograms over it, for onlookers. It sits between the loop and
 /// the surgeon's display, which has priority and is never delayed; it draws on its own thread and

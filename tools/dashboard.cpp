@@ -18,6 +18,7 @@
 #include "engine/io/image_file.h"
 #include "engine/session/part_wording.h"
 #include "engine/session/wording.h"
+#include "tools/camera_view.h"
 #include "tools/dashboard_state.h"
 #include "tools/web_access.h"
 
@@ -31,17 +32,6 @@ constexpr Duration kTellEvery = std::chrono::milliseconds(100);
 constexpr auto kViewLasts = std::chrono::seconds(2);
 /// Browsers ask for the view twice a second.
 constexpr auto kLookLasts = std::chrono::seconds(2);
-
-RgbaImage picture_of(const GreyImage& grey) {
-  RgbaImage picture;
-  picture.width_px = grey.width_px;
-  picture.height_px = grey.height_px;
-  picture.pixels.reserve(4 * grey.pixels.size());
-  for (const std::uint8_t value : grey.pixels) {
-    picture.pixels.insert(picture.pixels.end(), {value, value, value, 255});
-  }
-  return picture;
-}
 
 }  // namespace
 
@@ -89,6 +79,10 @@ class Dashboard::Server {
   void tell_stall(std::string_view text) {
     const MutexLock lock(mutex_);
     stalled_ = text;
+  }
+  void look_through(const StereoCalibration& cameras) {
+    const MutexLock lock(camera_mutex_);
+    camera_.emplace(cameras);
   }
   void show(const RgbaImage& picture, const std::string& what) {
     const MutexLock lock(mutex_);
@@ -190,8 +184,9 @@ class Dashboard::Server {
         left = left_;
       }
     }
-    if (view.pixels.empty()) {
-      view = picture_of(left);
+    if (view.pixels.empty() && !left.pixels.empty()) {
+      const MutexLock lock(camera_mutex_);
+      view = camera_ ? camera_->picture_of(left) : RgbaImage{};
     }
     const auto png = view.pixels.empty() ? Result<std::string>(Error{"no picture yet"})
                                          : engine::png_bytes(view);
@@ -211,6 +206,8 @@ class Dashboard::Server {
   Stopwatch since_told_ ORTHONAV_GUARDED_BY(mutex_);
   Stopwatch since_shown_ ORTHONAV_GUARDED_BY(mutex_);
   std::optional<Stopwatch> since_look_ ORTHONAV_GUARDED_BY(mutex_);
+  Mutex camera_mutex_;  ///< held while a picture is drawn
+  std::optional<UprightCamera> camera_ ORTHONAV_GUARDED_BY(camera_mutex_);
   WebAccess access_;
   httplib::Server server_;
   int port_ = -1;
@@ -250,6 +247,12 @@ void Dashboard::watch(engine::AssembledOperation& operation, const engine::Grade
 void Dashboard::watch(const engine::Session& session, const engine::GradeLimits& limits) {
   limits_ = limits;
   session_ = &session;
+}
+
+void Dashboard::look_through(const StereoCalibration& cameras) {
+  if (server_ && cameras.has_images()) {
+    server_->look_through(cameras);
+  }
 }
 
 bool Dashboard::looked_at() const { return server_ && server_->looked_at(); }

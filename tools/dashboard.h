@@ -31,6 +31,8 @@ class Dashboard : public engine::LoopObserver {
   /// From now on shows this operation, which must outlive the run.
   void watch(engine::AssembledOperation& operation, const engine::GradeLimits& limits);
   void watch(const engine::Session& session, const engine::GradeLimits& limits);
+  /// The left camera's image is shown as these cameras see it; without them it is not.
+  void look_through(const StereoCalibration& cameras);
   /// Whether the page is served, and whether someone looks at the view now. From any thread.
   [[nodiscard]] bool is_open() const { return server_ != nullptr; }
   [[nodiscard]] bool looked_at() const;

@@ -14,6 +14,7 @@
 #include "tools/command.h"
 #include "tools/demo_arguments.h"
 #include "tools/demo_report.h"
+#include "tools/disk_space.h"
 #include "tools/earlier_results.h"
 #include "tools/kept_operation.h"
 #include "tools/memory_reserve.h"
@@ -82,6 +83,8 @@ class Demo {
     if (const Status ready = opened ? prepare(*source, *levels, *options) : opened; !ready) {
       return bad_input(ready.error().message);
     }
+    warn_of_space("--record", arguments_.record, recording_bytes(0.0));
+    warn_of_space("--out", arguments_.out, kResultBytes + (arguments_.no_video ? 0.0 : kFilmBytes));
     auto result = operate(*source, std::move(*options));
     if (!result) {
       return ended(result.error().message);
@@ -198,6 +201,7 @@ class Demo {
     };
     hooks.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
       view_->look_at(headset, options.sim.error_model);
+      onlookers_.look_through(headset.cameras().calibration());
       began_ = true;
       models.keep();
       print_notes(models);

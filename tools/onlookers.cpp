@@ -31,6 +31,7 @@ void Onlookers::draw_over_camera(engine::AssembledOperation& operation,
   if (!web_.is_open() || !cameras.has_images()) {
     return;
   }
+  look_through(cameras);
   view_ = std::make_unique<CameraView>(
       cameras, display,
       CameraView::Onlooker{[this] { return web_.looked_at(); },

@@ -27,6 +27,8 @@ class Onlookers {
   /// From now on they observe this operation, which must outlive its run. `limits` decide what is
   /// green.
   void watch(engine::AssembledOperation& operation, const engine::GradeLimits& limits);
+  /// The headset's cameras, before the run.
+  void look_through(const StereoCalibration& cameras) { web_.look_through(cameras); }
   /// For a run without its own picture: draws the holograms over the left camera's image for the
   /// dashboard. `display` draws for the surgeon; may be null.
   void draw_over_camera(engine::AssembledOperation& operation, const StereoCalibration& cameras,

@@ -5,6 +5,7 @@
 #include <httplib.h>
 
 #include <chrono>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -12,6 +13,7 @@
 #include "tests/support/browser.h"
 #include "tests/support/language_in_use.h"
 #include "tests/support/scripted_operation.h"
+#include "tests/support/tag_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/dashboard_state.h"
 
@@ -109,6 +111,36 @@ TEST_F(DashboardPage, ShowsThePictureThatItIsGivenAndSaysWhatItIs) {
   ASSERT_EQ(picture->status, 200);
   EXPECT_EQ(picture->body, engine::png_bytes(red_picture()).value());
   EXPECT_TRUE(dashboard_.looked_at());
+}
+
+TEST_F(DashboardPage, ShowsTheCameraUprightThoughItLiesOnItsSide) {
+  const StereoCalibration cameras = test::test_calibration();
+  test::ScriptedOperation s;
+  dashboard_.watch(s.session(), {0.05, 0.09});
+  dashboard_.look_through(cameras);
+  StereoFrame frame;
+  frame.left = GreyImage(640, 480);
+  const Mat3 rig_from_camera = cameras.left_from_rig.rotation().transposed();
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) {
+      const auto plane = cameras.left.unproject({x + 0.5, y + 0.5});
+      const bool above = plane && (rig_from_camera * Vec3{plane->x, plane->y, 1.0}).y > 0.0;
+      frame.left.pixels[static_cast<std::size_t>(640 * y + x)] = above ? 240 : 120;
+    }
+  }
+  dashboard_.stepped(frame, {}, s.pair());
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "view.png") << browser_->Get("/view.png")->body;
+  const auto view = engine::read_png(folder / "view.png");
+  ASSERT_TRUE(view.ok()) << view.error().message;
+  const auto grey_at = [&](double x, double y) {
+    return int{view->pixels[4 * static_cast<std::size_t>(int(y * view->height_px) * view->width_px +
+                                                         int(x * view->width_px))]};
+  };
+  for (const double x : {0.01, 0.5, 0.99}) {
+    EXPECT_EQ(grey_at(x, 0.02), 240) << x;
+    EXPECT_EQ(grey_at(x, 0.98), 120) << x;
+  }
 }
 
 TEST_F(DashboardPage, SaysWhatHangsUntilItGoesOn) {
