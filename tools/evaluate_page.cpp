@@ -133,7 +133,7 @@ std::array<NamedPlane, 3> planes_of(const nav::ScrewCylinder& cylinder, double a
       engine::slices_of({cylinder.entry, cylinder.direction}, cylinder.length_m, arc_length_m);
   return {{{slices.axial, "along the screw, from below; front is up"},
            {slices.sagittal, "along the screw, from the side; head is up"},
-           {slices.across, "across the screw where it is nearest to the cortex, from behind"}}};
+           {slices.across, "across the screw where it is nearest to the cortex, from the front"}}};
 }
 
 Result<std::string> figures_of(const engine::ScanField& scan, const nav::TriangleMesh& bone,

@@ -95,7 +95,7 @@ void PlanWindowArguments::add_to(CLI::App& preview) {
       preview.add_flag("--plan", plan, "edit the plan of the case instead of an operation");
   preview.add_option("--volume", volume, "the scan of the models, behind the slices")
       ->check(some_text())
-      ->type_name("FILE|DIR")
+      ->type_name("SCAN")
       ->needs(flag);
   preview.add_option("--series", series, "UID of the series, where a folder holds several")
       ->check(some_text())

@@ -25,7 +25,7 @@ ScrewSlices slices_of(const nav::Axis<Vertebra>& axis, double length_m, double a
   const Point<Vertebra> middle = axis.point + 0.45 * length_m * d;
   return {{middle, left, d},
           {middle, -d, cranial},
-          {axis.point + across_m * d, -part_across(left, cranial), cranial, kAcrossHalf_m}};
+          {axis.point + across_m * d, part_across(left, cranial), cranial, kAcrossHalf_m}};
 }
 
 void draw_slice(const ScanField& scan, const Transform<Scan, Vertebra>& scan_from_vertebra,

@@ -30,7 +30,8 @@ struct SlicePlane {
 };
 
 /// The planes in which a screw is judged. The patient's front is up in `axial`, seen from below,
-/// and to the left in `sagittal`, seen from the patient's left; `across` is seen from behind.
+/// and to the left in `sagittal`, seen from the patient's left; `across` is seen from the front.
+/// The patient's right is on the left in `axial` and `across`.
 struct ScrewSlices {
   SlicePlane axial;     ///< through the axis and as horizontal as it allows
   SlicePlane sagittal;  ///< through the axis and as upright as it allows

@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -58,6 +59,22 @@ std::string newest_glfw_error(const char* otherwise) {
   return text ? text : otherwise;
 }
 
+/// That size, or the part of it that the desktop and a title bar leave.
+std::array<int, 2> fitting(int width_px, int height_px) {
+  constexpr int kTitleBar_px = 40;
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+  if (monitor != nullptr) {
+    glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+  }
+  height -= kTitleBar_px;
+  return {width > 0 ? std::min(width, width_px) : width_px,
+          height > 0 ? std::min(height, height_px) : height_px};
+}
+
 }  // namespace
 
 /// GLFW itself and its one window; destroyed last.
@@ -88,7 +105,8 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, int width
   watch_display();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 2);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
-  glfw->window = glfwCreateWindow(width_px, height_px, title.c_str(), nullptr, nullptr);
+  const auto [width, height] = fitting(width_px, height_px);
+  glfw->window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   if (!glfw->window) {
     return Error{"window: " + newest_glfw_error("cannot be opened"), ErrorCode::kUnavailable};
   }

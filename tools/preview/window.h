@@ -26,9 +26,9 @@ struct WindowInput {
   std::function<void(bool down)> button;
 };
 
-/// A desktop window with one picture and Dear ImGui on top, by GLFW and OpenGL. Handles any size,
-/// including none, and any number of resizes: what can't be seen is not drawn. Main thread only;
-/// one window at a time.
+/// A desktop window with one picture and Dear ImGui on top, by GLFW and OpenGL. Opens no larger
+/// than the desktop. Handles any size, including none, and any number of resizes: what can't be
+/// seen is not drawn. Main thread only; one window at a time.
 class Window {
  public:
   /// An Error when there is no display or no OpenGL.

@@ -59,7 +59,7 @@ TEST_F(PlanModelTest, LaysItsSlicesThroughTheScrew) {
     }
     EXPECT_GT(model.slices().axial.right.x, 0.8) << "the patient's left is at the right";
     EXPECT_GT(model.slices().sagittal.right.y, 0.8) << "the front is at the left";
-    EXPECT_LT(model.slices().across.right.x, -0.8) << "from behind";
+    EXPECT_GT(model.slices().across.right.x, 0.8) << "the same here";
     // Where it is nearest to the cortex.
     EXPECT_EQ(model.across_m(), editor.clearance()->arc_length_m);
     model.key(Key::kRight, true);
@@ -109,7 +109,9 @@ TEST_F(PlanModelTest, HoldsTheScrewByItsMiddleAndNothingBesideIt) {
 
 TEST_F(PlanModelTest, TurnsTheBoneAndScrollsWhereTheMouseIs) {
   const auto eye = model.vertebra_from_eye();
-  EXPECT_GT(eye.translation().y, 0.3) << "from behind";
+  EXPECT_LT(eye.translation().z, -0.2) << "from below";
+  EXPECT_GT(eye.translation().y, 0.1) << "and a little from behind";
+  EXPECT_GT(eye.rotation().column(0).x, 0.99) << "the patient's left is at the right here too";
   model.move({1.2, 0.75});
   model.press();
   model.move({1.3, 0.75});
@@ -126,6 +128,39 @@ TEST_F(PlanModelTest, TurnsTheBoneAndScrollsWhereTheMouseIs) {
   tap('o');
   EXPECT_EQ(model.slices().axial.half_m, half_m);
   EXPECT_EQ(model.across_m(), across_m);
+}
+
+TEST_F(PlanModelTest, MakesTheScanWiderAndBrighterBesideTheScrew) {
+  const Point<Vertebra> beside = editor.screw()->target + 25 * kMm * model.slices().axial.right;
+  const auto drag = [&] {
+    model.move(mouse_at(model, beside));
+    model.press();
+    model.move(mouse_at(model, beside) + Vec2{0.1, -0.05});
+    model.release();
+  };
+  drag();
+  EXPECT_EQ(model.window().black_hu, engine::kBoneWindow.black_hu) << "no scan is there";
+  model.set_over_scan(true);
+  drag();
+  const engine::GreyWindow window = model.window();
+  EXPECT_NEAR(window.white_hu - window.black_hu, 1500.0 + 400.0, 1e-6);
+  EXPECT_NEAR(0.5 * (window.white_hu + window.black_hu), 500.0 - 200.0, 1e-6);
+  EXPECT_FALSE(editor.unsaved());
+  tap('o');
+  EXPECT_EQ(model.window().white_hu, engine::kBoneWindow.white_hu);
+}
+
+TEST_F(PlanModelTest, QuitsWithoutSavingAtTheSecondCall) {
+  tap(']');
+  ASSERT_TRUE(editor.unsaved());
+  tap('x');
+  EXPECT_FALSE(model.wishes().quit);
+  EXPECT_THAT(model.note(), HasSubstr("once more quits without saving"));
+  tap('[');
+  tap('x');
+  EXPECT_FALSE(model.wishes().quit) << "there was a change between the two";
+  tap('x');
+  EXPECT_TRUE(model.wishes().quit && model.wishes().discard);
 }
 
 TEST_F(PlanModelTest, SaysWhyAChangeIsRefused) {

@@ -34,6 +34,12 @@ key v
   EXPECT_FALSE(fs::exists(folder_ / "plan-002")) << "nothing was changed since";
 }
 
+TEST_F(PlanWindowTest, WritesNothingWhenItIsLeftWithoutSaving) {
+  write("script", "say longer\nkey x\nkey x\n");
+  EXPECT_EQ(shell("$plan --script script"), 0) << content("out");
+  EXPECT_FALSE(fs::exists(folder_ / "plan-001"));
+}
+
 TEST_F(PlanWindowTest, DragsAScrewWithARealMouse) {
   // The target of a screw lies at the top of the upper left pane.
   const std::string mouse = std::string(kRealKeys) + R"(

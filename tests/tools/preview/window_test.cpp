@@ -58,7 +58,8 @@ TEST_F(WindowTest, KeepsAnOperationAndGoesOnWithIt) {
                   "$preview --speed 0 --resume kept --script ten-pairs"),
             0)
       << content("out");
-  EXPECT_THAT(content("out"), HasSubstr("resuming kept/operation.log: case 'phantom', levels L5"));
+  EXPECT_THAT(content("out"),
+              HasSubstr("resuming kept/operation.resume: case 'phantom', levels L5"));
   EXPECT_NE(shell("$preview --speed 0 --seed 2 --resume kept --script ten-pairs"), 0);
   EXPECT_THAT(content("out"), HasSubstr("is of the simulated patient 'seed 1', not of 'seed 2'"));
   EXPECT_NE(shell("$preview --speed 0 --resume other --script ten-pairs"), 0);

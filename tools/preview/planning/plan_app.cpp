@@ -32,6 +32,7 @@ Status PlanApp::open_window() {
   view_ = std::move(*view);
   if (scan_) {
     view_->look_at_scan(*scan_);
+    model_.set_over_scan(true);
   }
   facts_.device = view_->device().name;
   model_.set_aspect(view_->aspect());
@@ -51,7 +52,7 @@ Status PlanApp::open_window() {
 
 Status PlanApp::run() {
   const Status watched = watch();
-  const Status saved = model_.editor().unsaved() ? save() : Status{};
+  const Status saved = model_.editor().unsaved() && !discard_ ? save() : Status{};
   if (!watched) {
     return watched;
   }
@@ -74,6 +75,7 @@ Status PlanApp::watch() {
       const Status saved = save();
       model_.set_note(saved ? "wrote " + saved_ : saved.error().message);
     }
+    discard_ = wishes.discard;
     if (quit_ || wishes.quit || (script_ && script_->done() && wanted_screenshot_.empty())) {
       return {};
     }

@@ -47,6 +47,7 @@ class PlanApp {
   std::optional<Script> script_;
   const engine::Volume* scan_;
   std::atomic<bool> quit_ = false;
+  bool discard_ = false;
   PlanModel model_;
   PlanFacts facts_;
   std::unique_ptr<PlanView> view_;

@@ -31,6 +31,7 @@ constexpr auto kBindings = std::to_array<PlanKeyBinding>({
     {key_of('h'), "h", kHelp, "this help"},
     {key_of('q'), "q", kQuit, "save and quit"},
     {Key::kEscape, "escape", kQuit, "save and quit"},
+    {key_of('x'), "x", kDiscard, "quit without saving, pressed twice"},
 });
 
 }  // namespace

@@ -18,6 +18,7 @@ enum class PlanCommand : std::uint8_t {
   kPanel,
   kHelp,
   kQuit,
+  kDiscard,
 };
 
 /// A key while a plan is edited and what it does. The help is made from this table.

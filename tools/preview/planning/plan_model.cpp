@@ -16,9 +16,9 @@ constexpr double kZoomStep = 1.1;
 constexpr double kBehind_m = 0.020;
 constexpr double kNoScrew_m = 0.040;
 
-/// The stage of the camera: head up, seen from behind; origin in the middle of the bone.
+/// The stage of the camera: front up, seen from below; origin in the middle of the bone.
 Transform<sim::Room, Vertebra> stage_from(Point<Vertebra> middle) {
-  const Mat3 turn = Mat3::from_columns({-1, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  const Mat3 turn = Mat3::from_columns({1, 0, 0}, {0, -1, 0}, {0, 0, -1});
   return {turn, -(turn * middle.v)};
 }
 
@@ -50,9 +50,10 @@ void PlanModel::reset_views() {
   depth_m_.reset();
   magnification_ = 1.0;
   camera_ = {};
-  // From behind, and a little from above.
+  // From below, and a little from behind.
   camera_.start_orbit({Mat3::identity(), {0.0, 0.0, 0.45}});
-  camera_.orbit({0.0, 0.15});
+  camera_.orbit({0.0, -0.2});
+  window_ = engine::kBoneWindow;
 }
 
 /// Lays the slices through the screw as it is now.
@@ -88,6 +89,7 @@ Transform<Vertebra, Eye> PlanModel::vertebra_from_eye() const {
 
 void PlanModel::tell(const Status& status) {
   note_ = status ? std::string() : status.error().message;
+  asked_to_discard_ = false;
   look_anew();
 }
 
@@ -133,7 +135,33 @@ void PlanModel::key(Key key, bool down) {
     case PlanCommand::kQuit:
       wishes_.quit = true;
       return;
+    case PlanCommand::kDiscard:
+      return discard();
   }
+}
+
+void PlanModel::discard() {
+  if (editor_.unsaved() && !std::exchange(asked_to_discard_, true)) {
+    note_ = "not saved: once more quits without saving";
+    return;
+  }
+  wishes_.quit = wishes_.discard = true;
+}
+
+/// By fractions of a pane's height, to the right and down.
+void PlanModel::change_window(Vec2 by) {
+  constexpr double kPerHeight_hu = 2000.0;
+  constexpr double kNarrowest_hu = 50.0;
+  constexpr double kWidest_hu = 6000.0;
+  constexpr double kFarthest_hu = 3000.0;
+  const double width_hu = std::clamp(window_.white_hu - window_.black_hu + kPerHeight_hu * by.x,
+                                     kNarrowest_hu, kWidest_hu);
+  // Upward is brighter: what is grey lies lower.
+  const double level_hu =
+      std::clamp(0.5 * (window_.white_hu + window_.black_hu) + kPerHeight_hu * by.y, -kFarthest_hu,
+                 kFarthest_hu);
+  window_ = {level_hu - 0.5 * width_hu, level_hu + 0.5 * width_hu};
+  changed_ = true;
 }
 
 /// The part of the screw there; none beside it.
@@ -200,6 +228,8 @@ void PlanModel::move(Vec2 at) {
     // The held pane counts, even when the mouse has left it.
     drawn_to_m_ = drawn_to_m_ + 4.0 * plane.half_m * Vec2{by.x, -by.y};
     drag_to(drawn_to_m_);
+  } else if (over_scan_) {
+    change_window(2.0 * by);
   }
 }
 

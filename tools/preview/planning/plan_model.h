@@ -34,6 +34,7 @@ struct PlanWishes {
   bool screenshot = false;
   bool save = false;
   bool quit = false;
+  bool discard = false;  ///< quit without saving
 };
 
 /// What keys, mouse and panel do while a plan is edited, without a window: these and scripts make
@@ -48,12 +49,15 @@ class PlanModel {
   void say(std::string_view phrase);
   void select(const engine::ScrewPlace& place);
 
+  /// Quits without saving, at once if nothing is lost by it, else at the second call in a row.
+  void discard();
+
   // The mouse, over the four panes of that aspect.
   void set_aspect(double aspect) { aspect_ = aspect; }
   /// Moves it; what is held follows.
   void move(Vec2 at);
   /// A button goes down: holds what is there. In the slices that is entry, target or the whole
-  /// screw, in space the view.
+  /// screw, beside them the scan's window, in space the view.
   void press();
   void release();
   /// The wheel. Axial and sagittal: larger; across: 1 mm a step, downward
@@ -67,10 +71,15 @@ class PlanModel {
   /// The slices of the selected screw. While it is dragged they stay.
   [[nodiscard]] const engine::ScrewSlices& slices() const { return slices_; }
   [[nodiscard]] const engine::SlicePlane& slice(Pane pane) const;
+  /// The densities that are drawn black and white: to the right wider, upward brighter.
+  [[nodiscard]] const engine::GreyWindow& window() const { return window_; }
+  /// Whether a scan lies behind the slices.
+  [[nodiscard]] bool over_scan() const { return over_scan_; }
+  void set_over_scan(bool over_scan) { over_scan_ = over_scan; }
   /// Of the slice across the screw, past the entry.
   [[nodiscard]] double across_m() const { return across_m_; }
-  /// The view in space: the vertebra is turned so that the head is up and the eye looks from
-  /// behind.
+  /// The view in space: from below and a little from behind, the patient's right on the left as in
+  /// the slices.
   [[nodiscard]] Transform<Vertebra, Eye> vertebra_from_eye() const;
 
   [[nodiscard]] engine::PlanEditor& editor() const { return editor_; }
@@ -88,6 +97,7 @@ class PlanModel {
   void reset_views();
   [[nodiscard]] std::optional<nav::ScrewPart> part_at(const PanePlace& place) const;
   void tell(const Status& status);
+  void change_window(Vec2 by);
   bool drag_to(Vec2 in_plane_m);
 
   engine::PlanEditor& editor_;
@@ -100,6 +110,9 @@ class PlanModel {
   double across_m_ = 0.0;
   double magnification_ = 1.0;
   engine::ScrewSlices slices_;
+  engine::GreyWindow window_ = engine::kBoneWindow;
+  bool over_scan_ = false;
+  bool asked_to_discard_ = false;
   Camera camera_;
   std::string note_;
   bool panel_ = true;

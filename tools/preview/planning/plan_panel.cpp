@@ -100,6 +100,12 @@ void draw_commands(PlanModel& model) {
   }
   wrapped_text(model.editor().unsaved() ? kFair : kDim,
                model.editor().unsaved() ? "not saved yet" : "as loaded or saved");
+  if (model.editor().unsaved()) {
+    ImGui::SameLine(210.0f);
+    if (ImGui::SmallButton("quit without saving")) {
+      model.discard();
+    }
+  }
   // An empty line as well, so that nothing jumps when there is something to say.
   wrapped_text(kFair, model.note().empty() ? " " : model.note());
 }
@@ -109,6 +115,7 @@ void draw_help_lines() {
     help_line(std::string(binding.name), std::string(binding.what));
   }
   help_line("drag", "entry, target, or the screw, in a slice; in space: turn");
+  help_line("", "beside them: the scan wider to the right, brighter upward");
   help_line("wheel", "larger; across the screw: 1 mm along it; in space: nearer");
 }
 

@@ -86,7 +86,7 @@ struct BorderLetters {
   const char* down;
 };
 constexpr std::array<BorderLetters, 3> kLetters = {
-    {{"R", "L", "A", "P"}, {"A", "P", "H", "F"}, {"L", "R", "H", "F"}}};
+    {{"R", "L", "A", "P"}, {"A", "P", "H", "F"}, {"R", "L", "H", "F"}}};
 
 std::string title_of(const PlanModel& model, Pane pane) {
   switch (pane) {
@@ -119,6 +119,12 @@ void add_frame(const PlanModel& model, Pane pane, double aspect, SliceDrawing& d
   const Vec2 scale{side_m, edge_m - half_m};
   drawing.line({scale - Vec2{kScale_m, 0.0}, scale}, kText);
   drawing.text("10 mm", scale + Vec2{0.0, 0.4 * text_m}, kRight);
+  if (model.over_scan()) {
+    const engine::GreyWindow& window = model.window();
+    drawing.text(printed("W %.0f L %.0f", window.white_hu - window.black_hu,
+                         0.5 * (window.white_hu + window.black_hu)),
+                 {-side_m, edge_m - half_m}, kLeft);
+  }
 }
 
 /// A screw as its outline in the plane of its axis.

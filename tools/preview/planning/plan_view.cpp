@@ -44,7 +44,7 @@ void PlanView::draw_behind(const PlanModel& model, Pane pane) {
   if (scan_ && pane != Pane::kSpace) {
     // Models of a scan lie in its frame.
     engine::draw_slice(*scan_, Transform<engine::Scan, Vertebra>(), model.slice(pane),
-                       engine::kBoneWindow, behind_);
+                       model.window(), behind_);
     return;
   }
   behind_.pixels.resize(bytes_of(behind_.width_px, behind_.height_px));
