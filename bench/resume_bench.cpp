@@ -72,7 +72,7 @@ void measure_handing_over(const fs::path& folder) {
   print("region of 600 samples handed over", times_ms);
   std::ignore = log->finish(false, "");
   log.reset();
-  fs::remove(folder / "operation.log");
+  fs::remove(folder / "operation.resume");
 }
 
 /// An operation that was killed at its last screw is found, read, and restored.
@@ -89,8 +89,8 @@ void measure_resuming(const fs::path& folder) {
     while (s->session().current_step() != Step::kRod && surgeon.act()) {
     }
   }
-  std::printf("operation.log: %ju bytes\n",
-              static_cast<std::uintmax_t>(fs::file_size(folder / "operation.log")));
+  std::printf("operation.resume: %ju bytes\n",
+              static_cast<std::uintmax_t>(fs::file_size(folder / "operation.resume")));
   std::vector<double> times_ms;
   for (int i = 0; i < kResumes; ++i) {
     auto s = test::touched_operation(true);
@@ -105,7 +105,7 @@ void measure_resuming(const fs::path& folder) {
     }));
   }
   print("found, read, restored and continued", times_ms);
-  fs::remove(folder / "operation.log");
+  fs::remove(folder / "operation.resume");
 }
 
 }  // namespace

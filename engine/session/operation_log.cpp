@@ -11,6 +11,11 @@ namespace orthonav::engine {
 namespace {
 
 std::string log_in(const std::string& folder) {
+  return (std::filesystem::path(folder) / "operation.resume").string();
+}
+
+/// What it was called when a log in text could be taken for it.
+std::string earlier_log_in(const std::string& folder) {
   return (std::filesystem::path(folder) / "operation.log").string();
 }
 
@@ -72,12 +77,15 @@ Result<OperationLog::Found> OperationLog::find(Env& env, const std::string& fold
   if (!lock) {
     return lock.error();
   }
-  const auto path = newest_log(env, log_in(folder));
+  auto path = newest_log(env, log_in(folder));
+  if (path && !*path) {
+    path = newest_log(env, earlier_log_in(folder));
+  }
   if (!path) {
     return path.error();
   }
   if (!*path) {
-    return Error{folder + ": holds no operation.log, there is no operation to resume",
+    return Error{folder + ": holds no operation.resume, there is no operation to resume",
                  ErrorCode::kNotFound};
   }
   const auto read = read_log(env, **path);

@@ -12,7 +12,7 @@
 
 namespace orthonav::engine {
 
-/// The log of an operation, `operation.log` in its folder: what must survive a crash so that the
+/// The log of an operation, `operation.resume` in its folder: what must survive a crash so that the
 /// operation can go on (docs/journal.md). The folder is locked meanwhile. A slow file system does
 /// not stall the session, and a disk failure does not end it.
 class OperationLog : public SessionObserver, public SaveWatch {

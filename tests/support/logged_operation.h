@@ -10,7 +10,7 @@
 namespace orthonav::test {
 
 inline const std::string kLogFolder = "out";
-inline const std::string kLogPath = "out/operation.log";
+inline const std::string kLogPath = "out/operation.resume";
 
 inline engine::OperationIdentity identity_of(ScriptedOperation& s, bool reference = false) {
   const engine::Session& session = s.session();

@@ -12,7 +12,7 @@
 
 namespace orthonav::test {
 
-inline const std::string kToldLog = "out/operation.log";
+inline const std::string kToldLog = "out/operation.resume";
 
 /// Records with lengths both below and above a block's.
 inline std::vector<std::string> long_story() {

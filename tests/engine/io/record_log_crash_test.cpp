@@ -81,8 +81,8 @@ TEST(CrashOfALog, NeverLosesTheOperationBefore) {
     const std::size_t saved = durable_by(durable_after, n);
     for (const Files& files : after_power_loss(before, std::span(env.calls()).first(n))) {
       MemoryEnv left(files);
-      const bool aside = files.count("out/operation-1.log") > 0;
-      EXPECT_EQ(read_log(left, aside ? "out/operation-1.log" : kToldLog)->records.size(), 2u)
+      const bool aside = files.count("out/operation-1.resume") > 0;
+      EXPECT_EQ(read_log(left, aside ? "out/operation-1.resume" : kToldLog)->records.size(), 2u)
           << "after call " << n;
       const bool begun = aside && files.count(kToldLog) > 0;
       EXPECT_GE(records_left(files, begun ? later : earlier), saved);

@@ -29,7 +29,7 @@ std::vector<std::string> payloads_of(const std::vector<Record>& records) {
 
 TEST(RecordLog, GoesOnWhereItWasLeft) {
   const TemporaryFolder folder;
-  const std::string path = folder.file("operation.log");
+  const std::string path = folder.file("operation.resume");
   PosixEnv env;
   {
     auto log = RecordLog::create(env, path, {1, 1, "begin"}).value();
@@ -49,26 +49,26 @@ TEST(RecordLog, GoesOnWhereItWasLeft) {
 
 TEST(RecordLog, KeepsEarlierOnesUnderOtherNames) {
   const TemporaryFolder folder;
-  const std::string path = folder.file("operation.log");
+  const std::string path = folder.file("operation.resume");
   PosixEnv env;
   for (const char* name : {"a", "b", "c"}) {
     ASSERT_TRUE(is_ok(RecordLog::create(env, path, {1, 1, name})));
   }
-  EXPECT_EQ(payloads_of(read_log(env, folder.file("operation-1.log"))->records).front(), "a");
-  EXPECT_EQ(payloads_of(read_log(env, folder.file("operation-2.log"))->records).front(), "b");
+  EXPECT_EQ(payloads_of(read_log(env, folder.file("operation-1.resume"))->records).front(), "a");
+  EXPECT_EQ(payloads_of(read_log(env, folder.file("operation-2.resume"))->records).front(), "b");
   EXPECT_EQ(payloads_of(read_log(env, path)->records).front(), "c");
   EXPECT_EQ(newest_log(env, path).value(), path);
   ASSERT_TRUE(is_ok(env.remove(path)));
-  EXPECT_EQ(newest_log(env, path).value(), folder.file("operation-2.log"));
+  EXPECT_EQ(newest_log(env, path).value(), folder.file("operation-2.resume"));
 }
 
 TEST(RecordLog, KeepsATornEndBesideBeforeItIsCutOff) {
   const TemporaryFolder folder;
-  const std::string path = folder.file("operation.log");
+  const std::string path = folder.file("operation.resume");
   PosixEnv env;
   ASSERT_TRUE(is_ok(RecordLog::create(env, path, {1, 1, "begin"})));
   const std::string whole = content_of(path);
-  std::ignore = folder.with("operation.log", whole + "torn");
+  std::ignore = folder.with("operation.resume", whole + "torn");
   auto again = RecordLog::reopen(env, path).value();
   EXPECT_EQ(again.dropped_bytes, 4u);
   EXPECT_EQ(content_of(path), whole);
@@ -80,28 +80,30 @@ TEST(RecordLog, KeepsATornEndBesideBeforeItIsCutOff) {
 TEST(RecordLog, RefusesWhatIsNoneInOneLine) {
   const TemporaryFolder folder;
   PosixEnv env;
-  const auto missing = RecordLog::reopen(env, folder.file("operation.log"));
+  const auto missing = RecordLog::reopen(env, folder.file("operation.resume"));
   ASSERT_FALSE(missing.ok());
   EXPECT_EQ(missing.error().code, ErrorCode::kNotFound);
-  EXPECT_THAT(missing.error().message, HasSubstr("operation.log: cannot be read"));
-  const auto other = RecordLog::reopen(env, folder.with("operation.log", "something else, longer"));
+  EXPECT_THAT(missing.error().message, HasSubstr("operation.resume: cannot be read"));
+  const auto other =
+      RecordLog::reopen(env, folder.with("operation.resume", "something else, longer"));
   ASSERT_FALSE(other.ok());
   EXPECT_THAT(other.error().message, HasSubstr("is not a file of records"));
-  const auto empty = RecordLog::reopen(env, folder.with("operation.log", ""));
+  const auto empty = RecordLog::reopen(env, folder.with("operation.resume", ""));
   ASSERT_FALSE(empty.ok());
   EXPECT_THAT(empty.error().message, HasSubstr("holds no whole record"));
-  EXPECT_THAT(RecordLog::create(env, folder.file("none/operation.log"), {1, 1, ""}).error().message,
-              HasSubstr("No such file or directory"));
+  EXPECT_THAT(
+      RecordLog::create(env, folder.file("none/operation.resume"), {1, 1, ""}).error().message,
+      HasSubstr("No such file or directory"));
 }
 
 TEST(RecordLog, TriesASyncThatFailedNeverAgain) {
   MemoryEnv env;
-  auto log = RecordLog::create(env, "out/operation.log", {1, 1, "begin"}).value();
+  auto log = RecordLog::create(env, "out/operation.resume", {1, 1, "begin"}).value();
   ASSERT_TRUE(is_ok(log->append({2, 1, "one"})));
   env.fail_at(env.calls().size() + 1, EIO, false);
   const Status lost = log->append({2, 1, "two"});
   ASSERT_FALSE(lost.ok());
-  EXPECT_EQ(lost.error().message, "out/operation.log: cannot be written: Input/output error");
+  EXPECT_EQ(lost.error().message, "out/operation.resume: cannot be written: Input/output error");
   const std::size_t calls = env.calls().size();
   const Status after = log->append({2, 1, "three"});
   ASSERT_FALSE(after.ok()) << "the disk is well again, but what was written is not known";

@@ -23,7 +23,7 @@ constexpr std::uint64_t kRecords = 200;
 
 TEST(RecordWriter, WritesInOrderOnAThreadOfItsOwn) {
   const TemporaryFolder folder;
-  const std::string path = folder.file("operation.log");
+  const std::string path = folder.file("operation.resume");
   PosixEnv env;
   {
     RecordWriter writer(RecordLog::create(env, path, {1, 1, "0"}).value(),
@@ -45,20 +45,21 @@ TEST(RecordWriter, WritesInOrderOnAThreadOfItsOwn) {
 
 TEST(RecordWriter, TellsAFailureToWhoeverAsks) {
   MemoryEnv env;
-  auto log = RecordLog::create(env, "out/operation.log", {1, 1, ""}).value();
+  auto log = RecordLog::create(env, "out/operation.resume", {1, 1, ""}).value();
   env.fail_at(env.calls().size() + 1, EIO, false);
   RecordWriter writer(std::move(log), RecordWriter::Waits::kNot);
   EXPECT_FALSE(writer.failed());
   writer.add({1, 1, "lost"});
   EXPECT_TRUE(wait_until([&] { return writer.failed(); }));
   writer.add({1, 1, "not tried"});
-  EXPECT_EQ(error_of(writer.finish()), "out/operation.log: cannot be written: Input/output error");
+  EXPECT_EQ(error_of(writer.finish()),
+            "out/operation.resume: cannot be written: Input/output error");
   EXPECT_EQ(writer.durable(), 1u);
 }
 
 TEST(RecordWriter, WaitsForTheDiskWhereItIsAskedTo) {
   MemoryEnv env;
-  RecordWriter writer(RecordLog::create(env, "out/operation.log", {1, 1, ""}).value(),
+  RecordWriter writer(RecordLog::create(env, "out/operation.resume", {1, 1, ""}).value(),
                       RecordWriter::Waits::kUntilDurable);
   for (std::uint64_t number = 2; number < kRecords; ++number) {
     writer.add({1, 1, ""});

@@ -67,7 +67,7 @@ TEST(ClockOfAnOperation, SetBackAnHourMeanwhileChangesNoByteOfItsLog) {
   }
   operate_first_half(env, steady.path().string(), 0s);
   operate_first_half(env, stepped.path().string(), 1h);
-  for (const char* file : {"operation.log", "session.orthonav.part"}) {
+  for (const char* file : {"operation.resume", "session.orthonav.part"}) {
     EXPECT_GT(content_of(steady / file).size(), 1000u);
     EXPECT_EQ(content_of(stepped / file), content_of(steady / file)) << file;
   }
@@ -82,7 +82,7 @@ TEST(ClockOfAnOperation, SetBackBeforeItIsResumedLeavesTheOrderAndTheEnd) {
   ASSERT_TRUE(is_ok(r.resumed));
   ScriptedSurgeon(*r.operation).finish();
   ASSERT_TRUE(is_ok(r.log->finish(true, "")));
-  const auto log = read_log(env, folder.file("operation.log"));
+  const auto log = read_log(env, folder.file("operation.resume"));
   std::uint64_t number = 0;
   for (const Record& record : log->records) {
     EXPECT_EQ(record.number, ++number);
@@ -90,22 +90,38 @@ TEST(ClockOfAnOperation, SetBackBeforeItIsResumedLeavesTheOrderAndTheEnd) {
   EXPECT_TRUE(LoggedOperation::from(log->records, "log")->done);
 }
 
+TEST(OperationLog, IsFoundUnderTheNameItHadBefore) {
+  const TemporaryFolder folder;
+  PosixEnv env;
+  operate_first_half(env, folder.path().string(), 0s);
+  std::filesystem::rename(folder / "operation.resume", folder / "operation.log");
+  ResumedOperation r(env, true, folder.path().string());
+  ASSERT_TRUE(is_ok(r.resumed));
+  ScriptedSurgeon(*r.operation).finish();
+  ASSERT_TRUE(is_ok(r.log->finish(true, "")));
+  EXPECT_TRUE(
+      LoggedOperation::from(read_log(env, folder.file("operation.log"))->records, "log")->done);
+  EXPECT_FALSE(std::filesystem::exists(folder / "operation.resume"));
+}
+
 /// The last operation is identified by file names, because file times follow the clock.
 TEST(ClockOfAnOperation, TheLastOneIsFoundThoughItsFileIsDatedEarlier) {
   const TemporaryFolder folder;
   PosixEnv env;
   for (const char* label : {"first", "second"}) {
-    ASSERT_TRUE(is_ok(RecordLog::create(env, folder.file("operation.log"), {1, 1, label})));
+    ASSERT_TRUE(is_ok(RecordLog::create(env, folder.file("operation.resume"), {1, 1, label})));
   }
   namespace fs = std::filesystem;
-  const auto first = fs::last_write_time(folder / "operation-1.log");
-  fs::last_write_time(folder / "operation.log", first - 1h);
-  EXPECT_EQ(newest_log(env, folder.file("operation.log")).value(), folder.file("operation.log"));
+  const auto first = fs::last_write_time(folder / "operation-1.resume");
+  fs::last_write_time(folder / "operation.resume", first - 1h);
+  EXPECT_EQ(newest_log(env, folder.file("operation.resume")).value(),
+            folder.file("operation.resume"));
   // A crash came before the newest was renamed, so the last of those moved aside counts.
-  ASSERT_TRUE(is_ok(RecordLog::create(env, folder.file("operation.log"), {1, 1, "third"})));
-  ASSERT_TRUE(is_ok(env.remove(folder.file("operation.log"))));
-  fs::last_write_time(folder / "operation-2.log", first - 1h);
-  EXPECT_EQ(newest_log(env, folder.file("operation.log")).value(), folder.file("operation-2.log"));
+  ASSERT_TRUE(is_ok(RecordLog::create(env, folder.file("operation.resume"), {1, 1, "third"})));
+  ASSERT_TRUE(is_ok(env.remove(folder.file("operation.resume"))));
+  fs::last_write_time(folder / "operation-2.resume", first - 1h);
+  EXPECT_EQ(newest_log(env, folder.file("operation.resume")).value(),
+            folder.file("operation-2.resume"));
 }
 
 }  // namespace

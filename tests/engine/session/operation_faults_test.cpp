@@ -82,7 +82,7 @@ TEST_P(FaultOfLooking, AtItsOwnLogGoesOnUnsaved) {
   ResumedOperation r(env, true);
   ASSERT_TRUE(is_ok(r.resumed));
   EXPECT_EQ(env.looks(), 4u);
-  EXPECT_THAT(error_of(r.log->written()), HasSubstr("out/operation.log: cannot be read"));
+  EXPECT_THAT(error_of(r.log->written()), HasSubstr("out/operation.resume: cannot be read"));
   EXPECT_THAT(detail_text(r.operation->pair().status), EndsWith("NOT SAVED"));
   ScriptedSurgeon(*r.operation).finish();
   EXPECT_EQ(r.operation->session().current_step(), Step::kDone);

@@ -186,7 +186,7 @@ TEST(OperationLog, SaysNotSavedFromThenOnAndTheOperationGoesOn) {
       EXPECT_EQ(records_in(env).size(), saved) << "nothing after the first failure";
       const Status end = log->finish(true, "");
       ASSERT_FALSE(end.ok());
-      EXPECT_THAT(end.error().message, HasSubstr("out/operation.log: cannot be written"));
+      EXPECT_THAT(end.error().message, HasSubstr("out/operation.resume: cannot be written"));
     }
   }
   RecordProperty("faults", 3 * 4);

@@ -71,7 +71,7 @@ Ended finished(Env& env, bool reference, const std::string& folder, Story story 
       }
     }
   }
-  const auto log = read_log(env, folder + "/operation.log");
+  const auto log = read_log(env, folder + "/operation.resume");
   const auto done = screws_done(log->records);
   EXPECT_EQ(done, kEveryScrewOnce);
   ended.doubled = doubled_in(done);

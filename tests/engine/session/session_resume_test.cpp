@@ -220,17 +220,17 @@ TEST(ResumedSession, IsRefusedWhereReferencesLieElsewhereAndOnceItBegan) {
 TEST(ResumedSession, OfAnotherPatientIsRefusedInOneLine) {
   auto s = touched_operation(true);
   const OperationIdentity same = test::identity_of(*s, true);
-  EXPECT_TRUE(is_ok(check_same(same, same, "operation.log")));
+  EXPECT_TRUE(is_ok(check_same(same, same, "operation.resume")));
   const auto refusal = [&](auto change) {
     OperationIdentity other = same;
     change(other);
-    const Status status = check_same(same, other, "operation.log");
+    const Status status = check_same(same, other, "operation.resume");
     EXPECT_FALSE(status.ok());
     EXPECT_THAT(error_of(status), Not(HasSubstr("\n")));
     return error_of(status);
   };
   EXPECT_EQ(refusal([](auto& other) { other.case_name = "Miller"; }),
-            "operation.log: is of case 'boxes', not of 'Miller'");
+            "operation.resume: is of case 'boxes', not of 'Miller'");
   EXPECT_THAT(refusal([](auto& other) { other.models_hash = "00"; }),
               HasSubstr("is of another patient: the models of case 'boxes' were"));
   EXPECT_THAT(refusal([](auto& other) { other.plan_hash = "00"; }), HasSubstr("has another plan"));
@@ -240,9 +240,9 @@ TEST(ResumedSession, OfAnotherPatientIsRefusedInOneLine) {
   EXPECT_THAT(refusal([](auto& other) { other.patient_reference = false; }),
               HasSubstr("was begun with a patient reference, not without"));
   EXPECT_EQ(refusal([](auto& other) { other.levels = {"L4"}; }),
-            "operation.log: is of levels L4, L5, not of levels L4");
+            "operation.resume: is of levels L4, L5, not of levels L4");
   EXPECT_EQ(refusal([](auto& other) { other.levels = {}; }),
-            "operation.log: is of levels L4, L5, not of rods alone");
+            "operation.resume: is of levels L4, L5, not of rods alone");
   EXPECT_THAT(refusal([](auto& other) { other.room = "seed 2"; }), HasSubstr("simulated patient"));
 }
 
@@ -262,7 +262,8 @@ TEST(ResumedSession, HashesTellOneVertexAndOneScrewApart) {
 TEST(ResumeLines, SayWhatItWasAndWhatIsLost) {
   auto on_map = killed_in(Step::kPlaced, false);
   const auto lost = resume_lines(OperationLog::find(*on_map, kLogFolder).value());
-  EXPECT_THAT(lost[0], HasSubstr("resuming out/operation.log: case 'boxes', levels L4, L5, begun"));
+  EXPECT_THAT(lost[0],
+              HasSubstr("resuming out/operation.resume: case 'boxes', levels L4, L5, begun"));
   EXPECT_EQ(lost[1], "placed: no screw");
   EXPECT_EQ(lost[2],
             "lost: of L4 2 regions, its accepted registration, its dimple, 3 check points");

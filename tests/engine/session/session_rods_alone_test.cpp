@@ -134,7 +134,7 @@ TEST(RodsAlone, GoOnAfterACrashWithTheRodThatIsNotDone) {
   LoggedOperation logged = found->operation;
   logged.go_on();
   ScriptedOperation again = rods_alone();
-  EXPECT_TRUE(is_ok(check_same(logged.identity, test::identity_of(again), "operation.log")));
+  EXPECT_TRUE(is_ok(check_same(logged.identity, test::identity_of(again), "operation.resume")));
   ASSERT_TRUE(is_ok(again.session().resume(logged)));
   EXPECT_EQ(step_of(again.pair()), "setup");
   EXPECT_EQ(step_of(again.says("start")), "rod right");
@@ -142,8 +142,9 @@ TEST(RodsAlone, GoOnAfterACrashWithTheRodThatIsNotDone) {
   EXPECT_EQ(step_of(again.says("done")), "done");
 
   ScriptedOperation with_levels({"L4", "L5"});
-  EXPECT_EQ(error_of(check_same(logged.identity, test::identity_of(with_levels), "operation.log")),
-            "operation.log: is of rods alone, not of levels L4, L5");
+  EXPECT_EQ(
+      error_of(check_same(logged.identity, test::identity_of(with_levels), "operation.resume")),
+      "operation.resume: is of rods alone, not of levels L4, L5");
 }
 
 TEST(RodsAlone, EndAtOnceIfBothWereDoneBeforeTheCrash) {

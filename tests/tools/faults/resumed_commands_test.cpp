@@ -70,7 +70,7 @@ class KeptCommand : public ::testing::Test {
   /// The sides of the screws in the order in which they were placed.
   std::vector<std::string> placed() {
     std::vector<std::string> sides;
-    const auto read = engine::read_log(env_, out_ + "/operation.log").value();
+    const auto read = engine::read_log(env_, out_ + "/operation.resume").value();
     for (const engine::Record& record : read.records) {
       if (record.type == static_cast<std::uint16_t>(OperationRecord::kScrew)) {
         sides.push_back(json::parse(record.payload)["side"]);
@@ -182,8 +182,9 @@ TEST_F(KeptCommand, DemoInterruptedAfterItsFirstScrewEndsWithBothAndNoneTwice) {
   const std::vector<std::string> demo = words("demo", {"--pace", "4", "--no-video", "--json"});
   StartedCommand first(demo);
   const auto placed_one = [this] {
-    return wait_until(
-        [this] { return std::filesystem::exists(out_ + "/operation.log") && !placed().empty(); });
+    return wait_until([this] {
+      return std::filesystem::exists(out_ + "/operation.resume") && !placed().empty();
+    });
   };
   constexpr int kMostWaits = 20;
   int waits = 0;
@@ -194,14 +195,14 @@ TEST_F(KeptCommand, DemoInterruptedAfterItsFirstScrewEndsWithBothAndNoneTwice) {
   ASSERT_EQ(interrupted.code, 1) << interrupted.err;
   EXPECT_THAT(placed(), ElementsAre("left"));
   const json before = json::parse(interrupted.out)["levels"][0]["screws"][0];
-  const std::string log = content_of(out_ + "/operation.log");
+  const std::string log = content_of(out_ + "/operation.resume");
   std::vector<std::string> resume = demo;
   resume.emplace_back("--resume");
   const Called resumed = orthonav(resume);
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   EXPECT_THAT(resumed.err, HasSubstr("orthonav: placed: L5 left\n"));
   EXPECT_THAT(placed(), ElementsAre("left", "right"));
-  EXPECT_EQ(content_of(out_ + "/operation.log").substr(0, log.size()), log);
+  EXPECT_EQ(content_of(out_ + "/operation.resume").substr(0, log.size()), log);
   const json after = json::parse(resumed.out)["levels"][0]["screws"];
   EXPECT_EQ(after[0]["done"], true);
   EXPECT_EQ(after[0]["planned"], before["planned"]);
@@ -210,12 +211,12 @@ TEST_F(KeptCommand, DemoInterruptedAfterItsFirstScrewEndsWithBothAndNoneTwice) {
 
 TEST_F(KeptCommand, RefusesTheCaseOfAnotherPatientAndChangesNothing) {
   ASSERT_EQ(orthonav(run()).code, 0);
-  const std::string log = content_of(out_ + "/operation.log");
+  const std::string log = content_of(out_ + "/operation.resume");
   std::filesystem::remove_all(folder_.file("case"));
   write_one_level_case(folder_.file("case"), "L4");
   expect_refused(orthonav(run({"--resume"})),
-                 "out/operation.log: is of another patient: the models");
-  EXPECT_EQ(content_of(out_ + "/operation.log"), log);
+                 "out/operation.resume: is of another patient: the models");
+  EXPECT_EQ(content_of(out_ + "/operation.resume"), log);
 }
 
 TEST_F(KeptCommand, HasItsFolderForItselfAlone) {
@@ -226,11 +227,11 @@ TEST_F(KeptCommand, HasItsFolderForItselfAlone) {
     return std::filesystem::file_size(folder_.file("recording.part/frames.csv"), none) > 100 &&
            !none;
   }));
-  const std::string log = content_of(out_ + "/operation.log");
+  const std::string log = content_of(out_ + "/operation.resume");
   expect_refused(orthonav(run()), "is being written by another process");
   expect_refused(orthonav(run({"--resume"})), "out: is in use by another operation");
   expect_refused(orthonav(words("demo")), "is being written by another process");
-  EXPECT_EQ(content_of(out_ + "/operation.log"), log);
+  EXPECT_EQ(content_of(out_ + "/operation.resume"), log);
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ bool all_is_kept(const ShortRun& run) {
   const auto lines = whole_lines(run.out() + "/session.orthonav");
   engine::PosixEnv env;
   const auto found = engine::OperationLog::find(env, run.out());
-  const auto read = engine::read_log(env, run.out() + "/operation.log");
+  const auto read = engine::read_log(env, run.out() + "/operation.resume");
   return fs::exists(run.out() + "/report.json") && fs::exists(run.out() + "/report.html") &&
          !lines.empty() && json::parse(lines.back())["what"] == "ended" && found && read &&
          read->records.back().type == static_cast<std::uint16_t>(engine::OperationRecord::kEnded) &&
@@ -148,7 +148,8 @@ void expect_readable(const ShortRun& run) {
     EXPECT_TRUE(json::accept(line)) << line;
   }
   engine::PosixEnv env;
-  if (fs::exists(run.out() + "/operation.log") && fs::file_size(run.out() + "/operation.log") > 0) {
+  if (fs::exists(run.out() + "/operation.resume") &&
+      fs::file_size(run.out() + "/operation.resume") > 0) {
     const auto found = engine::OperationLog::find(env, run.out());
     EXPECT_TRUE(found.ok()) << found.error().message;
   }
