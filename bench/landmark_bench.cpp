@@ -251,7 +251,8 @@ int main(int argc, char** argv) {
   app.add_option("--operations", operations, "how many");
   app.add_option("--seed", first, "of the first; those that follow count up");
   app.add_option("--level", level, "to operate");
-  app.add_flag("--reference", options.use_reference, "everything hangs on a patient reference");
+  app.add_flag("--reference", options.use_reference,
+               "positions are relative to a patient reference");
   app.add_option("--bump-mm", bump_mm, "the reference is shifted by so much");
   app.add_option("--turn-deg", turn_deg, "and turned by so much about its tag");
   app.add_option("--shift-mm", shift_mm, "the patient slips by so much");

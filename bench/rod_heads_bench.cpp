@@ -240,7 +240,8 @@ int main(int argc, char** argv) {
   app.add_option("--operations", operations, "how many");
   app.add_option("--seed", first, "of the first; those that follow count up");
   app.add_option("--levels", options.levels, "to operate")->delimiter(',');
-  app.add_flag("--reference", options.use_reference, "everything hangs on a patient reference");
+  app.add_flag("--reference", options.use_reference,
+               "positions are relative to a patient reference");
   app.add_option("--pick-mm", pick_mm, "SD of putting the tip on a head");
   app.add_option("--measurement", measurement, "pixels or model")
       ->check(CLI::IsMember({"pixels", "model"}));

@@ -112,7 +112,7 @@ CLI::Option* add_tools_option(CLI::App& command, std::string& file) {
 
 void add_reference_flag(CLI::App& command, bool& reference) {
   command.add_flag("--reference", reference,
-                   "everything hangs on the patient reference instead of the headset's map");
+                   "positions are relative to the patient reference instead of the headset's map");
 }
 
 std::optional<std::array<int, 2>> size_from(const std::string& text) {

@@ -49,7 +49,7 @@ std::string about_word(const std::string& word, const Asked& asked) {
   const std::string meant = closest(word, possible(*asked.command, option));
   return (option    ? "unknown option: "
           : command ? "unknown command: "
-                    : "one word too many: ") +
+                    : "unexpected argument: ") +
          word + (meant.empty() ? "" : "; did you mean " + meant + "?");
 }
 

@@ -92,7 +92,8 @@ Status check(const CaseArguments& arguments) {
   if (int{labels} + int{meshes} + int{arguments.threshold_hu.has_value()} != 1) {
     return Error{
         "vertebrae need --labels FILE (a segmentation) or --mesh LEVEL=FILE (for each); "
-        "--threshold HU takes connected bone from --volume, where adjoining vertebrae hang "
+        "--threshold HU takes connected bone from --volume, where adjoining vertebrae are "
+        "connected "
         "together as one part"};
   }
   if (arguments.threshold_hu && arguments.volume.empty()) {
@@ -130,8 +131,8 @@ void print(const engine::ScanLevels& made) {
                level.label.c_str(), level.surface.mesh.triangles.size(),
                in_mm(d.median_m, 2).c_str(), in_mm(d.p95_m, 2).c_str(), in_mm(d.max_m, 2).c_str());
     if (level.dropped > 0) {
-      print_text("; %zu of %zu voxels dropped, they do not hang together with the rest",
-                 level.dropped, level.voxels);
+      print_text("; %zu of %zu voxels dropped, they are not connected with the rest", level.dropped,
+                 level.voxels);
     }
     print_text("\n");
   }
@@ -232,7 +233,7 @@ int save(const CaseArguments& arguments, const Result<Levels>& made, const std::
   if (arguments.threshold_hu) {
     std::fprintf(
         stderr,
-        "orthonav: parts of a threshold: adjoining vertebrae hang together as one part; for "
+        "orthonav: parts of a threshold: adjoining vertebrae are connected into one part; for "
         "single vertebrae use --labels\n");
   }
   if (!arguments.json.on_stdout()) {
@@ -257,7 +258,7 @@ int run_make(const CaseArguments& arguments) {
   }
   std::error_code code;
   if (fs::exists(fs::path(arguments.out) / "case.json", code)) {
-    return bad_input(arguments.out + "/case.json: is there already");
+    return bad_input(arguments.out + "/case.json: already exists");
   }
   if (arguments.meshes.any()) {
     std::string unusual;
@@ -291,11 +292,9 @@ void add_inputs(CLI::App& command, CaseArguments& arguments) {
                   "segmentation: .seg.nrrd of 3D Slicer, or a label map (.nii, .nii.gz, .nrrd)")
       ->check(some_text())
       ->type_name("FILE");
-  command
-      .add_option(
-          "--convention", arguments.convention,
-          "what the numbers of a label map mean: " + joined(engine::label_conventions(), ", "))
-      ->check(some_text());
+  command.add_option("--convention", arguments.convention, "what the numbers of a label map mean")
+      ->check(some_text())
+      ->type_name(joined(engine::label_conventions(), "|"));
   command
       .add_option("--threshold", arguments.threshold_hu,
                   "instead of --labels: connected bone of at least so many HU")

@@ -21,7 +21,7 @@ Status OutFolder::check_absent(const std::vector<std::string>& names) const {
   std::error_code code;
   for (const std::string& name : names) {
     if (std::filesystem::exists(path_ / name, code)) {
-      return Error{file(name) + ": is there already"};
+      return Error{file(name) + ": already exists"};
     }
   }
   return {};

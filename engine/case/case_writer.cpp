@@ -100,7 +100,7 @@ Status save_case(const std::string& folder, const Case& subject) {
   const std::string path = in(folder, "case.json");
   std::error_code code;
   if (fs::exists(path, code)) {
-    return Error{path + ": is there already"};
+    return Error{path + ": already exists"};
   }
   if (Status s = check_labels(subject); !s) {
     return s;
@@ -141,7 +141,7 @@ Status add_plans(const std::string& folder, const Case& planned) {
   for (const CaseLevel& level : planned.levels) {
     const std::string plan = in(folder, plan_name(level.label));
     if (!level.screws.empty() && fs::exists(plan, code)) {
-      return Error{plan + ": is there already"};
+      return Error{plan + ": already exists"};
     }
   }
   if (Status s = save_plans(folder, planned); !s) {

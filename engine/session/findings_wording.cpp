@@ -11,8 +11,8 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr const char* kOneOf100 =
-    translatable("1 of 100 errors at the screws would exceed %.1f mm, limit %.1f mm");
+constexpr const char* k99Percent =
+    translatable("99 %% of errors at the screws are below %.1f mm, limit %.1f mm");
 constexpr const char* kThroughBone = translatable(
     "the pointer would have gone through bone at %.0f %% of the points, limit %.0f %%");
 constexpr const char* kRejectAndDigitize = translatable("reject level and digitize again");
@@ -39,7 +39,7 @@ LimitWords words_about(nav::RefusalReason::Kind kind) {
     case kTreAtScrews:
       return {translatable("error expected at the screws %.1f mm, limit %.1f mm"), 1e3};
     case kTre99AtScrews:
-      return {kOneOf100, 1e3};
+      return {k99Percent, 1e3};
     case kSoftTissue:
       return {translatable(
                   "soft tissue? The tip's height over the bone varies by %.1f mm, limit %.1f mm"),
@@ -181,10 +181,10 @@ void append(std::string& out, const nav::CheckAdvice& advice) {
       break;
     case nav::CheckAdvice::Kind::kTouchMore:
       out.append(translated("touch 1 more place")).append(": ");
-      append_beside_limit(out, translated(kOneOf100), advice.value_m * 1e3, advice.limit_m * 1e3);
+      append_beside_limit(out, translated(k99Percent), advice.value_m * 1e3, advice.limit_m * 1e3);
       break;
     case nav::CheckAdvice::Kind::kUncertain:
-      append_beside_limit(out, translated(kOneOf100), advice.value_m * 1e3, advice.limit_m * 1e3);
+      append_beside_limit(out, translated(k99Percent), advice.value_m * 1e3, advice.limit_m * 1e3);
       out.append(": ").append(translated(kRejectAndDigitize));
       break;
   }

@@ -45,7 +45,7 @@ struct ErrorsInUse {
 /// The devices of an operation, as far as assumptions depend on them.
 struct ErrorsOfDevices {
   bool measures_tools = false;     ///< a tracker that stands still finds the tools, no headset
-  bool patient_reference = false;  ///< everything hangs on it
+  bool patient_reference = false;  ///< positions are relative to it
 };
 
 /// The one place that decides with which common errors an operation counts.

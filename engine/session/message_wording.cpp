@@ -39,16 +39,16 @@ void append_refusal(std::string& out, const TouchRefusal& why) {
       out += translated("hold too long");
       break;
     case kTooMany:
-      append_printed(out, translated("there are %zu already"), nav::kMostCheckPoints);
+      append_printed(out, translated("limit of %zu check points reached"), nav::kMostCheckPoints);
       break;
     case kTouchesApart:
-      length(translated("touches %.1f mm apart, limit %.1f mm: touch it anew"));
+      length(translated("touches %.1f mm apart, limit %.1f mm: touch again"));
       break;
     case kTooNear:
       length(translated("%.0f mm from the reference, at least %.0f mm: make it farther away"));
       break;
     case kGuideNotSeen:
-      out += translated("guide not seen all the while");
+      out += translated("guide was hidden during the press");
       break;
     case kReferenceNotSeen:
       out += translated("reference not seen");
@@ -66,7 +66,7 @@ void append_refusal(std::string& out, const TouchRefusal& why) {
       if (std::isfinite(why.value_m)) {
         length(translated("place known to ± %.1f mm, limit %.1f mm"));
       } else {
-        out += translated("how sure the registration is, is not known");
+        out += translated("registration uncertainty unknown");
       }
       break;
     case kAngleUnsure:

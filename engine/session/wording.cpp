@@ -74,7 +74,7 @@ void write_head(PartedText text, const HeadsSoFar& heads, std::string_view separ
   }
   if (heads.touch_again) {
     text.begin(Importance::kNext, separator);
-    append_printed(text.out, translated("1.0 mm not sure: touch head %zu again"),
+    append_printed(text.out, translated("rod fit may exceed 1.0 mm: touch head %zu again"),
                    *heads.touch_again + 1);
   }
 }
@@ -148,7 +148,7 @@ struct StateWriter {
     write_head(text, heads, "; ");
     if (heads.given_up) {
       text.begin(Importance::kNext, "; ");
-      out += translated("the rod in hand is given up: bend another");
+      out += translated("this rod cannot be corrected: take a new one");
     }
   }
   void operator()(const RodInHandSoFar& rod) { write_rod_in_hand(text, rod); }

@@ -10,7 +10,7 @@ namespace orthonav::engine {
 /// How an operation in the simulated room is set up.
 struct SetUp {
   std::string method;
-  bool reference = false;  ///< everything hangs on the patient reference
+  bool reference = false;  ///< positions are relative to the patient reference
   sim::GuidanceProfile guidance = sim::GuidanceProfile::kNumbers;
   std::string instrument;  ///< by its name in hal/sim/instruments.h
 

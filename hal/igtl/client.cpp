@@ -28,7 +28,7 @@ Status TextReader::read(const Header& header, Bytes body) {
     return {};
   }
   let_in_ = token_.is(*text);
-  return let_in_ ? Status{} : Error{"brought a wrong token"};
+  return let_in_ ? Status{} : Error{"invalid token"};
 }
 
 Client::Client(net::Socket socket, HostTime now, TextListener* listener, const net::Token& token)

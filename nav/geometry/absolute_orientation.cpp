@@ -86,7 +86,8 @@ Result<RigidFit> absolute_orientation(std::span<const Vec3> from_m, std::span<co
   const Vec3 from_centre = centroid(from_m);
   const Vec3 to_centre = centroid(to_m);
   if (is_collinear(from_m, from_centre) || is_collinear(to_m, to_centre)) {
-    return Error{"absolute orientation: the points lie on a line, the turn about it is unknown"};
+    return Error{
+        "absolute orientation: the points lie on a line, rotation about it is undetermined"};
   }
 
   RigidFit fit;

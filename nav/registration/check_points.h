@@ -67,7 +67,7 @@ struct CheckAdvice {
     kTouchApart,    ///< `number` places, `value_m` apart from each other
     kTouchOffLine,  ///< one more place, `value_m` off the line of the others
     kReject,        ///< check point `number` lies `value_m` off the surface, above `limit_m`
-    kTouchMore,     ///< one more place: 1 of 100 errors at the screws would exceed `value_m`
+    kTouchMore,     ///< one more place: 99 % of errors at the screws are below `value_m`
     kUncertain,     ///< the same is true after the largest number of places: reject
   };
   Kind kind = Kind::kNone;

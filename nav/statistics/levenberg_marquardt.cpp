@@ -89,7 +89,7 @@ Result<LeastSquares> levenberg_marquardt(std::span<const double> start, const Re
   of(fit.parameters, fit.residuals);
   fit.sum_of_squares = squares_of(fit.residuals);
   if (!std::isfinite(fit.sum_of_squares)) {
-    return Error{"residuals to be made least are not finite at the start"};
+    return Error{"initial residuals are not finite"};
   }
   double damping = kFirstDamping;
   NormalEquations equations = normal_equations(fit.parameters, fit.residuals, of);

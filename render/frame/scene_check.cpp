@@ -74,7 +74,7 @@ Status check_item(const MeshItem& item) {
     return Error{"has a place that is not a finite affine matrix"};
   }
   if (!(volume(item.world_from_model) > 0)) {
-    return Error{"has a place that mirrors or flattens it"};
+    return Error{"transform is a reflection or singular"};
   }
   if (!is_uniform(item.world_from_model)) {
     return Error{"has a place that shears or scales unevenly"};

@@ -39,7 +39,7 @@ Status HostedVulkanRenderer::draw_panel(const Scene& scene, const View& view, st
       return Error{"renderer: no such image of the host's panel"};
     }
     if (!scene.meshes.empty() || !scene.lines.empty() || !scene.triangles.empty()) {
-      return Error{"renderer: a panel of more than texts"};
+      return Error{"renderer: a panel may hold text only"};
     }
     return drawing_.aside([&]() -> Status {
       if (const Status taken = drawing_.take(scene); !taken) {

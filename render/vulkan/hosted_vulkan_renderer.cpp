@@ -217,7 +217,7 @@ Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& v
       return checked;
     }
     if (!pass_ || views.size() != kMostViews || !holds(images_, indices)) {
-      return Error{"renderer: no such images of the host's"};
+      return Error{"renderer: swapchain image index out of range"};
     }
     drawing_.build(scene, views, {images_.width_px, images_.height_px}, PassKind::kColour,
                    {0, views.size()}, head_texts);

@@ -56,7 +56,7 @@ TEST(CaseCommand, MakesACaseOfALabelMapWithAConvention) {
   const Called again =
       orthonav({"case", "make", "--labels", labels, "--convention", "verse", "--out", out});
   EXPECT_EQ(again.code, 2);
-  EXPECT_THAT(again.err, HasSubstr("case.json: is there already"));
+  EXPECT_THAT(again.err, HasSubstr("case.json: already exists"));
 }
 
 TEST(CaseCommand, MakesACaseOfASegmentationByItsNames) {
@@ -163,7 +163,7 @@ TEST(CaseCommand, TakesConnectedBoneOfAScanWithAWordAboutNeighbours) {
       {"case", "make", "--volume", scan, "--threshold", "200", "--out", scratch.file("case")});
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("part1: "));
-  EXPECT_THAT(made.err, HasSubstr("adjoining vertebrae hang together as one part"));
+  EXPECT_THAT(made.err, HasSubstr("adjoining vertebrae are connected into one part"));
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ TEST_F(EvaluateCommand, ShowsSlicerWhereEachVertebraLies) {
   }
   const Called again = evaluated("both.nrrd", {"--out", out});
   EXPECT_EQ(again.code, 2);
-  EXPECT_THAT(again.err, HasSubstr("L4.tfm: is there already"));
+  EXPECT_THAT(again.err, HasSubstr("L4.tfm: already exists"));
 }
 
 TEST_F(EvaluateCommand, AnswersNoWhereAScrewIsMissing) {

@@ -193,11 +193,11 @@ TEST(RunCommand, GoesOnWithTheOperationOfAFolderAndWithNoOther) {
   const std::string out = folder.file("out");
   expect_refusal(orthonav({"run", "--resume"}), "--resume requires --out");
   expect_refusal(orthonav({"run", "--resume", "--out", folder.file(".")}),
-                 "holds no operation.log, there is no operation to resume");
+                 "holds no operation.resume, there is no operation to resume");
   const std::vector<std::string> run = {"run",      "--headset", "sim:?seed=3", "--levels", "L5",
                                         "--frames", "6",         "--out",       out};
   ASSERT_EQ(orthonav(run).code, 0);
-  const std::string log = content_of(out + "/operation.log");
+  const std::string log = content_of(out + "/operation.resume");
   ASSERT_FALSE(log.empty());
   expect_refusal(orthonav({"run", "--headset", "sim:?seed=3", "--levels", "L4", "--frames", "6",
                            "--out", out, "--resume"}),
@@ -205,16 +205,17 @@ TEST(RunCommand, GoesOnWithTheOperationOfAFolderAndWithNoOther) {
   expect_refusal(orthonav({"run", "--headset", "sim:?seed=4", "--levels", "L5", "--frames", "6",
                            "--out", out, "--resume"}),
                  "is of the simulated patient 'seed 3', not of 'seed 4'");
-  EXPECT_EQ(content_of(out + "/operation.log"), log) << "whoever is refused changes nothing";
+  EXPECT_EQ(content_of(out + "/operation.resume"), log) << "whoever is refused changes nothing";
   std::vector<std::string> resume = run;
   resume.emplace_back("--resume");
   const Called resumed = orthonav(resume);
   ASSERT_EQ(resumed.code, 0) << resumed.err;
-  EXPECT_THAT(resumed.err, HasSubstr("resuming " + out + "/operation.log: case 'phantom'"));
+  EXPECT_THAT(resumed.err, HasSubstr("resuming " + out + "/operation.resume: case 'phantom'"));
   EXPECT_THAT(resumed.err, HasSubstr("orthonav: placed: no screw"));
-  EXPECT_EQ(content_of(out + "/operation.log").substr(0, log.size()), log) << "and goes on with it";
+  EXPECT_EQ(content_of(out + "/operation.resume").substr(0, log.size()), log)
+      << "and goes on with it";
   ASSERT_EQ(orthonav(run).code, 0);
-  EXPECT_TRUE(std::filesystem::exists(out + "/operation-1.log")) << "nothing is overwritten";
+  EXPECT_TRUE(std::filesystem::exists(out + "/operation-1.resume")) << "nothing is overwritten";
 }
 
 TEST(RodsOnly, AreRefusedWhereTheyFitNothing) {

@@ -82,7 +82,7 @@ TEST(PlanCommand, WritesACaseAnewForLevelsThatAreNamed) {
   EXPECT_EQ(orthonav({"plan", "check", "--case", out}).code, 0);
   const Called again = orthonav({"plan", "auto", "--case", folder, "--out", out});
   EXPECT_EQ(again.code, 2);
-  EXPECT_THAT(again.err, HasSubstr("case.json: is there already"));
+  EXPECT_THAT(again.err, HasSubstr("case.json: already exists"));
 }
 
 TEST(PlanCommand, SaysWhyASideGetsNoScrew) {
@@ -148,7 +148,7 @@ TEST(PlanCommand, TakesACaseToSlicerAndBack) {
   EXPECT_NEAR(before.second, after.second, 1e-3);
   const Called again = orthonav({"plan", "export", "--case", folder, "--out", out});
   EXPECT_EQ(again.code, 2);
-  EXPECT_THAT(again.err, HasSubstr("L4.stl: is there already"));
+  EXPECT_THAT(again.err, HasSubstr("L4.stl: already exists"));
 }
 
 TEST(PlanCommand, SaysToSlicerWhereTheLevelsLieAndReadsItBack) {

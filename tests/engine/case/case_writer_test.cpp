@@ -60,7 +60,7 @@ TEST(CaseWriter, KeepsACaseThatIsThere) {
   ASSERT_TRUE(save_case(folder.path().string(), boxes(true)).ok());
   const Status again = save_case(folder.path().string(), boxes(true));
   ASSERT_FALSE(again.ok());
-  EXPECT_THAT(again.error().message, HasSubstr("case.json: is there already"));
+  EXPECT_THAT(again.error().message, HasSubstr("case.json: already exists"));
 }
 
 TEST(CaseWriter, RefusesLabelsThatWouldLeaveTheFolder) {

@@ -19,14 +19,14 @@ TEST(Wording, GivesEveryReasonItsNumberAndLimit) {
   EXPECT_EQ(text_of_reason(Reason::kTreAtScrews, 0.0024, 0.0015),
             "error expected at the screws 2.4 mm, limit 1.5 mm");
   EXPECT_EQ(text_of_reason(Reason::kTre99AtScrews, 0.0031, 0.002),
-            "1 of 100 errors at the screws would exceed 3.1 mm, limit 2.0 mm");
+            "99 % of errors at the screws are below 3.1 mm, limit 2.0 mm");
   EXPECT_EQ(text_of(nav::RefusalReason{Reason::kFitsOtherLevel, 0.0, 0.0, {}, "L3"}),
             "the points fit level L3 as well");
 }
 
 TEST(Wording, NeverSaysThatANumberExceedsItself) {
   EXPECT_EQ(text_of_reason(Reason::kTre99AtScrews, 0.00204, 0.002),
-            "1 of 100 errors at the screws would exceed 2.04 mm, limit 2.00 mm");
+            "99 % of errors at the screws are below 2.04 mm, limit 2.00 mm");
   EXPECT_EQ(text_of_reason(Reason::kInliers, 0.696, 0.7),
             "only 69.6 % of the points lie on the model, at least 70.0 %");
   EXPECT_EQ(text_of_reason(Reason::kLogLikelihoodRatio, 11.96, 12.0),
@@ -91,10 +91,10 @@ TEST(Wording, AsksForCheckPoints) {
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kReject, 4, 0.0031, 0.002}),
             "check point 4 is 3.1 mm off, limit 2.0 mm: reject level and digitize again");
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchMore, 1, 0.0026, 0.002}),
-            "touch 1 more place: 1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm");
+            "touch 1 more place: 99 % of errors at the screws are below 2.6 mm, limit 2.0 mm");
   EXPECT_EQ(
       text_of(nav::CheckAdvice{Kind::kUncertain, 1, 0.0026, 0.002}),
-      "1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm: reject level and digitize "
+      "99 % of errors at the screws are below 2.6 mm, limit 2.0 mm: reject level and digitize "
       "again");
 }
 

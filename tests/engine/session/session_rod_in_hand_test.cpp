@@ -239,7 +239,8 @@ TEST_F(RodInHandSession, GivesUpARodThatCannotReachTheHeads) {
   EXPECT_EQ(told().made, 0u);
   EXPECT_DOUBLE_EQ(told().bends[0].set_rad, before.bends[0].set_rad);
   const Guidance& later = s.pairs(120);
-  EXPECT_THAT(detail_text(later.status), HasSubstr("; the rod in hand is given up: bend another"));
+  EXPECT_THAT(detail_text(later.status),
+              HasSubstr("; this rod cannot be corrected: take a new one"));
   s.says("delete");
   ASSERT_NE(so_far(), nullptr) << "the stroke may have been bad";
   EXPECT_EQ(so_far()->made, 2u);

@@ -38,7 +38,7 @@ TEST(Wording, SaysWhyAWireWasNotMeasuredAndWhatBecomesOfIt) {
     return line_with(Message(TouchNotRecorded{TouchNotRecorded::What::kWire, why}));
   };
   const double deg = kRadiansPerDegree;
-  EXPECT_EQ(refused({Kind::kGuideNotSeen}), "wire not recorded: guide not seen all the while");
+  EXPECT_EQ(refused({Kind::kGuideNotSeen}), "wire not recorded: guide was hidden during the press");
   EXPECT_EQ(refused({Kind::kReferenceNotSeen}), "wire not recorded: reference not seen");
   EXPECT_EQ(refused({Kind::kSleeveTurned, 0.0, 0.0, 1.4 * deg, 1.0 * deg}),
             "wire not recorded: sleeve turned 1.4°, limit 1.0°");
@@ -49,7 +49,7 @@ TEST(Wording, SaysWhyAWireWasNotMeasuredAndWhatBecomesOfIt) {
   EXPECT_EQ(refused({Kind::kEntryUnsure, 0.0018, 0.0015}),
             "wire not recorded: place known to ± 1.8 mm, limit 1.5 mm");
   EXPECT_EQ(refused({Kind::kEntryUnsure, kInfinite, 0.0015}),
-            "wire not recorded: how sure the registration is, is not known");
+            "wire not recorded: registration uncertainty unknown");
   EXPECT_EQ(refused({Kind::kAngleUnsure, 0.0, 0.0, 1.8 * deg, 1.5 * deg}),
             "wire not recorded: angle known to ± 1.8°, limit 1.5°");
   EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kWire})),

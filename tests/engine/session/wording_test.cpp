@@ -109,7 +109,7 @@ TEST(Wording, SaysHowAStepStands) {
             "3 heads, cut to 90.0 mm, 1 bend; head 2: 3 touches, ± 0.4 mm; 1.0 mm not sure: touch "
             "head 1 again");
   EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1, {}, {}, true}),
-            "3 heads, cut to 90.0 mm, 1 bend; the rod in hand is given up: bend another");
+            "3 heads, cut to 90.0 mm, 1 bend; this rod cannot be corrected: take a new one");
   EXPECT_EQ(line_with(HeadsSoFar{0, {}, 0, {}, {}, false, true}),
             "0 heads; touch the screw heads of this side; if it has none, say finish rod");
   EXPECT_EQ(line_with(HeadsSoFar{2, 0.05, 0, {}, {}, false, true, 0.006}),
@@ -178,12 +178,12 @@ TEST(Wording, SaysEveryMessage) {
   EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kHead, {Touch::kHeldTooLong}})),
             "head not recorded: hold too long");
   EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kCheckPoint, {Touch::kTooMany}})),
-            "check point not recorded: there are 48 already");
+            "check point not recorded: limit of 48 check points reached");
   EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kLandmark, {Touch::kTooNear, 0.022, 0.030}})),
             "dimple not recorded: 22 mm from the reference, at least 30 mm: make it farther away");
   EXPECT_EQ(
       line_with(Message(TouchNotRecorded{What::kLandmark, {Touch::kTouchesApart, 0.0031, 0.0021}})),
-      "dimple not recorded: touches 3.1 mm apart, limit 2.1 mm: touch it anew");
+      "dimple not recorded: touches 3.1 mm apart, limit 2.1 mm: touch again");
   EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kLandmark})),
             "no touch of the dimple to delete");
   EXPECT_EQ(line_with(Message(LandmarkMissing{false})),

@@ -63,7 +63,7 @@ TEST_F(IgtlToken, ThatIsWrongEndsTheConnection) {
   EXPECT_EQ(stranger.next(), "");
   // It hangs up before it counts.
   ASSERT_TRUE(wait_until([&] { return server->counts().dropped == 1; }));
-  EXPECT_EQ(server->counts().last_drop, "brought a wrong token");
+  EXPECT_EQ(server->counts().last_drop, "invalid token");
 }
 
 TEST_F(IgtlToken, IsNeededBeforeACommandIsHeard) {

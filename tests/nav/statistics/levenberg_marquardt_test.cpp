@@ -53,7 +53,7 @@ TEST(LevenbergMarquardt, RefusesResidualsThatAreNotFinite) {
   const auto fit =
       levenberg_marquardt(start, [](std::span<const double> p, auto& out) { out = {p[0]}; });
   ASSERT_FALSE(fit.ok());
-  EXPECT_EQ(fit.error().message, "residuals to be made least are not finite at the start");
+  EXPECT_EQ(fit.error().message, "initial residuals are not finite");
 }
 
 }  // namespace
