@@ -1,8 +1,8 @@
 #include <array>
-#include <utility>
+#include <cmath>
 
-#include "engine/golden/golden_stage.h"
-#include "engine/holograms/hologram_numbers.h"
+#include "base/angle.h"
+#include "engine/golden/golden_operation.h"
 #include "render/float3.h"
 #include "render/projection.h"
 
@@ -12,8 +12,7 @@ namespace {
 using render::Float3;
 
 constexpr render::Label kPaperLabel = 9001;  // belongs to no hologram
-constexpr std::array<ToolDot, 2> kToolDots = {
-    {{"guide", ToolState::kMeasured}, {"reference", ToolState::kPredicted}}};
+constexpr std::array<ToolDot, 2> kToolDots = {{{ToolState::kMeasured}, {ToolState::kPredicted}}};
 
 void add_names(GoldenScene& golden, const std::string& level, Float3 offset, render::Label label) {
   const auto add = [&](Float3 place, Float3 normal, const char* side, bool done, LabelSide beside) {
@@ -34,34 +33,55 @@ GoldenScene names() {
   add_names(golden, "L3", {0, 0, 0.034f}, kEntryLabel);
   add_names(golden, "L4", {0, 0, 0}, kEntryLabel + 2);
   add_names(golden, "L5", {0, -0.003f, -0.034f}, kEntryLabel + 4);
-  add_status_line(golden.scene, "accepted L4 | RMSE 0.62 mm", kToolDots, kStatusLabel);
+  add_status_line(golden.scene, "accepted L4 | touch the dimple", kToolDots, kStatusLabel);
   return golden;
 }
 
-/// A tag begins where the angle would be.
+/// Guiding, with both eyes turned from the site by so much: to the right and up, degrees.
+GoldenScene turned(const std::string& name, const std::string& what, float right_deg,
+                   float up_deg) {
+  StagedOperation s(Step::kGuide);
+  s.measure(guided(3.4, 0.0006, -0.0062));
+  const Viewer viewer = surgeon();
+  const float distance_m = render::length(kSite - viewer.eye);
+  const Float3 back = render::unit_or(viewer.eye - kSite, {});
+  const Float3 right = render::cross(viewer.up, back);
+  const auto tan_of = [&](float deg) {
+    return distance_m * std::tan(deg * static_cast<float>(kRadiansPerDegree));
+  };
+  return s.scene(name, what,
+                 render::stereo_pair(render::look_at(
+                     viewer.eye, kSite + tan_of(right_deg) * right + tan_of(up_deg) * viewer.up,
+                     viewer.up, 0.394f, 0.2561f)));
+}
+
+/// A tag's paper where the cross would hang.
 GoldenScene off_the_tag() {
-  GoldenScene golden = start_wide(
-      "labels_off_tag", "angle and depth beside a tag's outline, not on it", surgeon_views());
-  const Float3 b = tool_point(3.4);
-  const Float3 along = render::unit_or(b - kEntry, {});
-  const Float3 across = render::unit_or(render::cross(along, {0.45f, 0.3f, -0.5f}), {});
-  const Float3 low = b + -0.002f * along;
-  golden.papers = {{low + -0.026f * across, low + 0.026f * across,
-                    low + 0.026f * across + 0.036f * along,
-                    low + -0.026f * across + 0.036f * along}};
+  StagedOperation s(Step::kGuide);
+  s.measure(guided(3.4, 0.0006, -0.0062));
+  GoldenScene golden =
+      s.scene("labels_off_tag", "the cross beside a tag's outline, nothing of it on the tag");
+  const Float3 middle = disc_of(golden.scene, kCrossLabel)->middle;
+  constexpr Float3 kAcross = {0.040f, 0, 0};
+  constexpr Float3 kAlong = {0, 0, 0.045f};
+  golden.papers = {{middle + -1.0f * kAcross + -1.0f * kAlong, middle + kAcross + -1.0f * kAlong,
+                    middle + kAcross + kAlong, middle + -1.0f * kAcross + kAlong}};
   render::LineItem outline;
   outline.label = kPaperLabel;
   outline.points.assign(golden.papers[0].begin(), golden.papers[0].end());
   outline.closed = true;
   golden.scene.lines.push_back(outline);
-  add_entry(golden.scene, {kEntry, kNormal, "L4 left", false, LabelSide::kLeft}, kEntryLabel);
-  add_planned_trajectory(golden.scene, kEntry, kTarget, kTrajectoryLabel);
-  add_deviation_triangle(golden.scene, kEntry, b, planned_point(), Grade::kFair, kTriangleLabel);
-  add_angle_readout(golden.scene, kEntry, b, "3.4°", Grade::kFair, kAngleLabel);
-  add_depth(golden.scene, kEntry, b, shown_depth(-0.0062, 0.0512), kDepthLabel);
-  add_status_line(golden.scene, "guide L4 left | RMSE 0.62 mm", kToolDots, kStatusLabel);
-  golden.covered = {{kEntryLabel, kEntry}};
   return golden;
+}
+
+/// The eyes rest so that the cross would hang over the planned trajectory.
+GoldenScene off_the_trajectory() {
+  StagedOperation s(Step::kGuide);
+  s.measure(guided(3.4, 0.0006, -0.0062));
+  const Viewer viewer = surgeon();
+  const Float3 back = render::unit_or(viewer.eye - kSite, {});
+  s.rests_on = kSite + 0.022f * render::cross(viewer.up, back) + -0.030f * viewer.up;
+  return s.scene("labels_off_trajectory", "the cross beside the trajectory, nothing of it on that");
 }
 
 /// A rod so low in view that its length was written over the status line.
@@ -78,37 +98,7 @@ GoldenScene rod_length() {
   for (const Float3 head : kHeads) {
     golden.covered.push_back({kRodLabel, head});
   }
-  add_status_line(golden.scene, "rod right | 2 heads", kToolDots, kStatusLabel);
-  return golden;
-}
-
-/// A site so low in view that the lowest numbers lay over the row above the status line.
-GoldenScene numbers_low() {
-  const Viewer viewer = surgeon();
-  GoldenScene golden =
-      start_wide("labels_numbers", "the numbers under the cross end above the status line's rows",
-                 render::stereo_pair(render::look_at(viewer.eye, kEntry + 0.055f * viewer.up,
-                                                     viewer.up, 0.394f, 0.2561f)));
-  TargetCross cross;
-  cross.site = kEntry;
-  cross.outward = render::unit_or(kEntry - kTarget, {});
-  cross.viewer = viewer;
-  cross.side = LabelSide::kLeft;
-  cross.reading = CrossReading{{0.0005f, 0, 0.0004f}, {0.004f, 0, -0.002f}, Grade::kFair};
-  const nav::ScrewNumbers numbers = numbers_of(guided(3.4, 0.0006, -0.0062), {});
-  nav::ShownClearance clearance;
-  clearance.least_tenths = 25;
-  clearance.lower_95_tenths = 6;
-  add_entry(golden.scene, {kEntry, kNormal, "L4 left", false, LabelSide::kLeft}, kEntryLabel);
-  add_planned_trajectory(golden.scene, kEntry, kTarget, kTrajectoryLabel);
-  add_target_cross(golden.scene, cross, kCrossLabel);
-  add_numbers(golden.scene, cross, numbers, false, kNumbersLabel, true);
-  add_clearance(golden.scene, cross, clearance, kClearanceLabel);
-  add_status_line(golden.scene, "guide L4 left | RMSE 0.62 mm", kToolDots, kStatusLabel);
-  std::string row;
-  append_numbers(row, numbers, false);
-  add_row_above_status(golden.scene, row, kNumbersRowLabel);
-  golden.covered = {{kEntryLabel, kEntry}};
+  add_status_line(golden.scene, "rod right | touch the next head", kToolDots, kStatusLabel);
   return golden;
 }
 
@@ -117,8 +107,12 @@ GoldenScene numbers_low() {
 void add_label_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(names());
   scenes.push_back(off_the_tag());
+  scenes.push_back(off_the_trajectory());
+  scenes.push_back(turned("labels_left_edge", "the site at the left edge, the cross whole", 13, 0));
+  scenes.push_back(
+      turned("labels_right_edge", "the site at the right edge, the cross whole", -14, 0));
+  scenes.push_back(turned("labels_low", "the site low, the cross above the status line", 0, 9));
   scenes.push_back(rod_length());
-  scenes.push_back(numbers_low());
 }
 
 }  // namespace orthonav::engine::golden

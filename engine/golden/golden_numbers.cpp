@@ -1,8 +1,8 @@
 #include "base/angle.h"
-#include "engine/golden/golden_stage.h"
-#include "engine/holograms/hologram_numbers.h"
+#include "engine/golden/golden_operation.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/screw_holograms.h"
 #include "render/float3.h"
 #include "render/projection.h"
 
@@ -11,132 +11,109 @@ namespace {
 
 using render::Float3;
 
-/// A tool at a plan of either side, its tip off the entry towards the patient's head and left, its
-/// shaft leaning as far.
-nav::ScrewGuidance tool_at(Side side, Vec3 tip_off_m, Vec3 lean_rad) {
-  const nav::ScrewPlan plan = plan_of(side);
+/// A tool at the plan of the left screw, its tip off the entry towards the patient's head and left,
+/// its shaft leaning as far.
+nav::ScrewGuidance tool_at(Vec3 tip_off_m, Vec3 lean_rad) {
+  const nav::ScrewPlan plan = plan_of(Side::kLeft);
   const Vec3 outward = (plan.entry - plan.target).normalized();
   return nav::guide({Mat3::identity(), {}}, plan, {plan.entry.v + tip_off_m},
                     rotation_from_vector(lean_rad) * outward);
 }
 
-TargetCross cross_with(const nav::ScrewGuidance& tool, LabelSide hangs) {
-  TargetCross cross;
-  cross.site = {0, 0.0320f, 0.0070f};
-  cross.outward = to_float3((tool.c - tool.a).normalized());
-  cross.viewer = surgeon();
-  cross.side = hangs;
-  cross.reading = CrossReading{to_float3(tool.tip_offset_m), to_float3(tool.top_offset_m),
-                               grade_of(tool.angle_rad)};
-  return cross;
-}
+constexpr Vec3 kTipOff_m{0.0003, 0.0, 0.0004};
+constexpr Vec3 kLean_rad{0.012, 0.0, -0.008};
 
-GoldenScene captioned(const std::string& name, const std::string& what, const TargetCross& cross,
-                      const nav::ScrewNumbers& numbers, bool registration_only) {
-  constexpr float kCaption_m = 0.037f;
-  const CrossPlaces places = places_of(cross);
-  GoldenScene golden =
-      start(name, what,
-            {render::look_at(cross.viewer.eye, places.middle - kCaption_m * places.up,
-                             cross.viewer.up, 0.216f, 0.1404f)});
-  add_target_cross(golden.scene, cross, kCrossLabel);
-  add_numbers(golden.scene, cross, numbers, registration_only, kNumbersLabel);
-  golden.covered = {{kCrossDotLabel, places.dots[0]}};
-  return golden;
-}
+/// The cross and what is written about it, and nothing else, from near.
+class NearCross {
+ public:
+  explicit NearCross(const nav::ScrewGuidance& tool, const NumberSds& sds = {})
+      : staged(Step::kGuide) {
+    staged.measure(tool, sds);
+    staged.guidance.drill = {nav::DrillPhase::kSet, nav::DrillAlarm::kNone, true};
+  }
+  [[nodiscard]] GoldenScene scene(const std::string& name, const std::string& what,
+                                  float wider = 1.0f) const {
+    const float down_m = 0.020f * wider;
+    const GoldenScene whole = staged.scene(name, what);
+    const Viewer viewer = surgeon();
+    const CrossDisc disc = disc_of(whole.scene, kCrossLabel).value();
+    GoldenScene golden = start(name, what,
+                               {render::look_at(viewer.eye, disc.middle - down_m * viewer.up,
+                                                viewer.up, wider * 0.185f, wider * 0.12025f)});
+    const auto of_cross = [](const auto& item) {
+      const HologramKind kind = kind_of(item.label);
+      return kind == HologramKind::kCross || kind == HologramKind::kAngle ||
+             kind == HologramKind::kDepth || kind == HologramKind::kNumbers;
+    };
+    golden.scene = whole.scene;
+    const auto beside = [&](const auto& item) { return !of_cross(item); };
+    golden.scene.meshes.erase_if(beside);
+    golden.scene.lines.erase_if(beside);
+    golden.scene.triangles.erase_if(beside);
+    golden.scene.texts.erase_if([&](const render::TextItem& item) {
+      return beside(item) || item.place == render::TextPlace::kView;
+    });
+    return golden;
+  }
+  StagedOperation staged;
+};
 
-// Towards the patient's head and left by 1.2 and 0.8 mm; aiming caudal and to the right.
-constexpr Vec3 kTipOff_m{0.0008, 0.0, 0.0012};
-constexpr Vec3 kLean_rad{0.036, 0.0, -0.021};
-
-GoldenScene of_side(Side side, LabelSide hangs) {
-  const bool left = side == Side::kLeft;
-  const nav::ScrewGuidance tool = tool_at(side, kTipOff_m, kLean_rad);
-  return captioned(left ? "h13_left" : "h13_right",
-                   left ? "left screw: tip cranial and lateral, aims caudal and medial"
-                        : "right screw, the tool off as before: tip medial, aims lateral",
-                   cross_with(tool, hangs), numbers_of(tool, {}, side), false);
-}
-
-GoldenScene unsure(const std::string& name, const std::string& what, const NumberSds& sds,
-                   bool registration_only) {
-  const nav::ScrewGuidance tool = tool_at(Side::kLeft, kTipOff_m, kLean_rad);
-  return captioned(name, what, cross_with(tool, LabelSide::kLeft), numbers_of(tool, sds),
-                   registration_only);
-}
-
-GoldenScene on_plan() {
-  const nav::ScrewGuidance tool = tool_at(Side::kLeft, {}, {});
-  return captioned("h13_zero", "four zeros without a direction, dots in the middle",
-                   cross_with(tool, LabelSide::kLeft), numbers_of(tool, {}), false);
+GoldenScene numbers(const std::string& name, const std::string& what,
+                    const nav::ScrewGuidance& tool, const NumberSds& sds = {}) {
+  return NearCross(tool, sds).scene(name, what);
 }
 
 GoldenScene cleared(const std::string& name, const std::string& what,
                     const nav::ShownClearance& clearance) {
-  const nav::ScrewGuidance tool = tool_at(Side::kLeft, kTipOff_m, kLean_rad);
-  const TargetCross cross = cross_with(tool, LabelSide::kLeft);
-  GoldenScene golden = captioned(name, what, cross, numbers_of(tool, {}), false);
-  add_clearance(golden.scene, cross, clearance, kClearanceLabel);
-  return golden;
+  NearCross near(tool_at(kTipOff_m, kLean_rad));
+  near.staged.guidance.tool->shown_clearance = clearance;
+  return near.scene(name, what);
 }
 
-/// The tool off the entry by so much towards the patient's left, aiming as planned.
-GoldenScene drilled(const std::string& name, const std::string& what, double off_m,
-                    nav::DrillAlarm alarm) {
-  const nav::ScrewGuidance tool = tool_at(Side::kLeft, {off_m, 0.0, 0.0}, {});
-  const TargetCross cross = cross_with(tool, LabelSide::kLeft);
-  const bool stop = alarm == nav::DrillAlarm::kStop;
-  GoldenScene golden = captioned(name, what, cross, numbers_of(tool, {}), false);
-  add_drill(golden.scene, cross, {nav::DrillPhase::kDrilling, alarm, true},
-            stop ? kStopLabel : kDrillLabel);
-  return golden;
+GoldenScene unknown() {
+  NearCross near(tool_at(kTipOff_m, kLean_rad));
+  ToolGuidance& tool = *near.staged.guidance.tool;
+  tool.sizes->angle.certainty = tool.sizes->offset.certainty = nav::Certainty::kUnknown;
+  tool.depth->certainty = nav::Certainty::kUnknown;
+  return near.scene("h6_unknown", "three numbers with question marks in amber rims");
 }
 
 /// With a pose that is too old, only the stop remains.
-GoldenScene stop_unseen() {
-  GoldenScene golden = drilled("h13_stop_late", "tool lost in the outer ring, stop below it",
-                               0.0002, nav::DrillAlarm::kStop);
+GoldenScene stop_late() {
+  NearCross near(tool_at(kTipOff_m, kLean_rad));
+  near.staged.guidance.drill = {nav::DrillPhase::kDrilling, nav::DrillAlarm::kStop, true};
+  GoldenScene golden = near.scene("h13_stop_late", "stop, tool lost in the ring, dashes");
   hide_tool_guidance(golden.scene);
-  golden.covered.clear();
   return golden;
 }
 
-GoldenScene lost() {
-  GoldenScene golden = of_side(Side::kLeft, LabelSide::kLeft);
-  golden.name = "h13_lost";
-  golden.what = "tool lost in the outer ring, no number left";
-  add_row_above_status(golden.scene, "tip 1.2 mm cranial", kNumbersRowLabel);
-  hide_tool_guidance(golden.scene);
-  golden.covered.clear();
-  return golden;
+GoldenScene panel(const std::string& name, const std::string& what, const NumberSds& sds) {
+  NearCross near(tool_at(kTipOff_m, kLean_rad), sds);
+  near.staged.guidance.numbers = true;
+  return near.scene(name, what, 1.7f);
 }
 
 }  // namespace
 
 void add_number_scenes(std::vector<GoldenScene>& scenes) {
-  scenes.push_back(of_side(Side::kLeft, LabelSide::kLeft));
-  scenes.push_back(of_side(Side::kRight, LabelSide::kRight));
-  scenes.push_back(unsure("h13_unsure", "offsets smaller and with their SDs, angles as ever",
-                          {0.0014, 0.005}, false));
-  scenes.push_back(unsure("h13_all_unsure", "all four with SDs, of the registration only",
-                          {0.0014, 0.031}, true));
-  scenes.push_back(on_plan());
-  scenes.push_back(cleared("h13_clearance", "clearance 2.4 mm, at least 1.1 mm below the numbers",
-                           {24, 11, "medial"}));
-  scenes.push_back(cleared("h13_may_break",
-                           "clearance 0.4 mm, in a red rim: may break through medially",
+  scenes.push_back(numbers("h6_good", "angle, offset and depth in white, all green",
+                           tool_at(kTipOff_m, kLean_rad)));
+  scenes.push_back(numbers("h6_angle", "the angle in an amber rim, an arrow from ring to dot",
+                           tool_at(kTipOff_m, {0.05, 0.0, -0.02})));
+  scenes.push_back(numbers("h6_offset", "the offset in a red rim, an arrow to the middle",
+                           tool_at({0.0018, 0.0, 0.0016}, kLean_rad)));
+  scenes.push_back(numbers("h6_bounds", "three bounds in amber rims: ≤, ≤, ≥",
+                           tool_at(kTipOff_m, kLean_rad), {0.0014, 0.031}));
+  scenes.push_back(unknown());
+  scenes.push_back(numbers("h9_past_target", "the depth past the target in a red rim, a full bar",
+                           guided(0.5, 0.0002, 0.0456)));
+  scenes.push_back(cleared("h13_may_break", "may break through medially, amber, above the rings",
                            {4, -7, "medial"}));
-  scenes.push_back(cleared("h13_breaks", "clearance below zero, in a red rim: breaks through",
-                           {-13, -24, "lateral"}));
-  scenes.push_back(drilled("h13_drilling", "drilling, in white", 0.0003, nav::DrillAlarm::kNone));
-  scenes.push_back(drilled("h13_drifting", "drilling: drifting, in an amber rim", 0.0014,
-                           nav::DrillAlarm::kAmber));
+  scenes.push_back(cleared("h13_breaks", "breaks through laterally, red", {-13, -24, "lateral"}));
+  scenes.push_back(stop_late());
+  scenes.push_back(panel("h13_panel", "below the three numbers four more and the clearance", {}));
   scenes.push_back(
-      drilled("h13_off_plan", "drilling: off plan, in a red rim", 0.0026, nav::DrillAlarm::kRed));
-  scenes.push_back(
-      drilled("h13_stop", "stop, large and in a red rim", 0.0003, nav::DrillAlarm::kStop));
-  scenes.push_back(stop_unseen());
-  scenes.push_back(lost());
+      panel("h13_panel_unsure", "the same with SDs, smaller and paler", {0.0014, 0.031}));
 }
 
 }  // namespace orthonav::engine::golden

@@ -45,6 +45,9 @@ GoldenScene rod(const std::string& name, const std::string& what, Float3 offset)
   hologram.heads = kHeads;
   hologram.bends = bends;
   hologram.length_m = 0.0820;
+  hologram.to_cut = true;
+  constexpr std::array<std::string_view, 3> kNames = {"L5", "L4", "L3"};
+  hologram.head_names = kNames;
   hologram.offset = offset;
   add_rod(golden.scene, hologram, kRodLabel);
   for (const Float3 head : kHeads) {
@@ -69,7 +72,7 @@ GoldenScene status(const std::string& name, const std::string& what, const std::
                    ToolState pointer, ToolState guide) {
   GoldenScene golden = start_wide(name, what, surgeon_views());
   golden.views.resize(1);
-  const std::array<ToolDot, 2> tools = {{{"pointer", pointer}, {"guide", guide}}};
+  const std::array<ToolDot, 2> tools = {{{pointer}, {guide}}};
   add_status_line(golden.scene, text, tools, kStatusLabel);
   return golden;
 }
@@ -78,7 +81,7 @@ GoldenScene status(const std::string& name, const std::string& what, const std::
 GoldenScene head_lost() {
   GoldenScene golden =
       status("h11_head_lost", "status line, a line with a red rim above it, nothing else",
-             "guide L4 left | RMSE 0.62 mm", ToolState::kMeasured, ToolState::kMeasured);
+             "guide L4 left | drill", ToolState::kMeasured, ToolState::kMeasured);
   render::Scene whole = golden.scene;
   whole.lines.push_back(
       {kAngleLabel, {kPlacesToCheck[0], kPlacesToCheck[1]}, 0.002f, look::colours().good});
@@ -112,18 +115,19 @@ GoldenScene to_check() {
 
 void add_other_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(
-      rod("h10_rod", "titanium rod through three blue heads, two amber bends, length", {}));
+      rod("h10_rod", "titanium rod through three named blue heads, two amber bends, what to cut to",
+          {}));
   scenes.push_back(rod("h10_rod_moved", "the same rod, moved aside", {0.014f, -0.006f, -0.006f}));
   scenes.push_back(heads("h10_one_head", "one blue head, no rod, no length", 1));
   scenes.push_back(heads("h10_no_rod", "two blue heads that make no rod, no length", 2));
   scenes.push_back(status("h11_measured", "status line low in view, two filled dots in green rims",
-                          "verify L4 | RMSE 0.62 mm | predicted 1.1 mm", ToolState::kMeasured,
+                          "verify L4 | passed: say accept result", ToolState::kMeasured,
                           ToolState::kMeasured));
   scenes.push_back(status("h11_lost", "status line: pointer half in amber, guide hollow in red",
                           "digitize L4 | refused: registration RMSE 3.4 mm, limit 3.0 mm",
                           ToolState::kPredicted, ToolState::kLost));
-  scenes.push_back(status("h11_short", "status line: one word", "setup", ToolState::kLost,
-                          ToolState::kMeasured));
+  scenes.push_back(
+      status("h11_short", "status line: one word", "done", ToolState::kLost, ToolState::kMeasured));
   scenes.push_back(head_lost());
   scenes.push_back(to_check());
   scenes.push_back(check("h12_within", "green diamond, 0.4 mm and a tick", 0.0004, true));

@@ -37,7 +37,9 @@ GoldenScene cross_seen(const std::string& name, const std::string& what, const T
   GoldenScene golden = start(
       name, what, {render::look_at(cross.viewer.eye, middle, cross.viewer.up, 0.100f, 0.065f)});
   add_target_cross(golden.scene, cross, kCrossLabel);
-  golden.centred = {{kCrossLabel, middle}};
+  if (!cross.reading || cross.reading->grade == Grade::kGood) {  // dashes are not alike all around
+    golden.centred = {{kCrossLabel, middle}};
+  }
   if (cross.reading) {
     golden.covered = {{kCrossDotLabel, places_of(cross).dots[0]}};
   }
@@ -47,7 +49,11 @@ GoldenScene cross_seen(const std::string& name, const std::string& what, const T
 GoldenScene cross(const std::string& name, const std::string& what, float tip_m, float top_m,
                   float roll_deg = 0.0f) {
   const Grade grade = grade_of(std::atan(std::abs(top_m - tip_m) / 0.080f));
-  const CrossReading reading{off_axis(tip_m, 200.0f), off_axis(top_m, 120.0f), grade};
+  const bool tip = tip_m > 0.002f;
+  const Worst worst = grade == Grade::kGood && !tip ? Worst::kNothing
+                      : tip                         ? Worst::kOffset
+                                                    : Worst::kAngle;
+  const CrossReading reading{off_axis(tip_m, 200.0f), off_axis(top_m, 120.0f), grade, worst};
   const Viewer viewer = surgeon(0.4263f, roll_deg);
   return cross_seen(name, what, target(reading, viewer));
 }
@@ -81,38 +87,25 @@ GoldenScene twin(const std::string& name, const std::string& what, bool with_too
   return golden;
 }
 
-GoldenScene depth(const std::string& name, const std::string& what, double depth_m,
-                  double to_target_m, double sd_m = 0.0004) {
-  GoldenScene golden = start(name, what, close_view({0.012f, 0.110f, 0.020f}));
-  const Float3 b = tool_point(1.4);
-  add_angle_readout(golden.scene, kEntry, b, angle_text(1.4 * kRadiansPerDegree), Grade::kGood,
-                    kAngleLabel);
-  add_depth(golden.scene, kEntry, b, shown_depth(depth_m, to_target_m, sd_m), kDepthLabel);
-  return golden;
-}
-
 }  // namespace
 
 void add_precision_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(cross("h7_aligned", "both dots in the inner ring, green", 0.0004f, 0.0009f));
   scenes.push_back(cross("h7_near", "both dots about the middle ring, green", 0.0018f, 0.0022f));
-  scenes.push_back(
-      cross("h7_amber", "dot inside, hollow dot near the outer ring, amber", 0.0014f, 0.0048f));
-  scenes.push_back(cross("h7_outside", "two arrows at the rim, red", 0.0085f, 0.0180f));
+  scenes.push_back(cross(
+      "h7_amber", "dot inside, hollow dot near the outer ring, amber, an arrow from it to the dot",
+      0.0014f, 0.0048f));
+  scenes.push_back(cross("h7_outside",
+                         "both dots at the rim, red, an arrow from the filled one inwards", 0.0085f,
+                         0.0180f));
   scenes.push_back(
       cross("h7_rolled_left", "as amber, the head rolled to the left", 0.0014f, 0.0048f, -20.0f));
   scenes.push_back(
       cross("h7_rolled_right", "as amber, the head rolled to the right", 0.0014f, 0.0048f, 20.0f));
   scenes.push_back(empty_cross("h7_empty", "rings without dots", false));
-  scenes.push_back(empty_cross("h7_lost", "rings, tool lost written across them", true));
+  scenes.push_back(empty_cross("h7_lost", "the outer ring, tool lost written across it", true));
   scenes.push_back(twin("h8_twin", "vertebra and plan, twice as large", false));
   scenes.push_back(twin("h8_twin_tool", "the same with triangle and a white tool", true));
-  scenes.push_back(depth("h9_to_entry", "1.4°, under it 12.3 mm to entry", -0.0123, 0.055));
-  scenes.push_back(depth("h9_to_target", "1.4°, under it 31.0 mm to target", 0.0134, 0.0310));
-  scenes.push_back(
-      depth("h9_past_target", "1.4°, under it 1.2 mm past target in a red rim", 0.0456, -0.0012));
-  scenes.push_back(depth("h9_unsure", "1.4°, under it 31.0 ± 1.4 mm to target, smaller and paler",
-                         0.0134, 0.0310, 0.0014));
 }
 
 }  // namespace orthonav::engine::golden

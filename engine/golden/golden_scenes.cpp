@@ -23,7 +23,7 @@ Srgb site_colour(int x, int y, int bluer) {
 
 }  // namespace
 
-std::vector<GoldenScene> golden_scenes() {
+std::vector<GoldenScene> golden_scenes(bool laid_out) {
   std::vector<GoldenScene> scenes;
   golden::add_shape_scenes(scenes);
   golden::add_precision_scenes(scenes);
@@ -35,6 +35,9 @@ std::vector<GoldenScene> golden_scenes() {
   golden::add_view_scenes(scenes);
   golden::add_label_scenes(scenes);
   for (GoldenScene& golden : scenes) {
+    if (!laid_out) {
+      break;
+    }
     LabelLayout().lay_out(golden.scene, golden.views, golden.papers, Timestamp{});
   }
   golden::add_text_scenes(scenes);

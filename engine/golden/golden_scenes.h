@@ -36,8 +36,9 @@ struct GoldenScene {
   std::vector<GoldenPoint> centred;
 };
 
-/// Every golden scene, in a fixed order; the same values at every call.
-[[nodiscard]] std::vector<GoldenScene> golden_scenes();
+/// Every golden scene, in a fixed order; the same values at every call. For controls also before
+/// anything made way for anything.
+[[nodiscard]] std::vector<GoldenScene> golden_scenes(bool laid_out = true);
 
 /// The background of the `over` pictures, slightly uneven.
 [[nodiscard]] RgbaImage golden_background(int width_px, int height_px,

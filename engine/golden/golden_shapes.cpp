@@ -115,19 +115,6 @@ GoldenScene triangle(const std::string& name, const std::string& what, double an
   return golden;
 }
 
-GoldenScene readout(const std::string& name, const std::string& what,
-                    std::optional<double> angle_deg) {
-  GoldenScene golden = start(name, what, close_view({0.035f, 0.115f, 0.01f}));
-  std::optional<double> angle_rad;
-  if (angle_deg) {
-    angle_rad = *angle_deg * kRadiansPerDegree;
-  }
-  const Float3 b = tool_point(angle_deg.value_or(4.0));
-  add_angle_readout(golden.scene, kEntry, b, angle_text(angle_rad),
-                    grade_of(angle_rad.value_or(1.0)), kAngleLabel);
-  return golden;
-}
-
 }  // namespace
 
 void add_shape_scenes(std::vector<GoldenScene>& scenes) {
@@ -157,11 +144,6 @@ void add_shape_scenes(std::vector<GoldenScene>& scenes) {
       triangle("h5_limit", "still amber at 5.0 degrees, solid edges", 5.0, tool_point(5.0)));
   scenes.push_back(triangle("h5_beside", "open green triangle: parallel, 3 mm beside the entry",
                             0.0, to_float3(guided(0.0, 0.003, 0.0).b.v)));
-  scenes.push_back(readout("h6_green", "1.2° in white, green rim", 1.2));
-  scenes.push_back(readout("h6_amber", "3.8° in white, amber rim", 3.8));
-  scenes.push_back(readout("h6_red", "12.4° in white, red rim", 12.4));
-  scenes.push_back(readout("h6_far_off", "21.9° in white, red rim", 21.9));
-  scenes.push_back(readout("h6_lost", "dashes instead of a number, red rim", std::nullopt));
 }
 
 }  // namespace orthonav::engine::golden

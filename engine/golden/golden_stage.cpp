@@ -76,6 +76,11 @@ nav::ScrewNumbers numbers_of(const nav::ScrewGuidance& tool, const NumberSds& sd
   return nav::ScrewNumberWriter().write(deviation.value());
 }
 
+nav::ScrewSizes sizes_of(const nav::ScrewGuidance& tool, const NumberSds& sds) {
+  return nav::ScrewSizeWriter().write({tool.angle_rad, sds.rotation_rad},
+                                      {tool.tip_off_axis_m, sds.translation_m});
+}
+
 nav::ShownDepth shown_depth(double depth_m, double to_target_m, double sd_m) {
   return nav::DepthWriter().write({depth_m, sd_m}, to_target_m).value();
 }

@@ -43,9 +43,11 @@ inline constexpr render::Label kRodLabel = label_of(HologramKind::kRod, 1);
 inline constexpr render::Label kStatusLabel = label_of(HologramKind::kStatus, 1);
 inline constexpr render::Label kNumbersLabel = label_of(HologramKind::kNumbers, 1);
 inline constexpr render::Label kClearanceLabel = label_of(HologramKind::kNumbers, 3);
-inline constexpr render::Label kDrillLabel = label_of(HologramKind::kNumbers, 4);
+inline constexpr render::Label kWordLabel = label_of(HologramKind::kNumbers, 4);
 inline constexpr render::Label kStopLabel = label_of(HologramKind::kNumbers, 5);
-inline constexpr render::Label kNumbersRowLabel = label_of(HologramKind::kNumbers, 2);
+inline constexpr render::Label kOffsetLabel = label_of(HologramKind::kNumbers, 6);
+inline constexpr render::Label kNextActLabel = label_of(HologramKind::kNumbers, 2);
+inline constexpr render::Label kTipDistanceLabel = label_of(HologramKind::kDepth, 2);
 inline constexpr render::Label kCheckPointLabel = label_of(HologramKind::kCheckPoint, 1);
 
 /// Spread over the bone, to be touched for verification.
@@ -73,6 +75,8 @@ struct NumberSds {
 };
 [[nodiscard]] nav::ScrewNumbers numbers_of(const nav::ScrewGuidance& tool, const NumberSds& sds,
                                            Side side = Side::kLeft);
+/// How the product would show the sizes of its angle and offset.
+[[nodiscard]] nav::ScrewSizes sizes_of(const nav::ScrewGuidance& tool, const NumberSds& sds);
 /// How the product would show a depth past the entry of which so much is left to the target.
 [[nodiscard]] nav::ShownDepth shown_depth(double depth_m, double to_target_m, double sd_m = 0.0004);
 
@@ -97,13 +101,10 @@ inline constexpr nav::ShownClearance kClearance{24, 11, "medial"};
 [[nodiscard]] GoldenScene start_wide(std::string name, std::string what,
                                      std::vector<render::View> views);
 
-/// Guiding the left screw of L4 with everything, the right one done.
-[[nodiscard]] GoldenScene guidance_scene();
-
 // Appended in the order in which they are listed.
-void add_shape_scenes(std::vector<GoldenScene>& scenes);      ///< H1 to H6
-void add_precision_scenes(std::vector<GoldenScene>& scenes);  ///< H7 to H9
-void add_number_scenes(std::vector<GoldenScene>& scenes);     ///< H13
+void add_shape_scenes(std::vector<GoldenScene>& scenes);      ///< H1 to H5
+void add_precision_scenes(std::vector<GoldenScene>& scenes);  ///< H7 and H8
+void add_number_scenes(std::vector<GoldenScene>& scenes);     ///< H6, H9 and H13, about the cross
 void add_other_scenes(std::vector<GoldenScene>& scenes);      ///< H10 to H12
 void add_rod_scenes(std::vector<GoldenScene>& scenes);        ///< H10 of a rod in hand
 void add_step_scenes(std::vector<GoldenScene>& scenes);       ///< the workflow, step by step

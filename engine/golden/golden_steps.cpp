@@ -1,10 +1,8 @@
-#include <array>
+#include <string>
 
-#include "engine/golden/golden_stage.h"
+#include "engine/golden/golden_operation.h"
 #include "engine/golden/golden_vertebra.h"
-#include "engine/holograms/hologram_numbers.h"
 #include "engine/holograms/render_values.h"
-#include "engine/session/wording.h"
 #include "render/float3.h"
 
 namespace orthonav::engine::golden {
@@ -12,236 +10,170 @@ namespace {
 
 using render::Float3;
 
-// The steps that the scenes show.
-const StepOnDisplay kSetup{Step::kSetup, {}, {}};
-const StepOnDisplay kDigitize{Step::kDigitize, "L4", {}};
-const StepOnDisplay kVerify{Step::kVerify, "L4", {}};
-const StepOnDisplay kAccepted{Step::kAccepted, "L4", {}};
-const StepOnDisplay kGuide{Step::kGuide, "L4", Side::kLeft};
-const StepOnDisplay kGuideNext{Step::kGuide, "L5", Side::kLeft};
-
-/// `detail` is the text after the step on the status line; may be empty.
-GoldenScene step(const std::string& name, const std::string& what, const StepOnDisplay& at,
-                 const std::string& detail, ToolState tool = ToolState::kMeasured) {
-  GoldenScene golden = start_wide(name, what + ", both eyes", surgeon_views());
-  const bool pointer = at.step == Step::kDigitize || at.step == Step::kVerify;
-  const std::string status = step_text(at) + (detail.empty() ? "" : " | " + detail);
-  const std::array<ToolDot, 2> tools = {
-      {{pointer ? "pointer" : "guide", tool}, {"reference", ToolState::kPredicted}}};
-  add_status_line(golden.scene, status, tools, kStatusLabel);
-  return golden;
-}
-
-void add_paths(GoldenScene& golden, bool recording) {
-  const std::vector<Float3> saved = stroke();
-  add_sampled_path(golden.scene, saved, PathState::kSaved, kPathLabel);
-  golden.covered.push_back({kPathLabel, saved.front()});
-  if (!recording) {
-    return;
+nav::Region region_of(const std::vector<Float3>& stroke, std::size_t count, bool saved) {
+  nav::Region region;
+  for (std::size_t i = 0; i < count; ++i) {
+    region.samples.push_back({Point<World>{to_vec3(stroke[i])}, Timestamp{}});
   }
-  std::vector<Float3> recorded = stroke(Side::kLeft);
-  recorded.resize(70);
-  add_sampled_path(golden.scene, recorded, PathState::kRecording, kOtherPathLabel);
-  golden.covered.push_back({kOtherPathLabel, recorded.back()});
+  region.saved = saved;
+  return region;
 }
 
-void add_bone(GoldenScene& golden) {
-  add_vertebra(golden.scene, make_golden_vertebra(), render::kIdentity, kVertebraLabel);
-}
-
-void add_entries(GoldenScene& golden, bool left_done, bool right_done) {
-  add_entry(golden.scene, {kEntry, kNormal, "L4 left", left_done, LabelSide::kLeft}, kEntryLabel);
-  add_entry(golden.scene, {kOtherEntry, kOtherNormal, "L4 right", right_done, LabelSide::kRight},
-            kOtherEntryLabel);
-  golden.covered.push_back({kOtherEntryLabel, kOtherEntry});
-}
-
-/// Everything that does not depend on the tool.
-GoldenScene guiding(const std::string& name, const std::string& what, const std::string& detail,
-                    ToolState tool = ToolState::kMeasured) {
-  GoldenScene golden = step(name, what, kGuide, detail, tool);
-  add_entries(golden, false, true);
-  add_planned_trajectory(golden.scene, kEntry, kTarget, kTrajectoryLabel);
-  return golden;
-}
-
-TargetCross add_cross_to(GoldenScene& golden, std::optional<CrossReading> reading, bool lost) {
-  TargetCross cross;
-  cross.site = kSite;
-  cross.outward = planned_direction();
-  cross.viewer = surgeon();
-  cross.reading = reading;
-  cross.lost = lost;
-  add_target_cross(golden.scene, cross, kCrossLabel);
-  return cross;
-}
-
-/// The guide at an angle, its tip beside the entry.
-void add_tool_to(GoldenScene& golden, const nav::ScrewGuidance& guide, bool measured) {
-  const Float3 b = to_float3(guide.b.v);
-  const double angle_rad = guide.angle_rad;
-  const Grade grade = measured ? grade_of(angle_rad) : Grade::kFair;
-  add_deviation_triangle(golden.scene, kEntry, b, planned_point(), grade, kTriangleLabel);
-  add_angle_readout(golden.scene, kEntry, b,
-                    angle_text(measured ? std::optional(angle_rad) : std::nullopt),
-                    measured ? grade : Grade::kPoor, kAngleLabel);
-  golden.covered.push_back({kTriangleLabel, b});
-  golden.covered.push_back({kTriangleLabel, planned_point()});
-  if (!measured) {
-    add_cross_to(golden, std::nullopt, false);
-    return;
-  }
-  const TargetCross cross = add_cross_to(
-      golden, CrossReading{to_float3(guide.tip_offset_m), to_float3(guide.top_offset_m), grade},
-      false);
-  const nav::ScrewNumbers numbers = numbers_of(guide, {});
-  add_numbers(golden.scene, cross, numbers, false, kNumbersLabel);
-  add_clearance(golden.scene, cross, kClearance, kClearanceLabel);
-  std::string row;
-  append_numbers(row, numbers, false);
-  add_row_above_status(golden.scene, row, kNumbersRowLabel);
-  add_depth(golden.scene, kEntry, b, shown_depth(guide.depth_m, guide.to_target_m), kDepthLabel);
+GoldenScene setup() {
+  const StagedOperation s(Step::kSetup);
+  return s.scene("setup", "the status line alone, what to say");
 }
 
 GoldenScene digitizing() {
-  GoldenScene golden =
-      step("digitizing", "orange saved path, yellow one being recorded", kDigitize, "812 points");
-  add_paths(golden, true);
+  StagedOperation s(Step::kDigitize);
+  s.coaching.stroke_next = nav::BonePlace{nav::BonePlace::Part::kLamina, Side::kLeft};
+  s.coaching.progress = 0.7;
+  s.coaching.stroke_at = Point<World>{to_vec3(on_golden_vertebra(0.014f, -0.010f))};
+  s.guidance.status.state = StrokesSoFar{812, &s.coaching};
+  s.regions = {region_of(stroke(), 120, true), region_of(stroke(Side::kLeft), 70, false)};
+  GoldenScene golden = s.scene(
+      "digitizing", "orange saved path, yellow one being recorded, a cyan ring where to go on");
+  golden.covered = {{kPathLabel, stroke().front()}, {kOtherPathLabel, stroke(Side::kLeft)[69]}};
   return golden;
 }
 
 GoldenScene refused() {
-  GoldenScene golden = step("digitize_refused", "orange path, the reason in the status line",
-                            kDigitize, "refused: error expected 2.3 mm; digitize the left facet");
-  add_paths(golden, false);
-  return golden;
+  StagedOperation s(Step::kDigitize);
+  s.regions = {region_of(stroke(), 120, true)};
+  RegistrationRefused why;
+  why.reasons = {{nav::RefusalReason::Kind::kTre99AtScrews, 0.0023, 0.0020, {}, {}, {}}};
+  why.stroke_next = nav::BonePlace{nav::BonePlace::Part::kLamina, Side::kLeft};
+  const Message message = why;
+  s.guidance.status.message = &message;
+  return s.scene("digitize_refused", "orange path, the reason in the status line");
+}
+
+/// In step `verify`, with a path by its distance.
+void verify(StagedOperation& s) {
+  s.regions = {region_of(stroke(), 120, true)};
+  s.residuals_m.assign(120, 0.0004f);
+  for (std::size_t i = 50; i < 70; ++i) {
+    s.residuals_m[i] = 0.0016f;
+  }
+  s.guidance.status.state = ChecksSoFar{&s.verdict};
 }
 
 GoldenScene verifying() {
-  GoldenScene golden = step("verify", "the vertebra, its path by distance, three cyan diamonds",
-                            kVerify, "RMSE 0.62 mm | touch 3 places, 15 mm apart");
-  add_bone(golden);
-  const std::vector<Float3> samples = stroke();
-  std::vector<float> distances_m(samples.size(), 0.0004f);
-  for (std::size_t i = 50; i < 70; ++i) {
-    distances_m[i] = 0.0016f;
-  }
-  add_residual_path(golden.scene, samples, distances_m, kPathLabel, kPathBehindChecks);
-  std::size_t k = 0;
+  StagedOperation s(Step::kVerify);
+  verify(s);
   for (const Float3 place : kPlacesToCheck) {
-    add_place_to_check(golden.scene, place, label_of(HologramKind::kCheckPoint, ++k));
+    s.to_check.push_back({to_vec3(place)});
   }
-  return golden;
+  s.verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 3, 0.015, 0.0};
+  return s.scene("verify", "the vertebra, its path by distance, one cyan diamond");
 }
 
 GoldenScene checked() {
-  GoldenScene golden = step("verify_checked", "the vertebra, two green places, a red one", kVerify,
-                            "check point 3 is 3.1 mm off, limit 2.0 mm");
-  add_bone(golden);
-  constexpr std::array<double, 3> kDistances_m = {0.0004, 0.0011, 0.0031};
-  std::size_t k = 0;
+  StagedOperation s(Step::kVerify);
+  verify(s);
+  constexpr std::array<double, 3> kDistances_m = {0.0004, 0.0031, 0.0033};
   for (std::size_t i = 0; i < kPlacesToCheck.size(); ++i) {
-    add_check_point(golden.scene, kPlacesToCheck[i], distance_text(kDistances_m[i]),
-                    kDistances_m[i] <= 0.002, label_of(HologramKind::kCheckPoint, ++k));
+    s.level().check_points.push_back(
+        {{to_vec3(kPlacesToCheck[i])}, kDistances_m[i], kDistances_m[i] <= 0.002});
   }
-  return golden;
+  s.verdict.advice = {nav::CheckAdvice::Kind::kReject, 3, 0.0033, 0.002};
+  return s.scene("verify_checked", "the vertebra, a dim place, two red ones, the last in numbers");
 }
 
 GoldenScene checked_often() {
-  GoldenScene golden = step("verify_many", "the vertebra, small dim places and a green one at last",
-                            kVerify, "check 13: 0.4 mm; passed, worst 1.1 mm");
-  add_bone(golden);
-  std::size_t k = 0;
+  StagedOperation s(Step::kVerify);
+  verify(s);
   for (std::size_t i = 0; i < kPlacesToCheck.size(); ++i) {
     const Float3 place = kPlacesToCheck[i];
     const Float3 next = kPlacesToCheck[(i + 1) % kPlacesToCheck.size()];
     for (const float part : {0.0f, 0.14f, 0.28f, 0.42f}) {
-      add_earlier_check_point(golden.scene, place + part * (next - place),
-                              label_of(HologramKind::kCheckPoint, ++k));
+      s.level().check_points.push_back({{to_vec3(place + part * (next - place))}, 0.0004, true});
     }
   }
-  add_check_point(golden.scene, 0.5f * (kPlacesToCheck[1] + kPlacesToCheck[2]),
-                  distance_text(0.0004), true, label_of(HologramKind::kCheckPoint, ++k));
-  return golden;
+  s.level().check_points.push_back(
+      {{to_vec3(0.5f * (kPlacesToCheck[1] + kPlacesToCheck[2]))}, 0.0004, true});
+  s.verdict.passed = true;
+  return s.scene("verify_many", "the vertebra, small dim places and a green one at last");
 }
 
 GoldenScene accepted() {
-  GoldenScene golden =
-      step("accepted", "two blue entries, nothing else", kAccepted, "RMSE 0.62 mm");
-  add_entries(golden, false, false);
-  return golden;
+  StagedOperation s(Step::kAccepted);
+  s.level().screw_done = {false, false};
+  s.level().landmark = Landmark{{to_vec3(on_golden_vertebra(0.0f, -0.014f))}, 0.0, {}};
+  s.guidance.status.state = LandmarkSoFar{true, {}, nullptr, nullptr};
+  return s.scene("accepted", "two named blue entries, a cyan diamond: touch the dimple");
 }
 
-GoldenScene guide_far() {
-  GoldenScene golden = guiding("guide_far", "plan and cross with arrows: the tool is far away",
-                               "RMSE 0.62 mm | predicted 1.1 mm");
-  add_cross_to(golden, CrossReading{{0.03f, 0, 0.02f}, {0.04f, 0, 0.02f}, Grade::kPoor}, false);
-  return golden;
-}
-
-GoldenScene guide_beside() {
-  GoldenScene golden =
-      guiding("guide_beside", "parallel, 3 mm beside the entry: green number, open triangle",
-              "RMSE 0.62 mm | predicted 1.1 mm");
-  add_tool_to(golden, guided(0.4, 0.0030, -0.0021), true);
-  return golden;
-}
-
-GoldenScene guide_drilling() {
-  GoldenScene golden = guiding("guide_drilling", "green triangle and dots, depth to the target",
-                               "RMSE 0.62 mm | predicted 1.1 mm");
-  add_tool_to(golden, guided(0.8, 0.0001, 0.0140), true);
+/// In step `guide`, with a tip that was set there if it is drilling.
+GoldenScene guide(const std::string& name, const std::string& what, const nav::ScrewGuidance& tool,
+                  nav::DrillPhase phase, bool every_number = false) {
+  StagedOperation s(Step::kGuide);
+  s.measure(tool);
+  s.guidance.drill = {phase, nav::DrillAlarm::kNone, true};
+  s.guidance.was_set = phase != nav::DrillPhase::kAway;
+  s.guidance.numbers = every_number;
+  GoldenScene golden = s.scene(name, what);
+  golden.covered = {{kOtherEntryLabel, kOtherEntry}};
   return golden;
 }
 
 GoldenScene guide_predicted() {
-  GoldenScene golden = guiding("guide_predicted", "amber triangle, dashes, rings without dots",
-                               "RMSE 0.62 mm | predicted 1.1 mm", ToolState::kPredicted);
-  add_tool_to(golden, guided(1.0, 0.0, 0.0), false);
-  return golden;
+  StagedOperation s(Step::kGuide);
+  s.predict(guided(1.0, 0.0, 0.0));
+  return s.scene("guide_predicted", "amber triangle, dashes, rings without dots");
 }
 
 GoldenScene guide_lost() {
-  GoldenScene golden = guiding("guide_lost", "plan, dashes, tool lost across the rings",
-                               "guide not seen", ToolState::kLost);
-  add_angle_readout(golden.scene, kEntry, trajectory_outer_end(kEntry, kTarget),
-                    angle_text(std::nullopt), Grade::kPoor, kAngleLabel);
-  add_cross_to(golden, std::nullopt, true);
-  return golden;
+  StagedOperation s(Step::kGuide);
+  s.lose();
+  return s.scene("guide_lost", "plan, dashes, tool lost across the ring");
 }
 
-GoldenScene screws_done() {
-  GoldenScene golden = step("guide_done", "two entries with ticks", kGuideNext, "say start");
-  add_entries(golden, true, true);
-  return golden;
+GoldenScene guide_stop() {
+  StagedOperation s(Step::kGuide);
+  s.measure(guided(0.8, 0.0003, 0.0425));
+  s.guidance.drill = {nav::DrillPhase::kDrilling, nav::DrillAlarm::kStop, true};
+  return s.scene("guide_stop", "stop above the rings and the status line, the bar full and red");
+}
+
+GoldenScene operation_done() {
+  StagedOperation s(Step::kDone);
+  s.level().screw_done = {true, true};
+  return s.scene("done", "two entries with ticks");
 }
 
 }  // namespace
 
 GoldenScene guidance_scene() {
-  GoldenScene golden =
-      guiding("guidance", "guiding the left screw of L4 with everything, the right one done",
-              "RMSE 0.62 mm | predicted 1.1 mm");
-  add_bone(golden);
-  add_tool_to(golden, guided(3.4, 0.0006, -0.0062), true);
-  return golden;
+  return guide("guidance", "3.4° off: an amber triangle, an arrow, the angle in a rim",
+               guided(3.4, 0.0006, -0.0062), nav::DrillPhase::kAway);
 }
 
 void add_step_scenes(std::vector<GoldenScene>& scenes) {
-  scenes.push_back(step("setup", "the status line alone", kSetup, "", ToolState::kLost));
+  using enum nav::DrillPhase;
+  scenes.push_back(setup());
   scenes.push_back(digitizing());
   scenes.push_back(refused());
   scenes.push_back(verifying());
   scenes.push_back(checked());
   scenes.push_back(checked_often());
   scenes.push_back(accepted());
-  scenes.push_back(guide_far());
+  scenes.push_back(guide("guide_far", "plan, its entry's name, the distance at the tip",
+                         guided(12.0, 0.030, -0.055), kAway));
   scenes.push_back(guidance_scene());
-  scenes.push_back(guide_beside());
-  scenes.push_back(guide_drilling());
+  scenes.push_back(guide("guide_set", "within limits: green, three numbers, drill",
+                         guided(0.8, 0.0004, 0.0002), kSet));
+  scenes.push_back(guide("guide_beside",
+                         "parallel, 2.6 mm beside the entry: red, the offset bright",
+                         guided(0.4, 0.0026, -0.0021), kAway));
+  scenes.push_back(guide("guide_drilling", "green triangle and dots, a larger bar filled a third",
+                         guided(0.8, 0.0001, 0.0140), kDrilling));
+  scenes.push_back(guide_stop());
+  scenes.push_back(guide("guide_numbers", "with every number: directions, planes, clearance",
+                         guided(0.8, 0.0004, 0.0002), kSet, true));
   scenes.push_back(guide_predicted());
   scenes.push_back(guide_lost());
-  scenes.push_back(screws_done());
+  scenes.push_back(operation_done());
 }
 
 }  // namespace orthonav::engine::golden

@@ -23,24 +23,32 @@ TextKind last_of(const char* name, const Add& add) {
   return {name, scene.texts.back()};
 }
 
-TextKind angle(const char* name, std::optional<double> angle_deg, Label label) {
-  const std::optional<double> angle_rad =
-      angle_deg ? std::optional(*angle_deg * kRadiansPerDegree) : std::nullopt;
-  return last_of(name, [&](Scene& s) {
-    add_angle_readout(s, kEntry, planned_point(), angle_text(angle_rad),
-                      grade_of(angle_rad.value_or(1.0)), label);
-  });
-}
-
-TextKind depth(const char* name, const nav::ShownDepth& depth, Label label) {
-  return last_of(name, [&](Scene& s) { add_depth(s, kEntry, planned_point(), depth, label); });
-}
-
-TextKind cross(const char* name, bool lost, Label label) {
+/// A row under the cross: angle, offset, depth.
+TextKind row(const char* name, std::size_t row, Worst worst, Label label) {
   TargetCross target;
   target.viewer = golden::surgeon();
-  target.lost = lost;
+  CrossNumbers numbers;
+  numbers.sizes = nav::ScrewSizes{{34, nav::Certainty::kSure}, {12, nav::Certainty::kBound}};
+  numbers.depth = nav::ShownDepth{nav::DepthTo::kPastTarget, 12, nav::Certainty::kSure};
+  numbers.worst = worst;
+  Scene scene;
+  add_cross_numbers(scene, target, numbers, {label, label, label});
+  return {name, scene.texts[row]};
+}
+
+TextKind tool_lost(const char* name, Label label) {
+  TargetCross target;
+  target.viewer = golden::surgeon();
+  target.lost = true;
   return last_of(name, [&](Scene& s) { add_target_cross(s, target, label); });
+}
+
+TextKind word(const char* name, const char* text, bool larger, Label label) {
+  TargetCross target;
+  target.viewer = golden::surgeon();
+  return last_of(name, [&](Scene& s) {
+    add_cross_word(s, target, text, look::colours().poor, larger, label);
+  });
 }
 
 TextKind entry(const char* name, bool done, Label label) {
@@ -87,28 +95,23 @@ std::vector<TextKind> text_kinds() {
   return {
       entry("entry", false, 301),
       entry("entry, done", true, 302),
-      angle("angle, good", 1.2, 601),
-      angle("angle, fair", 3.4, 602),
-      angle("angle, poor", 12.4, 603),
-      angle("angle, lost", {}, 604),
-      cross("cross, rings", false, 701),
-      cross("cross, tool lost", true, 703),
-      depth("depth", golden::shown_depth(-0.0123, 0.055), 901),
-      depth("depth, past target", golden::shown_depth(0.0456, -0.0012), 902),
-      numbers("numbers", 0.0003, 1301),
-      numbers("numbers, unsure", 0.003, 1302),
-      last_of("clearance, may break through",
-              [](Scene& s) {
-                TargetCross target;
-                target.viewer = golden::surgeon();
-                add_clearance(s, target, {4, -7, "medial"}, 1303);
-              }),
+      row("angle", 0, Worst::kNothing, 601),
+      row("angle, worst", 0, Worst::kAngle, 602),
+      row("offset, bound", 1, Worst::kCertainty, 1306),
+      row("depth", 2, Worst::kNothing, 901),
+      row("depth, past target", 2, Worst::kDepth, 902),
+      last_of("distance of the tip", [](Scene& s) { add_tip_distance(s, kEntry, 0.063, 903); }),
+      tool_lost("tool lost", 703),
+      word("stop", "stop", true, 1305),
+      word("may break through", "may break through medially", false, 1304),
+      numbers("every number", 0.0003, 1301),
+      numbers("every number, unsure", 0.003, 1302),
       rod("rod, bend", true, 1001),
       rod("rod, length", false, 1002),
       check("check point, within", 0.0004, true, 1201),
       check("check point, off", 0.0031, false, 1202),
       status("status line", "verify L4", 1101),
-      status("status line, danger", "guide | guide lost", 1102),
+      status("status line, danger", "guide L4 left | guide lost", 1102),
       last_of("head not located", [](Scene& s) { add_notice(s, words::kHeadNotLocated, 1103); })};
 }
 

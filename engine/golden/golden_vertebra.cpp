@@ -8,7 +8,6 @@
 #include "embedded/golden_vertebra_ply.h"
 #include "engine/holograms/render_values.h"
 #include "engine/io/ply_file.h"
-#include "nav/geometry/mesh.h"
 
 namespace orthonav::engine {
 namespace {
@@ -18,7 +17,9 @@ namespace {
 constexpr Vec3 kPlaced_m = {-0.00019, -0.00602, 0.00501};
 constexpr double kMetresPerUnit = 1e-3;
 
-nav::TriangleMesh read_vertebra() {
+}  // namespace
+
+nav::TriangleMesh golden_mesh() {
   const Result<PlyFile> file =
       read_ply(std::string(embedded::golden_vertebra_ply()), "data/golden_vertebra.ply");
   ORTHONAV_CHECK(file.ok());
@@ -32,14 +33,10 @@ nav::TriangleMesh read_vertebra() {
   return mesh;
 }
 
-}  // namespace
-
-std::shared_ptr<const render::MeshData> make_golden_vertebra() {
-  return mesh_data(read_vertebra());
-}
+std::shared_ptr<const render::MeshData> make_golden_vertebra() { return mesh_data(golden_mesh()); }
 
 render::Float3 on_golden_vertebra(float x_m, float z_m) {
-  static const nav::SurfaceIndex kSurface(read_vertebra());
+  static const nav::SurfaceIndex kSurface(golden_mesh());
   const std::optional<nav::RayHit> hit = kSurface.first_hit({x_m, 1, z_m}, {0, -1, 0});
   ORTHONAV_CHECK(hit);
   return to_float3(hit->point_m);

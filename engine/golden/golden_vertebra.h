@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "nav/geometry/mesh.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {
@@ -11,6 +12,9 @@ namespace orthonav::engine {
 /// LPS axes (+x left, +y posterior, +z superior), metres. For pictures alone; the scenes name it L4
 /// as they name everything.
 [[nodiscard]] std::shared_ptr<const render::MeshData> make_golden_vertebra();
+
+/// The same as a model's mesh.
+[[nodiscard]] nav::TriangleMesh golden_mesh();
 
 /// Where a ray that comes from behind the patient, straight forwards, meets that vertebra.
 [[nodiscard]] render::Float3 on_golden_vertebra(float x_m, float z_m);

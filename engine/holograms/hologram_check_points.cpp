@@ -45,13 +45,22 @@ void add_check_point(render::Scene& scene, render::Float3 position, std::string_
   add_run(item, within ? " ✓" : " ✗", look::kWhite);
 }
 
-void add_earlier_check_point(render::Scene& scene, render::Float3 position, render::Label label) {
+void add_earlier_check_point(render::Scene& scene, render::Float3 position, bool within,
+                             render::Label label) {
+  if (!within) {
+    return add_diamond_in_halo(scene, position, look::colours().poor, label);
+  }
   // Dim and not translucent: the bone would hide a translucent one.
   render::Colour colour = look::colours().good;
   colour.r *= kEarlierLight;
   colour.g *= kEarlierLight;
   colour.b *= kEarlierLight;
   add_mesh(scene, diamond(), render::placed_at(position, 0.5f * kEarlierDiamond_m), colour, label);
+}
+
+void add_place_to_stroke(render::Scene& scene, render::Float3 position, render::Label label) {
+  add_sphere(scene, position, 1.6f * kHaloRadius_m, look::colours().placed, label);
+  scene.meshes.back().style = render::MeshStyle::kRim;
 }
 
 void add_place_to_check(render::Scene& scene, render::Float3 position, render::Label label) {

@@ -1,7 +1,5 @@
 #include "engine/holograms/hologram_numbers.h"
 
-#include <array>
-
 #include "base/translation.h"
 #include "engine/holograms/hologram_parts.h"
 #include "render/float3.h"
@@ -18,8 +16,8 @@ using render::TextItem;
 constexpr float kCaps_m = 0.0040f;
 constexpr float kLeastCaps_deg = 0.55f;
 constexpr float kRow_caps = 1.7f;
-/// From the rim of the cross down to the first row's baseline.
-constexpr float kBelowRim_caps = 4.2f;
+/// From the rim of the cross down to the first row's baseline, below angle, offset and depth.
+constexpr float kBelowRim_caps = 9.6f;
 /// Text keeps its visual angle, so it grows in the world with the distance; it grows away from the
 /// site, starting at the edge of the cross that is nearer to it. This is the width from there to
 /// where the numbers begin: the largest width of the numbers, or of the words before them.
@@ -27,10 +25,6 @@ constexpr float kNumbersWidth_caps = 9.0f;
 constexpr float kHeadingsWidth_caps = 5.2f;
 constexpr float kNearerToSite_m = 0.004f;
 constexpr float kBetweenColumns_caps = 0.6f;
-
-/// Height of the drill's row above the numbers.
-constexpr float kAboveNumbers_caps = 2.0f;
-constexpr float kStopLarger = 1.6f;
 
 /// Below the numbers and the remark on their SDs.
 constexpr float kClearanceAfter_rows = 5.1f;
@@ -59,17 +53,6 @@ class Block {
     scene_.texts.back().rim = look::colours().poor;
     scene_.texts.back().runs.front().colour = look::kWhite;
     return text;
-  }
-  /// Above the numbers, larger by this factor.
-  TextItem& above(float larger) {
-    TextItem& item = scene_.texts.emplace_back();
-    item.label = label_;
-    item.position = place_;
-    item.align = left_of_site_ ? TextAlign::kRight : TextAlign::kLeft;
-    item.offset_up = (up_ + kAboveNumbers_caps) / larger;
-    item.height_m = larger * kCaps_m;
-    item.min_height_deg = larger * kLeastCaps_deg;
-    return item;
   }
   std::string& text(bool sure) { return add(TextAlign::kLeft, column_, sure); }
 
@@ -128,21 +111,6 @@ void add_clearance(Scene& scene, const TargetCross& cross, const nav::ShownClear
     block.heading(translated(words::kAtLeast));
     append_clearance(block.text(true), *clearance.lower_95_tenths);
   }
-}
-
-void add_drill(Scene& scene, const TargetCross& cross, const nav::DrillView& drill, Label label) {
-  const HologramColours& colours = look::colours();
-  const std::array<render::Colour, 4> rims = {render::Colour{0, 0, 0, 0}, colours.fair,
-                                              colours.poor, colours.poor};
-  const bool away = drill.phase == nav::DrillPhase::kAway;
-  if (away || (drill.phase == nav::DrillPhase::kSet && !drill.watched)) {
-    return;
-  }
-  const bool stop = drill.alarm == nav::DrillAlarm::kStop;
-  TextItem& item = Block(scene, cross, label).above(stop ? kStopLarger : 1.0f);
-  const bool unwatched = !drill.watched;
-  item.rim = unwatched ? colours.poor : rims[static_cast<std::size_t>(drill.alarm)];
-  append_drill(add_run(item, look::kWhite), drill);
 }
 
 }  // namespace orthonav::engine

@@ -6,8 +6,8 @@
 
 namespace orthonav::engine {
 
-/// H13: under the target cross, as a caption of its dots: one row for the position of the tip and
-/// one for the tool's aim; numbers that are not sure in a paler white, with their SD.
+/// H13, where it was asked for: below the rows under the target cross, one row for the position of
+/// the tip and one for the tool's aim; numbers that are not sure in a paler white, with their SD.
 /// `registration_only`: such an SD does not include common errors of all strokes, and a further row
 /// says so; it also refers to the bound of a clearance below, if there is one (`with_bound`).
 void add_numbers(render::Scene& scene, const TargetCross& cross, const nav::ScrewNumbers& numbers,
@@ -17,10 +17,5 @@ void add_numbers(render::Scene& scene, const TargetCross& cross, const nav::Scre
 /// where.
 void add_clearance(render::Scene& scene, const TargetCross& cross,
                    const nav::ShownClearance& clearance, render::Label label);
-
-/// The row above the numbers: whether the surgeon is drilling, and any alarm in a rim of its
-/// colour, a stop in larger text. Adds nothing if there is nothing to show.
-void add_drill(render::Scene& scene, const TargetCross& cross, const nav::DrillView& drill,
-               render::Label label);
 
 }  // namespace orthonav::engine

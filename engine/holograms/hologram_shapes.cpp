@@ -12,6 +12,7 @@
 #include "base/length_text.h"
 #include "base/translation.h"
 #include "engine/holograms/hologram_parts.h"
+#include "engine/session/rod_wording.h"
 #include "engine/session/wording.h"
 #include "render/float3.h"
 #include "render/shapes.h"
@@ -84,6 +85,12 @@ std::vector<std::string> GradeLimits::check() const {
   if (!(poor_rad >= good_rad && poor_rad <= std::numbers::pi)) {
     problems.push_back("poor_rad must lie in [good_rad, pi]");
   }
+  if (!(good_offset_m > 0.0 && good_offset_m <= 1.0)) {
+    problems.push_back("good_offset_m must lie in (0, 1]");
+  }
+  if (!(poor_offset_m >= good_offset_m && poor_offset_m <= 1.0)) {
+    problems.push_back("poor_offset_m must lie in [good_offset_m, 1]");
+  }
   return problems;
 }
 
@@ -92,6 +99,13 @@ Grade grade_of(double angle_rad, const GradeLimits& limits) {
     return Grade::kPoor;
   }
   return angle_rad < limits.good_rad ? Grade::kGood : Grade::kFair;
+}
+
+Grade grade_of_offset(double offset_m, const GradeLimits& limits) {
+  if (!(offset_m <= limits.poor_offset_m)) {
+    return Grade::kPoor;
+  }
+  return offset_m < limits.good_offset_m ? Grade::kGood : Grade::kFair;
 }
 
 Colour colour_of(Grade grade) {
@@ -202,15 +216,11 @@ void add_deviation_triangle(Scene& scene, Float3 a, Float3 b, Float3 c, Grade gr
            true);
 }
 
-Float3 readout_place(Float3 a, Float3 b) {
-  return b + kReadoutOutward_m * render::unit_or(b - a, {0, 1, 0});
-}
-
 void add_angle_readout(Scene& scene, Float3 a, Float3 b, std::string_view text, Grade grade,
                        Label label) {
   render::TextItem& item = scene.texts.emplace_back();
   item.label = label;
-  item.position = readout_place(a, b);
+  item.position = b + kReadoutOutward_m * render::unit_or(b - a, {0, 1, 0});
   item.align = render::TextAlign::kLeft;
   item.offset_right = 0.9f;  // clear of B even when the eye looks down the tool's axis
   item.height_m = 0.007f;
@@ -219,10 +229,10 @@ void add_angle_readout(Scene& scene, Float3 a, Float3 b, std::string_view text, 
   add_run(item, fixed_width(text), look::kWhite);
 }
 
-void take_angle_off(render::TextItem& readout) {
-  readout.rim = colour_of(Grade::kPoor);
-  readout.runs.clear();
-  add_run(readout, fixed_width(angle_text(std::nullopt)), look::kWhite);
+void take_angle_off(render::TextItem& angle) {
+  angle.rim = colour_of(Grade::kPoor);
+  angle.runs.clear();
+  add_run(angle, fixed_width(angle_text(std::nullopt)), look::kWhite);
 }
 
 void add_rod(Scene& scene, const RodHologram& rod, Label label) {
@@ -235,6 +245,10 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   const Float3 along = rod.heads.empty()
                            ? Float3{0, 1, 0}
                            : render::unit_or(rod.heads.back() - rod.heads.front(), {0, 1, 0});
+  for (std::size_t i = 0; i < rod.head_names.size(); ++i) {
+    add_run(add_text_beside(scene, rod.heads[i] + rod.offset, 1.8f, 0.0040f, 0.4f, label),
+            rod.head_names[i], look::kWhite);
+  }
   for (const RodBendMark& bend : rod.bends) {
     add_bend(scene, bend, bend.position + rod.offset, along, label);
   }
@@ -246,7 +260,11 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   text.position = rod.heads.back() + 0.012f * along + rod.offset;
   text.height_m = 0.005f;
   text.min_height_deg = 0.6f;
-  add_run(text, in_mm(*rod.length_m), look::kWhite);
+  if (rod.to_cut) {
+    append_cut(add_run(text, look::kWhite), *rod.length_m);
+  } else {
+    add_run(text, in_mm(*rod.length_m), look::kWhite);
+  }
 }
 
 }  // namespace orthonav::engine

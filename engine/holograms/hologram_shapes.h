@@ -18,10 +18,14 @@ namespace orthonav::engine {
 
 /// How far the tool is from the plan, as shown by colours.
 enum class Grade { kGood, kFair, kPoor };
+/// What is worst about it; in the order of urgency.
+enum class Worst { kNothing, kCertainty, kAngle, kOffset, kClearance, kDepth };
 
 struct GradeLimits {
   double good_rad = 0.0349065850398866;  ///< 2°: below it is good
   double poor_rad = 0.0872664625997165;  ///< 5°: above it is poor, and dashed
+  double good_offset_m = 0.001;          ///< of the tip from the planned axis, likewise
+  double poor_offset_m = 0.002;
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
@@ -29,6 +33,7 @@ struct GradeLimits {
 
 /// An angle that is not finite is poor.
 [[nodiscard]] Grade grade_of(double angle_rad, const GradeLimits& limits = {});
+[[nodiscard]] Grade grade_of_offset(double offset_m, const GradeLimits& limits = {});
 [[nodiscard]] render::Colour colour_of(Grade grade);
 
 /// `12.4°`, one decimal; `--.-°` for a value that is absent, not finite, negative or over 99.9°.
@@ -85,15 +90,12 @@ void add_placed_wire(render::Scene& scene, render::Float3 outside, render::Float
 void add_deviation_triangle(render::Scene& scene, render::Float3 a, render::Float3 b,
                             render::Float3 c, Grade grade, render::Label label);
 
-/// H6: `text` (of angle_text) beside B, outward of it, so that it never covers A.
+/// H6 where there is no cross: `text` (of angle_text) beside B, outward of it, so that it never
+/// covers A.
 void add_angle_readout(render::Scene& scene, render::Float3 a, render::Float3 b,
                        std::string_view text, Grade grade, render::Label label);
-
-/// Replaces the number of a drawn readout by dashes.
-void take_angle_off(render::TextItem& readout);
-
-/// The position of H6 for a tool's axis from A to B.
-[[nodiscard]] render::Float3 readout_place(render::Float3 a, render::Float3 b);
+/// Replaces the number of a drawn angle by dashes.
+void take_angle_off(render::TextItem& angle);
 
 struct RodBendMark {
   render::Float3 position;
@@ -106,8 +108,10 @@ struct RodBendMark {
 struct RodHologram {
   std::shared_ptr<const render::MeshData> tube;  ///< world coordinates before `offset`
   std::span<const render::Float3> heads;
+  std::span<const std::string_view> head_names;  ///< of the levels; none, or one per head
   std::span<const RodBendMark> bends;
   std::optional<double> length_m;  ///< absent: the heads make no rod
+  bool to_cut = false;             ///< the length is what it is to be cut to
   render::Float3 offset;           ///< `move rod`: added to everything
 };
 void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
@@ -119,9 +123,13 @@ void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
 void add_check_point(render::Scene& scene, render::Float3 position, std::string_view text,
                      bool within, render::Label label);
 
-/// H12: a place that was near enough when touched, but not the newest: small and dim, without its
-/// distance, so that many of them leave the bone visible.
-void add_earlier_check_point(render::Scene& scene, render::Float3 position, render::Label label);
+/// H12: a place that was touched, but not the newest, without its distance: small and dim if it was
+/// near enough, so that many of them leave the bone visible; otherwise red in its halo.
+void add_earlier_check_point(render::Scene& scene, render::Float3 position, bool within,
+                             render::Label label);
+
+/// H12: the middle of what is to be stroked next: a ring from every side.
+void add_place_to_stroke(render::Scene& scene, render::Float3 position, render::Label label);
 
 /// H12: a place that is still to be touched.
 void add_place_to_check(render::Scene& scene, render::Float3 position, render::Label label);

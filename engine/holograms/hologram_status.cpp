@@ -15,7 +15,6 @@ using render::TextItem;
 
 constexpr float kRowDistance_caps = 1.9f;
 constexpr float kBeforeDot_caps = 1.2f;
-constexpr float kBehindDot_caps = 0.4f;
 constexpr std::string_view kBehindStep = " | ";
 
 /// `row` counts downwards from the one with the step.
@@ -42,26 +41,6 @@ render::Colour colour_of(ToolState state) {
   return look::colours().*kColours[static_cast<std::size_t>(state)];
 }
 
-float tools_width_caps(std::span<const ToolDot> tools, float name_caps) {
-  float width = 0;
-  for (const ToolDot& tool : tools) {
-    width += kBeforeDot_caps + width_caps(dot_of(tool.state)) +
-             (name_caps > 0 ? kBehindDot_caps + std::min(name_caps, width_caps(tool.name)) : 0.0f);
-  }
-  return width;
-}
-
-/// How wide a tool's name may be: its full width, or whatever leaves room for a step of this width.
-float name_room_caps(std::span<const ToolDot> tools, float step_caps) {
-  constexpr float kLeast = 3.0f;  // of a name that is still recognisable
-  constexpr float kLongest = 20.0f;
-  float name = kLongest;
-  while (name >= kLeast && step_caps + tools_width_caps(tools, name) > kStatusWidth_caps) {
-    name -= 1.0f;
-  }
-  return name >= kLeast ? name : 0.0f;
-}
-
 /// Appends to a row that runs from left to right; its end so far is `pen`.
 TextItem& add_piece(Scene& scene, float& pen, float width, Label label) {
   TextItem& item = add_row(scene, 0, label);
@@ -73,11 +52,9 @@ TextItem& add_piece(Scene& scene, float& pen, float width, Label label) {
 
 void add_step_and_tools(Scene& scene, std::string_view step, std::span<const ToolDot> tools,
                         Label label) {
-  constexpr float kLongestStep_caps = 0.6f * kStatusWidth_caps;
-  float step_caps = std::min(width_caps(step), kLongestStep_caps);
-  const float name_caps = name_room_caps(tools, step_caps);
-  const float of_tools = tools_width_caps(tools, name_caps);
-  step_caps = std::min(step_caps, kStatusWidth_caps - of_tools);
+  const auto dots = static_cast<float>(tools.size());
+  const float of_tools = dots * (kBeforeDot_caps + width_caps(dot_of(ToolState::kMeasured)));
+  const float step_caps = std::min(width_caps(step), kStatusWidth_caps - of_tools);
   float pen = -0.5f * (step_caps + of_tools);
   append_cut(add_run(add_piece(scene, pen, step_caps, label), look::kSoftWhite), step, step_caps);
   for (const ToolDot& tool : tools) {
@@ -86,11 +63,6 @@ void add_step_and_tools(Scene& scene, std::string_view step, std::span<const Too
     TextItem& mark = add_piece(scene, pen, width_caps(dot), label);
     mark.rim = colour_of(tool.state);
     add_run(mark, dot, look::kWhite);
-    if (name_caps > 0) {
-      pen += kBehindDot_caps;
-      const float width = std::min(name_caps, width_caps(tool.name));
-      append_cut(add_run(add_piece(scene, pen, width, label), look::kSoftWhite), tool.name, width);
-    }
   }
 }
 
@@ -124,13 +96,16 @@ void add_notice(Scene& scene, std::string_view text, Label label) {
 }
 
 void add_stop_row(Scene& scene, std::string_view text, Label label) {
-  TextItem& item = add_row(scene, -2, label);
+  TextItem& item = add_row(scene, -1, label);
   item.rim = look::colours().poor;
   append_cut(add_run(item, look::kWhite), text, kStatusWidth_caps);
 }
 
-void add_row_above_status(Scene& scene, std::string_view text, Label label) {
-  append_cut(add_run(add_row(scene, -1, label), look::kSoftWhite), text, kStatusWidth_caps);
+void add_next_act(Scene& scene, std::string_view text, std::size_t row, Label label) {
+  if (!text.empty()) {
+    append_cut(add_run(add_row(scene, static_cast<float>(row), label), look::kWhite), text,
+               kStatusWidth_caps);
+  }
 }
 
 void add_status_line(Scene& scene, const StatusWords& words, std::span<const ToolDot> tools,

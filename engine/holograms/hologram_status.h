@@ -19,14 +19,14 @@ inline constexpr float kStatusMinHeight_deg = 0.5f;
 
 enum class ToolState { kMeasured, kPredicted, kLost };
 struct ToolDot {
-  std::string_view name;
   ToolState state = ToolState::kLost;
 };
 
 /// H13: above all rows, in a red rim, visible in any direction of the head.
 void add_stop_row(render::Scene& scene, std::string_view text, render::Label label);
-/// A row above the one with the step, as white as that.
-void add_row_above_status(render::Scene& scene, std::string_view text, render::Label label);
+/// So many rows below the one with the step: what to do next.
+void add_next_act(render::Scene& scene, std::string_view text, std::size_t row,
+                  render::Label label);
 
 /// The content of the status line.
 struct StatusWords {
@@ -40,8 +40,7 @@ void add_notice(render::Scene& scene, std::string_view text, render::Label label
 
 /// H11: a row with the step and a dot for each tool, filled where it is measured, half where
 /// predicted, empty where lost; below it the detail, on two rows at most. Step and dots are always
-/// shown: if there is not enough room, names of tools are dropped first, then the end of a long
-/// step.
+/// shown; of a long step the end is cut.
 void add_status_line(render::Scene& scene, const StatusWords& words, std::span<const ToolDot> tools,
                      render::Label label);
 

@@ -87,6 +87,10 @@ BoxInEyes Eyes::box(const render::Matrix4& world_from_caps, const CapsBox& box) 
       render::transformed(world_from_caps, {box.right, box.bottom, 0}),
       render::transformed(world_from_caps, {box.right, box.top, 0}),
       render::transformed(world_from_caps, {box.left, box.top, 0})};
+  return this->box(corners);
+}
+
+BoxInEyes Eyes::box(const std::array<Float3, 4>& corners) const {
   const OutlineInEyes outlines = outline(corners, 0);
   BoxInEyes boxes;
   for (std::size_t eye = 0; eye < count_; ++eye) {
@@ -106,12 +110,25 @@ bool Eyes::in_view(const BoxInEyes& boxes) const {
   for (std::size_t eye = 0; eye < count_; ++eye) {
     const SeenBox& box = boxes[eye];
     const SeenBox& field = fields_[eye];
-    if (!box.empty() && !(box.left >= field.left && box.bottom >= field.bottom &&
-                          box.right <= field.right && box.top <= field.top)) {
+    if (!(!box.empty() && box.left >= field.left && box.bottom >= field.bottom &&
+          box.right <= field.right && box.top <= field.top)) {
       return false;
     }
   }
   return true;
+}
+
+bool Eyes::in_view(Float3 in_world) const {
+  return in_view(box(std::array<Float3, 4>{in_world, in_world, in_world, in_world}));
+}
+
+SeenBox Eyes::common_field() const {
+  SeenBox common = fields_[0];
+  if (count_ == 2) {
+    common = {std::max(common.left, fields_[1].left), std::max(common.bottom, fields_[1].bottom),
+              std::min(common.right, fields_[1].right), std::min(common.top, fields_[1].top)};
+  }
+  return common;
 }
 
 OutlineInEyes Eyes::outline(std::span<const Float3> corners, float radius_m) const {

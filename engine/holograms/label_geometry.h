@@ -63,8 +63,13 @@ class Eyes {
   explicit Eyes(const std::vector<render::View>& views);
   [[nodiscard]] const render::Head& head() const { return head_; }
   [[nodiscard]] BoxInEyes box(const render::Matrix4& world_from_caps, const CapsBox& box) const;
+  /// The smallest boxes around a quadrangle in the world, metres.
+  [[nodiscard]] BoxInEyes box(const std::array<render::Float3, 4>& corners) const;
   /// Whether every eye sees the whole box.
   [[nodiscard]] bool in_view(const BoxInEyes& boxes) const;
+  [[nodiscard]] bool in_view(render::Float3 in_world) const;
+  /// What every eye sees, far away.
+  [[nodiscard]] SeenBox common_field() const;
   /// Up to four corners in the world, metres.
   [[nodiscard]] OutlineInEyes outline(std::span<const render::Float3> corners,
                                       float radius_m) const;

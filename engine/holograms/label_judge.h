@@ -13,24 +13,25 @@
 
 namespace orthonav::engine {
 
-/// A text of a scene to be placed; the depth is placed together with the angle above it.
+/// A text of a scene to be placed.
 struct LabelSubject {
   std::size_t text = 0;  ///< an index into the scene's texts
-  std::optional<std::size_t> below;
-  float below_caps = 0;  ///< cap height of that one, relative to that of `text`
   LabelRank rank = LabelRank::kFixed;
   std::uint32_t instance = 0;  ///< among the texts of its label and rank
-  LabelExtent extent;          ///< of both
+  LabelExtent extent;
   render::Matrix4 world_from_caps{};
 };
 
-/// The least harm of a place where this or another text becomes unreadable.
+/// The least harm of a place where this or another text becomes unreadable, or hides what another
+/// one names.
 inline constexpr int kTextLost = 8;
+inline constexpr int kPlaceHidden = 4;
 
 /// How good a place is.
 struct LabelVerdict {
-  int blocked = 0;  ///< the harm of covering other things; 0: the place is free
-  int cost = 0;     ///< less is better; any blocked place costs more than all free ones
+  int blocked = 0;   ///< the harm of covering other things; 0: the place is free
+  int cost = 0;      ///< less is better; any blocked place costs more than all free ones
+  bool cut = false;  ///< by the edge of a view
 };
 
 /// Minimum distances, tangents of visual angles.
@@ -58,14 +59,13 @@ class LabelJudge {
 
  private:
   void add_subject(const render::Scene& scene, std::size_t text);
-  void put_under(const render::Scene& scene, LabelSubject& subject) const;
   /// A place in three sizes.
   struct Spot {
     BoxInEyes box;
     BoxInEyes from_others;
     BoxInEyes from_own;
   };
-  [[nodiscard]] static int harm(const LabelObstacle& obstacle, render::Label label, LabelRank rank,
+  [[nodiscard]] static int harm(const LabelObstacle& obstacle, render::Label label,
                                 const Spot& spot);
   [[nodiscard]] int crossed(const OutlineInEyes& leader, float margin) const;
 

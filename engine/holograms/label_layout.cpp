@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/holograms/hologram_cross.h"
 #include "engine/holograms/hologram_parts.h"
 
 namespace orthonav::engine {
@@ -24,7 +23,9 @@ void LabelLayout::lay_out(render::Scene& scene, const std::vector<render::View>&
     return;
   }
   forget(shown_at);
-  cross_lift_.lay_out(scene, Eyes(views), shown_at);
+  const Eyes eyes(views);
+  point_to_entry(scene, eyes);
+  cross_.lay_out(scene, eyes, patches, shown_at);
   judge_.begin(scene, views, patches);
   for (const LabelSubject& subject : judge_.subjects()) {
     Kept& kept = kept_of(scene.texts[subject.text].label, subject);
@@ -59,7 +60,7 @@ LabelLayout::Kept& LabelLayout::kept_of(render::Label label, const LabelSubject&
 LabelLayout::Best LabelLayout::best_of(const render::Scene& scene, const LabelSubject& subject,
                                        std::optional<std::size_t> without) const {
   std::optional<Best> best;
-  const std::size_t count = count_of_places(scene.texts[subject.text]);
+  const std::size_t count = count_of_places();
   for (std::size_t place = 0; place < count; ++place) {
     // Later places cost more even when they are free.
     if (place == without || (best && best->verdict.cost <= static_cast<int>(place))) {
@@ -86,20 +87,25 @@ LabelLayout::Best LabelLayout::refuge_of(const render::Scene& scene, const Label
 
 void LabelLayout::settle(const render::Scene& scene, const LabelSubject& subject, Kept& kept) {
   kept.seen = now_;
-  const bool may_be_left_out = subject.rank == LabelRank::kIncidental;
   const Best best = best_of(scene, subject, std::nullopt);
-  const bool room = best.verdict.blocked == 0;
+  // What an edge would cut, or could not be read, is left out.
+  const bool may_be_left_out = best.verdict.cut || best.verdict.blocked >= kPlaceHidden ||
+                               subject.rank == LabelRank::kIncidental;
+  const bool room = best.verdict.blocked == 0 && !best.verdict.cut;
   if (std::exchange(kept.is_new, false)) {
     kept.place = room || !may_be_left_out ? std::optional(best.place) : std::nullopt;
     return;
   }
   if (!kept.place) {
-    room ? kept.wait_for(best.place, now_) : kept.better.reset();
+    room || !may_be_left_out ? kept.wait_for(best.place, now_) : kept.better.reset();
     return;
   }
   const LabelVerdict here = judge_.judge(scene, subject, *kept.place, kToStay);
-  if (here.blocked > 0 && may_be_left_out && !room) {
+  if ((here.blocked > 0 || here.cut) && may_be_left_out && !room) {
     return kept.move(std::nullopt, now_);
+  }
+  if (here.cut && !best.verdict.cut) {
+    return kept.move(best.place, now_);
   }
   if (here.blocked > best.verdict.blocked) {
     const Best refuge = refuge_of(scene, subject, kept, best);
@@ -127,12 +133,6 @@ void LabelLayout::write(render::Scene& scene, const LabelSubject& subject, const
   text.align = at.align;
   text.offset_right = at.right;
   text.offset_up = at.up;
-  if (subject.below) {
-    render::TextItem& below = scene.texts[*subject.below];
-    below.align = at.align;
-    below.offset_right = at.right / subject.below_caps;
-    below.offset_up = at.up / subject.below_caps - kDepthBelowAngle;
-  }
   if (at.led && !text.runs.empty()) {
     const auto ends = LabelJudge::leader(subject, at);
     add_line(scene, ends, kLeaderWidth_m, faded(text.runs.front().colour, kLeaderOpacity),

@@ -13,10 +13,9 @@ namespace orthonav::engine {
 struct LabelObstacle {
   enum class Kind {
     kNamed,   ///< named by a label: no label may cover it
-    kGlare,   ///< guiding numbers must not lie on it, and other labels only if the thing they name
-              ///< does
+    kGlare,   ///< labels lie on it only if the thing they name does
     kLine,    ///< labels prefer other places
-    kWound,   ///< guiding numbers must not cover it
+    kWound,   ///< the target cross must not cover it
     kLeader,  ///< leads to a label
   };
   Kind kind = Kind::kNamed;

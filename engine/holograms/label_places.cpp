@@ -21,32 +21,8 @@ constexpr std::array<Direction2, 8> kAround = {
 constexpr std::array<float, 5> kFartherOff = {0.0f, 2.2f, 4.8f, 8.0f, 12.0f};
 constexpr float kDiagonally = 0.8f;
 
-/// For a readout beside the tool: clear of a printed tag above it, of the shaft, and on the other
-/// side.
-struct BesideTool {
-  float across;
-  float up;
-  bool led;
-};
-constexpr std::array<BesideTool, 38> kBesideTool = {
-    {{0.9f, 0.0f, false},  {1.9f, 0.0f, false},   {0.9f, -2.6f, false},  {1.9f, -2.6f, false},
-     {-0.9f, 0.0f, false}, {-1.9f, 0.0f, false},  {-0.9f, -2.6f, false}, {-1.9f, -2.6f, false},
-     {0.9f, 2.0f, false},  {-0.9f, 2.0f, false},  {3.0f, -4.2f, true},   {-3.0f, -4.2f, true},
-     {5.0f, 0.0f, true},   {-5.0f, 0.0f, true},   {8.5f, 0.0f, true},    {-8.5f, 0.0f, true},
-     {8.5f, -3.0f, true},  {-8.5f, -3.0f, true},  {5.0f, -6.5f, true},   {-5.0f, -6.5f, true},
-     {8.5f, -6.5f, true},  {-8.5f, -6.5f, true},  {12.0f, -3.0f, true},  {-12.0f, -3.0f, true},
-     {5.0f, 5.0f, true},   {-5.0f, 5.0f, true},   {12.0f, 3.0f, true},   {-12.0f, 3.0f, true},
-     {3.0f, -10.0f, true}, {-3.0f, -10.0f, true}, {12.0f, 8.0f, true},   {-12.0f, 8.0f, true},
-     {16.0f, 0.0f, true},  {-16.0f, 0.0f, true},  {16.0f, -6.0f, true},  {-16.0f, -6.0f, true},
-     {5.0f, 16.0f, true},  {-5.0f, 16.0f, true}}};
-
 TextAlign align_for(float across) {
   return across > 0 ? TextAlign::kLeft : (across < 0 ? TextAlign::kRight : TextAlign::kCentre);
-}
-
-LabelPlace beside_tool(std::size_t place) {
-  const BesideTool at = kBesideTool[place];
-  return {align_for(at.across), at.across, at.up, at.led, false};
 }
 
 /// Puts its near edge, corner or end at a distance from the middle of the object it names.
@@ -79,22 +55,23 @@ LabelRank rank_of(const TextItem& text) {
     return LabelRank::kFixed;
   }
   switch (kind_of(text.label)) {
-    case HologramKind::kAngle:
-      return LabelRank::kGuiding;
     case HologramKind::kCheckPoint:
+    case HologramKind::kTrajectory:
       return LabelRank::kMeasured;
     case HologramKind::kRod:
       // The length is at the rod's end, the bends are beside it.
       return text.align == TextAlign::kCentre ? LabelRank::kMeasured : LabelRank::kIncidental;
     case HologramKind::kEntry:
       return LabelRank::kNamed;
+    case HologramKind::kDepth:
+      // The tip's distance from the entry; the depth is written under the cross.
+      return instance_of(text.label) == 1 ? LabelRank::kFixed : LabelRank::kMeasured;
     case HologramKind::kPath:
     case HologramKind::kVertebra:
-    case HologramKind::kTrajectory:
     case HologramKind::kTriangle:
+    case HologramKind::kAngle:
     case HologramKind::kCross:
     case HologramKind::kTwin:
-    case HologramKind::kDepth:
     case HologramKind::kStatus:
     case HologramKind::kNumbers:
       return LabelRank::kFixed;
@@ -110,17 +87,13 @@ CapsBox box_at(const LabelPlace& place, const LabelExtent& extent) {
           place.up + extent.above};
 }
 
-std::size_t count_of_places(const TextItem& text) {
-  return kind_of(text.label) == HologramKind::kAngle ? kBesideTool.size()
-                                                     : 1 + kAround.size() * kFartherOff.size();
-}
+std::size_t count_of_places() { return 1 + kAround.size() * kFartherOff.size(); }
 
 LabelPlace place_of(const TextItem& as_built, const LabelExtent& extent, std::size_t place) {
   if (place == 0) {
     return {as_built.align, as_built.offset_right, as_built.offset_up, false, true};
   }
-  return kind_of(as_built.label) == HologramKind::kAngle ? beside_tool(place)
-                                                         : around(as_built, extent, place - 1);
+  return around(as_built, extent, place - 1);
 }
 
 }  // namespace orthonav::engine

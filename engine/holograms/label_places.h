@@ -11,11 +11,10 @@ namespace orthonav::engine {
 
 /// Order of importance: earlier ones are placed first, and later ones avoid them.
 enum class LabelRank {
-  kFixed,       ///< not moved by itself: the status line, the texts on and under the cross
-  kGuiding,     ///< the angle, with the depth under it
-  kMeasured,    ///< a check point's distance, a rod's length
+  kFixed,       ///< not moved by itself: the status line, the texts about the cross
+  kMeasured,    ///< a check point's distance, a rod's length, a tip's distance, a measured wire
   kNamed,       ///< an entry point's name
-  kIncidental,  ///< a rod's bend: the only kind that is left out if there is no room
+  kIncidental,  ///< a rod's bend: left out if there is no room
 };
 [[nodiscard]] LabelRank rank_of(const render::TextItem& text);
 
@@ -37,7 +36,7 @@ struct LabelExtent {
 [[nodiscard]] CapsBox box_at(const LabelPlace& place, const LabelExtent& extent);
 
 /// Places are numbered in order of preference; 0 is the builder's.
-[[nodiscard]] std::size_t count_of_places(const render::TextItem& text);
+[[nodiscard]] std::size_t count_of_places();
 [[nodiscard]] LabelPlace place_of(const render::TextItem& as_built, const LabelExtent& extent,
                                   std::size_t place);
 

@@ -8,6 +8,7 @@
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_numbers.h"
 #include "engine/holograms/hologram_parts.h"
+#include "engine/holograms/next_act.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
 #include "nav/published/stroke_pattern.h"
@@ -19,10 +20,34 @@ constexpr render::Label kCross = label_of(HologramKind::kCross, 1);  // its dots
 constexpr render::Label kTwin = label_of(HologramKind::kTwin, 1);
 constexpr render::Label kTwinTool = label_of(HologramKind::kTwin, 2);
 constexpr render::Label kNumbers = label_of(HologramKind::kNumbers, 1);
+constexpr render::Label kNextAct = label_of(HologramKind::kNumbers, 2);
 constexpr render::Label kClearance = label_of(HologramKind::kNumbers, 3);
-constexpr render::Label kDrill = label_of(HologramKind::kNumbers, 4);
+constexpr render::Label kWord = label_of(HologramKind::kNumbers, 4);
 constexpr render::Label kStop = label_of(HologramKind::kNumbers, 5);  // stays when a pose is old
-constexpr render::Label kNumbersRow = label_of(HologramKind::kNumbers, 2);
+constexpr CrossLabels kCrossLabels = {label_of(HologramKind::kAngle, 1),
+                                      label_of(HologramKind::kNumbers, 6),
+                                      label_of(HologramKind::kDepth, 1)};
+constexpr render::Label kTipDistance = label_of(HologramKind::kDepth, 2);
+
+/// The level whose screw of that side has its entry nearest to the head.
+std::string_view level_at(const Guidance& guidance, Side side, Point<World> head) {
+  std::string_view name;
+  double nearest_m = 0.0;
+  for (const LevelState& level : guidance.levels) {
+    if (!level.usable()) {
+      continue;
+    }
+    for (const nav::ScrewPlan& screw : level.plan.screws) {
+      const Point<World> entry = level.registration->world_from_vertebra * screw.entry;
+      const double away_m = (entry - head).norm();
+      if (screw.side == side && (name.empty() || away_m < nearest_m)) {
+        name = level.plan.label;
+        nearest_m = away_m;
+      }
+    }
+  }
+  return name;
+}
 
 }  // namespace
 
@@ -54,7 +79,7 @@ void write_notice_alone(const render::Scene& scene, std::string_view why, render
   const WearersLanguage language;
   left.clear();
   for (const render::TextItem& text : scene.texts) {
-    if (text.place == render::TextPlace::kView && text.label != kNumbersRow) {
+    if (text.place == render::TextPlace::kView && text.label != kNextAct) {
       left.texts.push_back(text);
     }
   }
@@ -85,6 +110,14 @@ void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
     add_check_points(*visible_.vertebra, guidance.to_check, scene);
   }
   add_entries(scene);
+  if (visible_.stroke_next) {
+    add_place_to_stroke(scene, to_float3(visible_.stroke_next->v),
+                        label_of(HologramKind::kCheckPoint, 1));
+  }
+  if (visible_.landmark) {
+    add_place_to_check(scene, to_float3(visible_.landmark->v),
+                       label_of(HologramKind::kCheckPoint, 1));
+  }
   if (visible_.trajectory) {
     add_screw(*visible_.trajectory, scene);
   }
@@ -124,8 +157,12 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
                      label_of(HologramKind::kPath, k), opacity);
   };
   if (visible_.paths) {
+    // Older ones are dimmer, so that the newest stands out.
+    constexpr float kFade = 0.15f;
+    constexpr float kLeast = 0.4f;
     for (std::size_t k = 0; k < guidance.regions.size(); ++k) {
-      add(guidance.regions[k], k + 1, 1.0f);
+      const auto age = static_cast<float>(guidance.regions.size() - 1 - k);
+      add(guidance.regions[k], k + 1, std::max(kLeast, 1.0f - kFade * age));
     }
   }
   if (visible_.paths && guidance.dropped) {
@@ -184,7 +221,7 @@ void SceneBuilder::add_entries(render::Scene& scene) {
       entry.surface_normal =
           to_float3((world_from_vertebra * Direction<Vertebra>{outward.normalized()}).v);
       text_.clear();
-      if (visible_.entry_labels) {
+      if (names_entry(visible_, at, s)) {
         append_screw(text_, level.plan.label, screw.side);
       }
       entry.text = text_;
@@ -204,45 +241,60 @@ void SceneBuilder::add_screw(const PlacedScrew& screw, render::Scene& scene) {
     add_wire(scene, screw, *visible_.wire, text_);
   }
   if (visible_.triangle) {
-    add_tool_guidance(*visible_.triangle, scene);
+    const nav::ScrewGuidance& shown = *visible_.triangle;
+    add_deviation_triangle(scene, to_float3(shown.a.v), to_float3(shown.b.v), to_float3(shown.c.v),
+                           visible_.verdict.grade, label_of(HologramKind::kTriangle, 1));
+  }
+  if (!visible_.cross) {
+    add_angle(line, scene);
+  }
+  if (visible_.approach) {
+    add_tip_distance(scene, to_float3(visible_.approach->tip.v), visible_.approach->distance_m,
+                     kTipDistance);
   }
   if (visible_.cross) {
-    const TargetCross cross = cross_of(screw, *visible_.cross, rules_);
-    add_target_cross(scene, cross, kCross);
-    if (visible_.numbers) {
-      add_numbers(scene, cross, *visible_.numbers, screw.at.level->registration_only(), kNumbers,
-                  visible_.clearance && visible_.clearance->lower_95_tenths);
-    }
-    if (visible_.clearance) {
-      add_clearance(scene, cross, *visible_.clearance, kClearance);
-    }
-    add_drill(scene, cross, visible_.drill,
-              visible_.drill.alarm == nav::DrillAlarm::kStop ? kStop : kDrill);
+    add_cross(screw, scene);
   }
   if (visible_.twin) {
     add_virtual_twin(screw, scene);
   }
-  if (visible_.angle_lost && !visible_.triangle) {
-    // The place of the number if the tool were on the plan.
+}
+
+/// H6 beside the triangle; without one, where it would be if the tool were on the plan.
+void SceneBuilder::add_angle(const TrajectoryLine& line, render::Scene& scene) {
+  if (visible_.measurement) {
+    const nav::ScrewGuidance& shown = *visible_.triangle;
+    add_angle_readout(scene, to_float3(shown.a.v), to_float3(shown.b.v),
+                      angle_text(visible_.measurement->angle_rad), visible_.verdict.grade,
+                      kCrossLabels.angle);
+  } else if (visible_.angle_lost) {
     add_angle_readout(scene, to_float3(line.entry.v), to_float3(line.outside.v),
-                      angle_text(std::nullopt), Grade::kPoor, label_of(HologramKind::kAngle, 1));
+                      angle_text(std::nullopt), Grade::kPoor, kCrossLabels.angle);
   }
 }
 
-/// The overlay is where the tool will be at the display time; the numbers and their colour come
-/// from one stereo pair. A predicted pose has no number and is never shown as good.
-void SceneBuilder::add_tool_guidance(const nav::ScrewGuidance& shown, render::Scene& scene) {
-  const nav::ScrewGuidance* measured = visible_.measurement;
-  const Grade grade = grade_of_tool(visible_, rules_);
-  const render::Float3 a = to_float3(shown.a.v);
-  const render::Float3 b = to_float3(shown.b.v);
-  add_deviation_triangle(scene, a, b, to_float3(shown.c.v), grade,
-                         label_of(HologramKind::kTriangle, 1));
-  add_angle_readout(scene, a, b,
-                    angle_text(measured ? std::optional(measured->angle_rad) : std::nullopt), grade,
-                    label_of(HologramKind::kAngle, 1));
-  if (visible_.depth) {
-    add_depth(scene, a, b, *visible_.depth, label_of(HologramKind::kDepth, 1));
+/// The triangle is where the tool will be at the display time; the numbers, and the verdict behind
+/// every colour, come from one stereo pair.
+void SceneBuilder::add_cross(const PlacedScrew& screw, render::Scene& scene) {
+  const TargetCross cross = cross_of(screw, visible_);
+  add_target_cross(scene, cross, kCross);
+  if (visible_.sizes != nullptr || visible_.angle_lost) {
+    add_cross_numbers(scene, cross, cross_numbers_of(visible_), kCrossLabels);
+  }
+  text_.clear();
+  append_cross_word(text_, visible_);
+  if (!text_.empty()) {
+    const bool stop = visible_.drill.alarm == nav::DrillAlarm::kStop;
+    const bool breaks = visible_.verdict.grade == Grade::kPoor || stop || !visible_.drill.watched;
+    add_cross_word(scene, cross, text_, breaks ? look::colours().poor : look::colours().fair, stop,
+                   stop ? kStop : kWord);
+  }
+  if (visible_.numbers) {
+    add_numbers(scene, cross, *visible_.numbers, screw.at.level->registration_only(), kNumbers,
+                visible_.clearance && visible_.clearance->lower_95_tenths);
+    if (visible_.clearance) {
+      add_clearance(scene, cross, *visible_.clearance, kClearance);
+    }
   }
 }
 
@@ -260,7 +312,7 @@ void SceneBuilder::add_virtual_twin(const PlacedScrew& screw, render::Scene& sce
   const nav::ScrewGuidance& shown = *visible_.triangle;
   parts_.clear();
   add_deviation_triangle(parts_, to_float3(shown.a.v), to_float3(shown.b.v), to_float3(shown.c.v),
-                         grade_of_tool(visible_, rules_), kTwinTool);
+                         visible_.verdict.grade, kTwinTool);
   add_tool(parts_, to_float3(shown.tip.v), to_float3(shown.tool_outward), kTwinTool);
   add_twin(scene, twin, parts_, kTwinTool);
 }
@@ -286,6 +338,15 @@ void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
       }
       hologram.length_m = rod.rod->length_m;
     }
+    if (rod.instructions) {
+      hologram.length_m = rod.instructions->cut_length_m();
+      hologram.to_cut = true;
+    }
+    names_.clear();
+    for (const Point<World>& head : rod.heads) {
+      names_.push_back(level_at(guidance, rod.side, head));
+    }
+    hologram.head_names = names_;
     hologram.bends = bends_;
     hologram.offset = to_float3(rod_offset_m(guidance, rod, rules_));
     add_rod(scene, hologram, label_of(HologramKind::kRod, i + 1));
@@ -298,19 +359,23 @@ void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
     const ToolState state = tool.status == PoseStatus::kMeasured    ? ToolState::kMeasured
                             : tool.status == PoseStatus::kPredicted ? ToolState::kPredicted
                                                                     : ToolState::kLost;
-    dots_.push_back({tool.name, state});
+    dots_.push_back({state});
   }
   text_.clear();
   append_step(text_, guidance.status.at);
   detail_.clear();
   parts_of_detail_.clear();
+  append_detail(detail_, guidance.status, &parts_of_detail_);
+  const bool acts = detail_.empty();
+  detail_.clear();
+  parts_of_detail_.clear();
   append_beside_step(detail_, guidance.status, &parts_of_detail_);
   add_status_line(scene, StatusWords{text_, detail_, &parts_of_detail_}, dots_,
                   label_of(HologramKind::kStatus, 1));
-  if (visible_.numbers) {
+  if (acts) {
     text_.clear();
-    append_numbers(text_, *visible_.numbers, visible_.trajectory->at.level->registration_only());
-    add_row_above_status(scene, text_, kNumbersRow);
+    append_next_act(text_, guidance, visible_);
+    add_next_act(scene, text_, detail_.empty() ? 1 : 2, kNextAct);
   }
   if (visible_.drill.alarm == nav::DrillAlarm::kStop) {
     text_.clear();

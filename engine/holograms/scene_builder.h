@@ -16,6 +16,8 @@
 
 namespace orthonav::engine {
 
+struct TrajectoryLine;
+
 /// The only place where guidance becomes visible: as a scene of values for the renderer and as the
 /// same frame in words for the display. visibility.cpp decides what is shown, hologram_shapes.cpp
 /// how it looks. One thread at a time.
@@ -47,7 +49,8 @@ class SceneBuilder {
   void add_stroke_pattern(const Guidance& guidance, render::Scene& scene);
   void add_entries(render::Scene& scene);
   void add_screw(const PlacedScrew& screw, render::Scene& scene);
-  void add_tool_guidance(const nav::ScrewGuidance& shown, render::Scene& scene);
+  void add_angle(const TrajectoryLine& line, render::Scene& scene);
+  void add_cross(const PlacedScrew& screw, render::Scene& scene);
   void add_virtual_twin(const PlacedScrew& screw, render::Scene& scene);
   void add_rods(const Guidance& guidance, render::Scene& scene);
   void add_lying_rod(const LyingRod& rod, render::Scene& scene);
@@ -74,6 +77,7 @@ class SceneBuilder {
   // Reused from frame to frame.
   std::vector<render::Float3> points_;
   std::vector<RodBendMark> bends_;
+  std::vector<std::string_view> names_;
   std::string text_;
   std::string detail_;
   StatusParts parts_of_detail_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,6 +12,7 @@
 
 #include "base/printed.h"
 #include "engine/holograms/hologram_cross.h"
+#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_parts.h"
 #include "engine/holograms/hologram_status.h"
 #include "engine/holograms/hologram_twin.h"
@@ -91,6 +91,25 @@ void add_entry_point(const JsonNode& node, Label label, Scene& scene) {
   add_entry(scene, entry, label);
 }
 
+/// Angle, offset and, where it is given, the depth of a tool whose pose is sure.
+void add_numbers_of(const JsonNode& node, const TargetCross& cross, Scene& scene) {
+  const double offset_m = static_cast<double>(render::length(cross.reading->tip_offset));
+  CrossNumbers numbers;
+  numbers.grade = cross.reading->grade;
+  numbers.sizes =
+      nav::ScrewSizeWriter().write({angle_from(node).value_or(0.0), 0.0}, {offset_m, 0.0});
+  if (node.has("depth_mm")) {
+    const double depth_mm = number_between(node, "depth_mm", -900.0, 900.0, "mm");
+    const double to_target_mm = number_between(node, "to_target_mm", -900.0, 900.0, "mm");
+    numbers.depth = nav::DepthWriter().write({depth_mm * 1e-3, 0.0}, to_target_mm * 1e-3);
+    const double way = depth_mm / (depth_mm + to_target_mm);
+    numbers.way = static_cast<float>(std::clamp(way, 0.0, 1.0));
+  }
+  add_cross_numbers(scene, cross, numbers,
+                    {label_of(HologramKind::kAngle, 1), label_of(HologramKind::kNumbers, 6),
+                     label_of(HologramKind::kDepth, 1)});
+}
+
 void add_cross(const JsonNode& node, Label label, Scene& scene) {
   TargetCross cross;
   cross.site = place_from(node, "site_mm");
@@ -105,19 +124,9 @@ void add_cross(const JsonNode& node, Label label, Scene& scene) {
                                  place_from(node, "top_offset_mm"), grade_from(node)};
   }
   add_target_cross(scene, cross, label);
-}
-
-void add_depth_text(const JsonNode& node, Label label, Scene& scene) {
-  const double sd_m =
-      node.has("sd_mm") ? number_between(node, "sd_mm", 0.0, 1000.0, "mm") * 1e-3 : 0.0;
-  const double to_target_mm = number_between(node, "to_target_mm", -1000.0, 1000.0, "mm");
-  const auto depth =
-      nav::DepthWriter().write({node.number("depth_mm") * 1e-3, sd_m}, to_target_mm * 1e-3);
-  if (!depth) {
-    node.refuse("depth_mm", "must lie within 1000 mm");
+  if (cross.reading) {
+    add_numbers_of(node, cross, scene);
   }
-  add_depth(scene, place_from(node, "entry_mm"), place_from(node, "tool_mm"),
-            depth.value_or(nav::ShownDepth{}), label);
 }
 
 void add_rod_through(const JsonNode& node, Label label, Scene& scene) {
@@ -157,12 +166,10 @@ void add_rod_through(const JsonNode& node, Label label, Scene& scene) {
 
 void add_status(const JsonNode& node, Label label, Scene& scene) {
   constexpr std::array<const char*, 3> kStates = {"measured", "predicted", "lost"};
-  std::deque<std::string> names;  // a deque, so that they do not move in memory
   std::vector<ToolDot> tools;
   if (node.has("tools")) {
     for (const JsonNode& tool : node.list("tools")) {
-      tools.push_back({names.emplace_back(tool.text("name")),
-                       static_cast<ToolState>(word_from(tool, "state", kStates))});
+      tools.push_back({static_cast<ToolState>(word_from(tool, "state", kStates))});
     }
   }
   add_status_line(scene, node.text("text"), tools, label);
@@ -224,22 +231,15 @@ void add_triangle(const JsonNode& node, Label label, Scene& scene) {
   add_deviation_triangle(scene, place_from(node, "entry_mm"), place_from(node, "tool_mm"),
                          place_from(node, "plan_mm"), grade_from(node), label);
 }
-void add_angle(const JsonNode& node, Label label, Scene& scene) {
-  add_angle_readout(scene, place_from(node, "entry_mm"), place_from(node, "tool_mm"),
-                    angle_text(angle_from(node)), grade_from(node), label);
-}
-
-constexpr std::array<Kind, 14> kKinds = {
+constexpr std::array<Kind, 12> kKinds = {
     {{"path", 1, plain<add_path>, "samples_mm state opacity distances_mm"},
      {"vertebra", 2, add_bone, "mesh unit world_from_vertebra"},
      {"entry", 3, plain<add_entry_point>, "position_mm normal text done side"},
      {"trajectory", 4, plain<add_plan>, "entry_mm target_mm"},
      {"triangle", 5, plain<add_triangle>, "entry_mm tool_mm plan_mm angle_deg"},
-     {"angle", 6, plain<add_angle>, "entry_mm tool_mm angle_deg"},
      {"cross", 7, plain<add_cross>,
-      "site_mm outward eye_mm up tip_offset_mm top_offset_mm angle_deg lost"},
+      "site_mm outward eye_mm up tip_offset_mm top_offset_mm angle_deg depth_mm to_target_mm lost"},
      {"twin", 8, add_twin_of, "site_mm beside of"},
-     {"depth", 9, plain<add_depth_text>, "entry_mm tool_mm depth_mm to_target_mm sd_mm"},
      {"rod", 10, plain<add_rod_through>, "heads_mm diameter_mm shift_mm"},
      {"status", 11, plain<add_status>, "text tools"},
      {"check_point", 12, plain<add_check>, "position_mm distance_mm"},

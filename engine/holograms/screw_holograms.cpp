@@ -51,15 +51,26 @@ void add_wire(render::Scene& scene, const PlacedScrew& screw, const PlacedWire& 
                   label_of(HologramKind::kTrajectory, 2));
 }
 
-Grade grade_of_tool(const Visibility& visible, const VisibilityRules& rules) {
-  if (visible.measurement) {
-    return grade_of(visible.measurement->angle_rad, rules.grades);
+CrossNumbers cross_numbers_of(const Visibility& visible) {
+  CrossNumbers numbers;
+  if (visible.measurement == nullptr || visible.sizes == nullptr) {
+    return numbers;
   }
-  return std::max(grade_of(visible.triangle->angle_rad, rules.grades), Grade::kFair);
+  numbers.sizes = *visible.sizes;
+  if (visible.depth != nullptr) {
+    numbers.depth = *visible.depth;
+  }
+  numbers.grade = visible.verdict.grade;
+  numbers.worst = visible.verdict.worst;
+  const nav::ScrewGuidance& tool = *visible.measurement;
+  const double way = tool.depth_m / (tool.depth_m + tool.to_target_m);
+  numbers.way = static_cast<float>(std::clamp(way, 0.0, 1.0));
+  numbers.drilling = visible.drill.phase == nav::DrillPhase::kDrilling;
+  return numbers;
 }
 
-TargetCross cross_of(const PlacedScrew& screw, const VisibleCross& visible,
-                     const VisibilityRules& rules) {
+TargetCross cross_of(const PlacedScrew& screw, const Visibility& all) {
+  const VisibleCross& visible = *all.cross;
   const TrajectoryLine line = trajectory_of(screw);
   TargetCross cross;
   const Point<World> site = site_of(screw.at);
@@ -73,7 +84,7 @@ TargetCross cross_of(const PlacedScrew& screw, const VisibleCross& visible,
   if (visible.dots) {
     cross.reading =
         CrossReading{to_float3(visible.dots->tip_offset_m), to_float3(visible.dots->top_offset_m),
-                     grade_of(visible.dots->angle_rad, rules.grades)};
+                     all.verdict.grade, all.verdict.worst};
   }
   return cross;
 }

@@ -24,16 +24,12 @@ struct TrajectoryLine {
 void add_wire(render::Scene& scene, const PlacedScrew& screw, const PlacedWire& wire,
               std::string& text);
 
-/// The grade of a visible H5 and its H6. A merely predicted tool has no number and is never graded
-/// good.
-[[nodiscard]] Grade grade_of_tool(const Visibility& visible, const VisibilityRules& rules);
-
 /// The middle of the level's entry points.
 [[nodiscard]] Point<World> site_of(const PlacedLevel& at);
 
-/// H7 over the level's site.
-[[nodiscard]] TargetCross cross_of(const PlacedScrew& screw, const VisibleCross& visible,
-                                   const VisibilityRules& rules);
+/// H7 over the level's site, and what is written under it.
+[[nodiscard]] TargetCross cross_of(const PlacedScrew& screw, const Visibility& visible);
+[[nodiscard]] CrossNumbers cross_numbers_of(const Visibility& visible);
 
 /// The side of the site on which H7 is clear of the tool.
 [[nodiscard]] LabelSide clear_side_of(const PlacedScrew& screw, const Transform<World, Rig>& head,

@@ -5,6 +5,7 @@
 
 #include "base/translation.h"
 #include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/next_act.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
 #include "engine/session/numbers_wording.h"
@@ -54,14 +55,20 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
   used_ = 0;
   frame.display_time = guidance.display_time;
   frame.pose_time = guidance.pose_time;
-  write_status(guidance.status, visible, frame);
+  write_status(guidance, visible, frame);
   write_path(guidance, visible, frame);
   if (visible.vertebra) {
     write_verifying(*visible.vertebra, guidance.to_check, frame);
   }
   write_entries(visible, frame);
+  if (visible.stroke_next) {
+    add(frame, HologramKind::kCheckPoint).points_in_world.push_back(*visible.stroke_next);
+  }
+  if (visible.landmark) {
+    add(frame, HologramKind::kCheckPoint).points_in_world.push_back(*visible.landmark);
+  }
   if (visible.trajectory) {
-    write_screw(*visible.trajectory, visible, rules, frame);
+    write_screw(*visible.trajectory, visible, frame);
   }
   if (visible.rods) {
     write_rods(guidance, rules, frame);
@@ -97,12 +104,14 @@ void ShownFrameWriter::write_verifying(const PlacedLevel& at,
   }
   for (const nav::CheckPoint& point : at.level->check_points) {
     ShownHologram& check = add(frame, HologramKind::kCheckPoint);
-    check.text = distance_text(point.distance_m);
+    if (&point == &at.level->check_points.back()) {
+      check.text = distance_text(point.distance_m);
+    }
     check.reading = point.distance_m;
     check.points_in_world.push_back(point.place);
   }
-  for (const Point<World>& place : to_check) {
-    add(frame, HologramKind::kCheckPoint).points_in_world.push_back(place);
+  if (!to_check.empty()) {
+    add(frame, HologramKind::kCheckPoint).points_in_world.push_back(to_check.front());
   }
 }
 
@@ -113,7 +122,7 @@ void ShownFrameWriter::write_entries(const Visibility& visible, ShownFrame& fram
       ShownHologram& entry = add(frame, HologramKind::kEntry);
       entry.level = plan.label;
       entry.side = screw.side;
-      if (visible.entry_labels) {
+      if (names_entry(visible, at, static_cast<std::size_t>(&screw - plan.screws.data()))) {
         append_screw(entry.text, plan.label, screw.side);
       }
       entry.points_in_world.push_back(at.world_from_vertebra * screw.entry);
@@ -121,13 +130,15 @@ void ShownFrameWriter::write_entries(const Visibility& visible, ShownFrame& fram
   }
 }
 
-void ShownFrameWriter::write_cross(const PlacedScrew& screw, const VisibleCross& visible,
-                                   const VisibilityRules& rules, ShownFrame& frame) {
-  const TargetCross cross = cross_of(screw, visible, rules);
+void ShownFrameWriter::write_cross(const PlacedScrew& screw, const Visibility& visible,
+                                   ShownFrame& frame) {
+  const TargetCross cross = cross_of(screw, visible);
   const CrossPlaces places = places_of(cross);
   ShownHologram& shown = add(frame, HologramKind::kCross);
   if (cross.lost) {
     shown.text = translated(words::kToolLost);
+  } else {
+    append_cross_word(shown.text, visible);
   }
   shown.points_in_world.push_back(to_point(places.middle));
   if (!cross.reading) {
@@ -138,10 +149,22 @@ void ShownFrameWriter::write_cross(const PlacedScrew& screw, const VisibleCross&
   }
 }
 
-void ShownFrameWriter::write_angle(std::optional<double> angle_rad, ShownFrame& frame) {
+/// A bound is no reading of where the tool is.
+void ShownFrameWriter::write_sizes(const Visibility& visible, ShownFrame& frame) {
   ShownHologram& angle = add(frame, HologramKind::kAngle);
-  angle.text = angle_text(angle_rad);
-  angle.reading = read_angle_rad(angle_rad);
+  if (visible.sizes == nullptr) {
+    angle.text = angle_text(std::nullopt);
+    return;
+  }
+  const auto read = [](const nav::ShownSize& size, double tenth) {
+    return size.certainty == nav::Certainty::kSure ? std::optional(size.tenths * tenth)
+                                                   : std::nullopt;
+  };
+  append_angle(angle.text, visible.sizes->angle);
+  angle.reading = read(visible.sizes->angle, nav::kTenth_rad);
+  ShownHologram& offset = add(frame, HologramKind::kNumbers);
+  append_offset(offset.text, visible.sizes->offset);
+  offset.reading = read(visible.sizes->offset, nav::kTenth_m);
 }
 
 void ShownFrameWriter::write_wire(const PlacedScrew& screw, const Visibility& visible,
@@ -156,7 +179,7 @@ void ShownFrameWriter::write_wire(const PlacedScrew& screw, const Visibility& vi
 }
 
 void ShownFrameWriter::write_screw(const PlacedScrew& screw, const Visibility& visible,
-                                   const VisibilityRules& rules, ShownFrame& frame) {
+                                   ShownFrame& frame) {
   const TrajectoryLine line = trajectory_of(screw);
   add(frame, HologramKind::kTrajectory).points_in_world = {line.outside, line.entry, line.target};
   write_wire(screw, visible, frame);
@@ -164,11 +187,10 @@ void ShownFrameWriter::write_screw(const PlacedScrew& screw, const Visibility& v
     const nav::ScrewGuidance& shown = *visible.triangle;
     add(frame, HologramKind::kTriangle).points_in_world = {shown.a, shown.b, shown.c};
   }
-  if (visible.measurement) {
-    write_angle(visible.measurement->angle_rad, frame);
-  }
-  if (visible.cross) {
-    write_cross(screw, *visible.cross, rules, frame);
+  if (visible.approach) {
+    ShownHologram& tip = add(frame, HologramKind::kDepth);
+    append_rounded_mm(tip.text, visible.approach->distance_m);
+    tip.points_in_world.push_back(visible.approach->tip);
   }
   if (visible.twin) {
     const VirtualTwin twin = twin_of(screw);
@@ -177,21 +199,29 @@ void ShownFrameWriter::write_screw(const PlacedScrew& screw, const Visibility& v
       shown.points_in_world.push_back(to_point(in_twin(twin, to_float3(place.v))));
     }
   }
+  if (!visible.cross) {
+    if (visible.measurement || visible.angle_lost) {
+      const auto angle_rad =
+          visible.measurement ? std::optional(visible.measurement->angle_rad) : std::nullopt;
+      ShownHologram& angle = add(frame, HologramKind::kAngle);
+      angle.text = angle_text(angle_rad);
+      angle.reading = read_angle_rad(angle_rad);
+    }
+    return;
+  }
+  write_cross(screw, visible, frame);
+  if (visible.sizes != nullptr || visible.angle_lost) {
+    write_sizes(visible, frame);
+  }
   if (visible.depth) {
     append_depth(add(frame, HologramKind::kDepth).text, *visible.depth);
   }
   if (visible.numbers) {
     write_numbers(*visible.numbers, screw.plan().side, frame);
-  }
-  if (visible.clearance) {
-    append_clearance_line(add(frame, HologramKind::kNumbers).text, *visible.clearance,
-                          screw.at.level->registration_only());
-  }
-  if (visible.cross && visible.drill.phase != nav::DrillPhase::kAway) {
-    append_drill(add(frame, HologramKind::kNumbers).text, visible.drill);
-  }
-  if (visible.angle_lost) {
-    write_angle(std::nullopt, frame);
+    if (visible.clearance) {
+      append_clearance_line(add(frame, HologramKind::kNumbers).text, *visible.clearance,
+                            screw.at.level->registration_only());
+    }
   }
 }
 
@@ -202,7 +232,6 @@ void ShownFrameWriter::write_numbers(const nav::ScrewNumbers& numbers, nav::Side
     ShownHologram& shown = add(frame, HologramKind::kNumbers);
     shown.side = side;
     append_number(shown.text, numbers, row);
-    shown.reading = reading_of(numbers, row);
   }
 }
 
@@ -229,8 +258,9 @@ void ShownFrameWriter::write_lying_rod(const LyingRod& rod, ShownFrame& frame) {
   hologram.points_in_world.insert(hologram.points_in_world.end(), rod.axis.begin(), rod.axis.end());
 }
 
-void ShownFrameWriter::write_status(const StatusLine& line, const Visibility& visible,
+void ShownFrameWriter::write_status(const Guidance& guidance, const Visibility& visible,
                                     ShownFrame& frame) {
+  const StatusLine& line = guidance.status;
   if (!frame.status) {
     frame.status.emplace();
   }
@@ -240,10 +270,14 @@ void ShownFrameWriter::write_status(const StatusLine& line, const Visibility& vi
   status.checks = checks_asked(line);
   status.text.clear();
   append_without_heard(status.text, line);
-  if (visible.numbers) {
-    status.text += " | ";
-    append_numbers(status.text, *visible.numbers,
-                   visible.trajectory->at.level->registration_only());
+  constexpr std::string_view kSeparator = " | ";
+  if (status.text.find(kSeparator) == std::string::npos) {
+    const std::size_t end = status.text.size();
+    status.text += kSeparator;
+    append_next_act(status.text, guidance, visible);
+    if (status.text.size() == end + kSeparator.size()) {
+      status.text.resize(end);
+    }
   }
   status.heard.clear();
   if (line.heard) {

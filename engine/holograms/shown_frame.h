@@ -25,15 +25,13 @@ class ShownFrameWriter {
                        ShownFrame& frame);
   void write_entries(const Visibility& visible, ShownFrame& frame);
   void write_wire(const PlacedScrew& screw, const Visibility& visible, ShownFrame& frame);
-  void write_screw(const PlacedScrew& screw, const Visibility& visible,
-                   const VisibilityRules& rules, ShownFrame& frame);
-  void write_cross(const PlacedScrew& screw, const VisibleCross& visible,
-                   const VisibilityRules& rules, ShownFrame& frame);
+  void write_screw(const PlacedScrew& screw, const Visibility& visible, ShownFrame& frame);
+  void write_cross(const PlacedScrew& screw, const Visibility& visible, ShownFrame& frame);
+  void write_sizes(const Visibility& visible, ShownFrame& frame);
   void write_rods(const Guidance& guidance, const VisibilityRules& rules, ShownFrame& frame);
   void write_lying_rod(const LyingRod& rod, ShownFrame& frame);
-  void write_angle(std::optional<double> angle_rad, ShownFrame& frame);
   void write_numbers(const nav::ScrewNumbers& numbers, nav::Side side, ShownFrame& frame);
-  void write_status(const StatusLine& line, const Visibility& visible, ShownFrame& frame);
+  void write_status(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
 
   std::size_t used_ = 0;
   /// Landmarks by which a person compares the hologram with the bone; found once per model.

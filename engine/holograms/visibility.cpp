@@ -1,8 +1,11 @@
 #include "engine/holograms/visibility.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/holograms/screw_holograms.h"
+#include "engine/session/coach.h"
 
 namespace orthonav::engine {
 
@@ -44,20 +47,75 @@ std::optional<PlacedScrew> selected_screw(const Guidance& g) {
   return PlacedScrew{*level, g.screw};
 }
 
+/// The worst first; of what is equally bad, the most urgent.
+ToolVerdict judged(const Visibility& visible, const nav::DrillView& drill,
+                   const VisibilityRules& rules) {
+  const GradeLimits& limits = rules.grades;
+  ToolVerdict verdict{Grade::kGood, Worst::kNothing};
+  const auto count = [&](Grade grade, Worst of) {
+    if (grade > verdict.grade || (grade == verdict.grade && grade != Grade::kGood)) {
+      verdict = {grade, of};
+    }
+  };
+  if (visible.measurement != nullptr && !rules.cross_and_depth) {
+    count(grade_of(visible.measurement->angle_rad, limits), Worst::kAngle);
+    return verdict;
+  }
+  if (visible.measurement == nullptr || visible.sizes == nullptr) {
+    // A merely predicted tool has no number and is never shown as good.
+    count(std::max(grade_of(visible.triangle->angle_rad, limits), Grade::kFair), Worst::kCertainty);
+    return verdict;
+  }
+  const auto unsure = [](nav::Certainty certainty) { return certainty != nav::Certainty::kSure; };
+  if (unsure(visible.sizes->angle.certainty) || unsure(visible.sizes->offset.certainty) ||
+      (visible.depth != nullptr && unsure(visible.depth->certainty))) {
+    count(Grade::kFair, Worst::kCertainty);
+  }
+  count(grade_of(visible.measurement->angle_rad, limits), Worst::kAngle);
+  count(grade_of_offset(visible.measurement->tip_off_axis_m, limits), Worst::kOffset);
+  if (drill.phase == nav::DrillPhase::kDrilling && drill.alarm == nav::DrillAlarm::kRed) {
+    // Its limits may be narrower than those of the colours.
+    const bool angle = verdict.worst == Worst::kAngle;
+    count(Grade::kPoor, angle ? Worst::kAngle : Worst::kOffset);
+  }
+  if (visible.clearance != nullptr && visible.clearance->may_break()) {
+    count(visible.clearance->least_tenths < 0 ? Grade::kPoor : Grade::kFair, Worst::kClearance);
+  }
+  const bool past = visible.depth != nullptr && visible.depth->to == nav::DepthTo::kPastTarget;
+  if (past || drill.alarm == nav::DrillAlarm::kStop) {
+    count(Grade::kPoor, Worst::kDepth);
+  }
+  return verdict;
+}
+
+/// Of the tip from the planned screw, anywhere between entry and target.
+double from_screw_m(const nav::ScrewGuidance& tool) {
+  const double along_m = tool.depth_m < 0.0       ? -tool.depth_m
+                         : tool.to_target_m < 0.0 ? -tool.to_target_m
+                                                  : 0.0;
+  return std::hypot(tool.tip_off_axis_m, along_m);
+}
+
 /// H5, H6, H9, H13: on a pose younger than the limit at the display time. A frozen triangle is
 /// worse than none. `fresh` is null where there is no such pose.
-void decide_tool(const ToolGuidance* fresh, const VisibilityRules& rules, Visibility& out) {
+void decide_tool(const Guidance& g, const ToolGuidance* fresh, const VisibilityRules& rules,
+                 Visibility& out) {
   if (fresh) {
     const nav::ScrewGuidance* measured = fresh->measured ? &*fresh->measured : nullptr;
     const nav::ScrewGuidance& where = measured ? *measured : fresh->shown;
-    if (where.tip_to_entry_m <= rules.triangle_within_m) {
+    if (from_screw_m(where) <= rules.triangle_within_m) {
       out.triangle = &fresh->shown;
       out.measurement = measured;
-      if (measured && rules.cross_and_depth) {
-        out.numbers = fresh->numbers ? &*fresh->numbers : nullptr;
-        out.depth = fresh->depth ? &*fresh->depth : nullptr;
-        out.clearance = fresh->shown_clearance ? &*fresh->shown_clearance : nullptr;
+      if (rules.cross_and_depth) {
+        out.sizes = measured && fresh->sizes ? &*fresh->sizes : nullptr;
+        out.depth = measured && fresh->depth ? &*fresh->depth : nullptr;
+        out.clearance = measured && fresh->shown_clearance ? &*fresh->shown_clearance : nullptr;
+        out.numbers = g.numbers && measured && fresh->numbers ? &*fresh->numbers : nullptr;
       }
+      out.pose_time = fresh->pose_time;
+      out.verdict = judged(out, out.drill, rules);
+    } else if (measured && rules.cross_and_depth) {
+      out.approach = VisibleApproach{fresh->shown.tip, measured->tip_to_entry_m};
       out.pose_time = fresh->pose_time;
     }
   }
@@ -65,7 +123,7 @@ void decide_tool(const ToolGuidance* fresh, const VisibilityRules& rules, Visibi
   out.angle_lost = !out.measurement && (out.triangle || !fresh);
 }
 
-/// H7: with the trajectory that it measures against, once it is known where the eyes are. Its dots
+/// H7: while the tool is at the screw, or is lost, once it is known where the eyes are. Its dots
 /// are numbers in another shape: they come from one stereo pair, never from a prediction.
 void decide_cross(const PlacedScrew& screw, const Transform<World, Rig>& head,
                   const ToolGuidance* fresh, Visibility& out) {
@@ -73,11 +131,10 @@ void decide_cross(const PlacedScrew& screw, const Transform<World, Rig>& head,
   cross.world_from_head = head;
   cross.side = out.cross_side = clear_side_of(screw, head, out.cross_side);
   cross.lost = !fresh;
-  if (fresh && fresh->measured) {
-    cross.dots = &*fresh->measured;
-    out.pose_time = fresh->pose_time;
+  cross.dots = out.measurement;
+  if (out.triangle || cross.lost) {
+    out.cross = cross;
   }
-  out.cross = cross;
 }
 
 /// H3: entry points of everything that may be guided on, never faded by distance. An unaccepted
@@ -123,18 +180,33 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   if (g.step == Step::kVerify && g.level < g.levels.size()) {
     out.vertebra = placed(g.levels[g.level]);
   }
-  decide_entries(g, out);
-  // Once every screw is in, the names would only cover the rod's lengths.
-  out.entry_labels = g.step != Step::kRod && g.step != Step::kDone;
+  // H3: once every screw is in, the rod takes its place until the end.
+  if (g.step != Step::kRod) {
+    decide_entries(g, out);
+  }
+  out.entry_labels = true;
+  if (const auto* strokes = std::get_if<StrokesSoFar>(&g.status.state);
+      strokes != nullptr && strokes->coaching != nullptr && !strokes->coaching->enough) {
+    out.stroke_next = strokes->coaching->stroke_at;
+  }
+  if (g.step == Step::kAccepted && g.level < g.levels.size()) {
+    const LevelState& level = g.levels[g.level];
+    if (const auto there = usable(level); there && level.landmark) {
+      out.landmark = there->world_from_vertebra * level.landmark->in_vertebra;
+    }
+  }
   out.trajectory = selected_screw(g);
   // The measurement of a wire in the bone is as old as its registration, not as a pose.
   out.wire = out.trajectory && g.step == Step::kPlaced ? g.wire : nullptr;
   if (out.trajectory && g.step == Step::kGuide) {
     const bool fresh = g.tool && display_time - g.tool->pose_time <= g.stale_after;
     const ToolGuidance* tool = fresh ? &*g.tool : nullptr;
-    decide_tool(tool, rules, out);
     // H13: a frame shown so late that its pose is too old is as unwatched as a pair without one.
     out.drill = tool ? g.drill : g.drill.unwatched();
+    decide_tool(g, tool, rules, out);
+    // The status line says which screw it is; on the way there its name stands at its entry.
+    out.entry_labels = out.approach.has_value() || !rules.cross_and_depth;
+    out.only_selected_named = rules.cross_and_depth;
     if (g.head && rules.cross_and_depth) {
       decide_cross(*out.trajectory, *g.head, tool, out);
     }
@@ -146,6 +218,13 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   if (g.step == Step::kRod) {
     out.lying_rod = lying_rod_at(g, display_time);
   }
+}
+
+bool names_entry(const Visibility& visible, const PlacedLevel& at, std::size_t screw) {
+  const auto& selected = visible.trajectory;
+  return visible.entry_labels &&
+         (!visible.only_selected_named ||
+          (selected && selected->at.level == at.level && selected->screw == screw));
 }
 
 Vec3 rod_offset_m(const Guidance& guidance, const RodState& rod, const VisibilityRules& rules) {

@@ -11,7 +11,8 @@ namespace orthonav::engine {
 
 /// How long guidance stays valid is decided by the session and stated in the guidance.
 struct VisibilityRules {
-  double triangle_within_m = 0.040;  ///< of the tip from the entry
+  /// The tool is at the screw: its tip is this near to the planned one, between entry and target.
+  double triangle_within_m = 0.040;
   double rod_moved_away_m = 0.150;
   GradeLimits grades;
   /// H7 and H9, and the numbers beside them (H13), which the publication does not have.
@@ -36,6 +37,19 @@ struct PlacedScrew {
   [[nodiscard]] const nav::ScrewPlan& plan() const { return at.level->plan.screws[screw]; }
 };
 
+/// The one verdict on a tool at the screw: the worst of angle, offset, depth, clearance and
+/// certainty. It decides every colour and shape, and which element is drawn bright.
+struct ToolVerdict {
+  Grade grade = Grade::kPoor;
+  Worst worst = Worst::kNothing;
+};
+
+/// A tool on its way to the screw.
+struct VisibleApproach {
+  Point<World> tip;         ///< predicted to the display time
+  double distance_m = 0.0;  ///< from the entry, as measured in this pair
+};
+
 /// H7 of the selected screw.
 struct VisibleCross {
   Transform<World, Rig> world_from_head;
@@ -50,26 +64,31 @@ struct VisibleCross {
 /// scene and the frame in words can't differ. Points into the guidance that it was made from, and
 /// is valid only as long as that guidance is.
 struct Visibility {
-  bool paths = false;                               ///< H1
-  bool stroke_pattern = false;                      ///< the picture of where to stroke
-  std::optional<PlacedLevel> vertebra;              ///< H2 and H12, of the current level
-  std::vector<PlacedLevel> entries_of;              ///< H3: the levels whose entry points are shown
-  bool entry_labels = false;                        ///< their names too
-  std::optional<PlacedScrew> trajectory;            ///< H4 of the selected screw
-  const PlacedWire* wire = nullptr;                 ///< the measured wire beside H4, or null
-  const nav::ScrewGuidance* triangle = nullptr;     ///< H5, predicted to the display time; or null
-  const nav::ScrewGuidance* measurement = nullptr;  ///< the number of H6; or null
-  /// H13 and its row of the status line, from the pair of `measurement`; or null.
-  const nav::ScrewNumbers* numbers = nullptr;
-  const nav::ShownDepth* depth = nullptr;          ///< H9, likewise; or null
-  const nav::ShownClearance* clearance = nullptr;  ///< under the numbers; or null
-  nav::DrillView drill;                            ///< shown with the cross
-  bool angle_lost = false;                         ///< H6 without a number
-  std::optional<VisibleCross> cross;               ///< H7
-  LabelSide cross_side = LabelSide::kLeft;         ///< the side on which the cross was last
-  bool twin = false;                               ///< H8 of the selected screw
-  bool rods = false;                               ///< H10
-  const LyingRod* lying_rod = nullptr;             ///< H10 of the rod in hand; or null
+  bool paths = false;                            ///< H1
+  bool stroke_pattern = false;                   ///< the picture of where to stroke
+  std::optional<PlacedLevel> vertebra;           ///< H2 and H12, of the current level
+  std::vector<PlacedLevel> entries_of;           ///< H3: the levels whose entry points are shown
+  bool entry_labels = false;                     ///< their names too
+  bool only_selected_named = false;              ///< of those, the selected screw's alone
+  std::optional<Point<World>> stroke_next;       ///< H12: the middle of what to stroke next
+  std::optional<Point<World>> landmark;          ///< H12: the landmark, while it is to be touched
+  std::optional<PlacedScrew> trajectory;         ///< H4 of the selected screw
+  const PlacedWire* wire = nullptr;              ///< the measured wire beside H4, or null
+  const nav::ScrewGuidance* triangle = nullptr;  ///< H5, predicted to the display time; or null
+  const nav::ScrewGuidance* measurement = nullptr;  ///< of the pair behind every number; or null
+  ToolVerdict verdict;                              ///< on the triangle's tool
+  const nav::ScrewSizes* sizes = nullptr;           ///< angle and offset, of `measurement`; or null
+  const nav::ShownDepth* depth = nullptr;           ///< H9, likewise; or null
+  const nav::ShownClearance* clearance = nullptr;   ///< likewise; or null
+  const nav::ScrewNumbers* numbers = nullptr;       ///< H13, likewise, if asked for; or null
+  std::optional<VisibleApproach> approach;          ///< in place of the cross
+  nav::DrillView drill;                             ///< shown with the cross
+  bool angle_lost = false;                          ///< H6 without a number
+  std::optional<VisibleCross> cross;                ///< H7
+  LabelSide cross_side = LabelSide::kLeft;          ///< the side on which the cross was last
+  bool twin = false;                                ///< H8 of the selected screw
+  bool rods = false;                                ///< H10
+  const LyingRod* lying_rod = nullptr;              ///< H10 of the rod in hand; or null
   /// Time of the pair on which H5 and the dots of H7 are based; absent if neither is shown.
   std::optional<Timestamp> pose_time;
 };
@@ -77,6 +96,9 @@ struct Visibility {
 /// Decides for a frame shown at `display_time`, which may be later than the guidance expected.
 void decide_visibility(const Guidance& guidance, const VisibilityRules& rules,
                        Timestamp display_time, Visibility& out);
+
+/// Whether the name of a screw stands at its entry.
+[[nodiscard]] bool names_entry(const Visibility& visible, const PlacedLevel& at, std::size_t screw);
 
 /// From where to where the rods are shifted while they are moved away: sideways off the patient,
 /// as a rigid body, each to its own side.

@@ -32,6 +32,12 @@ Coaching coaching_from(const nav::Registration& registration) {
   coaching.expected_m = std::hypot(registration.predicted_tre_m, std::sqrt(3.0) * common_m);
   coaching.registration_only = !(common_m > 0.0);
   coaching.stroke_next = registration.stroke_next;
+  if (coaching.unique) {
+    coaching.progress = std::min(1.0, limits.max_predicted_tre_m / coaching.expected_m);
+    if (registration.stroke_next) {
+      coaching.stroke_at = registration.world_from_vertebra * registration.stroke_next_at;
+    }
+  }
   // A small expected error does not help if there is another reason against the registration.
   if (coaching.unique && !coaching.enough &&
       registration.predicted_tre_m <= limits.max_predicted_tre_m && !registration.reasons.empty()) {

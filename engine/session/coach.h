@@ -22,6 +22,8 @@ struct Coaching {
   /// The reason against it, if it matters more than where to stroke next.
   std::optional<nav::RefusalReason> against;
   std::optional<nav::BonePlace> stroke_next;
+  std::optional<Point<World>> stroke_at;  ///< the middle of that place, if the pose is unique
+  double progress = 0.0;  ///< in [0, 1]: how small the expected error is, against its limit
 };
 [[nodiscard]] Coaching coaching_from(const nav::Registration& registration);
 

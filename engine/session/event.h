@@ -21,6 +21,7 @@ enum class Event : std::uint8_t {
   kSayDone,
   kSayMoveRod,
   kSayTwin,
+  kSayNumbers,
   kSayDrill,
   kSayReplan,             ///< a change of the screw; Replan says which
   kRegistered,            ///< a registration passed its limits
@@ -51,7 +52,7 @@ enum class Event : std::uint8_t {
   kReferenceSeen,     ///< a reference is seen again, or for the first time
   kReferenceMoved,    ///< references moved against each other: positions relative to them are void
 };
-inline constexpr std::size_t kEventCount = 43;
+inline constexpr std::size_t kEventCount = 44;
 
 /// What the session does about an event. The first is the default of cells without a rule.
 enum class Action : std::uint8_t {
@@ -98,6 +99,7 @@ enum class Action : std::uint8_t {
   kFinishRod,
   kMoveRod,
   kToggleTwin,
+  kToggleNumbers,
   kBeginDrill,
   kReplan,
   kConsent,
@@ -107,6 +109,6 @@ enum class Action : std::uint8_t {
   kShowGuidance,
   kForgetMap,
 };
-inline constexpr std::size_t kActionCount = 51;
+inline constexpr std::size_t kActionCount = 52;
 
 }  // namespace orthonav::engine

@@ -1,5 +1,6 @@
 #include "engine/session/findings_wording.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -60,17 +61,6 @@ LimitWords words_about(nav::RefusalReason::Kind kind) {
 
 std::string_view word_of(Side side) {
   return side == Side::kLeft ? translated("left") : translated("right");
-}
-
-void append_expected_error(std::string& out, double expected_m, bool registration_only,
-                           bool at_the_screws) {
-  append_printed(out, translated("expected error %s"), said_mm(expected_m).c_str());
-  if (at_the_screws) {
-    out.append(" ").append(translated("at the screws"));
-  }
-  if (registration_only) {
-    append_registration_only(out);
-  }
 }
 
 void append_registration_only(std::string& out) {
@@ -192,28 +182,32 @@ void append(std::string& out, const nav::CheckAdvice& advice) {
 
 void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator) {
   std::string& out = text.out;
-  if (!coaching.unique) {
-    // The error of a pose that may be the wrong one is meaningless.
-    text.begin(Importance::kMessage, separator);
-    out += translated("ambiguous");
-  } else {
-    text.begin(Importance::kFigures, separator);
-    append_expected_error(out, coaching.expected_m, coaching.registration_only);
+  // A bar that fills as the expected error falls.
+  constexpr int kParts = 5;
+  const int filled =
+      coaching.enough ? kParts : std::min(kParts - 1, static_cast<int>(kParts * coaching.progress));
+  text.begin(Importance::kFigures, separator);
+  for (int i = 0; i < kParts; ++i) {
+    out += i < filled ? "◆" : "◇";
   }
+  separator = " ";
   if (coaching.enough) {
-    text.begin(Importance::kNext, ", ");
-    out += coaching.then_touch ? translated("soft tissue: register, then touch the bone")
-                               : translated("enough to register");
+    text.begin(Importance::kNext, separator);
+    out += coaching.then_touch ? translated("double click, then touch the bone")
+                               : translated("enough: double click");
     if (coaching.then_touch && coaching.stroke_next) {
       text.begin(Importance::kMore, ", ");
       append_part(out, translated("or first scrape the %s"), *coaching.stroke_next);
     }
   } else if (coaching.against) {
-    text.begin(Importance::kMessage, ", ");
+    text.begin(Importance::kMessage, separator);
     append(out, *coaching.against);
   } else if (coaching.stroke_next) {
-    text.begin(Importance::kNext, ", ");
+    text.begin(Importance::kNext, separator);
     append(out, *coaching.stroke_next);
+  } else {
+    text.begin(Importance::kNext, separator);
+    out += translated("stroke on");
   }
 }
 

@@ -17,11 +17,7 @@ struct Coaching;
 
 /// "left" or "right".
 [[nodiscard]] std::string_view word_of(Side side);
-/// "expected error 0.6 mm at the screws (registration only)", with the last two where they apply.
-void append_expected_error(std::string& out, double expected_m, bool registration_only,
-                           bool at_the_screws = false);
-/// " (registration only)": follows an expected error that leaves out the errors common to all
-/// strokes.
+/// " (registration only)": follows a bound that leaves out the errors common to all strokes.
 void append_registration_only(std::string& out);
 /// "digitize the left lamina".
 void append(std::string& out, const nav::BonePlace& place);

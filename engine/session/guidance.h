@@ -192,6 +192,8 @@ struct ToolGuidance {
   /// Tip and aim in the surgeon's directions, as displayed. Absent if `measured` is, and for a plan
   /// whose directions have no such names (`nav::directions_of`).
   std::optional<nav::ScrewNumbers> numbers = {};
+  /// Angle and offset as displayed; absent if `measured` is.
+  std::optional<nav::ScrewSizes> sizes = {};
   /// Depth of the tip as displayed; absent if `measured` is, or a metre away.
   std::optional<nav::ShownDepth> depth = {};
   /// `clearance` as displayed; absent if it is.
@@ -235,7 +237,10 @@ struct Guidance {
   const nav::Anchor* anchor = nullptr;
   /// The head's pose in the newest pair with a known one; some holograms face it.
   std::optional<Transform<World, Rig>> head;
-  bool twin = false;  ///< the virtual twin was asked for
+  bool twin = false;     ///< the virtual twin was asked for
+  bool numbers = false;  ///< every number of the guide was asked for
+  /// The tip was set at the entry of the selected screw, or drilled there.
+  bool was_set = false;
   /// Distances of the saved samples from the registered surface, region by region; empty without a
   /// registration to verify.
   std::span<const float> residuals_m;

@@ -73,8 +73,10 @@ void Guiding::write(const OperationInWork& work, const GuideChecks& checks, bool
                     Guidance& out) {
   out.screw = screw_;
   out.twin = twin_;
+  out.numbers = numbers_;
   out.tool.reset();
   out.drill = {};
+  out.was_set = false;
   if (work.step != Step::kGuide) {
     return;
   }
@@ -85,6 +87,7 @@ void Guiding::write(const OperationInWork& work, const GuideChecks& checks, bool
     out.tool = guide(work, out.frame_time, out.display_time);
   }
   out.drill = drill();
+  out.was_set = approach_.was_set;
 }
 
 std::optional<ToolGuidance> Guiding::guide(const OperationInWork& work, Timestamp now,
@@ -134,6 +137,7 @@ ToolInVertebra Guiding::in_bone(const LevelState& level, const nav::TrackedPose&
 
 void Guiding::lose_measurement() {
   approach_.numbers.forget();
+  approach_.sizes.forget();
   approach_.depth.forget();
   approach_.clearance.forget();
   approach_.drill.not_measured();
@@ -149,12 +153,17 @@ void Guiding::take_measurement(ToolGuidance& guidance, const LevelState& level,
   if (deviation) {
     guidance.numbers = approach_.numbers.write(*deviation);
   }
-  const double depth_sd_m =
-      deviation ? deviation->depth_m.sd : std::numeric_limits<double>::infinity();
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  const double angle_sd_rad =
+      deviation ? std::max(deviation->aim_cranial_rad.sd, deviation->aim_medial_rad.sd) : kUnknown;
+  const double offset_sd_m =
+      deviation ? std::max(deviation->tip_cranial_m.sd, deviation->tip_medial_m.sd) : kUnknown;
+  guidance.sizes = approach_.sizes.write({measured.angle_rad, angle_sd_rad},
+                                         {measured.tip_off_axis_m, offset_sd_m});
+  const double depth_sd_m = deviation ? deviation->depth_m.sd : kUnknown;
   guidance.depth = approach_.depth.write({measured.depth_m, depth_sd_m}, measured.to_target_m);
   const auto on_bone = level.plan.model->surface().nearest(there.axis.point.v);
-  approach_.watch_drill({pose.time, there.axis.point.v,
-                         on_bone ? on_bone->distance_m : std::numeric_limits<double>::infinity(),
+  approach_.watch_drill({pose.time, there.axis.point.v, on_bone ? on_bone->distance_m : kUnknown,
                          measured.tip_off_axis_m, measured.angle_rad, measured.depth_m, depth_sd_m,
                          measured.to_target_m, tool.stop_m});
   if (measured.tip_off_axis_m <= kOffTheScrew_m) {
@@ -167,6 +176,7 @@ void Guiding::Approach::watch_drill(const nav::DrillReading& reading) {
   const bool away = drill.view().phase == kAway;
   drill.measured(reading);
   drilled = drilled || drill.view().phase == kDrilling;
+  was_set = was_set || drill.view().phase != kAway;
   if (away && !drilled && drill.view().phase == kSet) {
     path.forget();
     at_depth.reset();
@@ -223,18 +233,6 @@ void Guiding::add_clearance(ToolGuidance& guidance, const OperationInWork& work,
   } else {
     approach_.clearance.forget();
   }
-}
-
-StepState Guiding::state(const OperationInWork& work) const {
-  const LevelState& level = work.level();
-  if (!level.registration) {
-    return {};
-  }
-  RegistrationFigures figures = figures_of(work);
-  figures.expected_m = level.predicted[screw_].worst_m();
-  figures.of_one_screw = true;
-  figures.replanned = level.replanned(screw_);
-  return figures;
 }
 
 }  // namespace orthonav::engine

@@ -27,6 +27,7 @@ class Guiding {
   /// The surgeon said "drill".
   void begin_drill() { approach_.drill.begin(); }
   void toggle_twin() { twin_ = !twin_; }
+  void toggle_numbers() { numbers_ = !numbers_; }
   /// The selected screw is done, with its wire where one was placed.
   [[nodiscard]] Event finish_screw(OperationInWork& work, const Placing& placing,
                                    Timestamp time) const;
@@ -44,7 +45,6 @@ class Guiding {
   /// Writes the selected screw and, in this step, the tool relative to it unless guidance is
   /// hidden.
   void write(const OperationInWork& work, const GuideChecks& checks, bool hidden, Guidance& out);
-  [[nodiscard]] StepState state(const OperationInWork& work) const;
 
  private:
   /// What was measured on the way to the selected screw.
@@ -57,10 +57,12 @@ class Guiding {
     nav::TrackedPose pose_at_depth;  ///< of the tool, if there is an `at_depth`
     double deepest_m = 0.0;          ///< the greatest depth past the entry so far
     nav::ScrewNumberWriter numbers;
+    nav::ScrewSizeWriter sizes;
     nav::DepthWriter depth;
     nav::ClearanceWriter clearance;
     nav::DrillWatch drill;
     bool drilled = false;  ///< since the approach began
+    bool was_set = false;  ///< on the bone at the entry, or drilled
     nav::TrajectoryAtDepth path;
 
     /// Feeds the drill's watch. The first time that the tip is set on the bone at the entry, what
@@ -88,6 +90,7 @@ class Guiding {
   std::size_t screw_ = 0;
   Approach approach_;
   bool twin_ = false;
+  bool numbers_ = false;
 };
 
 }  // namespace orthonav::engine

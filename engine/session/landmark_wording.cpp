@@ -22,18 +22,14 @@ void write_tips(PartedText text, const TipCheck& tips, std::string_view separato
             : translated("put the guide's tip in it too, or say go to next");
     return;
   }
-  if (!tips.last() || tips.last()->corrected) {
+  if (!tips.last() || tips.last()->corrected || !tips.offers()) {
     return;
   }
-  text.begin(tips.offers() ? Importance::kDanger : Importance::kMessage, separator);
-  append_printed(out,
-                 tips.offers() ? translated("guide's tip %s from the pointer's")
-                               : translated("tips agree, %s apart"),
+  text.begin(Importance::kDanger, separator);
+  append_printed(out, translated("guide's tip %s from the pointer's"),
                  said_mm(tips.last()->apart_m.norm()).c_str());
-  if (tips.offers()) {
-    text.begin(Importance::kNext, ": ");
-    out += translated(kSayAccept);
-  }
+  text.begin(Importance::kNext, ": ");
+  out += translated(kSayAccept);
 }
 
 /// The error of the guide's axis according to the last wire, if it is worth correcting.
@@ -63,14 +59,15 @@ void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_
     return;
   }
   text.begin(Importance::kMessage, separator);
-  if (landmark.last->first) {
-    out += translated("dimple recorded");
-  } else {
-    append_printed(out, translated("dimple found, %s off"), said_mm(landmark.last->off_m).c_str());
-  }
+  out += landmark.last->first ? translated("dimple recorded") : translated("dimple found");
+  const std::size_t end = out.size();
   if (landmark.tips != nullptr) {
     write_tips(text, *landmark.tips, "; ");
     write_axis(text, landmark, "; ");
+  }
+  if (out.size() == end) {
+    text.begin(Importance::kNext, ": ");
+    out += translated("say go to next");
   }
 }
 

@@ -221,11 +221,10 @@ StepState Landmarking::state(const OperationInWork& work, const GuideChecks& gui
   if (!level.registration) {
     return {};
   }
-  const RegistrationFigures figures = figures_of(work);
   if (!work.options.steps.dimple()) {
-    return figures;
+    return ByEye{};
   }
-  return LandmarkSoFar{figures, level.landmark.has_value(), last_, &guide.tips(), &guide.axis()};
+  return LandmarkSoFar{level.landmark.has_value(), last_, &guide.tips(), &guide.axis()};
 }
 
 }  // namespace orthonav::engine

@@ -38,6 +38,14 @@ void append_sd(std::string& out, bool sure, std::optional<int> sd_tenths) {
   }
 }
 
+void append_single(std::string& out, int tenths, nav::Certainty certainty, const char* bound,
+                   const char* unit) {
+  out += certainty == nav::Certainty::kBound ? bound : "";
+  append_tenths(out, tenths);
+  out += unit;
+  out += certainty == nav::Certainty::kUnknown ? "?" : "";
+}
+
 /// Where a screw breaks through, by nav::direction_of.
 const char* adverb_of(std::string_view towards) {
   constexpr std::array<std::array<const char*, 2>, 7> kAdverbs = {
@@ -64,10 +72,6 @@ const nav::ShownNumber& number_of(const nav::ScrewNumbers& numbers, NumberRow ro
   return *all[static_cast<std::size_t>(row)];
 }
 
-double reading_of(const nav::ScrewNumbers& numbers, NumberRow row) {
-  return number_of(numbers, row).tenths * (is_angle(row) ? nav::kTenth_rad : nav::kTenth_m);
-}
-
 void append_number(std::string& out, const nav::ScrewNumbers& numbers, NumberRow row) {
   const nav::ShownNumber& number = number_of(numbers, row);
   append_tenths(out, std::abs(number.tenths));
@@ -78,26 +82,25 @@ void append_number(std::string& out, const nav::ScrewNumbers& numbers, NumberRow
   }
 }
 
-void append_numbers(std::string& out, const nav::ScrewNumbers& numbers, bool registration_only) {
-  out.append(translated(words::kTip)).append(" ");
-  append_number(out, numbers, NumberRow::kTipCranial);
-  out += ", ";
-  append_number(out, numbers, NumberRow::kTipMedial);
-  out.append("; ").append(translated(words::kAims)).append(" ");
-  append_number(out, numbers, NumberRow::kAimCranial);
-  out += ", ";
-  append_number(out, numbers, NumberRow::kAimMedial);
-  if (registration_only && !all_sure(numbers)) {
-    append_registration_only(out);
-  }
-}
-
 void append_depth(std::string& out, const nav::ShownDepth& depth) {
   constexpr std::array<const char*, 3> kTo = {words::kToEntry, words::kToTarget,
                                               words::kPastTarget};
-  append_tenths(out, depth.tenths);
-  append_sd(out, depth.sure, depth.sd_tenths);
-  out.append(" mm ").append(translated(kTo[static_cast<std::size_t>(depth.to)]));
+  const bool past = depth.to == nav::DepthTo::kPastTarget;
+  append_single(out, depth.tenths, depth.certainty, past ? "≤ " : "≥ ", " mm");
+  out.append(" ").append(translated(kTo[static_cast<std::size_t>(depth.to)]));
+}
+
+void append_angle(std::string& out, const nav::ShownSize& angle) {
+  append_single(out, angle.tenths, angle.certainty, "≤ ", "°");
+}
+
+void append_offset(std::string& out, const nav::ShownSize& offset) {
+  out.append(translated(words::kTip)).append(" ");
+  append_single(out, offset.tenths, offset.certainty, "≤ ", " mm");
+}
+
+void append_rounded_mm(std::string& out, double length_m) {
+  append_printed(out, "%.0f mm", length_m * 1e3);
 }
 
 void append_clearance(std::string& out, int tenths) {
@@ -142,21 +145,7 @@ void append_stop_too_deep(std::string& out, double past_target_m) {
 }
 
 void append_drill(std::string& out, const nav::DrillView& drill) {
-  if (drill.phase == nav::DrillPhase::kAway) {
-    return;
-  }
-  if (drill.phase == nav::DrillPhase::kSet) {
-    out += drill.watched ? translated("tip set") : "";
-    if (drill.watched && stop_too_deep(drill)) {
-      out += ", ";
-      append_stop_too_deep(out, *drill.stop_past_target_m);
-    }
-    return;
-  }
-  constexpr std::array<const char*, 4> kTexts = {
-      translatable("drilling"), translatable("drilling: drifting"),
-      translatable("drilling: off plan"), translatable("stop")};
-  out += translated(kTexts[static_cast<std::size_t>(drill.alarm)]);
+  out += drill.alarm == nav::DrillAlarm::kStop ? translated("stop") : translated("drilling");
   if (!drill.watched) {
     out.append(", ").append(translated("tool not seen"));
   }

@@ -19,19 +19,20 @@ enum class NumberRow : std::size_t { kTipCranial, kTipMedial, kAimCranial, kAimM
 inline constexpr std::size_t kNumberRows = 4;
 
 [[nodiscard]] const nav::ShownNumber& number_of(const nav::ScrewNumbers& numbers, NumberRow row);
-/// The signed value as displayed: m or rad; > 0: cranial or medial.
-[[nodiscard]] double reading_of(const nav::ScrewNumbers& numbers, NumberRow row);
-
 /// "1.2 mm cranial"; "0.0 mm"; if uncertain, "1.2 ± 0.8 mm cranial", and "1.2 ± -- mm cranial" if
 /// the uncertainty is unknown.
 void append_number(std::string& out, const nav::ScrewNumbers& numbers, NumberRow row);
-/// All in one line: "tip 1.2 mm cranial, 0.8 mm medial; aims 2.1° caudal, 0.4° lateral".
-/// `registration_only`: SDs leave out the errors common to all strokes, so a line with an SD says
-/// so.
-void append_numbers(std::string& out, const nav::ScrewNumbers& numbers, bool registration_only);
-/// "12.3 mm to entry", "31.0 mm to target", "1.2 mm past target"; if uncertain, "12.3 ± 1.4 mm to
-/// entry", and "12.3 ± -- mm to entry" if the uncertainty is unknown.
+// A single number that is not sure is its bound, "≤ 2.6 mm"; "2.6 mm?" where nobody knows.
+
+/// "1.2°".
+void append_angle(std::string& out, const nav::ShownSize& angle);
+/// "tip 0.4 mm".
+void append_offset(std::string& out, const nav::ShownSize& offset);
+/// "12.3 mm to entry", "31.0 mm to target", "1.2 mm past target"; a bound of what is left begins
+/// with "≥".
 void append_depth(std::string& out, const nav::ShownDepth& depth);
+/// "63 mm".
+void append_rounded_mm(std::string& out, double length_m);
 [[nodiscard]] bool all_sure(const nav::ScrewNumbers& numbers);
 
 /// "2.4 mm"; "-0.4 mm" with a real minus sign, U+2212.
@@ -44,8 +45,7 @@ void append_breach(std::string& out, const nav::ShownClearance& clearance);
 void append_clearance_line(std::string& out, const nav::ShownClearance& clearance,
                            bool registration_only = false);
 
-/// "tip set", "drilling", "drilling: drifting", "drilling: off plan", "stop"; "drilling, tool not
-/// seen" and "stop, tool not seen" while the tool is hidden; nothing for a tool that is away.
+/// Of a drill in the bone: "drilling", "stop"; "stop, tool not seen" while the tool is hidden.
 void append_drill(std::string& out, const nav::DrillView& drill);
 /// Whether the stop is too deep by a tenth of a millimetre or more.
 [[nodiscard]] bool stop_too_deep(const nav::DrillView& drill);

@@ -18,16 +18,6 @@ LevelState state_of(OperatedLevel plan) {
   return state;
 }
 
-/// Movement of the first screw's entry: `RegistrationFigures::followed_m`.
-std::optional<double> followed_m(const LevelState& level, const nav::Anchor* anchor) {
-  if (anchor == nullptr || !level.registered_on_map || level.plan.screws.empty()) {
-    return std::nullopt;
-  }
-  const Point<World> entry =
-      level.registration->world_from_vertebra * level.plan.screws.front().entry;
-  return (anchor->world_from_anchored * entry - *level.registered_on_map * entry).norm();
-}
-
 }  // namespace
 
 OperationInWork::OperationInWork(Operation operation, WatchedTools watched, Method with,
@@ -53,14 +43,6 @@ void add_tip(Touch& touch, const WatchedTools& tools, std::size_t tool) {
 TouchedPlace take_place(Touch& touch, const OperationInWork& work, Timestamp time) {
   return touch.take_place(work.tools.pointer_tip(time, work.options.stale_after),
                           work.options.max_touch_spread_m);
-}
-
-RegistrationFigures figures_of(const OperationInWork& work) {
-  const LevelState& level = work.level();
-  return {.rmse_m = level.registration->rmse_m,
-          .expected_m = nav::worst_m(level.predicted),
-          .registration_only = level.registration_only(),
-          .followed_m = followed_m(level, work.tools.tracker().anchor())};
 }
 
 }  // namespace orthonav::engine

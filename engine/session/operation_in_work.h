@@ -53,7 +53,4 @@ void add_tip(Touch& touch, const WatchedTools& tools, std::size_t tool);
 /// Where the pointer's tip rested; ends the touch.
 [[nodiscard]] TouchedPlace take_place(Touch& touch, const OperationInWork& work, Timestamp time);
 
-/// The figures of the current level's registration, which must exist.
-[[nodiscard]] RegistrationFigures figures_of(const OperationInWork& work);
-
 }  // namespace orthonav::engine

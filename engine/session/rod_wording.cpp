@@ -20,9 +20,6 @@ void write_to_stroke(PartedText text, const RodInHandSoFar& rod) {
             "bend %zu made: stroke the rod from its first end on 3 sides, then say save points"),
         rod.made);
   }
-  text.begin(Importance::kCount, "; ");
-  append_printed(text.out, rod.points == 1 ? translated("%zu point") : translated("%zu points"),
-                 rod.points);
 }
 
 void write_to_do(PartedText text, const RodInHandSoFar& rod, const char* separator) {
@@ -61,17 +58,11 @@ void write_rod_in_hand(PartedText text, const RodInHandSoFar& rod) {
   if (rod.stroking) {
     return write_to_stroke(text, rod);
   }
-  const char* separator = "";
-  if (rod.last != nullptr) {
-    text.begin(Importance::kMessage);
-    append_printed(text.out, translated("bend %zu: %.1f ± %.1f°"), rod.made,
-                   degrees(rod.last->arc.angle_rad), degrees(rod.last->angle_se_rad));
-    separator = "; ";
+  write_to_do(text, rod, "");
+  if (!rod.shown) {
+    text.begin(Importance::kMessage, "; ");
+    text.out += translated("no longer shown: it may have moved");
   }
-  write_to_do(text, rod, separator);
-  text.begin(Importance::kMessage, "; ");
-  text.out += rod.shown ? translated("shown where it was stroked")
-                        : translated("no longer shown: it may have moved");
 }
 
 void write_rod_not_measured(PartedText text, const RodNotMeasured& message) {

@@ -31,6 +31,7 @@ std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
     case kCorrectGuide: case kKeepWire: case kConsent: consent(action, time); break;
     case kSelectScrew: s.select_screw(work_); break;
     case kToggleTwin: s.guiding.toggle_twin(); break;
+    case kToggleNumbers: s.guiding.toggle_numbers(); break;
     case kBeginDrill: s.guiding.begin_drill(); break;
     case kReplan: s.replanning.replan(work_, s.guiding, s.placing, time); break;
     case kExpectWire: s.expect_wire(work_); break;

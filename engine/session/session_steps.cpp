@@ -164,14 +164,13 @@ StepState SessionSteps::state(const OperationInWork& work) const {
       return verifying.state(work);
     case Step::kAccepted:
       return landmarking.state(work, guide_checks);
-    case Step::kGuide:
-      return guiding.state(work);
     case Step::kPlaced:
       return placing.state();
     case Step::kRod:
       return rods.state(work.rods_alone());
     case Step::kSetup:
     case Step::kRegistering:
+    case Step::kGuide:  // what to do there follows from what a frame shows
     case Step::kDone:
       return {};
   }

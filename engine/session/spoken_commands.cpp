@@ -14,7 +14,7 @@ struct Command {
 
 // Phrases are long and unlike what else is said in a room: words of one syllable sound like too
 // many others ("stop" like "start").
-constexpr std::array<Command, 10> kCommands = {{
+constexpr std::array<Command, 11> kCommands = {{
     {"start", "begin guiding", Event::kSayStart},
     {"save", "save points", Event::kSaySave},
     {"delete", "delete last", Event::kSayDelete},
@@ -24,6 +24,7 @@ constexpr std::array<Command, 10> kCommands = {{
     {"done", "finish rod", Event::kSayDone},
     {"move rod", "move template", Event::kSayMoveRod},
     {"twin", "twin screw", Event::kSayTwin},
+    {"numbers", "show numbers", Event::kSayNumbers},
     {"drill", "drill", Event::kSayDrill},
 }};
 
@@ -39,7 +40,9 @@ std::vector<std::string> spoken_commands() {
 
 std::vector<std::string> recognized_commands() {
   std::vector<std::string> phrases = spoken_commands();
-  std::erase(phrases, "drill");
+  std::erase_if(phrases, [](const std::string& phrase) {
+    return phrase == "drill" || phrase == "show numbers";
+  });
   return phrases;
 }
 

@@ -29,31 +29,16 @@ struct StrokesSoFar {
   std::size_t points = 0;
   const Coaching* coaching = nullptr;  ///< null: nothing is known about them yet
 };
-/// A registration being verified by eye, accepted, or guided on at the selected screw.
-struct RegistrationFigures {
-  double rmse_m = 0.0;
-  double expected_m = 0.0;  ///< error at the worst of the screws or at the selected one
-  bool of_one_screw = false;
-  bool registration_only = false;  ///< without the unknown errors common to all strokes
-  bool replanned = false;          ///< the selected screw was changed in surgery
-  /// With a patient reference: how far the bone has moved on the headset's map since it was
-  /// registered, because the patient moved or the map drifted. Guidance has followed.
-  std::optional<double> followed_m = {};
-};
+/// A registration that is verified by eye alone, or was.
+struct ByEye {};
 /// While a registration is verified by touch.
 struct ChecksSoFar {
-  double expected_m = 0.0;  ///< error at the worst of the screws
-  std::size_t count = 0;
-  /// Distance of the last check point if it is near enough; otherwise the verdict reports it.
-  std::optional<double> last_m;
   const nav::CheckVerdict* verdict = nullptr;
-  bool registration_only = false;  ///< as above
   /// How far the landmark has moved, so that the registration is verified again.
   std::optional<double> moved_m = {};
 };
 /// A registration accepted by touch, before a screw.
 struct LandmarkSoFar {
-  RegistrationFigures figures;
   bool recorded = false;              ///< the landmark was touched before
   std::optional<LandmarkTouch> last;  ///< newest touch since the last screw
   const TipCheck* tips = nullptr;     ///< of the guide and the pointer; null: not compared
@@ -90,8 +75,8 @@ struct RodInHandSoFar {
   std::optional<NextBend> next = {};        ///< absent: all bends are made
   bool shown = false;                       ///< where it was stroked
 };
-using StepState = std::variant<std::monostate, StrokesSoFar, RegistrationFigures, ChecksSoFar,
-                               LandmarkSoFar, WireSoFar, HeadsSoFar, RodInHandSoFar>;
+using StepState = std::variant<std::monostate, StrokesSoFar, ByEye, ChecksSoFar, LandmarkSoFar,
+                               WireSoFar, HeadsSoFar, RodInHandSoFar>;
 
 /// The command as heard. A surgeon who was misheard must see it at once, and one who was heard need
 /// not ask.

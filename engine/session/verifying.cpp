@@ -236,18 +236,9 @@ StepState Verifying::state(const OperationInWork& work) const {
     return {};
   }
   if (!work.options.steps.check_points) {
-    return figures_of(work);
+    return ByEye{};
   }
-  ChecksSoFar checks;
-  checks.expected_m = nav::worst_m(level.predicted);
-  checks.count = level.check_points.size();
-  if (checks.count > 0 && level.check_points.back().within) {
-    checks.last_m = level.check_points.back().distance_m;
-  }
-  checks.verdict = &verdict_;
-  checks.moved_m = moved_m_;
-  checks.registration_only = level.registration_only();
-  return checks;
+  return ChecksSoFar{&verdict_, moved_m_};
 }
 
 }  // namespace orthonav::engine

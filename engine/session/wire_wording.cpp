@@ -10,8 +10,7 @@ namespace orthonav::engine {
 
 void append_wire(std::string& out, const PlacedWire& wire) {
   const nav::PlacedAxis& axis = wire.axis;
-  append_printed(out, "%.1f ± %.1f°, %.1f ± %.1f mm", degrees(axis.angle_rad.value),
-                 degrees(axis.angle_rad.sd), axis.entry_m.value * 1e3, axis.entry_m.sd * 1e3);
+  append_printed(out, "%.1f°, %.1f mm", degrees(axis.angle_rad.value), axis.entry_m.value * 1e3);
 }
 
 void write_wire(PartedText text, const WireSoFar& state, std::string_view separator) {
@@ -22,14 +21,12 @@ void write_wire(PartedText text, const WireSoFar& state, std::string_view separa
     return;
   }
   const PlacedWire& wire = *state.wire;
-  text.begin(Importance::kMessage, separator);
-  const std::size_t begin = out.size();
-  append_wire(out, wire);
-  enclose(out, begin, translated("placed: %s from the plan"));
   if (wire.within()) {
+    text.begin(Importance::kNext, separator);
+    out += translated("within limits: say go to next");
     return;
   }
-  text.begin(wire.kept ? Importance::kMessage : Importance::kDanger, "; ");
+  text.begin(wire.kept ? Importance::kMessage : Importance::kDanger, separator);
   if (!wire.angle_within()) {
     append_beside_limit(out, translated("angle %.1f°, limit %.1f°"),
                         degrees(wire.axis.angle_rad.value), degrees(wire.angle_limit_rad));

@@ -31,19 +31,13 @@ std::string_view word_of(Step step) {
   return translated(kWords[static_cast<std::size_t>(step)]);
 }
 
-/// What is to be touched, and the result of the last touch.
+/// What is to be touched.
 void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
-  std::string& out = text.out;
-  if (checks.last_m) {
-    text.begin(Importance::kMessage, separator);
-    append_printed(out, translated("check %zu: %s"), checks.count, said_mm(*checks.last_m).c_str());
-    separator = "; ";
-  }
   text.begin(Importance::kNext, separator);
   if (checks.verdict->passed) {
-    append_printed(out, translated("passed, worst %s"), said_mm(checks.verdict->worst_m).c_str());
+    text.out += translated("passed: say accept result");
   } else {
-    append(out, checks.verdict->advice);
+    append(text.out, checks.verdict->advice);
   }
 }
 
@@ -62,93 +56,61 @@ void write_unused_tool(PartedText text, const StatusLine& line, std::string_view
   }
 }
 
-/// How sure the head touched last is, and which one is to be touched again.
-void write_head(PartedText text, const HeadsSoFar& heads, std::string_view separator) {
-  if (heads.last) {
-    text.begin(Importance::kMessage, separator);
-    const HeadTouch& last = *heads.last;
-    append_printed(text.out,
-                   last.touches == 1 ? translated("head %zu: %zu touch, ± %.1f mm")
-                                     : translated("head %zu: %zu touches, ± %.1f mm"),
-                   last.head + 1, last.touches, last.head_sd_m * 1e3);
-  }
-  if (heads.touch_again) {
-    text.begin(Importance::kNext, separator);
-    append_printed(text.out, translated("rod fit may exceed 1.0 mm: touch head %zu again"),
-                   *heads.touch_again + 1);
-  }
-}
-
-/// Smaller movements may be noise of the head's pose.
-constexpr double kFollowedAtLeast_m = 0.001;
-
-/// Writes the state of each step.
+/// What to do next in each step: an act, no figures.
 struct StateWriter {
   PartedText text;
+  Step step;
   std::string& out = text.out;
 
-  void operator()(std::monostate /*none*/) {}
-  void operator()(const StrokesSoFar& strokes) {
-    text.begin(Importance::kCount);
-    append_printed(out, strokes.points == 1 ? translated("%zu point") : translated("%zu points"),
-                   strokes.points);
-    if (strokes.coaching != nullptr) {
-      write_coaching(text, *strokes.coaching, kBetweenParts);
+  void next(const char* act) {
+    text.begin(Importance::kNext);
+    out += translated(act);
+  }
+  void operator()(std::monostate /*none*/) {
+    if (step == Step::kSetup) {
+      next(translatable("say begin guiding"));
+    } else if (step == Step::kRegistering) {
+      next(translatable("wait"));
     }
   }
-  void operator()(const RegistrationFigures& figures) {
-    text.begin(Importance::kFigures);
-    append_printed(out, translated("RMSE %s"), said_mm(figures.rmse_m, 2).c_str());
-    text.begin(Importance::kFigures, ", ");
-    append_expected_error(out, figures.expected_m, figures.registration_only,
-                          !figures.of_one_screw);
-    if (figures.replanned) {
-      text.begin(Importance::kMessage, "; ");
-      out += translated("planned in surgery");
+  void operator()(const StrokesSoFar& strokes) {
+    if (strokes.coaching != nullptr) {
+      write_coaching(text, *strokes.coaching, "");
+    } else {
+      next(translatable("stroke the bone"));
     }
-    if (figures.followed_m && *figures.followed_m >= kFollowedAtLeast_m) {
-      text.begin(Importance::kCount, "; ");
-      append_printed(out, translated("moved %s, followed"), said_mm(*figures.followed_m).c_str());
-    }
+  }
+  void operator()(ByEye /*state*/) {
+    next(step == Step::kVerify ? translatable("say accept result or reject level")
+                               : translatable("say go to next"));
   }
   void operator()(const ChecksSoFar& checks) {
-    text.begin(Importance::kFigures);
-    append_expected_error(out, checks.expected_m, checks.registration_only);
-    write_moved(text, checks, "; ");
-    write_checks(text, checks, "; ");
+    write_moved(text, checks, "");
+    write_checks(text, checks, checks.moved_m ? "; " : "");
   }
-  void operator()(const LandmarkSoFar& landmark) {
-    (*this)(landmark.figures);
-    write_landmark(text, landmark, "; ");
-  }
+  void operator()(const LandmarkSoFar& landmark) { write_landmark(text, landmark, ""); }
   void operator()(const WireSoFar& wire) { write_wire(text, wire, ""); }
   void operator()(const HeadsSoFar& heads) {
-    text.begin(Importance::kCount);
-    append_printed(out, heads.count == 1 ? translated("%zu head") : translated("%zu heads"),
-                   heads.count);
-    if (heads.cut_length_m) {
-      text.begin(Importance::kFigures, ", ");
-      append_printed(out, translated("cut to %s"), said_mm(*heads.cut_length_m).c_str());
-      out += ", ";
-      append_printed(out, heads.bends == 1 ? translated("%zu bend") : translated("%zu bends"),
-                     heads.bends);
+    if (heads.given_up) {
+      next(translatable("this rod cannot be corrected: take a new one"));
+    } else if (heads.touch_again) {
+      text.begin(Importance::kNext);
+      append_printed(out, translated("touch head %zu again"), *heads.touch_again + 1);
+    } else if (heads.cut_length_m) {
+      next(translatable("to bend it: say go to next"));
+    } else if (heads.count > 0) {
+      next(translatable("touch the next head"));
+    } else {
+      next(heads.unplanned ? translatable("touch the first head; none: say finish rod")
+                           : translatable("touch the first head"));
     }
     if (heads.seat_by_pointer_m) {
       const double seat_m = *heads.seat_by_pointer_m;
-      text.begin(Importance::kFigures, ", ");
+      text.begin(Importance::kFigures, "; ");
       append_printed(out,
                      seat_m < 0.0 ? translated("rod %s above the touches")
                                   : translated("rod %s below the touches"),
                      said_mm(std::abs(seat_m)).c_str());
-    }
-    if (heads.unplanned && heads.count == 0) {
-      text.begin(Importance::kNext, "; ");
-      out += translated("touch the screw heads of this side; if it has none, say finish rod");
-    }
-    write_head(text, heads, "; ");
-    if (heads.given_up) {
-      text.begin(Importance::kNext, "; ");
-      out += translated("this rod cannot be corrected: take a new one");
     }
   }
   void operator()(const RodInHandSoFar& rod) { write_rod_in_hand(text, rod); }
@@ -205,7 +167,7 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     }
   } else if (!taken) {
     out += told && !std::holds_alternative<std::monostate>(line.state) ? "; " : "";
-    std::visit(StateWriter{text}, line.state);
+    std::visit(StateWriter{text, line.at.step}, line.state);
   } else if (const auto* checks = std::get_if<ChecksSoFar>(&line.state)) {
     // The places to touch are still counted beside a lasting warning.
     write_moved(text, *checks, "; ");

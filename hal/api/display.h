@@ -35,11 +35,8 @@ struct ShownHologram {
   std::string level;         ///< of an entry point: the vertebra's label
   std::optional<Side> side;  ///< of an entry point, or of the screw that the numbers concern
   std::string text;          ///< what is written there, if anything
-  /// The number shown: the angle in rad, rounded as displayed, or the distance of a check point in
-  /// m. Absent on a place still to be touched, and if dashes are shown. H13 comes as four
-  /// holograms, each with one number as displayed: the offset of the tip from the planned axis
-  /// towards cranial and medial (m), then the deviation of the tool's aim in the same directions
-  /// (rad).
+  /// The number shown: the angle (rad) or the tip's offset (m) as displayed, or the distance of a
+  /// check point (m). Absent on a place still to be touched, and where dashes or a bound are shown.
   std::optional<double> reading;
   std::vector<Point<World>> points_in_world;
 };

@@ -38,14 +38,18 @@ void append_colour(std::vector<std::uint8_t>& bytes, const ObjectColour& colour)
 }
 
 /// The application's font contains ASCII and Latin-1, and `<` begins a tag.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kWrittenAs = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kWrittenAs = {{
     {"<", "\u00AB"},
     {"\u2212", "-"},  // minus
+    {"\u2264", "max"},
+    {"\u2265", "min"},
     {"\u2012", "-"},  // a hyphen as wide as a digit
     {"\u2007", " "},  // a blank as wide as a digit
     {"\u2026", "..."},
     {"\u2713", "ok"},
     {"\u2717", "x"},
+    {"\u25C6", "+"},  // a part of a bar, filled
+    {"\u25C7", "-"},  // or not
     {"\u25CF", "*"},  // measured,
     {"\u25D0", "~"},  // predicted,
     {"\u25CB", "o"},  // lost

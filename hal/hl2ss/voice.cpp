@@ -23,6 +23,7 @@ std::vector<std::string> workflow_phrases() {
           "finish rod",
           "move template",
           "twin screw",
+          "show numbers",
           "drill",
           "save",  // as in the publication
           "delete",

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kDisagreement_rad = 1.0 * kRadiansPerDegree;
 constexpr double kShortest_m = 1e-3;
+/// A dot nearer to the middle has no direction.
+constexpr double kLeastSeen_m = 1e-5;
 /// A dot counts as held at the rim from just within it.
 constexpr double kNearRim = 0.99;
 
@@ -36,7 +38,7 @@ std::optional<Deviation> read_deviation(const Eyes& eyes) {
   const ShownHologram* triangle = find_places(eyes, HologramKind::kTriangle, 3);
   const ShownHologram* cross = find_places(eyes, HologramKind::kCross, 3);
   const ShownHologram* number = eyes.find(HologramKind::kAngle);
-  if (!triangle || !cross || !number || !number->reading) {
+  if (!triangle || !cross || !number) {
     return std::nullopt;
   }
   const Vec3 planned = from_first(eyes, *triangle, 2);
@@ -50,12 +52,14 @@ std::optional<Deviation> read_deviation(const Eyes& eyes) {
     if (!lean.is_finite()) {
       return std::nullopt;
     }
-    return Deviation{*eyes.seen_at(), rotation_of(lean, planned, *number->reading)};
+    const double angle_rad = number->reading.value_or(angle_between_rad(lean, planned));
+    return Deviation{*eyes.seen_at(), rotation_of(lean, planned, angle_rad)};
   }
   const Vec3 lean = top - tip;
   const double angle_rad = std::asin(std::min(1.0, lean.norm() / kCrossReach_m));
   // Negated, so that NaN disagrees.
-  if (!(std::abs(angle_rad - *number->reading) <= kDisagreement_rad)) {
+  const double number_rad = number->reading.value_or(angle_rad);
+  if (!(std::abs(angle_rad - number_rad) <= kDisagreement_rad)) {
     return std::nullopt;
   }
   return Deviation{*eyes.seen_at(), rotation_of(lean, planned, angle_rad)};
@@ -73,6 +77,21 @@ std::optional<Deviation> read_triangle(const Eyes& eyes) {
     return std::nullopt;
   }
   return Deviation{*eyes.seen_at(), rotation_of(lean, planned, *number->reading)};
+}
+
+std::optional<Vec3> read_tip_offset(const Eyes& eyes, Vec3 outwards) {
+  const ShownHologram* cross = find_places(eyes, HologramKind::kCross, 3);
+  const ShownHologram* number = eyes.find(HologramKind::kNumbers);
+  if (!cross || !number) {
+    return std::nullopt;
+  }
+  const Vec3 dot = from_first(eyes, *cross, 1) / kCrossScale;
+  const double offset_m = number->reading.value_or(dot.norm());
+  const Vec3 across = dot - dot.dot(outwards) * outwards;
+  if (!(across.norm() > kLeastSeen_m)) {
+    return Vec3{};
+  }
+  return offset_m * across.normalized();
 }
 
 void DeviationMemory::add(const Deviation& reading) {

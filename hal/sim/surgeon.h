@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/sim/deviation.h"
 #include "hal/sim/error_model.h"
 #include "hal/sim/eyes.h"
 #include "hal/sim/guidance_profile.h"
-#include "hal/sim/number_reading.h"
 #include "hal/sim/room_layout.h"
 #include "hal/sim/standing_metal.h"
 #include "hal/sim/stroke_plan.h"
@@ -60,7 +60,6 @@ class Surgeon {
   struct Aim {
     BoneSpot on_bone;  ///< in Room
     Vec3 outwards;     ///< the planned axis, out of the bone
-    SpokenDirections directions;
   };
   Script operate();
   Script perform(StepOnDisplay step);
@@ -164,9 +163,9 @@ class Surgeon {
   /// Turns the tool about its tip until the readings are small and steady.
   Script rotate_tool(const StepOnDisplay& step, const Aim& aim);
   /// Holds still, reads the average and takes out what is left of it, if that is little.
-  Script settle(const Aim& aim, double content_rad, bool& settled);
+  Script settle(double content_rad, bool& settled);
   /// How the tool has to be turned: by the numbers in a closed loop, else by cross and triangle.
-  [[nodiscard]] std::optional<Deviation> read_rotation(const Aim& aim) const;
+  [[nodiscard]] std::optional<Deviation> read_rotation() const;
   void rotate_by(Vec3 rotation_rad);
   /// What they do where there is no reading; true when it has been away for so long that those
   /// before it are out of date.

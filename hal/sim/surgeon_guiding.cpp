@@ -92,7 +92,6 @@ Script Surgeon::find_entry(const StepOnDisplay& step, std::size_t level, Side si
       co_return;
     }
     aim.on_bone = put_on_bone(level, entry + perceived_offset, aim.outwards);
-    aim.directions = spoken_directions(layout_->room_from_vertebra(level), side, aim.outwards);
     body_.look({aim.on_bone.point}, body_.best_view(aim.outwards));
     if (look_s == kQuickLook_s) {
       co_await body_.rest(kMoveHead_s);
@@ -170,7 +169,7 @@ Script Surgeon::drill(const Aim& aim, Vec3 rotation_of_wire) {
   for (double t = 0.0; t < 1.0;) {
     co_await body_.next_tick();
     if (guidance_ == GuidanceProfile::kClosedLoop) {
-      const auto reading = read_rotation(aim);
+      const auto reading = read_rotation();
       const double lost_s = seconds(body_.now() - last_seen);
       if (!reading && lost_s < kPatience_s &&
           lean_where_lost({aim.on_bone.point}, body_.best_view(aim.outwards), lost_s)) {

@@ -52,8 +52,8 @@ Script Surgeon::read_offset(const StepOnDisplay& step, const Aim& aim,
     co_await body_.next_tick();
     const double tick_s = seconds(body_.now() - before);
     before = body_.now();
-    const auto numbers = read_numbers(*eyes_, aim.directions);
-    if (!sees_now() || !numbers) {
+    const auto offset = read_tip_offset(*eyes_, aim.outwards);
+    if (!sees_now() || !offset) {
       if (relies_on_reference_) {
         regain_reading(aim, seconds(body_.now() - last_seen), tick_s);
       }
@@ -64,7 +64,7 @@ Script Surgeon::read_offset(const StepOnDisplay& step, const Aim& aim,
       continue;
     }
     last = eyes_->seen_at();
-    sum += numbers->tip_offset_m;
+    sum += *offset;
     ++readings;
   }
   if (readings >= kFewestNumbers) {

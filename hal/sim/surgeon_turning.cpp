@@ -37,7 +37,7 @@ Script Surgeon::rotate_tool(const StepOnDisplay& step, const Aim& aim) {
     co_await body_.next_tick();
     const double tick_s = seconds(body_.now() - before);
     before = body_.now();
-    const auto reading = read_rotation(aim);
+    const auto reading = read_rotation();
     if (!reading) {
       if (regain_reading(aim, seconds(body_.now() - last_seen), tick_s)) {
         memory.clear();
@@ -57,7 +57,7 @@ Script Surgeon::rotate_tool(const StepOnDisplay& step, const Aim& aim) {
       continue;
     }
     bool settled = false;
-    co_await settle(aim, content_rad, settled);
+    co_await settle(content_rad, settled);
     if (settled) {
       co_return;
     }
@@ -66,18 +66,11 @@ Script Surgeon::rotate_tool(const StepOnDisplay& step, const Aim& aim) {
   }
 }
 
-std::optional<Deviation> Surgeon::read_rotation(const Aim& aim) const {
+std::optional<Deviation> Surgeon::read_rotation() const {
   if (!sees_now()) {
     return std::nullopt;
   }
-  if (guidance_ == GuidanceProfile::kPublished) {
-    return read_triangle(*eyes_);
-  }
-  if (guidance_ != GuidanceProfile::kClosedLoop) {
-    return read_deviation(*eyes_);
-  }
-  const auto numbers = read_numbers(*eyes_, aim.directions);
-  return numbers ? std::optional(numbers->deviation) : std::nullopt;
+  return guidance_ == GuidanceProfile::kPublished ? read_triangle(*eyes_) : read_deviation(*eyes_);
 }
 
 void Surgeon::rotate_by(Vec3 rotation_rad) {
@@ -115,7 +108,7 @@ bool Surgeon::lean_where_lost(Point<Room> site, Vec3 from, double lost_s) {
   return leans;
 }
 
-Script Surgeon::settle(const Aim& aim, double content_rad, bool& settled) {
+Script Surgeon::settle(double content_rad, bool& settled) {
   co_await body_.rest(kReaction_s / body_.slowness());
   const Timestamp start = body_.now();
   std::optional<Timestamp> last;
@@ -123,7 +116,7 @@ Script Surgeon::settle(const Aim& aim, double content_rad, bool& settled) {
   int readings = 0;
   for (double done = 0.0; done < 1.0; done = seconds(body_.now() - start) / kHold_s) {
     co_await body_.next_tick();
-    const auto reading = read_rotation(aim);
+    const auto reading = read_rotation();
     if (!reading || reading->seen_at == last) {
       continue;
     }

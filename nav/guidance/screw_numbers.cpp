@@ -10,6 +10,10 @@ namespace {
 constexpr double kMostShown = 9999.0;
 /// 1.2 mm is 12 tenths, regardless of the last bits.
 constexpr double kLastBits = 1e-6;
+/// 95 % of the errors along an axis lie on the safe side of so many SDs,
+constexpr double kBoundSds = 1.645;
+/// and 95 % of those across an axis are shorter than so many.
+constexpr double kBoundSdsAcross = 2.448;
 
 int rounded_up(double tenths) { return static_cast<int>(std::ceil(tenths - kLastBits)); }
 
@@ -34,6 +38,19 @@ ShownNumber shown(SteadyNumber& number, const NumberWithSd& measured, double ten
   return out;
 }
 
+Certainty certainty_of(double sd, double sure_sd) {
+  if (sd <= sure_sd) {
+    return Certainty::kSure;
+  }
+  return std::isfinite(sd) ? Certainty::kBound : Certainty::kUnknown;
+}
+
+ShownSize shown_size(SteadyNumber& number, const NumberWithSd& size, double tenth, double sure_sd) {
+  const Certainty certainty = certainty_of(size.sd, sure_sd);
+  const double more = certainty == Certainty::kBound ? kBoundSdsAcross * size.sd : 0.0;
+  return {std::abs(number.show((size.value + more) / tenth, size.sd / tenth)), certainty};
+}
+
 }  // namespace
 
 int SteadyNumber::show(double tenths, double sd_tenths) {
@@ -50,8 +67,10 @@ int SteadyNumber::show(double tenths, double sd_tenths) {
 }
 
 std::optional<ShownDepth> DepthWriter::write(const NumberWithSd& depth_m, double to_target_m) {
-  const double past_entry = depth_m.value / kTenth_m;
-  const double past_target = -to_target_m / kTenth_m;
+  const Certainty certainty = certainty_of(depth_m.sd, kSureOffset_m);
+  const double deeper_m = certainty == Certainty::kBound ? kBoundSds * depth_m.sd : 0.0;
+  const double past_entry = (depth_m.value + deeper_m) / kTenth_m;
+  const double past_target = (deeper_m - to_target_m) / kTenth_m;
   if (!(std::abs(past_entry) <= kMostShown && std::abs(past_target) <= kMostShown)) {
     forget();
     return std::nullopt;
@@ -65,9 +84,13 @@ std::optional<ShownDepth> DepthWriter::write(const NumberWithSd& depth_m, double
     out.to = *past_target_ > 0 ? DepthTo::kPastTarget : DepthTo::kTarget;
     out.tenths = std::abs(*past_target_);
   }
-  out.sd_tenths = shown_sd(depth_m.sd / kTenth_m);
-  out.sure = depth_m.sd <= kSureOffset_m;
+  out.certainty = certainty;
   return out;
+}
+
+ScrewSizes ScrewSizeWriter::write(const NumberWithSd& angle_rad, const NumberWithSd& offset_m) {
+  return {shown_size(angle_, angle_rad, kTenth_rad, kSureAngle_rad),
+          shown_size(offset_, offset_m, kTenth_m, kSureOffset_m)};
 }
 
 ScrewNumbers ScrewNumberWriter::write(const AnatomicalDeviation& measured) {

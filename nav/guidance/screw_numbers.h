@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <numbers>
 #include <optional>
 
@@ -22,14 +23,30 @@ struct ScrewNumbers {
   ShownNumber aim_medial;
 };
 
+/// Whether a single number can be relied on.
+enum class Certainty : std::uint8_t {
+  kSure,     ///< its SD is at most `kSureOffset_m` or `kSureAngle_rad`: the number as measured
+  kBound,    ///< it is not: in place of the number its bound of 95 % probability
+  kUnknown,  ///< nobody knows: the number as measured, never shown as good
+};
 /// What the depth of the tip along the planned axis is counted to.
 enum class DepthTo { kEntry, kTarget, kPastTarget };
 /// The depth of the tip as displayed: so much to the entry or to the target, or past the target.
 struct ShownDepth {
   DepthTo to = DepthTo::kEntry;
-  int tenths = 0;                ///< of a millimetre, >= 0
-  std::optional<int> sd_tenths;  ///< of its error, rounded up; absent: not known
-  bool sure = false;             ///< otherwise it is greyed and shown with its SD
+  int tenths = 0;  ///< of a millimetre, >= 0
+  /// `kBound`: of what is left at least so much, past the target at most so much.
+  Certainty certainty = Certainty::kUnknown;
+};
+/// How large a deviation is, whatever its direction, as displayed; `kBound`: at most so much.
+struct ShownSize {
+  int tenths = 0;  ///< of a millimetre or of a degree, >= 0
+  Certainty certainty = Certainty::kUnknown;
+};
+/// What the quiet view says of a tool beside its depth.
+struct ScrewSizes {
+  ShownSize angle;   ///< between the tool and the planned axis
+  ShownSize offset;  ///< of the tip from the planned axis
 };
 inline constexpr double kTenth_m = 1e-4;
 inline constexpr double kTenth_rad = 0.1 * std::numbers::pi / 180.0;
@@ -64,8 +81,9 @@ class SteadyNumber {
 };
 
 /// Writes the depth, pair after pair. A tip that is shown short of where it is tempts the surgeon
-/// to drill on, so the depth is rounded deeper. A smaller depth is shown once the measured one has
-/// fallen by another tenth, as with `SteadyNumber`.
+/// to drill on, so the depth is rounded deeper, and one that is not sure is its deeper bound. A
+/// smaller depth is shown once the measured one has fallen by another tenth, as with
+/// `SteadyNumber`.
 class DepthWriter {
  public:
   /// `depth_m`: past the entry along the planned axis; `to_target_m`: what is left of it. Absent if
@@ -76,6 +94,18 @@ class DepthWriter {
  private:
   std::optional<int> past_entry_;   ///< shown last, tenths
   std::optional<int> past_target_;  ///< likewise
+};
+
+/// Writes the sizes of angle and offset, pair after pair. The bound of a size with an error of this
+/// SD along each of two axes: 95 % of such errors are shorter than 2.45 SDs.
+class ScrewSizeWriter {
+ public:
+  [[nodiscard]] ScrewSizes write(const NumberWithSd& angle_rad, const NumberWithSd& offset_m);
+  void forget() { *this = {}; }
+
+ private:
+  SteadyNumber angle_;
+  SteadyNumber offset_;
 };
 
 /// Writes all four numbers, pair after pair.

@@ -15,9 +15,9 @@ using render::Float3;
 constexpr double kLeastRadius_px = 0.75;
 
 /// A box that grows by points of the world as one view sees them.
-class SeenBox {
+class DrawnBox {
  public:
-  SeenBox(const GoldenScene& golden, std::size_t view)
+  DrawnBox(const GoldenScene& golden, std::size_t view)
       : golden_(golden), view_(golden.views.at(view)) {}
 
   void add(Float3 in_world, float width_m, double least_radius_px) {
@@ -48,7 +48,7 @@ class SeenBox {
 
 Box box_of_shapes(const GoldenScene& golden, render::Label label, std::size_t view) {
   const GoldenScene alone = only(golden, label, false);
-  SeenBox seen(golden, view);
+  DrawnBox seen(golden, view);
   for (const render::MeshItem& item : alone.scene.meshes) {
     for (const Float3 p : item.mesh->positions) {
       seen.add_point(render::transformed(item.world_from_model, p));
@@ -79,7 +79,7 @@ Box box_of_text(const GoldenScene& golden, const render::TextItem& item, std::si
   const render::Matrix4 place = world_from_caps(item, render::head_of(golden.views));
   std::vector<render::PlacedGlyph> glyphs;
   lay_out(font, item, glyphs);
-  SeenBox seen(golden, view);
+  DrawnBox seen(golden, view);
   for (const render::PlacedGlyph& glyph : glyphs) {
     const float reach = font.header().reach - (item.rim.a > 0 ? render::kRimWidth : 0);
     for (const float x : {glyph.left + reach, glyph.right - reach}) {

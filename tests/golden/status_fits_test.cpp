@@ -133,13 +133,12 @@ const PlacedWire& far_off() {
 std::vector<StatusLine> lines_about(const Message& message, const Coaching& coaching,
                                     const nav::CheckVerdict& verdict, const HeardCommand& heard) {
   const bool none = std::holds_alternative<std::monostate>(message);
-  std::vector<StepState> states = {ChecksSoFar{0.0123, 20, -0.0123, &verdict},
-                                   ChecksSoFar{0.0123, 20, -0.0123, &verdict, true, 0.0123}};
+  std::vector<StepState> states = {ChecksSoFar{&verdict}, ChecksSoFar{&verdict, 0.0123}};
   if (none) {
     states.insert(
         states.end(),
-        {StrokesSoFar{123456, &coaching}, RegistrationFigures{0.0123, 0.0123, false},
-         LandmarkSoFar{{0.0123, 0.0123, false, true}, false, {}}, WireSoFar{&far_off(), true},
+        {StrokesSoFar{123456, &coaching}, ByEye{}, LandmarkSoFar{false, {}},
+         WireSoFar{&far_off(), true},
          HeadsSoFar{20, 0.5123, 12, HeadTouch{19, {}, 0.001, 10, 0.00123}, 10},
          RodInHandSoFar{0, true, 1234}, RodInHandSoFar{12, true, 1234},
          RodInHandSoFar{12, false, 0, nullptr, 0.5123, NextBend{13, 0.4567, -3.1, 0.8}, true}});
@@ -171,9 +170,8 @@ std::vector<StatusLine> lines_about(const Message& message, const Coaching& coac
 
 /// The status line as the scene builder draws it, seen on a display.
 GoldenScene drawn(const StatusLine& line, const ShownOn& display) {
-  constexpr std::array<ToolDot, 3> kTools = {{{"pointer", ToolState::kMeasured},
-                                              {"guide", ToolState::kPredicted},
-                                              {"reference", ToolState::kLost}}};
+  constexpr std::array<ToolDot, 3> kTools = {
+      {{ToolState::kMeasured}, {ToolState::kPredicted}, {ToolState::kLost}}};
   GoldenScene golden = golden::start("status", "", display.views);
   golden.width_px = display.width_px;
   golden.height_px = display.height_px;
@@ -242,8 +240,7 @@ void expect_whole(const Told& told) {
         const GoldenScene golden = drawn(line, display);
         expect_inside(golden, display);
         const std::string text = all_text(golden);
-        ASSERT_THAT(text,
-                    ::testing::StartsWith(step_text(line.at) + "\n●\npointer\n◐\nguide\n○\n"));
+        ASSERT_THAT(text, ::testing::StartsWith(step_text(line.at) + "\n●\n◐\n○\n"));
         if (line.tool_lost) {
           ASSERT_THAT(text, HasSubstr(told.lost));
         }

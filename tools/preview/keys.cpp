@@ -19,6 +19,7 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {key_of('f'), "f", kSay, "done"},
     {key_of('m'), "m", kSay, "move rod"},
     {key_of('t'), "t", kSay, "twin"},
+    {key_of('w'), "w", kSay, "numbers"},
     {key_of('y'), "y", kSay, "move cranial one"},
     {key_of('b'), "b", kSay, "move caudal one"},
     {key_of('g'), "g", kSay, "move medial one"},

@@ -45,7 +45,8 @@ TEST(TargetCross, WhatMovesToTheRightMovesItsDotToTheRight) {
     cross.outward = render::unit_or(outward, {});
     const Float3 right = {1, 0, 0};
     const Float3 across = right - dot(right, cross.outward) * cross.outward;
-    cross.reading = CrossReading{0.002f * render::unit_or(across, {}), {}, Grade::kGood};
+    cross.reading =
+        CrossReading{0.002f * render::unit_or(across, {}), {}, Grade::kGood, Worst::kNothing};
     const CrossPlaces places = places_of(cross);
     const Float3 moved = places.dots[0] - places.middle;
     EXPECT_NEAR(render::length(moved), kCrossScale * 0.002f, kRounding_m);
@@ -54,15 +55,31 @@ TEST(TargetCross, WhatMovesToTheRightMovesItsDotToTheRight) {
   }
 }
 
-TEST(TargetCross, ADotPastTheRimStaysThereAndPointsOut) {
+TEST(TargetCross, ADotPastTheRimStaysThere) {
   TargetCross cross = over_origin();
-  cross.reading = CrossReading{{0.030f, 0, 0}, {0.004f, 0, 0}, Grade::kPoor};
+  cross.reading = CrossReading{{0.030f, 0, 0}, {0.004f, 0, 0}, Grade::kPoor, Worst::kNothing};
   const CrossPlaces places = places_of(cross);
-  EXPECT_TRUE(places.outside[0]);
-  EXPECT_FALSE(places.outside[1]);
-  EXPECT_LT(render::length(places.dots[0] - places.middle), 1.2f * kCrossScale * 0.005f);
+  EXPECT_NEAR(render::length(places.dots[0] - places.middle), 1.12f * kCrossScale * 0.005f, 1e-5f);
+  EXPECT_NEAR(render::length(places.dots[1] - places.middle), kCrossScale * 0.004f, 1e-5f);
+  EXPECT_FALSE(places.way);
   cross.reading->tip_offset.x = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_TRUE(places_of(cross).outside[0]);
+  EXPECT_LT(render::length(places_of(cross).dots[0] - places.middle), 0.03f);
+}
+
+TEST(TargetCross, TheWayLeadsTheTipToTheMiddleAndTheAxisToTheTip) {
+  TargetCross cross = over_origin();
+  cross.reading = CrossReading{{0.002f, 0, 0}, {0.001f, 0, 0.004f}, Grade::kPoor, Worst::kOffset};
+  const CrossPlaces of_tip = places_of(cross);
+  ASSERT_TRUE(of_tip.way);
+  EXPECT_EQ((*of_tip.way)[0], of_tip.dots[0]);
+  EXPECT_NEAR(render::length((*of_tip.way)[1] - of_tip.middle), 0.0f, 1e-5f);
+  cross.reading->worst = Worst::kAngle;
+  const CrossPlaces of_axis = places_of(cross);
+  ASSERT_TRUE(of_axis.way);
+  const Float3 way = (*of_axis.way)[1] - (*of_axis.way)[0];
+  EXPECT_EQ((*of_axis.way)[0], of_axis.dots[1]);
+  EXPECT_GT(dot(render::unit_or(way, {}), render::unit_or(of_axis.dots[0] - of_axis.dots[1], {})),
+            0.999f);
 }
 
 TEST(TargetCross, TakesTheSideThatThePlanDoesNotLeanTo) {
@@ -79,7 +96,7 @@ TEST(TargetCross, TakesTheSideThatThePlanDoesNotLeanTo) {
 
 TEST(TargetCross, TakenOffItsDotsItSaysWhatALostOneSays) {
   TargetCross cross = over_origin();
-  cross.reading = CrossReading{{0.001f, 0, 0}, {0.002f, 0, 0}, Grade::kGood};
+  cross.reading = CrossReading{{0.001f, 0, 0}, {0.002f, 0, 0}, Grade::kGood, Worst::kNothing};
   render::Scene scene;
   add_target_cross(scene, cross, 701);
   take_dots_off(scene, 701);
@@ -94,19 +111,61 @@ TEST(TargetCross, TakenOffItsDotsItSaysWhatALostOneSays) {
   EXPECT_TRUE(scene.meshes.empty());
 }
 
-TEST(Depth, IsPalerAndSmallerWithItsSdWhereItIsNotSure) {
+render::Scene written(const CrossNumbers& numbers) {
   render::Scene scene;
-  add_depth(scene, {}, {0, 0.08f, 0}, {nav::DepthTo::kTarget, 310, 4, true}, 7);
-  add_depth(scene, {}, {0, 0.08f, 0}, {nav::DepthTo::kPastTarget, 12, 14, false}, 8);
-  ASSERT_EQ(scene.texts.size(), 2u);
-  const render::TextItem& sure = scene.texts[0];
-  const render::TextItem& unsure = scene.texts[1];
-  EXPECT_EQ(sure.runs.at(0).text, "31.0 mm to target");
-  EXPECT_EQ(unsure.runs.at(0).text, "1.2 ± 1.4 mm past target");
-  EXPECT_LT(unsure.height_m, sure.height_m);
-  EXPECT_LT(unsure.runs[0].colour.g, sure.runs[0].colour.g);
-  EXPECT_EQ(sure.rim.a, 0.0f);
-  EXPECT_GT(unsure.rim.a, 0.0f);
+  add_cross_numbers(scene, over_origin(), numbers, {601, 1306, 901});
+  return scene;
+}
+
+TEST(CrossNumbers, AreThreeOfWhichOnlyTheWorstHasARim) {
+  CrossNumbers numbers;
+  numbers.sizes = nav::ScrewSizes{{12, nav::Certainty::kSure}, {31, nav::Certainty::kSure}};
+  numbers.depth = nav::ShownDepth{nav::DepthTo::kTarget, 310, nav::Certainty::kSure};
+  for (const auto& [worst, bright] : {std::pair{Worst::kNothing, 3U},
+                                      {Worst::kAngle, 0U},
+                                      {Worst::kOffset, 1U},
+                                      {Worst::kDepth, 2U}}) {
+    numbers.worst = worst;
+    const render::Scene scene = written(numbers);
+    ASSERT_EQ(scene.texts.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(scene.texts[i].rim.a > 0, i == bright) << i;
+    }
+  }
+}
+
+TEST(CrossNumbers, MarkWhichOfThemAreBounds) {
+  CrossNumbers numbers;
+  numbers.sizes = nav::ScrewSizes{{12, nav::Certainty::kSure}, {26, nav::Certainty::kBound}};
+  numbers.worst = Worst::kCertainty;
+  const render::Scene scene = written(numbers);
+  ASSERT_EQ(scene.texts.size(), 2u) << "no depth";
+  EXPECT_EQ(scene.texts[0].rim.a, 0.0f);
+  EXPECT_GT(scene.texts[1].rim.a, 0.0f);
+  EXPECT_EQ(scene.texts[1].runs.at(0).text, "tip ≤ 2.6 mm");
+}
+
+TEST(CrossNumbers, FillTheBarAsTheTipAdvances) {
+  const auto filled_m = [](float way) {
+    CrossNumbers numbers;
+    numbers.sizes.emplace();
+    numbers.depth.emplace();
+    numbers.way = way;
+    const render::Scene scene = written(numbers);
+    return scene.triangles.empty()
+               ? 0.0f
+               : render::length(scene.triangles[0].corners[2] - scene.triangles[0].corners[1]);
+  };
+  EXPECT_EQ(filled_m(0.0f), 0.0f);
+  EXPECT_NEAR(filled_m(0.5f), 0.020f, 1e-5f);
+  EXPECT_NEAR(filled_m(1.0f), 0.040f, 1e-5f);
+}
+
+TEST(CrossNumbers, AreDashesWithoutAMeasurement) {
+  const render::Scene scene = written({});
+  ASSERT_EQ(scene.texts.size(), 1u);
+  EXPECT_EQ(scene.texts[0].runs.at(0).text, "\u2012\u2012.\u2012°");
+  EXPECT_EQ(scene.texts[0].rim, look::colours().poor);
 }
 
 }  // namespace

@@ -55,40 +55,32 @@ std::string words(std::size_t count) {
 
 TEST(StatusLine, TellsToolsApartByShapeToo) {
   const std::vector<ToolDot> tools = {
-      {"a", ToolState::kMeasured}, {"b", ToolState::kPredicted}, {"c", ToolState::kLost}};
+      {ToolState::kMeasured}, {ToolState::kPredicted}, {ToolState::kLost}};
   render::Scene scene;
   add_status_line(scene, "setup", tools, kStatusLabel);
-  EXPECT_THAT(texts_of(scene), ElementsAre("setup", "●", "a", "◐", "b", "○", "c"));
+  EXPECT_THAT(texts_of(scene), ElementsAre("setup", "●", "◐", "○"));
   EXPECT_EQ(scene.texts[1].rim, look::colours().good);
-  EXPECT_EQ(scene.texts[5].rim, look::colours().poor);
+  EXPECT_EQ(scene.texts[3].rim, look::colours().poor);
 }
 
 TEST(StatusLine, KeepsStepAndToolsOnARowOfTheirOwn) {
-  const std::array<ToolDot, 1> tools = {{{"guide", ToolState::kLost}}};
+  const std::array<ToolDot, 1> tools = {{{ToolState::kLost}}};
   render::Scene scene;
-  add_status_line(scene, "guide L4 left | guide lost; say next", tools, kStatusLabel);
-  EXPECT_THAT(texts_of(scene), ElementsAre("guide L4 left", "○", "guide", "guide lost; say next"));
-  EXPECT_EQ(scene.texts[0].offset_up, scene.texts[2].offset_up);
-  EXPECT_LT(scene.texts[3].offset_up, scene.texts[0].offset_up - 1.0f) << "below";
+  add_status_line(scene, "guide L4 left | guide lost; say go to next", tools, kStatusLabel);
+  EXPECT_THAT(texts_of(scene), ElementsAre("guide L4 left", "○", "guide lost; say go to next"));
+  EXPECT_EQ(scene.texts[0].offset_up, scene.texts[1].offset_up);
+  EXPECT_LT(scene.texts[2].offset_up, scene.texts[0].offset_up - 1.0f) << "below";
 }
 
-TEST(StatusLine, ShortensNamesOfToolsBeforeItsStepAndNeverADot) {
-  const std::string long_name = "the surgeon's own pointer, second of its kind";
-  const std::string step = "digitize " + words(8);
-  const std::array<ToolDot, 4> tools = {{{long_name, ToolState::kLost},
-                                         {long_name, ToolState::kMeasured},
-                                         {long_name, ToolState::kPredicted},
-                                         {long_name, ToolState::kLost}}};
+TEST(StatusLine, CutsALongStepAndNeverADot) {
+  const std::array<ToolDot, 4> tools = {
+      {{ToolState::kLost}, {ToolState::kMeasured}, {ToolState::kPredicted}, {ToolState::kLost}}};
   render::Scene scene;
-  add_status_line(scene, step, tools, kStatusLabel);
+  add_status_line(scene, "digitize " + words(12), tools, kStatusLabel);
   const auto texts = texts_of(scene);
   EXPECT_THAT(texts.front(), EndsWith("…"));
   EXPECT_THAT(texts.front(), HasSubstr("digitize"));
-  std::string dots;
-  for (const std::string& text : texts) {
-    dots += text == "●" || text == "◐" || text == "○" ? text : "";
-  }
-  EXPECT_EQ(dots, "○●◐○");
+  EXPECT_THAT(std::vector(texts.begin() + 1, texts.end()), ElementsAre("○", "●", "◐", "○"));
 }
 
 TEST(StatusRows, HoldAShortTextOnOne) {

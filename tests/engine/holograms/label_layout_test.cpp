@@ -110,25 +110,6 @@ TEST(LabelLayout, ALabelFarOffIsLedTo) {
   }
 }
 
-TEST(LabelLayout, TakesTheDepthAlongUnderTheAngle) {
-  const OperatingField built = test::guided_levels(1, 0.1f);
-  OperatingField field = built;
-  const auto views = test::head_at(0);
-  LabelLayout().lay_out(field.scene, views, field.papers, Timestamp{});
-  const auto text = [&](const render::Scene& scene, HologramKind kind) {
-    return *std::find_if(scene.texts.begin(), scene.texts.end(),
-                         [&](const auto& item) { return kind_of(item.label) == kind; });
-  };
-  const render::TextItem angle = text(field.scene, HologramKind::kAngle);
-  const render::TextItem depth = text(field.scene, HologramKind::kDepth);
-  EXPECT_NE(angle.offset_up, text(built.scene, HologramKind::kAngle).offset_up) << "off the tag";
-  EXPECT_EQ(angle.align, depth.align);
-  EXPECT_EQ(angle.position, depth.position);
-  // Cap heights are 7 and 4 mm at this distance.
-  EXPECT_NEAR(7 * angle.offset_right, 4 * depth.offset_right, 0.5);
-  EXPECT_LT(4 * depth.offset_up, 7 * angle.offset_up - 4);
-}
-
 TEST(LabelLayout, LeavesABendOutWhereThereIsNoRoomAndNoLength) {
   OperatingField field;
   RodHologram rod;

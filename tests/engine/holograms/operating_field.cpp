@@ -6,9 +6,9 @@
 #include <numbers>
 #include <optional>
 
-#include "engine/holograms/hologram_cross.h"
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/hologram_status.h"
 #include "render/float3.h"
 #include "render/frame/frame_items.h"
 
@@ -27,7 +27,7 @@ constexpr int kHeight_px = 1500;
 
 void add_status(OperatingField& field, const std::string& text) {
   const std::array<engine::ToolDot, 2> tools = {
-      {{"guide", engine::ToolState::kMeasured}, {"reference", engine::ToolState::kPredicted}}};
+      {{engine::ToolState::kMeasured}, {engine::ToolState::kPredicted}}};
   engine::add_status_line(field.scene, text, tools, label_of(HologramKind::kStatus, 1));
 }
 
@@ -123,7 +123,8 @@ void find_faults(const OperatingField& field, const std::vector<Ink>& inks,
         found.push_back(ink.text + " over " + inks[k].text);
       }
     }
-    const bool guides = ink.kind == HologramKind::kAngle || ink.kind == HologramKind::kDepth;
+    const bool guides = ink.kind == HologramKind::kAngle || ink.kind == HologramKind::kDepth ||
+                        (ink.kind == HologramKind::kNumbers);
     for (const NamedPlace& place : field.places) {
       const auto at = pixel(view, place.at);
       if (at && (guides || !place.wound) && ink.kind != HologramKind::kStatus &&
@@ -160,7 +161,7 @@ OperatingField entry_points(int levels) {
       field.places.push_back({name, at, kRing_m, false});
     }
   }
-  add_status(field, "accepted L4 | RMSE 0.62 mm | predicted 1.1 mm");
+  add_status(field, "accepted L4 | touch the dimple");
   return field;
 }
 
@@ -174,10 +175,6 @@ OperatingField guided_levels(int levels, float lean_rad) {
   engine::add_planned_trajectory(field.scene, a, target, label_of(HologramKind::kTrajectory, 1));
   engine::add_deviation_triangle(field.scene, a, b, a + 0.080f * planned, engine::Grade::kFair,
                                  label_of(HologramKind::kTriangle, 1));
-  engine::add_angle_readout(field.scene, a, b, "12.4°", engine::Grade::kFair,
-                            label_of(HologramKind::kAngle, 1));
-  engine::add_depth(field.scene, a, b, {nav::DepthTo::kEntry, 123, 4, true},
-                    label_of(HologramKind::kDepth, 1));
   field.places.push_back({"the wound", a, 0.010f, true});
   field.papers.push_back(paper_above(b));
   return field;
@@ -205,7 +202,7 @@ OperatingField rods(int heads) {
     rod.length_m = static_cast<double>(length_m);
     engine::add_rod(field.scene, rod, label_of(HologramKind::kRod, side > 0 ? 1 : 2));
   }
-  add_status(field, "rod right | 2 heads");
+  add_status(field, "rod right | touch the next head");
   return field;
 }
 
@@ -219,7 +216,7 @@ OperatingField checked_places(int count) {
                             label_of(HologramKind::kCheckPoint, static_cast<std::size_t>(i + 1)));
     field.places.push_back({"check " + std::to_string(i + 1), at, 0.0020f, false});
   }
-  add_status(field, "verify L4 | RMSE 0.62 mm | check 3 of 3: 0.2 mm");
+  add_status(field, "verify L4 | passed: say accept result");
   return field;
 }
 

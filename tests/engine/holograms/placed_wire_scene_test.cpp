@@ -55,7 +55,7 @@ TEST_F(PlacedWireShown, IsALineBesideThePlanWithItsNumbers) {
   EXPECT_EQ(drawn(g), told(g));
   const auto both = trajectories(shown(g));
   ASSERT_EQ(both.size(), 2u);
-  EXPECT_THAT(both[1].text, StartsWith("0.0 ± 0.6°, 1.2 ± "));
+  EXPECT_THAT(both[1].text, StartsWith("0.0°, 1.2 mm"));
   ASSERT_EQ(both[1].points_in_world.size(), 3u);
   constexpr double kJoined = 1e-5;  // the touched check points move the registration by micrometres
   EXPECT_NEAR((both[1].points_in_world[1] - both[0].points_in_world[1]).norm(), 0.0012, kJoined);

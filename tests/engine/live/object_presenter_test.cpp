@@ -58,7 +58,7 @@ class PresentedObjects : public ::testing::Test, public GuidedScene {
   }
   [[nodiscard]] bool shows_degrees() const {
     for (const auto& [id, thing] : display.link.peer.things) {
-      if (thing.visible && thing.text && !thing.follows_head && thing.words == "5.7\u00B0") {
+      if (thing.visible && thing.text && !thing.follows_head && thing.words == "5.8\u00B0?") {
         return true;
       }
     }

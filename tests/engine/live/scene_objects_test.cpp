@@ -138,7 +138,7 @@ TEST_F(GuidedObjects, ThatAreTextsFaceTheHeadUpright) {
     EXPECT_GT(axis_of(text, {0, 1, 0}).dot({head.up.x, head.up.y, head.up.z}), 0.9);
     EXPECT_GT(text.cap_height_m, 0.002);
   }
-  EXPECT_GT(in_world, 3);
+  EXPECT_GE(in_world, 3);
 }
 
 TEST_F(GuidedObjects, ThatAreTextsStayWhileTheHeadHardlyMoves) {
@@ -153,7 +153,7 @@ TEST_F(GuidedObjects, ThatAreTextsStayWhileTheHeadHardlyMoves) {
     EXPECT_EQ(before[i].position_m, after[i].position_m);
     moved += before[i].position_m == far[i].position_m ? 0 : 1;
   }
-  EXPECT_GT(moved, 3u);
+  EXPECT_GE(moved, 3u);
 }
 
 TEST_F(GuidedObjects, MarkARimWithBarsInItsColour) {

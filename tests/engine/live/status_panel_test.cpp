@@ -85,7 +85,7 @@ render::Scene saying(const std::string& text) {
   render::TextItem& label = scene.texts.emplace_back();
   label.label = 301;
   label.runs.push_back({"in the world", {}});
-  const std::vector<ToolDot> tools = {{"pointer", ToolState::kMeasured}};
+  const std::vector<ToolDot> tools = {{ToolState::kMeasured}};
   add_status_line(scene, text, tools, 1101);
   return scene;
 }
@@ -164,7 +164,7 @@ TEST_F(StatusPanelOfADisplay, IsNotSeenWhereNothingHangsOnTheHead) {
 
 TEST_F(StatusPanelOfADisplay, HoldsAllRowsThatThereCanBe) {
   render::Scene scene = saying("guide L4 left | " + std::string(400, 'm'));
-  add_row_above_status(scene, std::string(200, 'm'), 1302);
+  add_next_act(scene, std::string(200, 'm'), 2, 1302);
   add_stop_row(scene, std::string(200, 'm'), 1305);
   EXPECT_TRUE(frame(scene));
   render::Scene lost;

@@ -259,7 +259,7 @@ TEST(CoachByBest, ExpectsLessAsSamplesComeInAndTheSameEveryTime) {
   const double early_m = expected_m[0][Coach::kFewestSamples + Coach::kPairsToAnswer];
   EXPECT_GT(early_m, 0.0);
   EXPECT_LT(expected_m[0].back(), 0.7 * early_m);
-  EXPECT_THAT(last[0], HasSubstr("enough to register"));
+  EXPECT_THAT(last[0], HasSubstr("enough: double click"));
 }
 
 }  // namespace

@@ -201,7 +201,7 @@ TEST(OperationLog, HoldsWhatWasShownWhenARegistrationWasAccepted) {
   s.accepts();
   const nlohmann::json accepted = last_of(env, OperationRecord::kAccepted);
   EXPECT_THAT(accepted["shown"].get<std::string>(), HasSubstr("verify L4 | "));
-  EXPECT_THAT(accepted["shown"].get<std::string>(), HasSubstr("passed, worst"));
+  EXPECT_THAT(accepted["shown"].get<std::string>(), HasSubstr("passed: say accept result"));
   EXPECT_EQ(accepted["check_points"], 3);
 }
 

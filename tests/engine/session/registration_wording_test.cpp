@@ -47,8 +47,7 @@ TEST(Wording, HasNoNegativeZero) {
   coaching.unique = true;
   coaching.expected_m = kTiny;
   const nav::UncertainMotion motion{nav::UncertainMotion::Kind::kCraniocaudal, kTiny};
-  std::string all = line_with(RegistrationFigures{kTiny, kTiny, true}) +
-                    line_with(ChecksSoFar{kTiny, 1, kTiny, &verdict}) +
+  std::string all = line_with(ByEye{}) + line_with(ChecksSoFar{&verdict}) +
                     line_with(StrokesSoFar{1, &coaching}) + text_of(motion) +
                     text_of(nav::CheckAdvice{nav::CheckAdvice::Kind::kReject, 4, kTiny, 0.002}) +
                     text_of(nav::CheckAdvice{nav::CheckAdvice::Kind::kTouchApart, 3, kTiny, 0.0});
@@ -98,25 +97,17 @@ TEST(Wording, AsksForCheckPoints) {
       "again");
 }
 
-TEST(Wording, SaysWhatStrokesAreWorth) {
+TEST(Wording, SaysWhereToStrokeNextOrThatItIsEnough) {
   Coaching coaching;
-  coaching.unique = true;
-  coaching.expected_m = 0.0024;
+  EXPECT_EQ(text_of(coaching), "◇◇◇◇◇ stroke on");
   coaching.stroke_next = kLeftLamina;
-  EXPECT_EQ(text_of(coaching), "expected error 2.4 mm, digitize the left lamina");
-  EXPECT_EQ(line_with(StrokesSoFar{120, &coaching}),
-            "120 points | expected error 2.4 mm, digitize the left lamina");
+  coaching.progress = 0.7;
+  EXPECT_EQ(text_of(coaching), "◆◆◆◇◇ digitize the left lamina");
+  EXPECT_EQ(line_with(StrokesSoFar{120, &coaching}), "◆◆◆◇◇ digitize the left lamina");
   coaching.against = nav::RefusalReason{Reason::kNoise, 0.0019, 0.0016, {}, {}};
-  EXPECT_EQ(text_of(coaching),
-            "expected error 2.4 mm, the points scatter 1.9 mm about the surface, limit 1.6 mm");
+  EXPECT_EQ(text_of(coaching), "◆◆◆◇◇ the points scatter 1.9 mm about the surface, limit 1.6 mm");
   coaching.enough = true;
-  EXPECT_EQ(text_of(coaching), "expected error 2.4 mm, enough to register");
-  coaching.expected_m = kInfinite;
-  EXPECT_EQ(text_of(coaching), "expected error -- mm, enough to register");
-  coaching.unique = coaching.enough = false;
-  coaching.against.reset();
-  EXPECT_EQ(text_of(coaching), "ambiguous, digitize the left lamina")
-      << "no error is promised of a pose that may be the wrong one";
+  EXPECT_EQ(text_of(coaching), "◆◆◆◆◆ enough: double click");
 }
 
 TEST(Wording, SaysWhyARegistrationWasRefusedAndWhatToDo) {

@@ -29,7 +29,7 @@ TEST_F(PlacedSession, FollowsEveryScrewAndAsksForTheSleeve) {
   EXPECT_THAT(detail_text(g.status), HasSubstr("set the sleeve over the wire, turn it and click"));
 }
 
-TEST_F(PlacedSession, AWireWithinTheLimitsIsToldWithItsSds) {
+TEST_F(PlacedSession, AWireWithinTheLimitsIsTold) {
   const Guidance& g = measures(0.0006, 0.8 * kRadiansPerDegree);
   ASSERT_NE(state<WireSoFar>(g), nullptr);
   ASSERT_NE(state<WireSoFar>(g)->wire, nullptr);
@@ -39,7 +39,7 @@ TEST_F(PlacedSession, AWireWithinTheLimitsIsToldWithItsSds) {
   EXPECT_TRUE(wire.within());
   EXPECT_EQ(g.wire, &wire);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
-  EXPECT_THAT(detail_text(g.status), HasSubstr("placed: 0.8 ± 0.6°, 0.6 ± 0.9 mm from the plan"));
+  EXPECT_THAT(detail_text(g.status), HasSubstr("within limits: say go to next"));
   EXPECT_EQ(step_of(s.says("next")), "accepted L4") << "the landmark before the other screw";
   EXPECT_TRUE(level().screw_done[0]);
   ASSERT_TRUE(level().wires[0].measured);

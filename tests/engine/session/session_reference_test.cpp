@@ -65,6 +65,7 @@ TEST(PatientReference, HidesThePatientInEveryStepThatShowsAny) {
       s.registers_first_level();
     } else if (step == Step::kRod) {
       s.finishes_every_screw();
+      s.touches({0.02, 0.03, 0.00});
     } else {
       s.accepts_first_level();
       if (step == Step::kGuide) {

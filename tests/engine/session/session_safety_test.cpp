@@ -97,14 +97,6 @@ TEST_F(Guided, APredictionIsShownNoLongerThanItsMeasurementIsFresh) {
   EXPECT_FALSE(s.pair().tool.has_value());
 }
 
-TEST_F(Guided, SaysTheErrorsToExpect) {
-  const auto* figures = state<RegistrationFigures>(s.pair());
-  ASSERT_NE(figures, nullptr);
-  EXPECT_DOUBLE_EQ(figures->rmse_m, 0.0006);
-  EXPECT_TRUE(figures->of_one_screw);
-  EXPECT_GT(figures->expected_m, 0.0);
-}
-
 TEST_F(Guided, SaysWhenTheTagIsNotAsLargeAsStated) {
   s.tracker().size = nav::TagSize{-0.032, 0.001, 12, true, false};
   EXPECT_FALSE(s.pair().status.tag_size_off.has_value()) << "the twin: not certain yet";

@@ -46,7 +46,7 @@ class TipsSession : public ::testing::Test {
 TEST_F(TipsSession, TipsThatAgreeAreToldAndLeftAlone) {
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTipHeld);
   const Guidance& g = touches_by_guide(kDimple + Vec3{0.0006, 0, 0});
-  EXPECT_THAT(detail_text(g.status), HasSubstr("tips agree, 0.6 mm apart"));
+  EXPECT_THAT(detail_text(g.status), HasSubstr("dimple recorded: say go to next"));
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
   s.says("accept");
   ASSERT_NE(said<NotPossibleNow>(s.pair()), nullptr) << "there is nothing to correct";

@@ -10,19 +10,18 @@ TEST(Wording, AsksForTheSleeveAndTellsHowTheWireStands) {
   EXPECT_EQ(line_with(WireSoFar{}),
             "set the sleeve over the wire, turn it and click, or say go to next");
   const PlacedWire within = wire_off(0.8, 0.0006);
-  EXPECT_EQ(line_with(WireSoFar{&within}), "placed: 0.8 ± 0.9°, 0.6 ± 0.6 mm from the plan");
+  EXPECT_EQ(line_with(WireSoFar{&within}), "within limits: say go to next");
   const PlacedWire turned = wire_off(2.04, 0.0006);
-  EXPECT_EQ(
-      line_with(WireSoFar{&turned}),
-      "placed: 2.0 ± 0.9°, 0.6 ± 0.6 mm from the plan; angle 2.04°, limit 2.00°: say accept result "
-      "to keep it, delete last to redo it");
+  EXPECT_EQ(line_with(WireSoFar{&turned}),
+            "angle 2.04°, limit 2.00°: say accept result "
+            "to keep it, delete last to redo it");
   PlacedWire off = wire_off(2.6, 0.0031);
   EXPECT_EQ(line_with(WireSoFar{&off, true}),
-            "placed: 2.6 ± 0.9°, 3.1 ± 0.6 mm from the plan; angle 2.6°, limit 2.0°; entry 3.1 mm, "
+            "angle 2.6°, limit 2.0°; entry 3.1 mm, "
             "limit 2.0 mm: no other entry stays inside the bone, say accept result to keep it");
   off.kept = true;
   EXPECT_EQ(line_with(WireSoFar{&off}),
-            "placed: 2.6 ± 0.9°, 3.1 ± 0.6 mm from the plan; angle 2.6°, limit 2.0°; entry 3.1 mm, "
+            "angle 2.6°, limit 2.0°; entry 3.1 mm, "
             "limit 2.0 mm: kept, say go to next");
   StatusLine lost;
   lost.tool = "guide";

@@ -27,8 +27,8 @@ TEST(Wording, SaysNothingOfTipsThatNobodyCompares) {
   const TipCheck nobody({}, {}, false);
   LandmarkTouch touch;
   touch.first = true;
-  const std::string line = line_with(LandmarkSoFar{{}, true, touch, &nobody, nullptr});
-  EXPECT_THAT(line, ::testing::EndsWith("dimple recorded"));
+  const std::string line = line_with(LandmarkSoFar{true, touch, &nobody, nullptr});
+  EXPECT_EQ(line, "dimple recorded: say go to next");
 }
 
 TEST(Wording, NamesStepsWithWhatTheyAreAbout) {
@@ -65,87 +65,70 @@ TEST(Wording, SaysWhichPartsGiveWayFirst) {
   EXPECT_EQ(plain, text) << "asking for the parts changes no word";
 }
 
-TEST(Wording, SaysHowARodInHandStands) {
+TEST(Wording, SaysWhatToDoWithARodInHand) {
   EXPECT_EQ(
       line_with(RodInHandSoFar{0, true, 1}),
       "stroke the straight rod from its first end on 3 sides, then say save points; if bend 1 is "
-      "made, say go to next; 1 point");
+      "made, say go to next");
   EXPECT_EQ(line_with(RodInHandSoFar{2, true, 120}),
-            "bend 2 made: stroke the rod from its first end on 3 sides, then say save points; 120 "
-            "points");
+            "bend 2 made: stroke the rod from its first end on 3 sides, then say save points");
   const NextBend first{1, 0.0633, 0.0, 18.5 * kRadiansPerDegree};
-  EXPECT_EQ(
-      line_with(RodInHandSoFar{0, false, 0, nullptr, 0.1124, first, true}),
-      "cut to 112.4 mm; bend 1: 63 mm, towards the line, set 18.5°, then say go to next; shown "
-      "where it was stroked");
-  nav::MeasuredBend bend;
-  bend.arc.angle_rad = 12.1 * kRadiansPerDegree;
-  bend.angle_se_rad = 0.5 * kRadiansPerDegree;
+  EXPECT_EQ(line_with(RodInHandSoFar{0, false, 0, nullptr, 0.1124, first, true}),
+            "cut to 112.4 mm; bend 1: 63 mm, towards the line, set 18.5°, then say go to next");
   const NextBend next{3, 0.1084, 40.0 * kRadiansPerDegree, 17.2 * kRadiansPerDegree};
   EXPECT_EQ(
-      line_with(RodInHandSoFar{2, false, 0, &bend, {}, next}),
-      "bend 2: 12.1 ± 0.5°; bend 3: 108 mm, roll 40°, set 17.2°, then say go to next; no longer "
-      "shown: it may have moved");
-  EXPECT_EQ(line_with(RodInHandSoFar{2, false, 0, &bend, {}, {}, true}),
-            "bend 2: 12.1 ± 0.5°; all bends are made, say finish rod; shown where it was stroked");
+      line_with(RodInHandSoFar{2, false, 0, nullptr, {}, next}),
+      "bend 3: 108 mm, roll 40°, set 17.2°, then say go to next; no longer shown: it may have "
+      "moved");
+  EXPECT_EQ(line_with(RodInHandSoFar{2, false, 0, nullptr, {}, {}, true}),
+            "all bends are made, say finish rod");
 }
 
-TEST(Wording, SaysHowAStepStands) {
-  EXPECT_EQ(line_with(StepState{}), "");
-  EXPECT_EQ(line_with(StrokesSoFar{1}), "1 point");
-  EXPECT_EQ(line_with(StrokesSoFar{2}), "2 points");
-  EXPECT_EQ(line_with(RegistrationFigures{0.0006, 0.0012, false}),
-            "RMSE 0.60 mm, expected error 1.2 mm at the screws");
-  EXPECT_EQ(line_with(RegistrationFigures{kInfinite, 0.0012, true}),
-            "RMSE -- mm, expected error 1.2 mm");
-  EXPECT_EQ(line_with(RegistrationFigures{0.0006, 0.0012, false, true}),
-            "RMSE 0.60 mm, expected error 1.2 mm at the screws (registration only)");
-  EXPECT_EQ(line_with(HeadsSoFar{2}), "2 heads");
-  EXPECT_EQ(line_with(HeadsSoFar{4, 0.15236, 3}), "4 heads, cut to 152.4 mm, 3 bends");
-  EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1}), "3 heads, cut to 90.0 mm, 1 bend");
-  EXPECT_EQ(line_with(HeadsSoFar{1, {}, 0, HeadTouch{0, {}, 0.0001, 1, 0.00034}}),
-            "1 head; head 1: 1 touch, ± 0.3 mm");
-  EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1, HeadTouch{1, {}, 0.0001, 3, 0.00041}, 0}),
-            "3 heads, cut to 90.0 mm, 1 bend; head 2: 3 touches, ± 0.4 mm; 1.0 mm not sure: touch "
-            "head 1 again");
-  EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1, {}, {}, true}),
-            "3 heads, cut to 90.0 mm, 1 bend; this rod cannot be corrected: take a new one");
-  EXPECT_EQ(line_with(HeadsSoFar{0, {}, 0, {}, {}, false, true}),
-            "0 heads; touch the screw heads of this side; if it has none, say finish rod");
-  EXPECT_EQ(line_with(HeadsSoFar{2, 0.05, 0, {}, {}, false, true, 0.006}),
-            "2 heads, cut to 50.0 mm, 0 bends, rod 6.0 mm below the touches");
-  EXPECT_EQ(line_with(HeadsSoFar{2, 0.05, 0, {}, {}, false, false, -0.003}),
-            "2 heads, cut to 50.0 mm, 0 bends, rod 3.0 mm above the touches");
+std::string line_in(Step step, const StepState& state) {
+  StatusLine line;
+  line.at.step = step;
+  line.state = state;
+  return detail_text(line);
+}
+
+TEST(Wording, AsksForTheNextActInEveryStepAndSaysNoFigures) {
+  EXPECT_EQ(line_in(Step::kSetup, {}), "say begin guiding");
+  EXPECT_EQ(line_in(Step::kDigitize, StrokesSoFar{812}), "stroke the bone");
+  EXPECT_EQ(line_in(Step::kRegistering, {}), "wait");
+  EXPECT_EQ(line_in(Step::kVerify, ByEye{}), "say accept result or reject level");
+  EXPECT_EQ(line_in(Step::kAccepted, ByEye{}), "say go to next");
+  EXPECT_EQ(line_in(Step::kGuide, {}), "") << "follows from what a frame shows";
+  EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{0}), "touch the first head");
+  EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{1}), "touch the next head");
+  EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{4, 0.15236, 3}), "to bend it: say go to next");
+  EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{3, 0.09, 1, {}, 0}), "touch head 1 again");
+  EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{3, 0.09, 1, {}, {}, true}),
+            "this rod cannot be corrected: take a new one");
   nav::CheckVerdict verdict;
   verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};
-  EXPECT_EQ(line_with(ChecksSoFar{0.0008, 1, -0.0007, &verdict}),
-            "expected error 0.8 mm; check 1: -0.7 mm; touch 2 more places, 15 mm from the "
-            "others");
+  EXPECT_EQ(line_in(Step::kVerify, ChecksSoFar{&verdict}),
+            "touch 2 more places, 15 mm from the others");
   verdict = {true, 0.0013, {}};
-  EXPECT_EQ(line_with(ChecksSoFar{0.0008, 3, std::nullopt, &verdict}),
-            "expected error 0.8 mm; passed, worst 1.3 mm");
-  EXPECT_EQ(line_with(ChecksSoFar{0.0008, 3, std::nullopt, &verdict, false, 0.0023}),
-            "expected error 0.8 mm; moved 2.3 mm; passed, worst 1.3 mm");
+  EXPECT_EQ(line_in(Step::kVerify, ChecksSoFar{&verdict}), "passed: say accept result");
+  EXPECT_EQ(line_in(Step::kVerify, ChecksSoFar{&verdict, 0.0023}),
+            "moved 2.3 mm; passed: say accept result");
+  EXPECT_EQ(line_in(Step::kPlaced, WireSoFar{}),
+            "set the sleeve over the wire, turn it and click, or say go to next");
 }
 
-TEST(Wording, AsksForTheLandmarkAndTellsHowItWasFound) {
-  const RegistrationFigures figures{0.00062, 0.0011, false};
-  EXPECT_EQ(
-      line_with(LandmarkSoFar{figures, false, {}}),
-      "RMSE 0.62 mm, expected error 1.1 mm at the screws; make a dimple in this bone and touch it");
-  EXPECT_EQ(line_with(LandmarkSoFar{figures, true, LandmarkTouch{true, 0, 0.0, 0.0015}}),
-            "RMSE 0.62 mm, expected error 1.1 mm at the screws; dimple recorded");
-  EXPECT_EQ(line_with(LandmarkSoFar{figures, true, {}}),
-            "RMSE 0.62 mm, expected error 1.1 mm at the screws; touch the dimple");
-  EXPECT_EQ(line_with(LandmarkSoFar{figures, true, LandmarkTouch{false, 0, 0.0004, 0.0015}}),
-            "RMSE 0.62 mm, expected error 1.1 mm at the screws; dimple found, 0.4 mm off");
-  EXPECT_EQ(
-      line_with(LandmarkSoFar{figures, true, LandmarkTouch{false, 1, 0.0, 0.0015}}),
-      "RMSE 0.62 mm, expected error 1.1 mm at the screws; lift the tip and touch the dimple again");
+TEST(Wording, AsksForTheLandmarkAndTellsThatItWasFound) {
+  EXPECT_EQ(line_with(LandmarkSoFar{false, {}}), "make a dimple in this bone and touch it");
+  EXPECT_EQ(line_with(LandmarkSoFar{true, LandmarkTouch{true, 0, 0.0, 0.0015}}),
+            "dimple recorded: say go to next");
+  EXPECT_EQ(line_with(LandmarkSoFar{true, {}}), "touch the dimple");
+  EXPECT_EQ(line_with(LandmarkSoFar{true, LandmarkTouch{false, 0, 0.0004, 0.0015}}),
+            "dimple found: say go to next");
+  EXPECT_EQ(line_with(LandmarkSoFar{true, LandmarkTouch{false, 1, 0.0, 0.0015}}),
+            "lift the tip and touch the dimple again");
   StatusLine warned;
   warned.tool = "pointer";
   warned.tag_size_off = 0.02;
-  warned.state = LandmarkSoFar{figures, true, {}};
+  warned.state = LandmarkSoFar{true, {}};
   EXPECT_EQ(detail_text(warned),
             "pointer: tag 2.0 % larger than stated, check print and unit; touch the dimple");
 }
@@ -240,7 +223,7 @@ TEST(Wording, WhatIsToBeTouchedCountsOnBesideAWarning) {
   StatusLine line;
   line.tool = "pointer";
   line.tool_lost = true;
-  line.state = ChecksSoFar{0.0008, 0, std::nullopt, &verdict};
+  line.state = ChecksSoFar{&verdict};
   EXPECT_EQ(detail_text(line), "pointer lost; touch 3 places, 15 mm apart");
 }
 
@@ -258,10 +241,10 @@ TEST(Wording, PutsTheLineTogether) {
   line.state = HeadsSoFar{1};
   text.clear();
   append_status(text, line);
-  EXPECT_EQ(text, "guide L4 left | 1 head | heard: next? not sure");
+  EXPECT_EQ(text, "guide L4 left | touch the next head | heard: next? not sure");
   text.clear();
   append_without_heard(text, line);
-  EXPECT_EQ(text, "guide L4 left | 1 head");
+  EXPECT_EQ(text, "guide L4 left | touch the next head");
 }
 
 }  // namespace

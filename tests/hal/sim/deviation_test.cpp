@@ -93,9 +93,9 @@ TEST(ReadDeviation, IsNothingWhereAPartIsMissingOrNoNumber) {
     frame.holograms.erase(frame.holograms.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_FALSE(read(frame)) << i;
   }
-  ShownFrame dashes = whole;
-  dashes.holograms[1].reading.reset();
-  EXPECT_FALSE(read(dashes));
+  ShownFrame bound = whole;
+  bound.holograms[1].reading.reset();
+  EXPECT_TRUE(read(bound)) << "the dots say it";
   ShownFrame without_dots = whole;
   without_dots.holograms[2].points_in_world.resize(1);
   EXPECT_FALSE(read(without_dots));
@@ -108,6 +108,23 @@ TEST(ReadDeviation, IsNothingWhereAPartIsMissingOrNoNumber) {
       EXPECT_TRUE(!reading || reading->rotation_rad.is_finite()) << hologram << " " << point;
     }
   }
+}
+
+TEST(ReadTipOffset, HasItsDirectionByTheDotAndItsSizeByTheNumber) {
+  const auto read = [](std::optional<double> number_m, bool dots) {
+    ShownFrame frame = frame_of({0.0, {0.0012, 0, 0.0005}, 0.0});
+    frame.holograms.push_back({.kind = HologramKind::kNumbers, .reading = number_m});
+    frame.holograms[2].points_in_world.resize(dots ? 3 : 1);
+    Eyes eyes;
+    eyes.show(frame, Transform<World, Rig>{Mat3::identity(), {}});
+    eyes.light_up(Transform<Room, Rig>{Mat3::identity(), {}});
+    return read_tip_offset(eyes, kPlanned);
+  };
+  const double away_m = std::hypot(0.0012, 0.0005);
+  const Vec3 towards = Vec3{0.0012, 0, 0.0005} / away_m;
+  EXPECT_LT((read(0.0014, true).value() - 0.0014 * towards).norm(), kRounding_rad);
+  EXPECT_LT((read({}, true).value() - away_m * towards).norm(), kRounding_rad) << "a bound";
+  EXPECT_FALSE(read(0.0014, false));
 }
 
 }  // namespace

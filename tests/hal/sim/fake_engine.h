@@ -89,11 +89,9 @@ class FakeEngine {
   void sample();
   void draw(const StereoFrame& frame);
   void draw_vertebra(ShownFrame& shown) const;
-  /// H13 for a tip off the entry and an axis out of the bone, all in World.
-  void draw_numbers(ShownFrame& shown, const TestScrew& screw, Vec3 tip_m, Vec3 axis) const;
   [[nodiscard]] bool is_hidden(const RoomState& state);
   void draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const;
-  void draw_guide(ShownFrame& shown, const TestScrew& screw, Point<World> entry, Vec3 outwards,
+  void draw_guide(ShownFrame& shown, Point<World> entry, Vec3 outwards,
                   const RoomState& state) const;
   [[nodiscard]] std::string level_label() const { return order_[level_]; }
   [[nodiscard]] Transform<Room, Vertebra> room_from_vertebra(const std::string& label) const;

@@ -62,12 +62,12 @@ void FakeEngine::draw_screw(ShownFrame& shown, const RoomState& state, bool blin
   shown.holograms.push_back({.kind = HologramKind::kTrajectory,
                              .points_in_world = {entry + 0.060 * outwards, entry, target}});
   if (!blind && state.tool_present[tool_of(case_.room, ToolKind::kGuide)]) {
-    draw_guide(shown, screw, entry, outwards, state);
+    draw_guide(shown, entry, outwards, state);
   }
 }
 
-void FakeEngine::draw_guide(ShownFrame& shown, const TestScrew& screw, Point<World> entry,
-                            Vec3 outwards, const RoomState& state) const {
+void FakeEngine::draw_guide(ShownFrame& shown, Point<World> entry, Vec3 outwards,
+                            const RoomState& state) const {
   const std::size_t guide = tool_of(case_.room, ToolKind::kGuide);
   const auto world_from_marker = headset_.world_from_room() * state.room_from_marker[guide];
   const RoomTool& tool = case_.room.tools[guide];
@@ -91,7 +91,9 @@ void FakeEngine::draw_guide(ShownFrame& shown, const TestScrew& screw, Point<Wor
   shown.holograms.push_back(
       {.kind = HologramKind::kCross,
        .points_in_world = {entry, dot(tip), dot(tip + kCrossReach_m * axis)}});
-  draw_numbers(shown, screw, tip, axis);
+  const double offset_m = (tip - outwards * tip.dot(outwards)).norm();
+  shown.holograms.push_back(
+      {.kind = HologramKind::kNumbers, .reading = std::ceil(offset_m / 1e-4) * 1e-4});
 }
 
 }  // namespace orthonav::sim

@@ -151,16 +151,52 @@ TEST(DepthWriter, ATremblingTipMovesNoDigit) {
   EXPECT_LE(changes, 2);
 }
 
-TEST(DepthWriter, SaysHowSureItIsAndRefusesWhatIsNoDepth) {
-  EXPECT_TRUE(written(0.01, 0.03, 0.0010).sure);
-  EXPECT_FALSE(written(0.01, 0.03, 0.00101).sure);
-  EXPECT_EQ(written(0.01, 0.03, 0.00131).sd_tenths, 14) << "rounded up";
-  EXPECT_FALSE(written(0.01, 0.03, kUnknown).sure);
-  EXPECT_FALSE(written(0.01, 0.03, kUnknown).sd_tenths.has_value());
+TEST(DepthWriter, IsItsDeeperBoundWhereItIsNotSureAndRefusesWhatIsNoDepth) {
+  EXPECT_EQ(written(0.01, 0.03, 0.0010).certainty, Certainty::kSure);
+  EXPECT_EQ(written(0.01, 0.03, 0.0010).tenths, 300);
+  EXPECT_EQ(written(0.01, 0.03, 0.0014).certainty, Certainty::kBound);
+  EXPECT_EQ(written(0.01, 0.03, 0.0014).tenths, 276) << "30 mm less 1.645 SDs, rounded deeper";
+  EXPECT_EQ(written(0.04, 0.001, 0.0014).to, DepthTo::kPastTarget) << "it may be past it";
+  EXPECT_EQ(written(0.01, 0.03, kUnknown).certainty, Certainty::kUnknown);
+  EXPECT_EQ(written(0.01, 0.03, kUnknown).tenths, 300);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(DepthWriter().write({nan, 0.0004}, 0.03).has_value());
   EXPECT_FALSE(DepthWriter().write({0.01, 0.0004}, kUnknown).has_value());
   EXPECT_FALSE(DepthWriter().write({-2.0, 0.0004}, 2.05).has_value());
+}
+
+TEST(ScrewSizeWriter, ShowsSizesAsMeasuredOrTheirBounds) {
+  const auto written_sizes = [](double angle_rad, double offset_m, double angle_sd_rad,
+                                double offset_sd_m) {
+    return ScrewSizeWriter().write({angle_rad, angle_sd_rad}, {offset_m, offset_sd_m});
+  };
+  const ScrewSizes sure = written_sizes(0.0209, 0.00041, 0.005, 0.0004);
+  EXPECT_EQ(sure.angle.tenths, 12) << "1.197 degrees, rounded up";
+  EXPECT_EQ(sure.angle.certainty, Certainty::kSure);
+  EXPECT_EQ(sure.offset.tenths, 5);
+  const ScrewSizes unsure = written_sizes(0.0209, 0.00041, 0.03, 0.0014);
+  EXPECT_EQ(unsure.angle.certainty, Certainty::kBound);
+  EXPECT_EQ(unsure.angle.tenths, 55) << "1.197 degrees and 2.448 SDs";
+  EXPECT_EQ(unsure.offset.tenths, 39);
+  EXPECT_EQ(written_sizes(0.0209, 0.00041, kUnknown, kUnknown).offset.certainty,
+            Certainty::kUnknown);
+  EXPECT_EQ(written_sizes(0.0209, 0.00041, kUnknown, kUnknown).offset.tenths, 5);
+}
+
+TEST(ScrewSizeWriter, HasABoundThatHoldsNineteenTimesInTwenty) {
+  // A true offset and a measured one with an error of that SD along each of two axes.
+  constexpr double kSd_m = 0.0015;
+  for (const double true_m : {0.0, 0.001, 0.004}) {
+    Random random(7);
+    int holds = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const double measured_m =
+          std::hypot(true_m + random.normal(0.0, kSd_m), random.normal(0.0, kSd_m));
+      const ShownSize shown = ScrewSizeWriter().write({0.0, 0.0}, {measured_m, kSd_m}).offset;
+      holds += shown.tenths * kTenth_m >= true_m ? 1 : 0;
+    }
+    EXPECT_GT(holds, 3800) << true_m;
+  }
 }
 
 }  // namespace

@@ -82,14 +82,14 @@ TEST_F(EveryText, OfTheFindingsIsTranslated) {
 
 TEST_F(EveryText, OfTheStatesIsTranslated) {
   for (const bool flag : {false, true}) {
-    expect_shown(RegistrationFigures{0.0006, test::kInfinite, flag, flag, flag});
+    expect_shown(ByEye{});
     nav::CheckVerdict verdict;
     verdict.passed = flag;
     verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};
-    expect_shown(ChecksSoFar{0.0008, 3, 0.001, &verdict, flag, 0.0023});
-    expect_shown(LandmarkSoFar{{}, flag, {}});
+    expect_shown(ChecksSoFar{&verdict, 0.0023});
+    expect_shown(LandmarkSoFar{flag, {}});
     for (const int missing : {0, 1}) {
-      expect_shown(LandmarkSoFar{{}, true, LandmarkTouch{flag, missing, 0.0004, 0.0015}});
+      expect_shown(LandmarkSoFar{true, LandmarkTouch{flag, missing, 0.0004, 0.0015}});
     }
     PlacedWire wire = wire_off(2.6, 0.0031);
     wire.kept = flag;
@@ -247,8 +247,11 @@ TEST_F(EveryText, OfTheNumbersIsTranslated) {
   for (const int tenths : {-12, 0, 12}) {
     const nav::ShownNumber number{tenths, 3, tenths == 0};
     std::string text;
-    append_numbers(text, {number, number, number, number}, true);
-    expect_translated(text);
+    for (const NumberRow row : each_up_to(NumberRow::kAimMedial)) {
+      text.clear();
+      append_number(text, {number, number, number, number}, row);
+      expect_translated(text);
+    }
     for (const char* towards :
          {"medial", "lateral", "cranial", "caudal", "anterior", "posterior", "tip"}) {
       for (const int bound : {-1, 1}) {
@@ -258,15 +261,21 @@ TEST_F(EveryText, OfTheNumbersIsTranslated) {
       }
     }
   }
-  for (const auto phase : each_up_to(nav::DrillPhase::kDrilling)) {
-    for (const auto alarm : each_up_to(nav::DrillAlarm::kStop)) {
-      for (const bool watched : {false, true}) {
-        std::string text;
-        append_drill(text, {phase, alarm, watched, 0.004});
-        expect_translated(text);
-      }
+  for (const auto alarm : each_up_to(nav::DrillAlarm::kStop)) {
+    for (const bool watched : {false, true}) {
+      std::string text;
+      append_drill(text, {nav::DrillPhase::kDrilling, alarm, watched, 0.004});
+      expect_translated(text);
     }
   }
+  for (const auto to : each_up_to(nav::DepthTo::kPastTarget)) {
+    std::string text;
+    append_depth(text, {to, 12, nav::Certainty::kBound});
+    expect_translated(text);
+  }
+  std::string offset;
+  append_offset(offset, {12, nav::Certainty::kSure});
+  expect_translated(offset);
 }
 
 TEST_F(EveryText, IsWrittenWithoutAllocating) {

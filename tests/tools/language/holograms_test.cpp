@@ -89,6 +89,10 @@ TEST(TranslatedHolograms, SayTheNumbersAndTheClearance) {
   const TargetCross cross;
   add_numbers(scene, cross, {{12, 14, false}, {8, 3, true}, {-21, 5, true}, {-4, 5, true}}, true,
               1301);
+  CrossNumbers numbers;
+  numbers.sizes.emplace();
+  numbers.depth = nav::ShownDepth{nav::DepthTo::kPastTarget, 12, nav::Certainty::kBound};
+  add_cross_numbers(scene, cross, numbers, {601, 1306, 901});
   add_clearance(scene, cross, {24, 11, "medial"}, 1303);
   add_clearance(scene, cross, {-4, -9, "tip"}, 1303);
   EXPECT_THAT(all_text(scene), HasSubstr("1.2 ± 1.4 mm []"));

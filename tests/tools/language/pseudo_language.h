@@ -38,7 +38,7 @@ inline std::string english_left(const std::string& text, const std::string& hear
   const std::regex allowed("\\b(mm|inf|pointer|guide|reference|L[0-9]|" + heard +
                            ")\\b|\"(begin guiding|save points|delete last|accept result|reject "
                            "level|go to next|finish rod|move "
-                           "template|twin screw|drill)\"");
+                           "template|twin screw|show numbers|drill)\"");
   static const std::regex kNoLetters("[^A-Za-z\"]+");
   return std::regex_replace(std::regex_replace(text, allowed, ""), kNoLetters, "");
 }

@@ -18,14 +18,6 @@ class German : public ::testing::Test {
   WearersLanguage language_;
 };
 
-/// The row above the status line.
-std::string row_of_numbers() {
-  constexpr nav::ShownNumber kFar{-123, 3, true};
-  std::string text;
-  append_numbers(text, {kFar, kFar, kFar, kFar}, true);
-  return text;
-}
-
 TEST_F(German, WordsBesideTheNumbersHaveThePlaceOfTheEnglishOnes) {
   for (const char* word : {words::kClearance, words::kAtLeast, words::kTip, words::kAims}) {
     EXPECT_NE(translated(word), word);
@@ -41,7 +33,6 @@ TEST_F(German, WordsBesideTheNumbersHaveThePlaceOfTheEnglishOnes) {
 
 TEST_F(German, RowsThatAreNotBrokenFitTheDisplay) {
   EXPECT_LE(width_caps(translated(words::kHeadNotLocated)), kStatusWidth_caps);
-  EXPECT_LE(width_caps(row_of_numbers()), kStatusWidth_caps) << row_of_numbers();
   std::string stop;
   append_drill(stop, {nav::DrillPhase::kDrilling, nav::DrillAlarm::kStop, false});
   EXPECT_LE(width_caps(stop), kStatusWidth_caps) << stop;

@@ -1,0 +1,144 @@
+// How much there is to read in each step, and that nothing of it is cut or lies where it can't be
+// read.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/printed.h"
+#include "engine/golden/golden_scenes.h"
+#include "engine/holograms/hologram_label.h"
+#include "engine/holograms/label_geometry.h"
+#include "engine/holograms/label_obstacles.h"
+#include "engine/holograms/label_places.h"
+#include "render/frame/frame_items.h"
+#include "render/text/font.h"
+
+namespace orthonav::engine {
+namespace {
+
+// What a surgeon with a drill in the hand reads at a glance (docs/holograms.md).
+constexpr int kMostNumbers = 4;
+constexpr int kMostWords = 8;
+/// To the edge of a view.
+constexpr float kDigit = 0.006f;
+
+struct Reading {
+  int numbers = 0;
+  int words = 0;
+};
+
+/// A number with its unit is one, `L4` is a word, and marks are neither.
+Reading to_read(const render::Scene& scene) {
+  Reading reading;
+  for (const render::TextItem& item : scene.texts) {
+    std::string all;
+    for (const render::TextRun& run : item.runs) {
+      all += run.text;
+    }
+    std::istringstream tokens(all);
+    for (std::string token; tokens >> token;) {
+      const auto letter = [](unsigned char c) { return std::isalpha(c) != 0; };
+      if (std::isdigit(static_cast<unsigned char>(token.front())) != 0) {
+        ++reading.numbers;
+      } else if (std::any_of(token.begin(), token.end(), letter) && !token.starts_with("mm")) {
+        ++reading.words;
+      }
+    }
+  }
+  return reading;
+}
+
+GoldenScene scene_named(const std::string& name, bool laid_out = true) {
+  for (GoldenScene& golden : golden_scenes(laid_out)) {
+    if (golden.name == name) {
+      return golden;
+    }
+  }
+  ADD_FAILURE() << name << " is no golden scene";
+  return {};
+}
+
+std::string count_in_docs(const std::string& step) {
+  std::ifstream file(ORTHONAV_SOURCE_DIR "/docs/holograms.md");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("| scene `" + step + "` |")) {
+      return line;
+    }
+  }
+  return {};
+}
+
+TEST(QuietView, HasFourNumbersAndEightWordsAtMostWhileGuidingWithinLimits) {
+  for (const char* name : {"guide_set", "guide_drilling"}) {
+    const Reading reading = to_read(scene_named(name).scene);
+    EXPECT_LE(reading.numbers, kMostNumbers) << name;
+    EXPECT_LE(reading.words, kMostWords) << name;
+    EXPECT_GE(reading.words, 4) << name << ": the step and the next act";
+  }
+  const Reading all = to_read(scene_named("guide_numbers").scene);
+  EXPECT_GT(all.numbers, kMostNumbers) << "the control: every number, on request";
+  EXPECT_GT(all.words, kMostWords);
+}
+
+TEST(QuietView, HasAsMuchToReadAsTheTableSays) {
+  for (const char* name : {"accepted", "guide_far", "guidance", "guide_set", "guide_drilling",
+                           "guide_numbers", "placed"}) {
+    const Reading reading = to_read(scene_named(name).scene);
+    const std::string row =
+        printed("| scene `%s` | %d | %d |", name, reading.numbers, reading.words);
+    std::printf("%s\n", row.c_str());
+    EXPECT_EQ(count_in_docs(name), row) << "docs/holograms.md is stale";
+  }
+}
+
+/// The texts in the world that an edge of a view cuts, or that lie on paper or on the planned
+/// trajectory.
+int unreadable(const GoldenScene& golden) {
+  const render::Font font;
+  const Eyes eyes(golden.views);
+  std::vector<LabelObstacle> obstacles;
+  find_obstacles(golden.scene, golden.papers, eyes, obstacles);
+  int count = 0;
+  for (const render::TextItem& text : golden.scene.texts) {
+    if (text.place != render::TextPlace::kWorld || text.runs.empty()) {
+      continue;
+    }
+    LabelExtent extent;
+    extent.width = render::line_width(font, text);
+    const BoxInEyes box = eyes.box(render::world_from_caps(text, eyes.head()),
+                                   box_at(place_of(text, extent, 0), extent));
+    const bool covers =
+        std::any_of(obstacles.begin(), obstacles.end(), [&](const LabelObstacle& obstacle) {
+          const bool line = obstacle.kind == LabelObstacle::Kind::kLine &&
+                            kind_of(obstacle.label) == HologramKind::kTrajectory;
+          return (line || obstacle.kind == LabelObstacle::Kind::kGlare) &&
+                 overlap(obstacle.seen, box);
+        });
+    count += covers || !eyes.in_view(grown(box, 0.9f * kDigit)) ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(QuietView, CutsNothingAndCoversNeitherPaperNorTrajectory) {
+  for (const char* name : {"labels_left_edge", "labels_right_edge", "labels_off_tag",
+                           "labels_off_trajectory", "labels_low"}) {
+    // Of the others, CrossPlace.GoesOffPaperAndOffTheTrajectory has the controls.
+    if (std::string(name).ends_with("_edge") || std::string(name) == "labels_off_tag") {
+      EXPECT_GT(unreadable(scene_named(name, false)), 0) << name << ": the control, as built";
+    }
+    EXPECT_EQ(unreadable(scene_named(name)), 0) << name;
+  }
+  for (const GoldenScene& golden : golden_scenes()) {
+    if (golden.name.starts_with("guid")) {
+      EXPECT_EQ(unreadable(golden), 0) << golden.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace orthonav::engine
