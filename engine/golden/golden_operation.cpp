@@ -90,7 +90,7 @@ GoldenScene StagedOperation::scene(const std::string& name, const std::string& w
   all.regions = regions;
   all.residuals_m = residuals_m;
   all.to_check = to_check;
-  SceneBuilder builder;
+  SceneBuilder builder(rules);
   if (rests_on) {
     const Vec3 eye = guidance.head->translation();
     const Direction<World> towards{(to_vec3(*rests_on) - eye).normalized()};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/golden/golden_stage.h"
+#include "engine/holograms/visibility.h"
 #include "engine/session/coach.h"
 #include "engine/session/guidance.h"
 
@@ -32,6 +33,7 @@ class StagedOperation {
                                   std::vector<render::View> views = surgeon_views()) const;
 
   Guidance guidance;
+  VisibilityRules rules;
   /// Where the eyes have rested long enough; absent: it is not known.
   std::optional<render::Float3> rests_on;
   LevelState& level() { return levels_.front(); }

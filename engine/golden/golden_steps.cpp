@@ -117,6 +117,13 @@ GoldenScene guide(const std::string& name, const std::string& what, const nav::S
   return golden;
 }
 
+GoldenScene guide_published() {
+  StagedOperation s(Step::kGuide);
+  s.rules.cross_and_depth = false;
+  s.measure(guided(3.4, 0.0026, -0.0062));
+  return s.scene("guide_published", "as published: amber triangle, the angle beside it, no cross");
+}
+
 GoldenScene guide_predicted() {
   StagedOperation s(Step::kGuide);
   s.predict(guided(1.0, 0.0, 0.0));
@@ -171,6 +178,7 @@ void add_step_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(guide_stop());
   scenes.push_back(guide("guide_numbers", "with every number: directions, planes, clearance",
                          guided(0.8, 0.0004, 0.0002), kSet, true));
+  scenes.push_back(guide_published());
   scenes.push_back(guide_predicted());
   scenes.push_back(guide_lost());
   scenes.push_back(operation_done());

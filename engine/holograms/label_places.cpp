@@ -63,13 +63,15 @@ LabelRank rank_of(const TextItem& text) {
       return text.align == TextAlign::kCentre ? LabelRank::kMeasured : LabelRank::kIncidental;
     case HologramKind::kEntry:
       return LabelRank::kNamed;
+    case HologramKind::kAngle:
+      // Beside the triangle, where there is no cross; else under that.
+      return instance_of(text.label) == 1 ? LabelRank::kFixed : LabelRank::kMeasured;
     case HologramKind::kDepth:
       // The tip's distance from the entry; the depth is written under the cross.
       return instance_of(text.label) == 1 ? LabelRank::kFixed : LabelRank::kMeasured;
     case HologramKind::kPath:
     case HologramKind::kVertebra:
     case HologramKind::kTriangle:
-    case HologramKind::kAngle:
     case HologramKind::kCross:
     case HologramKind::kTwin:
     case HologramKind::kStatus:

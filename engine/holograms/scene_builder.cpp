@@ -27,6 +27,7 @@ constexpr render::Label kStop = label_of(HologramKind::kNumbers, 5);  // stays w
 constexpr CrossLabels kCrossLabels = {label_of(HologramKind::kAngle, 1),
                                       label_of(HologramKind::kNumbers, 6),
                                       label_of(HologramKind::kDepth, 1)};
+constexpr render::Label kAngle = label_of(HologramKind::kAngle, 2);  // beside the triangle
 constexpr render::Label kTipDistance = label_of(HologramKind::kDepth, 2);
 
 /// The level whose screw of that side has its entry nearest to the head.
@@ -265,11 +266,10 @@ void SceneBuilder::add_angle(const TrajectoryLine& line, render::Scene& scene) {
   if (visible_.measurement) {
     const nav::ScrewGuidance& shown = *visible_.triangle;
     add_angle_readout(scene, to_float3(shown.a.v), to_float3(shown.b.v),
-                      angle_text(visible_.measurement->angle_rad), visible_.verdict.grade,
-                      kCrossLabels.angle);
+                      angle_text(visible_.measurement->angle_rad), visible_.verdict.grade, kAngle);
   } else if (visible_.angle_lost) {
     add_angle_readout(scene, to_float3(line.entry.v), to_float3(line.outside.v),
-                      angle_text(std::nullopt), Grade::kPoor, kCrossLabels.angle);
+                      angle_text(std::nullopt), Grade::kPoor, kAngle);
   }
 }
 

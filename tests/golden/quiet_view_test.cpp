@@ -5,13 +5,18 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "base/angle.h"
 #include "base/printed.h"
+#include "engine/golden/golden_operation.h"
 #include "engine/golden/golden_scenes.h"
 #include "engine/holograms/hologram_label.h"
+#include "engine/holograms/hologram_shapes.h"
 #include "engine/holograms/label_geometry.h"
 #include "engine/holograms/label_obstacles.h"
 #include "engine/holograms/label_places.h"
@@ -86,14 +91,96 @@ TEST(QuietView, HasFourNumbersAndEightWordsAtMostWhileGuidingWithinLimits) {
 }
 
 TEST(QuietView, HasAsMuchToReadAsTheTableSays) {
-  for (const char* name : {"accepted", "guide_far", "guidance", "guide_set", "guide_drilling",
-                           "guide_numbers", "placed"}) {
+  for (const char* name : {"setup", "digitizing", "verify", "verify_checked", "accepted",
+                           "guide_far", "guidance", "guide_set", "guide_drilling", "guide_stop",
+                           "guide_numbers", "placed", "h10_rod", "done"}) {
     const Reading reading = to_read(scene_named(name).scene);
     const std::string row =
         printed("| scene `%s` | %d | %d |", name, reading.numbers, reading.words);
     std::printf("%s\n", row.c_str());
     EXPECT_EQ(count_in_docs(name), row) << "docs/holograms.md is stale";
   }
+}
+
+/// The grades whose colours a scene of guiding shows, apart from the plan (always green) and the
+/// dots of the tools.
+std::set<Grade> grades_in(const render::Scene& scene) {
+  std::set<Grade> grades;
+  const auto look = [&](render::Label label, const render::Colour& colour) {
+    const HologramKind kind = kind_of(label);
+    if (kind == HologramKind::kTrajectory || kind == HologramKind::kStatus || !(colour.a > 0)) {
+      return;
+    }
+    for (const Grade grade : {Grade::kGood, Grade::kFair, Grade::kPoor}) {
+      const render::Colour of_grade = colour_of(grade);
+      if (colour.r == of_grade.r && colour.g == of_grade.g && colour.b == of_grade.b) {
+        grades.insert(grade);
+      }
+    }
+  };
+  for (const auto& item : scene.meshes) {
+    look(item.label, item.colour);
+  }
+  for (const auto& item : scene.triangles) {
+    look(item.label, item.colour);
+  }
+  for (const auto& item : scene.lines) {
+    look(item.label, item.colour);
+  }
+  for (const auto& item : scene.texts) {
+    look(item.label, item.rim);
+    for (const render::TextRun& run : item.runs) {
+      look(item.label, run.colour);
+    }
+  }
+  return grades;
+}
+
+TEST(QuietView, ShowsOneVerdictOfWhateverIsWorstInEveryGuidingStep) {
+  using golden::guided;
+  std::map<Grade, int> count;
+  for (const double angle_deg : {0.4, 3.0, 6.5}) {
+    for (const double beside_m : {0.0003, 0.0015, 0.0033}) {
+      for (const double depth_m : {-0.006, 0.0002, 0.014, 0.046}) {
+        for (const double sd_m : {0.0002, 0.0014}) {
+          for (const nav::ShownClearance& clearance :
+               {nav::ShownClearance{24, 11, "medial"}, nav::ShownClearance{6, -3, "medial"},
+                nav::ShownClearance{-4, -12, "medial"}}) {
+            golden::StagedOperation s(Step::kGuide);
+            const nav::ScrewGuidance tool = guided(angle_deg, beside_m, depth_m);
+            s.measure(tool, {sd_m, 0.2 * kRadiansPerDegree});
+            s.guidance.tool->shown_clearance = clearance;
+            s.guidance.drill = {nav::DrillPhase::kSet, nav::DrillAlarm::kNone, true};
+            const render::Scene scene = s.scene("", "").scene;
+            const Grade worst =
+                std::max({grade_of(tool.angle_rad), grade_of_offset(tool.tip_off_axis_m),
+                          sd_m > 0.001 ? Grade::kFair : Grade::kGood,
+                          clearance.least_tenths < 0       ? Grade::kPoor
+                          : *clearance.lower_95_tenths < 0 ? Grade::kFair
+                                                           : Grade::kGood,
+                          tool.to_target_m < 0 ? Grade::kPoor : Grade::kGood});
+            EXPECT_THAT(grades_in(scene), ::testing::ElementsAre(worst))
+                << angle_deg << "°, " << beside_m << " m, depth " << depth_m << " m, SD " << sd_m
+                << " m, clearance " << clearance.least_tenths;
+            const Reading reading = to_read(scene);
+            EXPECT_LE(reading.numbers, kMostNumbers);
+            if (worst == Grade::kGood) {
+              EXPECT_LE(reading.words, kMostWords);
+            }
+            ++count[worst];
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(count.size(), 3u) << "the control: every verdict came";
+  render::Scene mixed = scene_named("guide_beside").scene;
+  for (render::TextItem& text : mixed.texts) {
+    if (kind_of(text.label) == HologramKind::kAngle) {
+      text.rim = colour_of(Grade::kGood);
+    }
+  }
+  EXPECT_EQ(grades_in(mixed).size(), 2u) << "the control: a green angle beside a red offset";
 }
 
 /// The texts in the world that an edge of a view cuts, or that lie on paper or on the planned

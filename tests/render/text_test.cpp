@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/render/test_renderer.h"
 #include "tests/render/test_scenes.h"
 
@@ -54,6 +56,27 @@ TEST(Text, IsSharpFromHalfToFourTimesItsSize) {
       EXPECT_GT(white, 2) << height_m;
     }
   }
+}
+
+/// The darkest pixel of a white text, in a white rim or none, on white ground.
+int darkest_on_white(Blend blend, float rim) {
+  TestRenderer renderer(200, 120, blend);
+  Scene scene;
+  TextItem text;
+  text.position = {0, 0, -0.5f};
+  text.height_m = 0.05f;
+  text.rim = {1, 1, 1, rim};
+  text.runs = {{"8", {}}};
+  scene.texts.push_back(text);
+  const RgbaImage white{200, 120, std::vector<std::uint8_t>(std::size_t{200} * 120 * 4, 255)};
+  const RgbaImage image = renderer.draw(scene, TestRenderer::straight_ahead(), &white);
+  return *std::min_element(image.pixels.begin(), image.pixels.end());
+}
+
+TEST(Text, HasADarkHaloOnBrightGroundWhereNoRimIsAndTheDisplayCanDarken) {
+  EXPECT_LT(darkest_on_white(Blend::kOver, 0), 190);
+  EXPECT_EQ(darkest_on_white(Blend::kOver, 1), 255);
+  EXPECT_EQ(darkest_on_white(Blend::kAdditive, 0), 255) << "light cannot darken";
 }
 
 TEST(Text, IsNeverHiddenByASolid) {
