@@ -1,33 +1,31 @@
 #include "tools/count_progress.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
-#include <optional>
 
 namespace orthonav::tools {
 
 CountProgress::CountProgress(std::string what, std::int64_t total)
-    : what_(std::move(what)), total_(std::max<std::int64_t>(total, 1)) {}
+    : what_(std::move(what)), total_(total) {
+  bar_.draw(0.0, what_);
+}
 
-void CountProgress::add_one() {
-  ++done_;
-  const std::string text = std::to_string(done_) + " of " + std::to_string(total_) + " " + what_;
-  if (bar_.on_terminal()) {
-    bar_.draw(static_cast<double>(done_) / static_cast<double>(total_), text, done_ == total_);
-  } else if (done_ * 4 / total_ != (done_ - 1) * 4 / total_) {
-    std::fprintf(stderr, "%s\n", text.c_str());
+void CountProgress::set(std::int64_t done, std::int64_t total) {
+  if (done_ == 0) {
+    earlier_ = done - 1;
   }
+  const bool another_quarter = done * 4 / total != done_ * 4 / total;
+  done_ = done;
+  const auto all = static_cast<double>(total);
+  bar_.draw(static_cast<double>(done) / all,
+            std::to_string(done) + " of " + std::to_string(total) + " " + what_, another_quarter,
+            static_cast<double>(earlier_) / all);
 }
 
 std::function<void(int, int)> counted(const std::string& what) {
-  return
-      [what, progress = std::make_shared<std::optional<CountProgress>>()](int /*done*/, int all) {
-        if (!*progress) {
-          progress->emplace(what, all);
-        }
-        (*progress)->add_one();
-      };
+  return [progress = std::make_shared<CountProgress>(what, 1)](int done, int all) {
+    progress->set(done, all);
+  };
 }
 
 }  // namespace orthonav::tools

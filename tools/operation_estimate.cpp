@@ -6,11 +6,12 @@
 namespace orthonav::tools {
 namespace {
 
-// The approximate time of each part in the simulated room, in seconds.
+// The usual time of each part in the simulated room, in seconds.
 constexpr double kDigitize_s = 150.0;
 constexpr double kVerify_s = 30.0;
-constexpr double kScrew_s = 45.0;
-constexpr double kRods_s = 60.0;
+constexpr double kGuide_s = 25.0;
+constexpr double kPlaced_s = 25.0;
+constexpr double kRods_s = 25.0;
 
 double usual_s(Step step) {
   switch (step) {
@@ -19,8 +20,9 @@ double usual_s(Step step) {
     case Step::kVerify:
       return kVerify_s;
     case Step::kGuide:
+      return kGuide_s;
     case Step::kPlaced:
-      return kScrew_s;
+      return kPlaced_s;
     case Step::kRod:
       return kRods_s;
     default:
@@ -28,30 +30,39 @@ double usual_s(Step step) {
   }
 }
 
-/// The done fraction of a step that usually takes this long; never reaches 1.
+/// What is done of a step that usually takes this long; never all of it.
 double done_of_s(double usual_s, double since_s) {
   return usual_s > 0.0 ? 0.95 * usual_s * (1.0 - std::exp(-since_s / usual_s)) : 0.0;
+}
+
+double left_s(const engine::LevelState& level) {
+  const auto screws = std::count(level.screw_done.begin(), level.screw_done.end(), false);
+  return (level.registration ? 0.0 : kDigitize_s) + (level.accepted ? 0.0 : kVerify_s) +
+         static_cast<double>(screws) * (kGuide_s + kPlaced_s);
 }
 
 }  // namespace
 
 double OperationEstimate::fraction(Timestamp time, const engine::Guidance& guidance) {
+  if (!began_) {
+    began_ = time;
+  }
   if (step_ != guidance.status.at) {
     step_ = guidance.status.at;
     step_began_ = time;
   }
-  // A rod joins levels; without levels there are rods alone.
-  double all_s = guidance.levels.size() != 1 ? kRods_s : 0.0;
-  double done_s = done_of_s(usual_s(guidance.step), seconds(time - step_began_));
-  for (const engine::LevelState& level : guidance.levels) {
-    const double screws = static_cast<double>(level.screw_done.size());
-    const auto done = std::count(level.screw_done.begin(), level.screw_done.end(), true);
-    all_s += kDigitize_s + kVerify_s + screws * kScrew_s;
-    done_s += (level.registration ? kDigitize_s : 0.0) + (level.accepted ? kVerify_s : 0.0) +
-              static_cast<double>(done) * kScrew_s;
+  if (guidance.step == Step::kDone) {
+    return most_ = 1.0;
   }
-  const bool finished = guidance.step == Step::kDone;
-  most_ = std::max(most_, finished ? 1.0 : std::min(done_s / all_s, 0.99));
+  // A rod joins levels; without levels there are rods alone.
+  double all_left_s = guidance.levels.size() != 1 ? kRods_s : 0.0;
+  for (const engine::LevelState& level : guidance.levels) {
+    all_left_s += left_s(level);
+  }
+  all_left_s -= done_of_s(usual_s(guidance.step), seconds(time - step_began_)) +
+                (guidance.step == Step::kPlaced ? kGuide_s : 0.0);
+  const double passed_s = seconds(time - *began_);
+  most_ = std::max(most_, std::min(passed_s / (passed_s + std::max(all_left_s, 1.0)), 0.99));
   return most_;
 }
 

@@ -4,7 +4,7 @@
 
 namespace orthonav::tools {
 
-/// The fraction of an operation that is done, from the usual duration of its parts.
+/// The fraction of an operation's time that has passed, from the usual duration of the parts left.
 class OperationEstimate {
  public:
   /// In [0, 1]; it grows during every step and never falls: stroking a level again takes longer but
@@ -12,6 +12,7 @@ class OperationEstimate {
   [[nodiscard]] double fraction(Timestamp time, const engine::Guidance& guidance);
 
  private:
+  std::optional<Timestamp> began_;
   std::optional<StepOnDisplay> step_;
   Timestamp step_began_{};
   double most_ = 0.0;

@@ -1,6 +1,5 @@
 #include "tools/progress.h"
 
-#include <cstdio>
 #include <utility>
 
 #include "base/how_many.h"
@@ -13,26 +12,16 @@ void OperationProgress::stepped(const StereoFrame& frame, const engine::Inputs& 
   if (next_) {
     next_->stepped(frame, inputs, guidance);
   }
-  if (!step_) {
-    first_ = frame.time;
-  }
   const bool another = step_ != guidance.status.at;
   if (another) {
     step_ = guidance.status.at;
   }
-  const double fraction = estimate_.fraction(frame.time, guidance);
-  if (bar_.on_terminal()) {
-    bar_.draw(fraction, engine::step_text(*step_), another);
-  } else if (another) {
-    std::fprintf(stderr, "%3.0f %%  %-18s  operation %6.1f s, elapsed %5.1f s\n", 100.0 * fraction,
-                 engine::step_text(*step_).c_str(), seconds(frame.time - first_), bar_.elapsed_s());
-  }
+  bar_.draw(estimate_.fraction(frame.time, guidance), engine::step_text(*step_), another);
 }
 
 void OperationProgress::tell_untold() {
   if (const int times = std::exchange(untold_, 0); times > 0) {
-    std::fprintf(stderr, "orthonav: the warning above came back %s\n",
-                 how_many(times, "time").c_str());
+    bar_.say("orthonav: the warning above came back " + how_many(times, "time"));
   }
 }
 
@@ -41,10 +30,9 @@ void OperationProgress::warn(const std::string& why) {
     ++untold_;
     return;
   }
-  bar_.clear();
   tell_untold();
   warned_ = why;
-  std::fprintf(stderr, "orthonav: warning: %s\n", why.c_str());
+  bar_.say("orthonav: warning: " + why);
 }
 
 void OperationProgress::withdrawn(const engine::Guidance& guidance) {

@@ -10,8 +10,7 @@
 
 namespace orthonav::tools {
 
-/// Progress of an operation on standard error: a bar with an estimate of the time left on a
-/// terminal, otherwise a plain line at each step of the workflow.
+/// Progress of an operation (ProgressBar); each step of the workflow is shown at once.
 class OperationProgress : public engine::LoopObserver {
  public:
   /// Also forwards everything to `next`, which is borrowed and may be null.
@@ -24,7 +23,7 @@ class OperationProgress : public engine::LoopObserver {
   void input_failed(const std::string& why) override;
   /// The operation has ended: its line is cleared.
   void end() {
-    bar_.clear();
+    bar_.end();
     tell_untold();
   }
 
@@ -37,7 +36,6 @@ class OperationProgress : public engine::LoopObserver {
   ProgressBar bar_;
   OperationEstimate estimate_;
   std::optional<StepOnDisplay> step_;
-  Timestamp first_{};
   std::optional<Stopwatch> cameras_warned_;
   std::string warned_;
   int untold_ = 0;
