@@ -124,11 +124,22 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   EXPECT_NEAR(registration["common_sd_mm"]["cameras"].get<double>(), 0.46, 0.005);
 }
 
+TEST(RunCommand, ShowsTheBestSetUpUnlessAnotherIsNamed) {
+  const auto relative_to_reference = [](const std::vector<std::string>& named) {
+    std::vector<std::string> run = {"run", "--levels", "L5", "--frames", "2", "--json"};
+    run.insert(run.end(), named.begin(), named.end());
+    return json::parse(orthonav(run).out).contains("patient_reference");
+  };
+  EXPECT_TRUE(relative_to_reference({}));
+  EXPECT_FALSE(relative_to_reference({"--no-reference"}));
+  EXPECT_FALSE(relative_to_reference({"--as-published"}));
+}
+
 TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
   const ScratchFolder folder;
   const std::string recording = folder.file("recording");
-  const Called live = orthonav({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--frames",
-                                "6", "--json", "--record", recording});
+  const Called live = orthonav({"run", "--headset", "sim:?seed=3", "--no-reference", "--levels",
+                                "L5", "--frames", "6", "--json", "--record", recording});
   ASSERT_EQ(live.code, 0) << live.err;
   const json report = json::parse(live.out);
   EXPECT_EQ(report["method"], "best");
