@@ -284,7 +284,8 @@ void FrameLoop::count_displayed(const Guidance& guidance, SnapshotQueue* queue,
   last_display_ = guidance.display_time;
   report.photon_ages_ms.add(seconds(guidance.display_time - guidance.frame_time) * 1e3);
   const std::int64_t frame = report.displayed++;
-  if (queue && frame % options_.draw_every == 0) {
+  const int rarely = guidance.step == Step::kGuide ? 1 : options_.unguided_every;
+  if (queue && frame % (options_.draw_every * rarely) == 0) {
     capture(*queue, guidance, frame);
   }
 }

@@ -53,6 +53,8 @@ struct LoopOptions {
   /// Every n-th displayed frame goes to the sink; 0: none. Counted, not timed, so that the same
   /// frames are drawn regardless of the machine's speed.
   int draw_every = 1;
+  /// Of these, every n-th while no screw is guided.
+  int unguided_every = 1;
   /// Whether the device's clock runs by itself. Then only the newest snapshot is drawn, tracking
   /// never waits, and stalled threads are noticed. Otherwise pairs advance the clock: every
   /// snapshot is drawn, and the speed of drawing has no effect.

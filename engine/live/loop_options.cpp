@@ -7,6 +7,9 @@ std::vector<std::string> LoopOptions::check() const {
   if (draw_every < 0) {
     problems.push_back("draw_every must not be negative");
   }
+  if (unguided_every < 1) {
+    problems.push_back("unguided_every must be positive");
+  }
   if (max_frames < 0) {
     problems.push_back("max_frames must not be negative");
   }

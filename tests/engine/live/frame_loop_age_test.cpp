@@ -301,11 +301,12 @@ TEST_F(GuidingLoop, TellsTheDrawerOfWhichPairGuidanceIs) {
 TEST(LoopOptions, NamesEveryProblem) {
   LoopOptions bad;
   bad.draw_every = -1;
+  bad.unguided_every = 0;
   bad.max_frames = -1;
   bad.max_errors_in_a_row = -1;
   bad.longest_silence = Duration::zero();
   bad.after_done = Duration(-1);
-  EXPECT_EQ(bad.check().size(), 5u);
+  EXPECT_EQ(bad.check().size(), 6u);
   EXPECT_TRUE(LoopOptions{}.check().empty());
 }
 

@@ -102,6 +102,20 @@ TEST(FrameLoop, DrawsEveryNthFrameHoweverSlowTheSink) {
   EXPECT_EQ(report.drawn, 8) << "and the one that takes all back";
 }
 
+TEST(FrameLoop, DrawsRarelyWhileNoScrewIsGuided) {
+  fake::FakeHeadset headset(pairs(20));
+  const auto navigation = session();
+  SceneBuilder builder;
+  LoopOptions options;
+  options.draw_every = 3;
+  options.unguided_every = 2;
+  CountingSink sink;
+  FrameLoop loop(headset, *navigation, builder, options);
+  loop.draw_into(&sink);
+  ASSERT_TRUE(loop.run().ended.ok());
+  EXPECT_THAT(sink.frames, ::testing::ElementsAre(0, 6, 12, 18));
+}
+
 TEST(FrameLoop, ASinkThatFailsForGoodEndsTheRun) {
   fake::FakeHeadset headset(pairs(20));
   const auto navigation = session();
