@@ -1,7 +1,5 @@
 #include "engine/io/grey_image_file.h"
 
-#include <png.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -10,6 +8,7 @@
 
 #include "engine/io/jpeg_reader.h"
 #include "engine/io/json_document.h"
+#include "engine/io/png_reader.h"
 
 namespace orthonav::engine {
 namespace {
@@ -94,39 +93,29 @@ std::uint8_t luma(const std::uint8_t* rgb) {
   return static_cast<std::uint8_t>((299 * rgb[0] + 587 * rgb[1] + 114 * rgb[2] + 500) / 1000);
 }
 
-// libpng's simplified reader; frees itself.
-struct PngReader {
-  png_image image{};
-  PngReader() { image.version = PNG_IMAGE_VERSION; }
-  PngReader(const PngReader&) = delete;
-  PngReader& operator=(const PngReader&) = delete;
-  ~PngReader() { png_image_free(&image); }
-};
-
 Result<GreyImage> parse_png(std::string_view content) {
-  PngReader reader;
-  png_image& png = reader.image;
-  const auto damaged = [&png] { return Error{std::string("PNG is damaged: ") + png.message}; };
-  if (!png_image_begin_read_from_memory(&png, content.data(), content.size())) {
+  PngReader reader(content);
+  const auto damaged = [&reader] { return Error{"PNG is damaged: " + reader.message()}; };
+  if (!reader.read_header()) {
     return damaged();
   }
-  if (Status status = check({png.width, png.height}); !status) {
+  if (Status status = check({reader.width_px(), reader.height_px()}); !status) {
     return status.error();
   }
-  const bool coloured = (png.format & PNG_FORMAT_FLAG_COLOR) != 0;
-  png.format = coloured ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY;
-  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(png));
-  const png_color black{0, 0, 0};  // the colour under transparent pixels
-  if (!png_image_finish_read(&png, &black, pixels.data(), 0, nullptr)) {
+  GreyImage grey(reader.width_px(), reader.height_px());
+  const auto channels = static_cast<std::size_t>(reader.channels());
+  std::vector<std::uint8_t> pixels(channels * grey.pixels.size());
+  if (!reader.read_pixels(pixels.data())) {
     return damaged();
   }
-  GreyImage grey(static_cast<int>(png.width), static_cast<int>(png.height));
-  if (!coloured) {
-    grey.pixels = std::move(pixels);
-    return grey;
-  }
+  const bool coloured = channels >= 3;
+  const bool transparent = channels % 2 == 0;
   for (std::size_t i = 0; i < grey.pixels.size(); ++i) {
-    grey.pixels[i] = luma(&pixels[3 * i]);
+    const std::uint8_t* pixel = &pixels[channels * i];
+    const int level = coloured ? luma(pixel) : pixel[0];
+    // Under transparent pixels it is black.
+    const int opacity = transparent ? pixel[channels - 1] : 255;
+    grey.pixels[i] = static_cast<std::uint8_t>((level * opacity + 127) / 255);
   }
   return grey;
 }

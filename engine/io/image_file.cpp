@@ -11,12 +11,13 @@
 
 #include "base/file_code.h"
 #include "engine/io/atomic_file.h"
+#include "engine/io/png_reader.h"
 
 namespace orthonav::engine {
 namespace {
 
 // No picture of ours is larger; refusing it here keeps a forged header from allocating memory.
-constexpr png_uint_32 kLargestSide_px = 16384;
+constexpr int kLargestSide_px = 16384;
 
 Error error_of(const std::filesystem::path& path, const std::string& reason,
                ErrorCode code = ErrorCode::kInvalid) {
@@ -47,23 +48,36 @@ Result<RgbaImage> read_png(const std::filesystem::path& path) {
   if (!bytes) {
     return bytes.error();
   }
-  png_image header = {};
-  header.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_memory(&header, bytes->data(), bytes->size())) {
-    return error_of(path, std::string("not a readable PNG: ") + header.message);
+  PngReader reader(std::string_view(bytes->data(), bytes->size()));
+  if (!reader.read_header()) {
+    return error_of(path, "not a readable PNG: " + reader.message());
   }
-  if (header.width > kLargestSide_px || header.height > kLargestSide_px) {
-    png_image_free(&header);
+  if (reader.width_px() > kLargestSide_px || reader.height_px() > kLargestSide_px) {
     return error_of(path, "is larger than 16384 px");
   }
-  header.format = PNG_FORMAT_RGBA;
   RgbaImage image;
-  image.width_px = static_cast<int>(header.width);
-  image.height_px = static_cast<int>(header.height);
-  image.pixels.resize(PNG_IMAGE_SIZE(header));
-  if (!png_image_finish_read(&header, nullptr, image.pixels.data(), 0, nullptr)) {
-    png_image_free(&header);
-    return error_of(path, std::string("not a readable PNG: ") + header.message);
+  image.width_px = reader.width_px();
+  image.height_px = reader.height_px();
+  const std::size_t count =
+      static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
+  const auto channels = static_cast<std::size_t>(reader.channels());
+  std::vector<std::uint8_t> pixels(channels * count);
+  if (!reader.read_pixels(pixels.data())) {
+    return error_of(path, "not a readable PNG: " + reader.message());
+  }
+  if (channels == 4) {
+    image.pixels = std::move(pixels);
+    return image;
+  }
+  image.pixels.resize(4 * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t* from = &pixels[channels * i];
+    std::uint8_t* to = &image.pixels[4 * i];
+    const bool coloured = channels == 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+      to[k] = from[coloured ? k : 0];
+    }
+    to[3] = channels == 2 ? from[1] : 255;
   }
   return image;
 }

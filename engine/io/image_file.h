@@ -8,7 +8,8 @@
 
 namespace orthonav::engine {
 
-/// Reads any PNG as 8-bit RGBA. Refuses, by name, a file that is absent, truncated or not a PNG.
+/// Reads any PNG as 8-bit RGBA (`PngReader`). Refuses, by name, a file that is absent, truncated or
+/// not a PNG.
 Result<RgbaImage> read_png(const std::filesystem::path& path);
 
 /// The image as the bytes of a PNG file.

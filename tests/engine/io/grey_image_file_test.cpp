@@ -2,8 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <png.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
@@ -55,6 +59,40 @@ TEST(GreyImageFile, RefusesWhatIsNoImage) {
   EXPECT_THAT(refusal("GIF89a"), StartsWith("x: not a PNG, JPEG or binary PGM"));
   EXPECT_FALSE(load_grey("/nonexistent/image.png").ok());
   EXPECT_FALSE(load_grey(std::filesystem::temp_directory_path().string()).ok());
+}
+
+/// The level of a PNG of one grey pixel of this depth, read.
+int level_read(int bits, const std::vector<std::uint8_t>& level, bool says_gamma) {
+  std::string content;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(
+      png, &content,
+      [](png_structp to, png_bytep bytes, std::size_t count) {
+        static_cast<std::string*>(png_get_io_ptr(to))
+            ->append(reinterpret_cast<const char*>(bytes), count);
+      },
+      nullptr);
+  png_set_IHDR(png, info, 1, 1, bits, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (says_gamma) {
+    png_set_gAMA(png, info, 1.0);
+  }
+  png_write_info(png, info);
+  png_write_row(png, level.data());
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  const auto image = parse_grey(content, "x");
+  return image ? image->pixels.front() : -1;
+}
+
+TEST(GreyImageFile, TakesLevelsOfAPngAsTheyAreInEitherDepthWhateverItsGamma) {
+  for (const bool says_gamma : {false, true}) {
+    EXPECT_EQ(level_read(8, {0x40}, says_gamma), 0x40);
+    EXPECT_EQ(level_read(16, {0x40, 0x40}, says_gamma), 0x40);
+    EXPECT_EQ(level_read(16, {0x40, 0xf0}, says_gamma), 0x41) << "the nearest of 255";
+    EXPECT_EQ(level_read(16, {0xff, 0xff}, says_gamma), 0xff);
+  }
 }
 
 // A photograph as PNG and one as JPEG; every cut and every damaged byte must be refused or give the
