@@ -10,6 +10,7 @@
 #include "nav/evaluation/board_touches.h"
 #include "nav/evaluation/errors.h"
 #include "nav/tracking/pivot_fit.h"
+#include "nav/tracking/tip_uncertainty.h"
 
 namespace orthonav::nav {
 namespace {
@@ -106,9 +107,14 @@ std::vector<TiltBin> bins_of(const std::vector<TipSample>& tips, Vec3 mean_m,
   return bins;
 }
 
+struct RestingTip {
+  PivotFit fit;
+  double sigma_m = 0.0;  ///< 3-D SD of the tip
+};
+
 /// The tool's resting point, from all samples that rested in the dimple.
-Result<PivotFit> fit_in(const PointerTrack& track, const Dimple& dimple,
-                        const AccuracyOptions& options) {
+Result<RestingTip> fit_in(const PointerTrack& track, const Dimple& dimple,
+                          const AccuracyOptions& options) {
   std::vector<Transform<World, Marker>> poses;
   for (const TrackedPose& pose : track.world_from_marker) {
     poses.push_back(pose.value);
@@ -121,7 +127,7 @@ Result<PivotFit> fit_in(const PointerTrack& track, const Dimple& dimple,
         "least %.1f° is needed",
         degrees(spread_rad), degrees(options.min_turning_spread_rad));
   }
-  return *fit;
+  return RestingTip{*fit, tip_uncertainty(poses, dimple.samples, *fit).sigma_m()};
 }
 
 void add_distances(const std::vector<Vec3>& touched_m, std::span<const Vec3> known_m,
@@ -239,9 +245,9 @@ Result<TurningPart> turning_part(const PointerTrack& track, const ToolGeometry& 
   const std::vector<double> tilts = tilts_rad(track, pointer.axis_in_marker, turning);
   part.largest_tilt_rad = *std::max_element(tilts.begin(), tilts.end());
   part.bins = bins_of(tips, part.spread.mean_m, tilts);
-  part.tip_bias_m = pivot->tip_in_marker - pointer.tip_in_marker;
-  part.tip_bias_sigma_m = pivot->tip_sigma_m;
-  part.residual_rms_m = pivot->rmse_m;
+  part.tip_bias_m = pivot->fit.tip_in_marker - pointer.tip_in_marker;
+  part.tip_bias_sigma_m = pivot->sigma_m;
+  part.residual_rms_m = pivot->fit.rmse_m;
   part.judged.push_back(
       judged("95 % of the tips from their mean", part.spread.p95_m, options.turning_p95));
   part.judged.push_back(

@@ -12,6 +12,7 @@
 #include "base/random.h"
 #include "nav/statistics/consensus.h"
 #include "nav/tracking/pivot_fit.h"
+#include "nav/tracking/tip_uncertainty.h"
 
 namespace orthonav::nav {
 namespace {
@@ -60,6 +61,21 @@ double jackknife_sigma_m(const PivotConsensus& consensus, const PivotConsensus::
     tips.push_back(fit.tip_in_marker.v);
   }
   return jackknife_sd(tips);
+}
+
+void add_uncertainty(const TipUncertainty& uncertainty, PivotCalibration& found) {
+  const double sigma_m = uncertainty.sigma_m();
+  found.tip_sigma_m = std::max(sigma_m, found.leave_out_m);
+  found.tip_covariance_m2 = uncertainty.covariance_m2;
+  found.independent_poses = uncertainty.independent_poses;
+  if (found.leave_out_m > sigma_m && sigma_m > 0.0) {
+    const double grown = found.leave_out_m / sigma_m;
+    for (auto& row : found.tip_covariance_m2.m) {
+      for (double& entry : row) {
+        entry *= grown * grown;
+      }
+    }
+  }
 }
 
 Status check_poses(Poses poses, const PivotOptions& options) {
@@ -174,7 +190,7 @@ Result<PivotCalibration> pivot_calibration(Poses poses, const PivotOptions& opti
   }
   found.leave_out_m =
       inliers.size() > kJackknifeBlocks ? jackknife_sigma_m(consensus, inliers) : 0.0;
-  found.tip_sigma_m = std::max(fit->tip_sigma_m, found.leave_out_m);
+  add_uncertainty(tip_uncertainty(poses, inliers, *fit), found);
   if (Status status = check_result(found, options); !status) {
     return status.error();
   }

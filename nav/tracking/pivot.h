@@ -44,9 +44,10 @@ struct PivotCalibration {
   /// RMS of the rotation in the direction that determines the tip worst; turning about a single
   /// axis gives 0, since the tip may then lie anywhere along it.
   double spread_rad = 0.0;
-  /// 3-D SD of the tip: the larger of `leave_out_m` and the SD predicted from residual and
-  /// geometry.
+  /// 3-D SD of the tip: the larger of `leave_out_m` and that of `tip_uncertainty`.
   double tip_sigma_m = 0.0;
+  Mat3 tip_covariance_m2{};        ///< in the marker's axes, of that SD
+  double independent_poses = 0.0;  ///< `TipUncertainty::independent_poses`
   /// Jackknife SD from leaving out each tenth of the inliers in turn: it shows drift, which the
   /// residual alone takes for noise.
   double leave_out_m = 0.0;

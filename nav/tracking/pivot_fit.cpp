@@ -70,9 +70,6 @@ std::optional<PivotFit> fit_pivot(Poses poses, Chosen chosen) {
     squared += fit.miss_m(poses[i]) * fit.miss_m(poses[i]);
   }
   fit.rmse_m = std::sqrt(squared / count);
-  // 3 n equations for 6 unknowns.
-  const double freedom = std::max(1.0, 3.0 * count - 6.0);
-  fit.tip_sigma_m = std::sqrt(squared / freedom * inverse.sum());
   return fit;
 }
 

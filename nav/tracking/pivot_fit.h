@@ -16,8 +16,7 @@ struct PivotFit {
   /// RMS of the rotation in the direction that determines the tip worst; 0 when it may lie anywhere
   /// along a line.
   double spread_rad = 0.0;
-  double rmse_m = 0.0;       ///< of the tips about the pivot, 3-D
-  double tip_sigma_m = 0.0;  ///< predicted 3-D SD of the tip from residual and geometry
+  double rmse_m = 0.0;  ///< of the tips about the pivot, 3-D
 
   /// How far a pose's tip lies from the pivot.
   [[nodiscard]] double miss_m(const Transform<World, Marker>& pose) const {

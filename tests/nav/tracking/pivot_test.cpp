@@ -3,10 +3,13 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "base/random.h"
 #include "nav/tracking/pivot.h"
+#include "nav/tracking/tip_uncertainty.h"
 
 namespace orthonav::nav::pivot_test {
 namespace {
@@ -30,6 +33,15 @@ std::vector<Pose> pivoting(double cone_rad, double twist_rad, double noise_m, Ra
     poses.emplace_back(rotation, kPivot - rotation * kTip + noise);
   }
   return poses;
+}
+
+/// x of matrix x = right.
+Vec3 solved(const Mat3& matrix, Vec3 right) {
+  const Vec3 a = matrix.row(0);
+  const Vec3 b = matrix.row(1);
+  const Vec3 c = matrix.row(2);
+  return (right.x * b.cross(c) + right.y * c.cross(a) + right.z * a.cross(b)) /
+         matrix.determinant();
 }
 
 TEST(PivotCalibration, FindsTipAndPivotExactly) {
@@ -57,6 +69,75 @@ TEST(PivotCalibration, PredictsItsOwnError) {
   // 100 draws of three numbers: the ratio of variances lies within 25 % (3 SD). The larger of two
   // estimates is told, which is 10 % above the truth in the mean.
   EXPECT_NEAR(squared / predicted, 0.85, 0.25);
+}
+
+// Pivoting whose error is partly white, partly that of a tip which wanders in its seat: correlated
+// over so many poses.
+std::vector<Pose> wandering(double correlated_poses, double white_share, Random& random) {
+  constexpr double kNoiseM = 0.0003;
+  const double decay = std::exp(-1.0 / correlated_poses);
+  const auto draw = [&random](double sd_m) {
+    return Vec3{random.normal(0, sd_m), random.normal(0, sd_m), random.normal(0, sd_m)};
+  };
+  const double wander_m = kNoiseM * std::sqrt(1.0 - white_share);
+  Vec3 seat_m = draw(wander_m);
+  auto poses = pivoting(0.4, 0.2, kNoiseM * std::sqrt(white_share), random);
+  for (Pose& pose : poses) {
+    pose = {pose.rotation(), pose.translation() + seat_m};
+    seat_m = decay * seat_m + draw(wander_m * std::sqrt(1.0 - decay * decay));
+  }
+  return poses;
+}
+
+// In percent of many pivots: how often the true tip is in the ellipsoid that holds 68 or 95 % of a
+// normal distribution.
+struct Coverage {
+  double of_68 = 0.0;
+  double of_95 = 0.0;
+};
+
+Coverage coverage(double correlated_poses, double white_share) {
+  constexpr int kTrials = 300;
+  // Of chi-square with three degrees of freedom.
+  constexpr double kQuantile68 = 3.506;
+  constexpr double kQuantile95 = 7.815;
+  Coverage percent;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Random random(static_cast<std::uint64_t>(1000 + trial));
+    const auto poses = wandering(correlated_poses, white_share, random);
+    std::vector<std::size_t> all(poses.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const auto fit = fit_pivot(poses, all);
+    const Mat3 covariance = tip_uncertainty(poses, all, *fit).covariance_m2;
+    const Vec3 off_m = fit->tip_in_marker.v - kTip;
+    const double squared = off_m.dot(solved(covariance, off_m));
+    percent.of_68 += (squared <= kQuantile68 ? 100.0 : 0.0) / kTrials;
+    percent.of_95 += (squared <= kQuantile95 ? 100.0 : 0.0) / kTrials;
+  }
+  return percent;
+}
+
+TEST(TipUncertainty, CoversTheTruthWithAndWithoutCorrelation) {
+  // 300 draws: 2.7 % and 1.3 % SD; three of them, and the estimate of a correlation from 200 poses.
+  constexpr double kWorst68 = 9.0;
+  constexpr double kWorst95 = 5.0;
+  for (const auto& [correlated_poses, white_share] :
+       {std::pair{1.0, 1.0}, {3.0, 0.3}, {8.0, 0.0}, {8.0, 0.3}, {20.0, 0.3}, {20.0, 0.0}}) {
+    const Coverage percent = coverage(correlated_poses, white_share);
+    EXPECT_NEAR(percent.of_68, 68.0, kWorst68) << correlated_poses << " poses, " << white_share;
+    EXPECT_NEAR(percent.of_95, 95.0, kWorst95) << correlated_poses << " poses, " << white_share;
+  }
+}
+
+TEST(TipUncertainty, TellsHowManyPosesAreIndependent) {
+  const auto independent = [](double correlated_poses, double white_share) {
+    Random random(12);
+    const auto found = pivot_calibration(wandering(correlated_poses, white_share, random));
+    return found.ok() ? found->independent_poses : 0.0;
+  };
+  EXPECT_EQ(independent(1.0, 1.0), 200.0);
+  // 200 (1 - d) / (1 + d) with d = exp(-1/8), to the factor that 200 poses can tell.
+  EXPECT_NEAR(independent(8.0, 0.0), 12.5, 7.0);
 }
 
 TEST(PivotCalibration, RefusesTooLittleTurning) {
@@ -108,6 +189,26 @@ TEST(PivotCalibration, LeavesOutWhatIsNoPivoting) {
   EXPECT_THAT(found->judgement.reason, HasSubstr("73 % of the poses agree, better 90 %"));
 }
 
+TEST(PivotCalibration, IsTheCleanOneDespiteOutliers) {
+  constexpr double kSameM = 0.00005;
+  Random random(11);
+  auto poses = wandering(8.0, 0.3, random);
+  std::vector<Pose> clean;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (i % 10 >= 3) {
+      clean.push_back(poses[i]);
+      continue;
+    }
+    disturb(poses, i, i + 1,
+            {random.normal(0, 0.02), random.normal(0, 0.02), random.normal(0, 0.02)});
+  }
+  const auto undisturbed = pivot_calibration(clean);
+  ASSERT_TRUE(undisturbed.ok()) << undisturbed.error().message;
+  const auto spoilt = pivot_calibration(poses);
+  ASSERT_TRUE(spoilt.ok()) << spoilt.error().message;
+  EXPECT_LT((spoilt->tip_in_marker - undisturbed->tip_in_marker).norm(), kSameM);
+}
+
 TEST(PivotCalibration, RefusesWhenTooFewPosesAgree) {
   Random random(6);
   auto poses = pivoting(0.4, 0.2, 0.0002, random);
@@ -141,7 +242,7 @@ TEST(PivotCalibration, SeesADriftThatTheResidualHides) {
   ASSERT_TRUE(steady.ok() && creeping.ok());
   EXPECT_LT(steady->leave_out_m, 0.0001);
   EXPECT_GT(creeping->leave_out_m, 5.0 * steady->leave_out_m);
-  EXPECT_EQ(creeping->tip_sigma_m, creeping->leave_out_m);
+  EXPECT_GE(creeping->tip_sigma_m, creeping->leave_out_m);
   EXPECT_EQ(steady->judgement.verdict, Verdict::kPass) << steady->judgement.reason;
   EXPECT_EQ(creeping->judgement.verdict, Verdict::kNote) << creeping->judgement.reason;
 }
