@@ -10,7 +10,7 @@
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
-#include "tools/recorded_pairs.h"
+#include "tools/other_poses.h"
 
 namespace orthonav::tools {
 namespace {
@@ -33,6 +33,7 @@ struct AccuracyArguments {
   std::string pointer;
   std::string board_file;
   std::string method = default_method();
+  OtherPosesArguments other;
   JsonOutput json;
   std::vector<LimitArgument> limits = {
       {"--single-point-mm",
@@ -56,7 +57,9 @@ struct AccuracyArguments {
 
 Result<nav::ToolGeometry> chosen_pointer(const AccuracyArguments& arguments) {
   const std::string& file = arguments.tools_file;
-  const auto tools = engine::load_tools(file);
+  const auto tools =
+      engine::load_tools(file, has_other_poses(arguments.recording) ? engine::ToolTags::kOptional
+                                                                    : engine::ToolTags::kNeeded);
   if (!tools) {
     return tools.error();
   }
@@ -103,6 +106,24 @@ nav::AccuracyOptions options_of(const AccuracyArguments& arguments) {
   return options;
 }
 
+Result<MeasuredPoses> poses_of(const AccuracyArguments& arguments,
+                               const nav::ToolGeometry& pointer) {
+  if (!has_other_poses(arguments.recording)) {
+    nav::TrackerOptions tracking;
+    // Where a tag is predicted it is found as reliably as in the whole image, in a tenth of the
+    // time.
+    tracking.full_search_interval = kFullSearchEvery;
+    return measured_poses(arguments.recording, arguments.method, pointer, tracking);
+  }
+  auto poses = other_poses(arguments.recording, arguments.other, pointer);
+  if (poses && !poses->timed) {
+    return Error{arguments.recording +
+                 ": states no times, which this test needs: give the rate of "
+                 "its rows (--rate-hz)"};
+  }
+  return poses;
+}
+
 int run_accuracy(const AccuracyArguments& arguments) {
   if (const Status s = arguments.json.check(); !s) {
     return bad_input(s.error().message);
@@ -119,10 +140,7 @@ int run_accuracy(const AccuracyArguments& arguments) {
   if (!points_m) {
     return bad_input(points_m.error().message);
   }
-  nav::TrackerOptions tracking;
-  // Where a tag is predicted it is found as reliably as in the whole image, in a tenth of the time.
-  tracking.full_search_interval = kFullSearchEvery;
-  const auto seen = measured_poses(arguments.recording, arguments.method, *pointer, tracking);
+  const auto seen = poses_of(arguments, *pointer);
   if (!seen) {
     return bad_input(seen.error().message);
   }
@@ -131,7 +149,7 @@ int run_accuracy(const AccuracyArguments& arguments) {
     return bad_input(arguments.recording + ": " + report.error().message);
   }
 
-  const AccuracySubject subject{pointer->name, arguments.method};
+  const AccuracySubject subject{pointer->name, arguments.method, seen->format};
   if (Status s = arguments.json.write(accuracy_json(subject, *report)); !s) {
     return bad_input(s.error().message);
   }
@@ -156,7 +174,9 @@ void add_accuracy_command(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<AccuracyArguments>();
   CLI::App* command = app.add_subcommand(
       "accuracy", "The one-minute accuracy test of a pointer, in the spirit of ASTM F2554");
-  command->add_option("RECORDING", arguments->recording, "Folder of a StreamRecorder recording")
+  command
+      ->add_option("RECORDING", arguments->recording,
+                   "Folder of a StreamRecorder recording, a file of poses, or igtl://")
       ->required();
   command->add_option("-t,--tools", arguments->tools_file, "Tool definitions (JSON)")->required();
   command->add_option("--pointer", arguments->pointer, "Name of the tool (default: pointer)")
@@ -177,8 +197,9 @@ void add_accuracy_command(CLI::App& app, Action& action) {
         ->type_name("PASS NOTE")
         ->check(finite_number(0.001, 100));
   }
+  arguments->other.add_to(*command);
   arguments->json.add_to(*command);
-  command->footer(kAccuracyFooter);
+  command->footer(std::string(kAccuracyFooter) + kOtherPosesFooter);
   command->callback(
       [arguments, &action] { action = [arguments] { return run_accuracy(*arguments); }; });
 }

@@ -151,7 +151,8 @@ void append_distances(const nav::DistancePart& part, std::string& text) {
 
 ordered_json accuracy_json(const AccuracySubject& subject, const nav::AccuracyReport& report) {
   ordered_json out = {{"pointer", subject.pointer},
-                      {"method", subject.method},
+                      {subject.format.empty() ? "method" : "format",
+                       subject.format.empty() ? subject.method : subject.format},
                       {"verdict", to_text(report.verdict())},
                       {"measured_poses", report.samples},
                       {"duration_s", report.duration_s},
@@ -164,7 +165,10 @@ ordered_json accuracy_json(const AccuracySubject& subject, const nav::AccuracyRe
 }
 
 std::string accuracy_text(const AccuracySubject& subject, const nav::AccuracyReport& report) {
-  std::string text = "accuracy test of " + subject.pointer + ", method " + subject.method;
+  std::string text =
+      "accuracy test of " + subject.pointer +
+      (subject.format.empty() ? ", method " + subject.method
+                              : ", another tracker's poses (" + subject.format + ")");
   append_printed(text, ": %zu measured poses in %.1f s\n", report.samples, report.duration_s);
   append_part("single-point repeatability", report.single_point, text);
   append_spread(report.single_point.spread, text);

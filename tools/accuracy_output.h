@@ -11,6 +11,7 @@ namespace orthonav::tools {
 struct AccuracySubject {
   std::string pointer;
   std::string method;
+  std::string format = {};  ///< of another tracker's poses, which no method of ours measured
 };
 
 /// Every figure, units in the keys.

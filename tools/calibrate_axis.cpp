@@ -78,7 +78,7 @@ void add_calibrate_axis(CLI::App& calibrate, Action& action) {
   CLI::App* command = calibrate.add_subcommand(
       "axis", "The axis of a tool from a recording of it turning about it");
   arguments->add_to(*command, "the new axis");
-  command->footer(kAxisFooter);
+  command->footer(std::string(kAxisFooter) + kOtherPosesFooter);
   command->callback(
       [arguments, &action] { action = [arguments] { return run_axis(*arguments); }; });
 }

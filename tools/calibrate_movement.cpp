@@ -7,24 +7,48 @@
 #include "tools/arguments.h"
 
 namespace orthonav::tools {
+namespace {
+
+/// The tool of the tools file; without one a file of poses suffices for some calibrations.
+Result<nav::ToolGeometry> tool_of(const MovementArguments& arguments, bool by_other) {
+  const bool needed = arguments.needs_tool || !by_other || !arguments.out.empty();
+  if (!needed && arguments.tools_file.empty() && arguments.tool.empty()) {
+    nav::ToolGeometry any;
+    any.marker.family.clear();
+    return any;
+  }
+  if (arguments.tools_file.empty()) {
+    return Error{"--tools is required"};
+  }
+  if (arguments.tool.empty()) {
+    return Error{"--tool is required"};
+  }
+  return engine::load_tool(arguments.tools_file, arguments.tool,
+                           by_other ? engine::ToolTags::kOptional : engine::ToolTags::kNeeded);
+}
+
+}  // namespace
 
 void MovementArguments::add_to(CLI::App& command, const std::string& changed) {
-  command.add_option("RECORDING", recording, "Folder of a recording")->required();
+  command.add_option("RECORDING", recording, "Folder of a recording, a file of poses, or igtl://")
+      ->required();
   command.add_option("-t,--tools", tools_file, "Tool definitions (JSON)")
-      ->required()
+      ->check(some_text())
       ->type_name("FILE");
-  command.add_option("--tool", tool, "Name of the tool")->required()->type_name("NAME");
+  command.add_option("--tool", tool, "Name of the tool")->check(some_text())->type_name("NAME");
   add_method_option(command, method, "Tracking");
   command
       .add_option("-o,--out", out,
                   "Writes the tools with " + changed + " there; may be the file of --tools")
       ->check(some_text())
       ->type_name("FILE");
+  other.add_to(command);
   json.add_to(command);
 }
 
 Result<ToolMovement> movement_of(const MovementArguments& arguments) {
-  const auto tool = engine::load_tool(arguments.tools_file, arguments.tool);
+  const bool by_other = has_other_poses(arguments.recording);
+  const auto tool = tool_of(arguments, by_other);
   if (!tool) {
     return tool.error();
   }
@@ -36,7 +60,8 @@ Result<ToolMovement> movement_of(const MovementArguments& arguments) {
       return s.error();
     }
   }
-  auto seen = measured_poses(arguments.recording, arguments.method, *tool);
+  auto seen = by_other ? other_poses(arguments.recording, arguments.other, *tool)
+                       : measured_poses(arguments.recording, arguments.method, *tool);
   if (!seen) {
     return seen.error();
   }
@@ -49,10 +74,16 @@ Result<ToolMovement> movement_of(const MovementArguments& arguments) {
 
 nlohmann::ordered_json movement_json(const MovementArguments& arguments,
                                      const ToolMovement& movement) {
-  return {{"tool", arguments.tool},
-          {"method", arguments.method},
-          {"pairs", movement.seen.pairs},
-          {"poses", movement.poses.size()}};
+  const std::string& format = movement.seen.format;
+  nlohmann::ordered_json out = {{"tool", arguments.tool}};
+  if (format.empty()) {
+    out["method"] = arguments.method;
+  } else {
+    out["format"] = format;
+  }
+  out["pairs"] = movement.seen.pairs;
+  out["poses"] = movement.poses.size();
+  return out;
 }
 
 Status write_change(const MovementArguments& arguments, const engine::ToolChange& change) {

@@ -6,7 +6,7 @@
 
 #include "engine/case/tool_file.h"
 #include "tools/json_output.h"
-#include "tools/recorded_pairs.h"
+#include "tools/other_poses.h"
 
 namespace orthonav::tools {
 
@@ -18,9 +18,12 @@ struct MovementArguments {
   std::string tool;
   std::string method = default_method();
   std::string out;
+  OtherPosesArguments other;
   JsonOutput json;
+  bool needs_tool = true;  ///< even if the poses are another tracker's
 
-  /// RECORDING, --tools, --tool, --method and --out, which writes `changed` there.
+  /// RECORDING, --tools, --tool, --method and --out, which writes `changed` there, and those of
+  /// poses by another tracker.
   void add_to(CLI::App& command, const std::string& changed);
 };
 

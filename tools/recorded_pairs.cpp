@@ -45,6 +45,14 @@ Status for_each_pair(replay::ReplayHeadset& recording,
   }
 }
 
+void add_measured(std::span<const nav::ToolState> states, MeasuredPoses& poses) {
+  for (const nav::ToolState& state : states) {
+    if (state.world_from_marker.status == PoseStatus::kMeasured) {
+      poses.world_from_marker.push_back(state.world_from_marker);
+    }
+  }
+}
+
 Result<MeasuredPoses> measured_poses(const std::string& recording, const std::string& method,
                                      const nav::ToolGeometry& tool,
                                      const nav::TrackerOptions& options) {
@@ -63,11 +71,7 @@ Result<MeasuredPoses> measured_poses(const std::string& recording, const std::st
   MeasuredPoses poses;
   const Status read = for_each_pair(**headset, [&](const StereoFrame& frame) {
     ++poses.pairs;
-    for (const nav::ToolState& state : (*tracker)->track(frame)) {
-      if (state.world_from_marker.status == PoseStatus::kMeasured) {
-        poses.world_from_marker.push_back(state.world_from_marker);
-      }
-    }
+    add_measured((*tracker)->track(frame), poses);
   });
   if (!read) {
     return read.error();

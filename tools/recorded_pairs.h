@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,18 @@ Status for_each_pair(replay::ReplayHeadset& recording,
 
 /// The poses in which a tool was measured, in the order of time.
 struct MeasuredPoses {
-  std::int64_t pairs = 0;  ///< of the recording
+  std::int64_t pairs = 0;   ///< of the recording; by another tracker, its frames
+  std::string format = {};  ///< of another tracker's poses (tools/other_poses.h)
+  bool timed = true;        ///< whether the times are known
   std::vector<nav::TrackedPose> world_from_marker;
 };
 /// Tracks one tool through a recording; refuses an unknown method and unreadable files.
 Result<MeasuredPoses> measured_poses(const std::string& recording, const std::string& method,
                                      const nav::ToolGeometry& tool,
                                      const nav::TrackerOptions& options = {});
+
+/// Adds those of the states that were measured.
+void add_measured(std::span<const nav::ToolState> states, MeasuredPoses& poses);
 
 /// The tags that a recording's cameras saw.
 struct RecordedSightings {

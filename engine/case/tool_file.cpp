@@ -139,8 +139,9 @@ Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path, ToolT
   return tools_from(*document, path, tags);
 }
 
-Result<nav::ToolGeometry> load_tool(const std::string& path, const std::string& name) {
-  const auto tools = load_tools(path);
+Result<nav::ToolGeometry> load_tool(const std::string& path, const std::string& name,
+                                    ToolTags tags) {
+  const auto tools = load_tools(path, tags);
   if (!tools) {
     return tools.error();
   }
@@ -185,13 +186,13 @@ Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>&
   return write_file(path, tools_text(tools));
 }
 
-Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text,
-                                                   const std::string& name) {
+Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text, const std::string& name,
+                                                   ToolTags tags) {
   const auto document = JsonDocument::parse(text, name);
   if (!document) {
     return document.error();
   }
-  return tools_from(*document, name);
+  return tools_from(*document, name, tags);
 }
 
 Result<nav::ToolGeometry> tool_named(const std::vector<nav::ToolGeometry>& tools,
@@ -212,7 +213,7 @@ Result<std::string> changed_tools(const std::string& path, const std::string& to
   if (!text) {
     return text.error();
   }
-  const auto tools = parse_tools(*text, path);
+  const auto tools = parse_tools(*text, path, ToolTags::kOptional);
   if (!tools) {
     return tools.error();
   }
@@ -243,7 +244,7 @@ Result<std::string> changed_tools(const std::string& path, const std::string& to
   }
   std::string changed =
       root.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  if (const auto after = parse_tools(changed, path + " as changed"); !after) {
+  if (const auto after = parse_tools(changed, path + " as changed", ToolTags::kOptional); !after) {
     return after.error();
   }
   return changed;

@@ -28,15 +28,16 @@ Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path,
                                                   ToolTags tags = ToolTags::kNeeded);
 
 /// One tool of such a file, by its name.
-Result<nav::ToolGeometry> load_tool(const std::string& path, const std::string& name);
+Result<nav::ToolGeometry> load_tool(const std::string& path, const std::string& name,
+                                    ToolTags tags = ToolTags::kNeeded);
 
 /// Writes a file that `load_tools` reads back to the same numbers.
 Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>& tools);
 
 /// The same without a file; `name` stands for it in messages.
 [[nodiscard]] std::string tools_text(const std::vector<nav::ToolGeometry>& tools);
-Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text,
-                                                   const std::string& name);
+Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text, const std::string& name,
+                                                   ToolTags tags = ToolTags::kNeeded);
 
 /// The result of a calibration of a tool.
 struct ToolChange {
@@ -47,7 +48,7 @@ struct ToolChange {
 
 /// The text of a tools file in which one tool is changed; every other field, known here or not,
 /// stays as it is. Refuses what `load_tools` refuses, before and after, and a name that no tool
-/// has.
+/// has; tags are optional.
 Result<std::string> changed_tools(const std::string& path, const std::string& tool,
                                   const ToolChange& change);
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "base/printed.h"
 #include "engine/print/board_file.h"
 #include "tests/support/accuracy_track.h"
 #include "tests/tools/command_line.h"
@@ -132,6 +133,47 @@ TEST(AccuracyCommand, MeasuresARenderedTest) {
   EXPECT_THAT(biased.out, HasSubstr("verdict: fail"));
   const json failed = json::parse(content_of(folder.file("out.json")));
   EXPECT_NEAR(failed["turning"]["tip_bias_mm"][0].get<double>(), 8.0, 1.0);
+}
+
+/// A test as another tracker recorded it: matrices in mm, thirty a second.
+std::string tracked_by_another(bool with_times) {
+  std::string text = with_times ? "time_s," : "";
+  text += "m00,m01,m02,m03_mm,m10,m11,m12,m13_mm,m20,m21,m22,m23_mm\n";
+  const AccuracyTrackOptions options;
+  for (const nav::TrackedPose& pose : accuracy_track(options, {})) {
+    if (with_times) {
+      append_printed(text, "%.4f,", seconds(pose.time.time_since_epoch()));
+    }
+    const auto rows = pose.value.row_major();
+    for (std::size_t i = 0; i < 12; ++i) {
+      append_printed(text, "%.9f%s", i % 4 == 3 ? 1e3 * rows[i] : rows[i], i < 11 ? "," : "\n");
+    }
+  }
+  return text;
+}
+
+TEST(AccuracyCommand, JudgesThePosesOfAnyTracker) {
+  const ScratchFolder folder;
+  const std::string tools = folder.with("tools.json", R"({"tools": [
+    {"name": "stylus", "role": "pointer", "tip_mm": [4, -150, 2]}]})");
+  const std::string timed = folder.with("timed.csv", tracked_by_another(true));
+  const Called called = orthonav({"accuracy", timed, "--tools", tools, "--json"});
+  ASSERT_EQ(called.code, 0) << called.err;
+  const json report = json::parse(called.out);
+  EXPECT_EQ(report["format"], "table");
+  EXPECT_FALSE(report.contains("method"));
+  EXPECT_EQ(report["verdict"], "pass");
+  // The track's noise: 0.05 mm an axis and 0.2 mrad over 150 mm.
+  EXPECT_NEAR(report["single_point"]["rms_mm"].get<double>(), 0.1, 0.05);
+  EXPECT_LT(report["turning"]["tip_bias_sigma_mm"], 0.1);
+
+  const std::string untimed = folder.with("untimed.csv", tracked_by_another(false));
+  const Called refused = orthonav({"accuracy", untimed, "--tools", tools});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("states no times, which this test needs"));
+  const Called rated = orthonav({"accuracy", untimed, "--tools", tools, "--rate-hz", "30"});
+  EXPECT_EQ(rated.code, 0) << rated.err;
+  EXPECT_THAT(rated.out, StartsWith("accuracy test of stylus, another tracker's poses (table): "));
 }
 
 TEST(AccuracyCommand, RefusesBadInputInOneLine) {

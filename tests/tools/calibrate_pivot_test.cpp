@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/printed.h"
 #include "engine/case/tool_file.h"
 #include "tests/tools/command_line.h"
 #include "tests/tools/tag_recording.h"
@@ -87,6 +88,55 @@ TEST_F(CalibratePivot, FindsTheTipAndWritesItIntoTheTools) {
   const Called plain = pivot(recording, {"--out", tools_});
   EXPECT_THAT(plain.out, HasSubstr("pointer: tip "));
   EXPECT_EQ(content_of(tools_), content_of(out)) << "in place, and the same again";
+}
+
+/// The same movement as another tracker writes it, in mm.
+std::string as_table(const std::string& heading, double lean_rad) {
+  std::string text = heading;
+  for (const auto& pair : pivoting(lean_rad)) {
+    const auto& pose = pair.front().rig_from_marker;
+    const Quaternion q = quaternion_from_rotation(pose.rotation());
+    const Vec3 t = pose.translation() * 1e3;
+    append_printed(text, "%.9f,%.9f,%.9f,%.9f,%.9f,%.9f,%.9f\n", t.x, t.y, t.z, q.x, q.y, q.z, q.w);
+  }
+  return text;
+}
+
+TEST_F(CalibratePivot, TakesThePosesOfAnotherTracker) {
+  const std::string poses = folder_.with("poses.csv", as_table("x,y,z,qx,qy,qz,qw\n", 0.5));
+  const std::string tools = folder_.with("untagged.json", R"({"tools": [
+      {"name": "stylus", "role": "pointer", "tip_mm": [0, -150, 0]}]})");
+  const Called called = orthonav({"calibrate", "pivot", poses, "--units", "mm", "--tools", tools,
+                                  "--tool", "stylus", "--out", tools, "--json"});
+  ASSERT_EQ(called.code, 0) << called.err;
+  const auto json = nlohmann::json::parse(called.out);
+  EXPECT_EQ(json["format"], "table");
+  EXPECT_FALSE(json.contains("method"));
+  EXPECT_EQ(json["poses"], kPairs);
+  const auto changed = engine::load_tools(tools, engine::ToolTags::kOptional);
+  ASSERT_TRUE(changed.ok()) << changed.error().message;
+  EXPECT_LT((changed->at(0).tip_in_marker.v - kTip).norm(), 1e-8);
+
+  const std::string bare = folder_.with("bare.csv", as_table("", 0.5));
+  const Called plain =
+      orthonav({"calibrate", "pivot", bare, "--units", "mm", "--columns", "x,y,z,qx,qy,qz,qw"});
+  ASSERT_EQ(plain.code, 0) << plain.err;
+  EXPECT_THAT(plain.out, HasSubstr("tip 4.000 -80.000 -3.000 mm"));
+  EXPECT_THAT(plain.out, HasSubstr("60 of 60 poses agree"));
+
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{poses}, "does not state its unit of length, give it (--units mm or --units m)"},
+      {{bare, "--units", "mm"}, "7 columns without names"},
+      {{poses, "--units", "inch"}, "--units"},
+      {{poses, "--units", "mm", "--out", tools}, "--tools is required"}};
+  for (const auto& [more, what] : cases) {
+    std::vector<std::string> all = {"calibrate", "pivot"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Called refused = orthonav(all);
+    EXPECT_EQ(refused.code, 2) << what;
+    EXPECT_THAT(refused.err, HasSubstr(what));
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+  }
 }
 
 TEST_F(CalibratePivot, RefusesInOneLineAndWritesNothing) {

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <csignal>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "tests/support/igtl_client.h"
 #include "tests/support/pose_server.h"
@@ -86,6 +90,12 @@ TEST(IgtlCommand, AnswersWhatItsClientsAskWhereTheyMay) {
 /// A tracker that sends one pose after another.
 class Sender {
  public:
+  using Pose = Transform<Rig, Marker>;
+  explicit Sender(std::function<Pose(int)> pose =
+                      [](int i) {
+                        return Pose(Mat3::identity(), {1e-5 * i, 0.0, -1.0});
+                      })
+      : pose_(std::move(pose)) {}
   ~Sender() {
     over_ = true;
     thread_.join();
@@ -95,11 +105,12 @@ class Sender {
  private:
   void run() {
     for (int i = 0; !over_; ++i) {
-      server_.add("ProbeToTracker", {Mat3::identity(), {1e-5 * i, 0.0, -1.0}}, 1.7e9 + 0.005 * i);
+      server_.add("ProbeToTracker", pose_(i), 1.7e9 + 0.005 * i);
       server_.send();
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
   }
+  std::function<Pose(int)> pose_;
   test::PoseServer server_;
   std::atomic<bool> over_ = false;
   std::thread thread_{[this] { run(); }};
@@ -116,6 +127,31 @@ TEST(IgtlCommand, RunsOnToolsThatAnotherProgramTracks) {
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("20 frames displayed"));
   EXPECT_THAT(ran.err, HasSubstr("has no button: --clicker names one"));
+}
+
+TEST(IgtlCommand, PivotsAToolThatAnotherProgramTracks) {
+  const Vec3 tip_m{0.002, -0.15, 0.001};
+  const Sender sender([tip_m](int i) {
+    const Mat3 rotation = rotation_from_vector(
+        {0.4 * std::cos(0.05 * i), 0.2 * std::sin(0.03 * i), 0.4 * std::sin(0.05 * i)});
+    return Sender::Pose(rotation, Vec3{0.1, 0.0, -1.0} - rotation * tip_m);
+  });
+  const test::TemporaryFolder folder;
+  const std::string tools = folder.with("tools.json", R"({"tools": [
+      {"name": "pointer", "role": "pointer", "tip_mm": [0, -100, 0]}]})");
+  const std::vector<std::string> pivot = {"calibrate", "pivot", sender.uri(), "--seconds", "2"};
+  const auto with = [&pivot](const std::vector<std::string>& more) {
+    std::vector<std::string> all = pivot;
+    all.insert(all.end(), more.begin(), more.end());
+    return test::orthonav(all);
+  };
+  const test::Called called = with({"--tools", tools, "--tool", "pointer", "--json"});
+  ASSERT_EQ(called.code, 0) << called.err;
+  const auto json = nlohmann::json::parse(called.out);
+  EXPECT_EQ(json["format"], "OpenIGTLink");
+  EXPECT_GE(json["poses"], 40);
+  EXPECT_NEAR(json["tip_mm"][1], -150.0, 0.01);
+  EXPECT_THAT(with({}).err, HasSubstr("--tools is required"));
 }
 
 TEST(IgtlCommand, RefusesPlacesWhereNobodyCanListen) {
