@@ -53,7 +53,8 @@ void append_tools(const engine::Session& session, const Base& base, Timestamp ti
   for (const nav::ToolState& state : session.tool_states()) {
     const nav::ToolGeometry& tool = session.geometry(state.tool);
     const bool is_base = tool.role == nav::ToolRole::kReference && base.name == "Reference";
-    if (state.world_from_marker.status != PoseStatus::kMeasured || is_base) {
+    if (state.world_from_marker.status != PoseStatus::kMeasured || is_base ||
+        igtl_name_is_taken(session.tracker().tools(), state.tool, base.name)) {
       continue;
     }
     const auto base_from_marker = base.base_from_world * state.world_from_marker.value;
@@ -121,6 +122,14 @@ std::string igtl_device(const std::string& from, const std::string& to) {
   const std::string end = "To" + to;
   name.resize(std::min(name.size(), kDeviceBytes - std::min(kDeviceBytes, end.size())));
   return name + end;
+}
+
+bool igtl_name_is_taken(std::span<const nav::ToolGeometry> tools, std::size_t tool,
+                        const std::string& to) {
+  const auto before = tools.first(tool);
+  return std::any_of(before.begin(), before.end(), [&](const nav::ToolGeometry& other) {
+    return igtl_device(other.name, to) == igtl_device(tools[tool].name, to);
+  });
 }
 
 std::uint64_t igtl_stamp(Timestamp time) {

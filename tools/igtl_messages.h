@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ namespace orthonav::tools {
 /// "PointerToReference": only the letters and digits of `from`, the first in upper case and the
 /// others in lower case, so that there is no "To" in it; cut so that the whole fits into 20 bytes.
 [[nodiscard]] std::string igtl_device(const std::string& from, const std::string& to);
+
+/// Whether this tool would be sent under the name of one before it, whose name is alike as far as
+/// 20 bytes hold it: it is not sent, or a receiver would show one tool in two places.
+[[nodiscard]] bool igtl_name_is_taken(std::span<const nav::ToolGeometry> tools, std::size_t tool,
+                                      const std::string& to);
 
 /// A time as OpenIGTLink stamps it.
 [[nodiscard]] std::uint64_t igtl_stamp(Timestamp time);

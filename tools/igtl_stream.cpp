@@ -122,6 +122,15 @@ Status IgtlStream::open(const IgtlArguments& arguments) {
 void IgtlStream::watch(engine::AssembledOperation& operation) {
   if (server_) {
     session_ = &operation.session();
+    const auto tools = session_->tracker().tools();
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+      if (igtl_name_is_taken(tools, i, "Reference")) {
+        std::fprintf(stderr,
+                     "orthonav: warning: --igtl: %s is not sent: its name is another tool's in the "
+                     "20 bytes of OpenIGTLink (%s)\n",
+                     tools[i].name.c_str(), igtl_device(tools[i].name, "Reference").c_str());
+      }
+    }
     told_.clear();
     last_status_.reset();
     operation.observe(static_cast<engine::LoopObserver*>(this));

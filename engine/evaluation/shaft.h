@@ -56,7 +56,7 @@ struct Shaft {
 
   /// Whether its tip lies at another shaft, or another one's tip at it.
   bool touched = false;
-  /// Not where the scan ends before it, or where it lies within another shaft.
+  /// Not where the scan ends before it, or where it lies within another shaft or in cement.
   bool tip_seen = true;
   /// Whether metal continues before `from_s_m`, so that it is not an end.
   bool goes_on = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -194,6 +195,29 @@ void fit_pair(const ScanField& scan, const std::vector<Shaft>& others, Shaft& a,
   end_at(misfit, best, &Tips::second_s_m, b);
 }
 
+/// Whether what lies around the shaft's end is denser than bone and no metal of another shaft:
+/// cement, in which the end cannot be told.
+bool ends_in_cement(const ScanField& scan, const Shaft& shaft) {
+  constexpr double kCement_hu = 1800.0;  ///< cortical bone is below
+  constexpr double kDense = 0.25;        ///< of the ring; streaks are thin
+  constexpr double kBefore_m = 0.008, kAfter_m = 0.004, kEvery_m = 0.001;
+  constexpr int kAngles = 12;
+  int all = 0, dense = 0;
+  for (double s = shaft.to_s_m - kBefore_m; s <= shaft.to_s_m + kAfter_m; s += kEvery_m) {
+    for (const double beside_m : {0.0015, 0.0025}) {  // clear of the metal's own blur
+      for (int i = 0; i < kAngles; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / kAngles;
+        const Vec3 around =
+            std::cos(angle) * shaft.line.across + std::sin(angle) * shaft.line.athwart;
+        const double hu = scan.at(shaft.line.at(s) + (shaft.radius_m + beside_m) * around);
+        all += std::isfinite(hu) ? 1 : 0;
+        dense += hu >= kCement_hu ? 1 : 0;
+      }
+    }
+  }
+  return dense > kDense * all;
+}
+
 std::vector<Shaft> all_but(const std::vector<Shaft>& shafts, std::size_t i, std::size_t j) {
   std::vector<Shaft> out;
   for (std::size_t k = 0; k < shafts.size(); ++k) {
@@ -221,7 +245,8 @@ void fit_touching_tips(const ScanField& scan, std::vector<Shaft>& shafts) {
         shaft.tip_seen = shaft.tip_seen && !other.cut;
       }
     }
-    shaft.tip_seen = shaft.tip_seen && !shaft.cut;
+    shaft.tip_seen =
+        shaft.tip_seen && !shaft.cut && (shaft.touched || !ends_in_cement(scan, shaft));
   }
 }
 

@@ -137,6 +137,30 @@ TEST(Shaft, SaysThatATipWithinAnotherShaftIsNotSeen) {
   EXPECT_LT(shaft.line.s_of(shaft.tip().v), shaft.line.s_of(hidden) + 0.0005) << "surely metal";
 }
 
+TEST(Shaft, SaysThatATipInCementIsNotSeen) {
+  const Vec3 rear{0.004, 0.022, -0.003};
+  const Vec3 tip{-0.003, -0.018, 0.004};
+  for (const double around_hu : {2300.0, 900.0}) {
+    Volume volume = scan_of({{rear, tip, 0.003}}, 0.001);
+    for (std::size_t i = 0; i < volume.values.size(); ++i) {
+      const auto row = static_cast<std::size_t>(volume.grid.size[0]);
+      const auto plane = row * static_cast<std::size_t>(volume.grid.size[1]);
+      const Vec3 place =
+          volume.grid.place_m({double(i % row), double(i % plane / row), double(i / plane)});
+      if ((place - tip).norm() < 0.008) {
+        volume.values[i] = std::max(volume.values[i], static_cast<float>(around_hu));
+      }
+    }
+    auto found = shafts_in(volume);
+    fit_touching_tips(ScanField(volume), found);
+    ASSERT_EQ(found.size(), 1u) << around_hu;
+    EXPECT_EQ(found[0].tip_seen, around_hu < 1800.0) << around_hu << ": or dense bone, the twin";
+    if (found[0].tip_seen) {
+      EXPECT_LT((found[0].tip().v - tip).norm(), 0.001);
+    }
+  }
+}
+
 TEST(Shaft, OfTwoScrewsApartTouchesNone) {
   const auto found = shafts_in(scan_of({{{0.014, 0.020, 0.0}, {0.006, -0.025, 0.0}, 0.003},
                                         {{-0.014, 0.020, 0.0}, {-0.006, -0.025, 0.0}, 0.003}},

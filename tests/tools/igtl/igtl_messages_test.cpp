@@ -71,6 +71,18 @@ TEST(IgtlMessages, NamesDevicesWithinTwentyBytesAndWithOneTo) {
   EXPECT_EQ(igtl_device("ToTo", "World"), "TotoToWorld");
 }
 
+TEST(IgtlMessages, GiveNoTwoToolsOneName) {
+  std::vector<nav::ToolGeometry> tools(3);
+  tools[0].name = "screwdriver long";
+  tools[1].name = "screwdriver short";
+  tools[2].name = "pointer";
+  EXPECT_FALSE(igtl_name_is_taken(tools, 0, "Reference"));
+  EXPECT_TRUE(igtl_name_is_taken(tools, 1, "Reference")) << "both ScrewdrivToReference";
+  EXPECT_FALSE(igtl_name_is_taken(tools, 2, "Reference"));
+  EXPECT_FALSE(igtl_name_is_taken(tools, 1, "World"))
+      << "ScrewdriverloToWorld and ScrewdrivershToWorld";
+}
+
 TEST(IgtlMessages, PutAModelInRasWhereTheRegistrationHasTheBone) {
   engine::LevelState level = level_l4();
   nav::Registration registration;
