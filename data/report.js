@@ -1,5 +1,7 @@
 (function () {
   'use strict';
+  // Paper shows all: a browser that prints has no way to open what is folded.
+  addEventListener('beforeprint', () => document.querySelectorAll('details').forEach(d => { d.open = true; }));
   const read = id => JSON.parse(document.getElementById(id).textContent);
   const colours = ['#0a6b4f', '#c25a00', '#2b5fb8', '#8a3ffc', '#b3261e', '#5b6b7b'];
   const lineColours = ['#0a6b4f', '#b3261e'];

@@ -69,6 +69,10 @@ void add_demo_arguments(CLI::App& demo, DemoArguments& arguments) {
   demo.add_flag("--realtime", arguments.realtime, "30 frames a second")->excludes(fast);
   demo.add_option("--record", arguments.record, "also record the session into this new folder")
       ->check(some_text());
+  demo.add_option("--beside", arguments.beside,
+                  "folder of another demo's results, as of --as-published: the report sets its "
+                  "figures beside its own")
+      ->check(some_text());
   demo.add_option("--device", arguments.device, "part of the name of the Vulkan device");
   demo.add_option("--threads", arguments.threads, "threads of the tracker; no result depends on it")
       ->check(whole_number(1, 2))

@@ -23,6 +23,7 @@ struct DemoArguments {
   std::string out = "orthonav-demo";
   std::vector<std::string> levels;
   std::string record;
+  std::string beside;  ///< folder of another run's results; empty: none
   std::string device;
   bool realtime = false;
   bool fast = false;

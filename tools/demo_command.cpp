@@ -5,6 +5,7 @@
 
 #include "engine/case/operation_plan.h"
 #include "engine/io/atomic_file.h"
+#include "engine/io/json_document.h"
 #include "engine/io/video_writer.h"
 #include "engine/session/journal.h"
 #include "engine/study/sim_scenario.h"
@@ -58,6 +59,13 @@ class Demo {
     const auto method = engine::method_named(set_up_.method);
     if (!method) {
       return bad_input(method.error().message);
+    }
+    if (!arguments_.beside.empty()) {
+      auto beside = engine::read_text((fs::path(arguments_.beside) / "report.json").string());
+      if (!beside) {
+        return bad_input("--beside: " + beside.error().message);
+      }
+      beside_json_ = std::move(*beside);
     }
     if (arguments_.resume) {
       if (const Status found = kept_.find(arguments_.out); !found) {
@@ -208,6 +216,9 @@ class Demo {
       return arguments_.resume ? Status() : remove_earlier_results(out_->path());
     };
     auto result = engine::run_operation(source, options, hooks);
+    if (result) {
+      result->instrument = set_up_.instrument;
+    }
     onlookers_.ended(result ? result->loop : engine::LoopReport{.ended = result.error()});
     return result;
   }
@@ -234,6 +245,9 @@ class Demo {
         .perfect = arguments_.perfect,
         .surgeon = arguments_.rods.rods_only ? kTouchesHeads : described(set_up_),
         .video = film,
+        .beside_json = beside_json_,
+        .beside_page =
+            fs::proximate(fs::path(arguments_.beside) / "report.html", out_->path()).string(),
         .plots = readings_->plots(arguments_.limits.grades()),
         .pictures = pictures_.written()};
     note(write_demo_report(out_->path(), result, report));
@@ -244,6 +258,7 @@ class Demo {
   DemoArguments arguments_;
   engine::SetUp set_up_;
   StopSignals& signals_;
+  std::string beside_json_;
   bool began_ = false;            ///< the room is open, the first pair is next
   std::optional<OutFolder> out_;  ///< destroyed last: the files in it are dropped first
   std::unique_ptr<SurgeonView> view_;

@@ -30,7 +30,7 @@ const char* caption_of(Step step) {
       "The registered vertebra is laid over the bone to be judged before use.",
       "The registration was accepted: entry points appear.",
       "Entry, planned trajectory, the triangle towards the tool's axis, and the angle.",
-      "The sleeve is set over the wire: the line beside the plan is how it stands.",
+      "What stands in the bone is measured: the line beside the plan is how it stands.",
       "The heads are touched one by one; the rod follows as a spline through them.",
       "The operation is over."};
   static_assert(kCaptions.back() != nullptr, "every step has its caption");
@@ -44,7 +44,7 @@ std::vector<std::string> notes_of(const DemoReport& report) {
   std::vector<std::string> notes;
   notes.push_back(report.perfect
                       ? "Simulated operating room with every source of error at zero."
-                      : "Simulated operating room: cameras, head, map, hands and wires err by the "
+                      : "Simulated operating room: cameras, head, map, hands and tools err by the "
                         "documented magnitudes (docs/accuracy.md).");
   notes.push_back(report.surgeon);
   notes.push_back(
@@ -94,7 +94,7 @@ void show_spine(const engine::OperationResult& result, bool simulated,
   content.spine_note =
       std::string(
           "Vertebrae as they were registered. Blue: screws as planned; amber: the same screws ") +
-      (simulated ? "along the true wires." : "along the tool as it was tracked at depth.");
+      (simulated ? "where they truly lie." : "along the tool as it was tracked at depth.");
 }
 
 }  // namespace
@@ -107,6 +107,8 @@ Status write_demo_report(const std::filesystem::path& folder, const engine::Oper
     content.video = "operation.mp4";
   }
   content.date = report.date;
+  content.beside_json = report.beside_json;
+  content.beside_page = report.beside_page;
   content.plots = report.plots;
   content.notes = notes_of(report);
   content.timings = {{"tracking and update", result.loop.step_wall_ms}};

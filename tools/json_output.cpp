@@ -17,9 +17,7 @@ void JsonOutput::add_to(CLI::App& command) {
                 ->type_name("OUT");
 }
 
-bool JsonOutput::on_stdout() const {
-  return given() ? place_.empty() || place_ == "-" : unasked_ == Unasked::kStdout;
-}
+bool JsonOutput::on_stdout() const { return given() && (place_.empty() || place_ == "-"); }
 
 Status JsonOutput::check() const {
   if (!given() || on_stdout()) {

@@ -10,14 +10,13 @@
 
 namespace orthonav::tools {
 
-/// Where a command's figures go as JSON: nowhere (or, for a command with no other output, standard
-/// output), standard output (`--json` or `--json -`), or a file.
+/// Where a command's figures go as JSON: nowhere unless asked for, standard output (`--json` or
+/// `--json -`), or a file.
 class JsonOutput {
  public:
-  enum class Unasked { kNowhere, kStdout };
-  explicit JsonOutput(Unasked unasked = Unasked::kNowhere) : unasked_(unasked) {}
   /// Adds `--json [OUT]` to the command. Keep this object alive until it is parsed.
   void add_to(CLI::App& command);
+  [[nodiscard]] bool given() const { return option_ != nullptr && option_->count() > 0; }
   /// Standard output carries the JSON and nothing else.
   [[nodiscard]] bool on_stdout() const;
   /// Refuses a destination that can't be written, before the work is done.
@@ -30,10 +29,8 @@ class JsonOutput {
   [[nodiscard]] Status write_text(const std::string& text) const;
 
  private:
-  [[nodiscard]] bool given() const { return option_ != nullptr && option_->count() > 0; }
   CLI::Option* option_ = nullptr;
   std::string place_;
-  Unasked unasked_;
 };
 
 }  // namespace orthonav::tools

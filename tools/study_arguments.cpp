@@ -11,6 +11,7 @@
 #include "engine/io/atomic_file.h"
 #include "engine/study/left_out.h"
 #include "engine/study/study_definition.h"
+#include "engine/study/study_text.h"
 #include "tools/arguments.h"
 #include "tools/build_name.h"
 #include "tools/case_source.h"
@@ -184,6 +185,9 @@ int write_study(const JsonOutput& json, const std::string& page, const std::stri
   if (const Status written = json.write_text(study); !written) {
     return bad_input(written.error().message);
   }
+  if (!json.on_stdout()) {
+    std::fputs(engine::study_table(study).c_str(), stdout);
+  }
   const Status drawn =
       page.empty() ? Status() : engine::write_file(page, engine::study_html(study, replay));
   return drawn ? kDone : bad_input(drawn.error().message);
@@ -191,7 +195,7 @@ int write_study(const JsonOutput& json, const std::string& page, const std::stri
 
 int write_joined(const JsonOutput& json, const std::string& page,
                  std::span<const std::string> files, const engine::ReplayCommand& replay) {
-  if (page.empty()) {
+  if (page.empty() && json.given()) {
     const Status joined =
         json.stream([&](std::ostream& out) { return engine::merge_stores(files, out); });
     return joined ? kDone : bad_input(joined.error().message);

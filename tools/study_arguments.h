@@ -26,7 +26,7 @@ struct StudyArguments {
   std::uint64_t first_seed = 1;
   std::string shard = "1/1";
   int jobs = 0;
-  JsonOutput json{JsonOutput::Unasked::kStdout};
+  JsonOutput json;
   bool perfect = false;
   bool navigation_alone = false;
   bool reference = false;
@@ -38,7 +38,7 @@ struct StudyArguments {
   std::string report;  ///< HTML page; empty: none
   std::vector<std::string> merged;
   std::string merged_report;  ///< HTML page of the joined study; empty: none
-  JsonOutput merged_json{JsonOutput::Unasked::kStdout};
+  JsonOutput merged_json;
 };
 
 void add_options(CLI::App& study, StudyArguments& arguments);
@@ -61,10 +61,12 @@ Result<engine::StudyOptions> options_of(const StudyArguments& arguments);
 [[nodiscard]] std::string profile_word(const std::string& name_or_file);
 /// A text as one word of a shell; in quotes where it needs them.
 [[nodiscard]] std::string quoted(const std::string& text);
-/// Writes a study as JSON and, if `page` is not empty, as a page; returns the exit code.
+/// Writes a study as JSON where that is asked for, as a page if `page` is not empty, and as a table
+/// unless standard output carries the JSON; returns the exit code.
 int write_study(const JsonOutput& json, const std::string& page, const std::string& study,
                 const engine::ReplayCommand& replay = {});
-/// The same for shards in SQLite files; without a page, none of them is held in memory.
+/// The same for shards in SQLite files; as JSON alone, without a table, none of them is held in
+/// memory.
 int write_joined(const JsonOutput& json, const std::string& page,
                  std::span<const std::string> files, const engine::ReplayCommand& replay = {});
 

@@ -31,10 +31,11 @@ int stopped(const StudyArguments& arguments, const engine::Study& study, StopSig
     std::fprintf(stderr, "%s; nothing was written\n", how_far.c_str());
     return signals.exit_code();
   }
-  if (const Status written = arguments.json.write_text(study.text); !written) {
-    return bad_input(written.error().message);
+  if (const int code = write_study(arguments.json, "", study.text); code != kDone) {
+    return code;
   }
-  std::fprintf(stderr, "%s; they are kept, marked incomplete\n", how_far.c_str());
+  std::fprintf(stderr, "%s%s\n", how_far.c_str(),
+               arguments.json.given() ? "; they are kept, marked incomplete" : "");
   return signals.exit_code();
 }
 

@@ -110,6 +110,7 @@ struct OperationResult {
   std::string method;
   std::optional<std::uint64_t> seed;  ///< absent without random draws: a real headset
   std::string case_name;
+  std::string instrument;             ///< of the simulated surgeon; empty: not known
   bool patient_reference = false;     ///< World was relative to one instead of the headset's map
   std::optional<ErrorsInUse> errors;  ///< that all strokes share, as the operation counted with
   /// Every level accepted, every screw done, the rods too; of rods alone, at least one.

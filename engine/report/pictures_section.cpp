@@ -12,23 +12,25 @@ std::string data_uri(const std::vector<std::uint8_t>& png) {
 
 }  // namespace
 
+std::string film_section(const ReportContent& content) {
+  if (content.video.empty()) {
+    return "";
+  }
+  const std::string file = html_escaped(content.video);
+  return "<section id=film><h2>Film: the surgeon\u2019s view</h2><video controls "
+         "preload=metadata src=\"" +
+         file + "\"" +
+         (content.poster.empty() ? "" : " poster=\"" + data_uri(content.poster) + "\"") +
+         "></video><p class=notes>" + file +
+         ", beside this page; the holograms as the surgeon saw them, the hand as if of "
+         "glass.</p></section>";
+}
+
 std::string pictures_section(const ReportContent& content) {
-  std::string html;
-  if (!content.video.empty()) {
-    const std::string file = html_escaped(content.video);
-    html +=
-        "<section id=film><h2>Film: the surgeon\u2019s view</h2><video controls "
-        "preload=metadata src=\"" +
-        file + "\"" +
-        (content.poster.empty() ? "" : " poster=\"" + data_uri(content.poster) + "\"") +
-        "></video><p class=notes>" + file +
-        ", beside this page; the holograms as the surgeon saw them, the hand as if of "
-        "glass.</p></section>";
-  }
   if (content.pictures.empty()) {
-    return html;
+    return "";
   }
-  html += "<section id=steps><h2>Step by step</h2><div class=gallery>";
+  std::string html = "<section id=steps><h2>Step by step</h2><div class=gallery>";
   for (const ReportPicture& picture : content.pictures) {
     const std::string title = html_escaped(picture.title);
     html += "<figure><img alt=\"" + title + "\" src=\"" + data_uri(picture.png) +

@@ -183,6 +183,21 @@ std::string scripts(const json& report, const ReportContent& content) {
       .append("</script>");
 }
 
+void replace_all(std::string& text, std::string_view what, std::string_view by) {
+  for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + by.size())) {
+    text.replace(at, what.size(), by);
+  }
+}
+
+/// Sections of which only the headings show until they are opened.
+std::string folded(std::string sections) {
+  replace_all(sections, "<section", "<details");
+  replace_all(sections, "</section>", "</details>");
+  replace_all(sections, "<h2>", "<summary><h2>");
+  replace_all(sections, "</h2>", "</h2></summary>");
+  return sections;
+}
+
 }  // namespace
 
 Result<std::string> report_html(const ReportContent& content) {
@@ -191,18 +206,21 @@ Result<std::string> report_html(const ReportContent& content) {
       !report["levels"].is_array()) {
     return Error{"report: the figures are not a report of this program (\"levels\" is missing)"};
   }
-  std::string html = head(report, content.date) + verdict_section(report) + screws_section(report) +
-                     clearance_section(report) + levels_section(report);
   const auto registrations = registration_sections(content.registrations);
   if (!registrations) {
     return registrations;
   }
-  html += content.spine.section("The spine with its screws", html_escaped(content.spine_note)) +
-          *registrations + rods_section(report) + pictures_section(content) +
-          paper_section(report) + plots_section(report, content) + tracked_section(report) +
-          timing_section(report, content.timings) + notes_section(content.notes) + "</main>" +
-          scripts(report, content) + "</body></html>\n";
-  return html;
+  const std::string rods = rods_section(report);
+  return head(report, content.date) + verdict_section(report) + film_section(content) +
+         content.spine.section("The spine with its screws", html_escaped(content.spine_note)) +
+         screws_section(report) + (is_of_rods_alone(report) ? rods : "") +
+         folded(clearance_section(report) + levels_section(report) + *registrations +
+                (is_of_rods_alone(report) ? "" : rods) + pictures_section(content) +
+                paper_section(report, json::parse(content.beside_json, nullptr, false),
+                              content.beside_page) +
+                plots_section(report, content) + tracked_section(report) +
+                timing_section(report, content.timings) + notes_section(content.notes)) +
+         "</main>" + scripts(report, content) + "</body></html>\n";
 }
 
 }  // namespace orthonav::engine

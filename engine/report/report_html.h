@@ -61,13 +61,15 @@ struct ReportContent {
   std::vector<ReportPicture> pictures;
   std::vector<ReportPlot> plots;
   std::vector<ReportTiming> timings;
+  std::string beside_json;  ///< report.json of another run to be set beside this one; empty: none
+  std::string beside_page;  ///< its page, from this one
   std::vector<std::string> notes;  ///< sentences under the table: simulated parts, limits
 };
 
-/// The report as one self-contained HTML page, in the order in which a surgeon needs it: verdict
-/// and screws, then registrations, rods, film and pictures, the paper's table beside this run,
-/// plots, frame times. The same content gives the same bytes. Fails only if report_json is not in
-/// the format that `demo` writes.
+/// The report as one self-contained HTML page, in the order in which a surgeon needs it: verdict,
+/// film, spine and a line a screw; the rest is folded: clearance, registrations, rods, pictures,
+/// the paper's table beside this run, plots, frame times. The same content gives the same bytes.
+/// Fails only if report_json is not in the format that `demo` writes.
 Result<std::string> report_html(const ReportContent& content);
 
 }  // namespace orthonav::engine

@@ -181,6 +181,9 @@ std::string report_json(const OperationResult& result) {
     out["seed"] = *result.seed;
   }
   out["case"] = result.case_name;
+  if (!result.instrument.empty()) {
+    out["instrument"] = result.instrument;
+  }
   if (result.patient_reference) {
     out["patient_reference"] = true;
   }

@@ -46,6 +46,13 @@ bool is_true(const nlohmann::json& object, std::string_view key) {
   return found != nullptr && found->is_boolean() && found->get<bool>();
 }
 
+std::string placed_tool(const nlohmann::json& report) {
+  const std::string instrument = text_in(report, "instrument");
+  return instrument == "sleeved drill" || instrument == "robot arm" ? "drill"
+         : instrument == "screw"                                    ? "screw"
+                                                                    : "wire";
+}
+
 bool is_of_rods_alone(const nlohmann::json& report) {
   const nlohmann::json& session = object_in(report, "session");
   const bool planned = !session.contains("plan_recorded") || is_true(session, "plan_recorded");

@@ -28,6 +28,9 @@ struct ReportQuantity {
 /// Whether it is there and true.
 [[nodiscard]] bool is_true(const nlohmann::json& object, std::string_view key);
 
+/// What stands in the bone once a screw is placed: "drill", or "wire" where no other is known.
+[[nodiscard]] std::string placed_tool(const nlohmann::json& report);
+
 /// Of an operation of rods alone: its plan is known and has no level.
 [[nodiscard]] bool is_of_rods_alone(const nlohmann::json& report);
 

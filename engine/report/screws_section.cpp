@@ -47,15 +47,20 @@ void clearance_cell(HtmlTable& table, const json& screw, const char* none) {
              *clearance < 0.0 ? "bad" : "");
 }
 
-void put_screw(HtmlTable& table, const std::string& name, const json& screw) {
+void put_line(HtmlTable& table, const std::string& name, const json& screw) {
   const bool placed = is_placed(screw);
-  table.row(html_escaped(name) + (placed ? "" : " <small>not placed</small>"));
-  table.cell(size_of(screw));
   const char* none = placed ? kNoValue : "";
+  table.row(html_escaped(name) + (placed ? "" : " <small>not placed</small>"));
   error_cell(table, value_of(screw, "angle_error_deg"), degrees(kOnTarget_rad), none);
   error_cell(table, value_of(screw, "entry_error_mm"), kOnTarget_m * 1e3, none);
-  table.cell(placed ? figure(object_in(screw, "executed"), "depth_mm", 1) : "");
   clearance_cell(table, screw, none);
+}
+
+void put_details(HtmlTable& table, const std::string& name, const json& screw) {
+  const bool placed = is_placed(screw);
+  table.row(html_escaped(name));
+  table.cell(size_of(screw));
+  table.cell(placed ? figure(object_in(screw, "executed"), "depth_mm", 1) : "");
   table.cell(placed || screw.contains("wire") ? wire_as_placed(screw) : "");
   if (const json& change = object_in(screw, "planned_in_surgery"); !change.empty()) {
     table.below("planned in surgery: " + html_escaped(text_in(change, "text")));
@@ -65,16 +70,16 @@ void put_screw(HtmlTable& table, const std::string& name, const json& screw) {
 }  // namespace
 
 std::string screws_section(const json& report) {
-  HtmlTable table({{"screw"},
-                   {"planned size", "mm"},
-                   {"angle error", "\u00b0"},
-                   {"entry error", "mm"},
-                   {"depth as tracked", "mm"},
-                   {"clearance, grade", "mm"},
-                   {"wire as measured in place"}});
+  HtmlTable table(
+      {{"screw"}, {"angle error", "\u00b0"}, {"entry error", "mm"}, {"clearance, grade", "mm"}});
+  HtmlTable details({{"screw"},
+                     {"planned size", "mm"},
+                     {"depth as tracked", "mm"},
+                     {placed_tool(report) + " as measured in place"}});
   bool truth = false;
   for_each_screw(report, [&](const json&, const std::string& name, const json& screw) {
-    put_screw(table, name, screw);
+    put_line(table, name, screw);
+    put_details(details, name, screw);
     truth = truth || has_truth(screw);
   });
   if (is_of_rods_alone(report)) {
@@ -88,10 +93,12 @@ std::string screws_section(const json& report) {
                   html_number(degrees(kOnTarget_rad), 0) + "\u00b0 or " +
                   html_number(kOnTarget_m * 1e3, 0) + " mm, or a breach. "
             : "Errors against the truth are not known here. ";
-  return "<section id=screws><h2>Screws</h2>" + table.html() + "<p class=notes>" + errors +
+  return "<section id=screws><h2>Screws</h2>" + table.html("lines") + "<details><summary>" +
+         "size, depth, and the " + placed_tool(report) + " in place</summary>" + details.html() +
+         "<p class=notes>" + errors +
          "Depth: of the tool\u2019s tip past the planned entry when it was last tracked, not of "
          "the screw. Clearance: least depth of the planned screw below the bone\u2019s surface "
-         "along the way taken.</p></section>";
+         "along the way taken.</p></details></section>";
 }
 
 }  // namespace orthonav::engine

@@ -21,7 +21,7 @@ constexpr Rgb kNotStroked{214, 208, 197};
 /// A round number that hardly any place exceeds.
 double full_scale_m(const RegistrationScene& scene) {
   constexpr double kStep_m = 0.0005;
-  constexpr double kLeast_m = 0.001;  // a few tenths must not look like thick tissue
+  constexpr double kLeast_m = 0.003;  // a millimetre must not look like thick tissue
   double most_m = kLeast_m;
   for (const double tissue_m : scene.tissue_m) {
     most_m = std::isnan(tissue_m) ? most_m : std::max(most_m, tissue_m);

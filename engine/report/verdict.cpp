@@ -50,7 +50,7 @@ Counts counts_of(const json& report) {
 }
 
 /// How far the screws are from the plan, as far as known.
-std::string accuracy_text(const Counts& n) {
+std::string accuracy_text(const Counts& n, const std::string& tool) {
   if (n.placed == 0) {
     return "";
   }
@@ -62,7 +62,7 @@ std::string accuracy_text(const Counts& n) {
   const std::string unknown = "; their true distance from the plan is not known";
   return n.wires == 0 ? unknown
                       : unknown + ", " + std::to_string(n.wires_within) + " of " +
-                            how_many(n.wires, "measured wire") + " within the limits";
+                            how_many(n.wires, "measured " + tool) + " within the limits";
 }
 
 /// "2 rods templated; their lengths within 0.4 mm, against the simulation's truth".
@@ -84,7 +84,7 @@ std::string rods_text(const json& report) {
 }
 
 /// What is wrong with a screw according to the truth; empty if nothing is, or there is no truth.
-std::string missed_text(const json& screw) {
+std::string missed_text(const json& screw, const std::string& tool) {
   const auto clearance = value_of(screw, "clearance_mm");
   const auto angle = value_of(screw, "angle_error_deg");
   const auto entry = value_of(screw, "entry_error_mm");
@@ -97,14 +97,14 @@ std::string missed_text(const json& screw) {
     text += std::string(text.empty() ? "" : "; ") +
             (entry ? html_number_beside(*angle, degrees(kOnTarget_rad), 1) + "\u00b0 and " +
                          html_number_beside(*entry, kOnTarget_m * 1e3, 1) + " mm from the plan"
-                   : "the wire missed the bone");
+                   : "the " + tool + " missed the bone");
   }
   return text.empty() ? "" : text + kAgainstTruth;
 }
 
-std::string wire_warning(const json& screw) {
+std::string wire_warning(const json& screw, const std::string& tool) {
   if (text_in(screw, "wire") == "not measured") {
-    return is_placed(screw) ? "the wire was not measured" : "";
+    return is_placed(screw) ? "the " + tool + " was not measured" : "";
   }
   const json& wire = object_in(screw, "wire");
   const auto angle = value_of(wire, "angle_deg");
@@ -112,36 +112,53 @@ std::string wire_warning(const json& screw) {
   if (wire.empty() || is_true(wire, "within") || !angle || !entry) {
     return "";
   }
-  return "the wire was measured " + html_number(*angle, 1) + "\u00b0 and " +
+  return "the " + tool + " was measured " + html_number(*angle, 1) + "\u00b0 and " +
          html_number(*entry, 1) + " mm from the plan, beyond a limit" +
          (is_true(wire, "kept") ? ", and kept" : "");
 }
 
-std::string bound_warning(const json& screw) {
-  // A journal has it as `at_depth`.
-  const json& tracked = object_in(screw, screw.contains("tracked") ? "tracked" : "at_depth");
-  const auto bound = value_of(tracked, "clearance_95_mm");
-  return bound && *bound < 0.0
-             ? "as tracked, a breach of the cortex cannot be ruled out (95 % bound " +
-                   html_number(*bound, 1) + " mm)"
-             : "";
-}
-
-std::string planned_warning(const json& screw) {
+std::string planned_warning(const json& screw, const std::string& /*tool*/) {
   const std::string reason = text_in(object_in(screw, "planned"), "accepted_breach");
   return reason.empty() ? "" : "planned to leave the cortex: " + reason;
+}
+
+/// One line for all screws, since it says the same of each.
+std::vector<std::string> bound_warning(const json& report) {
+  std::string names;
+  std::string bounds;
+  for_each_screw(report, [&](const json&, const std::string& name, const json& screw) {
+    // A journal has it as `at_depth`.
+    const json& tracked = object_in(screw, screw.contains("tracked") ? "tracked" : "at_depth");
+    const auto bound = value_of(tracked, "clearance_95_mm");
+    if (bound && *bound < 0.0) {
+      names += (names.empty() ? "" : ", ") + name;
+      bounds += (bounds.empty() ? "" : ", ") + html_number(*bound, 1);
+    }
+  });
+  if (names.empty()) {
+    return {};
+  }
+  return {names + ": as tracked, a breach of the cortex cannot be ruled out (95 % bound " + bounds +
+          " mm)"};
+}
+
+template <class Warning>
+void add_of_screws(const json& report, Warning warning, std::vector<std::string>& out) {
+  for_each_screw(report, [&](const json&, const std::string& name, const json& screw) {
+    if (const std::string text = warning(screw, placed_tool(report)); !text.empty()) {
+      out.push_back(name + ": " + text);
+    }
+  });
 }
 
 /// By severity: first from the truth, then from measurements, then from the plan.
 std::vector<std::string> warnings_of(const json& report) {
   std::vector<std::string> out;
-  for (const auto& warning : {missed_text, wire_warning, bound_warning, planned_warning}) {
-    for_each_screw(report, [&](const json&, const std::string& name, const json& screw) {
-      if (const std::string text = warning(screw); !text.empty()) {
-        out.push_back(name + ": " + text);
-      }
-    });
-  }
+  add_of_screws(report, missed_text, out);
+  add_of_screws(report, wire_warning, out);
+  const std::vector<std::string> bound = bound_warning(report);
+  out.insert(out.end(), bound.begin(), bound.end());
+  add_of_screws(report, planned_warning, out);
   return out;
 }
 
@@ -180,7 +197,7 @@ Verdict verdict_of(const json& report) {
   const bool planned = !session.contains("plan_recorded") || is_true(session, "plan_recorded");
   const std::size_t all = planned ? n.screws : n.placed;
   out.counts = (planned ? std::to_string(n.placed) + " of " : std::string()) +
-               how_many(all, "screw") + " placed" + accuracy_text(n) + ".";
+               how_many(all, "screw") + " placed" + accuracy_text(n, placed_tool(report)) + ".";
   if (is_of_rods_alone(report)) {
     out.counts = rods_text(report);
   }

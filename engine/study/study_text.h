@@ -11,6 +11,9 @@ namespace orthonav::engine {
 [[nodiscard]] std::string study_text(const std::string& method, const nlohmann::ordered_json& runs,
                                      const nlohmann::ordered_json& failed, std::size_t planned);
 
+/// The figures of a study's JSON as a table for a terminal, beside the published ones.
+[[nodiscard]] std::string study_table(const std::string& study_text);
+
 /// JSON in the format of a study's file: indented by one space.
 [[nodiscard]] std::string text_of(const nlohmann::ordered_json& part);
 

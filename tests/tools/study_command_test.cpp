@@ -71,6 +71,10 @@ TEST(StudyMerge, WritesThePageToo) {
                                   "--report", folder.file("page.html")});
   ASSERT_EQ(called.code, 0) << called.err;
   EXPECT_THAT(content_of(folder.file("page.html")), HasSubstr("phantom, L5 left"));
+  EXPECT_THAT(called.out, HasSubstr("method best: 1 of 1 operation completed\n"));
+  EXPECT_THAT(called.out, HasSubstr("\nTrajectory error, °       "));
+  EXPECT_EQ(orthonav({"study", "merge", one}).out, called.out) << "JSON only where it is asked for";
+  EXPECT_EQ(orthonav({"study", "merge", one, "--json"}).out, content_of(folder.file("o.json")));
 }
 
 TEST(StudySlurm, SaysInOneLineThatThereIsNone) {

@@ -106,10 +106,33 @@ ReportContent whole_content() {
 TEST(ReportHtml, BeginsWithWhatASurgeonAsksAndEndsWithTiming) {
   const std::string html = report_html(whole_content()).value();
   const auto places =
-      places_of(html, {"2026-11-25 10:04 UTC", "id=verdict", "id=screws", "id=levels", "id=rods",
-                       "id=film", "id=steps", "id=paper", "id=plots", "id=timing", "id=notes"});
+      places_of(html, {"2026-11-25 10:04 UTC", "id=verdict", "id=film", "id=screws", "id=levels",
+                       "id=rods", "id=steps", "id=paper", "id=plots", "id=timing", "id=notes"});
   EXPECT_THAT(places, Not(Contains(std::string::npos)));
   EXPECT_TRUE(std::is_sorted(places.begin(), places.end())) << ::testing::PrintToString(places);
+}
+
+TEST(ReportHtml, FoldsWhatIsNotTheAnswer) {
+  const std::string html = report_html(whole_content()).value();
+  for (const char* shown : {"<section id=verdict", "<section id=film", "<section id=screws"}) {
+    EXPECT_THAT(html, HasSubstr(shown));
+  }
+  for (const char* kept : {"<details id=levels><summary><h2>Registration</h2></summary>",
+                           "<details id=rods", "<details id=plots", "<details id=notes"}) {
+    EXPECT_THAT(html, HasSubstr(kept));
+  }
+}
+
+TEST(ReportHtml, CallsWhatStandsInTheBoneByItsName) {
+  const auto column = [](const std::string& instrument) {
+    return report_html(
+               {.report_json = R"({"instrument":")" + instrument +
+                               R"(","levels":[{"label":"L4","screws":[{"side":"left"}]}]})"})
+        .value();
+  };
+  EXPECT_THAT(column("sleeved drill"),
+              AllOf(HasSubstr("drill as measured in place"), Not(HasSubstr("wire"))));
+  EXPECT_THAT(column("wire"), HasSubstr("wire as measured in place"));
 }
 
 TEST(ReportHtml, OfRodsAloneIsAboutRodsAndClaimsNoScrew) {
@@ -204,6 +227,16 @@ TEST(ReportHtml, SaysWhatWasAnInputAndHowManyWereMeasured) {
   // A real headset has no seed, and its surgeon's strokes are not an input.
   EXPECT_THAT(report_html({.report_json = R"({"levels":[{"label":"L4","points":9}]})"}).value(),
               Not(HasSubstr("an input")));
+}
+
+TEST(ReportHtml, SetsAnotherRunBesideThisOne) {
+  ReportContent content{.report_json = kReport};
+  EXPECT_THAT(report_html(content).value(), Not(HasSubstr("Beside it")));
+  content.beside_json = R"({"method":"best","levels":[{"rmse_mm":1.11,"screws":[]}]})";
+  content.beside_page = "../best/report.html";
+  const std::string html = report_html(content).value();
+  EXPECT_THAT(html, HasSubstr("<td data-label=\"method best\">1.11</td>"));
+  EXPECT_THAT(html, HasSubstr("<a href=\"../best/report.html\">the run with method best</a>"));
 }
 
 TEST(ReportHtml, RefusesFiguresThatAreNoReport) {
