@@ -284,8 +284,10 @@ void FrameLoop::count_displayed(const Guidance& guidance, SnapshotQueue* queue,
   last_display_ = guidance.display_time;
   report.photon_ages_ms.add(seconds(guidance.display_time - guidance.frame_time) * 1e3);
   const std::int64_t frame = report.displayed++;
-  const int rarely = guidance.step == Step::kGuide ? 1 : options_.unguided_every;
-  if (queue && frame % (options_.draw_every * rarely) == 0) {
+  const bool often = guidance.step == Step::kGuide || drawn_step_ != guidance.status.at;
+  const int every = options_.draw_every * (often ? 1 : options_.unguided_every);
+  if (queue && frame % every == 0) {
+    drawn_step_ = guidance.status.at;
     capture(*queue, guidance, frame);
   }
 }

@@ -53,7 +53,7 @@ struct LoopOptions {
   /// Every n-th displayed frame goes to the sink; 0: none. Counted, not timed, so that the same
   /// frames are drawn regardless of the machine's speed.
   int draw_every = 1;
-  /// Of these, every n-th while no screw is guided.
+  /// Of these, every n-th while no screw is guided, and the first of each step.
   int unguided_every = 1;
   /// Whether the device's clock runs by itself. Then only the newest snapshot is drawn, tracking
   /// never waits, and stalled threads are noticed. Otherwise pairs advance the clock: every
@@ -181,6 +181,7 @@ class FrameLoop {
   std::optional<Repeated> repeats_;         ///< in every pair since the last good one
   std::optional<Repeated> told_repeats_;    ///< to the wearer, when guidance was withdrawn
   std::optional<Timestamp> done_since_;
+  std::optional<StepOnDisplay> drawn_step_;
   std::optional<Timestamp> first_frame_;  ///< mid-exposure of the first pair
   int camera_errors_ = 0;                 ///< in a row, each
   int clicker_errors_ = 0;
