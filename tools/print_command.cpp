@@ -205,7 +205,7 @@ void add_tool(CLI::App& print, Action& action) {
   auto arguments = std::make_shared<TagArguments>();
   CLI::App* command = print.add_subcommand("tool", "The tags of tools, at their sizes");
   command->add_option("TOOLS", arguments->tools_file,
-                      "Tool definitions (JSON; default: the built-in tools)");
+                      "Tool definitions, JSON (default: the built-in tools)");
   command->add_option("--name", arguments->name, "Only this tool")->check(some_text());
   add_quiet_option(*command, *arguments);
   arguments->page.add_to(*command);

@@ -35,7 +35,7 @@ TEST(IgtlCommand, ServesARunUntilItEnds) {
   std::set<std::string> heard;
   const std::set<std::string> wanted = {"POINT L5leftScrew", "POLYDATA L5rightScrewModel",
                                         "STATUS orthonav", "STRING Guidance",
-                                        "TRANSFORM PointerToWorld"};
+                                        "TRANSFORM PointerToReference"};
   for (std::string name = listener.next(); !name.empty(); name = listener.next()) {
     heard.insert(name);
     if (name == "STRING Guidance") {
