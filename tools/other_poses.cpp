@@ -6,7 +6,9 @@
 #include <optional>
 #include <thread>
 
+#include "base/stopwatch.h"
 #include "engine/io/pose_file.h"
+#include "engine/io/text_fields.h"
 #include "hal/open/open.h"
 #include "nav/tracking/tools_measured_elsewhere.h"
 #include "tools/arguments.h"
@@ -17,7 +19,9 @@ namespace {
 engine::PoseFileOptions options_of(const OtherPosesArguments& arguments) {
   engine::PoseFileOptions options;
   options.pose = arguments.pose;
-  options.columns = arguments.columns;
+  if (!arguments.columns.empty()) {
+    options.columns = engine::split(arguments.columns, ',');
+  }
   if (!arguments.units.empty()) {
     options.metres_per_unit = arguments.units == "m" ? 1.0 : 1e-3;
   }
@@ -65,12 +69,12 @@ Result<MeasuredPoses> live_poses(const std::string& uri, const nav::ToolGeometry
     return tracker.error();
   }
   std::fprintf(stderr, "orthonav: listening for %.0f s\n", length_s);
-  const auto end = std::chrono::steady_clock::now() + from_seconds(length_s);
+  const Stopwatch watch;
   MeasuredPoses out;
   out.format = "OpenIGTLink";
   StereoFrame frame;
   std::optional<std::int64_t> map;
-  while (std::chrono::steady_clock::now() < end) {
+  while (watch.elapsed() < from_seconds(length_s)) {
     const auto next = cameras.next(frame);
     if (!next) {
       return next.error();
@@ -109,7 +113,7 @@ void OtherPosesArguments::add_to(CLI::App& command) {
       .add_option("--columns", columns,
                   "Names of columns without a heading: x,y,z,qx,qy,qz,qw, m00 to m23, time_s; any "
                   "other is passed over")
-      ->delimiter(',')
+      ->check(some_text())
       ->type_name("NAMES")
       ->group(kGroup);
   command.add_option("--rate-hz", rate_hz, "Rows a second in a file without times")
@@ -123,7 +127,7 @@ void OtherPosesArguments::add_to(CLI::App& command) {
 
 bool has_other_poses(const std::string& recording) {
   std::error_code problem;
-  return is_live(recording) || std::filesystem::is_regular_file(recording, problem);
+  return is_live(recording) || !std::filesystem::is_directory(recording, problem);
 }
 
 Result<MeasuredPoses> other_poses(const std::string& recording,

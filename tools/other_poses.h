@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
-#include <vector>
 
 #include "tools/recorded_pairs.h"
 
@@ -13,7 +12,7 @@ namespace orthonav::tools {
 struct OtherPosesArguments {
   std::string pose;
   std::string units;
-  std::vector<std::string> columns;
+  std::string columns;
   double rate_hz = 0.0;  ///< 0: not given
   double seconds = 60.0;
 
@@ -26,7 +25,7 @@ inline constexpr const char* kOtherPosesFooter =
     "the CSV of `orthonav track`, another table of positions with quaternions, or matrices; or\n"
     "igtl://HOST?TOOL=TRANSFORM: poses that another program now sends over OpenIGTLink.";
 
-/// Whether RECORDING is no folder of ours but a file of poses or an OpenIGTLink server.
+/// Whether RECORDING is no folder, as ours are, but a file of poses or an OpenIGTLink server.
 [[nodiscard]] bool has_other_poses(const std::string& recording);
 
 /// The tool's poses by the other tracker.

@@ -119,7 +119,7 @@ TEST_F(CalibratePivot, TakesThePosesOfAnotherTracker) {
 
   const std::string bare = folder_.with("bare.csv", as_table("", 0.5));
   const Called plain =
-      orthonav({"calibrate", "pivot", bare, "--units", "mm", "--columns", "x,y,z,qx,qy,qz,qw"});
+      orthonav({"calibrate", "pivot", "--units", "mm", "--columns", "x,y,z,qx,qy,qz,qw", bare});
   ASSERT_EQ(plain.code, 0) << plain.err;
   EXPECT_THAT(plain.out, HasSubstr("tip 4.000 -80.000 -3.000 mm"));
   EXPECT_THAT(plain.out, HasSubstr("60 of 60 poses agree"));
@@ -128,6 +128,7 @@ TEST_F(CalibratePivot, TakesThePosesOfAnotherTracker) {
       {{poses}, "does not state its unit of length, give it (--units mm or --units m)"},
       {{bare, "--units", "mm"}, "7 columns without names"},
       {{poses, "--units", "inch"}, "--units"},
+      {{folder_.file("none.csv")}, "none.csv: cannot be opened"},
       {{poses, "--units", "mm", "--out", tools}, "--tools is required"}};
   for (const auto& [more, what] : cases) {
     std::vector<std::string> all = {"calibrate", "pivot"};
