@@ -52,6 +52,16 @@ Result<double> stated(double metres, const char* what, const std::string& path,
   return metres;
 }
 
+/// Refuses what is out of any tracker's reach.
+Result<Pose> within_reach(const Pose& pose, const std::string& where) {
+  constexpr double kReachM = 1000.0;
+  const double far_m = pose.translation().norm();
+  if (!(far_m <= kReachM)) {
+    return Error{where + printed("%g m away, limit %.0f m (another unit?)", far_m, kReachM)};
+  }
+  return pose;
+}
+
 Result<Pose> pose_from_rows(const std::array<double, 16>& rows, double metres_per_unit,
                             const std::string& where) {
   constexpr double kSameAsStated = 1e-6;
@@ -67,7 +77,7 @@ Result<Pose> pose_from_rows(const std::array<double, 16>& rows, double metres_pe
   if (!pose) {
     return Error{where + pose.error().message};
   }
-  return pose;
+  return within_reach(*pose, where);
 }
 
 // Sequences of Plus and 3D Slicer: a text header with fields of each frame, then pictures.
@@ -113,7 +123,8 @@ Status add_field(std::string_view line, const std::string& where, SequenceFrames
   const std::string value(trimmed(line.substr(equals + 1)));
   const std::size_t end = key.find('_');
   const auto frame = number_from(key.substr(0, end));
-  if (!frame || end == std::string_view::npos) {
+  constexpr double kMostFrames = 1e9;
+  if (!frame || !(*frame >= 0.0 && *frame < kMostFrames) || end == std::string_view::npos) {
     return Error{where + "a field of no frame"};
   }
   const auto index = static_cast<int>(*frame);
@@ -439,9 +450,9 @@ Result<Pose> pose_in(const std::vector<std::string>& fields, const Layout& layou
     return Error{where + printed("the quaternion's length is %.4f, must be 1", norm)};
   }
   const Vec3 t{(*at)[0], (*at)[1], (*at)[2]};
-  return Pose(
-      rotation_from_quaternion({(*q)[0] / norm, (*q)[1] / norm, (*q)[2] / norm, (*q)[3] / norm}),
-      t * layout.metres_per_unit);
+  const Mat3 rotation =
+      rotation_from_quaternion({(*q)[0] / norm, (*q)[1] / norm, (*q)[2] / norm, (*q)[3] / norm});
+  return within_reach(Pose(rotation, t * layout.metres_per_unit), where);
 }
 
 struct Table {
@@ -676,6 +687,12 @@ Result<PoseFile> load_poses(const std::string& path, const PoseFileOptions& opti
                    : text_poses(read_text(path, kLongestPoseFile), path, options);
   if (poses && poses->world_from_marker.empty()) {
     return Error{path + ": no pose in it was measured"};
+  }
+  constexpr double kLongestS = 1e6;
+  if (poses && std::any_of(poses->times_s.begin(), poses->times_s.end(), [&](double time_s) {
+        return !(std::abs(time_s - poses->times_s.front()) <= kLongestS);
+      })) {
+    return Error{path + ": its times are more than 1000000 s apart (another unit?)"};
   }
   return poses;
 }
