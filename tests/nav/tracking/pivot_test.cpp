@@ -22,10 +22,10 @@ const Vec3 kPivot{0.4, 1.1, -0.6};
 
 // Turned about the pivot in a cone of the given half angle, with noise of position and rotation.
 std::vector<Pose> pivoting(double cone_rad, double twist_rad, double noise_m, Random& random,
-                           int count = 200) {
+                           int count = 200, double turn_rad = 0.37) {
   std::vector<Pose> poses;
   for (int i = 0; i < count; ++i) {
-    const double around = 0.37 * i;
+    const double around = turn_rad * i;
     const Mat3 rotation = rotation_from_vector(
         {cone_rad * std::cos(around), twist_rad * std::sin(0.11 * i), cone_rad * std::sin(around)});
     const Vec3 noise{random.normal(0, noise_m), random.normal(0, noise_m),
@@ -73,7 +73,8 @@ TEST(PivotCalibration, PredictsItsOwnError) {
 
 // Pivoting whose error is partly white, partly that of a tip which wanders in its seat: correlated
 // over so many poses.
-std::vector<Pose> wandering(double correlated_poses, double white_share, Random& random) {
+std::vector<Pose> wandering(double correlated_poses, double white_share, Random& random,
+                            int count = 200, double turn_rad = 0.37) {
   constexpr double kNoiseM = 0.0003;
   const double decay = std::exp(-1.0 / correlated_poses);
   const auto draw = [&random](double sd_m) {
@@ -81,7 +82,7 @@ std::vector<Pose> wandering(double correlated_poses, double white_share, Random&
   };
   const double wander_m = kNoiseM * std::sqrt(1.0 - white_share);
   Vec3 seat_m = draw(wander_m);
-  auto poses = pivoting(0.4, 0.2, kNoiseM * std::sqrt(white_share), random);
+  auto poses = pivoting(0.4, 0.2, kNoiseM * std::sqrt(white_share), random, count, turn_rad);
   for (Pose& pose : poses) {
     pose = {pose.rotation(), pose.translation() + seat_m};
     seat_m = decay * seat_m + draw(wander_m * std::sqrt(1.0 - decay * decay));
@@ -96,7 +97,7 @@ struct Coverage {
   double of_95 = 0.0;
 };
 
-Coverage coverage(double correlated_poses, double white_share) {
+Coverage coverage(double correlated_poses, double white_share, int count, double turn_rad) {
   constexpr int kTrials = 300;
   // Of chi-square with three degrees of freedom.
   constexpr double kQuantile68 = 3.506;
@@ -104,7 +105,7 @@ Coverage coverage(double correlated_poses, double white_share) {
   Coverage percent;
   for (int trial = 0; trial < kTrials; ++trial) {
     Random random(static_cast<std::uint64_t>(1000 + trial));
-    const auto poses = wandering(correlated_poses, white_share, random);
+    const auto poses = wandering(correlated_poses, white_share, random, count, turn_rad);
     std::vector<std::size_t> all(poses.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     const auto fit = fit_pivot(poses, all);
@@ -118,15 +119,23 @@ Coverage coverage(double correlated_poses, double white_share) {
 }
 
 TEST(TipUncertainty, CoversTheTruthWithAndWithoutCorrelation) {
-  // 300 draws: 2.7 % and 1.3 % SD; three of them, and the estimate of a correlation from 200 poses.
+  // 300 draws: 2.7 % and 1.3 % SD; three of them, and the estimate of a correlation from so few.
   constexpr double kWorst68 = 9.0;
   constexpr double kWorst95 = 5.0;
-  for (const auto& [correlated_poses, white_share] :
-       {std::pair{1.0, 1.0}, {3.0, 0.3}, {8.0, 0.0}, {8.0, 0.3}, {20.0, 0.3}, {20.0, 0.0}}) {
-    const Coverage percent = coverage(correlated_poses, white_share);
-    EXPECT_NEAR(percent.of_68, 68.0, kWorst68) << correlated_poses << " poses, " << white_share;
-    EXPECT_NEAR(percent.of_95, 95.0, kWorst95) << correlated_poses << " poses, " << white_share;
+  struct Case {
+    double correlated_poses;
+    double white_share;
+    int count = 200;
+    double turn_rad = 0.37;
+  };
+  for (const Case& c : {Case{1, 1}, Case{3, 0.3}, Case{8, 0}, Case{8, 0.3}, Case{20, 0.3},
+                        Case{20, 0.3, 200, 0.1}, Case{12, 0.0, 480, 0.06}}) {
+    const Coverage percent = coverage(c.correlated_poses, c.white_share, c.count, c.turn_rad);
+    EXPECT_NEAR(percent.of_68, 68.0, kWorst68) << c.correlated_poses << ' ' << c.turn_rad;
+    EXPECT_NEAR(percent.of_95, 95.0, kWorst95) << c.correlated_poses << ' ' << c.turn_rad;
   }
+  // A single turn, whose errors are correlated over an eighth of it, tells its own error less well.
+  EXPECT_GT(coverage(10.0, 0.05, 80, 0.08).of_95, 80.0);
 }
 
 TEST(TipUncertainty, TellsHowManyPosesAreIndependent) {
