@@ -10,12 +10,3 @@
 #else
 #define ORTHONAV_VECTORIZED
 #endif
-
-/// Goes before a function: it is compiled for AVX2 as well, and the machine decides at the start.
-/// Without fused multiply-add (-ffp-contract=off) the results are the same to the bit.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define ORTHONAV_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define ORTHONAV_WIDE
-#endif

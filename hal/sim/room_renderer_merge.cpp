@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 
-#include "base/vectorized.h"
 #include "hal/sim/room_renderer_layers.h"
 
 // How the layers of one moment become the foreground: nearest first, in blocks of a row.
@@ -147,8 +146,8 @@ void Layers::merge_pixel(int x, int y, float weight, Foreground& sum, const floa
 
 // Layers begin at multiples of four and are zero outside their spans, blocks begin at multiples of
 // sixteen: whole vectors can be added without checking the ends.
-ORTHONAV_WIDE void Layers::lay_block_under(const RowLayer& row, int y, int block, int from, int to,
-                                           float* left, Foreground& sum) {
+void Layers::lay_block_under(const RowLayer& row, int y, int block, int from, int to, float* left,
+                             Foreground& sum) {
   const int first = from - from % 4;
   const int vectors = (to - first + 3) / 4;
   const float* __restrict alpha = row.alpha + first;

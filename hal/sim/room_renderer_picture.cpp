@@ -1,5 +1,4 @@
 #include "hal/sim/room_renderer_picture.h"
-#include "base/vectorized.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,7 +108,7 @@ void PicturePainter::paint_coarse_ground(const GroundView& ground) {
   }
 }
 
-ORTHONAV_WIDE void PicturePainter::paint_ground(const GroundView& ground) {
+void PicturePainter::paint_ground(const GroundView& ground) {
   paint_coarse_ground(ground);
   const int columns = (width_ + 1) / 2;
   const int rows = (height_ + 1) / 2;
@@ -157,7 +156,7 @@ void PicturePainter::paint_bones(const PinholeLens& lens,
   }
 }
 
-ORTHONAV_WIDE void PicturePainter::encode_light(RgbaImage& image) const {
+void PicturePainter::encode_light(RgbaImage& image) const {
   for (std::size_t i = 0; i < light_.size(); ++i) {
     std::uint8_t* out = image.pixels.data() + 4 * i;
     for (std::size_t k = 0; k < 3; ++k) {

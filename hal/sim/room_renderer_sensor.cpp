@@ -1,5 +1,4 @@
 #include "hal/sim/room_renderer_sensor.h"
-#include "base/vectorized.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,8 +87,7 @@ float* Sensor::ring_row(int y) {
   return ring_.data() + static_cast<std::ptrdiff_t>(y % rows) * width_;
 }
 
-ORTHONAV_WIDE void Sensor::compose_row(const HalfImage& background, const Foreground& foreground,
-                                       int y) {
+void Sensor::compose_row(const HalfImage& background, const Foreground& foreground, int y) {
   const int j = std::min((y + 1) / 2, background.height - 1);
   const int i = std::max((y + 1) / 2 - 1, 0);
   const float lower = y % 2 == 0 ? 0.75F : 0.25F;  // weight of row j
@@ -117,7 +115,7 @@ ORTHONAV_WIDE void Sensor::compose_row(const HalfImage& background, const Foregr
   }
 }
 
-ORTHONAV_WIDE void Sensor::blur_along(int y, Span span) {
+void Sensor::blur_along(int y, Span span) {
   if (radius_ == 0 || span.low >= span.high) {
     return;
   }
@@ -141,7 +139,7 @@ ORTHONAV_WIDE void Sensor::blur_along(int y, Span span) {
   }
 }
 
-ORTHONAV_WIDE const float* Sensor::blur_across(int y, Span span) {
+const float* Sensor::blur_across(int y, Span span) {
   const float* centre = ring_row(y);
   if (radius_ == 0 || span.low >= span.high) {
     return centre;
@@ -195,8 +193,8 @@ void Sensor::draw_noise(int y, std::uint64_t noise_seed) {
   }
 }
 
-ORTHONAV_WIDE void Sensor::finish_row(const float* light_in, int y, std::uint64_t noise_seed,
-                                      std::uint8_t* out_bytes) {
+void Sensor::finish_row(const float* light_in, int y, std::uint64_t noise_seed,
+                        std::uint8_t* out_bytes) {
   const float dy = static_cast<float>(y) + 0.5F - 0.5F * static_cast<float>(height_);
   const float corner = 0.25F * static_cast<float>(width_ * width_ + height_ * height_);
   const float kept = 1.0F - vignetting_ * dy * dy / corner;

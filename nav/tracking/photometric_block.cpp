@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/vectorized.h"
 #include "nav/tracking/photometric_view.h"
 
 // The contribution of a block of pixels to a view's equations and to the judgement of the tag's
@@ -91,7 +90,7 @@ struct BlockModel {
 }  // namespace
 
 /// The model at every pixel, the residual, and the columns of the Jacobian (docs/tracking.md).
-ORTHONAV_WIDE void ViewModel::compare(const Photometry& light) {
+void ViewModel::compare(const Photometry& light) {
   const auto column = [this](int c) { return block_.data() + c * kBlock; };
   const float* __restrict grey = column(kGrey);
   const float* __restrict x = column(kBx);
@@ -133,7 +132,7 @@ ORTHONAV_WIDE void ViewModel::compare(const Photometry& light) {
 }
 
 /// Robust weights, allowing for noise and doubt.
-ORTHONAV_WIDE void ViewModel::weigh(const Photometry& light, double doubt_cells) {
+void ViewModel::weigh(const Photometry& light, double doubt_cells) {
   const auto column = [this](int c) { return block_.data() + c * kBlock; };
   const float* __restrict white = column(kT);
   const float* __restrict tx = column(kTx);
@@ -163,7 +162,7 @@ ORTHONAV_WIDE void ViewModel::weigh(const Photometry& light, double doubt_cells)
   }
 }
 
-ORTHONAV_WIDE void ViewModel::sum_up(ViewEquations& out) const {
+void ViewModel::sum_up(ViewEquations& out) const {
   const float* weight = block_.data() + kWeight * kBlock;
   const float* j = block_.data() + kFirst * kBlock;
   std::array<float, kBlock> weighted;

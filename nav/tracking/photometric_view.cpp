@@ -42,9 +42,8 @@ enum RowColumn {
   kRowColumns = kDown + kAxisColumns
 };
 /// Fills the columns of one axis.
-ORTHONAV_WIDE void along(const float* __restrict place, const float* __restrict scale, int n,
-                         float half, float inverse_blur, float tails, float* __restrict out,
-                         std::ptrdiff_t stride) {
+void along(const float* __restrict place, const float* __restrict scale, int n, float half,
+           float inverse_blur, float tails, float* __restrict out, std::ptrdiff_t stride) {
   float* __restrict column[kAxisColumns];
   for (int c = 0; c < kAxisColumns; ++c) {
     column[c] = out + c * stride;
@@ -166,7 +165,7 @@ bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const Ca
   return x1_ > x0_ && y1_ > y0_;
 }
 
-ORTHONAV_WIDE void ViewModel::spread(const RayTable& rays, int y, const Photometry& light) {
+void ViewModel::spread(const RayTable& rays, int y, const Photometry& light) {
   const int n = x1_ - x0_;
   const std::ptrdiff_t stride = n;
   if (row_.size() < static_cast<std::size_t>((kRowColumns + 1) * n)) {
