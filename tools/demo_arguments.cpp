@@ -7,7 +7,7 @@ namespace orthonav::tools {
 namespace {
 
 /// Every n-th displayed frame becomes a picture while a screw is guided, a third of them otherwise:
-/// ten minutes make a film of half a minute, a third of it guiding.
+/// ten minutes make a film of half a minute, at least a third of it guiding.
 constexpr int kDrawEvery = 15;
 constexpr int kUnguidedEvery = 3;
 
