@@ -59,6 +59,7 @@ Result<std::vector<Seen>> detect_all(const DetectArguments& arguments) {
   options.max_hamming = arguments.max_hamming.value_or(default_hamming(arguments.families));
   options.min_decision_margin = arguments.min_decision_margin;
   options.decimate = arguments.decimate;
+  options.touched = true;
   options.refinement = refinements().at(arguments.refine);
   auto detector = nav::MarkerDetector::create(options);
   if (!detector) {

@@ -39,6 +39,7 @@ Result<SightingCollector> SightingCollector::create(const StereoCalibration& cal
   DetectorOptions options;
   options.families = families_of(tags);
   options.refinement = Refinement::kEdges;
+  options.touched = true;
   auto detector = MarkerDetector::create(options);
   if (!detector) {
     return detector.error();

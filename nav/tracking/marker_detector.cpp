@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "nav/tracking/corner_refinement.h"
 #include "nav/tracking/detector_check.h"
 #include "nav/tracking/tag_families.h"
-#include "nav/tracking/wide_border.h"
+#include "nav/tracking/tag_reading.h"
+
+// Finds the outlines that `apriltag_detector_detect` decodes; exported by the library, but not in
+// its header.
+extern "C" zarray_t* apriltag_quad_thresh(apriltag_detector_t* detector, image_u8_t* image);
 
 namespace orthonav::nav {
 namespace {
@@ -18,9 +23,10 @@ namespace {
 constexpr int kTilePx = 4;
 // In a smaller image the library reads before the start of its tiles; no tag is that small.
 constexpr int kSmallestPx = 4 * kTilePx;
-// The wider window separates tags that are more blurred, the narrower one keeps smaller cells
-// readable and runs last, so that its corners replace those of a tag that both find.
+// The wider window separates tags that are more blurred, the narrower one keeps smaller tags.
 constexpr std::array<int, 2> kThinningWindowsPx = {3, 2};
+// A thinned outline may be off by nearly the search range.
+constexpr int kRefinementsOfThinned = 3;
 // With two corrected bits the look-up table grows with the square of the code's length: with more
 // codes than this it would take gigabytes.
 constexpr std::uint32_t kMostCodesWithTwoBits = 10000;
@@ -49,9 +55,8 @@ struct MarkerDetector::Library {
   int max_hamming = 0;
   double min_decision_margin = 0.0;
   int step_px = kTilePx;
-  bool refine_edges = false;
-  /// Looks for tags with wide borders in the thinned image; absent if none are requested.
-  std::unique_ptr<Library> wide;
+  Refinement refinement = Refinement::kLibrary;
+  bool touched = false;
   GreyImage thinned;
 
   Library() = default;
@@ -71,7 +76,8 @@ struct MarkerDetector::Library {
     detector->nthreads = options.threads;
     detector->quad_decimate = static_cast<float>(options.decimate);
     detector->refine_edges = options.refinement == Refinement::kLibrary;
-    refine_edges = options.refinement == Refinement::kEdges;
+    refinement = options.refinement;
+    touched = options.touched;
     max_hamming = options.max_hamming;
     min_decision_margin = options.min_decision_margin;
     // 1.5 maps 3 pixels to 2: 12 pixels are the fewest that make whole tiles.
@@ -101,6 +107,13 @@ struct MarkerDetector::Library {
     return {};
   }
 
+  static std::string_view name_of(const TagFamily& family) {
+    return known_families()[family.get_deleter().index];
+  }
+  [[nodiscard]] bool may_be_touched(const TagFamily& family) const {
+    return name_of(family) == kWideFamily || (touched && !family->reversed_border);
+  }
+
   void append(const apriltag_detection_t& seen, Vec2 offset_px,
               std::vector<MarkerCorners>& found) const {
     if (seen.hamming > max_hamming || seen.decision_margin < min_decision_margin) {
@@ -109,7 +122,7 @@ struct MarkerDetector::Library {
     MarkerCorners marker;
     for (const TagFamily& family : families) {
       if (family.get() == seen.family) {
-        marker.family = known_families()[family.get_deleter().index];
+        marker.family = name_of(family);
       }
     }
     marker.id = seen.id;
@@ -147,6 +160,23 @@ struct MarkerDetector::Library {
     apriltag_detections_destroy(seen);
     return {};
   }
+
+  /// Appends the tags that `families` have in this outline.
+  void read(const GreyImage& image, const std::array<Vec2, 4>& corners_px, bool only_touched,
+            std::vector<MarkerCorners>& found) const {
+    for (const TagFamily& family : families) {
+      if (!may_be_touched(family)) {
+        continue;
+      }
+      bool is_touched = false;
+      std::optional<MarkerCorners> tag =
+          read_tag(image, corners_px, *family, max_hamming, is_touched);
+      if (tag && (is_touched || !only_touched) && tag->decision_margin >= min_decision_margin) {
+        tag->family = name_of(family);
+        found.push_back(*tag);
+      }
+    }
+  }
 };
 
 MarkerDetector::MarkerDetector(std::unique_ptr<Library> library) : library_(std::move(library)) {}
@@ -161,15 +191,6 @@ Result<MarkerDetector> MarkerDetector::create(const DetectorOptions& options) {
   auto library = std::make_unique<Library>();
   if (Status status = library->set_up(options); !status) {
     return status.error();
-  }
-  const auto& families = options.families;
-  if (std::find(families.begin(), families.end(), kWideFamily) != families.end()) {
-    DetectorOptions wide = options;
-    wide.families = {std::string(kWideFamily)};
-    library->wide = std::make_unique<Library>();
-    if (Status status = library->wide->set_up(wide); !status) {
-      return status.error();
-    }
   }
   return MarkerDetector(std::move(library));
 }
@@ -196,43 +217,65 @@ Status MarkerDetector::detect(const GreyImage& image, const PixelBox& box,
   if (Status status = library_->detect(image, crop, offset_px, found); !status) {
     return status;
   }
-  if (library_->refine_edges) {
+  if (library_->refinement == Refinement::kEdges) {
     for (MarkerCorners& marker : found) {
       marker.corners_px = refined_corners(image, marker.corners_px);
     }
   }
-  if (library_->wide) {
-    look_for_wide_borders(image, crop, found);
+  const auto& families = library_->families;
+  if (std::any_of(families.begin(), families.end(),
+                  [this](const TagFamily& family) { return library_->may_be_touched(family); })) {
+    look_for_touched(image, crop, found);
   }
   std::sort(found.begin(), found.end(), comes_before);
   return {};
 }
 
-void MarkerDetector::look_for_wide_borders(const GreyImage& image, const PixelBox& crop,
-                                           std::vector<MarkerCorners>& found) {
+void MarkerDetector::look_for_touched(const GreyImage& image, const PixelBox& crop,
+                                      std::vector<MarkerCorners>& found) {
+  Library& library = *library_;
+  // A plain tag can decode as one with a wide border.
   std::erase_if(found, [&](const MarkerCorners& marker) {
-    return marker.family == kWideFamily && !has_wide_border(image, marker.corners_px);
+    if (marker.family != kWideFamily) {
+      return false;
+    }
+    std::vector<MarkerCorners> read;
+    library.read(image, marker.corners_px, false, read);
+    return std::none_of(read.begin(), read.end(),
+                        [&](const MarkerCorners& other) { return same_tag(marker, other); });
   });
-  Library& wide = *library_->wide;
-  const PixelBox all{0, 0, crop.width_px, crop.height_px};
   std::vector<MarkerCorners> more;
   for (const int window_px : kThinningWindowsPx) {
-    thin(image, crop, window_px, wide.thinned);
+    thin(image, crop, window_px, library.thinned);
     const Vec2 offset_px = thinned_offset(window_px) +
                            Vec2{static_cast<double>(crop.x_px), static_cast<double>(crop.y_px)};
-    more.clear();
-    if (!wide.detect(wide.thinned, all, offset_px, more)) {
-      return;
-    }
-    for (MarkerCorners& marker : more) {
-      // Twice, since the thinned outline may be off by nearly the search range.
-      marker.corners_px = refined_corners(image, refined_corners(image, marker.corners_px));
-      if (!has_wide_border(image, marker.corners_px)) {
-        continue;
+    image_u8_t view = {crop.width_px, crop.height_px, crop.width_px, library.thinned.pixels.data()};
+    zarray_t* quads = apriltag_quad_thresh(library.detector, &view);
+    for (int i = 0; quads && i < zarray_size(quads); ++i) {
+      quad outline{};
+      zarray_get(quads, i, &outline);
+      std::array<Vec2, 4> corners_px;
+      for (std::size_t k = 0; k < 4; ++k) {
+        corners_px[k] = Vec2{outline.p[k][0], outline.p[k][1]} + offset_px;
       }
-      // If squares touch the tag, the outline found in the image itself is worse.
-      std::erase_if(found, [&](const MarkerCorners& other) { return same_tag(marker, other); });
+      for (int round = 0; round < kRefinementsOfThinned; ++round) {
+        corners_px = refined_corners(image, corners_px);
+      }
+      library.read(image, corners_px, true, more);
+    }
+    if (quads) {
+      zarray_destroy(quads);
+    }
+  }
+  for (const MarkerCorners& marker : more) {
+    const auto other = std::find_if(found.begin(), found.end(), [&](const MarkerCorners& each) {
+      return same_tag(marker, each);
+    });
+    if (other == found.end()) {
       found.push_back(marker);
+    } else if (library.refinement == Refinement::kEdges) {
+      // If squares touch the tag, the outline found in the image itself is worse.
+      *other = marker;
     }
   }
 }

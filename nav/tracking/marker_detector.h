@@ -40,12 +40,16 @@ struct DetectorOptions {
   double min_decision_margin = 25.0;
   int threads = 1;
   Refinement refinement = Refinement::kLibrary;
+  /// Tags whose corners black squares touch, as on calibration boards, are looked for as well, in
+  /// two thinned images of full resolution (three times the work). Of tag36h11b2 they always are;
+  /// of families with a white border, which squares do not touch, never. Corners of a tag that only
+  /// thinning shows are those of `kEdges` whatever the refinement.
+  bool touched = false;
 };
 
 /// Names of the tag families that can be detected. tag36h11b2 has the codes of tag36h11 inside a
 /// black border two cells wide, as Kalibr prints its AprilGrid; its size is measured at the outer
-/// edge of that border, ten cells. Its tags are also searched for in two thinned images (three
-/// times the work), and corners found there are always refined by `refined_corners`.
+/// edge of that border, ten cells.
 [[nodiscard]] std::span<const std::string_view> known_families();
 /// How many ids a family has; 0 for an unknown one.
 [[nodiscard]] int family_size(std::string_view family);
@@ -84,8 +88,8 @@ class MarkerDetector {
  private:
   struct Library;
   explicit MarkerDetector(std::unique_ptr<Library> library);
-  void look_for_wide_borders(const GreyImage& image, const PixelBox& crop,
-                             std::vector<MarkerCorners>& found);
+  void look_for_touched(const GreyImage& image, const PixelBox& crop,
+                        std::vector<MarkerCorners>& found);
   std::unique_ptr<Library> library_;
 };
 

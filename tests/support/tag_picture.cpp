@@ -101,12 +101,12 @@ TagPicture tag_picture(const std::string& family, int id) {
   return picture;
 }
 
-GreyImage april_grid_picture(int columns, int rows, double cell_px, double spacing) {
+GreyImage april_grid_picture(int columns, int rows, double edge_px, double spacing,
+                             const std::string& family) {
   std::vector<TagPicture> tags;
   for (int id = 0; id < columns * rows; ++id) {
-    tags.push_back(tag_picture("tag36h11b2", id));
+    tags.push_back(tag_picture(family, id));
   }
-  const double edge_px = 10 * cell_px;
   const double pitch_px = (1 + spacing) * edge_px;
   const auto grey = [&](Vec2 p) {
     const int column = static_cast<int>(std::floor((p.x - spacing * edge_px) / pitch_px));

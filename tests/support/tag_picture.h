@@ -43,9 +43,10 @@ inline Vec2 place_of(int x, int y, int ray, int rays_a_side) {
 GreyImage flat_picture(const std::string& family, int id, int width_px, int height_px, Vec2 corner,
                        double cell_px);
 
-/// Kalibr's AprilGrid on white: tags of ids 0, 1, ... with a black border two cells wide, and small
-/// black squares between them that touch their corners. The first tag's outer edge begins at
-/// (10 cell_px · spacing) from the left and the top; the next is (1 + spacing) edges farther.
-GreyImage april_grid_picture(int columns, int rows, double cell_px, double spacing);
+/// A board on white: tags of ids 0, 1, ..., and small black squares between them that touch their
+/// corners; of tag36h11b2, Kalibr's AprilGrid. The first tag's outer edge begins at (edge ·
+/// spacing) from the left and the top; the next is (1 + spacing) edges farther.
+GreyImage april_grid_picture(int columns, int rows, double edge_px, double spacing,
+                             const std::string& family = "tag36h11b2");
 
 }  // namespace orthonav::test

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <sstream>
@@ -116,6 +118,65 @@ TEST(DetectCommand, FindsEveryTagOfThePhotographs) {
   }
   // The truth has one more tag than the list, and it is found.
   expect_as_listed(folder, 1);
+}
+
+/// Tags found in all images of a folder of shared/real, by these options; none of an id that its
+/// board does not have.
+std::size_t tags_on(const std::string& folder, int ids, std::vector<std::string> options) {
+  std::vector<std::string> arguments;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    if (file.path().extension() == ".png" || file.path().extension() == ".jpg") {
+      arguments.push_back(file.path());
+    }
+  }
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  std::size_t tags = 0;
+  const nlohmann::json json = detected(arguments);
+  for (const auto& image : json["images"]) {
+    for (const int id : ids_of(image)) {
+      EXPECT_LT(id, ids) << image["image"];
+    }
+    tags += image["markers"].size();
+  }
+  return tags;
+}
+
+TEST(DetectCommand, FindsTheTagsOfBoardsWithBlackSquares) {
+  const std::string moms = shared("real/moms-apriltag-stereo");
+  const std::string lin = shared("real/powei-lin-aprilgrid-rs");
+  if (moms.empty() || lin.empty()) {
+    GTEST_SKIP() << "needs shared/real/moms-apriltag-stereo and powei-lin-aprilgrid-rs";
+  }
+  // Of 920, those outside the images included.
+  EXPECT_GE(tags_on(moms, 20, {"--family", "tag36h10"}), 885u);
+  EXPECT_EQ(tags_on(lin, 36, {"--family", "tag36h11b2"}), 5u * 36u);
+}
+
+TEST(DetectCommand, RefinesTagsThatBlackSquaresTouch) {
+  const std::string folder = shared("real/powei-lin-aprilgrid-rs");
+  if (folder.empty()) {
+    GTEST_SKIP() << "needs shared/real/powei-lin-aprilgrid-rs";
+  }
+  const auto corners = [&](const char* refinement) {
+    const auto json =
+        detected({folder + "/EuRoC.png", "--family", "tag36h11b2", "--refine", refinement});
+    std::map<int, std::vector<std::array<double, 2>>> all;
+    for (const auto& marker : json["images"][0]["markers"]) {
+      all[marker["id"]] = marker["corners_px"];
+    }
+    return all;
+  };
+  const auto none = corners("none");
+  const auto edges = corners("edges");
+  ASSERT_EQ(none.size(), edges.size());
+  double moved_px = 0.0;
+  for (const auto& [id, refined] : edges) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      moved_px += std::hypot(refined[i][0] - none.at(id)[i][0], refined[i][1] - none.at(id)[i][1]) /
+                  static_cast<double>(4 * edges.size());
+    }
+  }
+  EXPECT_GT(moved_px, 0.1);
 }
 
 TEST(DetectCommand, FindsEveryTagOfTheMeasuredSeries) {
