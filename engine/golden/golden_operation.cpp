@@ -42,6 +42,9 @@ StagedOperation::StagedOperation(Step step) : levels_(1), tools_(2) {
   level.accepted = step >= Step::kAccepted;
   level.screw_done = {false, true};
   tools_[0] = {"guide", nav::ToolRole::kGuide, PoseStatus::kMeasured, {}};
+  if (step == Step::kDigitize || step == Step::kVerify) {
+    tools_[0] = {"pointer", nav::ToolRole::kPointer, PoseStatus::kMeasured, {}};
+  }
   tools_[1] = {"reference", nav::ToolRole::kReference, PoseStatus::kMeasured, {}};
   const bool of_level = step != Step::kSetup && step != Step::kDone;
   const bool of_side = step == Step::kGuide || step == Step::kPlaced;

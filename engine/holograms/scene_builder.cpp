@@ -11,6 +11,7 @@
 #include "engine/holograms/next_act.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
+#include "engine/session/tool_steps.h"
 #include "nav/published/stroke_pattern.h"
 
 namespace orthonav::engine {
@@ -356,6 +357,10 @@ void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
 void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
   dots_.clear();
   for (const ToolSight& tool : guidance.tools) {
+    // A red dot for a tool that nobody needs now would be a false alarm.
+    if (guidance.step != Step::kSetup && !used_in(tool.role, guidance.step)) {
+      continue;
+    }
     const ToolState state = tool.status == PoseStatus::kMeasured    ? ToolState::kMeasured
                             : tool.status == PoseStatus::kPredicted ? ToolState::kPredicted
                                                                     : ToolState::kLost;

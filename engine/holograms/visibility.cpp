@@ -184,7 +184,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   if (g.step != Step::kRod) {
     decide_entries(g, out);
   }
-  out.entry_labels = g.step != Step::kPlaced;  // there the status line says which screw it is
+  out.entry_labels = g.step == Step::kAccepted || g.step == Step::kDone;
   if (const auto* strokes = std::get_if<StrokesSoFar>(&g.status.state);
       strokes != nullptr && strokes->coaching != nullptr && !strokes->coaching->enough) {
     out.stroke_next = strokes->coaching->stroke_at;

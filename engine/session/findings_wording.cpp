@@ -170,8 +170,7 @@ void append(std::string& out, const nav::CheckAdvice& advice) {
       out.append(": ").append(translated(kRejectAndDigitize));
       break;
     case nav::CheckAdvice::Kind::kTouchMore:
-      out.append(translated("touch 1 more place")).append(": ");
-      append_beside_limit(out, translated(k99Percent), advice.value_m * 1e3, advice.limit_m * 1e3);
+      out += translated("touch 1 more place");
       break;
     case nav::CheckAdvice::Kind::kUncertain:
       append_beside_limit(out, translated(k99Percent), advice.value_m * 1e3, advice.limit_m * 1e3);
@@ -195,10 +194,6 @@ void write_coaching(PartedText text, const Coaching& coaching, std::string_view 
     text.begin(Importance::kNext, separator);
     out += coaching.then_touch ? translated("double click, then touch the bone")
                                : translated("enough: double click");
-    if (coaching.then_touch && coaching.stroke_next) {
-      text.begin(Importance::kMore, ", ");
-      append_part(out, translated("or first scrape the %s"), *coaching.stroke_next);
-    }
   } else if (coaching.against) {
     text.begin(Importance::kMessage, separator);
     append(out, *coaching.against);

@@ -129,10 +129,6 @@ struct MessageWriter {
     } else {
       append(out, reasons.first(std::min<std::size_t>(1, reasons.size())));
     }
-    for (std::size_t i = 1; !m.error && i < reasons.size(); ++i) {
-      text.begin(Importance::kMore, "; ");
-      append(out, reasons[i]);
-    }
     if (m.another_level_fits) {
       text.begin(Importance::kNext, "; ");
       out += translated("verify the vertebral level");

@@ -199,7 +199,8 @@ void append_heard(std::string& out, const HeardCommand& heard) {
 void append_beside_step(std::string& out, const StatusLine& line, StatusParts* parts) {
   const std::size_t begin = out.size();
   append_detail(out, line, parts);
-  if (line.heard) {
+  const bool answered = line.heard && line.heard->sure && line.saved == Saved::kSaved;
+  if (line.heard && !answered) {
     PartedText{out, parts}.begin(Importance::kHeard, out.size() > begin ? kBetweenParts : "");
     append_heard(out, *line.heard);
   }

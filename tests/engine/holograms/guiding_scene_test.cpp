@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -28,6 +29,25 @@ class Guiding : public ::testing::Test {
   }
   ScriptedOperation s;
 };
+
+/// The dots of the status line for lost tools.
+std::size_t lost_dots(const Guidance& g) {
+  SceneBuilder builder;
+  builder.update(g);
+  render::Scene scene;
+  builder.write_scene(g, scene);
+  return static_cast<std::size_t>(
+      std::count_if(scene.texts.begin(), scene.texts.end(), [](const render::TextItem& text) {
+        return kind_of(text.label) == kStatus && !text.runs.empty() && text.runs[0].text == "○";
+      }));
+}
+
+TEST_F(Guiding, HasNoDotOfALostToolThatNobodyNeedsInThisStep) {
+  s.tracker().pointer.reset();
+  EXPECT_EQ(lost_dots(s.pairs(30)), 0u);
+  s.tracker().guide.reset();
+  EXPECT_EQ(lost_dots(s.pairs(30)), 1u) << "the guide's";
+}
 
 TEST_F(Guiding, ShowsPlanTriangleAndAngle) {
   const Guidance& g = s.pair();

@@ -29,10 +29,6 @@ TEST(Coaching, SendsWhoStrokesOverTissueToTheBone) {
   r.provisional = true;
   EXPECT_FALSE(coaching_from(r).enough) << "more strokes would help";
   r.reasons.push_back({nav::RefusalReason::Kind::kSoftTissue, 0.001, 0.0003});
-  EXPECT_EQ(text_of(coaching_from(r)),
-            "◆◆◆◆◆ double click, then touch the bone, or "
-            "first scrape the left lamina");
-  r.stroke_next.reset();
   EXPECT_EQ(text_of(coaching_from(r)), "◆◆◆◆◆ double click, then touch the bone");
 }
 

@@ -54,12 +54,12 @@ TEST(Wording, SaysWhichPartsGiveWayFirst) {
   StatusParts parts;
   append_beside_step(text, line, &parts);
   using enum Importance;
-  constexpr std::array<Importance, 5> kExpected = {kDanger, kMessage, kMore, kNext, kHeard};
+  constexpr std::array<Importance, 4> kExpected = {kDanger, kMessage, kNext, kHeard};
   ASSERT_EQ(parts.count, kExpected.size());
   for (std::size_t i = 0; i < kExpected.size(); ++i) {
     EXPECT_EQ(parts.parts[i].importance, kExpected[i]) << i;
   }
-  EXPECT_EQ(text.substr(parts.parts[3].begin), "; digitize the left lamina | heard: next");
+  EXPECT_EQ(text.substr(parts.parts[2].begin), "; digitize the left lamina | heard: next");
   std::string plain;
   append_beside_step(plain, line);
   EXPECT_EQ(plain, text) << "asking for the parts changes no word";
