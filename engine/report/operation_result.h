@@ -25,7 +25,7 @@ struct GuidedError {
   /// `across_m` in displayed SDs of the two offsets: 68 % should lie within 1.51, 95 % within 2.45.
   /// Absent: no SD was shown.
   std::optional<double> across_sds = {};
-  bool sure = false;  ///< both offsets were shown as sure, not greyed
+  bool sure = false;  ///< both offsets were shown as sure
 };
 
 struct ScrewOutcome {

@@ -7,7 +7,7 @@ namespace orthonav::engine {
 
 /// Over a study's runs: the guide's display error when wires pierced the bone; screws guided more
 /// than `kSilent_mm` off, across the plan, without a warning (ScrewOutcome::warned) and without
-/// offsets greyed as unsure; and breaches of the cortex without a warning.
+/// offsets shown as unsure; and breaches of the cortex without a warning.
 struct GuidedQuality {
   static constexpr double kSilent_mm = 2.0;
 
@@ -17,7 +17,7 @@ struct GuidedQuality {
   std::vector<double> across_sds;  ///< of those shown with SDs
   int silent = 0;
   int unwarned = 0;  ///< as far off and without a warning, regardless of how the offsets were shown
-  int unsure = 0;    ///< shown with an offset greyed
+  int unsure = 0;    ///< shown with an offset that is not sure
   int executed = 0;
   int breaches = 0;
   int unwarned_breaches = 0;
