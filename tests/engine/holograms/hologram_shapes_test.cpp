@@ -51,6 +51,33 @@ TEST(DeviationTriangle, IsDashedOnlyWhenPoorSoThatColourIsNotAlone) {
   }
 }
 
+TEST(AngleReadout, KeepsItsWidthWhateverItSays) {
+  const render::Font font;
+  const auto width_of = [&](const std::string& text) {
+    render::Scene scene;
+    add_angle_readout(scene, {0, 0, 0}, {0, 0.08f, 0}, text, Grade::kGood, 601);
+    return render::line_width(font, scene.texts.at(0));
+  };
+  const float width = width_of("12.4°");
+  EXPECT_FLOAT_EQ(width_of("9.5°"), width) << "a blank holds the place";
+  EXPECT_FLOAT_EQ(width_of("--.-°"), width);
+}
+
+TEST(AngleReadout, StandsClearOfTheEntryEvenSeenAlongTheTool) {
+  const Float3 a = {0, 0, 0};
+  const Float3 b = {0, 0.08f, 0};
+  render::Scene scene;
+  add_angle_readout(scene, a, b, "12.4°", Grade::kFair, 601);
+  const render::TextItem& text = scene.texts.at(0);
+  const render::View view = render::look_at({0, 0.5f, 0}, a, {0, 0, -1}, 0.394f, 0.2561f);
+  const auto left = render::project(view, text.position, 1268, 824);
+  const auto entry = render::project(view, a, 1268, 824);
+  ASSERT_TRUE(left && entry);
+  const float cap_px = 0.0140f * 1268 / 0.788f;  // 0.8 degrees
+  EXPECT_GT(left->x_px + text.offset_right * cap_px - entry->x_px, 10);
+  EXPECT_GE(text.min_height_deg, 0.8f);
+}
+
 TEST(PlannedTrajectory, StandsSixtyMillimetresOut) {
   const Float3 entry = {0.01f, 0.02f, 0.03f};
   const Float3 target = {0.01f, -0.02f, 0.03f};
