@@ -1,13 +1,16 @@
 #include "tools/calibration_argument.h"
 
+#include "engine/live/camera_files.h"
 #include "tools/arguments.h"
 
 namespace orthonav::tools {
 
 void CalibrationArgument::add_to(CLI::App& command) {
   command
-      .add_option("--calibration", file_,
-                  "cameras as orthonav calibrate stereo found them (default: as the device says)")
+      .add_option(
+          "--calibration", file_,
+          "cameras as orthonav calibrate stereo, Kalibr, OpenCV or ROS (LEFT,RIGHT) found them "
+          "(default: as the device says)")
       ->check(some_text())
       ->type_name("FILE");
 }
@@ -17,7 +20,7 @@ Result<Headset*> CalibrationArgument::on(Headset& headset, const std::string& ri
   if (path.empty()) {
     return &headset;
   }
-  const auto file = engine::load_calibration(path);
+  const auto file = engine::load_cameras(path);
   if (!file) {
     return file.error();
   }
