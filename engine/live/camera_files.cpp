@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 1u << 20u;
 constexpr int kLargestSide_px = 16384;
+constexpr int kMostPixels = 64'000'000;
 // Numbers rounded to four digits still count as rigid.
 constexpr double kMaxShear = 1e-3;
 // Two eyes are not farther apart: a larger translation is not in metres.
@@ -114,34 +116,37 @@ CameraModel model_of(const Lens& lens, const std::string& which) {
     refuse(which, "must have positive focal lengths");
   }
   const cv::Mat camera = (cv::Mat_<double>(3, 3) << fx, 0, cx, 0, fy, cy, 0, 0, 1);
-  std::vector<cv::Point2d> pixels;
+  if (lens.width_px > kMostPixels / lens.height_px) {
+    refuse(which, "has more than 64 million pixels");
+  }
+  const cv::TermCriteria exact(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-10);
+  const cv::Vec3d none(0, 0, 0);
+  std::vector<Vec2> lookup;
   for (int y = 0; y < lens.height_px; ++y) {
+    std::vector<cv::Point2d> pixels;
     for (int x = 0; x < lens.width_px; ++x) {
       pixels.emplace_back(x, y);
     }
-  }
-  std::vector<cv::Point2d> plane;
-  std::vector<cv::Point2d> back;
-  const cv::TermCriteria exact(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-10);
-  const cv::Vec3d none(0, 0, 0);
-  if (lens.fisheye) {
-    cv::fisheye::undistortPoints(pixels, plane, camera, lens.coefficients, cv::noArray(),
-                                 cv::noArray(), exact);
-    cv::fisheye::distortPoints(plane, back, camera, lens.coefficients);
-  } else {
-    cv::undistortPoints(pixels, plane, camera, lens.coefficients, cv::noArray(), cv::noArray(),
-                        exact);
-    std::vector<cv::Point3d> rays;
-    for (const cv::Point2d& p : plane) {
-      rays.emplace_back(p.x, p.y, 1);
+    std::vector<cv::Point2d> plane;
+    std::vector<cv::Point2d> back;
+    if (lens.fisheye) {
+      cv::fisheye::undistortPoints(pixels, plane, camera, lens.coefficients, cv::noArray(),
+                                   cv::noArray(), exact);
+      cv::fisheye::distortPoints(plane, back, camera, lens.coefficients);
+    } else {
+      cv::undistortPoints(pixels, plane, camera, lens.coefficients, cv::noArray(), cv::noArray(),
+                          exact);
+      std::vector<cv::Point3d> rays;
+      for (const cv::Point2d& p : plane) {
+        rays.emplace_back(p.x, p.y, 1);
+      }
+      cv::projectPoints(rays, none, none, camera, lens.coefficients, back);
     }
-    cv::projectPoints(rays, none, none, camera, lens.coefficients, back);
-  }
-  std::vector<Vec2> lookup;
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const bool same = cv::norm(back[i] - pixels[i]) < kWayBackPx;
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    lookup.push_back(same ? Vec2{plane[i].x, plane[i].y} : Vec2{kNone, kNone});
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const bool same = cv::norm(back[i] - pixels[i]) < kWayBackPx;
+      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+      lookup.push_back(same ? Vec2{plane[i].x, plane[i].y} : Vec2{kNone, kNone});
+    }
   }
   auto model = CameraModel::from_lookup(lens.width_px, lens.height_px, std::move(lookup));
   if (!model) {
@@ -318,8 +323,11 @@ Result<CalibrationFile> load_cameras(const std::string& path) {
                            cameras.right_from_left};
   } catch (const Refused& refused) {
     return Error{path + ": " + refused.message};
-  } catch (const cv::Exception& damaged) {
-    return Error{path + ": can't be read as YAML or XML: " + damaged.err};
+  } catch (const std::exception& damaged) {
+    // Some of its parser's are the standard library's.
+    const auto* of_opencv = dynamic_cast<const cv::Exception*>(&damaged);
+    return Error{path + ": can't be read as YAML or XML: " +
+                 (of_opencv ? of_opencv->err : std::string(damaged.what()))};
   }
 }
 
