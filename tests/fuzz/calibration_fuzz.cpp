@@ -1,14 +1,15 @@
 #include <cmath>
 
-#include "engine/live/calibrated_headset.h"
+#include "engine/live/camera_files.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {
 
-/// Files of `calibrate stereo`: an accepted one has finite lenses and a rigid pose.
+/// Files of `calibrate stereo` and of other calibrators: an accepted one has finite lenses and a
+/// rigid pose.
 void fuzz_calibration(std::span<const std::uint8_t> input) {
   const InputFile file(input);
-  const auto calibration = engine::load_calibration(file.path());
+  const auto calibration = engine::load_cameras(file.path());
   if (!calibration) {
     insist_one_line(calibration.error());
     return;
