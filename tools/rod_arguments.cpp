@@ -29,9 +29,7 @@ Result<std::vector<Vec3>> load_heads_m(const RodHeadArguments& arguments) {
   for (const Vec3& p : file->points) {
     heads_m.push_back(unit_m * p);
   }
-  const Status scale = engine::check_scale(heads_m, file->metres_per_unit.has_value());
-  return scale ? Result<std::vector<Vec3>>(heads_m)
-               : Error{arguments.heads + ": " + scale.error().message};
+  return heads_m;
 }
 
 Result<Vec3> direction_from(const std::string& text) {
@@ -80,7 +78,9 @@ Result<nav::RodTemplate> RodHeadArguments::rod() const {
   }
   auto rod = nav::rod_template(*heads_m, diameter_mm * 1e-3);
   if (!rod) {
-    return Error{heads + ": " + rod.error().message};
+    const Status scale = engine::check_scale(*heads_m, true);
+    return Error{heads + ": " + rod.error().message +
+                 (scale ? "" : ": is their unit another one (--units)?")};
   }
   return rod;
 }

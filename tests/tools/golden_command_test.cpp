@@ -18,7 +18,7 @@ TEST(GoldenCommand, ListsTheScenes) {
   const Called called = orthonav({"golden", "list"});
   EXPECT_EQ(called.code, 0) << called.err;
   for (const char* scene :
-       {"h1_", "h2_", "h3_", "h4_", "h5_red", "h6_lost", "h10_", "h11_", "guidance"}) {
+       {"h1_", "h2_", "h3_", "h4_", "h5_red", "h6_angle", "h10_", "h11_", "guidance"}) {
     EXPECT_THAT(called.out, HasSubstr(scene));
   }
 }

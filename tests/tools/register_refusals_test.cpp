@@ -51,7 +51,7 @@ TEST_P(RegisterCommand, RefusesBadInputInOneLineAndWritesNothing) {
       {model_, folder_.file("none.csv"), "none.csv"},
       {model_, folder_.with("few.csv", few), "99 points, needs at least 100"},
       {model_, folder_.with("nan.csv", "x,y,z\n1,nan,2\n"), "nan.csv"},
-      {model_, metres, "in one place"},
+      {model_, metres, "are they in metres? State it with --units m"},
   };
   const std::string out = folder_.file("out.json");
   const std::vector<std::string> before = folder_.names();

@@ -99,7 +99,7 @@ class UnknownRegistration : public PlacedSession {
 
 TEST_F(UnknownRegistration, WithoutASdNothingIsMeasured) {
   EXPECT_EQ(touch_refusal(measures(0.0, 0.0)).kind, Kind::kEntryUnsure);
-  EXPECT_THAT(detail_text(s.pair().status), HasSubstr("not known"));
+  EXPECT_THAT(detail_text(s.pair().status), HasSubstr("uncertainty unknown"));
   EXPECT_EQ(step_of(s.says("next")), "accepted L4");
 }
 

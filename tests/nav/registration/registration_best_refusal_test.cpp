@@ -71,7 +71,7 @@ TEST_F(RegisterBest, NamesTheLevelThatWasStrokedInstead) {
     EXPECT_FALSE(r->accepted) << stroked << " on " << asked;
     EXPECT_EQ(r->fits_better, stroked);
     EXPECT_THAT(kinds_of(*r), Contains(RefusalReason::Kind::kFitsOtherLevel));
-    EXPECT_EQ(r->reasons.back().level, stroked);
+    EXPECT_EQ(r->reasons.front().level, stroked);
   }
 }
 
