@@ -61,8 +61,7 @@ void print_refusal(const nav::Registration& r, const std::string& transform) {
     std::fprintf(stderr, "orthonav: %s: not written, since the registration is refused\n",
                  transform.c_str());
   }
-  if (!r.accepted && r.stroke_next &&
-      (r.fits_better.empty() || r.fits_better == nav::kSeveralLevels)) {
+  if (!r.accepted && r.stroke_next) {
     std::fprintf(stderr, "orthonav: to improve: %s\n", engine::text_of(*r.stroke_next).c_str());
   }
 }

@@ -195,16 +195,14 @@ void fit_pair(const ScanField& scan, const std::vector<Shaft>& others, Shaft& a,
   end_at(misfit, best, &Tips::second_s_m, b);
 }
 
-/// Whether what lies around the shaft's end is denser than bone and no metal of another shaft:
-/// cement, in which the end cannot be told.
-bool ends_in_cement(const ScanField& scan, const Shaft& shaft) {
+/// The share of the ring beside a shaft that is denser than bone, clear of the metal's own blur.
+double dense_share(const ScanField& scan, const Shaft& shaft, double from_s_m, double to_s_m) {
   constexpr double kCement_hu = 1800.0;  ///< cortical bone is below
-  constexpr double kDense = 0.25;        ///< of the ring; streaks are thin
-  constexpr double kBefore_m = 0.008, kAfter_m = 0.004, kEvery_m = 0.001;
+  constexpr double kEvery_m = 0.001;
   constexpr int kAngles = 12;
   int all = 0, dense = 0;
-  for (double s = shaft.to_s_m - kBefore_m; s <= shaft.to_s_m + kAfter_m; s += kEvery_m) {
-    for (const double beside_m : {0.0015, 0.0025}) {  // clear of the metal's own blur
+  for (double s = from_s_m; s <= to_s_m; s += kEvery_m) {
+    for (const double beside_m : {0.0015, 0.0025}) {
       for (int i = 0; i < kAngles; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / kAngles;
         const Vec3 around =
@@ -215,7 +213,15 @@ bool ends_in_cement(const ScanField& scan, const Shaft& shaft) {
       }
     }
   }
-  return dense > kDense * all;
+  return all == 0 ? 0.0 : static_cast<double>(dense) / all;
+}
+
+/// Whether the shaft ends in cement, in which its end cannot be told, or where cement begins.
+bool ends_in_cement(const ScanField& scan, const Shaft& shaft) {
+  constexpr double kDense = 0.25;  ///< streaks are thinner
+  constexpr double kAround_m = 0.008;
+  return dense_share(scan, shaft, shaft.to_s_m - kAround_m, shaft.to_s_m) > kDense ||
+         dense_share(scan, shaft, shaft.to_s_m, shaft.to_s_m + kAround_m) > kDense;
 }
 
 std::vector<Shaft> all_but(const std::vector<Shaft>& shafts, std::size_t i, std::size_t j) {

@@ -76,9 +76,10 @@ std::vector<RefusalReason> reasons_against(const Registration& r,
     reasons.push_back({Kind::kFitsOtherLevel, 0.0, 0.0, {}, r.fits_better});
   }
   // Strokes of another bone have other faults too: what they are comes first.
-  std::stable_partition(reasons.begin(), reasons.end(), [](const RefusalReason& reason) {
-    return reason.kind == Kind::kFitsOtherLevel || reason.kind == Kind::kMirrored;
-  });
+  for (const Kind first : {Kind::kMirrored, Kind::kFitsOtherLevel}) {
+    std::stable_partition(reasons.begin(), reasons.end(),
+                          [&](const RefusalReason& reason) { return reason.kind == first; });
+  }
   return reasons;
 }
 

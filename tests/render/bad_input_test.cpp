@@ -108,7 +108,7 @@ TEST_F(BadScene, MeshesThatCantBeDrawnAreNamed) {
 
 TEST_F(BadScene, MirroredPlacesAreRefused) {
   scene_.meshes[0].world_from_model[0] = -1;
-  EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("mirrors"));
+  EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("is a reflection or singular"));
   scene_ = good_scene();
   scene_.meshes[0].world_from_model[13] = kNaN;
   EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("finite affine"));

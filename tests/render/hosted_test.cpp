@@ -202,7 +202,7 @@ TEST(HostedRenderer, RefusesImagesThatDoNotFit) {
   ASSERT_TRUE(test::is_ok(hosted.renderer->prepare({})));
   EXPECT_THAT(test::error_of(hosted.renderer->draw({}, eyes(), std::vector<std::uint32_t>{0, 2},
                                                    HeadTexts::kDrawn)),
-              HasSubstr("no such images"));
+              HasSubstr("image index out of range"));
   EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 

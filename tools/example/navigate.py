@@ -92,8 +92,10 @@ scene = {
     "holograms": [
         {"type": "trajectory", "entry_mm": list(1e3 * left_screw.entry),
          "target_mm": list(1e3 * left_screw.target)},
-        {"type": "angle", "entry_mm": list(1e3 * left_screw.entry),
-         "tool_mm": list(1e3 * (tip + 0.08 * axis)), "angle_deg": float(np.degrees(told.angle_rad))},
+        {"type": "triangle", "entry_mm": list(1e3 * left_screw.entry),
+         "tool_mm": list(1e3 * (tip + 0.08 * axis)),
+         "plan_mm": list(1e3 * (left_screw.entry + 0.08 * outward)),
+         "angle_deg": float(np.degrees(told.angle_rad))},
     ],
 }
 picture = orthonav.render_text(json.dumps(scene))

@@ -49,13 +49,14 @@ struct TableDifference {
 constexpr std::array<TableDifference, 4> kDifferences = {
     {{-0.73, 0.57}, {-0.25, 0.50}, {-1.34, 0.38}, {-0.01, 0.05}}};
 
-/// Two standard errors to either side hold 95 % of random results.
-constexpr double kStandardErrors = 2.0;
+/// Three standard errors to either side hold 99.7 % of random results: two would fail one of these
+/// twelve bars by chance at every second change of the random numbers.
+constexpr double kStandardErrors = 3.0;
 
 /// The bar of a mean over n operations. The screws of an operation share a part of their errors,
 /// which the table does not state; if they shared all of it, n operations would count only as n
 /// screws, so SD / sqrt(n) is the largest possible standard error. That of the table's own mean is
-/// added. For the angle of `paper`: 2 * 1.85 * sqrt(1/8 + 1/40) = 1.43 degrees.
+/// added. For the angle of `paper`: 3 * 1.85 * sqrt(1/8 + 1/40) = 2.15 degrees.
 double bar_of(double sd, std::size_t operations) {
   return kStandardErrors * sd *
          std::sqrt(1.0 / static_cast<double>(operations) + 1.0 / kOperationsOfTable);
@@ -69,7 +70,7 @@ bool within_bar(const nlohmann::json& study, const TableRow& row) {
 
 /// The SD of an operation's difference, from the table's interval over at most 40 operations:
 /// half width / 1.96 * sqrt(40). The error at the screws: 1.23 mm, its bar for eight operations
-/// 0.95 mm.
+/// 1.42 mm.
 bool within_bar(const ComparedQuantity& found, const TableDifference& row) {
   const double sd = row.half_width / 1.96 * std::sqrt(kOperationsOfTable);
   return found.operations.size() >= kFewestOperations &&

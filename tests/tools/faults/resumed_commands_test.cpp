@@ -162,7 +162,7 @@ TEST_F(KeptCommand, DemoWhoseFilmFindsNoMoreRoomSaysSoAndComesToItsEnd) {
   ASSERT_EQ(orthonav(run()).code, 0);
   place(2);
   StartedCommand demo(words("demo", {"--pace", "4", "--resume"}), [this] {
-    fail_disk(out_, {"write", 5, ENOSPC, true, "operation.part"});
+    fail_disk(out_, {"write", 3, ENOSPC, true, "operation.part"});
   });
   const Called ended = demo.wait();
   EXPECT_EQ(ended.code, 2);
