@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 
 #include "base/printed.h"
 #include "tools/terminal_width.h"
@@ -65,8 +66,20 @@ void ProgressBar::draw(double fraction, const std::string& what, bool now, doubl
       show();
     }
   }
-  if (!repeats_.joinable()) {
-    repeats_ = std::thread([this] { repeat(); });
+  if (repeats_.joinable()) {
+    return;
+  }
+  // Without memory there are fewer lines; the run ends in order for reasons of its own.
+  try {
+    repeats_ = std::thread([this] {
+      try {
+        repeat();
+      } catch (const std::exception&) {
+        // No line more.
+      }
+    });
+  } catch (const std::exception&) {
+    // Only what `draw` itself prints.
   }
 }
 
