@@ -1,6 +1,5 @@
 #include "tools/register_inputs.h"
 
-#include <cstdio>
 #include <memory>
 
 #include "engine/case/likely_mistakes.h"
@@ -11,6 +10,7 @@
 #include "engine/io/mesh_file.h"
 #include "tools/case_source.h"
 #include "tools/model_notes.h"
+#include "tools/print_text.h"
 
 namespace orthonav::tools {
 namespace {
@@ -33,7 +33,7 @@ Result<nav::TriangleMesh> load_model(const RegisterArguments& arguments,
     }
   }
   if (mesh && !note.empty()) {
-    std::fprintf(stderr, "orthonav: warning: %s\n", note.c_str());
+    print_warning(note);
   }
   return mesh;
 }
@@ -80,8 +80,10 @@ Status load_single_level(const RegisterArguments& arguments, engine::ModelCache&
     }
     inputs.level.screws = std::move(*screws);
   }
-  if (const Status facing = engine::check_facing(*mesh); !plan && !facing) {
-    return Error{arguments.model + ": " + facing.error().message};
+  if (!plan) {  // whose screws say which way it faces
+    if (const auto canal = engine::has_canal(*mesh); !canal) {
+      return Error{arguments.model + ": " + canal.error().message};
+    }
   }
   inputs.frame.model_axes = engine::declared_axes(arguments.model).value_or(axes);
   auto model = models.prepared(*mesh);

@@ -10,24 +10,26 @@
 namespace orthonav::engine {
 namespace {
 
-bool has_canal(const nav::TriangleMesh& mesh) {
+bool shows_canal(const nav::TriangleMesh& mesh) {
   return nav::find_canal(mesh, nav::SurfaceIndex(mesh)).has_value();
 }
 
 }  // namespace
 
-Status check_facing(const nav::TriangleMesh& vertebra) {
-  if (has_canal(vertebra)) {
-    return {};
+Result<bool> has_canal(const nav::TriangleMesh& vertebra) {
+  if (shows_canal(vertebra)) {
+    return true;
   }
   nav::TriangleMesh turned = vertebra;
   for (Vec3& v : turned.vertices_m) {
     v = to_lps(v, Axes::kRas);
   }
-  return has_canal(turned)
-             ? Status{Error{"faces backward: its axes are RAS and not LPS, or LPS and not RAS "
-                            "(--frame, or SPACE= in the file)"}}
-             : Status{};
+  if (shows_canal(turned)) {
+    return Error{
+        "faces backward: its axes are RAS and not LPS, or LPS and not RAS (--frame, or SPACE= in "
+        "the file)"};
+  }
+  return false;
 }
 
 Status check_scale(std::span<const Vec3> points_m, bool unit_stated) {

@@ -14,11 +14,6 @@
 namespace orthonav::engine {
 namespace {
 
-double decimal(std::string digits) {
-  std::replace(digits.begin(), digits.end(), ',', '.');
-  return number_from(digits).value_or(0.0);
-}
-
 /// The diameters that a text states, in the file's unit: `diameter=5.5`, `Durchmesser: 6,5`,
 /// `Ø6.5`, and the size of a screw, `6.5x45`, always mm.
 Result<std::vector<double>> diameters_in(const std::string& text, double metres_per_unit) {
@@ -32,10 +27,11 @@ Result<std::vector<double>> diameters_in(const std::string& text, double metres_
     if (!(*at)[1].matched) {
       return Error{"names a diameter without a number, must be as in diameter=6.5"};
     }
-    found.push_back(decimal((*at)[1]));
+    found.push_back(number_with_comma((*at)[1]).value_or(0.0));
   }
   for (std::sregex_iterator at(text.begin(), text.end(), kSize), end; at != end; ++at) {
-    const double diameter_mm = decimal((*at)[1]), length_mm = decimal((*at)[2]);
+    const double diameter_mm = number_with_comma((*at)[1]).value_or(0.0);
+    const double length_mm = number_with_comma((*at)[2]).value_or(0.0);
     if (diameter_mm >= 2.0 && diameter_mm <= 12.0 && length_mm <= 120.0) {
       found.push_back(diameter_mm * 1e-3 / metres_per_unit);
     }

@@ -22,15 +22,6 @@ struct Table {
   std::size_t columns = 0;             ///< of the header; 0: there is none
 };
 
-char separator_of(const std::string& first_line) {
-  for (const char separator : {';', '\t'}) {
-    if (first_line.find(separator) != std::string::npos) {
-      return separator;
-    }
-  }
-  return ',';
-}
-
 /// The axes that the names of three columns state.
 struct CoordinateNames {
   std::array<std::string, 3> names;
@@ -91,15 +82,6 @@ Status read_header(const std::vector<std::string>& header, Table& table) {
   return {};
 }
 
-/// A number with a point, or with a comma where that separates no fields.
-std::optional<double> number_in(std::string field, char separator) {
-  if (separator != ',' && std::count(field.begin(), field.end(), ',') == 1 &&
-      field.find('.') == std::string::npos) {
-    std::replace(field.begin(), field.end(), ',', '.');
-  }
-  return number_from(field);
-}
-
 Result<Vec3> point_from(const std::vector<std::string>& fields, const Table& table) {
   const std::size_t most = table.columns != 0 ? table.columns : 4;
   const bool whole = std::none_of(fields.begin(), fields.end(), [](const std::string& field) {
@@ -115,7 +97,8 @@ Result<Vec3> point_from(const std::vector<std::string>& fields, const Table& tab
     if (column >= fields.size()) {
       return Error{"has " + std::to_string(fields.size()) + " fields, must hold x,y,z"};
     }
-    const auto value = number_in(fields[column], table.separator);
+    const auto value =
+        table.separator == ',' ? number_from(fields[column]) : number_with_comma(fields[column]);
     if (!value) {
       return Error{"field \"" + fields[column].substr(0, 40) + "\" is not a number"};
     }
@@ -141,7 +124,7 @@ Result<PointsFile> csv_points(const std::string& text, const std::string& path) 
       continue;
     }
     if (first) {
-      table.separator = separator_of(line);
+      table.separator = separator_in(line, ";\t,");
     }
     const std::vector<std::string> fields = split_quoted(line, table.separator);
     if (std::exchange(first, false)) {

@@ -278,14 +278,7 @@ struct Layout {
   double metres_per_unit = 0.0;
 };
 
-char separator_of(const std::string& line) {
-  for (const char c : {',', ';'}) {
-    if (line.find(c) != std::string::npos) {
-      return c;
-    }
-  }
-  return ' ';
-}
+constexpr std::string_view kSeparators = ",; ";
 
 std::vector<std::string> fields_of(std::string line, char separator) {
   if (separator != ' ') {
@@ -570,7 +563,7 @@ Result<PoseFile> block_poses(const std::vector<std::string>& lines, const std::s
   std::array<double, 16> rows{};
   std::size_t filled = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const auto fields = fields_of(lines[i], separator_of(lines[i]));
+    const auto fields = fields_of(lines[i], separator_in(lines[i], kSeparators));
     if (fields.empty()) {
       continue;
     }
@@ -613,7 +606,7 @@ Result<PoseFile> text_poses(const Result<std::string>& text, const std::string& 
     return Error{path + ": is empty"};
   }
   std::string heading = table.lines[table.first];
-  table.separator = separator_of(heading);
+  table.separator = separator_in(heading, kSeparators);
   std::vector<std::string> fields = fields_of(heading, table.separator);
   const bool has_names = std::any_of(fields.begin(), fields.end(), [](const std::string& field) {
     return !field.empty() && !number_from(field);

@@ -57,6 +57,13 @@ std::vector<std::string> split_quoted(std::string_view line, char separator) {
   }
 }
 
+char separator_in(std::string_view line, std::string_view candidates) {
+  const auto found = std::find_if(candidates.begin(), candidates.end(), [&](char candidate) {
+    return line.find(candidate) != std::string_view::npos;
+  });
+  return found == candidates.end() ? candidates.back() : *found;
+}
+
 std::vector<std::string> lines_of(std::string_view text) { return split(text, '\n'); }
 
 std::optional<double> number_from(std::string_view text) {
@@ -69,6 +76,13 @@ std::optional<double> number_from(std::string_view text) {
     return std::nullopt;
   }
   return value;
+}
+
+std::optional<double> number_with_comma(std::string text) {
+  if (std::count(text.begin(), text.end(), ',') == 1 && text.find('.') == std::string::npos) {
+    std::replace(text.begin(), text.end(), ',', '.');
+  }
+  return number_from(text);
 }
 
 std::string lower_case(std::string text) {

@@ -13,10 +13,14 @@ namespace orthonav::engine {
 [[nodiscard]] std::vector<std::string> split(std::string_view line, char separator);
 /// The same, where a field in double quotes may hold the separator, and "" one quote (RFC 4180).
 [[nodiscard]] std::vector<std::string> split_quoted(std::string_view line, char separator);
+/// The first of these characters that the line has, or else the last of them.
+[[nodiscard]] char separator_in(std::string_view line, std::string_view candidates);
 /// The lines of a text, with or without carriage returns.
 [[nodiscard]] std::vector<std::string> lines_of(std::string_view text);
 /// A finite number and nothing else, with a decimal point in any locale.
 [[nodiscard]] std::optional<double> number_from(std::string_view text);
+/// The same, where the number may have a decimal comma.
+[[nodiscard]] std::optional<double> number_with_comma(std::string text);
 [[nodiscard]] std::string lower_case(std::string text);
 /// A text file's bytes as UTF-8 without a byte order mark: UTF-16 is told by its mark (Excel's
 /// "Unicode text").

@@ -1,11 +1,7 @@
 #include "engine/scan/dicom_folder.h"
 
-#ifdef __clang__
-// As in nrrd_file.cpp.
-#define ITK_COMPILER_DETECTION_H
-#define ITK_NOEXCEPT noexcept
-#define ITK_NOEXCEPT_EXPR(X) noexcept(X)
-#endif
+#include "engine/scan/itk_under_clang.h"
+
 #include <gdcmAttribute.h>
 #include <gdcmReader.h>
 #include <gdcmTrace.h>
@@ -299,26 +295,6 @@ Status append_slices(const std::vector<SliceHeader>& slices, std::vector<float>&
   return {};
 }
 
-Result<Volume> volume_from_series(const std::string& path, const std::string& series) {
-  const auto members = one_series(dicom_slices(path), series);
-  if (!members) {
-    return members.error();
-  }
-  auto stack = stacked(*members);
-  if (!stack) {
-    return stack.error();
-  }
-  if (Status s = check_grid(stack->grid); !s) {
-    return s.error();
-  }
-  Volume volume;
-  volume.grid = stack->grid;
-  if (Status s = append_slices(stack->slices, volume.values); !s) {
-    return s.error();
-  }
-  return volume;
-}
-
 }  // namespace
 
 std::vector<SliceHeader> dicom_slices(const std::string& path) {
@@ -350,9 +326,23 @@ std::vector<SliceHeader> dicom_slices(const std::string& path) {
 }
 
 Result<Volume> read_dicom(const std::string& path, const std::string& series) {
-  auto volume = volume_from_series(path, series);
-  return volume ? std::move(volume)
-                : Result<Volume>(Error{path + ": " + volume.error().message, volume.error().code});
+  const auto members = one_series(dicom_slices(path), series);
+  if (!members) {
+    return members.error();
+  }
+  auto stack = stacked(*members);
+  if (!stack) {
+    return stack.error();
+  }
+  if (Status s = check_grid(stack->grid); !s) {
+    return s.error();
+  }
+  Volume volume;
+  volume.grid = stack->grid;
+  if (Status s = append_slices(stack->slices, volume.values); !s) {
+    return s.error();
+  }
+  return volume;
 }
 
 bool is_dicom(const std::string& path) {

@@ -18,6 +18,7 @@ namespace orthonav::engine {
 /// `one_series` and `stacked` do, and what does not state modality CT, its pixel spacing, its
 /// rescale slope and intercept and one grey value a pixel, each once; segmentations, structure sets
 /// and secondary captures by name; slices whose pixels end early.
+/// Messages follow the name of the file.
 Result<Volume> read_dicom(const std::string& path, const std::string& series);
 
 /// Whether a file begins as DICOM files do.

@@ -74,7 +74,7 @@ Result<Vec3> even_step_m(const std::vector<SliceHeader>& slices, Vec3 normal) {
     const double off_m = (slices[i].position_m - first_m - static_cast<double>(i) * step_m).norm();
     if (!(off_m <= kMostOff_m)) {
       return Error{name_of(slices[i]) +
-                   beside_limit(" lies %.2f mm off the even ladder of the others, limit %.2f mm: "
+                   beside_limit(" lies %.2f mm off an evenly spaced stack, limit %.2f mm: "
                                 "slices are shifted or unevenly spaced; resample them",
                                 off_m * 1e3, kMostOff_m * 1e3)};
     }

@@ -41,7 +41,7 @@ struct SliceStack {
 
 /// Refuses, naming the slices: one with a `problem`, fewer than two, slices of different size,
 /// spacing or direction, directions that are not at right angles, two at one place, one that is
-/// more than 0.1 mm off the even ladder that the others make (writers round to that; a gap of one
+/// more than 0.1 mm off an evenly spaced stack of the others (writers round to that; a gap of one
 /// and a half or more: slices are missing) and a stack that leans by more than 0.2° (gantry tilt).
 Result<SliceStack> stacked(std::vector<SliceHeader> slices);
 

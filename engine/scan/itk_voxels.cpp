@@ -1,11 +1,7 @@
 #include "engine/scan/itk_voxels.h"
 
-#ifdef __clang__
-// As in nrrd_file.cpp.
-#define ITK_COMPILER_DETECTION_H
-#define ITK_NOEXCEPT noexcept
-#define ITK_NOEXCEPT_EXPR(X) noexcept(X)
-#endif
+#include "engine/scan/itk_under_clang.h"
+
 #include <itkImageIOBase.h>
 
 #include <cstring>

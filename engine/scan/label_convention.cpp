@@ -245,7 +245,7 @@ Result<LabelledLevels> labelled_levels(const Volume& labels, const std::string& 
     }
     const int label = static_cast<int>(value);
     if (!means_something(label, convention)) {
-      return Error{"holds " + std::to_string(label) + ", which means nothing in " + convention +
+      return Error{"holds " + std::to_string(label) + ", which " + convention + " does not define" +
                    ": is it another convention?"};
     }
     const auto found = names.find(label);

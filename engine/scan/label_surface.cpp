@@ -12,23 +12,6 @@ namespace {
 constexpr double kFinestStep_m = 0.0010;
 constexpr double kCoarsestStep_m = 0.0015;
 
-/// The connected part of a mesh with the most triangles; vertices used only by others are removed.
-nav::TriangleMesh largest_piece(const nav::TriangleMesh& mesh) {
-  const auto part = nav::parts_of(mesh, std::vector<bool>(mesh.triangles.size(), true));
-  std::vector<std::size_t> triangles(mesh.vertices_m.size(), 0);
-  for (const std::uint32_t p : part) {
-    ++triangles[p];
-  }
-  const auto largest = std::max_element(triangles.begin(), triangles.end()) - triangles.begin();
-  std::vector<std::uint32_t> faces;
-  for (std::uint32_t i = 0; i < part.size(); ++i) {
-    if (part[i] == largest) {
-      faces.push_back(i);
-    }
-  }
-  return nav::part_of(mesh, faces);
-}
-
 /// The box around a grid, whose axes need not be those of the patient.
 nav::Bounds box_of(const VolumeGrid& grid) {
   nav::Bounds box{grid.origin_m, grid.origin_m};
@@ -77,8 +60,10 @@ Result<LabelSurface> label_surface(const LabelPart& part) {
   const LabelField field(part);
   const nav::Bounds box = box_of(part.grid);
   const double step_m = std::clamp(part.grid.least_spacing_m(), kFinestStep_m, kCoarsestStep_m);
-  auto mesh = nav::checked_vertebra(largest_piece(
-      nav::surface_of([&](Vec3 p) { return field.value_m(p); }, box.low, box.high, step_m)));
+  auto mesh =
+      nav::checked_vertebra(nav::main_part(nav::surface_of([&](Vec3 p) { return field.value_m(p); },
+                                                           box.low, box.high, step_m))
+                                .mesh);
   if (!mesh) {
     return mesh.error();
   }

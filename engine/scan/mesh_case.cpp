@@ -5,7 +5,6 @@
 
 #include "engine/case/likely_mistakes.h"
 #include "engine/scan/level_places.h"
-#include "nav/planning/canal.h"
 
 namespace orthonav::engine {
 namespace {
@@ -52,11 +51,11 @@ Result<std::vector<MeshLevel>> mesh_levels(std::vector<CaseLevel> meshes, std::s
   }
   std::vector<MeshLevel> levels;
   for (const CaseLevel& level : together.levels) {
-    if (const Status facing = check_facing(level.mesh); !facing) {
-      return Error{level.label + " " + facing.error().message};
+    const auto canal = has_canal(level.mesh);
+    if (!canal) {
+      return Error{level.label + " " + canal.error().message};
     }
-    const bool canal = nav::find_canal(level.mesh, nav::SurfaceIndex(level.mesh)).has_value();
-    levels.push_back({level, nav::solid_of(level.mesh).volume_m3, canal});
+    levels.push_back({level, nav::solid_of(level.mesh).volume_m3, *canal});
   }
   return levels;
 }

@@ -134,8 +134,8 @@ Result<Form> one_form(const Header& h, const std::array<int, 3>& size, double me
   constexpr double kSame_m = 1e-4;
   if (h.qform_code <= 0 && h.sform_code <= 0) {
     return Error{
-        "states no orientation (qform_code and sform_code are 0): left and right are open; export "
-        "it again with one, as dcm2niix and 3D Slicer do"};
+        "states no orientation (qform_code and sform_code are 0): left and right are undefined; "
+        "export it again with one, as dcm2niix and 3D Slicer do"};
   }
   const int code = h.sform_code > 0 ? h.sform_code : h.qform_code;
   if (code >= NIFTI_XFORM_TALAIRACH) {
@@ -288,10 +288,13 @@ Status append(const nifti_image& image, const Header& h, std::vector<float>& val
   }
 }
 
-Result<Volume> volume_from_nifti(const std::string& path) {
+}  // namespace
+
+Result<Volume> read_nifti(const std::string& path) {
+  ::nifti_set_debug_level(0);  // problems are returned; the library must not print
   const auto header = header_in(path);
   if (!header) {
-    return Error{"is not a NIfTI file, whatever its name says"};
+    return Error{"is not a NIfTI file"};
   }
   if (header->magic != "n+1" && header->magic != "n+2") {
     return Error{header->magic.starts_with("ni")
@@ -327,15 +330,6 @@ Result<Volume> volume_from_nifti(const std::string& path) {
     return s.error();
   }
   return volume;
-}
-
-}  // namespace
-
-Result<Volume> read_nifti(const std::string& path) {
-  ::nifti_set_debug_level(0);  // problems are returned; the library must not print
-  auto volume = volume_from_nifti(path);
-  return volume ? std::move(volume)
-                : Result<Volume>(Error{path + ": " + volume.error().message, volume.error().code});
 }
 
 }  // namespace orthonav::engine

@@ -12,6 +12,7 @@ namespace orthonav::engine {
 /// the header leaves open or says twice is refused: no orientation (both form codes 0), an sform
 /// and a qform that disagree, spacings that do, the space of a template, axes that are not at right
 /// angles (`squared_grid`), voxels that are no numbers, a file that is cut off.
+/// Messages follow the name of the file.
 Result<Volume> read_nifti(const std::string& path);
 
 }  // namespace orthonav::engine

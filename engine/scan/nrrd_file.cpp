@@ -1,12 +1,7 @@
 #include "engine/scan/nrrd_file.h"
 
-#ifdef __clang__
-// Debian's ITK was configured for GCC and refuses other compilers. Clang reads this file for its
-// checks; of the skipped definitions it needs these two.
-#define ITK_COMPILER_DETECTION_H
-#define ITK_NOEXCEPT noexcept
-#define ITK_NOEXCEPT_EXPR(X) noexcept(X)
-#endif
+#include "engine/scan/itk_under_clang.h"
+
 #include <itkMetaDataObject.h>
 #include <itkNrrdImageIO.h>
 
@@ -125,7 +120,7 @@ Result<VolumeGrid> grid_of(const Fields& fields, std::vector<std::string>& notes
   };
   constexpr const char* kRemedy = "; save it again, for example with 3D Slicer";
   if (field("space").empty()) {
-    return Error{std::string("states no space: left and right are open") + kRemedy};
+    return Error{std::string("states no space: left and right are undefined") + kRemedy};
   }
   const auto signs = signs_to_lps(field("space"));
   if (!signs) {
@@ -187,7 +182,7 @@ Result<Volume> volume_from_nrrd(const std::string& path) {
   }
   const auto io = itk::NrrdImageIO::New();
   if (!io->CanReadFile(path.c_str())) {
-    return Error{"is not a NRRD file, whatever its name says"};
+    return Error{"is not a NRRD file"};
   }
   Volume volume;
   const auto grid = grid_of(fields_in(path), volume.notes);
@@ -218,12 +213,9 @@ Result<Volume> volume_from_nrrd(const std::string& path) {
 
 Result<Volume> read_nrrd(const std::string& path) {
   try {
-    auto volume = volume_from_nrrd(path);
-    return volume
-               ? std::move(volume)
-               : Result<Volume>(Error{path + ": " + volume.error().message, volume.error().code});
+    return volume_from_nrrd(path);
   } catch (const std::exception& error) {
-    return Error{path + ": can't be read: " + itk_problem(error)};
+    return Error{"can't be read: " + itk_problem(error)};
   }
 }
 

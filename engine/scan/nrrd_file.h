@@ -11,6 +11,7 @@ namespace orthonav::engine {
 /// `key:=value` pairs are its fields. The header must state a patient's `space` (LPS, RAS or LAS),
 /// `space directions` and `space origin`; `space units` are mm where absent. Refuses as
 /// `squared_grid` does, and voxels in another file.
+/// Messages follow the name of the file.
 Result<Volume> read_nrrd(const std::string& path);
 
 }  // namespace orthonav::engine

@@ -56,6 +56,7 @@ Result<VolumeGrid> squared_grid(const std::array<int, 3>& size, const std::array
   constexpr double kSaid_rad = 1e-3 * kRadiansPerDegree;
   VolumeGrid grid;
   grid.size = size;
+  grid.origin_m = origin_m;
   std::array<Vec3, 3> axes;
   for (std::size_t i = 0; i < 3; ++i) {
     const double length_m = steps_m[i].norm();
@@ -83,13 +84,13 @@ Result<VolumeGrid> squared_grid(const std::array<int, 3>& size, const std::array
   grid.directions = Mat3::from_columns(axes[0], axes[1], axes[2]);
   const Vec3 half{0.5 * (size[0] - 1), 0.5 * (size[1] - 1), 0.5 * (size[2] - 1)};
   const Vec3 middle_m = origin_m + half.x * steps_m[0] + half.y * steps_m[1] + half.z * steps_m[2];
+  grid.origin_m = {};  // the middle stays, not the first voxel
   grid.origin_m = middle_m - grid.place_m(half);
   if (shear > kSaid_rad) {
     notes.push_back(printed("its axes are %.3f° off right angles, read as at right angles",
                             shear * kDegreesPerRadian));
   }
-  const Status checked = check_grid(grid);
-  return checked ? Result<VolumeGrid>(grid) : Result<VolumeGrid>(checked.error());
+  return grid;
 }
 
 }  // namespace orthonav::engine

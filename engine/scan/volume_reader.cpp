@@ -1,6 +1,7 @@
 #include "engine/scan/volume_reader.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "engine/io/slicer_markups.h"
 #include "engine/io/text_fields.h"
@@ -11,22 +12,26 @@
 namespace orthonav::engine {
 
 Result<Volume> read_volume(const std::string& path, const std::string& series) {
+  const auto named = [&path](Result<Volume> read) {
+    return read ? std::move(read)
+                : Result<Volume>(Error{path + ": " + read.error().message, read.error().code});
+  };
   std::error_code code;
   if (std::filesystem::is_directory(path, code)) {
-    return read_dicom(path, series);
+    return named(read_dicom(path, series));
   }
   if (!std::filesystem::exists(path, code)) {
     return Error{path + ": no such file or folder", ErrorCode::kNotFound};
   }
   const std::string name = lower_case(path);
   if (name.ends_with(".nii") || name.ends_with(".nii.gz")) {
-    return read_nifti(path);
+    return named(read_nifti(path));
   }
   if (name.ends_with(".nrrd")) {
-    return read_nrrd(path);
+    return named(read_nrrd(path));
   }
   if (is_dicom(path)) {
-    return read_dicom(path, series);
+    return named(read_dicom(path, series));
   }
   if (Status s =
           check_no_scene(path, "export its volume as .nrrd and its segmentation as .seg.nrrd");

@@ -90,27 +90,30 @@ std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh) {
   return edges;
 }
 
+/// Calls `act` with the first of each edge's entries and how many there are.
+template <class Act>
+void for_each_edge(const std::vector<DirectedEdge>& sorted, const Act& act) {
+  for (std::size_t i = 0; i < sorted.size();) {
+    std::size_t j = i;
+    while (j < sorted.size() && sorted[j].low == sorted[i].low &&
+           sorted[j].high == sorted[i].high) {
+      ++j;
+    }
+    act(&sorted[i], j - i);
+    i = j;
+  }
+}
+
 Status check_closed(const TriangleMesh& mesh) {
   const std::vector<DirectedEdge> edges = sorted_edges(mesh);
   std::size_t open = 0;
   std::size_t crowded = 0;
   std::size_t against = 0;
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t j = i;
-    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) {
-      ++j;
-    }
-    if (j - i == 1) {
-      ++open;
-    }
-    if (j - i > 2) {
-      ++crowded;
-    }
-    if (j - i == 2 && edges[i].upward == edges[i + 1].upward) {
-      ++against;
-    }
-    i = j;
-  }
+  for_each_edge(edges, [&](const DirectedEdge* edge, std::size_t count) {
+    open += count == 1 ? 1 : 0;
+    crowded += count > 2 ? 1 : 0;
+    against += count == 2 && edge[0].upward == edge[1].upward ? 1 : 0;
+  });
   if (open > 0) {
     return Error{"mesh is open: " + std::to_string(open) + " edges have one face, must have two"};
   }
@@ -282,18 +285,12 @@ MainPart main_part(TriangleMesh mesh) {
   if (parts.size() < 2) {
     return {std::move(mesh), 0};
   }
-  const std::vector<DirectedEdge> edges = sorted_edges(mesh);
   std::vector<bool> open(mesh.vertices_m.size(), false);
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t j = i;
-    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) {
-      ++j;
+  for_each_edge(sorted_edges(mesh), [&](const DirectedEdge* edge, std::size_t count) {
+    if (count != 2) {
+      open[edge->low] = true;
     }
-    if (j - i != 2) {
-      open[edges[i].low] = true;
-    }
-    i = j;
-  }
+  });
   const Part* main = nullptr;
   for (auto& [number, part] : parts) {
     const TriangleMesh own = part_of(mesh, part.faces);

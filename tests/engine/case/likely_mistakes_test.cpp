@@ -18,11 +18,11 @@ using ::testing::HasSubstr;
 
 TEST(LikelyMistakes, RasTakenForLpsIsNamed) {
   nav::TriangleMesh bone = phantom().levels.front().mesh;
-  EXPECT_TRUE(check_facing(bone).ok());
+  EXPECT_TRUE(has_canal(bone).value());
   for (Vec3& v : bone.vertices_m) {
     v = to_lps(v, Axes::kRas);
   }
-  const Status turned = check_facing(bone);
+  const auto turned = has_canal(bone);
   ASSERT_FALSE(turned.ok());
   EXPECT_THAT(turned.error().message, HasSubstr("its axes are RAS and not LPS"));
 }

@@ -70,10 +70,10 @@ TEST(DicomOrder, ReadsPositionsThatWereRoundedAndRefusesASliceThatWasShifted) {
   EXPECT_NEAR(stack->grid.spacing_m.z, 0.000625, 0.1e-3 / 9);
   auto shifted = slices();
   shifted[4].position_m.x += 0.0005;
-  EXPECT_THAT(refusal(shifted), HasSubstr("4.dcm lies 0.50 mm off the even ladder"));
+  EXPECT_THAT(refusal(shifted), HasSubstr("4.dcm lies 0.50 mm off an evenly spaced stack"));
   auto uneven = slices();
   uneven[4].position_m.z += 0.0005;
-  EXPECT_THAT(refusal(uneven), HasSubstr("4.dcm lies 0.50 mm off the even ladder"));
+  EXPECT_THAT(refusal(uneven), HasSubstr("4.dcm lies 0.50 mm off an evenly spaced stack"));
 }
 
 TEST(DicomOrder, ASeriesThatIsNoCtDoesNotCountBesideOneThatIs) {

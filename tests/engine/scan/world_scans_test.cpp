@@ -233,7 +233,8 @@ TEST(WorldNrrd, LiesWhereItsSpaceSays) {
     const auto volume = load_volume(folder.with("b.nrrd", nrrd(fields)));
     return volume ? "read" : volume.error().message;
   };
-  EXPECT_THAT(refusal("spacings: 1 2 3\n"), HasSubstr("states no space: left and right are open"));
+  EXPECT_THAT(refusal("spacings: 1 2 3\n"),
+              HasSubstr("states no space: left and right are undefined"));
   EXPECT_THAT(refusal("space: scanner-xyz\n" + rest),
               HasSubstr("must be left-posterior-superior, "));
   EXPECT_THAT(refusal("space: 3D-right-handed\n" + rest),
@@ -420,7 +421,7 @@ TEST(Conventions, ATotalSegmentatorsMapIsNoVerse) {
   EXPECT_THAT(refusal({28, 0, 0, 0, 0, 0, 0, 27}, "verse"),
               HasSubstr("T13 (28) without T12 or L1"));
   EXPECT_THAT(refusal({28, 29, 0, 0, 0, 0, 0, 27}, "verse"),
-              HasSubstr("holds 29, which means nothing"));
+              HasSubstr("holds 29, which verse does not define"));
   EXPECT_THAT(refusal({28, 118, 0, 0, 0, 0, 0, 27}, "totalsegmentator"), HasSubstr("holds 118"));
   EXPECT_EQ(refusal({28, 19, 20, 60, 0, 0, 0, 27}, "verse"), "read") << "T13 between T12 and L1";
 }
