@@ -12,6 +12,7 @@
 #include "engine/scan/volume_file.h"
 #include "tools/arguments.h"
 #include "tools/case_meshes.h"
+#include "tools/case_source.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
 #include "tools/out_folder.h"
@@ -44,24 +45,13 @@ Error in_file(const std::string& path, const Error& error) {
   return {path + ": " + error.message, error.code};
 }
 
-/// Says what the reader mended.
-Result<engine::Volume> loaded(const std::string& path, const std::string& series = {}) {
-  auto volume = engine::load_volume(path, series);
-  if (volume) {
-    for (const std::string& note : volume->notes) {
-      std::fprintf(stderr, "orthonav: %s: %s\n", path.c_str(), note.c_str());
-    }
-  }
-  return volume;
-}
-
 Result<engine::ScanLevels> levels_of_labels(const CaseArguments& arguments) {
-  const auto labels = loaded(arguments.labels);
+  const auto labels = load_scan(arguments.labels);
   if (!labels) {
     return labels.error();
   }
   if (!arguments.volume.empty()) {
-    const auto scan = loaded(arguments.volume, arguments.series);
+    const auto scan = load_scan(arguments.volume, arguments.series);
     if (!scan) {
       return scan.error();
     }
@@ -76,7 +66,7 @@ Result<engine::ScanLevels> levels_of_labels(const CaseArguments& arguments) {
 }
 
 Result<engine::ScanLevels> levels_of_threshold(const CaseArguments& arguments) {
-  const auto scan = loaded(arguments.volume, arguments.series);
+  const auto scan = load_scan(arguments.volume, arguments.series);
   if (!scan) {
     return scan.error();
   }
@@ -251,7 +241,7 @@ int run_make(const CaseArguments& arguments) {
                                     : run_list(arguments);
   }
   if (arguments.out.empty()) {
-    return bad_input("--out: where shall the case be written?");
+    return bad_input("--out is required");
   }
   if (Status s = check(arguments); !s) {
     return bad_input(s.error().message);

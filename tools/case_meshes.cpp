@@ -1,11 +1,10 @@
 #include "tools/case_meshes.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "engine/io/mesh_file.h"
-#include "engine/scan/volume_file.h"
 #include "tools/arguments.h"
+#include "tools/case_source.h"
 #include "tools/print_text.h"
 
 namespace orthonav::tools {
@@ -32,7 +31,7 @@ Result<engine::CaseLevel> read_level(const std::string& given, double metres_per
     return mesh.error();
   }
   if (!note.empty()) {
-    std::fprintf(stderr, "orthonav: warning: %s\n", note.c_str());
+    print_warning(note);
   }
   return engine::CaseLevel{given.substr(0, equals), *std::move(mesh), {}, {}};
 }
@@ -69,7 +68,7 @@ Result<std::vector<engine::MeshLevel>> CaseMeshes::read(const std::string& volum
     return Error{"--mesh: " + levels.error().message, levels.error().code};
   }
   if (!volume.empty()) {
-    const auto scan = engine::load_volume(volume, series);
+    const auto scan = load_scan(volume, series);
     if (!scan) {
       return scan.error();
     }

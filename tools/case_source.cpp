@@ -4,6 +4,8 @@
 
 #include "engine/phantom/phantom.h"
 #include "engine/scan/transform_file.h"
+#include "engine/scan/volume_file.h"
+#include "tools/print_text.h"
 
 namespace orthonav::tools {
 
@@ -15,7 +17,7 @@ Result<engine::Case> load_checked_case(const std::string& folder, engine::CaseUs
     }
     if (subject) {
       for (const std::string& note : subject->notes) {
-        std::fprintf(stderr, "orthonav: warning: %s\n", note.c_str());
+        print_warning(note);
       }
     }
     return subject;
@@ -25,6 +27,16 @@ Result<engine::Case> load_checked_case(const std::string& folder, engine::CaseUs
     return Error{"built-in phantom: " + problems.front()};
   }
   return spine;
+}
+
+Result<engine::Volume> load_scan(const std::string& path, const std::string& series) {
+  auto volume = engine::load_volume(path, series);
+  if (volume) {
+    for (const std::string& note : volume->notes) {
+      std::fprintf(stderr, "orthonav: %s: %s\n", path.c_str(), note.c_str());
+    }
+  }
+  return volume;
 }
 
 }  // namespace orthonav::tools

@@ -1,9 +1,9 @@
 #include "tools/disk_space.h"
 
-#include <cstdio>
 #include <filesystem>
 
 #include "base/printed.h"
+#include "tools/print_text.h"
 
 namespace orthonav::tools {
 
@@ -37,7 +37,7 @@ void warn_of_space(const std::string& option, const std::string& folder, double 
     return;
   }
   if (const std::string line = short_of_space(option, folder, needed_bytes); !line.empty()) {
-    std::fprintf(stderr, "orthonav: warning: %s\n", line.c_str());
+    print_warning(line);
   }
 }
 

@@ -8,7 +8,6 @@
 #include "engine/evaluation/evaluation.h"
 #include "engine/io/atomic_file.h"
 #include "engine/scan/transform_file.h"
-#include "engine/scan/volume_file.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
@@ -101,7 +100,7 @@ int run_evaluate(const EvaluateArguments& arguments) {
   if (!folder) {
     return bad_input(folder.error().message);
   }
-  const auto scan = engine::load_volume(arguments.volume, arguments.series);
+  const auto scan = load_scan(arguments.volume, arguments.series);
   if (!scan) {
     return bad_input(scan.error().message);
   }

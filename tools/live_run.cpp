@@ -23,6 +23,7 @@
 #include "tools/model_notes.h"
 #include "tools/operation_summary.h"
 #include "tools/presenting.h"
+#include "tools/print_text.h"
 #include "tools/progress.h"
 #include "tools/run_files.h"
 #include "tools/run_stats.h"
@@ -173,7 +174,7 @@ class LiveRun {
     onlookers_.log().say("headset " + headset_->name() + ", case " + case_name_);
     if (!opened->warning.empty()) {
       onlookers_.log().warn(opened->warning);
-      std::fprintf(stderr, "orthonav: warning: %s\n", opened->warning.c_str());
+      print_warning(opened->warning);
     }
     const auto calibrated = arguments_.calibration.on(*headset_, opened->calibration_file);
     if (!calibrated) {

@@ -53,6 +53,7 @@ Result<MeasuredPoses> filed_poses(const std::string& path, const engine::PoseFil
   }
   return out;
 }
+
 Result<MeasuredPoses> live_poses(const std::string& uri, const nav::ToolGeometry& tool,
                                  double length_s) {
   if (tool.name.empty()) {
@@ -95,6 +96,7 @@ Result<MeasuredPoses> live_poses(const std::string& uri, const nav::ToolGeometry
   }
   return out;
 }
+
 }  // namespace
 
 void OtherPosesArguments::add_to(CLI::App& command) {

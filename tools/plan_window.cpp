@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/scan/mesh_case.h"
-#include "engine/scan/volume_file.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
@@ -32,7 +31,7 @@ Result<std::optional<engine::Volume>> scan_for(const PlanWindowArguments& argume
   if (arguments.volume.empty()) {
     return std::optional<engine::Volume>();
   }
-  auto scan = engine::load_volume(arguments.volume, arguments.series);
+  auto scan = load_scan(arguments.volume, arguments.series);
   if (!scan) {
     return Error{"--volume: " + scan.error().message, scan.error().code};
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdio>
+#include <string>
 
 #include "base/printed.h"
 
@@ -10,6 +11,11 @@ namespace orthonav::tools {
 template <class... Values>
 void print_text(const char* format, const Values&... values) {
   std::fputs(printed(format, values...).c_str(), stdout);
+}
+
+/// One line on standard error.
+inline void print_warning(const std::string& message) {
+  std::fprintf(stderr, "orthonav: warning: %s\n", message.c_str());
 }
 
 }  // namespace orthonav::tools

@@ -7,13 +7,14 @@
 #include "base/how_many.h"
 #include "engine/session/method.h"
 #include "tools/count_progress.h"
+#include "tools/print_text.h"
 
 namespace orthonav::tools {
 
 Status for_each_pair(replay::ReplayHeadset& recording,
                      const std::function<void(const StereoFrame&)>& use) {
   if (const std::string cut = replay::cut_warning(recording.summary()); !cut.empty()) {
-    std::fprintf(stderr, "orthonav: warning: %s\n", cut.c_str());
+    print_warning(cut);
   }
   CountProgress progress("stereo pairs", recording.summary().pairs);
   StereoFrame frame;

@@ -1,10 +1,10 @@
 #include "tools/screw_arguments.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "engine/case/screw_sizes_file.h"
 #include "tools/arguments.h"
+#include "tools/print_text.h"
 
 namespace orthonav::tools {
 
@@ -23,7 +23,7 @@ Result<engine::ScrewSizes> ScrewArguments::sizes() const {
 
 void warn_of_sizes(const engine::Operation& operation, const engine::ScrewSizes& sizes) {
   for (const std::string& line : engine::sizes_not_listed(operation, sizes)) {
-    std::fprintf(stderr, "orthonav: warning: %s\n", line.c_str());
+    print_warning(line);
   }
 }
 
