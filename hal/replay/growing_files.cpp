@@ -10,6 +10,7 @@
 
 #include "base/file_code.h"
 #include "hal/replay/frame_files.h"
+#include "hal/replay/png_picture.h"
 #include "hal/replay/text.h"
 
 namespace orthonav::replay {
@@ -100,9 +101,10 @@ Error ImageTarWriter::failed() const {
 }
 
 Status ImageTarWriter::write(std::int64_t ticks, const GreyImage& image) {
-  constexpr int kMaximum = 255;
-  return put(std::to_string(ticks) + ".pgm", pgm_header(image.width_px, image.height_px, kMaximum),
-             image.pixels.data(), image.pixels.size());
+  if (const Status encoded = encode_png(image, encoded_); !encoded) {
+    return file_error(path_, "image " + std::to_string(ticks) + ": " + encoded.error().message);
+  }
+  return put(std::to_string(ticks) + ".png", "", encoded_.data(), encoded_.size());
 }
 
 Status ImageTarWriter::write(std::int64_t ticks, const char* suffix, const DepthImage& image) {

@@ -38,10 +38,11 @@ class LineFile {
   std::unique_ptr<std::FILE, Close> file_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
-/// A ustar archive of `<ticks>.pgm` that grows image by image.
+/// A ustar archive of images that grows image by image.
 class ImageTarWriter {
  public:
   Status open(const std::filesystem::path& path);
+  /// `<ticks>.png`.
   Status write(std::int64_t ticks, const GreyImage& image);
   /// `<ticks><suffix>.pgm`, 16 bits big-endian.
   Status write(std::int64_t ticks, const char* suffix, const DepthImage& image);
@@ -59,6 +60,7 @@ class ImageTarWriter {
   std::unique_ptr<archive, FreeArchive> archive_;
   std::unique_ptr<archive_entry, FreeEntry> entry_;
   std::vector<std::uint16_t> swapped_;
+  std::vector<std::uint8_t> encoded_;
 
   Status put(const std::string& name, const std::string& header, const void* pixels,
              std::size_t bytes);

@@ -13,6 +13,7 @@
 
 #include "base/check.h"
 #include "hal/replay/layout.h"
+#include "hal/replay/png_picture.h"
 #include "hal/replay/text.h"
 
 namespace orthonav::replay {
@@ -145,16 +146,18 @@ Status ImageTar::index() {
   return {};
 }
 
-/// Parses "<prefix><digits>.pgm", or "<prefix><digits>_ab.pgm" if the layout has such images.
+/// Parses "<prefix><digits>.pgm", or "<prefix><digits>_ab.pgm" or "<prefix><digits>.png" if the
+/// layout has such images.
 std::optional<ImageTar::Name> ImageTar::parsed(std::string_view name) const {
-  constexpr std::string_view kEnding = ".pgm";
+  constexpr std::size_t kEndingBytes = 4;
   constexpr std::string_view kBrightness = "_ab";
-  if (!name.starts_with(layout_.prefix) || !name.ends_with(kEnding) ||
-      name.size() <= layout_.prefix.size() + kEnding.size()) {
+  const bool png = layout_.pixels == PixelKind::kGrey8 && name.ends_with(".png");
+  if (!name.starts_with(layout_.prefix) || (!png && !name.ends_with(".pgm")) ||
+      name.size() <= layout_.prefix.size() + kEndingBytes) {
     return std::nullopt;
   }
   name.remove_prefix(layout_.prefix.size());
-  name.remove_suffix(kEnding.size());
+  name.remove_suffix(kEndingBytes);
   const bool brightness = layout_.with_brightness && name.ends_with(kBrightness);
   if (brightness) {
     name.remove_suffix(kBrightness.size());
@@ -162,7 +165,7 @@ std::optional<ImageTar::Name> ImageTar::parsed(std::string_view name) const {
   const bool digits =
       std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
   const auto ticks = digits ? parse_integer(name) : std::nullopt;
-  return ticks ? std::optional(Name{*ticks, brightness}) : std::nullopt;
+  return ticks ? std::optional(Name{*ticks, brightness, png}) : std::nullopt;
 }
 
 Status ImageTar::index_member(const char* name_text, bool plain, std::uint64_t offset,
@@ -172,50 +175,71 @@ Status ImageTar::index_member(const char* name_text, bool plain, std::uint64_t o
   const auto known = parsed(name);
   if (!plain || !known) {
     return file_error(path_, member + "is not an image named " + layout_.prefix + "<ticks>.pgm" +
+                                 (layout_.pixels == PixelKind::kGrey8 ? " or <ticks>.png" : "") +
                                  (layout_.with_brightness ? " or <ticks>_ab.pgm" : ""));
   }
-  std::array<char, 256> bytes;
-  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(size, bytes.size()));
-  if (!read_at(offset, bytes.data(), count)) {
-    return file_error(path_, member + "cannot be read", ErrorCode::kIo);
+  const auto image = image_of(*known, offset, size);
+  if (!image) {
+    return file_error(path_, member + image.error().message, image.error().code);
   }
-  const auto header = parse_pgm_header(std::string_view(bytes.data(), count));
-  if (!header) {
-    return file_error(path_, member + header.error().message);
-  }
-  if (Status s = check_image(*header, size); !s) {
-    return file_error(path_, member + s.error().message);
-  }
-  (known->brightness ? brightness_ : members_).push_back({known->ticks, offset + header->bytes});
+  (known->brightness ? brightness_ : members_).push_back(*image);
   return {};
 }
 
+Result<ImageMember> ImageTar::image_of(const Name& name, std::uint64_t offset, std::uint64_t size) {
+  std::array<char, 256> bytes;
+  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(size, bytes.size()));
+  if (!read_at(offset, bytes.data(), count)) {
+    return Error{"cannot be read", ErrorCode::kIo};
+  }
+  if (name.png) {
+    const auto header = parse_png_header(std::string_view(bytes.data(), count));
+    if (!header) {
+      return header.error();
+    }
+    if (Status s = check_size(header->width_px, header->height_px); !s) {
+      return s.error();
+    }
+    if (!header->grey8) {
+      return Error{"is not a PNG of eight bits of grey"};
+    }
+    return ImageMember{name.ticks, offset, size, true};
+  }
+  const auto header = parse_pgm_header(std::string_view(bytes.data(), count));
+  if (!header) {
+    return header.error();
+  }
+  if (Status s = check_size(header->width_px, header->height_px); !s) {
+    return s.error();
+  }
+  const std::int64_t maximum = layout_.pixels == PixelKind::kGrey8 ? 255 : 65535;
+  if (header->maximum != maximum) {
+    return Error{"has maximum grey " + std::to_string(header->maximum) + ", must be " +
+                 std::to_string(maximum)};
+  }
+  const std::uint64_t expected = header->bytes + image_bytes();
+  if (size != expected) {
+    return Error{"holds " + std::to_string(size) + " bytes, must be " + std::to_string(expected)};
+  }
+  return ImageMember{name.ticks, offset + header->bytes, image_bytes()};
+}
+
 /// The first image decides if the layout does not state a size.
-Status ImageTar::check_image(const PgmHeader& header, std::uint64_t size) {
+Status ImageTar::check_size(std::int64_t width_px, std::int64_t height_px) {
   if (layout_.width_px == 0) {
     const auto fits = [](std::int64_t side) {
       return side >= kMinDepthSidePx && side <= kMaxDepthSidePx;
     };
-    if (!fits(header.width_px) || !fits(header.height_px)) {
-      return Error{"is " + size_text(header.width_px, header.height_px) +
-                   " px, each side must be " + std::to_string(kMinDepthSidePx) + " to " +
-                   std::to_string(kMaxDepthSidePx)};
+    if (!fits(width_px) || !fits(height_px)) {
+      return Error{"is " + size_text(width_px, height_px) + " px, each side must be " +
+                   std::to_string(kMinDepthSidePx) + " to " + std::to_string(kMaxDepthSidePx)};
     }
-    layout_.width_px = static_cast<int>(header.width_px);
-    layout_.height_px = static_cast<int>(header.height_px);
+    layout_.width_px = static_cast<int>(width_px);
+    layout_.height_px = static_cast<int>(height_px);
   }
-  if (header.width_px != layout_.width_px || header.height_px != layout_.height_px) {
-    return Error{"is " + size_text(header.width_px, header.height_px) + " px, must be " +
+  if (width_px != layout_.width_px || height_px != layout_.height_px) {
+    return Error{"is " + size_text(width_px, height_px) + " px, must be " +
                  size_text(layout_.width_px, layout_.height_px)};
-  }
-  const std::int64_t maximum = layout_.pixels == PixelKind::kGrey8 ? 255 : 65535;
-  if (header.maximum != maximum) {
-    return Error{"has maximum grey " + std::to_string(header.maximum) + ", must be " +
-                 std::to_string(maximum)};
-  }
-  const std::uint64_t expected = header.bytes + image_bytes();
-  if (size != expected) {
-    return Error{"holds " + std::to_string(size) + " bytes, must be " + std::to_string(expected)};
   }
   return {};
 }
@@ -227,7 +251,7 @@ std::size_t ImageTar::image_bytes() const {
 }
 
 std::uint64_t ImageTar::end_of(const ImageMember& member) const {
-  return in_blocks(member.pixels_offset + image_bytes());
+  return in_blocks(member.offset + member.bytes);
 }
 
 Error ImageTar::no_whole_image(std::uint64_t file_size) const {
@@ -270,7 +294,7 @@ Status ImageTar::read_pixels(const ImageMember& member, PlainImage<Value>& image
   image.width_px = layout_.width_px;
   image.height_px = layout_.height_px;
   image.pixels.resize(image_bytes() / sizeof(Value));
-  if (read_at(member.pixels_offset, image.pixels.data(), image_bytes())) {
+  if (read_at(member.offset, image.pixels.data(), image_bytes())) {
     return {};
   }
   return file_error(path_, "image " + std::to_string(member.ticks) + ".pgm cannot be read",
@@ -279,7 +303,19 @@ Status ImageTar::read_pixels(const ImageMember& member, PlainImage<Value>& image
 
 Status ImageTar::read(const ImageMember& member, GreyImage& image) {
   ORTHONAV_CHECK(layout_.pixels == PixelKind::kGrey8);
-  return read_pixels(member, image);
+  if (!member.png) {
+    return read_pixels(member, image);
+  }
+  const std::string name = "image " + std::to_string(member.ticks) + ".png ";
+  encoded_.resize(static_cast<std::size_t>(member.bytes));
+  if (!read_at(member.offset, encoded_.data(), encoded_.size())) {
+    return file_error(path_, name + "cannot be read", ErrorCode::kIo);
+  }
+  image.width_px = layout_.width_px;
+  image.height_px = layout_.height_px;
+  image.pixels.resize(image_bytes());
+  const Status decoded = decode_png(encoded_, image);
+  return decoded ? Status() : file_error(path_, name + "is damaged: " + decoded.error().message);
 }
 
 Status ImageTar::read(const ImageMember& member, DepthImage& image) {

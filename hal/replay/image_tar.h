@@ -16,10 +16,13 @@
 
 namespace orthonav::replay {
 
-/// One image of a tar: its sensor time and where its pixels begin.
+/// One image of a tar: its sensor time, and where its pixels, or its PNG, begin and how long they
+/// are.
 struct ImageMember {
   std::int64_t ticks = 0;
-  std::uint64_t pixels_offset = 0;
+  std::uint64_t offset = 0;
+  std::uint64_t bytes = 0;
+  bool png = false;
 };
 
 enum class PixelKind { kGrey8, kBigEndian16, kLittleEndian16 };
@@ -33,8 +36,8 @@ struct ImageLayout {
   bool with_brightness = false;  ///< `<ticks>_ab.pgm` beside `<ticks>.pgm`
 };
 
-/// The images of one sensor: a ustar archive of `<ticks>.pgm`. Only the index is held in memory;
-/// pixels are read on demand.
+/// The images of one sensor: a ustar archive of `<ticks>.pgm`, or of `<ticks>.png` where they have
+/// eight bits. Only the index is held in memory; pixels are read on demand.
 class ImageTar {
  public:
   /// Reads every header. Refuses an archive without a whole image, with anything other than such
@@ -68,6 +71,7 @@ class ImageTar {
   struct Name {
     std::int64_t ticks = 0;
     bool brightness = false;
+    bool png = false;
   };
 
   std::filesystem::path path_;
@@ -78,11 +82,14 @@ class ImageTar {
   std::int64_t repeated_ = 0;
   std::string cut_;
   std::uint64_t whole_bytes_ = 0;
+  std::string encoded_;  ///< the PNG in work
 
   Status index();
   [[nodiscard]] std::optional<Name> parsed(std::string_view name) const;
   Status index_member(const char* name, bool plain, std::uint64_t offset, std::uint64_t size);
-  Status check_image(const PgmHeader& header, std::uint64_t size);
+  /// Where the pixels or the PNG of a member lie, checked against the layout.
+  Result<ImageMember> image_of(const Name& name, std::uint64_t offset, std::uint64_t size);
+  Status check_size(std::int64_t width_px, std::int64_t height_px);
   [[nodiscard]] std::size_t image_bytes() const;
   template <class Value>
   Status read_pixels(const ImageMember& member, PlainImage<Value>& image);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "hal/replay/png_picture.h"
 #include "hal/replay/replay_headset.h"
 #include "tests/support/stream_recorder_folder.h"
 
@@ -70,6 +71,13 @@ std::string one_member(const std::string& name, const std::string& content) {
   return HandmadeTar().add(name, content).finished();
 }
 
+std::string png(int width_px, int height_px) {
+  const GreyImage image(width_px, height_px, 9);
+  std::vector<std::uint8_t> bytes;
+  EXPECT_TRUE(encode_png(image, bytes).ok());
+  return {bytes.begin(), bytes.end()};
+}
+
 std::vector<Damage> damages() {
   const std::string image = HandmadeTar::pgm(640, 480, 9);
   std::vector<Damage> all;
@@ -115,6 +123,17 @@ std::vector<Damage> damages() {
                   {"VLC LF.tar", "65535", "must be 255"}),
        tar_damage("text image", [] { return one_member("5.pgm", "P2\n640 480\n255\n1 2 3"); },
                   {"VLC LF.tar", "5.pgm", "P5"}),
+       tar_damage("PNG that is none", [=] { return one_member("5.png", image); },
+                  {"VLC LF.tar", "5.png", "is not a PNG"}),
+       tar_damage("small PNG", [] { return one_member("5.png", png(320, 240)); },
+                  {"VLC LF.tar", "5.png", "320x240 px", "must be 640x480"}),
+       tar_damage("PNG of 16 bits",
+                  [] {
+                    std::string bytes = png(640, 480);
+                    bytes[24] = 16;
+                    return one_member("5.png", bytes);
+                  },
+                  {"VLC LF.tar", "5.png", "eight bits of grey"}),
        tar_damage("broken header", [] { return one_member("5.pgm", "P5\n640 x"); },
                   {"VLC LF.tar", "5.pgm", "broken PGM header"}),
        tar_damage(

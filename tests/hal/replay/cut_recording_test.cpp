@@ -26,8 +26,16 @@ using orthonav::test::write_text;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
+/// A member of an archive of PGMs of 640 x 480 pixels.
 constexpr std::uint64_t kMemberBytes = 512 + 307'712;
 constexpr int kPairs = 4;
+
+/// Up to the end of an image of our recorder, which are PNGs.
+std::uint64_t end_of_image(const std::filesystem::path& tar, std::size_t image) {
+  const auto images = ImageTar::open(tar);
+  EXPECT_TRUE(images.ok()) << images.error().message;
+  return images->end_of(images->members().at(image));
+}
 
 /// A recording of ours under its temporary name, as it is when its program was killed.
 class Unfinished {
@@ -43,6 +51,9 @@ class Unfinished {
   [[nodiscard]] std::filesystem::path path() const { return folder_ / "killed.part"; }
   [[nodiscard]] std::filesystem::path closed() const { return folder_ / "killed"; }
   [[nodiscard]] const SessionLog& log() const { return log_; }
+  [[nodiscard]] std::uint64_t end(const std::string& name, std::size_t image) const {
+    return end_of_image(path() / name, image);
+  }
   void cut(const std::string& name, std::uint64_t bytes) const {
     std::filesystem::resize_file(path() / name, bytes);
   }
@@ -80,7 +91,9 @@ TEST(CutRecording, OfAKilledProgramHasAllThatWasWritten) {
   const Unfinished recording;
   std::string cut;
   EXPECT_EQ(same_pairs(recording.path(), recording.log(), &cut), std::size_t{kPairs});
-  EXPECT_THAT(cut, AllOf(HasSubstr("VLC LF.tar is cut off at byte 1232896, after 4 whole images"),
+  EXPECT_THAT(cut, AllOf(HasSubstr("VLC LF.tar is cut off at byte " +
+                                   std::to_string(recording.end("VLC LF.tar", 3)) +
+                                   ", after 4 whole images"),
                          HasSubstr("VLC RF.tar is cut off")));
 }
 
@@ -91,7 +104,9 @@ TEST(CutRecording, OfAFullDiskIsReadToItsLastWholePairAndSaysSo) {
   ASSERT_TRUE(recorder.ok());
   SessionLog log;
   {
-    const orthonav::test::FullDisk full(5 * kMemberBytes / 2);
+    const Unfinished roomy;  // the same pairs
+    const orthonav::test::FullDisk full((roomy.end("VLC LF.tar", 1) + roomy.end("VLC LF.tar", 2)) /
+                                        2);
     log = play(**recorder);
   }
   EXPECT_EQ(log.moments.size(), std::size_t{kPairs}) << "the session is not disturbed";
@@ -102,7 +117,8 @@ TEST(CutRecording, OfAFullDiskIsReadToItsLastWholePairAndSaysSo) {
   EXPECT_FALSE((*recorder)->close().ok());
   std::string cut;
   EXPECT_EQ(same_pairs(folder / "walk.part", log, &cut), 2u);
-  EXPECT_THAT(cut, HasSubstr("VLC LF.tar is cut off at byte 770560, after 2 whole images"));
+  EXPECT_THAT(cut, HasSubstr("VLC LF.tar is cut off at byte "));
+  EXPECT_THAT(cut, HasSubstr(", after 2 whole images"));
   const auto repaired = repair_recording(folder / "walk.part");
   ASSERT_TRUE(repaired.ok()) << repaired.error().message;
   EXPECT_EQ(repaired->pairs, 2);
@@ -112,19 +128,23 @@ TEST(CutRecording, OfAFullDiskIsReadToItsLastWholePairAndSaysSo) {
 TEST(CutRecording, IsReadToItsLastWholePairWhereverItWasCut) {
   const Unfinished recording;
   std::string cut;
-  recording.cut("VLC RF.tar", 3 * kMemberBytes - 1000);  // within padding and pixels of the third
+  const std::uint64_t first = recording.end("VLC LF.tar", 0);
+  const std::uint64_t third = recording.end("VLC RF.tar", 2) - 1000;  // within it
+  recording.cut("VLC RF.tar", third);
   EXPECT_EQ(same_pairs(recording.path(), recording.log(), &cut), 2u);
-  EXPECT_THAT(cut, HasSubstr("VLC RF.tar is cut off at byte 923672, after 2 whole images"));
+  EXPECT_THAT(cut, HasSubstr("VLC RF.tar is cut off at byte " + std::to_string(third) +
+                             ", after 2 whole images"));
   recording.cut("frames.csv", content_of(recording.path() / "frames.csv").find("\n1,") + 5);
   EXPECT_EQ(same_pairs(recording.path(), recording.log(), &cut), 1u);
   EXPECT_THAT(cut, HasSubstr("frames.csv ends within a line"));
-  recording.cut("VLC LF.tar", kMemberBytes);
+  recording.cut("VLC LF.tar", first);
   EXPECT_EQ(same_pairs(recording.path(), recording.log()), 1u);
-  recording.cut("VLC LF.tar", kMemberBytes - 1000);
+  recording.cut("VLC LF.tar", first - 1000);
   const auto none = ReplayHeadset::open(recording.path());
   ASSERT_FALSE(none.ok());
   EXPECT_THAT(none.error().message,
-              HasSubstr("VLC LF.tar: holds no whole image: is cut off at byte 307224"));
+              HasSubstr("VLC LF.tar: holds no whole image: is cut off at byte " +
+                        std::to_string(first - 1000)));
 }
 
 /// At every tenth kilobyte, and around each block: as many images as are whole, and no error.
@@ -180,7 +200,7 @@ TEST(CutRecording, OfStreamRecorderIsReadToo) {
 
 TEST(Repair, ClosesARecordingAndGivesItItsName) {
   const Unfinished recording;
-  recording.cut("VLC RF.tar", 3 * kMemberBytes - 1000);
+  recording.cut("VLC RF.tar", recording.end("VLC RF.tar", 2) - 1000);
   recording.cut("head.csv", content_of(recording.path() / "head.csv").size() - 20);
   recording.cut("Depth AHaT.tar", 4 * 2048);
   const auto report = repair_recording(recording.path());

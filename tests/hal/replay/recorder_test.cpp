@@ -1,6 +1,7 @@
 #include "hal/replay/recorder.h"
 
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <algorithm>
 #include <atomic>
@@ -158,15 +159,21 @@ TEST(Recorder, KeepsWhatTheDeviceSaysOfAJumpAndAddsWhatItDoesNot) {
 TEST(Recorder, WritesTheLayoutThatOtherReadersKnow) {
   const TemporaryFolder folder;
   record(headset(), folder / "session");
-  // Ustar by its fixed offsets: name, size in octal, magic; then the image.
+  // Ustar by its fixed offsets: name, size in octal, magic; then the image, which another library
+  // reads.
   const std::string tar = content_of(folder / "session" / "VLC LF.tar");
-  EXPECT_EQ(std::string(tar.c_str()), "10000000.pgm");
-  EXPECT_EQ(std::stol(tar.substr(124, 12), nullptr, 8), 15 + 640 * 480);
+  EXPECT_EQ(std::string(tar.c_str()), "10000000.png");
+  const auto bytes = static_cast<std::size_t>(std::stol(tar.substr(124, 12), nullptr, 8));
   EXPECT_EQ(tar.substr(257, 5), "ustar");
-  EXPECT_EQ(tar.substr(512, 15), "P5\n640 480\n255\n");
+  EXPECT_EQ(tar.substr(512, 8), "\x89PNG\r\n\x1a\n");
   EXPECT_EQ(tar.substr(tar.size() - 1024), std::string(1024, '\0'));
-  constexpr std::size_t kMemberBytes = 512 + 307'712;
-  EXPECT_EQ(tar.size(), 11 * kMemberBytes + 1024);
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_memory(&image, tar.data() + 512, bytes), 0);
+  EXPECT_EQ(image.width, 640u);
+  EXPECT_EQ(image.height, 480u);
+  EXPECT_EQ(image.format, PNG_FORMAT_GRAY);
+  png_image_free(&image);
   EXPECT_EQ(std::filesystem::file_size(folder / "session" / "VLC RF_lut.bin"), 3'686'400u);
   const std::string poses = content_of(folder / "session" / "VLC LF_rig2world.txt");
   EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 10);  // one pair has no pose

@@ -82,7 +82,7 @@ TEST(StreamRecorder, PairsThroughJitter) {
   const auto pairs = paired(left, right, kPairWithin / Duration(100));
   ASSERT_EQ(pairs.size(), 90u);
   for (const MemberPair& pair : pairs) {
-    EXPECT_EQ(pair.left.pixels_offset, pair.right.pixels_offset);
+    EXPECT_EQ(pair.left.offset, pair.right.offset);
   }
   EXPECT_LT(paired(left, right, kMillisecond).size(), 60u) << "the twin: within 1 ms";
 }
