@@ -89,7 +89,7 @@ struct BlockModel {
 
 }  // namespace
 
-/// The model at every pixel, the residual, and the columns of the Jacobian (docs/tracking.md).
+/// The model at every pixel, the residual, and the columns of the Jacobian (photometric_view.h).
 void ViewModel::compare(const Photometry& light) {
   const auto column = [this](int c) { return block_.data() + c * kBlock; };
   const float* __restrict grey = column(kGrey);
