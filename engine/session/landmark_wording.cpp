@@ -44,6 +44,19 @@ void write_axis(PartedText text, const LandmarkSoFar& landmark, std::string_view
   text.out += translated(kSayAccept);
 }
 
+/// What the touch asks for next, after the text so far.
+void write_act_after_touch(PartedText text, const LandmarkSoFar& landmark) {
+  const std::size_t end = text.out.size();
+  if (landmark.tips != nullptr) {
+    write_tips(text, *landmark.tips, "; ");
+    write_axis(text, landmark, "; ");
+  }
+  if (text.out.size() == end) {
+    text.begin(Importance::kNext, ": ");
+    text.out += translated("say go to next");
+  }
+}
+
 }  // namespace
 
 void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
@@ -60,14 +73,12 @@ void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_
   }
   text.begin(Importance::kMessage, separator);
   out += landmark.last->first ? translated("dimple recorded") : translated("dimple found");
-  const std::size_t end = out.size();
-  if (landmark.tips != nullptr) {
-    write_tips(text, *landmark.tips, "; ");
-    write_axis(text, landmark, "; ");
-  }
-  if (out.size() == end) {
-    text.begin(Importance::kNext, ": ");
-    out += translated("say go to next");
+  write_act_after_touch(text, landmark);
+}
+
+void write_beside_correction(PartedText text, const LandmarkSoFar& landmark) {
+  if (landmark.last && landmark.last->missing == 0) {
+    write_act_after_touch(text, landmark);
   }
 }
 

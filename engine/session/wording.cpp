@@ -116,6 +116,11 @@ struct StateWriter {
   void operator()(const RodInHandSoFar& rod) { write_rod_in_hand(text, rod); }
 };
 
+bool is_correction(const Message& message) {
+  return std::holds_alternative<TipCorrected>(message) ||
+         std::holds_alternative<AxisCorrected>(message);
+}
+
 }  // namespace
 
 void append_step(std::string& out, const StepOnDisplay& at) {
@@ -164,6 +169,10 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     write_message(text, *line.message);
     if (is_about_replan(*line.message)) {
       write_beside_replan(text, line.state);
+    } else if (is_correction(*line.message)) {
+      if (const auto* landmark = std::get_if<LandmarkSoFar>(&line.state)) {
+        write_beside_correction(text, *landmark);
+      }
     }
   } else if (!taken) {
     out += told && !std::holds_alternative<std::monostate>(line.state) ? "; " : "";
