@@ -181,7 +181,7 @@ constexpr const char* kDepthFooter =
     "is\n"
     "past about 1 m appears near (docs/recordings.md). A headset is asked for the stream that "
     "--stream\n"
-    "names, raw; hl2ss://HOST?depth=ahat-h264, ahat-hevc or long-throw-png asks for it coded. Exit "
+    "names, raw; hl2ss://HOST?depth=ahat-h264 or long-throw-png asks for it coded. Exit "
     "1: not one "
     "point.";
 

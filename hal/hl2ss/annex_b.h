@@ -8,8 +8,8 @@
 
 namespace orthonav::hl2ss {
 
-/// The next unit's payload in a stream of NAL units with start codes (Annex B of H.264 and of
-/// HEVC), from `at` on; `at` moves past it; empty at the end.
+/// The next unit's payload in a stream of NAL units with start codes (Annex B of H.264), from `at`
+/// on; `at` moves past it; empty at the end.
 [[nodiscard]] Bytes next_unit(Bytes stream, std::size_t& at);
 
 /// The bits of a NAL unit's first 512 bytes, highest first, without emulation prevention bytes.
@@ -21,7 +21,7 @@ class BitReader {
   std::uint32_t bits(std::uint32_t count);
   void skip(std::uint32_t count);
   bool flag() { return bits(1) != 0; }
-  /// Exp-Golomb, unsigned (H.264 9.1, HEVC 9.2).
+  /// Exp-Golomb, unsigned (H.264 9.1).
   std::uint32_t golomb();
   [[nodiscard]] bool ok() const { return ok_; }
 

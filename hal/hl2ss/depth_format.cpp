@@ -16,14 +16,6 @@ constexpr int kQuarter = 4;
 constexpr int kMiddleOfQuarter = 2;
 constexpr int kNearestCoded = 64;
 
-VideoProfile profile_of(DepthCoding coding) {
-  const auto codec = codec_of(coding);
-  if (!codec) {
-    return VideoProfile::kRaw;
-  }
-  return *codec == VideoCodec::kHevc ? VideoProfile::kHevc : VideoProfile::kH264Base;
-}
-
 std::uint16_t squared(std::uint8_t root) {
   return static_cast<std::uint16_t>(unsigned{root} * unsigned{root});
 }
@@ -45,7 +37,9 @@ std::vector<std::uint8_t> request_bytes(const DepthWish& wish, std::uint32_t bit
     return bytes;
   }
   append(bytes, kDepthWithBrightness);
-  append(bytes, static_cast<std::uint8_t>(profile_of(wish.coding)));
+  append(bytes,
+         static_cast<std::uint8_t>(wish.coding == DepthCoding::kH264 ? VideoProfile::kH264Base
+                                                                     : VideoProfile::kRaw));
   append(bytes, kDefaultLevel);
   append(bytes, bitrate);
   append(bytes, std::uint8_t{1});

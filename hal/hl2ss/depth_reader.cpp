@@ -30,8 +30,8 @@ Result<std::unique_ptr<DepthReader>> DepthReader::create(
   auto reader =
       std::unique_ptr<DepthReader>(new DepthReader(wish, bitrate, camera, stamps, meter, pictures));
   const DepthFormat& format = reader->format_;
-  if (const auto codec = codec_of(wish.coding)) {
-    auto decoder = VideoDecoder::create(*codec, format.width_px, format.height_px);
+  if (wish.coding == DepthCoding::kH264) {
+    auto decoder = VideoDecoder::create(format.width_px, format.height_px);
     if (!decoder) {
       return decoder.error();
     }

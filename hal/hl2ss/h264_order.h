@@ -3,15 +3,19 @@
 #include <cstdint>
 #include <optional>
 
-#include "hal/hl2ss/picture_order.h"
+#include "base/result.h"
+#include "hal/hl2ss/bytes.h"
 
 namespace orthonav::hl2ss {
 
-/// By `frame_num` of the slice headers (ITU-T H.264, 7.3.2.1, 7.3.3 and 7.4.3).
-class H264Order final : public PictureOrder {
+/// Detects missing pictures in a stream of access units (Annex B), by `frame_num` of the slice
+/// headers (ITU-T H.264, 7.3.2.1, 7.3.3 and 7.4.3). libavcodec decodes the units after a missing
+/// picture without an error, and the result is a wrong picture.
+class H264Order {
  public:
-  Status follow(Bytes access_unit) override;
-  void restart() override { last_.reset(); }
+  /// Takes the next access unit; an Error if a picture that it depends on never arrived.
+  Status follow(Bytes access_unit);
+  void restart() { last_.reset(); }
 
  private:
   struct Picture {

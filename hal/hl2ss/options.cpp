@@ -13,7 +13,7 @@ constexpr const char* kKnownKeys =
     "known are profile=raw|h264, stamps=late|exact, scene=on|off, depth=STREAM, port=BASE, "
     "standin=PORT and token=FILE";
 constexpr const char* kKnownDepth =
-    "must be ahat, ahat-h264, ahat-hevc, long-throw or long-throw-png (research mode runs one of "
+    "must be ahat, ahat-h264, long-throw or long-throw-png (research mode runs one of "
     "the "
     "two)";
 constexpr int kMostFirstPort = net::kMostPort - kLastOffset;
@@ -36,10 +36,9 @@ Status choose(const std::string& key, std::string_view name, const Choice<T>& on
 }
 
 Status choose_depth(std::string_view name, Hl2ssOptions& options) {
-  constexpr std::array<Choice<DepthWish>, 5> kWishes = {{
+  constexpr std::array<Choice<DepthWish>, 4> kWishes = {{
       {"ahat", {DepthStream::kAhat, DepthCoding::kRaw}},
       {"ahat-h264", {DepthStream::kAhat, DepthCoding::kH264}},
-      {"ahat-hevc", {DepthStream::kAhat, DepthCoding::kHevc}},
       {"long-throw", {DepthStream::kLongThrow, DepthCoding::kRaw}},
       {"long-throw-png", {DepthStream::kLongThrow, DepthCoding::kPng}},
   }};

@@ -14,7 +14,7 @@
 
 namespace orthonav::hl2ss {
 
-/// The depth stream to request: raw, AHaT as H.264 or HEVC, or long throw as PNG.
+/// The depth stream to request: raw, AHaT as H.264, or long throw as PNG.
 struct DepthWish {
   DepthStream stream = DepthStream::kAhat;  ///< kAhat or kLongThrow
   DepthCoding coding = DepthCoding::kRaw;
@@ -43,7 +43,7 @@ struct Hl2ssOptions {
 };
 
 /// What follows `hl2ss:` in a URI:
-/// `//HOST[:PORT][?profile=raw|h264&stamps=late|exact&scene=on|off&depth=ahat|ahat-h264|ahat-hevc|`
+/// `//HOST[:PORT][?profile=raw|h264&stamps=late|exact&scene=on|off&depth=ahat|ahat-h264|`
 /// `long-throw|long-throw-png&port=BASE&standin=PORT&token=FILE]`; PORT is BASE. An Error says what
 /// is wrong and names the known keys.
 Result<Hl2ssOptions> options_of(std::string_view after_scheme);

@@ -44,33 +44,9 @@ inline constexpr std::uint64_t kStampExposuresKey = 0xFFFF'FFFF'FFFF'FFFF;
 inline constexpr std::uint64_t kStampOffsetKey = 0xFFFF'FFFF'FFFF'FFFE;
 
 enum class Mode : std::uint8_t { kVideo = 0, kVideoAndPose = 1, kCalibration = 2 };
-enum class VideoProfile : std::uint8_t {
-  kH264Base = 0,
-  kH264Main = 1,
-  kH264High = 2,
-  kHevc = 3,
-  kRaw = 255
-};
-enum class VideoCodec : std::uint8_t { kH264, kHevc };
-[[nodiscard]] constexpr const char* name_of(VideoCodec codec) {
-  return codec == VideoCodec::kHevc ? "HEVC" : "H.264";
-}
-
+enum class VideoProfile : std::uint8_t { kH264Base = 0, kH264Main = 1, kH264High = 2, kRaw = 255 };
 /// How a depth stream is coded: AHaT raw or as video, long throw raw or as PNG.
-enum class DepthCoding : std::uint8_t { kRaw, kH264, kHevc, kPng };
-[[nodiscard]] constexpr std::optional<VideoCodec> codec_of(DepthCoding coding) {
-  switch (coding) {
-    case DepthCoding::kH264:
-      return VideoCodec::kH264;
-    case DepthCoding::kHevc:
-      return VideoCodec::kHevc;
-    case DepthCoding::kRaw:
-    case DepthCoding::kPng:
-      break;
-  }
-  return std::nullopt;
-}
-
+enum class DepthCoding : std::uint8_t { kRaw, kH264, kPng };
 /// An image and its trailer; a coded picture larger than the raw one is damaged.
 inline constexpr std::size_t kMaxImagePayload = kImageBytes + kImageTrailerBytes;
 /// A quarter of a second of sound.

@@ -84,7 +84,7 @@ Status Receiver::add_cameras() {
   for (const CameraSide side : {CameraSide::kLeft, CameraSide::kRight}) {
     std::unique_ptr<VideoDecoder> decoder;
     if (options_.profile != VideoProfile::kRaw) {
-      auto made = VideoDecoder::create(VideoCodec::kH264, kImageWidthPx, kImageHeightPx);
+      auto made = VideoDecoder::create(kImageWidthPx, kImageHeightPx);
       if (!made) {
         return made.error();
       }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "hal/hl2ss/h264_order.h"
-#include "hal/hl2ss/hevc_order.h"
 #include "hal/hl2ss/libav_codec.h"
 
 extern "C" {
@@ -32,12 +30,7 @@ void append_plane(const std::uint8_t* rows, std::ptrdiff_t stride, int width, in
   }
 }
 
-std::unique_ptr<PictureOrder> order_of(VideoCodec coding) {
-  if (coding == VideoCodec::kHevc) {
-    return std::make_unique<HevcOrder>();
-  }
-  return std::make_unique<H264Order>();
-}
+Error failed(const std::string& what) { return Error{"H.264" + what}; }
 
 }  // namespace
 
@@ -45,29 +38,18 @@ struct VideoDecoder::Codec : LibavCodec {
   bool waits_for_key = true;
 };
 
-VideoDecoder::VideoDecoder(VideoCodec coding, std::unique_ptr<Codec> codec, int width_px,
-                           int height_px)
-    : coding_(coding),
-      codec_(std::move(codec)),
-      width_px_(width_px),
-      height_px_(height_px),
-      order_(order_of(coding)) {}
+VideoDecoder::VideoDecoder(std::unique_ptr<Codec> codec, int width_px, int height_px)
+    : codec_(std::move(codec)), width_px_(width_px), height_px_(height_px) {}
 VideoDecoder::~VideoDecoder() = default;
 
-Error VideoDecoder::failed(const std::string& what) const {
-  return Error{std::string(name_of(coding_)) + what};
-}
-
-Result<std::unique_ptr<VideoDecoder>> VideoDecoder::create(VideoCodec coding, int width_px,
-                                                           int height_px) {
-  const AVCodec* found =
-      avcodec_find_decoder(coding == VideoCodec::kHevc ? AV_CODEC_ID_HEVC : AV_CODEC_ID_H264);
+Result<std::unique_ptr<VideoDecoder>> VideoDecoder::create(int width_px, int height_px) {
+  const AVCodec* found = avcodec_find_decoder(AV_CODEC_ID_H264);
   if (found == nullptr) {
-    return Error{std::string("libavcodec has no ") + name_of(coding) + " decoder"};
+    return Error{"libavcodec has no H.264 decoder"};
   }
   auto codec = std::make_unique<Codec>();
   if (!codec->allocate(found)) {
-    return Error{std::string("out of memory for the ") + name_of(coding) + " decoder"};
+    return Error{"out of memory for the H.264 decoder"};
   }
   // Threads would delay pictures; damage must be reported, never concealed.
   codec->context->thread_count = 1;
@@ -79,23 +61,22 @@ Result<std::unique_ptr<VideoDecoder>> VideoDecoder::create(VideoCodec coding, in
   // errors are returned as codes.
   codec->context->log_level_offset = AV_LOG_MAX_OFFSET;
   if (const int code = avcodec_open2(codec->context, found, nullptr); code < 0) {
-    return Error{std::string(name_of(coding)) + " decoder: " + libav_reason(code)};
+    return failed(" decoder: " + libav_reason(code));
   }
-  return std::unique_ptr<VideoDecoder>(
-      new VideoDecoder(coding, std::move(codec), width_px, height_px));
+  return std::unique_ptr<VideoDecoder>(new VideoDecoder(std::move(codec), width_px, height_px));
 }
 
 void VideoDecoder::restart() {
   avcodec_flush_buffers(codec_->context);
   codec_->waits_for_key = true;
-  order_->restart();
+  order_.restart();
 }
 
 Result<std::optional<std::int64_t>> VideoDecoder::decode(Bytes access_unit, std::int64_t unit,
                                                          GreyImage& image,
                                                          std::vector<std::uint8_t>* chroma) {
   Codec& codec = *codec_;
-  Status whole = order_->follow(access_unit);
+  Status whole = order_.follow(access_unit);
   if (!whole) {
     restart();
   }

@@ -9,20 +9,17 @@
 #include "base/image.h"
 #include "base/result.h"
 #include "hal/hl2ss/bytes.h"
-#include "hal/hl2ss/picture_order.h"
+#include "hal/hl2ss/h264_order.h"
 #include "hal/hl2ss/protocol.h"
 
 namespace orthonav::hl2ss {
 
 /// Decodes access units to pictures, one in, one out, with libavcodec. Incompletely decoded
-/// pictures are discarded: after damage nothing is returned until the next key frame. Of HEVC,
-/// libavcodec does not notice all damage within a picture; it is for streams that nothing is guided
-/// by.
+/// pictures are discarded: after damage nothing is returned until the next key frame.
 class VideoDecoder {
  public:
   /// For pictures of this size only. Both sides must be even.
-  static Result<std::unique_ptr<VideoDecoder>> create(VideoCodec coding, int width_px,
-                                                      int height_px);
+  static Result<std::unique_ptr<VideoDecoder>> create(int width_px, int height_px);
   ~VideoDecoder();
 
   /// Decodes one access unit's luma into `image` and returns the number (`unit`) of the access unit
@@ -36,17 +33,15 @@ class VideoDecoder {
 
  private:
   struct Codec;
-  VideoDecoder(VideoCodec coding, std::unique_ptr<Codec> codec, int width_px, int height_px);
-  [[nodiscard]] Error failed(const std::string& what) const;
+  VideoDecoder(std::unique_ptr<Codec> codec, int width_px, int height_px);
   Result<std::optional<std::int64_t>> take_picture(GreyImage& image,
                                                    std::vector<std::uint8_t>* chroma);
   [[nodiscard]] Status check_picture(bool with_chroma) const;
 
-  VideoCodec coding_;
   std::unique_ptr<Codec> codec_;
   int width_px_;
   int height_px_;
-  std::unique_ptr<PictureOrder> order_;
+  H264Order order_;
 };
 
 }  // namespace orthonav::hl2ss

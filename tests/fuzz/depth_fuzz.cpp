@@ -43,8 +43,8 @@ void decode_png(Bytes input) {
   }
 }
 
-void decode_video(hl2ss::VideoCodec coding, Bytes input) {
-  auto decoder = hl2ss::VideoDecoder::create(coding, 512, 512);
+void decode_video(Bytes input) {
+  auto decoder = hl2ss::VideoDecoder::create(512, 512);
   insist(decoder.ok());
   GreyImage luma;
   std::vector<std::uint8_t> chroma;
@@ -85,7 +85,7 @@ void fuzz_depth(Bytes input) {
     return;
   }
   const Bytes rest = input.subspan(1);
-  switch (input[0] % 6) {
+  switch (input[0] % 5) {
     case 0:
       return ask_server(rest);
     case 1:
@@ -93,9 +93,7 @@ void fuzz_depth(Bytes input) {
     case 2:
       return decode_png(rest);
     case 3:
-      return decode_video(hl2ss::VideoCodec::kH264, rest);
-    case 5:
-      return decode_video(hl2ss::VideoCodec::kHevc, rest);
+      return decode_video(rest);
     default:
       return read_calibration(rest);
   }

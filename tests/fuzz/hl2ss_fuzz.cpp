@@ -3,7 +3,6 @@
 #include <cstdlib>
 
 #include "hal/hl2ss/h264_order.h"
-#include "hal/hl2ss/hevc_order.h"
 #include "hal/hl2ss/packet.h"
 #include "hal/hl2ss/protocol.h"
 #include "hal/hl2ss/spatial_input.h"
@@ -74,8 +73,6 @@ void read_alone(Bytes input) {
   }
   hl2ss::H264Order h264;
   (void)h264.follow(input);
-  hl2ss::HevcOrder hevc;
-  (void)hevc.follow(input);
   const auto spatial = hl2ss::read_spatial_input(input);
   if (spatial && spatial->world_from_head) {
     insist(spatial->world_from_head->translation().is_finite());

@@ -57,7 +57,7 @@ TEST(DepthLive, SaysWhatIsWrong) {
                  "hl2ss: 127.0.0.1: port 27560: Connection refused");
   expect_refused(
       {"depth", "hl2ss://127.0.0.1?depth=zdepth"},
-      "depth \"zdepth\" must be ahat, ahat-h264, ahat-hevc, long-throw or long-throw-png");
+      "depth \"zdepth\" must be ahat, ahat-h264, long-throw or long-throw-png");
   expect_refused({"depth", "hl2ss://127.0.0.1?port=27560", "--stream", "short-throw"},
                  "--stream: a HoloLens 2 has ahat and long-throw");
   expect_refused({"depth", "sim:"}, "--stream: must be named, the headset has ahat and long-throw");

@@ -43,8 +43,7 @@ Result<std::size_t> DepthPort::understand(Bytes said) {
 
 Result<std::vector<std::uint8_t>> DepthPort::pictured(const DepthAsked& asked, std::int64_t request,
                                                       const DepthFrame& frame) {
-  const auto codec = codec_of(asked.coding);
-  if (!codec) {
+  if (asked.coding != DepthCoding::kH264) {
     return asked.coding == DepthCoding::kPng ? long_throw_png(frame)
                                              : raw_depth_bytes(stream_, frame);
   }
@@ -52,7 +51,7 @@ Result<std::vector<std::uint8_t>> DepthPort::pictured(const DepthAsked& asked, s
   if (!encoder_ || encoded_request_ != request) {
     auto encoder = VideoEncoder::create({asked.bitrate, asked.gop_size, 1, frame.range_mm.width_px,
                                          frame.range_mm.height_px,
-                                         std::max(1, kAhatFramesPerSecond / asked.every), *codec});
+                                         std::max(1, kAhatFramesPerSecond / asked.every)});
     if (!encoder) {
       return encoder.error();
     }

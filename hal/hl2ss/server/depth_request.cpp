@@ -25,13 +25,11 @@ Result<Answer> ahat_request(DepthAsked asked, Bytes said) {
                  ", must be 0 (this server has no Zdepth)"};
   }
   const std::uint8_t profile = said[3];
-  if (profile > 3 && profile != 255) {
+  if (profile > 2 && profile != 255) {
     return Error{"depth request: profile " + std::to_string(profile) +
-                 ", must be 0 to 2 (H.264), 3 (HEVC) or 255 (raw)"};
+                 ", must be 0 to 2 (H.264) or 255 (raw); this server has no HEVC"};
   }
-  asked.coding = profile == 255 ? DepthCoding::kRaw
-                 : profile == 3 ? DepthCoding::kHevc
-                                : DepthCoding::kH264;
+  asked.coding = profile == 255 ? DepthCoding::kRaw : DepthCoding::kH264;
   asked.bitrate = number_at<std::uint32_t>(said, 5);
   if (asked.bitrate == 0) {
     return Error{"depth request: bitrate 0, must be positive"};

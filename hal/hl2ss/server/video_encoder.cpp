@@ -16,25 +16,8 @@ namespace {
 
 constexpr std::uint8_t kNoColour = 128;
 
-Error failed(VideoCodec coding, const std::string& what, int code) {
-  return Error{std::string(name_of(coding)) + " encoder " + what + ": " + libav_reason(code)};
-}
-
-struct Setting {
-  const char* key;
-  std::string value;
-};
-
-/// Without delay, and on one thread, so that the bytes are always the same.
-std::vector<Setting> settings_of(const VideoEncoder::Options& options) {
-  if (options.coding == VideoCodec::kH264) {
-    return {{"preset", "ultrafast"}, {"tune", "zerolatency"}, {"profile", "baseline"}};
-  }
-  return {{"preset", "ultrafast"},
-          {"tune", "zerolatency"},
-          {"x265-params",
-           "log-level=none:pools=none:frame-threads=1:wpp=0:scenecut=0:open-gop=0:slices=" +
-               std::to_string(options.slices)}};
+Error failed(const std::string& what, int code) {
+  return Error{"H.264 encoder " + what + ": " + libav_reason(code)};
 }
 
 /// Without delay, one picture at a time, as the headset's own encoder does.
@@ -62,38 +45,35 @@ void fill_plane(const std::uint8_t* from, int width, int height, AVFrame& frame,
 }  // namespace
 
 struct VideoEncoder::Codec : LibavCodec {
-  VideoCodec coding = VideoCodec::kH264;
   std::int64_t frames = 0;
 
   Status open(const Options& options);
 };
 
 Status VideoEncoder::Codec::open(const Options& options) {
-  coding = options.coding;
-  const std::string library = coding == VideoCodec::kHevc ? "libx265" : "libx264";
-  const AVCodec* found = avcodec_find_encoder_by_name(library.c_str());
+  const AVCodec* found = avcodec_find_encoder_by_name("libx264");
   if (found == nullptr) {
-    return Error{std::string("libavcodec has no ") + name_of(coding) + " encoder (" + library +
-                 ")"};
+    return Error{"libavcodec has no H.264 encoder (libx264)"};
   }
   if (!allocate(found)) {
-    return Error{std::string("out of memory for the ") + name_of(coding) + " encoder"};
+    return Error{"out of memory for the H.264 encoder"};
   }
   describe_stream(options, *context);
-  for (const auto& [key, value] : settings_of(options)) {
-    if (const int code = av_opt_set(context->priv_data, key, value.c_str(), 0); code < 0) {
-      return failed(coding, key, code);
+  for (const auto& [key, value] :
+       {std::pair{"preset", "ultrafast"}, {"tune", "zerolatency"}, {"profile", "baseline"}}) {
+    if (const int code = av_opt_set(context->priv_data, key, value, 0); code < 0) {
+      return failed(key, code);
     }
   }
   if (const int code = avcodec_open2(context, found, nullptr); code < 0) {
-    return failed(coding, "refused the settings", code);
+    return failed("refused the settings", code);
   }
   frame->format = context->pix_fmt;
   frame->width = options.width_px;
   frame->height = options.height_px;
   frame->color_range = AVCOL_RANGE_JPEG;
   if (const int code = av_frame_get_buffer(frame, 0); code < 0) {
-    return failed(coding, "no frame", code);
+    return failed("no frame", code);
   }
   return {};
 }
@@ -117,11 +97,11 @@ Result<std::vector<std::uint8_t>> VideoEncoder::encode(const GreyImage& luma,
   const std::size_t quarter = luma.pixels.size() / 4;
   if (luma.width_px != width || luma.height_px != height ||
       (chroma && chroma->size() != 2 * quarter)) {
-    return Error{std::string(name_of(codec.coding)) + " encoder: picture must be " +
-                 std::to_string(width) + "x" + std::to_string(height)};
+    return Error{"H.264 encoder: picture must be " + std::to_string(width) + "x" +
+                 std::to_string(height)};
   }
   if (const int code = av_frame_make_writable(codec.frame); code < 0) {
-    return failed(codec.coding, "no frame", code);
+    return failed("no frame", code);
   }
   fill_plane(luma.pixels.data(), width, height, *codec.frame, 0);
   for (const int plane : {1, 2}) {
@@ -135,11 +115,11 @@ Result<std::vector<std::uint8_t>> VideoEncoder::encode(const GreyImage& luma,
   }
   codec.frame->pts = codec.frames++;
   if (const int code = avcodec_send_frame(codec.context, codec.frame); code < 0) {
-    return failed(codec.coding, "took no picture", code);
+    return failed("took no picture", code);
   }
   const int code = avcodec_receive_packet(codec.context, codec.packet);
   if (code < 0) {
-    return failed(codec.coding, "gave no picture", code);
+    return failed("gave no picture", code);
   }
   std::vector<std::uint8_t> bytes(codec.packet->data, codec.packet->data + codec.packet->size);
   av_packet_unref(codec.packet);

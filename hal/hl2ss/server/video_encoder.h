@@ -10,7 +10,7 @@
 
 namespace orthonav::hl2ss {
 
-/// Encodes pictures as access units in Annex B, one in, one out, with libx264 or libx265. The same
+/// Encodes pictures as access units in Annex B, one in, one out, with libx264. The same
 /// pictures give the same bytes.
 class VideoEncoder {
  public:
@@ -21,7 +21,6 @@ class VideoEncoder {
     int width_px = 640;
     int height_px = 480;
     int frames_per_second = 30;
-    VideoCodec coding = VideoCodec::kH264;
   };
   static Result<std::unique_ptr<VideoEncoder>> create(const Options& options);
   ~VideoEncoder();

@@ -234,8 +234,6 @@ void expect_within_steps(DepthCoding coding, double most_off) {
 
 TEST(Depth, OfAhatAsH264ComesWithinItsSteps) { expect_within_steps(DepthCoding::kH264, 0.001); }
 
-TEST(Depth, OfAhatAsHevcComesWithinItsSteps) { expect_within_steps(DepthCoding::kHevc, 0.002); }
-
 /// The pairs are the same, to the bit, whether depth comes beside them or not.
 TEST(Depth, ChangesNothingOfThePairs) {
   sim::SimOptions sim = depth_session(0.31);

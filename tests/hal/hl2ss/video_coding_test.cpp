@@ -39,10 +39,8 @@ double rms(const GreyImage& a, const GreyImage& b) {
 // The encoder's own error at this rate; a neighbouring picture is 15 off.
 constexpr double kCodecNoise = 4.0;
 
-std::vector<std::vector<std::uint8_t>> encoded(VideoCodec coding, int count, int slices) {
-  VideoEncoder::Options options{kBitrate, 30, slices};
-  options.coding = coding;
-  auto encoder = VideoEncoder::create(options);
+std::vector<std::vector<std::uint8_t>> encoded(int count, int slices) {
+  auto encoder = VideoEncoder::create({kBitrate, 30, slices});
   EXPECT_TRUE(encoder.ok());
   std::vector<std::vector<std::uint8_t>> units;
   for (int i = 0; i < count; ++i) {
@@ -60,9 +58,8 @@ struct Decoded {
   double worst_rms = 0.0;
 };
 
-Decoded decode(VideoCodec coding,
-               const std::vector<std::pair<int, std::vector<std::uint8_t>>>& units) {
-  auto decoder = VideoDecoder::create(coding, kImageWidthPx, kImageHeightPx);
+Decoded decode(const std::vector<std::pair<int, std::vector<std::uint8_t>>>& units) {
+  auto decoder = VideoDecoder::create(kImageWidthPx, kImageHeightPx);
   EXPECT_TRUE(decoder.ok());
   Decoded decoded;
   GreyImage image;
@@ -78,9 +75,8 @@ Decoded decode(VideoCodec coding,
   return decoded;
 }
 
-std::vector<std::pair<int, std::vector<std::uint8_t>>> numbered(VideoCodec coding, int count,
-                                                                int slices = 1) {
-  auto units = encoded(coding, count, slices);
+std::vector<std::pair<int, std::vector<std::uint8_t>>> numbered(int count, int slices = 1) {
+  auto units = encoded(count, slices);
   std::vector<std::pair<int, std::vector<std::uint8_t>>> all;
   for (int i = 0; i < count; ++i) {
     all.emplace_back(i, std::move(units[static_cast<std::size_t>(i)]));
@@ -88,14 +84,8 @@ std::vector<std::pair<int, std::vector<std::uint8_t>>> numbered(VideoCodec codin
   return all;
 }
 
-class Video : public ::testing::TestWithParam<VideoCodec> {};
-INSTANTIATE_TEST_SUITE_P(Codings, Video, ::testing::Values(VideoCodec::kH264, VideoCodec::kHevc),
-                         [](const auto& given) {
-                           return given.param == VideoCodec::kHevc ? "Hevc" : "H264";
-                         });
-
-TEST_P(Video, EveryPictureComesOutAtOnce) {
-  const Decoded decoded = decode(GetParam(), numbered(GetParam(), 40));
+TEST(H264, EveryPictureComesOutAtOnce) {
+  const Decoded decoded = decode(numbered(40));
   ASSERT_EQ(decoded.units.size(), 40u);
   for (std::size_t i = 0; i < 40; ++i) {
     EXPECT_EQ(decoded.units[i], static_cast<std::int64_t>(i));
@@ -106,10 +96,10 @@ TEST_P(Video, EveryPictureComesOutAtOnce) {
 }
 
 /// A wrong picture is worse than none: pictures that depend on a lost one must not be delivered.
-TEST_P(Video, AfterALostPictureNothingComesUntilTheNextKeyFrame) {
-  auto units = numbered(GetParam(), 40);
+TEST(H264, AfterALostPictureNothingComesUntilTheNextKeyFrame) {
+  auto units = numbered(40);
   units.erase(units.begin() + 10);
-  const Decoded decoded = decode(GetParam(), units);
+  const Decoded decoded = decode(units);
   EXPECT_LT(decoded.worst_rms, kCodecNoise);
   EXPECT_GE(decoded.errors, 1);
   EXPECT_EQ(std::count_if(decoded.units.begin(), decoded.units.end(),
@@ -120,29 +110,29 @@ TEST_P(Video, AfterALostPictureNothingComesUntilTheNextKeyFrame) {
 
 TEST(H264, ADamagedPictureIsNotPassedOn) {
   for (const std::size_t at : {6u, 40u, 200u}) {
-    auto units = numbered(VideoCodec::kH264, 40);
+    auto units = numbered(40);
     auto& bytes = units[12].second;
     for (std::size_t i = at; i < std::min(at + 60, bytes.size()); ++i) {
       bytes[i] ^= 0x5a;
     }
-    const Decoded decoded = decode(VideoCodec::kH264, units);
+    const Decoded decoded = decode(units);
     EXPECT_LT(decoded.worst_rms, kCodecNoise) << at;
     EXPECT_EQ(decoded.units.back(), 39) << at;
   }
 }
 
 TEST(H264, ATornPictureIsNotPassedOn) {
-  auto units = numbered(VideoCodec::kH264, 40);
+  auto units = numbered(40);
   units[7].second.resize(units[7].second.size() / 2);
-  const Decoded decoded = decode(VideoCodec::kH264, units);
+  const Decoded decoded = decode(units);
   EXPECT_LT(decoded.worst_rms, kCodecNoise);
   EXPECT_EQ(decoded.units.back(), 39);
 }
 
-TEST_P(Video, JoinsAStreamAtItsNextKeyFrame) {
-  auto units = numbered(GetParam(), 40);
+TEST(H264, JoinsAStreamAtItsNextKeyFrame) {
+  auto units = numbered(40);
   units.erase(units.begin(), units.begin() + 5);
-  const Decoded decoded = decode(GetParam(), units);
+  const Decoded decoded = decode(units);
   EXPECT_LT(decoded.worst_rms, kCodecNoise);
   ASSERT_FALSE(decoded.units.empty());
   EXPECT_EQ(decoded.units.front(), 30);
@@ -160,9 +150,9 @@ std::vector<std::size_t> starts_of(const std::vector<std::uint8_t>& stream) {
 }
 
 TEST(H264, PicturesOfSeveralSlicesComeOutWhole) {
-  const auto units = numbered(VideoCodec::kH264, 40, 4);
+  const auto units = numbered(40, 4);
   EXPECT_EQ(starts_of(units[12].second).size(), 4u) << "the encoder makes slices";
-  const Decoded decoded = decode(VideoCodec::kH264, units);
+  const Decoded decoded = decode(units);
   EXPECT_EQ(decoded.units.size(), 40u);
   EXPECT_EQ(decoded.errors, 0);
   EXPECT_LT(decoded.worst_rms, kCodecNoise);
@@ -170,7 +160,7 @@ TEST(H264, PicturesOfSeveralSlicesComeOutWhole) {
 
 TEST(H264, APictureWithoutOneOfItsSlicesIsNotPassedOn) {
   for (const std::size_t lost : {0u, 1u, 2u, 3u}) {
-    auto units = numbered(VideoCodec::kH264, 40, 4);
+    auto units = numbered(40, 4);
     auto& bytes = units[12].second;
     const auto starts = starts_of(bytes);
     ASSERT_EQ(starts.size(), 4u);
@@ -178,7 +168,7 @@ TEST(H264, APictureWithoutOneOfItsSlicesIsNotPassedOn) {
       return bytes.begin() + static_cast<std::ptrdiff_t>(i < 4 ? starts[i] : bytes.size());
     };
     bytes.erase(at(lost), at(lost + 1));
-    const Decoded decoded = decode(VideoCodec::kH264, units);
+    const Decoded decoded = decode(units);
     EXPECT_LT(decoded.worst_rms, kCodecNoise) << lost;
     EXPECT_GE(decoded.errors, 1) << lost;
     EXPECT_EQ(std::count(decoded.units.begin(), decoded.units.end(), 12), 0) << lost;
@@ -188,20 +178,20 @@ TEST(H264, APictureWithoutOneOfItsSlicesIsNotPassedOn) {
 
 TEST(H264, ADamagedSliceIsNotPassedOn) {
   for (const std::size_t into : {10u, 100u, 400u}) {
-    auto units = numbered(VideoCodec::kH264, 40, 4);
+    auto units = numbered(40, 4);
     auto& bytes = units[12].second;
     const std::size_t at = starts_of(bytes)[2] + into;
     for (std::size_t i = at; i < std::min(at + 40, bytes.size()); ++i) {
       bytes[i] ^= 0x5a;
     }
-    const Decoded decoded = decode(VideoCodec::kH264, units);
+    const Decoded decoded = decode(units);
     EXPECT_LT(decoded.worst_rms, kCodecNoise) << into;
     EXPECT_EQ(decoded.units.back(), 39) << into;
   }
 }
 
-TEST_P(Video, RefusesGarbage) {
-  auto decoder = VideoDecoder::create(GetParam(), kImageWidthPx, kImageHeightPx);
+TEST(H264, RefusesGarbage) {
+  auto decoder = VideoDecoder::create(kImageWidthPx, kImageHeightPx);
   ASSERT_TRUE(decoder.ok());
   GreyImage image;
   std::vector<std::uint8_t> garbage(5000);
