@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "render/vulkan/failure.h"
-#include "render/vulkan/keep_memory.h"
 
 namespace orthonav::render {
 namespace {
@@ -194,11 +193,6 @@ Status check_size(const VkPhysicalDeviceLimits& limits, int width_px, int height
 Device::Device(VkPhysicalDevice physical, VulkanHost* host) {
   queue_family_ = graphics_family(physical).value();
   depth_format_ = depth_format_of(physical);
-  VkPhysicalDeviceProperties properties;
-  vkGetPhysicalDeviceProperties(physical, &properties);
-  if (properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU) {
-    keep_freed_memory();
-  }
   vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
   const float priority = 1;
   VkDeviceQueueCreateInfo queue = {};
