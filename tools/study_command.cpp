@@ -1,9 +1,6 @@
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -96,34 +93,11 @@ int run_study(const StudyArguments& arguments, StopSignals& signals) {
   return run_on(arguments, *options, signals);
 }
 
-/// A file of SQLite, by its first bytes.
-bool is_store(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::array<char, 15> first{};
-  file.read(first.data(), first.size());
-  return file && std::string_view(first.data(), first.size()) == "SQLite format 3";
-}
-
 int merge(const StudyArguments& arguments) {
   if (const Status place = arguments.merged_json.check(); !place) {
     return bad_input(place.error().message);
   }
-  if (std::all_of(arguments.merged.begin(), arguments.merged.end(), is_store)) {
-    return write_joined(arguments.merged_json, arguments.merged_report, arguments.merged);
-  }
-  std::vector<std::string> texts;
-  for (const std::string& path : arguments.merged) {
-    auto text = engine::read_text(path);
-    if (!text) {
-      return bad_input(text.error().message);
-    }
-    texts.push_back(std::move(*text));
-  }
-  const auto study = engine::merge_studies(texts, arguments.merged);
-  if (!study) {
-    return bad_input(study.error().message);
-  }
-  return write_study(arguments.merged_json, arguments.merged_report, *study);
+  return write_joined(arguments.merged_json, arguments.merged_report, arguments.merged);
 }
 
 }  // namespace
@@ -137,8 +111,8 @@ void add_study_command(CLI::App& app, Action& action, StopSignals& signals) {
   add_options(*study, *arguments);
   add_rods_command(*study, action);
   add_compare_command(*study, action);
-  auto* merge_command = study->add_subcommand("merge", "Joins the results of shards");
-  merge_command->add_option("FILE", arguments->merged, "results of shards")->required();
+  auto* merge_command = study->add_subcommand("merge", "Joins the stores of shards (--db)");
+  merge_command->add_option("FILE", arguments->merged, "stores of shards")->required();
   arguments->merged_json.add_to(*merge_command);
   merge_command->add_option("--report", arguments->merged_report, "HTML page to write")
       ->check(some_text());

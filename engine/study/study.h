@@ -45,9 +45,4 @@ Result<Study> run_study(std::span<const Case> cases, const StudyOptions& options
                         const std::function<void(int, int)>& progress = {},
                         const std::function<void(std::function<void()>)>& can_stop = {});
 
-/// Joins the texts of shards as if they were one study. `names` stand for them in messages. Refuses
-/// texts that are not studies, different methods, and a run that occurs twice.
-Result<std::string> merge_studies(std::span<const std::string> texts,
-                                  std::span<const std::string> names);
-
 }  // namespace orthonav::engine

@@ -294,29 +294,6 @@ TEST(StudyCommand, RefusesBadInput) {
   expect_refusal(orthonav({"study", "--runs", "0"}), "--runs: \"0\"");
   expect_refusal(orthonav({"study", "--cases", folder.file("none")}), "no case.json");
   expect_refusal(orthonav({"study", "merge", folder.with("a.json", "[]")}), "is not a study");
-  const std::string words = folder.with("words.json", R"({"method": "paper", "runs": [
-      {"case": "a", "seed": 1, "completed": "yes", "levels": []}]})");
-  expect_refusal(orthonav({"study", "merge", words}),
-                 "words.json: completed of a run is \"yes\", must be true or false");
-}
-
-TEST(StudyCommand, MergesShards) {
-  const ScratchFolder folder;
-  const auto shard = [&](const std::string& name, int seed) {
-    const json run{{"case", "phantom"},
-                   {"seed", seed},
-                   {"completed", true},
-                   {"levels", json::array({{{"label", "L5"}, {"rmse_mm", 1.0 * seed}}})}};
-    return folder.with(name, json{{"method", "paper"}, {"runs", json::array({run})}}.dump());
-  };
-  const std::string out = folder.file("all.json");
-  const Called merged =
-      orthonav({"study", "merge", shard("b.json", 2), shard("a.json", 1), "--json", out});
-  ASSERT_EQ(merged.code, 0) << merged.err;
-  const json study = json::parse(content_of(out));
-  EXPECT_EQ(study["operations"], 2);
-  EXPECT_EQ(study["runs"][0]["seed"], 1);
-  EXPECT_DOUBLE_EQ(study["table"][2]["mean"], 1.5);
 }
 
 }  // namespace

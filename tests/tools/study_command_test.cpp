@@ -64,19 +64,6 @@ TEST(StudyCompare, RefusesInOneLine) {
   EXPECT_THAT(refusal({one, folder.with("x.db", "no study")}), HasSubstr("x.db: is not a study"));
 }
 
-TEST(StudyMerge, WritesThePageToo) {
-  const ScratchFolder folder;
-  const std::string one = folder.with("one.json", study_text("best", {1.0}));
-  const Called called = orthonav({"study", "merge", one, "--json", folder.file("o.json"),
-                                  "--report", folder.file("page.html")});
-  ASSERT_EQ(called.code, 0) << called.err;
-  EXPECT_THAT(content_of(folder.file("page.html")), HasSubstr("phantom, L5 left"));
-  EXPECT_THAT(called.out, HasSubstr("method best: 1 of 1 operation completed\n"));
-  EXPECT_THAT(called.out, HasSubstr("\nTrajectory error, °       "));
-  EXPECT_EQ(orthonav({"study", "merge", one}).out, called.out) << "JSON only where it is asked for";
-  EXPECT_EQ(orthonav({"study", "merge", one, "--json"}).out, content_of(folder.file("o.json")));
-}
-
 TEST(StudySlurm, SaysInOneLineThatThereIsNone) {
   if (std::system("command -v sbatch >/dev/null 2>&1") == 0) {
     GTEST_SKIP() << "Slurm is installed here";

@@ -7,14 +7,16 @@
 
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
+#include "engine/study/study_reading.h"
+#include "engine/study/study_text.h"
 
 namespace orthonav::engine {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::ordered_json;
 using ::testing::HasSubstr;
 
-json run_of(const std::string& name, std::uint64_t seed, double angle_deg) {
+Json run_of(const std::string& name, std::uint64_t seed, double angle_deg) {
   return {{"method", "paper"},
           {"seed", seed},
           {"case", name},
@@ -28,31 +30,14 @@ json run_of(const std::string& name, std::uint64_t seed, double angle_deg) {
              {"screws", {{{"side", "left"}, {"angle_error_deg", angle_deg}}}}}}}};
 }
 
-std::string study_of(const std::string& method, const std::vector<json>& runs) {
-  return json{{"method", method}, {"runs", runs}}.dump();
-}
-
-Result<std::string> merged(const std::vector<std::string>& texts) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    names.push_back("part" + std::to_string(i + 1));
-  }
-  return merge_studies(texts, names);
-}
-
-TEST(Study, MergesShardsInTheOrderOfCaseAndSeed) {
-  const auto all = merged({study_of("paper", {run_of("b", 1, 4.0), run_of("a", 2, 2.0)}),
-                           study_of("paper", {run_of("a", 1, 3.0)})});
-  ASSERT_TRUE(all.ok()) << all.error().message;
-  const json study = json::parse(*all);
+TEST(Study, HasTheTableOverItsRuns) {
+  const Json study = Json::parse(study_text(
+      "paper", {run_of("a", 1, 3.0), run_of("a", 2, 2.0), run_of("b", 1, 4.0)}, Json::array(), 3));
   EXPECT_EQ(study["operations"], 3);
   EXPECT_EQ(study["completed"], 3);
-  ASSERT_EQ(study["runs"].size(), 3u);
-  EXPECT_EQ(study["runs"][0]["case"], "a");
-  EXPECT_EQ(study["runs"][0]["seed"], 1);
-  EXPECT_EQ(study["runs"][2]["case"], "b");
+  EXPECT_FALSE(study.contains("planned"));
   ASSERT_EQ(study["table"].size(), 5u);
-  const json& angle = study["table"][0];
+  const Json& angle = study["table"][0];
   EXPECT_EQ(angle["name"], "Trajectory error");
   EXPECT_EQ(angle["count"], 3);
   EXPECT_DOUBLE_EQ(angle["mean"], 3.0);
@@ -62,39 +47,29 @@ TEST(Study, MergesShardsInTheOrderOfCaseAndSeed) {
   EXPECT_EQ(study["table"][1]["count"], 0) << "no entry error was measured";
 }
 
-TEST(Study, TheOrderOfTheShardsDoesNotMatter) {
-  const std::string one = study_of("paper", {run_of("a", 1, 3.0)});
-  const std::string two = study_of("paper", {run_of("a", 2, 2.0)});
-  EXPECT_EQ(*merged({one, two}), *merged({two, one}));
+TEST(Study, ThatLacksRunsIsIncomplete) {
+  const Json study = Json::parse(study_text("paper", {run_of("a", 1, 3.0)}, Json::array(), 5));
+  EXPECT_EQ(study["incomplete"], true);
+  EXPECT_EQ(study["planned"], 5);
 }
 
-TEST(Study, RefusesWhatDoesNotBelongTogether) {
-  const std::string one = study_of("paper", {run_of("a", 1, 3.0)});
-  EXPECT_THAT(merged({one, one}).error().message, HasSubstr("part2: case 'a' with seed 1"));
-  EXPECT_THAT(merged({one, study_of("best", {})}).error().message, HasSubstr("method 'best'"));
-  EXPECT_THAT(merged({"{", one}).error().message, HasSubstr("part1: is not a study"));
-  EXPECT_THAT(merged({"[]"}).error().message, HasSubstr("is not a study"));
-  EXPECT_THAT(merged({study_of("paper", {json{{"case", "a"}}})}).error().message,
-              HasSubstr("a run lacks"));
-}
-
-TEST(Study, KeepsWhatFailedThroughAMerge) {
-  json part = json::parse(study_of("paper", {run_of("a", 1, 3.0)}));
-  part["failed"] = {{{"case", "a"}, {"seed", 2}, {"why", "no room"}}};
-  const auto all = merged({part.dump(), study_of("paper", {run_of("b", 1, 3.0)})});
-  ASSERT_TRUE(all.ok()) << all.error().message;
-  EXPECT_EQ(json::parse(*all)["failed"], part["failed"]);
-  EXPECT_EQ(json::parse(*all)["operations"], 2);
+std::string refusal_of(const Json& study) {
+  const auto parsed = parse_study(study.dump(), "part1");
+  return parsed ? "" : parsed.error().message;
 }
 
 TEST(Study, RefusesRunsWhoseFieldsAreOfAnotherType) {
-  json run = run_of("a", 1, 3.0);
+  EXPECT_THAT(refusal_of(Json::array()), HasSubstr("part1: is not a study"));
+  EXPECT_THAT(refusal_of({{"method", "paper"}, {"runs", {{{"case", "a"}}}}}),
+              HasSubstr("a run lacks"));
+  Json run = run_of("a", 1, 3.0);
+  EXPECT_EQ(refusal_of({{"method", "paper"}, {"runs", {run}}}), "");
   run["completed"] = "yes";
-  EXPECT_EQ(merged({study_of("paper", {run})}).error().message,
+  EXPECT_EQ(refusal_of({{"method", "paper"}, {"runs", {run}}}),
             "part1: completed of a run is \"yes\", must be true or false");
   run = run_of("a", 1, 3.0);
   run["levels"] = {1};
-  EXPECT_THAT(merged({study_of("paper", {run})}).error().message, HasSubstr("part1: a level"));
+  EXPECT_THAT(refusal_of({{"method", "paper"}, {"runs", {run}}}), HasSubstr("part1: a level"));
 }
 
 TEST(Study, IsAnErrorWhereNoRunCouldBeMade) {
@@ -119,7 +94,7 @@ TEST(Study, KeepsTheRunsThatCouldBeMadeBesideOneThatCouldNot) {
   ASSERT_TRUE(study.ok()) << study.error().message;
   ASSERT_TRUE(study->failure.has_value());
   EXPECT_THAT(study->failure->message, HasSubstr("no level 'L5'"));
-  const json text = json::parse(study->text);
+  const Json text = Json::parse(study->text);
   EXPECT_EQ(text["operations"], 1);
   EXPECT_EQ(text["failed"].size(), 1u);
   EXPECT_EQ(text["runs"][0]["why_not"], "ended at setup of L5");
@@ -149,20 +124,9 @@ TEST(Study, KeepsWhatWasMadeWhenItIsStoppedAndSaysThatItIsIncomplete) {
   ASSERT_TRUE(study.ok()) << study.error().message;
   EXPECT_TRUE(told_of_the_end);
   EXPECT_EQ(study->planned, 3);
-  const json text = json::parse(study->text);
+  const Json text = Json::parse(study->text);
   EXPECT_EQ(text["operations"], study->made);
   EXPECT_EQ(text.value("incomplete", false), study->made < 3);
-}
-
-TEST(Study, AMergeWithAnIncompleteShardIsIncomplete) {
-  json part = json::parse(study_of("paper", {run_of("a", 1, 2.0)}));
-  part["incomplete"] = true;
-  part["planned"] = 5;
-  const json all = json::parse(*merged({part.dump(), study_of("paper", {run_of("b", 1, 3.0)})}));
-  EXPECT_EQ(all["incomplete"], true);
-  EXPECT_EQ(all["planned"], 6);
-  EXPECT_FALSE(
-      json::parse(*merged({study_of("paper", {run_of("b", 1, 3.0)})})).contains("planned"));
 }
 
 TEST(Study, RefusesOptionsWithAReason) {
