@@ -83,9 +83,8 @@ void print(const nav::RodInstructions& told) {
                bend.arc.angle_rad * kDegreesPerRadian, bend.set_rad * kDegreesPerRadian);
   }
   print_text("farthest head %.2f mm off\n", told.fit.worst_off_m * 1e3);
-  if (told.reach_m > 0.0) {
-    print_text("bends reach %.0f mm into the tulips: no other rod passes the heads\n",
-               told.reach_m * 1e3);
+  if (told.reach_m >= 0.0005) {
+    print_text("bends reach up to %.1f mm into the tulips\n", told.reach_m * 1e3);
   }
 }
 

@@ -57,14 +57,12 @@ using Change = void (*)(engine::RodExperimentOptions&);
 
 /// The same rods with one part of the instructed arm taken away, or changed.
 void print_parts(const engine::RodExperimentOptions& options, std::uint64_t seed) {
-  constexpr std::array<std::pair<const char*, Change>, 7> kParts = {
+  constexpr std::array<std::pair<const char*, Change>, 5> kParts = {
       {{"heads touched as with the template", [](auto& o) { o.in_socket = false; }},
        {"one touch of every head", [](auto& o) { o.long_rod_touches = 1; }},
        {"two touches of every head", [](auto& o) { o.head_touches = 2; }},
        {"on the headset's map (0.37 mm between heads)",
         [](auto& o) { o.neighbour_navigation_m = 0.00037; }},
-       {"no bend measured", [](auto& o) { o.remeasured = false; }},
-       {"every bend but the last measured", [](auto& o) { o.measured_from_bends = 2; }},
        {"ends not marked", [](auto& o) { o.ends_marked = false; }}}};
   for (const auto& [name, change] : kParts) {
     engine::RodExperimentOptions changed = options;

@@ -29,7 +29,6 @@ std::vector<GoldenScene> golden_scenes(bool laid_out) {
   golden::add_precision_scenes(scenes);
   golden::add_number_scenes(scenes);
   golden::add_other_scenes(scenes);
-  golden::add_rod_scenes(scenes);
   golden::add_step_scenes(scenes);
   golden::add_placed_scenes(scenes);
   golden::add_view_scenes(scenes);

@@ -106,7 +106,6 @@ void add_shape_scenes(std::vector<GoldenScene>& scenes);      ///< H1 to H5
 void add_precision_scenes(std::vector<GoldenScene>& scenes);  ///< H7 and H8
 void add_number_scenes(std::vector<GoldenScene>& scenes);     ///< H6, H9 and H13, about the cross
 void add_other_scenes(std::vector<GoldenScene>& scenes);      ///< H10 to H12
-void add_rod_scenes(std::vector<GoldenScene>& scenes);        ///< H10 of a rod in hand
 void add_step_scenes(std::vector<GoldenScene>& scenes);       ///< the workflow, step by step
 void add_placed_scenes(std::vector<GoldenScene>& scenes);     ///< a wire beside its plan
 void add_view_scenes(std::vector<GoldenScene>& scenes);       ///< distances, head rolls, a gaze

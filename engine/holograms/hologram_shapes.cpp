@@ -58,6 +58,10 @@ std::string fixed_width(std::string_view text) {
 void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, Label label) {
   add_ring(scene, at, along, kBendRingRadius_m, kBendRingWidth_m, look::colours().fair, label);
   render::TextItem& text = add_text_beside(scene, at, 1.6f, 0.0035f, 0.35f, label);
+  if (bend.to_make) {
+    append_bend(add_run(text, look::kWhite), *bend.to_make);
+    return;
+  }
   add_run(text, angle_text(bend.angle_rad), look::kWhite);
   add_run(text, look::kSoftWhite).append(" ").append(translated(words::kAt)).append(" ");
   add_run(text, in_mm(bend.arc_length_m), look::kSoftWhite);

@@ -53,7 +53,6 @@ class SceneBuilder {
   void add_cross(const PlacedScrew& screw, render::Scene& scene);
   void add_virtual_twin(const PlacedScrew& screw, render::Scene& scene);
   void add_rods(const Guidance& guidance, render::Scene& scene);
-  void add_lying_rod(const LyingRod& rod, render::Scene& scene);
   void add_status(const Guidance& guidance, render::Scene& scene);
   const std::shared_ptr<const render::MeshData>& surface_of(const LevelState& level);
   const std::shared_ptr<const render::MeshData>& tinted_surface_of(const LevelState& level,
@@ -71,7 +70,6 @@ class SceneBuilder {
   /// The lines of its pattern, in the frame of the model.
   std::map<const nav::VertebraModel*, std::vector<std::vector<Vec3>>> patterns_;
   std::vector<Tube> tubes_;
-  Tube lying_tube_;
   std::shared_ptr<const render::MeshData> tinted_;  ///< of the registration shown last
   const render::MeshData* tinted_from_ = nullptr;   ///< the surface that it was made of
   // Reused from frame to frame.

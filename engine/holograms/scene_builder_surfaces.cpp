@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/holograms/render_values.h"
-#include "engine/holograms/rod_in_hand_hologram.h"
 #include "engine/holograms/scene_builder.h"
 #include "render/shapes.h"
 
@@ -51,13 +50,6 @@ const std::shared_ptr<const render::MeshData>& SceneBuilder::tube_of(std::size_t
         render::make_tube(path, static_cast<float>(rod.rod->diameter_m / 2.0)));
   }
   return tube.mesh;
-}
-
-void SceneBuilder::add_lying_rod(const LyingRod& rod, render::Scene& scene) {
-  if (lying_tube_.points != rod.axis) {
-    lying_tube_ = {rod.axis, engine::tube_of(rod)};
-  }
-  add_rod_in_hand(scene, rod, lying_tube_.mesh);
 }
 
 }  // namespace orthonav::engine

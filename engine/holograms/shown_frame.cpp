@@ -73,9 +73,6 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
   if (visible.rods) {
     write_rods(guidance, rules, frame);
   }
-  if (visible.lying_rod) {
-    write_lying_rod(*visible.lying_rod, frame);
-  }
   frame.holograms.resize(used_);
 }
 
@@ -247,15 +244,6 @@ void ShownFrameWriter::write_rods(const Guidance& guidance, const VisibilityRule
       hologram.points_in_world.push_back(head + offset);
     }
   }
-}
-
-void ShownFrameWriter::write_lying_rod(const LyingRod& rod, ShownFrame& frame) {
-  ShownHologram& hologram = add(frame, HologramKind::kRod);
-  if (rod.next) {
-    append_next_bend(hologram.text, *rod.next);
-    hologram.points_in_world.push_back(rod.bend.at);
-  }
-  hologram.points_in_world.insert(hologram.points_in_world.end(), rod.axis.begin(), rod.axis.end());
 }
 
 void ShownFrameWriter::write_status(const Guidance& guidance, const Visibility& visible,

@@ -29,7 +29,6 @@ class ShownFrameWriter {
   void write_cross(const PlacedScrew& screw, const Visibility& visible, ShownFrame& frame);
   void write_sizes(const Visibility& visible, ShownFrame& frame);
   void write_rods(const Guidance& guidance, const VisibilityRules& rules, ShownFrame& frame);
-  void write_lying_rod(const LyingRod& rod, ShownFrame& frame);
   void write_numbers(const nav::ScrewNumbers& numbers, nav::Side side, ShownFrame& frame);
   void write_status(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
 

@@ -147,16 +147,6 @@ void decide_entries(const Guidance& g, Visibility& out) {
   }
 }
 
-/// Only as long as it is likely to lie where it was stroked.
-const LyingRod* lying_rod_at(const Guidance& g, Timestamp display_time) {
-  for (const RodState& rod : g.rods) {
-    if (rod.lying && display_time <= rod.lying->shown_until) {
-      return &*rod.lying;
-    }
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestamp display_time,
@@ -172,8 +162,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   }
   // H1: the surgeon still compares the paths with the hologram while verifying; after acceptance
   // they would only cover the bone.
-  out.paths = g.step == Step::kDigitize || g.step == Step::kRegistering ||
-              g.step == Step::kVerify || (g.step == Step::kRod && g.rod_stroked);
+  out.paths = g.step == Step::kDigitize || g.step == Step::kRegistering || g.step == Step::kVerify;
   out.stroke_pattern =
       rules.stroke_pattern && g.step == Step::kDigitize && g.head && g.level < g.levels.size();
   // H2, H12: only the level that is to be verified; gone with a rejected registration.
@@ -215,9 +204,6 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   }
   // H10: from the first head until the end.
   out.rods = g.step == Step::kRod || g.step == Step::kDone;
-  if (g.step == Step::kRod) {
-    out.lying_rod = lying_rod_at(g, display_time);
-  }
 }
 
 bool names_entry(const Visibility& visible, const PlacedLevel& at, std::size_t screw) {

@@ -88,7 +88,6 @@ struct Visibility {
   LabelSide cross_side = LabelSide::kLeft;          ///< the side on which the cross was last
   bool twin = false;                                ///< H8 of the selected screw
   bool rods = false;                                ///< H10
-  const LyingRod* lying_rod = nullptr;              ///< H10 of the rod in hand; or null
   /// Time of the pair on which H5 and the dots of H7 are based; absent if neither is shown.
   std::optional<Timestamp> pose_time;
 };

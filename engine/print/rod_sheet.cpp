@@ -80,10 +80,6 @@ void add_table(RodPage& page, const nav::RodInstructions& told) {
     page.text(kColumnsMm[2], page.y_mm(), printed("%.0f°", bend.arc.roll_rad * kDegreesPerRadian));
     add_dial(page, {kColumnsMm[2] + 16.0, page.y_mm() - 1.1}, bend.arc.roll_rad);
     page.text(kColumnsMm[3], page.y_mm(), printed("%.1f°", bend.arc.angle_rad * kDegreesPerRadian));
-    if (k < told.made) {
-      page.text(kColumnsMm[6], page.y_mm(), "made");
-      continue;
-    }
     page.text(kColumnsMm[4], page.y_mm(), printed("%.1f°", bend.set_rad * kDegreesPerRadian));
     page.text(kColumnsMm[5], page.y_mm(),
               printed("%.0f mm", bend.arc.width_m / std::max(bend.arc.angle_rad, 1e-3) * 1e3));

@@ -111,9 +111,6 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
     outcome.instructions = rod.instructions;
     outcome.no_instructions = rod.no_instructions;
     outcome.seat_by_pointer_m = rod.seat_by_pointer_m;
-    for (const RodBendInHand& bend : rod.measured) {
-      outcome.measured.push_back(bend.found);
-    }
     result.rods.push_back(std::move(outcome));
   }
   result.loop = std::move(loop);

@@ -131,13 +131,6 @@ Json one_rod_json(const RodOutcome& rod) {
                                          {"set_deg", degrees(bend.set_rad)}});
     }
   }
-  for (const nav::MeasuredBend& bend : rod.measured) {
-    out["measured"].push_back(Json{{"angle_deg", degrees(bend.arc.angle_rad)},
-                                   {"angle_se_deg", degrees(bend.angle_se_rad)},
-                                   {"roll_deg", degrees(bend.arc.roll_rad)},
-                                   {"roll_se_deg", degrees(bend.roll_se_rad)},
-                                   {"rms_mm", bend.rms_m * 1e3}});
-  }
   return out;
 }
 

@@ -121,21 +121,6 @@ void put_instructions(Json& side, const RecordedRod& rod) {
 }
 
 /// As in the journal.
-void put_measured(Json& side, const RecordedRod& rod) {
-  for (const RecordedRodBend& bend : rod.measured) {
-    side["measured"].push_back(Json{{"bend", bend.bend},
-                                    {"angle_deg", degrees(bend.angle_rad)},
-                                    {"angle_se_deg", degrees(bend.angle_se_rad)},
-                                    {"roll_deg", degrees(bend.roll_rad)},
-                                    {"roll_se_deg", degrees(bend.roll_se_rad)},
-                                    {"rms_mm", bend.rms_m * 1e3}});
-  }
-  if (rod.given_up > 0) {
-    side["given_up"] = rod.given_up;
-  }
-}
-
-/// As in the journal.
 void put_certainty(Json& side, const RecordedRod& rod) {
   for (const RecordedHead& head : rod.touched) {
     side["touched"].push_back(Json{{"touches", head.touches}, {"sd_mm", head.sd_m * 1e3}});
@@ -156,7 +141,6 @@ Json recorded_rods_json(const std::vector<RecordedRod>& rods) {
       out = side;
     }
     put_instructions(side, rod);
-    put_measured(side, rod);
     put_certainty(side, rod);
     sides.push_back(std::move(side));
   }

@@ -22,19 +22,6 @@ std::string instructed(const RecordedRod& rod) {
   return text.empty() ? "\u2013" : text;
 }
 
-/// "12.1 ± 0.3, 9.8 ± 0.3".
-std::string measured_text(const RecordedRod& rod) {
-  std::string text;
-  for (const RecordedRodBend& bend : rod.measured) {
-    text += (text.empty() ? "" : ", ") + html_number(degrees(bend.angle_rad), 1) + " \u00b1 " +
-            html_number(degrees(bend.angle_se_rad), 1);
-  }
-  if (rod.given_up > 0) {
-    text += (text.empty() ? "" : "; ") + std::to_string(rod.given_up) + " given up before";
-  }
-  return text.empty() ? "\u2013" : text;
-}
-
 std::string touches_text(const RecordedRod& rod) {
   std::string text;
   for (const RecordedHead& head : rod.touched) {
@@ -58,7 +45,6 @@ std::string session_rods(const SessionRecord& session) {
                    {"bends", "mm: \u00b0"},
                    {"cut to", "mm"},
                    {"instructions", "mm: roll \u00b0, set \u00b0"},
-                   {"measured", "\u00b0"},
                    {"expected within 1.0 mm", "%"}});
   for (const RecordedRod& rod : session.rods) {
     std::string bends;
@@ -74,7 +60,6 @@ std::string session_rods(const SessionRecord& session) {
     table.cell(bends.empty() ? "\u2013" : bends);
     table.cell(length_text(rod.cut_length_m));
     table.cell(instructed(rod));
-    table.cell(measured_text(rod));
     table.cell(rod.expected_within ? html_number(100.0 * *rod.expected_within, 0) : "\u2013");
   }
   return "<section><h2>Rods</h2>" + table.html() + "</section>";

@@ -94,8 +94,6 @@ enum class Action : std::uint8_t {
   kDropTouch,
   kRecordHead,
   kDropHead,
-  kMeasureRod,
-  kSaveRod,
   kFinishRod,
   kMoveRod,
   kToggleTwin,
@@ -109,6 +107,6 @@ enum class Action : std::uint8_t {
   kShowGuidance,
   kForgetMap,
 };
-inline constexpr std::size_t kActionCount = 52;
+inline constexpr std::size_t kActionCount = static_cast<std::size_t>(Action::kForgetMap) + 1;
 
 }  // namespace orthonav::engine

@@ -12,7 +12,6 @@
 #include "engine/session/bone_found.h"
 #include "engine/session/landmark.h"
 #include "engine/session/placed_wire.h"
-#include "engine/session/rod_in_hand.h"
 #include "engine/session/status_line.h"
 #include "engine/session/touched_heads.h"
 #include "engine/session/workflow.h"
@@ -155,10 +154,6 @@ struct RodState {
   /// Whether it will lie in the true heads; `least_sure` is a head, in order of first touch. Absent
   /// without instructions.
   std::optional<nav::RodExpectation> expected;
-  /// The bends made so far, as measured on the rod in hand: the first ones of `instructions`.
-  std::vector<RodBendInHand> measured;
-  /// The rod in hand as it lay when it was stroked; absent once that may no longer hold.
-  std::optional<LyingRod> lying;
   std::optional<Timestamp> first_touch;  ///< of a head
   std::optional<double> took_s;          ///< from then until it was done
   bool done = false;
@@ -218,8 +213,7 @@ struct Guidance {
   std::span<const LevelState> levels;
   std::size_t level = 0;  ///< being operated, an index into `levels`
   std::size_t screw = 0;  ///< selected, an index into the level's screws (while guiding)
-  std::span<const nav::Region> regions;  ///< of the bone or, with `rod_stroked`, of a rod
-  bool rod_stroked = false;
+  std::span<const nav::Region> regions;
   const DroppedRegion* dropped = nullptr;
   /// Guidance on a pose older than this at the display time is hidden.
   Duration stale_after{};

@@ -87,10 +87,6 @@ class Journal : public SessionObserver {
   void calibration_found(Timestamp time, const CalibrationInUse& found) override;
   void head_recorded(Timestamp time, nav::Side side, const HeadTouch& touch) override;
   void head_dropped(Timestamp time, nav::Side side, const HeadTouch& touch) override;
-  void rod_bend_measured(Timestamp time, const RodState& rod) override;
-  void rod_bend_dropped(Timestamp time, const RodState& rod) override;
-  void rod_given_up(Timestamp time, const RodState& rod, std::string_view why) override;
-  void rod_kept(Timestamp time, const RodState& rod) override;
   void rod_done(Timestamp time, const RodState& rod) override;
 
  private:

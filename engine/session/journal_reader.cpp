@@ -199,12 +199,6 @@ class Reading {
   void take_rod_line(const std::string& what, const JsonNode& line) {
     if (what == "rod") {
       replay_.rod_done(recorded_rod_of(line));
-    } else if (what == "rod bend") {
-      replay_.rod_bend_measured(side_of(line), recorded_rod_bend_of(line), line);
-    } else if (what == "rod bend dropped") {
-      replay_.rod_bend_dropped(side_of(line));
-    } else if (what == "rod given up" || what == "rod kept") {
-      replay_.rod_given_up(side_of(line), what == "rod given up");
     } else {
       refuse_unknown(what, line);
     }

@@ -70,7 +70,6 @@ void JournalReplay::forget_map() {
   for (RecordedRod& rod : record_.rods) {
     if (!rod.done) {
       rod.heads = 0;
-      rod.measured.clear();
     }
   }
   first_press_.reset();
@@ -234,33 +233,10 @@ void JournalReplay::replanned(const std::string& label, Side side,
 void JournalReplay::head(Side side, bool touched, const JsonNode& line) {
   RecordedRod& rod = rod_of(side);
   rod.heads = heads_after(line, touched, rod.heads);
-  rod.measured.clear();
-}
-
-void JournalReplay::rod_bend_measured(Side side, const RecordedRodBend& bend,
-                                      const JsonNode& line) {
-  if (bend.bend == 0) {
-    return line.refuse("bend", "is 0");
-  }
-  std::vector<RecordedRodBend>& measured = rod_of(side).measured;
-  measured.resize(std::min(measured.size(), bend.bend - 1));
-  measured.push_back(bend);
-}
-
-void JournalReplay::rod_bend_dropped(Side side) {
-  std::vector<RecordedRodBend>& measured = rod_of(side).measured;
-  measured.resize(measured.size() - std::min<std::size_t>(measured.size(), 1));
-}
-
-void JournalReplay::rod_given_up(Side side, bool given_up) {
-  RecordedRod& rod = rod_of(side);
-  rod.given_up =
-      given_up ? rod.given_up + 1 : rod.given_up - std::min<std::size_t>(rod.given_up, 1);
 }
 
 void JournalReplay::rod_done(RecordedRod rod) {
   RecordedRod& known = rod_of(rod.side);
-  rod.given_up = known.given_up;
   known = std::move(rod);
 }
 

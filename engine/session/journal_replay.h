@@ -38,10 +38,6 @@ class JournalReplay {
   void screw_done(const std::string& label, const RecordedScrew& screw, const JsonNode& line);
   /// A head was touched, or the last touch taken back.
   void head(Side side, bool touched, const JsonNode& line);
-  void rod_bend_measured(Side side, const RecordedRodBend& bend, const JsonNode& line);
-  void rod_bend_dropped(Side side);
-  /// Or kept after all.
-  void rod_given_up(Side side, bool given_up);
   void rod_done(RecordedRod rod);
 
  private:

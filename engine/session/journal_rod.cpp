@@ -44,45 +44,7 @@ void put_certainty(JournalLine& line, const RodState& rod) {
   }
 }
 
-/// A bend of the rod in hand, from 1, as stroked.
-JournalLine measured_json(const nav::MeasuredBend& found, std::size_t number) {
-  return JournalLine{{"bend", number},
-                     {"angle_deg", degrees(found.arc.angle_rad)},
-                     {"angle_se_deg", degrees(found.angle_se_rad)},
-                     {"roll_deg", degrees(found.arc.roll_rad)},
-                     {"roll_se_deg", degrees(found.roll_se_rad)},
-                     {"rms_mm", found.rms_m * 1e3}};
-}
-
 }  // namespace
-
-void Journal::rod_bend_measured(Timestamp time, const RodState& rod) {
-  JournalLine line = journal_line(file_ticks(time), time, "rod bend");
-  line["side"] = name_of(rod.side);
-  line.update(measured_json(rod.measured.back().found, rod.measured.size()));
-  put_instructions(line, rod);
-  add_line(*log_, line);
-}
-
-void Journal::rod_bend_dropped(Timestamp time, const RodState& rod) {
-  JournalLine line = journal_line(file_ticks(time), time, "rod bend dropped");
-  line["side"] = name_of(rod.side);
-  line["bend"] = rod.measured.size() + 1;
-  add_line(*log_, line);
-}
-
-void Journal::rod_given_up(Timestamp time, const RodState& rod, std::string_view why) {
-  JournalLine line = journal_line(file_ticks(time), time, "rod given up");
-  line["side"] = name_of(rod.side);
-  line["reason"] = why;
-  add_line(*log_, line);
-}
-
-void Journal::rod_kept(Timestamp time, const RodState& rod) {
-  JournalLine line = journal_line(file_ticks(time), time, "rod kept");
-  line["side"] = name_of(rod.side);
-  add_line(*log_, line);
-}
 
 void Journal::rod_done(Timestamp time, const RodState& rod) {
   JournalLine line = journal_line(file_ticks(time), time, "rod");
@@ -102,9 +64,6 @@ void Journal::rod_done(Timestamp time, const RodState& rod) {
   }
   put_instructions(line, rod);
   put_certainty(line, rod);
-  for (std::size_t k = 0; k < rod.measured.size(); ++k) {
-    line["measured"].push_back(measured_json(rod.measured[k].found, k + 1));
-  }
   add_line(*log_, line, kDurable);
 }
 

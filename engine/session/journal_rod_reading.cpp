@@ -24,15 +24,6 @@ std::size_t heads_after(const JsonNode& line, bool touched, std::size_t heads) {
   return touches == 0 && heads > 0 ? heads - 1 : heads;
 }
 
-RecordedRodBend recorded_rod_bend_of(const JsonNode& line) {
-  return {count_of(line, "bend"),
-          line.number("angle_deg") * kRadiansPerDegree,
-          line.number("angle_se_deg") * kRadiansPerDegree,
-          line.number("roll_deg") * kRadiansPerDegree,
-          line.number("roll_se_deg") * kRadiansPerDegree,
-          line.number("rms_mm") * kMetresPerMm};
-}
-
 RecordedRod recorded_rod_of(const JsonNode& line) {
   RecordedRod rod;
   rod.side = side_of(line);
@@ -58,11 +49,6 @@ RecordedRod recorded_rod_of(const JsonNode& line) {
   if (line.has("touched")) {
     for (const JsonNode& head : line.list("touched")) {
       rod.touched.push_back({count_of(head, "touches"), head.number("sd_mm") * kMetresPerMm});
-    }
-  }
-  if (line.has("measured")) {
-    for (const JsonNode& bend : line.list("measured")) {
-      rod.measured.push_back(recorded_rod_bend_of(bend));
     }
   }
   rod.expected_within = optional_number(line, "expected_within_share");

@@ -16,8 +16,6 @@ namespace orthonav::engine {
 /// taken back, from the number before it. Lines from before heads were touched several times do not
 /// count touches: each was of another head.
 [[nodiscard]] std::size_t heads_after(const JsonNode& line, bool touched, std::size_t heads);
-/// A bend as measured on the rod in hand.
-[[nodiscard]] RecordedRodBend recorded_rod_bend_of(const JsonNode& line);
 /// A rod that was declared done.
 [[nodiscard]] RecordedRod recorded_rod_of(const JsonNode& line);
 

@@ -26,7 +26,6 @@ struct ToNotice {
   Notice operator()(const ReplanRefusal& /*m*/) const { return Notice::kReplanRefused; }
   Notice operator()(const ScrewReplanned& /*m*/) const { return Notice::kReplanned; }
   Notice operator()(const NoRod& /*m*/) const { return Notice::kNoRod; }
-  Notice operator()(const RodNotMeasured& /*m*/) const { return Notice::kTouchNotRecorded; }
   Notice operator()(const MapMoved& /*m*/) const { return Notice::kMapMoved; }
   Notice operator()(const ReferenceMoved& /*m*/) const { return Notice::kReferenceMoved; }
   Notice operator()(const NoImages& /*m*/) const { return Notice::kNoImages; }

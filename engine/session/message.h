@@ -119,19 +119,6 @@ struct ReplanUnclear {
 struct NoRod {
   Error why;
 };
-/// The rod in hand was not measured.
-struct RodNotMeasured {
-  enum class Kind : std::uint8_t {
-    kNoInstructions,  ///< there is no rod to bend
-    kMeasureFirst,    ///< "next" was said before the last of `made` bends was measured
-    kAllMade,         ///< "next" was said after the last bend
-    kRefused,         ///< `why` says it
-    kOneSide,         ///< it was stroked on one side alone
-  };
-  Kind kind = Kind::kRefused;
-  std::size_t made = 0;           ///< of kMeasureFirst
-  std::optional<Error> why = {};  ///< of kRefused
-};
 struct MapMoved {
   Step step;
 };
@@ -146,12 +133,12 @@ struct NoImages {
 struct Ended {};
 
 /// Nothing, or one of these.
-using Message = std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown,
-                             NothingToDelete, ConfirmDelete, RegistrationRefused, ChecksMissing,
-                             TouchNotRecorded, LandmarkMissing, LandmarkMoved, BoneUnchecked,
-                             TipCorrected, AxisCorrected, WireUndecided, NoOtherEntry, ConfirmRedo,
-                             ScrewRedone, ReplanUnclear, ReplanRefusal, ScrewReplanned, NoRod,
-                             RodNotMeasured, MapMoved, ReferenceMoved, NoImages, Ended>;
+using Message =
+    std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown, NothingToDelete,
+                 ConfirmDelete, RegistrationRefused, ChecksMissing, TouchNotRecorded,
+                 LandmarkMissing, LandmarkMoved, BoneUnchecked, TipCorrected, AxisCorrected,
+                 WireUndecided, NoOtherEntry, ConfirmRedo, ScrewRedone, ReplanUnclear,
+                 ReplanRefusal, ScrewReplanned, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
 
 /// Whether it is about a change of the screw; the step's request then stays visible beside it.
 [[nodiscard]] inline bool is_about_replan(const Message& message) {

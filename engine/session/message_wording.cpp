@@ -9,7 +9,6 @@
 #include "base/printed.h"
 #include "base/translation.h"
 #include "engine/session/replan_wording.h"
-#include "engine/session/rod_wording.h"
 #include "engine/session/said.h"
 #include "engine/session/spoken_commands.h"
 #include "engine/session/wording.h"
@@ -216,7 +215,6 @@ struct MessageWriter {
     out.append(translated("no rod:")).append(" ");
     append_retold(out, m.why.message);
   }
-  void operator()(const RodNotMeasured& m) { write_rod_not_measured(text, m); }
   void operator()(const MapMoved& m) {
     text.begin(Importance::kDanger);
     out += translated("the headset's map moved");

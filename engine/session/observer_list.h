@@ -103,18 +103,6 @@ class ObserverList : public SessionObserver {
   void head_dropped(Timestamp time, nav::Side side, const HeadTouch& touch) override {
     tell(&SessionObserver::head_dropped, time, side, touch);
   }
-  void rod_bend_measured(Timestamp time, const RodState& rod) override {
-    tell(&SessionObserver::rod_bend_measured, time, rod);
-  }
-  void rod_bend_dropped(Timestamp time, const RodState& rod) override {
-    tell(&SessionObserver::rod_bend_dropped, time, rod);
-  }
-  void rod_given_up(Timestamp time, const RodState& rod, std::string_view why) override {
-    tell(&SessionObserver::rod_given_up, time, rod, why);
-  }
-  void rod_kept(Timestamp time, const RodState& rod) override {
-    tell(&SessionObserver::rod_kept, time, rod);
-  }
   void rod_done(Timestamp time, const RodState& rod) override {
     tell(&SessionObserver::rod_done, time, rod);
   }

@@ -91,37 +91,10 @@ RodTemplating::RodTemplating(bool left_planned, bool right_planned)
 
 std::optional<Event> RodTemplating::begin() {
   touch_ = {};
-  measuring_.forget();
   return left_to_do() ? std::nullopt : std::optional(Event::kNoSideLeft);
 }
 
-void RodTemplating::collect(const WatchedTools& tools) {
-  if (measuring_.on()) {
-    measuring_.collect(tools);
-  } else {
-    add_tip(touch_, tools, tools.pointer());
-  }
-}
-
-bool RodTemplating::stroke(Action action, Timestamp time) {
-  if (measuring_.on()) {
-    measuring_.button(action, time);
-  }
-  return measuring_.on();
-}
-
-void RodTemplating::measure_rod(OperationInWork& work, Timestamp time) {
-  touch_ = {};
-  measuring_.next(rod(), work, time);
-}
-
-void RodTemplating::save_rod(OperationInWork& work, Timestamp time) {
-  if (!measuring_.on()) {
-    return work.messages.say(NotPossibleNow{Event::kSaySave}, time);
-  }
-  measuring_.save(rod(), work, time);
-  expect();
-}
+void RodTemplating::collect(const WatchedTools& tools) { add_tip(touch_, tools, tools.pointer()); }
 
 void RodTemplating::drop_touch(OperationInWork& work, Timestamp time) {
   touch_.drop();
@@ -130,9 +103,6 @@ void RodTemplating::drop_touch(OperationInWork& work, Timestamp time) {
 }
 
 void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
-  if (measuring_.on()) {
-    return;  // a short stroke
-  }
   const TouchedPlace place = take_place(touch_, work, time);
   const auto* head = std::get_if<nav::PressedPlace>(&place);
   if (!head) {
@@ -156,10 +126,6 @@ void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
 }
 
 void RodTemplating::drop_head(OperationInWork& work, Timestamp time) {
-  if (measuring_.on() || measuring_.given_up()) {
-    measuring_.drop(rod(), work, time);
-    return expect();
-  }
   const auto dropped = rod().touched.drop_last();
   if (!dropped) {
     return work.messages.say(NothingToDelete{NothingToDelete::What::kHead}, time);
@@ -184,8 +150,6 @@ Event RodTemplating::finish_rod(OperationInWork& work, Timestamp time) {
 
 bool RodTemplating::finish() {
   rod().done = true;
-  rod().lying.reset();
-  measuring_.forget();
   const bool another = current_ + 1 < rods_.size() && planned_[current_ + 1];
   if (another) {
     ++current_;
@@ -236,17 +200,13 @@ void RodTemplating::expect() {
   rod().expected->least_sure = heads[rod().expected->least_sure];
 }
 
-StepState RodTemplating::state(bool unplanned) const {
-  return measuring_.on() ? StepState(measuring_.state(current()))
-                         : StepState(heads_so_far(unplanned));
-}
+StepState RodTemplating::state(bool unplanned) const { return heads_so_far(unplanned); }
 
 HeadsSoFar RodTemplating::heads_so_far(bool unplanned) const {
   const RodState& now = current();
   HeadsSoFar out;
   out.unplanned = unplanned;
   out.count = now.heads.size();
-  out.given_up = measuring_.given_up();
   if (!now.touched.empty()) {
     out.last = now.touched.last();
   }
@@ -267,9 +227,6 @@ void RodTemplating::bend(OperationInWork& work, Timestamp time) {
   rod().no_instructions.clear();
   rod().seat_by_pointer_m.reset();
   rod().expected.reset();
-  rod().measured.clear();
-  rod().lying.reset();
-  measuring_.forget();
   if (rod().heads.size() < 2) {
     return;
   }
@@ -285,14 +242,7 @@ void RodTemplating::bend(OperationInWork& work, Timestamp time) {
   instruct(work.options, work.levels);
 }
 
-void RodTemplating::write(Guidance& out) {
-  if (rod().lying && out.display_time > rod().lying->shown_until) {
-    rod().lying.reset();
-  }
-  out.rod_stroked = measuring_.on();
-  if (out.rod_stroked) {
-    out.regions = measuring_.strokes();
-  }
+void RodTemplating::write(Guidance& out) const {
   out.rods = rods_;
   out.rods_moved_away = moved_away_;
 }
@@ -315,7 +265,6 @@ void RodTemplating::forget_map() {
     }
   }
   touch_ = {};
-  measuring_.forget();
 }
 
 }  // namespace orthonav::engine

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "engine/session/operation_in_work.h"
-#include "engine/session/rod_measuring.h"
 #include "nav/guidance/rod_cut.h"
 
 namespace orthonav::engine {
@@ -31,14 +30,9 @@ class RodTemplating {
   void drop_touch(OperationInWork& work, Timestamp time);
   /// Once for each pair of the step.
   void collect(const WatchedTools& tools);
-  /// While a rod in hand is measured the button strokes it; false otherwise.
-  [[nodiscard]] bool stroke(Action action, Timestamp time);
-  /// RodMeasuring: "next" and "save".
-  void measure_rod(OperationInWork& work, Timestamp time);
-  void save_rod(OperationInWork& work, Timestamp time);
   /// Records the touched place as the next head, or as one more touch of the head it is at.
   void record_head(OperationInWork& work, Timestamp time);
-  /// Takes the last touch back, or what was last done to measure the rod.
+  /// Takes the last touch back.
   void drop_head(OperationInWork& work, Timestamp time);
   /// The rod is done; false if no other is left to do.
   bool finish();
@@ -53,8 +47,7 @@ class RodTemplating {
 
   [[nodiscard]] const RodState& current() const { return rods_[current_]; }
   [[nodiscard]] std::span<const RodState> rods() const { return rods_; }
-  /// Hides a rod in hand that may no longer lie where it was stroked.
-  void write(Guidance& out);
+  void write(Guidance& out) const;
   /// `unplanned`: no plan says which sides have a rod.
   [[nodiscard]] StepState state(bool unplanned) const;
 
@@ -77,7 +70,6 @@ class RodTemplating {
   std::size_t current_ = 0;
   bool moved_away_ = false;
   Touch touch_;
-  RodMeasuring measuring_;  ///< of the current rod
 };
 
 }  // namespace orthonav::engine

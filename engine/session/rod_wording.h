@@ -2,27 +2,20 @@
 
 #include <string>
 
-#include "base/translation.h"
-#include "engine/session/message.h"
-#include "engine/session/rod_in_hand.h"
-#include "engine/session/status_line.h"
-#include "engine/session/status_parts.h"
-
 namespace orthonav::engine {
 
-// A rod in hand in words: a part of engine/session/wording.h.
+// A rod in words: a part of engine/session/wording.h.
 
+/// One bend of the instructions (nav/guidance/rod_bends.h).
+struct BendToMake {
+  std::size_t number = 1;  ///< from 1
+  double at_m = 0.0;       ///< its middle, along the axis from the first end
+  double roll_rad = 0.0;
+  double set_rad = 0.0;  ///< on the bender
+};
 /// "bend 2: 63 mm, roll 40°, set 18.5°".
-void append_next_bend(std::string& out, const NextBend& bend);
+void append_bend(std::string& out, const BendToMake& bend);
 /// "cut to 112.4 mm".
 void append_cut(std::string& out, double length_m);
-/// "bend 1: 12.1 ± 0.3°; bend 2: 63 mm, roll 40°, set 18.5°, then say go to next".
-void write_rod_in_hand(PartedText text, const RodInHandSoFar& rod);
-void write_rod_not_measured(PartedText text, const RodNotMeasured& message);
-
-// For `translated`.
-namespace words {
-inline constexpr const char* kWhereStroked = translatable("where it was stroked");
-}  // namespace words
 
 }  // namespace orthonav::engine

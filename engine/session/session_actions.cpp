@@ -42,8 +42,6 @@ std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
     case kBeginRod: return s.rods.begin();
     case kRecordHead: s.rods.record_head(work_, time); break;
     case kDropHead: s.rods.drop_head(work_, time); break;
-    case kMeasureRod: s.rods.measure_rod(work_, time); break;
-    case kSaveRod: s.rods.save_rod(work_, time); break;
     case kFinishRod: return s.rods.finish_rod(work_, time);
     case kMoveRod: s.rods.move_away(); break;
     case kHideGuidance: case kShowGuidance: watching_.hide_guidance(action == kHideGuidance); break;

@@ -81,15 +81,6 @@ class SessionObserver {
   virtual void head_recorded(Timestamp /*time*/, nav::Side /*side*/, const HeadTouch& /*touch*/) {}
   /// The last touch was taken back: `touch` as it was recorded.
   virtual void head_dropped(Timestamp /*time*/, nav::Side /*side*/, const HeadTouch& /*touch*/) {}
-  /// The last bend of a rod in hand was measured: `rod` has what is left to bend.
-  virtual void rod_bend_measured(Timestamp /*time*/, const RodState& /*rod*/) {}
-  /// The last measured bend was taken back; `rod` no longer has it.
-  virtual void rod_bend_dropped(Timestamp /*time*/, const RodState& /*rod*/) {}
-  /// The rod in hand, as far as `rod` has it measured, can't be brought to its seats.
-  virtual void rod_given_up(Timestamp /*time*/, const RodState& /*rod*/, std::string_view /*why*/) {
-  }
-  /// It is bent on after all.
-  virtual void rod_kept(Timestamp /*time*/, const RodState& /*rod*/) {}
   virtual void rod_done(Timestamp /*time*/, const RodState& /*rod*/) {}
 };
 

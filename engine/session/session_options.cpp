@@ -68,7 +68,6 @@ std::vector<std::string> SessionOptions::check() const {
   add("", check_points.check());
   add("", landmark.check());
   add("", heads.check());
-  add("", rod_in_hand.check());
   add("", placed.check());
   add("drill: ", drill.check());
   add("astray: ", astray.check());

@@ -9,7 +9,6 @@
 #include "engine/session/method_steps.h"
 #include "engine/session/placed_wire.h"
 #include "engine/session/replan_limits.h"
-#include "engine/session/rod_in_hand.h"
 #include "engine/session/tip_check.h"
 #include "engine/session/touched_heads.h"
 #include "nav/guidance/drill_watch.h"
@@ -38,7 +37,6 @@ struct SessionOptions {
   double head_to_seat_m = nav::RodSeating{}.head_to_seat_m;
   /// Its own diameter is ignored in favour of `rod_diameter_m`.
   nav::RodBending rod_bending;
-  RodInHandRules rod_in_hand;
   /// If the tips scatter more than this over one click (root mean square about their mean), a screw
   /// head or check point was not touched at rest. Noise and tremor at the end of a 130 mm lever
   /// already cause up to 2.5 mm over three pairs in the simulated room; a moving tip causes 5 mm

@@ -129,16 +129,6 @@ struct RecordedInstruction {
   double set_rad = 0.0;  ///< on the bender
 };
 
-/// One bend of a rod as stroked in hand.
-struct RecordedRodBend {
-  std::size_t bend = 0;  ///< from 1
-  double angle_rad = 0.0;
-  double angle_se_rad = 0.0;
-  double roll_rad = 0.0;
-  double roll_se_rad = 0.0;
-  double rms_m = 0.0;
-};
-
 /// How a head was touched.
 struct RecordedHead {
   std::size_t touches = 0;
@@ -155,10 +145,6 @@ struct RecordedRod {
   std::optional<double> cut_length_m;  ///< absent: there were no instructions
   std::vector<RecordedInstruction> instructions;
   std::string no_instructions;  ///< why not
-  /// The bends that were measured, the first ones of `instructions`: these have the measured angle
-  /// and roll, the others what was left to bend.
-  std::vector<RecordedRodBend> measured;
-  std::size_t given_up = 0;  ///< rods before it that could not be brought to the heads
   /// Probability that every true seat lies within 1.0 mm; absent without instructions, and in older
   /// journals.
   std::optional<double> expected_within;

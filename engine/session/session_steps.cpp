@@ -63,9 +63,6 @@ void SessionSteps::forget_registration(const OperationInWork& work) {
 }
 
 void SessionSteps::button(Action action, OperationInWork& work, Timestamp time) {
-  if (work.step == Step::kRod && rods.stroke(action, time)) {
-    return;
-  }
   switch (action) {
     case Action::kStartSampling:
       return digitizing.press(work.level(), time);

@@ -10,7 +10,6 @@
 #include "engine/session/landmark.h"
 #include "engine/session/message.h"
 #include "engine/session/placed_wire.h"
-#include "engine/session/rod_in_hand.h"
 #include "engine/session/saving.h"
 #include "engine/session/tip_check.h"
 #include "engine/session/touched_heads.h"
@@ -57,26 +56,14 @@ struct HeadsSoFar {
   /// The head that is to be touched again, since the rod is not sure to lie within 1.0 mm of all;
   /// from 0.
   std::optional<std::size_t> touch_again = {};
-  /// The rod in hand can't be brought to the heads: another is begun.
-  bool given_up = false;
   /// No plan says whether this side has a rod: the surgeon does, by touching heads or by "done".
   bool unplanned = false;
   /// The rod is taken to lie this far from the touched places, towards the bone, since no planned
   /// screw tells it.
   std::optional<double> seat_by_pointer_m = {};
 };
-/// While a rod in hand is measured.
-struct RodInHandSoFar {
-  std::size_t made = 0;                     ///< its bends, as the surgeon says; 0: it is straight
-  bool stroking = false;                    ///< it is to be stroked; otherwise it was
-  std::size_t points = 0;                   ///< of the strokes
-  const nav::MeasuredBend* last = nullptr;  ///< its last bend as measured; null: none was
-  std::optional<double> cut_to_m = {};      ///< absent: it is cut, as far as known
-  std::optional<NextBend> next = {};        ///< absent: all bends are made
-  bool shown = false;                       ///< where it was stroked
-};
 using StepState = std::variant<std::monostate, StrokesSoFar, ByEye, ChecksSoFar, LandmarkSoFar,
-                               WireSoFar, HeadsSoFar, RodInHandSoFar>;
+                               WireSoFar, HeadsSoFar>;
 
 /// The command as heard. A surgeon who was misheard must see it at once, and one who was heard need
 /// not ask.

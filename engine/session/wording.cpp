@@ -12,7 +12,6 @@
 #include "engine/session/message_wording.h"
 #include "engine/session/numbers_wording.h"
 #include "engine/session/part_wording.h"
-#include "engine/session/rod_wording.h"
 #include "engine/session/said.h"
 #include "engine/session/saved_wording.h"
 #include "engine/session/wire_wording.h"
@@ -91,13 +90,11 @@ struct StateWriter {
   void operator()(const LandmarkSoFar& landmark) { write_landmark(text, landmark, ""); }
   void operator()(const WireSoFar& wire) { write_wire(text, wire, ""); }
   void operator()(const HeadsSoFar& heads) {
-    if (heads.given_up) {
-      next(translatable("this rod cannot be corrected: take a new one"));
-    } else if (heads.touch_again) {
+    if (heads.touch_again) {
       text.begin(Importance::kNext);
       append_printed(out, translated("touch head %zu again"), *heads.touch_again + 1);
     } else if (heads.cut_length_m) {
-      next(translatable("to bend it: say go to next"));
+      next(translatable("bend it, then say finish rod"));
     } else if (heads.count > 0) {
       next(translatable("touch the next head"));
     } else {
@@ -113,7 +110,6 @@ struct StateWriter {
                      said_mm(std::abs(seat_m)).c_str());
     }
   }
-  void operator()(const RodInHandSoFar& rod) { write_rod_in_hand(text, rod); }
 };
 
 bool is_correction(const Message& message) {

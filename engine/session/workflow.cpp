@@ -92,8 +92,6 @@ constexpr std::array<std::string_view, kActionCount> kActionNames = {
     "drop touch",
     "record head",
     "drop head",
-    "measure rod",
-    "save rod",
     "finish rod",
     "move rod",
     "show or hide twin",

@@ -176,16 +176,13 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kPlaced, kReferenceMoved, kForgetMap, kDigitize},
 
     // Heads are touched with the pointer's tip; the tip is averaged while the button is down. A
-    // button held too long makes no click, so its touch is dropped and the surgeon told. "next"
-    // begins to measure the rod in hand; then presses are strokes along it.
+    // button held too long makes no click, so its touch is dropped and the surgeon told.
     {kRod, kPress, kBeginTouch, kRod},
     {kRod, kRelease, kEndTouch, kRod},
     {kRod, kClick, kRecordHead, kRod},
     {kRod, kDoubleClick, kIgnore, kRod},
     {kRod, kHold, kDropTouch, kRod},
     {kRod, kSayDelete, kDropHead, kRod},
-    {kRod, kSayNext, kMeasureRod, kRod},
-    {kRod, kSaySave, kSaveRod, kRod},
     {kRod, kSayDone, kFinishRod, kRod},
     {kRod, kSayMoveRod, kMoveRod, kRod},
     {kRod, kAnotherSide, kBeginRod, kRod},

@@ -59,10 +59,6 @@ class RodBench {
                                  double placing_m);
   [[nodiscard]] nav::RodArc bent_as_told(const nav::RodInstruction& told,
                                          const nav::RodSpringBack& spring_back, double stiffness);
-  [[nodiscard]] std::vector<Vec3> stroked(std::span<const nav::RodArc> rod, double length_m);
-  [[nodiscard]] nav::RodInstructions followed(nav::RodInstructions told,
-                                              const nav::RodBending& bending, double length_m,
-                                              std::vector<nav::RodArc>& rod);
 
   const RodExperimentOptions& options_;
   const RodTask& task_;

@@ -26,7 +26,6 @@ struct RodStepDurations {
   double try_s = 25.0;       ///< lay the rod in the heads and look at each
   double take_out_s = 10.0;  ///< before it is bent again
   double mark_s = 5.0;       ///< lay off one bend and its roll, as instructed
-  double stroke_s = 10.0;    ///< along the rod with the pointer, on three sides
   /// The same head once more: the tip is lifted, turned and put down again. Estimate: as long as a
   /// landmark takes. Not multiplied by `pace`.
   double touch_again_s = 3.0;
@@ -124,14 +123,6 @@ struct RodExperimentOptions {
   double bender_setting_rad = 1.0 * kRadiansPerDegree;
   /// SD of turning the rod to a roll. Estimate: 0.15 mm off the line on a 5.5 mm rod.
   double roll_setting_rad = 3.0 * kRadiansPerDegree;
-  /// SD along an axis of one point of a stroke: noise and tremor at the pointer's end, which
-  /// scatter by up to 2.5 mm over three pairs (session_options.h). Tracking errors common to
-  /// neighbouring places are added: `neighbour_navigation_m` (without `in_socket`, `navigation_m` /
-  /// √2), varying over 50 mm. Estimate.
-  double stroke_noise_m = 0.0015;
-  int stroke_points = 300;              ///< ten seconds of pairs
-  bool remeasured = true;               ///< by a stroke after each bend but the last
-  std::size_t measured_from_bends = 4;  ///< rods with fewer bends are not measured
   /// Both ends are marked where the middles of the end seats will be, and the rod is laid by these
   /// marks instead of by eye.
   bool ends_marked = true;
@@ -230,9 +221,8 @@ struct InstructedRods {
                                                std::uint64_t seed);
 
 /// The same rods with the same touches, bent according to `nav::rod_instructions` on a bender with
-/// a scale: each rod springs back by `spring_back_error` (SD) more or less than stated. After each
-/// bend except the last the rod is stroked with the pointer and the remaining instructions are
-/// updated. It is then tried in the heads, and bent again by eye as in the other arms.
+/// a scale: each rod springs back by `spring_back_error` (SD) more or less than stated. It is
+/// then tried in the heads, and bent again by eye as in the other arms.
 [[nodiscard]] InstructedRods run_instructed_rods(const RodExperimentOptions& options,
                                                  std::uint64_t seed);
 

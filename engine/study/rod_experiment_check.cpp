@@ -51,8 +51,6 @@ std::vector<RodRange> rod_ranges(const RodExperimentOptions& o) {
           {"spring_back_error", o.spring_back_error, 0, 1},
           {"bender_setting_rad", o.bender_setting_rad, 0, 0.2},
           {"roll_setting_rad", o.roll_setting_rad, 0, 0.5},
-          {"stroke_noise_m", o.stroke_noise_m, 0, 0.005},
-          {"stroke_points", static_cast<double>(o.stroke_points), 30, 10000},
           {"recovery_error", o.recovery_error, 0, 1},
           {"cutting_m", o.cutting_m, 0, 0.01},
           {"placing_m", o.placing_m, 0, 0.01},
@@ -71,7 +69,6 @@ std::vector<RodRange> rod_duration_ranges(const RodStepDurations& d) {
           {"durations.try_s", d.try_s, 0, 3600},
           {"durations.take_out_s", d.take_out_s, 0, 3600},
           {"durations.mark_s", d.mark_s, 0, 3600},
-          {"durations.stroke_s", d.stroke_s, 0, 3600},
           {"durations.touch_again_s", d.touch_again_s, 0, 3600},
           {"durations.scatter", d.scatter, 0, 1}};
 }

@@ -28,9 +28,6 @@ constexpr double kTulipMargin_m = 0.1e-3;
 constexpr double kLimitMargin_rad = 0.002;
 /// Allowance for rounding.
 constexpr double kClearance_m = 1e-6;
-/// A bend already made may reach this far into a tulip, where the rod deviates from straight by 20
-/// µm.
-constexpr double kMadeLeeway_m = 0.001;
 
 constexpr std::size_t kPoseParameters = 6;
 constexpr std::size_t kBendParameters = 3;  ///< turn towards the line, across it, centre
@@ -57,7 +54,6 @@ RodFit rod_of(const RodFitTask& task, const std::vector<std::size_t>& straights_
   RodFit rod;
   rod.seats_from_rod = rotation_from_vector({p[0], p[1], p[2]}) * start;
   rod.rod_in_seats_m = {p[3], p[4], p[5]};
-  rod.arcs.assign(task.made.begin(), task.made.end());
   for (std::size_t i = kPoseParameters; i < p.size(); i += kBendParameters) {
     const double angle_rad = std::hypot(p[i], p[i + 1]);
     rod.arcs.push_back({p[i + 2], task.width_m, angle_rad, std::atan2(p[i + 1], p[i])});
@@ -74,8 +70,7 @@ RodFit rod_of(const RodFitTask& task, const std::vector<std::size_t>& straights_
     rod.seats.push_back({straight.begin_m + along_m, off_m});
     rod.worst_off_m = std::max(rod.worst_off_m, off_m);
   }
-  rod.length_m = task.length_m.value_or(rod.seats.back().at_m - rod.seats.front().at_m +
-                                        2.0 * task.overhang_m);
+  rod.length_m = rod.seats.back().at_m - rod.seats.front().at_m + 2.0 * task.overhang_m;
   return rod;
 }
 
@@ -95,8 +90,7 @@ TulipRoom room_of(const RodFitTask& task, const RodFit& rod, std::size_t k) {
 bool keeps_clear(const RodFitTask& task, const RodFit& rod) {
   for (std::size_t k = 0; k < rod.arcs.size(); ++k) {
     const TulipRoom room = room_of(task, rod, k);
-    const double leeway_m = k < task.made.size() ? kMadeLeeway_m : kClearance_m;
-    if (std::min(room.before_m, room.after_m) < -leeway_m) {
+    if (std::min(room.before_m, room.after_m) < -kClearance_m) {
       return false;
     }
   }
@@ -120,18 +114,15 @@ void write_residuals(const RodFitTask& task, const RodFit& rod,
     const TulipRoom room = room_of(task, rod, k);
     out.push_back(std::min(0.0, room.before_m - kTulipMargin_m) / kTulipSd_m * stiffer);
     out.push_back(std::min(0.0, room.after_m - kTulipMargin_m) / kTulipSd_m * stiffer);
-    if (k >= task.made.size()) {
-      const RodArc& arc = rod.arcs[k];
-      out.push_back(arc.angle_rad * std::cos(arc.roll_rad) / kAngleSd_rad);
-      out.push_back(arc.angle_rad * std::sin(arc.roll_rad) / kAngleSd_rad);
-      out.push_back(std::max(0.0, arc.angle_rad - task.most_angle_rad + kLimitMargin_rad) /
-                    kLimitSd_rad * stiffer);
-      out.push_back(0.5 * (room.before_m - room.after_m) / kMiddleSd_m);
-    }
+    const RodArc& arc = rod.arcs[k];
+    out.push_back(arc.angle_rad * std::cos(arc.roll_rad) / kAngleSd_rad);
+    out.push_back(arc.angle_rad * std::sin(arc.roll_rad) / kAngleSd_rad);
+    out.push_back(std::max(0.0, arc.angle_rad - task.most_angle_rad + kLimitMargin_rad) /
+                  kLimitSd_rad * stiffer);
+    out.push_back(0.5 * (room.before_m - room.after_m) / kMiddleSd_m);
   }
   const double first_m = rod.seats.front().at_m;
-  const double last_m = rod.length_m - rod.seats.back().at_m;
-  out.push_back((task.length_m ? 0.5 * (first_m - last_m) : first_m - task.overhang_m) / kEndsSd_m);
+  out.push_back((first_m - task.overhang_m) / kEndsSd_m);
 }
 
 /// The direction of each straight: from its first to its last seat; with a single seat, that of the
@@ -159,7 +150,7 @@ Mat3 frame_along(Vec3 along) {
   return Mat3::from_columns(line, along.cross(line), along);
 }
 
-/// For a rod not yet begun: straights along the guessed directions, bends in the middle of their
+/// Straights along the guessed directions, bends in the middle of their
 /// gaps.
 RodGuess guess_from_seats(const RodFitTask& task) {
   const std::vector<Vec3> directions = guessed_directions(task);
@@ -185,22 +176,8 @@ RodGuess guess_from_seats(const RodFitTask& task) {
   return guess;
 }
 
-RodGuess guess_from_plan(const RodFitTask& task, const RodFit& before) {
-  RodGuess guess;
-  guess.seats_from_rod = before.seats_from_rod;
-  const Vec3 at_m = before.rod_in_seats_m;
-  guess.parameters = {0.0, 0.0, 0.0, at_m.x, at_m.y, at_m.z};
-  for (std::size_t k = task.made.size(); k < task.gaps.size(); ++k) {
-    const RodArc& planned = before.arcs[k];
-    guess.parameters.insert(guess.parameters.end(),
-                            {planned.angle_rad * std::cos(planned.roll_rad),
-                             planned.angle_rad * std::sin(planned.roll_rad), planned.centre_m});
-  }
-  return guess;
-}
-
 /// Puts the first end `overhang_m` before the first seat, and the drawn line on the side to which
-/// the first bend goes: both can be chosen on a rod not yet begun.
+/// the first bend goes.
 void settle_ends_and_line(const RodFitTask& task, RodFit& rod) {
   const double offset_m = rod.seats.front().at_m - task.overhang_m;
   const double roll_rad = rod.arcs.empty() ? 0.0 : rod.arcs.front().roll_rad;
@@ -217,9 +194,9 @@ void settle_ends_and_line(const RodFitTask& task, RodFit& rod) {
 
 }  // namespace
 
-Result<RodFit> fit_rod_bends(const RodFitTask& task, const RodFit* before) {
+Result<RodFit> fit_rod_bends(const RodFitTask& task) {
   const std::vector<std::size_t> straights_of = straights_of_seats(task);
-  const RodGuess guess = before ? guess_from_plan(task, *before) : guess_from_seats(task);
+  const RodGuess guess = guess_from_seats(task);
   double stiffer = 1.0;
   const auto residuals = [&](std::span<const double> p, std::vector<double>& out) {
     const RodFit rod = rod_of(task, straights_of, guess.seats_from_rod, p);
@@ -239,9 +216,7 @@ Result<RodFit> fit_rod_bends(const RodFitTask& task, const RodFit* before) {
     rod = rod_of(task, straights_of, guess.seats_from_rod, found->parameters);
   }
   rod.clear = keeps_clear(task, rod);
-  if (task.made.empty() && !task.length_m) {
-    settle_ends_and_line(task, rod);
-  }
+  settle_ends_and_line(task, rod);
   return rod;
 }
 

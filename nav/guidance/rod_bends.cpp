@@ -1,7 +1,6 @@
 #include "nav/guidance/rod_bends.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -21,28 +20,6 @@ namespace {
 constexpr double kFittingMargin_m = 0.0002;
 /// Number of the gentlest bends that may be left out on trial; the others are needed anyway.
 constexpr std::size_t kLeftOutTries = 4;
-
-/// What a rod is allowed: how far off a seat, and into the tulips, it may be.
-struct RodAllowance {
-  double tolerance_m = 0.0;
-  double reach_m = 0.0;
-};
-
-/// From the strictest on; the first one with a rod counts.
-std::array<RodAllowance, 4> allowances_of(const RodBending& bending) {
-  const double last_m = std::max(bending.tolerance_m, bending.last_tolerance_m);
-  return {{{bending.tolerance_m, 0.0},
-           {bending.tolerance_m, 0.5 * bending.reach_m},
-           {bending.tolerance_m, bending.reach_m},
-           {last_m, bending.reach_m}}};
-}
-
-/// The same bending with the tulips as narrow, and the tolerance as wide, as allowed.
-RodBending with_allowance(RodBending bending, const RodAllowance& allowed) {
-  bending.tulip_m -= 2.0 * allowed.reach_m;
-  bending.tolerance_m = allowed.tolerance_m;
-  return bending;
-}
 
 double least_gap_m(const RodBending& bending) {
   return bending.bender.width_m + bending.tulip_m + kFittingMargin_m;
@@ -130,21 +107,30 @@ Error out_of_reach(const PlannedRod& rod, std::span<const Vec3> seats_m, const R
   return Error{text};
 }
 
-Result<RodInstructions> told(PlannedRod rod, std::span<const Vec3> seats_m, std::size_t made,
-                             double reach_m, const RodSpringBack& spring_back) {
+/// How far the bends of a rod reach into its tulips, at most.
+double reach_into_tulips_m(const PlannedRod& rod, const RodBending& bending) {
+  double reach_m = 0.0;
+  for (std::size_t k = 0; k < rod.gaps.size(); ++k) {
+    const RodArc& arc = rod.fit.arcs[k];
+    const double half_m = 0.5 * (arc.width_m + bending.tulip_m);
+    reach_m = std::max({reach_m, half_m - (arc.centre_m - rod.fit.seats[rod.gaps[k]].at_m),
+                        half_m - (rod.fit.seats[rod.gaps[k] + 1].at_m - arc.centre_m)});
+  }
+  return reach_m;
+}
+
+Result<RodInstructions> told(PlannedRod rod, std::span<const Vec3> seats_m, double reach_m,
+                             const RodSpringBack& spring_back) {
   RodInstructions out;
   out.reach_m = reach_m;
   out.seats_m.assign(seats_m.begin(), seats_m.end());
-  out.made = made;
   for (std::size_t k = 0; k < rod.fit.arcs.size(); ++k) {
     RodInstruction bend{rod.fit.arcs[k], 0.0, rod.gaps[k]};
-    if (k >= made) {
-      const auto set_rad = spring_back.set_rad(bend.arc.angle_rad);
-      if (!set_rad) {
-        return set_rad.error();
-      }
-      bend.set_rad = *set_rad;
+    const auto set_rad = spring_back.set_rad(bend.arc.angle_rad);
+    if (!set_rad) {
+      return set_rad.error();
     }
+    bend.set_rad = *set_rad;
     out.bends.push_back(bend);
   }
   out.fit = std::move(rod.fit);
@@ -184,59 +170,18 @@ Result<RodInstructions> rod_instructions(std::span<const Vec3> seats_m, const Ro
   if (const Status s = check_rod_seats(seats_m); !s) {
     return s.error();
   }
-  Result<PlannedRod> rod = Error{"rod was not planned"};
-  for (const RodAllowance& allowance : allowances_of(bending)) {
-    const RodBending allowed = with_allowance(bending, allowance);
-    rod = with_every_bend(seats_m, allowed, *spring_back);
-    if (!rod) {
-      continue;
-    }
-    while (auto less = with_a_bend_less(seats_m, *rod, allowed, spring_back->most_kept_rad())) {
-      *rod = *std::move(less);
-    }
-    return told(*std::move(rod), seats_m, 0, allowance.reach_m, *spring_back);
+  // The fit sees tulips that are narrower by what a bend may reach into them.
+  RodBending allowed = bending;
+  allowed.tulip_m -= 2.0 * bending.reach_m;
+  auto rod = with_every_bend(seats_m, allowed, *spring_back);
+  if (!rod) {
+    return rod.error();
   }
-  return rod.error();
-}
-
-Result<RodInstructions> rod_instructions_after(const RodInstructions& plan,
-                                               std::span<const RodArc> made,
-                                               const RodBending& bending) {
-  const auto spring_back = RodSpringBack::of(bending.bender, bending.material, bending.diameter_m);
-  if (!spring_back) {
-    return spring_back.error();
+  while (auto less = with_a_bend_less(seats_m, *rod, allowed, spring_back->most_kept_rad())) {
+    *rod = *std::move(less);
   }
-  if (const Status s = check_rod_bending(bending); !s) {
-    return s.error();
-  }
-  if (const Status s = check_made_bends(plan, made); !s) {
-    return s.error();
-  }
-  PlannedRod rod;
-  for (const RodInstruction& bend : plan.bends) {
-    rod.gaps.push_back(bend.gap);
-  }
-  const RodBending allowed = with_allowance(bending, {bending.tolerance_m, plan.reach_m});
-  RodFitTask task = fit_task(plan.seats_m, rod.gaps, allowed, spring_back->most_kept_rad());
-  task.made = made;
-  task.length_m = plan.cut_length_m();
-  auto fit = fit_rod_bends(task, &plan.fit);
-  if (!fit) {
-    return fit.error();
-  }
-  if (fit->worst_off_m > kLost_m) {
-    return Error{
-        printed(translatable("rod can't be brought nearer to its seats than %s after bend %zu, "
-                             "limit %.1f mm: begin another"),
-                in_mm_outside(fit->worst_off_m, 0.0, kLost_m).c_str(), made.size(), kLost_m * 1e3)};
-  }
-  if (!fit->clear) {
-    return Error{
-        printed(translatable("after bend %zu a bend would lie in a tulip: begin another rod"),
-                made.size())};
-  }
-  rod.fit = *std::move(fit);
-  return told(std::move(rod), plan.seats_m, made.size(), plan.reach_m, *spring_back);
+  const double reach_m = reach_into_tulips_m(*rod, bending);
+  return told(*std::move(rod), seats_m, reach_m, *spring_back);
 }
 
 }  // namespace orthonav::nav

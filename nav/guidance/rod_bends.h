@@ -23,13 +23,9 @@ struct RodBending {
   double tulip_m = 0.010;
   /// Largest distance from the seats to the rod's axis if the instructions are followed.
   double tolerance_m = 0.0003;
-  // Where no rod keeps to that, and only there:
   /// How far a bend may reach into a tulip. At its edge the rod is then 0.07 mm off straight at the
   /// tightest radius, 31 mm after spring-back: less than the play of a rod in a tulip. Estimate.
   double reach_m = 0.002;
-  /// The largest distance from the seats, if that is not enough either: half of what is asked for
-  /// at the heads (1.0 mm), the other half being left to touches and bends. Estimate.
-  double last_tolerance_m = 0.0005;
 };
 
 /// One bend to be made: by `arc.angle_rad`, for which the bender is set to `set_rad`.
@@ -43,9 +39,7 @@ struct RodInstruction {
 /// bent at each place in order from the first end. The first bend goes towards the line: roll 0.
 struct RodInstructions {
   std::vector<Vec3> seats_m;
-  std::vector<RodInstruction> bends;  ///< the first `made` of them as measured, the rest still to
-                                      ///< be made
-  std::size_t made = 0;
+  std::vector<RodInstruction> bends;
   double reach_m = 0.0;  ///< of its bends into the tulips, at most
   RodFit fit;            ///< the finished rod, and the seats on it
 
@@ -58,24 +52,12 @@ inline constexpr double kFinestTolerance_m = 0.00005;
 inline constexpr double kCoarsestTolerance_m = 0.005;
 
 /// Instructions for a rod through these seats, in order along it (RodCut::seats_m). Bends go only
-/// into the gaps between tulips, at most one per gap; there are as few as keep every seat within
-/// `tolerance_m`, and among those choices the gentlest. Where no rod does, bends may reach into the
-/// tulips by half of `reach_m`, by all of it, and then seats be missed by `last_tolerance_m`. Each
-/// bend is made once, from the first end to the last, and none is bent back. Refuses, in one line:
-/// values outside their limits, fewer than two seats, seats that are not finite or meet, and seats
-/// that this bender can't reach because a radius would be too tight or a gap is too short.
+/// into the gaps between tulips, at most one per gap, and reach into the tulips by `reach_m` at
+/// most; there are as few as keep every seat within `tolerance_m`, and among those choices the
+/// gentlest. Each bend is made once, from the first end to the last, and none is bent back.
+/// Refuses, in one line: values outside their limits, fewer than two seats, seats that are not
+/// finite or meet, and seats that this bender can't reach because a radius would be too tight or a
+/// gap is too short.
 Result<RodInstructions> rod_instructions(std::span<const Vec3> seats_m, const RodBending& bending);
-
-/// The same after the first bends were made, with `made` as measured (rod_stroke.h): the remaining
-/// bends compensate for their errors as well as possible. Refuses more bends made than planned,
-/// numbers that are not finite, a `bending` that `rod_instructions` refuses, and a rod that can't
-/// be brought within `kLost_m` of a seat: then a new rod is needed.
-Result<RodInstructions> rod_instructions_after(const RodInstructions& plan,
-                                               std::span<const RodArc> made,
-                                               const RodBending& bending);
-
-/// Half of the 5 mm by which a rod must not be forced down into a tulip (Paik et al. 2013, Spine J
-/// 13:1617).
-inline constexpr double kLost_m = 0.0025;
 
 }  // namespace orthonav::nav

@@ -40,12 +40,7 @@ Status check_rod_bending(const RodBending& bending) {
       !s) {
     return s;
   }
-  if (const Status s = check_length("tolerance at the seats", bending.tolerance_m,
-                                    kFinestTolerance_m, kCoarsestTolerance_m);
-      !s) {
-    return s;
-  }
-  return check_length("tolerance as a last resort", bending.last_tolerance_m, 0.0,
+  return check_length("tolerance at the seats", bending.tolerance_m, kFinestTolerance_m,
                       kCoarsestTolerance_m);
 }
 
@@ -63,21 +58,6 @@ Status check_rod_seats(std::span<const Vec3> seats_m) {
     if (gap_m < kMeeting_m) {
       return Error{printed("seats %zu and %zu of the rod meet: %s apart, at least 5 mm", i, i + 1,
                            in_mm_outside(gap_m, kMeeting_m, 1.0).c_str())};
-    }
-  }
-  return {};
-}
-
-Status check_made_bends(const RodInstructions& plan, std::span<const RodArc> made) {
-  if (made.size() > plan.bends.size()) {
-    return Error{
-        printed("%zu bends were made of the %zu instructed", made.size(), plan.bends.size())};
-  }
-  for (std::size_t k = 0; k < made.size(); ++k) {
-    const RodArc& arc = made[k];
-    if (!(std::isfinite(arc.centre_m) && std::isfinite(arc.width_m) &&
-          std::isfinite(arc.angle_rad) && std::isfinite(arc.roll_rad))) {
-      return Error{printed("bend %zu as made is not finite", k + 1)};
     }
   }
   return {};

@@ -7,11 +7,10 @@
 
 namespace orthonav::nav {
 
-// What `rod_instructions` and `rod_instructions_after` refuse before anything is calculated: the
+// What `rod_instructions` refuses before anything is calculated: the
 // first value outside its limits, in one line.
 
 [[nodiscard]] Status check_rod_bending(const RodBending& bending);
 [[nodiscard]] Status check_rod_seats(std::span<const Vec3> seats_m);
-[[nodiscard]] Status check_made_bends(const RodInstructions& plan, std::span<const RodArc> made);
 
 }  // namespace orthonav::nav

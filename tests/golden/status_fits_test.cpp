@@ -99,15 +99,6 @@ std::vector<Message> messages() {
       Message(NoOtherEntry{}),
       Message(ScrewRedone{0.0123, 0.0123}),
       Message(NoRod{{"screw heads 10 and 11 are 4.9999 mm apart, limit 5-150 mm"}}),
-      Message(RodNotMeasured{RodNotMeasured::Kind::kMeasureFirst, 12}),
-      Message(RodNotMeasured{RodNotMeasured::Kind::kOneSide, 12}),
-      Message(RodNotMeasured{RodNotMeasured::Kind::kRefused, 12,
-                             Error{"stroke runs from 123 to 456 mm of the rod, must pass bend 12 "
-                                   "at 456 mm by 20 mm"}}),
-      Message(RodNotMeasured{
-          RodNotMeasured::Kind::kRefused, 12,
-          Error{"rod can't be brought nearer to its seats than 12.3 mm after bend 12, limit 2.5 "
-                "mm: begin another"}}),
       Message(MapMoved{Step::kDigitize}),
       Message(MapMoved{Step::kRod}),
       Message(NoImages{}),
@@ -139,9 +130,7 @@ std::vector<StatusLine> lines_about(const Message& message, const Coaching& coac
         states.end(),
         {StrokesSoFar{123456, &coaching}, ByEye{}, LandmarkSoFar{false, {}},
          WireSoFar{&far_off(), true},
-         HeadsSoFar{20, 0.5123, 12, HeadTouch{19, {}, 0.001, 10, 0.00123}, 10},
-         RodInHandSoFar{0, true, 1234}, RodInHandSoFar{12, true, 1234},
-         RodInHandSoFar{12, false, 0, nullptr, 0.5123, NextBend{13, 0.4567, -3.1, 0.8}, true}});
+         HeadsSoFar{20, 0.5123, 12, HeadTouch{19, {}, 0.001, 10, 0.00123}, 10}});
   }
   std::vector<StatusLine> lines;
   for (int step = 0; step < static_cast<int>(kStepCount); ++step) {

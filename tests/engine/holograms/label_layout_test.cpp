@@ -9,7 +9,6 @@
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_shapes.h"
 #include "engine/holograms/label_places.h"
-#include "engine/holograms/rod_in_hand_hologram.h"
 #include "render/float3.h"
 #include "render/frame/frame_items.h"
 #include "render/text/font.h"
@@ -129,32 +128,6 @@ TEST(LabelLayout, LeavesABendOutWhereThereIsNoRoomAndNoLength) {
   EXPECT_GT(shown, 5);
   EXPECT_LT(shown, 41);
   EXPECT_TRUE(after.back().shown) << "the length";
-}
-
-/// A rod across the view whose next bend is just outside it, on either side.
-TEST(LabelLayout, SaysHowToBendWithinTheView) {
-  for (const double at_m : {-0.21, 0.21}) {
-    LyingRod rod;
-    rod.axis = {Point<World>(Vec3{-at_m, 0.045, -0.05}), Point<World>(Vec3{at_m, 0.045, -0.05})};
-    rod.diameter_m = 0.0055;
-    rod.next = NextBend{};
-    rod.bend = {rod.axis.back(), {at_m < 0 ? -1.0 : 1.0, 0.0, 0.0}};
-    OperatingField field;
-    add_rod_in_hand(field.scene, rod, tube_of(rod));
-    const auto views = test::head_at(0);
-    const auto is_cut_off = [&] {
-      const Eyes eyes(views);
-      const render::TextItem& text = field.scene.texts.back();
-      LabelExtent extent;
-      extent.width = render::line_width(render::Font{}, text);
-      const LabelPlace place{text.align, text.offset_right, text.offset_up, false, false};
-      return !eyes.in_view(
-          eyes.box(render::world_from_caps(text, eyes.head()), box_at(place, extent)));
-    };
-    EXPECT_TRUE(is_cut_off()) << "as it is built";
-    LabelLayout().lay_out(field.scene, views, field.papers, Timestamp{});
-    EXPECT_FALSE(is_cut_off()) << at_m;
-  }
 }
 
 TEST(LabelLayout, WithoutEyesLeavesTheSceneAsItIs) {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_shapes.h"
 #include "tests/engine/holograms/shown_holograms.h"
-#include "tests/support/rod_on_table.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine::scene_builder_test {
@@ -72,41 +72,44 @@ TEST(SceneBuilder, MakesATubeOnceForARod) {
   EXPECT_NE(tube(s.touches({0.02, 0.035, 0.08})), first);
 }
 
-TEST(SceneBuilder, DrawsTheRodInHandWhereItWasStrokedAndNoLonger) {
+double distance_to_chain(const Vec3& at_m, const std::vector<Vec3>& chain_m) {
+  double nearest_m = 1.0;
+  for (std::size_t i = 0; i + 1 < chain_m.size(); ++i) {
+    const Vec3 along_m = chain_m[i + 1] - chain_m[i];
+    const double part =
+        std::clamp((at_m - chain_m[i]).dot(along_m) / along_m.squared_norm(), 0.0, 1.0);
+    nearest_m = std::min(nearest_m, (at_m - chain_m[i] - part * along_m).norm());
+  }
+  return nearest_m;
+}
+
+TEST(SceneBuilder, WritesAtEachBendHowToMakeIt) {
   ScriptedOperation s;
-  test::touches_heads_of_a_rod(s);
-  const auto rods_told = [](const Guidance& g) {
-    const ShownFrame frame = shown(g);
-    return std::count_if(frame.holograms.begin(), frame.holograms.end(),
-                         [](const ShownHologram& h) { return h.kind == kRod; });
-  };
-  s.says("next");
-  test::RodOnTable rod;
-  const Guidance& stroked = rod.is_stroked(s, s.session().rods()[0].instructions->cut_length_m());
-  EXPECT_THAT(drawn(stroked), ::testing::ElementsAre(kPath, kRod, kStatus));
-  EXPECT_EQ(drawn(stroked), told(stroked));
-  EXPECT_EQ(rods_told(stroked), 1) << "the template in the patient";
-  Guidance g = s.says("save");
-  ASSERT_EQ(rods_told(g), 2);
-  const ShownFrame frame = shown(g);
-  EXPECT_THAT(frame.holograms.back().text, ::testing::StartsWith("bend 1: "));
-  EXPECT_LT((frame.holograms.back().points_in_world[1].v - rod.table_m).norm(), 0.003);
-  const auto in_hand = [](const render::Scene& scene) {
-    std::vector<std::string> texts;
-    for (const render::TextItem& text : scene.texts) {
-      if (text.label == label_of(kRod, 3)) {
-        texts.push_back(text.runs[0].text);
-      }
+  s.finishes_every_screw();
+  for (const Vec3& head : {Vec3{0.02, 0.030, 0.00}, Vec3{0.02, 0.035, 0.04},
+                           Vec3{0.02, 0.036, 0.08}, Vec3{0.026, 0.030, 0.12}}) {
+    s.touches(head);
+  }
+  const Guidance& g = s.pair();
+  const RodState& rod = g.rods[0];
+  ASSERT_TRUE(rod.instructions);
+  const auto& told = *rod.instructions;
+  ASSERT_GE(told.bends.size(), 2u);
+  std::size_t bends = 0;
+  for (const render::TextItem& text : scene_of(g).texts) {
+    if (kind_of(text.label) != kRod || !text.runs[0].text.starts_with("bend ")) {
+      continue;
     }
-    return texts;
-  };
-  EXPECT_THAT(in_hand(scene_of(g)),
-              ::testing::ElementsAre("where it was stroked", ::testing::StartsWith("bend 1: ")));
-  // A frame that is drawn later than it may be shown, whatever the session still says.
-  g.display_time = g.rods[0].lying->shown_until + std::chrono::milliseconds(1);
-  EXPECT_EQ(rods_told(g), 1);
-  EXPECT_TRUE(in_hand(scene_of(g)).empty());
-  EXPECT_EQ(rods_told(s.says("next")), 1);
+    std::string expected;
+    const nav::RodInstruction& bend = told.bends[bends];
+    append_bend(expected, {bends + 1, bend.arc.centre_m, bend.arc.roll_rad, bend.set_rad});
+    EXPECT_EQ(text.runs[0].text, expected);
+    // On the finished rod, which passes the heads at the depth of its seats.
+    const Vec3 at_m = {text.position.x, text.position.y, text.position.z};
+    EXPECT_LT(distance_to_chain(at_m, told.seats_m), 0.006) << bends;
+    ++bends;
+  }
+  EXPECT_EQ(bends, told.bends.size());
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "hal/fake/scripted.h"
 #include "tests/engine/live/guided_scene.h"
 #include "tests/support/allocation_count.h"
-#include "tests/support/rod_on_table.h"
 #include "tests/support/scripted_pairs.h"
 
 namespace orthonav::engine {
@@ -137,16 +136,6 @@ TEST_F(FrameAllocations, AreNoneWhileARodIsShown) {
   ASSERT_TRUE(g.rods[0].rod.has_value());
   EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
   EXPECT_TRUE(frames.shows(HologramKind::kRod));
-}
-
-TEST_F(FrameAllocations, AreNoneWhileARodInHandIsShown) {
-  test::touches_heads_of_a_rod(s);
-  s.says("next");
-  test::RodOnTable rod;
-  rod.is_stroked(s, s.session().rods()[0].instructions->cut_length_m());
-  const Guidance& g = s.says("save");
-  ASSERT_TRUE(g.rods[0].lying);
-  EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
 }
 
 TEST_F(FrameAllocations, OfAnotherSceneAreCounted) {

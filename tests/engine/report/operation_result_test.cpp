@@ -179,21 +179,6 @@ TEST(ReportHtml, LeavesCellsOfWhatWasNotAttemptedEmpty) {
   EXPECT_THAT(page(), Not(HasSubstr("\u2013</td>")));
 }
 
-TEST(ReportJson, HasTheBendsThatWereMeasuredInHand) {
-  OperationResult result = measured();
-  nav::MeasuredBend bend;
-  bend.arc.angle_rad = 0.2;
-  bend.angle_se_rad = 0.01;
-  bend.rms_m = 0.0008;
-  result.rods[0].measured = {bend};
-  const auto sides = nlohmann::json::parse(report_json(result))["rod"]["sides"];
-  ASSERT_EQ(sides[0]["measured"].size(), 1u);
-  EXPECT_NEAR(sides[0]["measured"][0]["angle_deg"].get<double>(), 11.459, 1e-3);
-  EXPECT_NEAR(sides[0]["measured"][0]["angle_se_deg"].get<double>(), 0.573, 1e-3);
-  EXPECT_DOUBLE_EQ(sides[0]["measured"][0]["rms_mm"], 0.8);
-  EXPECT_FALSE(sides[1].contains("measured"));
-}
-
 TEST(ReportJson, HasRodsOnlyWhereTheyWerePlanned) {
   const auto rod = [](std::vector<std::string> labels) {
     test::ScriptedOperation s(std::move(labels));

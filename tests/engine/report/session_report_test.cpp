@@ -247,22 +247,6 @@ TEST(SessionReport, BeginsWithWhatWasPlacedAndItsWarnings) {
   EXPECT_THAT(session_page(session, "j"), HasSubstr("cut off: 1 screw placed;"));
 }
 
-TEST(SessionReport, TellsOfBendsThatWereMeasuredInHand) {
-  SessionRecord session = cut_session();
-  RecordedRod rod;
-  rod.measured = {{1, 0.211, 0.0087, 0.0, 0.061, 0.0008}, {2, 0.157, 0.0105, 0.7, 0.05, 0.0009}};
-  rod.given_up = 1;
-  session.rods = {rod};
-  EXPECT_THAT(session_page(session, "j"), HasSubstr("12.1 ± 0.5, 9.0 ± 0.6; 1 given up before"));
-  const auto side = nlohmann::json::parse(session_json(session))["rod"]["sides"][0];
-  EXPECT_EQ(side["given_up"], 1);
-  ASSERT_EQ(side["measured"].size(), 2U);
-  EXPECT_EQ(side["measured"][1]["bend"], 2);
-  EXPECT_NEAR(side["measured"][1]["angle_deg"].get<double>(), 8.995, 1e-3);
-  EXPECT_NEAR(side["measured"][1]["roll_se_deg"].get<double>(), 2.865, 1e-3);
-  EXPECT_DOUBLE_EQ(side["measured"][1]["rms_mm"], 0.9);
-}
-
 TEST(SessionReport, TellsOfASessionThatEnded) {
   SessionRecord session = cut_session();
   session.cut = session.last_line_torn = false;

@@ -2,7 +2,6 @@
 
 #include "engine/session/session.h"
 #include "tests/support/allocation_count.h"
-#include "tests/support/rod_on_table.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 
@@ -197,16 +196,6 @@ TEST(SessionAllocations, AreNoneWhileHeadsAreTouchedAndOnceAllIsDone) {
   EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().pointer), 0u);
   s.says("done");
   EXPECT_EQ(s.says("done").step, Step::kDone);
-  EXPECT_EQ(allocations_once_warm(s), 0u);
-}
-
-TEST(SessionAllocations, AreNoneWhileARodInHandIsShown) {
-  ScriptedOperation s;
-  test::touches_heads_of_a_rod(s);
-  s.says("next");
-  test::RodOnTable rod;
-  rod.is_stroked(s, s.session().rods()[0].instructions->cut_length_m());
-  EXPECT_TRUE(s.says("save").rods[0].lying);
   EXPECT_EQ(allocations_once_warm(s), 0u);
 }
 

@@ -65,25 +65,6 @@ TEST(Wording, SaysWhichPartsGiveWayFirst) {
   EXPECT_EQ(plain, text) << "asking for the parts changes no word";
 }
 
-TEST(Wording, SaysWhatToDoWithARodInHand) {
-  EXPECT_EQ(
-      line_with(RodInHandSoFar{0, true, 1}),
-      "stroke the straight rod from its first end on 3 sides, then say save points; if bend 1 is "
-      "made, say go to next");
-  EXPECT_EQ(line_with(RodInHandSoFar{2, true, 120}),
-            "bend 2 made: stroke the rod from its first end on 3 sides, then say save points");
-  const NextBend first{1, 0.0633, 0.0, 18.5 * kRadiansPerDegree};
-  EXPECT_EQ(line_with(RodInHandSoFar{0, false, 0, nullptr, 0.1124, first, true}),
-            "cut to 112.4 mm; bend 1: 63 mm, towards the line, set 18.5°, then say go to next");
-  const NextBend next{3, 0.1084, 40.0 * kRadiansPerDegree, 17.2 * kRadiansPerDegree};
-  EXPECT_EQ(
-      line_with(RodInHandSoFar{2, false, 0, nullptr, {}, next}),
-      "bend 3: 108 mm, roll 40°, set 17.2°, then say go to next; no longer shown: it may have "
-      "moved");
-  EXPECT_EQ(line_with(RodInHandSoFar{2, false, 0, nullptr, {}, {}, true}),
-            "all bends are made, say finish rod");
-}
-
 std::string line_in(Step step, const StepState& state) {
   StatusLine line;
   line.at.step = step;
@@ -100,10 +81,8 @@ TEST(Wording, AsksForTheNextActInEveryStepAndSaysNoFigures) {
   EXPECT_EQ(line_in(Step::kGuide, {}), "") << "follows from what a frame shows";
   EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{0}), "touch the first head");
   EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{1}), "touch the next head");
-  EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{4, 0.15236, 3}), "to bend it: say go to next");
+  EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{4, 0.15236, 3}), "bend it, then say finish rod");
   EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{3, 0.09, 1, {}, 0}), "touch head 1 again");
-  EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{3, 0.09, 1, {}, {}, true}),
-            "this rod cannot be corrected: take a new one");
   nav::CheckVerdict verdict;
   verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};
   EXPECT_EQ(line_in(Step::kVerify, ChecksSoFar{&verdict}),
@@ -180,14 +159,6 @@ TEST(Wording, SaysEveryMessage) {
             "bone not checked for 49 s, the map may have drifted 1.4 mm: touch the dimple");
   EXPECT_EQ(line_with(Message(NoRod{{"2 heads lie 0.4 mm apart, at least 1.0 mm"}})),
             "no rod: 2 heads lie 0.4 mm apart, at least 1.0 mm");
-  using enum RodNotMeasured::Kind;
-  EXPECT_EQ(line_with(Message(RodNotMeasured{kNoInstructions})),
-            "no rod to bend: touch its heads first");
-  EXPECT_EQ(line_with(Message(RodNotMeasured{kMeasureFirst, 2})),
-            "bend 2 is not measured: stroke the rod, then say save points");
-  EXPECT_EQ(line_with(Message(RodNotMeasured{kAllMade})), "all bends are made, say finish rod");
-  EXPECT_EQ(line_with(Message(RodNotMeasured{kOneSide})),
-            "rod not measured: stroked on one side alone: stroke it on 3 sides");
   EXPECT_EQ(line_with(Message(MapMoved{Step::kDigitize})),
             "the headset's map moved: digitize again");
   EXPECT_EQ(line_with(Message(MapMoved{Step::kRod})),

@@ -134,7 +134,7 @@ TEST(RodExperiment, HasAnIntervalFromThreeRodsOn) {
 /// No errors in following instructions either.
 RodExperimentOptions flawless_following() {
   RodExperimentOptions o = flawless_bending();
-  o.spring_back_error = o.bender_setting_rad = o.roll_setting_rad = o.stroke_noise_m = 0.0;
+  o.spring_back_error = o.bender_setting_rad = o.roll_setting_rad = 0.0;
   return o;
 }
 
@@ -147,9 +147,8 @@ double time_of_steps_s(const RodExperimentOptions& options, const InstructedRod&
   const bool long_rod = rod.rod.heads >= options.long_rod_heads;
   const auto heads = static_cast<double>(rod.rod.heads);
   const auto bends = static_cast<double>(rod.bends.value());
-  const double strokes = *rod.bends >= options.measured_from_bends ? bends - 1.0 : 0.0;
   return heads * (long_rod ? 7.3 + 3.0 : 7.3) +
-         options.pace * (20.0 + 30.0 + 5.0 + bends * (5.0 + 20.0) + strokes * 10.0 + 25.0);
+         options.pace * (20.0 + 30.0 + 5.0 + bends * (5.0 + 20.0) + 25.0);
 }
 
 TEST(InstructedRods, ReachEveryHeadWithoutFlawsInTheTimeOfTheirSteps) {
@@ -166,29 +165,6 @@ TEST(InstructedRods, ReachEveryHeadWithoutFlawsInTheTimeOfTheirSteps) {
     EXPECT_NEAR(rod.rod.time_s, time_of_steps_s(options, rod), 1e-9);
   }
   EXPECT_LE(found.refused, 1U);
-}
-
-TEST(InstructedRods, MeasuringMakesUpForBendsThatCameOutWrong) {
-  RodExperimentOptions options = flawless_following();
-  options.rods = 12;
-  options.measured_from_bends = 2;
-  options.bender_setting_rad = 3.0 * kRadiansPerDegree;
-  // A lordosis of six heads that are set off sideways: some bends, in several planes.
-  constexpr std::array<double, 6> kAside_m = {0.0, 0.0015, -0.001, 0.002, -0.0005, 0.001};
-  for (std::size_t i = 0; i < kAside_m.size(); ++i) {
-    const double a = 10.0 * kRadiansPerDegree * static_cast<double>(i);
-    options.heads_m.push_back({kAside_m[i], -0.2 * std::cos(a), 0.2 * std::sin(a)});
-  }
-  const auto farthest_m = [&](bool remeasured) {
-    options.remeasured = remeasured;
-    double sum_m = 0.0;
-    for (const InstructedRod& rod : run_instructed_rods(options, 5).rods) {
-      EXPECT_GE(rod.bends.value_or(0), 2U);
-      sum_m += rod.off_touched_m;
-    }
-    return sum_m;
-  };
-  EXPECT_LT(farthest_m(true), farthest_m(false));
 }
 
 InstructedRods bent_with(const RodExperimentOptions& options) {

@@ -7,7 +7,6 @@
 #include "engine/session/message.h"
 #include "engine/session/spoken_replan.h"
 #include "nav/guidance/rod.h"
-#include "nav/guidance/rod_stroke.h"
 #include "nav/registration/registration.h"
 
 namespace orthonav::test {
@@ -79,23 +78,6 @@ inline std::vector<Error> every_rod_error() {
   add({{0, 0, 0}, {0, 0.025, 0.030}, {0, -0.020, 0.035}, {0, 0, 0.070}});
   add({{0, 0, 0}, {0, 0, 0.14}, {0, 0, 0.28}, {0, 0, 0.42}, {0, 0, 0.56}, {0, 0, 0.70}});
   return errors;
-}
-
-/// And of a rod in hand.
-inline std::vector<Error> every_rod_stroke_error() {
-  const auto along_rod = [](double from_m, double to_m, double apart_m) {
-    std::vector<Vec3> points_m;
-    for (int i = 0; i < 60; ++i) {
-      const double side = i % 3 == 0 ? 1.0 : -1.0;
-      points_m.push_back({0.5 * side * apart_m, 0.0, from_m + (to_m - from_m) * i / 59.0});
-    }
-    return points_m;
-  };
-  const std::vector<nav::RodArc> bend = {{0.08, 0.02, 0.01, 0.0}};
-  return {nav::laid_rod(0.16, 0.0055, {}).error(),
-          nav::laid_rod(0.16, 0.0055, along_rod(0.0, 0.1, 0.0055)).error(),
-          nav::laid_rod(0.16, 0.0055, along_rod(0.0, 0.16, 0.03)).error(),
-          nav::measured_bend(bend, 0.16, 0.0055, along_rod(0.0, 0.07, 0.0055)).error()};
 }
 
 inline std::vector<Error> every_registration_error() {

@@ -104,12 +104,6 @@ TEST_F(EveryText, OfTheStatesIsTranslated) {
   expect_shown(HeadsSoFar{3, 0.09, 1, HeadTouch{0, {}, 0.0001, 1, 0.0004}, 2});
   expect_shown(HeadsSoFar{3, 0.09, 1, HeadTouch{0, {}, 0.0001, 2, 0.0003}});
   expect_shown(HeadsSoFar{4, 0.15, 3});
-  expect_shown(HeadsSoFar{4, 0.15, 3, {}, {}, true});
-  const nav::MeasuredBend bend;
-  for (const std::size_t made : {0U, 2U}) {
-    expect_shown(RodInHandSoFar{made, true, 1});
-    expect_shown(RodInHandSoFar{made, false, 0, &bend, 0.1124, NextBend{made + 1}, made == 0});
-  }
 }
 
 TEST_F(EveryText, OfWarningsIsTranslated) {
@@ -185,16 +179,7 @@ TEST_F(EveryText, OfTheMessagesIsTranslated) {
   for (const Repeated repeats : each_up_to(Repeated::kHeadPose)) {
     expect_said(NoImages{repeats});
   }
-  EXPECT_EQ(std::variant_size_v<Message>, 27u) << "a new message belongs here";
-}
-
-TEST_F(EveryText, OfARodThatIsNotMeasuredIsTranslated) {
-  for (const auto kind : each_up_to(RodNotMeasured::Kind::kOneSide)) {
-    expect_said(RodNotMeasured{kind, 2});
-  }
-  for (const Error& why : test::every_rod_stroke_error()) {
-    expect_said(RodNotMeasured{.why = why});
-  }
+  EXPECT_EQ(std::variant_size_v<Message>, 26u) << "a new message belongs here";
 }
 
 TEST_F(EveryText, OfWhatOthersSayIsTranslated) {
