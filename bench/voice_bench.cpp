@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <map>
 #include <memory>
-#include <optional>
+#include <sstream>
 
 #include "bench/phrase_in_room.h"
 #include "bench/voice_sets.h"
@@ -35,7 +36,6 @@ struct Options {
   bool addressed = false;
   bool show = false;
   double minutes = 10.0;
-  std::optional<double> least_log_odds;
 };
 
 /// Who speaks and what, and who babbles in the background.
@@ -43,23 +43,32 @@ struct VoiceSet {
   const char* name;
   std::span<const std::string_view> voices;
   std::span<const std::string_view> talk;
+  std::string_view words;  ///< that are no commands
   Babble babble;
   std::uint64_t seed;
 };
 VoiceSet set_of(const Options& options) {
   if (options.tuning) {
-    return {"tuning", kTuningVoices, kTuningTalk, Babble::kTuning, 1};
+    return {"tuning", kTuningVoices, kTuningTalk, kTuningWords, Babble::kTuning, 1};
   }
   if (options.fresh) {
-    return {"fresh", kFreshVoices, kTestTalk, Babble::kMeasured, 3};
+    return {"fresh", kFreshVoices, kTestTalk, kFreshWords, Babble::kMeasured, 3};
   }
-  return {"test", kTestVoices, kTestTalk, Babble::kMeasured, 2};
+  return {"test", kTestVoices, kTestTalk, kUnseenWords, Babble::kMeasured, 2};
 }
 
 struct Tally {
   int said = 0;
   int heard = 0;     ///< with certainty, as what was said
   int mistaken = 0;  ///< with certainty, as another command
+};
+
+/// How sure the recogniser was of each saying: what another line would make of them.
+struct Sureness {
+  std::vector<double> right;  ///< log odds of commands heard as what was said; absent where not
+  std::vector<double> other;  ///< of words that are no commands
+  int commands = 0;
+  int words = 0;
 };
 
 struct Figures {
@@ -69,6 +78,20 @@ struct Figures {
   Tally all;
 };
 
+std::vector<std::string> listed(std::string_view words) {
+  std::vector<std::string> list;
+  std::istringstream text{std::string(words)};
+  for (std::string word; std::getline(text >> std::ws, word, ',');) {
+    list.push_back(word);
+  }
+  return list;
+}
+
+/// How far above the line a confidence lies, as log odds.
+double above_line(const SpokenCommand& found) {
+  return std::log(found.confidence / (1.0 - found.confidence));
+}
+
 /// CPU time of this thread: the time that the work takes on a free core, however busy the machine
 /// is.
 double worked_ms() {
@@ -77,12 +100,9 @@ double worked_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-std::unique_ptr<CommandSpotter> new_spotter(const Options& bench) {
+std::unique_ptr<CommandSpotter> new_spotter() {
   SpotterOptions options;
   options.commands = engine::recognized_commands();
-  if (bench.least_log_odds) {
-    options.least_log_odds = *bench.least_log_odds;
-  }
   auto spotter = CommandSpotter::create(options);
   if (spotter) {
     return std::move(*spotter);
@@ -111,7 +131,8 @@ void listen(CommandSpotter& spotter, std::span<const std::int16_t> sound, Heard 
 }
 
 void say_one(CommandSpotter& spotter, const std::string& command, const Options& options,
-             const Speaker& speaker, Noise noise, double snr_db, Random& random, Figures& figures) {
+             const Speaker& speaker, Noise noise, double snr_db, Random& random, Figures& figures,
+             Sureness& sureness) {
   const auto said = spoken("ortho " + command, speaker);
   if (!said) {
     return;
@@ -119,7 +140,11 @@ void say_one(CommandSpotter& spotter, const std::string& command, const Options&
   const auto phrase = phrase_in_room(*said, noise, snr_db, random, set_of(options).babble);
   bool heard = false;
   bool mistaken = false;
+  sureness.commands += 1;
   listen(spotter, phrase.sound, [&](const SpokenCommand& found, double ms) {
+    if (found.text == command) {
+      sureness.right.push_back(above_line(found));
+    }
     if (options.show) {
       std::printf("%s %d %s %.0f dB: %s %.2f\n", speaker.voice.c_str(), speaker.words_a_minute,
                   command.c_str(), snr_db, found.text.c_str(), found.confidence);
@@ -164,7 +189,7 @@ double quantile(std::vector<double> values, double fraction) {
                          static_cast<std::size_t>(fraction * static_cast<double>(values.size())))];
 }
 
-void measure_recall(const Options& options) {
+void measure_recall(const Options& options, Sureness& sureness) {
   const VoiceSet set = set_of(options);
   Random random(10 + set.seed);
   Figures figures;
@@ -173,13 +198,13 @@ void measure_recall(const Options& options) {
       options.quick ? std::vector<int>{150} : std::vector<int>{120, 160, 200};
   for (const std::string_view voice : set.voices) {
     // One surgeon each, in a room whose noise changes.
-    const auto spotter = new_spotter(options);
+    const auto spotter = new_spotter();
     for (const double snr_db : {kClean, 20.0, 15.0, 10.0}) {
       for (const int speed : speeds) {
         for (const std::string& command : engine::recognized_commands()) {
           const auto noise = static_cast<Noise>(count++ % 3);
           say_one(*spotter, command, options, {std::string(voice), speed}, noise, snr_db, random,
-                  figures);
+                  figures, sureness);
         }
       }
     }
@@ -195,7 +220,7 @@ void measure_recall(const Options& options) {
 
 void measure_false_accepts(const Options& options, double snr_db) {
   const VoiceSet set = set_of(options);
-  const auto spotter = new_spotter(options);
+  const auto spotter = new_spotter();
   Random random(20 + set.seed);
   std::map<std::string, int> accepted;
   double heard_s = 0.0;
@@ -230,8 +255,8 @@ void measure_false_accepts(const Options& options, double snr_db) {
 
 /// Words that are no commands where a command is expected: whatever is heard with certainty is
 /// wrong.
-void measure_other_words(const Options& options, const char* name,
-                         std::span<const std::string_view> words) {
+void measure_other_words(const Options& options, const char* name, std::string_view words,
+                         Sureness& sureness) {
   const VoiceSet set = set_of(options);
   Random random(30 + set.seed);
   std::map<std::string, Tally> by_condition;
@@ -240,8 +265,8 @@ void measure_other_words(const Options& options, const char* name,
   int taken = 0;
   std::size_t count = 0;
   for (const std::string_view voice : set.voices) {
-    const auto spotter = new_spotter(options);
-    for (const std::string_view word : words) {
+    const auto spotter = new_spotter();
+    for (const std::string& word : listed(words)) {
       constexpr std::array kSnrsDb = {kClean, 20.0, 15.0, 10.0};
       const std::size_t at = count++;
       if (options.quick && at % 4 != 0) {
@@ -250,15 +275,17 @@ void measure_other_words(const Options& options, const char* name,
       const double snr_db = kSnrsDb[at / 4 % kSnrsDb.size()];
       const auto noise = static_cast<Noise>(at / 16 % 3);
       const int speed = 120 + 40 * static_cast<int>(at / 4 % 3);
-      const auto said = spoken("ortho " + std::string(word), {std::string(voice), speed});
+      const auto said = spoken("ortho " + word, {std::string(voice), speed});
       if (!said) {
         continue;
       }
       const auto phrase = phrase_in_room(*said, noise, snr_db, random, set.babble);
       bool sure = false;
+      sureness.words += 1;
       listen(*spotter, phrase.sound, [&](const SpokenCommand& found, double) {
+        sureness.other.push_back(above_line(found));
         if (options.show) {
-          std::printf("\"ortho %s\" %s %d %.0f dB %s: %s %.2f\n", std::string(word).c_str(),
+          std::printf("\"ortho %s\" %s %d %.0f dB %s: %s %.2f\n", word.c_str(),
                       std::string(voice).c_str(), speed, snr_db, name_of(noise), found.text.c_str(),
                       found.confidence);
         }
@@ -287,14 +314,35 @@ void measure_other_words(const Options& options, const char* name,
   }
 }
 
+/// What other lines would make of the same sounds; below the line, as far as what is not sure is
+/// told.
+void print_other_lines(const Sureness& sureness) {
+  const double line = SpotterOptions().least_log_odds;
+  std::printf("\nline: commands heard, other words taken\n");
+  for (const double move : {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0}) {
+    const auto above = [move](const std::vector<double>& odds) {
+      return static_cast<double>(
+          std::ranges::count_if(odds, [move](double x) { return x >= move; }));
+    };
+    const double right = above(sureness.right);
+    const double other = above(sureness.other);
+    const FractionInterval heard = wilson(right, static_cast<std::size_t>(sureness.commands));
+    const FractionInterval taken = wilson(other, static_cast<std::size_t>(sureness.words));
+    std::printf("  %+.1f  %5.1f %% (%.1f to %.1f)  %4.1f %% (%.1f to %.1f)\n", line + move,
+                100.0 * right / sureness.commands, 100.0 * heard.low, 100.0 * heard.high,
+                100.0 * other / sureness.words, 100.0 * taken.low, 100.0 * taken.high);
+  }
+}
+
 int run(const Options& options) {
   std::printf("voice, %s set\n", set_of(options).name);
-  measure_recall(options);
+  Sureness sureness;
+  measure_recall(options, sureness);
   std::printf("\nother words after the wake word\n");
-  measure_other_words(options, "asked for", kAskedWords);
-  measure_other_words(options, options.tuning ? "weighed" : "unseen",
-                      options.tuning ? std::span<const std::string_view>(kTuningWords)
-                                     : std::span<const std::string_view>(kUnseenWords));
+  measure_other_words(options, "asked for", kAskedWords, sureness);
+  measure_other_words(options, options.tuning ? "weighed" : "unseen", set_of(options).words,
+                      sureness);
+  print_other_lines(sureness);
   if (options.minutes <= 0.0 || options.addressed) {
     return 0;
   }
@@ -319,7 +367,6 @@ int main(int argc, char** argv) {
                "one speed instead of three, a quarter of the other words");
   app.add_flag("--show", options.show, "everything that was heard");
   app.add_option("--minutes", options.minutes, "of other speech")->capture_default_str();
-  app.add_option("--least-log-odds", options.least_log_odds, "from which a command counts");
   CLI11_PARSE(app, argc, argv);
   return orthonav::bench::run(options);
 }

@@ -14,8 +14,22 @@ inline constexpr std::string_view kFreshVoices[] = {
     "en-us+john",   "gmw/en+m8",        "en-gb-x-rp+iven",        "en-gb-scotland+gustave",
     "en-029+pedro", "en-us-nyc+miguel", "en-gb-x-gbclan+grandma", "en-gb-x-gbcwmd+announcer"};
 /// The weights of the evidence and the line were chosen on these.
-inline constexpr std::string_view kTuningVoices[] = {
-    "en-us-nyc", "en-us+f4",          "en-gb-x-gbclan+m2", "en-gb-x-gbcwmd+f5", "en-us+m6",
-    "gmw/en+f4", "en-gb-scotland+f4", "en-029+m6",         "en-gb-x-rp+f5"};
+inline constexpr std::string_view kTuningVoices[] = {"en-us-nyc",
+                                                     "en-us+f4",
+                                                     "en-gb-x-gbclan+m2",
+                                                     "en-gb-x-gbcwmd+f5",
+                                                     "en-us+m6",
+                                                     "gmw/en+f4",
+                                                     "en-gb-scotland+f4",
+                                                     "en-029+m6",
+                                                     "en-gb-x-rp+f5",
+                                                     "en-us+adam",
+                                                     "gmw/en+belinda",
+                                                     "en-gb-x-rp+Hugo",
+                                                     "en-gb-scotland+victor",
+                                                     "en-029+anika",
+                                                     "en-us-nyc+travis",
+                                                     "en-gb-x-gbclan+quincy",
+                                                     "en-gb-x-gbcwmd+Lee"};
 
 }  // namespace orthonav::bench

@@ -8,12 +8,6 @@
 
 namespace orthonav::voice {
 
-namespace {
-
-constexpr double kHardlyLikely = 0.25;
-
-}  // namespace
-
 std::vector<std::string> SpotterOptions::check() const {
   std::vector<std::string> problems;
   if (commands.empty()) {
@@ -72,10 +66,11 @@ std::optional<SpokenCommand> CommandSpotter::judge(const SpeechSegment& segment)
       std::ranges::find(options_.commands, evidence->command) == options_.commands.end()) {
     return std::nullopt;
   }
-  const double confidence = 1.0 / (1.0 + std::exp(options_.least_log_odds - log_odds(*evidence)));
-  if (confidence < kHardlyLikely) {
+  const double odds = log_odds(*evidence);
+  if (odds < 0.0) {
     return std::nullopt;
   }
+  const double confidence = 1.0 / (1.0 + std::exp(options_.least_log_odds - odds));
   return SpokenCommand{evidence->command, confidence, segment.begin, segment.end};
 }
 

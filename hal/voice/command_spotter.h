@@ -19,9 +19,9 @@ namespace orthonav::voice {
 struct SpotterOptions {
   std::vector<std::string> commands;  ///< lower case: "save points"
   std::string wake_word = "ortho";    ///< said before each command
-  /// A command counts above this (`log_odds`): odds of three to one. At even odds twice as many
-  /// other words pass, and 4 % more commands (docs/voice.md).
-  double least_log_odds = 1.1;
+  /// A command counts above this (`log_odds`): odds of twenty to one. At three to one three times
+  /// as many other words pass, and 5 % more commands (docs/voice.md).
+  double least_log_odds = 3.0;
   SegmentOptions segments;
   std::filesystem::path acoustic_model = default_acoustic_model();
 
@@ -32,7 +32,7 @@ struct SpotterOptions {
 /// A command as it was spoken.
 struct SpokenCommand {
   std::string text;         ///< one of the commands, without the wake word
-  double confidence = 0.0;  ///< in [0, 1]; below 0.5, something else is more likely
+  double confidence = 0.0;  ///< in [0, 1]; below 0.5 it does not count
   std::int64_t begin = 0;   ///< samples at `kSpeechRateHz` since the stream began
   std::int64_t end = 0;
 };
@@ -44,9 +44,9 @@ class CommandSpotter {
  public:
   /// Refuses invalid options, a missing model, and words without a pronunciation.
   static Result<std::unique_ptr<CommandSpotter>> create(const SpotterOptions& options);
-  /// Takes samples at `kSpeechRateHz` and appends the commands that ended in them; very unlikely
-  /// ones are left out. Does up to 0.1 s of work a tenth of a second before a segment ends, so that
-  /// almost none is left at its end.
+  /// Takes samples at `kSpeechRateHz` and appends the commands that ended in them; those
+  /// that are less likely than not are left out. Does up to 0.1 s of work a tenth of a second
+  /// before a segment ends, so that almost none is left at its end.
   void push(std::span<const std::int16_t> samples, std::vector<SpokenCommand>& commands);
 
  private:

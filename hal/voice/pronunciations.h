@@ -71,30 +71,18 @@ inline constexpr Pronunciation kSpoken[] = {
     {"ortho(5)", "AO F OW"},
 };
 
-/// What people say where a command is expected, and after the first word of one.
+/// What people say where a command is expected, and after the first word of one. "On" and "all" are
+/// left out: they sound like the end of "finish rod".
 inline constexpr std::array<std::string_view, 7> kAnswers = {"stop",    "okay", "yes",  "no",
                                                              "confirm", "undo", "reset"};
-inline constexpr std::array<std::string_view, 8> kOtherEndings = {
-    "it", "this", "that", "all", "again", "on", "back", "nothing"};
+inline constexpr std::array<std::string_view, 6> kOtherEndings = {"it",    "this", "that",
+                                                                  "again", "back", "nothing"};
 inline constexpr Pronunciation kOthers[] = {
-    {"stop", "S T AA P"},
-    {"stop(2)", "S T AO P"},
-    {"okay", "OW K EY"},
-    {"okay(2)", "AH K EY"},
-    {"yes", "Y EH S"},
-    {"no", "N OW"},
-    {"confirm", "K AH N F ER M"},
-    {"undo", "AH N D UW"},
-    {"reset", "R IY S EH T"},
-    {"reset(2)", "R IH S EH T"},
-    {"it", "IH T"},
-    {"this", "DH IH S"},
-    {"that", "DH AE T"},
-    {"all", "AO L"},
-    {"again", "AH G EH N"},
-    {"on", "AA N"},
-    {"on(2)", "AO N"},
-    {"back", "B AE K"},
+    {"stop", "S T AA P"},         {"stop(2)", "S T AO P"}, {"okay", "OW K EY"},
+    {"okay(2)", "AH K EY"},       {"yes", "Y EH S"},       {"no", "N OW"},
+    {"confirm", "K AH N F ER M"}, {"undo", "AH N D UW"},   {"reset", "R IY S EH T"},
+    {"reset(2)", "R IH S EH T"},  {"it", "IH T"},          {"this", "DH IH S"},
+    {"that", "DH AE T"},          {"again", "AH G EH N"},  {"back", "B AE K"},
     {"nothing", "N AH TH IH NG"},
 };
 
