@@ -158,6 +158,18 @@ std::string text_of(const engine::UnassignedMetal& metal, const engine::Evaluati
          place;
 }
 
+std::string slices_text(const engine::Evaluation& evaluation) {
+  constexpr double kMostMeasured_m = 0.002;  // docs/evaluation.md
+  if (evaluation.slices_m <= kMostMeasured_m + 1e-6) {
+    return "";
+  }
+  const double mm = evaluation.slices_m * 1e3;
+  return printed(
+      "slices %.1f mm apart, tried up to %.1f mm: across them a tip is known to +-%.1f mm, and a "
+      "breach below %.1f mm may not be seen",
+      mm, kMostMeasured_m * 1e3, 0.5 * mm, 0.5 * mm);
+}
+
 bool is_complete(const engine::Evaluation& evaluation) {
   return std::all_of(evaluation.levels.begin(), evaluation.levels.end(), [](const auto& level) {
     return level.registration.has_value() &&
@@ -184,6 +196,9 @@ void print(const engine::Evaluation& evaluation) {
   for (const engine::UnassignedMetal& metal : evaluation.unassigned) {
     print_text("unassigned: %s\n", text_of(metal, evaluation).c_str());
   }
+  if (const std::string slices = slices_text(evaluation); !slices.empty()) {
+    print_text("%s\n", slices.c_str());
+  }
   print_text("+-: 95 %% of the errors of this measurement are smaller. %s.\n%s\n",
              engine::kEvaluationDefinitions, nav::kPedicleScale);
 }
@@ -194,6 +209,7 @@ ordered_json as_json(const engine::Evaluation& evaluation) {
                       {"levels", ordered_json::array()},
                       {"screws", ordered_json::array()},
                       {"unassigned", ordered_json::array()}};
+  out["slices_mm"] = evaluation.slices_m * 1e3;
   for (const engine::EvaluatedLevel& level : evaluation.levels) {
     out["levels"].push_back(as_json(level));
     for (const engine::EvaluatedScrew& screw : level.screws) {

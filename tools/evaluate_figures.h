@@ -28,6 +28,8 @@ void print(const engine::Evaluation& evaluation);
 
 /// "shaft, 5.5 mm thick, 42 mm long, tip at (1.0, -20.3, 104.0) mm in the scan: outside the planned
 /// vertebrae".
+/// What slices farther apart than any that was tried can't tell; empty for finer ones.
+[[nodiscard]] std::string slices_text(const engine::Evaluation& evaluation);
 [[nodiscard]] std::string text_of(const engine::UnassignedMetal& metal,
                                   const engine::Evaluation& evaluation);
 

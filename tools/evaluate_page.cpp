@@ -115,7 +115,9 @@ std::string table_of(const engine::Evaluation& evaluation) {
       put_row(table, level.label, screw);
     }
   }
+  const std::string slices = slices_text(evaluation);
   return "<section><h2>Planned and placed</h2>" + table.html() +
+         (slices.empty() ? "" : "<p class=bad>" + html_escaped(slices) + "</p>") +
          "<p class=notes>± and \"95 % above\": of the errors of this measurement alone (axis and "
          "registration to the scan). " +
          html_escaped(engine::kEvaluationDefinitions) + ". " + html_escaped(nav::kPedicleScale) +

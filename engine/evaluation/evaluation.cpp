@@ -152,6 +152,8 @@ Result<Evaluation> evaluate(const Case& subject, const Volume& volume) {
   const ScanField scan(volume);
   const MetalMask mask(scan, kMaskMargin_m);
   Evaluation out;
+  const Vec3 spacing_m = volume.grid.spacing_m;
+  out.slices_m = std::max({spacing_m.x, spacing_m.y, spacing_m.z});
   out.shafts = fitted(scan, straight_metal(scan), out.unassigned);
   const auto laid =
       laid_levels(scan, mask, surfaces, spine_starts(subject, out.shafts, kMostStarts));

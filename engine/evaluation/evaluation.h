@@ -40,7 +40,8 @@ struct ScrewInScan {
   double bow_m = 0.0;                       ///< of a bent wire, from its chord
   std::optional<nav::Clearance> clearance;  ///< none if 6 mm or less lie in the bone
   std::optional<nav::ClearanceSpread> spread;
-  /// For a wire: the clearance of the planned screw along its axis.
+  /// For a wire, and for metal that looks thinner than the planned screw, as coarse slices make it:
+  /// the clearance of the planned screw along its axis.
   std::optional<nav::Clearance> as_planned_screw;
 };
 
@@ -69,6 +70,7 @@ struct UnassignedMetal {
 };
 
 struct Evaluation {
+  double slices_m = 0.0;  ///< between the scan's slices: the longest edge of its voxels
   std::vector<Shaft> shafts;
   std::vector<EvaluatedLevel> levels;  ///< those with planned screws
   std::vector<UnassignedMetal> unassigned;

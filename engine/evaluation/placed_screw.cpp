@@ -145,7 +145,7 @@ ScrewInScan placed_screw(const Shaft& shaft, const nav::ScrewPlan& plan,
         nav::clearance_spread(bone.surface, cylinder, *out.clearance,
                               with_surface(unsure, cylinder.direction, out.radius_as_planned));
   }
-  if (shaft.is_wire() && plan.radius_m > 0.0) {
+  if (!out.radius_as_planned && shaft.radius_m < plan.radius_m) {
     nav::ScrewCylinder thick = cylinder;
     thick.radius_m = plan.radius_m;
     out.as_planned_screw = nav::least_clearance(bone.surface, thick);

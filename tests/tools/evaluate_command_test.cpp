@@ -32,6 +32,7 @@ class EvaluateCommand : public ::testing::Test {
     ASSERT_TRUE(engine::save_case(scratch_->file("case"), subject).ok());
     OperatedSpine spine = operated(subject, {}, Random(3));
     ASSERT_TRUE(write_nrrd(scratch_->file("both.nrrd"), quick_scan(spine)));
+    ASSERT_TRUE(write_nrrd(scratch_->file("coarse.nrrd"), quick_scan(spine, 1.0, 0.003)));
     spine.metal.resize(2);
     ASSERT_TRUE(write_nrrd(scratch_->file("one.nrrd"), quick_scan(spine)));
     spine.metal.clear();
@@ -86,6 +87,19 @@ TEST_F(EvaluateCommand, SaysWhatBecameOfEachScrew) {
   ASSERT_EQ(scene["placed"].size(), 2u);
   EXPECT_EQ(scene["placed"][0].size(), 7u);
   EXPECT_GT(scene["reach"], 30.0) << "millimetres";
+}
+
+TEST_F(EvaluateCommand, SaysWhatCoarseSlicesCantTell) {
+  const std::string page = scratch_->file("coarse.html");
+  const std::string figures = scratch_->file("coarse.json");
+  const Called coarse = evaluated("coarse.nrrd", {"--report", page, "--json", figures});
+  constexpr const char* kLine =
+      "slices 3.0 mm apart, tried up to 2.0 mm: across them a tip is known to +-1.5 mm, and a "
+      "breach below 1.5 mm may not be seen";
+  EXPECT_THAT(coarse.out, HasSubstr(kLine)) << coarse.err;
+  EXPECT_THAT(content_of(page), HasSubstr(kLine));
+  EXPECT_EQ(json::parse(content_of(figures))["slices_mm"], 3.0);
+  EXPECT_THAT(evaluated("both.nrrd").out, Not(HasSubstr("mm apart")));
 }
 
 TEST_F(EvaluateCommand, ShowsSlicerWhereEachVertebraLies) {

@@ -73,6 +73,24 @@ TEST(Evaluation, FindsScrewsWhereTheyTrulyLie) {
   EXPECT_TRUE(found->unassigned.empty()) << "heads belong to their screws";
 }
 
+TEST(Evaluation, JudgesMetalThatLooksThinnerThanPlannedAsPlannedToo) {
+  constexpr double kThicker_m = 0.0005;
+  Case subject = operated_l4().subject;
+  for (nav::ScrewPlan& plan : subject.levels[0].screws) {
+    plan.radius_m += kThicker_m;
+  }
+  const auto found = evaluate(subject, operated_l4().scan);
+  ASSERT_TRUE(found.ok());
+  for (const EvaluatedScrew& screw : found->levels[0].screws) {
+    ASSERT_TRUE(screw.placed && screw.placed->clearance && screw.placed->as_planned_screw);
+    EXPECT_NEAR(screw.placed->as_planned_screw->clearance_m,
+                screw.placed->clearance->clearance_m - kThicker_m, 0.0002);
+  }
+  const auto as_planned = evaluate(operated_l4().subject, operated_l4().scan);
+  ASSERT_TRUE(as_planned.ok());
+  EXPECT_FALSE(as_planned->levels[0].screws[0].placed->as_planned_screw);
+}
+
 TEST(Evaluation, GradesByTheSurfaceOfTheScrewFromSixMillimetresOn) {
   const auto found = evaluate(operated_l4().subject, operated_l4().scan);
   ASSERT_TRUE(found.ok());
