@@ -118,18 +118,35 @@ TEST(CommandSpotter, TakesNoOtherWordAfterTheWakeWordForACommand) {
 }
 
 TEST(CommandSpotter, TakesNoAnswerInNoiseForACommand) {
-  const auto heard = spotter();
-  ASSERT_NE(heard, nullptr);
   Random random(11);
-  for (const char* answer : {"stop", "okay", "yes", "no", "confirm", "undo", "reset"}) {
-    Soundtrack sound;
-    sound.silence(1.5);
-    sound.speech(said(std::string("ortho ") + answer));
-    sound.silence(0.6);
-    std::vector<SpokenCommand> commands;
-    heard->push(sound.with_noise(Noise::kWhite, 10.0, random), commands);
-    EXPECT_THAT(sure_texts(commands), IsEmpty()) << answer;
+  for (const char* voice : {"en-us", "gmw/en+m3", "en-gb-x-rp+f1"}) {
+    const auto heard = spotter();
+    ASSERT_NE(heard, nullptr);
+    for (const char* answer : {"stop", "okay", "yes", "no", "confirm", "undo", "reset"}) {
+      const auto samples = orthonav::test::spoken(std::string("ortho ") + answer, {voice, 150});
+      ASSERT_TRUE(samples.ok());
+      Soundtrack sound;
+      sound.silence(1.5);
+      sound.speech(*samples);
+      sound.silence(0.6);
+      std::vector<SpokenCommand> commands;
+      heard->push(sound.with_noise(Noise::kWhite, 10.0, random), commands);
+      EXPECT_THAT(sure_texts(commands), IsEmpty()) << voice << " " << answer;
+    }
   }
+}
+
+TEST(CommandSpotter, TellsOfALikelyCommandBelowTheLineThatDoesNotCount) {
+  SpotterOptions options;
+  options.commands = kCommands;
+  options.least_log_odds = 20.0;
+  const auto heard = CommandSpotter::create(options);
+  ASSERT_TRUE(heard.ok());
+  std::vector<SpokenCommand> commands;
+  (*heard)->push(quiet_room({"ortho save points", "ortho okay"}), commands);
+  ASSERT_EQ(commands.size(), 1u) << "an answer is not even likely";
+  EXPECT_EQ(commands.front().text, "save points");
+  EXPECT_LT(commands.front().confidence, 0.5);
 }
 
 TEST(CommandSpotter, WaitsForTheWakeWord) {
