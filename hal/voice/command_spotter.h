@@ -19,9 +19,9 @@ namespace orthonav::voice {
 struct SpotterOptions {
   std::vector<std::string> commands;  ///< lower case: "save points"
   std::string wake_word = "ortho";    ///< said before each command
-  /// A command counts above this (`log_odds`): odds of twenty to one. At three to one three times
-  /// as many other words pass, and 5 % more commands (docs/voice.md).
-  double least_log_odds = 3.0;
+  /// A command counts above this (`log_odds`): odds of twelve to one. At three to one twice
+  /// as many other words pass, and 4 % more commands (docs/voice.md).
+  double least_log_odds = 2.5;
   SegmentOptions segments;
   std::filesystem::path acoustic_model = default_acoustic_model();
 
