@@ -198,7 +198,7 @@ Result<nav::TagBody> calibrated(const ToolArguments& arguments, const ToolInput&
                                 const RecordedSightings& seen) {
   auto body = nav::calibrate_tag_body(seen.calibration, input.tags, seen.pairs);
   if (!body) {
-    return body;
+    return Error{body.error().message + (seen.never_seen.empty() ? "" : "; " + seen.never_seen)};
   }
   if (const Status s = check_mounting(arguments, input.tool, *body); !s) {
     return s.error();

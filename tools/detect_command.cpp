@@ -141,8 +141,7 @@ void add_detect_command(CLI::App& app, Action& action) {
       ->add_option("--family", arguments->families,
                    "Tag family, may be repeated; known are " + nav::known_families_text())
       ->default_str("tag36h11")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   command
       ->add_option("--max-hamming", arguments->max_hamming,
                    "Corrected bits, 0-2 (default: 2, or 1 for families of over 10,000 codes)")

@@ -25,6 +25,7 @@
 #include "tools/presenting.h"
 #include "tools/print_text.h"
 #include "tools/progress.h"
+#include "tools/recorded_pairs.h"
 #include "tools/run_files.h"
 #include "tools/run_stats.h"
 #include "tools/stopped_run.h"
@@ -67,6 +68,7 @@ class LiveRun {
     // The files are on the disk before a terminal that nobody reads can hold this up.
     std::fputs(arguments_.json ? text.c_str() : operation_summary(result).c_str(), stdout);
     print_figures(result.loop);
+    warn_of_never_seen(operation_->session().tracker());
     if (const Status whole = joined_errors(result.loop.ended, kept); !whole) {
       return bad_input(whole.error().message);
     }

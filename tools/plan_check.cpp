@@ -2,11 +2,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "engine/case/likely_mistakes.h"
 #include "engine/case/plan_file.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/plan_command.h"
 #include "tools/plan_figures.h"
+#include "tools/print_text.h"
 
 namespace orthonav::tools {
 namespace {
@@ -17,6 +19,30 @@ struct CheckArguments {
   std::vector<std::string> plans;
 };
 
+/// The level that the plan states, or else its files' names, if they agree; empty if none does.
+std::string level_of(const engine::Plan& plan, const std::vector<std::string>& files) {
+  std::string level = engine::level_in_name(files.front());
+  for (const std::string& file : files) {
+    level = engine::level_in_name(file) == level ? level : std::string();
+  }
+  return plan.level.empty() ? level : plan.level;
+}
+
+/// Warns of a plan that states no level where it does not fit the model, or may fit by chance.
+void warn_of_level(const CheckArguments& arguments, const engine::CaseLevel& model,
+                   bool names_agree) {
+  const std::string& plan = arguments.plans.front();
+  const std::string misfit = engine::poor_fit(model.mesh, model.screws);
+  if (!misfit.empty()) {
+    print_warning(plan + ": states no level and fits " + arguments.model + " badly (" + misfit +
+                  "): is it of another level?");
+  } else if (!names_agree) {
+    print_warning(plan + ": states no level, and that it fits " + arguments.model +
+                  " does not prove that it is for this one: plans of neighbouring levels often "
+                  "fit (\"level\" in the plan, or both files' names, would tell)");
+  }
+}
+
 /// The case that is judged: a folder, the phantom, or one model with its plan.
 Result<engine::Case> checked_source(const CheckArguments& arguments) {
   if (arguments.model.empty()) {
@@ -26,9 +52,19 @@ Result<engine::Case> checked_source(const CheckArguments& arguments) {
   if (!plan) {
     return plan.error();
   }
+  const std::string of_plan = level_of(*plan, arguments.plans);
+  const std::string of_model = engine::level_in_name(arguments.model);
+  if (!of_plan.empty() && !of_model.empty() && of_plan != of_model) {
+    return Error{arguments.plans.front() + ": is the plan of " + of_plan + ", but " +
+                 arguments.model + " is named after " + of_model + ": take the model of " +
+                 of_plan + ", or rename it"};
+  }
   auto level = engine::load_level(arguments.model, *plan);
   if (!level) {
     return level.error();
+  }
+  if (plan->level.empty()) {
+    warn_of_level(arguments, *level, !of_plan.empty() && !of_model.empty());
   }
   if (level->label.empty()) {
     level->label = "plan";

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/how_many.h"
+#include "base/joined.h"
 #include "engine/session/method.h"
 #include "tools/count_progress.h"
 #include "tools/print_text.h"
@@ -77,6 +78,10 @@ Result<MeasuredPoses> measured_poses(const std::string& recording, const std::st
   if (!read) {
     return read.error();
   }
+  const nav::SeenTags* seen = (*tracker)->seen_tags();
+  if (const std::string never = seen != nullptr ? seen->never_seen(tool) : ""; !never.empty()) {
+    return Error{recording + ": " + never};
+  }
   return poses;
 }
 
@@ -96,7 +101,25 @@ Result<RecordedSightings> recorded_sightings(const std::string& recording,
   if (!read) {
     return read.error();
   }
-  return RecordedSightings{calibration, collector->pairs()};
+  std::vector<std::string> never;
+  for (const nav::MarkerDefinition& tag : collector->tags()) {
+    if (std::string problem = collector->seen_tags().never_seen(tag); !problem.empty()) {
+      never.push_back(std::move(problem));
+    }
+  }
+  return RecordedSightings{calibration, collector->pairs(), joined(never)};
+}
+
+void warn_of_never_seen(const nav::ToolTracker& tracker) {
+  const nav::SeenTags* seen = tracker.seen_tags();
+  if (seen == nullptr || !seen->has_other_than(tracker.tools())) {
+    return;  // it may just not have been used
+  }
+  for (const nav::ToolGeometry& tool : tracker.tools()) {
+    if (const std::string never = seen->never_seen(tool); !never.empty()) {
+      print_warning(never);
+    }
+  }
 }
 
 std::string default_method() { return "best"; }

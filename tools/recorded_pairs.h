@@ -24,7 +24,8 @@ struct MeasuredPoses {
   bool timed = true;        ///< whether the times are known
   std::vector<nav::TrackedPose> world_from_marker;
 };
-/// Tracks one tool through a recording; refuses an unknown method and unreadable files.
+/// Tracks one tool through a recording; refuses an unknown method, unreadable files and a tool
+/// whose tags are never seen.
 Result<MeasuredPoses> measured_poses(const std::string& recording, const std::string& method,
                                      const nav::ToolGeometry& tool,
                                      const nav::TrackerOptions& options = {});
@@ -36,9 +37,14 @@ void add_measured(std::span<const nav::ToolState> states, MeasuredPoses& poses);
 struct RecordedSightings {
   StereoCalibration calibration;
   std::vector<nav::PairSightings> pairs;
+  std::string never_seen = {};  ///< which of them were not, and what was
 };
 Result<RecordedSightings> recorded_sightings(const std::string& recording,
                                              std::vector<nav::MarkerDefinition> tags);
+
+/// A line on standard error for each tool whose tags were never seen, with those that were, if one
+/// of these is no tool's.
+void warn_of_never_seen(const nav::ToolTracker& tracker);
 
 /// The best tracking method of this version.
 [[nodiscard]] std::string default_method();

@@ -243,6 +243,7 @@ int run_track(const TrackArguments& arguments) {
     print(arguments, *summary, (*headset)->summary(), **tracker);
   }
   warn_of_sizes(**tracker);
+  warn_of_never_seen(**tracker);
   return kDone;
 }
 

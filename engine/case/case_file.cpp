@@ -8,6 +8,7 @@
 
 #include "base/joined.h"
 #include "base/length_text.h"
+#include "engine/case/likely_mistakes.h"
 #include "engine/case/operation.h"
 #include "engine/io/inside_folder.h"
 #include "engine/io/json_document.h"
@@ -144,6 +145,15 @@ Result<CaseLevel> loaded(const Entry& entry, const Reading& reading, std::string
   if (!plan->level.empty() && plan->level != entry.label) {
     return Error{(fs::path(folder) / entry.plans.front()).string() + ": is the plan of " +
                  plan->level + ", the case uses it for " + entry.label};
+  }
+  for (const std::string& file : entry.plans) {
+    const std::string named = level_in_name(file);
+    if (plan->level.empty() && !named.empty() && named != level_in_name(entry.label) &&
+        !level_in_name(entry.label).empty()) {
+      return Error{(fs::path(folder) / file).string() + ": is named after " + named +
+                   " and states no level, but the case uses it for " + entry.label +
+                   " (\"level\" in the plan decides)"};
+    }
   }
   const auto model = path_inside(folder, entry.model);
   if (!model) {

@@ -48,6 +48,11 @@ bool is_level(const std::string& word) {
          is_digit(word.back());
 }
 
+std::string as_level(std::string word) {
+  word[0] = static_cast<char>(std::toupper(word[0]));
+  return word;
+}
+
 bool is_one_of(const auto& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
@@ -62,11 +67,20 @@ LineName parsed_line_name(const std::string& name) {
     parsed.right = parsed.right || is_one_of(kRight, word);
     after_level = is_level(word);
     if (after_level) {
-      parsed.level = word;
-      parsed.level[0] = static_cast<char>(std::toupper(word[0]));
+      parsed.level = as_level(word);
     }
   }
   return parsed;
+}
+
+std::vector<std::string> levels_named(const std::string& name) {
+  std::vector<std::string> levels;
+  for (const std::string& word : words_of(name)) {
+    if (is_level(word)) {
+      levels.push_back(as_level(word));
+    }
+  }
+  return levels;
 }
 
 }  // namespace orthonav::engine

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "nav/guidance/screw.h"
 
@@ -18,5 +19,7 @@ struct LineName {
 /// directly after a level (`L4_L`, `L4L`); elsewhere it means nothing, since 3D Slicer itself names
 /// lines `L`, `L_1`, `L_2`.
 [[nodiscard]] LineName parsed_line_name(const std::string& name);
+/// The levels that it names, in its order: "L4", "L5".
+[[nodiscard]] std::vector<std::string> levels_named(const std::string& name);
 
 }  // namespace orthonav::engine

@@ -17,6 +17,11 @@ constexpr double kMaxScrewLength_m = 0.120;
 constexpr double kMinRadius_m = 0.001;
 constexpr double kMaxRadius_m = 0.006;
 
+double off_bone_m(const nav::SurfaceIndex& bone, Point<Vertebra> entry) {
+  const auto nearest = bone.nearest(entry.v);
+  return nearest ? nearest->distance_m : 1e3;
+}
+
 }  // namespace
 
 bool OffMidline::crosses() const {
@@ -57,8 +62,7 @@ std::optional<std::string> ill_sized(Point<Vertebra> entry, Point<Vertebra> targ
 
 std::optional<std::string> misplaced(const nav::SurfaceIndex& bone, Point<Vertebra> entry,
                                      Point<Vertebra> target, double radius_m) {
-  const auto at_entry = bone.nearest(entry.v);
-  const double off_m = at_entry ? at_entry->distance_m : 1e3;
+  const double off_m = off_bone_m(bone, entry);
   if (off_m > kMaxEntryOffBone_m) {
     return "entry lies " + beside_limit("%.1f mm off the bone, limit %.1f mm", off_m * 1e3,
                                         kMaxEntryOffBone_m * 1e3);
@@ -82,8 +86,12 @@ std::optional<std::string> misplaced(const nav::SurfaceIndex& bone, Point<Verteb
                                      Point<Vertebra> target, double radius_m, Axes stated) {
   const auto problem = misplaced(bone, entry, target, radius_m);
   const auto rotated = [](Point<Vertebra> p) { return Point<Vertebra>{to_lps(p.v, Axes::kRas)}; };
-  if (!problem || misplaced(bone, rotated(entry), rotated(target), radius_m)) {
+  if (!problem) {
     return problem;
+  }
+  if (misplaced(bone, rotated(entry), rotated(target), radius_m)) {
+    return *problem +
+           (off_bone_m(bone, entry) > kMaxEntryOffBone_m ? ": is it of another level?" : "");
   }
   const bool lps = stated == Axes::kLps;
   return *problem + " (its axes are stated as " + (lps ? "LPS" : "RAS") + "; as " +

@@ -46,7 +46,7 @@ inline constexpr double kLeastOffMidline_m = 0.005;
                                                    double radius_m);
 
 /// The same for a screw from a file that states its axes; the problem also says so if the screw
-/// would fit in the other axes.
+/// would fit in the other axes, and asks for the level where the entry is off the bone in both.
 [[nodiscard]] std::optional<std::string> misplaced(const nav::SurfaceIndex& bone,
                                                    Point<Vertebra> entry, Point<Vertebra> target,
                                                    double radius_m, Axes stated);

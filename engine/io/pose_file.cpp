@@ -278,7 +278,12 @@ struct Layout {
   double metres_per_unit = 0.0;
 };
 
-constexpr std::string_view kSeparators = ",; ";
+/// A comma stands between numbers, unless semicolons or tabs do: then it is a decimal comma.
+char separator_of(std::string_view line) {
+  const bool of_tabs =
+      line.find('\t') != std::string_view::npos && line.find(",\t") == std::string_view::npos;
+  return separator_in(line, of_tabs ? "; " : ";, ");
+}
 
 std::vector<std::string> fields_of(std::string line, char separator) {
   if (separator != ' ') {
@@ -413,7 +418,7 @@ Result<std::array<double, 16>> numbers_at(const std::vector<std::string>& fields
       return Error{where + "has " + std::to_string(fields.size()) + " columns, column " +
                    std::to_string(columns[i] + 1) + " is needed"};
     }
-    const auto number = number_from(fields[columns[i]]);
+    const auto number = number_with_comma(fields[columns[i]]);
     if (!number) {
       return Error{where + "'" + fields[columns[i]] + "' in column " +
                    std::to_string(columns[i] + 1) + " is not a number"};
@@ -563,7 +568,7 @@ Result<PoseFile> block_poses(const std::vector<std::string>& lines, const std::s
   std::array<double, 16> rows{};
   std::size_t filled = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const auto fields = fields_of(lines[i], separator_in(lines[i], kSeparators));
+    const auto fields = fields_of(lines[i], separator_of(lines[i]));
     if (fields.empty()) {
       continue;
     }
@@ -598,7 +603,7 @@ Result<PoseFile> text_poses(const Result<std::string>& text, const std::string& 
     return text.error();
   }
   Table table;
-  table.lines = lines_of(*text);
+  table.lines = lines_of(as_utf8(*text));
   while (table.first < table.lines.size() && trimmed(table.lines[table.first]).empty()) {
     ++table.first;
   }
@@ -606,10 +611,10 @@ Result<PoseFile> text_poses(const Result<std::string>& text, const std::string& 
     return Error{path + ": is empty"};
   }
   std::string heading = table.lines[table.first];
-  table.separator = separator_in(heading, kSeparators);
+  table.separator = separator_of(heading);
   std::vector<std::string> fields = fields_of(heading, table.separator);
   const bool has_names = std::any_of(fields.begin(), fields.end(), [](const std::string& field) {
-    return !field.empty() && !number_from(field);
+    return !field.empty() && !number_with_comma(field);
   });
   if (has_names && !options.columns.empty()) {
     return Error{path + ": its first line names the columns, so --columns has no place there"};
@@ -659,7 +664,7 @@ Result<PoseFileKind> kind_of(const std::string& path) {
   if (begin.starts_with("MATLAB")) {
     return Error{path + ": a MATLAB file is not read, save its poses as CSV"};
   }
-  if (begin.find('\0') != std::string::npos) {
+  if (as_utf8(begin).find('\0') != std::string::npos) {
     return Error{path + ": is neither text nor a sequence of Plus or 3D Slicer"};
   }
   return PoseFileKind::kText;

@@ -37,7 +37,8 @@ struct PoseFile {
 ///   (x y z, px py pz or tx ty tz) and unit quaternion (qx qy qz and qw or q0), or a matrix (m00 to
 ///   m23); units stand behind a name (tx_mm, m03_m, time_s), or are given;
 /// - the same without a heading, whose columns are given; rows of 16 numbers, and 4 rows of 4, are
-///   matrices.
+///   matrices. Numbers may have decimal commas where semicolons or tabs separate them; UTF-8 with a
+///   mark and UTF-16 are read.
 /// Times in other columns than time_s, time_ms and timestamp_100ns are not read. Refuses anything
 /// else in one line.
 [[nodiscard]] Result<PoseFile> load_poses(const std::string& path,

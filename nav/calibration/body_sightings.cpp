@@ -54,6 +54,8 @@ void SightingCollector::add(const StereoFrame& frame) {
   if (!detector_.detect(frame.right, right_)) {
     right_.clear();
   }
+  seen_.add(left_);
+  seen_.add(right_);
   pairs_.push_back(sightings(tags_, left_, right_, geometry_));
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "nav/tracking/marker_detector.h"
+#include "nav/tracking/seen_tags.h"
 #include "nav/tracking/tag_pose.h"
 #include "nav/tracking/tool.h"
 
@@ -39,6 +40,8 @@ class SightingCollector {
   void add(const StereoFrame& frame);
   [[nodiscard]] const std::vector<MarkerDefinition>& tags() const { return tags_; }
   [[nodiscard]] const std::vector<PairSightings>& pairs() const { return pairs_; }
+  /// Those of other bodies too.
+  [[nodiscard]] const SeenTags& seen_tags() const { return seen_; }
 
  private:
   SightingCollector(const StereoCalibration& calibration, std::vector<MarkerDefinition> tags,
@@ -48,6 +51,7 @@ class SightingCollector {
   std::vector<MarkerDefinition> tags_;
   TagGeometry geometry_;
   MarkerDetector detector_;
+  SeenTags seen_;
   std::vector<MarkerCorners> left_;
   std::vector<MarkerCorners> right_;
   std::vector<PairSightings> pairs_;

@@ -35,6 +35,8 @@ class PaperTracker final : public ToolTracker {
     }
     plan(frame.time);
     detector_->detect(frame);
+    seen_.add(detector_->left());
+    seen_.add(detector_->right());
     ++pairs_;
     missing_ = false;
     for (std::size_t i = 0; i < tools_.size(); ++i) {
@@ -48,6 +50,7 @@ class PaperTracker final : public ToolTracker {
   }
 
   [[nodiscard]] std::span<const ToolGeometry> tools() const override { return tools_; }
+  [[nodiscard]] const SeenTags* seen_tags() const override { return &seen_; }
 
  private:
   struct Trail {
@@ -179,6 +182,7 @@ class PaperTracker final : public ToolTracker {
   std::vector<ToolGeometry> tools_;
   TrackerOptions options_;
   std::unique_ptr<TagFinder> detector_;
+  SeenTags seen_;
   std::vector<Trail> trails_;
   std::vector<ToolState> states_;
   std::int64_t pairs_ = 0;

@@ -66,6 +66,7 @@ class AnchoredTracker final : public ToolTracker {
   [[nodiscard]] double tag_size_difference_sd(std::size_t tool, std::size_t other) const override {
     return tracker_->tag_size_difference_sd(tool, other);
   }
+  [[nodiscard]] const SeenTags* seen_tags() const override { return tracker_->seen_tags(); }
   [[nodiscard]] bool follows_tools() const override { return tracker_->follows_tools(); }
   [[nodiscard]] const Anchor* anchor() const override { return &anchor_; }
 

@@ -40,6 +40,8 @@ PhotometricTracker::PhotometricTracker(const StereoCalibration& calibration,
 std::span<const ToolState> PhotometricTracker::track(const StereoFrame& frame) {
   ++pairs_;
   full_search_->finish();
+  seen_.add(full_search_->left());
+  seen_.add(full_search_->right());
   if (std::exchange(map_epoch_, frame.map_epoch) != frame.map_epoch) {
     forget_map();
   }

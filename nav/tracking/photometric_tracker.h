@@ -27,6 +27,7 @@ class PhotometricTracker final : public ToolTracker {
   std::span<const ToolState> track(const StereoFrame& frame) override;
 
   [[nodiscard]] std::span<const ToolGeometry> tools() const override { return tools_; }
+  [[nodiscard]] const SeenTags* seen_tags() const override { return &seen_; }
   [[nodiscard]] std::optional<StereoAlignment> alignment() const override;
   [[nodiscard]] std::optional<TagSize> tag_size(std::size_t tool) const override;
   [[nodiscard]] PictureAgreement picture_agreement() const override { return agreement_; }
@@ -96,6 +97,7 @@ class PhotometricTracker final : public ToolTracker {
   TrackerOptions options_;
   std::unique_ptr<PairDetector> near_;
   std::unique_ptr<FullImageSearch> full_search_;
+  SeenTags seen_;
   std::vector<Trail> trails_;
   std::vector<ToolState> states_;
   OnlineCalibration calibration_;

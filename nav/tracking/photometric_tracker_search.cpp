@@ -37,6 +37,8 @@ void PhotometricTracker::look_for_lost(const StereoFrame& frame, bool others_tra
     }
   }
   near_->detect(frame);
+  seen_.add(near_->left());
+  seen_.add(near_->right());
 }
 
 void PhotometricTracker::add_boxes(std::size_t i, const StereoFrame& frame) {

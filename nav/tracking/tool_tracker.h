@@ -9,6 +9,7 @@
 
 #include "base/tracked.h"
 #include "hal/api/devices.h"
+#include "nav/tracking/seen_tags.h"
 #include "nav/tracking/stereo_alignment.h"
 #include "nav/tracking/tag_size.h"
 #include "nav/tracking/tool.h"
@@ -89,6 +90,8 @@ class ToolTracker {
     constexpr double kOfTwoPrints = 0.0042;
     return kOfTwoPrints;
   }
+  /// The tags that searches of whole images found, those of no tool as well; null: none are made.
+  [[nodiscard]] virtual const SeenTags* seen_tags() const { return nullptr; }
   /// Whether it filters poses over pairs and predicts missing ones. If not, poses come from another
   /// program and are passed on unchanged.
   [[nodiscard]] virtual bool follows_tools() const { return true; }

@@ -179,6 +179,14 @@ TEST_F(CalibratePivot, RefusesBadInputInOneLine) {
     EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
     EXPECT_THAT(called.out, IsEmpty());
   }
+  const std::string other = folder_.with("other.json", R"({"tools": [{"name": "pointer",
+    "role": "pointer", "marker": {"family": "tag36h11", "id": 7, "size_mm": 40},
+    "tip_mm": [0, 0, 0]}]})");
+  const Called unseen =
+      orthonav({"calibrate", "pivot", recording, "--tools", other, "--tool", "pointer"});
+  EXPECT_EQ(unseen.code, 2);
+  EXPECT_THAT(unseen.err,
+              HasSubstr("tag tag36h11 id 7 of 'pointer' was never seen, only tag36h11"));
   EXPECT_EQ(pivot(folder_.file("none")).code, 2);
   EXPECT_EQ(pivot(recording).code, 1) << "one pair is too few";
   EXPECT_EQ(orthonav({"calibrate"}).code, 2);

@@ -172,7 +172,9 @@ TEST(CalibrateTool, RefusesInOneLineAndWritesNothing) {
                                  "--size-mm", "40", "--json"});
   EXPECT_EQ(apart.code, 1);
   EXPECT_THAT(apart.err,
-              HasSubstr("refused: tool calibration: tag tag36h11 id 5 (seen in 0 pairs)"));
+              AllOf(HasSubstr("refused: tool calibration: tag tag36h11 id 5 (seen in 0 pairs)"),
+                    HasSubstr("; tag tag36h11 id 5 was never seen, only tag36h11 id 3, tag36h11 "
+                              "id 4")));
   EXPECT_EQ(nlohmann::json::parse(apart.out)["verdict"], "fail");
   const Called wrong = called({"--ids", "3,4", "--size-mm", "30"});
   EXPECT_EQ(wrong.code, 1);

@@ -271,6 +271,13 @@ TEST(DetectCommand, RefusesBadInputInOneLine) {
   EXPECT_EQ(orthonav({"detect"}).code, 2);
 }
 
+TEST(DetectCommand, TakesAnImageBehindAFamily) {
+  const ScratchFolder folder;
+  const std::string image = folder.with("grey.pgm", "P5 40 30 255\n" + std::string(1200, 'x'));
+  const auto seen = detected({"--family", "tag25h9", image, image});
+  EXPECT_THAT(seen["images"], SizeIs(2));
+}
+
 TEST(DetectCommand, LooksForTheFamilyItIsGiven) {
   const std::string folder = shared("recordings/dt-apriltags");
   if (folder.empty()) {
@@ -278,7 +285,7 @@ TEST(DetectCommand, LooksForTheFamilyItIsGiven) {
   }
   const std::string image = folder + "/test_image_multiple_02.png";
   EXPECT_THAT(ids_of(detected({image, "--family", "tag25h9"})["images"][0]), IsEmpty());
-  const auto both = detected({image, "--family", "tag25h9", "--family", "tag36h11"});
+  const auto both = detected({"--family", "tag25h9", "--family", "tag36h11", image});
   EXPECT_EQ(ids_of(both["images"][0]).size(), 5u);
   EXPECT_EQ(both["images"][0]["markers"][0]["family"], "tag36h11");
 }

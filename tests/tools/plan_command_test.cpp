@@ -100,6 +100,35 @@ TEST(PlanCommand, SaysWhyASideGetsNoScrew) {
   EXPECT_FALSE(std::filesystem::exists(folder + "/L5.plan.json"));
 }
 
+TEST(PlanCommand, APlanOfAnotherLevelIsRefusedOrDoubted) {
+  const ScratchFolder scratch;
+  const auto spine = engine::phantom({"L4", "L5"});
+  ASSERT_TRUE(engine::save_case(scratch.file("."), spine).ok());
+  const auto plan = [&](const char* file, const char* level) {
+    EXPECT_TRUE(engine::save_plan(scratch.file(file), "", spine.find(level)->screws).ok());
+    return scratch.file(file);
+  };
+  const auto check = [&](const char* model, const std::string& with) {
+    return orthonav({"plan", "check", "--model", scratch.file(model), "--plan", with});
+  };
+  const Called refused = check("L4.stl", plan("Screws L5.json", "L5"));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("Screws L5.json: is the plan of L5, but"),
+                                 HasSubstr("L4.stl is named after L4")));
+  EXPECT_THAT(check("L5.stl", scratch.file("Screws L5.json")).err, IsEmpty());
+  EXPECT_THAT(check("L4.stl", plan("mine.json", "L4")).err,
+              AllOf(HasSubstr("warning"), HasSubstr("mine.json: states no level, and that it fits"),
+                    HasSubstr("does not prove")));
+  auto screws = spine.find("L4")->screws;
+  for (nav::ScrewPlan& screw : screws) {
+    screw.entry.v.y += 0.007;
+  }
+  ASSERT_TRUE(engine::save_plan(scratch.file("off.json"), "", screws).ok());
+  EXPECT_THAT(check("L4.stl", scratch.file("off.json")).err,
+              AllOf(HasSubstr("fits "), HasSubstr("badly (left entry"),
+                    HasSubstr("off the surface, limit 2.0 mm"), HasSubstr("of another level?")));
+}
+
 TEST(PlanCommand, JudgesAPlanBesideItsModel) {
   const ScratchFolder scratch;
   const std::string folder = phantom_case(scratch, true);

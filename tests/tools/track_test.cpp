@@ -163,6 +163,20 @@ TEST_F(TrackCommand, WarnsOfATagThatIsNotOfTheStatedSize) {
   EXPECT_TRUE(nlohmann::json::parse(called.out)["tools"][0]["tag_size"]["disagrees"]);
 }
 
+TEST_F(TrackCommand, SaysWhichTagsWereSeenWhereOneNeverWas) {
+  auto json = nlohmann::json::parse(content_of(sample_ + "/tools.json"));
+  json["tools"][0]["marker"]["id"] = 7;
+  const std::string wrong = folder_.with("tools.json", json.dump());
+  for (const char* method : {"best", "paper"}) {
+    const Called called = orthonav({"track", sample_, "--tools", wrong, "--method", method, "--csv",
+                                    folder_.file("poses.csv")});
+    EXPECT_EQ(called.code, 0);
+    EXPECT_THAT(called.err, HasSubstr("warning: tag tag36h11 id 7 of 'pointer' was never seen, "
+                                      "only tag36h11 id "));
+    EXPECT_THAT(called.err, Not(HasSubstr("id 17 of")));
+  }
+}
+
 TEST_F(TrackCommand, WritesARowForEveryVisibleTagAndNoOther) {
   const Called called = track({});
   ASSERT_EQ(called.code, 0) << called.err;

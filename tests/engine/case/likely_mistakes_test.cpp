@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "engine/case/case.h"
+#include "engine/case/case_file.h"
 #include "engine/case/plan_file.h"
 #include "engine/case/points_file.h"
 #include "engine/phantom/phantom.h"
+#include "tests/support/test_data.h"
 
 namespace orthonav::engine::likely_mistakes_test {
 namespace {
@@ -54,6 +56,28 @@ TEST(LikelyMistakes, AScenesPartsAreToBeExported) {
   EXPECT_THAT(load_points("x.mrml").error().message, HasSubstr("save its points as .mrk.json"));
   EXPECT_THAT(load_plan(std::string("x.mrb")).error().message,
               HasSubstr("save the screws' lines as .mrk.json"));
+}
+
+TEST(LikelyMistakes, APlanOfAnotherLevelIsNoticedWhereItCanBeTold) {
+  const auto spine =
+      load_case(test::test_data("anatomy/visible-human").string(), CaseUse::kPlanning);
+  ASSERT_TRUE(spine.ok()) << spine.error().message;
+  const auto fit = [&](const char* bone, const char* plan) {
+    return poor_fit(spine->find(bone)->mesh, spine->find(plan)->screws);
+  };
+  for (const CaseLevel& level : spine->levels) {
+    EXPECT_EQ(poor_fit(level.mesh, level.screws), "") << level.label;
+  }
+  EXPECT_THAT(fit("L2", "L1"), HasSubstr("left entry 2.4 mm below the surface, limit 2.0 mm"));
+  EXPECT_THAT(fit("L4", "L5"), HasSubstr("left breaks through the cortex by 3.0 mm"));
+  EXPECT_EQ(fit("L3", "L4"), "") << "in frames of their own these two are alike";
+}
+
+TEST(LikelyMistakes, NamesOfFilesStateALevel) {
+  EXPECT_EQ(level_in_name("case L1/Screws_L4.mrk.json"), "L4");
+  EXPECT_EQ(level_in_name("l4-left.mrk.json"), "L4");
+  EXPECT_EQ(level_in_name("L4_L5.json"), "") << "which of them?";
+  EXPECT_EQ(level_in_name("bone.stl"), "");
 }
 
 }  // namespace

@@ -196,7 +196,8 @@ TEST(ScrewsOn, SaysWhenAScrewWouldFitInTheOtherAxes) {
             "p.json: screws[0] entry lies 40.0 mm in front of its target, must lie behind it "
             "(posterior) (its axes are stated as RAS; as LPS it would fit)");
   EXPECT_EQ(refusal({0.02, 0.09, 0}, {0.01, 0.05, 0}, Axes::kLps),
-            "p.json: screws[0] entry lies 60.0 mm off the bone, limit 10.0 mm")
+            "p.json: screws[0] entry lies 60.0 mm off the bone, limit 10.0 mm: is it of another "
+            "level?")
       << "it fits in neither";
   EXPECT_EQ(refusal({0.02, 0.03, 0}, {0.01, -0.01, 0}, Axes::kLps), "") << "the twin";
 }

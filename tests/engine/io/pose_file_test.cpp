@@ -35,6 +35,15 @@ void expect_the_pose(const Transform<World, Marker>& pose) {
   EXPECT_LT((pose.rotation().column(0) - Vec3{0, 1, 0}).norm(), 1e-6);
 }
 
+/// As Excel's "Unicode text".
+std::string utf16(const std::string& ascii) {
+  std::string bytes = "\xFF\xFE";
+  for (const char c : ascii) {
+    bytes += {c, '\0'};
+  }
+  return bytes;
+}
+
 class PoseFiles : public ::testing::Test {
  protected:
   Result<PoseFile> read(const std::string& text, const PoseFileOptions& options = {}) const {
@@ -51,6 +60,10 @@ TEST_F(PoseFiles, AreReadInEveryNotation) {
        "10000000,3,0.01,-0.02,1,0,0,0.707106781,0.707106781,measured,0.1,0,2\n",
        {}},
       {"x_mm;y_mm;z_mm;qw;qx;qy;qz\n10;-20;1000;0.7071068;0;0;0.7071068\n", {}},
+      {"\xEF\xBB\xBFx_mm;y_mm;z_mm;qw;qx;qy;qz\r\n10,0;-20;1000;0,7071068;0;0;0,7071068\r\n", {}},
+      {utf16("x_mm\ty_mm\tz_mm\tqw\tqx\tqy\tqz\n10,0\t-20\t1000\t0,7071068\t0\t0\t0,7071068\n"),
+       {}},
+      {"10,0;-20;1000;0;0;0,7071068;0,7071068\n", named},
       {"tx\tty\ttz\tqx\tqy\tqz\tq0\r\n10\t-20\t1000\t0\t0\t0.7071068\t0.7071068\t\r\n", in_mm()},
       {" 10 -20 1000 0 0 0.7071068\t0.7071068 \n", named},
       {"m00,m01,m02,m03_m,m10,m11,m12,m13_m,m20,m21,m22,m23_m\n0,-1,0,0.01,1,0,0,-0.02,0,0,1,1\n",
