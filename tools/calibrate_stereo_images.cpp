@@ -115,18 +115,24 @@ bool shows_one_less(const Views& views, const nav::Chessboard& board) {
   return false;
 }
 
+/// The coefficients of the rational model have a place of their own, so that none of them is
+/// overlooked.
 nlohmann::ordered_json json_of(const BrownConrady& camera) {
-  return {{"width_px", camera.width_px},
-          {"height_px", camera.height_px},
-          {"fx_px", camera.fx_px},
-          {"fy_px", camera.fy_px},
-          {"cx_px", camera.cx_px},
-          {"cy_px", camera.cy_px},
-          {"k1", camera.k1},
-          {"k2", camera.k2},
-          {"p1", camera.p1},
-          {"p2", camera.p2},
-          {"k3", camera.k3}};
+  nlohmann::ordered_json out = {{"width_px", camera.width_px}, {"height_px", camera.height_px},
+                                {"fx_px", camera.fx_px},       {"fy_px", camera.fy_px},
+                                {"cx_px", camera.cx_px},       {"cy_px", camera.cy_px}};
+  nlohmann::ordered_json lens = {{"k1", camera.k1},
+                                 {"k2", camera.k2},
+                                 {"p1", camera.p1},
+                                 {"p2", camera.p2},
+                                 {"k3", camera.k3}};
+  if (!camera.is_rational()) {
+    out.update(lens);
+    return out;
+  }
+  lens.update({{"k4", camera.k4}, {"k5", camera.k5}, {"k6", camera.k6}});
+  out["rational"] = lens;
+  return out;
 }
 
 nlohmann::ordered_json json_of(const Views& views, const nav::StereoBoardCalibration& found) {
@@ -178,6 +184,9 @@ void print_camera(const char* side, const BrownConrady& c) {
       "%s: focal %.3f %.3f px, principal point %.3f %.3f px, k1 %.5f k2 %.5f p1 %.6f "
       "p2 %.6f k3 %.5f\n",
       side, c.fx_px, c.fy_px, c.cx_px, c.cy_px, c.k1, c.k2, c.p1, c.p2, c.k3);
+  if (c.is_rational()) {
+    print_text("%s, divided by: k4 %.5f k5 %.5f k6 %.5f\n", side, c.k4, c.k5, c.k6);
+  }
 }
 
 void print(const Views& views, const nav::StereoBoardCalibration& found) {

@@ -8,10 +8,23 @@ namespace orthonav::engine {
 namespace {
 
 BrownConrady lens_from(const JsonNode& node) {
-  return {node.integer("width_px"), node.integer("height_px"), node.number("fx_px"),
-          node.number("fy_px"),     node.number("cx_px"),      node.number("cy_px"),
-          node.number("k1"),        node.number("k2"),         node.number("p1"),
-          node.number("p2"),        node.number("k3")};
+  const bool rational = node.has("rational");
+  const JsonNode lens = rational ? node.child("rational") : node;
+  const auto below = [&](const char* key) { return rational ? lens.number(key) : 0.0; };
+  return {node.integer("width_px"),
+          node.integer("height_px"),
+          node.number("fx_px"),
+          node.number("fy_px"),
+          node.number("cx_px"),
+          node.number("cy_px"),
+          lens.number("k1"),
+          lens.number("k2"),
+          lens.number("p1"),
+          lens.number("p2"),
+          lens.number("k3"),
+          below("k4"),
+          below("k5"),
+          below("k6")};
 }
 
 Result<CameraModel> model_from(const BrownConrady& lens, const std::string& where) {

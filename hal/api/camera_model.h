@@ -11,8 +11,10 @@
 
 namespace orthonav {
 
-/// Brown-Conrady parameters (Brown 1971, as in OpenCV's calib3d: k1 k2 p1 p2 k3).
-/// Principal point in continuous pixels: the top-left pixel's centre is at (0.5, 0.5).
+/// Brown-Conrady parameters (Brown 1971, as in OpenCV's calib3d: k1 k2 p1 p2 k3). With k4, k5 or k6
+/// it is the rational model of Claus and Fitzgibbon 2005, as there: the radial polynomial is
+/// divided by that of these three. Principal point in continuous pixels: the top-left pixel's
+/// centre is at (0.5, 0.5).
 struct BrownConrady {
   int width_px = 0;
   int height_px = 0;
@@ -25,7 +27,11 @@ struct BrownConrady {
   double p1 = 0.0;
   double p2 = 0.0;
   double k3 = 0.0;
+  double k4 = 0.0;
+  double k5 = 0.0;
+  double k6 = 0.0;
 
+  [[nodiscard]] bool is_rational() const { return k4 != 0.0 || k5 != 0.0 || k6 != 0.0; }
   /// Unit-plane point to continuous pixel.
   [[nodiscard]] Vec2 distort(Vec2 unit_plane) const;
 };

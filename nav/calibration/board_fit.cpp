@@ -13,6 +13,7 @@ using ImagePoints = std::vector<std::vector<cv::Point2f>>;
 using ObjectPoints = std::vector<std::vector<cv::Point3f>>;
 
 constexpr float kCentre = 0.5F;
+constexpr int kCoefficients = 8;
 // Half the window in which a corner is refined, as a fraction of the distance to the next corner: a
 // larger window would include the next corner's edges.
 constexpr double kWindowFraction = 0.3;
@@ -99,25 +100,35 @@ cv::Mat matrix_of(const BrownConrady& c) {
 }
 
 cv::Mat distortion_of(const BrownConrady& c) {
-  return (cv::Mat_<double>(1, 5) << c.k1, c.k2, c.p1, c.p2, c.k3);
+  return (cv::Mat_<double>(1, kCoefficients) << c.k1, c.k2, c.p1, c.p2, c.k3, c.k4, c.k5, c.k6);
 }
 
 BrownConrady camera_from(ImageSize size, const cv::Mat& matrix, const cv::Mat& distortion) {
-  const auto* d = distortion.ptr<double>();
+  // OpenCV cuts off what it did not fit.
+  const auto d = [&](int i) {
+    return i < static_cast<int>(distortion.total()) ? distortion.at<double>(i) : 0.0;
+  };
   return {size.width_px,
           size.height_px,
           matrix.at<double>(0, 0),
           matrix.at<double>(1, 1),
           matrix.at<double>(0, 2) + kCentre,
           matrix.at<double>(1, 2) + kCentre,
-          d[0],
-          d[1],
-          d[2],
-          d[3],
-          d[4]};
+          d(0),
+          d(1),
+          d(2),
+          d(3),
+          d(4),
+          d(5),
+          d(6),
+          d(7)};
 }
 
-int flags_for(bool with_k3) { return with_k3 ? 0 : cv::CALIB_FIX_K3; }
+int flags_for(LensTerms terms) {
+  return terms == LensTerms::kRational ? cv::CALIB_RATIONAL_MODEL
+         : terms == LensTerms::kThree  ? 0
+                                       : cv::CALIB_FIX_K3;
+}
 
 Result<Transform<RightCamera, LeftCamera>> transform_from(const cv::Mat& rotation,
                                                           const cv::Mat& translation) {
@@ -159,11 +170,11 @@ std::optional<BoardCorners> find_chessboard(const GreyImage& image, const Chessb
 }
 
 Result<CameraFit> fit_camera(const Chessboard& board, ImageSize size,
-                             std::span<const BoardCorners> views, bool with_k3) {
+                             std::span<const BoardCorners> views, LensTerms terms) {
   const QuietOpenCv quiet;
   try {
     cv::Mat matrix;
-    cv::Mat distortion = cv::Mat::zeros(1, 5, CV_64F);
+    cv::Mat distortion = cv::Mat::zeros(1, kCoefficients, CV_64F);
     cv::Mat sigmas;
     std::vector<cv::Mat> rotations;
     std::vector<cv::Mat> translations;
@@ -171,7 +182,7 @@ Result<CameraFit> fit_camera(const Chessboard& board, ImageSize size,
     fit.rms_px = cv::calibrateCamera(
         object_points(board, views.size()), image_points(views), {size.width_px, size.height_px},
         matrix, distortion, rotations, translations, sigmas, cv::noArray(), cv::noArray(),
-        flags_for(with_k3), {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-10});
+        flags_for(terms), {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-10});
     fit.camera = camera_from(size, matrix, distortion);
     constexpr int kK3 = 8;  // fx fy cx cy k1 k2 p1 p2 k3
     fit.k3_sigma = sigmas.at<double>(kK3);
@@ -184,7 +195,7 @@ Result<CameraFit> fit_camera(const Chessboard& board, ImageSize size,
 Result<StereoFit> fit_stereo(const Chessboard& board, ImageSize size,
                              std::span<const BoardCorners> left,
                              std::span<const BoardCorners> right, const BrownConrady& left_start,
-                             const BrownConrady& right_start, bool with_k3) {
+                             const BrownConrady& right_start, LensTerms terms) {
   const QuietOpenCv quiet;
   try {
     cv::Mat left_matrix = matrix_of(left_start);
@@ -201,7 +212,7 @@ Result<StereoFit> fit_stereo(const Chessboard& board, ImageSize size,
         object_points(board, left.size()), image_points(left), image_points(right), left_matrix,
         left_distortion, right_matrix, right_distortion, {size.width_px, size.height_px}, rotation,
         translation, essential, fundamental, view_rms,
-        flags_for(with_k3) | cv::CALIB_USE_INTRINSIC_GUESS,
+        flags_for(terms) | cv::CALIB_USE_INTRINSIC_GUESS,
         {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-10});
     fit.left = camera_from(size, left_matrix, left_distortion);
     fit.right = camera_from(size, right_matrix, right_distortion);

@@ -29,15 +29,22 @@ struct ImageSize {
   friend bool operator==(ImageSize, ImageSize) = default;
 };
 
+/// Which radial terms of a lens are fitted.
+enum class LensTerms {
+  kTwo,      ///< k1, k2
+  kThree,    ///< and k3
+  kRational  ///< and k4 to k6
+};
+
 struct CameraFit {
   BrownConrady camera;
   double rms_px = 0.0;  ///< of the corners, 2-D
   double k3_sigma = 0.0;
 };
 
-/// One camera from views of the board (Zhang 2000). Without `with_k3` the third radial term is 0.
+/// One camera from views of the board (Zhang 2000). Terms that are not fitted are 0.
 Result<CameraFit> fit_camera(const Chessboard& board, ImageSize size,
-                             std::span<const BoardCorners> views, bool with_k3);
+                             std::span<const BoardCorners> views, LensTerms terms);
 
 struct StereoFit {
   BrownConrady left;
@@ -52,6 +59,6 @@ struct StereoFit {
 Result<StereoFit> fit_stereo(const Chessboard& board, ImageSize size,
                              std::span<const BoardCorners> left,
                              std::span<const BoardCorners> right, const BrownConrady& left_start,
-                             const BrownConrady& right_start, bool with_k3);
+                             const BrownConrady& right_start, LensTerms terms);
 
 }  // namespace orthonav::nav

@@ -6,6 +6,7 @@
 #include "base/findings.h"
 #include "base/how_many.h"
 #include "base/joined.h"
+#include "base/printed.h"
 #include "nav/calibration/coverage.h"
 #include "nav/calibration/epipolar.h"
 #include "nav/calibration/stereo_jackknife.h"
@@ -68,32 +69,36 @@ bool is_invertible(const BrownConrady& camera) {
 struct Start {
   CameraFit left;
   CameraFit right;
-  bool with_k3 = false;
+  LensTerms terms = LensTerms::kTwo;
 };
 
 Result<Start> start_with(const Chessboard& board, ImageSize size, const BoardViews& views,
-                         bool with_k3) {
-  const auto left = fit_camera(board, size, views.left, with_k3);
+                         LensTerms terms) {
+  const auto left = fit_camera(board, size, views.left, terms);
   if (!left) {
     return left.error();
   }
-  const auto right = fit_camera(board, size, views.right, with_k3);
+  const auto right = fit_camera(board, size, views.right, terms);
   if (!right) {
     return right.error();
   }
-  return Start{*left, *right, with_k3};
+  return Start{*left, *right, terms};
 }
 
-Result<Start> each_by_itself(const Chessboard& board, ImageSize size, const BoardViews& views) {
+Result<Start> each_by_itself(const Chessboard& board, ImageSize size, const BoardViews& views,
+                             bool rational) {
+  if (rational) {
+    return start_with(board, size, views, LensTerms::kRational);
+  }
   const auto is_significant = [](const CameraFit& fit) {
     return std::abs(fit.camera.k3) > kSignificant * fit.k3_sigma;
   };
-  const auto full = start_with(board, size, views, true);
+  const auto full = start_with(board, size, views, LensTerms::kThree);
   if (full && (is_significant(full->left) || is_significant(full->right)) &&
       is_invertible(full->left.camera) && is_invertible(full->right.camera)) {
     return full;
   }
-  return start_with(board, size, views, false);
+  return start_with(board, size, views, LensTerms::kTwo);
 }
 
 double view_rms_px(const StereoFit& fit, std::size_t view) {
@@ -119,10 +124,11 @@ struct Fitted {
   Start start;
   BoardViews used;
   std::vector<std::size_t> numbers;  ///< of the views used
+  std::optional<double> plain_rms_px = {};
 };
 
 Result<Fitted> without_mistakes(const Chessboard& board, ImageSize size, BoardViews views,
-                                const StereoBoardOptions& options,
+                                const StereoBoardOptions& options, bool rational,
                                 std::vector<BoardViewResidual>& residuals) {
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < views.left.size(); ++i) {
@@ -131,12 +137,12 @@ Result<Fitted> without_mistakes(const Chessboard& board, ImageSize size, BoardVi
   const auto most_left_out =
       static_cast<std::size_t>(options.max_outlier_fraction * static_cast<double>(numbers.size()));
   for (std::size_t left_out = 0;; ++left_out) {
-    const auto start = each_by_itself(board, size, views);
+    const auto start = each_by_itself(board, size, views, rational);
     if (!start) {
       return start.error();
     }
     const auto fit = fit_stereo(board, size, views.left, views.right, start->left.camera,
-                                start->right.camera, start->with_k3);
+                                start->right.camera, start->terms);
     if (!fit) {
       return fit.error();
     }
@@ -149,6 +155,28 @@ Result<Fitted> without_mistakes(const Chessboard& board, ImageSize size, BoardVi
     views.leave_out(*mistake);
     numbers.erase(numbers.begin() + static_cast<long>(*mistake));
   }
+}
+
+/// By the plain lens model, or, where that leaves too much, by the rational one, if that leaves
+/// less and can be inverted.
+Result<Fitted> fitted_to(const Chessboard& board, ImageSize size, const BoardViews& views,
+                         const StereoBoardOptions& options,
+                         std::vector<BoardViewResidual>& residuals) {
+  auto plain = without_mistakes(board, size, views, options, false, residuals);
+  if (plain && plain->fit.rms_px <= options.max_rms_px) {
+    return plain;
+  }
+  std::vector<BoardViewResidual> of_rational(residuals.size());
+  auto rational = without_mistakes(board, size, views, options, true, of_rational);
+  if (!rational || (plain && rational->fit.rms_px >= plain->fit.rms_px) ||
+      !is_invertible(rational->fit.left) || !is_invertible(rational->fit.right)) {
+    return plain;
+  }
+  residuals = of_rational;
+  if (plain) {
+    rational->plain_rms_px = plain->fit.rms_px;
+  }
+  return rational;
 }
 
 /// RMS distance of the right corners from the epipolar lines.
@@ -226,6 +254,12 @@ void judge(const StereoBoardOptions& options, StereoBoardCalibration& result) {
                                result.stereo_rms_px <= options.max_rms_px ? options.note_rms_px
                                                                           : options.max_rms_px));
   }
+  if (result.left.is_rational()) {
+    judgement.add(Verdict::kNote,
+                  "the rational lens model is used (8 coefficients), since the plain one " +
+                      (result.plain_rms_px ? printed("leaves %.2f px", *result.plain_rms_px)
+                                           : std::string("fits no lens")));
+  }
   if (result.used < result.views.size()) {
     judgement.add(Verdict::kNote, std::to_string(result.views.size() - result.used) +
                                       " views left out for their residuals");
@@ -255,7 +289,7 @@ Result<StereoBoardCalibration> calibrate_stereo(const Chessboard& board, ImageSi
   const BoardViews all = aligned(board, views);
   StereoBoardCalibration result;
   result.views.resize(views.size());
-  const auto fitted = without_mistakes(board, size, all, options, result.views);
+  const auto fitted = fitted_to(board, size, all, options, result.views);
   if (!fitted) {
     return fitted.error();
   }
@@ -266,6 +300,7 @@ Result<StereoBoardCalibration> calibrate_stereo(const Chessboard& board, ImageSi
   result.left_rms_px = fitted->start.left.rms_px;
   result.right_rms_px = fitted->start.right.rms_px;
   result.stereo_rms_px = fit.rms_px;
+  result.plain_rms_px = fitted->plain_rms_px;
   result.used = fitted->numbers.size();
   for (std::size_t i = 0; i < fitted->numbers.size(); ++i) {
     BoardViewResidual& view = result.views[fitted->numbers[i]];
@@ -277,7 +312,7 @@ Result<StereoBoardCalibration> calibrate_stereo(const Chessboard& board, ImageSi
   if (Status status = fill_epipolar(all, result); !status) {
     return status.error();
   }
-  result.sigma = stereo_sigma(board, size, fitted->used, fit, fitted->start.with_k3);
+  result.sigma = stereo_sigma(board, size, fitted->used, fit, fitted->start.terms);
   judge(options, result);
   return result;
 }

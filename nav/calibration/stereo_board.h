@@ -58,6 +58,8 @@ struct StereoBoardCalibration {
   double left_rms_px = 0.0;    ///< of the left camera calibrated by itself
   double right_rms_px = 0.0;   ///< of the right one
   double stereo_rms_px = 0.0;  ///< of both together
+  /// What the plain lens model left, where the rational one is used; absent if it fitted none.
+  std::optional<double> plain_rms_px = {};
   double epipolar_rms_px = 0.0;
   double covered_fraction =
       0.0;  ///< of the image that the corners cover, the smaller of both cameras
@@ -72,8 +74,10 @@ struct StereoBoardCalibration {
 
 /// Two cameras from pairs of board images: each camera by itself (Zhang 2000), then everything
 /// together; views with mistakes are left out one by one. The third radial term is kept only where
-/// it is significant (3 SDs) in a camera, and where the model with it can be inverted. Refuses bad
-/// options, boards and counts, too few views, and lenses that the model can't describe.
+/// it is significant (3 SDs) in a camera, and where the model with it can be inverted. Where this
+/// would be refused for its residual, the rational model (k4 to k6) is fitted instead, if it leaves
+/// less and can be inverted. Refuses bad options, boards and counts, too few views, and lenses that
+/// neither describes.
 Result<StereoBoardCalibration> calibrate_stereo(const Chessboard& board, ImageSize size,
                                                 std::span<const BoardView> views,
                                                 const StereoBoardOptions& options = {});

@@ -60,7 +60,7 @@ double focal_fraction(const std::vector<StereoFit>& fits, BrownConrady StereoFit
 
 std::optional<StereoSigma> stereo_sigma(const Chessboard& board, ImageSize size,
                                         const BoardViews& views, const StereoFit& fit,
-                                        bool with_k3) {
+                                        LensTerms terms) {
   const std::size_t count = views.left.size();
   if (count < kFewestViews) {
     return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<StereoSigma> stereo_sigma(const Chessboard& board, ImageSize size,
         rest.right.push_back(views.right[i]);
       }
     }
-    const auto again = fit_stereo(board, size, rest.left, rest.right, fit.left, fit.right, with_k3);
+    const auto again = fit_stereo(board, size, rest.left, rest.right, fit.left, fit.right, terms);
     if (!again) {
       return std::nullopt;
     }

@@ -20,6 +20,6 @@ struct BoardViews {
 /// correlated errors of corners. Empty with fewer than four views.
 [[nodiscard]] std::optional<StereoSigma> stereo_sigma(const Chessboard& board, ImageSize size,
                                                       const BoardViews& views, const StereoFit& fit,
-                                                      bool with_k3);
+                                                      LensTerms terms);
 
 }  // namespace orthonav::nav

@@ -63,6 +63,24 @@ TEST_F(CalibratedHeadsetTest, HasTheLensesAndTheBaselineOfTheFileAndTheDevicesOw
   EXPECT_NEAR(centre->x, 320 + 45, 0.1);
 }
 
+TEST_F(CalibratedHeadsetTest, ReadsTheRationalModelInItsOwnPlaceAlone) {
+  json content = calibration();
+  for (const char* side : {"left", "right"}) {
+    json& camera = content[side];
+    for (const char* key : {"k1", "k2", "p1", "p2", "k3"}) {
+      camera["rational"][key] = camera[key];
+      camera.erase(key);
+    }
+    camera["rational"].update({{"k4", 0.3}, {"k5", 0.0}, {"k6", 0.0}});
+  }
+  const auto file = load(content);
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  // 0.5 · (1 + 0.01 · 0.25) / (1 + 0.3 · 0.25)
+  EXPECT_NEAR(file->lenses->left.project(Vec2{0.5, 0})->x, 320 + 450 * 0.5 * 1.0025 / 1.075, 0.01);
+  content["left"]["rational"].erase("k6");
+  EXPECT_THAT(load(content).error().message, HasSubstr("k6"));
+}
+
 TEST_F(CalibratedHeadsetTest, KeepsTheDevicesLensesWhereARecordingToldTheBaselineAlone) {
   fake::FakeHeadset device(test::pairs(1));
   json content = calibration();

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/calib3d.hpp>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "base/random.h"
@@ -75,6 +77,7 @@ TEST(StereoBoard, FindsCamerasExactlyWithoutNoise) {
   ASSERT_TRUE(found.ok()) << found.error().message;
   // OpenCV keeps corners as floats: 3e-5 px.
   EXPECT_LT(found->stereo_rms_px, 1e-3);
+  EXPECT_FALSE(found->left.is_rational());
   EXPECT_NEAR(found->left.fx_px, 362.0, 0.01);
   EXPECT_NEAR(found->left.cx_px, 324.0, 0.01);
   EXPECT_NEAR(found->right.cy_px, 243.0, 0.01);
@@ -142,6 +145,92 @@ TEST(StereoBoard, FailsWhereCornersAreBadEverywhere) {
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_EQ(found->judgement.verdict, Verdict::kFail);
   EXPECT_THAT(found->judgement.reason, HasSubstr("px, limit 1.00 px"));
+}
+
+constexpr ImageSize kWide{1280, 960};
+
+/// A lens by its angle, f·θ (equidistant), 68° to the sides: neither model's own.
+struct WideLens {
+  double f_px = 540.0;
+  Vec2 centre_px{644.0, 478.0};
+  [[nodiscard]] Vec2 seen(Vec3 p) const {
+    const double off = std::hypot(p.x, p.y);
+    const double by = off > 0 ? f_px * std::atan2(off, p.z) / off : f_px / p.z;
+    return centre_px + Vec2{p.x, p.y} * by;
+  }
+};
+
+std::vector<BoardView> wide_views(int count, Random& random) {
+  const WideLens left;
+  const WideLens right{537.0, {636.0, 484.0}};
+  std::vector<BoardView> all;
+  while (static_cast<int>(all.size()) < count) {
+    const Transform<LeftCamera, Board> left_from_board{
+        rotation_from_vector(
+            {random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), random.uniform(-0.4, 0.4)}),
+        {random.uniform(-0.9, 0.6), random.uniform(-0.7, 0.4), random.uniform(0.12, 0.35)}};
+    BoardView view;
+    for (std::size_t i = 0; i < kBoard.corners(); ++i) {
+      const Vec2 at = kBoard.corner_m(i);
+      const Vec3 p = (left_from_board * Point<Board>{{at.x, at.y, 0}}).v;
+      for (const auto& [lens, seen, from] :
+           {std::tuple{&left, &view.left_px, p}, {&right, &view.right_px, p - Vec3{0.1, 0, 0}}}) {
+        const Vec2 px = lens->seen(from) + Vec2{random.normal(0, 0.1), random.normal(0, 0.1)};
+        if (from.z > 0.02 && px.x > 2 && px.y > 2 && px.x < kWide.width_px - 2 &&
+            px.y < kWide.height_px - 2) {
+          seen->push_back(px);
+        }
+      }
+    }
+    if (view.left_px.size() == kBoard.corners() && view.right_px.size() == kBoard.corners()) {
+      all.push_back(view);
+    }
+  }
+  return all;
+}
+
+/// What OpenCV itself leaves in the left camera.
+double opencv_rms_px(const std::vector<BoardView>& views, int flags) {
+  std::vector<std::vector<cv::Point2f>> seen;
+  std::vector<std::vector<cv::Point3f>> board;
+  for (const BoardView& view : views) {
+    seen.emplace_back();
+    board.emplace_back();
+    for (std::size_t i = 0; i < kBoard.corners(); ++i) {
+      const Vec2 at = kBoard.corner_m(i);
+      board.back().emplace_back(static_cast<float>(at.x), static_cast<float>(at.y), 0.0F);
+      seen.back().emplace_back(static_cast<float>(view.left_px[i].x - 0.5),
+                               static_cast<float>(view.left_px[i].y - 0.5));
+    }
+  }
+  cv::Mat matrix, distortion, rotations, translations;
+  return cv::calibrateCamera(board, seen, {kWide.width_px, kWide.height_px}, matrix, distortion,
+                             rotations, translations, flags,
+                             {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-10});
+}
+
+TEST(StereoBoard, TakesTheRationalModelWhereThePlainOneLeavesTooMuch) {
+  Random random(11);
+  const std::vector<BoardView> all = wide_views(12, random);
+  const auto found = calibrate_stereo(kBoard, kWide, all);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_TRUE(found->left.is_rational());
+  EXPECT_GT(found->plain_rms_px, 1.0);
+  EXPECT_LT(found->stereo_rms_px, 0.45);
+  EXPECT_THAT(found->judgement.reason, HasSubstr("rational lens model is used (8 coefficients)"));
+  EXPECT_EQ(found->judgement.verdict, Verdict::kNote) << found->judgement.reason;
+  const double opencv_px = opencv_rms_px(all, cv::CALIB_RATIONAL_MODEL);
+  EXPECT_NEAR(found->left_rms_px, opencv_px, 0.01);
+  EXPECT_GT(opencv_rms_px(all, 0), 3.0 * opencv_px);
+  EXPECT_NEAR(found->baseline_m(), 0.1, 0.0005);
+  // Where the board was, the model says what the lens does.
+  const auto model = CameraModel::from_brown_conrady(found->left);
+  ASSERT_TRUE(model.ok());
+  for (const Vec2 plane : {Vec2{0.0, 0.0}, {0.9, 0.3}, {-1.3, 0.1}, {0.2, -0.7}}) {
+    const auto px = model->project(plane);
+    ASSERT_TRUE(px.has_value());
+    EXPECT_LT((*px - WideLens{}.seen({plane.x, plane.y, 1.0})).norm(), 0.5) << plane.x;
+  }
 }
 
 TEST(StereoBoard, NotesFewAndPoorViews) {
