@@ -2,6 +2,6 @@
 
 namespace orthonav::bench {
 
-void add_aruco_methods(std::vector<Method>& /*methods*/) {}
+std::vector<NamedDetect> aruco_detectors(const std::string& /*family*/) { return {}; }
 
 }  // namespace orthonav::bench

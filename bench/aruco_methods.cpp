@@ -49,29 +49,34 @@ bool detect(const cv::Ptr<cv::aruco::Dictionary>& dictionary,
 constexpr int kWindowPx = 5;
 constexpr int kSmallWindowPx = 2;
 
-Method method(const std::string& name, cv::aruco::CornerRefineMethod refinement,
-              int window_px = kWindowPx) {
-  return {"ArUco, " + name, [refinement, window_px](const Sequence& sequence) {
-            cv::setNumThreads(1);
-            const auto dictionary =
-                cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11);
-            const auto parameters = cv::aruco::DetectorParameters::create();
-            parameters->cornerRefinementMethod = refinement;
-            parameters->cornerRefinementWinSize = window_px;
-            return tracked_by_corners(sequence, [=](const GreyImage& image, auto& found) {
-              return detect(dictionary, parameters, image, found);
-            });
-          }};
-}
-
 }  // namespace
 
-void add_aruco_methods(std::vector<Method>& methods) {
-  methods.push_back(method("none", cv::aruco::CORNER_REFINE_NONE));
-  methods.push_back(method("subpix", cv::aruco::CORNER_REFINE_SUBPIX));
-  methods.push_back(method("subpix 2 px", cv::aruco::CORNER_REFINE_SUBPIX, kSmallWindowPx));
-  methods.push_back(method("contour", cv::aruco::CORNER_REFINE_CONTOUR));
-  methods.push_back(method("apriltag", cv::aruco::CORNER_REFINE_APRILTAG));
+std::vector<NamedDetect> aruco_detectors(const std::string& family) {
+  // tag36h11b2 has the codes of tag36h11 inside a border of two cells.
+  const bool wide = family == "tag36h11b2";
+  if (!wide && family != "tag36h11" && family != "tag36h10") {
+    return {};
+  }
+  const auto dictionary = cv::aruco::getPredefinedDictionary(
+      family == "tag36h10" ? cv::aruco::DICT_APRILTAG_36h10 : cv::aruco::DICT_APRILTAG_36h11);
+  std::vector<NamedDetect> all;
+  const auto add = [&](const char* name, cv::aruco::CornerRefineMethod refinement,
+                       int window_px = kWindowPx) {
+    const auto parameters = cv::aruco::DetectorParameters::create();
+    parameters->cornerRefinementMethod = refinement;
+    parameters->cornerRefinementWinSize = window_px;
+    parameters->markerBorderBits = wide ? 2 : 1;
+    all.push_back({std::string("ArUco, ") + name, [=](const GreyImage& image, auto& found) {
+                     cv::setNumThreads(1);
+                     return detect(dictionary, parameters, image, found);
+                   }});
+  };
+  add("none", cv::aruco::CORNER_REFINE_NONE);
+  add("subpix", cv::aruco::CORNER_REFINE_SUBPIX);
+  add("subpix 2 px", cv::aruco::CORNER_REFINE_SUBPIX, kSmallWindowPx);
+  add("contour", cv::aruco::CORNER_REFINE_CONTOUR);
+  add("apriltag", cv::aruco::CORNER_REFINE_APRILTAG);
+  return all;
 }
 
 }  // namespace orthonav::bench

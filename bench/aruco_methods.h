@@ -1,13 +1,24 @@
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
-#include "bench/tracking_methods.h"
+#include "base/image.h"
+#include "nav/tracking/marker_detector.h"
 
 namespace orthonav::bench {
 
-/// Adds OpenCV's ArUco detector with the dictionary of tag36h11, once per corner refinement;
-/// nothing if the benchmark was built without it.
-void add_aruco_methods(std::vector<Method>& methods);
+/// Fills the tags of one image.
+using Detect = std::function<bool(const GreyImage&, std::vector<nav::MarkerCorners>&)>;
+
+struct NamedDetect {
+  std::string name;
+  Detect detect;
+};
+
+/// OpenCV's ArUco detector with the dictionary of that family, on one thread, once per corner
+/// refinement; none if OpenCV does not have the family, or the benchmark was built without ArUco.
+[[nodiscard]] std::vector<NamedDetect> aruco_detectors(const std::string& family);
 
 }  // namespace orthonav::bench

@@ -90,7 +90,11 @@ std::vector<Method> tracking_methods() {
        [](const Sequence& s) { return tracker(s, nav::published::create_corner_tracker); }},
       {"AprilTag, decimate 1", [](const Sequence& s) { return apriltag(s, 1.0); }},
       {"AprilTag, decimate 2", [](const Sequence& s) { return apriltag(s, 2.0); }}};
-  add_aruco_methods(methods);
+  for (const NamedDetect& aruco : aruco_detectors("tag36h11")) {
+    methods.push_back({aruco.name, [detect = aruco.detect](const Sequence& s) {
+                         return tracked_by_corners(s, detect);
+                       }});
+  }
   return methods;
 }
 

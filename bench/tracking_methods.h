@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/aruco_methods.h"
 #include "bench/tag_sequences.h"
 #include "nav/tracking/marker_detector.h"
 
@@ -39,8 +40,6 @@ struct Method {
   std::function<Track(const Sequence&)> start;
 };
 
-/// Fills the tags of one image.
-using Detect = std::function<bool(const GreyImage&, std::vector<nav::MarkerCorners>&)>;
 /// A detector's corners, triangulated; absolute orientation; no filter.
 [[nodiscard]] Track tracked_by_corners(const Sequence& sequence, Detect detect);
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <Eigen/Dense>
 
+#include "nav/tracking/tag_pose.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -26,6 +28,60 @@ std::optional<Eigen::Matrix3d> homography(const std::array<Vec2, 4>& seen) {
   Eigen::Matrix3d out;
   out << h(0), h(1), h(2), h(3), h(4), h(5), h(6), h(7), 1.0;
   return out;
+}
+
+struct Adjusted {
+  CameraFromTag pose;
+  double squared = 0.0;  ///< what is left of the corners, on the unit plane
+};
+
+/// The pose near this one that leaves least of the corners: Gauss-Newton, with the step halved
+/// while it leaves more.
+Adjusted adjusted(const CameraFromTag& start, const std::array<Vec2, 4>& seen, double size_m) {
+  constexpr int kSteps = 12;
+  constexpr double kEnough = 1e-9;  // relative
+  const auto in_tag = corners_in_marker(size_m);
+  const auto left_over = [&](const CameraFromTag& pose, Eigen::Matrix<double, 8, 1>& off,
+                             Eigen::Matrix<double, 8, 6>& slope) {
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 turned = pose.rotation * in_tag[static_cast<std::size_t>(i)];
+      const Vec3 p = turned + pose.translation_m;
+      const Vec2 u = seen[static_cast<std::size_t>(i)];
+      const double x = p.x / p.z, y = p.y / p.z;
+      off.segment<2>(2 * i) << x - u.x, y - u.y;
+      Eigen::Matrix<double, 2, 3> by_point;
+      by_point << 1.0 / p.z, 0.0, -x / p.z, 0.0, 1.0 / p.z, -y / p.z;
+      Eigen::Matrix3d by_turn;  // of ω × turned
+      by_turn << 0.0, turned.z, -turned.y, -turned.z, 0.0, turned.x, turned.y, -turned.x, 0.0;
+      slope.block<2, 3>(2 * i, 0) = by_point;
+      slope.block<2, 3>(2 * i, 3) = by_point * by_turn;
+    }
+    return off.squaredNorm();
+  };
+  Eigen::Matrix<double, 8, 1> off, next_off;
+  Eigen::Matrix<double, 8, 6> slope, next_slope;
+  Adjusted best{start, left_over(start, off, slope)};
+  double part = 1.0;
+  for (int step = 0; step < kSteps && part > 1e-3; ++step) {
+    const Eigen::Matrix<double, 6, 1> by =
+        -part * (slope.transpose() * slope).ldlt().solve(slope.transpose() * off);
+    const CameraFromTag next{rotation_from_vector({by(3), by(4), by(5)}) * best.pose.rotation,
+                             best.pose.translation_m + Vec3{by(0), by(1), by(2)}};
+    const double squared = left_over(next, next_off, next_slope);
+    if (!(squared < best.squared) || !(next.translation_m.z > 0.0)) {
+      part *= 0.5;
+      continue;
+    }
+    const bool enough = best.squared - squared < kEnough * best.squared;
+    best = {next, squared};
+    off = next_off;
+    slope = next_slope;
+    part = 1.0;
+    if (enough) {
+      break;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -61,7 +117,10 @@ std::optional<std::array<CameraFromTag, 2>> planar_poses(const std::array<Vec2, 
   const Vec3 sight = place.normalized();
   const auto mirrored = [&](Vec3 v) { return v - 2.0 * v.dot(sight) * sight; };
   const Mat3 other = Mat3::from_columns(mirrored(x), mirrored(y), -mirrored(z));
-  return std::array<CameraFromTag, 2>{{{first, place}, {other, place}}};
+  const Adjusted one = adjusted({first, place}, unit_plane, size_m);
+  const Adjusted two = adjusted({other, place}, unit_plane, size_m);
+  return two.squared < one.squared ? std::array<CameraFromTag, 2>{two.pose, one.pose}
+                                   : std::array<CameraFromTag, 2>{one.pose, two.pose};
 }
 
 std::optional<std::array<Transform<Rig, Tag>, 2>> poses_by_one(const StereoCalibration& calibration,
