@@ -24,7 +24,8 @@ Result<nav::TriangleMesh> load_model(const RegisterArguments& arguments,
                                      const std::optional<engine::Plan>& plan, Axes axes) {
   std::string note;
   const auto in_unit = [&](double metres_per_unit) {
-    return engine::load_mesh(arguments.model, metres_per_unit, axes, &note);
+    return engine::load_mesh(arguments.model, metres_per_unit, axes, &note,
+                             arguments.any_bone ? nav::Bone::kAny : nav::Bone::kVertebra);
   };
   auto mesh = in_unit(plan ? plan->metres_per_unit : arguments.units == "m" ? 1.0 : 1e-3);
   if (!mesh && !plan && arguments.units == "m") {
@@ -80,13 +81,14 @@ Status load_single_level(const RegisterArguments& arguments, engine::ModelCache&
     }
     inputs.level.screws = std::move(*screws);
   }
-  if (!plan) {  // whose screws say which way it faces
+  if (!plan && !arguments.any_bone) {  // whose screws say which way it faces
     if (const auto canal = engine::has_canal(*mesh); !canal) {
       return Error{arguments.model + ": " + canal.error().message};
     }
   }
   inputs.frame.model_axes = engine::declared_axes(arguments.model).value_or(axes);
-  auto model = models.prepared(*mesh);
+  auto model = arguments.any_bone ? nav::VertebraModel::prepare(*mesh, nav::Bone::kAny)
+                                  : models.prepared(*mesh);
   if (!model) {
     return Error{arguments.model + ": " + model.error().message};
   }
@@ -122,6 +124,18 @@ Status check_together(const RegisterArguments& a) {
   }
   if (a.model.empty() && !a.frame.empty()) {
     return Error{"register: --frame needs --model"};
+  }
+  if (a.any_bone && (a.model.empty() || !a.plans.empty() || !a.cache.empty())) {
+    return Error{
+        "register: --any-bone needs --model, and excludes --plan and --cache, which are of a "
+        "vertebra"};
+  }
+  if (a.any_bone && a.method != "best") {
+    return Error{"--any-bone: only the method best registers another bone than a vertebra"};
+  }
+  if (a.model_sd_mm && a.method != "best") {
+    return Error{
+        "--model-sd-mm: only the method best takes a difference of the model into account"};
   }
   if (a.tip_radius_mm > 0.0 && a.method != "best") {
     return Error{"--tip-radius-mm: only the method best takes a ball tip into account"};

@@ -21,6 +21,8 @@ struct RegisterArguments {
   std::string case_folder;
   std::string level;  ///< of the case; with neither a folder nor a model, of the built-in phantom
   std::string method = "best";
+  std::optional<double> model_sd_mm;
+  bool any_bone = false;  ///< the model may be of another bone than a vertebra
   double tip_radius_mm = 0.0;
   CommonErrorArguments common;
   std::string cache;  ///< folder of prepared models; empty: nothing is kept

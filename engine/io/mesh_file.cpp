@@ -181,7 +181,7 @@ std::optional<Axes> declared_axes(const std::string& path) {
 }
 
 Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_unit, Axes axes,
-                                    std::string* note) {
+                                    std::string* note, nav::Bone bone) {
   if (Status status = readable(path); !status) {
     return status.error();
   }
@@ -200,7 +200,7 @@ Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_u
     v = to_lps(v, used) * metres_per_unit;
   }
   nav::MainPart main = nav::main_part(std::move(mesh));
-  Result<nav::TriangleMesh> checked = nav::checked_vertebra(std::move(main.mesh));
+  Result<nav::TriangleMesh> checked = nav::checked_bone(std::move(main.mesh), bone);
   if (!checked) {
     return Error{path + ": " + checked.error().message};
   }

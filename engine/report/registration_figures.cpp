@@ -41,9 +41,13 @@ double size_may_be_off(const nav::Registration& r) {
 }
 
 /// What the points could not show, in words; empty if nothing.
-std::string not_checked(const nav::Registration& r) {
+std::string not_checked(const RegisteredLevel& level) {
+  const nav::Registration& r = level.registration;
   if (!is_judged(r)) {
     return "";
+  }
+  if (level.model->bone() == nav::Bone::kAny) {
+    return "; whether it is this bone, of this size and not its mirror image, was not checked";
   }
   std::string out;
   if (r.levels_compared == 0) {
@@ -121,7 +125,7 @@ std::string ambiguity_of(const RegisteredLevel& level) {
   if (!r.fits_better.empty()) {
     return "ambiguous: the points fit level " + r.fits_better + " as well or better";
   }
-  const std::string unchecked = not_checked(r);
+  const std::string unchecked = not_checked(level);
   const auto other = runner_up_distance(level);
   if (!other) {
     return is_judged(r)
@@ -162,7 +166,9 @@ std::string certainty_of(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
   std::string out;
   const auto within = worst_within_95_m(level);
-  const char* where = level.screws.empty() ? "where screws usually go" : "at the screws";
+  const char* where = !level.screws.empty()                         ? "at the screws"
+                      : level.model->bone() == nav::Bone::kVertebra ? "where screws usually go"
+                                                                    : "at the ends of the bone";
   if (!within) {
     out = "The published method predicts no error: it is judged by eye.";
   } else if (std::isfinite(*within)) {

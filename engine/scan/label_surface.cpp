@@ -61,9 +61,9 @@ Result<LabelSurface> label_surface(const LabelPart& part) {
   const nav::Bounds box = box_of(part.grid);
   const double step_m = std::clamp(part.grid.least_spacing_m(), kFinestStep_m, kCoarsestStep_m);
   auto mesh =
-      nav::checked_vertebra(nav::main_part(nav::surface_of([&](Vec3 p) { return field.value_m(p); },
-                                                           box.low, box.high, step_m))
-                                .mesh);
+      nav::checked_bone(nav::main_part(nav::surface_of([&](Vec3 p) { return field.value_m(p); },
+                                                       box.low, box.high, step_m))
+                            .mesh);
   if (!mesh) {
     return mesh.error();
   }

@@ -28,7 +28,7 @@ inline constexpr int kSurfaceMargin = 4;
 /// vanish and thin bone stays, by a low pass that does not shrink (after Taubin 1995: 2 S(f) -
 /// S(S(f)), S a binomial filter). Between voxels it is interpolated by cubic polynomials
 /// (Catmull-Rom), and its zero surface is taken by dual marching cubes
-/// (nav/geometry/implicit_surface.h). Refuses a mesh that `nav::checked_vertebra` refuses.
+/// (nav/geometry/implicit_surface.h). Refuses a mesh that `nav::checked_bone` refuses.
 Result<LabelSurface> label_surface(const LabelPart& part);
 
 }  // namespace orthonav::engine

@@ -41,6 +41,10 @@ LimitWords words_about(nav::RefusalReason::Kind kind) {
       return {translatable("error expected at the screws %.1f mm, limit %.1f mm"), 1e3};
     case kTre99AtScrews:
       return {k99Percent, 1e3};
+    case kTre99AtEnds:
+      return {translatable("99 %% of errors at the ends of the bone are below %.1f mm, limit %.1f "
+                           "mm"),
+              1e3};
     case kSoftTissue:
       return {translatable(
                   "soft tissue? The tip's height over the bone varies by %.1f mm, limit %.1f mm"),

@@ -37,6 +37,7 @@ Result<nav::Registration> by_pose_search(const RegistrationRequest& request) {
   nav::PoseSearchRegistrationOptions options;
   options.common = request.common;
   options.tip_radius_m = request.tip_radius_m;
+  options.least_model_sd_m = request.least_model_sd_m;
   options.point_sd_m.assign(request.point_sd_m.begin(), request.point_sd_m.end());
   options.shafts.assign(request.shafts.begin(), request.shafts.end());
   options.targets = nav::entries_and_targets(request.screws);

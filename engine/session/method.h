@@ -25,6 +25,8 @@ struct RegistrationRequest {
   /// The pointer's shaft at each point, from the tip back, unit vectors; empty if unknown.
   std::span<const Vec3> shafts{};
   double tip_radius_m = 0.0;  ///< of a ball at the pointer's end; `paper` assumes a point
+  /// SD over the bone by which the model differs from it, at least; `paper` asks for none.
+  double least_model_sd_m = 0.0;
 };
 
 using Registrar = std::function<Result<nav::Registration>(const RegistrationRequest& request)>;

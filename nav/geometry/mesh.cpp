@@ -16,7 +16,11 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kSmallest_m = 0.030;
-constexpr double kLargest_m = 0.250;
+constexpr double kLargestVertebra_m = 0.250;
+/// A long femur has 550 mm.
+constexpr double kLargestBone_m = 0.600;
+/// An open part counts as the bone only if it encloses this many times as much as any closed one.
+constexpr double kOpenIsTheBone = 10.0;
 /// Below this fraction of the bounding cube's volume, a mesh is folded flat and has no interior.
 constexpr double kMinVolumeFraction = 1e-4;
 
@@ -59,17 +63,23 @@ double extent_m(const TriangleMesh& mesh) {
   return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
 }
 
-Status check_size(double size_m) {
-  if (size_m >= kSmallest_m && size_m <= kLargest_m) {
+Status check_size(double size_m, Bone bone) {
+  const bool vertebra = bone == Bone::kVertebra;
+  const auto plausible = [&](double m) {
+    return m >= kSmallest_m && m <= (vertebra ? kLargestVertebra_m : kLargestBone_m);
+  };
+  if (plausible(size_m)) {
     return {};
   }
-  std::string message = "mesh is " + number(size_m * 1e3, "%.6g") +
-                        " mm across, limit 30-250 mm (a lumbar vertebra is 60-130 mm)";
-  const auto plausible = [](double m) { return m >= kSmallest_m && m <= kLargest_m; };
+  std::string message =
+      "mesh is " + number(size_m * 1e3, "%.6g") + " mm across, " +
+      (vertebra ? "limit 30-250 mm for a vertebra (a lumbar one is 60-130 mm)" : "limit 30-600 mm");
   if (plausible(size_m * 1e3)) {
     message += ": its unit looks like metres taken for millimetres";
   } else if (plausible(size_m * 1e-3)) {
     message += ": its unit looks like millimetres taken for metres";
+  } else if (vertebra && size_m > kLargestVertebra_m && size_m <= kLargestBone_m) {
+    message += "; register takes another bone with --any-bone";
   }
   return Error{message};
 }
@@ -115,7 +125,7 @@ Status check_closed(const TriangleMesh& mesh) {
     against += count == 2 && edge[0].upward == edge[1].upward ? 1 : 0;
   });
   if (open > 0) {
-    return Error{"mesh is open: " + std::to_string(open) + " edges have one face, must have two"};
+    return Error{"mesh is open: " + std::to_string(open) + " edges have one face, must have two: close it, in MeshLab by Close Holes"};
   }
   if (crowded > 0) {
     return Error{"mesh is not manifold: " + std::to_string(crowded) +
@@ -166,12 +176,12 @@ Solid solid_of(const TriangleMesh& mesh) {
   return {six_volumes / 6.0, o + centre};
 }
 
-Result<TriangleMesh> checked_vertebra(TriangleMesh mesh) {
+Result<TriangleMesh> checked_bone(TriangleMesh mesh, Bone bone) {
   if (const Status s = check_numbers(mesh); !s) {
     return s.error();
   }
   const double size_m = extent_m(mesh);
-  if (const Status s = check_size(size_m); !s) {
+  if (const Status s = check_size(size_m, bone); !s) {
     return s.error();
   }
   if (const Status s = check_closed(mesh); !s) {
@@ -291,6 +301,9 @@ MainPart main_part(TriangleMesh mesh) {
       open[edge->low] = true;
     }
   });
+  const auto counted_m3 = [](const Part& part) {
+    return part.closed ? kOpenIsTheBone * part.volume_m3 : part.volume_m3;
+  };
   const Part* main = nullptr;
   for (auto& [number, part] : parts) {
     const TriangleMesh own = part_of(mesh, part.faces);
@@ -300,8 +313,7 @@ MainPart main_part(TriangleMesh mesh) {
         part.closed = part.closed && !open[v];
       }
     }
-    if (main == nullptr ||
-        std::pair(part.closed, part.volume_m3) > std::pair(main->closed, main->volume_m3)) {
+    if (main == nullptr || counted_m3(part) > counted_m3(*main)) {
       main = &part;
     }
   }

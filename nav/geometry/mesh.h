@@ -35,11 +35,15 @@ struct Solid {
 };
 [[nodiscard]] Solid solid_of(const TriangleMesh& mesh);
 
+/// What a model is of. `kAny` is any other bone: nothing is known of its axes.
+enum class Bone : std::uint8_t { kVertebra, kAny };
+
 /// Refuses a mesh that can't be navigated on, with the reason: no faces, non-finite vertices, an
 /// index out of range, edges not shared by exactly two triangles (non-manifold or open), a size
-/// outside 30-250 mm (a vertebra is 60-130 mm across; the message says so if metres were taken for
-/// millimetres). A mesh that is closed but oriented inward is turned inside out.
-Result<TriangleMesh> checked_vertebra(TriangleMesh mesh);
+/// outside 30-250 mm for a vertebra (which is 60-130 mm across), 30-600 mm for another bone; the
+/// message says so if metres were taken for millimetres. A mesh that is closed but oriented inward
+/// is turned inside out.
+Result<TriangleMesh> checked_bone(TriangleMesh mesh, Bone bone = Bone::kVertebra);
 
 /// The same surface with vertices at exactly the same position merged, without the faces that
 /// collapse as a result: needed before the check above for a format without shared vertices (STL).
@@ -53,9 +57,9 @@ std::vector<std::uint32_t> parts_of(const TriangleMesh& mesh, const std::vector<
 /// The mesh of these faces, which must be the given mesh's own, with the vertices that they use.
 TriangleMesh part_of(const TriangleMesh& mesh, std::span<const std::uint32_t> faces);
 
-/// The largest part by the volume that it encloses, of the closed ones where there are any, and how
-/// many others were left out: islands of a segmentation, cavities in the bone. A mesh that names
-/// vertices it does not have comes back as it is.
+/// The largest part by the volume that it encloses, and how many others were left out: islands of a
+/// segmentation, cavities in the bone. A closed part goes before an open one of less than ten times
+/// its volume. A mesh that names vertices it does not have comes back as it is.
 struct MainPart {
   TriangleMesh mesh;
   std::size_t left_out = 0;

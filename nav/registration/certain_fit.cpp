@@ -148,7 +148,8 @@ std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& clo
   beyond_rim.drop_from(out.fit);
   for (int round = 0; round < kMostRounds; ++round) {
     auto field = residual_field(out.fit, residual_units(out.fit, units),
-                                out.field ? out.field->hypotheses : std::vector<FieldHypothesis>{});
+                                out.field ? out.field->hypotheses : std::vector<FieldHypothesis>{},
+                                options.least_model_sd_m);
     if (!field) {
       break;
     }

@@ -8,7 +8,7 @@
 namespace orthonav::nav {
 
 /// Where the pose must be certain: the targets in the options, or, if there are none, where screws
-/// usually go.
+/// usually go, or both ends of another bone along each of its principal axes.
 [[nodiscard]] std::vector<Point<Vertebra>> targets_of(const VertebraModel& model,
                                                       const PoseSearchRegistrationOptions& options);
 

@@ -101,7 +101,7 @@ OtherExplanations::OtherExplanations(const VertebraModel& model, const Cloud& cl
 const OtherExplanations::Evidence& OtherExplanations::evidence() const {
   if (!evidence_) {
     ResidualUnits units = residual_units(best_.fit, kUnitsCompared);
-    const auto own = residual_field(best_.fit, units);
+    const auto own = residual_field(best_.fit, units, {}, options_.least_model_sd_m);
     evidence_ = Evidence{std::move(units), own ? own->log_evidence : 0.0};
   }
   return *evidence_;
@@ -120,7 +120,8 @@ double OtherExplanations::log_likelihood_ratio(const SurfaceFit& other) const {
     p.weight = p.precision = best_.fit.points[i].inlier_precision();
   }
   same_points.standoff_m = best_.fit.standoff_m;
-  const auto field = residual_field(same_points, refilled(evidence().units, same_points));
+  const auto field = residual_field(same_points, refilled(evidence().units, same_points), {},
+                                    options_.least_model_sd_m);
   return field ? evidence().log_evidence - field->log_evidence : by_cost;
 }
 

@@ -12,14 +12,16 @@ namespace {
 
 /// Strokes narrower than this (standard deviation) along their second axis are a line.
 constexpr double kNarrowest_m = 0.001;
-/// Points of one vertebra are not farther than this (standard deviation) from their centre.
+/// Points of one vertebra, and of any other bone, are not farther than this (standard deviation)
+/// from their centre.
 constexpr double kWidest_m = 0.1;
+constexpr double kWidestOfAnyBone_m = 0.3;
 
 std::string line(const char* format, double a, double b) { return beside_limit(format, a, b); }
 
 }  // namespace
 
-Status validate_points(std::span<const Point<World>> points, std::size_t min_points) {
+Status validate_points(std::span<const Point<World>> points, std::size_t min_points, Bone bone) {
   const std::size_t fewest = std::max<std::size_t>(min_points, 3);
   if (points.size() < fewest) {
     return Error{printed(translatable("registration has %zu points, needs at least %zu"),
@@ -33,11 +35,12 @@ Status validate_points(std::span<const Point<World>> points, std::size_t min_poi
     numbers[i] = points[i].v;
   }
   const PrincipalAxes axes = principal_axes(numbers);
-  if (!(axes.deviation_m[0] <= kWidest_m)) {
+  const double widest_m = bone == Bone::kVertebra ? kWidest_m : kWidestOfAnyBone_m;
+  if (!(axes.deviation_m[0] <= widest_m)) {
     return Error{
         line(translatable("registration points spread %.4g mm (standard deviation), limit %.0f mm: "
-                          "not one vertebra, or not in the unit given"),
-             axes.deviation_m[0] * 1e3, kWidest_m * 1e3)};
+                          "not one bone, or not in the unit given"),
+             axes.deviation_m[0] * 1e3, widest_m * 1e3)};
   }
   if (!(axes.deviation_m[1] >= kNarrowest_m)) {
     return Error{

@@ -33,10 +33,12 @@ struct PreparedParts {
 };
 
 /// The preoperative vertebra, prepared once: its mesh (frame Vertebra: LPS axes, metres), the part
-/// a pointer can reach from behind, and their indices.
+/// a pointer can reach from behind, and their indices. Of any other bone the whole surface counts
+/// as reachable.
 class VertebraModel {
  public:
-  static Result<std::shared_ptr<const VertebraModel>> prepare(TriangleMesh mesh);
+  static Result<std::shared_ptr<const VertebraModel>> prepare(TriangleMesh mesh,
+                                                              Bone bone = Bone::kVertebra);
   /// The same, but faster, from the parts of an earlier preparation of this mesh. Refuses parts of
   /// another mesh, judged by their counts and a hundred or so samples: enough against mix-ups, not
   /// against malice. Parts with wrong numbers never cause a crash.
@@ -44,6 +46,7 @@ class VertebraModel {
                                                               PreparedParts parts);
   [[nodiscard]] PreparedParts parts() const;
 
+  [[nodiscard]] Bone bone() const { return bone_; }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
   [[nodiscard]] const SurfaceIndex& surface() const { return surface_; }
   /// The posterior part: what is left after trimming what a pointer can't reach.
@@ -62,7 +65,8 @@ class VertebraModel {
 
  private:
   struct Surfaces;
-  VertebraModel(Surfaces surfaces, ClosestGrid grid, SearchField field);
+  VertebraModel(Bone bone, Surfaces surfaces, ClosestGrid grid, SearchField field);
+  Bone bone_;
   TriangleMesh mesh_;
   std::vector<std::uint32_t> reachable_faces_;
   TriangleMesh reachable_;
@@ -88,7 +92,7 @@ struct EstimatedHeight {
 struct PoseSearchRegistrationOptions {
   std::size_t min_points = 100;
   /// Where the pose must be certain: the plan's entries and targets. If empty, places where screws
-  /// usually go are used.
+  /// usually go are used, or the ends of another bone than a vertebra.
   std::vector<Point<Vertebra>> targets;
   /// Root mean square error to expect at the worst of them; above: refused.
   double max_predicted_tre_m = 0.0015;
@@ -100,6 +104,9 @@ struct PoseSearchRegistrationOptions {
   double min_inlier_fraction = 0.7;     ///< of the points that lie on the surface within the noise
   double min_coverage_fraction = 0.10;  ///< of the reachable surface within 5 mm of a point
   double tip_radius_m = 0.0;            ///< of the ball at the pointer's end
+  /// SD over the bone by which the model is known to differ from it, at least: the heights of the
+  /// strokes may show less by chance.
+  double least_model_sd_m = 0.0;
   /// How exactly each point was tracked (SD along an axis): better known points count more. Empty:
   /// all equal.
   std::vector<double> point_sd_m;
@@ -174,7 +181,8 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
 
 /// Refuses points that can't be registered at all: too few, not finite, spread too widely, on a
 /// line.
-Status validate_points(std::span<const Point<World>> points, std::size_t min_points);
+Status validate_points(std::span<const Point<World>> points, std::size_t min_points,
+                       Bone bone = Bone::kVertebra);
 /// Refuses unusable standard deviations of the points; an empty list is fine.
 Status check_point_sds(std::span<const double> sd_m, std::size_t points);
 

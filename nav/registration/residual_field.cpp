@@ -55,11 +55,20 @@ struct Tried {
   double log_prior = 0.0;
 };
 
+/// The least SD of a field that is tried and no smaller than this; the largest of all else.
+double next_sd_m(double sd_m) {
+  const auto* next = std::lower_bound(kSds_m.begin(), kSds_m.end(), sd_m);
+  return next != kSds_m.end() ? *next : kSds_m.back();
+}
+
 /// Tries hypotheses and keeps what each says about the unknowns.
 class Trial {
  public:
-  Trial(const SurfaceFit& fit, const ResidualUnits& units)
-      : model_(fit, units), seen_(along_strokes(fit, units)), with_strokes_(units.along_strokes) {}
+  Trial(const SurfaceFit& fit, const ResidualUnits& units, double least_sd_m)
+      : model_(fit, units),
+        seen_(along_strokes(fit, units)),
+        with_strokes_(units.along_strokes),
+        least_sd_m_(least_sd_m) {}
 
   [[nodiscard]] bool has_noise() const { return !seen_.covariance_m2.empty(); }
 
@@ -100,7 +109,7 @@ class Trial {
                         double FieldHypothesis::*sd) {
     double most = -std::numeric_limits<double>::infinity();
     for (const double sd_m : sds_m) {
-      if (sd_m * sd_m > kMostVariance * variance_m2()) {
+      if (sd_m * sd_m > kMostVariance * variance_m2() && sd_m > least_sd_m_) {
         return;
       }
       field.*sd = sd_m;
@@ -113,6 +122,9 @@ class Trial {
   }
 
   double consider(const FieldHypothesis& field) {
+    if (field.sd_m < least_sd_m_) {
+      return -std::numeric_limits<double>::infinity();
+    }
     const auto answers = model_.solve(field, noise_beside_field(seen_, field));
     if (!answers) {
       return -std::numeric_limits<double>::infinity();
@@ -153,6 +165,7 @@ class Trial {
   HeightModel model_;
   AlongStrokes seen_;
   bool with_strokes_;
+  double least_sd_m_;
   std::vector<Tried> tried_;
 };
 
@@ -247,16 +260,18 @@ UnknownsSpread total_covariance(const std::vector<Tried>& tried, const UnknownsM
 }  // namespace
 
 std::optional<ResidualField> residual_field(const SurfaceFit& fit,
-                                            std::span<const FieldHypothesis> among) {
-  return residual_field(fit, residual_units(fit, kMostUnits), among);
+                                            std::span<const FieldHypothesis> among,
+                                            double least_sd_m) {
+  return residual_field(fit, residual_units(fit, kMostUnits), among, least_sd_m);
 }
 
 std::optional<ResidualField> residual_field(const SurfaceFit& fit, const ResidualUnits& units,
-                                            std::span<const FieldHypothesis> among) {
+                                            std::span<const FieldHypothesis> among,
+                                            double least_sd_m) {
   if (units.all.size() < kFewestUnits) {
     return std::nullopt;
   }
-  Trial trial(fit, units);
+  Trial trial(fit, units, least_sd_m > 0.0 ? next_sd_m(least_sd_m) : 0.0);
   if (!trial.has_noise()) {
     return std::nullopt;
   }

@@ -106,7 +106,7 @@ Registration described(const VertebraModel& model, const Cloud& cloud, const Cer
 Result<Registration> register_by_pose_search(const VertebraModel& model,
                                              std::span<const Point<World>> points_in_world,
                                              const PoseSearchRegistrationOptions& options) {
-  if (const Status s = validate_points(points_in_world, options.min_points); !s) {
+  if (const Status s = validate_points(points_in_world, options.min_points, model.bone()); !s) {
     return s.error();
   }
   if (const Status s = check_point_sds(options.point_sd_m, points_in_world.size()); !s) {
@@ -138,8 +138,12 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
     estimate_heights(*certain, r);
     r.fits_better = others.better_level();
     r.levels_compared = options.neighbours.size();
-    r.mirror_log_likelihood = others.mirror_log_likelihood();
-    r.reasons = reasons_against(r, options);
+    if (model.bone() == Bone::kVertebra) {
+      r.mirror_log_likelihood = others.mirror_log_likelihood();
+      r.reasons = reasons_against(r, options);
+    } else {
+      r.reasons = reasons_against_any_bone(r, options);
+    }
     r.accepted = r.reasons.empty();
     r.provisional = is_provisional(r);
     return r;

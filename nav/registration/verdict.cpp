@@ -83,6 +83,20 @@ std::vector<RefusalReason> reasons_against(const Registration& r,
   return reasons;
 }
 
+std::vector<RefusalReason> reasons_against_any_bone(const Registration& r,
+                                                    const PoseSearchRegistrationOptions& o) {
+  using Kind = RefusalReason::Kind;
+  std::vector<RefusalReason> reasons;
+  if (!(r.log_likelihood_ratio >= o.min_log_likelihood_ratio)) {
+    reasons.push_back(
+        {Kind::kLogLikelihoodRatio, r.log_likelihood_ratio, o.min_log_likelihood_ratio, {}, {}});
+  }
+  if (!(r.tre_99_m <= o.max_tre_99_m)) {
+    reasons.push_back({Kind::kTre99AtEnds, r.tre_99_m, o.max_tre_99_m, {}, {}});
+  }
+  return reasons;
+}
+
 std::optional<RefusalReason> error_at_screws(const Registration& r,
                                              const PoseSearchRegistrationOptions& o) {
   using Kind = RefusalReason::Kind;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -23,6 +24,12 @@ PrincipalAxes axes_by_area(const TriangleMesh& mesh) {
     areas_m2.push_back(triangle_area_m2(corners));
   }
   return principal_axes(centres_m, areas_m2);
+}
+
+std::vector<std::uint32_t> all_faces(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> faces(mesh.triangles.size());
+  std::iota(faces.begin(), faces.end(), 0U);
+  return faces;
 }
 
 Status check_faces(const TriangleMesh& mesh, const SurfaceIndex& surface,
@@ -60,13 +67,15 @@ struct VertebraModel::Surfaces {
   SurfaceIndex reachable_surface;
 };
 
-Result<std::shared_ptr<const VertebraModel>> VertebraModel::prepare(TriangleMesh mesh) {
-  auto checked = checked_vertebra(std::move(mesh));
+Result<std::shared_ptr<const VertebraModel>> VertebraModel::prepare(TriangleMesh mesh, Bone bone) {
+  auto checked = checked_bone(std::move(mesh), bone);
   if (!checked) {
     return checked.error();
   }
   SurfaceIndex surface(*checked);
-  std::vector<std::uint32_t> faces = faces_reachable_from_behind(*checked, surface);
+  std::vector<std::uint32_t> faces = bone == Bone::kVertebra
+                                         ? faces_reachable_from_behind(*checked, surface)
+                                         : all_faces(*checked);
   if (faces.empty()) {
     return Error{
         "model has no surface that a pointer can reach from behind (+y): its axes must be "
@@ -76,12 +85,12 @@ Result<std::shared_ptr<const VertebraModel>> VertebraModel::prepare(TriangleMesh
   ClosestGrid grid(s.reachable, s.reachable_surface, kGridCell_m, kGridMargin_m);
   SearchField field(s.reachable, s.reachable_surface, s.surface);
   return std::shared_ptr<const VertebraModel>(
-      new VertebraModel(std::move(s), std::move(grid), std::move(field)));
+      new VertebraModel(bone, std::move(s), std::move(grid), std::move(field)));
 }
 
 Result<std::shared_ptr<const VertebraModel>> VertebraModel::restore(TriangleMesh mesh,
                                                                     PreparedParts parts) {
-  auto checked = checked_vertebra(std::move(mesh));
+  auto checked = checked_bone(std::move(mesh));
   if (!checked) {
     return checked.error();
   }
@@ -104,7 +113,7 @@ Result<std::shared_ptr<const VertebraModel>> VertebraModel::restore(TriangleMesh
     return field.error();
   }
   return std::shared_ptr<const VertebraModel>(
-      new VertebraModel(std::move(s), std::move(*grid), std::move(*field)));
+      new VertebraModel(Bone::kVertebra, std::move(s), std::move(*grid), std::move(*field)));
 }
 
 PreparedParts VertebraModel::parts() const {
@@ -113,8 +122,9 @@ PreparedParts VertebraModel::parts() const {
   return {reachable_faces_, {closest.begin(), closest.end()}, {distance.begin(), distance.end()}};
 }
 
-VertebraModel::VertebraModel(Surfaces surfaces, ClosestGrid grid, SearchField field)
-    : mesh_(std::move(surfaces.mesh)),
+VertebraModel::VertebraModel(Bone bone, Surfaces surfaces, ClosestGrid grid, SearchField field)
+    : bone_(bone),
+      mesh_(std::move(surfaces.mesh)),
       reachable_faces_(std::move(surfaces.reachable_faces)),
       reachable_(std::move(surfaces.reachable)),
       surface_(std::move(surfaces.surface)),

@@ -152,6 +152,24 @@ TEST_P(RegisterCommand, TakesAModelInRas) {
   EXPECT_LT(error_m(report, 1e3, -1.0), kRight_m);
 }
 
+TEST_P(RegisterCommand, ExpectsLargerErrorsOfAModelThatIsKnownToBeOff) {
+  const std::string points = points_file(1e3);
+  const auto told = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"register", "--model", model_, "--points",
+                                      points,     "--json",  "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    return json::parse(orthonav(words).out);
+  };
+  const json exact = told({});
+  const json off = told({"--model-sd-mm", "0.2"});
+  EXPECT_GT(off["predicted_tre_mm"].get<double>(), 1.5 * exact["predicted_tre_mm"].get<double>());
+  EXPECT_GE(off["tissue_sd_mm"].get<double>(), 0.3) << "0.2 is taken as the next larger one";
+  const Called paper = orthonav({"register", "--model", model_, "--points", points, "--method",
+                                 "paper", "--model-sd-mm", "0.2"});
+  EXPECT_EQ(paper.code, 2);
+  EXPECT_THAT(paper.err, StartsWith("orthonav: --model-sd-mm: only the method best"));
+}
+
 TEST_P(RegisterCommand, TellsOfThePublishedMethodWhatItKnows) {
   const Called called = orthonav({"register", "--model", model_, "--points", points_file(1e3),
                                   "--plan", plan_file_, "--method", "paper", "--json", "-"});

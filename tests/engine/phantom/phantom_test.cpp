@@ -68,7 +68,7 @@ TEST(Phantom, IsALumbarSpineThatCanBeOperated) {
 TEST(Phantom, IsClosedAndInOnePieceWithOneCanal) {
   for (const CaseLevel& level : spine().levels) {
     SCOPED_TRACE(level.label);
-    EXPECT_TRUE(nav::checked_vertebra(level.mesh).ok());
+    EXPECT_TRUE(nav::checked_bone(level.mesh).ok());
     EXPECT_EQ(components(level.mesh), 1u);
     // Euler: V - E + F = 2 - 2·genus, E = 3F/2; the canal makes genus 1.
     EXPECT_EQ(level.mesh.vertices_m.size() * 2, level.mesh.triangles.size());

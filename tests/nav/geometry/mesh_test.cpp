@@ -27,37 +27,37 @@ double volume_m3(const TriangleMesh& mesh) {
 }
 
 std::string refusal(TriangleMesh mesh) {
-  const auto checked = checked_vertebra(std::move(mesh));
+  const auto checked = checked_bone(std::move(mesh));
   return checked ? "accepted" : checked.error().message;
 }
 
-TEST(CheckedVertebra, TakesAClosedMeshAsItIs) {
+TEST(CheckedBone, TakesAClosedMeshAsItIs) {
   const TriangleMesh mesh = vertebra_sized_box();
-  const auto checked = checked_vertebra(mesh);
+  const auto checked = checked_bone(mesh);
   ASSERT_TRUE(checked.ok());
   EXPECT_EQ(checked->triangles, mesh.triangles);
   EXPECT_EQ(checked->vertices_m, mesh.vertices_m);
 }
 
-TEST(CheckedVertebra, TurnsAnInwardMesh) {
+TEST(CheckedBone, TurnsAnInwardMesh) {
   TriangleMesh mesh = vertebra_sized_box();
   for (auto& t : mesh.triangles) {
     std::swap(t[0], t[1]);
   }
   ASSERT_LT(volume_m3(mesh), 0.0);
-  const auto checked = checked_vertebra(mesh);
+  const auto checked = checked_bone(mesh);
   ASSERT_TRUE(checked.ok());
   EXPECT_NEAR(volume_m3(*checked), 0.08 * 0.08 * 0.04, 1e-12);
 }
 
-TEST(CheckedVertebra, RefusesAMeshWithoutFaces) {
+TEST(CheckedBone, RefusesAMeshWithoutFaces) {
   TriangleMesh mesh = vertebra_sized_box();
   mesh.triangles.clear();
   EXPECT_THAT(refusal(mesh), HasSubstr("no faces"));
   EXPECT_THAT(refusal({}), HasSubstr("no faces"));
 }
 
-TEST(CheckedVertebra, RefusesVerticesThatAreNotFinite) {
+TEST(CheckedBone, RefusesVerticesThatAreNotFinite) {
   for (const double bad : {kNaN, std::numeric_limits<double>::infinity()}) {
     TriangleMesh mesh = vertebra_sized_box();
     mesh.vertices_m[5].y = bad;
@@ -65,25 +65,25 @@ TEST(CheckedVertebra, RefusesVerticesThatAreNotFinite) {
   }
 }
 
-TEST(CheckedVertebra, RefusesIndicesOutOfRange) {
+TEST(CheckedBone, RefusesIndicesOutOfRange) {
   TriangleMesh mesh = vertebra_sized_box();
   mesh.triangles[3][1] = 8;
   EXPECT_THAT(refusal(mesh), HasSubstr("face 3 names vertex 8, but there are only 8"));
 }
 
-TEST(CheckedVertebra, RefusesAFaceWithOneVertexTwice) {
+TEST(CheckedBone, RefusesAFaceWithOneVertexTwice) {
   TriangleMesh mesh = vertebra_sized_box();
   mesh.triangles.push_back({2, 2, 3});
   EXPECT_THAT(refusal(mesh), HasSubstr("face 12 names vertex 2 twice"));
 }
 
-TEST(CheckedVertebra, RefusesAnOpenMesh) {
+TEST(CheckedBone, RefusesAnOpenMesh) {
   TriangleMesh mesh = vertebra_sized_box();
   mesh.triangles.pop_back();
   EXPECT_THAT(refusal(mesh), HasSubstr("mesh is open: 3 edges"));
 }
 
-TEST(CheckedVertebra, RefusesAnEdgeWithMoreThanTwoFaces) {
+TEST(CheckedBone, RefusesAnEdgeWithMoreThanTwoFaces) {
   TriangleMesh mesh = vertebra_sized_box();
   mesh.vertices_m.push_back({0, 0, 0.05});  // a fin: both of its sides on one edge of the box
   mesh.triangles.push_back({0, 1, 8});
@@ -91,20 +91,20 @@ TEST(CheckedVertebra, RefusesAnEdgeWithMoreThanTwoFaces) {
   EXPECT_THAT(refusal(mesh), HasSubstr("1 edges have more than two faces"));
 }
 
-TEST(CheckedVertebra, RefusesFacesWoundAgainstEachOther) {
+TEST(CheckedBone, RefusesFacesWoundAgainstEachOther) {
   TriangleMesh mesh = vertebra_sized_box();
   std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
   EXPECT_THAT(refusal(mesh), HasSubstr("wound against each other"));
 }
 
-TEST(CheckedVertebra, RefusesAMeshWithoutInside) {
+TEST(CheckedBone, RefusesAMeshWithoutInside) {
   TriangleMesh mesh;
   mesh.vertices_m = {{0, 0, 0}, {0.06, 0, 0}, {0, 0.06, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 1}};
   EXPECT_THAT(refusal(mesh), HasSubstr("encloses no volume"));
 }
 
-TEST(CheckedVertebra, NamesMetresTakenForMillimetres) {
+TEST(CheckedBone, NamesMetresTakenForMillimetres) {
   TriangleMesh mesh = vertebra_sized_box();
   for (Vec3& v : mesh.vertices_m) {
     v = v * 1e-3;
@@ -117,11 +117,39 @@ TEST(CheckedVertebra, NamesMetresTakenForMillimetres) {
   EXPECT_THAT(refusal(mesh), HasSubstr("millimetres taken for metres"));
 }
 
-TEST(CheckedVertebra, HoldsTheLimitsOfSizeToTheMillimetre) {
+TEST(CheckedBone, HoldsTheLimitsOfSizeToTheMillimetre) {
   EXPECT_EQ(refusal(box({0, 0, 0}, {0.0301, 0.02, 0.02})), "accepted");
   EXPECT_THAT(refusal(box({0, 0, 0}, {0.0299, 0.02, 0.02})), HasSubstr("29.9 mm across"));
   EXPECT_EQ(refusal(box({0, 0, 0}, {0.2499, 0.1, 0.1})), "accepted");
   EXPECT_THAT(refusal(box({0, 0, 0}, {0.2501, 0.1, 0.1})), HasSubstr("250.1 mm across"));
+}
+
+TEST(CheckedBone, MayBeAsLongAsAFemur) {
+  const TriangleMesh long_bone = box({0, 0, 0}, {0.5999, 0.1, 0.1});
+  EXPECT_TRUE(checked_bone(long_bone, Bone::kAny).ok());
+  EXPECT_THAT(refusal(long_bone), HasSubstr("register takes another bone with --any-bone"));
+  const auto longer = checked_bone(box({0, 0, 0}, {0.6001, 0.1, 0.1}), Bone::kAny);
+  ASSERT_FALSE(longer.ok());
+  EXPECT_THAT(longer.error().message, HasSubstr("600.1 mm across, limit 30-600 mm"));
+}
+
+TEST(MainPart, IsAnOpenOneOnlyIfItIsTenTimesAsLarge) {
+  const auto left = [](double edge_m) {
+    TriangleMesh mesh = vertebra_sized_box();  // 256 cm3
+    mesh.triangles.pop_back();
+    const TriangleMesh closed = box({1, 0, 0}, {1 + edge_m, edge_m, edge_m});
+    for (auto t : closed.triangles) {
+      for (std::uint32_t& v : t) {
+        v += static_cast<std::uint32_t>(mesh.vertices_m.size());
+      }
+      mesh.triangles.push_back(t);
+    }
+    mesh.vertices_m.insert(mesh.vertices_m.end(), closed.vertices_m.begin(),
+                           closed.vertices_m.end());
+    return main_part(mesh).mesh.triangles.size();
+  };
+  EXPECT_EQ(left(0.035), 12U);  // 43 cm3
+  EXPECT_EQ(left(0.015), 11U);  // 3 cm3
 }
 
 TEST(Solid, HasTheVolumeAndTheCentroidOfItsInside) {

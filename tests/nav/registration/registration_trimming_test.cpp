@@ -41,7 +41,7 @@ TriangleMesh tube() {
 }
 
 TEST(Trimming, KeepsTheBackAndDropsCanalAndFront) {
-  const auto mesh = checked_vertebra(tube());
+  const auto mesh = checked_bone(tube());
   ASSERT_TRUE(mesh.ok()) << mesh.error().message;
   const SurfaceIndex surface(*mesh);
   const TriangleMesh kept = reachable_from_behind(*mesh, surface);

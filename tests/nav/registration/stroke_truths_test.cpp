@@ -84,9 +84,9 @@ TEST_F(StrokeTruthsTest, AModelIsSegmentedScaledAndMirrored) {
                  static_cast<double>(mesh_.vertices_m.size());
   }
   EXPECT_NEAR(std::sqrt(square_m2), 0.0005, 1e-6);
-  EXPECT_TRUE(nav::checked_vertebra(scaled(mesh_, 0.97)).ok());
+  EXPECT_TRUE(nav::checked_bone(scaled(mesh_, 0.97)).ok());
   const nav::TriangleMesh other = mirrored(mesh_);
-  EXPECT_TRUE(nav::checked_vertebra(other).ok());
+  EXPECT_TRUE(nav::checked_bone(other).ok());
   EXPECT_EQ(other.vertices_m[5].x, -mesh_.vertices_m[5].x);
 }
 
