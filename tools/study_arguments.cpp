@@ -173,6 +173,7 @@ std::string operation_words(const StudyArguments& arguments, const std::string& 
   words += arguments.reference ? " --reference" : "";
   add("--guidance", arguments.surgeon.guidance);
   add("--instrument", arguments.surgeon.instrument);
+  add("--strokes", arguments.surgeon.strokes);
   add("--tools", arguments.tools.empty() ? "" : absolute_path(arguments.tools));
   for (const std::string& step : arguments.without) {
     add("--without", step);

@@ -18,11 +18,19 @@ void SurgeonArguments::add_to(CLI::App& command) {
       .add_option("--instrument", instrument,
                   "wire, cannula, \"sleeved drill\", screw or \"robot arm\" (default: wire)")
       ->check(some_text());
+  command
+      .add_option("--strokes", strokes,
+                  "measured: as others stroked a bare sawbone pelvis, 0.4 mm above the model "
+                  "(docs/real-measurements.md; default: fitted to a publication, 1.6 mm)")
+      ->check(CLI::IsMember({"measured"}));
 }
 
 Status SurgeonArguments::set_in(sim::GuidanceProfile& profile, sim::ErrorModel& error_model) const {
   for (const auto& [name, named] : sim::kGuidanceNames) {
     profile = guidance == name ? named : profile;
+  }
+  if (strokes == "measured") {
+    sim::use_measured_strokes(error_model);
   }
   if (instrument.empty()) {
     return {};

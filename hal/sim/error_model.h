@@ -114,13 +114,16 @@ struct ErrorModel {
   /// amplitude of a hand at rest on the patient is our estimate.
   double tremor_m = 0.0003;
   double tremor_rad = 0.003;  ///< SD of the tool's rotation, likewise
-  /// RMS height of the tip above the bone while stroking: soft tissue and lift-off, correlated over
-  /// 7-30 mm of path; never below the bone. Uncertain; the published registration RMSE was matched
+  /// RMS height of the tip above the bone while stroking: soft tissue and lift-off; never below the
+  /// bone. Uncertain; the published registration RMSE was matched
   /// with it (docs/accuracy.md).
   double stroke_lift_m = 0.0020;
   /// Relative SD of that height over surgeons: some press, others glide. Fitted to the SD of the
   /// published registration RMSE.
   double stroke_lift_sd = 0.18;
+  /// The longest wavelength of that height along the path; the shortest is a quarter of it. A
+  /// guess; measured strokes have a longer one.
+  double stroke_lift_length_m = 0.030;
   /// SD of the tip's height above the bone when a single place is touched: pressed slowly through
   /// soft tissue, it is a fraction of the height while stroking; never below the bone. Estimate.
   double touch_lift_m = 0.0003;

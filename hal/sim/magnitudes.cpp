@@ -7,7 +7,7 @@ namespace orthonav::sim {
 namespace {
 
 // clang-format off
-constexpr std::array<Magnitude, 62> kMagnitudes = {{
+constexpr std::array<Magnitude, 63> kMagnitudes = {{
     {"blur_sigma_px", "px", &ErrorModel::blur_sigma_px, 0.0, 5.0, 0.5, 1.0,
      "a guess: edges in published frames rise over about two pixels"},
     {"exposure_s", "s", &ErrorModel::exposure_s, 0.0, 0.030, 0.002, 0.008,
@@ -84,6 +84,8 @@ constexpr std::array<Magnitude, 62> kMagnitudes = {{
      "fitted to the registration RMSE of Liebmann 2019"},
     {"stroke_lift_sd", "", &ErrorModel::stroke_lift_sd, 0.0, 1.0, 0.0, 0.3,
      "fitted to the SD of that RMSE"},
+    {"stroke_lift_length_m", "m", &ErrorModel::stroke_lift_length_m, 0.0, 1.0, 0.03, 0.3,
+     "a guess; 0.26 on a sawbone pelvis (docs/real-measurements.md)"},
     {"touch_lift_m", "m", &ErrorModel::touch_lift_m, 0.0, 0.02, 0.0001, 0.0006,
      "a guess"},
     {"dimple_seating_m", "m", &ErrorModel::dimple_seating_m, 0.0, 0.005, 0.0001, 0.0004,

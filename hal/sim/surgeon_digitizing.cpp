@@ -19,7 +19,8 @@ constexpr double kAfterWord = 0.35;
 constexpr double kHop_s = 0.8;          // from one stroke of a region to the next
 constexpr double kLeastAround_s = 1.5;  // there is always time for a command
 constexpr double kLift_m = 0.015;
-/// Soft tissue lifts the tip along a few millimetres of path.
+/// The wavelengths of the tip's height at the default of `stroke_lift_length_m`, which stretches
+/// them.
 constexpr double kLongestLift_m = 0.030;
 constexpr double kShortestLift_m = 0.007;
 constexpr double kVerdict_s = 1.5;
@@ -103,6 +104,9 @@ Script Surgeon::slide(std::size_t level, const Stroke& stroke, double duration_s
   const SmoothNoise lift(body_.random().fork(body_.random().next()),
                          lightness_ * error_model_->stroke_lift_m, 1.0 / kLongestLift_m,
                          1.0 / kShortestLift_m);
+  const double stretch = error_model_->stroke_lift_length_m > 0.0
+                             ? error_model_->stroke_lift_length_m / kLongestLift_m
+                             : 1.0;
   Slip slip{length_m * body_.random().uniform(0.3, 0.8), 0.06 * length_m + 1e-6,
             slips ? body_.random().uniform(0.5, 1.0) * error_model_->bad_stroke_lift_m : 0.0};
   const Timestamp begin = body_.now();
@@ -114,7 +118,7 @@ Script Surgeon::slide(std::size_t level, const Stroke& stroke, double duration_s
     const BoneSpot spot = in_room(room_from_vertebra, stroke.at(along_m));
     // The bone stops the tip, so it can only be lifted off.
     const double lift_m =
-        std::abs(lift.at(along_m)) + stroke.tissue_at(along_m) + slip.lift_m(along_m);
+        std::abs(lift.at(along_m / stretch)) + stroke.tissue_at(along_m) + slip.lift_m(along_m);
     body_.posture().grip.tip = {spot.point + lift_m * spot.normal};
     body_.posture().contact_normal = spot.normal;
   }

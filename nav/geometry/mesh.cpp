@@ -125,7 +125,8 @@ Status check_closed(const TriangleMesh& mesh) {
     against += count == 2 && edge[0].upward == edge[1].upward ? 1 : 0;
   });
   if (open > 0) {
-    return Error{"mesh is open: " + std::to_string(open) + " edges have one face, must have two: close it, in MeshLab by Close Holes"};
+    return Error{"mesh is open: " + std::to_string(open) +
+                 " edges have one face, must have two: close it, in MeshLab by Close Holes"};
   }
   if (crowded > 0) {
     return Error{"mesh is not manifold: " + std::to_string(crowded) +

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "hal/sim/bone_surface.h"
+#include "hal/sim/instruments.h"
 #include "tests/hal/sim/fake_engine.h"
 
 namespace orthonav::sim {
@@ -245,6 +246,40 @@ TEST(Surgeon, StrokesLieOnTheBoneAndSpreadOverItsBack) {
     EXPECT_GT(high.z - low.z, 0.035) << "along the spine";
     EXPECT_GT(high.y - low.y, 0.025) << "from the tip of the spinous process to the lamina";
   }
+}
+
+TEST(Surgeon, MeasuredStrokesAreAsHighAndAsEvenAsRealOnes) {
+  const auto test_case = visible_human_case({"L4"});
+  if (!test_case) {
+    GTEST_SKIP() << "needs tests/data/anatomy";
+  }
+  ErrorModel measured = ErrorModel::perfect();
+  use_measured_strokes(measured);
+  std::vector<double> heights_m;
+  double sum_m = 0.0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    auto headset = SimHeadset::open(test_case->room, without_pixels(seed, measured));
+    ASSERT_TRUE(headset.ok()) << headset.error().message;
+    FakeEngine engine(**headset, *test_case);
+    ASSERT_GT(engine.run(), 0);
+    const RoomLevel& level = test_case->room.levels[3];
+    for (const Vec3& at : engine.levels().at(level.label).samples_in_vertebra) {
+      heights_m.push_back((BoneSurface(level).closest(at).point - at).norm());
+      sum_m += heights_m.back();
+    }
+  }
+  const double mean_m = sum_m / static_cast<double>(heights_m.size());
+  double variance_m2 = 0.0;
+  double later_m2 = 0.0;
+  constexpr std::size_t kLater = 10;  // 8 mm
+  for (std::size_t i = 0; i + kLater < heights_m.size(); ++i) {
+    variance_m2 += (heights_m[i] - mean_m) * (heights_m[i] - mean_m);
+    later_m2 += (heights_m[i] - mean_m) * (heights_m[i + kLater] - mean_m);
+  }
+  // docs/real-measurements.md: 0.43 mm, SD 0.31; correlation 0.58 after 8 mm.
+  EXPECT_NEAR(mean_m, 0.00043, 0.00008);
+  EXPECT_NEAR(std::sqrt(variance_m2 / static_cast<double>(heights_m.size())), 0.00031, 0.00008);
+  EXPECT_NEAR(later_m2 / variance_m2, 0.58, 0.15);
 }
 
 }  // namespace
