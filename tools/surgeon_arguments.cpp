@@ -19,9 +19,10 @@ void SurgeonArguments::add_to(CLI::App& command) {
                   "wire, cannula, \"sleeved drill\", screw or \"robot arm\" (default: wire)")
       ->check(some_text());
   command
-      .add_option("--strokes", strokes,
-                  "measured: as others stroked a bare sawbone pelvis, 0.4 mm above the model "
-                  "(docs/real-measurements.md; default: fitted to a publication, 1.6 mm)")
+      .add_option(
+          "--strokes", strokes,
+          "measured (docs/real-measurements.md): as others stroked a bare sawbone pelvis, 0.4 "
+          "mm above the model (default: fitted to a publication, 1.6 mm)")
       ->check(CLI::IsMember({"measured"}));
 }
 

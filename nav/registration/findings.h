@@ -55,11 +55,11 @@ struct RefusalReason {
     kLogLikelihoodRatio,  ///< against the runner-up
     kTreAtScrews,         ///< m, expected at the worst of the screws
     kTre99AtScrews,       ///< m, below which 99 of 100 errors lie at the worst of the screws
-    kTre99AtEnds,         ///< the same at the ends of another bone than a vertebra
     kFitsOtherLevel,      ///< no number; the label says which level
     kSoftTissue,          ///< m, SD of the tip's height over the bone; `scrape` says where
     kModelSize,           ///< size of the bone relative to the model
     kMirrored,            ///< log-likelihood ratio of the model's mirror image
+    kTre99AtEnds,         ///< m, as kTre99AtScrews, at the ends of another bone than a vertebra
   };
 
   Kind kind = Kind::kNoise;
