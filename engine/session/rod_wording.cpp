@@ -8,14 +8,8 @@
 namespace orthonav::engine {
 
 void append_bend(std::string& out, const BendToMake& bend) {
-  const double set_deg = degrees(bend.set_rad);
-  if (bend.number == 1) {
-    append_printed(out, translated("bend %zu: %.0f mm, towards the line, set %.1f°"), bend.number,
-                   bend.at_m * 1e3, set_deg);
-    return;
-  }
   append_printed(out, translated("bend %zu: %.0f mm, roll %.0f°, set %.1f°"), bend.number,
-                 bend.at_m * 1e3, degrees(bend.roll_rad), set_deg);
+                 bend.at_m * 1e3, degrees(bend.roll_rad), degrees(bend.set_rad));
 }
 
 void append_cut(std::string& out, double length_m) {
