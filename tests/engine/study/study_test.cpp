@@ -32,7 +32,8 @@ Json run_of(const std::string& name, std::uint64_t seed, double angle_deg) {
 
 TEST(Study, HasTheTableOverItsRuns) {
   const Json study = Json::parse(study_text(
-      "paper", {run_of("a", 1, 3.0), run_of("a", 2, 2.0), run_of("b", 1, 4.0)}, Json::array(), 3));
+      "paper", Json::array({run_of("a", 1, 3.0), run_of("a", 2, 2.0), run_of("b", 1, 4.0)}),
+      Json::array(), 3));
   EXPECT_EQ(study["operations"], 3);
   EXPECT_EQ(study["completed"], 3);
   EXPECT_FALSE(study.contains("planned"));
@@ -48,7 +49,8 @@ TEST(Study, HasTheTableOverItsRuns) {
 }
 
 TEST(Study, ThatLacksRunsIsIncomplete) {
-  const Json study = Json::parse(study_text("paper", {run_of("a", 1, 3.0)}, Json::array(), 5));
+  const Json study =
+      Json::parse(study_text("paper", Json::array({run_of("a", 1, 3.0)}), Json::array(), 5));
   EXPECT_EQ(study["incomplete"], true);
   EXPECT_EQ(study["planned"], 5);
 }
