@@ -91,7 +91,7 @@ struct RodOutcome {
   std::optional<double> length_m;
   std::optional<double> length_error_m;  ///< template relative to the spline through the true heads
   std::optional<double> head_error_m;    ///< mean distance of a touched head from the true one
-  std::optional<double> took_s = {};  ///< from the first touch of a head until it was done
+  std::optional<double> took_s = {};     ///< from the first touch of a head until it was done
   std::optional<nav::RodInstructions> instructions = {};
   std::string no_instructions = {};              ///< why there are none
   std::optional<double> seat_by_pointer_m = {};  ///< as `RodState` has it

@@ -35,7 +35,6 @@ class WatchedTools {
   void lose_sight();
 
   [[nodiscard]] std::size_t pointer() const { return pointer_; }
-  [[nodiscard]] bool has_guide() const { return guide_.has_value(); }
   /// There must be one.
   [[nodiscard]] std::size_t guide() const;
   /// The first patient reference; nothing if there is none.

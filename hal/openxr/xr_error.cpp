@@ -42,8 +42,6 @@ Status status_of(const std::string& what, XrResult result) {
   return {};
 }
 
-bool is_loss(XrResult result) { return code_of(result) == ErrorCode::kLost; }
-
 std::string version_text(XrVersion version) {
   return std::to_string(XR_VERSION_MAJOR(version)) + "." +
          std::to_string(XR_VERSION_MINOR(version)) + "." +

@@ -13,8 +13,6 @@ namespace orthonav::openxr {
 [[nodiscard]] Error error_of(const std::string& what, XrResult result);
 /// The same as a Status; success if the call succeeded.
 [[nodiscard]] Status status_of(const std::string& what, XrResult result);
-/// Whether the error requires a new session.
-[[nodiscard]] bool is_loss(XrResult result);
 
 /// "2.1.0"
 [[nodiscard]] std::string version_text(XrVersion version);

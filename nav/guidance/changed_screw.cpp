@@ -91,10 +91,6 @@ ScrewPlan resized_screw(const ScrewPlan& screw, double radius_m, double new_leng
 
 double screw_length_m(const ScrewPlan& screw) { return (screw.target - screw.entry).norm(); }
 
-double ScrewDifference::entry_moved_m() const {
-  return Vec3{entry_cranial_m, entry_medial_m, entry_inward_m}.norm();
-}
-
 ScrewDifference difference_of(const ScrewPlan& before, const ScrewPlan& now) {
   ScrewDifference out;
   const Axis<Vertebra> axis{now.entry, (now.target - now.entry).normalized()};

@@ -58,8 +58,6 @@ struct ScrewDifference {
   double length_from_m = 0.0;
   double length_to_m = 0.0;
 
-  /// How far the entry moved in space.
-  [[nodiscard]] double entry_moved_m() const;
   friend bool operator==(const ScrewDifference&, const ScrewDifference&) = default;
 };
 /// If directions have no names (`directions_of`), entry and aim stay zero; sizes are given.

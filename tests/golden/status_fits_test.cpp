@@ -126,11 +126,10 @@ std::vector<StatusLine> lines_about(const Message& message, const Coaching& coac
   const bool none = std::holds_alternative<std::monostate>(message);
   std::vector<StepState> states = {ChecksSoFar{&verdict}, ChecksSoFar{&verdict, 0.0123}};
   if (none) {
-    states.insert(
-        states.end(),
-        {StrokesSoFar{123456, &coaching}, ByEye{}, LandmarkSoFar{false, {}},
-         WireSoFar{&far_off(), true},
-         HeadsSoFar{20, 0.5123, 12, HeadTouch{19, {}, 0.001, 10, 0.00123}, 10}});
+    states.insert(states.end(),
+                  {StrokesSoFar{123456, &coaching}, ByEye{}, LandmarkSoFar{false, {}},
+                   WireSoFar{&far_off(), true},
+                   HeadsSoFar{20, 0.5123, 12, HeadTouch{19, {}, 0.001, 10, 0.00123}, 10}});
   }
   std::vector<StatusLine> lines;
   for (int step = 0; step < static_cast<int>(kStepCount); ++step) {

@@ -55,9 +55,8 @@ void expect_refused(const std::vector<std::string>& arguments, const std::string
 TEST(DepthLive, SaysWhatIsWrong) {
   expect_refused({"depth", "hl2ss://127.0.0.1?port=27560"},
                  "hl2ss: 127.0.0.1: port 27560: Connection refused");
-  expect_refused(
-      {"depth", "hl2ss://127.0.0.1?depth=zdepth"},
-      "depth \"zdepth\" must be ahat, ahat-h264, long-throw or long-throw-png");
+  expect_refused({"depth", "hl2ss://127.0.0.1?depth=zdepth"},
+                 "depth \"zdepth\" must be ahat, ahat-h264, long-throw or long-throw-png");
   expect_refused({"depth", "hl2ss://127.0.0.1?port=27560", "--stream", "short-throw"},
                  "--stream: a HoloLens 2 has ahat and long-throw");
   expect_refused({"depth", "sim:"}, "--stream: must be named, the headset has ahat and long-throw");
