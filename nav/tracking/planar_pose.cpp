@@ -2,7 +2,11 @@
 
 #include <cmath>
 #include <Eigen/Dense>
+#include <limits>
+#include <span>
+#include <vector>
 
+#include "nav/statistics/levenberg_marquardt.h"
 #include "nav/tracking/tag_pose.h"
 
 namespace orthonav::nav {
@@ -35,53 +39,26 @@ struct Adjusted {
   double squared = 0.0;  ///< what is left of the corners, on the unit plane
 };
 
-/// The pose near this one that leaves least of the corners: Gauss-Newton, with the step halved
-/// while it leaves more.
+/// The pose near this one that leaves least of the corners.
 Adjusted adjusted(const CameraFromTag& start, const std::array<Vec2, 4>& seen, double size_m) {
-  constexpr int kSteps = 12;
-  constexpr double kEnough = 1e-9;  // relative
   const auto in_tag = corners_in_marker(size_m);
-  const auto left_over = [&](const CameraFromTag& pose, Eigen::Matrix<double, 8, 1>& off,
-                             Eigen::Matrix<double, 8, 6>& slope) {
-    for (int i = 0; i < 4; ++i) {
-      const Vec3 turned = pose.rotation * in_tag[static_cast<std::size_t>(i)];
-      const Vec3 p = turned + pose.translation_m;
-      const Vec2 u = seen[static_cast<std::size_t>(i)];
-      const double x = p.x / p.z, y = p.y / p.z;
-      off.segment<2>(2 * i) << x - u.x, y - u.y;
-      Eigen::Matrix<double, 2, 3> by_point;
-      by_point << 1.0 / p.z, 0.0, -x / p.z, 0.0, 1.0 / p.z, -y / p.z;
-      Eigen::Matrix3d by_turn;  // of ω × turned
-      by_turn << 0.0, turned.z, -turned.y, -turned.z, 0.0, turned.x, turned.y, -turned.x, 0.0;
-      slope.block<2, 3>(2 * i, 0) = by_point;
-      slope.block<2, 3>(2 * i, 3) = by_point * by_turn;
-    }
-    return off.squaredNorm();
+  const auto moved = [&](std::span<const double> by) {
+    return CameraFromTag{rotation_from_vector({by[3], by[4], by[5]}) * start.rotation,
+                         start.translation_m + Vec3{by[0], by[1], by[2]}};
   };
-  Eigen::Matrix<double, 8, 1> off, next_off;
-  Eigen::Matrix<double, 8, 6> slope, next_slope;
-  Adjusted best{start, left_over(start, off, slope)};
-  double part = 1.0;
-  for (int step = 0; step < kSteps && part > 1e-3; ++step) {
-    const Eigen::Matrix<double, 6, 1> by =
-        -part * (slope.transpose() * slope).ldlt().solve(slope.transpose() * off);
-    const CameraFromTag next{rotation_from_vector({by(3), by(4), by(5)}) * best.pose.rotation,
-                             best.pose.translation_m + Vec3{by(0), by(1), by(2)}};
-    const double squared = left_over(next, next_off, next_slope);
-    if (!(squared < best.squared) || !(next.translation_m.z > 0.0)) {
-      part *= 0.5;
-      continue;
+  const auto left_over = [&](std::span<const double> by, std::vector<double>& off) {
+    const CameraFromTag pose = moved(by);
+    off.clear();
+    for (std::size_t i = 0; i < in_tag.size(); ++i) {
+      const Vec3 p = pose.rotation * in_tag[i] + pose.translation_m;
+      off.insert(off.end(), {p.x / p.z - seen[i].x, p.y / p.z - seen[i].y});
     }
-    const bool enough = best.squared - squared < kEnough * best.squared;
-    best = {next, squared};
-    off = next_off;
-    slope = next_slope;
-    part = 1.0;
-    if (enough) {
-      break;
-    }
+  };
+  const auto found = levenberg_marquardt(std::array<double, 6>{}, left_over);
+  if (!found) {
+    return {start, std::numeric_limits<double>::infinity()};
   }
-  return best;
+  return {moved(found->parameters), found->sum_of_squares};
 }
 
 }  // namespace

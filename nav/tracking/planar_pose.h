@@ -13,11 +13,11 @@ namespace orthonav::nav {
 
 /// The two poses of a square tag that one camera can't distinguish by its corners: they differ in
 /// the direction in which the tag is tilted relative to the line of sight (Collins & Bartoli 2014,
-/// "Infinitesimal plane-based pose estimation", on the ambiguity). By decomposing
-/// the homography of the corners on the unit plane (Zhang 2000, section 3.1), in the order of
-/// `MarkerCorners`, each then moved to leave least of the corners: a homography of noisy corners of
-/// a small tag is several percent off in distance. The one that leaves less comes first. Nothing if
-/// the corners do not form a square in front of the camera.
+/// "Infinitesimal plane-based pose estimation", on the ambiguity). Each starts at the homography of
+/// the corners on the unit plane (Zhang 2000, section 3.1), which is several percent off in distance
+/// for noisy corners of a small tag, and is fitted to the corners by least squares; the better fit
+/// comes first. The corners are in the order of `MarkerCorners`. Nothing if they do not form a
+/// square in front of the camera.
 [[nodiscard]] std::optional<std::array<CameraFromTag, 2>> planar_poses(
     const std::array<Vec2, 4>& unit_plane, double size_m);
 
