@@ -24,7 +24,7 @@ struct CapturedPictures {
 
 /// 15 pictures of one tag that was turned by hand.
 struct TurnedTag {
-  BoardPictures pictures;          ///< a board of one tag, its id taken for 0
+  BoardPictures pictures;          ///< a board of one row that ends with the tag
   std::vector<double> turned_deg;  ///< as their names state
   int id = 0;
 };
