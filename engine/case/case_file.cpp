@@ -146,10 +146,10 @@ Result<CaseLevel> loaded(const Entry& entry, const Reading& reading, std::string
     return Error{(fs::path(folder) / entry.plans.front()).string() + ": is the plan of " +
                  plan->level + ", the case uses it for " + entry.label};
   }
+  const std::string operated = level_in_name(entry.label);
   for (const std::string& file : entry.plans) {
     const std::string named = level_in_name(file);
-    if (plan->level.empty() && !named.empty() && named != level_in_name(entry.label) &&
-        !level_in_name(entry.label).empty()) {
+    if (plan->level.empty() && !operated.empty() && !named.empty() && named != operated) {
       return Error{(fs::path(folder) / file).string() + ": is named after " + named +
                    " and states no level, but the case uses it for " + entry.label +
                    " (\"level\" in the plan decides)"};

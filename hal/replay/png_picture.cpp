@@ -94,8 +94,9 @@ Error failed(const Job& job) {
 }  // namespace
 
 Result<PngHeader> parse_png_header(std::string_view bytes) {
+  constexpr std::size_t kFirstChunkEnds = 33;
   constexpr std::string_view kStart("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
-  if (bytes.size() < kPngHeaderBytes || !bytes.starts_with(kStart)) {
+  if (bytes.size() < kFirstChunkEnds || !bytes.starts_with(kStart)) {
     return Error{"is not a PNG"};
   }
   const auto byte = [bytes](std::size_t at) { return static_cast<std::uint8_t>(bytes[at]); };

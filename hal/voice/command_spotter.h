@@ -19,8 +19,8 @@ namespace orthonav::voice {
 struct SpotterOptions {
   std::vector<std::string> commands;  ///< lower case: "save points"
   std::string wake_word = "ortho";    ///< said before each command
-  /// A command counts above this (`log_odds`): odds of twelve to one. At three to one twice
-  /// as many other words pass, and 4 % more commands (docs/voice.md).
+  /// Natural logarithm of the odds from which on a command counts: twelve to one. At three to one
+  /// twice as many other words pass, and 4 % more commands are heard (docs/voice.md).
   double least_log_odds = 2.5;
   SegmentOptions segments;
   std::filesystem::path acoustic_model = default_acoustic_model();
@@ -44,9 +44,9 @@ class CommandSpotter {
  public:
   /// Refuses invalid options, a missing model, and words without a pronunciation.
   static Result<std::unique_ptr<CommandSpotter>> create(const SpotterOptions& options);
-  /// Takes samples at `kSpeechRateHz` and appends the commands that ended in them; those
-  /// that are less likely than not are left out. Does up to 0.1 s of work a tenth of a second
-  /// before a segment ends, so that almost none is left at its end.
+  /// Takes samples at `kSpeechRateHz` and appends the commands that ended in them, without those
+  /// that are less likely than not. Does up to 0.1 s of work a tenth of a second before a segment
+  /// ends, so that almost none is left at its end.
   void push(std::span<const std::int16_t> samples, std::vector<SpokenCommand>& commands);
 
  private:

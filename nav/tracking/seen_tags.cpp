@@ -62,8 +62,7 @@ std::string SeenTags::never_seen(const ToolGeometry& tool) const {
     return {};
   }
   return "tag " + name_of_tag(tool.marker.family, tool.marker.id) +
-         (tool.name.empty() ? "" : " of '" + tool.name + "'") + " was never seen, " +
-         (tags_.empty() ? "nor any other" : "only " + text());
+         (tool.name.empty() ? "" : " of '" + tool.name + "'") + " was never seen, only " + text();
 }
 
 }  // namespace orthonav::nav
