@@ -39,9 +39,9 @@ GoldenScene rod(const std::string& name, const std::string& what, Float3 offset)
   }
   const std::array<RodBendMark, 2> bends = {
       {{centre_line[16], 6.2 * kRadiansPerDegree, 0.0271,
-        BendToMake{1, 0.0271, 0.0, 10.4 * kRadiansPerDegree}},
+        RodBendMark::Making{0.0, 10.4 * kRadiansPerDegree}},
        {centre_line[34], 4.9 * kRadiansPerDegree, 0.0578,
-        BendToMake{2, 0.0578, 40.0 * kRadiansPerDegree, 9.0 * kRadiansPerDegree}}}};
+        RodBendMark::Making{40.0 * kRadiansPerDegree, 9.0 * kRadiansPerDegree}}}};
   RodHologram hologram;
   hologram.tube =
       std::make_shared<const render::MeshData>(render::make_tube(centre_line, 0.00275f));

@@ -10,9 +10,10 @@
 
 #include "base/angle.h"
 #include "base/length_text.h"
+#include "base/printed.h"
 #include "base/translation.h"
 #include "engine/holograms/hologram_parts.h"
-#include "engine/session/rod_wording.h"
+#include "engine/session/said.h"
 #include "engine/session/wording.h"
 #include "render/float3.h"
 #include "render/shapes.h"
@@ -55,11 +56,15 @@ std::string fixed_width(std::string_view text) {
   return out;
 }
 
-void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, Label label) {
+/// `number`: from 1.
+void add_bend(Scene& scene, const RodBendMark& bend, std::size_t number, Float3 at, Float3 along,
+              Label label) {
   add_ring(scene, at, along, kBendRingRadius_m, kBendRingWidth_m, look::colours().fair, label);
   render::TextItem& text = add_text_beside(scene, at, 1.6f, 0.0035f, 0.35f, label);
-  if (bend.to_make) {
-    append_bend(add_run(text, look::kWhite), *bend.to_make);
+  if (bend.making) {
+    append_printed(
+        add_run(text, look::kWhite), translated("bend %zu: %.0f mm, roll %.0f°, set %.1f°"), number,
+        bend.arc_length_m * 1e3, degrees(bend.making->roll_rad), degrees(bend.making->set_rad));
     return;
   }
   add_run(text, angle_text(bend.angle_rad), look::kWhite);
@@ -253,8 +258,8 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
     add_run(add_text_beside(scene, rod.heads[i] + rod.offset, 1.8f, 0.0040f, 0.4f, label),
             rod.head_names[i], look::kWhite);
   }
-  for (const RodBendMark& bend : rod.bends) {
-    add_bend(scene, bend, bend.position + rod.offset, along, label);
+  for (std::size_t i = 0; i < rod.bends.size(); ++i) {
+    add_bend(scene, rod.bends[i], i + 1, rod.bends[i].position + rod.offset, along, label);
   }
   if (rod.heads.size() < 2 || !rod.length_m) {
     return;
@@ -265,7 +270,8 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   text.height_m = 0.005f;
   text.min_height_deg = 0.6f;
   if (rod.to_cut) {
-    append_cut(add_run(text, look::kWhite), *rod.length_m);
+    append_printed(add_run(text, look::kWhite), translated("cut to %s"),
+                   said_mm(*rod.length_m).c_str());
   } else {
     add_run(text, in_mm(*rod.length_m), look::kWhite);
   }

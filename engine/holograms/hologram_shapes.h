@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/holograms/hologram_colours.h"
-#include "engine/session/rod_wording.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {
@@ -101,8 +100,12 @@ void take_angle_off(render::TextItem& angle);
 struct RodBendMark {
   render::Float3 position;
   double angle_rad = 0.0;
-  double arc_length_m = 0.0;               ///< from the rod's first end
-  std::optional<BendToMake> to_make = {};  ///< absent: the shape is shown, not how to bend it
+  double arc_length_m = 0.0;  ///< from the rod's first end
+  struct Making {
+    double roll_rad = 0.0;
+    double set_rad = 0.0;  ///< on the bender
+  };
+  std::optional<Making> making = {};  ///< absent: the shape is shown, not how it is made
 };
 
 /// H10. Make `tube` with render::make_tube once per rod and keep it: the renderer caches by

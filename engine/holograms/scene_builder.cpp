@@ -12,7 +12,6 @@
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
 #include "engine/session/tool_steps.h"
-#include "nav/guidance/rod_shape.h"
 #include "nav/published/stroke_pattern.h"
 
 namespace orthonav::engine {
@@ -337,15 +336,11 @@ void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
       }
       hologram.length_m = rod.rod->length_m;
     }
-    if (rod.instructions) {  // what is to be made of the rod, in place of its shape
-      const nav::RodFit& fit = rod.instructions->fit;
+    if (rod.instructions) {  // how it is made, in place of its shape
       bends_.clear();
       for (const nav::RodInstruction& bend : rod.instructions->bends) {
-        const Vec3 at_m = nav::rod_place(fit.arcs, bend.arc.centre_m).at_m;
-        bends_.push_back(
-            {to_float3(fit.rod_in_seats_m + fit.seats_from_rod * at_m), bend.arc.angle_rad,
-             bend.arc.centre_m,
-             BendToMake{bends_.size() + 1, bend.arc.centre_m, bend.arc.roll_rad, bend.set_rad}});
+        bends_.push_back({to_float3(bend.middle_m), bend.arc.angle_rad, bend.arc.centre_m,
+                          RodBendMark::Making{bend.arc.roll_rad, bend.set_rad}});
       }
       hologram.length_m = rod.instructions->cut_length_m();
       hologram.to_cut = true;

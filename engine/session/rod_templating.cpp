@@ -200,9 +200,7 @@ void RodTemplating::expect() {
   rod().expected->least_sure = heads[rod().expected->least_sure];
 }
 
-StepState RodTemplating::state(bool unplanned) const { return heads_so_far(unplanned); }
-
-HeadsSoFar RodTemplating::heads_so_far(bool unplanned) const {
+HeadsSoFar RodTemplating::state(bool unplanned) const {
   const RodState& now = current();
   HeadsSoFar out;
   out.unplanned = unplanned;

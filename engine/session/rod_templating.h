@@ -49,7 +49,7 @@ class RodTemplating {
   [[nodiscard]] std::span<const RodState> rods() const { return rods_; }
   void write(Guidance& out) const;
   /// `unplanned`: no plan says which sides have a rod.
-  [[nodiscard]] StepState state(bool unplanned) const;
+  [[nodiscard]] HeadsSoFar state(bool unplanned) const;
 
  private:
   [[nodiscard]] RodState& rod() { return rods_[current_]; }
@@ -63,7 +63,6 @@ class RodTemplating {
                                           std::span<const LevelState> levels, double overhang_m);
   /// Says of the instructed rod how surely it will lie in the true heads.
   void expect();
-  [[nodiscard]] HeadsSoFar heads_so_far(bool unplanned) const;
 
   std::array<RodState, 2> rods_;  ///< left, right
   std::array<bool, 2> planned_;

@@ -150,8 +150,7 @@ Mat3 frame_along(Vec3 along) {
   return Mat3::from_columns(line, along.cross(line), along);
 }
 
-/// Straights along the guessed directions, bends in the middle of their
-/// gaps.
+/// Straights along the guessed directions, bends in the middle of their gaps.
 RodGuess guess_from_seats(const RodFitTask& task) {
   const std::vector<Vec3> directions = guessed_directions(task);
   RodGuess guess;

@@ -33,6 +33,7 @@ struct RodInstruction {
   RodArc arc;
   double set_rad = 0.0;
   std::size_t gap = 0;  ///< between this seat and the next, from 0
+  Vec3 middle_m;        ///< of the bend on the finished rod, in the frame of the seats
 };
 
 /// How a straight rod becomes the one of the seats: cut to `fit.length_m`, a line drawn along it,

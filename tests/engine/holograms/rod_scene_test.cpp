@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/angle.h"
+#include "base/printed.h"
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_shapes.h"
 #include "tests/engine/holograms/shown_holograms.h"
@@ -100,10 +102,10 @@ TEST(SceneBuilder, WritesAtEachBendHowToMakeIt) {
     if (kind_of(text.label) != kRod || !text.runs[0].text.starts_with("bend ")) {
       continue;
     }
-    std::string expected;
     const nav::RodInstruction& bend = told.bends[bends];
-    append_bend(expected, {bends + 1, bend.arc.centre_m, bend.arc.roll_rad, bend.set_rad});
-    EXPECT_EQ(text.runs[0].text, expected);
+    EXPECT_EQ(text.runs[0].text,
+              printed("bend %zu: %.0f mm, roll %.0f°, set %.1f°", bends + 1,
+                      bend.arc.centre_m * 1e3, degrees(bend.arc.roll_rad), degrees(bend.set_rad)));
     // On the finished rod, which passes the heads at the depth of its seats.
     const Vec3 at_m = {text.position.x, text.position.y, text.position.z};
     EXPECT_LT(distance_to_chain(at_m, told.seats_m), 0.006) << bends;

@@ -138,6 +138,18 @@ TEST_F(FrameAllocations, AreNoneWhileARodIsShown) {
   EXPECT_TRUE(frames.shows(HologramKind::kRod));
 }
 
+TEST_F(FrameAllocations, AreNoneWhileItIsShownHowARodIsBent) {
+  s.finishes_every_screw();
+  for (const Vec3& head : {Vec3{0.02, 0.030, 0.00}, Vec3{0.02, 0.035, 0.04},
+                           Vec3{0.02, 0.036, 0.08}, Vec3{0.026, 0.030, 0.12}}) {
+    s.touches(head);
+  }
+  const Guidance& g = s.pair();
+  ASSERT_TRUE(g.rods[0].instructions.has_value());
+  ASSERT_FALSE(g.rods[0].instructions->bends.empty());
+  EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
+}
+
 TEST_F(FrameAllocations, OfAnotherSceneAreCounted) {
   guide_with_twin();
   const Guidance& g = s.pair();
