@@ -1,9 +1,11 @@
 #include "bench/registration_methods.h"
 
 #include <array>
+#include <cstdio>
 
 #include "bench/registration_peers.h"
 #include "engine/session/findings_wording.h"
+#include "nav/posterior/decision.h"
 #include "nav/published/registration.h"
 
 namespace orthonav::bench {
@@ -79,12 +81,60 @@ RegistrationMethod best(double common_m) {
           true};
 }
 
+RegistrationMethod posterior(double common_m) {
+  return {"posterior",
+          [common_m](const BenchLevel& level) -> Fit {
+            nav::posterior::Question question;
+            for (const nav::ScrewPlan& screw : level.screws) {
+              for (const Point<Vertebra> at : {screw.entry, screw.target}) {
+                question.targets.push_back(at);
+              }
+            }
+            question.neighbours = level.neighbours;
+            return [model = level.model, question,
+                    common_m](std::span<const Point<World>> points) {
+              Fitted fitted;
+              const auto d = nav::posterior::decided(
+                  *model, nav::posterior::observed(points, {}, 0.0), question);
+              if (!d) {
+                fitted.reason = "no pose";
+                return fitted;
+              }
+              fitted.found = true;
+              fitted.accepted = d->accepted;
+              fitted.world_from_vertebra = d->answer.world_from_vertebra;
+              fitted.rmse_m = d->answer.spread_m;
+              char text[200];
+              std::snprintf(text, sizeof text, "wrong %.4f scatter %.4f outliers %.4f s %.2f noise %.2f uneven %.2f size %.4f+-%.4f rms %.2f",
+                            d->wrong, d->scatter_predicted, d->outliers_predicted,
+                            1e3 * d->answer.standoff_m, 1e3 * d->answer.noise_m,
+                            1e3 * d->answer.uneven_m, d->answer.size, d->answer.size_sd, 1e3 * d->rms_m);
+              fitted.reason = text;
+              for (const auto& e : d->explanations) {
+                std::snprintf(text, sizeof text, "; %d%s p %.2g wrong %.2g", static_cast<int>(e.kind), e.level.c_str(), e.probability, e.wrong);
+                fitted.reason += text;
+                if (e.kind == nav::posterior::Explanation::Kind::kLevel && e.probability > 0.01) {
+                  fitted.fits_better = e.level;
+                }
+              }
+              fitted.covariance = [uncertainty = nav::with_common(
+                                       nav::PoseUncertainty(d->answer.centre_m, d->answer.covariance),
+                                       {common_m})](Point<Vertebra> at) {
+                return predicted_covariance(uncertainty, at);
+              };
+              return fitted;
+            };
+          },
+          true};
+}
+
 }  // namespace
 
 std::vector<RegistrationMethod> registration_methods(double common_m) {
   std::vector<RegistrationMethod> methods{
       paper(),
       best(common_m),
+      posterior(common_m),
   };
 #ifdef ORTHONAV_BENCH_PCL
   for (auto& peer : pcl_methods()) {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "nav/registration/registration.h"
+
+namespace orthonav::nav::posterior {
+
+/// The bone as the tip meets it: the whole surface of a model, with the sign from its solid.
+class BoneSurface {
+ public:
+  explicit BoneSurface(const VertebraModel& model);
+
+  struct Place {
+    double distance_m = 0.0;  ///< outside positive, true inside too
+    Vec3 out;                 ///< unit, away from the bone: the distance's gradient
+    Vec3 nearest_m;
+  };
+  /// The nearest place of the surface. `within_m` only saves time: it has to be no less than the
+  /// distance.
+  [[nodiscard]] Place at(Vec3 query_m, double within_m = 1e9) const;
+  /// The same, where the nearest place is known to be near `hint_m`, which lies on the surface.
+  [[nodiscard]] Place near(Vec3 query_m, Vec3 hint_m) const;
+
+  [[nodiscard]] const VertebraModel& model() const { return *model_; }
+
+ private:
+  const VertebraModel* model_;
+};
+
+}  // namespace orthonav::nav::posterior

@@ -1,0 +1,307 @@
+#include "nav/posterior/decision.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+#include <limits>
+
+#include "base/random.h"
+#include "nav/registration/pose_candidates.h"
+
+namespace orthonav::nav::posterior {
+namespace {
+
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+/// Explanations that are less probable than the best by more than this are not looked at closely.
+constexpr double kFarWorse = 25.0;
+constexpr std::size_t kDraws = 4096;
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Rows6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+Cloud cloud_of(const Observations& observations) {
+  std::vector<Point<World>> points;
+  for (const StrokePoint& p : observations.strokes) {
+    points.push_back(p.tip);
+  }
+  return nav::cloud_of(points);
+}
+
+/// A hypothesis with its posterior.
+struct Tried {
+  Explanation::Kind kind = Explanation::Kind::kAnswer;
+  std::string level;
+  double log_odds = 0.0;
+  const VertebraModel* model = nullptr;
+  const Observations* observations = nullptr;
+  Transform<World, Vertebra> start;
+  std::optional<Posterior> found;
+
+  [[nodiscard]] double log_weight() const {
+    return found ? log_odds + found->log_evidence : kImpossible;
+  }
+  void look(const Prior& prior, Effort effort) {
+    found = posterior_of(*observations, BoneSurface(*model), prior,
+                         found ? found->world_from_vertebra : start, effort);
+  }
+};
+
+/// The largest error at any target, ascending, of draws from a posterior, held against a pose.
+std::vector<double> errors_m(const Posterior& posterior, const Transform<World, Vertebra>& answer,
+                             std::span<const Point<Vertebra>> targets) {
+  // The step that the answer is from this posterior's mean, at each target.
+  std::vector<Vec3> off_m;
+  std::vector<Vec3> arm_m;
+  const auto moved = posterior.world_from_vertebra.inverse() * answer;
+  for (const Point<Vertebra>& target : targets) {
+    off_m.push_back(moved * target - target);
+    arm_m.push_back(target.v - posterior.centre_m);
+  }
+  std::vector<double> out;
+  out.reserve(kDraws);
+  Random random(20261129);
+  std::size_t part = 0;
+  double through = posterior.parts[0].weight;
+  Eigen::LLT<Eigen::Matrix<double, 6, 6>> root;
+  std::size_t root_of = posterior.parts.size();
+  for (std::size_t k = 0; k < kDraws; ++k) {
+    while (part + 1 < posterior.parts.size() &&
+           (static_cast<double>(k) + 0.5) / kDraws > through) {
+      through += posterior.parts[++part].weight;
+    }
+    const Part& of = posterior.parts[part];
+    if (root_of != part) {
+      root.compute(Eigen::Map<const Rows6>(of.covariance.data()));
+      root_of = part;
+    }
+    Vector6 normal;
+    for (double& n : normal) {
+      n = random.normal();
+    }
+    const Vector6 step = Eigen::Map<const Vector6>(of.step.data()) + root.matrixL() * normal;
+    double most_m2 = 0.0;
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      const Vec3 error = Vec3{step(0), step(1), step(2)} +
+                         Vec3{step(3), step(4), step(5)}.cross(arm_m[i]) - off_m[i];
+      most_m2 = std::max(most_m2, error.squared_norm());
+    }
+    out.push_back(std::sqrt(most_m2));
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+double share_above(const std::vector<double>& ascending, double limit) {
+  const auto above = ascending.end() - std::upper_bound(ascending.begin(), ascending.end(), limit);
+  return static_cast<double>(above) / static_cast<double>(ascending.size());
+}
+
+/// The points with left and right swapped in the model's frame, at a pose.
+Observations mirrored(const Observations& observations, const Transform<World, Vertebra>& pose) {
+  Observations out = observations;
+  const auto from_world = pose.inverse();
+  for (StrokePoint& p : out.strokes) {
+    Vec3 q = (from_world * p.tip).v;
+    q.x = -q.x;
+    p.tip = {q};
+    p.shaft = {};
+  }
+  return out;
+}
+
+/// Where the mirror image may lie: as the bone does, or shifted or turned to a side, since a crooked
+/// bone's mirror image lies askew.
+Transform<World, Vertebra> mirrored_start(const VertebraModel& model, const Cloud& cloud) {
+  constexpr double kAside_m = 0.003;
+  constexpr double kTurned_rad = 0.15;
+  const double middle_m = model.reachable_axes().centre_m.x;
+  const CentredPose same{Mat3::identity(), cloud.centre_m + Vec3{2.0 * middle_m, 0.0, 0.0}};
+  std::vector<CentredPose> starts{same};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      Vec3 along;
+      along[axis] = side;
+      starts.push_back({same.rotation, same.centre_m + kAside_m * along});
+      starts.push_back({rotation_from_vector(kTurned_rad * along), same.centre_m});
+    }
+  }
+  SurfaceFitOptions quick;
+  quick.max_iterations = 6;
+  CentredPose best = same;
+  double least_m2 = std::numeric_limits<double>::infinity();
+  for (const CentredPose& start : starts) {
+    if (const auto fit = fit_to_bone(model, cloud.few_m, start, quick)) {
+      const double cost_m2 = truncated_cost_m2(*fit, 0.003);
+      if (cost_m2 < least_m2) {
+        least_m2 = cost_m2;
+        best = fit->pose;
+      }
+    }
+  }
+  return world_from(best, cloud.centre_m);
+}
+
+/// Probability by the prior that heights scatter by at least this.
+double scatter_predicted(const Prior& prior, double spread_m) {
+  Random random(7);
+  double above = 0.0;
+  for (std::size_t k = 0; k < kDraws; ++k) {
+    const bool bare = random.uniform() < prior.bare_share;
+    const double s_m = std::abs(random.normal(0.0, bare ? prior.bare_m : prior.tissue_m));
+    const auto uneven = [&] {
+      return prior.unevenness * std::exp(random.normal(0.0, prior.unevenness_log_sd)) * s_m;
+    };
+    const double tissue_m = uneven();
+    const double stroke_m = random.uniform() < prior.uneven_hand_share ? uneven() : 0.0;
+    const double share = random.uniform();
+    const double model_m =
+        share < prior.exact_share
+            ? prior.exact_m * share / prior.exact_share
+            : prior.exact_m * std::pow(prior.worst_m / prior.exact_m,
+                                       (share - prior.exact_share) / (1.0 - prior.exact_share));
+    const double noise_m = prior.noise_m * std::exp(random.normal(0.0, prior.noise_log_sd));
+    const double all_m2 =
+        tissue_m * tissue_m + stroke_m * stroke_m + model_m * model_m + noise_m * noise_m;
+    above += all_m2 >= spread_m * spread_m ? 1.0 : 0.0;
+  }
+  return above / kDraws;
+}
+
+}  // namespace
+
+std::optional<Decision> decided(const VertebraModel& model, const Observations& observations,
+                                const Question& question) {
+  const Prior& prior = question.prior;
+  const Cloud cloud = cloud_of(observations);
+  std::vector<Tried> tried;
+  const auto add_poses = [&](Explanation::Kind kind, const std::string& level,
+                             const VertebraModel& of, std::size_t most) {
+    const auto found = find_candidates(
+        of, cloud, kind == Explanation::Kind::kAnswer ? question.targets : std::vector<Point<Vertebra>>{},
+        observations.tip_radius_m);
+    for (std::size_t i = 0; i < std::min(most, found.best_first.size()); ++i) {
+      Tried t;
+      t.kind = kind;
+      t.level = level;
+      t.model = &of;
+      t.observations = &observations;
+      t.start = world_from(found.best_first[i].fit.pose, cloud.centre_m);
+      tried.push_back(t);
+    }
+  };
+  add_poses(Explanation::Kind::kAnswer, {}, model, 8);
+  for (const NeighbourLevel& level : question.neighbours) {
+    add_poses(Explanation::Kind::kLevel, level.label, *level.model, 2);
+  }
+  for (Tried& t : tried) {
+    t.look(prior, Effort::kRough);
+  }
+  const auto best_pose = [&] {
+    return std::max_element(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) {
+      const bool own_a = a.kind == Explanation::Kind::kAnswer;
+      const bool own_b = b.kind == Explanation::Kind::kAnswer;
+      return std::pair(own_a, own_a ? a.log_weight() : 0.0) <
+             std::pair(own_b, own_b ? b.log_weight() : 0.0);
+    });
+  };
+  if (tried.empty() || !best_pose()->found) {
+    return std::nullopt;
+  }
+  const Observations swapped = mirrored(observations, best_pose()->found->world_from_vertebra);
+  {
+    Tried t;
+    t.kind = Explanation::Kind::kMirror;
+    t.log_odds = std::log(prior.mirror_odds);
+    t.model = &model;
+    t.observations = &swapped;
+    t.start = mirrored_start(model, cloud_of(swapped));
+    t.look(prior, Effort::kRough);
+    tried.push_back(t);
+  }
+  double most = kImpossible;
+  for (const Tried& t : tried) {
+    most = std::max(most, t.log_weight());
+  }
+  const double own = best_pose()->log_weight();
+  std::erase_if(tried, [&](const Tried& t) {
+    return !(t.log_weight() > std::min(own, most) - kFarWorse);
+  });
+  for (Tried& t : tried) {
+    t.look(prior, Effort::kFull);
+  }
+  std::iter_swap(tried.begin(), best_pose());
+  if (!tried[0].found) {
+    return std::nullopt;
+  }
+  Decision out;
+  out.answer = *tried[0].found;
+  const Transform<World, Vertebra>& answer = out.answer.world_from_vertebra;
+
+  // The same bone of another size is an explanation of its own.
+  double sum = 0.0;
+  const double log_answer = tried[0].log_weight();
+  const auto add = [&](const Explanation& e) {
+    sum += e.probability;
+    out.explanations.push_back(e);
+  };
+  const auto errors = errors_m(out.answer, answer, question.targets);
+  add({Explanation::Kind::kAnswer, {}, 1.0 - prior.size_share,
+       share_above(errors, question.most_m), answer});
+  {
+    const auto within = [&](double log_size) {
+      const double sd = std::max(1e-9, out.answer.size_sd);
+      return 0.5 * std::erfc(-(log_size - std::log(out.answer.size)) / (sd * std::sqrt(2.0)));
+    };
+    const double off =
+        1.0 - (within(std::log1p(question.size_off)) - within(std::log1p(-question.size_off)));
+    add({Explanation::Kind::kSize, {},
+         prior.size_share * std::exp(std::min(300.0, out.answer.size_log_evidence)), off, answer});
+  }
+  for (std::size_t i = 1; i < tried.size(); ++i) {
+    const Tried& t = tried[i];
+    if (!t.found) {
+      continue;
+    }
+    const bool other_pose = t.kind == Explanation::Kind::kAnswer;
+    if (other_pose) {
+      double apart_m = 0.0;
+      for (const Point<Vertebra>& target : question.targets) {
+        apart_m = std::max(apart_m,
+                           (t.found->world_from_vertebra * target - answer * target).norm());
+      }
+      constexpr double kSame_m = 0.0005;
+      if (apart_m < kSame_m) {
+        continue;
+      }
+    }
+    add({other_pose ? Explanation::Kind::kOtherPose : t.kind, t.level,
+         std::exp(std::min(300.0, t.log_weight() - log_answer)),
+         other_pose ? share_above(errors_m(*t.found, answer, question.targets), question.most_m)
+                    : 1.0,
+         t.found->world_from_vertebra});
+  }
+  out.wrong = 0.0;
+  for (Explanation& e : out.explanations) {
+    e.probability /= sum;
+    out.wrong += e.probability * e.wrong;
+  }
+  out.scatter_predicted = scatter_predicted(prior, out.answer.spread_m);
+  constexpr double kOutlierPower = 18.0;  // 1 of 20 points on average, 3 of 10 once in 600
+  out.outliers_predicted = std::pow(out.answer.inlier_share, kOutlierPower);
+  out.accepted = out.wrong <= question.may_be_wrong &&
+                 out.scatter_predicted >= question.least_predicted &&
+                 out.outliers_predicted >= question.least_predicted;
+  const auto quantile = [&](double q) {
+    return errors[static_cast<std::size_t>(q * static_cast<double>(errors.size() - 1))];
+  };
+  double squares_m2 = 0.0;
+  for (const double e : errors) {
+    squares_m2 += e * e / static_cast<double>(errors.size());
+  }
+  out.rms_m = std::sqrt(squares_m2);
+  out.within_95_m = quantile(0.95);
+  out.within_99_m = quantile(0.99);
+  return out;
+}
+
+}  // namespace orthonav::nav::posterior

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nav/posterior/posterior.h"
+#include "nav/registration/registration.h"
+
+namespace orthonav::nav::posterior {
+
+/// What else the points may be of.
+struct Question {
+  /// Where the pose must be certain, at least one: the entries and targets of the plan.
+  std::vector<Point<Vertebra>> targets;
+  std::vector<NeighbourLevel> neighbours;
+  Prior prior;
+  double most_m = 0.002;         ///< an error at any target above it is wrong
+  double may_be_wrong = 0.01;    ///< the most probability of that
+  double size_off = 0.015;       ///< a model farther from the bone's size is wrong
+  double least_predicted = 1e-3; ///< of data like these, by the prior
+};
+
+/// One explanation of the points, and its probability among all that were tried.
+struct Explanation {
+  enum class Kind : std::uint8_t { kAnswer, kOtherPose, kLevel, kMirror, kSize };
+  Kind kind = Kind::kAnswer;
+  std::string level;  ///< of kLevel
+  double probability = 0.0;
+  double wrong = 0.0;  ///< probability that the answer is wrong if this is so
+  Transform<World, Vertebra> world_from_vertebra;
+};
+
+struct Decision {
+  Posterior answer;
+  std::vector<Explanation> explanations;  ///< the answer first
+  double wrong = 1.0;                     ///< probability that the answer is wrong
+  /// Probability of scatter, and of a share of points off the bone, as large or larger, by the prior.
+  double scatter_predicted = 0.0;
+  double outliers_predicted = 0.0;
+  bool accepted = false;
+  /// Of the error at the worst target, under the answer: root mean square, and what 95 and 99 of 100
+  /// errors stay below.
+  double rms_m = 0.0, within_95_m = 0.0, within_99_m = 0.0;
+};
+
+/// Compares all explanations of the points. Empty where no pose is found.
+[[nodiscard]] std::optional<Decision> decided(const VertebraModel& model,
+                                              const Observations& observations,
+                                              const Question& question);
+
+}  // namespace orthonav::nav::posterior

@@ -1,0 +1,885 @@
+#include "nav/posterior/posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <queue>
+
+#include "nav/statistics/whitened_system.h"
+
+namespace orthonav::nav::posterior {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Rows6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+/// Rotations are compared with translations at this lever arm.
+constexpr double kLever_m = 0.03;
+
+double log_sum(double a, double b) {
+  const double most = std::max(a, b);
+  return most == kNever ? kNever : most + std::log1p(std::exp(std::min(a, b) - most));
+}
+
+double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+
+// ---------------------------------------------------------------------------------------------
+// The heights at a pose.
+
+/// What every pose has in common.
+struct Problem {
+  const Observations& observations;
+  const BoneSurface& bone;
+  const Prior& prior;
+  Vec3 centre_in_world_m;
+  std::vector<std::array<std::uint32_t, kBlock>> blocks;
+};
+
+/// Every point at a pose.
+struct Touches {
+  Transform<Vertebra, World> from_world;
+  Vec3 centre_m;  ///< of the points, in the model's frame
+  struct Touch {
+    Vec3 lever_m;  ///< from the centre
+    Vec3 out;
+    Vec3 nearest_m;
+    double height_m = 0.0;
+    double belongs = 1.0;
+  };
+  std::vector<Touch> all;
+  double spread_m = 0.0;
+  double log_outliers = 0.0;  ///< of the points as members of the bone, or not
+  double inliers = 0.0;
+};
+
+/// Which points belong to the bone, by a mixture of a Gaussian about the mean height and an even
+/// density (expectation maximization, from the median).
+void tell_outliers(const Prior& prior, Touches& t) {
+  constexpr int kRounds = 8;
+  constexpr double kLeast_m = 0.0001;
+  constexpr double kMost_m = 0.004;
+  constexpr double kSdByMedian = 1.4826;
+  std::vector<double> heights;
+  for (const auto& touch : t.all) {
+    heights.push_back(touch.height_m);
+  }
+  const auto median = [](std::vector<double>& v) {
+    const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
+    std::nth_element(v.begin(), middle, v.end());
+    return *middle;
+  };
+  double mean_m = median(heights);
+  for (double& h : heights) {
+    h = std::abs(h - mean_m);
+  }
+  double sd_m = std::clamp(kSdByMedian * median(heights), kLeast_m, kMost_m);
+  const double outside = prior.outlier_share / prior.outlier_range_m;
+  for (int round = 0; round < kRounds; ++round) {
+    double sum = 0.0, sum_m = 0.0, sum_m2 = 0.0;
+    for (auto& touch : t.all) {
+      const double z = (touch.height_m - mean_m) / sd_m;
+      const double inside = (1.0 - prior.outlier_share) * std::exp(-0.5 * z * z) /
+                            (sd_m * std::sqrt(2.0 * std::numbers::pi));
+      touch.belongs = inside / (inside + outside);
+      sum += touch.belongs;
+      sum_m += touch.belongs * touch.height_m;
+      sum_m2 += touch.belongs * touch.height_m * touch.height_m;
+    }
+    if (!(sum > 6.0)) {
+      break;
+    }
+    mean_m = sum_m / sum;
+    sd_m = std::clamp(std::sqrt(std::max(0.0, sum_m2 / sum - mean_m * mean_m)), kLeast_m, kMost_m);
+  }
+  t.spread_m = sd_m;
+  t.log_outliers = t.inliers = 0.0;
+  const auto entropy = [](double p) { return p > 1e-300 ? -p * std::log(p) : 0.0; };
+  for (const auto& touch : t.all) {
+    const double z = touch.belongs;
+    t.inliers += z;
+    t.log_outliers += z * std::log1p(-prior.outlier_share) + (1.0 - z) * std::log(outside) +
+                      entropy(z) + entropy(1.0 - z);
+  }
+}
+
+Touches touches_at(const Problem& problem, const Transform<Vertebra, World>& from_world,
+                   const Touches* hint) {
+  Touches out;
+  out.from_world = from_world;
+  out.centre_m = (from_world * Point<World>{problem.centre_in_world_m}).v;
+  out.all.resize(problem.observations.strokes.size());
+  for (std::size_t i = 0; i < out.all.size(); ++i) {
+    const Vec3 p = (from_world * problem.observations.strokes[i].tip).v;
+    const auto place = hint != nullptr ? problem.bone.near(p, hint->all[i].nearest_m)
+                                       : problem.bone.at(p);
+    Touches::Touch& touch = out.all[i];
+    touch.lever_m = p - out.centre_m;
+    touch.out = place.out;
+    touch.nearest_m = place.nearest_m;
+    touch.height_m = place.distance_m - problem.observations.tip_radius_m;
+  }
+  tell_outliers(problem.prior, out);
+  return out;
+}
+
+constexpr std::size_t kColumns = 9;  // pose, standoff, size, height
+constexpr std::size_t kStandoff = 6;
+constexpr std::size_t kSize = 7;
+constexpr std::size_t kHeight = 8;
+
+/// The units' mean heights, and how points scatter within blocks.
+struct Rows {
+  std::vector<const Unit*> units;  ///< those of which enough belongs to the bone
+  std::vector<double> points;      ///< of each
+  std::vector<std::array<double, kColumns>> columns;
+  using Scatter = Eigen::Matrix<double, kBlock, kBlock>;
+  Scatter scatter_m2 = Scatter::Zero();  ///< mean product of deviations
+  double blocks = 0.0;
+  std::array<double, kBlock> lag_s{};  ///< mean, by lag
+  std::array<double, kBlock> lag_m{};
+  double within = 0.0;  ///< dimensions of what is within blocks
+  double log_outliers = 0.0;
+};
+
+Rows rows_of(const Problem& problem, std::span<const Unit> units, const Touches& t) {
+  constexpr double kLeastOfUnit = 0.25;
+  constexpr double kBelongs = 0.5;
+  Rows rows;
+  rows.log_outliers = t.log_outliers;
+  for (const Unit& unit : units) {
+    double sum = 0.0;
+    std::array<double, kColumns> mean{};
+    for (const std::uint32_t i : unit.points) {
+      const Touches::Touch& touch = t.all[i];
+      const Vec3 turned = touch.lever_m.cross(touch.out) / kLever_m;
+      const std::array<double, kColumns> one = {
+          -touch.out.x, -touch.out.y, -touch.out.z, -turned.x,       -turned.y,
+          -turned.z,    1.0,          touch.lever_m.dot(touch.out), touch.height_m};
+      sum += touch.belongs;
+      for (std::size_t k = 0; k < kColumns; ++k) {
+        mean[k] += touch.belongs * one[k];
+      }
+    }
+    if (sum < kLeastOfUnit * static_cast<double>(unit.points.size())) {
+      continue;
+    }
+    for (double& m : mean) {
+      m /= sum;
+    }
+    rows.units.push_back(&unit);
+    rows.points.push_back(sum);
+    rows.columns.push_back(mean);
+  }
+  for (const auto& block : problem.blocks) {
+    Eigen::Matrix<double, kBlock, 1> heights;
+    bool all = true;
+    for (std::size_t k = 0; k < kBlock; ++k) {
+      heights(static_cast<Eigen::Index>(k)) = t.all[block[k]].height_m;
+      all = all && t.all[block[k]].belongs > kBelongs;
+    }
+    if (!all) {
+      continue;
+    }
+    heights.array() -= heights.mean();
+    rows.scatter_m2 += heights * heights.transpose();
+    rows.blocks += 1.0;
+    for (std::size_t lag = 1; lag < kBlock; ++lag) {
+      double time_s = 0.0, distance_m = 0.0;
+      for (std::size_t k = 0; k + lag < kBlock; ++k) {
+        const StrokePoint& a = problem.observations.strokes[block[k]];
+        const StrokePoint& b = problem.observations.strokes[block[k + lag]];
+        time_s += b.time_s - a.time_s;
+        distance_m += (b.tip - a.tip).norm();
+      }
+      rows.lag_s[lag] += time_s / static_cast<double>(kBlock - lag);
+      rows.lag_m[lag] += distance_m / static_cast<double>(kBlock - lag);
+    }
+  }
+  if (rows.blocks > 0.0) {
+    rows.scatter_m2 /= rows.blocks;
+    for (std::size_t lag = 1; lag < kBlock; ++lag) {
+      rows.lag_s[lag] /= rows.blocks;
+      rows.lag_m[lag] /= rows.blocks;
+    }
+    rows.within = std::max(0.0, t.inliers - static_cast<double>(rows.units.size()));
+  }
+  return rows;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Covariances: of the units' heights, and within a block, in units of the noise's variance.
+
+/// Mean correlation of a field between two units, by their halves.
+double between(const Unit& a, const Unit& b, double length_m) {
+  const auto correlation = [&](Vec3 p, Vec3 q) { return std::exp(-(p - q).norm() / length_m); };
+  constexpr double kFar = 4.0;
+  const Vec3 middle_a = 0.5 * (a.quarter_m + a.three_quarters_m);
+  const Vec3 middle_b = 0.5 * (b.quarter_m + b.three_quarters_m);
+  const double longest_m2 = std::max((a.three_quarters_m - a.quarter_m).squared_norm(),
+                                     (b.three_quarters_m - b.quarter_m).squared_norm());
+  if ((middle_a - middle_b).squared_norm() > kFar * kFar * longest_m2) {
+    return correlation(middle_a, middle_b);
+  }
+  return 0.25 * (correlation(a.quarter_m, b.quarter_m) +
+                 correlation(a.quarter_m, b.three_quarters_m) +
+                 correlation(a.three_quarters_m, b.quarter_m) +
+                 correlation(a.three_quarters_m, b.three_quarters_m));
+}
+
+/// Mean correlation between two units of a stroke of noise that wanders.
+double wandering(const Unit& a, const Unit& b, double time_s) {
+  const double length_a = std::max(1e-6, (a.end_s - a.begin_s) / time_s);
+  const double length_b = std::max(1e-6, (b.end_s - b.begin_s) / time_s);
+  if (&a == &b) {
+    return 2.0 * (length_a + std::expm1(-length_a)) / (length_a * length_a);
+  }
+  const double gap = std::max(0.0, b.begin_s > a.begin_s ? b.begin_s - a.end_s
+                                                         : a.begin_s - b.end_s) / time_s;
+  return std::expm1(-length_a) * std::expm1(-length_b) / (length_a * length_b) * std::exp(-gap);
+}
+
+class Covariances {
+ public:
+  explicit Covariances(const Rows& rows, double model_length_m)
+      : rows_(rows), model_length_m_(model_length_m) {}
+
+  /// Whitened columns of the rows; false where the covariance is not positive definite.
+  bool whiten(const Mixture& mix) {
+    const std::size_t m = rows_.units.size();
+    const Eigen::MatrixXd* const tissue = mix.tissue > 0.0 ? &field(mix.length_m) : nullptr;
+    const Eigen::MatrixXd* const model = mix.model > 0.0 ? &field(model_length_m_) : nullptr;
+    const Eigen::MatrixXd* const noise = mix.white < 1.0 ? &along(mix.time_s) : nullptr;
+    const double tissue2 = mix.tissue * mix.tissue;
+    const double model2 = mix.model * mix.model;
+    const double stroke2 = mix.stroke * mix.stroke;
+    system_.reset(m, kColumns);
+    for (std::size_t b = 0; b < m; ++b) {
+      double* const column = system_.column_of(b);
+      const auto j = static_cast<Eigen::Index>(b);
+      for (std::size_t a = b; a < m; ++a) {
+        const auto i = static_cast<Eigen::Index>(a);
+        double sum = 0.0;
+        if (tissue != nullptr) {
+          sum += tissue2 * (*tissue)(i, j);
+        }
+        if (model != nullptr) {
+          sum += model2 * (*model)(i, j);
+        }
+        if (rows_.units[a]->stroke == rows_.units[b]->stroke) {
+          sum += stroke2;
+          if (noise != nullptr) {
+            sum += (1.0 - mix.white) * (*noise)(i, j);
+          }
+        }
+        column[a] = sum;
+      }
+      column[b] += mix.white / rows_.points[b];
+      for (std::size_t k = 0; k < kColumns; ++k) {
+        system_.right_side(b, k) = rows_.columns[b][k];
+      }
+    }
+    return system_.whiten();
+  }
+
+  using Products = Eigen::Matrix<double, kColumns, kColumns>;
+  [[nodiscard]] Products products() const {
+    Products out = Products::Zero();
+    for (std::size_t k = 0; k < system_.size(); ++k) {
+      const Eigen::Map<const Eigen::Matrix<double, kColumns, 1>> row(system_.right_sides(k));
+      out.noalias() += row * row.transpose();
+    }
+    return out;
+  }
+  [[nodiscard]] double log_determinant() const { return system_.log_determinant(); }
+
+  struct Within {
+    double log_determinant = 0.0;  ///< a dimension
+    double quadratic = 0.0;        ///< a dimension, m^2
+  };
+  [[nodiscard]] Within within(const Mixture& mix) const {
+    if (!(rows_.blocks > 0.0)) {
+      return {};
+    }
+    std::array<double, kBlock> by_lag{};
+    for (std::size_t lag = 0; lag < kBlock; ++lag) {
+      by_lag[lag] = (lag == 0 ? mix.white : 0.0);
+      if (mix.white < 1.0) {
+        by_lag[lag] += (1.0 - mix.white) * std::exp(-rows_.lag_s[lag] / mix.time_s);
+      }
+      if (mix.tissue > 0.0) {
+        by_lag[lag] += mix.tissue * mix.tissue * std::exp(-rows_.lag_m[lag] / mix.length_m);
+      }
+      by_lag[lag] += mix.model * mix.model * std::exp(-rows_.lag_m[lag] / model_length_m_);
+    }
+    // Deviations from the mean: what is left in the seven directions across (1, ..., 1).
+    using Square = Eigen::Matrix<double, kBlock, kBlock>;
+    Square covariance;
+    for (std::size_t a = 0; a < kBlock; ++a) {
+      for (std::size_t b = 0; b < kBlock; ++b) {
+        covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
+            by_lag[a > b ? a - b : b - a];
+      }
+    }
+    using Across = Eigen::Matrix<double, kBlock - 1, kBlock>;
+    static const Across across = helmert();
+    using Small = Eigen::Matrix<double, kBlock - 1, kBlock - 1>;
+    const Small c = across * covariance * across.transpose();
+    const Small s = across * rows_.scatter_m2 * across.transpose();
+    const Eigen::LLT<Small> llt(c);
+    constexpr double kDimensions = kBlock - 1;
+    double log_determinant = 0.0;
+    for (Eigen::Index k = 0; k < c.rows(); ++k) {
+      log_determinant += 2.0 * std::log(llt.matrixLLT()(k, k));
+    }
+    return {log_determinant / kDimensions, llt.solve(s).trace() / kDimensions};
+  }
+
+ private:
+  static Eigen::Matrix<double, kBlock - 1, kBlock> helmert() {
+    Eigen::Matrix<double, kBlock - 1, kBlock> h = Eigen::Matrix<double, kBlock - 1, kBlock>::Zero();
+    for (Eigen::Index k = 1; k < static_cast<Eigen::Index>(kBlock); ++k) {
+      const double n = static_cast<double>(k);
+      h.row(k - 1).head(k).setConstant(1.0 / std::sqrt(n * (n + 1.0)));
+      h(k - 1, k) = -n / std::sqrt(n * (n + 1.0));
+    }
+    return h;
+  }
+  template <class Of>
+  const Eigen::MatrixXd& kept(std::map<double, Eigen::MatrixXd>& all, double key, const Of& of) {
+    auto [place, is_new] = all.try_emplace(key);
+    if (is_new) {
+      const auto m = static_cast<Eigen::Index>(rows_.units.size());
+      place->second = Eigen::MatrixXd::Zero(m, m);
+      for (Eigen::Index b = 0; b < m; ++b) {
+        for (Eigen::Index a = b; a < m; ++a) {
+          place->second(a, b) = of(*rows_.units[static_cast<std::size_t>(a)],
+                                   *rows_.units[static_cast<std::size_t>(b)]);
+        }
+      }
+    }
+    return place->second;
+  }
+  const Eigen::MatrixXd& field(double length_m) {
+    return kept(fields_, length_m,
+                [&](const Unit& a, const Unit& b) { return between(a, b, length_m); });
+  }
+  const Eigen::MatrixXd& along(double time_s) {
+    return kept(noises_, time_s, [&](const Unit& a, const Unit& b) {
+      return a.stroke == b.stroke ? wandering(a, b, time_s) : 0.0;
+    });
+  }
+
+  const Rows& rows_;
+  double model_length_m_;
+  std::map<double, Eigen::MatrixXd> fields_;
+  std::map<double, Eigen::MatrixXd> noises_;
+  WhitenedSystem system_;
+};
+
+// ---------------------------------------------------------------------------------------------
+// The grid, and the prior of a point of it.
+
+constexpr int kShares = 11;
+constexpr int kTimes = 9;
+constexpr int kRatios = 8;
+constexpr double kLeastRatio = 0.12;
+
+/// The SD of number k, of the noise's; each is twice the one before.
+double ratio(int k) { return k == 0 ? 0.0 : kLeastRatio * std::ldexp(1.0, k - 1); }
+/// Between it and the next one.
+double ratio_above(int k) { return kLeastRatio * std::ldexp(std::numbers::sqrt2, k - 1); }
+
+/// share, time, tissue, its length, strokes, model.
+using Node = std::array<int, 6>;
+
+Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
+  Mixture out;
+  if (in_time) {
+    const double least = std::log(prior.white_share_least / (1.0 - prior.white_share_least));
+    const double log_odds = least * (1.0 - 2.0 * node[0] / (kShares - 1.0));
+    out.white = 1.0 / (1.0 + std::exp(-log_odds));
+    out.time_s = prior.shortest_s *
+                 std::pow(prior.longest_s / prior.shortest_s, node[1] / (kTimes - 1.0));
+  } else {
+    out.white = 1.0;
+    out.time_s = prior.longest_s;
+  }
+  out.tissue = ratio(node[2]);
+  out.length_m = prior.tissue_lengths_m[static_cast<std::size_t>(node[3])];
+  out.stroke = ratio(node[4]);
+  out.model = ratio(node[5]);
+  return out;
+}
+
+/// Log density of s: bare bone, or tissue.
+double log_prior_of_standoff(const Prior& prior, double s_m) {
+  const auto half_normal = [&](double scale_m) {
+    return std::sqrt(2.0 / std::numbers::pi) / scale_m *
+           std::exp(-0.5 * s_m * s_m / (scale_m * scale_m));
+  };
+  return std::log(prior.bare_share * half_normal(prior.bare_m) +
+                  (1.0 - prior.bare_share) * half_normal(prior.tissue_m));
+}
+
+/// Probability that tissue of this mean height varies by less than `sd_m`.
+double varies_less(const Prior& prior, double sd_m, double s_m) {
+  return normal_cdf(std::log(sd_m / (prior.unevenness * std::max(s_m, 1e-9))) /
+                    prior.unevenness_log_sd);
+}
+
+double model_off_by_less(const Prior& prior, double sd_m) {
+  if (sd_m < prior.exact_m) {
+    return prior.exact_share * sd_m / prior.exact_m;
+  }
+  const double above = std::log(sd_m / prior.exact_m) / std::log(prior.worst_m / prior.exact_m);
+  return std::min(1.0, prior.exact_share + (1.0 - prior.exact_share) * above);
+}
+
+/// Log prior of a point of the grid, given s and the noise.
+double log_prior_of(const Prior& prior, const Node& node, double s_m, double noise_m) {
+  // The mass of a law between this SD and its neighbours.
+  const auto mass = [&](int k, const auto& less) {
+    const double low = k == 0 ? 0.0 : less(ratio_above(k - 1) * noise_m);
+    const double high = k == kRatios - 1 ? 1.0 : less(ratio_above(k) * noise_m);
+    return std::max(0.0, high - low);
+  };
+  const auto uneven = [&](double sd_m) { return varies_less(prior, sd_m, s_m); };
+  double tissue = mass(node[2], uneven);
+  if (node[2] > 0) {
+    tissue /= static_cast<double>(prior.tissue_lengths_m.size());
+  }
+  const double strokes = prior.uneven_hand_share * mass(node[4], uneven) +
+                         (node[4] == 0 ? 1.0 - prior.uneven_hand_share : 0.0);
+  const double model =
+      mass(node[5], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
+  const double z = std::log(noise_m / prior.noise_m) / prior.noise_log_sd;
+  const double noise = -0.5 * z * z -
+                       std::log(prior.noise_log_sd * std::sqrt(2.0 * std::numbers::pi));
+  return std::log(tissue) + std::log(strokes) + std::log(model) + noise;
+}
+
+// ---------------------------------------------------------------------------------------------
+// The evidence of a point of the grid.
+
+/// Nodes and weights of Gauss and Legendre's quadrature over [0, 1].
+struct Quadrature {
+  static constexpr std::size_t kNodes = 16;
+  std::array<double, kNodes> at{};
+  std::array<double, kNodes> weight{};
+  Quadrature() {
+    constexpr auto n = static_cast<double>(kNodes);
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      double x = std::cos(std::numbers::pi * (static_cast<double>(k) + 0.75) / (n + 0.5));
+      double slope = 1.0;
+      for (int round = 0; round < 50; ++round) {
+        double p0 = 1.0, p1 = x;
+        for (std::size_t j = 2; j <= kNodes; ++j) {
+          const auto d = static_cast<double>(j);
+          const double p2 = ((2.0 * d - 1.0) * x * p1 - (d - 1.0) * p0) / d;
+          p0 = p1;
+          p1 = p2;
+        }
+        slope = n * (x * p1 - p0) / (x * x - 1.0);
+        x -= p1 / slope;
+      }
+      at[k] = 0.5 * (1.0 - x);
+      weight[k] = 1.0 / ((1.0 - x * x) * slope * slope);
+    }
+  }
+};
+
+/// What a point of the grid says of the heights at a pose.
+struct Answer {
+  Part part;
+  double log_weight = kNever;  ///< evidence and prior, the pose integrated
+  double log_here = kNever;    ///< the pose being the one that the heights are of
+  double log_size = kNever;    ///< the pose and the size integrated
+  double size = 0.0, size_variance = 0.0;
+};
+
+std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const Prior& prior,
+                             const Node& node, const Mixture& mix) {
+  if (!covariances.whiten(mix)) {
+    return std::nullopt;
+  }
+  const Covariances::Products all = covariances.products();
+  const Covariances::Within within = covariances.within(mix);
+  const Matrix6 information = all.topLeftCorner<6, 6>();
+  const Eigen::LLT<Matrix6> llt(information);
+  if (llt.info() != Eigen::Success || !all.allFinite()) {
+    return std::nullopt;
+  }
+  const Vector6 pivots = llt.matrixLLT().diagonal();
+  constexpr double kLeastVisible = 1e-4;  // of the most visible motion's SD
+  if (!(pivots.minCoeff() > kLeastVisible * pivots.maxCoeff())) {
+    return std::nullopt;
+  }
+  const Eigen::Matrix<double, 6, 3> with = all.topRightCorner<6, 3>();
+  const Eigen::Matrix<double, 6, 3> solved = llt.solve(with);
+  // Standoff, size and height, less what the pose explains.
+  const Eigen::Matrix3d left = all.bottomRightCorner<3, 3>() - with.transpose() * solved;
+  const auto m = static_cast<double>(rows.units.size());
+  const double log_pose = pivots.array().log().sum();
+  const double dims = m + rows.within;
+  const double fixed = -0.5 * covariances.log_determinant() -
+                       0.5 * rows.within * within.log_determinant + rows.log_outliers;
+  const double inside_m2 = rows.within * within.quadratic;
+
+  // The range of s that counts.
+  const double freedom = dims - 6.0;
+  if (!(freedom > 1.0) || !(left(0, 0) > 0.0)) {
+    return std::nullopt;
+  }
+  const double s_at = left(0, 2) / left(0, 0);
+  const double noise0_m2 =
+      (left(2, 2) - (s_at > 0.0 ? left(0, 2) * s_at : 0.0) + inside_m2) / freedom;
+  const double sd_m = std::sqrt(noise0_m2 / left(0, 0));
+  constexpr double kWide = 4.5;
+  const double low_m = std::max(0.0, s_at - kWide * sd_m);
+  const double high_m = s_at > 0.0 ? s_at + kWide * sd_m
+                                   : s_at + std::sqrt(s_at * s_at + kWide * kWide * sd_m * sd_m);
+  static const Quadrature quadrature;
+  struct AtStandoff {
+    double s_m, log_all, log_here, log_size, noise_m2, size, size_variance;
+  };
+  std::array<AtStandoff, Quadrature::kNodes> at{};
+  double most = kNever;
+  const auto log_scale = [](double squares, double n) {
+    // The noise's SD integrated (Laplace's method in its logarithm).
+    return -0.5 * n * std::log(2.0 * std::numbers::pi * squares / n) - 0.5 * n +
+           0.5 * std::log(std::numbers::pi / n);
+  };
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const double t = quadrature.at[k];
+    AtStandoff& a = at[k];
+    // Denser where the range begins, at which the prior of bare bone is narrow.
+    a.s_m = low_m + (high_m - low_m) * t * t;
+    const double width_m = (high_m - low_m) * 2.0 * t * quadrature.weight[k];
+    const double squares =
+        left(2, 2) - 2.0 * a.s_m * left(0, 2) + a.s_m * a.s_m * left(0, 0) + inside_m2;
+    const double here = all(kHeight, kHeight) - 2.0 * a.s_m * all(kStandoff, kHeight) +
+                        a.s_m * a.s_m * all(kStandoff, kStandoff) + inside_m2;
+    a.noise_m2 = std::max(squares, 1e-18) / freedom;
+    const double prior_log = log_prior_of_standoff(prior, a.s_m) + std::log(width_m) +
+                             log_prior_of(prior, node, a.s_m, std::sqrt(a.noise_m2));
+    a.log_all = prior_log + fixed - log_pose + log_scale(squares, freedom);
+    a.log_here = prior_log + fixed + log_scale(here, dims);
+    // The size, with its prior.
+    const double by_height = left(1, 2) - a.s_m * left(0, 1);
+    const double precision = a.noise_m2 / (prior.size_sd * prior.size_sd);
+    const double size_information = left(1, 1) + precision;
+    const double squares_size = squares - by_height * by_height / size_information;
+    a.log_size = prior_log + fixed - log_pose + log_scale(squares_size, freedom) +
+                 0.5 * std::log(precision / size_information);
+    a.size = by_height / size_information;
+    a.size_variance = a.noise_m2 / size_information;
+    most = std::max({most, a.log_all});
+  }
+  if (!(most > kNever)) {
+    return std::nullopt;
+  }
+  Answer out;
+  double sum = 0.0, s_mean = 0.0, s_square = 0.0, noise_m2 = 0.0;
+  for (const AtStandoff& a : at) {
+    const double p = std::exp(a.log_all - most);
+    sum += p;
+    s_mean += p * a.s_m;
+    s_square += p * a.s_m * a.s_m;
+    noise_m2 += p * a.noise_m2;
+    out.log_here = log_sum(out.log_here, a.log_here);
+    out.log_size = log_sum(out.log_size, a.log_size);
+  }
+  double size_square = 0.0;
+  for (const AtStandoff& a : at) {
+    const double p = std::exp(a.log_size - out.log_size);
+    out.size += p * a.size;
+    size_square += p * (a.size_variance + a.size * a.size);
+  }
+  out.size_variance = std::max(0.0, size_square - out.size * out.size);
+  out.log_weight = most + std::log(sum);
+  s_mean /= sum;
+  noise_m2 /= sum;
+  const double s_variance = std::max(0.0, s_square / sum - s_mean * s_mean);
+  out.part.of = mix;
+  out.part.noise_m = std::sqrt(noise_m2);
+  out.part.standoff_m = s_mean;
+  out.part.standoff_sd_m = std::sqrt(s_variance);
+  Vector6 scale;
+  scale << 1.0, 1.0, 1.0, 1.0 / kLever_m, 1.0 / kLever_m, 1.0 / kLever_m;
+  const Vector6 by_standoff = scale.asDiagonal() * solved.col(0);
+  const Matrix6 inverse = llt.solve(Matrix6::Identity());
+  Eigen::Map<Vector6>(out.part.step.data()) =
+      scale.asDiagonal() * solved.col(2) - s_mean * by_standoff;
+  Eigen::Map<Rows6>(out.part.covariance.data()) =
+      noise_m2 * (scale.asDiagonal() * inverse * scale.asDiagonal()) +
+      s_variance * by_standoff * by_standoff.transpose();
+  if (!std::isfinite(out.log_weight) || !Eigen::Map<Vector6>(out.part.step.data()).allFinite()) {
+    return std::nullopt;
+  }
+  return out;
+}
+
+/// Points of the grid with their answers.
+using Answers = std::vector<std::pair<Node, Answer>>;
+
+double most_of(const Answers& answers) {
+  double most = kNever;
+  for (const auto& [node, a] : answers) {
+    most = std::max(most, a.log_weight);
+  }
+  return most;
+}
+
+/// Every point of the grid that has weight: from a few starts, the neighbours of whatever is
+/// likely.
+Answers explored(const Rows& rows, const Prior& prior, bool in_time) {
+  constexpr double kLikely = 6.0;
+  constexpr std::size_t kMost = 700;
+  Covariances covariances(rows, prior.model_length_m);
+  std::map<Node, std::optional<Answer>> seen;
+  std::priority_queue<std::pair<double, Node>> likely;
+  double most = kNever;
+  const auto look = [&](const Node& node) {
+    if (seen.size() >= kMost || seen.contains(node)) {
+      return;
+    }
+    auto found = answer(covariances, rows, prior, node, mixture(node, prior, in_time));
+    if (found) {
+      most = std::max(most, found->log_weight);
+      likely.emplace(found->log_weight, node);
+    }
+    seen.emplace(node, std::move(found));
+  };
+  const int length = 1;
+  for (const int share : in_time ? std::vector<int>{2, 5, 8} : std::vector<int>{0}) {
+    for (const int time : in_time ? std::vector<int>{3, 6} : std::vector<int>{0}) {
+      look({share, time, 0, length, 0, 0});
+      look({share, time, 3, length, 0, 0});
+      look({share, time, 0, length, 3, 0});
+      look({share, time, 0, length, 0, 3});
+    }
+  }
+  while (!likely.empty()) {
+    const auto [log_weight, node] = likely.top();
+    likely.pop();
+    if (log_weight < most - kLikely) {
+      break;
+    }
+    const Node most_of_each = {in_time ? kShares - 1 : 0, in_time ? kTimes - 1 : 0, kRatios - 1,
+                               static_cast<int>(prior.tissue_lengths_m.size()) - 1, kRatios - 1,
+                               kRatios - 1};
+    for (std::size_t k = 0; k < node.size(); ++k) {
+      for (const int by : {-1, 1}) {
+        Node next = node;
+        next[k] += by;
+        if (next[k] < 0 || next[k] > most_of_each[k] || (k == 3 && node[2] == 0)) {
+          continue;
+        }
+        if (next[2] == 0) {
+          next[3] = length;  // without tissue the length means nothing
+        }
+        look(next);
+        if (k == 2 && node[2] == 0) {
+          for (int other = 0; other <= most_of_each[3]; ++other) {
+            next[3] = other;
+            look(next);
+          }
+        }
+      }
+    }
+  }
+  Answers out;
+  for (auto& [node, found] : seen) {
+    if (found && found->log_weight > most - kLikely) {
+      out.emplace_back(node, std::move(*found));
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
+    return a.second.log_weight > b.second.log_weight;
+  });
+  return out;
+}
+
+Answers answers_at(const Rows& rows, const Prior& prior, bool in_time,
+                   std::span<const Node> nodes) {
+  Covariances covariances(rows, prior.model_length_m);
+  Answers out;
+  for (const Node& node : nodes) {
+    if (auto found = answer(covariances, rows, prior, node, mixture(node, prior, in_time))) {
+      out.emplace_back(node, std::move(*found));
+    }
+  }
+  return out;
+}
+
+std::vector<Node> nodes_of(const Answers& answers, std::size_t most) {
+  std::vector<Node> nodes;
+  for (const auto& [node, a] : answers) {
+    if (nodes.size() < most) {
+      nodes.push_back(node);
+    }
+  }
+  return nodes;
+}
+
+Vector6 mean_step(const Answers& answers) {
+  const double most = most_of(answers);
+  double sum = 0.0;
+  Vector6 mean = Vector6::Zero();
+  for (const auto& [node, a] : answers) {
+    const double p = std::exp(a.log_weight - most);
+    sum += p;
+    mean += p * Eigen::Map<const Vector6>(a.part.step.data());
+  }
+  return mean / sum;
+}
+
+double log_here(const Answers& answers) {
+  double sum = kNever;
+  for (const auto& [node, a] : answers) {
+    sum = log_sum(sum, a.log_here);
+  }
+  return sum;
+}
+
+/// Vertebra from World after a step of the points about their centre.
+Transform<Vertebra, World> stepped(const Touches& t, const Vector6& step) {
+  const Mat3 turn = rotation_from_vector({step(3), step(4), step(5)});
+  const Mat3 rotation = orthonormalized(turn * t.from_world.rotation());
+  const Vec3 centre = t.centre_m + Vec3{step(0), step(1), step(2)};
+  // The centre of the points goes along.
+  const Vec3 centre_in_world = (t.from_world.inverse() * Point<Vertebra>{t.centre_m}).v;
+  return {rotation, centre - rotation * centre_in_world};
+}
+
+Posterior assembled(const Touches& t, const Rows& rows, const Prior& prior, Answers answers) {
+  Posterior out;
+  out.centre_m = t.centre_m;
+  std::stable_sort(answers.begin(), answers.end(), [](const auto& a, const auto& b) {
+    return a.second.log_weight > b.second.log_weight;
+  });
+  // The steps of the grid in the noise's share and time are common to all hypotheses.
+  double all = kNever, with_size = kNever;
+  for (const auto& [node, a] : answers) {
+    all = log_sum(all, a.log_weight);
+    with_size = log_sum(with_size, a.log_size);
+  }
+  out.log_evidence = all;
+  out.size_log_evidence = with_size - all;
+  double size = 0.0, size_square = 0.0;
+  Vector6 mean = Vector6::Zero();
+  double uneven_m2 = 0.0;
+  for (auto& [node, a] : answers) {
+    a.part.weight = std::exp(a.log_weight - all);
+    const double p = std::exp(a.log_size - with_size);
+    size += p * a.size;
+    size_square += p * (a.size_variance + a.size * a.size);
+    mean += a.part.weight * Eigen::Map<const Vector6>(a.part.step.data());
+    out.noise_m += a.part.weight * a.part.noise_m;
+    out.standoff_m += a.part.weight * a.part.standoff_m;
+    uneven_m2 += a.part.weight * a.part.noise_m * a.part.noise_m *
+                 (a.part.of.tissue * a.part.of.tissue + a.part.of.stroke * a.part.of.stroke +
+                  a.part.of.model * a.part.of.model);
+  }
+  out.size = std::exp(size);
+  out.size_sd = std::sqrt(std::max(0.0, size_square - size * size));
+  out.uneven_m = std::sqrt(uneven_m2);
+  out.spread_m = t.spread_m;
+  Matrix6 covariance = Matrix6::Zero();
+  for (auto& [node, a] : answers) {
+    Eigen::Map<Vector6> step(a.part.step.data());
+    step -= mean;
+    covariance += a.part.weight * (Eigen::Map<const Rows6>(a.part.covariance.data()) +
+                                   step * step.transpose());
+    out.parts.push_back(a.part);
+  }
+  Eigen::Map<Rows6>(out.covariance.data()) = covariance;
+  out.world_from_vertebra = stepped(t, mean).inverse();
+  out.inlier_share = t.inliers / static_cast<double>(t.all.size());
+  for (const auto& touch : t.all) {
+    out.height_m.push_back(touch.height_m);
+    out.belongs.push_back(touch.belongs);
+  }
+  (void)rows;
+  (void)prior;
+  return out;
+}
+
+}  // namespace
+
+std::optional<Posterior> posterior_of(const Observations& observations, const BoneSurface& bone,
+                                      const Prior& prior, const Transform<World, Vertebra>& start,
+                                      Effort effort) {
+  constexpr std::size_t kFewUnits = 64;
+  constexpr std::size_t kManyUnits = 160;
+  constexpr std::size_t kFewestPoints = 24;
+  constexpr std::size_t kSteering = 8;  // points of the grid that the descent uses
+  constexpr std::size_t kKept = 120;
+  constexpr int kMostSteps = 12;
+  constexpr int kMostHalvings = 4;
+  constexpr double kStands_m = 3e-6;
+  if (observations.strokes.size() < kFewestPoints) {
+    return std::nullopt;
+  }
+  Problem problem{observations, bone, prior, {}, {}};
+  for (const StrokePoint& p : observations.strokes) {
+    problem.centre_in_world_m += p.tip.v / static_cast<double>(observations.strokes.size());
+  }
+  const bool in_time = observations.in_time;
+  const std::vector<Unit> few = units_of(observations, kFewUnits);
+  const std::vector<Unit> many =
+      effort == Effort::kFull ? units_of(observations, kManyUnits) : std::vector<Unit>{};
+  const std::vector<Unit>& steered = effort == Effort::kFull ? many : few;
+  problem.blocks = blocks_of(observations, many.empty() ? few : many);
+
+  Touches here = touches_at(problem, start.inverse(), nullptr);
+  std::vector<Node> nodes;
+  int steps = 0;
+  // The grid is looked through where the descent begins, and again where it ends.
+  for (const bool last : {false, true}) {
+    nodes = nodes_of(explored(rows_of(problem, few, here), prior, in_time), kKept);
+    if (nodes.empty()) {
+      return std::nullopt;
+    }
+    const std::span<const Node> steering =
+        std::span<const Node>(nodes).first(std::min(kSteering, nodes.size()));
+    Answers answers = answers_at(rows_of(problem, steered, here), prior, in_time, steering);
+    for (int k = 0; k < (last ? 3 : kMostSteps) && !answers.empty(); ++k) {
+      Vector6 step = mean_step(answers);
+      const double before = log_here(answers);
+      bool better = false;
+      for (int halved = 0; halved <= kMostHalvings && !better; ++halved, step *= 0.5) {
+        Touches there = touches_at(problem, stepped(here, step), &here);
+        Answers then = answers_at(rows_of(problem, steered, there), prior, in_time, steering);
+        better = !then.empty() && log_here(then) >= before;
+        if (better) {
+          here = std::move(there);
+          answers = std::move(then);
+          ++steps;
+          break;
+        }
+      }
+      if (!better || (step.head<3>().norm() < kStands_m && kLever_m * step.tail<3>().norm() < kStands_m)) {
+        break;
+      }
+    }
+    if (effort == Effort::kRough) {
+      break;
+    }
+  }
+  const Rows rows = rows_of(problem, steered, here);
+  Answers answers = answers_at(rows, prior, in_time, nodes);
+  if (answers.empty()) {
+    return std::nullopt;
+  }
+  Posterior out = assembled(here, rows, prior, std::move(answers));
+  out.iterations = steps;
+  return out;
+}
+
+}  // namespace orthonav::nav::posterior

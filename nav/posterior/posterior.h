@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "nav/posterior/bone_surface.h"
+#include "nav/posterior/observations.h"
+#include "nav/posterior/prior.h"
+
+namespace orthonav::nav::posterior {
+
+// The model of the heights. Under a pose, the signed distance d of a point at place p, at time t of
+// stroke k, is
+//
+//   d = s (1 + k u(p)) + f(p) + g(k) + n(t)
+//
+// s >= 0 is the mean height of the tip (tissue, a light hand), u a Gaussian field over the bone
+// (tissue's thickness), f another (the model is not the bone), g a height per stroke, n the noise of
+// hand and tracker: white from point to point, and wandering along a stroke (Ornstein-Uhlenbeck).
+// Or the point has nothing to do with the bone, and d is anything within a range.
+//
+// Points are averaged over some 160 units of their strokes, whose heights are the rows; what points
+// deviate from the mean of eight tells of the noise from point to point. Everything but pose and s
+// is a hyperparameter, whose joint grid is summed over; the scale of all variances and the size of
+// the model are integrated in closed form, s by quadrature. The pose has a flat prior. (Rasmussen &
+// Williams 2006, sections 2.7 and 5.4.)
+
+/// A point of the grid: what the heights consist of, relative to the noise.
+struct Mixture {
+  double white = 0.0;        ///< share of the noise's variance that is white
+  double time_s = 0.0;       ///< correlation time of the rest
+  double tissue = 0.0;       ///< SD of tissue over the bone, of the noise's SD; 0: there is none
+  double length_m = 0.0;     ///< over which its covariance falls to 1/e
+  double stroke = 0.0;       ///< SD of the strokes' heights, of the noise's SD
+  double model = 0.0;        ///< SD of the model's error, of the noise's SD
+};
+
+/// What one point of the grid says.
+struct Part {
+  Mixture of;
+  double weight = 0.0;  ///< its probability
+  double noise_m = 0.0;
+  double standoff_m = 0.0;  ///< mean of s, and its SD
+  double standoff_sd_m = 0.0;
+  /// Of the pose: the step of the points (translation m, rotation vector rad) about
+  /// `Posterior::centre_m` in the model's frame, and its covariance by rows.
+  std::array<double, 6> step{};
+  std::array<double, 36> covariance{};
+};
+
+/// The posterior of the pose under one hypothesis, as a mixture of Gaussians.
+struct Posterior {
+  Transform<World, Vertebra> world_from_vertebra;  ///< at its mean
+  Vec3 centre_m;                                   ///< of the points, in the model's frame
+  std::vector<Part> parts;                         ///< the likeliest first; weights add up to 1
+  std::array<double, 36> covariance{};             ///< of all parts together
+  double log_evidence = 0.0;
+  /// Log evidence of a model of any size against one of its own, without the odds; and the size then,
+  /// of the bone relative to the model.
+  double size_log_evidence = 0.0;
+  double size = 1.0;
+  double size_sd = 0.0;
+  double noise_m = 0.0;     ///< SD of points about the bone
+  double standoff_m = 0.0;  ///< mean height of the tip above the bone
+  double uneven_m = 0.0;    ///< SD over the bone of what is not noise
+  double spread_m = 0.0;    ///< SD of the heights altogether
+  double inlier_share = 0.0;
+  int iterations = 0;
+  /// For each point: its signed distance less the ball's radius, and the probability that it belongs
+  /// to the bone.
+  std::vector<double> height_m;
+  std::vector<double> belongs;
+};
+
+/// How closely to look: `kRough` tells hypotheses that are far worse, for little time.
+enum class Effort : std::uint8_t { kRough, kFull };
+
+/// The posterior near `start`. Empty where the points leave a motion undetermined.
+[[nodiscard]] std::optional<Posterior> posterior_of(const Observations& observations,
+                                                    const BoneSurface& bone, const Prior& prior,
+                                                    const Transform<World, Vertebra>& start,
+                                                    Effort effort = Effort::kFull);
+
+}  // namespace orthonav::nav::posterior
