@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 
 #include "bench/registration_peers.h"
 #include "engine/session/findings_wording.h"
@@ -110,6 +111,11 @@ RegistrationMethod posterior(double common_m) {
                             1e3 * d->answer.standoff_m, 1e3 * d->answer.noise_m,
                             1e3 * d->answer.uneven_m, d->answer.size, d->answer.size_sd, 1e3 * d->rms_m);
               fitted.reason = text;
+              if (getenv("PARTS")) for (std::size_t k = 0; k < std::min<std::size_t>(8, d->answer.parts.size()); ++k) {
+                const auto& q = d->answer.parts[k];
+                std::snprintf(text, sizeof text, "\n   w %.3f white %.3f time %.2f tissue %.2f L %.0f %s stroke %.2f model %.2f noise %.2f s %.2f", q.weight, q.of.white, q.of.time_s, q.of.tissue, 1e3*q.of.length_m, q.of.smooth ? "smooth" : "rough", q.of.stroke, q.of.model, 1e3*q.noise_m, 1e3*q.standoff_m);
+                fitted.reason += text;
+              }
               for (const auto& e : d->explanations) {
                 std::snprintf(text, sizeof text, "; %d%s p %.2g wrong %.2g", static_cast<int>(e.kind), e.level.c_str(), e.probability, e.wrong);
                 fitted.reason += text;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace orthonav::nav::posterior {
 
@@ -28,6 +29,25 @@ BoneSurface::Place BoneSurface::at(Vec3 query_m, double within_m) const {
 BoneSurface::Place BoneSurface::near(Vec3 query_m, Vec3 hint_m) const {
   constexpr double kRounding = 1.0 + 1e-12;
   return at(query_m, (query_m - hint_m).norm() * kRounding + 1e-12);
+}
+
+double BoneSurface::curvature_1_m(Vec3 place_m, Vec3 out, double aside_m) const {
+  // At this distance along the tangents the bone lies lower by half the curvature times its square.
+  constexpr int kDirections = 8;
+  if (!(out.squared_norm() > 0.5)) {
+    return 0.0;
+  }
+  const Vec3 any = std::abs(out.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 first = out.cross(any).normalized();
+  const Vec3 second = out.cross(first);
+  double sum_m = 0.0;
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / kDirections;
+    sum_m += at(place_m + aside_m * (std::cos(angle) * first + std::sin(angle) * second),
+                2.0 * aside_m)
+                 .distance_m;
+  }
+  return 4.0 * sum_m / (kDirections * aside_m * aside_m);
 }
 
 }  // namespace orthonav::nav::posterior

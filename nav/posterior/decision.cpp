@@ -40,9 +40,9 @@ struct Tried {
   [[nodiscard]] double log_weight() const {
     return found ? log_odds + found->log_evidence : kImpossible;
   }
-  void look(const Prior& prior, Effort effort) {
+  void look(const Prior& prior, Effort effort, const Hand* hand = nullptr) {
     found = posterior_of(*observations, BoneSurface(*model), prior,
-                         found ? found->world_from_vertebra : start, effort);
+                         found ? found->world_from_vertebra : start, effort, hand);
   }
 };
 
@@ -190,48 +190,44 @@ std::optional<Decision> decided(const VertebraModel& model, const Observations& 
     }
   };
   add_poses(Explanation::Kind::kAnswer, {}, model, 8);
+  for (Tried& t : tried) {
+    t.look(prior, Effort::kRough);
+  }
+  const auto likelier = [](const Tried& a, const Tried& b) {
+    return a.log_weight() < b.log_weight();
+  };
+  if (tried.empty()) {
+    return std::nullopt;
+  }
+  std::iter_swap(tried.begin(), std::max_element(tried.begin(), tried.end(), likelier));
+  if (!tried[0].found) {
+    return std::nullopt;
+  }
+  // The others with the hand of the best one.
+  const Hand rough_hand = tried[0].found->hand;
   for (const NeighbourLevel& level : question.neighbours) {
     add_poses(Explanation::Kind::kLevel, level.label, *level.model, 2);
   }
-  for (Tried& t : tried) {
-    t.look(prior, Effort::kRough);
+  const Observations swapped = mirrored(observations, tried[0].found->world_from_vertebra);
+  Tried mirror;
+  mirror.kind = Explanation::Kind::kMirror;
+  mirror.log_odds = std::log(prior.mirror_odds);
+  mirror.model = &model;
+  mirror.observations = &swapped;
+  mirror.start = mirrored_start(model, cloud_of(swapped));
+  tried.push_back(mirror);
+  for (std::size_t i = 1; i < tried.size(); ++i) {
+    tried[i].look(prior, Effort::kRough, &rough_hand);
   }
-  const auto best_pose = [&] {
-    return std::max_element(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) {
-      const bool own_a = a.kind == Explanation::Kind::kAnswer;
-      const bool own_b = b.kind == Explanation::Kind::kAnswer;
-      return std::pair(own_a, own_a ? a.log_weight() : 0.0) <
-             std::pair(own_b, own_b ? b.log_weight() : 0.0);
-    });
-  };
-  if (tried.empty() || !best_pose()->found) {
-    return std::nullopt;
-  }
-  const Observations swapped = mirrored(observations, best_pose()->found->world_from_vertebra);
-  {
-    Tried t;
-    t.kind = Explanation::Kind::kMirror;
-    t.log_odds = std::log(prior.mirror_odds);
-    t.model = &model;
-    t.observations = &swapped;
-    t.start = mirrored_start(model, cloud_of(swapped));
-    t.look(prior, Effort::kRough);
-    tried.push_back(t);
-  }
-  double most = kImpossible;
-  for (const Tried& t : tried) {
-    most = std::max(most, t.log_weight());
-  }
-  const double own = best_pose()->log_weight();
-  std::erase_if(tried, [&](const Tried& t) {
-    return !(t.log_weight() > std::min(own, most) - kFarWorse);
-  });
-  for (Tried& t : tried) {
-    t.look(prior, Effort::kFull);
-  }
-  std::iter_swap(tried.begin(), best_pose());
+  const double own = tried[0].log_weight();
+  std::erase_if(tried, [&](const Tried& t) { return !(t.log_weight() >= own - kFarWorse); });
+  tried[0].look(prior, Effort::kFull);
   if (!tried[0].found) {
     return std::nullopt;
+  }
+  const Hand hand = tried[0].found->hand;
+  for (std::size_t i = 1; i < tried.size(); ++i) {
+    tried[i].look(prior, Effort::kFull, &hand);
   }
   Decision out;
   out.answer = *tried[0].found;

@@ -38,7 +38,10 @@ struct Problem {
   const Prior& prior;
   Vec3 centre_in_world_m;
   std::vector<std::array<std::uint32_t, kBlock>> blocks;
+  const Hand* hand = nullptr;
 };
+
+using Square = Eigen::Matrix<double, kBlock, kBlock>;
 
 /// Every point at a pose.
 struct Touches {
@@ -50,6 +53,9 @@ struct Touches {
     Vec3 nearest_m;
     double height_m = 0.0;
     double belongs = 1.0;
+    /// Sum of the bone's curvatures there, convex positive: points that scatter about a curved
+    /// surface lie, on average, half of it times their variance off the surface.
+    double curvature_1_m = 0.0;
   };
   std::vector<Touch> all;
   double spread_m = 0.0;
@@ -59,7 +65,8 @@ struct Touches {
 
 /// Which points belong to the bone, by a mixture of a Gaussian about the mean height and an even
 /// density (expectation maximization, from the median).
-void tell_outliers(const Prior& prior, Touches& t) {
+void tell_outliers(const Problem& problem, Touches& t) {
+  const Prior& prior = problem.prior;
   constexpr int kRounds = 8;
   constexpr double kLeast_m = 0.0001;
   constexpr double kMost_m = 0.004;
@@ -79,13 +86,15 @@ void tell_outliers(const Prior& prior, Touches& t) {
   }
   double sd_m = std::clamp(kSdByMedian * median(heights), kLeast_m, kMost_m);
   const double outside = prior.outlier_share / prior.outlier_range_m;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < (problem.hand != nullptr ? 1 : kRounds); ++round) {
     double sum = 0.0, sum_m = 0.0, sum_m2 = 0.0;
-    for (auto& touch : t.all) {
+    for (std::size_t i = 0; i < t.all.size(); ++i) {
+      Touches::Touch& touch = t.all[i];
       const double z = (touch.height_m - mean_m) / sd_m;
       const double inside = (1.0 - prior.outlier_share) * std::exp(-0.5 * z * z) /
                             (sd_m * std::sqrt(2.0 * std::numbers::pi));
-      touch.belongs = inside / (inside + outside);
+      touch.belongs =
+          problem.hand != nullptr ? problem.hand->belongs[i] : inside / (inside + outside);
       sum += touch.belongs;
       sum_m += touch.belongs * touch.height_m;
       sum_m2 += touch.belongs * touch.height_m * touch.height_m;
@@ -123,32 +132,70 @@ Touches touches_at(const Problem& problem, const Transform<Vertebra, World>& fro
     touch.nearest_m = place.nearest_m;
     touch.height_m = place.distance_m - problem.observations.tip_radius_m;
   }
-  tell_outliers(problem.prior, out);
+  tell_outliers(problem, out);
+  constexpr std::size_t kEvery = 5;  // points 0.7 mm apart
+  for (std::size_t i = 0; i < out.all.size(); ++i) {
+    out.all[i].curvature_1_m =
+        hint != nullptr ? hint->all[i].curvature_1_m
+        : i % kEvery == 0
+            ? problem.bone.curvature_1_m(out.all[i].nearest_m, out.all[i].out,
+                                         std::numbers::sqrt2 * out.spread_m)
+            : out.all[i - 1].curvature_1_m;
+  }
   return out;
 }
 
-constexpr std::size_t kColumns = 9;  // pose, standoff, size, height
-constexpr std::size_t kStandoff = 6;
-constexpr std::size_t kSize = 7;
-constexpr std::size_t kHeight = 8;
+constexpr std::size_t kColumns = 10;  // pose, standoff, size, curvature, height
 
 /// The units' mean heights, and how points scatter within blocks.
 struct Rows {
   std::vector<const Unit*> units;  ///< those of which enough belongs to the bone
   std::vector<double> points;      ///< of each
   std::vector<std::array<double, kColumns>> columns;
-  using Scatter = Eigen::Matrix<double, kBlock, kBlock>;
-  Scatter scatter_m2 = Scatter::Zero();  ///< mean product of deviations
-  double blocks = 0.0;
-  std::array<double, kBlock> lag_s{};  ///< mean, by lag
-  std::array<double, kBlock> lag_m{};
+  Hand hand;
   double within = 0.0;  ///< dimensions of what is within blocks
   double log_outliers = 0.0;
 };
 
+/// Of the blocks all of whose points belong to the bone.
+Hand hand_of(const Problem& problem, const Touches& t) {
+  constexpr double kBelongs = 0.5;
+  Hand out;
+  Eigen::Map<Square> products(out.products_m2.data());
+  for (const auto& block : problem.blocks) {
+    Eigen::Matrix<double, kBlock, 1> heights;
+    bool all = true;
+    for (std::size_t k = 0; k < kBlock; ++k) {
+      heights(static_cast<Eigen::Index>(k)) = t.all[block[k]].height_m;
+      all = all && t.all[block[k]].belongs > kBelongs;
+    }
+    if (!all) {
+      continue;
+    }
+    heights.array() -= heights.mean();
+    products += heights * heights.transpose();
+    out.blocks += 1.0;
+    for (std::size_t lag = 1; lag < kBlock; ++lag) {
+      for (std::size_t k = 0; k + lag < kBlock; ++k) {
+        const StrokePoint& a = problem.observations.strokes[block[k]];
+        const StrokePoint& b = problem.observations.strokes[block[k + lag]];
+        out.lag_s[lag] += (b.time_s - a.time_s) / static_cast<double>(kBlock - lag);
+        out.lag_m[lag] += (b.tip - a.tip).norm() / static_cast<double>(kBlock - lag);
+      }
+    }
+  }
+  if (out.blocks > 0.0) {
+    products /= out.blocks;
+    for (std::size_t lag = 1; lag < kBlock; ++lag) {
+      out.lag_s[lag] /= out.blocks;
+      out.lag_m[lag] /= out.blocks;
+    }
+  }
+  return out;
+}
+
 Rows rows_of(const Problem& problem, std::span<const Unit> units, const Touches& t) {
   constexpr double kLeastOfUnit = 0.25;
-  constexpr double kBelongs = 0.5;
   Rows rows;
   rows.log_outliers = t.log_outliers;
   for (const Unit& unit : units) {
@@ -159,7 +206,9 @@ Rows rows_of(const Problem& problem, std::span<const Unit> units, const Touches&
       const Vec3 turned = touch.lever_m.cross(touch.out) / kLever_m;
       const std::array<double, kColumns> one = {
           -touch.out.x, -touch.out.y, -touch.out.z, -turned.x,       -turned.y,
-          -turned.z,    1.0,          touch.lever_m.dot(touch.out), touch.height_m};
+          -turned.z,
+          // Of the place on the surface: the tip's own lever holds the height that it is to explain.
+          1.0, (touch.nearest_m - t.centre_m).dot(touch.out), touch.curvature_1_m, touch.height_m};
       sum += touch.belongs;
       for (std::size_t k = 0; k < kColumns; ++k) {
         mean[k] += touch.belongs * one[k];
@@ -175,37 +224,8 @@ Rows rows_of(const Problem& problem, std::span<const Unit> units, const Touches&
     rows.points.push_back(sum);
     rows.columns.push_back(mean);
   }
-  for (const auto& block : problem.blocks) {
-    Eigen::Matrix<double, kBlock, 1> heights;
-    bool all = true;
-    for (std::size_t k = 0; k < kBlock; ++k) {
-      heights(static_cast<Eigen::Index>(k)) = t.all[block[k]].height_m;
-      all = all && t.all[block[k]].belongs > kBelongs;
-    }
-    if (!all) {
-      continue;
-    }
-    heights.array() -= heights.mean();
-    rows.scatter_m2 += heights * heights.transpose();
-    rows.blocks += 1.0;
-    for (std::size_t lag = 1; lag < kBlock; ++lag) {
-      double time_s = 0.0, distance_m = 0.0;
-      for (std::size_t k = 0; k + lag < kBlock; ++k) {
-        const StrokePoint& a = problem.observations.strokes[block[k]];
-        const StrokePoint& b = problem.observations.strokes[block[k + lag]];
-        time_s += b.time_s - a.time_s;
-        distance_m += (b.tip - a.tip).norm();
-      }
-      rows.lag_s[lag] += time_s / static_cast<double>(kBlock - lag);
-      rows.lag_m[lag] += distance_m / static_cast<double>(kBlock - lag);
-    }
-  }
-  if (rows.blocks > 0.0) {
-    rows.scatter_m2 /= rows.blocks;
-    for (std::size_t lag = 1; lag < kBlock; ++lag) {
-      rows.lag_s[lag] /= rows.blocks;
-      rows.lag_m[lag] /= rows.blocks;
-    }
+  rows.hand = problem.hand != nullptr ? *problem.hand : hand_of(problem, t);
+  if (rows.hand.blocks > 0.0) {
     rows.within = std::max(0.0, t.inliers - static_cast<double>(rows.units.size()));
   }
   return rows;
@@ -214,9 +234,22 @@ Rows rows_of(const Problem& problem, std::span<const Unit> units, const Touches&
 // ---------------------------------------------------------------------------------------------
 // Covariances: of the units' heights, and within a block, in units of the noise's variance.
 
-/// Mean correlation of a field between two units, by their halves.
-double between(const Unit& a, const Unit& b, double length_m) {
-  const auto correlation = [&](Vec3 p, Vec3 q) { return std::exp(-(p - q).norm() / length_m); };
+/// Correlation of a field, which falls to 1/e over its length: exponential where it is rough, and
+/// Matern's of order 3/2 where it is smooth.
+struct Field {
+  double length_m = 0.0;
+  bool smooth = false;
+  [[nodiscard]] double at(double distance_m) const {
+    constexpr double kByLength = 2.146193;  // (1 + x) exp(-x) = 1/e
+    const double x = distance_m / length_m;
+    return smooth ? (1.0 + kByLength * x) * std::exp(-kByLength * x) : std::exp(-x);
+  }
+  friend auto operator<=>(const Field&, const Field&) = default;
+};
+
+/// Its mean between two units, by their halves.
+double between(const Unit& a, const Unit& b, const Field& field) {
+  const auto correlation = [&](Vec3 p, Vec3 q) { return field.at((p - q).norm()); };
   constexpr double kFar = 4.0;
   const Vec3 middle_a = 0.5 * (a.quarter_m + a.three_quarters_m);
   const Vec3 middle_b = 0.5 * (b.quarter_m + b.three_quarters_m);
@@ -251,8 +284,10 @@ class Covariances {
   /// Whitened columns of the rows; false where the covariance is not positive definite.
   bool whiten(const Mixture& mix) {
     const std::size_t m = rows_.units.size();
-    const Eigen::MatrixXd* const tissue = mix.tissue > 0.0 ? &field(mix.length_m) : nullptr;
-    const Eigen::MatrixXd* const model = mix.model > 0.0 ? &field(model_length_m_) : nullptr;
+    const Eigen::MatrixXd* const tissue =
+        mix.tissue > 0.0 ? &field({mix.length_m, mix.smooth}) : nullptr;
+    const Eigen::MatrixXd* const model =
+        mix.model > 0.0 ? &field({model_length_m_, true}) : nullptr;
     const Eigen::MatrixXd* const noise = mix.white < 1.0 ? &along(mix.time_s) : nullptr;
     const double tissue2 = mix.tissue * mix.tissue;
     const double model2 = mix.model * mix.model;
@@ -302,22 +337,22 @@ class Covariances {
     double quadratic = 0.0;        ///< a dimension, m^2
   };
   [[nodiscard]] Within within(const Mixture& mix) const {
-    if (!(rows_.blocks > 0.0)) {
+    if (!(rows_.hand.blocks > 0.0)) {
       return {};
     }
     std::array<double, kBlock> by_lag{};
     for (std::size_t lag = 0; lag < kBlock; ++lag) {
       by_lag[lag] = (lag == 0 ? mix.white : 0.0);
       if (mix.white < 1.0) {
-        by_lag[lag] += (1.0 - mix.white) * std::exp(-rows_.lag_s[lag] / mix.time_s);
+        by_lag[lag] += (1.0 - mix.white) * std::exp(-rows_.hand.lag_s[lag] / mix.time_s);
       }
       if (mix.tissue > 0.0) {
-        by_lag[lag] += mix.tissue * mix.tissue * std::exp(-rows_.lag_m[lag] / mix.length_m);
+        by_lag[lag] +=
+            mix.tissue * mix.tissue * Field{mix.length_m, mix.smooth}.at(rows_.hand.lag_m[lag]);
       }
-      by_lag[lag] += mix.model * mix.model * std::exp(-rows_.lag_m[lag] / model_length_m_);
+      by_lag[lag] += mix.model * mix.model * Field{model_length_m_, true}.at(rows_.hand.lag_m[lag]);
     }
     // Deviations from the mean: what is left in the seven directions across (1, ..., 1).
-    using Square = Eigen::Matrix<double, kBlock, kBlock>;
     Square covariance;
     for (std::size_t a = 0; a < kBlock; ++a) {
       for (std::size_t b = 0; b < kBlock; ++b) {
@@ -329,7 +364,8 @@ class Covariances {
     static const Across across = helmert();
     using Small = Eigen::Matrix<double, kBlock - 1, kBlock - 1>;
     const Small c = across * covariance * across.transpose();
-    const Small s = across * rows_.scatter_m2 * across.transpose();
+    const Small s =
+        across * Eigen::Map<const Square>(rows_.hand.products_m2.data()) * across.transpose();
     const Eigen::LLT<Small> llt(c);
     constexpr double kDimensions = kBlock - 1;
     double log_determinant = 0.0;
@@ -349,8 +385,8 @@ class Covariances {
     }
     return h;
   }
-  template <class Of>
-  const Eigen::MatrixXd& kept(std::map<double, Eigen::MatrixXd>& all, double key, const Of& of) {
+  template <class Key, class Of>
+  const Eigen::MatrixXd& kept(std::map<Key, Eigen::MatrixXd>& all, const Key& key, const Of& of) {
     auto [place, is_new] = all.try_emplace(key);
     if (is_new) {
       const auto m = static_cast<Eigen::Index>(rows_.units.size());
@@ -364,9 +400,8 @@ class Covariances {
     }
     return place->second;
   }
-  const Eigen::MatrixXd& field(double length_m) {
-    return kept(fields_, length_m,
-                [&](const Unit& a, const Unit& b) { return between(a, b, length_m); });
+  const Eigen::MatrixXd& field(const Field& of) {
+    return kept(fields_, of, [&](const Unit& a, const Unit& b) { return between(a, b, of); });
   }
   const Eigen::MatrixXd& along(double time_s) {
     return kept(noises_, time_s, [&](const Unit& a, const Unit& b) {
@@ -376,7 +411,7 @@ class Covariances {
 
   const Rows& rows_;
   double model_length_m_;
-  std::map<double, Eigen::MatrixXd> fields_;
+  std::map<Field, Eigen::MatrixXd> fields_;
   std::map<double, Eigen::MatrixXd> noises_;
   WhitenedSystem system_;
 };
@@ -394,7 +429,7 @@ double ratio(int k) { return k == 0 ? 0.0 : kLeastRatio * std::ldexp(1.0, k - 1)
 /// Between it and the next one.
 double ratio_above(int k) { return kLeastRatio * std::ldexp(std::numbers::sqrt2, k - 1); }
 
-/// share, time, tissue, its length, strokes, model.
+/// share, time, tissue, its length and smoothness, strokes, model.
 using Node = std::array<int, 6>;
 
 Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
@@ -410,7 +445,8 @@ Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
     out.time_s = prior.longest_s;
   }
   out.tissue = ratio(node[2]);
-  out.length_m = prior.tissue_lengths_m[static_cast<std::size_t>(node[3])];
+  out.length_m = prior.tissue_lengths_m[static_cast<std::size_t>(node[3]) / 2];
+  out.smooth = node[3] % 2 == 1;
   out.stroke = ratio(node[4]);
   out.model = ratio(node[5]);
   return out;
@@ -451,7 +487,7 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
   const auto uneven = [&](double sd_m) { return varies_less(prior, sd_m, s_m); };
   double tissue = mass(node[2], uneven);
   if (node[2] > 0) {
-    tissue /= static_cast<double>(prior.tissue_lengths_m.size());
+    tissue /= 2.0 * static_cast<double>(prior.tissue_lengths_m.size());
   }
   const double strokes = prior.uneven_hand_share * mass(node[4], uneven) +
                          (node[4] == 0 ? 1.0 - prior.uneven_hand_share : 0.0);
@@ -519,10 +555,12 @@ std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const P
   if (!(pivots.minCoeff() > kLeastVisible * pivots.maxCoeff())) {
     return std::nullopt;
   }
-  const Eigen::Matrix<double, 6, 3> with = all.topRightCorner<6, 3>();
-  const Eigen::Matrix<double, 6, 3> solved = llt.solve(with);
-  // Standoff, size and height, less what the pose explains.
-  const Eigen::Matrix3d left = all.bottomRightCorner<3, 3>() - with.transpose() * solved;
+  using Four = Eigen::Matrix<double, 6, 4>;
+  const Four with_four = all.topRightCorner<6, 4>();
+  const Four solved_four = llt.solve(with_four);
+  // Standoff, size, curvature and height, less what the pose explains.
+  const Eigen::Matrix4d left_four =
+      all.bottomRightCorner<4, 4>() - with_four.transpose() * solved_four;
   const auto m = static_cast<double>(rows.units.size());
   const double log_pose = pivots.array().log().sum();
   const double dims = m + rows.within;
@@ -532,9 +570,19 @@ std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const P
 
   // The range of s that counts.
   const double freedom = dims - 6.0;
-  if (!(freedom > 1.0) || !(left(0, 0) > 0.0)) {
+  if (!(freedom > 1.0) || !(left_four(0, 0) > 0.0)) {
     return std::nullopt;
   }
+  // Scatter about a curved surface lifts the points by a known part of their curvature.
+  const double lifts = 0.5 * std::max(0.0, left_four(3, 3) - left_four(0, 3) * left_four(0, 3) /
+                                                                 left_four(0, 0) + inside_m2) /
+                       freedom;
+  Eigen::Matrix<double, 4, 3> kept = Eigen::Matrix<double, 4, 3>::Zero();
+  kept(0, 0) = kept(1, 1) = kept(3, 2) = 1.0;
+  kept(2, 2) = -lifts;
+  const Eigen::Matrix3d left = kept.transpose() * left_four * kept;
+  const Eigen::Matrix3d raw = kept.transpose() * all.bottomRightCorner<4, 4>() * kept;
+  const Eigen::Matrix<double, 6, 3> solved = solved_four * kept;
   const double s_at = left(0, 2) / left(0, 0);
   const double noise0_m2 =
       (left(2, 2) - (s_at > 0.0 ? left(0, 2) * s_at : 0.0) + inside_m2) / freedom;
@@ -562,8 +610,8 @@ std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const P
     const double width_m = (high_m - low_m) * 2.0 * t * quadrature.weight[k];
     const double squares =
         left(2, 2) - 2.0 * a.s_m * left(0, 2) + a.s_m * a.s_m * left(0, 0) + inside_m2;
-    const double here = all(kHeight, kHeight) - 2.0 * a.s_m * all(kStandoff, kHeight) +
-                        a.s_m * a.s_m * all(kStandoff, kStandoff) + inside_m2;
+    const double here =
+        raw(2, 2) - 2.0 * a.s_m * raw(0, 2) + a.s_m * a.s_m * raw(0, 0) + inside_m2;
     a.noise_m2 = std::max(squares, 1e-18) / freedom;
     const double prior_log = log_prior_of_standoff(prior, a.s_m) + std::log(width_m) +
                              log_prior_of(prior, node, a.s_m, std::sqrt(a.noise_m2));
@@ -655,7 +703,7 @@ Answers explored(const Rows& rows, const Prior& prior, bool in_time) {
     }
     seen.emplace(node, std::move(found));
   };
-  const int length = 1;
+  const int length = 3;
   for (const int share : in_time ? std::vector<int>{2, 5, 8} : std::vector<int>{0}) {
     for (const int time : in_time ? std::vector<int>{3, 6} : std::vector<int>{0}) {
       look({share, time, 0, length, 0, 0});
@@ -671,10 +719,13 @@ Answers explored(const Rows& rows, const Prior& prior, bool in_time) {
       break;
     }
     const Node most_of_each = {in_time ? kShares - 1 : 0, in_time ? kTimes - 1 : 0, kRatios - 1,
-                               static_cast<int>(prior.tissue_lengths_m.size()) - 1, kRatios - 1,
+                               2 * static_cast<int>(prior.tissue_lengths_m.size()) - 1, kRatios - 1,
                                kRatios - 1};
     for (std::size_t k = 0; k < node.size(); ++k) {
-      for (const int by : {-1, 1}) {
+      for (const int by : {-2, -1, 1, 2}) {
+        if (std::abs(by) == 2 && k != 3) {
+          continue;
+        }
         Node next = node;
         next[k] += by;
         if (next[k] < 0 || next[k] > most_of_each[k] || (k == 3 && node[2] == 0)) {
@@ -757,7 +808,7 @@ Transform<Vertebra, World> stepped(const Touches& t, const Vector6& step) {
   return {rotation, centre - rotation * centre_in_world};
 }
 
-Posterior assembled(const Touches& t, const Rows& rows, const Prior& prior, Answers answers) {
+Posterior assembled(const Touches& t, const Rows& rows, Answers answers) {
   Posterior out;
   out.centre_m = t.centre_m;
   std::stable_sort(answers.begin(), answers.end(), [](const auto& a, const auto& b) {
@@ -801,12 +852,13 @@ Posterior assembled(const Touches& t, const Rows& rows, const Prior& prior, Answ
   Eigen::Map<Rows6>(out.covariance.data()) = covariance;
   out.world_from_vertebra = stepped(t, mean).inverse();
   out.inlier_share = t.inliers / static_cast<double>(t.all.size());
+  std::vector<double> belongs;
   for (const auto& touch : t.all) {
     out.height_m.push_back(touch.height_m);
-    out.belongs.push_back(touch.belongs);
+    belongs.push_back(touch.belongs);
   }
-  (void)rows;
-  (void)prior;
+  out.hand = rows.hand;
+  out.hand.belongs = std::move(belongs);
   return out;
 }
 
@@ -814,7 +866,7 @@ Posterior assembled(const Touches& t, const Rows& rows, const Prior& prior, Answ
 
 std::optional<Posterior> posterior_of(const Observations& observations, const BoneSurface& bone,
                                       const Prior& prior, const Transform<World, Vertebra>& start,
-                                      Effort effort) {
+                                      Effort effort, const Hand* hand) {
   constexpr std::size_t kFewUnits = 64;
   constexpr std::size_t kManyUnits = 160;
   constexpr std::size_t kFewestPoints = 24;
@@ -826,7 +878,7 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   if (observations.strokes.size() < kFewestPoints) {
     return std::nullopt;
   }
-  Problem problem{observations, bone, prior, {}, {}};
+  Problem problem{observations, bone, prior, {}, {}, hand};
   for (const StrokePoint& p : observations.strokes) {
     problem.centre_in_world_m += p.tip.v / static_cast<double>(observations.strokes.size());
   }
@@ -877,7 +929,7 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   if (answers.empty()) {
     return std::nullopt;
   }
-  Posterior out = assembled(here, rows, prior, std::move(answers));
+  Posterior out = assembled(here, rows, std::move(answers));
   out.iterations = steps;
   return out;
 }

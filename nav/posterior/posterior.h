@@ -33,6 +33,7 @@ struct Mixture {
   double time_s = 0.0;       ///< correlation time of the rest
   double tissue = 0.0;       ///< SD of tissue over the bone, of the noise's SD; 0: there is none
   double length_m = 0.0;     ///< over which its covariance falls to 1/e
+  bool smooth = false;       ///< whether it is differentiable over the bone
   double stroke = 0.0;       ///< SD of the strokes' heights, of the noise's SD
   double model = 0.0;        ///< SD of the model's error, of the noise's SD
 };
@@ -48,6 +49,16 @@ struct Part {
   /// `Posterior::centre_m` in the model's frame, and its covariance by rows.
   std::array<double, 6> step{};
   std::array<double, 36> covariance{};
+};
+
+/// What points tell of hand and tracker: how they deviate from the mean of the block that they are
+/// in, and which of them have nothing to do with the bone.
+struct Hand {
+  std::array<double, kBlock * kBlock> products_m2{};  ///< mean, symmetric
+  double blocks = 0.0;
+  std::array<double, kBlock> lag_s{};  ///< mean time and distance of points, by lag
+  std::array<double, kBlock> lag_m{};
+  std::vector<double> belongs;  ///< of each point, the probability that it is of the bone
 };
 
 /// The posterior of the pose under one hypothesis, as a mixture of Gaussians.
@@ -68,19 +79,19 @@ struct Posterior {
   double spread_m = 0.0;    ///< SD of the heights altogether
   double inlier_share = 0.0;
   int iterations = 0;
-  /// For each point: its signed distance less the ball's radius, and the probability that it belongs
-  /// to the bone.
-  std::vector<double> height_m;
-  std::vector<double> belongs;
+  std::vector<double> height_m;  ///< of each point: its signed distance less the ball's radius
+  Hand hand;
 };
 
 /// How closely to look: `kRough` tells hypotheses that are far worse, for little time.
 enum class Effort : std::uint8_t { kRough, kFull };
 
-/// The posterior near `start`. Empty where the points leave a motion undetermined.
+/// The posterior near `start`. `hand`: as it is under the best explanation, since it is the same
+/// under all; null: as it is at this pose. Empty where the points leave a motion undetermined.
 [[nodiscard]] std::optional<Posterior> posterior_of(const Observations& observations,
                                                     const BoneSurface& bone, const Prior& prior,
                                                     const Transform<World, Vertebra>& start,
-                                                    Effort effort = Effort::kFull);
+                                                    Effort effort = Effort::kFull,
+                                                    const Hand* hand = nullptr);
 
 }  // namespace orthonav::nav::posterior
