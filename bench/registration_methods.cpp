@@ -117,6 +117,15 @@ RegistrationMethod posterior(double common_m) {
                 fitted.reason += text;
               }
               for (const auto& e : d->explanations) {
+                if (getenv("PARTS") && e.posterior) {
+                  std::snprintf(text, sizeof text, "\n hyp %d log %.2f spread %.3f", (int)e.kind, e.posterior->log_evidence, 1e3*e.posterior->spread_m);
+                  fitted.reason += text;
+                  for (std::size_t k = 0; k < std::min<std::size_t>(4, e.posterior->parts.size()); ++k) {
+                const auto& q = e.posterior->parts[k];
+                std::snprintf(text, sizeof text, "\n   w %.3f white %.3f time %.2f tissue %.2f L %.0f %s stroke %.2f model %.2f noise %.2f s %.2f", q.weight, q.of.white, q.of.time_s, q.of.tissue, 1e3*q.of.length_m, q.of.smooth ? "smooth" : "rough", q.of.stroke, q.of.model, 1e3*q.noise_m, 1e3*q.standoff_m);
+                fitted.reason += text;
+                  }
+                }
                 std::snprintf(text, sizeof text, "; %d%s p %.2g wrong %.2g", static_cast<int>(e.kind), e.level.c_str(), e.probability, e.wrong);
                 fitted.reason += text;
                 if (e.kind == nav::posterior::Explanation::Kind::kLevel && e.probability > 0.01) {

@@ -6,12 +6,15 @@
 
 namespace orthonav::nav::posterior {
 
-BoneSurface::BoneSurface(const VertebraModel& model) : model_(&model) {}
+BoneSurface::BoneSurface(const VertebraModel& model, bool mirrored)
+    : model_(&model), side_(mirrored ? -1.0 : 1.0) {}
 
 BoneSurface::Place BoneSurface::at(Vec3 query_m, double within_m) const {
+  const auto swapped = [&](Vec3 v) { return Vec3{side_ * v.x, v.y, v.z}; };
+  query_m = swapped(query_m);
   const auto nearest = model_->surface().nearest(query_m, within_m);
   if (!nearest) {
-    return {within_m, {}, query_m};
+    return {within_m, {}, swapped(query_m)};
   }
   constexpr double kOnSurface_m = 1e-7;
   constexpr double kClear = 0.5;
@@ -21,9 +24,9 @@ BoneSurface::Place BoneSurface::at(Vec3 query_m, double within_m) const {
   const bool clear = std::abs(along) > kClear * nearest->distance_m;
   const bool inside = clear ? along < 0.0 : model_->surface().contains(query_m);
   const double side = inside ? -1.0 : 1.0;
-  return {side * nearest->distance_m,
-          nearest->distance_m > kOnSurface_m ? (side / nearest->distance_m) * off : nearest->normal,
-          nearest->point_m};
+  const Vec3 out =
+      nearest->distance_m > kOnSurface_m ? (side / nearest->distance_m) * off : nearest->normal;
+  return {side * nearest->distance_m, swapped(out), swapped(nearest->point_m)};
 }
 
 BoneSurface::Place BoneSurface::near(Vec3 query_m, Vec3 hint_m) const {

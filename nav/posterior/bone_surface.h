@@ -7,10 +7,11 @@
 
 namespace orthonav::nav::posterior {
 
-/// The bone as the tip meets it: the whole surface of a model, with the sign from its solid.
+/// The bone as the tip meets it: the whole surface of a model, with the sign from its solid. A
+/// mirrored one is the model with left and right (x) swapped.
 class BoneSurface {
  public:
-  explicit BoneSurface(const VertebraModel& model);
+  explicit BoneSurface(const VertebraModel& model, bool mirrored = false);
 
   struct Place {
     double distance_m = 0.0;  ///< outside positive, true inside too
@@ -31,6 +32,7 @@ class BoneSurface {
 
  private:
   const VertebraModel* model_;
+  double side_ = 1.0;
 };
 
 }  // namespace orthonav::nav::posterior

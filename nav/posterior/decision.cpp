@@ -41,7 +41,7 @@ struct Tried {
     return found ? log_odds + found->log_evidence : kImpossible;
   }
   void look(const Prior& prior, Effort effort, const Hand* hand = nullptr) {
-    found = posterior_of(*observations, BoneSurface(*model), prior,
+    found = posterior_of(*observations, BoneSurface(*model, kind == Explanation::Kind::kMirror), prior,
                          found ? found->world_from_vertebra : start, effort, hand);
   }
 };
@@ -96,26 +96,21 @@ double share_above(const std::vector<double>& ascending, double limit) {
   return static_cast<double>(above) / static_cast<double>(ascending.size());
 }
 
-/// The points with left and right swapped in the model's frame, at a pose.
-Observations mirrored(const Observations& observations, const Transform<World, Vertebra>& pose) {
-  Observations out = observations;
-  const auto from_world = pose.inverse();
-  for (StrokePoint& p : out.strokes) {
-    Vec3 q = (from_world * p.tip).v;
-    q.x = -q.x;
-    p.tip = {q};
-    p.shaft = {};
-  }
-  return out;
-}
-
 /// Where the mirror image may lie: as the bone does, or shifted or turned to a side, since a crooked
 /// bone's mirror image lies askew.
-Transform<World, Vertebra> mirrored_start(const VertebraModel& model, const Cloud& cloud) {
+Transform<World, Vertebra> mirrored_start(const VertebraModel& model, const Cloud& points,
+                                          const Transform<World, Vertebra>& pose) {
   constexpr double kAside_m = 0.003;
   constexpr double kTurned_rad = 0.15;
-  const double middle_m = model.reachable_axes().centre_m.x;
-  const CentredPose same{Mat3::identity(), cloud.centre_m + Vec3{2.0 * middle_m, 0.0, 0.0}};
+  const auto swapped = [](Vec3 v) { return Vec3{-v.x, v.y, v.z}; };
+  const CentredPose there = centred(pose, points.centre_m);
+  std::vector<Vec3> mirrored_m;
+  for (const Vec3& p : points.few_m) {
+    mirrored_m.push_back(swapped(there.rotation * p));
+  }
+  // The bone's own middle is where the image is its own.
+  const Vec3 across{2.0 * model.reachable_axes().centre_m.x, 0.0, 0.0};
+  const CentredPose same{Mat3::identity(), swapped(there.centre_m) + across};
   std::vector<CentredPose> starts{same};
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
@@ -130,7 +125,7 @@ Transform<World, Vertebra> mirrored_start(const VertebraModel& model, const Clou
   CentredPose best = same;
   double least_m2 = std::numeric_limits<double>::infinity();
   for (const CentredPose& start : starts) {
-    if (const auto fit = fit_to_bone(model, cloud.few_m, start, quick)) {
+    if (const auto fit = fit_to_bone(model, mirrored_m, start, quick)) {
       const double cost_m2 = truncated_cost_m2(*fit, 0.003);
       if (cost_m2 < least_m2) {
         least_m2 = cost_m2;
@@ -138,7 +133,11 @@ Transform<World, Vertebra> mirrored_start(const VertebraModel& model, const Clou
       }
     }
   }
-  return world_from(best, cloud.centre_m);
+  // Swapped back on both sides, it is a rotation of the points onto the mirrored bone.
+  Mat3 across_x = Mat3::identity();
+  across_x.m[0][0] = -1.0;
+  const Mat3 rotation = across_x * best.rotation * across_x * there.rotation;
+  return world_from({orthonormalized(rotation), swapped(best.centre_m)}, points.centre_m);
 }
 
 /// Probability by the prior that heights scatter by at least this.
@@ -208,13 +207,12 @@ std::optional<Decision> decided(const VertebraModel& model, const Observations& 
   for (const NeighbourLevel& level : question.neighbours) {
     add_poses(Explanation::Kind::kLevel, level.label, *level.model, 2);
   }
-  const Observations swapped = mirrored(observations, tried[0].found->world_from_vertebra);
   Tried mirror;
   mirror.kind = Explanation::Kind::kMirror;
   mirror.log_odds = std::log(prior.mirror_odds);
   mirror.model = &model;
-  mirror.observations = &swapped;
-  mirror.start = mirrored_start(model, cloud_of(swapped));
+  mirror.observations = &observations;
+  mirror.start = mirrored_start(model, cloud, tried[0].found->world_from_vertebra);
   tried.push_back(mirror);
   for (std::size_t i = 1; i < tried.size(); ++i) {
     tried[i].look(prior, Effort::kRough, &rough_hand);
@@ -242,7 +240,7 @@ std::optional<Decision> decided(const VertebraModel& model, const Observations& 
   };
   const auto errors = errors_m(out.answer, answer, question.targets);
   add({Explanation::Kind::kAnswer, {}, 1.0 - prior.size_share,
-       share_above(errors, question.most_m), answer});
+       share_above(errors, question.most_m), answer, out.answer});
   {
     const auto within = [&](double log_size) {
       const double sd = std::max(1e-9, out.answer.size_sd);
@@ -274,7 +272,7 @@ std::optional<Decision> decided(const VertebraModel& model, const Observations& 
          std::exp(std::min(300.0, t.log_weight() - log_answer)),
          other_pose ? share_above(errors_m(*t.found, answer, question.targets), question.most_m)
                     : 1.0,
-         t.found->world_from_vertebra});
+         t.found->world_from_vertebra, t.found});
   }
   out.wrong = 0.0;
   for (Explanation& e : out.explanations) {

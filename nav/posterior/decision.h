@@ -30,6 +30,7 @@ struct Explanation {
   double probability = 0.0;
   double wrong = 0.0;  ///< probability that the answer is wrong if this is so
   Transform<World, Vertebra> world_from_vertebra;
+  std::optional<Posterior> posterior;
 };
 
 struct Decision {

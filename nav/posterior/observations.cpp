@@ -101,16 +101,30 @@ Observations observed(std::span<const Point<World>> points, std::span<const Vec3
   Observations out;
   out.tip_radius_m = tip_radius_m;
   const std::vector<bool> is_new = different(points);
+  // A short excursion that comes back, of a pointer that was lifted, does not end a stroke.
+  constexpr std::size_t kExcursion = 15;
   int stroke = 0;
+  std::size_t leapt = 0;  // where the last stroke begins
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_new[i]) {
       continue;
     }
-    if (!out.strokes.empty() && (points[i] - out.strokes.back().tip).norm() > kLeap_m) {
-      ++stroke;
+    std::vector<StrokePoint>& all = out.strokes;
+    if (!all.empty() && (points[i] - all.back().tip).norm() > kLeap_m) {
+      const bool back = leapt > 0 && all.size() - leapt <= kExcursion &&
+                        (points[i] - all[leapt - 1].tip).norm() <= kLeap_m;
+      if (back) {
+        stroke = all[leapt - 1].stroke;
+        for (std::size_t k = leapt; k < all.size(); ++k) {
+          all[k].stroke = stroke;
+        }
+      } else {
+        ++stroke;
+        leapt = all.size();
+      }
     }
-    out.strokes.push_back({points[i], stroke, static_cast<double>(i) * kPeriod_s,
-                           i < shafts.size() ? shafts[i] : Vec3{}});
+    all.push_back({points[i], stroke, static_cast<double>(i) * kPeriod_s,
+                   i < shafts.size() ? shafts[i] : Vec3{}});
   }
   out.in_time = static_cast<std::size_t>(2 * (stroke + 1)) < std::min<std::size_t>(160, out.strokes.size());
   return out;
