@@ -29,6 +29,11 @@ BoneSurface::Place BoneSurface::at(Vec3 query_m, double within_m) const {
   return {side * nearest->distance_m, swapped(out), swapped(nearest->point_m)};
 }
 
+Vec3 BoneSurface::place_near(Vec3 query_m) const {
+  const Vec3 found = model_->reachable_grid().nearest({side_ * query_m.x, query_m.y, query_m.z});
+  return {side_ * found.x, found.y, found.z};
+}
+
 BoneSurface::Place BoneSurface::near(Vec3 query_m, Vec3 hint_m) const {
   constexpr double kRounding = 1.0 + 1e-12;
   return at(query_m, (query_m - hint_m).norm() * kRounding + 1e-12);

@@ -21,6 +21,8 @@ class BoneSurface {
   /// The nearest place of the surface. `within_m` only saves time: it has to be no less than the
   /// distance.
   [[nodiscard]] Place at(Vec3 query_m, double within_m = 1e9) const;
+  /// A place of the surface that is not far, by look-up: where a search for the nearest one starts.
+  [[nodiscard]] Vec3 place_near(Vec3 query_m) const;
   /// The same, where the nearest place is known to be near `hint_m`, which lies on the surface.
   [[nodiscard]] Place near(Vec3 query_m, Vec3 hint_m) const;
 

@@ -185,7 +185,15 @@ std::optional<Decision> decided(const VertebraModel& model, const Observations& 
       t.model = &of;
       t.observations = &observations;
       t.start = world_from(found.best_first[i].fit.pose, cloud.centre_m);
-      tried.push_back(t);
+      // Starts that are so near to each other end at the same pose.
+      constexpr double kSameStart_m = 0.001;
+      const bool is_new = std::none_of(tried.begin(), tried.end(), [&](const Tried& other) {
+        return other.model == &of &&
+               apart_m(other.start, t.start, question.targets) < kSameStart_m;
+      });
+      if (is_new) {
+        tried.push_back(t);
+      }
     }
   };
   add_poses(Explanation::Kind::kAnswer, {}, model, 8);

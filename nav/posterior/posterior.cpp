@@ -124,8 +124,8 @@ Touches touches_at(const Problem& problem, const Transform<Vertebra, World>& fro
   out.all.resize(problem.observations.strokes.size());
   for (std::size_t i = 0; i < out.all.size(); ++i) {
     const Vec3 p = (from_world * problem.observations.strokes[i].tip).v;
-    const auto place = hint != nullptr ? problem.bone.near(p, hint->all[i].nearest_m)
-                                       : problem.bone.at(p);
+    const auto place = problem.bone.near(
+        p, hint != nullptr ? hint->all[i].nearest_m : problem.bone.place_near(p));
     Touches::Touch& touch = out.all[i];
     touch.lever_m = p - out.centre_m;
     touch.out = place.out;
@@ -133,11 +133,11 @@ Touches touches_at(const Problem& problem, const Transform<Vertebra, World>& fro
     touch.height_m = place.distance_m - problem.observations.tip_radius_m;
   }
   tell_outliers(problem, out);
-  constexpr std::size_t kEvery = 5;  // points 0.7 mm apart
+  const std::size_t every = std::max<std::size_t>(1, out.all.size() / 200);
   for (std::size_t i = 0; i < out.all.size(); ++i) {
     out.all[i].curvature_1_m =
         hint != nullptr ? hint->all[i].curvature_1_m
-        : i % kEvery == 0
+        : i % every == 0
             ? problem.bone.curvature_1_m(out.all[i].nearest_m, out.all[i].out,
                                          std::numbers::sqrt2 * out.spread_m)
             : out.all[i - 1].curvature_1_m;
@@ -893,7 +893,13 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   std::vector<Node> nodes;
   int steps = 0;
   // The grid is looked through where the descent begins, and again where it ends.
+  constexpr double kAgain_m = 0.0001;
+  Vec3 looked_at_m{1e9, 0.0, 0.0};
   for (const bool last : {false, true}) {
+    if ((here.centre_m - looked_at_m).norm() < kAgain_m) {
+      break;
+    }
+    looked_at_m = here.centre_m;
     nodes = nodes_of(explored(rows_of(problem, few, here), prior, in_time), kKept);
     if (nodes.empty()) {
       return std::nullopt;
