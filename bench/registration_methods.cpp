@@ -30,6 +30,7 @@ Fitted told_by(const Result<nav::Registration>& r) {
     fitted.reason += (fitted.reason.empty() ? "" : "; ") + engine::text_of(reason);
   }
   fitted.rmse_m = r->rmse_m;
+  if (getenv("PARTS")) { char t[99]; std::snprintf(t, sizeof t, "tre %.2f 99 %.2f field %.2f", 1e3*r->predicted_tre_m, 1e3*r->tre_99_m, 1e3*r->field_sd_m); fitted.reason += t; }
   fitted.fits_better = r->fits_better;
   if (r->uncertainty) {
     fitted.covariance = [uncertainty = *r->uncertainty](Point<Vertebra> at) {
@@ -106,10 +107,10 @@ RegistrationMethod posterior(double common_m) {
               fitted.world_from_vertebra = d->answer.world_from_vertebra;
               fitted.rmse_m = d->answer.spread_m;
               char text[200];
-              std::snprintf(text, sizeof text, "wrong %.4f scatter %.4f outliers %.4f s %.2f noise %.2f uneven %.2f size %.4f+-%.4f rms %.2f",
+              std::snprintf(text, sizeof text, "wrong %.4f scatter %.4f outliers %.4f s %.2f noise %.2f uneven %.2f size %.4f+-%.4f rms %.2f 99 %.2f",
                             d->wrong, d->scatter_predicted, d->outliers_predicted,
                             1e3 * d->answer.standoff_m, 1e3 * d->answer.noise_m,
-                            1e3 * d->answer.uneven_m, d->answer.size, d->answer.size_sd, 1e3 * d->rms_m);
+                            1e3 * d->answer.uneven_m, d->answer.size, d->answer.size_sd, 1e3 * d->rms_m, 1e3 * d->within_99_m);
               fitted.reason = text;
               if (getenv("PARTS")) for (std::size_t k = 0; k < std::min<std::size_t>(8, d->answer.parts.size()); ++k) {
                 const auto& q = d->answer.parts[k];

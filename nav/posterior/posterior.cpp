@@ -197,7 +197,7 @@ Hand hand_of(const Problem& problem, const Touches& t) {
 Rows rows_of(const Problem& problem, std::span<const Unit> units, const Touches& t) {
   constexpr double kLeastOfUnit = 0.25;
   Rows rows;
-  rows.log_outliers = t.log_outliers;
+  rows.log_outliers = problem.prior.point_counts * t.log_outliers;
   for (const Unit& unit : units) {
     double sum = 0.0;
     std::array<double, kColumns> mean{};
@@ -226,7 +226,8 @@ Rows rows_of(const Problem& problem, std::span<const Unit> units, const Touches&
   }
   rows.hand = problem.hand != nullptr ? *problem.hand : hand_of(problem, t);
   if (rows.hand.blocks > 0.0) {
-    rows.within = std::max(0.0, t.inliers - static_cast<double>(rows.units.size()));
+    rows.within = problem.prior.point_counts *
+                  std::max(0.0, t.inliers - static_cast<double>(rows.units.size()));
   }
   return rows;
 }
