@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 
 #include "bench/registration_peers.h"
 #include "engine/session/findings_wording.h"
@@ -30,7 +29,6 @@ Fitted told_by(const Result<nav::Registration>& r) {
     fitted.reason += (fitted.reason.empty() ? "" : "; ") + engine::text_of(reason);
   }
   fitted.rmse_m = r->rmse_m;
-  if (getenv("PARTS")) { char t[99]; std::snprintf(t, sizeof t, "tre %.2f 99 %.2f field %.2f", 1e3*r->predicted_tre_m, 1e3*r->tre_99_m, 1e3*r->field_sd_m); fitted.reason += t; }
   fitted.fits_better = r->fits_better;
   if (r->uncertainty) {
     fitted.covariance = [uncertainty = *r->uncertainty](Point<Vertebra> at) {
@@ -99,35 +97,21 @@ RegistrationMethod posterior(double common_m) {
               const auto d = nav::posterior::decided(
                   *model, nav::posterior::observed(points, {}, 0.0), question);
               if (!d) {
-                fitted.reason = "no pose";
+                fitted.reason = d.error().message;
                 return fitted;
               }
               fitted.found = true;
               fitted.accepted = d->accepted;
               fitted.world_from_vertebra = d->answer.world_from_vertebra;
               fitted.rmse_m = d->answer.spread_m;
-              char text[200];
-              std::snprintf(text, sizeof text, "wrong %.4f scatter %.4f outliers %.4f s %.2f noise %.2f uneven %.2f size %.4f+-%.4f rms %.2f 99 %.2f",
-                            d->wrong, d->scatter_predicted, d->outliers_predicted,
-                            1e3 * d->answer.standoff_m, 1e3 * d->answer.noise_m,
-                            1e3 * d->answer.uneven_m, d->answer.size, d->answer.size_sd, 1e3 * d->rms_m, 1e3 * d->within_99_m);
+              char text[160];
+              std::snprintf(text, sizeof text, "wrong %.4f (99 %% within %.2f mm); size %.3f +- %.3f",
+                            d->wrong, 1e3 * d->within_99_m, d->answer.size, d->answer.size_sd);
               fitted.reason = text;
-              if (getenv("PARTS")) for (std::size_t k = 0; k < std::min<std::size_t>(8, d->answer.parts.size()); ++k) {
-                const auto& q = d->answer.parts[k];
-                std::snprintf(text, sizeof text, "\n   w %.3f white %.3f time %.2f tissue %.2f L %.0f %s stroke %.2f model %.2f noise %.2f s %.2f", q.weight, q.of.white, q.of.time_s, q.of.tissue, 1e3*q.of.length_m, q.of.smooth ? "smooth" : "rough", q.of.stroke, q.of.model, 1e3*q.noise_m, 1e3*q.standoff_m);
-                fitted.reason += text;
-              }
               for (const auto& e : d->explanations) {
-                if (getenv("PARTS") && e.posterior) {
-                  std::snprintf(text, sizeof text, "\n hyp %d log %.2f spread %.3f", (int)e.kind, e.posterior->log_evidence, 1e3*e.posterior->spread_m);
-                  fitted.reason += text;
-                  for (std::size_t k = 0; k < std::min<std::size_t>(4, e.posterior->parts.size()); ++k) {
-                const auto& q = e.posterior->parts[k];
-                std::snprintf(text, sizeof text, "\n   w %.3f white %.3f time %.2f tissue %.2f L %.0f %s stroke %.2f model %.2f noise %.2f s %.2f", q.weight, q.of.white, q.of.time_s, q.of.tissue, 1e3*q.of.length_m, q.of.smooth ? "smooth" : "rough", q.of.stroke, q.of.model, 1e3*q.noise_m, 1e3*q.standoff_m);
-                fitted.reason += text;
-                  }
-                }
-                std::snprintf(text, sizeof text, "; %d%s p %.2g wrong %.2g", static_cast<int>(e.kind), e.level.c_str(), e.probability, e.wrong);
+                constexpr const char* kKinds[] = {"answer", "pose", "level", "mirror", "size"};
+                std::snprintf(text, sizeof text, "; %s %s %.2g", kKinds[static_cast<int>(e.kind)],
+                              e.level.c_str(), e.probability);
                 fitted.reason += text;
                 if (e.kind == nav::posterior::Explanation::Kind::kLevel && e.probability > 0.01) {
                   fitted.fits_better = e.level;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/random.h"
+#include "base/translation.h"
 #include "nav/registration/pose_candidates.h"
 
 namespace orthonav::nav::posterior {
@@ -19,12 +20,12 @@ constexpr std::size_t kDraws = 4096;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Rows6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
-Cloud cloud_of(const Observations& observations) {
-  std::vector<Point<World>> points;
+std::vector<Point<World>> tips_of(const Observations& observations) {
+  std::vector<Point<World>> tips;
   for (const StrokePoint& p : observations.strokes) {
-    points.push_back(p.tip);
+    tips.push_back(p.tip);
   }
-  return nav::cloud_of(points);
+  return tips;
 }
 
 /// A hypothesis with its posterior.
@@ -168,10 +169,17 @@ double scatter_predicted(const Prior& prior, double spread_m) {
 
 }  // namespace
 
-std::optional<Decision> decided(const VertebraModel& model, const Observations& observations,
-                                const Question& question) {
+Result<Decision> decided(const VertebraModel& model, const Observations& observations,
+                         const Question& question) {
+  constexpr std::size_t kFewestPoints = 100;
   const Prior& prior = question.prior;
-  const Cloud cloud = cloud_of(observations);
+  const std::vector<Point<World>> tips = tips_of(observations);
+  if (const Status s = validate_points(tips, kFewestPoints, model.bone()); !s) {
+    return s.error();
+  }
+  const Error no_pose{
+      translatable("registration finds no pose: the strokes fit no part of the model")};
+  const Cloud cloud = cloud_of(tips);
   std::vector<Tried> tried;
   const auto add_poses = [&](Explanation::Kind kind, const std::string& level,
                              const VertebraModel& of, std::size_t most) {
@@ -204,11 +212,11 @@ std::optional<Decision> decided(const VertebraModel& model, const Observations& 
     return a.log_weight() < b.log_weight();
   };
   if (tried.empty()) {
-    return std::nullopt;
+    return no_pose;
   }
   std::iter_swap(tried.begin(), std::max_element(tried.begin(), tried.end(), likelier));
   if (!tried[0].found) {
-    return std::nullopt;
+    return no_pose;
   }
   // The others with the hand of the best one.
   const Hand rough_hand = tried[0].found->hand;
@@ -229,7 +237,7 @@ std::optional<Decision> decided(const VertebraModel& model, const Observations& 
   std::erase_if(tried, [&](const Tried& t) { return !(t.log_weight() >= own - kFarWorse); });
   tried[0].look(prior, Effort::kFull);
   if (!tried[0].found) {
-    return std::nullopt;
+    return no_pose;
   }
   const Hand hand = tried[0].found->hand;
   for (std::size_t i = 1; i < tried.size(); ++i) {
@@ -248,7 +256,7 @@ std::optional<Decision> decided(const VertebraModel& model, const Observations& 
   };
   const auto errors = errors_m(out.answer, answer, question.targets);
   add({Explanation::Kind::kAnswer, {}, 1.0 - prior.size_share,
-       share_above(errors, question.most_m), answer, out.answer});
+       share_above(errors, question.most_m), answer});
   {
     const auto within = [&](double log_size) {
       const double sd = std::max(1e-9, out.answer.size_sd);
@@ -280,7 +288,7 @@ std::optional<Decision> decided(const VertebraModel& model, const Observations& 
          std::exp(std::min(300.0, t.log_weight() - log_answer)),
          other_pose ? share_above(errors_m(*t.found, answer, question.targets), question.most_m)
                     : 1.0,
-         t.found->world_from_vertebra, t.found});
+         t.found->world_from_vertebra});
   }
   out.wrong = 0.0;
   for (Explanation& e : out.explanations) {

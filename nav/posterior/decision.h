@@ -1,10 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "nav/posterior/posterior.h"
 #include "nav/registration/registration.h"
 
@@ -30,7 +30,6 @@ struct Explanation {
   double probability = 0.0;
   double wrong = 0.0;  ///< probability that the answer is wrong if this is so
   Transform<World, Vertebra> world_from_vertebra;
-  std::optional<Posterior> posterior;
 };
 
 struct Decision {
@@ -46,9 +45,10 @@ struct Decision {
   double rms_m = 0.0, within_95_m = 0.0, within_99_m = 0.0;
 };
 
-/// Compares all explanations of the points. Empty where no pose is found.
-[[nodiscard]] std::optional<Decision> decided(const VertebraModel& model,
-                                              const Observations& observations,
-                                              const Question& question);
+/// Compares all explanations of the points. Refuses points that can't be registered at all: fewer than
+/// 100, not finite, spread too widely, on a line, or such that no pose is found.
+[[nodiscard]] Result<Decision> decided(const VertebraModel& model,
+                                       const Observations& observations,
+                                       const Question& question);
 
 }  // namespace orthonav::nav::posterior

@@ -530,24 +530,83 @@ struct Quadrature {
   }
 };
 
+}  // namespace
+
+OverStandoff over_standoff(const Squares& squares, double freedom,
+                           const std::function<double(double, double)>& log_prior) {
+  // Where it is likely, as far as the square counts.
+  constexpr double kWide = 4.5;
+  const double at_m = squares.product / squares.standoff;
+  const double least = squares.height - std::max(0.0, at_m) * squares.product;
+  const double sd_m = std::sqrt(std::max(least, 1e-18) / freedom / squares.standoff);
+  const double low_m = std::max(0.0, at_m - kWide * sd_m);
+  const double high_m = at_m > 0.0 ? at_m + kWide * sd_m
+                                   : at_m + std::sqrt(at_m * at_m + kWide * kWide * sd_m * sd_m);
+  static const Quadrature quadrature;
+  struct Node {
+    double s_m = 0.0, log_value = 0.0, noise_m2 = 0.0;
+  };
+  std::array<Node, Quadrature::kNodes> nodes;
+  double most = kNever;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    // Denser where the range begins, at which the prior of bare bone is narrow.
+    const double t = quadrature.at[k];
+    Node& node = nodes[k];
+    node.s_m = low_m + (high_m - low_m) * t * t;
+    const double width_m = (high_m - low_m) * 2.0 * t * quadrature.weight[k];
+    const double sum_m2 = std::max(squares.height - 2.0 * node.s_m * squares.product +
+                                       node.s_m * node.s_m * squares.standoff,
+                                   1e-18);
+    node.noise_m2 = sum_m2 / freedom;
+    // The noise's SD by Laplace's method in its logarithm.
+    node.log_value = -0.5 * freedom * (std::log(2.0 * std::numbers::pi * node.noise_m2) + 1.0) +
+                     0.5 * std::log(std::numbers::pi / freedom) +
+                     log_prior(node.s_m, std::sqrt(node.noise_m2)) + std::log(width_m);
+    most = std::max(most, node.log_value);
+  }
+  OverStandoff out;
+  if (!(most > kNever)) {
+    out.log_integral = kNever;
+    return out;
+  }
+  double sum = 0.0;
+  double square_m2 = 0.0;
+  for (const Node& node : nodes) {
+    const double p = std::exp(node.log_value - most);
+    sum += p;
+    out.mean_m += p * node.s_m;
+    square_m2 += p * node.s_m * node.s_m;
+    out.noise_m2 += p * node.noise_m2;
+  }
+  out.log_integral = most + std::log(sum);
+  out.mean_m /= sum;
+  out.noise_m2 /= sum;
+  out.variance_m2 = std::max(0.0, square_m2 / sum - out.mean_m * out.mean_m);
+  return out;
+}
+
+namespace {
+
 /// What a point of the grid says of the heights at a pose.
 struct Answer {
   Part part;
   double log_weight = kNever;  ///< evidence and prior, the pose integrated
-  double log_here = kNever;    ///< the pose being the one that the heights are of
-  double log_size = kNever;    ///< the pose and the size integrated
+  // Where all is asked for:
+  double log_here = kNever;  ///< the pose being the one that the heights are of
+  double log_size = kNever;  ///< the pose and the size integrated
   double size = 0.0, size_variance = 0.0;
 };
 
+enum class Asked : std::uint8_t { kWeight, kAll };
+
 std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const Prior& prior,
-                             const Node& node, const Mixture& mix) {
+                             const Node& node, const Mixture& mix, Asked asked) {
   if (!covariances.whiten(mix)) {
     return std::nullopt;
   }
   const Covariances::Products all = covariances.products();
   const Covariances::Within within = covariances.within(mix);
-  const Matrix6 information = all.topLeftCorner<6, 6>();
-  const Eigen::LLT<Matrix6> llt(information);
+  const Eigen::LLT<Matrix6> llt(all.topLeftCorner<6, 6>());
   if (llt.info() != Eigen::Success || !all.allFinite()) {
     return std::nullopt;
   }
@@ -556,118 +615,71 @@ std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const P
   if (!(pivots.minCoeff() > kLeastVisible * pivots.maxCoeff())) {
     return std::nullopt;
   }
-  using Four = Eigen::Matrix<double, 6, 4>;
-  const Four with_four = all.topRightCorner<6, 4>();
-  const Four solved_four = llt.solve(with_four);
   // Standoff, size, curvature and height, less what the pose explains.
+  const Eigen::Matrix<double, 6, 4> solved_four = llt.solve(all.topRightCorner<6, 4>());
   const Eigen::Matrix4d left_four =
-      all.bottomRightCorner<4, 4>() - with_four.transpose() * solved_four;
-  const auto m = static_cast<double>(rows.units.size());
-  const double log_pose = pivots.array().log().sum();
-  const double dims = m + rows.within;
-  const double fixed = -0.5 * covariances.log_determinant() -
-                       0.5 * rows.within * within.log_determinant + rows.log_outliers;
+      all.bottomRightCorner<4, 4>() - all.topRightCorner<6, 4>().transpose() * solved_four;
   const double inside_m2 = rows.within * within.quadratic;
-
-  // The range of s that counts.
-  const double freedom = dims - 6.0;
+  const double dimensions = static_cast<double>(rows.units.size()) + rows.within;
+  const double freedom = dimensions - 6.0;
   if (!(freedom > 1.0) || !(left_four(0, 0) > 0.0)) {
     return std::nullopt;
   }
-  // Scatter about a curved surface lifts the points by a known part of their curvature.
-  const double lifts = 0.5 * std::max(0.0, left_four(3, 3) - left_four(0, 3) * left_four(0, 3) /
-                                                                 left_four(0, 0) + inside_m2) /
-                       freedom;
+  // Scatter about a curved surface lifts the points by half their variance times its curvature.
+  const double lifts_m2 = 0.5 *
+                          (left_four(3, 3) -
+                           left_four(0, 3) * left_four(0, 3) / left_four(0, 0) + inside_m2) /
+                          freedom;
   Eigen::Matrix<double, 4, 3> kept = Eigen::Matrix<double, 4, 3>::Zero();
   kept(0, 0) = kept(1, 1) = kept(3, 2) = 1.0;
-  kept(2, 2) = -lifts;
+  kept(2, 2) = -lifts_m2;
   const Eigen::Matrix3d left = kept.transpose() * left_four * kept;
-  const Eigen::Matrix3d raw = kept.transpose() * all.bottomRightCorner<4, 4>() * kept;
   const Eigen::Matrix<double, 6, 3> solved = solved_four * kept;
-  const double s_at = left(0, 2) / left(0, 0);
-  const double noise0_m2 =
-      (left(2, 2) - (s_at > 0.0 ? left(0, 2) * s_at : 0.0) + inside_m2) / freedom;
-  const double sd_m = std::sqrt(noise0_m2 / left(0, 0));
-  constexpr double kWide = 4.5;
-  const double low_m = std::max(0.0, s_at - kWide * sd_m);
-  const double high_m = s_at > 0.0 ? s_at + kWide * sd_m
-                                   : s_at + std::sqrt(s_at * s_at + kWide * kWide * sd_m * sd_m);
-  static const Quadrature quadrature;
-  struct AtStandoff {
-    double s_m, log_all, log_here, log_size, noise_m2, size, size_variance;
+
+  const auto log_prior = [&](double s_m, double noise_m) {
+    return log_prior_of_standoff(prior, s_m) + log_prior_of(prior, node, s_m, noise_m);
   };
-  std::array<AtStandoff, Quadrature::kNodes> at{};
-  double most = kNever;
-  const auto log_scale = [](double squares, double n) {
-    // The noise's SD integrated (Laplace's method in its logarithm).
-    return -0.5 * n * std::log(2.0 * std::numbers::pi * squares / n) - 0.5 * n +
-           0.5 * std::log(std::numbers::pi / n);
-  };
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    const double t = quadrature.at[k];
-    AtStandoff& a = at[k];
-    // Denser where the range begins, at which the prior of bare bone is narrow.
-    a.s_m = low_m + (high_m - low_m) * t * t;
-    const double width_m = (high_m - low_m) * 2.0 * t * quadrature.weight[k];
-    const double squares =
-        left(2, 2) - 2.0 * a.s_m * left(0, 2) + a.s_m * a.s_m * left(0, 0) + inside_m2;
-    const double here =
-        raw(2, 2) - 2.0 * a.s_m * raw(0, 2) + a.s_m * a.s_m * raw(0, 0) + inside_m2;
-    a.noise_m2 = std::max(squares, 1e-18) / freedom;
-    const double prior_log = log_prior_of_standoff(prior, a.s_m) + std::log(width_m) +
-                             log_prior_of(prior, node, a.s_m, std::sqrt(a.noise_m2));
-    a.log_all = prior_log + fixed - log_pose + log_scale(squares, freedom);
-    a.log_here = prior_log + fixed + log_scale(here, dims);
-    // The size, with its prior.
-    const double by_height = left(1, 2) - a.s_m * left(0, 1);
-    const double precision = a.noise_m2 / (prior.size_sd * prior.size_sd);
-    const double size_information = left(1, 1) + precision;
-    const double squares_size = squares - by_height * by_height / size_information;
-    a.log_size = prior_log + fixed - log_pose + log_scale(squares_size, freedom) +
-                 0.5 * std::log(precision / size_information);
-    a.size = by_height / size_information;
-    a.size_variance = a.noise_m2 / size_information;
-    most = std::max({most, a.log_all});
-  }
-  if (!(most > kNever)) {
-    return std::nullopt;
-  }
+  const double fixed = -0.5 * covariances.log_determinant() -
+                       0.5 * rows.within * within.log_determinant + rows.log_outliers;
+  const double log_pose = pivots.array().log().sum();
+  const OverStandoff over =
+      over_standoff({left(2, 2) + inside_m2, left(0, 2), left(0, 0)}, freedom, log_prior);
   Answer out;
-  double sum = 0.0, s_mean = 0.0, s_square = 0.0, noise_m2 = 0.0;
-  for (const AtStandoff& a : at) {
-    const double p = std::exp(a.log_all - most);
-    sum += p;
-    s_mean += p * a.s_m;
-    s_square += p * a.s_m * a.s_m;
-    noise_m2 += p * a.noise_m2;
-    out.log_here = log_sum(out.log_here, a.log_here);
-    out.log_size = log_sum(out.log_size, a.log_size);
+  out.log_weight = over.log_integral + fixed - log_pose;
+  if (asked == Asked::kAll) {
+    const Eigen::Matrix3d raw = kept.transpose() * all.bottomRightCorner<4, 4>() * kept;
+    out.log_here =
+        fixed + over_standoff({raw(2, 2) + inside_m2, raw(0, 2), raw(0, 0)}, dimensions, log_prior)
+                    .log_integral;
+    // The size has a normal prior: integrated, it takes its part of the squares.
+    const double precision = over.noise_m2 / (prior.size_sd * prior.size_sd);
+    const double information = left(1, 1) + precision;
+    const OverStandoff sized = over_standoff(
+        {left(2, 2) - left(1, 2) * left(1, 2) / information + inside_m2,
+         left(0, 2) - left(1, 2) * left(0, 1) / information,
+         left(0, 0) - left(0, 1) * left(0, 1) / information},
+        freedom, log_prior);
+    out.log_size =
+        sized.log_integral + fixed - log_pose + 0.5 * std::log(precision / information);
+    const double by_standoff = left(0, 1) / information;
+    out.size = left(1, 2) / information - sized.mean_m * by_standoff;
+    out.size_variance =
+        sized.noise_m2 / information + sized.variance_m2 * by_standoff * by_standoff;
   }
-  double size_square = 0.0;
-  for (const AtStandoff& a : at) {
-    const double p = std::exp(a.log_size - out.log_size);
-    out.size += p * a.size;
-    size_square += p * (a.size_variance + a.size * a.size);
-  }
-  out.size_variance = std::max(0.0, size_square - out.size * out.size);
-  out.log_weight = most + std::log(sum);
-  s_mean /= sum;
-  noise_m2 /= sum;
-  const double s_variance = std::max(0.0, s_square / sum - s_mean * s_mean);
   out.part.of = mix;
-  out.part.noise_m = std::sqrt(noise_m2);
-  out.part.standoff_m = s_mean;
-  out.part.standoff_sd_m = std::sqrt(s_variance);
+  out.part.noise_m = std::sqrt(over.noise_m2);
+  out.part.standoff_m = over.mean_m;
+  out.part.standoff_sd_m = std::sqrt(over.variance_m2);
   Vector6 scale;
   scale << 1.0, 1.0, 1.0, 1.0 / kLever_m, 1.0 / kLever_m, 1.0 / kLever_m;
   const Vector6 by_standoff = scale.asDiagonal() * solved.col(0);
   const Matrix6 inverse = llt.solve(Matrix6::Identity());
-  Eigen::Map<Vector6>(out.part.step.data()) =
-      scale.asDiagonal() * solved.col(2) - s_mean * by_standoff;
+  Eigen::Map<Vector6> step(out.part.step.data());
+  step = scale.asDiagonal() * solved.col(2) - over.mean_m * by_standoff;
   Eigen::Map<Rows6>(out.part.covariance.data()) =
-      noise_m2 * (scale.asDiagonal() * inverse * scale.asDiagonal()) +
-      s_variance * by_standoff * by_standoff.transpose();
-  if (!std::isfinite(out.log_weight) || !Eigen::Map<Vector6>(out.part.step.data()).allFinite()) {
+      over.noise_m2 * (scale.asDiagonal() * inverse * scale.asDiagonal()) +
+      over.variance_m2 * by_standoff * by_standoff.transpose();
+  if (!std::isfinite(out.log_weight) || !step.allFinite()) {
     return std::nullopt;
   }
   return out;
@@ -697,7 +709,8 @@ Answers explored(const Rows& rows, const Prior& prior, bool in_time) {
     if (seen.size() >= kMost || seen.contains(node)) {
       return;
     }
-    auto found = answer(covariances, rows, prior, node, mixture(node, prior, in_time));
+    auto found =
+        answer(covariances, rows, prior, node, mixture(node, prior, in_time), Asked::kWeight);
     if (found) {
       most = std::max(most, found->log_weight);
       likely.emplace(found->log_weight, node);
@@ -762,7 +775,8 @@ Answers answers_at(const Rows& rows, const Prior& prior, bool in_time,
   Covariances covariances(rows, prior.model_length_m);
   Answers out;
   for (const Node& node : nodes) {
-    if (auto found = answer(covariances, rows, prior, node, mixture(node, prior, in_time))) {
+    if (auto found = answer(covariances, rows, prior, node, mixture(node, prior, in_time),
+                            Asked::kAll)) {
       out.emplace_back(node, std::move(*found));
     }
   }

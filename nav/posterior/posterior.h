@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -82,6 +83,26 @@ struct Posterior {
   std::vector<double> height_m;  ///< of each point: its signed distance less the ball's radius
   Hand hand;
 };
+
+/// A sum of squares (m^2) as a function of the standoff s: height - 2 s product + s^2 standoff.
+struct Squares {
+  double height = 0.0;
+  double product = 0.0;
+  double standoff = 0.0;
+};
+
+/// The heights' density integrated over s >= 0 and over the noise's scale: with `freedom` degrees of
+/// freedom, the sum of squares, and `log_prior` (s, noise's SD): of s a density by metre, of the
+/// noise one by its logarithm. Quadrature in s, so that a truncated tail is as exact as the middle.
+struct OverStandoff {
+  double log_integral = 0.0;
+  double mean_m = 0.0;  ///< of s
+  double variance_m2 = 0.0;
+  double noise_m2 = 0.0;  ///< mean
+};
+[[nodiscard]] OverStandoff over_standoff(
+    const Squares& squares, double freedom,
+    const std::function<double(double s_m, double noise_m)>& log_prior);
 
 /// How closely to look: `kRough` tells hypotheses that are far worse, for little time.
 enum class Effort : std::uint8_t { kRough, kFull };

@@ -1,0 +1,316 @@
+#include "nav/posterior/posterior.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "base/random.h"
+#include "engine/phantom/phantom.h"
+#include "nav/geometry/triangle.h"
+#include "nav/posterior/decision.h"
+#include "tests/support/digitized_strokes.h"
+#include "tests/support/stroke_truths.h"
+
+namespace orthonav::nav::posterior {
+namespace {
+
+/// The built-in phantom's L4.
+struct Bone {
+  engine::CaseLevel from = engine::phantom({"L4"}).levels.at(0);
+  std::shared_ptr<const VertebraModel> model = VertebraModel::prepare(from.mesh).value();
+
+  [[nodiscard]] Question question() const {
+    Question q;
+    for (const ScrewPlan& screw : from.screws) {
+      q.targets.insert(q.targets.end(), {screw.entry, screw.target});
+    }
+    return q;
+  }
+};
+const Bone& bone() {
+  static const Bone the;
+  return the;
+}
+
+Observations strokes(test::StrokeVariant variant, std::uint64_t seed,
+                     const test::StrokeTruths& truths = {},
+                     Transform<World, Vertebra>* truth = nullptr) {
+  auto digitized = test::digitize_strokes(bone().from.mesh, variant, seed).value();
+  test::apply_truths(truths, bone().from.mesh, seed, digitized);
+  if (truth != nullptr) {
+    *truth = digitized.world_from_vertebra;
+  }
+  return observed(digitized.tips(), {}, 0.0);
+}
+
+double error_m(const Decision& d, const Transform<World, Vertebra>& truth) {
+  double most = 0.0;
+  for (const Point<Vertebra>& target : bone().question().targets) {
+    most = std::max(most, (d.answer.world_from_vertebra * target - truth * target).norm());
+  }
+  return most;
+}
+
+// The integral over the standoff and the noise, held against sums over a fine grid.
+
+/// By brute force: every s and every scale of the noise.
+OverStandoff summed(const Squares& q, double freedom,
+                    const std::function<double(double, double)>& log_prior, double most_m) {
+  constexpr int kSteps = 1500;
+  constexpr int kScales = 150;
+  std::vector<std::array<double, 3>> all;  // log value, s, noise²
+  double most = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kSteps; ++i) {
+    const double s = most_m * (i + 0.5) / kSteps;
+    const double squares = q.height - 2.0 * s * q.product + s * s * q.standoff;
+    const double middle = 0.5 * std::log(squares / freedom);
+    const double reach = 8.0 / std::sqrt(2.0 * freedom);
+    for (int k = 0; k < kScales; ++k) {
+      const double log_noise = middle + reach * (2.0 * (k + 0.5) / kScales - 1.0);
+      const double noise2 = std::exp(2.0 * log_noise);
+      const double value = -0.5 * freedom * std::log(2.0 * std::numbers::pi * noise2) -
+                           0.5 * squares / noise2 + log_prior(s, std::sqrt(noise2)) +
+                           std::log(most_m / kSteps) + std::log(2.0 * reach / kScales);
+      all.push_back({value, s, noise2});
+      most = std::max(most, value);
+    }
+  }
+  OverStandoff out;
+  double sum = 0.0, square = 0.0;
+  for (const auto& [value, s, noise2] : all) {
+    const double p = std::exp(value - most);
+    sum += p;
+    out.mean_m += p * s;
+    square += p * s * s;
+  }
+  out.log_integral = most + std::log(sum);
+  out.mean_m /= sum;
+  out.variance_m2 = square / sum - out.mean_m * out.mean_m;
+  return out;
+}
+
+/// The likeliest standoff, in SDs of it: far below zero the rest of the normal law is a thin tail,
+/// whose variance and evidence have to be right all the same.
+TEST(PosteriorStandoff, IsIntegratedAsASumOverEveryValueSays) {
+  constexpr double kNoise_m = 0.0003;
+  constexpr double kFreedom = 400.0;
+  for (const double t : {-10.0, -6.0, -2.0, 0.0, 3.0, 30.0}) {
+    const double sd_m = 0.00005;
+    const double standoff = kNoise_m * kNoise_m / (sd_m * sd_m);
+    const double at_m = t * sd_m;
+    const Squares squares{kFreedom * kNoise_m * kNoise_m + at_m * at_m * standoff,
+                          at_m * standoff, standoff};
+    const auto even = [](double, double) { return 0.0; };
+    const OverStandoff ours = over_standoff(squares, kFreedom, even);
+    const OverStandoff right = summed(squares, kFreedom, even, std::max(at_m, 0.0) + 8.0 * sd_m);
+    EXPECT_NEAR(ours.log_integral, right.log_integral, 0.01) << t;
+    EXPECT_NEAR(ours.mean_m, right.mean_m, 0.01 * sd_m + 0.01 * right.mean_m) << t;
+    EXPECT_NEAR(ours.variance_m2 / right.variance_m2, 1.0, 0.03) << t;
+  }
+}
+
+TEST(PosteriorStandoff, APriorThatIsNarrowAtZeroCounts) {
+  constexpr double kFreedom = 300.0;
+  const double noise2 = 0.0004 * 0.0004;
+  const double standoff = 4.0;  // SD 0.2 mm, beside a prior of 0.1
+  const Squares squares{kFreedom * noise2, 0.0001 * standoff, standoff};
+  const auto log_prior = [](double s, double) { return -0.5 * s * s / (0.0001 * 0.0001); };
+  const OverStandoff ours = over_standoff(squares, kFreedom, log_prior);
+  const OverStandoff right = summed(squares, kFreedom, log_prior, 0.002);
+  EXPECT_NEAR(ours.log_integral, right.log_integral, 0.02);
+  EXPECT_NEAR(ours.mean_m / right.mean_m, 1.0, 0.02);
+}
+
+// Distances.
+
+/// Every triangle looked at; the side by the solid.
+double distance_by_force_m(const TriangleMesh& mesh, Vec3 p, bool inside) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const auto& t : mesh.triangles) {
+    const TriangleMesh one{{mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]},
+                           {{0, 1, 2}}};
+    least_m = std::min(least_m, SurfaceIndex(one).nearest(p)->distance_m);
+  }
+  return inside ? -least_m : least_m;
+}
+
+TEST(PosteriorBone, DistancesAreTrueDeepInsideToo) {
+  const BoneSurface surface(*bone().model);
+  const BoneSurface mirrored(*bone().model, true);
+  const Bounds box = bounds_of(bone().from.mesh);
+  Random random(3);
+  // Places anywhere, and some that lie deeper than the search's field of distances is true.
+  constexpr double kDeep_m = 0.008;
+  std::size_t anywhere = 20, deep = 10;
+  while (anywhere + deep > 0) {
+    Vec3 p;
+    for (int axis = 0; axis < 3; ++axis) {
+      p[axis] = random.uniform(box.low[axis], box.high[axis]);
+    }
+    const bool inside = bone().model->surface().contains(p);
+    const bool is_deep = inside && bone().model->surface().nearest(p)->distance_m > kDeep_m;
+    std::size_t& left = is_deep ? deep : anywhere;
+    if (left == 0) {
+      continue;
+    }
+    --left;
+    const double right_m = distance_by_force_m(bone().from.mesh, p, inside);
+    const auto place = surface.at(p);
+    EXPECT_NEAR(place.distance_m, right_m, 1e-9);
+    EXPECT_NEAR(place.out.dot(p - place.nearest_m), right_m, 1e-9) << "away from the bone";
+    EXPECT_NEAR(mirrored.at({-p.x, p.y, p.z}).distance_m, right_m, 1e-9);
+    EXPECT_NEAR(surface.near(p, surface.place_near(p)).distance_m, right_m, 1e-9);
+  }
+}
+
+TEST(PosteriorBone, ScatterAboutItLiesHigherByHalfTheCurvatureTimesItsVariance) {
+  const BoneSurface surface(*bone().model);
+  Random random(4);
+  constexpr double kSd_m = 0.0004;
+  double lifted_m = 0.0, predicted_m = 0.0, bare_m = 0.0;
+  const auto observations = strokes(test::StrokeVariant::kFull, 3);
+  const auto truth = decided(*bone().model, observations, bone().question()).value();
+  const auto from_world = truth.answer.world_from_vertebra.inverse();
+  for (std::size_t i = 0; i < observations.strokes.size(); i += 4) {
+    const auto place = surface.at((from_world * observations.strokes[i].tip).v);
+    predicted_m += 0.5 * kSd_m * kSd_m *
+                   surface.curvature_1_m(place.nearest_m, place.out, std::numbers::sqrt2 * kSd_m);
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 off{random.normal(0.0, kSd_m), random.normal(0.0, kSd_m),
+                     random.normal(0.0, kSd_m)};
+      lifted_m += surface.at(place.nearest_m + off).distance_m / 20.0;
+    }
+    bare_m += kSd_m;
+  }
+  EXPECT_NEAR(lifted_m / predicted_m, 1.0, 0.35);
+  EXPECT_GT(predicted_m, 0.01 * bare_m) << "a bone is convex where it is stroked";
+}
+
+// Answers.
+
+TEST(Posterior, PredictsTheErrorsOfItsPoses) {
+  // Over strokes of which it knows all but the noise: clean, few, and over uneven tissue.
+  struct Kind {
+    test::StrokeVariant variant;
+    test::StrokeTruths truths;
+  };
+  std::vector<Kind> kinds{{test::StrokeVariant::kFull, {}}, {test::StrokeVariant::kSparse, {}}};
+  kinds.push_back({test::StrokeVariant::kFull, {}});
+  kinds.back().truths.tissue = test::Tissue::kAreas;
+  kinds.back().truths.mean_tissue_m = 0.001;
+  double squares = 0.0;
+  double predicted = 0.0;
+  int within_99 = 0, runs = 0;
+  for (const Kind& kind : kinds) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      Transform<World, Vertebra> truth;
+      const auto o = strokes(kind.variant, seed, kind.truths, &truth);
+      const auto d = decided(*bone().model, o, bone().question());
+      ASSERT_TRUE(d);
+      const double off_m = error_m(*d, truth);
+      squares += off_m * off_m / (d->rms_m * d->rms_m);
+      predicted += 1.0;
+      within_99 += off_m < d->within_99_m ? 1 : 0;
+      ++runs;
+      EXPECT_FALSE(d->accepted && off_m > 0.002) << seed;
+    }
+  }
+  EXPECT_GT(squares / predicted, 0.4) << "honest, not timid";
+  EXPECT_LT(squares / predicted, 1.7);
+  EXPECT_GE(within_99, runs - 1);
+}
+
+TEST(Posterior, CleanStrokesAreAcceptedAndTheirNoiseAndHeightAreTold) {
+  Transform<World, Vertebra> truth;
+  test::StrokeTruths even;
+  even.tissue = test::Tissue::kUniform;
+  even.mean_tissue_m = 0.001;
+  const auto o = strokes(test::StrokeVariant::kFull, 2, even, &truth);
+  const auto d = decided(*bone().model, o, bone().question());
+  ASSERT_TRUE(d);
+  EXPECT_TRUE(d->accepted) << d->wrong;
+  EXPECT_LT(error_m(*d, truth), 0.0005);
+  EXPECT_NEAR(d->answer.standoff_m, 0.001, 0.0002);
+  EXPECT_NEAR(d->answer.noise_m, 0.0003, 0.0001);
+  EXPECT_NEAR(d->answer.size, 1.0, 4.0 * d->answer.size_sd);
+  EXPECT_LT(d->answer.uneven_m, 0.0002);
+}
+
+TEST(Posterior, RepeatedPointsSayNothingNew) {
+  const auto once = test::digitize_strokes(bone().from.mesh, test::StrokeVariant::kSparse, 4).value();
+  std::vector<Point<World>> tips = once.tips();
+  const auto first = decided(*bone().model, observed(tips, {}, 0.0), bone().question());
+  const std::vector<Point<World>> again = tips;
+  tips.insert(tips.end(), again.begin(), again.end());
+  const auto second = decided(*bone().model, observed(tips, {}, 0.0), bone().question());
+  ASSERT_TRUE(first);
+  ASSERT_TRUE(second);
+  EXPECT_NEAR(second->rms_m / first->rms_m, 1.0, 1e-6);
+}
+
+TEST(Posterior, AModelOfAnotherSizeIsNoticed) {
+  for (const double size : {0.95, 1.05}) {
+    const auto other = VertebraModel::prepare(test::scaled(bone().from.mesh, size)).value();
+    const auto d =
+        decided(*other, strokes(test::StrokeVariant::kFull, 5), bone().question()).value();
+    EXPECT_FALSE(d.accepted) << size;
+    EXPECT_NEAR(d.answer.size, 1.0 / size, 0.01);
+    const auto most = std::max_element(
+        d.explanations.begin(), d.explanations.end(),
+        [](const auto& a, const auto& b) { return a.probability < b.probability; });
+    EXPECT_EQ(most->kind, Explanation::Kind::kSize);
+  }
+}
+
+TEST(Posterior, StrokesOfAnotherLevelAreRefused) {
+  const auto l2 = engine::phantom({"L2"}).levels.at(0);
+  const auto l2_model = VertebraModel::prepare(l2.mesh).value();
+  const auto foreign = test::digitize_strokes(l2.mesh, test::StrokeVariant::kFull, 1).value();
+  Question question = bone().question();
+  question.neighbours.push_back({"L2", l2_model.get()});
+  const auto d = decided(*bone().model, observed(foreign.tips(), {}, 0.0), question).value();
+  EXPECT_FALSE(d.accepted);
+  EXPECT_GT(d.wrong, 0.99);
+}
+
+TEST(Posterior, PointsThatHoldNoPoseAreRefusedInOneLine) {
+  const Question question = bone().question();
+  const auto refused = [&](const std::vector<Point<World>>& points) {
+    const auto d = decided(*bone().model, observed(points, {}, 0.0), question);
+    return !d || !d->accepted;
+  };
+  std::vector<Point<World>> line, ball, plane, noise, same(300);
+  Random random(9);
+  for (int i = 0; i < 300; ++i) {
+    line.push_back({{0.0002 * i, 0.0, 0.0}});
+    const Vec3 n = Vec3{random.normal(), random.normal(), random.normal()}.normalized();
+    ball.push_back({0.02 * n});
+    plane.push_back({{random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02), 0.0}});
+    noise.push_back({{random.normal(0.0, 0.03), random.normal(0.0, 0.03), random.normal(0.0, 0.03)}});
+  }
+  std::vector<Point<World>> broken = line;
+  broken[17].v.y = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Point<World>> far = line;
+  far[40].v.z = 1e300;
+  for (const auto& points : {line, ball, plane, noise, same, broken, far, {}}) {
+    EXPECT_TRUE(refused(points));
+  }
+}
+
+TEST(Posterior, IsTheSameAgain) {
+  const auto o = strokes(test::StrokeVariant::kPartial, 6);
+  const auto a = decided(*bone().model, o, bone().question()).value();
+  const auto b = decided(*bone().model, o, bone().question()).value();
+  EXPECT_EQ(a.wrong, b.wrong);
+  EXPECT_EQ(a.answer.world_from_vertebra.translation(), b.answer.world_from_vertebra.translation());
+  EXPECT_EQ(a.answer.log_evidence, b.answer.log_evidence);
+}
+
+}  // namespace
+}  // namespace orthonav::nav::posterior
