@@ -885,8 +885,8 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   constexpr std::size_t kFewUnits = 64;
   constexpr std::size_t kManyUnits = 160;
   constexpr std::size_t kFewestPoints = 24;
-  constexpr std::size_t kSteering = 8;  // points of the grid that the descent uses
-  constexpr std::size_t kKept = 120;
+  constexpr std::size_t kSteering = 4;  // points of the grid that the descent uses
+  constexpr std::size_t kKept = 48;
   constexpr int kMostSteps = 12;
   constexpr int kMostHalvings = 4;
   constexpr double kStands_m = 3e-6;
