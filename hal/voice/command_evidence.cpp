@@ -6,8 +6,8 @@ namespace orthonav::voice {
 
 namespace {
 
-// A logistic regression over phrases and other sayings of the tuning voices (docs/voice.md). The
-// longer a command fits the sound, the less likely it is that another word sounds like it.
+// A logistic regression over phrases and other sayings of the tuning voices (docs/lab/voice.md).
+// The longer a command fits the sound, the less likely it is that another word sounds like it.
 constexpr double kConstant = 3.0;
 constexpr double kEvidenceWeight = 1.5;
 constexpr double kLeastWeight = 0.5;
