@@ -209,9 +209,9 @@ struct Contrasts {
   }
 };
 
-/// The row of docs/holograms.md for a kind of text.
-std::string row_in_docs(const std::string& kind) {
-  std::ifstream file(ORTHONAV_SOURCE_DIR "/docs/holograms.md");
+/// The row of legibility.md for a kind of text.
+std::string contrast_row(const std::string& kind) {
+  std::ifstream file(ORTHONAV_SOURCE_DIR "/tests/golden/legibility.md");
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with("| " + kind + " |")) {
       return line;
@@ -221,8 +221,8 @@ std::string row_in_docs(const std::string& kind) {
 }
 
 /// The same words, and numbers that differ by no more than what rounding may do on another machine.
-void expect_nearly(const std::string& in_docs, const std::string& measured) {
-  std::istringstream docs(in_docs), now(measured);
+void expect_nearly(const std::string& kept, const std::string& measured) {
+  std::istringstream docs(kept), now(measured);
   std::string a, b;
   while (now >> b) {
     docs >> a;
@@ -230,9 +230,9 @@ void expect_nearly(const std::string& in_docs, const std::string& measured) {
     const double number = std::strtod(b.c_str(), &end);
     if (end != b.c_str() && *end == 0) {
       EXPECT_NEAR(std::strtod(a.c_str(), nullptr), number, 0.11)
-          << "docs/holograms.md is stale: " << in_docs << " is now " << measured;
+          << "tests/golden/legibility.md is stale: " << kept << " is now " << measured;
     } else {
-      EXPECT_EQ(a, b) << "docs/holograms.md is stale: " << in_docs << " is now " << measured;
+      EXPECT_EQ(a, b) << "tests/golden/legibility.md is stale: " << kept << " is now " << measured;
     }
     a.clear();
   }
@@ -250,7 +250,7 @@ TEST(Contrast, EveryTextIsLegibleOverEverythingInTheRoom) {
       row += printed(" %.1f |", least);
     }
     std::printf("%s\n", row.c_str());
-    expect_nearly(row_in_docs(kind.name), row);
+    expect_nearly(contrast_row(kind.name), row);
   }
 }
 

@@ -68,8 +68,8 @@ GoldenScene scene_named(const std::string& name, bool laid_out = true) {
   return {};
 }
 
-std::string count_in_docs(const std::string& step) {
-  std::ifstream file(ORTHONAV_SOURCE_DIR "/docs/holograms.md");
+std::string count_row(const std::string& step) {
+  std::ifstream file(ORTHONAV_SOURCE_DIR "/tests/golden/legibility.md");
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with("| scene `" + step + "` |")) {
       return line;
@@ -98,7 +98,7 @@ TEST(QuietView, HasAsMuchToReadAsTheTableSays) {
     const std::string row =
         printed("| scene `%s` | %d | %d |", name, reading.numbers, reading.words);
     std::printf("%s\n", row.c_str());
-    EXPECT_EQ(count_in_docs(name), row) << "docs/holograms.md is stale";
+    EXPECT_EQ(count_row(name), row) << "tests/golden/legibility.md is stale";
   }
 }
 
