@@ -71,9 +71,9 @@ Json level_of(const engine::LevelState& level) {
   }
   for (std::size_t i = 0; i < level.plan.screws.size(); ++i) {
     Json screw = {{"side", name_of(level.plan.screws[i].side)},
-                  {"done", i < level.screw_done.size() && level.screw_done[i]}};
-    if (i < level.wires.size() && level.wires[i].measured) {
-      const engine::PlacedWire& wire = *level.wires[i].measured;
+                  {"done", i < level.screws.size() && level.screws[i].done}};
+    if (i < level.screws.size() && level.screws[i].wire.measured) {
+      const engine::PlacedWire& wire = *level.screws[i].wire.measured;
       screw["wire_angle_deg"] = wire.axis.angle_rad.value * kDegreesPerRadian;
       screw["wire_entry_mm"] = wire.axis.entry_m.value * 1e3;
       screw["wire_within"] = wire.within();

@@ -36,7 +36,7 @@ double done_of_s(double usual_s, double since_s) {
 }
 
 double left_s(const engine::LevelState& level) {
-  const auto screws = std::count(level.screw_done.begin(), level.screw_done.end(), false);
+  const auto screws = std::ranges::count(level.screws, false, &engine::ScrewState::done);
   return (level.registration ? 0.0 : kDigitize_s) + (level.accepted ? 0.0 : kVerify_s) +
          static_cast<double>(screws) * (kGuide_s + kPlaced_s);
 }

@@ -40,7 +40,8 @@ StagedOperation::StagedOperation(Step step) : levels_(1), tools_(2) {
   level.registration.emplace();
   level.registration->common.tip_m = 0.0001;
   level.accepted = step >= Step::kAccepted;
-  level.screw_done = {false, true};
+  level.screws.resize(2);
+  level.screws[1].done = true;
   tools_[0] = {"guide", nav::ToolRole::kGuide, PoseStatus::kMeasured, {}};
   if (step == Step::kDigitize || step == Step::kVerify) {
     tools_[0] = {"pointer", nav::ToolRole::kPointer, PoseStatus::kMeasured, {}};

@@ -98,7 +98,7 @@ GoldenScene checked_often() {
 
 GoldenScene accepted() {
   StagedOperation s(Step::kAccepted);
-  s.level().screw_done = {false, false};
+  s.level().screws[1].done = false;
   s.level().landmark = Landmark{{to_vec3(on_golden_vertebra(0.0f, -0.014f))}, 0.0, {}};
   s.guidance.status.state = LandmarkSoFar{true, {}, nullptr, nullptr};
   return s.scene("accepted", "two named blue entries, a cyan diamond: touch the dimple");
@@ -145,7 +145,7 @@ GoldenScene guide_stop() {
 
 GoldenScene operation_done() {
   StagedOperation s(Step::kDone);
-  s.level().screw_done = {true, true};
+  s.level().screws[0].done = true;
   return s.scene("done", "two entries with ticks");
 }
 

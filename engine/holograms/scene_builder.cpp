@@ -224,7 +224,7 @@ void SceneBuilder::add_entries(render::Scene& scene) {
         append_screw(text_, level.plan.label, screw.side);
       }
       entry.text = text_;
-      entry.done = level.screw_done[s];
+      entry.done = level.screws[s].done;
       // From behind, where the surgeon looks from, the patient's left is on the left.
       entry.side = screw.side == nav::Side::kLeft ? LabelSide::kLeft : LabelSide::kRight;
       add_entry(scene, entry, label_of(HologramKind::kEntry, ++k));

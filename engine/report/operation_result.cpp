@@ -37,10 +37,10 @@ LevelOutcome outcome_of(const LevelState& state) {
 
 ScrewOutcome outcome_of_screw(const LevelState& state, std::size_t index) {
   const nav::ScrewPlan& plan = state.plan.screws[index];
-  ScrewOutcome screw{plan.side, state.screw_done[index], {}, {}};
+  ScrewOutcome screw{plan.side, state.screws[index].done, {}, {}};
   screw.accepted_breach = plan.accepted_breach;
-  if (state.replanned(index)) {
-    screw.planned_in_surgery = nav::difference_of(state.preoperative[index], plan);
+  if (state.screws[index].replanned()) {
+    screw.planned_in_surgery = nav::difference_of(state.screws[index].preoperative, plan);
   }
   const auto cylinder = nav::cylinder_of(plan);
   screw.size = cylinder;
@@ -55,19 +55,13 @@ ScrewOutcome outcome_of_screw(const LevelState& state, std::size_t index) {
     screw.planned = nav::screw_clearance(state.plan.model->surface(), *cylinder,
                                          known ? &*state.registration->uncertainty : nullptr);
   }
-  if (index < state.clearance_at_depth.size()) {
-    screw.tracked = state.clearance_at_depth[index];
-  }
-  if (index < state.executed.size()) {
-    screw.trajectory = state.executed[index];
-  }
+  screw.tracked = state.screws[index].clearance_at_depth;
+  screw.trajectory = state.screws[index].executed;
   if (screw.trajectory && state.plan.model) {
     screw.driven = nav::cylinder_along(screw.trajectory->axis, plan, state.plan.model->surface());
   }
-  if (index < state.wires.size()) {
-    screw.wire = state.wires[index];
-    screw.redone = state.redone[index];
-  }
+  screw.wire = state.screws[index].wire;
+  screw.redone = state.screws[index].redone;
   return screw;
 }
 
@@ -86,7 +80,7 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
     LevelOutcome level = outcome_of(state);
     for (std::size_t s = 0; s < state.plan.screws.size(); ++s) {
       level.screws.push_back(outcome_of_screw(state, s));
-      result.completed = result.completed && state.screw_done[s];
+      result.completed = result.completed && state.screws[s].done;
     }
     result.completed = result.completed && level.accepted;
     result.levels.push_back(std::move(level));

@@ -25,10 +25,10 @@ Event after_screw(const OperationInWork& work) {
   if (!finished(work.level())) {
     return Event::kAnotherScrew;
   }
-  if (!std::all_of(work.levels.begin(), work.levels.end(), finished)) {
+  if (!std::all_of(work.state.levels.begin(), work.state.levels.end(), finished)) {
     return Event::kAnotherLevel;
   }
-  return any_rod_planned(work.levels) ? Event::kNoScrewLeft : Event::kNoRodPlanned;
+  return any_rod_planned(work.state.levels) ? Event::kNoScrewLeft : Event::kNoRodPlanned;
 }
 
 /// Of a screw in the hole of a drill that goes astray from the tool.
@@ -55,14 +55,15 @@ void Guiding::begin_level() {
 Event Guiding::finish_screw(OperationInWork& work, const Placing& placing, Timestamp time) const {
   LevelState& level = work.level();
   const auto& at_depth = approach_.at_depth;
-  level.screw_done[screw_] = true;
-  level.clearance_at_depth[screw_] =
+  ScrewState& screw = level.screws[screw_];
+  screw.done = true;
+  screw.clearance_at_depth =
       at_depth ? clearance_along(level, approach_.pose_at_depth,
                                  work.tools.geometry(work.tools.guide()), work.options.astray)
                : std::nullopt;
-  level.executed[screw_] = approach_.path.mean();
+  screw.executed = approach_.path.mean();
   if (work.step == Step::kPlaced) {
-    level.wires[screw_] = {true, placing.wire()};
+    screw.wire = {true, placing.wire()};
   }
   work.observer->screw_done(time, level, screw_, at_depth ? &*at_depth : nullptr);
   work.observer->calibration_found(time, calibration_in_use(work.tools.tracker()));

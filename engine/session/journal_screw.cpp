@@ -12,7 +12,7 @@ namespace {
 
 /// The clearance along the tool at depth, if known.
 void put_clearance_at_depth(JournalLine& line, const LevelState& level, std::size_t screw) {
-  const auto& clearance = level.clearance_at_depth[screw];
+  const auto& clearance = level.screws[screw].clearance_at_depth;
   if (!clearance) {
     return;
   }
@@ -26,12 +26,12 @@ void put_clearance_at_depth(JournalLine& line, const LevelState& level, std::siz
 
 /// The outcome of its wire: measured within the limits, kept beyond one, or not measured.
 void put_wire_outcome(JournalLine& line, const LevelState& level, std::size_t screw) {
-  const WireOutcome& outcome = level.wires[screw];
+  const WireOutcome& outcome = level.screws[screw].wire;
   if (!outcome.asked) {
     return;
   }
   line["wire"] = !outcome.measured ? "not measured" : outcome.measured->kept ? "kept" : "within";
-  line["redone"] = level.redone[screw];
+  line["redone"] = level.screws[screw].redone;
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ void Journal::screw_redone(Timestamp time, const LevelState& level, std::size_t 
                            const nav::OtherEntry& entry) {
   JournalLine line = journal_line(file_ticks(time), time, "screw redone", level);
   line["side"] = name_of(level.plan.screws[screw].side);
-  line["redone"] = level.redone[screw];
+  line["redone"] = level.screws[screw].redone;
   line["entry_mm"] = millimetres(entry.entry.v);
   line["from_hole_mm"] = entry.from_hole_m * 1e3;
   line["clearance_mm"] = entry.clearance.clearance_m * 1e3;
@@ -87,7 +87,7 @@ void Journal::screw_done(Timestamp time, const LevelState& level, std::size_t sc
     line["depth_mm"] = at_depth->measured->depth_m * 1e3;
   }
   put_clearance_at_depth(line, level, screw);
-  put_executed(line, level.executed[screw], level.clearance_at_depth[screw]);
+  put_executed(line, level.screws[screw].executed, level.screws[screw].clearance_at_depth);
   put_wire_outcome(line, level, screw);
   add_line(*log_, line, kDurable);
 }

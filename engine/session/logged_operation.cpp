@@ -1,19 +1,19 @@
 #include "engine/session/logged_operation.h"
 
-#include <algorithm>
-
 #include "engine/session/journal_rod_reading.h"
 #include "engine/session/operation_json.h"
 
 namespace orthonav::engine {
 namespace {
 
-void forget_registration(LoggedLevel& level) {
-  level.registration.reset();
-  level.points_hash.clear();
-  level.accepted = false;
-  level.check_points = 0;
-  level.landmark.reset();
+std::vector<Point<World>> points_of(const std::vector<nav::Region>& strokes) {
+  std::vector<Point<World>> points;
+  for (const nav::Region& region : strokes) {
+    for (const nav::Sample& sample : region.samples) {
+      points.push_back(sample.tip_in_world);
+    }
+  }
+  return points;
 }
 
 /// Applies one record; errors are noted in its document.
@@ -69,64 +69,69 @@ class Applied {
   void begin() {
     operation_.identity = identity_from(node_);
     for (const JsonNode& planned : node_.list("plan")) {
-      LoggedLevel level;
-      level.label = planned.text("label");
+      OperatedLevel plan;
+      plan.label = planned.text("label");
       for (const JsonNode& screw : planned.list("screws")) {
-        level.screws.emplace_back().plan = screw_from(screw);
+        plan.screws.push_back(screw_from(screw));
       }
-      operation_.levels.push_back(std::move(level));
+      operation_.state.levels.push_back(planned_level(std::move(plan)));
     }
+    operation_.strokes.resize(operation_.state.levels.size());
   }
 
   void apply_to_rod() {
-    LoggedRod& rod = operation_.rods[side_from(node_) == Side::kRight ? 1 : 0];
+    RodState& rod = operation_.state.rods[side_from(node_) == Side::kRight ? 1 : 0];
     if (type_ == OperationRecord::kRod) {
       rod.done = true;
     } else {
-      rod.heads = heads_after(node_, type_ == OperationRecord::kHead, rod.heads);
+      rod.heads.resize(heads_after(node_, type_ == OperationRecord::kHead, rod.heads.size()));
     }
   }
 
   void apply_to_level() {
     const auto index = static_cast<std::size_t>(node_.unsigned_integer("level"));
-    if (index >= operation_.levels.size()) {
-      node_.refuse("level", "must be below " + std::to_string(operation_.levels.size()));
+    const std::size_t levels = operation_.state.levels.size();
+    if (index >= levels) {
+      node_.refuse("level", "must be below " + std::to_string(levels));
       return;
     }
-    apply_to(operation_.levels[index]);
+    apply_to(operation_.state.levels[index], operation_.strokes[index]);
   }
 
-  void apply_to(LoggedLevel& level) {
+  void apply_to(LevelState& level, std::vector<nav::Region>& strokes) {
     using enum OperationRecord;
     switch (type_) {
       case kRegion:
-        level.regions.push_back(region_from(node_.child("region")));
+        strokes.push_back(region_from(node_.child("region")));
         return;
       case kRegionDropped:
-        return drop_region(level);
+        return drop_region(strokes);
       case kRegistration:
-        return apply_registration(level);
+        return apply_registration(level, strokes);
       case kAccepted:
         level.registration = registration_from(node_.child("registration"));
         level.accepted = true;
         return;
       case kAcceptanceWithdrawn:
         level.accepted = false;
-        level.check_points = 0;
+        level.check_points.clear();
         return;
       case kLevelCleared:
-        level.regions.clear();
-        return forget_registration(level);
+        strokes.clear();
+        level.newest.reset();
+        return level.forget_registration();
       case kPlan:
         return apply_plan(level);
       case kWire:
       case kScrew:
         return apply_to_screw(level);
       case kCheckPoint:
-        ++level.check_points;
+        level.check_points.push_back(check_point_from(node_));
         return;
       case kCheckPointDropped:
-        level.check_points -= level.check_points > 0 ? 1 : 0;
+        if (!level.check_points.empty()) {
+          level.check_points.pop_back();
+        }
         return;
       case kLandmark:
         if (node_.flag_or("first", false)) {
@@ -151,40 +156,44 @@ class Applied {
     }
   }
 
-  void drop_region(LoggedLevel& level) {
-    if (level.regions.empty()) {
+  void drop_region(std::vector<nav::Region>& strokes) const {
+    if (strokes.empty()) {
       node_.refuse("level", "has no region to be deleted");
     } else {
-      level.regions.pop_back();
+      strokes.pop_back();
     }
   }
 
-  void apply_registration(LoggedLevel& level) {
+  void apply_registration(LevelState& level, const std::vector<nav::Region>& strokes) const {
     level.attempts = node_.integer("attempt");
-    if (node_.flag_or("passed", false)) {
-      forget_registration(level);
-      level.registration = registration_from(node_.child("registration"));
-      level.points_hash = node_.text("points_hash");
+    if (!node_.flag_or("passed", false)) {
+      return;
+    }
+    level.forget_registration();
+    level.registration = registration_from(node_.child("registration"));
+    level.newest = {points_of(strokes), *level.registration};
+    if (hash_of(level.newest->points) != node_.text("points_hash")) {
+      level.newest.reset();
     }
   }
 
-  void apply_plan(LoggedLevel& level) {
+  void apply_plan(LevelState& level) const {
     const std::vector<JsonNode> screws = node_.list("screws");
     if (screws.size() != level.screws.size()) {
       node_.refuse("screws", "must be " + std::to_string(level.screws.size()));
       return;
     }
     for (std::size_t i = 0; i < screws.size(); ++i) {
-      level.screws[i].plan = screw_from(screws[i]);
+      level.plan.screws[i] = screw_from(screws[i]);
       level.screws[i].redone = screws[i].integer("redone");
-      level.screws[i].earlier.clear();
+      level.screws[i].earlier_plans.clear();
       for (const JsonNode& earlier : screws[i].list("earlier")) {
-        level.screws[i].earlier.push_back(screw_from(earlier));
+        level.screws[i].earlier_plans.push_back(screw_from(earlier));
       }
     }
   }
 
-  void apply_to_screw(LoggedLevel& level) {
+  void apply_to_screw(LevelState& level) const {
     const auto index = static_cast<std::size_t>(node_.unsigned_integer("screw"));
     if (index >= level.screws.size()) {
       node_.refuse("screw", "must be below " + std::to_string(level.screws.size()));
@@ -193,20 +202,19 @@ class Applied {
     if (type_ == OperationRecord::kWire) {
       return;  // its outcome is recorded once the screw is done
     }
-    LoggedScrew& screw = level.screws[index];
+    ScrewState& screw = level.screws[index];
     screw.done = true;
     screw.executed.reset();
-    screw.clearance.reset();
-    screw.wire.reset();
+    screw.clearance_at_depth.reset();
+    screw.wire = {node_.flag_or("wire_asked", false), std::nullopt};
     if (node_.has("executed")) {
       screw.executed = executed_from(node_.child("executed"));
     }
     if (node_.has("clearance")) {
-      screw.clearance = clearance_from(node_.child("clearance"));
+      screw.clearance_at_depth = clearance_from(node_.child("clearance"));
     }
-    screw.wire_asked = node_.flag_or("wire_asked", false);
     if (node_.has("wire")) {
-      screw.wire = wire_from(node_.child("wire"));
+      screw.wire.measured = wire_from(node_.child("wire"));
     }
   }
 
@@ -238,20 +246,13 @@ Status applied(LoggedOperation& operation, const Record& record, const std::stri
 
 }  // namespace
 
-bool LoggedLevel::finished() const {
-  return std::all_of(screws.begin(), screws.end(),
-                     [](const LoggedScrew& screw) { return screw.done; });
-}
-
 void LoggedOperation::forget_places() {
-  for (LoggedLevel& level : levels) {
-    level.regions.clear();
-    if (!(level.registration && level.finished())) {
-      forget_registration(level);
-    }
+  state.forget_places();
+  for (LevelState& level : state.levels) {
+    level.newest.reset();
   }
-  for (LoggedRod& rod : rods) {
-    rod.heads = rod.done ? rod.heads : 0;
+  for (std::vector<nav::Region>& of_level : strokes) {
+    of_level.clear();
   }
 }
 
@@ -262,22 +263,10 @@ void LoggedOperation::go_on() {
   if (!identity.patient_reference) {
     forget_places();
   }
-  for (LoggedLevel& level : levels) {
-    level.check_points = 0;
+  for (LevelState& level : state.levels) {
+    level.check_points.clear();
   }
-  for (LoggedRod& rod : rods) {
-    rod.heads = rod.done ? rod.heads : 0;
-  }
-}
-
-std::vector<Point<World>> LoggedLevel::points() const {
-  std::vector<Point<World>> points;
-  for (const nav::Region& region : regions) {
-    for (const nav::Sample& sample : region.samples) {
-      points.push_back(sample.tip_in_world);
-    }
-  }
-  return points;
+  state.forget_open_rods();
 }
 
 Result<LoggedOperation> LoggedOperation::from(const std::vector<Record>& records,

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/io/records.h"
-#include "engine/session/guidance.h"
 #include "engine/session/operation_identity.h"
+#include "engine/session/operation_state.h"
+#include "nav/registration/digitizer.h"
+#include "nav/tracking/anchor.h"
 
 namespace orthonav::engine {
 
@@ -39,43 +39,14 @@ enum class OperationRecord : std::uint16_t {
 };
 inline constexpr std::uint16_t kOperationRecordVersion = 1;
 
-struct LoggedScrew {
-  nav::ScrewPlan plan;  ///< in use
-  std::vector<nav::ScrewPlan> earlier;
-  int redone = 0;
-  bool done = false;
-  std::optional<nav::ExecutedTrajectory> executed;
-  std::optional<nav::ScrewClearance> clearance;
-  bool wire_asked = false;
-  std::optional<PlacedWire> wire;
-};
-
-struct LoggedLevel {
-  std::string label;
-  std::vector<nav::Region> regions;  ///< saved
-  int attempts = 0;
-  std::optional<nav::Registration> registration;  ///< one that passed
-  std::string points_hash;                        ///< of the points it was computed from
-  bool accepted = false;
-  std::size_t check_points = 0;
-  std::optional<Landmark> landmark;
-  std::vector<LoggedScrew> screws;
-
-  [[nodiscard]] bool finished() const;
-  /// The points of the saved regions, in order.
-  [[nodiscard]] std::vector<Point<World>> points() const;
-};
-
-struct LoggedRod {
-  std::size_t heads = 0;
-  bool done = false;
-};
-
-/// An operation as reconstructed from the records of its log.
+/// An operation as its log tells it.
 struct LoggedOperation {
   OperationIdentity identity;
-  std::vector<LoggedLevel> levels;
-  std::array<LoggedRod, 2> rods;  ///< left, right
+  /// Without models, and without what follows from the rest. A registration has the points that it
+  /// was computed from only if they are the strokes in the log; of a rod only the number of its
+  /// heads is told, and whether it is done.
+  OperationState state;
+  std::vector<std::vector<nav::Region>> strokes;  ///< saved regions, level by level
   std::vector<nav::ReferencePlace> references;
   bool guide_corrected = false;
   bool done = false;  ///< completed

@@ -37,12 +37,13 @@ std::string plan_hash(std::span<const LevelState> levels) {
   BitHash hash;
   for (const LevelState& level : levels) {
     hash.add(level.plan.label);
-    for (const nav::ScrewPlan& screw : level.preoperative) {
-      hash.add(static_cast<std::uint64_t>(screw.side));
-      hash.add(screw.entry.v);
-      hash.add(screw.target.v);
-      hash.add(screw.radius_m);
-      hash.add(screw.accepted_breach);
+    for (const ScrewState& screw : level.screws) {
+      const nav::ScrewPlan& plan = screw.preoperative;
+      hash.add(static_cast<std::uint64_t>(plan.side));
+      hash.add(plan.entry.v);
+      hash.add(plan.target.v);
+      hash.add(plan.radius_m);
+      hash.add(plan.accepted_breach);
     }
   }
   return hash.text();

@@ -3,22 +3,6 @@
 #include <utility>
 
 namespace orthonav::engine {
-namespace {
-
-LevelState state_of(OperatedLevel plan) {
-  LevelState state;
-  state.screw_done.assign(plan.screws.size(), false);
-  state.clearance_at_depth.resize(plan.screws.size());
-  state.executed.resize(plan.screws.size());
-  state.wires.resize(plan.screws.size());
-  state.redone.resize(plan.screws.size());
-  state.preoperative = plan.screws;
-  state.earlier_plans.resize(plan.screws.size());
-  state.plan = std::move(plan);
-  return state;
-}
-
-}  // namespace
 
 OperationInWork::OperationInWork(Operation operation, WatchedTools watched, Method with,
                                  const SessionOptions& session_options)
@@ -27,7 +11,7 @@ OperationInWork::OperationInWork(Operation operation, WatchedTools watched, Meth
       tools(std::move(watched)),
       messages(session_options.message_for, session_options.heard_for) {
   for (OperatedLevel& plan : operation.levels) {
-    levels.push_back(state_of(std::move(plan)));
+    state.levels.push_back(planned_level(std::move(plan)));
   }
 }
 

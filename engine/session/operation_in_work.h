@@ -24,10 +24,10 @@ struct OperationInWork {
   OperationInWork& operator=(const OperationInWork&) = delete;
 
   /// Not where rods alone are bent.
-  [[nodiscard]] LevelState& level() { return levels[level_in_work]; }
-  [[nodiscard]] const LevelState& level() const { return levels[level_in_work]; }
+  [[nodiscard]] LevelState& level() { return state.levels[level_in_work]; }
+  [[nodiscard]] const LevelState& level() const { return state.levels[level_in_work]; }
   /// There is nothing to register: the screws are in, and rods alone are bent.
-  [[nodiscard]] bool rods_alone() const { return levels.empty(); }
+  [[nodiscard]] bool rods_alone() const { return state.levels.empty(); }
   /// Whether World is attached to a patient reference.
   [[nodiscard]] bool anchored() const { return tools.tracker().anchor() != nullptr; }
   /// Whether there is an observer.
@@ -36,8 +36,8 @@ struct OperationInWork {
   SessionOptions options;
   Method method;
   WatchedTools tools;
-  std::vector<LevelState> levels;
-  std::size_t level_in_work = 0;  ///< an index into `levels`
+  OperationState state;
+  std::size_t level_in_work = 0;  ///< an index into the levels
   Step step = Step::kSetup;
   std::optional<Part> stalled;  ///< in the newest pair; nothing is guided then
   bool waits = true;            ///< for what is computed beside it: time stands still meanwhile

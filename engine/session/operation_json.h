@@ -36,6 +36,7 @@ using LogJson = nlohmann::ordered_json;
 [[nodiscard]] nav::ExecutedTrajectory executed_from(const JsonNode& node);
 [[nodiscard]] nav::ScrewClearance clearance_from(const JsonNode& node);
 [[nodiscard]] PlacedWire wire_from(const JsonNode& node);
+[[nodiscard]] nav::CheckPoint check_point_from(const JsonNode& node);
 [[nodiscard]] Landmark landmark_from(const JsonNode& node);
 [[nodiscard]] nav::ReferencePlace place_from(const JsonNode& node);
 

@@ -189,6 +189,13 @@ PlacedWire wire_from(const JsonNode& node) {
   return wire;
 }
 
+nav::CheckPoint check_point_from(const JsonNode& node) {
+  return {{node.vec3("in_world_m")},
+          bounded(node, "distance_m"),
+          node.flag_or("within", false),
+          bounded(node, "limit_m")};
+}
+
 Landmark landmark_from(const JsonNode& node) {
   return {{node.vec3("in_vertebra_m")}, node.number("sd_m"), Timestamp{}, node.number("bone_sd_m")};
 }

@@ -30,8 +30,8 @@ LogJson begun(const OperationIdentity& identity, std::span<const LevelState> lev
   json["plan"] = LogJson::array();
   for (const LevelState& level : levels) {
     LogJson screws = LogJson::array();
-    for (const nav::ScrewPlan& screw : level.preoperative) {
-      screws.push_back(json_of(screw));
+    for (const ScrewState& screw : level.screws) {
+      screws.push_back(json_of(screw.preoperative));
     }
     json["plan"].push_back({{"label", level.plan.label}, {"screws", std::move(screws)}});
   }

@@ -91,9 +91,9 @@ void OperationLog::add_plan(Timestamp time, const LevelState& level, const std::
   json["screws"] = LogJson::array();
   for (std::size_t i = 0; i < level.plan.screws.size(); ++i) {
     LogJson screw = json_of(level.plan.screws[i]);
-    screw["redone"] = level.redone[i];
+    screw["redone"] = level.screws[i].redone;
     screw["earlier"] = LogJson::array();
-    for (const nav::ScrewPlan& earlier : level.earlier_plans[i]) {
+    for (const nav::ScrewPlan& earlier : level.screws[i].earlier_plans) {
       screw["earlier"].push_back(json_of(earlier));
     }
     json["screws"].push_back(std::move(screw));
@@ -106,15 +106,16 @@ void OperationLog::screw_done(Timestamp time, const LevelState& level, std::size
   LogJson json = about(time, level);
   json["screw"] = screw;
   json["side"] = name_of(level.plan.screws[screw].side);
-  if (level.executed[screw]) {
-    json["executed"] = json_of(*level.executed[screw]);
+  const ScrewState& done = level.screws[screw];
+  if (done.executed) {
+    json["executed"] = json_of(*done.executed);
   }
-  if (level.clearance_at_depth[screw]) {
-    json["clearance"] = json_of(*level.clearance_at_depth[screw]);
+  if (done.clearance_at_depth) {
+    json["clearance"] = json_of(*done.clearance_at_depth);
   }
-  json["wire_asked"] = level.wires[screw].asked;
-  if (level.wires[screw].measured) {
-    json["wire"] = json_of(*level.wires[screw].measured);
+  json["wire_asked"] = done.wire.asked;
+  if (done.wire.measured) {
+    json["wire"] = json_of(*done.wire.measured);
   }
   add(OperationRecord::kScrew, time, json);
 }

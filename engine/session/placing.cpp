@@ -179,15 +179,15 @@ std::optional<Raised> Placing::judge_redo(OperationInWork& work, Guiding& guidin
   if (!undecided()) {
     return refuse(NotPossibleNow{Event::kSayDelete});
   }
-  if (must_confirm(level.redone[screw])) {
-    return refuse(ConfirmRedo{level.redone[screw]});
+  if (must_confirm(level.screws[screw].redone)) {
+    return refuse(ConfirmRedo{level.screws[screw].redone});
   }
   const auto other = other_entry(level, screw);
   if (!other) {
     return Event::kNoOtherEntry;
   }
   put_other_entry(level, screw, other->entry);
-  ++level.redone[screw];
+  ++level.screws[screw].redone;
   guiding.forget_guidance();
   work.observer->screw_redone(time, level, screw, *other);
   return Raised{Event::kScrewRedone, ScrewRedone{other->from_hole_m, other->clearance.clearance_m}};

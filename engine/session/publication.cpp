@@ -20,7 +20,7 @@ const Guidance& Publication::publish(const StereoFrame& frame, Timestamp display
   const auto tool = steps.tool(work);
   out.pose_time = tool ? work.tools.watch(*tool).last_measured().value_or(Timestamp{}) : frame.time;
   out.step = work.step;
-  out.levels = work.levels;
+  out.levels = work.state.levels;
   out.level = work.level_in_work;
   out.stale_after = work.options.stale_after;
   out.fade = work.options.fade;

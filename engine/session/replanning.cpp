@@ -58,18 +58,18 @@ ScrewReplanned put(LevelState& level, std::size_t screw, const nav::ScrewPlan& p
     done.clearance_m = least->clearance_m;
     done.towards = nav::direction_of(*least, in_use.side);
   }
-  if (least && least->clearance_m >= 0.0 && !level.earlier_plans[screw].empty()) {
+  if (least && least->clearance_m >= 0.0 && !level.screws[screw].earlier_plans.empty()) {
     in_use.accepted_breach.clear();
   }
   predict_again(level);
   done.to = in_use;
-  done.difference = nav::difference_of(level.preoperative[screw], in_use);
-  done.as_before_surgery = level.earlier_plans[screw].empty();
+  done.difference = nav::difference_of(level.screws[screw].preoperative, in_use);
+  done.as_before_surgery = level.screws[screw].earlier_plans.empty();
   return done;
 }
 
 ScrewReplanned put_new(LevelState& level, std::size_t screw, const nav::ScrewPlan& plan) {
-  level.earlier_plans[screw].push_back(level.plan.screws[screw]);
+  level.screws[screw].earlier_plans.push_back(level.plan.screws[screw]);
   return put(level, screw, plan);
 }
 
@@ -147,7 +147,8 @@ Replanning::Outcome Replanning::change(LevelState& level, std::size_t screw) {
       place != nullptr && (place->level != level.plan.label || place->side != now.side)) {
     return ReplanRefusal{Kind::kOtherScrew};
   }
-  const auto made = changed(asked_, now, level.preoperative[screw], *level.plan.model, limits_);
+  const auto made =
+      changed(asked_, now, level.screws[screw].preoperative, *level.plan.model, limits_);
   if (const auto* refusal = std::get_if<ReplanRefusal>(&made)) {
     return *refusal;
   }
@@ -162,7 +163,7 @@ Replanning::Outcome Replanning::change(LevelState& level, std::size_t screw) {
 
 void put_other_entry(LevelState& level, std::size_t screw, Point<Vertebra> entry) {
   nav::ScrewPlan& in_use = level.plan.screws[screw];
-  level.earlier_plans[screw].assign(1, in_use);
+  level.screws[screw].earlier_plans.assign(1, in_use);
   in_use.entry = entry;
   predict_again(level);
 }
@@ -184,8 +185,8 @@ std::optional<Replanning::Outcome> Replanning::consented(LevelState& level, std:
 }
 
 Replanning::Outcome Replanning::undo(LevelState& level, std::size_t screw) const {
-  auto& earlier = level.earlier_plans[screw];
-  if (!level.can_undo(screw)) {
+  auto& earlier = level.screws[screw].earlier_plans;
+  if (!level.screws[screw].can_undo()) {
     return ReplanRefusal{Kind::kNothingToUndo};
   }
   const nav::ScrewPlan plan = earlier.back();

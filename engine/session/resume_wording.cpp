@@ -23,12 +23,12 @@ std::string what_it_was(const OperationLog::Found& found) {
   return line;
 }
 
-std::vector<std::string> placed(const LoggedOperation& operation) {
+std::vector<std::string> placed(const OperationState& operation) {
   std::vector<std::string> screws;
-  for (const LoggedLevel& level : operation.levels) {
-    for (const LoggedScrew& screw : level.screws) {
-      if (screw.done) {
-        screws.push_back(level.label + " " + name_of(screw.plan.side));
+  for (const LevelState& level : operation.levels) {
+    for (std::size_t i = 0; i < level.screws.size(); ++i) {
+      if (level.screws[i].done) {
+        screws.push_back(level.plan.label + " " + name_of(level.plan.screws[i].side));
       }
     }
   }
@@ -36,23 +36,25 @@ std::vector<std::string> placed(const LoggedOperation& operation) {
 }
 
 /// What is kept of an open level, and how it is verified.
-std::string to_verify(const LoggedLevel& level) {
+std::string to_verify(const LevelState& level) {
   if (level.finished() || !level.registration) {
     return {};
   }
   const bool landmark = level.accepted && level.landmark;
-  return level.label + (landmark ? ": accepted before, not verified: touch its dimple"
+  return level.plan.label + (landmark
+                                 ? ": accepted before, not verified: touch its dimple"
                                  : ": registered before, not verified: touch its check points");
 }
 
 /// What is lost of an open level.
-std::vector<std::string> lost(const LoggedLevel& before, const LoggedLevel& after) {
+std::vector<std::string> lost(const LevelState& before, const LevelState& after,
+                              std::size_t regions) {
   std::vector<std::string> parts;
   if (before.finished()) {
     return parts;
   }
-  if (before.regions.size() > after.regions.size()) {
-    parts.push_back(how_many(before.regions.size() - after.regions.size(), "region"));
+  if (regions > 0) {
+    parts.push_back(how_many(regions, "region"));
   }
   if (before.registration && !after.registration) {
     parts.emplace_back(before.accepted ? "its accepted registration" : "its registration");
@@ -60,27 +62,28 @@ std::vector<std::string> lost(const LoggedLevel& before, const LoggedLevel& afte
   if (before.landmark && !after.landmark) {
     parts.emplace_back("its dimple");
   }
-  if (before.check_points > 0) {
-    parts.push_back(how_many(before.check_points, "check point"));
+  if (!before.check_points.empty()) {
+    parts.push_back(how_many(before.check_points.size(), "check point"));
   }
   return parts;
 }
 
 std::vector<std::string> lost(const OperationLog::Found& found, const LoggedOperation& after) {
-  const LoggedOperation& before = found.operation;
+  const OperationState& before = found.operation.state;
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < before.levels.size(); ++i) {
-    if (const auto parts = lost(before.levels[i], after.levels[i]); !parts.empty()) {
-      lines.push_back("lost: of " + before.levels[i].label + " " + listed(parts));
+    const std::size_t regions = found.operation.strokes[i].size() - after.strokes[i].size();
+    if (const auto parts = lost(before.levels[i], after.state.levels[i], regions); !parts.empty()) {
+      lines.push_back("lost: of " + before.levels[i].plan.label + " " + listed(parts));
     }
   }
   for (std::size_t i = 0; i < before.rods.size(); ++i) {
-    if (before.rods[i].heads > after.rods[i].heads) {
-      lines.push_back("lost: of the " + std::string(kSides[i]) + " rod " +
-                      how_many(before.rods[i].heads, "head"));
+    const std::size_t heads = before.rods[i].heads.size();
+    if (heads > after.state.rods[i].heads.size()) {
+      lines.push_back("lost: of the " + std::string(kSides[i]) + " rod " + how_many(heads, "head"));
     }
   }
-  if (before.guide_corrected) {
+  if (found.operation.guide_corrected) {
     lines.emplace_back("lost: the correction of the guide, compare it in the dimple again");
   }
   if (found.dropped_bytes > 0) {
@@ -96,17 +99,18 @@ std::vector<std::string> resume_lines(const OperationLog::Found& found) {
   LoggedOperation after = found.operation;
   after.go_on();
   std::vector<std::string> lines = {what_it_was(found)};
-  const std::vector<std::string> screws = placed(found.operation);
-  if (!after.levels.empty()) {
+  const std::vector<std::string> screws = placed(found.operation.state);
+  if (!after.state.levels.empty()) {
     lines.push_back("placed: " + (screws.empty() ? "no screw" : listed(screws)));
   }
-  for (std::size_t i = 0; i < after.rods.size(); ++i) {
-    if (after.rods[i].done && after.rods[i].heads > 0) {
+  for (std::size_t i = 0; i < after.state.rods.size(); ++i) {
+    const RodState& rod = after.state.rods[i];
+    if (rod.done && !rod.heads.empty()) {
       lines.push_back("done: the " + std::string(kSides[i]) + " rod, " +
-                      how_many(after.rods[i].heads, "head"));
+                      how_many(rod.heads.size(), "head"));
     }
   }
-  for (const LoggedLevel& level : after.levels) {
+  for (const LevelState& level : after.state.levels) {
     if (std::string line = to_verify(level); !line.empty()) {
       lines.push_back(std::move(line));
     }

@@ -8,16 +8,16 @@
 namespace orthonav::engine {
 namespace {
 
-Status check_levels(std::span<const LevelState> levels, const LoggedOperation& logged) {
-  if (levels.size() != logged.levels.size()) {
-    return Error{"the log has " + std::to_string(logged.levels.size()) + " levels, the operation " +
+Status check_levels(std::span<const LevelState> levels, std::span<const LevelState> logged) {
+  if (levels.size() != logged.size()) {
+    return Error{"the log has " + std::to_string(logged.size()) + " levels, the operation " +
                  std::to_string(levels.size())};
   }
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (levels[i].plan.label != logged.levels[i].label ||
-        levels[i].plan.screws.size() != logged.levels[i].screws.size()) {
-      return Error{"level " + levels[i].plan.label + ": the log has " + logged.levels[i].label +
-                   " with " + std::to_string(logged.levels[i].screws.size()) + " screws"};
+    if (levels[i].plan.label != logged[i].plan.label ||
+        levels[i].screws.size() != logged[i].screws.size()) {
+      return Error{"level " + levels[i].plan.label + ": the log has " + logged[i].plan.label +
+                   " with " + std::to_string(logged[i].screws.size()) + " screws"};
     }
   }
   return {};
@@ -34,36 +34,16 @@ Status check_places(std::span<const nav::ReferencePlace> places,
   return same ? Status{} : Error{"the patient references are not placed as the log has them"};
 }
 
-void restore_screws(LevelState& level, const LoggedLevel& logged) {
-  for (std::size_t i = 0; i < logged.screws.size(); ++i) {
-    const LoggedScrew& screw = logged.screws[i];
-    level.plan.screws[i] = screw.plan;
-    level.earlier_plans[i] = screw.earlier;
-    level.redone[i] = screw.redone;
-    level.screw_done[i] = screw.done;
-    level.executed[i] = screw.executed;
-    level.clearance_at_depth[i] = screw.clearance;
-    level.wires[i] = {screw.wire_asked, screw.wire};
-  }
-}
-
 /// A registration comes with the points it was computed from, unless its level is finished.
-void restore_level(LevelState& level, const LoggedLevel& logged) {
-  level.attempts = logged.attempts;
-  restore_screws(level, logged);
-  level.map_moved = logged.finished() && logged.registration.has_value();
-  const std::vector<Point<World>> points = logged.points();
-  const bool whole = hash_of(points) == logged.points_hash;
-  if (!logged.registration || !(whole || level.map_moved)) {
-    return;
+void restore_level(LevelState& level, LevelState logged) {
+  level.plan.screws = std::move(logged.plan.screws);
+  logged.plan = std::move(level.plan);
+  level = std::move(logged);
+  level.map_moved = level.finished() && level.registration.has_value();
+  if (!level.registration || !(level.newest || level.map_moved)) {
+    return level.forget_registration();
   }
-  level.registration = logged.registration;
-  level.predicted = nav::predicted_errors(*logged.registration, level.plan.screws);
-  if (whole) {
-    level.newest = RegistrationAttempt{points, *logged.registration};
-  }
-  level.landmark = logged.landmark;
-  level.accepted = logged.accepted;
+  level.predicted = nav::predicted_errors(*level.registration, level.plan.screws);
   level.unverified = true;
 }
 
@@ -71,7 +51,7 @@ void restore_level(LevelState& level, const LoggedLevel& logged) {
 
 Status Resuming::restore(const LoggedOperation& logged, OperationInWork& work,
                          RodTemplating& rods) {
-  if (Status same = check_levels(work.levels, logged); !same) {
+  if (Status same = check_levels(work.state.levels, logged.state.levels); !same) {
     return same;
   }
   const nav::Anchor* anchor = work.tools.tracker().anchor();
@@ -84,12 +64,15 @@ Status Resuming::restore(const LoggedOperation& logged, OperationInWork& work,
   if (anchor == nullptr || anchor->places.empty()) {
     left.forget_places();
   }
-  regions_.clear();
-  for (std::size_t i = 0; i < work.levels.size(); ++i) {
-    restore_level(work.levels[i], left.levels[i]);
-    regions_.push_back(left.levels[i].regions);
+  for (std::size_t i = 0; i < work.state.levels.size(); ++i) {
+    restore_level(work.state.levels[i], std::move(left.state.levels[i]));
   }
-  rods.restore({left.rods[0].done, left.rods[1].done});
+  strokes_ = std::move(left.strokes);
+  for (std::size_t i = 0; i < left.state.rods.size(); ++i) {
+    // It is not shown, and its places are not known.
+    work.state.rods[i].done = work.state.rods[i].map_moved = left.state.rods[i].done;
+  }
+  rods.resume(work.state);
   resumed_ = true;
   return {};
 }
@@ -99,18 +82,18 @@ std::optional<Event> Resuming::go_on(OperationInWork& work, SessionSteps& steps,
   if (!resumed_) {
     return std::nullopt;
   }
-  for (const LevelState& earlier : work.levels) {
+  for (const LevelState& earlier : work.state.levels) {
     if (!told_finished_ && earlier.finished() && earlier.registration) {
       work.observer->registration_restored(time, earlier);
     }
   }
   told_finished_ = true;
   if (level.finished()) {
-    return steps.rods.left_to_do() ? Event::kNoScrewLeft : Event::kNoRodPlanned;
+    return steps.rods.left_to_do(work.state) ? Event::kNoScrewLeft : Event::kNoRodPlanned;
   }
   if (!level.unverified || !level.registration) {
-    if (work.level_in_work < regions_.size()) {
-      steps.digitizing.restore(std::exchange(regions_[work.level_in_work], {}));
+    if (work.level_in_work < strokes_.size()) {
+      steps.digitizing.restore(std::exchange(strokes_[work.level_in_work], {}));
     }
     return std::nullopt;
   }

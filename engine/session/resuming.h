@@ -20,12 +20,12 @@ class Resuming {
   [[nodiscard]] std::optional<Event> go_on(OperationInWork& work, SessionSteps& steps,
                                            Timestamp time);
   /// The saved regions were measured in a World that no longer exists.
-  void forget_places() { regions_.clear(); }
+  void forget_places() { strokes_.clear(); }
 
  private:
   bool resumed_ = false;
   bool told_finished_ = false;                     ///< which levels were finished
-  std::vector<std::vector<nav::Region>> regions_;  ///< saved regions of each level, until it begins
+  std::vector<std::vector<nav::Region>> strokes_;  ///< saved regions of each level, until it begins
 };
 
 }  // namespace orthonav::engine

@@ -67,6 +67,75 @@ nav::RodSeating seating_of(const std::vector<PlacedScrew>& screws, const Session
   return seating;
 }
 
+/// Where the rod lies below the touched heads: along the nearest screw of this side among the
+/// registered levels; where rods alone are bent, to where the pointer pointed.
+Result<nav::RodCut> seats(RodState& rod, const SessionOptions& options,
+                          std::span<const LevelState> levels, double overhang_m) {
+  const nav::RodTemplate& shape = *rod.rod;
+  const auto screws = nearest_screws(shape.heads_m, screws_in_world(levels, rod.side));
+  if (!screws.empty()) {
+    return nav::rod_cut(shape, directions_of(screws), seating_of(screws, options, overhang_m));
+  }
+  if (!levels.empty()) {
+    return Error{"the direction of no screw is known"};
+  }
+  const auto to_bone = nav::to_bone_across(shape, rod.touched.pointed());
+  if (!to_bone) {
+    return Error{"by the pointer the " + to_bone.error().message};
+  }
+  rod.seat_by_pointer_m = options.head_to_seat_m;
+  return nav::rod_cut(shape, *to_bone, {options.head_to_seat_m, overhang_m, {}});
+}
+
+/// Says of the instructed rod how surely it will lie in the true heads.
+void expect(RodState& rod) {
+  std::vector<double> seat_sd_m;
+  std::vector<std::size_t> heads;  // of the seats, which are in order along the rod
+  for (const Vec3& head_m : rod.rod->heads_m) {
+    const auto at = std::find(rod.heads.begin(), rod.heads.end(), Point<World>{head_m});
+    heads.push_back(static_cast<std::size_t>(at - rod.heads.begin()));
+    seat_sd_m.push_back(rod.touched.sd_m(heads.back()));
+  }
+  rod.expected = nav::rod_expectation(rod.instructions->fit, seat_sd_m);
+  rod.expected->least_sure = heads[rod.expected->least_sure];
+}
+
+void instruct(RodState& rod, const SessionOptions& options, std::span<const LevelState> levels) {
+  const nav::RodBending bending = options.bending();
+  const auto cut = seats(rod, options, levels, bending.overhang_m);
+  auto told = cut ? nav::rod_instructions(cut->seats_m, bending)
+                  : Result<nav::RodInstructions>(cut.error());
+  if (told) {
+    rod.instructions = *std::move(told);
+    expect(rod);
+  } else {
+    rod.no_instructions = told.error().message;
+  }
+}
+
+/// Makes the template from the present heads, and the instructions to bend it, or says why there is
+/// no template.
+void bend(RodState& rod, OperationInWork& work, Timestamp time) {
+  rod.rod.reset();
+  rod.instructions.reset();
+  rod.no_instructions.clear();
+  rod.seat_by_pointer_m.reset();
+  rod.expected.reset();
+  if (rod.heads.size() < 2) {
+    return;
+  }
+  std::vector<Vec3> heads;
+  for (const Point<World>& head : rod.heads) {
+    heads.push_back(head.v);
+  }
+  auto made = nav::rod_template(heads, work.options.rod_diameter_m);
+  if (!made) {
+    return work.messages.say(NoRod{made.error()}, time);
+  }
+  rod.rod = std::move(*made);
+  instruct(rod, work.options, work.state.levels);
+}
+
 }  // namespace
 
 bool rod_planned(std::span<const LevelState> levels, nav::Side side) {
@@ -84,14 +153,11 @@ bool any_rod_planned(std::span<const LevelState> levels) {
 }
 
 RodTemplating::RodTemplating(bool left_planned, bool right_planned)
-    : planned_{left_planned, right_planned}, current_(right_planned && !left_planned ? 1 : 0) {
-  rods_[0].side = nav::Side::kLeft;
-  rods_[1].side = nav::Side::kRight;
-}
+    : planned_{left_planned, right_planned}, current_(right_planned && !left_planned ? 1 : 0) {}
 
-std::optional<Event> RodTemplating::begin() {
+std::optional<Event> RodTemplating::begin(const OperationState& operation) {
   touch_ = {};
-  return left_to_do() ? std::nullopt : std::optional(Event::kNoSideLeft);
+  return left_to_do(operation) ? std::nullopt : std::optional(Event::kNoSideLeft);
 }
 
 void RodTemplating::collect(const WatchedTools& tools) { add_tip(touch_, tools, tools.pointer()); }
@@ -109,101 +175,61 @@ void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
     return work.messages.say(
         TouchNotRecorded{TouchNotRecorded::What::kHead, std::get<TouchRefusal>(place)}, time);
   }
-  if (rod().touched.empty()) {
-    rod().touched = TouchedHeads(work.options.heads, work.anchored());
+  RodState& rod = current(work);
+  if (rod.touched.empty()) {
+    rod.touched = TouchedHeads(work.options.heads, work.anchored());
   }
   const std::size_t pointer = work.tools.pointer();
   const Direction<World> shaft = work.tools.watch(pointer).last_measured_pose().value *
                                  work.tools.geometry(pointer).axis_in_marker;
-  const auto added = rod().touched.add(*head, shaft.v);
+  const auto added = rod.touched.add(*head, shaft.v);
   if (const auto* refusal = std::get_if<TouchRefusal>(&added)) {
     return work.messages.say(TouchNotRecorded{TouchNotRecorded::What::kHead, *refusal}, time);
   }
-  rod().heads = rod().touched.places();
-  rod().first_touch = rod().first_touch.value_or(time);
-  bend(work, time);
-  work.observer->head_recorded(time, current().side, std::get<HeadTouch>(added));
+  rod.heads = rod.touched.places();
+  rod.first_touch = rod.first_touch.value_or(time);
+  bend(rod, work, time);
+  work.observer->head_recorded(time, rod.side, std::get<HeadTouch>(added));
 }
 
 void RodTemplating::drop_head(OperationInWork& work, Timestamp time) {
-  const auto dropped = rod().touched.drop_last();
+  RodState& rod = current(work);
+  const auto dropped = rod.touched.drop_last();
   if (!dropped) {
     return work.messages.say(NothingToDelete{NothingToDelete::What::kHead}, time);
   }
   if (dropped->touches == 1) {
     // Without `places`, which allocates: a head can be taken back where memory has run out.
-    rod().heads.pop_back();
+    rod.heads.pop_back();
   } else {
-    rod().heads = rod().touched.places();
+    rod.heads = rod.touched.places();
   }
-  bend(work, time);
-  work.observer->head_dropped(time, current().side, *dropped);
+  bend(rod, work, time);
+  work.observer->head_dropped(time, rod.side, *dropped);
 }
 
 Event RodTemplating::finish_rod(OperationInWork& work, Timestamp time) {
-  if (rod().first_touch && rod().rod) {
-    rod().took_s = seconds(time - *rod().first_touch);
+  RodState& rod = current(work);
+  if (rod.first_touch && rod.rod) {
+    rod.took_s = seconds(time - *rod.first_touch);
   }
-  work.observer->rod_done(time, current());
-  return finish() ? Event::kAnotherSide : Event::kNoSideLeft;
+  work.observer->rod_done(time, rod);
+  return finish(work.state) ? Event::kAnotherSide : Event::kNoSideLeft;
 }
 
-bool RodTemplating::finish() {
-  rod().done = true;
-  const bool another = current_ + 1 < rods_.size() && planned_[current_ + 1];
+bool RodTemplating::finish(OperationState& operation) {
+  operation.rods[current_].done = true;
+  const bool another = current_ + 1 < planned_.size() && planned_[current_ + 1];
   if (another) {
     ++current_;
   }
   return another;
 }
 
-Result<nav::RodCut> RodTemplating::seats(const SessionOptions& options,
-                                         std::span<const LevelState> levels, double overhang_m) {
-  const nav::RodTemplate& shape = *rod().rod;
-  const auto screws = nearest_screws(shape.heads_m, screws_in_world(levels, rod().side));
-  if (!screws.empty()) {
-    return nav::rod_cut(shape, directions_of(screws), seating_of(screws, options, overhang_m));
-  }
-  if (!levels.empty()) {
-    return Error{"the direction of no screw is known"};
-  }
-  const auto to_bone = nav::to_bone_across(shape, rod().touched.pointed());
-  if (!to_bone) {
-    return Error{"by the pointer the " + to_bone.error().message};
-  }
-  rod().seat_by_pointer_m = options.head_to_seat_m;
-  return nav::rod_cut(shape, *to_bone, {options.head_to_seat_m, overhang_m, {}});
-}
-
-void RodTemplating::instruct(const SessionOptions& options, std::span<const LevelState> levels) {
-  const nav::RodBending bending = options.bending();
-  const auto cut = seats(options, levels, bending.overhang_m);
-  auto told = cut ? nav::rod_instructions(cut->seats_m, bending)
-                  : Result<nav::RodInstructions>(cut.error());
-  if (told) {
-    rod().instructions = *std::move(told);
-    expect();
-  } else {
-    rod().no_instructions = told.error().message;
-  }
-}
-
-void RodTemplating::expect() {
-  std::vector<double> seat_sd_m;
-  std::vector<std::size_t> heads;  // of the seats, which are in order along the rod
-  for (const Vec3& head_m : rod().rod->heads_m) {
-    const auto at = std::find(rod().heads.begin(), rod().heads.end(), Point<World>{head_m});
-    heads.push_back(static_cast<std::size_t>(at - rod().heads.begin()));
-    seat_sd_m.push_back(rod().touched.sd_m(heads.back()));
-  }
-  rod().expected = nav::rod_expectation(rod().instructions->fit, seat_sd_m);
-  rod().expected->least_sure = heads[rod().expected->least_sure];
-}
-
-HeadsSoFar RodTemplating::state(bool unplanned) const {
-  const RodState& now = current();
+HeadsSoFar RodTemplating::state(const OperationInWork& work) const {
+  const RodState& now = work.state.rods[current_];
   HeadsSoFar out;
-  out.unplanned = unplanned;
+  out.unplanned = work.rods_alone();
   out.count = now.heads.size();
   if (!now.touched.empty()) {
     out.last = now.touched.last();
@@ -219,50 +245,16 @@ HeadsSoFar RodTemplating::state(bool unplanned) const {
   return out;
 }
 
-void RodTemplating::bend(OperationInWork& work, Timestamp time) {
-  rod().rod.reset();
-  rod().instructions.reset();
-  rod().no_instructions.clear();
-  rod().seat_by_pointer_m.reset();
-  rod().expected.reset();
-  if (rod().heads.size() < 2) {
-    return;
-  }
-  std::vector<Vec3> heads;
-  for (const Point<World>& head : rod().heads) {
-    heads.push_back(head.v);
-  }
-  auto made = nav::rod_template(heads, work.options.rod_diameter_m);
-  if (!made) {
-    return work.messages.say(NoRod{made.error()}, time);
-  }
-  rod().rod = std::move(*made);
-  instruct(work.options, work.levels);
-}
-
-void RodTemplating::write(Guidance& out) const {
-  out.rods = rods_;
+void RodTemplating::write(const OperationInWork& work, Guidance& out) const {
+  out.rods = work.state.rods;
   out.rods_moved_away = moved_away_;
 }
 
-void RodTemplating::restore(const std::array<bool, 2>& done) {
-  for (std::size_t i = 0; i < rods_.size(); ++i) {
-    rods_[i].done = rods_[i].map_moved = done[i];
-  }
-  while (current_ + 1 < rods_.size() && rods_[current_].done && planned_[current_ + 1]) {
+void RodTemplating::resume(const OperationState& operation) {
+  while (current_ + 1 < planned_.size() && operation.rods[current_].done &&
+         planned_[current_ + 1]) {
     ++current_;
   }
-}
-
-void RodTemplating::forget_map() {
-  for (RodState& rod : rods_) {
-    if (rod.done) {
-      rod.map_moved = true;
-    } else {
-      rod = RodState{.side = rod.side};
-    }
-  }
-  touch_ = {};
 }
 
 }  // namespace orthonav::engine

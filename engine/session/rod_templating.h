@@ -24,7 +24,7 @@ class RodTemplating {
 
   /// Begins the first rod or the next one; an earlier press does not count as a touch of its heads.
   /// `kNoSideLeft` if all were done before the operation was resumed.
-  [[nodiscard]] std::optional<Event> begin();
+  [[nodiscard]] std::optional<Event> begin(const OperationState& operation);
   void begin_touch() { touch_.begin(); }
   void end_touch() { touch_.release(); }
   void drop_touch(OperationInWork& work, Timestamp time);
@@ -35,37 +35,29 @@ class RodTemplating {
   /// Takes the last touch back.
   void drop_head(OperationInWork& work, Timestamp time);
   /// The rod is done; false if no other is left to do.
-  bool finish();
+  bool finish(OperationState& operation);
   [[nodiscard]] Event finish_rod(OperationInWork& work, Timestamp time);
   void move_away() { moved_away_ = !moved_away_; }
-  /// Marks the rods that a resumed operation has finished; they are not shown.
-  void restore(const std::array<bool, 2>& done);
+  /// Passes over the rods that a resumed operation has finished.
+  void resume(const OperationState& operation);
   /// Whether a planned rod is still to be done.
-  [[nodiscard]] bool left_to_do() const { return planned_[current_] && !rods_[current_].done; }
-  /// A finished rod stays in the report but is no longer shown; an unfinished one begins anew.
-  void forget_map();
+  [[nodiscard]] bool left_to_do(const OperationState& operation) const {
+    return planned_[current_] && !operation.rods[current_].done;
+  }
+  /// The map moved: a press in the old one does not count.
+  void forget_map() { touch_ = {}; }
 
-  [[nodiscard]] const RodState& current() const { return rods_[current_]; }
-  [[nodiscard]] std::span<const RodState> rods() const { return rods_; }
-  void write(Guidance& out) const;
-  /// `unplanned`: no plan says which sides have a rod.
-  [[nodiscard]] HeadsSoFar state(bool unplanned) const;
+  /// Of the current rod.
+  [[nodiscard]] nav::Side side() const {
+    return current_ == 0 ? nav::Side::kLeft : nav::Side::kRight;
+  }
+  void write(const OperationInWork& work, Guidance& out) const;
+  [[nodiscard]] HeadsSoFar state(const OperationInWork& work) const;
 
  private:
-  [[nodiscard]] RodState& rod() { return rods_[current_]; }
-  /// Makes the template from the present heads, and the instructions to bend it, or says why there
-  /// is no template.
-  void bend(OperationInWork& work, Timestamp time);
-  void instruct(const SessionOptions& options, std::span<const LevelState> levels);
-  /// Where the rod lies below the touched heads: along the nearest screw of this side among the
-  /// registered levels; where rods alone are bent, to where the pointer pointed.
-  [[nodiscard]] Result<nav::RodCut> seats(const SessionOptions& options,
-                                          std::span<const LevelState> levels, double overhang_m);
-  /// Says of the instructed rod how surely it will lie in the true heads.
-  void expect();
+  [[nodiscard]] RodState& current(OperationInWork& work) const { return work.state.rods[current_]; }
 
-  std::array<RodState, 2> rods_;  ///< left, right
-  std::array<bool, 2> planned_;
+  std::array<bool, 2> planned_;  ///< left, right
   std::size_t current_ = 0;
   bool moved_away_ = false;
   Touch touch_;

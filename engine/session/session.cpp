@@ -157,7 +157,7 @@ void Session::handle(std::optional<Raised> raised, Timestamp time) {
 
 /// The first of the levels that is not finished.
 std::optional<Raised> Session::begin_level(Timestamp time) {
-  const auto& levels = work_.levels;
+  const auto& levels = work_.state.levels;
   const auto open = std::find_if(levels.begin(), levels.end(),
                                  [](const LevelState& level) { return !level.finished(); });
   work_.level_in_work = open == levels.end() ? 0 : static_cast<std::size_t>(open - levels.begin());
@@ -196,15 +196,8 @@ void Session::consent(Action action, Timestamp time) {
   }
 }
 
-/// World was replaced, or the references that attach it to the patient moved: everything measured
-/// in it is gone. What was done to the patient, and its measurements, stay in the report.
 void Session::forget_places(Event why, Timestamp time) {
-  for (LevelState& level : work_.levels) {
-    level.map_moved = level.registration.has_value() && level.finished();
-    if (!level.map_moved) {
-      level.forget_registration();
-    }
-  }
+  work_.state.forget_places();
   steps_.digitizing.forget_map();
   resuming_.forget_places();
   steps_.forget_registration(work_);

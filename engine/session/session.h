@@ -74,8 +74,8 @@ class Session {
 
   [[nodiscard]] const SessionOptions& options() const { return work_.options; }
   [[nodiscard]] Step current_step() const { return work_.step; }
-  [[nodiscard]] std::span<const LevelState> levels() const { return work_.levels; }
-  [[nodiscard]] std::span<const RodState> rods() const { return steps_.rods.rods(); }
+  [[nodiscard]] std::span<const LevelState> levels() const { return work_.state.levels; }
+  [[nodiscard]] std::span<const RodState> rods() const { return work_.state.rods; }
   [[nodiscard]] std::span<const nav::ToolState> tool_states() const { return work_.tools.states(); }
   [[nodiscard]] const nav::ToolTracker& tracker() const { return work_.tools.tracker(); }
   /// A tool's geometry as described, or, of the guide, as since corrected.

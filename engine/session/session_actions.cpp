@@ -39,7 +39,7 @@ std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
     case kJudgeWire: return s.placing.judge_wire();
     case kJudgeRedo: return s.placing.judge_redo(work_, s.guiding, time);
     case kFinishScrew: return s.guiding.finish_screw(work_, s.placing, time);
-    case kBeginRod: return s.rods.begin();
+    case kBeginRod: return s.rods.begin(work_.state);
     case kRecordHead: s.rods.record_head(work_, time); break;
     case kDropHead: s.rods.drop_head(work_, time); break;
     case kFinishRod: return s.rods.finish_rod(work_, time);

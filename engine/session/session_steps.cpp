@@ -37,8 +37,8 @@ SessionSteps::SessionSteps(const OperationInWork& work)
       guiding(work.options.drill),
       placing(work.options),
       replanning(work.options.replan),
-      rods(work.rods_alone() || rod_planned(work.levels, nav::Side::kLeft),
-           work.rods_alone() || rod_planned(work.levels, nav::Side::kRight)) {}
+      rods(work.rods_alone() || rod_planned(work.state.levels, nav::Side::kLeft),
+           work.rods_alone() || rod_planned(work.state.levels, nav::Side::kRight)) {}
 
 void SessionSteps::expect_landmark(const OperationInWork& work) {
   landmarking = Landmarking(work.options.landmark);
@@ -148,7 +148,7 @@ StepOnDisplay SessionSteps::on_display(const OperationInWork& work) const {
     case Step::kPlaced:
       return {work.step, work.level().plan.label, work.level().plan.screws[guiding.screw()].side};
     case Step::kRod:
-      return {work.step, {}, rods.current().side};
+      return {work.step, {}, rods.side()};
   }
   return {};
 }
@@ -164,7 +164,7 @@ StepState SessionSteps::state(const OperationInWork& work) const {
     case Step::kPlaced:
       return placing.state();
     case Step::kRod:
-      return rods.state(work.rods_alone());
+      return rods.state(work);
     case Step::kSetup:
     case Step::kRegistering:
     case Step::kGuide:  // what to do there follows from what a frame shows
@@ -179,7 +179,7 @@ void SessionSteps::write(const OperationInWork& work, bool hidden, Guidance& out
   verifying.write(work, out);
   guiding.write(work, guide_checks, hidden, out);
   placing.write(work.step, out);
-  rods.write(out);
+  rods.write(work, out);
 }
 
 }  // namespace orthonav::engine

@@ -92,9 +92,10 @@ void GroundTruthRecorder::evaluate_level(const LevelState& state, LevelOutcome& 
           state.plan.screws[s], {wire.entry, wire.direction}, state.plan.model->surface());
       screw.angle_error_rad = error.angle_rad;
       screw.entry_error_m = error.entry_m;
-      if (state.replanned(s)) {
-        const nav::ScrewError before = nav::screw_error(
-            state.preoperative[s], {wire.entry, wire.direction}, state.plan.model->surface());
+      if (state.screws[s].replanned()) {
+        const nav::ScrewError before =
+            nav::screw_error(state.screws[s].preoperative, {wire.entry, wire.direction},
+                             state.plan.model->surface());
         screw.preoperative_angle_error_rad = before.angle_rad;
         screw.preoperative_entry_error_m = before.entry_m;
       }

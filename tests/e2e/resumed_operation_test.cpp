@@ -140,11 +140,12 @@ std::size_t first_of(OperationRecord type, const std::vector<Record>& records, s
 }
 
 void expect_untouched(const LoggedOperation& was, const LoggedOperation& is) {
-  for (std::size_t i = 0; i < was.levels.size(); ++i) {
-    for (std::size_t screw = 0; screw < was.levels[i].screws.size(); ++screw) {
-      const LoggedScrew& before = was.levels[i].screws[screw];
+  for (std::size_t i = 0; i < was.state.levels.size(); ++i) {
+    for (std::size_t screw = 0; screw < was.state.levels[i].screws.size(); ++screw) {
+      const ScrewState& before = was.state.levels[i].screws[screw];
       if (before.done && before.executed) {
-        EXPECT_EQ(is.levels[i].screws[screw].executed->axis.point, before.executed->axis.point)
+        EXPECT_EQ(is.state.levels[i].screws[screw].executed->axis.point,
+                  before.executed->axis.point)
             << "to the bit";
       }
     }
@@ -155,15 +156,15 @@ TEST(ResumedOperation, KilledTwiceEndsWithEveryScrewOnceVerifiedBeforeItGuides) 
   const test::TemporaryFolder folder;
   const std::string path = folder.path().string();
   ASSERT_TRUE(kill_at(path, [](const Guidance& g) {
-    return g.step == Step::kGuide && g.levels[0].screw_done[0] && g.tool;
+    return g.step == Step::kGuide && g.levels[0].screws[0].done && g.tool;
   })) << "at the second screw";
   const std::size_t first_kill = Program(path).records_before;
   ASSERT_TRUE(kill_at(path, [](const Guidance& g) {
     return g.step == Step::kDigitize && g.level == 1 && g.regions.size() > 2;
   })) << "while the second level is stroked";
   Program last(path);
-  ASSERT_TRUE(last.before.levels.at(0).finished());
-  ASSERT_FALSE(last.before.levels.at(1).regions.empty());
+  ASSERT_TRUE(last.before.state.levels.at(0).finished());
+  ASSERT_FALSE(last.before.strokes.at(1).empty());
   const auto result = last.run([](const Guidance&) {});
   ASSERT_TRUE(is_ok(result));
   EXPECT_TRUE(result->completed) << result->why_not;

@@ -14,7 +14,7 @@ void insist_on_operation(const std::vector<engine::Record>& records) {
     return;
   }
   operation->go_on();
-  for (const engine::LoggedLevel& level : operation->levels) {
+  for (const engine::LevelState& level : operation->state.levels) {
     insist(!level.accepted || level.registration.has_value());
   }
 }

@@ -79,10 +79,10 @@ class ScriptedSurgeon {
   [[nodiscard]] Vec3 entry() { return level().plan.screws[screw()].entry.v; }
   [[nodiscard]] bool is_second_level() { return eventful_ && s_.pair().level == 1; }
   [[nodiscard]] bool is_to_be_moved() {
-    return eventful_ && s_.pair().level == 0 && screw() == 1 && !level().replanned(1);
+    return eventful_ && s_.pair().level == 0 && screw() == 1 && !level().screws[1].replanned();
   }
   [[nodiscard]] bool is_to_be_redone() {
-    return is_second_level() && screw() == 0 && level().redone[0] == 0;
+    return is_second_level() && screw() == 0 && level().screws[0].redone == 0;
   }
 
   bool digitize() {

@@ -18,7 +18,7 @@ struct Operation {
 
   Operation() {
     for (engine::LevelState& level : levels) {
-      level.screw_done.assign(2, false);
+      level.screws.resize(2);
     }
   }
   [[nodiscard]] engine::Guidance at(Step step, const std::string& level = "L4") const {
@@ -64,7 +64,7 @@ TEST(OperationEstimate, IsWholeOnlyWhenTheOperationIsDone) {
   for (engine::LevelState& level : operation.levels) {
     level.registration.emplace();
     level.accepted = true;
-    level.screw_done.assign(2, true);
+    level.screws = {{.done = true}, {.done = true}};
   }
   (void)estimate.fraction(at(0), operation.at(Step::kRod, ""));
   EXPECT_LT(estimate.fraction(at(100'000), operation.at(Step::kRod, "")), 1.0);

@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   std::printf("%s: the screw is in", level.plan.label.c_str());
-  if (const auto& wire = level.wires.front().measured) {
+  if (const auto& wire = level.screws.front().wire.measured) {
     std::printf(", measured %.1f° and %.1f mm off the plan", wire->axis.angle_rad.value * 57.2958,
                 wire->axis.entry_m.value * 1e3);
   }

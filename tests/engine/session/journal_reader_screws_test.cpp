@@ -25,21 +25,23 @@ TEST(JournalReader, KnowsWhereTheToolWentAndNamesWhatWasNotMeasured) {
   s.says("next");
   s.says("next");
   const LevelState& level = s.session().levels()[0];
-  ASSERT_TRUE(level.executed[0]);
-  ASSERT_FALSE(level.executed[1]);
+  ASSERT_TRUE(level.screws[0].executed);
+  ASSERT_FALSE(level.screws[1].executed);
   const SessionRecord record = j.finished("");
   const RecordedScrew& left = record.levels.at(0).screws.at(0);
   ASSERT_TRUE(left.executed);
-  EXPECT_EQ(left.executed->pairs, level.executed[0]->pairs);
-  EXPECT_NEAR((left.executed->axis.point - level.executed[0]->axis.point).norm(), 0.0, 1e-12);
-  EXPECT_NEAR(left.executed->axis.direction.dot(level.executed[0]->axis.direction), 1.0, 1e-12);
+  EXPECT_EQ(left.executed->pairs, level.screws[0].executed->pairs);
+  EXPECT_NEAR((left.executed->axis.point - level.screws[0].executed->axis.point).norm(), 0.0,
+              1e-12);
+  EXPECT_NEAR(left.executed->axis.direction.dot(level.screws[0].executed->axis.direction), 1.0,
+              1e-12);
   EXPECT_NEAR(left.executed->depth_m, 0.010, 1e-3);
   EXPECT_EQ(left.executed->point_covariance_m2.has_value(),
-            level.executed[0]->point_covariance_m2.has_value());
+            level.screws[0].executed->point_covariance_m2.has_value());
   ASSERT_TRUE(left.at_depth);
   EXPECT_EQ(left.at_depth->grade, "A");
   EXPECT_EQ(left.at_depth->grade_probability.has_value(),
-            level.clearance_at_depth[0]->spread.has_value());
+            level.screws[0].clearance_at_depth->spread.has_value());
   const RecordedScrew& right = record.levels[0].screws.at(1);
   EXPECT_FALSE(right.executed);
   EXPECT_THAT(right.not_measured, ::testing::IsSupersetOf({"executed", "clearance"}));
@@ -99,7 +101,7 @@ TEST(JournalReader, KnowsHowEveryWireWasMeasuredKeptOrRedone) {
   EXPECT_TRUE(left.done && left.wire_asked);
   EXPECT_EQ(left.redone, 1);
   ASSERT_TRUE(left.wire);
-  const PlacedWire& wire = *s.session().levels()[0].wires[0].measured;
+  const PlacedWire& wire = *s.session().levels()[0].screws[0].wire.measured;
   EXPECT_NEAR(left.wire->angle_rad, wire.axis.angle_rad.value, 1e-9);
   EXPECT_NEAR(left.wire->angle_sd_rad, wire.axis.angle_rad.sd, 1e-9);
   EXPECT_NEAR(left.wire->entry_m, wire.axis.entry_m.value, 1e-9);
@@ -128,7 +130,7 @@ TEST(JournalReader, KnowsWhatWasPlannedInSurgery) {
   EXPECT_TRUE(screws[0].done) << "what was done later left the plan alone";
   ASSERT_TRUE(screws[0].planned_in_surgery);
   const LevelState& level = j.operation.session().levels()[0];
-  const auto difference = nav::difference_of(level.preoperative[0], level.plan.screws[0]);
+  const auto difference = nav::difference_of(level.screws[0].preoperative, level.plan.screws[0]);
   EXPECT_NEAR(screws[0].planned_in_surgery->entry_cranial_m, 0.001, 1e-9);
   EXPECT_NEAR(screws[0].planned_in_surgery->length_to_m, difference.length_to_m, 1e-9);
   EXPECT_NEAR(screws[0].planned_in_surgery->length_from_m, 0.035, 1e-9);

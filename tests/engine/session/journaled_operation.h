@@ -62,7 +62,7 @@ inline void expect_the_same(const RecordedLevel& read, const LevelState& level,
   ASSERT_EQ(read.screws.size(), level.plan.screws.size());
   for (std::size_t s = 0; s < read.screws.size(); ++s) {
     EXPECT_EQ(read.screws[s].side, level.plan.screws[s].side);
-    EXPECT_EQ(read.screws[s].done, level.screw_done[s]);
+    EXPECT_EQ(read.screws[s].done, level.screws[s].done);
   }
 }
 

@@ -91,7 +91,7 @@ TEST(MethodSteps, WithoutLandmarkAndTipsNothingIsTouchedBeforeTheScrew) {
 TEST(MethodSteps, WithoutTheWireTheLandmarkFollowsTheScrew) {
   Accepted s(without(&MethodSteps::wire));
   EXPECT_EQ(step_of(s.drills()), "accepted L4");
-  EXPECT_FALSE(s.session().levels()[0].wires[0].asked);
+  EXPECT_FALSE(s.session().levels()[0].screws[0].wire.asked);
   EXPECT_EQ(s.says("next").step, Step::kAccepted);
   s.touches_dimple();
   EXPECT_EQ(step_of(s.says("next")), "guide L4 right");

@@ -55,8 +55,8 @@ std::size_t saved_by(const std::vector<Told>& told, std::size_t calls) {
 std::size_t samples_in(std::span<const Record> records) {
   const auto operation = LoggedOperation::from({records.begin(), records.end()}, "log");
   std::size_t samples = 0;
-  for (const LoggedLevel& level : operation->levels) {
-    for (const nav::Region& region : level.regions) {
+  for (const std::vector<nav::Region>& strokes : operation->strokes) {
+    for (const nav::Region& region : strokes) {
       samples += region.samples.size();
     }
   }
@@ -122,7 +122,7 @@ TEST(CrashOfAnOperation, TimesSayNothingOfTheOrder) {
   }
   const auto recorded = LoggedOperation::from(records, kLogPath);
   ASSERT_TRUE(is_ok(recorded));
-  EXPECT_EQ(recorded->levels[0].regions.size(), 1u) << "World was another one: stroked again";
+  EXPECT_EQ(recorded->strokes[0].size(), 1u) << "World was another one: stroked again";
   EXPECT_EQ(recorded->resumed, 1);
 }
 

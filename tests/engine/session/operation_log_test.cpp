@@ -58,30 +58,36 @@ TEST(OperationLog, TellsAWholeOperation) {
   ASSERT_TRUE(is_ok(log->finish(true, "")));
   const LoggedOperation told = recorded_in(env);
   EXPECT_TRUE(told.done);
-  ASSERT_EQ(told.levels.size(), 2u);
+  ASSERT_EQ(told.state.levels.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     const LevelState& level = s.session().levels()[i];
-    const LoggedLevel& recorded = told.levels[i];
-    EXPECT_EQ(recorded.label, level.plan.label);
+    const LevelState& recorded = told.state.levels[i];
+    EXPECT_EQ(recorded.plan.label, level.plan.label);
     EXPECT_EQ(recorded.attempts, 1);
     EXPECT_TRUE(recorded.accepted);
     EXPECT_EQ(recorded.registration->world_from_vertebra, level.registration->world_from_vertebra);
     EXPECT_EQ(recorded.landmark->in_vertebra, level.landmark->in_vertebra);
-    EXPECT_EQ(recorded.regions.size(), 2u);
-    EXPECT_EQ(recorded.points_hash, hash_of(recorded.points()));
+    EXPECT_EQ(told.strokes[i].size(), 2u);
+    ASSERT_TRUE(recorded.newest) << "its points are those of the strokes";
+    EXPECT_EQ(recorded.newest->points, level.newest->points);
+    ASSERT_EQ(recorded.check_points.size(), level.check_points.size());
+    for (std::size_t point = 0; point < level.check_points.size(); ++point) {
+      EXPECT_EQ(recorded.check_points[point].place, level.check_points[point].place);
+    }
     ASSERT_EQ(recorded.screws.size(), level.plan.screws.size());
     for (std::size_t screw = 0; screw < recorded.screws.size(); ++screw) {
-      EXPECT_TRUE(recorded.screws[screw].done);
-      ASSERT_EQ(recorded.screws[screw].executed.has_value(), level.executed[screw].has_value());
-      ASSERT_TRUE(recorded.screws[screw].executed);
-      EXPECT_EQ(recorded.screws[screw].executed->axis.point, level.executed[screw]->axis.point);
-      EXPECT_EQ(recorded.screws[screw].executed->pairs, level.executed[screw]->pairs);
-      ASSERT_TRUE(recorded.screws[screw].wire);
-      EXPECT_EQ(recorded.screws[screw].wire->axis.angle_rad.value,
-                level.wires[screw].measured->axis.angle_rad.value);
+      const ScrewState& is = recorded.screws[screw];
+      const ScrewState& was = level.screws[screw];
+      EXPECT_TRUE(is.done);
+      ASSERT_EQ(is.executed.has_value(), was.executed.has_value());
+      ASSERT_TRUE(is.executed);
+      EXPECT_EQ(is.executed->axis.point, was.executed->axis.point);
+      EXPECT_EQ(is.executed->pairs, was.executed->pairs);
+      ASSERT_TRUE(is.wire.measured);
+      EXPECT_EQ(is.wire.measured->axis.angle_rad.value, was.wire.measured->axis.angle_rad.value);
     }
   }
-  EXPECT_TRUE(told.rods[0].done && told.rods[1].done);
+  EXPECT_TRUE(told.state.rods[0].done && told.state.rods[1].done);
 }
 
 TEST(OperationLog, HoldsEveryNumberToTheBit) {
@@ -247,9 +253,9 @@ TEST(OperationLog, HoldsABreachOfTheCortexWithItsReason) {
   EXPECT_EQ(plan["screws"][1]["accepted_breach"], "") << "of that screw alone";
   const nav::ScrewPlan& screw = s.session().levels()[0].plan.screws[0];
   const LoggedOperation told = recorded_in(env);
-  const LoggedScrew& again = told.levels[0].screws[0];
-  EXPECT_EQ(again.plan.accepted_breach, "accepted in surgery");
-  EXPECT_EQ(again.plan.target, screw.target);
+  const nav::ScrewPlan& again = told.state.levels[0].plan.screws[0];
+  EXPECT_EQ(again.accepted_breach, "accepted in surgery");
+  EXPECT_EQ(again.target, screw.target);
 }
 
 TEST(OperationLog, IsOneProcessAlone) {

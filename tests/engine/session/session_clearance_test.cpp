@@ -89,12 +89,12 @@ TEST(SessionClearance, AtDepthIsKeptWithTheScrew) {
     options.live_clearance = live;
     WhileGuiding s(options);
     s.along({0.0255, 0.020, 0.0});
-    EXPECT_FALSE(s.session().levels()[0].clearance_at_depth[0].has_value());
+    EXPECT_FALSE(s.session().levels()[0].screws[0].clearance_at_depth.has_value());
     s.says("next");
-    const auto& kept = s.session().levels()[0].clearance_at_depth[0];
+    const auto& kept = s.session().levels()[0].screws[0].clearance_at_depth;
     ASSERT_TRUE(kept.has_value());
     EXPECT_NEAR(kept->least.clearance_m, 0.0015, kSearch_m);
-    EXPECT_FALSE(s.session().levels()[0].clearance_at_depth[1].has_value());
+    EXPECT_FALSE(s.session().levels()[0].screws[1].clearance_at_depth.has_value());
   }
 }
 

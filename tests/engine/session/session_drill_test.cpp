@@ -102,7 +102,7 @@ TEST(SessionDrill, ForgetsWhatLayDeeperBesideTheScrewBeforeTheTipWasSet) {
   s.at(0.012, 0.009, 5);  // in the dimple, or past the facet
   s.at(0.0, 0.0005, 30);  // a sleeve is set, and stays there while the drill goes in
   s.says("next");
-  const auto& executed = s.session().levels()[0].executed[0];
+  const auto& executed = s.session().levels()[0].screws[0].executed;
   ASSERT_TRUE(executed);
   EXPECT_NEAR(executed->depth_m, 0.0, 1e-9);
   EXPECT_NEAR(executed->axis.point.v.x, 0.0155, 1e-9);
@@ -113,16 +113,16 @@ TEST(SessionDrill, KeepsWhereTheToolWent) {
   s.drills_to(0.0300);
   s.at(0.0300, 0.0010, 10);
   s.at(0.0, -0.004, 3);  // drawn back
-  EXPECT_FALSE(s.session().levels()[0].executed[0].has_value());
+  EXPECT_FALSE(s.session().levels()[0].screws[0].executed.has_value());
   s.says("next");
-  const auto& executed = s.session().levels()[0].executed[0];
+  const auto& executed = s.session().levels()[0].screws[0].executed;
   ASSERT_TRUE(executed && executed->point_covariance_m2);
   EXPECT_EQ(executed->pairs, 11u);
   EXPECT_NEAR(executed->axis.point.v.x, 0.015 + 0.0010 * 10 / 11, 1e-9);
   EXPECT_NEAR((executed->axis.direction - Vec3{0, -1, 0}).norm(), 0.0, 1e-9);
   EXPECT_NEAR(std::sqrt((*executed->point_covariance_m2)[8]),
               std::hypot(kSd_m, test::guide_sd_m(), 0.0300 * PlacedWireRules{}.axis_sd_rad), 1e-9);
-  EXPECT_FALSE(s.session().levels()[0].executed[1].has_value());
+  EXPECT_FALSE(s.session().levels()[0].screws[1].executed.has_value());
 }
 
 TEST(SessionDrill, LimitsAreOptions) {

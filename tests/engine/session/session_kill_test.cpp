@@ -58,16 +58,16 @@ Ended finished(Env& env, bool reference, const std::string& folder, Story story 
   EXPECT_EQ(r.operation->session().current_step(), Step::kDone);
   EXPECT_TRUE(is_ok(r.log->finish(true, "")));
   Ended ended;
-  for (std::size_t i = 0; i < r.before.levels.size(); ++i) {
+  for (std::size_t i = 0; i < r.before.state.levels.size(); ++i) {
     const LevelState& level = r.operation->session().levels()[i];
     EXPECT_TRUE(level.finished());
-    for (std::size_t screw = 0; screw < level.executed.size(); ++screw) {
-      EXPECT_TRUE(level.executed[screw]);
-      ended.entries_m.push_back(level.executed[screw] ? level.executed[screw]->axis.point.v
-                                                      : Vec3{});
-      const LoggedScrew& before = r.before.levels[i].screws[screw];
+    for (std::size_t screw = 0; screw < level.screws.size(); ++screw) {
+      const auto& executed = level.screws[screw].executed;
+      EXPECT_TRUE(executed);
+      ended.entries_m.push_back(executed ? executed->axis.point.v : Vec3{});
+      const ScrewState& before = r.before.state.levels[i].screws[screw];
       if (before.done) {
-        EXPECT_EQ(level.executed[screw]->axis.point, before.executed->axis.point) << "to the bit";
+        EXPECT_EQ(executed->axis.point, before.executed->axis.point) << "to the bit";
       }
     }
   }
@@ -81,9 +81,9 @@ Ended finished(Env& env, bool reference, const std::string& folder, Story story 
 /// Expects a refusal, a changed plan, a redone screw and an override, so that kills fall between
 /// them.
 void expect_events(const Session& session) {
-  EXPECT_TRUE(session.levels()[0].replanned(1));
-  EXPECT_EQ(session.levels()[1].redone[0], 1);
-  EXPECT_TRUE(session.levels()[1].wires[1].measured->kept);
+  EXPECT_TRUE(session.levels()[0].screws[1].replanned());
+  EXPECT_EQ(session.levels()[1].screws[0].redone, 1);
+  EXPECT_TRUE(session.levels()[1].screws[1].wire.measured->kept);
   EXPECT_EQ(session.levels()[1].attempts, 2) << "the first was refused";
 }
 
@@ -98,8 +98,8 @@ std::vector<Vec3> operate(MemoryEnv& env, bool reference, Story story = Story::k
     expect_events(s->session());
   }
   for (const LevelState& level : s->session().levels()) {
-    for (const auto& executed : level.executed) {
-      entries_m.push_back(executed->axis.point.v);
+    for (const ScrewState& screw : level.screws) {
+      entries_m.push_back(screw.executed->axis.point.v);
     }
   }
   return entries_m;

@@ -105,7 +105,7 @@ TEST(MapMoved, KeepsTheScrewsThatAreInAndGuidesTheOthersAfterANewRegistration) {
   s.says("next");
   ++s.map_epoch;
   s.pair();
-  EXPECT_TRUE(s.session().levels()[0].screw_done[0]);
+  EXPECT_TRUE(s.session().levels()[0].screws[0].done);
   s.strokes(5);
   s.says("save");
   s.does({kDoubleClick});

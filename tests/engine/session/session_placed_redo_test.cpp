@@ -31,7 +31,7 @@ TEST_F(PlacedSession, NobodyGoesBackToTheHole) {
   ASSERT_NE(refusal, nullptr);
   EXPECT_EQ(refusal->kind, ReplanRefusal::Kind::kNothingToUndo);
   EXPECT_EQ(level().plan.screws[0].entry, entry);
-  EXPECT_TRUE(level().replanned(0)) << "the status line says so";
+  EXPECT_TRUE(level().screws[0].replanned()) << "the status line says so";
   // Later changes can be undone back to this plan.
   ASSERT_NE(said<ScrewReplanned>(s.says("move cranial one")), nullptr);
   EXPECT_NE(level().plan.screws[0].entry, entry);
@@ -54,8 +54,8 @@ TEST_F(PlacedSession, DeleteRedoesItThroughAnotherEntryOnceTheLandmarkWasTouched
   EXPECT_GT(said<ScrewRedone>(g)->clearance_m, 0.0);
   EXPECT_EQ(plan.target, target);
   EXPECT_NEAR(plan.entry.v.y, 0.020, kExact) << "on the bone's surface";
-  EXPECT_FALSE(level().screw_done[0]);
-  EXPECT_EQ(level().redone[0], 1);
+  EXPECT_FALSE(level().screws[0].done);
+  EXPECT_EQ(level().screws[0].redone, 1);
   EXPECT_TRUE(level().accepted);
   EXPECT_EQ(s.says("next").step, Step::kAccepted) << "the landmark comes first";
   s.touches_dimple();
@@ -81,7 +81,7 @@ TEST_F(PlacedSession, ASecondTimeDeleteMustBeSaidAgain) {
   ASSERT_NE(said<ConfirmRedo>(s.says("delete")), nullptr);
   EXPECT_EQ(step_of(s.pair()), "placed L4 left");
   EXPECT_EQ(step_of(s.says("delete")), "accepted L4");
-  EXPECT_EQ(level().redone[0], 2);
+  EXPECT_EQ(level().screws[0].redone, 2);
 }
 
 TEST_F(PlacedSession, AMeasurementComesBetweenTheTwoDeletes) {
@@ -109,7 +109,7 @@ TEST_F(NoRoomSession, OffersOnlyToKeepIt) {
   EXPECT_EQ(checks_asked(s.pairs(120).status), ChecksAsked::kKeepWire) << "without the message";
   EXPECT_THAT(detail_text(s.pair().status), HasSubstr("no other entry stays inside the bone"));
   EXPECT_EQ(level().plan.screws[0].entry.v, kLeftEntry);
-  EXPECT_EQ(level().redone[0], 0);
+  EXPECT_EQ(level().screws[0].redone, 0);
   s.says("accept");
   EXPECT_EQ(step_of(s.says("next")), "accepted L4");
 }
@@ -124,9 +124,9 @@ TEST_F(PlacedSession, APlanIsChangedToSuitTheWire) {
   ASSERT_NE(s.pair().wire, nullptr);
   EXPECT_NEAR(s.pair().wire->axis.entry_m.value, 0.0005, 1e-4);
   EXPECT_TRUE(s.pair().wire->within());
-  EXPECT_TRUE(level().replanned(0));
+  EXPECT_TRUE(level().screws[0].replanned());
   EXPECT_EQ(step_of(s.says("next")), "accepted L4");
-  EXPECT_TRUE(level().executed[0]) << "where the tool went is not forgotten";
+  EXPECT_TRUE(level().screws[0].executed) << "where the tool went is not forgotten";
 }
 
 TEST_F(PlacedSession, APlanThatSuitsItLessStillWaitsForAWord) {

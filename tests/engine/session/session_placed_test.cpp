@@ -41,9 +41,9 @@ TEST_F(PlacedSession, AWireWithinTheLimitsIsTold) {
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
   EXPECT_THAT(detail_text(g.status), HasSubstr("within limits: say go to next"));
   EXPECT_EQ(step_of(s.says("next")), "accepted L4") << "the landmark before the other screw";
-  EXPECT_TRUE(level().screw_done[0]);
-  ASSERT_TRUE(level().wires[0].measured);
-  EXPECT_FALSE(level().wires[0].measured->kept);
+  EXPECT_TRUE(level().screws[0].done);
+  ASSERT_TRUE(level().screws[0].wire.measured);
+  EXPECT_FALSE(level().screws[0].wire.measured->kept);
 }
 
 TEST_F(PlacedSession, WhereTheSleeveStandsOnTheWireIsTheSame) {
@@ -69,9 +69,9 @@ TEST_F(PlacedSession, TheSdHoldsRegistrationPoseAndCalibration) {
 
 TEST_F(PlacedSession, NextBeforeAnythingWasMeasuredGoesOnAndIsKnown) {
   EXPECT_EQ(step_of(s.says("next")), "accepted L4");
-  EXPECT_TRUE(level().screw_done[0]);
-  EXPECT_TRUE(level().wires[0].asked);
-  EXPECT_FALSE(level().wires[0].measured);
+  EXPECT_TRUE(level().screws[0].done);
+  EXPECT_TRUE(level().screws[0].wire.asked);
+  EXPECT_FALSE(level().screws[0].wire.measured);
 }
 
 TEST_F(PlacedSession, BeyondALimitNextIsNotTakenBeforeAWord) {
@@ -85,7 +85,7 @@ TEST_F(PlacedSession, BeyondALimitNextIsNotTakenBeforeAWord) {
   EXPECT_EQ(step_of(s.says("next")), "placed L4 left");
   EXPECT_NE(said<WireUndecided>(s.pair()), nullptr);
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kDecideOnWire) << "in a message as well";
-  EXPECT_FALSE(level().screw_done[0]);
+  EXPECT_FALSE(level().screws[0].done);
 }
 
 TEST_F(PlacedSession, TheLimitOfTheEntryIsOneOfItsOwn) {
@@ -105,9 +105,9 @@ TEST_F(PlacedSession, AcceptKeepsItBeyondTheLimit) {
   EXPECT_TRUE(s.pair().wire->kept);
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kPassed);
   EXPECT_EQ(step_of(s.says("next")), "accepted L4");
-  ASSERT_TRUE(level().wires[0].measured);
-  EXPECT_TRUE(level().wires[0].measured->kept);
-  EXPECT_EQ(level().redone[0], 0);
+  ASSERT_TRUE(level().screws[0].wire.measured);
+  EXPECT_TRUE(level().screws[0].wire.measured->kept);
+  EXPECT_EQ(level().screws[0].redone, 0);
 }
 
 TEST_F(PlacedSession, MeasuredAnewItIsUndecidedAnew) {
@@ -123,7 +123,7 @@ TEST_F(PlacedSession, RejectThrowsTheRegistrationAway) {
   measures(0.003, 0.0);
   EXPECT_EQ(step_of(s.says("reject")), "digitize L4");
   EXPECT_FALSE(level().registration);
-  EXPECT_FALSE(level().screw_done[0]);
+  EXPECT_FALSE(level().screws[0].done);
 }
 
 TEST_F(PlacedSession, AMapThatMovesTakesTheRegistrationAndTheMeasurement) {
@@ -157,7 +157,7 @@ TEST(ByEye, NothingIsAskedOfTheWire) {
   s.accepts_first_level();
   s.says("next");
   EXPECT_EQ(step_of(s.says("next")), "guide L4 right");
-  EXPECT_FALSE(s.session().levels()[0].wires[0].asked);
+  EXPECT_FALSE(s.session().levels()[0].screws[0].wire.asked);
 }
 
 }  // namespace

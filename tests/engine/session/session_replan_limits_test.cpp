@@ -36,14 +36,14 @@ TEST_F(SessionReplan, TheEntryMovesTenMillimetresInAllAndNoMore) {
 TEST_F(SessionReplan, TheAxisTiltsFifteenDegreesInAllAndNoMore) {
   s.says("tilt cranial nine");
   s.says("tilt cranial six");
-  EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 15 * kRadiansPerDegree,
-              kExact);
+  EXPECT_NEAR(nav::tilt_between_rad(s.level().screws[0].preoperative, s.left()),
+              15 * kRadiansPerDegree, kExact);
   EXPECT_EQ(s.refusal("tilt cranial 0.1"), Kind::kTiltTooFar);
   EXPECT_THAT(detail_text(s.pair().status), HasSubstr("limit 15.0\u00b0"));
   EXPECT_EQ(s.refusal("target cranial one"), Kind::kTiltTooFar);
   s.says("tilt caudal two");
-  EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 13 * kRadiansPerDegree,
-              kExact);
+  EXPECT_NEAR(nav::tilt_between_rad(s.level().screws[0].preoperative, s.left()),
+              13 * kRadiansPerDegree, kExact);
 }
 
 TEST_F(SessionReplan, SizesAreThoseOfTheList) {
@@ -84,13 +84,13 @@ TEST_F(SessionReplan, ABreachIsRefusedUntilItIsAccepted) {
                          3.25 * kMm * std::cos(9 * kRadiansPerDegree);
   EXPECT_NEAR(said<ReplanRefusal>(g)->value, 30 * kMm - reach_m, kSearch_m + 1e-5);
   EXPECT_THAT(detail_text(g.status), HasSubstr("(tip): say accept result to take it"));
-  EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 0.0, kExact)
+  EXPECT_NEAR(nav::tilt_between_rad(s.level().screws[0].preoperative, s.left()), 0.0, kExact)
       << "not before it is accepted";
   const Guidance& taken = s.says("accept");
   ASSERT_NE(said<ScrewReplanned>(taken), nullptr);
   EXPECT_EQ(s.left().accepted_breach, "accepted in surgery");
-  EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 9 * kRadiansPerDegree,
-              kExact);
+  EXPECT_NEAR(nav::tilt_between_rad(s.level().screws[0].preoperative, s.left()),
+              9 * kRadiansPerDegree, kExact);
   s.says("tilt medial one");
   EXPECT_EQ(s.left().accepted_breach, "accepted in surgery") << "no worse: not asked again";
   EXPECT_EQ(s.refusal("tilt lateral two"), Kind::kBreach) << "worse";
@@ -127,7 +127,7 @@ TEST_F(SessionReplan, ConsentCountsOnlyForTheQuestionThatIsShown) {
   s.tracker().guide = guide_at(s.left().entry.v, 0.0);
   s.pairs(20);
   EXPECT_EQ(notice_of(s.says("accept")), Notice::kNotPossibleNow) << "the drill is set by now";
-  EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 0.0, kExact);
+  EXPECT_NEAR(nav::tilt_between_rad(s.level().screws[0].preoperative, s.left()), 0.0, kExact);
 }
 
 }  // namespace

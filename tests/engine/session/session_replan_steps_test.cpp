@@ -30,7 +30,7 @@ TEST(SessionReplanSteps, TheNextScrewIsChangedInAcceptedAndNoneElsewhere) {
   s.says("next");
   EXPECT_EQ(step_of(s.pair()), "digitize L5");
   EXPECT_EQ(notice_of(s.says("shorter")), Notice::kNotPossibleNow);
-  EXPECT_EQ(s.level().earlier_plans[0].size(), 1u);
+  EXPECT_EQ(s.level().screws[0].earlier_plans.size(), 1u);
 }
 
 TEST(SessionReplanSteps, ByTouchAcceptConsentsFirstAndCorrectsTheTipElse) {
@@ -87,7 +87,7 @@ TEST(SessionReplanSteps, ChangesOutliveTheRegistration) {
   s.says("move cranial one");
   s.says("reject");
   EXPECT_NEAR(s.left().entry.v.z, kMm, kExact) << "they are of the bone";
-  EXPECT_TRUE(s.level().replanned(0));
+  EXPECT_TRUE(s.level().screws[0].replanned());
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ TEST_F(SessionReplan, ASizeIsInUseAtOnceAndThePlanBeforeStays) {
   EXPECT_NEAR(s.left().radius_m, 2.75 * kMm, kExact);
   EXPECT_NEAR(nav::screw_length_m(s.left()), 30 * kMm, kExact);
   EXPECT_EQ(s.left().entry.v, kLeftEntry);
-  EXPECT_EQ(s.level().preoperative[0].radius_m, 3 * kMm);
-  EXPECT_NEAR(nav::screw_length_m(s.level().preoperative[0]), 35 * kMm, kExact);
+  EXPECT_EQ(s.level().screws[0].preoperative.radius_m, 3 * kMm);
+  EXPECT_NEAR(nav::screw_length_m(s.level().screws[0].preoperative), 35 * kMm, kExact);
   ASSERT_NE(said<ScrewReplanned>(g), nullptr);
   EXPECT_EQ(notice_of(g), Notice::kReplanned);
   EXPECT_THAT(detail_text(g.status), HasSubstr("L4 left 5.5 \u00d7 30 mm, clearance 6.0 mm"));
@@ -92,17 +92,17 @@ TEST_F(SessionReplan, WhatWasAtDepthOnThePlanBeforeIsForgotten) {
   s.says("move cranial one");
   s.tracker().guide.reset();
   s.says("next");
-  ASSERT_TRUE(s.level().executed[0].has_value());
-  EXPECT_LT(s.level().executed[0]->depth_m, 0.0) << "of what was measured since";
+  ASSERT_TRUE(s.level().screws[0].executed.has_value());
+  EXPECT_LT(s.level().screws[0].executed->depth_m, 0.0) << "of what was measured since";
 }
 
 TEST_F(SessionReplan, UndoTakesChangesBackOneByOne) {
   s.says("move cranial one");
   s.says("shorter");
   s.says("tilt medial two");
-  EXPECT_EQ(s.level().earlier_plans[0].size(), 3u);
+  EXPECT_EQ(s.level().screws[0].earlier_plans.size(), 3u);
   s.says("undo");
-  EXPECT_NEAR(nav::tilt_between_rad(s.level().preoperative[0], s.left()), 0.0, kExact);
+  EXPECT_NEAR(nav::tilt_between_rad(s.level().screws[0].preoperative, s.left()), 0.0, kExact);
   EXPECT_NEAR(nav::screw_length_m(s.left()), 30 * kMm, kExact);
   s.says("undo");
   EXPECT_NEAR(nav::screw_length_m(s.left()), 35 * kMm, kExact);
@@ -110,9 +110,9 @@ TEST_F(SessionReplan, UndoTakesChangesBackOneByOne) {
   const auto* last = said<ScrewReplanned>(s.says("undo"));
   ASSERT_NE(last, nullptr);
   EXPECT_TRUE(last->undone && last->as_before_surgery);
-  EXPECT_EQ(s.left().entry.v, s.level().preoperative[0].entry.v) << "to the bit";
-  EXPECT_EQ(s.left().target.v, s.level().preoperative[0].target.v);
-  EXPECT_FALSE(s.level().replanned(0));
+  EXPECT_EQ(s.left().entry.v, s.level().screws[0].preoperative.entry.v) << "to the bit";
+  EXPECT_EQ(s.left().target.v, s.level().screws[0].preoperative.target.v);
+  EXPECT_FALSE(s.level().screws[0].replanned());
   EXPECT_EQ(s.refusal("undo"), Kind::kNothingToUndo);
 }
 

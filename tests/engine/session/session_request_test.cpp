@@ -166,7 +166,8 @@ TEST_F(RequestedPlan, IsInUseAtOnceWithinTheLimitsOfAChangeInSurgery) {
   EXPECT_EQ(left().entry.v, entry);
   EXPECT_EQ(left().target.v, target);
   EXPECT_EQ(left().radius_m, 0.00275);
-  EXPECT_EQ(s.session().levels()[0].preoperative[0].entry.v, kLeftEntry) << "and what was planned";
+  EXPECT_EQ(s.session().levels()[0].screws[0].preoperative.entry.v, kLeftEntry)
+      << "and what was planned";
   EXPECT_THAT(s.listener.heard, ::testing::ElementsAre("asked 10.0.0.7: plan L4",
                                                        "change of the screw", "replanned"));
   s.says("undo");

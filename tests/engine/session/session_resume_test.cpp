@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "engine/holograms/scene_builder.h"
@@ -157,9 +158,12 @@ TEST(ResumedSession, GoesOnWithTheStrokesThatHangOnAReference) {
 
 TEST(ResumedSession, DoubtsARegistrationThatWasMadeOfOtherPoints) {
   auto env = killed_in(Step::kAccepted, true);
-  auto found = OperationLog::find(*env, kLogFolder).value();
-  LoggedOperation logged = found.operation;
-  logged.levels[0].regions.pop_back();
+  std::vector<Record> records = read_log(*env, test::kLogPath)->records;
+  const auto region = std::ranges::find(
+      records, static_cast<std::uint16_t>(OperationRecord::kRegion), &Record::type);
+  ASSERT_NE(region, records.end());
+  records.erase(region);
+  const LoggedOperation logged = LoggedOperation::from(records, "log").value();
   auto s = touched_operation(true);
   s->tracker().reference.places = logged.references;
   ASSERT_TRUE(is_ok(s->session().resume(logged)));
@@ -251,7 +255,7 @@ TEST(ResumedSession, HashesTellOneVertexAndOneScrewApart) {
   const auto tools = s->session().tracker().tools();
   std::vector<LevelState> levels(s->session().levels().begin(), s->session().levels().end());
   const OperationIdentity before = identity_of("boxes", levels, tools, "scripted", false);
-  levels[1].preoperative[0].target.v.x += 1e-9;
+  levels[1].screws[0].preoperative.target.v.x += 1e-9;
   EXPECT_NE(identity_of("boxes", levels, tools, "scripted", false).plan_hash, before.plan_hash);
   nav::TriangleMesh mesh = levels[1].plan.model->mesh();
   mesh.vertices_m[0].z += 1e-6;

@@ -29,16 +29,17 @@ class RodSession : public ::testing::Test {
 
 /// A side with fewer than two screws has nothing to join.
 TEST(RodTemplating, AsksOnlyForSidesWithARod) {
+  OperationState operation;
   RodTemplating right(false, true);
-  EXPECT_EQ(right.current().side, nav::Side::kRight);
-  EXPECT_FALSE(right.finish());
+  EXPECT_EQ(right.side(), nav::Side::kRight);
+  EXPECT_FALSE(right.finish(operation));
   RodTemplating left(true, false);
-  EXPECT_EQ(left.current().side, nav::Side::kLeft);
-  EXPECT_FALSE(left.finish());
+  EXPECT_EQ(left.side(), nav::Side::kLeft);
+  EXPECT_FALSE(left.finish(operation));
   RodTemplating both(true, true);
-  EXPECT_TRUE(both.finish());
-  EXPECT_EQ(both.current().side, nav::Side::kRight);
-  EXPECT_FALSE(both.finish());
+  EXPECT_TRUE(both.finish(operation));
+  EXPECT_EQ(both.side(), nav::Side::kRight);
+  EXPECT_FALSE(both.finish(operation));
 }
 
 TEST_F(RodSession, RecordsHeadsAtTheTipAndJoinsThem) {

@@ -149,7 +149,7 @@ TEST(RodsAlone, GoOnAfterACrashWithTheRodThatIsNotDone) {
 
 TEST(RodsAlone, EndAtOnceIfBothWereDoneBeforeTheCrash) {
   LoggedOperation logged;
-  logged.rods = {LoggedRod{2, true}, LoggedRod{2, true}};
+  logged.state.rods[0].done = logged.state.rods[1].done = true;
   ScriptedOperation s = rods_alone();
   ASSERT_TRUE(is_ok(s.session().resume(logged)));
   EXPECT_EQ(step_of(s.says("start")), "done");

@@ -46,15 +46,7 @@ class KeptCommand : public ::testing::Test {
   /// As if `screws` screws had been placed when the computer died.
   void place(std::size_t screws) {
     auto found = OperationLog::find(env_, out_).value();
-    engine::LevelState level;
-    level.plan.label = "L5";
-    for (const engine::LoggedScrew& screw : found.operation.levels.front().screws) {
-      level.plan.screws.push_back(screw.plan);
-    }
-    const std::size_t planned = level.plan.screws.size();
-    level.clearance_at_depth.resize(planned);
-    level.executed.resize(planned);
-    level.wires.resize(planned);
+    engine::LevelState level = found.operation.state.levels.front();
     const auto log =
         OperationLog::go_on(env_, std::move(found), engine::RecordWriter::Waits::kUntilDurable);
     const Timestamp then(std::chrono::seconds(60));
