@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "base/how_many.h"
-#include "engine/session/part_wording.h"
-#include "engine/session/saved_wording.h"
+#include "engine/session/wording.h"
+#include "engine/session/work_watch.h"
 
 namespace orthonav::tools {
 namespace {

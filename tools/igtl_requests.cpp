@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "engine/case/plan_file.h"
+#include "engine/session/commands.h"
 #include "engine/session/replan_wording.h"
-#include "engine/session/spoken_commands.h"
-#include "engine/session/spoken_replan.h"
 
 namespace orthonav::tools {
 namespace {

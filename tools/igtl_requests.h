@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/result.h"
-#include "engine/session/request.h"
+#include "engine/session/commands.h"
 
 namespace orthonav::tools {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "engine/session/spoken_commands.h"
+#include "engine/session/commands.h"
 #include "hal/open/open_parts.h"
 
 namespace orthonav::tools {

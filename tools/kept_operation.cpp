@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/session/resume_wording.h"
-#include "engine/session/saved_wording.h"
+#include "engine/session/wording.h"
 
 namespace orthonav::tools {
 namespace {

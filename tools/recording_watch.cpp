@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "base/how_many.h"
-#include "engine/session/saved_wording.h"
+#include "engine/session/wording.h"
 
 namespace orthonav::tools {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "engine/session/status_parts.h"
+#include "engine/session/status_line.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {

@@ -11,7 +11,7 @@
 #include "engine/holograms/next_act.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
-#include "engine/session/tool_steps.h"
+#include "engine/session/tools_in_hand.h"
 #include "nav/published/stroke_pattern.h"
 
 namespace orthonav::engine {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/session/status_parts.h"
+#include "engine/session/status_line.h"
 
 namespace orthonav::engine {
 

@@ -7,7 +7,7 @@
 #include "base/guarded.h"
 #include "base/joined.h"
 #include "base/stopwatch.h"
-#include "engine/session/part_wording.h"
+#include "engine/session/work_watch.h"
 
 namespace orthonav::engine {
 namespace {

@@ -4,7 +4,7 @@
 #include "base/guarded.h"
 #include "base/stopwatch.h"
 #include "engine/live/frame_loop.h"
-#include "engine/session/part_wording.h"
+#include "engine/session/work_watch.h"
 
 // The drawing thread: draws what the tracking thread hands over, and watches it.
 

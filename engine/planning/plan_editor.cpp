@@ -7,9 +7,9 @@
 
 #include "engine/case/case_writer.h"
 #include "engine/case/screw_place.h"
+#include "engine/session/commands.h"
 #include "engine/session/replan_wording.h"
-#include "engine/session/replanned_screw.h"
-#include "engine/session/spoken_replan.h"
+#include "engine/session/replanning.h"
 #include "nav/planning/pedicle_screws.h"
 
 namespace orthonav::engine {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/session/status_parts.h"
+#include "engine/session/status_line.h"
 #include "nav/registration/check_points.h"
 #include "nav/registration/findings.h"
 

@@ -3,7 +3,6 @@
 #include <string_view>
 
 #include "engine/session/status_line.h"
-#include "engine/session/status_parts.h"
 
 namespace orthonav::engine {
 

@@ -1,6 +1,5 @@
 #include "engine/session/logged_operation.h"
 
-#include "engine/session/journal_rod_reading.h"
 #include "engine/session/operation_json.h"
 
 namespace orthonav::engine {

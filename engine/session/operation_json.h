@@ -32,6 +32,12 @@ using LogJson = nlohmann::ordered_json;
 [[nodiscard]] nav::Region region_from(const JsonNode& node);
 [[nodiscard]] nav::Registration registration_from(const JsonNode& node);
 [[nodiscard]] Side side_from(const JsonNode& node);
+/// A number of things, not negative.
+[[nodiscard]] std::size_t count_of(const JsonNode& line, const char* key);
+/// The number of heads after a line that says that one was touched, or that the last touch was
+/// taken back, from the number before it. Lines from before heads were touched several times do not
+/// count touches: each was of another head.
+[[nodiscard]] std::size_t heads_after(const JsonNode& line, bool touched, std::size_t heads);
 [[nodiscard]] nav::ScrewPlan screw_from(const JsonNode& node);
 [[nodiscard]] nav::ExecutedTrajectory executed_from(const JsonNode& node);
 [[nodiscard]] nav::ScrewClearance clearance_from(const JsonNode& node);

@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "engine/session/axis_touch.h"
+#include "engine/session/messages.h"
 #include "engine/session/operation_in_work.h"
-#include "engine/session/raised.h"
 #include "engine/session/tool_in_vertebra.h"
+#include "engine/session/touch.h"
 #include "nav/calibration/spin.h"
 #include "nav/guidance/other_entry.h"
 

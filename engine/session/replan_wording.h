@@ -3,7 +3,7 @@
 #include <string>
 
 #include "engine/session/replan.h"
-#include "engine/session/status_parts.h"
+#include "engine/session/status_line.h"
 
 namespace orthonav::engine {
 

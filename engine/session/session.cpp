@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "base/joined.h"
-#include "engine/session/hearing.h"
+#include "engine/session/commands.h"
 
 namespace orthonav::engine {
+
 namespace {
 
 Event event_of(ClickerAction action) {
@@ -211,6 +212,127 @@ void Session::forget_places(Event why, Timestamp time) {
         why == Event::kReferenceMoved ? Message(ReferenceMoved{step}) : Message(MapMoved{step}),
         time);
   }
+}
+
+// A missing action does not compile here, whichever warnings are enabled (tests/build_failures).
+// clang-format off
+#pragma GCC diagnostic push
+#pragma GCC diagnostic error "-Wswitch"
+std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
+  using enum Action;
+  SessionSteps& s = steps_;
+  switch (action) {
+    case kIgnore: case kCountRefusal: case kFinish: case kWarnLost: break;  // said elsewhere
+    case kRefuse: case kAskForChecks: case kAskForLandmark: case kAskAboutWire: case kOfferToKeep: work_.messages.say(why_not(action, event), time); break;
+    case kBeginLevel: return begin_level(time);
+    case kStartSampling: case kStopSampling: case kBeginTouch: case kEndTouch: case kDropTouch: s.button(action, work_, time); break;
+    case kSaveRegion: s.digitizing.save_region(work_, time); break;
+    case kDropRegion: s.digitizing.drop_region(work_, time); break;
+    case kRegister: return s.digitizing.register_level(work_, time);
+    case kShowRegistration: show_registration(time); break;
+    case kJudgeChecks: return s.verifying.judge_checks();
+    case kRecordCheck: s.verifying.record_check(work_, time); break;
+    case kDropCheck: s.verifying.drop_check(work_, time); break;
+    case kAccept: s.verifying.accept(work_, time); s.expect_landmark(work_); break;
+    case kClearLevel: clear_level(time); break;
+    case kTouchLandmark: return s.landmarking.touch_landmark(work_, s.guide_checks, time);
+    case kDropLandmark: s.landmarking.drop_landmark(work_, time); break;
+    case kJudgeLandmark: return s.landmarking.judge_landmark();
+    case kExpectLandmark: s.expect_landmark(work_); break;
+    case kVerifyAgain: s.landmarking.verify_again(work_, s.verifying, s.guiding, time); break;
+    case kCorrectGuide: case kKeepWire: case kConsent: consent(action, time); break;
+    case kSelectScrew: s.select_screw(work_); break;
+    case kToggleTwin: s.guiding.toggle_twin(); break;
+    case kToggleNumbers: s.guiding.toggle_numbers(); break;
+    case kBeginDrill: s.guiding.begin_drill(); break;
+    case kReplan: s.replanning.replan(work_, s.guiding, s.placing, time); break;
+    case kExpectWire: s.expect_wire(work_); break;
+    case kMeasureWire: s.placing.measure(work_, s.guiding, s.guide_checks, watching_.reference_hidden(work_), time); break;
+    case kJudgeWire: return s.placing.judge_wire();
+    case kJudgeRedo: return s.placing.judge_redo(work_, s.guiding, time);
+    case kFinishScrew: return s.guiding.finish_screw(work_, s.placing, time);
+    case kBeginRod: return s.rods.begin(work_.state);
+    case kRecordHead: s.rods.record_head(work_, time); break;
+    case kDropHead: s.rods.drop_head(work_, time); break;
+    case kFinishRod: return s.rods.finish_rod(work_, time);
+    case kMoveRod: s.rods.move_away(); break;
+    case kHideGuidance: case kShowGuidance: watching_.hide_guidance(action == kHideGuidance); break;
+    case kForgetMap: forget_places(event, time); break;
+  }
+  return std::nullopt;
+}
+// clang-format on
+#pragma GCC diagnostic pop
+
+/// What the surgeon is told if nothing is done.
+Message Session::why_not(Action action, Event event) const {
+  switch (action) {
+    case Action::kAskForChecks:
+      return ChecksMissing{steps_.verifying.verdict().advice};
+    case Action::kAskForLandmark:
+      return LandmarkMissing{work_.level().landmark.has_value()};
+    case Action::kAskAboutWire:
+      return WireUndecided{};
+    case Action::kOfferToKeep:
+      return NoOtherEntry{};
+    default:
+      return NotPossibleNow{event};
+  }
+}
+
+namespace {
+
+bool understood(const OperationInWork& work, const Phrase& phrase) {
+  return phrase.confidence >= work.options.min_voice_confidence;
+}
+
+std::optional<Event> hear_replan(OperationInWork& work, SessionSteps& steps, const Phrase& phrase,
+                                 const Result<Replan>& replan, const std::string& from) {
+  const bool sure = understood(work, phrase);
+  work.messages.echo(phrase, sure, from);
+  if (sure && replan) {
+    steps.replanning.ask(*replan);
+    return Event::kSayReplan;
+  }
+  work.messages.say(sure ? Message(ReplanUnclear{replan.error()}) : Message(NotUnderstood{}),
+                    phrase.time);
+  work.observer->not_understood(phrase);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Event> hear(OperationInWork& work, SessionSteps& steps, const Phrase& phrase,
+                          const std::string& from) {
+  const auto event = command_event(phrase.text);
+  if (const auto replan = event ? std::nullopt : replan_from(phrase.text)) {
+    return hear_replan(work, steps, phrase, *replan, from);
+  }
+  const bool sure = understood(work, phrase);
+  if (event) {
+    work.messages.echo(phrase, sure, from);
+  }
+  if (!sure) {
+    work.messages.say(NotUnderstood{}, phrase.time);
+  }
+  if (!event || !sure) {
+    work.observer->not_understood(phrase);
+    return std::nullopt;
+  }
+  if (work.step == Step::kVerify && *event == Event::kSayAccept &&
+      !steps.verifying.shown_before(phrase.time)) {
+    work.observer->happened(phrase.time, work.step, *event, Cell{work.step, Action::kRefuse});
+    work.messages.say(SaidBeforeShown{}, phrase.time);
+    return std::nullopt;
+  }
+  return event;
+}
+
+std::optional<Event> hear(OperationInWork& work, SessionSteps& steps, const Request& request) {
+  work.observer->asked_from_outside(request);
+  const Phrase phrase{request.text, 1.0, request.time};
+  return request.change ? hear_replan(work, steps, phrase, *request.change, request.from)
+                        : hear(work, steps, phrase, request.from);
 }
 
 }  // namespace orthonav::engine

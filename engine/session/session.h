@@ -3,15 +3,16 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "engine/case/operation.h"
+#include "engine/session/commands.h"
 #include "engine/session/guidance.h"
 #include "engine/session/logged_operation.h"
+#include "engine/session/messages.h"
 #include "engine/session/method.h"
 #include "engine/session/operation_in_work.h"
 #include "engine/session/publication.h"
-#include "engine/session/raised.h"
-#include "engine/session/request.h"
 #include "engine/session/resuming.h"
 #include "engine/session/saving.h"
 #include "engine/session/session_observer.h"
@@ -110,5 +111,15 @@ class Session {
   Resuming resuming_;
   Publication publication_;
 };
+
+// Interprets what is said and what other programs ask. Returns the event for the table to answer;
+// none if it was not understood or can't be meant, which the surgeon is told here.
+
+/// `from`: who asked, unless it was said in the room.
+[[nodiscard]] std::optional<Event> hear(OperationInWork& work, SessionSteps& steps,
+                                        const Phrase& phrase, const std::string& from = {});
+/// Requests of other programs always count as understood.
+[[nodiscard]] std::optional<Event> hear(OperationInWork& work, SessionSteps& steps,
+                                        const Request& request);
 
 }  // namespace orthonav::engine

@@ -4,9 +4,9 @@
 #include <string_view>
 
 #include "engine/session/calibration_in_use.h"
+#include "engine/session/commands.h"
 #include "engine/session/guidance.h"
-#include "engine/session/registration_outcome.h"
-#include "engine/session/request.h"
+#include "engine/session/operation_state.h"
 #include "hal/api/devices.h"
 #include "nav/guidance/other_entry.h"
 

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "base/time.h"
+#include "engine/session/guide_checks.h"
 #include "engine/session/landmark.h"
-#include "engine/session/method_steps.h"
 #include "engine/session/placed_wire.h"
-#include "engine/session/replan_limits.h"
-#include "engine/session/tip_check.h"
+#include "engine/session/replan.h"
 #include "engine/session/touched_heads.h"
+#include "engine/session/workflow.h"
 #include "nav/guidance/drill_watch.h"
 #include "nav/guidance/rod_bends.h"
 #include "nav/registration/check_points.h"

@@ -1,6 +1,7 @@
 #include "engine/session/status_line.h"
 
 namespace orthonav::engine {
+
 namespace {
 
 ChecksAsked asked_by(const nav::CheckAdvice& advice) {

@@ -1,23 +1,69 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 
-#include "engine/session/axis_check.h"
+#include "engine/session/guide_checks.h"
 #include "engine/session/landmark.h"
-#include "engine/session/message.h"
+#include "engine/session/messages.h"
 #include "engine/session/placed_wire.h"
 #include "engine/session/saving.h"
-#include "engine/session/tip_check.h"
 #include "engine/session/touched_heads.h"
 #include "engine/session/work_watch.h"
 #include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
 
 namespace orthonav::engine {
+
+/// Priority of a part of the status line when there is no room for all: the last is dropped first.
+enum class Importance {
+  kDanger,   ///< what must not be trusted now: a lost tool, a moved map
+  kNext,     ///< what to do
+  kMessage,  ///< what happened, and the first reason
+  kHeard,    ///< the command as heard
+  kMore,     ///< the other reasons
+  kFigures,  ///< how good the registration is
+  kCount     ///< how much there is
+};
+
+/// A part of a text, up to the beginning of the next part.
+struct StatusPart {
+  Importance importance = Importance::kMessage;
+  std::size_t begin = 0;
+  std::size_t separator = 0;  ///< bytes at the beginning that are dropped at the start of a row
+};
+
+/// The parts of a text, in order. Parts beyond `kMost` are merged into the last.
+struct StatusParts {
+  static constexpr std::size_t kMost = 24;
+  std::array<StatusPart, kMost> parts{};
+  std::size_t count = 0;
+
+  void clear() { count = 0; }
+  void add(const StatusPart& part) {
+    if (count < kMost) {
+      parts[count++] = part;
+    }
+  }
+};
+
+/// A text being written and, if wanted, where its parts begin.
+struct PartedText {
+  std::string& out;
+  StatusParts* parts = nullptr;
+
+  /// Begins a new part with what is appended next.
+  void begin(Importance importance, std::string_view separator = "") {
+    if (parts != nullptr) {
+      parts->add({importance, out.size(), separator.size()});
+    }
+    out += separator;
+  }
+};
 
 struct Coaching;
 
@@ -64,14 +110,6 @@ struct HeadsSoFar {
 };
 using StepState = std::variant<std::monostate, StrokesSoFar, ByEye, ChecksSoFar, LandmarkSoFar,
                                WireSoFar, HeadsSoFar>;
-
-/// The command as heard. A surgeon who was misheard must see it at once, and one who was heard need
-/// not ask.
-struct HeardCommand {
-  std::string phrase;
-  bool sure = false;      ///< confident enough to be acted on
-  std::string from = {};  ///< who asked, unless it was said in the room
-};
 
 /// Everything that the status line says, as data; engine/session/wording.h turns it into text. The
 /// pointers and views look into the session: valid until its next step.

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "engine/session/tool_steps.h"
-
 namespace orthonav::engine {
+
 namespace {
 
 constexpr double kNearTheBone_m = 0.05;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/check.h"
-#include "engine/session/pressed_samples.h"
+#include "engine/session/touch.h"
 
 namespace orthonav::engine {
 

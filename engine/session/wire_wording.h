@@ -5,7 +5,6 @@
 
 #include "engine/session/placed_wire.h"
 #include "engine/session/status_line.h"
-#include "engine/session/status_parts.h"
 
 namespace orthonav::engine {
 

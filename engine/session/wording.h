@@ -6,14 +6,22 @@
 #include "base/translation.h"
 #include "engine/session/coach.h"
 #include "engine/session/findings_wording.h"
-#include "engine/session/message.h"
-#include "engine/session/registration_outcome.h"
+#include "engine/session/messages.h"
+#include "engine/session/operation_state.h"
+#include "engine/session/saving.h"
 #include "engine/session/status_line.h"
-#include "engine/session/status_parts.h"
 #include "nav/registration/check_points.h"
 #include "nav/registration/findings.h"
 
 namespace orthonav::engine {
+
+/// "saved", "NOT SAVED", "NOT RECORDED" or nothing.
+[[nodiscard]] std::string_view text_of(Saved saved);
+/// The same after `separator`.
+void write_saved(PartedText text, Saved saved, std::string_view separator);
+
+/// A message to the surgeon in words, in several parts where needed.
+void write_message(PartedText text, const Message& message);
 
 // All words that a surgeon reads are made from data here, in wording.cpp and the other
 // *_wording.cpp: in English, or where a WearersLanguage lives, in the wearer's language

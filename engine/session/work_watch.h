@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <string_view>
 
 namespace orthonav::engine {
 
@@ -43,5 +44,10 @@ class [[nodiscard]] Working {
   Part part_;
   int exceptions_ = std::uncaught_exceptions();
 };
+
+/// "tracker": in English, for logs.
+[[nodiscard]] std::string_view word_of(Part part);
+/// "tracker stalled: nothing is guided".
+[[nodiscard]] std::string_view stalled_text(Part part);
 
 }  // namespace orthonav::engine

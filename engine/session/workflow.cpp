@@ -3,6 +3,7 @@
 #include "base/translation.h"
 
 namespace orthonav::engine {
+
 namespace {
 
 // Spoken words are not translated.

@@ -6,12 +6,389 @@
 #include <cstdint>
 #include <string_view>
 
-#include "engine/session/event.h"
-#include "engine/session/method_steps.h"
-#include "engine/session/workflow_rules.h"
 #include "hal/api/shown_status.h"
 
 namespace orthonav::engine {
+
+/// Everything that can happen: what the surgeon does, and what the engine detects.
+enum class Event : std::uint8_t {
+  kPress,
+  kRelease,
+  kClick,
+  kDoubleClick,
+  kHold,
+  kSayStart,
+  kSaySave,
+  kSayDelete,
+  kSayAccept,
+  kSayReject,
+  kSayNext,
+  kSayDone,
+  kSayMoveRod,
+  kSayTwin,
+  kSayNumbers,
+  kSayDrill,
+  kSayReplan,             ///< a change of the screw; Replan says which
+  kRegistered,            ///< a registration passed its limits
+  kRegistrationRefused,   ///< a registration failed its limits
+  kRegistrationRestored,  ///< a registration of a resumed operation, to be verified like any other
+  kAcceptanceRestored,    ///< an accepted one; its landmark can show whether it still holds
+  kChecked,               ///< "accept" was said and the check points confirm the registration
+  kNotChecked,            ///< "accept" was said too early, or against the check points
+  kLandmarkTouched,       ///< "next" was said and the landmark was found where it was recorded
+  kLandmarkMissing,       ///< "next" was said before the landmark was touched
+  kLandmarkMoved,         ///< the landmark was touched too far from where it was
+  kBoneUnchecked,     ///< before a drill is set: World has drifted too far since the bone was found
+  kWireSettled,       ///< "next" was said, and nothing of the wire is left to decide
+  kWireUndecided,     ///< "next" was said of a wire beyond a limit
+  kScrewRedone,       ///< "delete" was said of a wire, and another entry was found
+  kNoOtherEntry,      ///< "delete" was said of a wire, and no other entry was found
+  kAnotherScrew,      ///< the level has a further screw
+  kAnotherLevel,      ///< the level is finished, a further one is planned
+  kNoScrewLeft,       ///< every screw of the plan is done
+  kNoRodPlanned,      ///< every screw is done, and no side has two for a rod to join
+  kAnotherSide,       ///< the rod of the other side is still to do
+  kNoSideLeft,        ///< both rods are done
+  kTrackingLost,      ///< the step's tool is no longer measured
+  kPoseStale,         ///< the step's tool was last measured too long ago to be shown
+  kTrackingRegained,  ///< the step's tool is measured again
+  kMapMoved,          ///< the headset's map was replaced: old positions are meaningless
+  kReferenceHidden,   ///< no patient reference was seen for longer than guidance may stay
+  kReferenceSeen,     ///< a reference is seen again, or for the first time
+  kReferenceMoved,    ///< references moved against each other: positions relative to them are void
+};
+inline constexpr std::size_t kEventCount = 44;
+
+/// What the session does about an event. The first is the default of cells without a rule.
+enum class Action : std::uint8_t {
+  kRefuse,  ///< not possible now; the surgeon is told
+  kIgnore,  ///< has no meaning here; the surgeon is not told
+  kBeginLevel,
+  kStartSampling,
+  kStopSampling,
+  kSaveRegion,
+  kDropRegion,
+  kRegister,
+  kShowRegistration,
+  kCountRefusal,
+  kJudgeChecks,
+  kAskForChecks,
+  kRecordCheck,
+  kDropCheck,
+  kAccept,
+  kClearLevel,
+  kTouchLandmark,
+  kDropLandmark,
+  kJudgeLandmark,
+  kAskForLandmark,
+  kExpectLandmark,
+  kVerifyAgain,
+  kCorrectGuide,
+  kSelectScrew,
+  kExpectWire,
+  kMeasureWire,
+  kJudgeWire,
+  kAskAboutWire,
+  kKeepWire,
+  kJudgeRedo,
+  kOfferToKeep,
+  kFinishScrew,
+  kBeginRod,
+  kBeginTouch,
+  kEndTouch,
+  kDropTouch,
+  kRecordHead,
+  kDropHead,
+  kFinishRod,
+  kMoveRod,
+  kToggleTwin,
+  kToggleNumbers,
+  kBeginDrill,
+  kReplan,
+  kConsent,
+  kFinish,
+  kWarnLost,
+  kHideGuidance,
+  kShowGuidance,
+  kForgetMap,
+};
+inline constexpr std::size_t kActionCount = static_cast<std::size_t>(Action::kForgetMap) + 1;
+
+/// What a session asks of the surgeon besides strokes and looks. Each can be left out on its own,
+/// so that a study can measure its benefit (docs/decisions/0076-one-step-left-out.md); an operation
+/// has all of them or, if verification is by eye alone, none.
+struct MethodSteps {
+  bool check_points = true;  ///< places of the bone touched in `verify` join the registration
+  bool landmark = true;      ///< the landmark is touched again before each screw
+  bool tips = true;          ///< the guide's tip is compared with the pointer's in the landmark
+  bool wire = true;          ///< the placed wire is measured with the sleeve
+  bool redo = true;          ///< a wire beyond a limit is redone through another entry
+  bool axis = true;          ///< the guide's axis is corrected by its sleeve, turned on a wire
+
+  /// Whether anything is touched in `accepted`.
+  [[nodiscard]] constexpr bool dimple() const { return landmark || tips; }
+  [[nodiscard]] static constexpr MethodSteps none() {
+    return {false, false, false, false, false, false};
+  }
+};
+
+using orthonav::Step;
+
+/// One rule of the table.
+struct Rule {
+  Step step;
+  Event event;
+  Action action;
+  Step next;
+};
+
+namespace workflow_detail {
+using enum Step;
+using enum Event;
+using enum Action;
+
+// clang-format off
+inline constexpr auto kRules = std::to_array<Rule>({
+    // When the map moves, what was measured in it is forgotten wherever anything was measured; a level
+    // that is not finished is digitized again. With a patient reference the map does not matter; one
+    // that moved does the same. While it is hidden nothing is shown on the patient, in any step.
+
+    // Nothing is tracked for guidance before the operation starts. What a resumed operation
+    // restored depends on references that may have moved meanwhile.
+    {kSetup, kSayStart, kBeginLevel, kDigitize},
+    {kSetup, kPress, kIgnore, kSetup},
+    {kSetup, kRelease, kIgnore, kSetup},
+    {kSetup, kClick, kIgnore, kSetup},
+    {kSetup, kHold, kIgnore, kSetup},
+    {kSetup, kTrackingLost, kIgnore, kSetup},
+    {kSetup, kPoseStale, kIgnore, kSetup},
+    {kSetup, kTrackingRegained, kIgnore, kSetup},
+    {kSetup, kMapMoved, kIgnore, kSetup},
+    {kSetup, kReferenceHidden, kIgnore, kSetup},
+    {kSetup, kReferenceSeen, kIgnore, kSetup},
+    {kSetup, kReferenceMoved, kForgetMap, kSetup},
+
+    // Samples while the button is down; a double click asks for the registration. Its two clicks
+    // come as clicks too and mean nothing of their own. A resumed operation goes on from here to
+    // the step it had reached, with nothing verified.
+    {kDigitize, kPress, kStartSampling, kDigitize},
+    {kDigitize, kRelease, kStopSampling, kDigitize},
+    {kDigitize, kClick, kIgnore, kDigitize},
+    {kDigitize, kHold, kIgnore, kDigitize},
+    {kDigitize, kSaySave, kSaveRegion, kDigitize},
+    {kDigitize, kSayDelete, kDropRegion, kDigitize},
+    {kDigitize, kDoubleClick, kRegister, kRegistering},
+    {kDigitize, kRegistrationRestored, kShowRegistration, kVerify},
+    {kDigitize, kAcceptanceRestored, kExpectLandmark, kAccepted},
+    {kDigitize, kNoScrewLeft, kBeginRod, kRod},
+    {kDigitize, kNoRodPlanned, kFinish, kDone},
+    {kDigitize, kTrackingLost, kWarnLost, kDigitize},
+    {kDigitize, kPoseStale, kHideGuidance, kDigitize},
+    {kDigitize, kTrackingRegained, kShowGuidance, kDigitize},
+    {kDigitize, kMapMoved, kForgetMap, kDigitize},
+    {kDigitize, kReferenceHidden, kWarnLost, kDigitize},
+    {kDigitize, kReferenceSeen, kIgnore, kDigitize},
+    {kDigitize, kReferenceMoved, kForgetMap, kDigitize},
+
+    // The registration is computed beside the session where time passes by itself. Nothing that the
+    // surgeon says changes what it is computed from; a button has no meaning until it is answered.
+    {kRegistering, kRegistered, kShowRegistration, kVerify},
+    {kRegistering, kRegistrationRefused, kCountRefusal, kDigitize},
+    {kRegistering, kPress, kIgnore, kRegistering},
+    {kRegistering, kRelease, kIgnore, kRegistering},
+    {kRegistering, kClick, kIgnore, kRegistering},
+    {kRegistering, kHold, kIgnore, kRegistering},
+    {kRegistering, kTrackingLost, kWarnLost, kRegistering},
+    {kRegistering, kPoseStale, kHideGuidance, kRegistering},
+    {kRegistering, kTrackingRegained, kShowGuidance, kRegistering},
+    {kRegistering, kMapMoved, kForgetMap, kDigitize},
+    {kRegistering, kReferenceHidden, kWarnLost, kRegistering},
+    {kRegistering, kReferenceSeen, kIgnore, kRegistering},
+    {kRegistering, kReferenceMoved, kForgetMap, kDigitize},
+
+    // The surgeon looks at the hologram on the bone and touches places that were not stroked for it.
+    // The only way on is their own word, and it counts once the touched places bear it out.
+    {kVerify, kSayAccept, kJudgeChecks, kVerify},
+    {kVerify, kChecked, kAccept, kAccepted},
+    {kVerify, kNotChecked, kAskForChecks, kVerify},
+    {kVerify, kSayReject, kClearLevel, kDigitize},
+    {kVerify, kPress, kBeginTouch, kVerify},
+    {kVerify, kRelease, kEndTouch, kVerify},
+    {kVerify, kClick, kRecordCheck, kVerify},
+    {kVerify, kDoubleClick, kIgnore, kVerify},
+    {kVerify, kHold, kDropTouch, kVerify},
+    {kVerify, kSayDelete, kDropCheck, kVerify},
+    {kVerify, kTrackingLost, kWarnLost, kVerify},
+    {kVerify, kPoseStale, kHideGuidance, kVerify},
+    {kVerify, kTrackingRegained, kShowGuidance, kVerify},
+    {kVerify, kMapMoved, kForgetMap, kDigitize},
+    {kVerify, kReferenceHidden, kWarnLost, kVerify},
+    {kVerify, kReferenceSeen, kIgnore, kVerify},
+    {kVerify, kReferenceMoved, kForgetMap, kDigitize},
+
+    // Before each screw the landmark is touched: recorded the first time, found again from then on.
+    // One that is not where it was takes the acceptance back.
+    {kAccepted, kSayNext, kJudgeLandmark, kAccepted},
+    {kAccepted, kSayAccept, kCorrectGuide, kAccepted},
+    {kAccepted, kLandmarkTouched, kSelectScrew, kGuide},
+    {kAccepted, kLandmarkMissing, kAskForLandmark, kAccepted},
+    {kAccepted, kLandmarkMoved, kVerifyAgain, kVerify},
+    {kAccepted, kSayReplan, kReplan, kAccepted},
+    {kAccepted, kSayReject, kClearLevel, kDigitize},
+    {kAccepted, kPress, kBeginTouch, kAccepted},
+    {kAccepted, kRelease, kEndTouch, kAccepted},
+    {kAccepted, kClick, kTouchLandmark, kAccepted},
+    {kAccepted, kDoubleClick, kIgnore, kAccepted},
+    {kAccepted, kHold, kDropTouch, kAccepted},
+    {kAccepted, kSayDelete, kDropLandmark, kAccepted},
+    {kAccepted, kTrackingLost, kWarnLost, kAccepted},
+    {kAccepted, kPoseStale, kHideGuidance, kAccepted},
+    {kAccepted, kTrackingRegained, kShowGuidance, kAccepted},
+    {kAccepted, kMapMoved, kForgetMap, kDigitize},
+    {kAccepted, kReferenceHidden, kWarnLost, kAccepted},
+    {kAccepted, kReferenceSeen, kIgnore, kAccepted},
+    {kAccepted, kReferenceMoved, kForgetMap, kDigitize},
+
+    // A registration that turns out wrong while guiding can be thrown away at any screw. The screw
+    // is changed until its drill is set; one that would leave the cortex wants an "accept". Where the
+    // map has drifted for long, the landmark is touched again before a drill is set.
+    {kGuide, kSayNext, kExpectWire, kPlaced},
+    {kGuide, kSayReject, kClearLevel, kDigitize},
+    {kGuide, kSayTwin, kToggleTwin, kGuide},
+    {kGuide, kSayNumbers, kToggleNumbers, kGuide},
+    {kGuide, kBoneUnchecked, kExpectLandmark, kAccepted},
+    {kGuide, kSayDrill, kBeginDrill, kGuide},
+    {kGuide, kSayReplan, kReplan, kGuide},
+    {kGuide, kSayAccept, kConsent, kGuide},
+    {kGuide, kPress, kIgnore, kGuide},
+    {kGuide, kRelease, kIgnore, kGuide},
+    {kGuide, kClick, kToggleNumbers, kGuide},
+    {kGuide, kHold, kIgnore, kGuide},
+    {kGuide, kTrackingLost, kWarnLost, kGuide},
+    {kGuide, kPoseStale, kHideGuidance, kGuide},
+    {kGuide, kTrackingRegained, kShowGuidance, kGuide},
+    {kGuide, kMapMoved, kForgetMap, kDigitize},
+    {kGuide, kReferenceHidden, kWarnLost, kGuide},
+    {kGuide, kReferenceSeen, kIgnore, kGuide},
+    {kGuide, kReferenceMoved, kForgetMap, kDigitize},
+
+    // The sleeve is set over the wire and clicked. A wire beyond a limit is kept by a word, redone
+    // through another entry once the landmark was touched again, or the plan is changed to suit it.
+    {kPlaced, kSayNext, kJudgeWire, kPlaced},
+    {kPlaced, kSayAccept, kKeepWire, kPlaced},
+    {kPlaced, kSayDelete, kJudgeRedo, kPlaced},
+    {kPlaced, kSayReplan, kReplan, kPlaced},
+    {kPlaced, kSayReject, kClearLevel, kDigitize},
+    {kPlaced, kWireSettled, kFinishScrew, kPlaced},
+    {kPlaced, kWireUndecided, kAskAboutWire, kPlaced},
+    {kPlaced, kScrewRedone, kExpectLandmark, kAccepted},
+    {kPlaced, kNoOtherEntry, kOfferToKeep, kPlaced},
+    {kPlaced, kAnotherScrew, kExpectLandmark, kAccepted},
+    {kPlaced, kAnotherLevel, kBeginLevel, kDigitize},
+    {kPlaced, kNoScrewLeft, kBeginRod, kRod},
+    {kPlaced, kNoRodPlanned, kFinish, kDone},
+    {kPlaced, kPress, kBeginTouch, kPlaced},
+    {kPlaced, kRelease, kEndTouch, kPlaced},
+    {kPlaced, kClick, kMeasureWire, kPlaced},
+    {kPlaced, kDoubleClick, kIgnore, kPlaced},
+    {kPlaced, kHold, kDropTouch, kPlaced},
+    {kPlaced, kTrackingLost, kWarnLost, kPlaced},
+    {kPlaced, kPoseStale, kHideGuidance, kPlaced},
+    {kPlaced, kTrackingRegained, kShowGuidance, kPlaced},
+    {kPlaced, kMapMoved, kForgetMap, kDigitize},
+    {kPlaced, kReferenceHidden, kWarnLost, kPlaced},
+    {kPlaced, kReferenceSeen, kIgnore, kPlaced},
+    {kPlaced, kReferenceMoved, kForgetMap, kDigitize},
+
+    // Heads are touched with the pointer's tip; the tip is averaged while the button is down. A
+    // button held too long makes no click, so its touch is dropped and the surgeon told.
+    {kRod, kPress, kBeginTouch, kRod},
+    {kRod, kRelease, kEndTouch, kRod},
+    {kRod, kClick, kRecordHead, kRod},
+    {kRod, kDoubleClick, kIgnore, kRod},
+    {kRod, kHold, kDropTouch, kRod},
+    {kRod, kSayDelete, kDropHead, kRod},
+    {kRod, kSayDone, kFinishRod, kRod},
+    {kRod, kSayMoveRod, kMoveRod, kRod},
+    {kRod, kAnotherSide, kBeginRod, kRod},
+    {kRod, kNoSideLeft, kFinish, kDone},
+    {kRod, kTrackingLost, kWarnLost, kRod},
+    {kRod, kPoseStale, kHideGuidance, kRod},
+    {kRod, kTrackingRegained, kShowGuidance, kRod},
+    {kRod, kMapMoved, kForgetMap, kRod},
+    {kRod, kReferenceHidden, kWarnLost, kRod},
+    {kRod, kReferenceSeen, kIgnore, kRod},
+    {kRod, kReferenceMoved, kForgetMap, kRod},
+
+    {kDone, kSayMoveRod, kMoveRod, kDone},
+    {kDone, kPress, kIgnore, kDone},
+    {kDone, kRelease, kIgnore, kDone},
+    {kDone, kClick, kIgnore, kDone},
+    {kDone, kHold, kIgnore, kDone},
+    {kDone, kTrackingLost, kIgnore, kDone},
+    {kDone, kPoseStale, kIgnore, kDone},
+    {kDone, kTrackingRegained, kIgnore, kDone},
+    {kDone, kMapMoved, kForgetMap, kDone},
+    {kDone, kReferenceHidden, kIgnore, kDone},
+    {kDone, kReferenceSeen, kIgnore, kDone},
+    {kDone, kReferenceMoved, kForgetMap, kDone},
+});
+
+/// The answer that differs where rods alone are bent.
+inline constexpr auto kRulesRodsAlone = std::to_array<Rule>({
+    {kSetup, kSayStart, kBeginRod, kRod},
+});
+
+/// The answers that differ if verification is by eye alone.
+inline constexpr auto kRulesByEye = std::to_array<Rule>({
+    {kDigitize, kAcceptanceRestored, kRefuse, kDigitize},
+    {kVerify, kSayAccept, kAccept, kAccepted},
+    {kVerify, kChecked, kRefuse, kVerify},
+    {kVerify, kNotChecked, kRefuse, kVerify},
+    {kVerify, kPress, kIgnore, kVerify},
+    {kVerify, kRelease, kIgnore, kVerify},
+    {kVerify, kClick, kIgnore, kVerify},
+    {kVerify, kDoubleClick, kRefuse, kVerify},
+    {kVerify, kHold, kIgnore, kVerify},
+    {kVerify, kSayDelete, kRefuse, kVerify},
+    {kVerify, kTrackingLost, kIgnore, kVerify},
+    {kVerify, kPoseStale, kIgnore, kVerify},
+    {kVerify, kTrackingRegained, kIgnore, kVerify},
+    {kAccepted, kSayNext, kSelectScrew, kGuide},
+    {kAccepted, kSayAccept, kConsent, kAccepted},
+    {kAccepted, kLandmarkTouched, kRefuse, kAccepted},
+    {kAccepted, kLandmarkMissing, kRefuse, kAccepted},
+    {kAccepted, kLandmarkMoved, kRefuse, kAccepted},
+    {kAccepted, kPress, kIgnore, kAccepted},
+    {kAccepted, kRelease, kIgnore, kAccepted},
+    {kAccepted, kClick, kIgnore, kAccepted},
+    {kAccepted, kDoubleClick, kRefuse, kAccepted},
+    {kAccepted, kHold, kIgnore, kAccepted},
+    {kAccepted, kSayDelete, kRefuse, kAccepted},
+    {kAccepted, kTrackingLost, kIgnore, kAccepted},
+    {kAccepted, kPoseStale, kIgnore, kAccepted},
+    {kAccepted, kTrackingRegained, kIgnore, kAccepted},
+    {kGuide, kSayNext, kFinishScrew, kGuide},
+    {kGuide, kBoneUnchecked, kRefuse, kGuide},
+    {kGuide, kAnotherScrew, kSelectScrew, kGuide},
+    {kGuide, kAnotherLevel, kBeginLevel, kDigitize},
+    {kGuide, kNoScrewLeft, kBeginRod, kRod},
+    {kGuide, kNoRodPlanned, kFinish, kDone},
+});
+
+/// If the landmark is not touched again, the next screw follows at once.
+inline constexpr auto kRulesTouchedOnce = std::to_array<Rule>({
+    {kPlaced, kAnotherScrew, kSelectScrew, kGuide},
+    {kPlaced, kScrewRedone, kSelectScrew, kGuide},
+});
+
+/// If the landmark is touched again but no wire is measured.
+inline constexpr auto kRulesWireUnmeasured = std::to_array<Rule>({
+    {kGuide, kAnotherScrew, kExpectLandmark, kAccepted},
+    {kGuide, kBoneUnchecked, kExpectLandmark, kAccepted},
+});
+// clang-format on
+}  // namespace workflow_detail
 
 using orthonav::kStepCount;
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/mutex.h"
-#include "engine/session/part_wording.h"
+#include "engine/session/work_watch.h"
 #include "hal/api/forwarding_headset.h"
 #include "hal/fake/scripted.h"
 #include "tests/engine/live/guiding_loop.h"

@@ -1,4 +1,4 @@
-#include "engine/session/axis_check.h"
+#include "engine/session/guide_checks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/session/method_steps.h"
+#include "engine/session/workflow.h"
 
 #include <gmock/gmock.h>
 

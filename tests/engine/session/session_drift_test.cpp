@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/session/bone_found.h"
+#include "engine/session/operation_state.h"
 #include "engine/session/session.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"

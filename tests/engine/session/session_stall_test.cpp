@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include "engine/holograms/visibility.h"
-#include "engine/session/part_wording.h"
 #include "engine/session/wording.h"
+#include "engine/session/work_watch.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine {

@@ -1,13 +1,11 @@
-#include "engine/session/spoken_replan.h"
+#include "engine/session/commands.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "base/angle.h"
-#include "engine/session/number_words.h"
 #include "engine/session/replan_wording.h"
-#include "engine/session/spoken_commands.h"
 
 namespace orthonav::engine::spoken_replan_test {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/session/message.h"
-#include "engine/session/spoken_replan.h"
+#include "engine/session/commands.h"
+#include "engine/session/messages.h"
 #include "nav/guidance/rod.h"
 #include "nav/registration/registration.h"
 

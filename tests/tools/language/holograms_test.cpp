@@ -2,7 +2,7 @@
 
 #include "engine/holograms/hologram_numbers.h"
 #include "engine/holograms/scene_builder.h"
-#include "engine/session/part_wording.h"
+#include "engine/session/work_watch.h"
 #include "tests/support/scripted_operation.h"
 #include "tests/tools/language/pseudo_language.h"
 

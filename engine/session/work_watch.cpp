@@ -1,10 +1,11 @@
-#include "engine/session/part_wording.h"
+#include "engine/session/work_watch.h"
 
 #include <array>
 
 #include "base/translation.h"
 
 namespace orthonav::engine {
+
 namespace {
 
 constexpr std::array<const char*, kPartCount> kStalledTexts = {
