@@ -197,20 +197,20 @@ namespace {
 
 using nav::ScrewDirection;
 using nav::ScrewPart;
-using Which = NextScrewSize::Which;
+using NextSize = NextScrewSize::Which;
 
 constexpr std::array<std::pair<std::string_view, ScrewDirection>, 4> kDirections = {
     {{"cranial", ScrewDirection::kCranial},
      {"caudal", ScrewDirection::kCaudal},
      {"medial", ScrewDirection::kMedial},
      {"lateral", ScrewDirection::kLateral}}};
-constexpr std::array<std::pair<std::string_view, ScrewPart>, 3> kParts = {
+constexpr std::array<std::pair<std::string_view, ScrewPart>, 3> kScrewParts = {
     {{"move", ScrewPart::kWhole}, {"entry", ScrewPart::kEntry}, {"target", ScrewPart::kTarget}}};
-constexpr std::array<std::pair<std::string_view, Which>, 4> kNextSizes = {
-    {{"longer", Which::kLonger},
-     {"shorter", Which::kShorter},
-     {"thicker", Which::kThicker},
-     {"thinner", Which::kThinner}}};
+constexpr std::array<std::pair<std::string_view, NextSize>, 4> kNextSizes = {
+    {{"longer", NextSize::kLonger},
+     {"shorter", NextSize::kShorter},
+     {"thicker", NextSize::kThicker},
+     {"thinner", NextSize::kThinner}}};
 constexpr std::array<std::string_view, 5> kMillimetres = {"mm", "millimetre", "millimetres",
                                                           "millimeter", "millimeters"};
 constexpr std::array<std::string_view, 3> kDegreeWords = {"degree", "degrees", "deg"};
@@ -321,7 +321,7 @@ Result<Replan> alone(std::span<const std::string> words, Replan replan) {
 std::optional<Result<Replan>> replan_from(std::string_view phrase) {
   const std::vector<std::string> words = words_of(phrase);
   const std::string verb = words.empty() ? std::string() : words[0];
-  if (const auto part = meaning(kParts, verb)) {
+  if (const auto part = meaning(kScrewParts, verb)) {
     return move_from(words, *part);
   }
   if (const auto which = meaning(kNextSizes, verb)) {

@@ -433,6 +433,10 @@ void JournalReplay::rod_done(RecordedRod rod) {
 constexpr std::size_t kLongestLine = 1U << 20U;
 /// Clicks and phrases delayed by a network arrive some seconds after later images.
 constexpr auto kMostBack = std::chrono::minutes(1);
+/// What earlier versions called answers by which nothing changes.
+constexpr std::array<std::string_view, 8> kEarlierActions = {
+    "count refusal", "ask for checks", "ask for landmark", "ask about wire",
+    "offer to keep", "finish",         "warn: not seen",   "consent to breach"};
 /// Larger times in nanoseconds are invalid.
 constexpr double kLatest_ns = 4e18;
 
@@ -645,7 +649,10 @@ class Reading {
   void take_event(const JsonNode& line, Timestamp time) {
     (void)named<Step>(line, "step", kStepCount);
     const auto event = named<Event>(line, "event", kEventCount);
-    const auto action = named<Action>(line, "action", kActionCount);
+    const auto* const earlier = std::ranges::find(kEarlierActions, line.text("action"));
+    const auto action = earlier != kEarlierActions.end()
+                            ? Action::kIgnore
+                            : named<Action>(line, "action", kActionCount);
     const auto next = named<Step>(line, "next", kStepCount);
     replay_.happened(time, event, {next, action});
   }

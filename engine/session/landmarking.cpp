@@ -50,33 +50,10 @@ void note_bone_found(LevelState& level, const LandmarkTouch& touch, double drift
 
 }  // namespace
 
-void Landmarking::begin_touch() {
-  pointer_.begin();
-  guide_.begin();
-}
-
-void Landmarking::end_touch() {
-  pointer_.release();
-  guide_.release();
-}
-
-void Landmarking::drop_touch(OperationInWork& work, Timestamp time) {
-  pointer_.drop();
-  guide_.drop();
-  work.messages.say(
-      TouchNotRecorded{TouchNotRecorded::What::kLandmark, {TouchRefusal::Kind::kHeldTooLong}},
-      time);
-}
-
-void Landmarking::collect(const WatchedTools& tools) {
-  add_tip(pointer_, tools, tools.pointer());
-  add_tip(guide_, tools, tools.guide());
-}
-
 std::optional<Event> Landmarking::touch_landmark(OperationInWork& work, GuideChecks& guide,
                                                  Timestamp time) {
   LevelState& level = work.level();
-  const TouchedPlace place = take_place(pointer_, work, time);
+  const TouchedPlace place = take_place(work, time);
   if (const auto guide_tip = guide_tip_in_landmark(work, place)) {
     guide.compare_tips(work, *guide_tip, place_in_world(level), time);
     return std::nullopt;
@@ -98,13 +75,14 @@ std::optional<Event> Landmarking::touch_landmark(OperationInWork& work, GuideChe
 
 /// Once the pointer was in the dimple, the guide may follow: a press belongs to the tool whose tip
 /// is nearer to the dimple.
-std::optional<nav::PressedPlace> Landmarking::guide_tip_in_landmark(const OperationInWork& work,
-                                                                    const TouchedPlace& pointer) {
+std::optional<nav::PressedPlace> Landmarking::guide_tip_in_landmark(
+    OperationInWork& work, const TouchedPlace& pointer) const {
   constexpr double kInReach_m = 0.02;
   if (!work.options.steps.tips) {
     return std::nullopt;
   }
-  const TouchedPlace guide = guide_.take_place(std::nullopt, work.options.max_touch_spread_m);
+  const TouchedPlace guide =
+      work.touches.guide.take_place(std::nullopt, work.options.max_touch_spread_m);
   const auto* guide_tip = std::get_if<nav::PressedPlace>(&guide);
   if (!guide_tip || !touched()) {
     return std::nullopt;

@@ -20,11 +20,6 @@ class Landmarking {
  public:
   explicit Landmarking(const LandmarkRules& rules) : rules_(rules) {}
 
-  void begin_touch();
-  void end_touch();
-  void drop_touch(OperationInWork& work, Timestamp time);
-  /// Once for each pair of the step.
-  void collect(const WatchedTools& tools);
   /// Takes the pressed place as the landmark, or as the guide's tip in it.
   [[nodiscard]] std::optional<Event> touch_landmark(OperationInWork& work, GuideChecks& guide,
                                                     Timestamp time);
@@ -60,8 +55,8 @@ class Landmarking {
   /// Mean of the touches so far, in the vertebra, and its SD along an axis; requires a touch.
   [[nodiscard]] Point<Vertebra> mean_place() const { return {sum_m_ / touches_}; }
   [[nodiscard]] double sd_m() const { return std::sqrt(variances_m2_) / touches_; }
-  [[nodiscard]] std::optional<nav::PressedPlace> guide_tip_in_landmark(const OperationInWork& work,
-                                                                       const TouchedPlace& pointer);
+  [[nodiscard]] std::optional<nav::PressedPlace> guide_tip_in_landmark(
+      OperationInWork& work, const TouchedPlace& pointer) const;
   [[nodiscard]] nav::PressedPlace place_in_world(const LevelState& level) const;
   void forget_touches();
 
@@ -71,8 +66,6 @@ class Landmarking {
   Vec3 sum_m_;                  ///< of the touches so far, in Vertebra
   double variances_m2_ = 0.0;
   int touches_ = 0;
-  Touch pointer_;
-  Touch guide_;
 };
 
 }  // namespace orthonav::engine

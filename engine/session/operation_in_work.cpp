@@ -24,9 +24,9 @@ void add_tip(Touch& touch, const WatchedTools& tools, std::size_t tool) {
   }
 }
 
-TouchedPlace take_place(Touch& touch, const OperationInWork& work, Timestamp time) {
-  return touch.take_place(work.tools.pointer_tip(time, work.options.stale_after),
-                          work.options.max_touch_spread_m);
+TouchedPlace take_place(OperationInWork& work, Timestamp time) {
+  return work.touches.pointer.take_place(work.tools.pointer_tip(time, work.options.stale_after),
+                                         work.options.max_touch_spread_m);
 }
 
 }  // namespace orthonav::engine

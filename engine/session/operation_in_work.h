@@ -42,6 +42,7 @@ struct OperationInWork {
   std::optional<Part> stalled;  ///< in the newest pair; nothing is guided then
   bool waits = true;            ///< for what is computed beside it: time stands still meanwhile
   bool no_clicker = false;      ///< in the newest pair
+  Touches touches;              ///< of the present step, with the present press
   Messages messages;
   SessionObserver nobody;
   SessionObserver* observer = &nobody;  ///< never null. Borrowed.
@@ -51,6 +52,6 @@ struct OperationInWork {
 void add_tip(Touch& touch, const WatchedTools& tools, std::size_t tool);
 
 /// Where the pointer's tip rested; ends the touch.
-[[nodiscard]] TouchedPlace take_place(Touch& touch, const OperationInWork& work, Timestamp time);
+[[nodiscard]] TouchedPlace take_place(OperationInWork& work, Timestamp time);
 
 }  // namespace orthonav::engine

@@ -17,19 +17,15 @@ Placing::Placing(const SessionOptions& options)
   recent_.reserve(2 * kMostRecent);
 }
 
-void Placing::drop_touch(OperationInWork& work, Timestamp time) {
-  touch_.drop();
-  work.messages.say(
-      TouchNotRecorded{TouchNotRecorded::What::kWire, {TouchRefusal::Kind::kHeldTooLong}}, time);
-}
-
-void Placing::collect(const WatchedTools& tools) {
+void Placing::collect(OperationInWork& work) {
+  const WatchedTools& tools = work.tools;
   const nav::TrackedPose& pose = tools.watch(tools.guide()).newest();
   const nav::ToolGeometry& guide = tools.geometry(tools.guide());
   if (pose.status != PoseStatus::kMeasured) {
-    return touch_.lose();
+    return work.touches.sleeve.lose();
   }
-  touch_.add({pose.value * guide.tip_in_marker, (pose.value * guide.axis_in_marker).v});
+  work.touches.sleeve.add(
+      {pose.value * guide.tip_in_marker, (pose.value * guide.axis_in_marker).v});
   if (recent_.size() == 2 * kMostRecent) {
     recent_.erase(recent_.begin(), recent_.begin() + kMostRecent);
   }
@@ -41,10 +37,10 @@ void Placing::measure(OperationInWork& work, const Guiding& guiding, GuideChecks
   const ToolWatch& guide = work.tools.watch(work.tools.guide());
   std::optional<TouchRefusal> refusal;
   if (reference_hidden) {
-    touch_.drop();
+    work.touches.sleeve.drop();
     refusal = TouchRefusal{TouchRefusal::Kind::kReferenceNotSeen};
   } else if (!guide.fresh(time, work.options.stale_after)) {
-    touch_.drop();
+    work.touches.sleeve.drop();
     refusal = TouchRefusal{TouchRefusal::Kind::kGuideNotSeen};
   } else {
     refusal = take(work, guiding.screw(), checks.errors(work, time));
@@ -58,12 +54,13 @@ void Placing::measure(OperationInWork& work, const Guiding& guiding, GuideChecks
   }
 }
 
-std::optional<TouchRefusal> Placing::take(const OperationInWork& work, std::size_t screw,
+std::optional<TouchRefusal> Placing::take(OperationInWork& work, std::size_t screw,
                                           const ToolErrors& guide_errors) {
   const LevelState& level = work.level();
   const nav::TrackedPose& pose = work.tools.watch(work.tools.guide()).last_measured_pose();
   const nav::ToolGeometry& guide = work.tools.geometry(work.tools.guide());
-  const auto taken = touch_.take(work.options.max_touch_spread_m, rules_.most_turn_rad);
+  const auto taken =
+      work.touches.sleeve.take(work.options.max_touch_spread_m, rules_.most_turn_rad);
   if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
     return *refusal;
   }

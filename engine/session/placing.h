@@ -22,11 +22,8 @@ class Placing {
  public:
   explicit Placing(const SessionOptions& options);
 
-  void begin_touch() { touch_.begin(); }
-  void end_touch() { touch_.release(); }
-  void drop_touch(OperationInWork& work, Timestamp time);
   /// Once for each pair of the step.
-  void collect(const WatchedTools& tools);
+  void collect(OperationInWork& work);
   /// Measures the wire of the selected screw by what was touched, or says why that does not count.
   /// The level has a registration. `reference_hidden`: none is seen, where one is in use.
   void measure(OperationInWork& work, const Guiding& guiding, GuideChecks& checks,
@@ -60,7 +57,7 @@ class Placing {
   /// Pairs in which the guide was measured: ten seconds at 30 a second.
   static constexpr std::size_t kMostRecent = 300;
 
-  [[nodiscard]] std::optional<TouchRefusal> take(const OperationInWork& work, std::size_t screw,
+  [[nodiscard]] std::optional<TouchRefusal> take(OperationInWork& work, std::size_t screw,
                                                  const ToolErrors& guide_errors);
   /// Sets the measured wire, with its axis relative to a plan.
   void put(const nav::PlacedAxis& axis);
@@ -81,7 +78,6 @@ class Placing {
   std::optional<Measured> measured_;  ///< from which `wire_` is computed
   bool no_other_entry_ = false;
   bool confirming_ = false;
-  AxisTouch touch_;
   std::vector<Transform<World, Marker>> recent_;  ///< poses of the guide, the oldest first
   /// The axis about which the sleeve was turned for the measurement, if it was.
   std::optional<nav::SpinCalibration> spin_;

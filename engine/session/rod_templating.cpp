@@ -155,21 +155,13 @@ bool any_rod_planned(std::span<const LevelState> levels) {
 RodTemplating::RodTemplating(bool left_planned, bool right_planned)
     : planned_{left_planned, right_planned}, current_(right_planned && !left_planned ? 1 : 0) {}
 
-std::optional<Event> RodTemplating::begin(const OperationState& operation) {
-  touch_ = {};
-  return left_to_do(operation) ? std::nullopt : std::optional(Event::kNoSideLeft);
-}
-
-void RodTemplating::collect(const WatchedTools& tools) { add_tip(touch_, tools, tools.pointer()); }
-
-void RodTemplating::drop_touch(OperationInWork& work, Timestamp time) {
-  touch_.drop();
-  work.messages.say(
-      TouchNotRecorded{TouchNotRecorded::What::kHead, {TouchRefusal::Kind::kHeldTooLong}}, time);
+std::optional<Event> RodTemplating::begin(OperationInWork& work) const {
+  work.touches.drop();
+  return left_to_do(work.state) ? std::nullopt : std::optional(Event::kNoSideLeft);
 }
 
 void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
-  const TouchedPlace place = take_place(touch_, work, time);
+  const TouchedPlace place = take_place(work, time);
   const auto* head = std::get_if<nav::PressedPlace>(&place);
   if (!head) {
     return work.messages.say(

@@ -24,12 +24,7 @@ class RodTemplating {
 
   /// Begins the first rod or the next one; an earlier press does not count as a touch of its heads.
   /// `kNoSideLeft` if all were done before the operation was resumed.
-  [[nodiscard]] std::optional<Event> begin(const OperationState& operation);
-  void begin_touch() { touch_.begin(); }
-  void end_touch() { touch_.release(); }
-  void drop_touch(OperationInWork& work, Timestamp time);
-  /// Once for each pair of the step.
-  void collect(const WatchedTools& tools);
+  [[nodiscard]] std::optional<Event> begin(OperationInWork& work) const;
   /// Records the touched place as the next head, or as one more touch of the head it is at.
   void record_head(OperationInWork& work, Timestamp time);
   /// Takes the last touch back.
@@ -44,8 +39,6 @@ class RodTemplating {
   [[nodiscard]] bool left_to_do(const OperationState& operation) const {
     return planned_[current_] && !operation.rods[current_].done;
   }
-  /// The map moved: a press in the old one does not count.
-  void forget_map() { touch_ = {}; }
 
   /// Of the current rod.
   [[nodiscard]] nav::Side side() const {
@@ -60,7 +53,6 @@ class RodTemplating {
   std::array<bool, 2> planned_;  ///< left, right
   std::size_t current_ = 0;
   bool moved_away_ = false;
-  Touch touch_;
 };
 
 }  // namespace orthonav::engine

@@ -31,9 +31,8 @@ Event event_of(ClickerAction action) {
 /// A message to the surgeon stays until something is accepted; these actions accept nothing.
 constexpr bool keeps_message(Action action) {
   using enum Action;
-  return action == kRefuse || action == kIgnore || action == kWarnLost || action == kHideGuidance ||
-         action == kShowGuidance || action == kCountRefusal || action == kForgetMap ||
-         action == kEndTouch;
+  return action == kRefuse || action == kIgnore || action == kExplain || action == kHideGuidance ||
+         action == kShowGuidance || action == kForgetMap || action == kEndTouch;
 }
 
 }  // namespace
@@ -119,7 +118,7 @@ void Session::answer_inputs(const Inputs& inputs) {
       const ClickerEvent& click = inputs.clicks[c++];
       handle(event_of(click.action), click.time);
     } else if (said <= asked) {
-      handle(hear(work_, steps_, inputs.phrases[p++]), said);
+      handle(hear(inputs.phrases[p++]), said);
     } else {
       answer_request(inputs.requests[r++]);
     }
@@ -128,11 +127,39 @@ void Session::answer_inputs(const Inputs& inputs) {
 
 void Session::answer_request(const Request& request) {
   const std::int64_t said = work_.messages.said();
-  const std::optional<Event> event = hear(work_, steps_, request);
+  work_.observer->asked_from_outside(request);
+  const std::optional<Event> event =
+      hear({request.text, 1.0, request.time}, request.change, request.from);
   handle(event, request.time);
   const Message* const answer = work_.messages.said() > said ? work_.messages.message() : nullptr;
   const Message* const why_not = answer != nullptr && is_refusal(*answer) ? answer : nullptr;
   work_.observer->request_answered(request, event && why_not == nullptr, why_not);
+}
+
+std::optional<Event> Session::hear(const Phrase& phrase, const std::optional<Replan>& change,
+                                   const std::string& from) {
+  const bool sure = phrase.confidence >= work_.options.min_voice_confidence;
+  std::optional<Event> event = change ? std::nullopt : command_event(phrase.text);
+  const std::optional<Result<Replan>> replan = change  ? Result<Replan>(*change)
+                                               : event ? std::nullopt
+                                                       : replan_from(phrase.text);
+  if (event || replan) {
+    work_.messages.echo(phrase, sure, from);
+  }
+  if (sure && replan && *replan) {
+    steps_.replanning.ask(**replan);
+    event = Event::kSayReplan;
+  }
+  if (sure && event) {
+    return event;
+  }
+  if (!sure) {
+    work_.messages.say(NotUnderstood{}, phrase.time);
+  } else if (replan) {
+    work_.messages.say(ReplanUnclear{replan->error()}, phrase.time);
+  }
+  work_.observer->not_understood(phrase);
+  return std::nullopt;
 }
 
 void Session::handle(std::optional<Raised> raised, Timestamp time) {
@@ -141,7 +168,10 @@ void Session::handle(std::optional<Raised> raised, Timestamp time) {
     const Cell cell = answer(workflow_, work_.step, event);
     work_.observer->happened(time, work_.step, event, cell);
     // The step changes first, so that an event raised by the action is answered in the new step.
-    work_.step = cell.next;
+    // Press and click of a touch belong to one step.
+    if (std::exchange(work_.step, cell.next) != cell.next) {
+      work_.touches.drop();
+    }
     if (!keeps_message(cell.action)) {
       work_.messages.clear();
       if (event != Event::kSayAccept) {
@@ -179,30 +209,12 @@ void Session::clear_level(Timestamp time) {
   work_.observer->level_cleared(time, work_.level());
 }
 
-/// "accept" consents first to a pending change of the screw, otherwise to a correction of the guide
-/// or to a wire beyond a limit.
-void Session::consent(Action action, Timestamp time) {
-  if (steps_.consent(work_, time)) {
-    return;
-  }
-  if (action == Action::kKeepWire) {
-    return steps_.placing.keep(work_, steps_.guiding.screw(), time);
-  }
-  const bool corrected = action == Action::kCorrectGuide && steps_.landmarking.touched() &&
-                         steps_.guide_checks.correct_guide(work_, time);
-  if (corrected) {
-    steps_.guiding.forget_guidance();
-  } else {
-    work_.messages.say(NotPossibleNow{Event::kSayAccept}, time);
-  }
-}
-
 void Session::forget_places(Event why, Timestamp time) {
   work_.state.forget_places();
   steps_.digitizing.forget_map();
   resuming_.forget_places();
   steps_.forget_registration(work_);
-  steps_.rods.forget_map();
+  work_.touches.drop();
   work_.tools.forget_poses();
   publication_.forget_head();
   work_.observer->places_forgotten(time);
@@ -222,15 +234,19 @@ std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
   using enum Action;
   SessionSteps& s = steps_;
   switch (action) {
-    case kIgnore: case kCountRefusal: case kFinish: case kWarnLost: break;  // said elsewhere
-    case kRefuse: case kAskForChecks: case kAskForLandmark: case kAskAboutWire: case kOfferToKeep: work_.messages.say(why_not(action, event), time); break;
+    case kIgnore: break;
+    case kRefuse: case kExplain: work_.messages.say(why_not(event), time); break;
     case kBeginLevel: return begin_level(time);
-    case kStartSampling: case kStopSampling: case kBeginTouch: case kEndTouch: case kDropTouch: s.button(action, work_, time); break;
+    case kStartSampling: s.digitizing.press(work_.level(), time); break;
+    case kStopSampling: s.digitizing.release(time); break;
+    case kBeginTouch: work_.touches.begin(); break;
+    case kEndTouch: work_.touches.release(); break;
+    case kDropTouch: s.drop_touch(work_, time); break;
     case kSaveRegion: s.digitizing.save_region(work_, time); break;
     case kDropRegion: s.digitizing.drop_region(work_, time); break;
     case kRegister: return s.digitizing.register_level(work_, time);
     case kShowRegistration: show_registration(time); break;
-    case kJudgeChecks: return s.verifying.judge_checks();
+    case kJudgeChecks: return s.verifying.judge_checks(time);
     case kRecordCheck: s.verifying.record_check(work_, time); break;
     case kDropCheck: s.verifying.drop_check(work_, time); break;
     case kAccept: s.verifying.accept(work_, time); s.expect_landmark(work_); break;
@@ -240,7 +256,9 @@ std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
     case kJudgeLandmark: return s.landmarking.judge_landmark();
     case kExpectLandmark: s.expect_landmark(work_); break;
     case kVerifyAgain: s.landmarking.verify_again(work_, s.verifying, s.guiding, time); break;
-    case kCorrectGuide: case kKeepWire: case kConsent: consent(action, time); break;
+    case kConsent: return s.consent(work_, time);
+    case kCorrectGuide: s.correct_guide(work_, time); break;
+    case kKeepWire: s.placing.keep(work_, s.guiding.screw(), time); break;
     case kSelectScrew: s.select_screw(work_); break;
     case kToggleTwin: s.guiding.toggle_twin(); break;
     case kToggleNumbers: s.guiding.toggle_numbers(); break;
@@ -251,7 +269,7 @@ std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
     case kJudgeWire: return s.placing.judge_wire();
     case kJudgeRedo: return s.placing.judge_redo(work_, s.guiding, time);
     case kFinishScrew: return s.guiding.finish_screw(work_, s.placing, time);
-    case kBeginRod: return s.rods.begin(work_.state);
+    case kBeginRod: return s.rods.begin(work_);
     case kRecordHead: s.rods.record_head(work_, time); break;
     case kDropHead: s.rods.drop_head(work_, time); break;
     case kFinishRod: return s.rods.finish_rod(work_, time);
@@ -265,74 +283,23 @@ std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
 #pragma GCC diagnostic pop
 
 /// What the surgeon is told if nothing is done.
-Message Session::why_not(Action action, Event event) const {
-  switch (action) {
-    case Action::kAskForChecks:
+Message Session::why_not(Event event) const {
+  switch (event) {
+    case Event::kNotShown:
+      return SaidBeforeShown{};
+    case Event::kNotChecked:
       return ChecksMissing{steps_.verifying.verdict().advice};
-    case Action::kAskForLandmark:
+    case Event::kLandmarkMissing:
       return LandmarkMissing{work_.level().landmark.has_value()};
-    case Action::kAskAboutWire:
+    case Event::kNoChangePending:
+      return NotPossibleNow{Event::kSayAccept};
+    case Event::kWireUndecided:
       return WireUndecided{};
-    case Action::kOfferToKeep:
+    case Event::kNoOtherEntry:
       return NoOtherEntry{};
     default:
       return NotPossibleNow{event};
   }
-}
-
-namespace {
-
-bool understood(const OperationInWork& work, const Phrase& phrase) {
-  return phrase.confidence >= work.options.min_voice_confidence;
-}
-
-std::optional<Event> hear_replan(OperationInWork& work, SessionSteps& steps, const Phrase& phrase,
-                                 const Result<Replan>& replan, const std::string& from) {
-  const bool sure = understood(work, phrase);
-  work.messages.echo(phrase, sure, from);
-  if (sure && replan) {
-    steps.replanning.ask(*replan);
-    return Event::kSayReplan;
-  }
-  work.messages.say(sure ? Message(ReplanUnclear{replan.error()}) : Message(NotUnderstood{}),
-                    phrase.time);
-  work.observer->not_understood(phrase);
-  return std::nullopt;
-}
-
-}  // namespace
-
-std::optional<Event> hear(OperationInWork& work, SessionSteps& steps, const Phrase& phrase,
-                          const std::string& from) {
-  const auto event = command_event(phrase.text);
-  if (const auto replan = event ? std::nullopt : replan_from(phrase.text)) {
-    return hear_replan(work, steps, phrase, *replan, from);
-  }
-  const bool sure = understood(work, phrase);
-  if (event) {
-    work.messages.echo(phrase, sure, from);
-  }
-  if (!sure) {
-    work.messages.say(NotUnderstood{}, phrase.time);
-  }
-  if (!event || !sure) {
-    work.observer->not_understood(phrase);
-    return std::nullopt;
-  }
-  if (work.step == Step::kVerify && *event == Event::kSayAccept &&
-      !steps.verifying.shown_before(phrase.time)) {
-    work.observer->happened(phrase.time, work.step, *event, Cell{work.step, Action::kRefuse});
-    work.messages.say(SaidBeforeShown{}, phrase.time);
-    return std::nullopt;
-  }
-  return event;
-}
-
-std::optional<Event> hear(OperationInWork& work, SessionSteps& steps, const Request& request) {
-  work.observer->asked_from_outside(request);
-  const Phrase phrase{request.text, 1.0, request.time};
-  return request.change ? hear_replan(work, steps, phrase, *request.change, request.from)
-                        : hear(work, steps, phrase, request.from);
 }
 
 }  // namespace orthonav::engine

@@ -91,17 +91,22 @@ class Session {
 
   void answer_inputs(const Inputs& inputs);
   void answer_request(const Request& request);
+  /// The event that a phrase or a request of another program stands for; none if it was not
+  /// understood, which the surgeon is told. `change`: a new plan instead of words; `from`: who
+  /// asked, unless it was said in the room.
+  [[nodiscard]] std::optional<Event> hear(const Phrase& phrase,
+                                          const std::optional<Replan>& change = {},
+                                          const std::string& from = {});
   /// The table's answer to an event, and to those that its action raises.
   void handle(std::optional<Raised> raised, Timestamp time);
-  /// Does what the table asks for (session_actions.cpp). Returns the event that results, if any.
+  /// Does what the table asks for. Returns the event that results, if any.
   [[nodiscard]] std::optional<Raised> act(Action action, Event event, Timestamp time);
-  [[nodiscard]] Message why_not(Action action, Event event) const;
+  [[nodiscard]] Message why_not(Event event) const;
 
   // Actions that concern several steps.
   [[nodiscard]] std::optional<Raised> begin_level(Timestamp time);
   void show_registration(Timestamp time);
   void clear_level(Timestamp time);
-  void consent(Action action, Timestamp time);
   void forget_places(Event why, Timestamp time);
 
   OperationInWork work_;
@@ -111,15 +116,5 @@ class Session {
   Resuming resuming_;
   Publication publication_;
 };
-
-// Interprets what is said and what other programs ask. Returns the event for the table to answer;
-// none if it was not understood or can't be meant, which the surgeon is told here.
-
-/// `from`: who asked, unless it was said in the room.
-[[nodiscard]] std::optional<Event> hear(OperationInWork& work, SessionSteps& steps,
-                                        const Phrase& phrase, const std::string& from = {});
-/// Requests of other programs always count as understood.
-[[nodiscard]] std::optional<Event> hear(OperationInWork& work, SessionSteps& steps,
-                                        const Request& request);
 
 }  // namespace orthonav::engine

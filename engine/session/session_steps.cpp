@@ -1,34 +1,6 @@
 #include "engine/session/session_steps.h"
 
-#include "base/check.h"
-
 namespace orthonav::engine {
-namespace {
-
-/// Calls `act` with the step in which a place is touched; the table asks for touches in no other
-/// step.
-template <class Do>
-void in_touched_step(SessionSteps& steps, Step step, const Do& act) {
-  switch (step) {
-    case Step::kVerify:
-      return act(steps.verifying);
-    case Step::kAccepted:
-      return act(steps.landmarking);
-    case Step::kPlaced:
-      return act(steps.placing);
-    case Step::kRod:
-      return act(steps.rods);
-    case Step::kSetup:
-    case Step::kDigitize:
-    case Step::kRegistering:
-    case Step::kGuide:
-    case Step::kDone:
-      break;
-  }
-  ORTHONAV_CHECK(false);
-}
-
-}  // namespace
 
 SessionSteps::SessionSteps(const OperationInWork& work)
     : digitizing(work),
@@ -62,41 +34,36 @@ void SessionSteps::forget_registration(const OperationInWork& work) {
   guiding.forget_guidance();
 }
 
-void SessionSteps::button(Action action, OperationInWork& work, Timestamp time) {
-  switch (action) {
-    case Action::kStartSampling:
-      return digitizing.press(work.level(), time);
-    case Action::kStopSampling:
-      return digitizing.release(time);
-    case Action::kBeginTouch:
-      return in_touched_step(*this, work.step, [](auto& step) { step.begin_touch(); });
-    case Action::kEndTouch:
-      return in_touched_step(*this, work.step, [](auto& step) { step.end_touch(); });
-    default:
-      ORTHONAV_CHECK(action == Action::kDropTouch);
-      return in_touched_step(*this, work.step, [&](auto& step) { step.drop_touch(work, time); });
-  }
+void SessionSteps::drop_touch(OperationInWork& work, Timestamp time) {
+  using What = TouchNotRecorded::What;
+  const What what = work.step == Step::kVerify     ? What::kCheckPoint
+                    : work.step == Step::kAccepted ? What::kLandmark
+                    : work.step == Step::kPlaced   ? What::kWire
+                                                   : What::kHead;
+  work.touches.drop();
+  work.messages.say(TouchNotRecorded{what, {TouchRefusal::Kind::kHeldTooLong}}, time);
 }
 
-void SessionSteps::collect(const OperationInWork& work) {
-  const MethodSteps& of_method = work.options.steps;
+void SessionSteps::collect(OperationInWork& work) {
+  const WatchedTools& tools = work.tools;
   switch (work.step) {
     case Step::kDigitize:
       return digitizing.collect(work);
     case Step::kVerify:
-      if (of_method.check_points) {
-        verifying.collect(work.tools);
+      if (work.options.steps.check_points) {
+        add_tip(work.touches.pointer, tools, tools.pointer());
       }
       return;
     case Step::kAccepted:
-      if (of_method.dimple()) {
-        landmarking.collect(work.tools);
+      if (work.options.steps.dimple()) {
+        add_tip(work.touches.pointer, tools, tools.pointer());
+        add_tip(work.touches.guide, tools, tools.guide());
       }
       return;
     case Step::kPlaced:
-      return placing.collect(work.tools);
+      return placing.collect(work);
     case Step::kRod:
-      return rods.collect(work.tools);
+      return add_tip(work.touches.pointer, tools, tools.pointer());
     case Step::kSetup:
     case Step::kRegistering:
     case Step::kGuide:
@@ -105,8 +72,17 @@ void SessionSteps::collect(const OperationInWork& work) {
   }
 }
 
-bool SessionSteps::consent(OperationInWork& work, Timestamp said) {
-  return replanning.consent(work, guiding, placing, said);
+std::optional<Event> SessionSteps::consent(OperationInWork& work, Timestamp said) {
+  return replanning.consent(work, guiding, placing, said) ? std::nullopt
+                                                          : std::optional(Event::kNoChangePending);
+}
+
+void SessionSteps::correct_guide(OperationInWork& work, Timestamp time) {
+  if (landmarking.touched() && guide_checks.correct_guide(work, time)) {
+    guiding.forget_guidance();
+  } else {
+    work.messages.say(NotPossibleNow{Event::kSayAccept}, time);
+  }
 }
 
 std::optional<std::size_t> SessionSteps::tool(const OperationInWork& work) const {

@@ -35,13 +35,15 @@ struct SessionSteps {
   /// Discards the registration of the current level and everything based on it.
   void forget_registration(const OperationInWork& work);
 
-  /// The button was pressed, released or held too long: takes samples, or touches a place.
-  void button(Action action, OperationInWork& work, Timestamp time);
+  /// The button was held too long, so no click will follow.
+  void drop_touch(OperationInWork& work, Timestamp time);
   /// Passes the newest pair to the present step.
-  void collect(const OperationInWork& work);
+  void collect(OperationInWork& work);
 
-  /// "accept" applies the pending change of a screw; false if none is pending.
-  [[nodiscard]] bool consent(OperationInWork& work, Timestamp said);
+  /// "accept" applies the pending change of a screw.
+  [[nodiscard]] std::optional<Event> consent(OperationInWork& work, Timestamp said);
+  /// "accept" corrects the guide as its touch of the landmark, or of a wire, showed.
+  void correct_guide(OperationInWork& work, Timestamp time);
 
   /// The tool that the present step works with, if any.
   [[nodiscard]] std::optional<std::size_t> tool(const OperationInWork& work) const;

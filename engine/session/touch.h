@@ -169,4 +169,27 @@ class AxisTouch {
   PressedSamples<nav::Axis<World>> axes_;
 };
 
+/// What the tools touch with one press of the button.
+struct Touches {
+  Touch pointer;
+  Touch guide;
+  AxisTouch sleeve;  ///< of the guide
+
+  void begin() {
+    pointer.begin();
+    guide.begin();
+    sleeve.begin();
+  }
+  void release() {
+    pointer.release();
+    guide.release();
+    sleeve.release();
+  }
+  void drop() {
+    pointer.drop();
+    guide.drop();
+    sleeve.drop();
+  }
+};
+
 }  // namespace orthonav::engine

@@ -82,7 +82,6 @@ void Verifying::begin_again(LevelState& level, double moved_m) {
     limits_.targets = nav::entries_and_targets(level.plan.screws);
   }
   visible_at_.reset();
-  touch_.drop();
   judge(level);
 }
 
@@ -149,19 +148,15 @@ void Verifying::put(const nav::Registration& registration, LevelState& level) {
   level.predicted = nav::predicted_errors(registration, level.plan.screws);
 }
 
-bool Verifying::shown_before(Timestamp spoken) const {
-  return visible_at_ && *visible_at_ <= spoken;
-}
-
-void Verifying::drop_touch(OperationInWork& work, Timestamp time) {
-  touch_.drop();
-  work.messages.say(
-      TouchNotRecorded{TouchNotRecorded::What::kCheckPoint, {TouchRefusal::Kind::kHeldTooLong}},
-      time);
+Event Verifying::judge_checks(Timestamp said) const {
+  if (!visible_at_ || *visible_at_ > said) {
+    return Event::kNotShown;
+  }
+  return verdict_.passed || !by_touch_ ? Event::kChecked : Event::kNotChecked;
 }
 
 void Verifying::record_check(OperationInWork& work, Timestamp time) {
-  if (const auto refusal = add(work.level(), take_place(touch_, work, time), time)) {
+  if (const auto refusal = add(work.level(), take_place(work, time), time)) {
     work.messages.say(TouchNotRecorded{TouchNotRecorded::What::kCheckPoint, *refusal}, time);
   } else {
     work.observer->check_point_recorded(time, work.level());

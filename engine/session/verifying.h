@@ -23,22 +23,12 @@ class Verifying {
   /// Verifies the accepted registration again after a movement by `moved_m`: the places touched
   /// before are no longer checks. With a reference they remain in the estimate.
   void begin_again(LevelState& level, double moved_m);
-  /// Whether the registration was shown before `spoken`; otherwise the phrase can't be a judgement
-  /// of it.
-  [[nodiscard]] bool shown_before(Timestamp spoken) const;
-
-  void begin_touch() { touch_.begin(); }
-  void end_touch() { touch_.release(); }
-  void drop_touch(OperationInWork& work, Timestamp time);
-  /// Once for each pair of the step.
-  void collect(const WatchedTools& tools) { add_tip(touch_, tools, tools.pointer()); }
   /// Adds the touched place to the level's check points.
   void record_check(OperationInWork& work, Timestamp time);
   /// Takes the last check point back.
   void drop_check(OperationInWork& work, Timestamp time);
-  [[nodiscard]] Event judge_checks() const {
-    return verdict_.passed ? Event::kChecked : Event::kNotChecked;
-  }
+  /// "accept" was said then. Before the registration was shown it can't be a judgement of it.
+  [[nodiscard]] Event judge_checks(Timestamp said) const;
   [[nodiscard]] const nav::CheckVerdict& verdict() const { return verdict_; }
   /// The level's registration includes the touched places and is in force from now on.
   void accept(OperationInWork& work, Timestamp time) const;
@@ -76,7 +66,6 @@ class Verifying {
   std::optional<double> moved_m_;       ///< since it was accepted
   std::optional<Timestamp> visible_at_;
   std::string shown_;  ///< the status line as last shown
-  Touch touch_;
 };
 
 }  // namespace orthonav::engine

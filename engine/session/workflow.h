@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "hal/api/shown_status.h"
@@ -34,6 +35,7 @@ enum class Event : std::uint8_t {
   kRegistrationRestored,  ///< a registration of a resumed operation, to be verified like any other
   kAcceptanceRestored,    ///< an accepted one; its landmark can show whether it still holds
   kChecked,               ///< "accept" was said and the check points confirm the registration
+  kNotShown,              ///< "accept" was said before the registration was shown
   kNotChecked,            ///< "accept" was said too early, or against the check points
   kLandmarkTouched,       ///< "next" was said and the landmark was found where it was recorded
   kLandmarkMissing,       ///< "next" was said before the landmark was touched
@@ -41,6 +43,7 @@ enum class Event : std::uint8_t {
   kBoneUnchecked,     ///< before a drill is set: World has drifted too far since the bone was found
   kWireSettled,       ///< "next" was said, and nothing of the wire is left to decide
   kWireUndecided,     ///< "next" was said of a wire beyond a limit
+  kNoChangePending,   ///< "accept" was said, and no change of the screw waits for it
   kScrewRedone,       ///< "delete" was said of a wire, and another entry was found
   kNoOtherEntry,      ///< "delete" was said of a wire, and no other entry was found
   kAnotherScrew,      ///< the level has a further screw
@@ -57,12 +60,13 @@ enum class Event : std::uint8_t {
   kReferenceSeen,     ///< a reference is seen again, or for the first time
   kReferenceMoved,    ///< references moved against each other: positions relative to them are void
 };
-inline constexpr std::size_t kEventCount = 44;
+inline constexpr std::size_t kEventCount = 46;
 
 /// What the session does about an event. The first is the default of cells without a rule.
 enum class Action : std::uint8_t {
-  kRefuse,  ///< not possible now; the surgeon is told
-  kIgnore,  ///< has no meaning here; the surgeon is not told
+  kRefuse,   ///< not possible now; the surgeon is told
+  kIgnore,   ///< nothing is to be done or said
+  kExplain,  ///< the surgeon is told what is missing
   kBeginLevel,
   kStartSampling,
   kStopSampling,
@@ -70,9 +74,7 @@ enum class Action : std::uint8_t {
   kDropRegion,
   kRegister,
   kShowRegistration,
-  kCountRefusal,
   kJudgeChecks,
-  kAskForChecks,
   kRecordCheck,
   kDropCheck,
   kAccept,
@@ -80,7 +82,6 @@ enum class Action : std::uint8_t {
   kTouchLandmark,
   kDropLandmark,
   kJudgeLandmark,
-  kAskForLandmark,
   kExpectLandmark,
   kVerifyAgain,
   kCorrectGuide,
@@ -88,10 +89,8 @@ enum class Action : std::uint8_t {
   kExpectWire,
   kMeasureWire,
   kJudgeWire,
-  kAskAboutWire,
   kKeepWire,
   kJudgeRedo,
-  kOfferToKeep,
   kFinishScrew,
   kBeginRod,
   kBeginTouch,
@@ -106,8 +105,6 @@ enum class Action : std::uint8_t {
   kBeginDrill,
   kReplan,
   kConsent,
-  kFinish,
-  kWarnLost,
   kHideGuidance,
   kShowGuidance,
   kForgetMap,
@@ -134,6 +131,13 @@ struct MethodSteps {
 
 using orthonav::Step;
 
+/// The answer of every step that has no rule of its own for the event.
+struct UsualRule {
+  Event event;
+  Action action;
+  std::optional<Step> next = {};  ///< absent: the step stays
+};
+
 /// One rule of the table.
 struct Rule {
   Step step;
@@ -148,24 +152,35 @@ using enum Event;
 using enum Action;
 
 // clang-format off
-inline constexpr auto kRules = std::to_array<Rule>({
+/// What most steps answer. The rules of a step, below, go before it.
+inline constexpr auto kUsualRules = std::to_array<UsualRule>({
+    // A button has no fixed meaning, so pressing it where it has none is no mistake.
+    {kPress, kIgnore},
+    {kRelease, kIgnore},
+    {kClick, kIgnore},
+    {kHold, kIgnore},
+
+    // The status line shows which tool or reference is not seen.
+    {kTrackingLost, kIgnore},
+    {kPoseStale, kHideGuidance},
+    {kTrackingRegained, kShowGuidance},
+    {kReferenceHidden, kIgnore},
+    {kReferenceSeen, kIgnore},
+
     // When the map moves, what was measured in it is forgotten wherever anything was measured; a level
     // that is not finished is digitized again. With a patient reference the map does not matter; one
     // that moved does the same. While it is hidden nothing is shown on the patient, in any step.
+    {kMapMoved, kForgetMap, kDigitize},
+    {kReferenceMoved, kForgetMap, kDigitize},
+});
 
+inline constexpr auto kRules = std::to_array<Rule>({
     // Nothing is tracked for guidance before the operation starts. What a resumed operation
     // restored depends on references that may have moved meanwhile.
     {kSetup, kSayStart, kBeginLevel, kDigitize},
-    {kSetup, kPress, kIgnore, kSetup},
-    {kSetup, kRelease, kIgnore, kSetup},
-    {kSetup, kClick, kIgnore, kSetup},
-    {kSetup, kHold, kIgnore, kSetup},
-    {kSetup, kTrackingLost, kIgnore, kSetup},
     {kSetup, kPoseStale, kIgnore, kSetup},
     {kSetup, kTrackingRegained, kIgnore, kSetup},
     {kSetup, kMapMoved, kIgnore, kSetup},
-    {kSetup, kReferenceHidden, kIgnore, kSetup},
-    {kSetup, kReferenceSeen, kIgnore, kSetup},
     {kSetup, kReferenceMoved, kForgetMap, kSetup},
 
     // Samples while the button is down; a double click asks for the registration. Its two clicks
@@ -173,44 +188,26 @@ inline constexpr auto kRules = std::to_array<Rule>({
     // the step it had reached, with nothing verified.
     {kDigitize, kPress, kStartSampling, kDigitize},
     {kDigitize, kRelease, kStopSampling, kDigitize},
-    {kDigitize, kClick, kIgnore, kDigitize},
-    {kDigitize, kHold, kIgnore, kDigitize},
     {kDigitize, kSaySave, kSaveRegion, kDigitize},
     {kDigitize, kSayDelete, kDropRegion, kDigitize},
     {kDigitize, kDoubleClick, kRegister, kRegistering},
     {kDigitize, kRegistrationRestored, kShowRegistration, kVerify},
     {kDigitize, kAcceptanceRestored, kExpectLandmark, kAccepted},
     {kDigitize, kNoScrewLeft, kBeginRod, kRod},
-    {kDigitize, kNoRodPlanned, kFinish, kDone},
-    {kDigitize, kTrackingLost, kWarnLost, kDigitize},
-    {kDigitize, kPoseStale, kHideGuidance, kDigitize},
-    {kDigitize, kTrackingRegained, kShowGuidance, kDigitize},
-    {kDigitize, kMapMoved, kForgetMap, kDigitize},
-    {kDigitize, kReferenceHidden, kWarnLost, kDigitize},
-    {kDigitize, kReferenceSeen, kIgnore, kDigitize},
-    {kDigitize, kReferenceMoved, kForgetMap, kDigitize},
+    {kDigitize, kNoRodPlanned, kIgnore, kDone},
 
     // The registration is computed beside the session where time passes by itself. Nothing that the
     // surgeon says changes what it is computed from; a button has no meaning until it is answered.
     {kRegistering, kRegistered, kShowRegistration, kVerify},
-    {kRegistering, kRegistrationRefused, kCountRefusal, kDigitize},
-    {kRegistering, kPress, kIgnore, kRegistering},
-    {kRegistering, kRelease, kIgnore, kRegistering},
-    {kRegistering, kClick, kIgnore, kRegistering},
-    {kRegistering, kHold, kIgnore, kRegistering},
-    {kRegistering, kTrackingLost, kWarnLost, kRegistering},
-    {kRegistering, kPoseStale, kHideGuidance, kRegistering},
-    {kRegistering, kTrackingRegained, kShowGuidance, kRegistering},
-    {kRegistering, kMapMoved, kForgetMap, kDigitize},
-    {kRegistering, kReferenceHidden, kWarnLost, kRegistering},
-    {kRegistering, kReferenceSeen, kIgnore, kRegistering},
-    {kRegistering, kReferenceMoved, kForgetMap, kDigitize},
+    {kRegistering, kRegistrationRefused, kIgnore, kDigitize},
 
     // The surgeon looks at the hologram on the bone and touches places that were not stroked for it.
-    // The only way on is their own word, and it counts once the touched places bear it out.
+    // The only way on is their own word, and it counts once the touched places bear it out, unless
+    // the eye alone verifies.
     {kVerify, kSayAccept, kJudgeChecks, kVerify},
     {kVerify, kChecked, kAccept, kAccepted},
-    {kVerify, kNotChecked, kAskForChecks, kVerify},
+    {kVerify, kNotShown, kExplain, kVerify},
+    {kVerify, kNotChecked, kExplain, kVerify},
     {kVerify, kSayReject, kClearLevel, kDigitize},
     {kVerify, kPress, kBeginTouch, kVerify},
     {kVerify, kRelease, kEndTouch, kVerify},
@@ -218,20 +215,14 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kVerify, kDoubleClick, kIgnore, kVerify},
     {kVerify, kHold, kDropTouch, kVerify},
     {kVerify, kSayDelete, kDropCheck, kVerify},
-    {kVerify, kTrackingLost, kWarnLost, kVerify},
-    {kVerify, kPoseStale, kHideGuidance, kVerify},
-    {kVerify, kTrackingRegained, kShowGuidance, kVerify},
-    {kVerify, kMapMoved, kForgetMap, kDigitize},
-    {kVerify, kReferenceHidden, kWarnLost, kVerify},
-    {kVerify, kReferenceSeen, kIgnore, kVerify},
-    {kVerify, kReferenceMoved, kForgetMap, kDigitize},
 
     // Before each screw the landmark is touched: recorded the first time, found again from then on.
     // One that is not where it was takes the acceptance back.
     {kAccepted, kSayNext, kJudgeLandmark, kAccepted},
-    {kAccepted, kSayAccept, kCorrectGuide, kAccepted},
+    {kAccepted, kSayAccept, kConsent, kAccepted},
+    {kAccepted, kNoChangePending, kCorrectGuide, kAccepted},
     {kAccepted, kLandmarkTouched, kSelectScrew, kGuide},
-    {kAccepted, kLandmarkMissing, kAskForLandmark, kAccepted},
+    {kAccepted, kLandmarkMissing, kExplain, kAccepted},
     {kAccepted, kLandmarkMoved, kVerifyAgain, kVerify},
     {kAccepted, kSayReplan, kReplan, kAccepted},
     {kAccepted, kSayReject, kClearLevel, kDigitize},
@@ -241,13 +232,6 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kAccepted, kDoubleClick, kIgnore, kAccepted},
     {kAccepted, kHold, kDropTouch, kAccepted},
     {kAccepted, kSayDelete, kDropLandmark, kAccepted},
-    {kAccepted, kTrackingLost, kWarnLost, kAccepted},
-    {kAccepted, kPoseStale, kHideGuidance, kAccepted},
-    {kAccepted, kTrackingRegained, kShowGuidance, kAccepted},
-    {kAccepted, kMapMoved, kForgetMap, kDigitize},
-    {kAccepted, kReferenceHidden, kWarnLost, kAccepted},
-    {kAccepted, kReferenceSeen, kIgnore, kAccepted},
-    {kAccepted, kReferenceMoved, kForgetMap, kDigitize},
 
     // A registration that turns out wrong while guiding can be thrown away at any screw. The screw
     // is changed until its drill is set; one that would leave the cortex wants an "accept". Where the
@@ -260,45 +244,30 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kGuide, kSayDrill, kBeginDrill, kGuide},
     {kGuide, kSayReplan, kReplan, kGuide},
     {kGuide, kSayAccept, kConsent, kGuide},
-    {kGuide, kPress, kIgnore, kGuide},
-    {kGuide, kRelease, kIgnore, kGuide},
+    {kGuide, kNoChangePending, kExplain, kGuide},
     {kGuide, kClick, kToggleNumbers, kGuide},
-    {kGuide, kHold, kIgnore, kGuide},
-    {kGuide, kTrackingLost, kWarnLost, kGuide},
-    {kGuide, kPoseStale, kHideGuidance, kGuide},
-    {kGuide, kTrackingRegained, kShowGuidance, kGuide},
-    {kGuide, kMapMoved, kForgetMap, kDigitize},
-    {kGuide, kReferenceHidden, kWarnLost, kGuide},
-    {kGuide, kReferenceSeen, kIgnore, kGuide},
-    {kGuide, kReferenceMoved, kForgetMap, kDigitize},
 
     // The sleeve is set over the wire and clicked. A wire beyond a limit is kept by a word, redone
     // through another entry once the landmark was touched again, or the plan is changed to suit it.
     {kPlaced, kSayNext, kJudgeWire, kPlaced},
-    {kPlaced, kSayAccept, kKeepWire, kPlaced},
+    {kPlaced, kSayAccept, kConsent, kPlaced},
+    {kPlaced, kNoChangePending, kKeepWire, kPlaced},
     {kPlaced, kSayDelete, kJudgeRedo, kPlaced},
     {kPlaced, kSayReplan, kReplan, kPlaced},
     {kPlaced, kSayReject, kClearLevel, kDigitize},
     {kPlaced, kWireSettled, kFinishScrew, kPlaced},
-    {kPlaced, kWireUndecided, kAskAboutWire, kPlaced},
+    {kPlaced, kWireUndecided, kExplain, kPlaced},
     {kPlaced, kScrewRedone, kExpectLandmark, kAccepted},
-    {kPlaced, kNoOtherEntry, kOfferToKeep, kPlaced},
+    {kPlaced, kNoOtherEntry, kExplain, kPlaced},
     {kPlaced, kAnotherScrew, kExpectLandmark, kAccepted},
     {kPlaced, kAnotherLevel, kBeginLevel, kDigitize},
     {kPlaced, kNoScrewLeft, kBeginRod, kRod},
-    {kPlaced, kNoRodPlanned, kFinish, kDone},
+    {kPlaced, kNoRodPlanned, kIgnore, kDone},
     {kPlaced, kPress, kBeginTouch, kPlaced},
     {kPlaced, kRelease, kEndTouch, kPlaced},
     {kPlaced, kClick, kMeasureWire, kPlaced},
     {kPlaced, kDoubleClick, kIgnore, kPlaced},
     {kPlaced, kHold, kDropTouch, kPlaced},
-    {kPlaced, kTrackingLost, kWarnLost, kPlaced},
-    {kPlaced, kPoseStale, kHideGuidance, kPlaced},
-    {kPlaced, kTrackingRegained, kShowGuidance, kPlaced},
-    {kPlaced, kMapMoved, kForgetMap, kDigitize},
-    {kPlaced, kReferenceHidden, kWarnLost, kPlaced},
-    {kPlaced, kReferenceSeen, kIgnore, kPlaced},
-    {kPlaced, kReferenceMoved, kForgetMap, kDigitize},
 
     // Heads are touched with the pointer's tip; the tip is averaged while the button is down. A
     // button held too long makes no click, so its touch is dropped and the surgeon told.
@@ -311,26 +280,14 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kRod, kSayDone, kFinishRod, kRod},
     {kRod, kSayMoveRod, kMoveRod, kRod},
     {kRod, kAnotherSide, kBeginRod, kRod},
-    {kRod, kNoSideLeft, kFinish, kDone},
-    {kRod, kTrackingLost, kWarnLost, kRod},
-    {kRod, kPoseStale, kHideGuidance, kRod},
-    {kRod, kTrackingRegained, kShowGuidance, kRod},
+    {kRod, kNoSideLeft, kIgnore, kDone},
     {kRod, kMapMoved, kForgetMap, kRod},
-    {kRod, kReferenceHidden, kWarnLost, kRod},
-    {kRod, kReferenceSeen, kIgnore, kRod},
     {kRod, kReferenceMoved, kForgetMap, kRod},
 
     {kDone, kSayMoveRod, kMoveRod, kDone},
-    {kDone, kPress, kIgnore, kDone},
-    {kDone, kRelease, kIgnore, kDone},
-    {kDone, kClick, kIgnore, kDone},
-    {kDone, kHold, kIgnore, kDone},
-    {kDone, kTrackingLost, kIgnore, kDone},
     {kDone, kPoseStale, kIgnore, kDone},
     {kDone, kTrackingRegained, kIgnore, kDone},
     {kDone, kMapMoved, kForgetMap, kDone},
-    {kDone, kReferenceHidden, kIgnore, kDone},
-    {kDone, kReferenceSeen, kIgnore, kDone},
     {kDone, kReferenceMoved, kForgetMap, kDone},
 });
 
@@ -342,8 +299,6 @@ inline constexpr auto kRulesRodsAlone = std::to_array<Rule>({
 /// The answers that differ if verification is by eye alone.
 inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kDigitize, kAcceptanceRestored, kRefuse, kDigitize},
-    {kVerify, kSayAccept, kAccept, kAccepted},
-    {kVerify, kChecked, kRefuse, kVerify},
     {kVerify, kNotChecked, kRefuse, kVerify},
     {kVerify, kPress, kIgnore, kVerify},
     {kVerify, kRelease, kIgnore, kVerify},
@@ -351,11 +306,10 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kVerify, kDoubleClick, kRefuse, kVerify},
     {kVerify, kHold, kIgnore, kVerify},
     {kVerify, kSayDelete, kRefuse, kVerify},
-    {kVerify, kTrackingLost, kIgnore, kVerify},
     {kVerify, kPoseStale, kIgnore, kVerify},
     {kVerify, kTrackingRegained, kIgnore, kVerify},
     {kAccepted, kSayNext, kSelectScrew, kGuide},
-    {kAccepted, kSayAccept, kConsent, kAccepted},
+    {kAccepted, kNoChangePending, kExplain, kAccepted},
     {kAccepted, kLandmarkTouched, kRefuse, kAccepted},
     {kAccepted, kLandmarkMissing, kRefuse, kAccepted},
     {kAccepted, kLandmarkMoved, kRefuse, kAccepted},
@@ -365,7 +319,6 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kAccepted, kDoubleClick, kRefuse, kAccepted},
     {kAccepted, kHold, kIgnore, kAccepted},
     {kAccepted, kSayDelete, kRefuse, kAccepted},
-    {kAccepted, kTrackingLost, kIgnore, kAccepted},
     {kAccepted, kPoseStale, kIgnore, kAccepted},
     {kAccepted, kTrackingRegained, kIgnore, kAccepted},
     {kGuide, kSayNext, kFinishScrew, kGuide},
@@ -373,7 +326,7 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kGuide, kAnotherScrew, kSelectScrew, kGuide},
     {kGuide, kAnotherLevel, kBeginLevel, kDigitize},
     {kGuide, kNoScrewLeft, kBeginRod, kRod},
-    {kGuide, kNoRodPlanned, kFinish, kDone},
+    {kGuide, kNoRodPlanned, kIgnore, kDone},
 });
 
 /// If the landmark is not touched again, the next screw follows at once.
@@ -410,12 +363,17 @@ constexpr bool is_by_eye(Step step, const MethodSteps& steps) {
          (step == kAccepted && !steps.dimple()) || (step == kGuide && !steps.wire);
 }
 
-/// Every cell starts as a refusal that stays in its step; the rules overwrite their cells.
+/// Every cell starts as a refusal that stays in its step; the usual answers and then the rules
+/// overwrite theirs.
 constexpr Table make_table(const MethodSteps& steps, bool rods_alone) {
   Table table{};
   for (std::size_t step = 0; step < kStepCount; ++step) {
     for (Cell& cell : table[step]) {
       cell = {static_cast<Step>(step), kRefuse};
+    }
+    for (const UsualRule& rule : kUsualRules) {
+      table[step][static_cast<std::size_t>(rule.event)] = {
+          rule.next.value_or(static_cast<Step>(step)), rule.action};
     }
   }
   const auto write = [&table](const Rule& rule) {

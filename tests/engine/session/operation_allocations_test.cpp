@@ -37,10 +37,9 @@ constexpr std::size_t index_of(Action action) { return static_cast<std::size_t>(
 Actions that_may_allocate() {
   using enum Action;
   Actions actions;
-  for (const Action action :
-       {kStartSampling, kRegister, kShowRegistration, kRecordCheck, kDropCheck, kAccept,
-        kClearLevel, kExpectLandmark, kReplan, kExpectWire, kMeasureWire, kJudgeRedo, kBeginRod,
-        kRecordHead, kForgetMap}) {
+  for (const Action action : {kStartSampling, kRegister, kShowRegistration, kRecordCheck,
+                              kDropCheck, kAccept, kClearLevel, kExpectLandmark, kReplan,
+                              kExpectWire, kMeasureWire, kJudgeRedo, kRecordHead, kForgetMap}) {
     actions.set(index_of(action));
   }
   return actions;

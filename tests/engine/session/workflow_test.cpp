@@ -168,11 +168,15 @@ TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
                                                 {Step::kDigitize, Event::kNoScrewLeft},
                                                 {Step::kDigitize, Event::kNoRodPlanned},
                                                 {Step::kVerify, Event::kChecked},
+                                                {Step::kVerify, Event::kNotShown},
                                                 {Step::kVerify, Event::kNotChecked},
                                                 {Step::kAccepted, Event::kLandmarkTouched},
                                                 {Step::kAccepted, Event::kLandmarkMissing},
                                                 {Step::kAccepted, Event::kLandmarkMoved},
+                                                {Step::kAccepted, Event::kNoChangePending},
+                                                {Step::kGuide, Event::kNoChangePending},
                                                 {Step::kGuide, Event::kBoneUnchecked},
+                                                {Step::kPlaced, Event::kNoChangePending},
                                                 {Step::kPlaced, Event::kWireSettled},
                                                 {Step::kPlaced, Event::kWireUndecided},
                                                 {Step::kPlaced, Event::kScrewRedone},
@@ -248,9 +252,9 @@ INSTANTIATE_TEST_SUITE_P(Workflow, EveryVerification,
                          ::testing::Values(Verification::kByTouch, Verification::kByEye));
 
 TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
-  // The event raised on "accept" when the touched places confirm it, otherwise "accept" itself.
+  // The event raised on "accept" once the registration was shown, and touched places confirm it.
   const bool by_touch = GetParam() == Verification::kByTouch;
-  const Event accepting = by_touch ? Event::kChecked : Event::kSayAccept;
+  const Event accepting = Event::kChecked;
   // The event raised on "next" once the landmark was found.
   const Event guiding = by_touch ? Event::kLandmarkTouched : Event::kSayNext;
   for (std::size_t s = 0; s < kStepCount; ++s) {
@@ -280,6 +284,9 @@ TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
     }
   }
   EXPECT_EQ(answer(Step::kVerify, accepting, GetParam()), (Cell{Step::kAccepted, Action::kAccept}));
+  EXPECT_EQ(answer(Step::kVerify, Event::kSayAccept, GetParam()),
+            (Cell{Step::kVerify, Action::kJudgeChecks}));
+  EXPECT_EQ(answer(Step::kVerify, Event::kNotShown, GetParam()).next, Step::kVerify);
 }
 
 TEST(Workflow, VerifyingByTouchTheWordAloneAcceptsNothing) {
