@@ -4,7 +4,7 @@
 #include "base/angle.h"
 #include "base/length_text.h"
 #include "base/printed.h"
-#include "engine/session/guiding.h"
+#include "engine/session/steps/guiding.h"
 #include "nav/guidance/anatomical_deviation.h"
 #include "python/arrays.h"
 #include "python/bindings.h"

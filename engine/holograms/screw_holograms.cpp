@@ -4,7 +4,7 @@
 
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/render_values.h"
-#include "engine/session/wire_wording.h"
+#include "engine/session/placed_wire.h"
 
 namespace orthonav::engine {
 namespace {

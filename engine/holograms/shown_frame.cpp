@@ -9,7 +9,7 @@
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
 #include "engine/session/numbers_wording.h"
-#include "engine/session/wire_wording.h"
+#include "engine/session/placed_wire.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {

@@ -9,7 +9,7 @@
 #include "engine/case/screw_place.h"
 #include "engine/session/commands.h"
 #include "engine/session/replan_wording.h"
-#include "engine/session/replanning.h"
+#include "engine/session/steps/replanning.h"
 #include "nav/planning/pedicle_screws.h"
 
 namespace orthonav::engine {

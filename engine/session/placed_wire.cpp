@@ -1,4 +1,6 @@
 #include "engine/session/placed_wire.h"
+#include "base/angle.h"
+#include "base/printed.h"
 
 namespace orthonav::engine {
 
@@ -24,6 +26,11 @@ std::vector<std::string> PlacedWireRules::check() const {
     }
   }
   return problems;
+}
+
+void append_wire(std::string& out, const PlacedWire& wire) {
+  const nav::PlacedAxis& axis = wire.axis;
+  append_printed(out, "%.1f°, %.1f mm", degrees(axis.angle_rad.value), axis.entry_m.value * 1e3);
 }
 
 }  // namespace orthonav::engine

@@ -50,4 +50,7 @@ struct PlacedWireRules {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
+/// "0.8°, 0.6 mm": how far it is from the plan.
+void append_wire(std::string& out, const PlacedWire& wire);
+
 }  // namespace orthonav::engine

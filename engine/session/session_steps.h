@@ -3,15 +3,15 @@
 #include <cstddef>
 #include <optional>
 
-#include "engine/session/digitizing.h"
 #include "engine/session/guide_checks.h"
-#include "engine/session/guiding.h"
-#include "engine/session/landmarking.h"
 #include "engine/session/operation_in_work.h"
-#include "engine/session/placing.h"
-#include "engine/session/replanning.h"
-#include "engine/session/rod_templating.h"
-#include "engine/session/verifying.h"
+#include "engine/session/steps/digitizing.h"
+#include "engine/session/steps/guiding.h"
+#include "engine/session/steps/landmarking.h"
+#include "engine/session/steps/placing.h"
+#include "engine/session/steps/replanning.h"
+#include "engine/session/steps/rod_templating.h"
+#include "engine/session/steps/verifying.h"
 
 namespace orthonav::engine {
 

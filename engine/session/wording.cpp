@@ -9,11 +9,13 @@
 #include "base/printed.h"
 #include "base/translation.h"
 #include "engine/session/commands.h"
-#include "engine/session/landmark_wording.h"
 #include "engine/session/numbers_wording.h"
 #include "engine/session/replan_wording.h"
 #include "engine/session/said.h"
-#include "engine/session/wire_wording.h"
+#include "engine/session/steps/landmarking.h"
+#include "engine/session/steps/placing.h"
+#include "engine/session/steps/rod_templating.h"
+#include "engine/session/steps/verifying.h"
 #include "engine/session/work_watch.h"
 
 namespace orthonav::engine {
@@ -316,24 +318,6 @@ std::string_view word_of(Step step) {
   return translated(kWords[static_cast<std::size_t>(step)]);
 }
 
-/// What is to be touched.
-void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
-  text.begin(Importance::kNext, separator);
-  if (checks.verdict->passed) {
-    text.out += translated("passed: say accept result");
-  } else {
-    append(text.out, checks.verdict->advice);
-  }
-}
-
-/// How far the landmark has moved since the registration was accepted.
-void write_moved(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
-  if (checks.moved_m) {
-    text.begin(Importance::kDanger, separator);
-    append_printed(text.out, translated("moved %s"), said_mm(*checks.moved_m).c_str());
-  }
-}
-
 void write_unused_tool(PartedText text, const StatusLine& line, std::string_view separator) {
   if (!line.unused_tool.empty()) {
     text.begin(Importance::kNext, separator);
@@ -369,33 +353,10 @@ struct StateWriter {
     next(step == Step::kVerify ? translatable("say accept result or reject level")
                                : translatable("say go to next"));
   }
-  void operator()(const ChecksSoFar& checks) {
-    write_moved(text, checks, "");
-    write_checks(text, checks, checks.moved_m ? "; " : "");
-  }
+  void operator()(const ChecksSoFar& checks) { write_checks(text, checks, ""); }
   void operator()(const LandmarkSoFar& landmark) { write_landmark(text, landmark, ""); }
   void operator()(const WireSoFar& wire) { write_wire(text, wire, ""); }
-  void operator()(const HeadsSoFar& heads) {
-    if (heads.touch_again) {
-      text.begin(Importance::kNext);
-      append_printed(out, translated("touch head %zu again"), *heads.touch_again + 1);
-    } else if (heads.cut_length_m) {
-      next(translatable("bend it, then say finish rod"));
-    } else if (heads.count > 0) {
-      next(translatable("touch the next head"));
-    } else {
-      next(heads.unplanned ? translatable("touch the first head; none: say finish rod")
-                           : translatable("touch the first head"));
-    }
-    if (heads.seat_by_pointer_m) {
-      const double seat_m = *heads.seat_by_pointer_m;
-      text.begin(Importance::kFigures, "; ");
-      append_printed(out,
-                     seat_m < 0.0 ? translated("rod %s above the touches")
-                                  : translated("rod %s below the touches"),
-                     said_mm(std::abs(seat_m)).c_str());
-    }
-  }
+  void operator()(const HeadsSoFar& heads) { write_heads(text, heads); }
 };
 
 bool is_correction(const Message& message) {
@@ -461,7 +422,6 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     std::visit(StateWriter{text, line.at.step}, line.state);
   } else if (const auto* checks = std::get_if<ChecksSoFar>(&line.state)) {
     // The places to touch are still counted beside a lasting warning.
-    write_moved(text, *checks, "; ");
     write_checks(text, *checks, "; ");
   } else if (const auto* landmark = std::get_if<LandmarkSoFar>(&line.state)) {
     write_landmark(text, *landmark, "; ");

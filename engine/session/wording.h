@@ -23,8 +23,8 @@ void write_saved(PartedText text, Saved saved, std::string_view separator);
 /// A message to the surgeon in words, in several parts where needed.
 void write_message(PartedText text, const Message& message);
 
-// All words that a surgeon reads are made from data here, in wording.cpp and the other
-// *_wording.cpp: in English, or where a WearersLanguage lives, in the wearer's language
+// All words that a surgeon reads are made from data here, in the *_wording.cpp and, of a step, in
+// its file of steps/: in English, or where a WearersLanguage lives, in the wearer's language
 // (base/translation.h). No decision ever depends on these texts.
 //
 // The status line is rewritten for every frame, into strings that keep their capacity: the `append`

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "engine/session/rod_templating.h"
 #include "engine/session/session.h"
+#include "engine/session/steps/rod_templating.h"
 #include "engine/session/wording.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"

@@ -1,12 +1,12 @@
-#include "engine/session/guiding.h"
+#include "engine/session/steps/guiding.h"
 
 #include <algorithm>
 #include <limits>
 
 #include "engine/session/calibration_in_use.h"
 #include "engine/session/guide_checks.h"
-#include "engine/session/placing.h"
-#include "engine/session/rod_templating.h"
+#include "engine/session/steps/placing.h"
+#include "engine/session/steps/rod_templating.h"
 
 namespace orthonav::engine {
 namespace {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "engine/session/operation_in_work.h"
+#include "engine/session/status_line.h"
 #include "nav/guidance/rod_cut.h"
 
 namespace orthonav::engine {
@@ -54,5 +55,8 @@ class RodTemplating {
   std::size_t current_ = 0;
   bool moved_away_ = false;
 };
+
+/// The next act.
+void write_heads(PartedText text, const HeadsSoFar& heads);
 
 }  // namespace orthonav::engine

@@ -1,9 +1,12 @@
-#include "engine/session/verifying.h"
+#include "engine/session/steps/verifying.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/printed.h"
+#include "base/translation.h"
+#include "engine/session/said.h"
 #include "engine/session/wording.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/registration/press_fit.h"
@@ -234,6 +237,21 @@ StepState Verifying::state(const OperationInWork& work) const {
     return ByEye{};
   }
   return ChecksSoFar{&verdict_, moved_m_};
+}
+
+// Its words.
+
+void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
+  if (checks.moved_m) {
+    text.begin(Importance::kDanger, separator);
+    append_printed(text.out, translated("moved %s"), said_mm(*checks.moved_m).c_str());
+  }
+  text.begin(Importance::kNext, checks.moved_m ? "; " : separator);
+  if (checks.verdict->passed) {
+    text.out += translated("passed: say accept result");
+  } else {
+    append(text.out, checks.verdict->advice);
+  }
 }
 
 }  // namespace orthonav::engine

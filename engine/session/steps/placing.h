@@ -5,6 +5,7 @@
 
 #include "engine/session/messages.h"
 #include "engine/session/operation_in_work.h"
+#include "engine/session/status_line.h"
 #include "engine/session/tool_in_vertebra.h"
 #include "engine/session/touch.h"
 #include "nav/calibration/spin.h"
@@ -82,5 +83,8 @@ class Placing {
   /// The axis about which the sleeve was turned for the measurement, if it was.
   std::optional<nav::SpinCalibration> spin_;
 };
+
+/// "angle 2.6°, limit 2.0°: say accept result to keep it, delete last to redo it".
+void write_wire(PartedText text, const WireSoFar& state, std::string_view separator);
 
 }  // namespace orthonav::engine

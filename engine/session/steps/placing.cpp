@@ -1,4 +1,4 @@
-#include "engine/session/placing.h"
+#include "engine/session/steps/placing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,13 @@
 #include <span>
 #include <utility>
 
+#include "base/angle.h"
+#include "base/translation.h"
 #include "engine/session/guide_checks.h"
-#include "engine/session/guiding.h"
-#include "engine/session/replanning.h"
+#include "engine/session/said.h"
+#include "engine/session/steps/guiding.h"
+#include "engine/session/steps/replanning.h"
+#include "engine/session/wording.h"
 
 namespace orthonav::engine {
 
@@ -210,5 +214,38 @@ void Placing::write(Step step, Guidance& out) const {
 }
 
 StepState Placing::state() const { return WireSoFar{wire_ ? &*wire_ : nullptr, no_other_entry_}; }
+
+// Its words.
+
+void write_wire(PartedText text, const WireSoFar& state, std::string_view separator) {
+  std::string& out = text.out;
+  if (state.wire == nullptr) {
+    text.begin(Importance::kNext, separator);
+    out += translated("set the sleeve over the wire, turn it and click, or say go to next");
+    return;
+  }
+  const PlacedWire& wire = *state.wire;
+  if (wire.within()) {
+    text.begin(Importance::kNext, separator);
+    out += translated("within limits: say go to next");
+    return;
+  }
+  text.begin(wire.kept ? Importance::kMessage : Importance::kDanger, separator);
+  if (!wire.angle_within()) {
+    append_beside_limit(out, translated("angle %.1f°, limit %.1f°"),
+                        degrees(wire.axis.angle_rad.value), degrees(wire.angle_limit_rad));
+  }
+  if (!wire.entry_within()) {
+    out += wire.angle_within() ? "" : "; ";
+    append_beside_limit(out, translated("entry %.1f mm, limit %.1f mm"),
+                        wire.axis.entry_m.value * 1e3, wire.entry_limit_m * 1e3);
+  }
+  text.begin(Importance::kNext, ": ");
+  if (wire.kept) {
+    out += translated("kept, say go to next");
+  } else {
+    out += translated(state.no_other_entry ? words::kNoOtherEntry : words::kKeepOrRedo);
+  }
+}
 
 }  // namespace orthonav::engine

@@ -1,6 +1,10 @@
-#include "engine/session/rod_templating.h"
+#include "engine/session/steps/rod_templating.h"
+#include "base/printed.h"
+#include "base/translation.h"
+#include "engine/session/said.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -246,6 +250,31 @@ void RodTemplating::resume(const OperationState& operation) {
   while (current_ + 1 < planned_.size() && operation.rods[current_].done &&
          planned_[current_ + 1]) {
     ++current_;
+  }
+}
+
+// Its words.
+
+void write_heads(PartedText text, const HeadsSoFar& heads) {
+  std::string& out = text.out;
+  text.begin(Importance::kNext);
+  if (heads.touch_again) {
+    append_printed(out, translated("touch head %zu again"), *heads.touch_again + 1);
+  } else if (heads.cut_length_m) {
+    out += translated("bend it, then say finish rod");
+  } else if (heads.count > 0) {
+    out += translated("touch the next head");
+  } else {
+    out += heads.unplanned ? translated("touch the first head; none: say finish rod")
+                           : translated("touch the first head");
+  }
+  if (heads.seat_by_pointer_m) {
+    const double seat_m = *heads.seat_by_pointer_m;
+    text.begin(Importance::kFigures, "; ");
+    append_printed(out,
+                   seat_m < 0.0 ? translated("rod %s above the touches")
+                                : translated("rod %s below the touches"),
+                   said_mm(std::abs(seat_m)).c_str());
   }
 }
 

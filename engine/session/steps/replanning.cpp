@@ -1,12 +1,12 @@
-#include "engine/session/replanning.h"
+#include "engine/session/steps/replanning.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "engine/case/screw_place.h"
-#include "engine/session/guiding.h"
-#include "engine/session/placing.h"
+#include "engine/session/steps/guiding.h"
+#include "engine/session/steps/placing.h"
 #include "nav/guidance/anatomical_deviation.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/guidance/screw_clearance.h"

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "engine/session/operation_in_work.h"
+#include "engine/session/status_line.h"
 
 namespace orthonav::engine {
 
@@ -67,5 +68,10 @@ class Landmarking {
   double variances_m2_ = 0.0;
   int touches_ = 0;
 };
+
+/// Whether the landmark is still to be touched, and the result of the last touch.
+void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_view separator);
+/// After the outcome of a correction of the guide: what its touch asks for next.
+void write_beside_correction(PartedText text, const LandmarkSoFar& landmark);
 
 }  // namespace orthonav::engine

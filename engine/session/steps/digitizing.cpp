@@ -1,4 +1,4 @@
-#include "engine/session/digitizing.h"
+#include "engine/session/steps/digitizing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/session/operation_in_work.h"
+#include "engine/session/status_line.h"
 #include "nav/registration/pressed_places.h"
 
 namespace orthonav::engine {
@@ -67,5 +68,8 @@ class Verifying {
   std::optional<Timestamp> visible_at_;
   std::string shown_;  ///< the status line as last shown
 };
+
+/// What is to be touched, and how far the landmark has moved since the registration was accepted.
+void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view separator);
 
 }  // namespace orthonav::engine
