@@ -106,7 +106,9 @@ Matrix6 tag_by_calibration(const CameraFromTag& pose, const Vec3* baseline_m, do
 }  // namespace
 
 PhotometricSolver::PhotometricSolver(const StereoCalibration& calibration)
-    : calibration_(calibration), left_rays_(calibration_.left), right_rays_(calibration_.right) {}
+    : calibration_(calibration),
+      left_rays_(std::make_shared<RayTable>(calibration_.left)),
+      right_rays_(std::make_shared<RayTable>(calibration_.right)) {}
 
 CameraFromTag PhotometricSolver::camera_from_tag(const TagView& view,
                                                  const Transform<Rig, Marker>& pose) const {
@@ -124,7 +126,7 @@ bool PhotometricSolver::gather(const StereoFrame& frame, const Transform<Rig, Ma
                                ViewEquations& e) {
   const BlurredTag& tag = *view.tag;
   model_.linearize(view.right ? frame.right : frame.left, camera_of(view),
-                   view.right ? right_rays_ : left_rays_, tag, camera_from_tag(view, pose),
+                   view.right ? *right_rays_ : *left_rays_, tag, camera_from_tag(view, pose),
                    view.light, doubt_m / tag.cell_m(), view.cell_weights, e);
   e.scatter = scatter(e, view.light, model_.scores());
   view.kept_fraction = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;

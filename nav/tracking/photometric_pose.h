@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -72,7 +73,7 @@ class PhotometricSolver {
                const TagView& right, const ReducedView& of_right, CalibrationEquations& out) const;
   /// Pixels per unit of the unit plane, near the middle of the left or the right image.
   [[nodiscard]] double focal_px(bool right) const {
-    return right ? right_rays_.focal_px : left_rays_.focal_px;
+    return right ? right_rays_->focal_px : left_rays_->focal_px;
   }
   /// Turns the right camera by a rotation vector in its own frame.
   void rotate_right_camera(Vec3 rotation_rad) {
@@ -105,8 +106,9 @@ class PhotometricSolver {
   }
 
   StereoCalibration calibration_;
-  RayTable left_rays_;
-  RayTable right_rays_;
+  // Copies share them: no rotation of a camera changes its rays.
+  std::shared_ptr<const RayTable> left_rays_;
+  std::shared_ptr<const RayTable> right_rays_;
   ViewModel model_;
   std::vector<ViewEquations> equations_;
 };

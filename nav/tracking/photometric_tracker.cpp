@@ -31,6 +31,10 @@ PhotometricTracker::PhotometricTracker(const StereoCalibration& calibration,
       other_calibration_(tools_.size()),
       fits_(tools_.size()) {
   equations_.reserve(tools_.size());
+  waiting_.reserve(tools_.size());
+  if (options.parallel && tools_.size() > 1) {
+    beside_ = std::make_unique<Beside>(solver_);
+  }
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     trails_.push_back({std::move(followers[i]), PoseFilter{}, {}, {}, {}});
     states_.push_back({i, {}, {}, 0.0});
@@ -65,7 +69,9 @@ bool PhotometricTracker::follow_all(const StereoFrame& frame) {
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     states_[i] = {i, {}, {}, 0.0};
     states_[i].world_from_marker.time = frame.time;
-    fits_[i] = frame.world_from_rig ? follow(i, frame) : std::nullopt;
+  }
+  fit_all(frame);
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
     if (fits_[i] && fits_[i]->calibration) {
       equations_.push_back({i, *fits_[i]->calibration});
     }
@@ -85,6 +91,37 @@ bool PhotometricTracker::follow_all(const StereoFrame& frame) {
     }
   }
   return true;
+}
+
+void PhotometricTracker::fit_all(const StereoFrame& frame) {
+  waiting_.clear();
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    fits_[i].reset();
+    if (frame.world_from_rig && trails_[i].filter.follows(frame.time, options_.coast)) {
+      waiting_.push_back(i);
+    }
+  }
+  taken_ = 0;
+  frame_ = &frame;
+  const bool shared = beside_ && waiting_.size() > 1;
+  if (shared) {
+    beside_->worker.start(&fit_beside, this);
+  }
+  fit_waiting(solver_, search_);
+  if (shared) {
+    beside_->worker.wait();
+  }
+}
+
+void PhotometricTracker::fit_beside(void* self) {
+  auto& tracker = *static_cast<PhotometricTracker*>(self);
+  tracker.fit_waiting(tracker.beside_->solver, tracker.beside_->search);
+}
+
+void PhotometricTracker::fit_waiting(PhotometricSolver& solver, TagSearch& search) {
+  for (std::size_t k = taken_++; k < waiting_.size(); k = taken_++) {
+    fits_[waiting_[k]] = follow(waiting_[k], *frame_, solver, search);
+  }
 }
 
 void PhotometricTracker::find_lost(const StereoFrame& frame) {
@@ -180,6 +217,9 @@ void PhotometricTracker::calibrate() {
     return;
   }
   solver_.rotate_right_camera(calibration_.rotation_rad());
+  if (beside_) {
+    beside_->solver.rotate_right_camera(calibration_.rotation_rad());
+  }
   geometry_ = TagGeometry(solver_.calibration());
   for (std::size_t i = 0; i < trails_.size(); ++i) {
     trails_[i].follower.set_size_factor(calibration_.size_factor(i));
@@ -204,17 +244,15 @@ bool PhotometricTracker::any_recent(Timestamp time) const {
   });
 }
 
-std::optional<ToolFit> PhotometricTracker::follow(std::size_t i, const StereoFrame& frame) {
+std::optional<ToolFit> PhotometricTracker::follow(std::size_t i, const StereoFrame& frame,
+                                                  PhotometricSolver& solver, TagSearch& search) {
   Trail& trail = trails_[i];
-  if (!trail.filter.follows(frame.time, options_.coast)) {
-    return std::nullopt;
-  }
   const TrackedPose ahead = trail.filter.predicted(frame.time);
   const Transform<Rig, Marker> expected = frame.world_from_rig->inverse() * ahead.value;
   const double variance =
       std::max({ahead.covariance[0], ahead.covariance[7], ahead.covariance[14]});
   return trail.follower.follow(frame, expected, kDoubtSd * std::sqrt(variance) + pixel_m(expected),
-                               solver_, search_);
+                               solver, search);
 }
 
 double PhotometricTracker::pixel_m(const Transform<Rig, Marker>& pose) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "nav/tracking/tag_matching.h"
 #include "nav/tracking/tool_follower.h"
 #include "nav/tracking/tool_tracker.h"
+#include "nav/tracking/worker.h"
 
 namespace orthonav::nav {
 
@@ -62,11 +64,16 @@ class PhotometricTracker final : public ToolTracker {
   void refuse(std::span<const ToolEquations> pair);
   /// Measures the tools that are followed. False: the pair was refused.
   bool follow_all(const StereoFrame& frame);
+  /// Fits every tool that was seen recently, on two threads if there are two such tools.
+  void fit_all(const StereoFrame& frame);
+  static void fit_beside(void* self);
+  void fit_waiting(PhotometricSolver& solver, TagSearch& search);
   void find_lost(const StereoFrame& frame);
 
   // For tool `i`, in a frame whose `world_from_rig` is known.
   /// Fits the pose of a tool that was seen recently.
-  [[nodiscard]] std::optional<ToolFit> follow(std::size_t i, const StereoFrame& frame);
+  [[nodiscard]] std::optional<ToolFit> follow(std::size_t i, const StereoFrame& frame,
+                                              PhotometricSolver& solver, TagSearch& search);
   /// Fits the pose, starting from `expected`, and measures it if the pictures agree. `by_both`: it
   /// counts only if both cameras saw it.
   bool take(std::size_t i, const StereoFrame& frame, const Transform<Rig, Marker>& expected,
@@ -111,9 +118,21 @@ class PhotometricTracker final : public ToolTracker {
   bool is_accepted_ = false;
   std::optional<ToolEquations> contradiction_;  ///< of the tool that is being looked for
   std::vector<std::optional<ToolFit>> fits_;
+  std::vector<std::size_t> waiting_;    ///< tools to be fitted
+  std::atomic<std::size_t> taken_ = 0;  ///< of these, by either thread
+  const StereoFrame* frame_ = nullptr;
   std::vector<ToolEquations> equations_;
   std::int64_t pairs_ = -1;
   std::int64_t map_epoch_ = 0;
+  /// A second thread, and what it fits with. A fit depends on its tool alone, so that the poses are
+  /// the same with it and without.
+  struct Beside {
+    explicit Beside(const PhotometricSolver& like) : solver(like) {}
+    PhotometricSolver solver;
+    TagSearch search;
+    Worker worker;
+  };
+  std::unique_ptr<Beside> beside_;
 };
 
 }  // namespace orthonav::nav
