@@ -10,6 +10,8 @@ namespace {
 /// Bone this far under the tissue is never visible.
 constexpr double kBuriedM = 0.004;
 constexpr Vec3 kLampInSpine{0.30, 0.90, 0.30};
+/// As the nearness of a vertex that no triangle has needed so far.
+constexpr float kNotProjected = -1.0F;
 
 std::uint64_t cell_key(Vec3 p, double cell_m) {
   const auto part = [&](double v) {
@@ -165,14 +167,21 @@ void BoneImage::draw(const ShownBones& bones, const Ground& ground,
     const float px = bones.x[i];
     const float py = bones.y[i];
     const float pz = bones.z[i];
-    const Vec3 p =
-        (camera_from_spine *
-         Point<Spine>{{static_cast<double>(px), static_cast<double>(py), static_cast<double>(pz)}})
-            .v;
+    // The line of sight must pass the skin inside the wound.
+    const float skin = ground.skin_height(pz);
+    const float s = py < skin && ey > py ? (skin - py) / (ey - py) : 0.0F;
+    vertices_[i].seen = 1.0F - ground.rim_at(px + s * (ex - px), pz + s * (ez - pz));
+    vertices_[i].nearness = kNotProjected;
+  }
+  const auto project = [&](std::size_t i) {
+    const Vec3 p = (camera_from_spine *
+                    Point<Spine>{{static_cast<double>(bones.x[i]), static_cast<double>(bones.y[i]),
+                                  static_cast<double>(bones.z[i])}})
+                       .v;
     Vertex& v = vertices_[i];
     v.nearness = 0.0F;
     if (!(p.z > 0.06)) {
-      continue;
+      return;
     }
     const Vec2 pixel = lens.rough_pixel(p) * scale;
     v.x = static_cast<float>(pixel.x);
@@ -180,12 +189,16 @@ void BoneImage::draw(const ShownBones& bones, const Ground& ground,
     v.nearness = static_cast<float>(1.0 / p.z);
     v.lit = bones.lit[i];
     v.height = bones.height[i];
-    // The line of sight must pass the skin inside the wound.
-    const float skin = ground.skin_height(pz);
-    const float s = py < skin && ey > py ? (skin - py) / (ey - py) : 0.0F;
-    v.seen = 1.0F - ground.rim_at(px + s * (ex - px), pz + s * (ez - pz));
-  }
+  };
   for (const auto& t : bones.triangles) {
+    if (vertices_[t[0]].seen < 0.0F && vertices_[t[1]].seen < 0.0F && vertices_[t[2]].seen < 0.0F) {
+      continue;
+    }
+    for (const std::uint32_t i : t) {
+      if (vertices_[i].nearness == kNotProjected) {
+        project(i);
+      }
+    }
     draw(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]);
   }
 }
@@ -196,7 +209,7 @@ void BoneImage::draw(const Vertex& a, const Vertex& b, const Vertex& c) {
   }
   // Seen from outside, a triangle runs clockwise in the image, since y points down.
   const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  if (!(area < 0.0F) || (a.seen < 0.0F && b.seen < 0.0F && c.seen < 0.0F)) {
+  if (!(area < 0.0F)) {
     return;
   }
   const PixelRange in =
