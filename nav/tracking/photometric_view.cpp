@@ -165,7 +165,7 @@ bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const Ca
   return x1_ > x0_ && y1_ > y0_;
 }
 
-void ViewModel::spread(const RayTable& rays, int y, const Photometry& light) {
+ViewModel::OnTag ViewModel::spread(const RayTable& rays, int y, const Photometry& light) {
   const int n = x1_ - x0_;
   const std::ptrdiff_t stride = n;
   if (row_.size() < static_cast<std::size_t>((kRowColumns + 1) * n)) {
@@ -189,10 +189,23 @@ void ViewModel::spread(const RayTable& rays, int y, const Photometry& light) {
     down[i] = -up[i];
     scale[i] = depth_ * w;  // the blur covers more cells where the tag is farther
   }
-  along(across, scale, n, half_, static_cast<float>(1.0 / light.blur_cells[0]),
-        static_cast<float>(light.tails[0]), row_.data() + kAcross * stride, stride);
-  along(down, scale, n, half_, static_cast<float>(1.0 / light.blur_cells[1]),
-        static_cast<float>(light.tails[1]), row_.data() + kDown * stride, stride);
+  const auto is_on_tag = [&](int i) {
+    return std::abs(across[i]) < half_ && std::abs(up[i]) < half_;
+  };
+  OnTag on{0, n};
+  while (on.from < n && !is_on_tag(on.from)) {
+    ++on.from;
+  }
+  while (on.to > on.from && !is_on_tag(on.to - 1)) {
+    --on.to;
+  }
+  along(across + on.from, scale + on.from, on.to - on.from, half_,
+        static_cast<float>(1.0 / light.blur_cells[0]), static_cast<float>(light.tails[0]),
+        row_.data() + kAcross * stride + on.from, stride);
+  along(down + on.from, scale + on.from, on.to - on.from, half_,
+        static_cast<float>(1.0 / light.blur_cells[1]), static_cast<float>(light.tails[1]),
+        row_.data() + kDown * stride + on.from, stride);
+  return on;
 }
 
 // Bilinear in the fractions beyond the edges, plus the effect of the blur's correlation at corners
@@ -228,7 +241,7 @@ void ViewModel::add(int k, int i, std::uint8_t grey, float skew, const float* c)
   out[kTc * kBlock] = corners;
 }
 
-void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y,
+void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y, OnTag row,
                         const Photometry& light, double doubt_cells, ViewEquations& out) {
   const std::ptrdiff_t stride = x1_ - x0_;
   const float* r = row_.data();
@@ -236,7 +249,7 @@ void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y,
   const std::uint8_t* pixels =
       image.pixels.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width_px) +
       static_cast<std::size_t>(x0_);
-  for (int i = 0; i < x1_ - x0_; ++i) {
+  for (int i = row.from; i < row.to; ++i) {
     const float x = r[kX * stride + i];
     const float up = r[kY * stride + i];
     if (!(std::abs(x) < half_ && std::abs(up) < half_) || pixels[i] >= kSaturated) {
@@ -282,8 +295,7 @@ void ViewModel::linearize(const GreyImage& image, const CameraModel& camera, con
     believed_.assign(cells, 1.0F);
   }
   for (int y = y0_; y < y1_; ++y) {
-    spread(rays, y, light);
-    collect(image, tag, y, light, doubt_cells, out);
+    collect(image, tag, y, spread(rays, y, light), light, doubt_cells, out);
   }
   finish(light, doubt_cells, out);
   judge_cells(cell_weights);

@@ -120,9 +120,14 @@ class ViewModel {
   };
   bool face(const Mat3& rotation, Vec3 t);
   bool place(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose);
-  void spread(const RayTable& rays, int y, const Photometry& light);
-  void collect(const GreyImage& image, const BlurredTag& tag, int y, const Photometry& light,
-               double doubt_cells, ViewEquations& out);
+  /// Pixels [from, to) of a row, counted from `x0_`: those on the tag lie between.
+  struct OnTag {
+    int from = 0;
+    int to = 0;
+  };
+  OnTag spread(const RayTable& rays, int y, const Photometry& light);
+  void collect(const GreyImage& image, const BlurredTag& tag, int y, OnTag row,
+               const Photometry& light, double doubt_cells, ViewEquations& out);
   void add(int k, int i, std::uint8_t grey, float skew, const float* coefficients);
   void finish(const Photometry& light, double doubt_cells, ViewEquations& out);
   void compare(const Photometry& light);
