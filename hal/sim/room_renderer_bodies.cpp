@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/vectorized.h"
 #include "hal/sim/room_renderer_layers.h"
 #include "hal/sim/tag_flaws.h"
 
@@ -208,8 +209,8 @@ void Layers::set_depth(const Capsule& capsule, Vec2 a, Vec2 b, Layer& layer) {
   layer.nearness0 = static_cast<float>(near_a - gradient.dot(a));
 }
 
-void Layers::shade(const Capsule& capsule, Vec3 lamp_in_camera, Vec2 a, Vec2 b, double radius_a,
-                   double radius_b, Layer& layer) {
+ORTHONAV_WIDE void Layers::shade(const Capsule& capsule, Vec3 lamp_in_camera, Vec2 a, Vec2 b,
+                                 double radius_a, double radius_b, Layer& layer) {
   set_depth(capsule, a, b, layer);
   const Vec2 axis = b - a;
   const double squared = std::max(axis.dot(axis), 1e-6);

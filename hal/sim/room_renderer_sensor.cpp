@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/random.h"
+#include "base/vectorized.h"
 
 namespace orthonav::sim {
 namespace {
@@ -87,7 +88,8 @@ float* Sensor::ring_row(int y) {
   return ring_.data() + static_cast<std::ptrdiff_t>(y % rows) * width_;
 }
 
-void Sensor::compose_row(const HalfImage& background, const Foreground& foreground, int y) {
+ORTHONAV_WIDE void Sensor::compose_row(const HalfImage& background, const Foreground& foreground,
+                                       int y) {
   const int j = std::min((y + 1) / 2, background.height - 1);
   const int i = std::max((y + 1) / 2 - 1, 0);
   const float lower = y % 2 == 0 ? 0.75F : 0.25F;  // weight of row j
@@ -115,7 +117,7 @@ void Sensor::compose_row(const HalfImage& background, const Foreground& foregrou
   }
 }
 
-void Sensor::blur_along(int y, Span span) {
+ORTHONAV_WIDE void Sensor::blur_along(int y, Span span) {
   if (radius_ == 0 || span.low >= span.high) {
     return;
   }
@@ -139,7 +141,7 @@ void Sensor::blur_along(int y, Span span) {
   }
 }
 
-const float* Sensor::blur_across(int y, Span span) {
+ORTHONAV_WIDE const float* Sensor::blur_across(int y, Span span) {
   const float* centre = ring_row(y);
   if (radius_ == 0 || span.low >= span.high) {
     return centre;
@@ -193,8 +195,8 @@ void Sensor::draw_noise(int y, std::uint64_t noise_seed) {
   }
 }
 
-void Sensor::finish_row(const float* light_in, int y, std::uint64_t noise_seed,
-                        std::uint8_t* out_bytes) {
+ORTHONAV_WIDE void Sensor::finish_row(const float* light_in, int y, std::uint64_t noise_seed,
+                                      std::uint8_t* out_bytes) {
   const float dy = static_cast<float>(y) + 0.5F - 0.5F * static_cast<float>(height_);
   const float corner = 0.25F * static_cast<float>(width_ * width_ + height_ * height_);
   const float kept = 1.0F - vignetting_ * dy * dy / corner;

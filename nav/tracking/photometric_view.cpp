@@ -42,8 +42,9 @@ enum RowColumn {
   kRowColumns = kDown + kAxisColumns
 };
 /// Fills the columns of one axis.
-void along(const float* __restrict place, const float* __restrict scale, int n, float half,
-           float inverse_blur, float tails, float* __restrict out, std::ptrdiff_t stride) {
+ORTHONAV_WIDE void along(const float* __restrict place, const float* __restrict scale, int n,
+                         float half, float inverse_blur, float tails, float* __restrict out,
+                         std::ptrdiff_t stride) {
   float* __restrict column[kAxisColumns];
   for (int c = 0; c < kAxisColumns; ++c) {
     column[c] = out + c * stride;
@@ -165,7 +166,8 @@ bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const Ca
   return x1_ > x0_ && y1_ > y0_;
 }
 
-ViewModel::OnTag ViewModel::spread(const RayTable& rays, int y, const Photometry& light) {
+ORTHONAV_WIDE ViewModel::OnTag ViewModel::spread(const RayTable& rays, int y,
+                                                 const Photometry& light) {
   const int n = x1_ - x0_;
   const std::ptrdiff_t stride = n;
   if (row_.size() < static_cast<std::size_t>((kRowColumns + 1) * n)) {
