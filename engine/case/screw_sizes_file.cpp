@@ -29,9 +29,15 @@ ScrewSize size_from(const JsonNode& node) {
   return size;
 }
 
-Result<ScrewSizes> sizes_from(const JsonDocument& document, const std::string& name) {
+}  // namespace
+
+Result<ScrewSizes> load_screw_sizes(const std::string& path) {
+  const Result<JsonDocument> document = JsonDocument::read(path);
+  if (!document) {
+    return document.error();
+  }
   ScrewSizes sizes;
-  for (const JsonNode& node : document.root().list("screws")) {
+  for (const JsonNode& node : document->root().list("screws")) {
     sizes.by_diameter.push_back(size_from(node));
     const double diameter_m = sizes.by_diameter.back().diameter_m;
     for (std::size_t i = 0; i + 1 < sizes.by_diameter.size(); ++i) {
@@ -40,33 +46,15 @@ Result<ScrewSizes> sizes_from(const JsonDocument& document, const std::string& n
       }
     }
   }
-  if (const Status status = document.status(); !status) {
+  if (const Status status = document->status(); !status) {
     return status.error();
   }
   std::sort(sizes.by_diameter.begin(), sizes.by_diameter.end(),
             [](const ScrewSize& a, const ScrewSize& b) { return a.diameter_m < b.diameter_m; });
   if (const auto problems = sizes.check(); !problems.empty()) {
-    return Error{name + ": " + joined(problems)};
+    return Error{path + ": " + joined(problems)};
   }
   return sizes;
-}
-
-}  // namespace
-
-Result<ScrewSizes> load_screw_sizes(const std::string& path) {
-  const Result<JsonDocument> document = JsonDocument::read(path);
-  if (!document) {
-    return document.error();
-  }
-  return sizes_from(*document, path);
-}
-
-Result<ScrewSizes> parse_screw_sizes(const std::string& text, const std::string& name) {
-  const auto document = JsonDocument::parse(text, name);
-  if (!document) {
-    return document.error();
-  }
-  return sizes_from(*document, name);
 }
 
 }  // namespace orthonav::engine

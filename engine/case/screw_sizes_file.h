@@ -12,7 +12,5 @@ namespace orthonav::engine {
 /// that are missing, of the wrong type or not finite numbers, a diameter or length that is given
 /// twice, and problems that `ScrewSizes::check` finds.
 Result<ScrewSizes> load_screw_sizes(const std::string& path);
-/// The same from its content; `name` stands for the file in messages.
-Result<ScrewSizes> parse_screw_sizes(const std::string& text, const std::string& name);
 
 }  // namespace orthonav::engine

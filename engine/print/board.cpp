@@ -173,16 +173,6 @@ std::vector<Vec2> tag_corners_m(const Board& board, std::size_t index) {
   return {{x, y}, {x + s, y}, {x + s, y + s}, {x, y + s}};
 }
 
-std::vector<Vec2> inner_corners_m(const Board& board) {
-  std::vector<Vec2> corners;
-  for (int row = 1; row < board.rows; ++row) {
-    for (int column = 1; column < board.columns; ++column) {
-      corners.push_back({column * board.size_m, (board.rows - row) * board.size_m});
-    }
-  }
-  return corners;
-}
-
 std::vector<TouchPoint> touch_points(const Board& board) {
   const std::vector<Station> across = stations(board, board.columns);
   std::vector<Station> upward = stations(board, board.rows);

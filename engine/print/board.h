@@ -48,8 +48,6 @@ struct Board {
 /// The outer corners of a tag's border in the order of `nav::MarkerCorners`: bottom left, bottom
 /// right, top right, top left. `index` counts as `ids` does.
 [[nodiscard]] std::vector<Vec2> tag_corners_m(const Board& board, std::size_t index);
-/// The corners that a chessboard detector finds, by rows, the top row first.
-[[nodiscard]] std::vector<Vec2> inner_corners_m(const Board& board);
 
 /// A corner to touch with the pointer, and the direction in which there is room beside it.
 struct TouchPoint {

@@ -43,8 +43,17 @@ void read_tags(const JsonNode& node, Board& board) {
   }
 }
 
-Result<Board> board_from(const JsonDocument& document, const std::string& name) {
-  const JsonNode root = document.root();
+/// Millimetres without the extra digits from the conversion to metres.
+double mm_of(double metres) { return std::round(metres * 1e9) / 1e6; }
+
+}  // namespace
+
+Result<Board> load_board(const std::string& path) {
+  const Result<JsonDocument> document = JsonDocument::read(path);
+  if (!document) {
+    return document.error();
+  }
+  const JsonNode root = document->root();
   const std::string format = root.text("format");
   if (format != kFormat) {
     root.refuse("format", "is \"" + format + "\", must be \"" + kFormat + "\"");
@@ -65,35 +74,14 @@ Result<Board> board_from(const JsonDocument& document, const std::string& name) 
   } else {
     read_tags(root, board);
   }
-  if (Status status = document.status(); !status) {
+  if (Status status = document->status(); !status) {
     return status.error();
   }
   const std::vector<std::string> problems = problems_of(board);
   if (problems.empty()) {
     return board;
   }
-  return Error{name + ": " + joined(problems)};
-}
-
-/// Millimetres without the extra digits from the conversion to metres.
-double mm_of(double metres) { return std::round(metres * 1e9) / 1e6; }
-
-}  // namespace
-
-Result<Board> load_board(const std::string& path) {
-  const Result<JsonDocument> document = JsonDocument::read(path);
-  if (!document) {
-    return document.error();
-  }
-  return board_from(*document, path);
-}
-
-Result<Board> parse_board(const std::string& text, const std::string& name) {
-  const Result<JsonDocument> document = JsonDocument::parse(text, name);
-  if (!document) {
-    return document.error();
-  }
-  return board_from(*document, name);
+  return Error{path + ": " + joined(problems)};
 }
 
 std::string board_text(const Board& board) {

@@ -12,10 +12,7 @@ namespace orthonav::engine {
 /// `"family"`, `"ids"` (lists by rows, the top row first), `"gap_mm"`, `"border_cells"`. Refuses,
 /// naming file and field, missing fields, wrong types, and problems in the sense of `problems_of`.
 Result<Board> load_board(const std::string& path);
-
-/// The same without a file; `name` stands for it in messages.
-Result<Board> parse_board(const std::string& text, const std::string& name);
-/// The text that `parse_board` reads back.
+/// The text of a board's file.
 [[nodiscard]] std::string board_text(const Board& board);
 /// Writes a file that `load_board` reads back.
 Status save_board(const std::string& path, const Board& board);

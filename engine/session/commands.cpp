@@ -342,18 +342,4 @@ std::optional<Result<Replan>> replan_from(std::string_view phrase) {
   return std::nullopt;
 }
 
-std::vector<std::string> replan_phrases() {
-  std::vector<std::string> phrases;
-  for (const std::string verb : {"move ", "tilt "}) {
-    for (const auto& direction : kDirections) {
-      phrases.push_back(verb + std::string(direction.first) + " one");
-    }
-  }
-  for (const auto& size : kNextSizes) {
-    phrases.emplace_back(size.first);
-  }
-  phrases.emplace_back("undo");
-  return phrases;
-}
-
 }  // namespace orthonav::engine

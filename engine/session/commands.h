@@ -86,7 +86,4 @@ class NumberWords {
 ///     undo
 [[nodiscard]] std::optional<Result<Replan>> replan_from(std::string_view phrase);
 
-/// The phrases that fit in a finite list: one step in each direction, the next sizes, undo.
-[[nodiscard]] std::vector<std::string> replan_phrases();
-
 }  // namespace orthonav::engine

@@ -45,10 +45,4 @@ Summary summarize(std::span<const double> values) {
   return s;
 }
 
-double target_registration_error_m(const Transform<World, Vertebra>& estimated,
-                                   const Transform<World, Vertebra>& truth,
-                                   Point<Vertebra> target) {
-  return (estimated * target - truth * target).norm();
-}
-
 }  // namespace orthonav::nav

@@ -2,9 +2,7 @@
 
 #include <optional>
 #include <span>
-#include <string>
 
-#include "base/transform.h"
 #include "nav/geometry/mesh.h"
 #include "nav/guidance/screw.h"
 
@@ -29,11 +27,5 @@ struct Summary {
   double max = 0.0;
 };
 [[nodiscard]] Summary summarize(std::span<const double> values);
-
-/// Target registration error: the distance from where the estimated pose puts a point to where it
-/// is.
-[[nodiscard]] double target_registration_error_m(const Transform<World, Vertebra>& estimated,
-                                                 const Transform<World, Vertebra>& truth,
-                                                 Point<Vertebra> target);
 
 }  // namespace orthonav::nav

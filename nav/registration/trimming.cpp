@@ -163,10 +163,6 @@ std::vector<std::uint32_t> faces_reachable_from_behind(const TriangleMesh& mesh,
   return faces;
 }
 
-TriangleMesh reachable_from_behind(const TriangleMesh& mesh, const SurfaceIndex& surface) {
-  return part_of(mesh, faces_reachable_from_behind(mesh, surface));
-}
-
 bool is_visible_from_behind(const TriangleMesh& mesh, const SurfaceIndex& surface,
                             std::uint32_t face) {
   return is_visible(surface, corners_of(mesh, mesh.triangles[face]), directions_from_behind());

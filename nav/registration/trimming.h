@@ -15,9 +15,6 @@ namespace orthonav::nav {
 std::vector<std::uint32_t> faces_reachable_from_behind(const TriangleMesh& mesh,
                                                        const SurfaceIndex& surface);
 
-/// The trimmed mesh in one call.
-TriangleMesh reachable_from_behind(const TriangleMesh& mesh, const SurfaceIndex& surface);
-
 /// Whether the face can be seen from behind, even if it lies in front of the canal or on an island.
 bool is_visible_from_behind(const TriangleMesh& mesh, const SurfaceIndex& surface,
                             std::uint32_t face);

@@ -182,10 +182,17 @@ TEST(OverTcp, TheHeadsetListensForTheWordsOfTheWorkflow) {
   session->step(frame, inputs);
   EXPECT_THAT(misheard.phrases, ::testing::ElementsAre("accepted"));
   std::vector<std::string> understood = spoken_commands();
-  for (const std::string& phrase : replan_phrases()) {
-    understood.push_back(phrase);
+  for (const std::string direction : {"cranial", "caudal", "medial", "lateral"}) {
+    understood.push_back("move " + direction + " one");
+    understood.push_back("tilt " + direction + " one");
   }
-  understood.insert(understood.end(), {"save", "delete"});
+  understood.insert(understood.end(),
+                    {"longer", "shorter", "thicker", "thinner", "undo", "save", "delete"});
+  for (const std::string& phrase : hl2ss::workflow_phrases()) {
+    const auto replan = replan_from(phrase);
+    EXPECT_TRUE(command_event(phrase) || (replan && *replan)) << phrase;
+    EXPECT_FALSE(command_event(phrase) && replan) << phrase;
+  }
   EXPECT_THAT(hl2ss::workflow_phrases(), ::testing::UnorderedElementsAreArray(understood));
 }
 

@@ -5,7 +5,7 @@ namespace orthonav::fuzz {
 
 /// Lists of screw sizes: an accepted list has no problem, and a size for each of its screws.
 void fuzz_sizes(std::span<const std::uint8_t> input) {
-  const auto sizes = engine::parse_screw_sizes(text_of(input), "sizes");
+  const auto sizes = engine::load_screw_sizes(InputFile(input).path());
   if (!sizes) {
     insist_one_line(sizes.error());
     return;

@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "engine/case/operation_plan.h"
 #include "engine/phantom/phantom.h"
+#include "tests/support/temporary_folder.h"
 
 namespace orthonav::engine::screw_sizes_file_test {
 namespace {
@@ -16,13 +19,15 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 Result<ScrewSizes> read(const std::string& screws) {
-  return parse_screw_sizes(R"({"screws": )" + screws + "}", "sizes.json");
+  const test::TemporaryFolder folder;
+  return load_screw_sizes(folder.with("sizes.json", R"({"screws": )" + screws + "}"));
 }
 
-/// The one line that it is refused with.
+/// The line that it is refused with, from the name of the file on.
 std::string refusal(const std::string& screws) {
   const auto sizes = read(screws);
-  return sizes ? "accepted" : sizes.error().message;
+  const std::string line = sizes ? "accepted" : sizes.error().message;
+  return line.substr(std::min(line.find("sizes.json"), line.size()));
 }
 
 TEST(ScrewSizesFile, ReadsMillimetresInAnyOrder) {

@@ -112,16 +112,6 @@ TEST(SpokenReplan, LeavesEverythingElseAlone) {
   EXPECT_EQ(command_event("move rod"), Event::kSayMoveRod) << "its name";
 }
 
-TEST(SpokenReplan, ItsListOfPhrasesIsUnderstood) {
-  const auto phrases = replan_phrases();
-  EXPECT_EQ(phrases.size(), 13u);
-  for (const std::string& phrase : phrases) {
-    const auto replan = replan_from(phrase);
-    EXPECT_TRUE(replan && *replan) << phrase;
-    EXPECT_FALSE(command_event(phrase)) << phrase;
-  }
-}
-
 TEST(NumberWords, ReadsEveryNumberBelowAHundred) {
   const std::vector<std::string> ones = words_of(
       "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen "

@@ -79,15 +79,5 @@ TEST(Summary, OfOneValueHasNoSpreadAndOfNoneIsZero) {
   EXPECT_EQ(summarize({}).max, 0.0);
 }
 
-TEST(TargetRegistrationError, IsTheDistanceAtTheTarget) {
-  const Transform<World, Vertebra> truth(rotation_from_vector({0.1, 0.2, 0.3}), {1, 2, 3});
-  // A turn of 2 degrees about the origin's z moves a target 50 mm off that axis by 2·50·sin 1°.
-  const Transform<World, Vertebra> estimated =
-      truth * Transform<Vertebra, Vertebra>(rotation_from_vector({0, 0, 2.0 * kDegree}), {});
-  EXPECT_NEAR(target_registration_error_m(estimated, truth, {{0.03, 0.04, 0.2}}),
-              0.1 * std::sin(kDegree), 1e-14);
-  EXPECT_EQ(target_registration_error_m(truth, truth, {{0.03, 0.04, 0.2}}), 0.0);
-}
-
 }  // namespace
 }  // namespace orthonav::nav

@@ -174,7 +174,7 @@ TEST(DistanceField, IsNothingOutsideAndForWhatIsNoNumber) {
 /// As for a vertebra: distances to the reachable part, signs by the whole bone.
 TEST(DistanceField, TakesTheDistanceToOneSurfaceAndTheSignByAnother) {
   const Surface bone(slab_bone(crooked_back));
-  const Surface back(reachable_from_behind(bone.mesh, bone.index));
+  const Surface back(part_of(bone.mesh, faces_reachable_from_behind(bone.mesh, bone.index)));
   ASSERT_LT(back.mesh.triangles.size(), bone.mesh.triangles.size());
   const DistanceField field(back.mesh, back.index, bone.index, kCell_m, kMargin_m);
   const Vec3 low = field.bounds().low;

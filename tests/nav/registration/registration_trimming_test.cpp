@@ -44,7 +44,7 @@ TEST(Trimming, KeepsTheBackAndDropsCanalAndFront) {
   const auto mesh = checked_bone(tube());
   ASSERT_TRUE(mesh.ok()) << mesh.error().message;
   const SurfaceIndex surface(*mesh);
-  const TriangleMesh kept = reachable_from_behind(*mesh, surface);
+  const TriangleMesh kept = part_of(*mesh, faces_reachable_from_behind(*mesh, surface));
   ASSERT_FALSE(kept.triangles.empty());
   bool back = false;
   for (const auto& t : kept.triangles) {
