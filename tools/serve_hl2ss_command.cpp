@@ -15,7 +15,6 @@
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
-#include "tools/listening_place.h"
 #include "tools/scene_drawing.h"
 #include "tools/set_up_arguments.h"
 #include "tools/stop_signals.h"
@@ -36,7 +35,6 @@ struct ServeArguments {
   std::int64_t sessions = 0;
   std::string draw;
   std::string film;
-  std::string token_file;
 };
 
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
@@ -77,11 +75,8 @@ Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) 
 
 void say_where(const hl2ss::Server& server, const ServeArguments& arguments) {
   const hl2ss::ServerOptions& options = arguments.server;
-  std::string side =
+  const std::string side =
       options.standin ? "&standin=" + std::to_string(server.standin_port()) : std::string();
-  if (options.token.is_asked_for()) {
-    side += "&token=" + arguments.token_file;
-  }
   const engine::SetUp set_up = arguments.set_up.chosen();
   const std::string with = (set_up.method == "best" ? "" : " --method " + set_up.method) +
                            std::string(set_up.reference ? " --reference" : "");
@@ -190,11 +185,6 @@ int serve(ServeArguments arguments, StopSignals& signals) {
   arguments.server.host = place->host;
   arguments.server.faults = *faults;
   arguments.server.seed = arguments.seed;
-  const auto token = token_asked_for("--token", arguments.token_file);
-  if (!token) {
-    return bad_input(token.error().message);
-  }
-  arguments.server.token = *token;
   const auto sessions = sessions_of(arguments);
   if (!sessions) {
     return bad_input(sessions.error().message);
@@ -224,16 +214,9 @@ void add_ports(CLI::App& serve, ServeArguments& arguments) {
       ->capture_default_str();
   serve
       .add_option("--host,--listen", server.host,
-                  "address to listen at; 0.0.0.0: for other machines too, if they bring the token "
-                  "of --token or --allow names them")
+                  "address to listen at; 0.0.0.0: for other machines too, if --allow names them")
       ->check(some_text())
       ->capture_default_str();
-  serve
-      .add_option("--token", arguments.token_file,
-                  "file with the token that a client must bring first (docs/hl2ss.md), made where "
-                  "there is none")
-      ->check(some_text())
-      ->type_name("FILE");
   serve
       .add_option("--allow", server.allow,
                   "who may connect besides this machine, as in 192.168.1.0/24,10.0.0.7")

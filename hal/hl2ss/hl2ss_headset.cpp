@@ -8,7 +8,6 @@
 #include "base/printed.h"
 #include "hal/hl2ss/calibration.h"
 #include "hal/hl2ss/depth_receiver.h"
-#include "hal/hl2ss/door.h"
 #include "hal/hl2ss/receiver.h"
 #include "hal/net/host_port.h"
 
@@ -262,9 +261,6 @@ Result<std::unique_ptr<Hl2ssHeadset>> Hl2ssHeadset::open(const Hl2ssOptions& opt
     return trouble_with(options.host, endpoint.error());
   }
   const HostTime deadline = HostClock::now() + options.open_within;
-  if (const Status opened = open_door(*endpoint, options, deadline); !opened) {
-    return trouble_with(options.host, opened.error());
-  }
   auto asked_depth = begin_asking_depth(*endpoint, options, deadline);
   auto calibration = ask_calibration(*endpoint, options, deadline);
   if (!calibration) {

@@ -10,8 +10,8 @@ namespace orthonav::hl2ss {
 namespace {
 
 constexpr const char* kKnownKeys =
-    "known are profile=raw|h264, stamps=late|exact, scene=on|off, depth=STREAM, port=BASE, "
-    "standin=PORT and token=FILE";
+    "known are profile=raw|h264, stamps=late|exact, scene=on|off, depth=STREAM, port=BASE "
+    "and standin=PORT";
 constexpr const char* kKnownDepth =
     "must be ahat, ahat-h264, long-throw or long-throw-png (research mode runs one of "
     "the "
@@ -56,8 +56,8 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
   const std::string key(item.substr(0, equals));
   const bool has_value = equals != std::string_view::npos;
   const std::string_view value = has_value ? item.substr(equals + 1) : std::string_view{};
-  constexpr std::array<std::string_view, 7> kKeys = {"profile", "stamps",  "scene", "depth",
-                                                     "port",    "standin", "token"};
+  constexpr std::array<std::string_view, 6> kKeys = {"profile", "stamps", "scene",
+                                                     "depth",   "port",   "standin"};
   if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
     return Error{"unknown key \"" + key + "\"; " + kKnownKeys};
   }
@@ -77,13 +77,6 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
   }
   if (key == "depth") {
     return choose_depth(value, options);
-  }
-  if (key == "token") {
-    if (value.empty()) {
-      return Error{"token needs a file"};
-    }
-    options.token_file = value;
-    return {};
   }
   const auto port = net::port_from(key, value, 1, key == "port" ? kMostFirstPort : net::kMostPort);
   if (!port) {

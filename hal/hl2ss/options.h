@@ -25,8 +25,6 @@ struct Hl2ssOptions {
   VideoProfile profile = VideoProfile::kRaw;
   int first_port = kFirstPort;
   int standin_port = 0;  ///< of our own server's side channel; 0: none
-  /// With the token that our own server may ask for; empty: none is brought.
-  std::string token_file;
   std::uint32_t bitrate = 12'000'000;
   std::vector<std::string> phrases = workflow_phrases();
   /// The server is asked to stamp, and to take poses, earlier by this; zero for a server with
@@ -44,7 +42,7 @@ struct Hl2ssOptions {
 
 /// What follows `hl2ss:` in a URI:
 /// `//HOST[:PORT][?profile=raw|h264&stamps=late|exact&scene=on|off&depth=ahat|ahat-h264|`
-/// `long-throw|long-throw-png&port=BASE&standin=PORT&token=FILE]`; PORT is BASE. An Error says what
+/// `long-throw|long-throw-png&port=BASE&standin=PORT]`; PORT is BASE. An Error says what
 /// is wrong and names the known keys.
 Result<Hl2ssOptions> options_of(std::string_view after_scheme);
 

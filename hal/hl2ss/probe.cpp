@@ -3,7 +3,6 @@
 #include <array>
 #include <utility>
 
-#include "hal/hl2ss/door.h"
 #include "hal/net/socket.h"
 
 namespace orthonav::hl2ss {
@@ -27,9 +26,6 @@ Result<std::vector<ProbedPort>> probe(const Hl2ssOptions& options) {
   const auto host = net::resolve(options.host);
   if (!host) {
     return host.error();
-  }
-  if (const Status opened = open_door(*host, options, HostClock::now() + kPatience); !opened) {
-    return opened.error();
   }
   std::vector<ProbedPort> ports;
   for (const auto& [name, service] : kServices) {

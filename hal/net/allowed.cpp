@@ -126,16 +126,14 @@ Result<Allowed> allowed_at(const std::string& host, const Endpoint& address,
     return allowed;
   }
   const Status named = check_who_may(host, address, *allowed);
-  return named ? std::move(allowed) : named.error();
+  return named ? std::move(allowed) : Error{named.error().message + ", or ask for a token"};
 }
 
 Status check_who_may(const std::string& host, const Endpoint& address, const Allowed& allowed) {
   if (is_loopback(address) || allowed.names_others()) {
     return {};
   }
-  return Error{"other machines reach " + host +
-               "; name who may connect, as in 192.168.1.0/24, or ask "
-               "for a token"};
+  return Error{"other machines reach " + host + "; name who may connect, as in 192.168.1.0/24"};
 }
 
 std::string text_of(const Endpoint& endpoint) {

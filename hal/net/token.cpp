@@ -101,11 +101,6 @@ Result<Token> Token::of(const std::string& path) {
   return text ? Result<Token>(Token(*std::move(text))) : text.error();
 }
 
-Result<Token> Token::existing(const std::string& path) {
-  auto text = read_from(path);
-  return text ? Result<Token>(Token(*std::move(text))) : text.error();
-}
-
 bool Token::is(std::string_view text) const {
   if (text_.empty() || text.size() != text_.size()) {
     return false;

@@ -16,8 +16,6 @@ class Token {
   /// From a file, which must be readable only by its owner; if it does not exist, it is made with a
   /// random token.
   static Result<Token> of(const std::string& path);
-  /// The same for whoever brings it: a file that does not exist is an Error.
-  static Result<Token> existing(const std::string& path);
 
   [[nodiscard]] bool is_asked_for() const { return !text_.empty(); }
   /// Whether this is it, in constant time for every text of the right length; never if there is

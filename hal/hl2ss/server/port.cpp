@@ -13,13 +13,13 @@ constexpr std::size_t kMaxHeard = std::size_t{4} << 20;
 
 }  // namespace
 
-Status Port::listen(const net::Endpoint& host, int port, Admits admits) {
+Status Port::listen(const net::Endpoint& host, int port, net::Allowed allowed) {
   auto listener = listen_at(host, port);
   if (!listener) {
     return listener.error();
   }
   listener_ = std::move(*listener);
-  admits_ = std::move(admits);
+  allowed_ = std::move(allowed);
   return {};
 }
 
@@ -39,7 +39,7 @@ void Port::step(short revents, HostTime now) {
     if ((revents & POLLIN) == 0) {
       return;
     }
-    if (auto client = accept_one(listener_); client && admits_(peer_of(*client))) {
+    if (auto client = accept_one(listener_); client && allowed_.contains(peer_of(*client))) {
       client_ = std::move(*client);
       has_client_ = true;
       talk_.came();

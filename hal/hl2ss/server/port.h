@@ -32,9 +32,8 @@ class Port {
     std::function<void()> left = [] {};
   };
   explicit Port(Talk talk) : talk_(std::move(talk)) {}
-  using Admits = std::function<bool(const net::Endpoint& peer)>;
-  /// Disconnects clients that are not admitted; by default all but those of this machine.
-  Status listen(const net::Endpoint& host, int port, Admits admits = &net::is_loopback);
+  /// Disconnects clients that are not allowed; by default all but those of this machine.
+  Status listen(const net::Endpoint& host, int port, net::Allowed allowed = {});
 
   [[nodiscard]] int fd() const;
   [[nodiscard]] short events() const;
@@ -44,8 +43,7 @@ class Port {
   /// client that is too slow misses whole packets.
   void send(std::vector<Chunk> chunks);
   [[nodiscard]] bool has_client() const { return has_client_.load(); }
-  /// On the network thread: where the client is, and its disconnection.
-  [[nodiscard]] net::Endpoint peer() const { return peer_of(client_); }
+  /// On the network thread.
   void disconnect() ORTHONAV_EXCLUDES(mutex_);
 
  private:
@@ -54,7 +52,7 @@ class Port {
 
   Talk talk_;
   net::Socket listener_;
-  Admits admits_;
+  net::Allowed allowed_;
   net::Socket client_;
   std::atomic<bool> has_client_ = false;
   std::vector<std::uint8_t> heard_;

@@ -1,7 +1,5 @@
 #include "hal/hl2ss/server/port_group.h"
 
-#include "hal/hl2ss/door.h"
-
 namespace orthonav::hl2ss {
 namespace {
 
@@ -11,13 +9,6 @@ constexpr int kLastFreePort = 60000;
 constexpr int kPortStep = 25;
 
 }  // namespace
-
-PortGroup::PortGroup(std::vector<Member> members, net::Token token)
-    : doorkeeper_(std::move(token)), members_(std::move(members)) {
-  if (doorkeeper_.asks()) {
-    members_.push_back({&doorkeeper_.port(), kDoorOffset});
-  }
-}
 
 Result<int> PortGroup::listen(const net::Endpoint& host, int first, const net::Allowed& allowed) {
   for (int base = first > 0 ? first : kFirstFreePort;; base += kPortStep) {
@@ -32,17 +23,9 @@ Result<int> PortGroup::listen(const net::Endpoint& host, int first, const net::A
 }
 
 Status PortGroup::listen_from(const net::Endpoint& host, int first, const net::Allowed& allowed) {
-  const Port::Admits named = [allowed](const net::Endpoint& peer) {
-    return allowed.contains(peer);
-  };
-  const Port::Admits brought_token = [this](const net::Endpoint& peer) {
-    return doorkeeper_.admits(peer, HostClock::now());
-  };
   for (const Member& member : members_) {
-    const bool asks = doorkeeper_.asks() && member.port != &doorkeeper_.port();
-    const Status listening =
-        member.port->listen(host, first + member.offset, asks ? brought_token : named);
-    if (!listening) {
+    if (const Status listening = member.port->listen(host, first + member.offset, allowed);
+        !listening) {
       return listening;
     }
   }
@@ -58,13 +41,8 @@ void PortGroup::turn() {
   net::wait_for_news(watched_, kTurnMs);
   const HostTime now = HostClock::now();
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    Port& port = *members_[i].port;
-    port.step(watched_[i].revents, now);
-    if (doorkeeper_.asks() && port.has_client()) {
-      doorkeeper_.admits(port.peer(), now);  // for longer
-    }
+    members_[i].port->step(watched_[i].revents, now);
   }
-  doorkeeper_.step(now);
 }
 
 }  // namespace orthonav::hl2ss

@@ -3,15 +3,14 @@
 #include <poll.h>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
-#include "hal/hl2ss/server/doorkeeper.h"
 #include "hal/hl2ss/server/port.h"
 
 namespace orthonav::hl2ss {
 
-/// The ports of a server, at fixed distances from the first, with a door before them if a token is
-/// asked for. Runs on the network thread.
+/// The ports of a server, at fixed distances from the first. Runs on the network thread.
 class PortGroup {
  public:
   struct Member {
@@ -19,7 +18,7 @@ class PortGroup {
     int offset = 0;
     std::function<bool()> is_free = [] { return true; };  ///< a client may come
   };
-  PortGroup(std::vector<Member> members, net::Token token);
+  explicit PortGroup(std::vector<Member> members) : members_(std::move(members)) {}
 
   /// From `first` on; 0: from the first free range. Returns where it begins.
   Result<int> listen(const net::Endpoint& host, int first, const net::Allowed& allowed);
@@ -29,7 +28,6 @@ class PortGroup {
  private:
   Status listen_from(const net::Endpoint& host, int first, const net::Allowed& allowed);
 
-  Doorkeeper doorkeeper_;
   std::vector<Member> members_;
   std::vector<pollfd> watched_;
 };

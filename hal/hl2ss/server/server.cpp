@@ -36,7 +36,7 @@ class RunningServer final : public Server {
         sender_(options.faults, options.seed, left_, right_, sides_),
         depth_(headset_.depth_calibration(DepthStream::kAhat),
                headset_.depth_calibration(DepthStream::kLongThrow)),
-        ports_(ports(), options.token) {}
+        ports_(ports()) {}
   ~RunningServer() override {
     stop_ = true;
     if (producer_.joinable()) {
@@ -243,9 +243,12 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, Open
   if (!host) {
     return Error{"hl2ss server: " + host.error().message, host.error().code};
   }
-  const auto allowed = net::allowed_at(options.host, *host, options.allow, options.token);
+  const auto allowed = net::Allowed::of(options.allow);
   if (!allowed) {
     return Error{"hl2ss server: " + allowed.error().message};
+  }
+  if (const Status named = check_who_may(options.host, *host, *allowed); !named) {
+    return Error{"hl2ss server: " + named.error().message};
   }
   auto first = open();
   if (!first) {

@@ -11,17 +11,14 @@
 #include "hal/hl2ss/protocol.h"
 #include "hal/hl2ss/server/faults.h"
 #include "hal/hl2ss/server/scene_port.h"
-#include "hal/net/token.h"
 
 namespace orthonav::hl2ss {
 
 struct ServerOptions {
   std::string host = "127.0.0.1";  ///< the address to listen at
-  /// Networks that may connect in addition to this machine, as in "192.168.1.0/24,10.0.0.7". Unless
-  /// the address is loopback, they must be named or a token asked for.
+  /// Networks that may connect in addition to this machine, as in "192.168.1.0/24,10.0.0.7"; must
+  /// be named unless the address is loopback.
   std::string allow;
-  /// Asked of every client, at the door (hal/hl2ss/door.h), before any other port serves it.
-  net::Token token;
   int first_port = kFirstPort;  ///< 0: the first free range from 20000 on
   /// A side channel for our own client at first_port + 19 (docs/hl2ss.md).
   bool standin = true;

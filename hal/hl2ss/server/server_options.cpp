@@ -1,4 +1,3 @@
-#include "hal/hl2ss/door.h"
 #include "hal/hl2ss/server/server.h"
 
 namespace orthonav::hl2ss {
@@ -12,8 +11,9 @@ constexpr int kMaxUnmappedPx = 100;
 
 std::vector<std::string> ServerOptions::check() const {
   std::vector<std::string> problems = faults.check();
-  if (first_port < 0 || first_port > 65535 - kDoorOffset) {
-    problems.push_back("first_port must lie in [0, " + std::to_string(65535 - kDoorOffset) + "]");
+  if (first_port < 0 || first_port > 65535 - kStandinOffset) {
+    problems.push_back("first_port must lie in [0, " + std::to_string(65535 - kStandinOffset) +
+                       "]");
   }
   if (paced && !standin) {
     problems.push_back("paced needs standin");

@@ -186,8 +186,8 @@ TEST(Uri, IsRefusedWithWhatIsKnown) {
   EXPECT_THAT(refusal("//a/b"), HasSubstr("must be a name or an address"));
   EXPECT_THAT(
       refusal("//a?prot=1"),
-      HasSubstr("profile=raw|h264, stamps=late|exact, scene=on|off, depth=STREAM, port=BASE, "
-                "standin=PORT and token=FILE"));
+      HasSubstr("profile=raw|h264, stamps=late|exact, scene=on|off, depth=STREAM, port=BASE "
+                "and standin=PORT"));
   EXPECT_THAT(refusal("//a?stamps=x"), HasSubstr("stamps \"x\" must be late or exact"));
   EXPECT_EQ(options_of("//a?stamps=exact")->stamps_late, Duration::zero());
   EXPECT_EQ(options_of("//a?stamps=late")->stamps_late, options_of("//a")->stamps_late);

@@ -35,14 +35,5 @@ TEST(NetToken, IsMadeOnceWhereThereIsNoFile) {
   EXPECT_FALSE(Token::of(folder.file("other")).value().is(made->text()));
 }
 
-TEST(NetToken, IsNeverMadeByWhoeverBringsIt) {
-  const test::TemporaryFolder folder;
-  EXPECT_FALSE(Token::existing(folder.file("token")));
-  EXPECT_FALSE(std::filesystem::exists(folder.file("token")));
-  const auto made = Token::of(folder.file("token"));
-  ASSERT_TRUE(made) << made.error().message;
-  EXPECT_TRUE(Token::existing(folder.file("token")).value().is(made->text()));
-}
-
 }  // namespace
 }  // namespace orthonav::net
