@@ -57,6 +57,9 @@ std::vector<std::uint8_t> DepthReader::opening() {
 void DepthReader::heard(const Packet& packet, HostTime at) {
   const auto time = stamps_.told(packet.ticks, at);
   if (!time) {
+    if (video_) {
+      video_->restart();
+    }
     return meter_.refused(time.error().message);
   }
   meter_.heard(*time, at);

@@ -7,7 +7,7 @@ void PacketStream::heard(const Packet& packet, HostTime at) {
   if (!time) {
     meter_.refused("stamp " + std::to_string(packet.ticks) +
                    " is none, or more than 10 s from the one before");
-    return;
+    return left_out();
   }
   Stamped stamped{*time, at};
   if (const Status right = check_stamp(packet, time_.stamps.as_stamped(*time)); right) {

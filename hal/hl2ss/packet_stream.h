@@ -29,6 +29,8 @@ class PacketStream : public PacketPort {
   /// An Error says why the stamp must be wrong: the packet's time is then not used. `stamp` is as
   /// if the headset's clock had never been set.
   virtual Status check_stamp(const Packet& /*packet*/, Timestamp /*stamp*/) { return {}; }
+  /// A packet without a usable time is left out.
+  virtual void left_out() {}
   /// An Error says what was wrong with this packet; the stream continues.
   virtual Status take(const Packet& packet, const Stamped& stamped) = 0;
   ArrivalMeter& meter_;

@@ -69,17 +69,12 @@ Result<std::unique_ptr<VideoDecoder>> VideoDecoder::create(int width_px, int hei
 void VideoDecoder::restart() {
   avcodec_flush_buffers(codec_->context);
   codec_->waits_for_key = true;
-  order_.restart();
 }
 
 Result<std::optional<std::int64_t>> VideoDecoder::decode(Bytes access_unit, std::int64_t unit,
                                                          GreyImage& image,
                                                          std::vector<std::uint8_t>* chroma) {
   Codec& codec = *codec_;
-  Status whole = order_.follow(access_unit);
-  if (!whole) {
-    restart();
-  }
   if (const int code = av_new_packet(codec.packet, static_cast<int>(access_unit.size()));
       code < 0) {
     return failed(" decoder: " + libav_reason(code));
@@ -93,12 +88,12 @@ Result<std::optional<std::int64_t>> VideoDecoder::decode(Bytes access_unit, std:
     return failed(" picture is damaged: " + libav_reason(sent));
   }
   auto picture = take_picture(image, chroma);
+  // The units after one whose picture could not be read would be decoded without it, wrongly.
+  if (picture && !*picture && !codec.waits_for_key) {
+    picture = failed(" unit holds no picture");
+  }
   if (!picture) {
     restart();
-  }
-  // A key frame does not depend on missing pictures; otherwise the loss must be reported.
-  if (!whole && !(picture && *picture)) {
-    return whole.error();
   }
   return picture;
 }

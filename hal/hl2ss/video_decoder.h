@@ -9,13 +9,13 @@
 #include "base/image.h"
 #include "base/result.h"
 #include "hal/hl2ss/bytes.h"
-#include "hal/hl2ss/h264_order.h"
 #include "hal/hl2ss/protocol.h"
 
 namespace orthonav::hl2ss {
 
 /// Decodes access units to pictures, one in, one out, with libavcodec. Incompletely decoded
-/// pictures are discarded: after damage nothing is returned until the next key frame.
+/// pictures are discarded: after damage nothing is returned until the next key frame. libavcodec
+/// does not notice that a unit is missing; TCP loses none, and whoever drops one calls `restart`.
 class VideoDecoder {
  public:
   /// For pictures of this size only. Both sides must be even.
@@ -41,7 +41,6 @@ class VideoDecoder {
   std::unique_ptr<Codec> codec_;
   int width_px_;
   int height_px_;
-  H264Order order_;
 };
 
 }  // namespace orthonav::hl2ss

@@ -50,6 +50,12 @@ Status VideoStream::check_stamp(const Packet& packet, Timestamp stamp) {
   return right;
 }
 
+void VideoStream::left_out() {
+  if (decoder_) {
+    decoder_->restart();
+  }
+}
+
 Status VideoStream::take(const Packet& packet, const Stamped& stamped) {
   const auto payload = split_image(packet.payload);
   if (!payload) {

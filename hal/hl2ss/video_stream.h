@@ -46,6 +46,7 @@ class VideoStream final : public PacketStream {
     bool is_trusted = true;
   };
   Status check_stamp(const Packet& packet, Timestamp stamp) override;
+  void left_out() override;
   Status take(const Packet& packet, const Stamped& stamped) override;
   Status take_raw(Bytes picture);
   Result<bool> take_h264(Bytes access_unit, std::int64_t unit, bool in_order);

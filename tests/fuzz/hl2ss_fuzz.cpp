@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "hal/hl2ss/h264_order.h"
 #include "hal/hl2ss/packet.h"
 #include "hal/hl2ss/protocol.h"
 #include "hal/hl2ss/spatial_input.h"
@@ -71,8 +70,6 @@ void read_alone(Bytes input) {
   if (standin && *standin) {
     insist((*standin)->bytes <= input.size());
   }
-  hl2ss::H264Order h264;
-  (void)h264.follow(input);
   const auto spatial = hl2ss::read_spatial_input(input);
   if (spatial && spatial->world_from_head) {
     insist(spatial->world_from_head->translation().is_finite());

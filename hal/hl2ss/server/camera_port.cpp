@@ -94,6 +94,10 @@ Result<bool> CameraPort::send(const Image& image) {
   if (!request || images_++ % request->divisor != 0) {
     return false;
   }
+  // Before the encoder: TCP loses no picture that others depend on.
+  if (image.spoil && strikes(faults_.lose)) {
+    return false;
+  }
   const auto picture = pictured(*request, *image.picture);
   if (!picture) {
     return picture.error();
@@ -126,9 +130,6 @@ bool CameraPort::strikes(double probability) {
 /// The fate of a packet; unless it is untouched, `chunks` is sent instead.
 CameraPort::Fate CameraPort::spoil(std::vector<std::uint8_t>& packet, std::vector<Chunk>& chunks) {
   const auto half = packet.begin() + static_cast<std::ptrdiff_t>(packet.size() / 2);
-  if (strikes(faults_.lose)) {
-    return Fate::kBroken;
-  }
   if (strikes(faults_.reorder) && held_back_.empty()) {
     held_back_ = std::move(packet);
     return Fate::kBroken;
