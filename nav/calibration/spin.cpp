@@ -18,6 +18,24 @@ namespace {
 using SpinPoses = std::span<const Transform<World, Marker>>;
 using SpinConsensus = Consensus<SpinFit>;
 
+constexpr std::size_t kSpinMinPoses = 20;
+/// Least `spread`: turning evenly over 60° has 0.3, over 90° 0.44, over 120° 0.56.
+constexpr double kSpinMinSpread = 0.3;
+/// A pose whose axis deviates by more from the common one is not an inlier; if the poses scatter
+/// less, the limit shrinks with them.
+constexpr double kSpinInlier_rad = 0.035;
+constexpr double kSpinMinInlierFraction = 0.6;
+/// The axis about which the tool turned must lie within this angle of the tool's given axis;
+/// otherwise it was a different movement.
+constexpr double kSpinMaxOff_rad = 0.26;
+constexpr double kSpinMaxWobble_rad = 0.02;
+constexpr double kSpinMaxAxisSigma_rad = 0.0087;  ///< 0.5°
+/// Limits beyond which a result gets a note.
+constexpr double kSpinNoteSpread = 0.44;
+constexpr double kSpinNoteAxisSigma_rad = 0.0035;  ///< 0.2°
+constexpr double kSpinNoteTipBeside_m = 0.001;
+constexpr int kSpinRounds = 500;  ///< random samples tried
+constexpr std::uint64_t kSpinSeed = 1;
 constexpr std::size_t kSpinSample = 2;
 // Half of the axes that scatter normally with SD s in each of two directions lie within 1.177 s.
 constexpr double kMedianOfRayleigh = 1.177;
@@ -54,25 +72,22 @@ std::optional<SpinFit> sampled_spin(SpinPoses poses, Vec3 given, double most_off
   return fit;
 }
 
-SpinConsensus consensus_of(SpinPoses poses, Vec3 given, const SpinOptions& options) {
+SpinConsensus consensus_of(SpinPoses poses, Vec3 given) {
   return {poses.size(),
           [poses](std::span<const std::size_t> chosen) { return fit_spin(poses, chosen); },
           [poses](const SpinFit& fit, std::size_t i) { return fit.miss_rad(poses[i]); },
-          [poses, given, most_off_rad = options.max_off_rad](Random& random) {
+          [poses, given, most_off_rad = kSpinMaxOff_rad](Random& random) {
             return sampled_spin(poses, given, most_off_rad, random);
           },
-          options.inlier_rad,
+          kSpinInlier_rad,
           kLeastInlierRad,
           kMedianOfRayleigh};
 }
 
-Status check_poses(SpinPoses poses, const SpinOptions& options) {
-  if (const auto problems = options.check(); !problems.empty()) {
-    return Error{"axis calibration: " + joined(problems)};
-  }
-  if (poses.size() < options.min_poses) {
+Status check_poses(SpinPoses poses) {
+  if (poses.size() < kSpinMinPoses) {
     return spin_refused("%.0f poses, at least %.0f are needed", static_cast<double>(poses.size()),
-                        static_cast<double>(options.min_poses));
+                        static_cast<double>(kSpinMinPoses));
   }
   for (const auto& pose : poses) {
     for (const double number : pose.row_major()) {
@@ -88,47 +103,47 @@ double agreeing(const SpinCalibration& found) {
   return static_cast<double>(found.inliers) / static_cast<double>(found.poses);
 }
 
-Status check_result(const SpinCalibration& found, const SpinOptions& options) {
-  if (!(agreeing(found) >= options.min_inlier_fraction) || found.inliers < options.min_poses) {
+Status check_result(const SpinCalibration& found) {
+  if (!(agreeing(found) >= kSpinMinInlierFraction) || found.inliers < kSpinMinPoses) {
     return spin_refused("%.0f %% of the poses agree on an axis, at least %.0f %% are needed",
-                        100.0 * agreeing(found), 100.0 * options.min_inlier_fraction);
+                        100.0 * agreeing(found), 100.0 * kSpinMinInlierFraction);
   }
-  if (!(found.off_rad <= options.max_off_rad)) {
+  if (!(found.off_rad <= kSpinMaxOff_rad)) {
     return spin_refused(
         "the tool turned about an axis %.1f° from its own, limit %.1f° (was it spun "
         "about its shaft?)",
-        degrees(found.off_rad), degrees(options.max_off_rad));
+        degrees(found.off_rad), degrees(kSpinMaxOff_rad));
   }
-  if (!(found.spread >= options.min_spread)) {
+  if (!(found.spread >= kSpinMinSpread)) {
     return spin_refused("the tool turned by %.2f, at least %.2f is needed (60° evenly)",
-                        found.spread, options.min_spread);
+                        found.spread, kSpinMinSpread);
   }
-  if (!(found.wobble_rad <= options.max_wobble_rad)) {
+  if (!(found.wobble_rad <= kSpinMaxWobble_rad)) {
     return spin_refused("the axis wobbled by %.2f° RMS, limit %.2f°", degrees(found.wobble_rad),
-                        degrees(options.max_wobble_rad));
+                        degrees(kSpinMaxWobble_rad));
   }
-  if (!(found.axis_sigma_rad <= options.max_axis_sigma_rad)) {
+  if (!(found.axis_sigma_rad <= kSpinMaxAxisSigma_rad)) {
     return spin_refused("the axis is known to %.2f°, limit %.2f° (turn it further, for longer)",
-                        degrees(found.axis_sigma_rad), degrees(options.max_axis_sigma_rad));
+                        degrees(found.axis_sigma_rad), degrees(kSpinMaxAxisSigma_rad));
   }
   return {};
 }
 
-Judgement judged(const SpinCalibration& found, const SpinOptions& options) {
+Judgement judged(const SpinCalibration& found) {
   Judgement judgement;
-  if (found.spread < options.note_spread) {
+  if (found.spread < kSpinNoteSpread) {
     judgement.add(Verdict::kNote, with_numbers("turned by %.2f only, better %.2f (90° evenly)",
-                                               found.spread, options.note_spread));
+                                               found.spread, kSpinNoteSpread));
   }
-  if (found.axis_sigma_rad > options.note_axis_sigma_rad) {
-    judgement.add(Verdict::kNote, with_numbers("the axis is known to %.2f° only, better %.2f°",
-                                               degrees(found.axis_sigma_rad),
-                                               degrees(options.note_axis_sigma_rad)));
+  if (found.axis_sigma_rad > kSpinNoteAxisSigma_rad) {
+    judgement.add(Verdict::kNote,
+                  with_numbers("the axis is known to %.2f° only, better %.2f°",
+                               degrees(found.axis_sigma_rad), degrees(kSpinNoteAxisSigma_rad)));
   }
-  if (found.tip_beside_m.norm() > options.note_tip_beside_m) {
+  if (found.tip_beside_m.norm() > kSpinNoteTipBeside_m) {
     judgement.add(Verdict::kNote,
                   with_numbers("the tip lies %.2f mm beside that axis, better %.2f",
-                               found.tip_beside_m.norm() * 1e3, options.note_tip_beside_m * 1e3));
+                               found.tip_beside_m.norm() * 1e3, kSpinNoteTipBeside_m * 1e3));
   }
   judgement.conclude();
   return judgement;
@@ -136,40 +151,17 @@ Judgement judged(const SpinCalibration& found, const SpinOptions& options) {
 
 }  // namespace
 
-std::vector<std::string> SpinOptions::check() const {
-  std::vector<std::string> problems;
-  if (min_poses < kSpinSample) {
-    problems.push_back("min_poses " + std::to_string(min_poses) + ", must be at least " +
-                       std::to_string(kSpinSample));
-  }
-  must_be_positive({{"inlier_rad", inlier_rad},
-                    {"max_off_rad", max_off_rad},
-                    {"max_wobble_rad", max_wobble_rad},
-                    {"max_axis_sigma_rad", max_axis_sigma_rad},
-                    {"note_axis_sigma_rad", note_axis_sigma_rad},
-                    {"note_tip_beside_m", note_tip_beside_m}},
-                   problems);
-  must_be_fractions({{"min_spread", min_spread},
-                     {"note_spread", note_spread},
-                     {"min_inlier_fraction", min_inlier_fraction}},
-                    problems);
-  if (rounds < 1) {
-    problems.push_back("rounds " + std::to_string(rounds) + ", must be at least 1");
-  }
-  return problems;
-}
-
-Result<SpinCalibration> spin_calibration(SpinPoses poses, Point<Marker> tip, Direction<Marker> axis,
-                                         const SpinOptions& options) {
-  if (Status status = check_poses(poses, options); !status) {
+Result<SpinCalibration> spin_calibration(SpinPoses poses, Point<Marker> tip,
+                                         Direction<Marker> axis) {
+  if (Status status = check_poses(poses); !status) {
     return status.error();
   }
-  const SpinConsensus consensus = consensus_of(poses, axis.v, options);
-  Random random(options.seed);
-  std::optional<SpinFit> fit = consensus.best(options.rounds, random);
+  const SpinConsensus consensus = consensus_of(poses, axis.v);
+  Random random(kSpinSeed);
+  std::optional<SpinFit> fit = consensus.best(kSpinRounds, random);
   if (!fit) {
     return spin_refused("the tool turned by %.2f, at least %.2f is needed (60° evenly)", 0.0,
-                        options.min_spread);
+                        kSpinMinSpread);
   }
   const auto inliers = consensus.settle(*fit);
   SpinCalibration found;
@@ -187,11 +179,11 @@ Result<SpinCalibration> spin_calibration(SpinPoses poses, Point<Marker> tip, Dir
     found.leave_out_rad = jackknife_sd(axes);
   }
   found.axis_sigma_rad = std::max(fit->axis_sigma_rad, found.leave_out_rad);
-  if (Status status = check_result(found, options); !status) {
+  if (Status status = check_result(found); !status) {
     return status.error();
   }
   found.tip_beside_m = beside_axis_m(poses, inliers, *fit, tip);
-  found.judgement = judged(found, options);
+  found.judgement = judged(found);
   return found;
 }
 

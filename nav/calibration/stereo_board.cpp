@@ -15,16 +15,23 @@
 namespace orthonav::nav {
 namespace {
 
+constexpr std::size_t kBoardMinViews = 3;
+/// A view whose residual is this many times the median one contains a mistake and is left out.
+constexpr double kBoardOutlierFactor = 3.0;
+constexpr double kBoardMaxRms_px = 1.0;
+constexpr double kBoardMaxFocalSigmaFraction = 0.02;
+/// Limits beyond which a result gets a note.
+constexpr std::size_t kBoardNoteViews = 10;
+constexpr double kBoardNoteRms_px = 0.45;
+constexpr double kBoardNoteFocalSigmaFraction = 0.005;
+constexpr double kBoardNoteBaselineSigmaFraction = 0.005;
+constexpr double kBoardNoteCoveredFraction = 0.5;
 constexpr double kSignificant = 3.0;
 // A view with a smaller residual than this contains no mistake.
 constexpr double kNoMistakePx = 0.3;
 
-Status check_views(const Chessboard& board, ImageSize size, std::span<const BoardView> views,
-                   const StereoBoardOptions& options) {
+Status check_views(const Chessboard& board, ImageSize size, std::span<const BoardView> views) {
   std::vector<std::string> problems = board.check();
-  for (std::string& problem : options.check()) {
-    problems.push_back(std::move(problem));
-  }
   if (size.width_px <= 0 || size.height_px <= 0) {
     problems.emplace_back("images without pixels");
   }
@@ -34,9 +41,9 @@ Status check_views(const Chessboard& board, ImageSize size, std::span<const Boar
       break;
     }
   }
-  if (views.size() < options.min_views) {
+  if (views.size() < kBoardMinViews) {
     problems.push_back("the board is seen in " + how_many(views.size(), "pair") + ", at least " +
-                       std::to_string(options.min_views) + " are needed");
+                       std::to_string(kBoardMinViews) + " are needed");
   }
   if (problems.empty()) {
     return {};
@@ -146,8 +153,8 @@ Result<Fitted> without_mistakes(const Chessboard& board, ImageSize size, BoardVi
     if (!fit) {
       return fit.error();
     }
-    const auto mistake = mistaken_view(*fit, options.outlier_factor);
-    if (!mistake || left_out == most_left_out || numbers.size() == options.min_views) {
+    const auto mistake = mistaken_view(*fit, kBoardOutlierFactor);
+    if (!mistake || left_out == most_left_out || numbers.size() == kBoardMinViews) {
       return Fitted{*fit, *start, views, numbers};
     }
     residuals[numbers[*mistake]] = {false, fit->view_rms_px[*mistake][0],
@@ -163,7 +170,7 @@ Result<Fitted> fitted_to(const Chessboard& board, ImageSize size, const BoardVie
                          const StereoBoardOptions& options,
                          std::vector<BoardViewResidual>& residuals) {
   auto plain = without_mistakes(board, size, views, options, false, residuals);
-  if (plain && plain->fit.rms_px <= options.max_rms_px) {
+  if (plain && plain->fit.rms_px <= kBoardMaxRms_px) {
     return plain;
   }
   std::vector<BoardViewResidual> of_rational(residuals.size());
@@ -225,7 +232,7 @@ Status fill_epipolar(const BoardViews& all, StereoBoardCalibration& result) {
   return {};
 }
 
-void judge_precision(const StereoBoardOptions& options, StereoBoardCalibration& result) {
+void judge_precision(StereoBoardCalibration& result) {
   Judgement& judgement = result.judgement;
   if (!result.sigma) {
     judgement.add(Verdict::kNote, "too few views to tell how exact it is");
@@ -233,26 +240,26 @@ void judge_precision(const StereoBoardOptions& options, StereoBoardCalibration& 
   }
   const double focal = result.sigma->focal_fraction;
   const double baseline = result.sigma->baseline_m / result.baseline_m();
-  if (focal > options.note_focal_sigma_fraction) {
+  if (focal > kBoardNoteFocalSigmaFraction) {
     judgement.add(
-        focal > options.max_focal_sigma_fraction ? Verdict::kFail : Verdict::kNote,
+        focal > kBoardMaxFocalSigmaFraction ? Verdict::kFail : Verdict::kNote,
         with_numbers("the focal length is known to %.2f %% only, better %.2f %% (tilt the board)",
-                     100 * focal, 100 * options.note_focal_sigma_fraction));
+                     100 * focal, 100 * kBoardNoteFocalSigmaFraction));
   }
-  if (baseline > options.note_baseline_sigma_fraction) {
+  if (baseline > kBoardNoteBaselineSigmaFraction) {
     judgement.add(Verdict::kNote,
                   with_numbers("the baseline is known to %.2f %% only, better %.2f %%",
-                               100 * baseline, 100 * options.note_baseline_sigma_fraction));
+                               100 * baseline, 100 * kBoardNoteBaselineSigmaFraction));
   }
 }
 
-void judge(const StereoBoardOptions& options, StereoBoardCalibration& result) {
+void judge(StereoBoardCalibration& result) {
   Judgement& judgement = result.judgement;
-  if (!(result.stereo_rms_px <= options.note_rms_px)) {
-    judgement.add(result.stereo_rms_px <= options.max_rms_px ? Verdict::kNote : Verdict::kFail,
-                  with_numbers("stereo RMS %.2f px, limit %.2f px", result.stereo_rms_px,
-                               result.stereo_rms_px <= options.max_rms_px ? options.note_rms_px
-                                                                          : options.max_rms_px));
+  if (!(result.stereo_rms_px <= kBoardNoteRms_px)) {
+    judgement.add(
+        result.stereo_rms_px <= kBoardMaxRms_px ? Verdict::kNote : Verdict::kFail,
+        with_numbers("stereo RMS %.2f px, limit %.2f px", result.stereo_rms_px,
+                     result.stereo_rms_px <= kBoardMaxRms_px ? kBoardNoteRms_px : kBoardMaxRms_px));
   }
   if (result.left.is_rational()) {
     judgement.add(Verdict::kNote,
@@ -264,17 +271,17 @@ void judge(const StereoBoardOptions& options, StereoBoardCalibration& result) {
     judgement.add(Verdict::kNote, std::to_string(result.views.size() - result.used) +
                                       " views left out for their residuals");
   }
-  if (result.used < options.note_views) {
+  if (result.used < kBoardNoteViews) {
     judgement.add(Verdict::kNote,
                   with_numbers("%.0f views, better %.0f", static_cast<double>(result.used),
-                               static_cast<double>(options.note_views)));
+                               static_cast<double>(kBoardNoteViews)));
   }
-  if (result.covered_fraction < options.note_covered_fraction) {
+  if (result.covered_fraction < kBoardNoteCoveredFraction) {
     judgement.add(Verdict::kNote,
                   with_numbers("the board reached %.0f %% of the image only, better %.0f %%",
-                               100 * result.covered_fraction, 100 * options.note_covered_fraction));
+                               100 * result.covered_fraction, 100 * kBoardNoteCoveredFraction));
   }
-  judge_precision(options, result);
+  judge_precision(result);
   judgement.conclude();
 }
 
@@ -283,7 +290,7 @@ void judge(const StereoBoardOptions& options, StereoBoardCalibration& result) {
 Result<StereoBoardCalibration> calibrate_stereo(const Chessboard& board, ImageSize size,
                                                 std::span<const BoardView> views,
                                                 const StereoBoardOptions& options) {
-  if (Status status = check_views(board, size, views, options); !status) {
+  if (Status status = check_views(board, size, views); !status) {
     return status.error();
   }
   const BoardViews all = aligned(board, views);
@@ -313,7 +320,7 @@ Result<StereoBoardCalibration> calibrate_stereo(const Chessboard& board, ImageSi
     return status.error();
   }
   result.sigma = stereo_sigma(board, size, fitted->used, fit, fitted->start.terms);
-  judge(options, result);
+  judge(result);
   return result;
 }
 

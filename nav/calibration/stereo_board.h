@@ -17,22 +17,8 @@ struct BoardView {
 };
 
 struct StereoBoardOptions {
-  std::size_t min_views = 3;
-  /// A view whose residual is this many times the median one contains a mistake and is left out.
-  double outlier_factor = 3.0;
   /// At most this fraction of the views is left out.
   double max_outlier_fraction = 0.25;
-  double max_rms_px = 1.0;
-  double max_focal_sigma_fraction = 0.02;
-  /// Limits beyond which a result gets a note.
-  std::size_t note_views = 10;
-  double note_rms_px = 0.45;
-  double note_focal_sigma_fraction = 0.005;
-  double note_baseline_sigma_fraction = 0.005;
-  double note_covered_fraction = 0.5;
-
-  /// Every problem at once.
-  [[nodiscard]] std::vector<std::string> check() const;
 };
 
 struct BoardViewResidual {
@@ -76,7 +62,7 @@ struct StereoBoardCalibration {
 /// together; views with mistakes are left out one by one. The third radial term is kept only where
 /// it is significant (3 SDs) in a camera, and where the model with it can be inverted. Where this
 /// would be refused for its residual, the rational model (k4 to k6) is fitted instead, if it leaves
-/// less and can be inverted. Refuses bad options, boards and counts, too few views, and lenses that
+/// less and can be inverted. Refuses bad boards and counts, too few views, and lenses that
 /// neither describes.
 Result<StereoBoardCalibration> calibrate_stereo(const Chessboard& board, ImageSize size,
                                                 std::span<const BoardView> views,

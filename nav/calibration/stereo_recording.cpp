@@ -17,6 +17,19 @@
 namespace orthonav::nav {
 namespace {
 
+constexpr std::size_t kRecordingMinPairs = 20;
+/// Pairs are thinned evenly to this many.
+constexpr std::size_t kRecordingMaxPairs = 400;
+constexpr double kRecordingMaxRms_px = 1.0;
+constexpr double kRecordingMaxSizeDeviation = 0.05;
+/// The calibration counts as off if it differs by at least this many SDs, and by at least this
+/// many pixels.
+constexpr double kRecordingSignificance = 3.0;
+constexpr double kRecordingMinOff_px = 0.1;
+/// Limits beyond which a result gets a note.
+constexpr double kRecordingNoteSigma_px = 0.05;
+constexpr double kRecordingNoteCoveredFraction = 0.3;
+
 Error stereo_refused(const std::string& why) { return Error{"stereo calibration: " + why}; }
 
 /// The tags that both cameras saw.
@@ -149,78 +162,55 @@ StereoRecording result_of(const BodyProblem& problem, const BodyState& state, co
   return result;
 }
 
-void judge(const StereoRecordingOptions& options, StereoRecording& result) {
+void judge(StereoRecording& result) {
   Judgement& judgement = result.judgement;
-  result.is_off = result.off_px > options.min_off_px &&
-                  result.off_px > options.significance * result.off_sigma_px;
+  result.is_off = result.off_px > kRecordingMinOff_px &&
+                  result.off_px > kRecordingSignificance * result.off_sigma_px;
   const std::string off =
       printed("%.3f ± %.3f px across the epipolar lines", result.off_px, result.off_sigma_px);
   if (result.is_off) {
     judgement.add(Verdict::kNote, "the device's calibration is off by " + off);
   }
-  if (!(result.rms_px <= options.max_rms_px)) {
+  if (!(result.rms_px <= kRecordingMaxRms_px)) {
     judgement.add(Verdict::kFail, with_numbers("residual %.2f px RMS, limit %.2f px (is the board "
                                                "flat, are the lenses as the device says?)",
-                                               result.rms_px, options.max_rms_px));
+                                               result.rms_px, kRecordingMaxRms_px));
   }
-  if (result.off_sigma_px > options.note_sigma_px) {
+  if (result.off_sigma_px > kRecordingNoteSigma_px) {
     judgement.add(Verdict::kNote, with_numbers("known to %.2f px only, better %.2f px",
-                                               result.off_sigma_px, options.note_sigma_px));
+                                               result.off_sigma_px, kRecordingNoteSigma_px));
   }
-  if (result.covered_fraction < options.note_covered_fraction) {
+  if (result.covered_fraction < kRecordingNoteCoveredFraction) {
     judgement.add(Verdict::kNote,
                   with_numbers("the board reached %.0f %% of the image only, better %.0f %%",
-                               100 * result.covered_fraction, 100 * options.note_covered_fraction));
+                               100 * result.covered_fraction, 100 * kRecordingNoteCoveredFraction));
   }
   if (!result.is_off) {
     judgement.add(Verdict::kPass, "the device's calibration holds: " + off);
   }
 }
 
-Status check_pairs(const BodyProblem& problem, const StereoRecordingOptions& options) {
-  if (problem.pairs.size() < options.min_pairs) {
+Status check_pairs(const BodyProblem& problem) {
+  if (problem.pairs.size() < kRecordingMinPairs) {
     return stereo_refused("both cameras see two tags of the board or more in " +
                           how_many(problem.pairs.size(), "pair") + ", at least " +
-                          std::to_string(options.min_pairs) + " are needed");
+                          std::to_string(kRecordingMinPairs) + " are needed");
   }
   const double ratio = median_size_ratio(problem.pairs);
-  if (!(std::abs(ratio - 1.0) <= options.max_size_deviation)) {
+  if (!(std::abs(ratio - 1.0) <= kRecordingMaxSizeDeviation)) {
     return stereo_refused(
         printed("the tags' edges measure %.3f of the size given, must be within "
                 "%.2f of it (was the board printed at 100 %%?)",
-                ratio, options.max_size_deviation));
+                ratio, kRecordingMaxSizeDeviation));
   }
   return {};
 }
 
 }  // namespace
 
-std::vector<std::string> StereoRecordingOptions::check() const {
-  std::vector<std::string> problems;
-  if (min_pairs < kJackknifeBlocks) {
-    problems.push_back("min_pairs " + std::to_string(min_pairs) + ", must be at least " +
-                       std::to_string(kJackknifeBlocks));
-  }
-  if (max_pairs < min_pairs) {
-    problems.push_back("max_pairs " + std::to_string(max_pairs) + ", must be at least min_pairs");
-  }
-  must_be_positive({{"max_rms_px", max_rms_px},
-                    {"max_size_deviation", max_size_deviation},
-                    {"significance", significance},
-                    {"min_off_px", min_off_px},
-                    {"note_sigma_px", note_sigma_px},
-                    {"note_covered_fraction", note_covered_fraction}},
-                   problems);
-  return problems;
-}
-
 Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
                                          std::span<const BoardTag> board,
-                                         std::span<const PairSightings> pairs,
-                                         const StereoRecordingOptions& options) {
-  if (const auto problems = options.check(); !problems.empty()) {
-    return stereo_refused(problems.front());
-  }
+                                         std::span<const PairSightings> pairs) {
   BodyProblem problem;
   BodyState state;
   problem.calibration = calibration;
@@ -231,8 +221,8 @@ Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
     problem.find_tag.push_back(false);
     state.marker_from_tag.push_back(tag.board_from_tag);
   }
-  take_pairs(seen_by_both(pairs), options.max_pairs, problem, state);
-  if (Status status = check_pairs(problem, options); !status) {
+  take_pairs(seen_by_both(pairs), kRecordingMaxPairs, problem, state);
+  if (Status status = check_pairs(problem); !status) {
     return status.error();
   }
   const auto fit = adjust(problem, state);
@@ -240,7 +230,7 @@ Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
     return stereo_refused(fit.error().message);
   }
   StereoRecording result = result_of(problem, state, *fit);
-  judge(options, result);
+  judge(result);
   return result;
 }
 

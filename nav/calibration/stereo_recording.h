@@ -15,24 +15,6 @@ struct BoardTag {
   Transform<Marker, Tag> board_from_tag;  ///< the board's frame stands in for a marker's
 };
 
-struct StereoRecordingOptions {
-  std::size_t min_pairs = 20;
-  /// Pairs are thinned evenly to this many.
-  std::size_t max_pairs = 400;
-  double max_rms_px = 1.0;
-  double max_size_deviation = 0.05;
-  /// The calibration counts as off if it differs by at least this many SDs, and by at least this
-  /// many pixels.
-  double significance = 3.0;
-  double min_off_px = 0.1;
-  /// Limits beyond which a result gets a note.
-  double note_sigma_px = 0.05;
-  double note_covered_fraction = 0.3;
-
-  /// Every problem at once.
-  [[nodiscard]] std::vector<std::string> check() const;
-};
-
 /// The cameras' relative pose in a recording, compared with what the device reports.
 struct StereoRecording {
   Transform<RightCamera, Rig> right_from_rig;
@@ -59,11 +41,10 @@ struct StereoRecording {
 
 /// The right camera's pose from a board of tags seen in many pairs: non-linear least squares over
 /// all corners (`adjust`), which finds the board's pose in each pair as well; the lenses stay as
-/// the device reports them. Pairs must be in the order of time. Refuses bad options, too few pairs,
+/// the device reports them. Pairs must be in the order of time. Refuses too few pairs,
 /// sizes that the images contradict, and corners that do not determine the result.
 Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
                                          std::span<const BoardTag> board,
-                                         std::span<const PairSightings> pairs,
-                                         const StereoRecordingOptions& options = {});
+                                         std::span<const PairSightings> pairs);
 
 }  // namespace orthonav::nav

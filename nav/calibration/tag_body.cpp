@@ -16,14 +16,30 @@
 namespace orthonav::nav {
 namespace {
 
+/// Two tags count as connected when both cameras saw them together in at least this many pairs.
+constexpr std::size_t kBodyMinPairsTogether = 10;
+/// Pairs are thinned evenly to this many.
+constexpr std::size_t kBodyMaxPairs = 600;
+/// Tags that move relative to each other make more corners misfit (a quarter of them, from a
+/// millimetre of motion), or leave a larger residual.
+constexpr double kBodyMaxRms_px = 0.5;
+constexpr double kBodyMaxOutlierFraction = 0.15;
+constexpr double kBodyMaxSigma_m = 0.001;
+/// Limits beyond which a result gets a note.
+constexpr double kBodyNoteSigma_m = 0.0002;
+constexpr double kBodyNoteSigma_rad = 0.005;
+constexpr double kBodyNoteSizeDeviation = 0.02;
+constexpr double kBodyNoteOutlierFraction = 0.08;
+constexpr std::size_t kBodyNotePairs = 50;
+
 std::string name_of(const MarkerDefinition& tag) {
   return "tag " + tag.family + " id " + std::to_string(tag.id);
 }
 
 Error body_refused(const std::string& why) { return Error{"tool calibration: " + why}; }
 
-Status check_input(std::span<const MarkerDefinition> tags, const TagBodyOptions& options) {
-  std::vector<std::string> problems = options.check();
+Status check_input(std::span<const MarkerDefinition> tags) {
+  std::vector<std::string> problems;
   if (tags.size() < 2) {
     problems.push_back(how_many(tags.size(), "tag") + ", at least 2 are needed");
   }
@@ -168,63 +184,63 @@ TagBody body_of(std::span<const MarkerDefinition> tags, std::span<const PairSigh
   return body;
 }
 
-Status check_rigid(const TagBody& body, const TagBodyOptions& options) {
-  if (!(body.rms_px <= options.max_rms_px)) {
+Status check_rigid(const TagBody& body) {
+  if (!(body.rms_px <= kBodyMaxRms_px)) {
     return body_refused(
         with_numbers("residual %.2f px RMS, limit %.2f px (do the tags move against "
                      "each other?)",
-                     body.rms_px, options.max_rms_px));
+                     body.rms_px, kBodyMaxRms_px));
   }
-  if (!(body.outlier_fraction <= options.max_outlier_fraction)) {
+  if (!(body.outlier_fraction <= kBodyMaxOutlierFraction)) {
     return body_refused(
         with_numbers("%.0f %% of the corners do not fit, limit %.0f %% (do the tags "
                      "move against each other?)",
-                     100 * body.outlier_fraction, 100 * options.max_outlier_fraction));
+                     100 * body.outlier_fraction, 100 * kBodyMaxOutlierFraction));
   }
   return {};
 }
 
-Status check_sigma(const TagBody& body, const TagBodyOptions& options) {
+Status check_sigma(const TagBody& body) {
   for (const BodyTag& tag : body.tags) {
-    if (!(tag.sigma_m <= options.max_sigma_m)) {
+    if (!(tag.sigma_m <= kBodyMaxSigma_m)) {
       return body_refused(name_of(tag.definition) +
                           with_numbers(": its place is known to %.2f mm, limit %.2f mm",
-                                       tag.sigma_m * 1e3, options.max_sigma_m * 1e3));
+                                       tag.sigma_m * 1e3, kBodyMaxSigma_m * 1e3));
     }
   }
   return {};
 }
 
-Judgement judged(const TagBody& body, const TagBodyOptions& options) {
+Judgement judged(const TagBody& body) {
   Judgement judgement;
-  if (body.outlier_fraction > options.note_outlier_fraction) {
+  if (body.outlier_fraction > kBodyNoteOutlierFraction) {
     judgement.add(Verdict::kNote,
                   with_numbers("%.0f %% of the corners do not fit, better %.0f %%",
-                               100 * body.outlier_fraction, 100 * options.note_outlier_fraction));
+                               100 * body.outlier_fraction, 100 * kBodyNoteOutlierFraction));
   }
   for (const BodyTag& tag : body.tags) {
     const std::string name = name_of(tag.definition);
-    if (tag.sigma_m > options.note_sigma_m) {
+    if (tag.sigma_m > kBodyNoteSigma_m) {
       judgement.add(Verdict::kNote,
                     name + with_numbers(": its place is known to %.2f mm only, better %.2f mm",
-                                        tag.sigma_m * 1e3, options.note_sigma_m * 1e3));
+                                        tag.sigma_m * 1e3, kBodyNoteSigma_m * 1e3));
     }
-    if (tag.sigma_rad > options.note_sigma_rad) {
+    if (tag.sigma_rad > kBodyNoteSigma_rad) {
       judgement.add(Verdict::kNote,
                     name + with_numbers(": its turn is known to %.2f° only, better %.2f°",
                                         tag.sigma_rad * kDegreesPerRadian,
-                                        options.note_sigma_rad * kDegreesPerRadian));
+                                        kBodyNoteSigma_rad * kDegreesPerRadian));
     }
-    if (std::abs(tag.size_ratio - 1.0) > options.note_size_deviation) {
+    if (std::abs(tag.size_ratio - 1.0) > kBodyNoteSizeDeviation) {
       judgement.add(Verdict::kNote,
                     name + with_numbers(": its edges measure %.2f mm, given are %.2f mm",
                                         tag.size_ratio * tag.definition.size_m * 1e3,
                                         tag.definition.size_m * 1e3));
     }
-    if (tag.pairs < options.note_pairs) {
+    if (tag.pairs < kBodyNotePairs) {
       judgement.add(Verdict::kNote, name + with_numbers(": seen in %.0f pairs only, better %.0f",
                                                         static_cast<double>(tag.pairs),
-                                                        static_cast<double>(options.note_pairs)));
+                                                        static_cast<double>(kBodyNotePairs)));
     }
   }
   judgement.conclude();
@@ -233,50 +249,29 @@ Judgement judged(const TagBody& body, const TagBodyOptions& options) {
 
 }  // namespace
 
-std::vector<std::string> TagBodyOptions::check() const {
-  std::vector<std::string> problems;
-  if (min_pairs_together < 1) {
-    problems.emplace_back("min_pairs_together 0, must be at least 1");
-  }
-  if (max_pairs < min_pairs_together) {
-    problems.push_back("max_pairs " + std::to_string(max_pairs) +
-                       ", must be at least min_pairs_together");
-  }
-  must_be_positive({{"max_rms_px", max_rms_px},
-                    {"max_outlier_fraction", max_outlier_fraction},
-                    {"max_sigma_m", max_sigma_m},
-                    {"max_size_deviation", max_size_deviation},
-                    {"note_sigma_m", note_sigma_m},
-                    {"note_sigma_rad", note_sigma_rad},
-                    {"note_size_deviation", note_size_deviation},
-                    {"note_outlier_fraction", note_outlier_fraction}},
-                   problems);
-  return problems;
-}
-
 Result<TagBody> calibrate_tag_body(const StereoCalibration& calibration,
                                    std::span<const MarkerDefinition> tags,
                                    std::span<const PairSightings> pairs,
                                    const TagBodyOptions& options) {
-  if (Status status = check_input(tags, options); !status) {
+  if (Status status = check_input(tags); !status) {
     return status.error();
   }
   if (Status status = check_sizes(tags, pairs, options.max_size_deviation); !status) {
     return status.error();
   }
-  const TagLayout layout = first_layout(pairs, tags.size(), options.min_pairs_together);
-  if (Status status = check_connected(tags, pairs, layout, options.min_pairs_together); !status) {
+  const TagLayout layout = first_layout(pairs, tags.size(), kBodyMinPairsTogether);
+  if (Status status = check_connected(tags, pairs, layout, kBodyMinPairsTogether); !status) {
     return status.error();
   }
   BodyProblem problem = problem_of(calibration, tags);
   BodyState state{calibration.right_from_rig, layout.marker_from_tag, {}};
-  take_pairs(pairs, options.max_pairs, problem, state);
+  take_pairs(pairs, kBodyMaxPairs, problem, state);
   const auto fit = adjust(problem, state);
   if (!fit) {
     return body_refused(fit.error().message);
   }
   TagBody body = body_of(tags, pairs, problem, state, *fit);
-  if (Status status = check_rigid(body, options); !status) {
+  if (Status status = check_rigid(body); !status) {
     return status.error();
   }
   const std::vector<TagSigma> left_out = tag_sigmas(problem, state);
@@ -284,10 +279,10 @@ Result<TagBody> calibrate_tag_body(const StereoCalibration& calibration,
     body.tags[i].sigma_m = std::max(body.tags[i].sigma_m, left_out[i].m);
     body.tags[i].sigma_rad = std::max(body.tags[i].sigma_rad, left_out[i].rad);
   }
-  if (Status status = check_sigma(body, options); !status) {
+  if (Status status = check_sigma(body); !status) {
     return status.error();
   }
-  body.judgement = judged(body, options);
+  body.judgement = judged(body);
   return body;
 }
 

@@ -14,6 +14,10 @@ namespace {
 constexpr double kBlock_s = 0.25;
 // A stretch that has not fitted for this many more blocks won't fit again.
 constexpr int kFarFromBest = 8;
+// Tips that fit a fixed point worse than this did not rest in a dimple.
+constexpr double kMostTurningRmse_m = 0.005;
+// A resting point farther than this from the tip in the tool file is not this pointer's tip.
+constexpr double kMostOffset_m = 0.03;
 
 Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 
@@ -49,7 +53,7 @@ struct Fit {
   double rmse_m = 0.0;
 };
 
-Fit fit_of(const Sums& sums, double min_spread_rad) {
+Fit fit_of(const Sums& sums) {
   Fit fit;
   const Eigen::Matrix3d normal =
       sums.n * Eigen::Matrix3d::Identity() - sums.rotation.transpose() * sums.rotation / sums.n;
@@ -57,7 +61,7 @@ Fit fit_of(const Sums& sums, double min_spread_rad) {
   solver.computeDirect(normal);
   fit.spread_rad = std::sqrt(std::max(0.0, solver.eigenvalues()(0)) / sums.n);
   // Without rotation the offset is undetermined; the tip from the tool file is then as good as any.
-  if (fit.spread_rad >= min_spread_rad) {
+  if (fit.spread_rad >= kLeastTurningSpread_rad) {
     fit.offset =
         normal.ldlt().solve(sums.rotation.transpose() * sums.tip / sums.n - sums.tip_in_marker);
   }
@@ -98,7 +102,7 @@ PoseBlocks blocks_of(std::span<const TrackedPose> poses, Point<Marker> tip) {
 }  // namespace
 
 std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world_from_marker,
-                                              Point<Marker> tip, const FixedPointOptions& options) {
+                                              Point<Marker> tip) {
   if (world_from_marker.empty()) {
     return std::nullopt;
   }
@@ -110,12 +114,12 @@ std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world
     for (std::size_t to = from + 1; to < blocks.first.size() && unfit < kFarFromBest; ++to) {
       const std::size_t first = blocks.first[from];
       const std::size_t end = blocks.first[to];
-      const Fit fit = fit_of(blocks.before[to] - blocks.before[from], options.min_spread_rad);
-      if (fit.rmse_m > options.max_rmse_m || fit.offset.norm() > options.max_offset_m) {
+      const Fit fit = fit_of(blocks.before[to] - blocks.before[from]);
+      if (fit.rmse_m > kMostTurningRmse_m || fit.offset.norm() > kMostOffset_m) {
         // While the tool has turned too little to determine the offset, a wrong tip looks like a
         // motion, but no larger than its offset can cause.
-        if (fit.spread_rad >= options.min_spread_rad ||
-            fit.rmse_m > 2.0 * options.max_offset_m + options.max_rmse_m) {
+        if (fit.spread_rad >= kLeastTurningSpread_rad ||
+            fit.rmse_m > 2.0 * kMostOffset_m + kMostTurningRmse_m) {
           ++unfit;
         }
         continue;
@@ -123,10 +127,10 @@ std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world
       unfit = 0;
       const double duration_s =
           seconds(world_from_marker[end - 1].time - world_from_marker[first].time);
-      if (duration_s < options.min_duration_s || fit.spread_rad < options.min_spread_rad) {
+      if (duration_s < kLeastTurning_s || fit.spread_rad < kLeastTurningSpread_rad) {
         continue;
       }
-      const double ratio = fit.rmse_m / options.max_rmse_m;
+      const double ratio = fit.rmse_m / kMostTurningRmse_m;
       const double score = duration_s * (1.0 - ratio * ratio);
       if (score <= best_score) {
         continue;

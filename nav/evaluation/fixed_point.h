@@ -8,12 +8,10 @@
 
 namespace orthonav::nav {
 
-struct FixedPointOptions {
-  double min_duration_s = 3.0;
-  double min_spread_rad = 0.15;  ///< as in `PivotOptions`
-  double max_rmse_m = 0.005;
-  double max_offset_m = 0.03;  ///< largest distance of the point from the given tip
-};
+/// A tool turns about a fixed point for at least this long, and with at least this spread, as in
+/// `PivotOptions`.
+inline constexpr double kLeastTurning_s = 3.0;
+inline constexpr double kLeastTurningSpread_rad = 0.15;
 
 /// A point of the tool that stayed in place while the tool turned about it.
 struct FixedPoint {
@@ -27,7 +25,6 @@ struct FixedPoint {
 /// too (least squares as in `pivot_calibration`). Stretches are ranked by length × (1 - (RMSE /
 /// limit)²), so that approach and departure, which fit worse, are left out. Times must increase.
 [[nodiscard]] std::optional<FixedPoint> longest_fixed_point(
-    std::span<const TrackedPose> world_from_marker, Point<Marker> tip,
-    const FixedPointOptions& options);
+    std::span<const TrackedPose> world_from_marker, Point<Marker> tip);
 
 }  // namespace orthonav::nav

@@ -12,6 +12,21 @@
 namespace orthonav::nav {
 namespace {
 
+/// A rest nearer than this to the dimple is in the dimple, or has slipped out of it.
+constexpr double kDimple_m = 0.025;
+/// If the mean tip before and after some moment differs by more than this, it slipped.
+constexpr double kMostSlip_m = 0.0015;
+
+void check_limits(const char* name, const AccuracyLimits& limits,
+                  std::vector<std::string>& problems) {
+  if (limits.pass_m > 0.0 && limits.pass_m <= limits.note_m && limits.note_m <= 0.1) {
+    return;
+  }
+  problems.push_back(
+      printed("accuracy test: limits of %s %g and %g mm, must rise from above 0 to 100 mm", name,
+              limits.pass_m * 1e3, limits.note_m * 1e3));
+}
+
 Status check_input(std::span<const Vec3> board_points_m, const AccuracyOptions& options) {
   const std::vector<std::string> problems = options.check();
   if (!problems.empty()) {
@@ -24,10 +39,9 @@ Status check_input(std::span<const Vec3> board_points_m, const AccuracyOptions& 
   // The board's points must be far enough apart to be distinguished by rests.
   for (std::size_t i = 0; i < board_points_m.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (!((board_points_m[i] - board_points_m[k]).norm() >= 3.0 * options.rests.radius_m)) {
+      if (!((board_points_m[i] - board_points_m[k]).norm() >= 3.0 * kRestRadius_m)) {
         return refused("board: two points to touch are %.1f mm apart, at least %.1f mm are needed",
-                       (board_points_m[i] - board_points_m[k]).norm() * 1e3,
-                       3e3 * options.rests.radius_m);
+                       (board_points_m[i] - board_points_m[k]).norm() * 1e3, 3e3 * kRestRadius_m);
       }
     }
   }
@@ -54,25 +68,14 @@ Result<PointerTrack> measured_track(std::span<const TrackedPose> poses, Point<Ma
   return track;
 }
 
-FixedPointOptions fixed_point_options(const AccuracyOptions& options) {
-  FixedPointOptions out;
-  out.min_duration_s = options.min_turning_s;
-  out.min_spread_rad = options.min_turning_spread_rad;
-  out.max_rmse_m = options.max_turning_rmse_m;
-  out.max_offset_m = options.max_tip_bias_m;
-  return out;
-}
-
 /// The point about which the pointer turned in the dimple.
-Result<FixedPoint> rotated_about(const PointerTrack& track, Point<Marker> tip,
-                                 const AccuracyOptions& options) {
-  const auto found =
-      longest_fixed_point(track.world_from_marker, tip, fixed_point_options(options));
+Result<FixedPoint> rotated_about(const PointerTrack& track, Point<Marker> tip) {
+  const auto found = longest_fixed_point(track.world_from_marker, tip);
   if (!found) {
     return refused(
         "accuracy test: the pointer never turned about its resting tip, must do so for "
         "at least %.1f s and %.1f° RMS about every axis",
-        options.min_turning_s, degrees(options.min_turning_spread_rad));
+        kLeastTurning_s, degrees(kLeastTurningSpread_rad));
   }
   return *found;
 }
@@ -101,21 +104,20 @@ struct SortedRests {
   std::optional<TipSlip> slip;
 };
 
-SortedRests sorted_rests(const PointerTrack& track, const FixedPoint& found,
-                         const AccuracyOptions& options) {
+SortedRests sorted_rests(const PointerTrack& track, const FixedPoint& found) {
   SortedRests out;
   out.dimple.offset_m = found.offset_m;
   out.dimple.point_m = fixed_place(track, found);
-  for (const TipRest& rest : tip_rests(track.fixed, options.rests)) {
+  for (const TipRest& rest : tip_rests(track.fixed)) {
     const double off_m = (rest.mean_m - out.dimple.point_m).norm();
     auto& dimple = out.dimple.samples;
     const double length_s =
         track.fixed[rest.samples.back()].time_s - track.fixed[rest.samples.front()].time_s;
-    if (off_m <= options.rests.radius_m) {
+    if (off_m <= kRestRadius_m) {
       dimple.insert(dimple.end(), rest.samples.begin(), rest.samples.end());
-    } else if (off_m > options.dimple_m) {
+    } else if (off_m > kDimple_m) {
       out.touches.push_back(rest);
-    } else if (length_s >= options.min_still_s && (!out.slip || off_m > out.slip->step_m)) {
+    } else if (length_s >= kLeastStill_s && (!out.slip || off_m > out.slip->step_m)) {
       out.slip = TipSlip{track.fixed[rest.samples.front()].time_s, off_m};
     }
   }
@@ -132,12 +134,10 @@ void note_slip(const std::optional<TipSlip>& slip, AccuracyPart& part) {
 }
 
 void note_slips(const PointerTrack& track, const SortedRests& rests,
-                const std::vector<std::size_t>& still, const AccuracyOptions& options,
-                AccuracyReport& report) {
-  note_slip(tip_slip(picked(track.tips, still), options.max_slip_m), report.single_point);
+                const std::vector<std::size_t>& still, AccuracyReport& report) {
+  note_slip(tip_slip(picked(track.tips, still), kMostSlip_m), report.single_point);
   note_slip(rests.slip, report.turning);
-  note_slip(tip_slip(picked(track.fixed, rests.dimple.samples), options.max_slip_m),
-            report.turning);
+  note_slip(tip_slip(picked(track.fixed, rests.dimple.samples), kMostSlip_m), report.turning);
 }
 
 /// The track of the measured poses, once input and options are known to be good.
@@ -149,15 +149,41 @@ Result<PointerTrack> checked_track(std::span<const TrackedPose> world_from_marke
     return s.error();
   }
   auto track = measured_track(world_from_marker, pointer.tip_in_marker);
-  if (track && track->tips.size() < 2 * options.min_still_samples) {
+  if (track && track->tips.size() < 2 * kLeastStillSamples) {
     return refused("accuracy test: %.0f measured poses of the pointer, at least %.0f are needed",
                    static_cast<double>(track->tips.size()),
-                   2.0 * static_cast<double>(options.min_still_samples));
+                   2.0 * static_cast<double>(kLeastStillSamples));
   }
   return track;
 }
 
 }  // namespace
+
+std::vector<std::string> AccuracyOptions::check() const {
+  std::vector<std::string> problems;
+  check_limits("single_point_p95", single_point_p95, problems);
+  check_limits("turning_p95", turning_p95, problems);
+  check_limits("tip_bias", tip_bias, problems);
+  check_limits("distance_mean", distance_mean, problems);
+  check_limits("distance_max", distance_max, problems);
+  return problems;
+}
+
+Verdict AccuracyPart::verdict() const {
+  Verdict worst = failure.empty() ? Verdict::kPass : Verdict::kFail;
+  for (const Judged& figure : judged) {
+    worst = std::max(worst, figure.verdict);
+  }
+  return worst;
+}
+
+Verdict AccuracyReport::verdict() const {
+  Verdict worst = std::max(single_point.verdict(), turning.verdict());
+  if (distances) {
+    worst = std::max(worst, distances->verdict());
+  }
+  return worst;
+}
 
 Result<AccuracyReport> test_tip_accuracy(std::span<const TrackedPose> world_from_marker,
                                          const ToolGeometry& pointer,
@@ -167,17 +193,17 @@ Result<AccuracyReport> test_tip_accuracy(std::span<const TrackedPose> world_from
   if (!track) {
     return track.error();
   }
-  const auto found = rotated_about(*track, pointer.tip_in_marker, options);
+  const auto found = rotated_about(*track, pointer.tip_in_marker);
   if (!found) {
     return found.error();
   }
   add_fixed_points(pointer.tip_in_marker.v + found->offset_m, *track);
-  const SortedRests rests = sorted_rests(*track, *found, options);
+  const SortedRests rests = sorted_rests(*track, *found);
 
   AccuracyReport report;
   report.samples = track->tips.size();
   report.duration_s = track->tips.back().time_s;
-  const auto still = still_stretch(*track, rests.dimple, options);
+  const auto still = still_stretch(*track, rests.dimple);
   if (!still) {
     return still.error();
   }
@@ -187,7 +213,7 @@ Result<AccuracyReport> test_tip_accuracy(std::span<const TrackedPose> world_from
     return turning.error();
   }
   report.turning = std::move(*turning);
-  note_slips(*track, rests, *still, options, report);
+  note_slips(*track, rests, *still, report);
   if (board_points_m.empty()) {
     return report;
   }

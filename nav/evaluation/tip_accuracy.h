@@ -23,30 +23,6 @@ struct AccuracyLimits {
 /// from not (Gertzbein and Robbins 1990): to pass or be noted, every part must stay within that on
 /// its own, and the largest point-to-point error within twice that.
 struct AccuracyOptions {
-  TipRestOptions rests;
-  /// A pointer counts as held still if it turns by less than this for at least this long and this
-  /// many samples.
-  double still_angle_rad = 0.087;
-  double min_still_s = 2.0;
-  std::size_t min_still_samples = 15;
-  /// Turning about the tip: at least this long, and with at least this spread, as in
-  /// `PivotOptions::min_spread_rad`.
-  double min_turning_s = 3.0;
-  double min_turning_spread_rad = 0.15;
-  /// If the tips fit a fixed point worse than this, they did not rest in a dimple.
-  double max_turning_rmse_m = 0.005;
-  /// A resting point farther than this from the tip in the tool file is not this pointer's tip.
-  double max_tip_bias_m = 0.03;
-  /// A rest nearer than this to the dimple is in the dimple, or has slipped out of it.
-  double dimple_m = 0.025;
-  /// If the mean tip before and after some moment differs by more than this, it slipped.
-  double max_slip_m = 0.0015;
-  /// The largest number of rests away from the dimple that touch no point of the board, such as a
-  /// tool laid aside.
-  std::size_t max_stray_rests = 4;
-  /// Touches that fit the board worse than this belong to another board, or are in another order.
-  double max_board_rmse_m = 0.01;
-
   AccuracyLimits single_point_p95{0.001, 0.002};
   AccuracyLimits turning_p95{0.002, 0.004};
   AccuracyLimits tip_bias{0.001, 0.002};

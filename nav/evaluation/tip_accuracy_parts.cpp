@@ -9,6 +9,7 @@
 #include "base/findings.h"
 #include "nav/evaluation/board_touches.h"
 #include "nav/evaluation/errors.h"
+#include "nav/evaluation/fixed_point.h"
 #include "nav/tracking/pivot_fit.h"
 #include "nav/tracking/tip_uncertainty.h"
 
@@ -16,6 +17,13 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kBin_rad = 10.0 * std::numbers::pi / 180.0;
+/// A pointer held still turns by less than this.
+constexpr double kStill_rad = 0.087;
+/// The largest number of rests away from the dimple that touch no point of the board, such as a
+/// tool laid aside.
+constexpr std::size_t kMostStrayRests = 4;
+/// Touches that fit the board worse than this belong to another board, or are in another order.
+constexpr double kMostBoardRmse_m = 0.01;
 
 const Mat3& rotation_at(const PointerTrack& track, std::size_t i) {
   return track.world_from_marker[i].value.rotation();
@@ -113,19 +121,18 @@ struct RestingTip {
 };
 
 /// The tool's resting point, from all samples that rested in the dimple.
-Result<RestingTip> fit_in(const PointerTrack& track, const Dimple& dimple,
-                          const AccuracyOptions& options) {
+Result<RestingTip> fit_in(const PointerTrack& track, const Dimple& dimple) {
   std::vector<Transform<World, Marker>> poses;
   for (const TrackedPose& pose : track.world_from_marker) {
     poses.push_back(pose.value);
   }
   const auto fit = fit_pivot(poses, dimple.samples);
   const double spread_rad = fit ? fit->spread_rad : 0.0;
-  if (!fit || spread_rad < options.min_turning_spread_rad) {
+  if (!fit || spread_rad < kLeastTurningSpread_rad) {
     return refused(
         "accuracy test: the pointer turned by %.1f° RMS about its resting tip, at "
         "least %.1f° is needed",
-        degrees(spread_rad), degrees(options.min_turning_spread_rad));
+        degrees(spread_rad), degrees(kLeastTurningSpread_rad));
   }
   return RestingTip{*fit, tip_uncertainty(poses, dimple.samples, *fit).sigma_m()};
 }
@@ -166,14 +173,12 @@ std::vector<TipSample> picked(const std::vector<TipSample>& from,
   return out;
 }
 
-Result<std::vector<std::size_t>> still_stretch(const PointerTrack& track, const Dimple& dimple,
-                                               const AccuracyOptions& options) {
+Result<std::vector<std::size_t>> still_stretch(const PointerTrack& track, const Dimple& dimple) {
   std::vector<std::size_t> best;
   std::vector<std::size_t> stretch;
   for (const std::size_t i : dimple.samples) {
-    const bool goes_on =
-        stretch.empty() ||
-        track.tips[i].time_s - track.tips[stretch.back()].time_s <= options.rests.max_gap_s;
+    const bool goes_on = stretch.empty() ||
+                         track.tips[i].time_s - track.tips[stretch.back()].time_s <= kLongestGap_s;
     if (!goes_on) {
       stretch.clear();
     }
@@ -181,8 +186,7 @@ Result<std::vector<std::size_t>> still_stretch(const PointerTrack& track, const 
     // The oldest samples are dropped until the newest is within the angle of all remaining ones.
     std::size_t drop = 0;
     for (std::size_t k = 0; k + 1 < stretch.size(); ++k) {
-      if (rotation_angle_rad(rotation_at(track, stretch[k]), rotation_at(track, i)) >
-          options.still_angle_rad) {
+      if (rotation_angle_rad(rotation_at(track, stretch[k]), rotation_at(track, i)) > kStill_rad) {
         drop = k + 1;
       }
     }
@@ -191,18 +195,18 @@ Result<std::vector<std::size_t>> still_stretch(const PointerTrack& track, const 
       best = stretch;
     }
   }
-  const std::vector<std::size_t> inner = without_ends(track, best, options.rests.settle_s);
-  if (length_s(track, inner) < options.min_still_s) {
+  const std::vector<std::size_t> inner = without_ends(track, best, kSettle_s);
+  if (length_s(track, inner) < kLeastStill_s) {
     return refused(
         "accuracy test: the pointer was held still in the dimple for %.1f s, at least "
         "%.1f s are needed",
-        length_s(track, inner), options.min_still_s);
+        length_s(track, inner), kLeastStill_s);
   }
-  if (inner.size() < options.min_still_samples) {
+  if (inner.size() < kLeastStillSamples) {
     return refused(
         "accuracy test: %.0f measured poses while the pointer was held still, at least "
         "%.0f are needed",
-        static_cast<double>(inner.size()), static_cast<double>(options.min_still_samples));
+        static_cast<double>(inner.size()), static_cast<double>(kLeastStillSamples));
   }
   return inner;
 }
@@ -223,7 +227,7 @@ SinglePointPart single_point_part(const PointerTrack& track, Point<Marker> tip,
 Result<TurningPart> turning_part(const PointerTrack& track, const ToolGeometry& pointer,
                                  const Dimple& dimple, const std::vector<std::size_t>& still,
                                  const AccuracyOptions& options) {
-  const auto pivot = fit_in(track, dimple, options);
+  const auto pivot = fit_in(track, dimple);
   if (!pivot) {
     return pivot.error();
   }
@@ -231,11 +235,11 @@ Result<TurningPart> turning_part(const PointerTrack& track, const ToolGeometry& 
   std::vector<std::size_t> turning;
   std::set_difference(dimple.samples.begin(), dimple.samples.end(), still.begin(), still.end(),
                       std::back_inserter(turning));
-  if (turning.size() < options.min_still_samples) {
+  if (turning.size() < kLeastStillSamples) {
     return refused(
         "accuracy test: %.0f measured poses while the pointer turned in the dimple, at "
         "least %.0f are needed",
-        static_cast<double>(turning.size()), static_cast<double>(options.min_still_samples));
+        static_cast<double>(turning.size()), static_cast<double>(kLeastStillSamples));
   }
   TurningPart part;
   part.start_s = track.tips[turning.front()].time_s;
@@ -262,7 +266,7 @@ Result<DistancePart> distance_part(const PointerTrack& track, const std::vector<
   for (const TipRest& rest : touches) {
     rests_m.push_back(tip_spread(picked(track.tips, rest.samples)).mean_m);
   }
-  const auto matched = board_touches(rests_m, board_points_m, options.max_stray_rests);
+  const auto matched = board_touches(rests_m, board_points_m, kMostStrayRests);
   if (!matched) {
     return Error{"accuracy test: " + matched.error().message};
   }
@@ -287,11 +291,11 @@ Result<DistancePart> distance_part(const PointerTrack& track, const std::vector<
       judged("mean error of the distances", std::abs(part.mean_error_m), options.distance_mean));
   part.judged.push_back(
       judged("largest error of a distance", part.max_error_m, options.distance_max));
-  if (part.fit_rmse_m > options.max_board_rmse_m) {
+  if (part.fit_rmse_m > kMostBoardRmse_m) {
     part.failure = with_numbers(
         "the touches lie %.1f mm RMS from the board's points, limit %.1f mm: another board, "
         "another order, or a wrong size",
-        part.fit_rmse_m * 1e3, options.max_board_rmse_m * 1e3);
+        part.fit_rmse_m * 1e3, kMostBoardRmse_m * 1e3);
   }
   return part;
 }

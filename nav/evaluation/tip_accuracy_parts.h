@@ -6,6 +6,10 @@
 
 namespace orthonav::nav {
 
+/// A pointer counts as held still for at least this long, and every part needs this many samples.
+inline constexpr double kLeastStill_s = 2.0;
+inline constexpr std::size_t kLeastStillSamples = 15;
+
 /// The data that every part of the accuracy test uses; index i is the same moment in all lists.
 struct PointerTrack {
   std::vector<TrackedPose> world_from_marker;
@@ -21,8 +25,7 @@ struct Dimple {
 };
 
 /// The longest stretch of `dimple` in which the pointer was held still, its ends left out.
-Result<std::vector<std::size_t>> still_stretch(const PointerTrack& track, const Dimple& dimple,
-                                               const AccuracyOptions& options);
+Result<std::vector<std::size_t>> still_stretch(const PointerTrack& track, const Dimple& dimple);
 
 [[nodiscard]] SinglePointPart single_point_part(const PointerTrack& track, Point<Marker> tip,
                                                 const std::vector<std::size_t>& still,

@@ -13,19 +13,12 @@ struct TipSample {
   Vec3 tip_m{};
 };
 
-struct TipRestOptions {
-  /// A resting tip stays within this distance of its own mean: four times a poor tracker's noise.
-  double radius_m = 0.005;
-  /// For at least this long, in at least this many samples.
-  double dwell_s = 0.5;
-  std::size_t min_samples = 4;
-  /// A longer time without a sample ends a rest.
-  double max_gap_s = 1.0;
-  /// This many samples in a row may lie elsewhere without ending a rest; they are left out.
-  std::size_t max_outliers = 2;
-  /// Approach and departure: left out at either end, but no more than a third of the rest each.
-  double settle_s = 0.15;
-};
+/// A resting tip stays within this distance of its own mean: four times a poor tracker's noise.
+inline constexpr double kRestRadius_m = 0.005;
+/// A longer time without a sample ends a rest.
+inline constexpr double kLongestGap_s = 1.0;
+/// Approach and departure: left out at either end, but no more than a third of the rest each.
+inline constexpr double kSettle_s = 0.15;
 
 struct TipRest {
   std::vector<std::size_t> samples;  ///< indices, ascending; not empty
@@ -35,7 +28,6 @@ struct TipRest {
 /// Every rest, in the order of time (dispersion threshold, as Salvucci and Goldberg 2000 find
 /// fixations of the eye). Consecutive rests at the same place (the tag was hidden, or the tip was
 /// put back) count as one. The samples' times must increase.
-[[nodiscard]] std::vector<TipRest> tip_rests(std::span<const TipSample> samples,
-                                             const TipRestOptions& options);
+[[nodiscard]] std::vector<TipRest> tip_rests(std::span<const TipSample> samples);
 
 }  // namespace orthonav::nav

@@ -6,6 +6,8 @@
 namespace orthonav::nav::published {
 namespace {
 
+/// SD of the velocity of a newly visible tag, px/s.
+constexpr double kFirstVelocity_px_per_s = 400.0;
 constexpr double kCoordinates = 8.0;
 // A tag that has moved farther than its own extent from the prediction is a new sighting.
 constexpr double kJumpOfExtent = 1.0;
@@ -31,7 +33,7 @@ void CornerFilter::start(const Corners& measured_px, Timestamp time) {
   velocity_px_ = {};
   position_variance_ = options_.noise_px * options_.noise_px;
   covariance_ = 0.0;
-  velocity_variance_ = options_.first_velocity_px_per_s * options_.first_velocity_px_per_s;
+  velocity_variance_ = kFirstVelocity_px_per_s * kFirstVelocity_px_per_s;
 }
 
 void CornerFilter::advance(double dt_s) {

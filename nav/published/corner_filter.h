@@ -16,8 +16,6 @@ struct CornerFilterOptions {
   double acceleration_px2_per_s3 = 2000.0;
   /// SD of a measured corner coordinate, px.
   double noise_px = 0.1;
-  /// SD of the velocity of a newly visible tag, px/s.
-  double first_velocity_px_per_s = 400.0;
 };
 
 /// A constant-velocity Kalman filter for each of the four corners of one tag in one camera

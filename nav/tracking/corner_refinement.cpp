@@ -11,6 +11,10 @@
 namespace orthonav::nav {
 namespace {
 
+/// How far across an edge its true position is searched for. Farther out lies the next cell: the
+/// cells of a small tag are three pixels wide.
+constexpr double kReach_px = 1.25;
+
 // About one ray per pixel of an edge, within these limits.
 constexpr int kFewestRays = 8;
 constexpr int kMostRays = 200;
@@ -146,8 +150,7 @@ Line edge(const GreyImage& image, Vec2 a, Vec2 b, double reach_px) {
 
 }  // namespace
 
-std::array<Vec2, 4> refined_corners(const GreyImage& image, const std::array<Vec2, 4>& corners_px,
-                                    const CornerRefinementOptions& options) {
+std::array<Vec2, 4> refined_corners(const GreyImage& image, const std::array<Vec2, 4>& corners_px) {
   if (image.width_px < 2 || image.height_px < 2) {
     return corners_px;
   }
@@ -158,7 +161,7 @@ std::array<Vec2, 4> refined_corners(const GreyImage& image, const std::array<Vec
     if (!((b - a).norm() >= kShortestEdgePx)) {
       return corners_px;
     }
-    edges[i] = edge(image, a, b, options.reach_px);
+    edges[i] = edge(image, a, b, kReach_px);
   }
   std::array<Vec2, 4> refined = corners_px;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -171,7 +174,7 @@ std::array<Vec2, 4> refined_corners(const GreyImage& image, const std::array<Vec
     const double along = cross(after.point - before.point, after.direction) / sine;
     const Vec2 meeting = before.point + along * before.direction;
     // A corner farther off than edges were searched for has slid along a misjudged edge.
-    if ((meeting - corners_px[i]).norm() <= 2 * options.reach_px) {
+    if ((meeting - corners_px[i]).norm() <= 2 * kReach_px) {
       refined[i] = meeting;
     }
   }

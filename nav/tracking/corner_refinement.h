@@ -7,12 +7,6 @@
 
 namespace orthonav::nav {
 
-struct CornerRefinementOptions {
-  /// How far across an edge its true position is searched for. Farther out lies the next cell: the
-  /// cells of a small tag are three pixels wide.
-  double reach_px = 1.25;
-};
-
 /// The corners of a dark or bright square, moved to where its four edges meet. Each edge is the
 /// line through the places of steepest grey on rays across it, weighted by the steepness; rays that
 /// disagree with the others lose their weight (Tukey's biweight). Grey is interpolated, which on
@@ -20,7 +14,6 @@ struct CornerRefinementOptions {
 /// without enough agreeing rays stays as it was. Corners in continuous pixels, in either sense of
 /// rotation.
 [[nodiscard]] std::array<Vec2, 4> refined_corners(const GreyImage& image,
-                                                  const std::array<Vec2, 4>& corners_px,
-                                                  const CornerRefinementOptions& options = {});
+                                                  const std::array<Vec2, 4>& corners_px);
 
 }  // namespace orthonav::nav

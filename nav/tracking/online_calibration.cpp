@@ -9,6 +9,21 @@
 namespace orthonav::nav {
 namespace {
 
+/// Errors are correlated from pair to pair: only this fraction of a pair's information is new.
+constexpr double kIndependentFraction = 0.05;
+/// Two pictures of one moment contradict each other this much in one of a million pairs. Tags
+/// of a wrong size are another fault, so for this the sizes' prior is that of all printers.
+constexpr double kChance = 1e-6;
+constexpr double kAnySizeSd = 0.05;
+/// A correction is applied if it turns the camera by more than this, a twentieth of a pixel, or
+/// changes a tag's size by more than this.
+constexpr double kMinRotation_rad = 0.00015;
+constexpr double kMinSize = 0.0004;
+/// A larger rotation means that the device is damaged or the calibration belongs to another one;
+/// tags whose size is off by more were printed at the wrong scale. Neither is corrected; a wrong
+/// tag size is reported instead.
+constexpr double kMaxRotation_rad = 0.01;
+constexpr double kMaxSize = 0.015;
 constexpr int kCameras = kCameraUnknowns;
 using CamerasMatrix = Eigen::Matrix<double, kCameras, kCameras>;
 using CamerasVector = Eigen::Matrix<double, kCameras, 1>;
@@ -46,7 +61,7 @@ void OnlineCalibration::add(std::size_t tool, const CalibrationEquations& pair) 
   if (!information.allFinite() || !right.allFinite()) {
     return;
   }
-  const double fraction = options_.independent_fraction;
+  const double fraction = kIndependentFraction;
   Eigen::Map<CamerasMatrix>(information_.data()) +=
       fraction * information.topLeftCorner<kCameras, kCameras>();
   Eigen::Map<CamerasVector>(right_.data()) += fraction * right.head<kCameras>();
@@ -76,7 +91,7 @@ void OnlineCalibration::restart() {
 bool OnlineCalibration::explains(std::span<const ToolEquations> pair) {
   double contradiction = 0.0;
   int tags = 0;
-  const Priors priors{precision(options_.max_rotation_rad), options_.any_size_sd};
+  const Priors priors{precision(kMaxRotation_rad), kAnySizeSd};
   const auto before = estimate(priors);
   // The pair is added for the moment; copying keeps the memory.
   const auto information = information_;
@@ -84,7 +99,7 @@ bool OnlineCalibration::explains(std::span<const ToolEquations> pair) {
   const std::int64_t pairs = pairs_;
   kept_ = tools_;
   for (const auto& [tool, equations] : pair) {
-    contradiction += options_.independent_fraction * equations.contradiction;
+    contradiction += kIndependentFraction * equations.contradiction;
     tags += equations.tags;
     add(tool, equations);
   }
@@ -96,7 +111,7 @@ bool OnlineCalibration::explains(std::span<const ToolEquations> pair) {
   if (tags == 0 || !before || !after) {
     return true;
   }
-  return by_chance(contradiction - (after->gain - before->gain), 6 * tags) >= options_.chance;
+  return by_chance(contradiction - (after->gain - before->gain), 6 * tags) >= kChance;
 }
 
 std::optional<OnlineCalibration::Estimate> OnlineCalibration::estimate() const {
@@ -141,15 +156,15 @@ bool OnlineCalibration::correct() {
   Camera cameras{};
   Eigen::Map<CamerasVector>(cameras.data()) = found->cameras;
   const Vec3 rotation_rad{cameras[0], cameras[1], cameras[2]};
-  bool matters = rotation_rad.norm() > options_.min_rotation_rad;
+  bool matters = rotation_rad.norm() > kMinRotation_rad;
   for (const Tool& tool : tools_) {
     const double change = size_change(tool, cameras);
-    matters = matters || std::abs(change) > options_.min_size;
-    if (!(std::abs(tool.applied + change) < options_.max_size)) {
+    matters = matters || std::abs(change) > kMinSize;
+    if (!(std::abs(tool.applied + change) < kMaxSize)) {
       return false;
     }
   }
-  if (!matters || !((applied_rad_ + rotation_rad).norm() < options_.max_rotation_rad)) {
+  if (!matters || !((applied_rad_ + rotation_rad).norm() < kMaxRotation_rad)) {
     return false;
   }
   apply(cameras);
@@ -216,7 +231,7 @@ std::optional<StereoAlignment> OnlineCalibration::alignment() const {
   out.rotation_rad = applied_rad_ + Vec3{x(0), x(1), x(2)};
   out.sd_rad = {sd(0), sd(1), sd(2)};
   out.pairs = pairs_;
-  out.within_bounds = out.rotation_rad.norm() <= options_.max_rotation_rad;
+  out.within_bounds = out.rotation_rad.norm() <= kMaxRotation_rad;
   out.applied = applied_;
   out.significant =
       applied_ || (pairs_ >= options_.min_pairs && found->gain > options_.significance);

@@ -38,26 +38,11 @@ struct ToolEquations {
 };
 
 struct CalibrationOptions {
-  /// Errors are correlated from pair to pair: only this fraction of a pair's information is new.
-  double independent_fraction = 0.05;
   /// Fewer pairs may agree by chance.
   std::int64_t min_pairs = 30;
   /// By how much the squared, normalised error must fall: with 3 rotations and 3 tools this happens
   /// by chance in 1 of 100,000 cases.
   double significance = 35.0;
-  /// Two pictures of one moment contradict each other this much in one of a million pairs. Tags
-  /// of a wrong size are another fault, so for this the sizes' prior is that of all printers.
-  double chance = 1e-6;
-  double any_size_sd = 0.05;
-  /// A correction is applied if it turns the camera by more than this, a twentieth of a pixel, or
-  /// changes a tag's size by more than this.
-  double min_rotation_rad = 0.00015;
-  double min_size = 0.0004;
-  /// A larger rotation means that the device is damaged or the calibration belongs to another one;
-  /// tags whose size is off by more were printed at the wrong scale. Neither is corrected; a wrong
-  /// tag size is reported instead.
-  double max_rotation_rad = 0.01;
-  double max_size = 0.015;
   /// Prior SDs; all rotations are equally likely.
   double focal_sd = 0.001;
   double baseline_sd = 0.0015;

@@ -14,6 +14,12 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
+constexpr int kFitMaxIterations = 10;
+/// A smaller correction ends the search: a small part of the pose's noise.
+constexpr double kFitLastStep_px = 0.02;
+/// A view is not used if less of the tag than this agrees with its template.
+constexpr double kMinKeptFraction = 0.45;
+constexpr double kMinContrast_grey = 12.0;
 constexpr double kLargestStepCells = 0.5;
 constexpr double kNoiseFraction = 0.3;  ///< weight of the newest pair in the remembered noise
 constexpr int kNewLightIterations = 5;
@@ -122,16 +128,15 @@ CameraFromTag PhotometricSolver::camera_from_tag(const TagView& view,
 }
 
 bool PhotometricSolver::gather(const StereoFrame& frame, const Transform<Rig, Marker>& pose,
-                               double doubt_m, const PhotometricOptions& options, TagView& view,
-                               ViewEquations& e) {
+                               double doubt_m, TagView& view, ViewEquations& e) {
   const BlurredTag& tag = *view.tag;
   model_.linearize(view.right ? frame.right : frame.left, camera_of(view),
                    view.right ? *right_rays_ : *left_rays_, tag, camera_from_tag(view, pose),
                    view.light, doubt_m / tag.cell_m(), view.cell_weights, e);
   e.scatter = scatter(e, view.light, model_.scores());
   view.kept_fraction = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
-  return e.pixels >= kFewestPixels && view.kept_fraction >= options.min_kept_fraction &&
-         view.light.contrast >= options.min_contrast_grey;
+  return e.pixels >= kFewestPixels && view.kept_fraction >= kMinKeptFraction &&
+         view.light.contrast >= kMinContrast_grey;
 }
 
 double PhotometricSolver::pixels_a_metre(const TagView& view,
@@ -160,7 +165,6 @@ void PhotometricSolver::update_light(const std::array<double, 6>& step,
 /// The equations of the pose alone: those of every view, its light eliminated.
 std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame& frame,
                                                                double doubt_m,
-                                                               const PhotometricOptions& options,
                                                                std::span<TagView> views,
                                                                PhotometricFit& fit) {
   MotionEquations equations;
@@ -172,7 +176,7 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
     if (!view.used) {
       continue;
     }
-    view.used = gather(frame, fit.rig_from_marker, doubt_m, options, view, equations_[i]);
+    view.used = gather(frame, fit.rig_from_marker, doubt_m, view, equations_[i]);
     if (!view.used) {
       continue;
     }
@@ -199,8 +203,7 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
 
 std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
                                                        const Transform<Rig, Marker>& start,
-                                                       double doubt_m, std::span<TagView> views,
-                                                       const PhotometricOptions& options) {
+                                                       double doubt_m, std::span<TagView> views) {
   PhotometricFit fit;
   fit.rig_from_marker = start;
   equations_.resize(views.size());
@@ -208,8 +211,8 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
   for (TagView& view : views) {
     view.cell_weights.clear();
   }
-  while (fit.iterations < options.max_iterations) {
-    const auto taken = step(frame, doubt, options, views, fit);
+  while (fit.iterations < kFitMaxIterations) {
+    const auto taken = step(frame, doubt, views, fit);
     if (!taken) {
       return std::nullopt;
     }
@@ -220,7 +223,7 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
         std::max(std::min(kLeftOfStep * taken->size_m, doubt), kSettledPx / taken->pixels_a_metre);
     const bool all_known = learn_new_light(views);
     const int least = all_known ? 2 : kNewLightIterations;
-    if (taken->size_m * taken->pixels_a_metre < options.last_step_px && fit.iterations >= least) {
+    if (taken->size_m * taken->pixels_a_metre < kFitLastStep_px && fit.iterations >= least) {
       break;
     }
   }

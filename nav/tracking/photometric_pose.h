@@ -27,15 +27,6 @@ struct TagView {
   bool used = true;
 };
 
-struct PhotometricOptions {
-  int max_iterations = 10;
-  /// A smaller correction ends the search: a small part of the pose's noise.
-  double last_step_px = 0.02;
-  /// A view is not used if less of the tag than this agrees with its template.
-  double min_kept_fraction = 0.45;
-  double min_contrast_grey = 12.0;
-};
-
 struct PhotometricFit {
   Transform<Rig, Marker> rig_from_marker;
   /// In the frame of the marker: (translation m, rotation vector rad).
@@ -57,8 +48,7 @@ class PhotometricSolver {
   /// little of the tags is visible.
   [[nodiscard]] std::optional<PhotometricFit> solve(const StereoFrame& frame,
                                                     const Transform<Rig, Marker>& start,
-                                                    double doubt_m, std::span<TagView> views,
-                                                    const PhotometricOptions& options = {});
+                                                    double doubt_m, std::span<TagView> views);
   /// The calibration equations of the last fit; nothing if only one camera was used.
   [[nodiscard]] std::optional<CalibrationEquations> calibration_equations(
       const PhotometricFit& fit, std::span<const TagView> views) const;
@@ -91,11 +81,10 @@ class PhotometricSolver {
     double pixels_a_metre = 0.0;     ///< in the nearest view
     double cell_m = 1.0;             ///< of the smallest tag
   };
-  std::optional<Step> step(const StereoFrame& frame, double doubt_m,
-                           const PhotometricOptions& options, std::span<TagView> views,
+  std::optional<Step> step(const StereoFrame& frame, double doubt_m, std::span<TagView> views,
                            PhotometricFit& fit);
   bool gather(const StereoFrame& frame, const Transform<Rig, Marker>& pose, double doubt_m,
-              const PhotometricOptions& options, TagView& view, ViewEquations& e);
+              TagView& view, ViewEquations& e);
   void update_light(const std::array<double, 6>& step, const Transform<Rig, Marker>& pose,
                     std::span<TagView> views) const;
   bool learn_new_light(std::span<TagView> views) const;

@@ -20,6 +20,10 @@ namespace {
 using Poses = std::span<const Transform<World, Marker>>;
 using PivotConsensus = Consensus<PivotFit>;
 
+/// Limits beyond which a result gets a note.
+constexpr double kPivotNoteSpread_rad = 0.25;
+constexpr double kPivotNoteTipSigma_m = 0.0003;
+constexpr double kPivotNoteInlierFraction = 0.9;
 constexpr std::size_t kSampleSize = 3;
 // Half of the tips that scatter normally with SD s in each direction lie within 1.538 s.
 constexpr double kMedianOfMaxwell = 1.538;
@@ -119,23 +123,22 @@ Status check_result(const PivotCalibration& found, const PivotOptions& options) 
   return {};
 }
 
-Judgement judged(const PivotCalibration& found, const PivotOptions& options) {
+Judgement judged(const PivotCalibration& found) {
   Judgement judgement;
   const double fraction = static_cast<double>(found.inliers) / static_cast<double>(found.poses);
-  if (found.spread_rad < options.note_spread_rad) {
+  if (found.spread_rad < kPivotNoteSpread_rad) {
     judgement.add(Verdict::kNote, with_numbers("turned by %.1f° RMS only, better %.1f°",
                                                found.spread_rad * kDegreesPerRadian,
-                                               options.note_spread_rad * kDegreesPerRadian));
+                                               kPivotNoteSpread_rad * kDegreesPerRadian));
   }
-  if (found.tip_sigma_m > options.note_tip_sigma_m) {
+  if (found.tip_sigma_m > kPivotNoteTipSigma_m) {
     judgement.add(Verdict::kNote,
                   with_numbers("the tip is known to %.2f mm only, better %.2f mm",
-                               found.tip_sigma_m * 1e3, options.note_tip_sigma_m * 1e3));
+                               found.tip_sigma_m * 1e3, kPivotNoteTipSigma_m * 1e3));
   }
-  if (fraction < options.note_inlier_fraction) {
-    judgement.add(Verdict::kNote,
-                  with_numbers("%.0f %% of the poses agree, better %.0f %%", 100.0 * fraction,
-                               100.0 * options.note_inlier_fraction));
+  if (fraction < kPivotNoteInlierFraction) {
+    judgement.add(Verdict::kNote, with_numbers("%.0f %% of the poses agree, better %.0f %%",
+                                               100.0 * fraction, 100.0 * kPivotNoteInlierFraction));
   }
   judgement.conclude();
   return judgement;
@@ -149,16 +152,19 @@ std::vector<std::string> PivotOptions::check() const {
     problems.push_back("min_poses " + std::to_string(min_poses) + ", must be at least " +
                        std::to_string(kSampleSize));
   }
-  must_be_positive({{"min_spread_rad", min_spread_rad},
-                    {"max_rmse_m", max_rmse_m},
-                    {"inlier_m", inlier_m},
-                    {"max_tip_sigma_m", max_tip_sigma_m},
-                    {"note_spread_rad", note_spread_rad},
-                    {"note_tip_sigma_m", note_tip_sigma_m}},
-                   problems);
-  must_be_fractions({{"min_inlier_fraction", min_inlier_fraction},
-                     {"note_inlier_fraction", note_inlier_fraction}},
-                    problems);
+  must_be_positive(
+      {
+          {"min_spread_rad", min_spread_rad},
+          {"max_rmse_m", max_rmse_m},
+          {"inlier_m", inlier_m},
+          {"max_tip_sigma_m", max_tip_sigma_m},
+      },
+      problems);
+  must_be_fractions(
+      {
+          {"min_inlier_fraction", min_inlier_fraction},
+      },
+      problems);
   if (rounds < 1) {
     problems.push_back("rounds " + std::to_string(rounds) + ", must be at least 1");
   }
@@ -194,7 +200,7 @@ Result<PivotCalibration> pivot_calibration(Poses poses, const PivotOptions& opti
   if (Status status = check_result(found, options); !status) {
     return status.error();
   }
-  found.judgement = judged(found, options);
+  found.judgement = judged(found);
   return found;
 }
 

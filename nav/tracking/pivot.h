@@ -25,10 +25,6 @@ struct PivotOptions {
   /// With fewer inliers there is no single pivot: the tip moved, or the tool was not pivoted.
   double min_inlier_fraction = 0.6;
   double max_tip_sigma_m = 0.001;
-  /// Limits beyond which a result gets a note.
-  double note_spread_rad = 0.25;
-  double note_tip_sigma_m = 0.0003;
-  double note_inlier_fraction = 0.9;
   int rounds = 500;  ///< random samples tried
   std::uint64_t seed = 1;
 

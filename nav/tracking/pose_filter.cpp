@@ -14,6 +14,23 @@ using Matrix12 = Eigen::Matrix<double, 12, 12, Eigen::RowMajor>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 
+/// Densities of the white acceleration of a tool at rest (m²/s³, rad²/s³): so small that the
+/// pairs of a whole second are averaged.
+constexpr double kRest_m = 2e-8;
+constexpr double kRest_rad = 2e-7;
+/// Those of a tool in a hand: 5 m/s² and 60 rad/s² held for 0.05 s.
+constexpr double kHand_m = 1.25;
+constexpr double kHand_rad = 180.0;
+/// A pair whose innovation exceeds this (squared, normalised, 6 degrees of freedom: 1 in 2,000 at
+/// rest) shows that the tool is in a hand.
+constexpr double kRestLimit = 24.0;
+/// The part of a measurement's variance that repeats in the next one: errors outside the model
+/// must not be averaged away.
+constexpr double kLastingFraction = 0.05;
+/// SD of an unknown velocity.
+constexpr double kFirstSpeed_m = 0.5;
+constexpr double kFirstSpeed_rad = 3.0;
+
 Eigen::Map<const Matrix12> as_eigen(const std::array<double, 144>& a) {
   return Eigen::Map<const Matrix12>(a.data());
 }
@@ -78,7 +95,7 @@ PoseFilter::Covariance PoseFilter::grown(double dt, double density_m, double den
 Tracked<PoseFilter::Pose> PoseFilter::predicted(Timestamp time) const {
   const double dt = seconds(time - time_);
   // A tool at rest may be picked up at any moment.
-  const Covariance p = grown(dt, options_.hand_m, options_.hand_rad);
+  const Covariance p = grown(dt, kHand_m, kHand_rad);
   return {moved(pose_, dt * velocity_m_, dt * velocity_rad_), time, PoseStatus::kPredicted,
           symmetrized(Matrix6(as_eigen(p).topLeftCorner<6, 6>()))};
 }
@@ -92,7 +109,7 @@ void PoseFilter::start(const Tracked<Pose>& measured) {
   Matrix12 p = Matrix12::Zero();
   p.topLeftCorner<6, 6>() = as_eigen(measured.covariance);
   for (int i = 6; i < 12; ++i) {
-    p(i, i) = std::pow(i < 9 ? options_.first_speed_m : options_.first_speed_rad, 2);
+    p(i, i) = std::pow(i < 9 ? kFirstSpeed_m : kFirstSpeed_rad, 2);
   }
   Eigen::Map<Matrix12>(covariance_.data()) = p;
   lasting_ = measured.covariance;
@@ -105,10 +122,10 @@ void PoseFilter::update(const Tracked<Pose>& measured, double exposure_s) {
   }
   const Pose ahead = moved(pose_, dt * velocity_m_, dt * velocity_rad_);
   Vector6 y = difference(measured.value, ahead);
-  Covariance grown_p = grown(dt, options_.rest_m, options_.rest_rad);
-  const bool at_rest = innovation(y, as_eigen(grown_p), measured.covariance) < options_.rest_limit;
+  Covariance grown_p = grown(dt, kRest_m, kRest_rad);
+  const bool at_rest = innovation(y, as_eigen(grown_p), measured.covariance) < kRestLimit;
   if (!at_rest) {
-    grown_p = grown(dt, options_.hand_m, options_.hand_rad);
+    grown_p = grown(dt, kHand_m, kHand_rad);
   }
   const Matrix12 p = as_eigen(grown_p);
   const double fraction = of_exposure(exposure_s, dt);
@@ -133,7 +150,7 @@ Tracked<PoseFilter::Pose> PoseFilter::state() const {
   // The filter treats errors as independent from pair to pair; this fraction of them is not.
   const Matrix6 p = as_eigen(covariance_).topLeftCorner<6, 6>();
   const Matrix6 r = as_eigen(lasting_);
-  const double lasting = options_.lasting_fraction;
+  const double lasting = kLastingFraction;
   const double averaged = std::clamp(p.trace() / r.trace(), 0.0, 1.0);
   return {pose_, time_, PoseStatus::kMeasured,
           symmetrized(Matrix6(p + lasting * (1.0 - averaged) * r))};

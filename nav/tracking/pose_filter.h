@@ -7,34 +7,12 @@
 
 namespace orthonav::nav {
 
-struct PoseFilterOptions {
-  /// Densities of the white acceleration of a tool at rest (m²/s³, rad²/s³): so small that the
-  /// pairs of a whole second are averaged.
-  double rest_m = 2e-8;
-  double rest_rad = 2e-7;
-  /// Those of a tool in a hand: 5 m/s² and 60 rad/s² held for 0.05 s.
-  double hand_m = 1.25;
-  double hand_rad = 180.0;
-  /// A pair whose innovation exceeds this (squared, normalised, 6 degrees of freedom: 1 in 2,000 at
-  /// rest) shows that the tool is in a hand.
-  double rest_limit = 24.0;
-  /// The part of a measurement's variance that repeats in the next one: errors outside the model
-  /// must not be averaged away.
-  double lasting_fraction = 0.05;
-  /// SD of an unknown velocity.
-  double first_speed_m = 0.5;
-  double first_speed_rad = 3.0;
-};
-
 /// A Kalman filter on SE(3) with constant velocity (Bar-Shalom, Li & Kirubarajan 2001, 6.2.2; the
 /// error is a translation and a left-multiplied rotation vector, Sola et al. 2018), in World. It
 /// knows two motions, rest and hand, and assumes rest for as long as the measurements allow.
 class PoseFilter {
  public:
   using Pose = Transform<World, Marker>;
-
-  PoseFilter() = default;
-  explicit PoseFilter(const PoseFilterOptions& options) : options_(options) {}
 
   [[nodiscard]] bool alive() const { return alive_; }
   void stop() { alive_ = false; }
@@ -61,7 +39,6 @@ class PoseFilter {
   void start(const Tracked<Pose>& measured);
   [[nodiscard]] Covariance grown(double dt_s, double density_m, double density_rad) const;
 
-  PoseFilterOptions options_;
   bool alive_ = false;
   Timestamp time_{};
   Pose pose_;

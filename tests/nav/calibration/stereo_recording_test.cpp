@@ -11,8 +11,6 @@ namespace orthonav::nav::stereo_recording_test {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 constexpr double kNoisePx = 0.05;
 
@@ -118,9 +116,8 @@ TEST(StereoRecording, FailsWhereTheBoardIsNotAsItSays) {
 TEST(StereoRecording, RefusesTooLittleAndWrongSizes) {
   const test::TagBodyScene cameras = scene({});
   const auto pairs = seen(cameras, 40, 4);
-  const auto refusal = [&](std::span<const PairSightings> given,
-                           const StereoRecordingOptions& options = {}) {
-    const auto found = calibrate_stereo(cameras.calibration, board(), given, options);
+  const auto refusal = [&](std::span<const PairSightings> given) {
+    const auto found = calibrate_stereo(cameras.calibration, board(), given);
     return found ? std::string() : found.error().message;
   };
   EXPECT_THAT(refusal(std::span(pairs).first(12)), HasSubstr("in 12 pairs, at least 20"));
@@ -134,13 +131,6 @@ TEST(StereoRecording, RefusesTooLittleAndWrongSizes) {
     }
   }
   EXPECT_THAT(refusal(scaled), HasSubstr("printed at 100 %"));
-  StereoRecordingOptions bad;
-  bad.min_pairs = 5;
-  bad.max_pairs = 4;
-  bad.significance = 0.0;
-  EXPECT_THAT(bad.check(), SizeIs(3));
-  EXPECT_THAT(refusal(pairs, bad), HasSubstr("min_pairs 5"));
-  EXPECT_THAT(StereoRecordingOptions{}.check(), IsEmpty());
 }
 
 }  // namespace

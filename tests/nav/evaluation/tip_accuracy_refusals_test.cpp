@@ -67,8 +67,8 @@ TEST(AccuracyTest, RefusesBadInput) {
   options.tip_bias = {0.002, 0.001};
   EXPECT_THAT(refusal(tested({}, options)), HasSubstr("limits of tip_bias 2 and 1 mm"));
   options = {};
-  options.rests.dwell_s = std::nan("");
-  options.max_slip_m = -1;
+  options.turning_p95.pass_m = std::nan("");
+  options.distance_max.note_m = 1.0;
   EXPECT_THAT(options.check(), SizeIs(2));
   EXPECT_THAT(AccuracyOptions().check(), IsEmpty());
 }

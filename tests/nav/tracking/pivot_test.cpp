@@ -275,9 +275,8 @@ TEST(PivotCalibration, ChecksItsOptions) {
   bad.inlier_m = std::numeric_limits<double>::quiet_NaN();
   bad.max_tip_sigma_m = std::numeric_limits<double>::infinity();
   bad.min_inlier_fraction = 1.1;
-  bad.note_inlier_fraction = 0.0;
   bad.rounds = 0;
-  EXPECT_THAT(bad.check(), ::testing::SizeIs(8));
+  EXPECT_THAT(bad.check(), ::testing::SizeIs(7));
   Random random(9);
   const auto refused = pivot_calibration(pivoting(0.4, 0.2, 0.0, random), bad);
   ASSERT_FALSE(refused.ok());
