@@ -7,6 +7,12 @@
 #include "base/joined.h"
 
 namespace orthonav::voice {
+namespace {
+
+/// Said before each command.
+constexpr const char* kWakeWord = "ortho";
+
+}  // namespace
 
 std::vector<std::string> SpotterOptions::check() const {
   std::vector<std::string> problems;
@@ -16,28 +22,16 @@ std::vector<std::string> SpotterOptions::check() const {
   if (!std::isfinite(least_log_odds)) {
     problems.push_back("voice: log odds must be finite");
   }
-  if (segments.margin_ms < 400) {
-    problems.push_back("voice: margin_ms must be at least 400");
-  }
-  if (segments.max_ms < 500 || segments.max_ms > 3000) {
-    problems.push_back("voice: max_ms must lie in [500, 3000]");
-  }
-  if (segments.end_ms < 150 || segments.end_in_noise_ms < segments.end_ms ||
-      segments.end_in_noise_ms > 1000) {
-    problems.push_back("voice: end_ms and end_in_noise_ms must lie in [150, 1000], in this order");
-  }
   return problems;
 }
 
-CommandSpotter::CommandSpotter(const SpotterOptions& options)
-    : options_(options), segmenter_(options.segments) {}
+CommandSpotter::CommandSpotter(const SpotterOptions& options) : options_(options) {}
 
 Result<std::unique_ptr<CommandSpotter>> CommandSpotter::create(const SpotterOptions& options) {
   if (const auto problems = options.check(); !problems.empty()) {
     return Error{joined(problems)};
   }
-  auto recognizer =
-      PhraseRecognizer::create(options.commands, options.wake_word, options.acoustic_model);
+  auto recognizer = PhraseRecognizer::create(options.commands, kWakeWord, options.acoustic_model);
   if (!recognizer) {
     return recognizer.error();
   }
@@ -60,8 +54,8 @@ void CommandSpotter::push(std::span<const std::int16_t> samples,
 }
 
 std::optional<SpokenCommand> CommandSpotter::judge(const SpeechSegment& segment) {
-  const auto evidence = evidence_of(
-      recognizer_->recognize(cleaned(segment.samples, kBackgroundSamples)), options_.wake_word);
+  const auto evidence =
+      evidence_of(recognizer_->recognize(cleaned(segment.samples, kBackgroundSamples)), kWakeWord);
   if (!evidence ||
       std::ranges::find(options_.commands, evidence->command) == options_.commands.end()) {
     return std::nullopt;

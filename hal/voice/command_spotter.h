@@ -18,11 +18,9 @@ namespace orthonav::voice {
 
 struct SpotterOptions {
   std::vector<std::string> commands;  ///< lower case: "save points"
-  std::string wake_word = "ortho";    ///< said before each command
   /// Natural logarithm of the odds from which on a command counts: twelve to one. At three to one
   /// twice as many other words pass, and 4 % more commands are heard (docs/lab/voice.md).
   double least_log_odds = 2.5;
-  SegmentOptions segments;
   std::filesystem::path acoustic_model = default_acoustic_model();
 
   /// Every problem at once; empty when all is well.

@@ -13,6 +13,11 @@ namespace orthonav::voice {
 
 namespace {
 
+constexpr double kOverSubtraction = 1.5;  ///< times the background's power
+constexpr double kLeastGain = 0.1;        ///< of any frequency, to avoid ringing in gaps
+constexpr double kSpeechRms = 3000.0;     ///< of the loudest frames
+constexpr double kMasking_db =
+    -30.0;  ///< level of the white noise that is added, relative to the speech
 constexpr std::size_t kWindow = 512;  // 32 ms
 constexpr std::size_t kHop = kWindow / 2;
 constexpr std::size_t kBins = kWindow / 2 + 1;
@@ -79,18 +84,17 @@ std::vector<float> mean_power(Stft& stft, std::span<const float> samples) {
 }
 
 /// Decision-directed Wiener gain (Ephraim and Malah 1984).
-void filter(Stft& stft, std::vector<float>& samples, const std::vector<float>& background,
-            const CleanerOptions& options) {
+void filter(Stft& stft, std::vector<float>& samples, const std::vector<float>& background) {
   constexpr float kMemory = 0.9F;
   std::vector<float> out(samples.size() + kWindow, 0.0F);
   samples.resize(samples.size() + kWindow, 0.0F);
   std::vector<float> before(kBins, 0.0F);
   Spectrum spectrum;
-  const auto least = static_cast<float>(options.least_gain);
+  const auto least = static_cast<float>(kLeastGain);
   for (std::size_t at = 0; at + kWindow <= samples.size(); at += kHop) {
     stft.forward(samples.data() + at, spectrum);
     for (std::size_t b = 0; b < kBins; ++b) {
-      const float noise = static_cast<float>(options.over_subtraction) * background[b] + 1e-3F;
+      const float noise = static_cast<float>(kOverSubtraction) * background[b] + 1e-3F;
       const float now = std::max(std::norm(spectrum[b]) / noise - 1.0F, 0.0F);
       const float prior = kMemory * before[b] + (1.0F - kMemory) * now;
       const float gain = std::max(prior / (1.0F + prior), least);
@@ -132,15 +136,15 @@ double loudness(std::span<const float> samples) {
 }  // namespace
 
 std::vector<std::int16_t> cleaned(std::span<const std::int16_t> samples,
-                                  std::size_t background_samples, const CleanerOptions& options) {
+                                  std::size_t background_samples) {
   std::vector<float> sound(samples.begin(), samples.end());
   Stft stft;
   const auto background =
       mean_power(stft, std::span(sound).first(std::min(background_samples, sound.size())));
-  filter(stft, sound, background, options);
+  filter(stft, sound, background);
   const double loud = loudness(sound);
-  const double gain = loud > 0.0 ? options.speech_rms / loud : 0.0;
-  const double mask = options.speech_rms * std::pow(10.0, options.masking_db / 20.0);
+  const double gain = loud > 0.0 ? kSpeechRms / loud : 0.0;
+  const double mask = kSpeechRms * std::pow(10.0, kMasking_db / 20.0);
   Random random(1);
   std::vector<std::int16_t> out;
   if (sound.size() <= background_samples) {

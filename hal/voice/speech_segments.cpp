@@ -9,6 +9,22 @@ namespace orthonav::voice {
 
 namespace {
 
+// When sound counts as speech. Levels are those of 50 ms of sound between 200 and 3500 Hz.
+/// A segment is the sound above a threshold that lies at least this far above the background: the
+/// lowest threshold at which, for a while before and after it, no other sound exceeds it.
+constexpr double kLeastAboveBackground_db = 6.0;
+constexpr double kMostAboveBackground_db = 14.0;
+constexpr double kAboveThreshold_db = 6.0;  ///< the least level of its loudest part
+constexpr double kBelowLoudest_db =
+    30.0;  ///< the highest threshold, since a word's last sound fades away
+constexpr int kLeast_ms = 200;
+/// Quiet of this length ends it. In noise the last sounds of a word can't be distinguished from
+/// the background, so the word seems to end early.
+constexpr int kEnd_ms = 240;
+constexpr int kEndInNoise_ms = 300;
+constexpr int kQuietBefore_ms = 500;  ///< pause before a command; a word within a sentence has none
+constexpr int kMargin_ms = 400;       ///< kept before the loud part
+constexpr int kMax_ms = 1900;         ///< longer speech is not a command
 constexpr int kFrameMs = 10;
 constexpr std::size_t kFrameSamples = kSpeechRateHz / 1000 * kFrameMs;
 constexpr double kSilenceDb = -80.0;
@@ -102,9 +118,8 @@ double LevelHistogram::level_above(double fraction) const {
   return kSilenceDb + static_cast<double>(bin) + 0.5;
 }
 
-SpeechSegmenter::SpeechSegmenter(const SegmentOptions& options)
-    : options_(options),
-      low_pass_(Biquad::low_pass(3500.0)),
+SpeechSegmenter::SpeechSegmenter()
+    : low_pass_(Biquad::low_pass(3500.0)),
       high_pass_(Biquad::high_pass(200.0)),
       levels_db_(static_cast<std::size_t>(kHistoryFrames)) {}
 
@@ -144,9 +159,8 @@ double SpeechSegmenter::background_db() const {
 }
 
 int SpeechSegmenter::quiet_frames(double above_background_db) const {
-  const double end_ms =
-      std::lerp(static_cast<double>(options_.end_ms), static_cast<double>(options_.end_in_noise_ms),
-                noisiness(above_background_db));
+  const double end_ms = std::lerp(static_cast<double>(kEnd_ms), static_cast<double>(kEndInNoise_ms),
+                                  noisiness(above_background_db));
   return static_cast<int>(std::lround(end_ms / kFrameMs));
 }
 
@@ -154,7 +168,7 @@ int SpeechSegmenter::quiet_frames(double above_background_db) const {
 /// it. Nothing if it is too long.
 std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::stretch_above(double threshold_db) const {
   const std::int64_t oldest = std::max<std::int64_t>(0, frames_ - kHistoryFrames);
-  const std::int64_t pause = options_.quiet_before_ms / kFrameMs;
+  const std::int64_t pause = kQuietBefore_ms / kFrameMs;
   std::int64_t at = frames_ - 1;
   while (at >= oldest && level_db(at) <= threshold_db) {
     --at;
@@ -166,7 +180,7 @@ std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::stretch_above(double th
     }
     stretch.loudest_db = std::max(stretch.loudest_db, level_db(at));
     stretch.begin = at;
-    if ((stretch.end - stretch.begin) * kFrameMs > options_.max_ms) {
+    if ((stretch.end - stretch.begin) * kFrameMs > kMax_ms) {
       return std::nullopt;
     }
   }
@@ -182,33 +196,31 @@ bool SpeechSegmenter::follows_speech(const Stretch& stretch) const {
   if (stretch.begin < over_.end) {
     return true;
   }
-  return (stretch.begin - over_.end) * kFrameMs < options_.quiet_before_ms &&
+  return (stretch.begin - over_.end) * kFrameMs < kQuietBefore_ms &&
          over_.loudest_db > stretch.loudest_db - kBesideDb;
 }
 
 std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::find(double background_db) const {
   double loudest_db = kSilenceDb;
-  const std::int64_t recent =
-      (options_.max_ms + options_.end_in_noise_ms) / kFrameMs + kRecentFrames;
+  const std::int64_t recent = (kMax_ms + kEndInNoise_ms) / kFrameMs + kRecentFrames;
   for (std::int64_t at = std::max<std::int64_t>(0, frames_ - recent); at < frames_; ++at) {
     loudest_db = std::max(loudest_db, level_db(at));
   }
-  const double least_db = std::max(background_db + options_.least_above_background_db,
-                                   loudest_db - options_.below_loudest_db);
-  const double most_db =
-      std::max(least_db, std::min(background_db + options_.most_above_background_db,
-                                  loudest_db - options_.above_threshold_db));
+  const double least_db =
+      std::max(background_db + kLeastAboveBackground_db, loudest_db - kBelowLoudest_db);
+  const double most_db = std::max(
+      least_db, std::min(background_db + kMostAboveBackground_db, loudest_db - kAboveThreshold_db));
   int quiet = quiet_frames(loudest_db - background_db);
   for (double threshold_db = least_db; threshold_db <= most_db; threshold_db += kThresholdStepDb) {
     auto stretch = stretch_above(threshold_db);
-    if (!stretch || stretch->loudest_db < threshold_db + options_.above_threshold_db) {
+    if (!stretch || stretch->loudest_db < threshold_db + kAboveThreshold_db) {
       continue;
     }
     stretch->quiet_frames = std::exchange(
         quiet,
         quiet + (threshold_db < loudest_db - kFaintDb ? kLittleMoreQuietFrames : kMoreQuietFrames));
     const bool told = frames_ - stretch->end >= stretch->quiet_frames - kForewarningFrames;
-    const bool long_enough = (stretch->end - stretch->begin) * kFrameMs >= options_.least_ms;
+    const bool long_enough = (stretch->end - stretch->begin) * kFrameMs >= kLeast_ms;
     if (!told || !long_enough || follows_speech(*stretch)) {
       continue;
     }
@@ -249,19 +261,17 @@ SpeechSegment SpeechSegmenter::segment_of(const Stretch& stretch, bool ended) co
   if (ended) {
     return segment;
   }
-  const std::int64_t length =
-      std::min(samples_of_frames(frames_ - stretch.begin) +
-                   static_cast<std::int64_t>(samples_of(options_.margin_ms)),
-               static_cast<std::int64_t>(kept_.size()));
+  const std::int64_t length = std::min(samples_of_frames(frames_ - stretch.begin) +
+                                           static_cast<std::int64_t>(samples_of(kMargin_ms)),
+                                       static_cast<std::int64_t>(kept_.size()));
   segment.samples.assign(kept_.end() - length, kept_.end());
   return segment;
 }
 
 /// Keeps what the longest segment needs, with its margin and the quiet that ends it.
 void SpeechSegmenter::forget() {
-  const std::size_t keep =
-      samples_of(options_.margin_ms + options_.max_ms + options_.end_in_noise_ms) +
-      static_cast<std::size_t>(kRecentFrames) * kFrameSamples;
+  const std::size_t keep = samples_of(kMargin_ms + kMax_ms + kEndInNoise_ms) +
+                           static_cast<std::size_t>(kRecentFrames) * kFrameSamples;
   if (kept_.size() > 2 * keep) {
     kept_.erase(kept_.begin(), kept_.end() - static_cast<std::ptrdiff_t>(keep));
   }

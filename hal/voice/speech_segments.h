@@ -10,24 +10,6 @@ namespace orthonav::voice {
 /// Sampling rate for speech recognition, one channel: that of the acoustic model's training.
 inline constexpr int kSpeechRateHz = 16000;
 
-/// When sound counts as speech. Levels are those of 50 ms of sound between 200 and 3500 Hz.
-struct SegmentOptions {
-  /// A segment is the sound above a threshold that lies at least this far above the background: the
-  /// lowest threshold at which, for a while before and after it, no other sound exceeds it.
-  double least_above_background_db = 6.0;
-  double most_above_background_db = 14.0;
-  double above_threshold_db = 6.0;  ///< the least level of its loudest part
-  double below_loudest_db = 30.0;   ///< the highest threshold, since a word's last sound fades away
-  int least_ms = 200;
-  /// Quiet of this length ends it. In noise the last sounds of a word can't be distinguished from
-  /// the background, so the word seems to end early.
-  int end_ms = 240;
-  int end_in_noise_ms = 300;
-  int quiet_before_ms = 500;  ///< pause before a command; a word within a sentence has none
-  int margin_ms = 400;        ///< kept before the loud part
-  int max_ms = 1900;          ///< longer speech is not a command
-};
-
 /// A stretch of sound between two silences.
 struct SpeechSegment {
   std::vector<std::int16_t> samples;  ///< including the margins
@@ -74,7 +56,7 @@ class LevelHistogram {
 /// (the median of the last seconds), which allows for other people's voices. Bounded memory.
 class SpeechSegmenter {
  public:
-  explicit SpeechSegmenter(const SegmentOptions& options = {});
+  SpeechSegmenter();
   /// Takes samples at `kSpeechRateHz` and appends the segments that ended in them.
   void push(std::span<const std::int16_t> samples, std::vector<SpeechSegment>& segments);
 
@@ -88,7 +70,6 @@ class SpeechSegmenter {
     double above_background_db = 0.0;  ///< of the loudest
     int quiet_frames = 0;              ///< after which it is over
   };
-  SegmentOptions options_;
   std::vector<std::int16_t> kept_;  ///< the newest sound
   std::size_t in_frame_ = 0;        ///< samples of the frame that is still incomplete
   double frame_energy_ = 0.0;

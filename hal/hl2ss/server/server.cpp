@@ -17,6 +17,8 @@
 namespace orthonav::hl2ss {
 namespace {
 
+/// UTC minus the headset's stamps, in ticks of 100 ns.
+constexpr std::int64_t kUtcOffsetTicks = 133'000'000'000'000'000;
 constexpr auto kIdle = std::chrono::milliseconds(1);
 /// A client that is not done with a pair by then has missed it.
 constexpr auto kPatience = std::chrono::seconds(10);
@@ -31,7 +33,7 @@ class RunningServer final : public Server {
                Random(options.seed).fork("left"), options.slices}),
         right_({headset_.right_calibration(options.unmapped_edge_px), options.faults,
                 Random(options.seed).fork("right"), options.slices}),
-        sides_(options.utc_offset_ticks),
+        sides_(kUtcOffsetTicks),
         scene_(options.faults, Random(options.seed).fork("scene")),
         sender_(options.faults, options.seed, left_, right_, sides_),
         depth_(headset_.depth_calibration(DepthStream::kAhat),

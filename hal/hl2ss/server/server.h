@@ -25,8 +25,6 @@ struct ServerOptions {
   /// The next pair is sent when the client is done with the last one; needs the side channel.
   /// False: at the headset's own pace.
   bool paced = false;
-  /// UTC minus the headset's stamps, in ticks of 100 ns.
-  std::int64_t utc_offset_ticks = 133'000'000'000'000'000;
   Faults faults;
   std::uint64_t seed = 1;  ///< of the faults
   int slices = 1;          ///< of each H.264 picture

@@ -18,9 +18,6 @@ std::vector<std::string> ServerOptions::check() const {
   if (paced && !standin) {
     problems.push_back("paced needs standin");
   }
-  if (utc_offset_ticks < 0) {
-    problems.push_back("utc_offset_ticks must not be negative");
-  }
   if (slices < 1 || slices > kMaxSlices) {
     problems.push_back("slices must lie in [1, " + std::to_string(kMaxSlices) + "]");
   }
