@@ -11,6 +11,12 @@
 namespace orthonav::engine {
 namespace {
 
+/// Limits beyond which a fit is refused. Another vertebra of the same spine fits with 0.37 mm and
+/// more, and with a coverage of 0.90 at most; the right one with 0.06 to 0.14 mm and 0.93 or more.
+constexpr double kMostResidual_m = 0.00025;
+constexpr double kLeastCoverage = 0.85;
+constexpr double kLeastEdges = 150;
+
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
@@ -137,26 +143,26 @@ BoneRegistration laid_on_bone(const ScanField& scan, const MetalMask& mask,
   return out;
 }
 
-std::string refusal(const BoneRegistration& found, const BoneLimits& limits) {
-  if (found.inside_scan < limits.least_inside_scan) {
+std::string refusal(const BoneRegistration& found) {
+  if (found.inside_scan < kLeastInsideScan) {
     return printed("%.0f %% of the vertebra lie in the scan, limit %.0f %%",
-                   found.inside_scan * 1e2, limits.least_inside_scan * 1e2);
+                   found.inside_scan * 1e2, kLeastInsideScan * 1e2);
   }
-  if (static_cast<double>(found.edges) < limits.least_edges) {
+  if (static_cast<double>(found.edges) < kLeastEdges) {
     return printed("%.0f places of its surface are seen clear of metal, limit %.0f",
-                   static_cast<double>(found.edges), limits.least_edges);
+                   static_cast<double>(found.edges), kLeastEdges);
   }
-  if (found.coverage < limits.least_coverage) {
+  if (found.coverage < kLeastCoverage) {
     return printed(
         "%.0f %% of its surface lie within 1 mm of bone in the scan, limit %.0f %%: another "
         "vertebra, or a coarse model",
-        found.coverage * 1e2, limits.least_coverage * 1e2);
+        found.coverage * 1e2, kLeastCoverage * 1e2);
   }
-  if (found.residual_m > limits.most_residual_m) {
+  if (found.residual_m > kMostResidual_m) {
     return printed(
         "its surface lies %.2f mm off the bone in the scan, limit %.2f mm: another vertebra, or a "
         "coarse model",
-        found.residual_m * 1e3, limits.most_residual_m * 1e3);
+        found.residual_m * 1e3, kMostResidual_m * 1e3);
   }
   return "";
 }

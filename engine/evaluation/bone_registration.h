@@ -18,14 +18,8 @@ struct BoneRegistration {
   nav::PoseUncertainty uncertainty;  ///< in the model's frame
 };
 
-/// Limits beyond which a fit is refused. Another vertebra of the same spine fits with 0.37 mm and
-/// more, and with a coverage of 0.90 at most; the right one with 0.06 to 0.14 mm and 0.93 or more.
-struct BoneLimits {
-  double most_residual_m = 0.00025;
-  double least_coverage = 0.85;
-  double least_inside_scan = 0.60;
-  double least_edges = 150;
-};
+/// A fit is refused with less of the vertebra in the scan.
+inline constexpr double kLeastInsideScan = 0.60;
 
 /// Fits the surface to the edges of bone in the scan from a start within some millimetres and
 /// degrees: point to plane (Chen and Medioni 1992) with Tukey's weights. Each round searches the
@@ -37,6 +31,6 @@ struct BoneLimits {
                                             double within_m);
 
 /// Why the fit is refused, in one line; empty if it is accepted.
-[[nodiscard]] std::string refusal(const BoneRegistration& found, const BoneLimits& limits = {});
+[[nodiscard]] std::string refusal(const BoneRegistration& found);
 
 }  // namespace orthonav::engine

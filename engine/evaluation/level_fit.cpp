@@ -103,7 +103,7 @@ void say_what_lies_outside(const ScanField& scan, std::span<const LevelSurface> 
           });
       BoneRegistration there;
       there.inside_scan = static_cast<double>(inside) / static_cast<double>(levels[i].few.size());
-      if (there.inside_scan < BoneLimits{}.least_inside_scan) {
+      if (there.inside_scan < kLeastInsideScan) {
         laid[i].refusal = refusal(there);
         break;
       }
