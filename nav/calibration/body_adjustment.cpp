@@ -8,6 +8,7 @@
 
 #include "nav/calibration/body_residuals.h"
 #include "nav/calibration/cauchy.h"
+#include "nav/geometry/matrix_as.h"
 
 namespace orthonav::nav {
 namespace {
@@ -27,13 +28,9 @@ constexpr double kLeastDamping = 1e-12;
 constexpr double kMostDamping = 1e4;
 constexpr double kConverged = 1e-8;
 
-Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-/// The pose after a small translation and rotation, both in frame A.
 template <class A, class B>
-Transform<A, B> moved(const Transform<A, B>& pose, const Vector6& step) {
-  return {rotation_from_vector(from_eigen(step.tail<3>())) * pose.rotation(),
-          pose.translation() + from_eigen(step.head<3>())};
+Transform<A, B> moved_by_step(const Transform<A, B>& pose, const Vector6& step) {
+  return displaced(pose, {step[0], step[1], step[2]}, {step[3], step[4], step[5]});
 }
 
 /// The normal equations; each unknown is a block of six numbers.
@@ -98,7 +95,7 @@ class System {
       if (!own.allFinite()) {
         return std::nullopt;
       }
-      next.rig_from_marker[i] = moved(next.rig_from_marker[i], own);
+      next.rig_from_marker[i] = moved_by_step(next.rig_from_marker[i], own);
     }
     return next;
   }
@@ -163,12 +160,13 @@ class System {
 
   void move_global(const Eigen::VectorXd& step, BodyState& next) const {
     if (unknowns_.camera >= 0) {
-      next.right_from_rig = moved(next.right_from_rig, step.segment<6>(6 * unknowns_.camera));
+      next.right_from_rig =
+          moved_by_step(next.right_from_rig, step.segment<6>(6 * unknowns_.camera));
     }
     for (std::size_t i = 0; i < unknowns_.tags.size(); ++i) {
       if (unknowns_.tags[i] >= 0) {
         next.marker_from_tag[i] =
-            moved(next.marker_from_tag[i], step.segment<6>(6 * unknowns_.tags[i]));
+            moved_by_step(next.marker_from_tag[i], step.segment<6>(6 * unknowns_.tags[i]));
       }
     }
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "nav/geometry/matrix_as.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -69,8 +71,7 @@ FromTag median_pose(std::span<const FromTag> poses) {
       total += weight;
     }
     mean = {mean.translation_m / total, mean.rotation_rad / total};
-    centre = {rotation_from_vector(mean.rotation_rad) * centre.rotation(),
-              centre.translation() + mean.translation_m};
+    centre = displaced(centre, mean.translation_m, mean.rotation_rad);
     if (mean.length_m() < kConvergedM) {
       break;
     }

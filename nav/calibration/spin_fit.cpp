@@ -16,9 +16,6 @@ using ChosenPoses = std::span<const std::size_t>;
 // Less turning than this is rounding.
 constexpr double kLeastSpread = 1e-6;
 
-Eigen::Vector3d eigen_vector(Vec3 v) { return {v.x, v.y, v.z}; }
-Vec3 plain(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 Eigen::Matrix3d mean_rotation(SpinPoses poses, ChosenPoses chosen) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const std::size_t i : chosen) {
@@ -51,8 +48,8 @@ std::optional<SpinFit> fit_spin(SpinPoses poses, ChosenPoses chosen) {
   if (!(fit.spread > kLeastSpread) || !(in_world.norm() > 0.0)) {
     return std::nullopt;
   }
-  fit.axis_in_marker = plain(axis);
-  fit.axis_in_world = plain(in_world.normalized());
+  fit.axis_in_marker = vec_of(axis);
+  fit.axis_in_world = vec_of(Eigen::Vector3d(in_world.normalized()));
   double squared = 0.0;
   for (const std::size_t i : chosen) {
     squared += fit.miss_rad(poses[i]) * fit.miss_rad(poses[i]);
@@ -71,10 +68,10 @@ Vec3 beside_axis_m(SpinPoses poses, ChosenPoses chosen, const SpinFit& fit, Poin
   const Eigen::Matrix3d mean = mean_rotation(poses, chosen);
   Eigen::Vector3d mean_tip = Eigen::Vector3d::Zero();
   for (const std::size_t i : chosen) {
-    mean_tip += eigen_vector((poses[i] * tip).v) / count;
+    mean_tip += vector_as<Eigen::Vector3d>((poses[i] * tip).v) / count;
   }
-  const Eigen::Vector3d along = eigen_vector(fit.axis_in_world);
-  const Eigen::Vector3d axis = eigen_vector(fit.axis_in_marker);
+  const Eigen::Vector3d along = vector_as<Eigen::Vector3d>(fit.axis_in_world);
+  const Eigen::Vector3d axis = vector_as<Eigen::Vector3d>(fit.axis_in_marker);
   // The line passes tip + offset, which moves only along it: with the means taken off,
   // across · ((R - mean R) · offset + R·tip + t - mean) = 0, and the axis · offset = 0.
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along * along.transpose();
@@ -83,9 +80,9 @@ Vec3 beside_axis_m(SpinPoses poses, ChosenPoses chosen, const SpinFit& fit, Poin
   for (const std::size_t i : chosen) {
     const Eigen::Matrix3d lever = across * (matrix_as<Eigen::Matrix3d>(poses[i].rotation()) - mean);
     normal += lever.transpose() * lever;
-    right -= lever.transpose() * (eigen_vector((poses[i] * tip).v) - mean_tip);
+    right -= lever.transpose() * (vector_as<Eigen::Vector3d>((poses[i] * tip).v) - mean_tip);
   }
-  return plain(-normal.ldlt().solve(right));
+  return vec_of(Eigen::Vector3d(-normal.ldlt().solve(right)));
 }
 
 }  // namespace orthonav::nav

@@ -19,8 +19,6 @@ constexpr double kMostTurningRmse_m = 0.005;
 // A resting point farther than this from the tip in the tool file is not this pointer's tip.
 constexpr double kMostOffset_m = 0.03;
 
-Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
-
 /// Sums over poses from which the fit of any stretch follows. With q the tip from the tool file and
 /// d its offset, the tips R d + q should all be the same point p.
 struct Sums {
@@ -92,7 +90,7 @@ PoseBlocks blocks_of(std::span<const TrackedPose> poses, Point<Marker> tip) {
       begins_s = time_s;
     }
     sums.add(matrix_as<Eigen::Matrix3d>(poses[i].value.rotation()),
-             as_eigen((poses[i].value * tip).v - origin_m));
+             vector_as<Eigen::Vector3d>((poses[i].value * tip).v - origin_m));
   }
   blocks.before.push_back(sums);
   blocks.first.push_back(poses.size());
@@ -136,7 +134,7 @@ std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world
         continue;
       }
       best_score = score;
-      best = FixedPoint{first, end, {fit.offset.x(), fit.offset.y(), fit.offset.z()}, fit.rmse_m};
+      best = FixedPoint{first, end, vec_of(fit.offset), fit.rmse_m};
     }
   }
   return best;

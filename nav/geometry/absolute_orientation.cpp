@@ -4,6 +4,8 @@
 #include <Eigen/Dense>
 #include <string>
 
+#include "nav/geometry/matrix_as.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -31,7 +33,7 @@ Vec3 centroid(std::span<const Vec3> points) {
 bool is_collinear(std::span<const Vec3> points, Vec3 centre) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Vec3& p : points) {
-    const Eigen::Vector3d d(p.x - centre.x, p.y - centre.y, p.z - centre.z);
+    const auto d = vector_as<Eigen::Vector3d>(p - centre);
     scatter += d * d.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter, Eigen::EigenvaluesOnly);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <Eigen/Eigenvalues>
 
+#include "nav/geometry/matrix_as.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -32,7 +34,7 @@ PrincipalAxes principal_axes(std::span<const Vec3> points_m, std::span<const dou
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < points_m.size(); ++i) {
     const Vec3 d = points_m[i] - result.centre_m;
-    const Eigen::Vector3d e(d.x, d.y, d.z);
+    const auto e = vector_as<Eigen::Vector3d>(d);
     covariance += weight(i) * e * e.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance / total);

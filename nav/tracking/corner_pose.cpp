@@ -18,14 +18,6 @@ using Row = Eigen::Matrix<double, 2, kAll>;
 using Matrix3 = Eigen::Matrix3d;
 constexpr int kIterations = 3;
 
-Matrix3 cross_matrix(Vec3 v) {
-  Matrix3 m;
-  m << 0, -v.z, v.y, v.z, 0, -v.x, -v.y, v.x, 0;
-  return m;
-}
-
-Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
-
 struct Equations {
   Normal normal = Normal::Zero();
   Right right = Right::Zero();
@@ -52,13 +44,14 @@ struct Equations {
       by_point << 1 / p.z, 0, -p.x / (p.z * p.z), 0, 1 / p.z, -p.y / (p.z * p.z);
       Row row = Row::Zero();
       row.leftCols<3>() = by_point * rotation;
-      row.middleCols<3>(3) = -by_point * rotation * cross_matrix(lever_arm);
+      row.middleCols<3>(3) = -by_point * rotation * skew_as<Matrix3>(lever_arm);
       if (baseline_m != nullptr) {
-        row.middleCols<3>(kPose) = -by_point * cross_matrix(p);
+        row.middleCols<3>(kPose) = -by_point * skew_as<Matrix3>(p);
         row.col(kPose + kFocalUnknown) << p.x / p.z, p.y / p.z;
-        row.col(kPose + kBaselineUnknown) = by_point * as_eigen(*baseline_m);
+        row.col(kPose + kBaselineUnknown) = by_point * vector_as<Eigen::Vector3d>(*baseline_m);
       }
-      row.col(kPose + kTagSizeUnknown) = by_point * rotation * as_eigen(lever_arm);
+      row.col(kPose + kTagSizeUnknown) =
+          by_point * rotation * vector_as<Eigen::Vector3d>(lever_arm);
       const Eigen::Vector2d residual(ray->x - p.x / p.z, ray->y - p.y / p.z);
       normal += weight * weight * row.transpose() * row;
       right += weight * weight * row.transpose() * residual;
@@ -80,13 +73,6 @@ struct Equations {
     return out;
   }
 };
-
-Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose,
-                             const Eigen::Matrix<double, kPose, 1>& step) {
-  const Vec3 rotation{step[3], step[4], step[5]};
-  return {rotation_from_vector(rotation) * pose.rotation(),
-          pose.translation() + Vec3{step[0], step[1], step[2]}};
-}
 
 }  // namespace
 
@@ -118,7 +104,8 @@ std::optional<CornerPose> corner_pose(const StereoCorners& seen,
       }
       return out;
     }
-    out.rig_from_marker = moved(pose, solver.solve(e.right.head<kPose>()));
+    const Eigen::Matrix<double, kPose, 1> step = solver.solve(e.right.head<kPose>());
+    out.rig_from_marker = displaced(pose, {step[0], step[1], step[2]}, {step[3], step[4], step[5]});
   }
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <Eigen/Dense>
 
+#include "nav/geometry/matrix_as.h"
 #include "nav/tracking/photometric_light.h"
 #include "nav/tracking/photometric_reduced.h"
-#include "nav/tracking/symmetric_covariance.h"
 
 namespace orthonav::nav {
 namespace {
@@ -75,8 +75,9 @@ struct MotionEquations {
   }
 };
 
-Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 translation,
-                             Vec3 rotation_vector) {
+/// The pose after a motion in its own frame.
+Transform<Rig, Marker> moved_in_itself(const Transform<Rig, Marker>& pose, Vec3 translation,
+                                       Vec3 rotation_vector) {
   return {orthonormalized(pose.rotation() * rotation_from_vector(rotation_vector)),
           pose.translation() + pose.rotation() * translation};
 }
@@ -217,7 +218,8 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
       return std::nullopt;
     }
     const auto& m = taken->motion;
-    fit.rig_from_marker = moved(fit.rig_from_marker, {m[0], m[1], m[2]}, {m[3], m[4], m[5]});
+    fit.rig_from_marker =
+        moved_in_itself(fit.rig_from_marker, {m[0], m[1], m[2]}, {m[3], m[4], m[5]});
     ++fit.iterations;
     doubt =
         std::max(std::min(kLeftOfStep * taken->size_m, doubt), kSettledPx / taken->pixels_a_metre);

@@ -15,9 +15,6 @@ using Chosen = std::span<const std::size_t>;
 // So small a rotation does not determine the tip.
 constexpr double kLeastSpreadRad = 1e-6;
 
-Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
-Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 struct Means {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
@@ -27,7 +24,7 @@ Means means_of(Poses poses, Chosen chosen) {
   Means mean;
   for (const std::size_t i : chosen) {
     mean.rotation += matrix_as<Eigen::Matrix3d>(poses[i].rotation());
-    mean.translation += to_eigen(poses[i].translation());
+    mean.translation += vector_as<Eigen::Vector3d>(poses[i].translation());
   }
   mean.rotation /= static_cast<double>(chosen.size());
   mean.translation /= static_cast<double>(chosen.size());
@@ -52,7 +49,8 @@ std::optional<PivotFit> fit_pivot(Poses poses, Chosen chosen) {
     const Eigen::Matrix3d deviation =
         matrix_as<Eigen::Matrix3d>(poses[i].rotation()) - mean.rotation;
     normal += deviation.transpose() * deviation;
-    right -= deviation.transpose() * (to_eigen(poses[i].translation()) - mean.translation);
+    right -= deviation.transpose() *
+             (vector_as<Eigen::Vector3d>(poses[i].translation()) - mean.translation);
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normal);
   PivotFit fit;
@@ -63,8 +61,8 @@ std::optional<PivotFit> fit_pivot(Poses poses, Chosen chosen) {
   const Eigen::Vector3d inverse = solver.eigenvalues().cwiseInverse();
   const Eigen::Vector3d tip =
       solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose() * right;
-  fit.tip_in_marker = {from_eigen(tip)};
-  fit.pivot_in_world = {from_eigen(mean.rotation * tip + mean.translation)};
+  fit.tip_in_marker = {vec_of(tip)};
+  fit.pivot_in_world = {vec_of(Eigen::Vector3d(mean.rotation * tip + mean.translation))};
   double squared = 0.0;
   for (const std::size_t i : chosen) {
     squared += fit.miss_m(poses[i]) * fit.miss_m(poses[i]);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <Eigen/Dense>
 
-#include "nav/tracking/symmetric_covariance.h"
+#include "nav/geometry/matrix_as.h"
 
 namespace orthonav::nav {
 namespace {
@@ -50,11 +50,6 @@ Vector6 difference(const PoseFilter::Pose& to, const PoseFilter::Pose& from) {
   return out;
 }
 
-PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 translation, Vec3 rotation_vector) {
-  return {orthonormalized(rotation_from_vector(rotation_vector) * pose.rotation()),
-          pose.translation() + translation};
-}
-
 /// A constant acceleration a moves the prediction by a dt² and the mean over an exposure T by a T²
 /// / 24: this part of the innovation is not motion of the pose at mid-exposure.
 double of_exposure(double exposure_s, double dt_s) { return std::pow(exposure_s / dt_s, 2) / 24.0; }
@@ -96,7 +91,7 @@ Tracked<PoseFilter::Pose> PoseFilter::predicted(Timestamp time) const {
   const double dt = seconds(time - time_);
   // A tool at rest may be picked up at any moment.
   const Covariance p = grown(dt, kHand_m, kHand_rad);
-  return {moved(pose_, dt * velocity_m_, dt * velocity_rad_), time, PoseStatus::kPredicted,
+  return {displaced(pose_, dt * velocity_m_, dt * velocity_rad_), time, PoseStatus::kPredicted,
           symmetrized(Matrix6(as_eigen(p).topLeftCorner<6, 6>()))};
 }
 
@@ -120,7 +115,7 @@ void PoseFilter::update(const Tracked<Pose>& measured, double exposure_s) {
   if (!alive_ || !(dt > 0.0)) {
     return start(measured);
   }
-  const Pose ahead = moved(pose_, dt * velocity_m_, dt * velocity_rad_);
+  const Pose ahead = displaced(pose_, dt * velocity_m_, dt * velocity_rad_);
   Vector6 y = difference(measured.value, ahead);
   Covariance grown_p = grown(dt, kRest_m, kRest_rad);
   const bool at_rest = innovation(y, as_eigen(grown_p), measured.covariance) < kRestLimit;
@@ -135,7 +130,7 @@ void PoseFilter::update(const Tracked<Pose>& measured, double exposure_s) {
   const Matrix6 s = p.topLeftCorner<6, 6>() + noise;
   const Eigen::Matrix<double, 12, 6> gain = s.ldlt().solve(p.topRows<6>()).transpose();
   const Vector12 step = gain * y;
-  pose_ = moved(ahead, {step(0), step(1), step(2)}, {step(3), step(4), step(5)});
+  pose_ = displaced(ahead, {step(0), step(1), step(2)}, {step(3), step(4), step(5)});
   velocity_m_ += {step(6), step(7), step(8)};
   velocity_rad_ += {step(9), step(10), step(11)};
   // Joseph's form, which rounding keeps symmetric and positive.

@@ -1,7 +1,6 @@
 #include <Eigen/Dense>
 
 #include "nav/geometry/matrix_as.h"
-#include "nav/tracking/symmetric_covariance.h"
 
 #include "nav/tracking/tag_pose.h"
 
@@ -13,14 +12,11 @@ using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
 constexpr double kStepPx = 0.05;
 
-Eigen::Vector3d eigen_of(Vec3 v) { return {v.x, v.y, v.z}; }
-
 // How a point of the body moves with a small translation and rotation: [I, -[lever arm]x].
 Matrix36 point_by_pose(Vec3 lever_arm) {
   Matrix36 j;
   j.leftCols<3>().setIdentity();
-  j.rightCols<3>() << 0, lever_arm.z, -lever_arm.y, -lever_arm.z, 0, lever_arm.x, lever_arm.y,
-      -lever_arm.x, 0;
+  j.rightCols<3>() = -skew_as<Eigen::Matrix3d>(lever_arm);
   return j;
 }
 
@@ -43,7 +39,7 @@ std::optional<PoseCovariance> TagGeometry::covariance(const Transform<Rig, Marke
       if (!ahead || !behind) {
         return false;
       }
-      const Eigen::Vector3d slope = eigen_of(*ahead - *behind) / (2.0 * kStepPx);
+      const Eigen::Vector3d slope = vector_as<Eigen::Vector3d>(*ahead - *behind) / (2.0 * kStepPx);
       noise += variance * slope * slope.transpose();
       return true;
     };
@@ -71,8 +67,7 @@ PoseCovariance plus_carried(const PoseCovariance& own, const PoseCovariance& oth
                             Vec3 lever_arm_m) {
   using ByRows = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
   ByRows carried = ByRows::Identity();
-  carried.topRightCorner<3, 3>() << 0, lever_arm_m.z, -lever_arm_m.y, -lever_arm_m.z, 0,
-      lever_arm_m.x, lever_arm_m.y, -lever_arm_m.x, 0;
+  carried.topRightCorner<3, 3>() = -skew_as<Eigen::Matrix3d>(lever_arm_m);
   const Eigen::Map<const ByRows> of_own(own.data());
   const Eigen::Map<const ByRows> of_other(other.data());
   return symmetrized(ByRows(of_own + carried * of_other * carried.transpose()));

@@ -48,7 +48,7 @@ Equations equations_of(std::span<const Transform<World, Marker>> poses,
     const Vec3 left = pose * fit.tip_in_marker - fit.pivot_in_world;
     Rows rows;
     rows << matrix_as<Eigen::Matrix3d>(pose.rotation()) - mean, -Eigen::Matrix3d::Identity(),
-        Eigen::Vector3d(left.x, left.y, left.z);
+        vector_as<Eigen::Vector3d>(left);
     out.rows.push_back(rows);
     out.apart.push_back(k > 0 ? static_cast<double>(chosen[k] - chosen[k - 1]) : 0.0);
   }

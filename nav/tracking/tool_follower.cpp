@@ -4,6 +4,7 @@
 #include <cmath>
 #include <Eigen/Dense>
 
+#include "nav/geometry/matrix_as.h"
 #include "nav/geometry/rays.h"
 #include "nav/tracking/tag_pose.h"
 
@@ -81,7 +82,7 @@ struct TranslationInSpace {
     for (int k = 0; k < 2; ++k) {
       const double slope = k == 0 ? u.x : u.y;
       const Vec3 row = (camera_from_rig.row(k) - slope * camera_from_rig.row(2)) / in_camera_m.z;
-      const Eigen::Vector3d j(row.x, row.y, row.z);
+      const auto j = vector_as<Eigen::Vector3d>(row);
       normal += j * j.transpose();
       right += j * (k == 0 ? to->x - u.x : to->y - u.y);
     }
@@ -90,7 +91,7 @@ struct TranslationInSpace {
   [[nodiscard]] Vec3 solved() const {
     const double weak = 1e-4 * std::max(normal.trace(), 1e-12);
     const Eigen::Vector3d v = (normal + weak * Eigen::Matrix3d::Identity()).ldlt().solve(right);
-    return {v.x(), v.y(), v.z()};
+    return vec_of(v);
   }
 };
 
