@@ -108,11 +108,9 @@ class AnchoredTracker final : public ToolTracker {
       }
       const Transform<World, Marker> here = anchored_from_rig * pair->rig_from_marker;
       if (!other.anchored_from_marker) {
-        learn(other,
-              {here, frame.time, PoseStatus::kMeasured,
-               rotated(relative_covariance(*pair, *seen[best.tool].pair),
-                       anchored_from_rig.rotation())},
-              pair->exposure_s);
+        learn(other, {here, frame.time, PoseStatus::kMeasured,
+                      rotated(relative_covariance(*pair, *seen[best.tool].pair),
+                              anchored_from_rig.rotation())});
         continue;
       }
       const bool elsewhere =
@@ -129,8 +127,8 @@ class AnchoredTracker final : public ToolTracker {
     }
   }
 
-  void learn(Reference& reference, const TrackedPose& here, double exposure_s) {
-    reference.learning.update(here, exposure_s);
+  void learn(Reference& reference, const TrackedPose& here) {
+    reference.learning.update(here);
     if (++reference.pairs_learnt >= limits_.learnt_from_pairs) {
       reference.anchored_from_marker = reference.learning.state().value;
       tell_places();
@@ -178,7 +176,7 @@ class AnchoredTracker final : public ToolTracker {
       if (!filters_[i].follows(frame.time, coast_)) {
         filters_[i].stop();
       }
-      filters_[i].update(measured, pair->exposure_s);
+      filters_[i].update(measured);
       states_[i].world_from_marker = filters_[i].state();
     }
   }
