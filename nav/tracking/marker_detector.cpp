@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include "nav/tracking/corner_refinement.h"
-#include "nav/tracking/detector_check.h"
 #include "nav/tracking/tag_families.h"
 #include "nav/tracking/tag_reading.h"
+#include "nav/tracking/tool.h"
 
 // Finds the outlines that `apriltag_detector_detect` decodes; exported by the library, but not in
 // its header.
@@ -31,6 +31,63 @@ constexpr int kRefinementsOfThinned = 3;
 // codes than this it would take gigabytes.
 constexpr std::uint32_t kMostCodesWithTwoBits = 10000;
 
+// The library asserts on more.
+constexpr int kLargestPx = 32767;
+
+/// Refuses options that the detector can't work with: the first problem.
+Status check(const DetectorOptions& options) {
+  if (options.families.empty()) {
+    return Error{"marker detector: no tag family given"};
+  }
+  for (std::size_t i = 0; i < options.families.size(); ++i) {
+    const std::string& name = options.families[i];
+    if (!is_known_family(name)) {
+      return Error{"unknown tag family '" + name + "', known are " + known_families_text()};
+    }
+    if (std::find(options.families.begin(), options.families.begin() + static_cast<long>(i),
+                  name) != options.families.begin() + static_cast<long>(i)) {
+      return Error{"tag family '" + name + "' is given twice"};
+    }
+  }
+  const double d = options.decimate;
+  if (d != 1.0 && d != 1.5 && d != 2.0 && d != 3.0 && d != 4.0) {
+    return Error{"marker detector: decimate " + std::to_string(d) + ", must be 1, 1.5, 2, 3 or 4"};
+  }
+  if (options.max_hamming < 0 || options.max_hamming > 2) {
+    return Error{"marker detector: max_hamming " + std::to_string(options.max_hamming) +
+                 ", must be 0, 1 or 2"};
+  }
+  if (!std::isfinite(options.min_decision_margin)) {
+    return Error{"marker detector: min_decision_margin is not finite"};
+  }
+  if (options.threads < 1 || options.threads > 64) {
+    return Error{"marker detector: " + std::to_string(options.threads) + " threads, must be 1-64"};
+  }
+  return {};
+}
+
+/// Refuses an image that it can't process: no pixels, too many for the library, a buffer of the
+/// wrong length.
+Status check(const GreyImage& image) {
+  if (image.width_px <= 0 || image.height_px <= 0) {
+    return Error{"image is empty (" + std::to_string(image.width_px) + " x " +
+                 std::to_string(image.height_px) + " px)"};
+  }
+  if (image.width_px > kLargestPx || image.height_px > kLargestPx) {
+    return Error{"image is " + std::to_string(image.width_px) + " x " +
+                 std::to_string(image.height_px) + " px, limit " + std::to_string(kLargestPx)};
+  }
+  const auto expected =
+      static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
+  if (image.pixels.size() != expected) {
+    return Error{"image of " + std::to_string(image.width_px) + " x " +
+                 std::to_string(image.height_px) + " px holds " +
+                 std::to_string(image.pixels.size()) + " bytes, " + std::to_string(expected) +
+                 " expected"};
+  }
+  return {};
+}
+
 /// The same id in the same place.
 bool same_tag(const MarkerCorners& a, const MarkerCorners& b) {
   const auto centre = [](const MarkerCorners& m) {
@@ -48,6 +105,23 @@ bool comes_before(const MarkerCorners& a, const MarkerCorners& b) {
 }
 
 }  // namespace
+
+PixelBox in_whole_steps(const PixelBox& box, const GreyImage& image, int step_px) {
+  const auto low = [step_px](long long v) {
+    return static_cast<int>(std::max<long long>(0, (v >= 0 ? v / step_px : -1) - 1) * step_px);
+  };
+  const auto high = [step_px](long long v, int size) {
+    if (v <= 0) {
+      return 0;
+    }
+    return static_cast<int>(std::min<long long>(size, ((v + step_px - 1) / step_px + 1) * step_px));
+  };
+  const long long right = static_cast<long long>(box.x_px) + box.width_px;
+  const long long bottom = static_cast<long long>(box.y_px) + box.height_px;
+  const int x0 = low(box.x_px);
+  const int y0 = low(box.y_px);
+  return {x0, y0, high(right, image.width_px) - x0, high(bottom, image.height_px) - y0};
+}
 
 struct MarkerDetector::Library {
   apriltag_detector_t* detector = nullptr;

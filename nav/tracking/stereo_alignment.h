@@ -24,6 +24,9 @@ struct StereoAlignment {
 };
 
 /// Turns the right camera by a rotation vector (rad) in its own frame.
-void rotate_right_camera(StereoCalibration& calibration, Vec3 rotation_rad);
+inline void rotate_right_camera(StereoCalibration& calibration, Vec3 rotation_rad) {
+  const Transform<RightCamera, RightCamera> correction(rotation_from_vector(rotation_rad), {});
+  calibration.right_from_rig = correction * calibration.right_from_rig;
+}
 
 }  // namespace orthonav::nav

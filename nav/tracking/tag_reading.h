@@ -7,7 +7,6 @@
 #include "base/image.h"
 #include "base/vec.h"
 #include "nav/tracking/marker_detector.h"
-#include "nav/tracking/pixel_box.h"
 
 struct apriltag_family;
 

@@ -1,6 +1,10 @@
-#include <cmath>
-
 #include "nav/tracking/tool_tracker.h"
+
+#include <cmath>
+#include <string>
+
+#include "base/joined.h"
+#include "nav/tracking/tag_pose.h"
 
 namespace orthonav::nav {
 namespace {
@@ -26,6 +30,39 @@ void add_motion(PoseCovariance& covariance, double translation, double rotation)
 }
 
 }  // namespace
+
+Status check(const StereoCalibration& calibration, const std::vector<ToolGeometry>& tools,
+             const TrackerOptions& options) {
+  if (const auto problems = problems_of(tools); !problems.empty()) {
+    return Error{"tools: " + joined(problems)};
+  }
+  for (const ToolGeometry& tool : tools) {
+    if (!tool.has_tag()) {
+      return Error{"tools: tool '" + tool.name +
+                   "' has no tag, and cameras find a tool by its tag alone"};
+    }
+  }
+  if (calibration.left.width_px() <= 0 || calibration.right.width_px() <= 0) {
+    return Error{"tracker: the stereo calibration has no camera model"};
+  }
+  if (options.full_search_interval < 1) {
+    return Error{"tracker: full_search_interval " + std::to_string(options.full_search_interval) +
+                 ", must be at least 1"};
+  }
+  if (options.coast < Duration::zero()) {
+    return Error{"tracker: coast is negative"};
+  }
+  return {};
+}
+
+void add_head(ToolState& state, const StereoFrame& frame) {
+  TrackedPose& pose = state.world_from_marker;
+  if (!frame.world_from_rig || !frame.head_covariance || pose.status == PoseStatus::kLost) {
+    return;
+  }
+  const Vec3 lever_arm_m = pose.value.translation() - frame.world_from_rig->translation();
+  pose.covariance = plus_carried(pose.covariance, *frame.head_covariance, lever_arm_m);
+}
 
 TrackedPose predicted(const TrackedPose& older, const TrackedPose& newer, Timestamp time,
                       Duration coast) {
