@@ -7,7 +7,7 @@
 #include "hal/hl2ss/depth_calibration.h"
 #include "hal/hl2ss/depth_format.h"
 #include "hal/hl2ss/depth_mailbox.h"
-#include "hal/hl2ss/packet_port.h"
+#include "hal/hl2ss/packet_stream.h"
 #include "hal/hl2ss/png_decoder.h"
 #include "hal/hl2ss/units_underway.h"
 #include "hal/hl2ss/video_decoder.h"

@@ -2,6 +2,20 @@
 
 namespace orthonav::hl2ss {
 
+Status PacketPort::received(std::size_t count, HostTime at) {
+  assembler_.received(count);
+  for (;;) {
+    const auto packet = assembler_.next();
+    if (!packet) {
+      return packet.error();
+    }
+    if (!*packet) {
+      return {};
+    }
+    heard(**packet, at);
+  }
+}
+
 void PacketStream::heard(const Packet& packet, HostTime at) {
   const auto time = time_.stamps.time_of(packet.ticks, at);
   if (!time) {

@@ -3,6 +3,7 @@
 #include <pocketsphinx.h>
 #include <sphinxbase/ckd_alloc.h>
 #include <sphinxbase/err.h>
+#include <sphinxbase/fe.h>
 
 #include <algorithm>
 #include <cmath>
@@ -181,8 +182,25 @@ std::vector<PhraseRecognizer::Part> PhraseRecognizer::decode(const char* search,
   return parts;
 }
 
+std::vector<PhraseRecognizer::Cepstrum> PhraseRecognizer::cepstra_of(
+    std::span<const std::int16_t> samples) const {
+  fe_t* const front_end = ps_get_fe(decoder_.get());
+  mfcc_t** block = nullptr;
+  int32 count = 0;
+  if (fe_start_utt(front_end) != 0 ||
+      fe_process_utt(front_end, samples.data(), samples.size(), &block, &count) != 0 || !block) {
+    return {};
+  }
+  std::vector<Cepstrum> cepstra(static_cast<std::size_t>(std::max(count, 0)));
+  for (std::size_t t = 0; t < cepstra.size(); ++t) {
+    std::copy_n(block[t], cepstra[t].size(), cepstra[t].begin());
+  }
+  fe_free_2d(block);
+  return cepstra;
+}
+
 Recognition PhraseRecognizer::recognize(std::span<const std::int16_t> samples) {
-  const std::vector<Cepstrum> cepstra = cepstra_of(ps_get_fe(decoder_.get()), samples);
+  const std::vector<Cepstrum> cepstra = cepstra_of(samples);
   const auto frames = static_cast<int>(cepstra.size());
   const std::vector<Part> phrase = decode(kCommands, cepstra);
   if (phrase.empty()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -8,7 +9,6 @@
 #include <vector>
 
 #include "base/result.h"
-#include "hal/voice/speech_features.h"
 
 struct ps_decoder_s;
 
@@ -63,7 +63,11 @@ class PhraseRecognizer {
 
   Status add_words();
   Status add_grammars(const std::vector<std::string>& commands);
+  /// PocketSphinx's features of 10 ms of sound.
+  using Cepstrum = std::array<float, 13>;
   std::vector<Part> decode(const char* search, std::vector<Cepstrum> cepstra);
+  /// By PocketSphinx's front end; empty if there are too few samples.
+  [[nodiscard]] std::vector<Cepstrum> cepstra_of(std::span<const std::int16_t> samples) const;
 };
 
 }  // namespace orthonav::voice

@@ -19,6 +19,10 @@ namespace {
 
 /// UTC minus the headset's stamps, in ticks of 100 ns.
 constexpr std::int64_t kUtcOffsetTicks = 133'000'000'000'000'000;
+/// A slice has at least one row of macroblocks, and enough pixels must keep a direction.
+constexpr int kMaxSlices = 30;
+constexpr int kMaxUnmappedPx = 100;
+
 constexpr auto kIdle = std::chrono::milliseconds(1);
 /// A client that is not done with a pair by then has missed it.
 constexpr auto kPatience = std::chrono::seconds(10);
@@ -235,6 +239,24 @@ class RunningServer final : public Server {
 };
 
 }  // namespace
+
+std::vector<std::string> ServerOptions::check() const {
+  std::vector<std::string> problems = faults.check();
+  if (first_port < 0 || first_port > 65535 - kStandinOffset) {
+    problems.push_back("first_port must lie in [0, " + std::to_string(65535 - kStandinOffset) +
+                       "]");
+  }
+  if (paced && !standin) {
+    problems.push_back("paced needs standin");
+  }
+  if (slices < 1 || slices > kMaxSlices) {
+    problems.push_back("slices must lie in [1, " + std::to_string(kMaxSlices) + "]");
+  }
+  if (unmapped_edge_px < 0 || unmapped_edge_px > kMaxUnmappedPx) {
+    problems.push_back("unmapped_edge_px must lie in [0, " + std::to_string(kMaxUnmappedPx) + "]");
+  }
+  return problems;
+}
 
 Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, OpenHeadset open) {
   const auto problems = options.check();
