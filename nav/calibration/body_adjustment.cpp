@@ -22,10 +22,10 @@ constexpr int kMostSteps = 100;
 constexpr int kScaleSteps = 8;
 // The weight at twice the residual at which it is one half.
 constexpr double kOutlierWeight = 0.2;
-constexpr double kFirstDamping = 1e-4;
+constexpr double kFirstBodyDamping = 1e-4;
 constexpr double kLeastDamping = 1e-12;
 // A step that still fails with more damping than this will not succeed.
-constexpr double kMostDamping = 1e4;
+constexpr double kMostBodyDamping = 1e4;
 constexpr double kConverged = 1e-8;
 
 template <class A, class B>
@@ -212,9 +212,9 @@ std::vector<PoseCovariance> blocks_of(const Eigen::MatrixXd& inverse, double var
 /// there; returns the scale of the weights.
 double descend(System& system, BodyState& state, std::vector<double>& lengths_px) {
   double scale_px = cauchy_scale(lengths_px);
-  double damping = kFirstDamping;
+  double damping = kFirstBodyDamping;
   bool is_new = true;
-  for (int step = 0; step < kMostSteps && damping < kMostDamping; ++step) {
+  for (int step = 0; step < kMostSteps && damping < kMostBodyDamping; ++step) {
     if (is_new && step < kScaleSteps) {
       scale_px = cauchy_scale(lengths_px);
     }

@@ -6,7 +6,7 @@
 namespace orthonav::nav {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffff;
+constexpr std::uint32_t kNoVertex = 0xffffffff;
 
 /// The four edges of a cell's face, and how the surface runs between them.
 class Face {
@@ -111,7 +111,7 @@ std::uint32_t find_sheets(const SampleGrid& grid, const JoinedFaces& joined, Sur
 
 CellMap marked_cells(const SampleGrid& grid) {
   CellMap map;
-  map.cell_of.assign(grid.nodes(), kNone);
+  map.cell_of.assign(grid.nodes(), kNoVertex);
   for (int z = 0; z + 1 < grid.size(2); ++z) {
     for (int y = 0; y + 1 < grid.size(1); ++y) {
       for (int x = 0; x + 1 < grid.size(0); ++x) {

@@ -13,7 +13,7 @@ constexpr double kBeyondDoubt = 0.95;
 /// be found.
 constexpr double kRounding = 1e-12;
 constexpr double kRounding_m = 1e-15;
-constexpr double kOnSurface_m = 1e-9;
+constexpr double kOnFace_m = 1e-9;
 
 bool lies_inside(const SurfaceIndex& closed, Vec3 place_m, const SurfacePoint& nearest) {
   const double above_m = (place_m - nearest.point_m).dot(nearest.normal);
@@ -36,7 +36,7 @@ std::optional<SurfaceDepth> DepthProbe::at(Vec3 place_m) {
   const double side = lies_inside(closed_, place_m, *nearest) ? 1.0 : -1.0;
   // Practically on the surface the difference is only rounding, so the face gives the direction
   // inward.
-  const Vec3 deeper = nearest->distance_m > kOnSurface_m
+  const Vec3 deeper = nearest->distance_m > kOnFace_m
                           ? (side / nearest->distance_m) * (place_m - nearest->point_m)
                           : -nearest->normal;
   return SurfaceDepth{side * nearest->distance_m, deeper};

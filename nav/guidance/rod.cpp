@@ -16,7 +16,7 @@ namespace {
 
 /// The head of a screw is at least 8 mm wide along the rod. Two heads nearer to each other than
 /// this, with touch errors of 1-2 mm each, are one head touched twice.
-constexpr double kClosest_m = 0.005;
+constexpr double kClosestHeads_m = 0.005;
 /// Heads lie 15-60 mm apart; over three levels without screws (37 mm each), as far as this.
 constexpr double kFarthestHead_m = 0.15;
 /// From T1 to the pelvis a rod is half a metre long; a greater length is a mistake of units.
@@ -39,7 +39,7 @@ std::string outside(double length_m, double shortest_m, double longest_m) {
 
 Error apart(std::size_t i, std::size_t j, double gap_m) {
   return Error{printed(translatable("screw heads %zu and %zu are %s apart, limit 5-150 mm"), i + 1,
-                       j + 1, outside(gap_m, kClosest_m, kFarthestHead_m).c_str())};
+                       j + 1, outside(gap_m, kClosestHeads_m, kFarthestHead_m).c_str())};
 }
 
 Status check(std::span<const Vec3> heads_m, double diameter_m) {
@@ -59,7 +59,7 @@ Status check(std::span<const Vec3> heads_m, double diameter_m) {
   for (std::size_t i = 0; i < heads_m.size(); ++i) {
     for (std::size_t j = i + 1; j < heads_m.size(); ++j) {
       const double gap_m = (heads_m[i] - heads_m[j]).norm();
-      if (gap_m < kClosest_m) {
+      if (gap_m < kClosestHeads_m) {
         return apart(i, j, gap_m);
       }
     }

@@ -10,7 +10,7 @@
 namespace orthonav::nav {
 namespace {
 
-constexpr double kGrid_m = 0.003;
+constexpr double kCanalGrid_m = 0.003;
 constexpr double kOffMiddle_m = 0.012;
 /// Canals are 12-18 mm deep and 20-35 mm wide (Panjabi et al. 1992); with a tilt, somewhat more.
 constexpr double kFarthestWall_m = 0.030;
@@ -35,9 +35,9 @@ std::optional<Vec3> middle_of_enclosed(const TriangleMesh& mesh, const SurfaceIn
   const Bounds box = bounds_of(mesh);
   const double middle_x_m = box.centre().x;
   std::vector<double> x, y, z;
-  for (double px = middle_x_m - kOffMiddle_m; px <= middle_x_m + kOffMiddle_m; px += kGrid_m) {
-    for (double py = box.low.y; py <= box.high.y; py += kGrid_m) {
-      for (double pz = box.low.z; pz <= box.high.z; pz += kGrid_m) {
+  for (double px = middle_x_m - kOffMiddle_m; px <= middle_x_m + kOffMiddle_m; px += kCanalGrid_m) {
+    for (double py = box.low.y; py <= box.high.y; py += kCanalGrid_m) {
+      for (double pz = box.low.z; pz <= box.high.z; pz += kCanalGrid_m) {
         if (enclosed(surface, {px, py, pz})) {
           x.push_back(px), y.push_back(py), z.push_back(pz);
         }

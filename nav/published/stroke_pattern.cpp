@@ -6,7 +6,7 @@
 namespace orthonav::nav::published {
 namespace {
 
-constexpr double kStep_m = 0.001;
+constexpr double kPatternStep_m = 0.001;
 /// The laminae lie about this far beside the midline.
 constexpr double kLamina_m = 0.012;
 
@@ -25,11 +25,11 @@ std::vector<std::vector<Vec3>> stroke_pattern(const TriangleMesh& trimmed,
   const double middle_m = 0.5 * (right->x + left->x);
   const auto add = [&](double from_x, double from_z, double to_x, double to_z) {
     const double length_m = std::hypot(to_x - from_x, to_z - from_z);
-    const int steps = std::max(1, static_cast<int>(length_m / kStep_m));
+    const int steps = std::max(1, static_cast<int>(length_m / kPatternStep_m));
     std::vector<Vec3> line;
     for (int i = 0; i <= steps; ++i) {
       const double t = static_cast<double>(i) / steps;
-      const Vec3 eye{from_x + t * (to_x - from_x), bounds.high.y + kStep_m,
+      const Vec3 eye{from_x + t * (to_x - from_x), bounds.high.y + kPatternStep_m,
                      from_z + t * (to_z - from_z)};
       if (const auto hit = surface.first_hit(eye, {0, -1, 0})) {
         line.push_back(eye + hit->distance_m * Vec3{0, -1, 0});

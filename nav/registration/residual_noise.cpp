@@ -8,7 +8,7 @@ namespace {
 
 /// 4 s at 30 Hz: longer than a hand's wandering stays correlated.
 constexpr std::size_t kLongestLag = 120;
-constexpr double kFewestPairs = 30.0;
+constexpr double kFewestPairsAtLag = 30.0;
 /// The autocorrelation is followed until it falls below this; smaller values are dominated by
 /// chance.
 constexpr double kNoiseCorrelation = 0.1;
@@ -73,7 +73,7 @@ AlongStrokes along_strokes(const SurfaceFit& fit, const ResidualUnits& units) {
       weights += weight;
       pairs += 1.0;
     }
-    if (pairs < kFewestPairs || (lag > 0 && !units.along_strokes)) {
+    if (pairs < kFewestPairsAtLag || (lag > 0 && !units.along_strokes)) {
       break;
     }
     out.covariance_m2.push_back(product / weights);

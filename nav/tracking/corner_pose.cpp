@@ -18,7 +18,7 @@ using Row = Eigen::Matrix<double, 2, kAll>;
 using Matrix3 = Eigen::Matrix3d;
 constexpr int kIterations = 3;
 
-struct Equations {
+struct CornerEquations {
   Normal normal = Normal::Zero();
   Right right = Right::Zero();
 
@@ -84,7 +84,7 @@ std::optional<CornerPose> corner_pose(const StereoCorners& seen,
   out.rig_from_marker = start;
   const Vec3 baseline_m = (cameras.right_from_rig * cameras.left_from_rig.inverse()).translation();
   for (int i = 0;; ++i) {
-    Equations e;
+    CornerEquations e;
     const Transform<Rig, Marker>& pose = out.rig_from_marker;
     const bool added =
         (!seen.left_px ||

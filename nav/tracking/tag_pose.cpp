@@ -13,7 +13,7 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-constexpr double kStepPx = 0.05;
+constexpr double kDifferencePx = 0.05;
 
 // How a point of the body moves with a small translation and rotation: [I, -[lever arm]x].
 Matrix36 point_by_pose(Vec3 lever_arm) {
@@ -124,12 +124,15 @@ std::optional<PoseCovariance> TagGeometry::covariance(const Transform<Rig, Marke
       if (!ahead || !behind) {
         return false;
       }
-      const Eigen::Vector3d slope = vector_as<Eigen::Vector3d>(*ahead - *behind) / (2.0 * kStepPx);
+      const Eigen::Vector3d slope =
+          vector_as<Eigen::Vector3d>(*ahead - *behind) / (2.0 * kDifferencePx);
       noise += variance * slope * slope.transpose();
       return true;
     };
-    if (!add({kStepPx, 0}, {}, left_variance_px2) || !add({0, kStepPx}, {}, left_variance_px2) ||
-        !add({}, {kStepPx, 0}, right_variance_px2) || !add({}, {0, kStepPx}, right_variance_px2)) {
+    if (!add({kDifferencePx, 0}, {}, left_variance_px2) ||
+        !add({0, kDifferencePx}, {}, left_variance_px2) ||
+        !add({}, {kDifferencePx, 0}, right_variance_px2) ||
+        !add({}, {0, kDifferencePx}, right_variance_px2)) {
       return std::nullopt;
     }
     const Matrix36 j = point_by_pose(rig_from_marker.rotation() * in_marker_m[i]);
