@@ -51,9 +51,9 @@ double BoneSurface::curvature_1_m(Vec3 place_m, Vec3 out, double aside_m) const 
   double sum_m = 0.0;
   for (int k = 0; k < kDirections; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / kDirections;
-    sum_m += at(place_m + aside_m * (std::cos(angle) * first + std::sin(angle) * second),
-                2.0 * aside_m)
-                 .distance_m;
+    sum_m +=
+        at(place_m + aside_m * (std::cos(angle) * first + std::sin(angle) * second), 2.0 * aside_m)
+            .distance_m;
   }
   return 4.0 * sum_m / (kDirections * aside_m * aside_m);
 }

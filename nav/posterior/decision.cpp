@@ -42,8 +42,8 @@ struct Tried {
     return found ? log_odds + found->log_evidence : kImpossible;
   }
   void look(const Prior& prior, Effort effort, const Hand* hand = nullptr) {
-    found = posterior_of(*observations, BoneSurface(*model, kind == Explanation::Kind::kMirror), prior,
-                         found ? found->world_from_vertebra : start, effort, hand);
+    found = posterior_of(*observations, BoneSurface(*model, kind == Explanation::Kind::kMirror),
+                         prior, found ? found->world_from_vertebra : start, effort, hand);
   }
 };
 
@@ -66,8 +66,7 @@ std::vector<double> errors_m(const Posterior& posterior, const Transform<World, 
   Eigen::LLT<Eigen::Matrix<double, 6, 6>> root;
   std::size_t root_of = posterior.parts.size();
   for (std::size_t k = 0; k < kDraws; ++k) {
-    while (part + 1 < posterior.parts.size() &&
-           (static_cast<double>(k) + 0.5) / kDraws > through) {
+    while (part + 1 < posterior.parts.size() && (static_cast<double>(k) + 0.5) / kDraws > through) {
       through += posterior.parts[++part].weight;
     }
     const Part& of = posterior.parts[part];
@@ -97,8 +96,8 @@ double share_above(const std::vector<double>& ascending, double limit) {
   return static_cast<double>(above) / static_cast<double>(ascending.size());
 }
 
-/// Where the mirror image may lie: as the bone does, or shifted or turned to a side, since a crooked
-/// bone's mirror image lies askew.
+/// Where the mirror image may lie: as the bone does, or shifted or turned to a side, since a
+/// crooked bone's mirror image lies askew.
 Transform<World, Vertebra> mirrored_start(const VertebraModel& model, const Cloud& points,
                                           const Transform<World, Vertebra>& pose) {
   constexpr double kAside_m = 0.003;
@@ -184,7 +183,8 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   const auto add_poses = [&](Explanation::Kind kind, const std::string& level,
                              const VertebraModel& of, std::size_t most) {
     const auto found = find_candidates(
-        of, cloud, kind == Explanation::Kind::kAnswer ? question.targets : std::vector<Point<Vertebra>>{},
+        of, cloud,
+        kind == Explanation::Kind::kAnswer ? question.targets : std::vector<Point<Vertebra>>{},
         observations.tip_radius_m);
     for (std::size_t i = 0; i < std::min(most, found.best_first.size()); ++i) {
       Tried t;
@@ -196,8 +196,7 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
       // Starts that are so near to each other end at the same pose.
       constexpr double kSameStart_m = 0.001;
       const bool is_new = std::none_of(tried.begin(), tried.end(), [&](const Tried& other) {
-        return other.model == &of &&
-               apart_m(other.start, t.start, question.targets) < kSameStart_m;
+        return other.model == &of && apart_m(other.start, t.start, question.targets) < kSameStart_m;
       });
       if (is_new) {
         tried.push_back(t);
@@ -255,8 +254,11 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     out.explanations.push_back(e);
   };
   const auto errors = errors_m(out.answer, answer, question.targets);
-  add({Explanation::Kind::kAnswer, {}, 1.0 - prior.size_share,
-       share_above(errors, question.most_m), answer});
+  add({Explanation::Kind::kAnswer,
+       {},
+       1.0 - prior.size_share,
+       share_above(errors, question.most_m),
+       answer});
   {
     const auto within = [&](double log_size) {
       const double sd = std::max(1e-9, out.answer.size_sd);
@@ -264,8 +266,11 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     };
     const double off =
         1.0 - (within(std::log1p(question.size_off)) - within(std::log1p(-question.size_off)));
-    add({Explanation::Kind::kSize, {},
-         prior.size_share * std::exp(std::min(300.0, out.answer.size_log_evidence)), off, answer});
+    add({Explanation::Kind::kSize,
+         {},
+         prior.size_share * std::exp(std::min(300.0, out.answer.size_log_evidence)),
+         off,
+         answer});
   }
   for (std::size_t i = 1; i < tried.size(); ++i) {
     const Tried& t = tried[i];
@@ -276,8 +281,8 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     if (other_pose) {
       double apart_m = 0.0;
       for (const Point<Vertebra>& target : question.targets) {
-        apart_m = std::max(apart_m,
-                           (t.found->world_from_vertebra * target - answer * target).norm());
+        apart_m =
+            std::max(apart_m, (t.found->world_from_vertebra * target - answer * target).norm());
       }
       constexpr double kSame_m = 0.0005;
       if (apart_m < kSame_m) {

@@ -16,10 +16,10 @@ struct Question {
   std::vector<Point<Vertebra>> targets;
   std::vector<NeighbourLevel> neighbours;
   Prior prior;
-  double most_m = 0.002;         ///< an error at any target above it is wrong
-  double may_be_wrong = 0.01;    ///< the most probability of that
-  double size_off = 0.015;       ///< a model farther from the bone's size is wrong
-  double least_predicted = 1e-3; ///< of data like these, by the prior
+  double most_m = 0.002;          ///< an error at any target above it is wrong
+  double may_be_wrong = 0.01;     ///< the most probability of that
+  double size_off = 0.015;        ///< a model farther from the bone's size is wrong
+  double least_predicted = 1e-3;  ///< of data like these, by the prior
 };
 
 /// One explanation of the points, and its probability among all that were tried.
@@ -36,19 +36,19 @@ struct Decision {
   Posterior answer;
   std::vector<Explanation> explanations;  ///< the answer first
   double wrong = 1.0;                     ///< probability that the answer is wrong
-  /// Probability of scatter, and of a share of points off the bone, as large or larger, by the prior.
+  /// Probability of scatter, and of a share of points off the bone, as large or larger, by the
+  /// prior.
   double scatter_predicted = 0.0;
   double outliers_predicted = 0.0;
   bool accepted = false;
-  /// Of the error at the worst target, under the answer: root mean square, and what 95 and 99 of 100
-  /// errors stay below.
+  /// Of the error at the worst target, under the answer: root mean square, and what 95 and 99 of
+  /// 100 errors stay below.
   double rms_m = 0.0, within_95_m = 0.0, within_99_m = 0.0;
 };
 
-/// Compares all explanations of the points. Refuses points that can't be registered at all: fewer than
-/// 100, not finite, spread too widely, on a line, or such that no pose is found.
-[[nodiscard]] Result<Decision> decided(const VertebraModel& model,
-                                       const Observations& observations,
+/// Compares all explanations of the points. Refuses points that can't be registered at all: fewer
+/// than 100, not finite, spread too widely, on a line, or such that no pose is found.
+[[nodiscard]] Result<Decision> decided(const VertebraModel& model, const Observations& observations,
                                        const Question& question);
 
 }  // namespace orthonav::nav::posterior

@@ -29,10 +29,10 @@ std::vector<bool> different(std::span<const Point<World>> points) {
     for (int i = 0; i < 27 && !same; ++i) {
       const auto near =
           seen.find({here[0] + i % 3 - 1, here[1] + i / 3 % 3 - 1, here[2] + i / 9 - 1});
-      same = near != seen.end() &&
-             std::any_of(near->second.begin(), near->second.end(), [&](Vec3 q) {
-               return (q - p.v).squared_norm() <= kSamePoint_m * kSamePoint_m;
-             });
+      same =
+          near != seen.end() && std::any_of(near->second.begin(), near->second.end(), [&](Vec3 q) {
+            return (q - p.v).squared_norm() <= kSamePoint_m * kSamePoint_m;
+          });
     }
     if (!same) {
       seen[here].push_back(p.v);
@@ -126,7 +126,8 @@ Observations observed(std::span<const Point<World>> points, std::span<const Vec3
     all.push_back({points[i], stroke, static_cast<double>(i) * kPeriod_s,
                    i < shafts.size() ? shafts[i] : Vec3{}});
   }
-  out.in_time = static_cast<std::size_t>(2 * (stroke + 1)) < std::min<std::size_t>(160, out.strokes.size());
+  out.in_time =
+      static_cast<std::size_t>(2 * (stroke + 1)) < std::min<std::size_t>(160, out.strokes.size());
   return out;
 }
 

@@ -35,15 +35,15 @@ struct Observations {
   double tip_radius_m = 0.0;  ///< of the ball at the pointer's end, whose centre is tracked
 };
 
-/// Observations from points in the order of time, 1/30 s apart, whose strokes are not marked: a leap
-/// of more than 8 mm begins another stroke, and where most steps are leaps the points are in no
-/// order. A point within 0.05 mm of an earlier one is the same sample, repeated or resampled, and
-/// is left out. `shafts`: one a point, or none.
+/// Observations from points in the order of time, 1/30 s apart, whose strokes are not marked: a
+/// leap of more than 8 mm begins another stroke, and where most steps are leaps the points are in
+/// no order. A point within 0.05 mm of an earlier one is the same sample, repeated or resampled,
+/// and is left out. `shafts`: one a point, or none.
 [[nodiscard]] Observations observed(std::span<const Point<World>> points,
                                     std::span<const Vec3> shafts, double tip_radius_m);
 
-/// Consecutive points of a stroke that count as one row; of points in no order, those of one cell of
-/// space. Depends on places in World only, so that all hypotheses have the same.
+/// Consecutive points of a stroke that count as one row; of points in no order, those of one cell
+/// of space. Depends on places in World only, so that all hypotheses have the same.
 struct Unit {
   int stroke = 0;
   std::vector<std::uint32_t> points;  ///< in `Observations::strokes`

@@ -124,8 +124,8 @@ Touches touches_at(const Problem& problem, const Transform<Vertebra, World>& fro
   out.all.resize(problem.observations.strokes.size());
   for (std::size_t i = 0; i < out.all.size(); ++i) {
     const Vec3 p = (from_world * problem.observations.strokes[i].tip).v;
-    const auto place = problem.bone.near(
-        p, hint != nullptr ? hint->all[i].nearest_m : problem.bone.place_near(p));
+    const auto place =
+        problem.bone.near(p, hint != nullptr ? hint->all[i].nearest_m : problem.bone.place_near(p));
     Touches::Touch& touch = out.all[i];
     touch.lever_m = p - out.centre_m;
     touch.out = place.out;
@@ -136,11 +136,10 @@ Touches touches_at(const Problem& problem, const Transform<Vertebra, World>& fro
   const std::size_t every = std::max<std::size_t>(1, out.all.size() / 200);
   for (std::size_t i = 0; i < out.all.size(); ++i) {
     out.all[i].curvature_1_m =
-        hint != nullptr ? hint->all[i].curvature_1_m
-        : i % every == 0
-            ? problem.bone.curvature_1_m(out.all[i].nearest_m, out.all[i].out,
-                                         std::numbers::sqrt2 * out.spread_m)
-            : out.all[i - 1].curvature_1_m;
+        hint != nullptr  ? hint->all[i].curvature_1_m
+        : i % every == 0 ? problem.bone.curvature_1_m(out.all[i].nearest_m, out.all[i].out,
+                                                      std::numbers::sqrt2 * out.spread_m)
+                         : out.all[i - 1].curvature_1_m;
   }
   return out;
 }
@@ -205,9 +204,9 @@ Rows rows_of(const Problem& problem, std::span<const Unit> units, const Touches&
       const Touches::Touch& touch = t.all[i];
       const Vec3 turned = touch.lever_m.cross(touch.out) / kLever_m;
       const std::array<double, kColumns> one = {
-          -touch.out.x, -touch.out.y, -touch.out.z, -turned.x,       -turned.y,
-          -turned.z,
-          // Of the place on the surface: the tip's own lever holds the height that it is to explain.
+          -touch.out.x, -touch.out.y, -touch.out.z, -turned.x, -turned.y, -turned.z,
+          // Of the place on the surface: the tip's own lever holds the height that it is to
+          // explain.
           1.0, (touch.nearest_m - t.centre_m).dot(touch.out), touch.curvature_1_m, touch.height_m};
       sum += touch.belongs;
       for (std::size_t k = 0; k < kColumns; ++k) {
@@ -259,10 +258,10 @@ double between(const Unit& a, const Unit& b, const Field& field) {
   if ((middle_a - middle_b).squared_norm() > kFar * kFar * longest_m2) {
     return correlation(middle_a, middle_b);
   }
-  return 0.25 * (correlation(a.quarter_m, b.quarter_m) +
-                 correlation(a.quarter_m, b.three_quarters_m) +
-                 correlation(a.three_quarters_m, b.quarter_m) +
-                 correlation(a.three_quarters_m, b.three_quarters_m));
+  return 0.25 *
+         (correlation(a.quarter_m, b.quarter_m) + correlation(a.quarter_m, b.three_quarters_m) +
+          correlation(a.three_quarters_m, b.quarter_m) +
+          correlation(a.three_quarters_m, b.three_quarters_m));
 }
 
 /// Mean correlation between two units of a stroke of noise that wanders.
@@ -272,8 +271,8 @@ double wandering(const Unit& a, const Unit& b, double time_s) {
   if (&a == &b) {
     return 2.0 * (length_a + std::expm1(-length_a)) / (length_a * length_a);
   }
-  const double gap = std::max(0.0, b.begin_s > a.begin_s ? b.begin_s - a.end_s
-                                                         : a.begin_s - b.end_s) / time_s;
+  const double gap =
+      std::max(0.0, b.begin_s > a.begin_s ? b.begin_s - a.end_s : a.begin_s - b.end_s) / time_s;
   return std::expm1(-length_a) * std::expm1(-length_b) / (length_a * length_b) * std::exp(-gap);
 }
 
@@ -439,8 +438,8 @@ Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
     const double least = std::log(prior.white_share_least / (1.0 - prior.white_share_least));
     const double log_odds = least * (1.0 - 2.0 * node[0] / (kShares - 1.0));
     out.white = 1.0 / (1.0 + std::exp(-log_odds));
-    out.time_s = prior.shortest_s *
-                 std::pow(prior.longest_s / prior.shortest_s, node[1] / (kTimes - 1.0));
+    out.time_s =
+        prior.shortest_s * std::pow(prior.longest_s / prior.shortest_s, node[1] / (kTimes - 1.0));
   } else {
     out.white = 1.0;
     out.time_s = prior.longest_s;
@@ -492,11 +491,10 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
   }
   const double strokes = prior.uneven_hand_share * mass(node[4], uneven) +
                          (node[4] == 0 ? 1.0 - prior.uneven_hand_share : 0.0);
-  const double model =
-      mass(node[5], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
+  const double model = mass(node[5], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
   const double z = std::log(noise_m / prior.noise_m) / prior.noise_log_sd;
-  const double noise = -0.5 * z * z -
-                       std::log(prior.noise_log_sd * std::sqrt(2.0 * std::numbers::pi));
+  const double noise =
+      -0.5 * z * z - std::log(prior.noise_log_sd * std::sqrt(2.0 * std::numbers::pi));
   return std::log(tissue) + std::log(strokes) + std::log(model) + noise;
 }
 
@@ -554,9 +552,9 @@ OverStandoff over_standoff(const Squares& squares, double freedom,
     Node& node = nodes[k];
     node.s_m = low_m + (high_m - low_m) * t * t;
     const double width_m = (high_m - low_m) * 2.0 * t * quadrature.weight[k];
-    const double sum_m2 = std::max(squares.height - 2.0 * node.s_m * squares.product +
-                                       node.s_m * node.s_m * squares.standoff,
-                                   1e-18);
+    const double sum_m2 = std::max(
+        squares.height - 2.0 * node.s_m * squares.product + node.s_m * node.s_m * squares.standoff,
+        1e-18);
     node.noise_m2 = sum_m2 / freedom;
     // The noise's SD by Laplace's method in its logarithm.
     node.log_value = -0.5 * freedom * (std::log(2.0 * std::numbers::pi * node.noise_m2) + 1.0) +
@@ -626,10 +624,9 @@ std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const P
     return std::nullopt;
   }
   // Scatter about a curved surface lifts the points by half their variance times its curvature.
-  const double lifts_m2 = 0.5 *
-                          (left_four(3, 3) -
-                           left_four(0, 3) * left_four(0, 3) / left_four(0, 0) + inside_m2) /
-                          freedom;
+  const double lifts_m2 =
+      0.5 * (left_four(3, 3) - left_four(0, 3) * left_four(0, 3) / left_four(0, 0) + inside_m2) /
+      freedom;
   Eigen::Matrix<double, 4, 3> kept = Eigen::Matrix<double, 4, 3>::Zero();
   kept(0, 0) = kept(1, 1) = kept(3, 2) = 1.0;
   kept(2, 2) = -lifts_m2;
@@ -654,13 +651,12 @@ std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const P
     // The size has a normal prior: integrated, it takes its part of the squares.
     const double precision = over.noise_m2 / (prior.size_sd * prior.size_sd);
     const double information = left(1, 1) + precision;
-    const OverStandoff sized = over_standoff(
-        {left(2, 2) - left(1, 2) * left(1, 2) / information + inside_m2,
-         left(0, 2) - left(1, 2) * left(0, 1) / information,
-         left(0, 0) - left(0, 1) * left(0, 1) / information},
-        freedom, log_prior);
-    out.log_size =
-        sized.log_integral + fixed - log_pose + 0.5 * std::log(precision / information);
+    const OverStandoff sized =
+        over_standoff({left(2, 2) - left(1, 2) * left(1, 2) / information + inside_m2,
+                       left(0, 2) - left(1, 2) * left(0, 1) / information,
+                       left(0, 0) - left(0, 1) * left(0, 1) / information},
+                      freedom, log_prior);
+    out.log_size = sized.log_integral + fixed - log_pose + 0.5 * std::log(precision / information);
     const double by_standoff = left(0, 1) / information;
     out.size = left(1, 2) / information - sized.mean_m * by_standoff;
     out.size_variance =
@@ -732,8 +728,11 @@ Answers explored(const Rows& rows, const Prior& prior, bool in_time) {
     if (log_weight < most - kLikely) {
       break;
     }
-    const Node most_of_each = {in_time ? kShares - 1 : 0, in_time ? kTimes - 1 : 0, kRatios - 1,
-                               2 * static_cast<int>(prior.tissue_lengths_m.size()) - 1, kRatios - 1,
+    const Node most_of_each = {in_time ? kShares - 1 : 0,
+                               in_time ? kTimes - 1 : 0,
+                               kRatios - 1,
+                               2 * static_cast<int>(prior.tissue_lengths_m.size()) - 1,
+                               kRatios - 1,
                                kRatios - 1};
     for (std::size_t k = 0; k < node.size(); ++k) {
       for (const int by : {-2, -1, 1, 2}) {
@@ -775,8 +774,8 @@ Answers answers_at(const Rows& rows, const Prior& prior, bool in_time,
   Covariances covariances(rows, prior.model_length_m);
   Answers out;
   for (const Node& node : nodes) {
-    if (auto found = answer(covariances, rows, prior, node, mixture(node, prior, in_time),
-                            Asked::kAll)) {
+    if (auto found =
+            answer(covariances, rows, prior, node, mixture(node, prior, in_time), Asked::kAll)) {
       out.emplace_back(node, std::move(*found));
     }
   }
@@ -860,8 +859,8 @@ Posterior assembled(const Touches& t, const Rows& rows, Answers answers) {
   for (auto& [node, a] : answers) {
     Eigen::Map<Vector6> step(a.part.step.data());
     step -= mean;
-    covariance += a.part.weight * (Eigen::Map<const Rows6>(a.part.covariance.data()) +
-                                   step * step.transpose());
+    covariance += a.part.weight *
+                  (Eigen::Map<const Rows6>(a.part.covariance.data()) + step * step.transpose());
     out.parts.push_back(a.part);
   }
   Eigen::Map<Rows6>(out.covariance.data()) = covariance;
@@ -937,7 +936,8 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
           break;
         }
       }
-      if (!better || (step.head<3>().norm() < kStands_m && kLever_m * step.tail<3>().norm() < kStands_m)) {
+      if (!better ||
+          (step.head<3>().norm() < kStands_m && kLever_m * step.tail<3>().norm() < kStands_m)) {
         break;
       }
     }

@@ -18,9 +18,10 @@ namespace orthonav::nav::posterior {
 //   d = s (1 + k u(p)) + f(p) + g(k) + n(t)
 //
 // s >= 0 is the mean height of the tip (tissue, a light hand), u a Gaussian field over the bone
-// (tissue's thickness), f another (the model is not the bone), g a height per stroke, n the noise of
-// hand and tracker: white from point to point, and wandering along a stroke (Ornstein-Uhlenbeck).
-// Or the point has nothing to do with the bone, and d is anything within a range.
+// (tissue's thickness), f another (the model is not the bone), g a height per stroke, n the noise
+// of hand and tracker: white from point to point, and wandering along a stroke
+// (Ornstein-Uhlenbeck). Or the point has nothing to do with the bone, and d is anything within a
+// range.
 //
 // Points are averaged over some 160 units of their strokes, whose heights are the rows; what points
 // deviate from the mean of eight tells of the noise from point to point. Everything but pose and s
@@ -30,13 +31,13 @@ namespace orthonav::nav::posterior {
 
 /// A point of the grid: what the heights consist of, relative to the noise.
 struct Mixture {
-  double white = 0.0;        ///< share of the noise's variance that is white
-  double time_s = 0.0;       ///< correlation time of the rest
-  double tissue = 0.0;       ///< SD of tissue over the bone, of the noise's SD; 0: there is none
-  double length_m = 0.0;     ///< over which its covariance falls to 1/e
-  bool smooth = false;       ///< whether it is differentiable over the bone
-  double stroke = 0.0;       ///< SD of the strokes' heights, of the noise's SD
-  double model = 0.0;        ///< SD of the model's error, of the noise's SD
+  double white = 0.0;     ///< share of the noise's variance that is white
+  double time_s = 0.0;    ///< correlation time of the rest
+  double tissue = 0.0;    ///< SD of tissue over the bone, of the noise's SD; 0: there is none
+  double length_m = 0.0;  ///< over which its covariance falls to 1/e
+  bool smooth = false;    ///< whether it is differentiable over the bone
+  double stroke = 0.0;    ///< SD of the strokes' heights, of the noise's SD
+  double model = 0.0;     ///< SD of the model's error, of the noise's SD
 };
 
 /// What one point of the grid says.
@@ -69,8 +70,8 @@ struct Posterior {
   std::vector<Part> parts;                         ///< the likeliest first; weights add up to 1
   std::array<double, 36> covariance{};             ///< of all parts together
   double log_evidence = 0.0;
-  /// Log evidence of a model of any size against one of its own, without the odds; and the size then,
-  /// of the bone relative to the model.
+  /// Log evidence of a model of any size against one of its own, without the odds; and the size
+  /// then, of the bone relative to the model.
   double size_log_evidence = 0.0;
   double size = 1.0;
   double size_sd = 0.0;
@@ -91,8 +92,8 @@ struct Squares {
   double standoff = 0.0;
 };
 
-/// The heights' density integrated over s >= 0 and over the noise's scale: with `freedom` degrees of
-/// freedom, the sum of squares, and `log_prior` (s, noise's SD): of s a density by metre, of the
+/// The heights' density integrated over s >= 0 and over the noise's scale: with `freedom` degrees
+/// of freedom, the sum of squares, and `log_prior` (s, noise's SD): of s a density by metre, of the
 /// noise one by its logarithm. Quadrature in s, so that a truncated tail is as exact as the middle.
 struct OverStandoff {
   double log_integral = 0.0;

@@ -5,18 +5,19 @@
 
 namespace orthonav::nav::posterior {
 
-/// What is known before a bone is touched. Each constant with its unit, its source, and what changes
-/// when it doubles.
+/// What is known before a bone is touched. Each constant with its unit, its source, and what
+/// changes when it doubles.
 struct Prior {
   // Soft tissue, or a light hand: the mean height s of the tip, and how uneven it is.
 
   /// Share of registrations over bare bone, whose s is of the size of `bare_m`. A guess. Doubled:
   /// nothing over clean strokes, which tell it themselves.
   double bare_share = 0.5;
-  double bare_m = 0.0001;   ///< scale of s over bare bone (half-normal). A guess; doubled: nothing
-  double tissue_m = 0.002;  ///< scale of s over tissue (half-normal): facets to 2 mm, valleys to more
-  /// SD of tissue's thickness over the bone, of its mean: median, and SD of its logarithm. Tissue is
-  /// never even. A guess. Median doubled: even tissue loses half a unit of log evidence.
+  double bare_m = 0.0001;  ///< scale of s over bare bone (half-normal). A guess; doubled: nothing
+  double tissue_m =
+      0.002;  ///< scale of s over tissue (half-normal): facets to 2 mm, valleys to more
+  /// SD of tissue's thickness over the bone, of its mean: median, and SD of its logarithm. Tissue
+  /// is never even. A guess. Median doubled: even tissue loses half a unit of log evidence.
   double unevenness = 0.5;
   double unevenness_log_sd = 1.0;
   /// Lengths over which its thickness changes, equally likely, m. A facet to a vertebra.
@@ -42,14 +43,15 @@ struct Prior {
   /// refused doubles.
   double noise_m = 0.00035;
   double noise_log_sd = 0.55;
-  double white_share_least = 0.01;  ///< of the variance, from point to point: evenly in its log odds
-  double shortest_s = 0.05;         ///< correlation time of the rest, evenly in its logarithm
+  double white_share_least =
+      0.01;                  ///< of the variance, from point to point: evenly in its log odds
+  double shortest_s = 0.05;  ///< correlation time of the rest, evenly in its logarithm
   double longest_s = 2.0;
 
   /// What a point's deviation within its block counts for, of an independent one. The noise is not
-  /// quite white and wandering: how it goes at once must not decide how it goes on. A debt: chosen on
-  /// strokes of our own (noisy ones, seeds 1 and 2); at 1 and at 0.1 the pose is a tenth less exact
-  /// there.
+  /// quite white and wandering: how it goes at once must not decide how it goes on. A debt: chosen
+  /// on strokes of our own (noisy ones, seeds 1 and 2); at 1 and at 0.1 the pose is a tenth less
+  /// exact there.
   double point_counts = 0.3;
 
   /// A point that has nothing to do with the bone, under every hypothesis: its share, and the range

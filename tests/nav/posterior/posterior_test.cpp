@@ -104,8 +104,8 @@ TEST(PosteriorStandoff, IsIntegratedAsASumOverEveryValueSays) {
     const double sd_m = 0.00005;
     const double standoff = kNoise_m * kNoise_m / (sd_m * sd_m);
     const double at_m = t * sd_m;
-    const Squares squares{kFreedom * kNoise_m * kNoise_m + at_m * at_m * standoff,
-                          at_m * standoff, standoff};
+    const Squares squares{kFreedom * kNoise_m * kNoise_m + at_m * at_m * standoff, at_m * standoff,
+                          standoff};
     const auto even = [](double, double) { return 0.0; };
     const OverStandoff ours = over_standoff(squares, kFreedom, even);
     const OverStandoff right = summed(squares, kFreedom, even, std::max(at_m, 0.0) + 8.0 * sd_m);
@@ -243,7 +243,8 @@ TEST(Posterior, CleanStrokesAreAcceptedAndTheirNoiseAndHeightAreTold) {
 }
 
 TEST(Posterior, RepeatedPointsSayNothingNew) {
-  const auto once = test::digitize_strokes(bone().from.mesh, test::StrokeVariant::kSparse, 4).value();
+  const auto once =
+      test::digitize_strokes(bone().from.mesh, test::StrokeVariant::kSparse, 4).value();
   std::vector<Point<World>> tips = once.tips();
   const auto first = decided(*bone().model, observed(tips, {}, 0.0), bone().question());
   const std::vector<Point<World>> again = tips;
@@ -292,7 +293,8 @@ TEST(Posterior, PointsThatHoldNoPoseAreRefusedInOneLine) {
     const Vec3 n = Vec3{random.normal(), random.normal(), random.normal()}.normalized();
     ball.push_back({0.02 * n});
     plane.push_back({{random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02), 0.0}});
-    noise.push_back({{random.normal(0.0, 0.03), random.normal(0.0, 0.03), random.normal(0.0, 0.03)}});
+    noise.push_back(
+        {{random.normal(0.0, 0.03), random.normal(0.0, 0.03), random.normal(0.0, 0.03)}});
   }
   std::vector<Point<World>> broken = line;
   broken[17].v.y = std::numeric_limits<double>::quiet_NaN();
