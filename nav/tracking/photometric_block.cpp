@@ -243,9 +243,10 @@ void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquation
   if (n == 0) {
     return;
   }
+  // Leftovers of an earlier block get no weight, and may be of a tag with more cells.
+  std::fill(cell_.begin() + n, cell_.end(), std::uint16_t{0});
   compare(light);
   weigh(light, doubt_cells);
-  // Leftovers of an earlier block get no weight.
   float* weight = block_.data() + kWeight * kBlock;
   std::fill(weight + n, weight + kBlock, 0.0F);
   sum_up(out);

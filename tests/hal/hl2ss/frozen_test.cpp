@@ -116,7 +116,7 @@ TEST(OneCamerasStamps, ShiftedByAPairMakePairsOfTwoMoments) {
   EXPECT_EQ(shifted, 4) << "the fifth pair repeats a right picture, and the last four are shifted";
 }
 
-/// At 120 pairs a second, so that the clock is believed after a sixth of a second.
+/// At 60 pairs a second, so that the clock is believed after a third of a second.
 struct AfterSetting {
   int pairs = 0;
   std::vector<std::string> told;
@@ -126,8 +126,8 @@ struct AfterSetting {
   bool true_times = true;
 };
 AfterSetting set_back(Duration by) {
-  sim::SimOptions sim = black_session(0.7);
-  sim.frame_rate_hz = 120.0;
+  sim::SimOptions sim = black_session(1.4);
+  sim.frame_rate_hz = 60.0;
   sim.pace = sim::Pace::kRealtime;
   ServerOptions options;
   options.faults.clock_back = 20;
@@ -146,7 +146,7 @@ AfterSetting set_back(Duration by) {
       ++after.pairs;
       after.oldest = std::max(after.oldest, headset->clock().now() - frame.time);
       after.map_epoch = frame.map_epoch;
-      const double number = seconds(frame.time.time_since_epoch()) * 120.0;
+      const double number = seconds(frame.time.time_since_epoch()) * 60.0;
       after.true_times = after.true_times && std::abs(number - std::round(number)) < 1e-3;
     }
     return *next == Next::kEnd;
