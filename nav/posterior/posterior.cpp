@@ -711,7 +711,7 @@ Answers explored(const Rows& rows, const Prior& prior, bool in_time) {
       most = std::max(most, found->log_weight);
       likely.emplace(found->log_weight, node);
     }
-    seen.emplace(node, std::move(found));
+    seen.emplace(node, found);
   };
   const int length = 3;
   for (const int share : in_time ? std::vector<int>{2, 5, 8} : std::vector<int>{0}) {
@@ -760,7 +760,7 @@ Answers explored(const Rows& rows, const Prior& prior, bool in_time) {
   Answers out;
   for (auto& [node, found] : seen) {
     if (found && found->log_weight > most - kLikely) {
-      out.emplace_back(node, std::move(*found));
+      out.emplace_back(node, *found);
     }
   }
   std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
@@ -776,7 +776,7 @@ Answers answers_at(const Rows& rows, const Prior& prior, bool in_time,
   for (const Node& node : nodes) {
     if (auto found =
             answer(covariances, rows, prior, node, mixture(node, prior, in_time), Asked::kAll)) {
-      out.emplace_back(node, std::move(*found));
+      out.emplace_back(node, *found);
     }
   }
   return out;
