@@ -82,50 +82,49 @@ RegistrationMethod best(double common_m) {
 }
 
 RegistrationMethod posterior(double common_m) {
-  return {
-      "posterior",
-      [common_m](const BenchLevel& level) -> Fit {
-        nav::posterior::Question question;
-        for (const nav::ScrewPlan& screw : level.screws) {
-          for (const Point<Vertebra> at : {screw.entry, screw.target}) {
-            question.targets.push_back(at);
-          }
-        }
-        question.neighbours = level.neighbours;
-        return [model = level.model, question, common_m](std::span<const Point<World>> points) {
-          Fitted fitted;
-          const auto d =
-              nav::posterior::decided(*model, nav::posterior::observed(points, {}, 0.0), question);
-          if (!d) {
-            fitted.reason = d.error().message;
-            return fitted;
-          }
-          fitted.found = true;
-          fitted.accepted = d->accepted;
-          fitted.world_from_vertebra = d->answer.world_from_vertebra;
-          fitted.rmse_m = d->answer.spread_m;
-          char text[160];
-          std::snprintf(text, sizeof text, "wrong %.4f (99 %% within %.2f mm); size %.3f +- %.3f",
-                        d->wrong, 1e3 * d->within_99_m, d->answer.size, d->answer.size_sd);
-          fitted.reason = text;
-          for (const auto& e : d->explanations) {
-            constexpr const char* kKinds[] = {"answer", "pose", "level", "mirror", "size"};
-            std::snprintf(text, sizeof text, "; %s %s %.2g", kKinds[static_cast<int>(e.kind)],
-                          e.level.c_str(), e.probability);
-            fitted.reason += text;
-            if (e.kind == nav::posterior::Explanation::Kind::kLevel && e.probability > 0.01) {
-              fitted.fits_better = e.level;
+  return {"posterior",
+          [common_m](const BenchLevel& level) -> Fit {
+            nav::posterior::Question question;
+            for (const nav::ScrewPlan& screw : level.screws) {
+              for (const Point<Vertebra> at : {screw.entry, screw.target}) {
+                question.targets.push_back(at);
+              }
             }
-          }
-          fitted.covariance = [uncertainty = nav::with_common(
-                                   nav::PoseUncertainty(d->answer.centre_m, d->answer.covariance),
-                                   {common_m})](Point<Vertebra> at) {
-            return predicted_covariance(uncertainty, at);
-          };
-          return fitted;
-        };
-      },
-      true};
+            question.neighbours = level.neighbours;
+            return [model = level.model, question, common_m](std::span<const Point<World>> points) {
+              Fitted fitted;
+              const auto d =
+                  nav::posterior::decided(*model, nav::posterior::observed(points, 0.0), question);
+              if (!d) {
+                fitted.reason = d.error().message;
+                return fitted;
+              }
+              fitted.found = true;
+              fitted.accepted = d->accepted;
+              fitted.world_from_vertebra = d->answer.world_from_vertebra;
+              fitted.rmse_m = d->answer.spread_m;
+              char text[160];
+              std::snprintf(text, sizeof text,
+                            "wrong %.4f (99 %% within %.2f mm); size %.3f +- %.3f", d->wrong,
+                            1e3 * d->within_99_m, d->answer.size, d->answer.size_sd);
+              fitted.reason = text;
+              for (const auto& e : d->explanations) {
+                constexpr const char* kKinds[] = {"answer", "pose", "level", "mirror", "size"};
+                std::snprintf(text, sizeof text, "; %s %s %.2g", kKinds[static_cast<int>(e.kind)],
+                              e.level.c_str(), e.probability);
+                fitted.reason += text;
+                if (e.kind == nav::posterior::Explanation::Kind::kLevel && e.probability > 0.01) {
+                  fitted.fits_better = e.level;
+                }
+              }
+              fitted.covariance =
+                  [uncertainty = nav::with_common(
+                       nav::PoseUncertainty(d->answer.centre_m, d->answer.covariance), {common_m})](
+                      Point<Vertebra> at) { return predicted_covariance(uncertainty, at); };
+              return fitted;
+            };
+          },
+          true};
 }
 
 }  // namespace

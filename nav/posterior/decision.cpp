@@ -34,15 +34,15 @@ struct Tried {
   std::string level;
   double log_odds = 0.0;
   const VertebraModel* model = nullptr;
-  const Observations* observations = nullptr;
   Transform<World, Vertebra> start;
   std::optional<Posterior> found;
 
   [[nodiscard]] double log_weight() const {
     return found ? log_odds + found->log_evidence : kImpossible;
   }
-  void look(const Prior& prior, Effort effort, const Hand* hand = nullptr) {
-    found = posterior_of(*observations, BoneSurface(*model, kind == Explanation::Kind::kMirror),
+  void look(const Observations& observations, const Prior& prior, Effort effort,
+            const Hand* hand = nullptr) {
+    found = posterior_of(observations, BoneSurface(*model, kind == Explanation::Kind::kMirror),
                          prior, found ? found->world_from_vertebra : start, effort, hand);
   }
 };
@@ -50,7 +50,8 @@ struct Tried {
 /// The largest error at any target, ascending, of draws from a posterior, held against a pose.
 std::vector<double> errors_m(const Posterior& posterior, const Transform<World, Vertebra>& answer,
                              std::span<const Point<Vertebra>> targets) {
-  // The step that the answer is from this posterior's mean, at each target.
+  // Of the answer from this posterior's mean, at each target, in the model's frame. A drawn pose is
+  // off the mean by the opposite of the step of the points.
   std::vector<Vec3> off_m;
   std::vector<Vec3> arm_m;
   const auto moved = posterior.world_from_vertebra.inverse() * answer;
@@ -82,7 +83,7 @@ std::vector<double> errors_m(const Posterior& posterior, const Transform<World, 
     double most_m2 = 0.0;
     for (std::size_t i = 0; i < targets.size(); ++i) {
       const Vec3 error = Vec3{step(0), step(1), step(2)} +
-                         Vec3{step(3), step(4), step(5)}.cross(arm_m[i]) - off_m[i];
+                         Vec3{step(3), step(4), step(5)}.cross(arm_m[i]) + off_m[i];
       most_m2 = std::max(most_m2, error.squared_norm());
     }
     out.push_back(std::sqrt(most_m2));
@@ -140,32 +141,6 @@ Transform<World, Vertebra> mirrored_start(const VertebraModel& model, const Clou
   return world_from({orthonormalized(rotation), swapped(best.centre_m)}, points.centre_m);
 }
 
-/// Probability by the prior that heights scatter by at least this.
-double scatter_predicted(const Prior& prior, double spread_m) {
-  Random random(7);
-  double above = 0.0;
-  for (std::size_t k = 0; k < kDraws; ++k) {
-    const bool bare = random.uniform() < prior.bare_share;
-    const double s_m = std::abs(random.normal(0.0, bare ? prior.bare_m : prior.tissue_m));
-    const auto uneven = [&] {
-      return prior.unevenness * std::exp(random.normal(0.0, prior.unevenness_log_sd)) * s_m;
-    };
-    const double tissue_m = uneven();
-    const double stroke_m = random.uniform() < prior.uneven_hand_share ? uneven() : 0.0;
-    const double share = random.uniform();
-    const double model_m =
-        share < prior.exact_share
-            ? prior.exact_m * share / prior.exact_share
-            : prior.exact_m * std::pow(prior.worst_m / prior.exact_m,
-                                       (share - prior.exact_share) / (1.0 - prior.exact_share));
-    const double noise_m = prior.noise_m * std::exp(random.normal(0.0, prior.noise_log_sd));
-    const double all_m2 =
-        tissue_m * tissue_m + stroke_m * stroke_m + model_m * model_m + noise_m * noise_m;
-    above += all_m2 >= spread_m * spread_m ? 1.0 : 0.0;
-  }
-  return above / kDraws;
-}
-
 }  // namespace
 
 Result<Decision> decided(const VertebraModel& model, const Observations& observations,
@@ -191,7 +166,6 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
       t.kind = kind;
       t.level = level;
       t.model = &of;
-      t.observations = &observations;
       t.start = world_from(found.best_first[i].fit.pose, cloud.centre_m);
       // Starts that are so near to each other end at the same pose.
       constexpr double kSameStart_m = 0.001;
@@ -205,7 +179,7 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   };
   add_poses(Explanation::Kind::kAnswer, {}, model, 8);
   for (Tried& t : tried) {
-    t.look(prior, Effort::kRough);
+    t.look(observations, prior, Effort::kRough);
   }
   const auto likelier = [](const Tried& a, const Tried& b) {
     return a.log_weight() < b.log_weight();
@@ -226,21 +200,20 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   mirror.kind = Explanation::Kind::kMirror;
   mirror.log_odds = std::log(prior.mirror_odds);
   mirror.model = &model;
-  mirror.observations = &observations;
   mirror.start = mirrored_start(model, cloud, tried[0].found->world_from_vertebra);
   tried.push_back(mirror);
   for (std::size_t i = 1; i < tried.size(); ++i) {
-    tried[i].look(prior, Effort::kRough, &rough_hand);
+    tried[i].look(observations, prior, Effort::kRough, &rough_hand);
   }
   const double own = tried[0].log_weight();
   std::erase_if(tried, [&](const Tried& t) { return !(t.log_weight() >= own - kFarWorse); });
-  tried[0].look(prior, Effort::kFull);
+  tried[0].look(observations, prior, Effort::kFull);
   if (!tried[0].found) {
     return no_pose;
   }
   const Hand hand = tried[0].found->hand;
   for (std::size_t i = 1; i < tried.size(); ++i) {
-    tried[i].look(prior, Effort::kFull, &hand);
+    tried[i].look(observations, prior, Effort::kFull, &hand);
   }
   Decision out;
   out.answer = *tried[0].found;
@@ -253,47 +226,33 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     sum += e.probability;
     out.explanations.push_back(e);
   };
+  const auto odds = [](double log_odds) { return std::exp(std::min(log_odds, 300.0)); };
   const auto errors = errors_m(out.answer, answer, question.targets);
   add({Explanation::Kind::kAnswer,
        {},
        1.0 - prior.size_share,
-       share_above(errors, question.most_m),
-       answer});
-  {
-    const auto within = [&](double log_size) {
-      const double sd = std::max(1e-9, out.answer.size_sd);
-      return 0.5 * std::erfc(-(log_size - std::log(out.answer.size)) / (sd * std::sqrt(2.0)));
-    };
-    const double off =
-        1.0 - (within(std::log1p(question.size_off)) - within(std::log1p(-question.size_off)));
-    add({Explanation::Kind::kSize,
-         {},
-         prior.size_share * std::exp(std::min(300.0, out.answer.size_log_evidence)),
-         off,
-         answer});
-  }
+       share_above(errors, question.most_m)});
+  const auto size_below = [&](double size) {
+    return normal_cdf(std::log(size / out.answer.size) / std::max(1e-9, out.answer.size_sd));
+  };
+  add({Explanation::Kind::kSize,
+       {},
+       prior.size_share * odds(out.answer.size_log_evidence),
+       1.0 - (size_below(1.0 + question.size_off) - size_below(1.0 - question.size_off))});
   for (std::size_t i = 1; i < tried.size(); ++i) {
     const Tried& t = tried[i];
     if (!t.found) {
       continue;
     }
     const bool other_pose = t.kind == Explanation::Kind::kAnswer;
-    if (other_pose) {
-      double apart_m = 0.0;
-      for (const Point<Vertebra>& target : question.targets) {
-        apart_m =
-            std::max(apart_m, (t.found->world_from_vertebra * target - answer * target).norm());
-      }
-      constexpr double kSame_m = 0.0005;
-      if (apart_m < kSame_m) {
-        continue;
-      }
+    constexpr double kSame_m = 0.0005;
+    if (other_pose && apart_m(t.found->world_from_vertebra, answer, question.targets) < kSame_m) {
+      continue;
     }
     add({other_pose ? Explanation::Kind::kOtherPose : t.kind, t.level,
-         std::exp(std::min(300.0, t.log_weight() - log_answer)),
+         odds(t.log_weight() - log_answer),
          other_pose ? share_above(errors_m(*t.found, answer, question.targets), question.most_m)
-                    : 1.0,
-         t.found->world_from_vertebra});
+                    : 1.0});
   }
   out.wrong = 0.0;
   for (Explanation& e : out.explanations) {
@@ -306,16 +265,12 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   out.accepted = out.wrong <= question.may_be_wrong &&
                  out.scatter_predicted >= question.least_predicted &&
                  out.outliers_predicted >= question.least_predicted;
-  const auto quantile = [&](double q) {
-    return errors[static_cast<std::size_t>(q * static_cast<double>(errors.size() - 1))];
-  };
   double squares_m2 = 0.0;
   for (const double e : errors) {
     squares_m2 += e * e / static_cast<double>(errors.size());
   }
   out.rms_m = std::sqrt(squares_m2);
-  out.within_95_m = quantile(0.95);
-  out.within_99_m = quantile(0.99);
+  out.within_99_m = errors[(errors.size() - 1) * 99 / 100];
   return out;
 }
 

@@ -29,7 +29,6 @@ struct Explanation {
   std::string level;  ///< of kLevel
   double probability = 0.0;
   double wrong = 0.0;  ///< probability that the answer is wrong if this is so
-  Transform<World, Vertebra> world_from_vertebra;
 };
 
 struct Decision {
@@ -41,9 +40,10 @@ struct Decision {
   double scatter_predicted = 0.0;
   double outliers_predicted = 0.0;
   bool accepted = false;
-  /// Of the error at the worst target, under the answer: root mean square, and what 95 and 99 of
-  /// 100 errors stay below.
-  double rms_m = 0.0, within_95_m = 0.0, within_99_m = 0.0;
+  /// Of the error at the worst target, under the answer: root mean square, and what 99 of 100
+  /// errors stay below.
+  double rms_m = 0.0;
+  double within_99_m = 0.0;
 };
 
 /// Compares all explanations of the points. Refuses points that can't be registered at all: fewer

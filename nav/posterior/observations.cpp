@@ -96,8 +96,7 @@ std::vector<Unit> in_space(const Observations& observations, std::size_t most) {
 
 }  // namespace
 
-Observations observed(std::span<const Point<World>> points, std::span<const Vec3> shafts,
-                      double tip_radius_m) {
+Observations observed(std::span<const Point<World>> points, double tip_radius_m) {
   Observations out;
   out.tip_radius_m = tip_radius_m;
   const std::vector<bool> is_new = different(points);
@@ -123,8 +122,7 @@ Observations observed(std::span<const Point<World>> points, std::span<const Vec3
         leapt = all.size();
       }
     }
-    all.push_back({points[i], stroke, static_cast<double>(i) * kPeriod_s,
-                   i < shafts.size() ? shafts[i] : Vec3{}});
+    all.push_back({points[i], stroke, static_cast<double>(i) * kPeriod_s});
   }
   out.in_time =
       static_cast<std::size_t>(2 * (stroke + 1)) < std::min<std::size_t>(160, out.strokes.size());

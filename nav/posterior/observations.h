@@ -15,14 +15,6 @@ struct StrokePoint {
   Point<World> tip;
   int stroke = 0;       ///< which movement of the hand, ascending
   double time_s = 0.0;  ///< ascending within a stroke; meaningless if not `Observations::in_time`
-  Vec3 shaft;           ///< unit vector from the tip back along the shaft; zero where not known
-};
-
-/// A place where the tip was pressed to the bone and held.
-struct Press {
-  Point<World> tip;
-  double sd_m = 0.0;    ///< of its position along an axis: tracking and tremor
-  double time_s = 0.0;  ///< since the strokes
 };
 
 /// Everything that was measured of one bone, in World.
@@ -31,16 +23,14 @@ struct Observations {
   /// False where the points come without strokes and times, in any order: nothing is then known of
   /// how the hand's error wanders.
   bool in_time = true;
-  std::vector<Press> presses;
   double tip_radius_m = 0.0;  ///< of the ball at the pointer's end, whose centre is tracked
 };
 
 /// Observations from points in the order of time, 1/30 s apart, whose strokes are not marked: a
-/// leap of more than 8 mm begins another stroke, and where most steps are leaps the points are in
-/// no order. A point within 0.05 mm of an earlier one is the same sample, repeated or resampled,
-/// and is left out. `shafts`: one a point, or none.
-[[nodiscard]] Observations observed(std::span<const Point<World>> points,
-                                    std::span<const Vec3> shafts, double tip_radius_m);
+/// leap of more than 8 mm begins another stroke unless the tip is back within 15 points, and where
+/// most steps are leaps the points are in no order. A point within 0.05 mm of an earlier one is the
+/// same sample, repeated or resampled, and is left out.
+[[nodiscard]] Observations observed(std::span<const Point<World>> points, double tip_radius_m);
 
 /// Consecutive points of a stroke that count as one row; of points in no order, those of one cell
 /// of space. Depends on places in World only, so that all hypotheses have the same.

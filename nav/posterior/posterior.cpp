@@ -8,6 +8,7 @@
 #include <numbers>
 #include <queue>
 
+#include "nav/statistics/median.h"
 #include "nav/statistics/whitened_system.h"
 
 namespace orthonav::nav::posterior {
@@ -25,8 +26,6 @@ double log_sum(double a, double b) {
   const double most = std::max(a, b);
   return most == kNever ? kNever : most + std::log1p(std::exp(std::min(a, b) - most));
 }
-
-double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 // ---------------------------------------------------------------------------------------------
 // The heights at a pose.
@@ -63,8 +62,9 @@ struct Touches {
   double inliers = 0.0;
 };
 
-/// Which points belong to the bone, by a mixture of a Gaussian about the mean height and an even
-/// density (expectation maximization, from the median).
+/// Which points belong to the bone: those of the hand that is given or, by a mixture of a Gaussian
+/// about the mean height and an even density, those at this pose (expectation maximization, from
+/// the median).
 void tell_outliers(const Problem& problem, Touches& t) {
   const Prior& prior = problem.prior;
   constexpr int kRounds = 8;
@@ -75,35 +75,44 @@ void tell_outliers(const Problem& problem, Touches& t) {
   for (const auto& touch : t.all) {
     heights.push_back(touch.height_m);
   }
-  const auto median = [](std::vector<double>& v) {
-    const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-    std::nth_element(v.begin(), middle, v.end());
-    return *middle;
-  };
   double mean_m = median(heights);
   for (double& h : heights) {
     h = std::abs(h - mean_m);
   }
-  double sd_m = std::clamp(kSdByMedian * median(heights), kLeast_m, kMost_m);
-  const double outside = prior.outlier_share / prior.outlier_range_m;
-  for (int round = 0; round < (problem.hand != nullptr ? 1 : kRounds); ++round) {
+  double sd_m = std::clamp(kSdByMedian * median(std::move(heights)), kLeast_m, kMost_m);
+  // Mean and SD of the points that belong to the bone; false where too few do.
+  const auto average = [&] {
     double sum = 0.0, sum_m = 0.0, sum_m2 = 0.0;
-    for (std::size_t i = 0; i < t.all.size(); ++i) {
-      Touches::Touch& touch = t.all[i];
-      const double z = (touch.height_m - mean_m) / sd_m;
-      const double inside = (1.0 - prior.outlier_share) * std::exp(-0.5 * z * z) /
-                            (sd_m * std::sqrt(2.0 * std::numbers::pi));
-      touch.belongs =
-          problem.hand != nullptr ? problem.hand->belongs[i] : inside / (inside + outside);
+    for (const auto& touch : t.all) {
       sum += touch.belongs;
       sum_m += touch.belongs * touch.height_m;
       sum_m2 += touch.belongs * touch.height_m * touch.height_m;
     }
     if (!(sum > 6.0)) {
-      break;
+      return false;
     }
     mean_m = sum_m / sum;
     sd_m = std::clamp(std::sqrt(std::max(0.0, sum_m2 / sum - mean_m * mean_m)), kLeast_m, kMost_m);
+    return true;
+  };
+  const double outside = prior.outlier_share / prior.outlier_range_m;
+  if (problem.hand != nullptr) {
+    for (std::size_t i = 0; i < t.all.size(); ++i) {
+      t.all[i].belongs = problem.hand->belongs[i];
+    }
+    average();
+  } else {
+    for (int round = 0; round < kRounds; ++round) {
+      for (auto& touch : t.all) {
+        const double z = (touch.height_m - mean_m) / sd_m;
+        const double inside = (1.0 - prior.outlier_share) * std::exp(-0.5 * z * z) /
+                              (sd_m * std::sqrt(2.0 * std::numbers::pi));
+        touch.belongs = inside / (inside + outside);
+      }
+      if (!average()) {
+        break;
+      }
+    }
   }
   t.spread_m = sd_m;
   t.log_outliers = t.inliers = 0.0;
@@ -452,30 +461,6 @@ Mixture mixture(const Node& node, const Prior& prior, bool in_time) {
   return out;
 }
 
-/// Log density of s: bare bone, or tissue.
-double log_prior_of_standoff(const Prior& prior, double s_m) {
-  const auto half_normal = [&](double scale_m) {
-    return std::sqrt(2.0 / std::numbers::pi) / scale_m *
-           std::exp(-0.5 * s_m * s_m / (scale_m * scale_m));
-  };
-  return std::log(prior.bare_share * half_normal(prior.bare_m) +
-                  (1.0 - prior.bare_share) * half_normal(prior.tissue_m));
-}
-
-/// Probability that tissue of this mean height varies by less than `sd_m`.
-double varies_less(const Prior& prior, double sd_m, double s_m) {
-  return normal_cdf(std::log(sd_m / (prior.unevenness * std::max(s_m, 1e-9))) /
-                    prior.unevenness_log_sd);
-}
-
-double model_off_by_less(const Prior& prior, double sd_m) {
-  if (sd_m < prior.exact_m) {
-    return prior.exact_share * sd_m / prior.exact_m;
-  }
-  const double above = std::log(sd_m / prior.exact_m) / std::log(prior.worst_m / prior.exact_m);
-  return std::min(1.0, prior.exact_share + (1.0 - prior.exact_share) * above);
-}
-
 /// Log prior of a point of the grid, given s and the noise.
 double log_prior_of(const Prior& prior, const Node& node, double s_m, double noise_m) {
   // The mass of a law between this SD and its neighbours.
@@ -484,7 +469,7 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
     const double high = k == kRatios - 1 ? 1.0 : less(ratio_above(k) * noise_m);
     return std::max(0.0, high - low);
   };
-  const auto uneven = [&](double sd_m) { return varies_less(prior, sd_m, s_m); };
+  const auto uneven = [&](double sd_m) { return varies_by_less(prior, sd_m, s_m); };
   double tissue = mass(node[2], uneven);
   if (node[2] > 0) {
     tissue /= 2.0 * static_cast<double>(prior.tissue_lengths_m.size());
@@ -492,10 +477,8 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
   const double strokes = prior.uneven_hand_share * mass(node[4], uneven) +
                          (node[4] == 0 ? 1.0 - prior.uneven_hand_share : 0.0);
   const double model = mass(node[5], [&](double sd_m) { return model_off_by_less(prior, sd_m); });
-  const double z = std::log(noise_m / prior.noise_m) / prior.noise_log_sd;
-  const double noise =
-      -0.5 * z * z - std::log(prior.noise_log_sd * std::sqrt(2.0 * std::numbers::pi));
-  return std::log(tissue) + std::log(strokes) + std::log(model) + noise;
+  return std::log(tissue) + std::log(strokes) + std::log(model) +
+         log_density_of_noise(prior, noise_m);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -597,8 +580,10 @@ struct Answer {
 
 enum class Asked : std::uint8_t { kWeight, kAll };
 
-std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const Prior& prior,
-                             const Node& node, const Mixture& mix, Asked asked) {
+std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const Problem& problem,
+                             const Node& node, Asked asked) {
+  const Prior& prior = problem.prior;
+  const Mixture mix = mixture(node, prior, problem.observations.in_time);
   if (!covariances.whiten(mix)) {
     return std::nullopt;
   }
@@ -634,7 +619,7 @@ std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const P
   const Eigen::Matrix<double, 6, 3> solved = solved_four * kept;
 
   const auto log_prior = [&](double s_m, double noise_m) {
-    return log_prior_of_standoff(prior, s_m) + log_prior_of(prior, node, s_m, noise_m);
+    return log_density_of_standoff(prior, s_m) + log_prior_of(prior, node, s_m, noise_m);
   };
   const double fixed = -0.5 * covariances.log_determinant() -
                        0.5 * rows.within * within.log_determinant + rows.log_outliers;
@@ -665,7 +650,6 @@ std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const P
   out.part.of = mix;
   out.part.noise_m = std::sqrt(over.noise_m2);
   out.part.standoff_m = over.mean_m;
-  out.part.standoff_sd_m = std::sqrt(over.variance_m2);
   Vector6 scale;
   scale << 1.0, 1.0, 1.0, 1.0 / kLever_m, 1.0 / kLever_m, 1.0 / kLever_m;
   const Vector6 by_standoff = scale.asDiagonal() * solved.col(0);
@@ -692,12 +676,56 @@ double most_of(const Answers& answers) {
   return most;
 }
 
+/// Where the length of tissue stands in a point of the grid that has no tissue.
+constexpr int kNoLength = 3;
+
+/// The points of the grid next to one.
+std::vector<Node> neighbours_of(const Node& node, const Problem& problem) {
+  constexpr std::size_t kTissue = 2;
+  constexpr std::size_t kLength = 3;
+  const bool in_time = problem.observations.in_time;
+  const int lengths = 2 * static_cast<int>(problem.prior.tissue_lengths_m.size());
+  const Node size = {
+      in_time ? kShares : 1, in_time ? kTimes : 1, kRatios, lengths, kRatios, kRatios};
+  std::vector<Node> out;
+  for (std::size_t k = 0; k < node.size(); ++k) {
+    if (k == kLength && node[kTissue] == 0) {
+      continue;  // without tissue its length means nothing
+    }
+    // Every other length is of the same smoothness.
+    for (const int by : k == kLength ? std::vector<int>{-2, -1, 1, 2} : std::vector<int>{-1, 1}) {
+      Node next = node;
+      next[k] += by;
+      if (next[k] < 0 || next[k] >= size[k]) {
+        continue;
+      }
+      if (next[kTissue] == 0) {
+        next[kLength] = kNoLength;
+      }
+      out.push_back(next);
+      if (k == kTissue && node[kTissue] == 0) {
+        for (next[kLength] = 0; next[kLength] < lengths; ++next[kLength]) {
+          out.push_back(next);
+        }
+      }
+    }
+  }
+  return out;
+}
+
+/// The likeliest first.
+void sort_by_weight(Answers& answers) {
+  std::stable_sort(answers.begin(), answers.end(), [](const auto& a, const auto& b) {
+    return a.second.log_weight > b.second.log_weight;
+  });
+}
+
 /// Every point of the grid that has weight: from a few starts, the neighbours of whatever is
 /// likely.
-Answers explored(const Rows& rows, const Prior& prior, bool in_time) {
+Answers explored(const Rows& rows, const Problem& problem) {
   constexpr double kLikely = 6.0;
   constexpr std::size_t kMost = 700;
-  Covariances covariances(rows, prior.model_length_m);
+  Covariances covariances(rows, problem.prior.model_length_m);
   std::map<Node, std::optional<Answer>> seen;
   std::priority_queue<std::pair<double, Node>> likely;
   double most = kNever;
@@ -705,21 +733,20 @@ Answers explored(const Rows& rows, const Prior& prior, bool in_time) {
     if (seen.size() >= kMost || seen.contains(node)) {
       return;
     }
-    auto found =
-        answer(covariances, rows, prior, node, mixture(node, prior, in_time), Asked::kWeight);
+    const auto found = answer(covariances, rows, problem, node, Asked::kWeight);
     if (found) {
       most = std::max(most, found->log_weight);
       likely.emplace(found->log_weight, node);
     }
     seen.emplace(node, found);
   };
-  const int length = 3;
+  const bool in_time = problem.observations.in_time;
   for (const int share : in_time ? std::vector<int>{2, 5, 8} : std::vector<int>{0}) {
     for (const int time : in_time ? std::vector<int>{3, 6} : std::vector<int>{0}) {
-      look({share, time, 0, length, 0, 0});
-      look({share, time, 3, length, 0, 0});
-      look({share, time, 0, length, 3, 0});
-      look({share, time, 0, length, 0, 3});
+      look({share, time, 0, kNoLength, 0, 0});
+      look({share, time, 3, kNoLength, 0, 0});
+      look({share, time, 0, kNoLength, 3, 0});
+      look({share, time, 0, kNoLength, 0, 3});
     }
   }
   while (!likely.empty()) {
@@ -728,68 +755,29 @@ Answers explored(const Rows& rows, const Prior& prior, bool in_time) {
     if (log_weight < most - kLikely) {
       break;
     }
-    const Node most_of_each = {in_time ? kShares - 1 : 0,
-                               in_time ? kTimes - 1 : 0,
-                               kRatios - 1,
-                               2 * static_cast<int>(prior.tissue_lengths_m.size()) - 1,
-                               kRatios - 1,
-                               kRatios - 1};
-    for (std::size_t k = 0; k < node.size(); ++k) {
-      for (const int by : {-2, -1, 1, 2}) {
-        if (std::abs(by) == 2 && k != 3) {
-          continue;
-        }
-        Node next = node;
-        next[k] += by;
-        if (next[k] < 0 || next[k] > most_of_each[k] || (k == 3 && node[2] == 0)) {
-          continue;
-        }
-        if (next[2] == 0) {
-          next[3] = length;  // without tissue the length means nothing
-        }
-        look(next);
-        if (k == 2 && node[2] == 0) {
-          for (int other = 0; other <= most_of_each[3]; ++other) {
-            next[3] = other;
-            look(next);
-          }
-        }
-      }
+    for (const Node& next : neighbours_of(node, problem)) {
+      look(next);
     }
   }
   Answers out;
-  for (auto& [node, found] : seen) {
+  for (const auto& [node, found] : seen) {
     if (found && found->log_weight > most - kLikely) {
       out.emplace_back(node, *found);
     }
   }
-  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
-    return a.second.log_weight > b.second.log_weight;
-  });
+  sort_by_weight(out);
   return out;
 }
 
-Answers answers_at(const Rows& rows, const Prior& prior, bool in_time,
-                   std::span<const Node> nodes) {
-  Covariances covariances(rows, prior.model_length_m);
+Answers answers_at(const Rows& rows, const Problem& problem, std::span<const Node> nodes) {
+  Covariances covariances(rows, problem.prior.model_length_m);
   Answers out;
   for (const Node& node : nodes) {
-    if (auto found =
-            answer(covariances, rows, prior, node, mixture(node, prior, in_time), Asked::kAll)) {
+    if (auto found = answer(covariances, rows, problem, node, Asked::kAll)) {
       out.emplace_back(node, *found);
     }
   }
   return out;
-}
-
-std::vector<Node> nodes_of(const Answers& answers, std::size_t most) {
-  std::vector<Node> nodes;
-  for (const auto& [node, a] : answers) {
-    if (nodes.size() < most) {
-      nodes.push_back(node);
-    }
-  }
-  return nodes;
 }
 
 Vector6 mean_step(const Answers& answers) {
@@ -825,10 +813,7 @@ Transform<Vertebra, World> stepped(const Touches& t, const Vector6& step) {
 Posterior assembled(const Touches& t, const Rows& rows, Answers answers) {
   Posterior out;
   out.centre_m = t.centre_m;
-  std::stable_sort(answers.begin(), answers.end(), [](const auto& a, const auto& b) {
-    return a.second.log_weight > b.second.log_weight;
-  });
-  // The steps of the grid in the noise's share and time are common to all hypotheses.
+  sort_by_weight(answers);
   double all = kNever, with_size = kNever;
   for (const auto& [node, a] : answers) {
     all = log_sum(all, a.log_weight);
@@ -866,14 +851,41 @@ Posterior assembled(const Touches& t, const Rows& rows, Answers answers) {
   Eigen::Map<Rows6>(out.covariance.data()) = covariance;
   out.world_from_vertebra = stepped(t, mean).inverse();
   out.inlier_share = t.inliers / static_cast<double>(t.all.size());
-  std::vector<double> belongs;
-  for (const auto& touch : t.all) {
-    out.height_m.push_back(touch.height_m);
-    belongs.push_back(touch.belongs);
-  }
   out.hand = rows.hand;
-  out.hand.belongs = std::move(belongs);
+  out.hand.belongs.clear();
+  for (const auto& touch : t.all) {
+    out.hand.belongs.push_back(touch.belongs);
+  }
   return out;
+}
+
+/// Gauss-Newton steps to where the pose is likeliest, averaged over these points of the grid. A
+/// step that makes it less likely is halved, then refused; ended when neither translation nor
+/// rotation moves.
+void descend(const Problem& problem, std::span<const Unit> units, std::span<const Node> nodes,
+             int most_steps, Touches& here) {
+  constexpr int kMostHalvings = 4;
+  constexpr double kStands_m = 3e-6;
+  Answers answers = answers_at(rows_of(problem, units, here), problem, nodes);
+  for (int k = 0; k < most_steps && !answers.empty(); ++k) {
+    Vector6 step = mean_step(answers);
+    const double before = log_here(answers);
+    bool better = false;
+    for (int halved = 0; halved <= kMostHalvings; ++halved, step *= 0.5) {
+      Touches there = touches_at(problem, stepped(here, step), &here);
+      Answers then = answers_at(rows_of(problem, units, there), problem, nodes);
+      better = !then.empty() && log_here(then) >= before;
+      if (better) {
+        here = std::move(there);
+        answers = std::move(then);
+        break;
+      }
+    }
+    if (!better ||
+        (step.head<3>().norm() < kStands_m && kLever_m * step.tail<3>().norm() < kStands_m)) {
+      return;
+    }
+  }
 }
 
 }  // namespace
@@ -886,9 +898,7 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   constexpr std::size_t kFewestPoints = 24;
   constexpr std::size_t kSteering = 4;  // points of the grid that the descent uses
   constexpr std::size_t kKept = 48;
-  constexpr int kMostSteps = 12;
-  constexpr int kMostHalvings = 4;
-  constexpr double kStands_m = 3e-6;
+  constexpr double kAgain_m = 0.0001;
   if (observations.strokes.size() < kFewestPoints) {
     return std::nullopt;
   }
@@ -896,63 +906,37 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   for (const StrokePoint& p : observations.strokes) {
     problem.centre_in_world_m += p.tip.v / static_cast<double>(observations.strokes.size());
   }
-  const bool in_time = observations.in_time;
+  const bool full = effort == Effort::kFull;
   const std::vector<Unit> few = units_of(observations, kFewUnits);
-  const std::vector<Unit> many =
-      effort == Effort::kFull ? units_of(observations, kManyUnits) : std::vector<Unit>{};
-  const std::vector<Unit>& steered = effort == Effort::kFull ? many : few;
-  problem.blocks = blocks_of(observations, many.empty() ? few : many);
+  const std::vector<Unit> units = full ? units_of(observations, kManyUnits) : few;
+  problem.blocks = blocks_of(observations, units);
 
   Touches here = touches_at(problem, start.inverse(), nullptr);
   std::vector<Node> nodes;
-  int steps = 0;
-  // The grid is looked through where the descent begins, and again where it ends.
-  constexpr double kAgain_m = 0.0001;
-  Vec3 looked_at_m{1e9, 0.0, 0.0};
-  for (const bool last : {false, true}) {
-    if ((here.centre_m - looked_at_m).norm() < kAgain_m) {
-      break;
+  // The grid is explored where the descent begins and, if that was elsewhere, again where it ends.
+  for (const int most_steps : full ? std::vector<int>{12, 3} : std::vector<int>{12}) {
+    const Vec3 explored_at_m = here.centre_m;
+    nodes.clear();
+    for (const auto& [node, a] : explored(rows_of(problem, few, here), problem)) {
+      if (nodes.size() < kKept) {
+        nodes.push_back(node);
+      }
     }
-    looked_at_m = here.centre_m;
-    nodes = nodes_of(explored(rows_of(problem, few, here), prior, in_time), kKept);
     if (nodes.empty()) {
       return std::nullopt;
     }
-    const std::span<const Node> steering =
-        std::span<const Node>(nodes).first(std::min(kSteering, nodes.size()));
-    Answers answers = answers_at(rows_of(problem, steered, here), prior, in_time, steering);
-    for (int k = 0; k < (last ? 3 : kMostSteps) && !answers.empty(); ++k) {
-      Vector6 step = mean_step(answers);
-      const double before = log_here(answers);
-      bool better = false;
-      for (int halved = 0; halved <= kMostHalvings && !better; ++halved, step *= 0.5) {
-        Touches there = touches_at(problem, stepped(here, step), &here);
-        Answers then = answers_at(rows_of(problem, steered, there), prior, in_time, steering);
-        better = !then.empty() && log_here(then) >= before;
-        if (better) {
-          here = std::move(there);
-          answers = std::move(then);
-          ++steps;
-          break;
-        }
-      }
-      if (!better ||
-          (step.head<3>().norm() < kStands_m && kLever_m * step.tail<3>().norm() < kStands_m)) {
-        break;
-      }
-    }
-    if (effort == Effort::kRough) {
+    descend(problem, units, std::span(nodes).first(std::min(kSteering, nodes.size())), most_steps,
+            here);
+    if ((here.centre_m - explored_at_m).norm() < kAgain_m) {
       break;
     }
   }
-  const Rows rows = rows_of(problem, steered, here);
-  Answers answers = answers_at(rows, prior, in_time, nodes);
+  const Rows rows = rows_of(problem, units, here);
+  Answers answers = answers_at(rows, problem, nodes);
   if (answers.empty()) {
     return std::nullopt;
   }
-  Posterior out = assembled(here, rows, std::move(answers));
-  out.iterations = steps;
-  return out;
+  return assembled(here, rows, std::move(answers));
 }
 
 }  // namespace orthonav::nav::posterior

@@ -23,8 +23,9 @@ namespace orthonav::nav::posterior {
 // (Ornstein-Uhlenbeck). Or the point has nothing to do with the bone, and d is anything within a
 // range.
 //
-// Points are averaged over some 160 units of their strokes, whose heights are the rows; what points
-// deviate from the mean of eight tells of the noise from point to point. Everything but pose and s
+// Points are averaged over some 160 units of their strokes, whose heights are the rows. How points
+// deviate from the mean of the block of eight that they are in tells of the noise from point to
+// point. Everything but pose and s
 // is a hyperparameter, whose joint grid is summed over; the scale of all variances and the size of
 // the model are integrated in closed form, s by quadrature. The pose has a flat prior. (Rasmussen &
 // Williams 2006, sections 2.7 and 5.4.)
@@ -45,8 +46,7 @@ struct Part {
   Mixture of;
   double weight = 0.0;  ///< its probability
   double noise_m = 0.0;
-  double standoff_m = 0.0;  ///< mean of s, and its SD
-  double standoff_sd_m = 0.0;
+  double standoff_m = 0.0;  ///< mean of s
   /// Of the pose: the step of the points (translation m, rotation vector rad) about
   /// `Posterior::centre_m` in the model's frame, and its covariance by rows.
   std::array<double, 6> step{};
@@ -58,9 +58,9 @@ struct Part {
 struct Hand {
   std::array<double, kBlock * kBlock> products_m2{};  ///< mean, symmetric
   double blocks = 0.0;
-  std::array<double, kBlock> lag_s{};  ///< mean time and distance of points, by lag
-  std::array<double, kBlock> lag_m{};
-  std::vector<double> belongs;  ///< of each point, the probability that it is of the bone
+  std::array<double, kBlock> lag_s{};  ///< mean time between points, by how many lie between
+  std::array<double, kBlock> lag_m{};  ///< and mean distance
+  std::vector<double> belongs;         ///< of each point, the probability that it is of the bone
 };
 
 /// The posterior of the pose under one hypothesis, as a mixture of Gaussians.
@@ -80,8 +80,6 @@ struct Posterior {
   double uneven_m = 0.0;    ///< SD over the bone of what is not noise
   double spread_m = 0.0;    ///< SD of the heights altogether
   double inlier_share = 0.0;
-  int iterations = 0;
-  std::vector<double> height_m;  ///< of each point: its signed distance less the ball's radius
   Hand hand;
 };
 
@@ -92,24 +90,26 @@ struct Squares {
   double standoff = 0.0;
 };
 
-/// The heights' density integrated over s >= 0 and over the noise's scale: with `freedom` degrees
-/// of freedom, the sum of squares, and `log_prior` (s, noise's SD): of s a density by metre, of the
-/// noise one by its logarithm. Quadrature in s, so that a truncated tail is as exact as the middle.
+/// The heights' density, times a prior, integrated over s >= 0 and over the noise's SD.
 struct OverStandoff {
   double log_integral = 0.0;
   double mean_m = 0.0;  ///< of s
   double variance_m2 = 0.0;
   double noise_m2 = 0.0;  ///< mean
 };
+/// `freedom`: degrees of freedom of the squares. `log_prior`: a density in s (1/m) and in the
+/// logarithm of the noise's SD. By quadrature in s, so that a truncated tail is as exact as the
+/// middle, and by Laplace's method in the noise.
 [[nodiscard]] OverStandoff over_standoff(
     const Squares& squares, double freedom,
     const std::function<double(double s_m, double noise_m)>& log_prior);
 
-/// How closely to look: `kRough` tells hypotheses that are far worse, for little time.
+/// How closely to look: `kRough` takes little time and tells which hypotheses are far worse.
 enum class Effort : std::uint8_t { kRough, kFull };
 
-/// The posterior near `start`. `hand`: as it is under the best explanation, since it is the same
-/// under all; null: as it is at this pose. Empty where the points leave a motion undetermined.
+/// The posterior near `start`. `hand`: that of the best explanation, for all others to be compared
+/// with it; null: it is told by the points at this pose. Empty where the points leave a motion
+/// undetermined.
 [[nodiscard]] std::optional<Posterior> posterior_of(const Observations& observations,
                                                     const BoneSurface& bone, const Prior& prior,
                                                     const Transform<World, Vertebra>& start,

@@ -14,8 +14,8 @@ struct Prior {
   /// nothing over clean strokes, which tell it themselves.
   double bare_share = 0.5;
   double bare_m = 0.0001;  ///< scale of s over bare bone (half-normal). A guess; doubled: nothing
-  double tissue_m =
-      0.002;  ///< scale of s over tissue (half-normal): facets to 2 mm, valleys to more
+  /// Scale of s over tissue (half-normal). A guess: facets carry up to 2 mm, valleys more.
+  double tissue_m = 0.002;
   /// SD of tissue's thickness over the bone, of its mean: median, and SD of its logarithm. Tissue
   /// is never even. A guess. Median doubled: even tissue loses half a unit of log evidence.
   double unevenness = 0.5;
@@ -30,7 +30,7 @@ struct Prior {
 
   /// SD over the bone: below `exact_m` with this probability, evenly; above it evenly in its
   /// logarithm up to `worst_m`. Segmentations of vertebrae in CT are off by 0.3 to 0.8 mm
-  /// (error-model); models made of the bone itself are exact.
+  /// (nav/registration/model_error.h); models made of the bone itself are exact.
   double exact_share = 0.4;
   double exact_m = 0.0001;
   double worst_m = 0.001;
@@ -43,15 +43,16 @@ struct Prior {
   /// refused doubles.
   double noise_m = 0.00035;
   double noise_log_sd = 0.55;
-  double white_share_least =
-      0.01;                  ///< of the variance, from point to point: evenly in its log odds
-  double shortest_s = 0.05;  ///< correlation time of the rest, evenly in its logarithm
+  /// Of the noise's variance, this share at least is white, and this one at least is not: evenly in
+  /// the log odds.
+  double white_share_least = 0.01;
+  double shortest_s = 0.05;  ///< correlation time of what is not, evenly in its logarithm
   double longest_s = 2.0;
 
-  /// What a point's deviation within its block counts for, of an independent one. The noise is not
-  /// quite white and wandering: how it goes at once must not decide how it goes on. A debt: chosen
-  /// on strokes of our own (noisy ones, seeds 1 and 2); at 1 and at 0.1 the pose is a tenth less
-  /// exact there.
+  /// How much a point's deviation within its block counts, of an independent observation. The noise
+  /// is not exactly white and wandering: its spectrum at short lags must not decide its correlation
+  /// at long ones. A debt: chosen on strokes of our own (noisy ones, seeds 1 and 2); at 1 and at
+  /// 0.1 the pose is a tenth less exact there.
   double point_counts = 0.3;
 
   /// A point that has nothing to do with the bone, under every hypothesis: its share, and the range
@@ -64,12 +65,20 @@ struct Prior {
   double mirror_odds = 2e-4;  ///< that left and right are swapped somewhere: a guess
   double size_share = 0.02;   ///< that the model has another size, with this SD: a guess
   double size_sd = 0.05;
-
-  // Pressed places: the gap beneath a pressed tip, estimates for soft tissue under pressure.
-
-  double press_gap_m = 0.0002;
-  double press_common_sd_m = 0.0002;
-  double press_sd_m = 0.0003;
 };
+
+[[nodiscard]] double normal_cdf(double z);
+
+/// Log density (1/m) of the mean height.
+[[nodiscard]] double log_density_of_standoff(const Prior& prior, double s_m);
+/// Probability that tissue of this mean height, or the heights of an uneven hand's strokes on it,
+/// vary by less than `sd_m`.
+[[nodiscard]] double varies_by_less(const Prior& prior, double sd_m, double s_m);
+/// Probability that the model is off by less than `sd_m`.
+[[nodiscard]] double model_off_by_less(const Prior& prior, double sd_m);
+/// Log density of the noise's SD, by its logarithm.
+[[nodiscard]] double log_density_of_noise(const Prior& prior, double noise_m);
+/// Probability that heights scatter by `spread_m` or more (4096 draws, always the same).
+[[nodiscard]] double scatter_predicted(const Prior& prior, double spread_m);
 
 }  // namespace orthonav::nav::posterior

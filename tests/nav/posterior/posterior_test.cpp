@@ -46,7 +46,7 @@ Observations strokes(test::StrokeVariant variant, std::uint64_t seed,
   if (truth != nullptr) {
     *truth = digitized.world_from_vertebra;
   }
-  return observed(digitized.tips(), {}, 0.0);
+  return observed(digitized.tips(), 0.0);
 }
 
 double error_m(const Decision& d, const Transform<World, Vertebra>& truth) {
@@ -246,10 +246,10 @@ TEST(Posterior, RepeatedPointsSayNothingNew) {
   const auto once =
       test::digitize_strokes(bone().from.mesh, test::StrokeVariant::kSparse, 4).value();
   std::vector<Point<World>> tips = once.tips();
-  const auto first = decided(*bone().model, observed(tips, {}, 0.0), bone().question());
+  const auto first = decided(*bone().model, observed(tips, 0.0), bone().question());
   const std::vector<Point<World>> again = tips;
   tips.insert(tips.end(), again.begin(), again.end());
-  const auto second = decided(*bone().model, observed(tips, {}, 0.0), bone().question());
+  const auto second = decided(*bone().model, observed(tips, 0.0), bone().question());
   ASSERT_TRUE(first);
   ASSERT_TRUE(second);
   EXPECT_NEAR(second->rms_m / first->rms_m, 1.0, 1e-6);
@@ -275,7 +275,7 @@ TEST(Posterior, StrokesOfAnotherLevelAreRefused) {
   const auto foreign = test::digitize_strokes(l2.mesh, test::StrokeVariant::kFull, 1).value();
   Question question = bone().question();
   question.neighbours.push_back({"L2", l2_model.get()});
-  const auto d = decided(*bone().model, observed(foreign.tips(), {}, 0.0), question).value();
+  const auto d = decided(*bone().model, observed(foreign.tips(), 0.0), question).value();
   EXPECT_FALSE(d.accepted);
   EXPECT_GT(d.wrong, 0.99);
 }
@@ -283,7 +283,7 @@ TEST(Posterior, StrokesOfAnotherLevelAreRefused) {
 TEST(Posterior, PointsThatHoldNoPoseAreRefusedInOneLine) {
   const Question question = bone().question();
   const auto refused = [&](const std::vector<Point<World>>& points) {
-    const auto d = decided(*bone().model, observed(points, {}, 0.0), question);
+    const auto d = decided(*bone().model, observed(points, 0.0), question);
     return !d || !d->accepted;
   };
   std::vector<Point<World>> line, ball, plane, noise, same(300);

@@ -1,0 +1,66 @@
+#include "nav/posterior/prior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/random.h"
+
+namespace orthonav::nav::posterior {
+
+double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+
+double log_density_of_standoff(const Prior& prior, double s_m) {
+  const auto half_normal = [&](double scale_m) {
+    return std::sqrt(2.0 / std::numbers::pi) / scale_m *
+           std::exp(-0.5 * s_m * s_m / (scale_m * scale_m));
+  };
+  return std::log(prior.bare_share * half_normal(prior.bare_m) +
+                  (1.0 - prior.bare_share) * half_normal(prior.tissue_m));
+}
+
+double varies_by_less(const Prior& prior, double sd_m, double s_m) {
+  return normal_cdf(std::log(sd_m / (prior.unevenness * std::max(s_m, 1e-9))) /
+                    prior.unevenness_log_sd);
+}
+
+double model_off_by_less(const Prior& prior, double sd_m) {
+  if (sd_m < prior.exact_m) {
+    return prior.exact_share * sd_m / prior.exact_m;
+  }
+  const double above = std::log(sd_m / prior.exact_m) / std::log(prior.worst_m / prior.exact_m);
+  return std::min(1.0, prior.exact_share + (1.0 - prior.exact_share) * above);
+}
+
+double log_density_of_noise(const Prior& prior, double noise_m) {
+  const double z = std::log(noise_m / prior.noise_m) / prior.noise_log_sd;
+  return -0.5 * z * z - std::log(prior.noise_log_sd * std::sqrt(2.0 * std::numbers::pi));
+}
+
+double scatter_predicted(const Prior& prior, double spread_m) {
+  constexpr int kDraws = 4096;
+  Random random(7);
+  double above = 0.0;
+  for (int k = 0; k < kDraws; ++k) {
+    const bool bare = random.uniform() < prior.bare_share;
+    const double s_m = std::abs(random.normal(0.0, bare ? prior.bare_m : prior.tissue_m));
+    const auto uneven = [&] {
+      return prior.unevenness * std::exp(random.normal(0.0, prior.unevenness_log_sd)) * s_m;
+    };
+    const double tissue_m = uneven();
+    const double stroke_m = random.uniform() < prior.uneven_hand_share ? uneven() : 0.0;
+    const double share = random.uniform();
+    const double model_m =
+        share < prior.exact_share
+            ? prior.exact_m * share / prior.exact_share
+            : prior.exact_m * std::pow(prior.worst_m / prior.exact_m,
+                                       (share - prior.exact_share) / (1.0 - prior.exact_share));
+    const double noise_m = prior.noise_m * std::exp(random.normal(0.0, prior.noise_log_sd));
+    const double all_m2 =
+        tissue_m * tissue_m + stroke_m * stroke_m + model_m * model_m + noise_m * noise_m;
+    above += all_m2 >= spread_m * spread_m ? 1.0 : 0.0;
+  }
+  return above / kDraws;
+}
+
+}  // namespace orthonav::nav::posterior
