@@ -85,7 +85,8 @@ class ModelledTracker final : public nav::ToolTracker {
   ModelledTracker(const sim::SimHeadset& room, const StereoCalibration& calibration,
                   std::vector<nav::ToolGeometry> tools, const nav::TrackerOptions& options,
                   const MeasurementModel& model, bool correct_tag_sizes)
-      : calibration_(calibration),
+      : room_(room),
+        calibration_(calibration),
         tools_(std::move(tools)),
         options_(options),
         model_(model),
@@ -148,13 +149,14 @@ class ModelledTracker final : public nav::ToolTracker {
     if (!is_followed(i, frame.time)) {
       filters_[i].stop();
     }
-    filters_[i].update(measured);
+    filters_[i].update(measured, room_.options().error_model.exposure_s);
     nav::ToolState& state = states_[i];
     state.world_from_marker = filters_[i].state();
     state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
     nav::add_head(state, frame);
     state.cameras = (seen.left_px ? 1 : 0) + (seen.right_px ? 1 : 0);
-    state.pair = nav::PairPose{fit->rig_from_marker, fit->covariance};
+    state.pair = nav::PairPose{fit->rig_from_marker, fit->covariance,
+                               room_.options().error_model.exposure_s};
     return true;
   }
 
@@ -174,6 +176,7 @@ class ModelledTracker final : public nav::ToolTracker {
     }
   }
 
+  const sim::SimHeadset& room_;
   StereoCalibration calibration_;
   std::vector<nav::ToolGeometry> tools_;
   nav::TrackerOptions options_;

@@ -108,9 +108,11 @@ class AnchoredTracker final : public ToolTracker {
       }
       const Transform<World, Marker> here = anchored_from_rig * pair->rig_from_marker;
       if (!other.anchored_from_marker) {
-        learn(other, {here, frame.time, PoseStatus::kMeasured,
-                      rotated(relative_covariance(*pair, *seen[best.tool].pair),
-                              anchored_from_rig.rotation())});
+        learn(other,
+              {here, frame.time, PoseStatus::kMeasured,
+               rotated(relative_covariance(*pair, *seen[best.tool].pair),
+                       anchored_from_rig.rotation())},
+              pair->exposure_s);
         continue;
       }
       const bool elsewhere =
@@ -127,8 +129,8 @@ class AnchoredTracker final : public ToolTracker {
     }
   }
 
-  void learn(Reference& reference, const TrackedPose& here) {
-    reference.learning.update(here);
+  void learn(Reference& reference, const TrackedPose& here, double exposure_s) {
+    reference.learning.update(here, exposure_s);
     if (++reference.pairs_learnt >= limits_.learnt_from_pairs) {
       reference.anchored_from_marker = reference.learning.state().value;
       tell_places();
@@ -176,7 +178,7 @@ class AnchoredTracker final : public ToolTracker {
       if (!filters_[i].follows(frame.time, coast_)) {
         filters_[i].stop();
       }
-      filters_[i].update(measured);
+      filters_[i].update(measured, pair->exposure_s);
       states_[i].world_from_marker = filters_[i].state();
     }
   }

@@ -305,13 +305,13 @@ void PhotometricTracker::measure(std::size_t i, const StereoFrame& frame, const 
   TrackedPose measured{*frame.world_from_rig * fit.rig_from_marker, frame.time,
                        PoseStatus::kMeasured,
                        rotated(fit.covariance_in_rig, frame.world_from_rig->rotation())};
-  trail.filter.update(measured);
+  trail.filter.update(measured, trail.follower.exposure_s());
   ToolState& state = states_[i];
   state.world_from_marker = trail.filter.state();
   state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
   add_head(state, frame);
   state.cameras = (fit.left ? 1 : 0) + (fit.right ? 1 : 0);
-  state.pair = PairPose{fit.rig_from_marker, fit.covariance_in_rig};
+  state.pair = PairPose{fit.rig_from_marker, fit.covariance_in_rig, trail.follower.exposure_s()};
   trail.last_seen = state.world_from_marker.value;
   trail.last_time = frame.time;
 }

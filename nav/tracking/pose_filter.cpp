@@ -50,6 +50,20 @@ Vector6 difference(const PoseFilter::Pose& to, const PoseFilter::Pose& from) {
   return out;
 }
 
+/// A constant acceleration a moves the prediction by a dt² and the mean over an exposure T by a T²
+/// / 24: this part of the innovation is not motion of the pose at mid-exposure.
+double of_exposure(double exposure_s, double dt_s) { return std::pow(exposure_s / dt_s, 2) / 24.0; }
+
+/// Subtracting it would help little, since the prediction has errors too, so it is added to the
+/// covariance.
+PoseCovariance blurred(const PoseCovariance& noise, const Vector6& innovation, double fraction) {
+  PoseCovariance out = noise;
+  for (std::size_t i = 0; i < 6; ++i) {
+    out[7 * i] += std::pow(fraction * innovation(static_cast<int>(i)), 2);
+  }
+  return out;
+}
+
 double innovation(const Vector6& y, const Matrix12& p, const PoseCovariance& noise) {
   const Matrix6 s = p.topLeftCorner<6, 6>() + as_eigen(noise);
   return y.dot(s.ldlt().solve(y));
@@ -96,20 +110,22 @@ void PoseFilter::start(const Tracked<Pose>& measured) {
   lasting_ = measured.covariance;
 }
 
-void PoseFilter::update(const Tracked<Pose>& measured) {
+void PoseFilter::update(const Tracked<Pose>& measured, double exposure_s) {
   const double dt = seconds(measured.time - time_);
   if (!alive_ || !(dt > 0.0)) {
     return start(measured);
   }
   const Pose ahead = displaced(pose_, dt * velocity_m_, dt * velocity_rad_);
-  const Vector6 y = difference(measured.value, ahead);
+  Vector6 y = difference(measured.value, ahead);
   Covariance grown_p = grown(dt, kRest_m, kRest_rad);
   const bool at_rest = innovation(y, as_eigen(grown_p), measured.covariance) < kRestLimit;
   if (!at_rest) {
     grown_p = grown(dt, kHand_m, kHand_rad);
   }
   const Matrix12 p = as_eigen(grown_p);
-  lasting_ = measured.covariance;
+  const double fraction = of_exposure(exposure_s, dt);
+  lasting_ = blurred(measured.covariance, y, fraction);
+  y *= 1.0 - fraction;
   const Matrix6 noise = as_eigen(lasting_);
   const Matrix6 s = p.topLeftCorner<6, 6>() + noise;
   const Eigen::Matrix<double, 12, 6> gain = s.ldlt().solve(p.topRows<6>()).transpose();

@@ -24,8 +24,10 @@ class PoseFilter {
 
   /// Where the tool is at a later time; `alive` must hold.
   [[nodiscard]] Tracked<Pose> predicted(Timestamp time) const;
-  /// Adds a measurement with its covariance in World. Starts the filter when it is not alive.
-  void update(const Tracked<Pose>& measured);
+  /// Adds a measurement with its covariance in World. A measurement is a mean over an exposure,
+  /// which under acceleration is not the pose at its middle. Starts the filter when it is not
+  /// alive.
+  void update(const Tracked<Pose>& measured, double exposure_s);
   /// The pose at the newest measurement, with the lasting part of its error in the covariance.
   [[nodiscard]] Tracked<Pose> state() const;
 

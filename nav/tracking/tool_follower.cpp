@@ -227,6 +227,7 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
       light_[i] = views_[i].light;
     }
   }
+  learn_exposure(frame, fit->rig_from_marker, solver);
   ToolFit out{fit->rig_from_marker, rotated(fit->covariance, fit->rig_from_marker.rotation()),
               fit->left, fit->right, solver.calibration_equations(*fit, views_)};
   const bool doubtful = std::any_of(views_.begin(), views_.end(), [](const TagView& view) {
@@ -275,6 +276,33 @@ std::optional<CalibrationEquations> ToolFollower::equations_alone(const StereoFr
     }
   }
   return out.tags > 0 ? std::optional(out) : std::nullopt;
+}
+
+void ToolFollower::learn_exposure(const StereoFrame& frame, const Transform<Rig, Marker>& pose,
+                                  const PhotometricSolver& solver) {
+  std::size_t i = 0;
+  while (!views_[i].used) {
+    ++i;
+  }
+  const TagView& view = views_[i];
+  const CameraFromTag seen = solver.camera_from_tag(view, pose);
+  const CameraModel& camera = camera_of(solver, view);
+  const auto pixel = [&](Vec3 in_tag) {
+    return camera.project(seen.rotation * in_tag + seen.translation_m);
+  };
+  const double cell_m = view.tag->cell_m();
+  const auto centre = pixel({});
+  const auto across = pixel({cell_m, 0.0, 0.0});
+  const auto down = pixel({0.0, -cell_m, 0.0});
+  if (!centre || !across || !down) {
+    return;
+  }
+  exposure_.add({i,
+                 frame.time,
+                 *centre,
+                 *across - *centre,
+                 *down - *centre,
+                 {view.light.blur_cells[0], view.light.blur_cells[1]}});
 }
 
 std::optional<SizeEvidence> ToolFollower::measured_size(const StereoFrame& frame,

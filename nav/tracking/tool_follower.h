@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hal/api/devices.h"
+#include "nav/tracking/exposure.h"
 #include "nav/tracking/photometric_pose.h"
 #include "nav/tracking/pose_filter.h"
 #include "nav/tracking/tag_search.h"
@@ -41,6 +42,8 @@ class ToolFollower {
   [[nodiscard]] std::optional<SizeEvidence> measured_size(const StereoFrame& frame,
                                                           const Transform<Rig, Marker>& pose,
                                                           PhotometricSolver& solver);
+  /// The cameras' exposure time, estimated from the tool's motion.
+  [[nodiscard]] double exposure_s() const { return exposure_.exposure_s(); }
   /// Sets the factor on the stated size of its tags.
   void set_size_factor(double factor);
   /// Forgets the light.
@@ -60,6 +63,8 @@ class ToolFollower {
                                                                     const PhotometricFit& fit,
                                                                     PhotometricSolver& solver,
                                                                     TagSearch& search);
+  void learn_exposure(const StereoFrame& frame, const Transform<Rig, Marker>& pose,
+                      const PhotometricSolver& solver);
 
   std::vector<BlurredTag> tags_;
   std::vector<double> stated_sizes_m_;
@@ -67,6 +72,7 @@ class ToolFollower {
   std::vector<Photometry> light_;  ///< of the views, from the last good fit
   /// Where each view alone puts the tool, if its tag was found near where it is expected.
   std::vector<std::optional<Transform<Rig, Marker>>> found_;
+  ExposureEstimator exposure_;
   TagView alone_;  ///< scratch
 };
 

@@ -25,6 +25,7 @@ using TrackedPose = Tracked<Transform<World, Marker>>;
 struct PairPose {
   Transform<Rig, Marker> rig_from_marker;
   PoseCovariance covariance{};  ///< in Rig
+  double exposure_s = 0.0;      ///< over which the pose is a mean
 };
 
 /// The state of one tool after one stereo pair.

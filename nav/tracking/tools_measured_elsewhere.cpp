@@ -45,7 +45,7 @@ class TrackerOfPoses final : public ToolTracker {
     state.world_from_marker = {world_from_rig * measured.rig_from_marker, frame.time,
                                PoseStatus::kMeasured,
                                rotated(measured.covariance, world_from_rig.rotation())};
-    state.pair = PairPose{measured.rig_from_marker, measured.covariance};
+    state.pair = PairPose{measured.rig_from_marker, measured.covariance, 0.0};
     add_head(state, frame);
   }
 

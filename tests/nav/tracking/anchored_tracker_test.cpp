@@ -41,7 +41,7 @@ class SaidTracker final : public ToolTracker {
         const Transform<Rig, Marker> rig_from = frame.world_from_rig->inverse() * *world_from[i];
         state.world_from_marker = {*world_from[i], frame.time, PoseStatus::kMeasured, {}};
         state.rig_from_marker = rig_from;
-        state.pair = PairPose{rig_from, covariance(kSd_m, kSd_rad)};
+        state.pair = PairPose{rig_from, covariance(kSd_m, kSd_rad), 0.0};
       }
       states_.push_back(state);
     }
@@ -207,10 +207,10 @@ TEST(RelativeCovariance, IsThatOfTheDifferenceOfTwoPoses) {
   const auto draw = [&](double sd) {
     return Vec3{sd * random.normal(), sd * random.normal(), sd * random.normal()};
   };
-  const PairPose tool{{rotation_from_vector({0.2, 0.1, 0.0}), {0.05, 0.02, 0.5}},
-                      covariance(1e-4, 2e-4)};
-  const PairPose reference{{rotation_from_vector({0.0, 0.4, 0.1}), {-0.08, 0.0, 0.45}},
-                           covariance(5e-5, 1e-3)};
+  const PairPose tool{
+      {rotation_from_vector({0.2, 0.1, 0.0}), {0.05, 0.02, 0.5}}, covariance(1e-4, 2e-4), 0.0};
+  const PairPose reference{
+      {rotation_from_vector({0.0, 0.4, 0.1}), {-0.08, 0.0, 0.45}}, covariance(5e-5, 1e-3), 0.0};
   const auto disturbed = [&](const PairPose& pose, double sd_m, double sd_rad) {
     return Transform<Rig, Marker>(
         rotation_from_vector(draw(sd_rad)) * pose.rig_from_marker.rotation(),
