@@ -255,6 +255,8 @@ void ShownFrameWriter::write_status(const Guidance& guidance, const Visibility& 
   status.at = line.at;
   status.notice = line.message ? notice_of(*line.message) : Notice::kNone;
   status.checks = checks_asked(line);
+  const auto* strokes = std::get_if<StrokesSoFar>(&line.state);
+  status.strokes_enough = strokes != nullptr && strokes->coaching && strokes->coaching->enough;
   status.text.clear();
   append_without_heard(status.text, line);
   constexpr std::string_view kSeparator = " | ";

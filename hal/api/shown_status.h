@@ -88,6 +88,7 @@ struct ShownStatus {
   StepOnDisplay at;
   Notice notice = Notice::kNone;
   ChecksAsked checks = ChecksAsked::kNone;
+  bool strokes_enough = false;  ///< the bar that fills while a level is stroked is full
   std::string text;   ///< as displayed
   std::string heard;  ///< the newest command heard, as displayed; empty: none
 };

@@ -44,6 +44,7 @@ void append_status(std::vector<std::uint8_t>& bytes, const ShownStatus& status) 
   append_side(bytes, status.at.side);
   append(bytes, static_cast<std::uint8_t>(status.notice));
   append(bytes, static_cast<std::uint8_t>(status.checks));
+  append(bytes, static_cast<std::uint8_t>(status.strokes_enough));
   append_text(bytes, status.text);
   append_text(bytes, status.heard);
 }
@@ -55,6 +56,7 @@ Status take_status(ByteReader& reader, ShownStatus& status) {
   status.at.side = take_side(reader, problem);
   status.notice = take_one(reader, Notice::kNone, Notice::kEnded, "notice", problem);
   status.checks = take_one(reader, ChecksAsked::kNone, ChecksAsked::kPassed, "checks", problem);
+  status.strokes_enough = reader.take<std::uint8_t>() != 0;
   status.text = take_text(reader);
   status.heard = take_text(reader);
   return problem;

@@ -210,6 +210,7 @@ class Surgeon {
   Random sleeving_;  ///< of the sleeve over a wire; a separate stream too
   double lightness_ = 1.0;
   std::vector<std::vector<StrokeRegion>> regions_;  ///< for each level; empty where not operated
+  bool refused_ = false;                            ///< the registration of what was stroked
   std::vector<int> failures_;                       ///< refusals and rejections, for each level
   std::vector<std::optional<BoneSpot>> dimples_;    ///< in Vertebra, for each level
   std::vector<int> moved_;  ///< how often its landmark had moved since a level was registered

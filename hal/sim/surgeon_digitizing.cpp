@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hal/sim/surgeon.h"
 
@@ -60,6 +61,7 @@ Surgeon::Tempo Surgeon::tempo(std::size_t level) const {
 
 Script Surgeon::digitize(std::size_t level) {
   const StepOnDisplay step = step_now();
+  const bool adds_strokes = std::exchange(refused_, false);
   co_await body_.take(ToolKind::kPointer, layout_->site(level));
   for (const StrokeRegion& region : regions_[level]) {
     bool slips = true;
@@ -69,6 +71,10 @@ Script Surgeon::digitize(std::size_t level) {
       }
       slips = body_.random().uniform() < error_model_->bad_stroke_probability;
       co_await record(level, region, slips);
+    }
+    // What was stroked before a refusal still counts: only until the display says that it is enough.
+    if (adds_strokes && eyes_->status() && eyes_->status()->strokes_enough) {
+      break;
     }
   }
   co_await body_.double_click();
@@ -137,6 +143,7 @@ Script Surgeon::await_verdict(std::size_t level, StepOnDisplay step) {
       }
       if (told(Notice::kRegistrationRefused)) {
         lightness_ *= kHarder;
+        refused_ = true;
         if (++failures_[level] >= kMaxFailures) {
           give_up();
         }

@@ -14,6 +14,7 @@ TEST(StandinMessages, ComeBackAsTheyWere) {
   frame.status = ShownStatus{{Step::kGuide, "L4", orthonav::Side::kLeft},
                              Notice::kTouchNotRecorded,
                              ChecksAsked::kTouchMore,
+                             true,
                              "guide L4 left",
                              "heard: next"};
   frame.holograms = {{.kind = HologramKind::kEntry,

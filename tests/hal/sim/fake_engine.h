@@ -25,6 +25,7 @@ struct DigitizedLevel {
 
 struct EngineOptions {
   int refusals = 0;           ///< of each level, before it is accepted
+  bool enough = false;        ///< said of a level's strokes from the first ones on
   Vec3 registration_error_m;  ///< shifts every hologram of the bone, in Room
   /// Turns them about the vertebra's origin, before the shift; a rotation vector in Room.
   Vec3 registration_rotation_rad;

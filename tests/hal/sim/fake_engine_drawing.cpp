@@ -14,7 +14,7 @@ void FakeEngine::draw(const StereoFrame& frame) {
   ShownFrame shown;
   shown.pose_time = frame.time;
   shown.display_time = headset_.display().predicted_display_time(headset_.clock().now());
-  shown.status = ShownStatus{step_, notice_, checks_, {}, {}};
+  shown.status = ShownStatus{step_, notice_, checks_, options_.enough, {}, {}};
   if (step_.step == Step::kVerify) {
     draw_vertebra(shown);
     if (options_.place_to_touch) {

@@ -125,6 +125,25 @@ TEST(Surgeon, DigitizesAgainWhenRefusedAndGivesUpAfterThree) {
   }
 }
 
+TEST(Surgeon, AddsStrokesAfterARefusalOnlyUntilItIsSaidThatTheyAreEnough) {
+  const TestCase test_case = synthetic_case();
+  std::vector<int> samples;
+  for (const bool enough : {false, true}) {
+    auto headset = SimHeadset::open(test_case.room, without_pixels(4));
+    ASSERT_TRUE(headset.ok());
+    EngineOptions strict;
+    strict.refusals = 1;
+    strict.enough = enough;
+    FakeEngine engine(**headset, test_case, strict);
+    ASSERT_GT(engine.run(), 0);
+    EXPECT_EQ(engine.history().back(), "done");
+    samples.push_back(engine.levels().at("L4").saved_samples);
+  }
+  // The first attempt follows the whole pattern whatever is said, the second ends after one region.
+  EXPECT_LT(samples[1], 0.8 * samples[0]);
+  EXPECT_GT(samples[1], 0.5 * samples[0]);
+}
+
 TEST(Surgeon, GivesUpWhenNobodyListens) {
   const TestCase test_case = synthetic_case();
   auto headset = SimHeadset::open(test_case.room, without_pixels(5));
