@@ -37,8 +37,9 @@ struct PhotometricFit {
   int iterations = 0;
 };
 
-/// The pose that explains every sighting at once: Gauss-Newton over SE(3), each view's light and
-/// blur eliminated by the Schur complement, weights by Tukey's biweight (docs/tracking.md).
+/// The pose that explains every sighting at once, since every edge of a tag's cells tells of it:
+/// Gauss-Newton over SE(3), each view's light, blur and response eliminated by the Schur
+/// complement, weights by Tukey's biweight.
 class PhotometricSolver {
  public:
   explicit PhotometricSolver(const StereoCalibration& calibration);

@@ -14,8 +14,7 @@ using LightVector = Eigen::Matrix<double, kLight, 1>;
 using CrossMatrix = Eigen::Matrix<double, 6, kLight>;
 
 /// The scatter of clean noise after robust weighting, where without weights it would be 1: 0.72
-/// from the biweight's moments (E[psi^2] E[w] / E[psi']^2), the rest as measured
-/// (docs/tracking.md).
+/// from the biweight's moments (E[psi^2] E[w] / E[psi']^2), the rest as measured.
 constexpr double kCleanScatter = 0.82;
 
 struct Split {

@@ -47,7 +47,8 @@ struct ToolState {
 /// arm from the rig to the tag. Without a stated error, nothing is added.
 void add_head(ToolState& state, const StereoFrame& frame);
 
-/// Whether the pairs' two pictures are of the same moment.
+/// Whether the pairs' two pictures are of the same moment. Where one camera's stamps are off, the
+/// pose of a moving tag is centimetres off with a covariance of a millimetre.
 struct PictureAgreement {
   std::int64_t refused = 0;           ///< pairs whose pictures contradict each other
   std::int64_t refused_in_a_row = 0;  ///< up to the newest pair in which that can be told
