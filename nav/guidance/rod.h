@@ -29,10 +29,10 @@ inline constexpr double kThinnestRod_m = 0.001;
 inline constexpr double kThickestRod_m = 0.015;
 
 /// A rod through the screw heads: ordered along their principal axis, joined by a centripetal
-/// Catmull-Rom spline. Refuses heads that a spinal rod can't join: fewer than 2, non-finite ones,
-/// heads closer than 5 mm, neighbours along the rod farther apart than 150 mm, bends of more than
-/// 60° (so also points that double back), more than 600 mm of length, and diameters outside the
-/// limits above. Messages number the heads as they were given.
+/// Catmull-Rom spline (as in Liebmann et al. 2019). Refuses heads that a spinal rod can't join:
+/// fewer than 2, non-finite ones, heads closer than 5 mm, neighbours along the rod farther apart
+/// than 150 mm, bends of more than 60° (so also points that double back), more than 600 mm of
+/// length, and diameters outside the limits above. Messages number the heads as they were given.
 Result<RodTemplate> rod_template(std::span<const Vec3> heads_m, double diameter_m = 0.0055);
 
 }  // namespace orthonav::nav

@@ -30,8 +30,8 @@ struct ExtremePoints {
 [[nodiscard]] Result<std::array<Transform<World, Vertebra>, 2>> coarse_poses(
     const ExtremePoints& of_model, const ExtremePoints& digitized);
 
-/// ICP from both coarse poses on the trimmed model, the better one (the
-/// smaller RMSE) first. `trimmed` is the model without the points "which can definitely not be
+/// ICP from both coarse poses on the trimmed model, the better one (the smaller RMSE) first; the
+/// paper shows that one. `trimmed` is the model without the points "which can definitely not be
 /// reached" (nav/registration/trimming.h), in frame Vertebra; its vertices are the cloud whose
 /// extreme points count. An Error if three of either side's extreme points lie on a line.
 Result<std::array<IcpResult, 2>> register_points(const TriangleMesh& trimmed,
