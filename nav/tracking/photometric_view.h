@@ -20,8 +20,8 @@ struct CameraFromTag {
 
 /// Light, lens and sensor of one tag in one image. Grey = (black + contrast · response(white)) ·
 /// shade, with white the blurred template in [0, 1], response(w) = w + bend · w (1 − w) + bow ·
-/// w (1 − w) (1 − 2w) + … = 1 + slope · (column, row) from the middle, in
-/// half widths of the template. Kept from pair to pair, since light changes slowly.
+/// w (1 − w) (1 − 2w) + …, and shade = 1 + slope · (column, row) from the middle, in half widths of
+/// the template. Kept from pair to pair, since light changes slowly.
 struct Photometry {
   double black = 30.0;
   double contrast = 150.0;
