@@ -102,7 +102,7 @@ RegistrationMethod posterior(double common_m) {
               fitted.found = true;
               fitted.accepted = d->accepted;
               fitted.world_from_vertebra = d->answer.world_from_vertebra;
-              fitted.rmse_m = d->answer.spread_m;
+              fitted.rmse_m = d->answer.hand.spread_m;
               char text[160];
               std::snprintf(text, sizeof text,
                             "wrong %.4f (99 %% within %.2f mm); size %.3f +- %.3f", d->wrong,

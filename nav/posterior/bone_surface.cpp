@@ -39,8 +39,7 @@ BoneSurface::Place BoneSurface::near(Vec3 query_m, Vec3 hint_m) const {
   return at(query_m, (query_m - hint_m).norm() * kRounding + 1e-12);
 }
 
-double BoneSurface::curvature_1_m(Vec3 place_m, Vec3 out, double aside_m) const {
-  // At this distance along the tangents the bone lies lower by half the curvature times its square.
+double BoneSurface::mean_height_around_m(Vec3 place_m, Vec3 out, double aside_m) const {
   constexpr int kDirections = 8;
   if (!(out.squared_norm() > 0.5)) {
     return 0.0;
@@ -55,7 +54,12 @@ double BoneSurface::curvature_1_m(Vec3 place_m, Vec3 out, double aside_m) const 
         at(place_m + aside_m * (std::cos(angle) * first + std::sin(angle) * second), 2.0 * aside_m)
             .distance_m;
   }
-  return 4.0 * sum_m / (kDirections * aside_m * aside_m);
+  return sum_m / kDirections;
+}
+
+double BoneSurface::curvature_1_m(Vec3 place_m, Vec3 out, double aside_m) const {
+  // At this distance along the tangents the bone lies lower by half the curvature times its square.
+  return 4.0 * mean_height_around_m(place_m, out, aside_m) / (aside_m * aside_m);
 }
 
 }  // namespace orthonav::nav::posterior

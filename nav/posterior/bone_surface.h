@@ -26,6 +26,9 @@ class BoneSurface {
   /// The same, where the nearest place is known to be near `hint_m`, which lies on the surface.
   [[nodiscard]] Place near(Vec3 query_m, Vec3 hint_m) const;
 
+  /// How far above the bone, on average, a circle of this radius lies in the plane that touches it
+  /// at a place; `out`: unit, away from the bone there. Negative in a valley.
+  [[nodiscard]] double mean_height_around_m(Vec3 place_m, Vec3 out, double aside_m) const;
   /// The sum of the two principal curvatures about a place of the surface, convex positive, as seen
   /// from points that lie `aside_m` beside it; `out`: unit, away from the bone there.
   [[nodiscard]] double curvature_1_m(Vec3 place_m, Vec3 out, double aside_m) const;

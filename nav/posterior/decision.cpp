@@ -4,6 +4,7 @@
 #include <cmath>
 #include <Eigen/Dense>
 #include <limits>
+#include <memory>
 
 #include "base/random.h"
 #include "base/translation.h"
@@ -41,9 +42,9 @@ struct Tried {
     return found ? log_odds + found->log_evidence : kImpossible;
   }
   void look(const Observations& observations, const Prior& prior, Effort effort,
-            const Hand* hand = nullptr) {
+            Averaged* shared = nullptr) {
     found = posterior_of(observations, BoneSurface(*model, kind == Explanation::Kind::kMirror),
-                         prior, found ? found->world_from_vertebra : start, effort, hand);
+                         prior, found ? found->world_from_vertebra : start, effort, shared);
   }
 };
 
@@ -178,21 +179,36 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     }
   };
   add_poses(Explanation::Kind::kAnswer, {}, model, 8);
-  for (Tried& t : tried) {
-    t.look(observations, prior, Effort::kRough);
-  }
-  const auto likelier = [](const Tried& a, const Tried& b) {
-    return a.log_weight() < b.log_weight();
-  };
   if (tried.empty()) {
     return no_pose;
   }
-  std::iter_swap(tried.begin(), std::max_element(tried.begin(), tried.end(), likelier));
-  if (!tried[0].found) {
+  // All under the hand of the best one, which is told anew when that is another.
+  std::unique_ptr<Averaged> rough;
+  for (int round = 0; round < 3; ++round) {
+    tried[0].look(observations, prior, Effort::kRough);
+    if (!tried[0].found) {
+      tried.erase(tried.begin());
+      if (tried.empty()) {
+        return no_pose;
+      }
+      continue;
+    }
+    rough = std::make_unique<Averaged>(observations, prior, tried[0].found->hand);
+    for (std::size_t i = 1; i < tried.size(); ++i) {
+      tried[i].look(observations, prior, Effort::kRough, rough.get());
+    }
+    const auto best = std::max_element(
+        tried.begin(), tried.end(),
+        [](const Tried& x, const Tried& y) { return x.log_weight() < y.log_weight(); });
+    if (best == tried.begin()) {
+      break;
+    }
+    std::iter_swap(tried.begin(), best);
+  }
+  if (!rough || !tried[0].found) {
     return no_pose;
   }
-  // The others with the hand of the best one.
-  const Hand rough_hand = tried[0].found->hand;
+  const std::size_t own_poses = tried.size();
   for (const NeighbourLevel& level : question.neighbours) {
     add_poses(Explanation::Kind::kLevel, level.label, *level.model, 2);
   }
@@ -202,8 +218,8 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   mirror.model = &model;
   mirror.start = mirrored_start(model, cloud, tried[0].found->world_from_vertebra);
   tried.push_back(mirror);
-  for (std::size_t i = 1; i < tried.size(); ++i) {
-    tried[i].look(observations, prior, Effort::kRough, &rough_hand);
+  for (std::size_t i = own_poses; i < tried.size(); ++i) {
+    tried[i].look(observations, prior, Effort::kRough, rough.get());
   }
   const double own = tried[0].log_weight();
   std::erase_if(tried, [&](const Tried& t) { return !(t.log_weight() >= own - kFarWorse); });
@@ -211,9 +227,9 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   if (!tried[0].found) {
     return no_pose;
   }
-  const Hand hand = tried[0].found->hand;
+  Averaged full(observations, prior, tried[0].found->hand);
   for (std::size_t i = 1; i < tried.size(); ++i) {
-    tried[i].look(observations, prior, Effort::kFull, &hand);
+    tried[i].look(observations, prior, Effort::kFull, &full);
   }
   Decision out;
   out.answer = *tried[0].found;
@@ -259,9 +275,10 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
     e.probability /= sum;
     out.wrong += e.probability * e.wrong;
   }
-  out.scatter_predicted = scatter_predicted(prior, out.answer.spread_m);
+  out.scatter_predicted = scatter_predicted(prior, out.answer.hand.spread_m);
   constexpr double kOutlierPower = 18.0;  // 1 of 20 points on average, 3 of 10 once in 600
-  out.outliers_predicted = std::pow(out.answer.inlier_share, kOutlierPower);
+  out.outliers_predicted =
+      std::pow(out.answer.hand.inliers / static_cast<double>(tips.size()), kOutlierPower);
   out.accepted = out.wrong <= question.may_be_wrong &&
                  out.scatter_predicted >= question.least_predicted &&
                  out.outliers_predicted >= question.least_predicted;

@@ -9,7 +9,6 @@
 #include <queue>
 
 #include "nav/statistics/median.h"
-#include "nav/statistics/whitened_system.h"
 
 namespace orthonav::nav::posterior {
 namespace {
@@ -30,17 +29,7 @@ double log_sum(double a, double b) {
 // ---------------------------------------------------------------------------------------------
 // The heights at a pose.
 
-/// What every pose has in common.
-struct Problem {
-  const Observations& observations;
-  const BoneSurface& bone;
-  const Prior& prior;
-  Vec3 centre_in_world_m;
-  std::vector<std::array<std::uint32_t, kBlock>> blocks;
-  const Hand* hand = nullptr;
-};
-
-using Square = Eigen::Matrix<double, kBlock, kBlock>;
+}  // namespace
 
 /// Every point at a pose.
 struct Touches {
@@ -51,26 +40,74 @@ struct Touches {
     Vec3 out;
     Vec3 nearest_m;
     double height_m = 0.0;
-    double belongs = 1.0;
+    /// How deep in a valley the place lies (a ridge: negative).
+    double valley_m = 0.0;
     /// Sum of the bone's curvatures there, convex positive: points that scatter about a curved
     /// surface lie, on average, half of it times their variance off the surface.
     double curvature_1_m = 0.0;
   };
   std::vector<Touch> all;
-  double spread_m = 0.0;
-  double log_outliers = 0.0;  ///< of the points as members of the bone, or not
-  double inliers = 0.0;
 };
 
-/// Which points belong to the bone: those of the hand that is given or, by a mixture of a Gaussian
-/// about the mean height and an even density, those at this pose (expectation maximization, from
-/// the median).
-void tell_outliers(const Problem& problem, Touches& t) {
-  const Prior& prior = problem.prior;
+namespace {
+
+/// `wanted`: of these points; empty: of all. `before`: the same ones at a pose nearby; the bone's
+/// shape about each is taken from there.
+Touches touches_at(const Observations& observations, const BoneSurface& bone,
+                   const Transform<Vertebra, World>& from_world,
+                   std::span<const std::uint32_t> wanted, const Touches* before) {
+  constexpr double kScatter_m = 0.001;
+  constexpr double kValley_m = 0.006;
+  Touches out;
+  out.from_world = from_world;
+  out.all.resize(observations.strokes.size());
+  Vec3 centre_in_world_m;
+  for (const StrokePoint& p : observations.strokes) {
+    centre_in_world_m += p.tip.v / static_cast<double>(observations.strokes.size());
+  }
+  out.centre_m = (from_world * Point<World>{centre_in_world_m}).v;
+  const std::size_t count = wanted.empty() ? out.all.size() : wanted.size();
+  // Two hundred places tell the shape about all of them.
+  const std::size_t every = std::max<std::size_t>(1, count / 200);
+  const Touches::Touch* last = nullptr;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = wanted.empty() ? k : wanted[k];
+    const Vec3 p = (from_world * observations.strokes[i].tip).v;
+    const auto place =
+        bone.near(p, before != nullptr ? before->all[i].nearest_m : bone.place_near(p));
+    Touches::Touch& touch = out.all[i];
+    touch.lever_m = p - out.centre_m;
+    touch.out = place.out;
+    touch.nearest_m = place.nearest_m;
+    touch.height_m = place.distance_m - observations.tip_radius_m;
+    if (before != nullptr || k % every != 0) {
+      const Touches::Touch& as = before != nullptr ? before->all[i] : *last;
+      touch.valley_m = as.valley_m;
+      touch.curvature_1_m = as.curvature_1_m;
+    } else {
+      touch.valley_m = -bone.mean_height_around_m(place.nearest_m, place.out, kValley_m);
+      touch.curvature_1_m = bone.curvature_1_m(place.nearest_m, place.out, kScatter_m);
+    }
+    last = &touch;
+  }
+  return out;
+}
+
+double entropy(double p) { return p > 1e-300 ? -p * std::log(p) : 0.0; }
+
+using Square = Eigen::Matrix<double, kBlock, kBlock>;
+
+/// Which points belong to the bone, by a mixture of a Gaussian about the mean height and an even
+/// density (expectation maximization, from the median); and how those of the blocks all of whose
+/// points do deviate from the block's mean.
+Hand hand_at(const Observations& observations, const Prior& prior,
+             std::span<const std::array<std::uint32_t, kBlock>> blocks, const Touches& t) {
   constexpr int kRounds = 8;
   constexpr double kLeast_m = 0.0001;
   constexpr double kMost_m = 0.004;
   constexpr double kSdByMedian = 1.4826;
+  constexpr double kBelongs = 0.5;
+  Hand out;
   std::vector<double> heights;
   for (const auto& touch : t.all) {
     heights.push_back(touch.height_m);
@@ -79,114 +116,51 @@ void tell_outliers(const Problem& problem, Touches& t) {
   for (double& h : heights) {
     h = std::abs(h - mean_m);
   }
-  double sd_m = std::clamp(kSdByMedian * median(std::move(heights)), kLeast_m, kMost_m);
-  // Mean and SD of the points that belong to the bone; false where too few do.
-  const auto average = [&] {
+  out.spread_m = std::clamp(kSdByMedian * median(std::move(heights)), kLeast_m, kMost_m);
+  out.belongs.assign(t.all.size(), 1.0);
+  const double outside = prior.outlier_share / prior.outlier_range_m;
+  for (int round = 0; round < kRounds; ++round) {
     double sum = 0.0, sum_m = 0.0, sum_m2 = 0.0;
-    for (const auto& touch : t.all) {
-      sum += touch.belongs;
-      sum_m += touch.belongs * touch.height_m;
-      sum_m2 += touch.belongs * touch.height_m * touch.height_m;
+    for (std::size_t i = 0; i < t.all.size(); ++i) {
+      const double height_m = t.all[i].height_m;
+      const double z = (height_m - mean_m) / out.spread_m;
+      const double inside = (1.0 - prior.outlier_share) * std::exp(-0.5 * z * z) /
+                            (out.spread_m * std::sqrt(2.0 * std::numbers::pi));
+      out.belongs[i] = inside / (inside + outside);
+      sum += out.belongs[i];
+      sum_m += out.belongs[i] * height_m;
+      sum_m2 += out.belongs[i] * height_m * height_m;
     }
     if (!(sum > 6.0)) {
-      return false;
+      break;
     }
     mean_m = sum_m / sum;
-    sd_m = std::clamp(std::sqrt(std::max(0.0, sum_m2 / sum - mean_m * mean_m)), kLeast_m, kMost_m);
-    return true;
-  };
-  const double outside = prior.outlier_share / prior.outlier_range_m;
-  if (problem.hand != nullptr) {
-    for (std::size_t i = 0; i < t.all.size(); ++i) {
-      t.all[i].belongs = problem.hand->belongs[i];
-    }
-    average();
-  } else {
-    for (int round = 0; round < kRounds; ++round) {
-      for (auto& touch : t.all) {
-        const double z = (touch.height_m - mean_m) / sd_m;
-        const double inside = (1.0 - prior.outlier_share) * std::exp(-0.5 * z * z) /
-                              (sd_m * std::sqrt(2.0 * std::numbers::pi));
-        touch.belongs = inside / (inside + outside);
-      }
-      if (!average()) {
-        break;
-      }
-    }
+    out.spread_m =
+        std::clamp(std::sqrt(std::max(0.0, sum_m2 / sum - mean_m * mean_m)), kLeast_m, kMost_m);
   }
-  t.spread_m = sd_m;
-  t.log_outliers = t.inliers = 0.0;
-  const auto entropy = [](double p) { return p > 1e-300 ? -p * std::log(p) : 0.0; };
-  for (const auto& touch : t.all) {
-    const double z = touch.belongs;
-    t.inliers += z;
-    t.log_outliers += z * std::log1p(-prior.outlier_share) + (1.0 - z) * std::log(outside) +
-                      entropy(z) + entropy(1.0 - z);
+  for (const double p : out.belongs) {
+    out.inliers += p;
+    out.log_outliers += p * std::log1p(-prior.outlier_share) + (1.0 - p) * std::log(outside) +
+                        entropy(p) + entropy(1.0 - p);
   }
-}
-
-Touches touches_at(const Problem& problem, const Transform<Vertebra, World>& from_world,
-                   const Touches* hint) {
-  Touches out;
-  out.from_world = from_world;
-  out.centre_m = (from_world * Point<World>{problem.centre_in_world_m}).v;
-  out.all.resize(problem.observations.strokes.size());
-  for (std::size_t i = 0; i < out.all.size(); ++i) {
-    const Vec3 p = (from_world * problem.observations.strokes[i].tip).v;
-    const auto place =
-        problem.bone.near(p, hint != nullptr ? hint->all[i].nearest_m : problem.bone.place_near(p));
-    Touches::Touch& touch = out.all[i];
-    touch.lever_m = p - out.centre_m;
-    touch.out = place.out;
-    touch.nearest_m = place.nearest_m;
-    touch.height_m = place.distance_m - problem.observations.tip_radius_m;
-  }
-  tell_outliers(problem, out);
-  const std::size_t every = std::max<std::size_t>(1, out.all.size() / 200);
-  for (std::size_t i = 0; i < out.all.size(); ++i) {
-    out.all[i].curvature_1_m =
-        hint != nullptr  ? hint->all[i].curvature_1_m
-        : i % every == 0 ? problem.bone.curvature_1_m(out.all[i].nearest_m, out.all[i].out,
-                                                      std::numbers::sqrt2 * out.spread_m)
-                         : out.all[i - 1].curvature_1_m;
-  }
-  return out;
-}
-
-constexpr std::size_t kColumns = 10;  // pose, standoff, size, curvature, height
-
-/// The units' mean heights, and how points scatter within blocks.
-struct Rows {
-  std::vector<const Unit*> units;  ///< those of which enough belongs to the bone
-  std::vector<double> points;      ///< of each
-  std::vector<std::array<double, kColumns>> columns;
-  Hand hand;
-  double within = 0.0;  ///< dimensions of what is within blocks
-  double log_outliers = 0.0;
-};
-
-/// Of the blocks all of whose points belong to the bone.
-Hand hand_of(const Problem& problem, const Touches& t) {
-  constexpr double kBelongs = 0.5;
-  Hand out;
   Eigen::Map<Square> products(out.products_m2.data());
-  for (const auto& block : problem.blocks) {
-    Eigen::Matrix<double, kBlock, 1> heights;
+  for (const auto& block : blocks) {
+    Eigen::Matrix<double, kBlock, 1> deviations;
     bool all = true;
     for (std::size_t k = 0; k < kBlock; ++k) {
-      heights(static_cast<Eigen::Index>(k)) = t.all[block[k]].height_m;
-      all = all && t.all[block[k]].belongs > kBelongs;
+      deviations(static_cast<Eigen::Index>(k)) = t.all[block[k]].height_m;
+      all = all && out.belongs[block[k]] > kBelongs;
     }
     if (!all) {
       continue;
     }
-    heights.array() -= heights.mean();
-    products += heights * heights.transpose();
+    deviations.array() -= deviations.mean();
+    products += deviations * deviations.transpose();
     out.blocks += 1.0;
     for (std::size_t lag = 1; lag < kBlock; ++lag) {
       for (std::size_t k = 0; k + lag < kBlock; ++k) {
-        const StrokePoint& a = problem.observations.strokes[block[k]];
-        const StrokePoint& b = problem.observations.strokes[block[k + lag]];
+        const StrokePoint& a = observations.strokes[block[k]];
+        const StrokePoint& b = observations.strokes[block[k + lag]];
         out.lag_s[lag] += (b.time_s - a.time_s) / static_cast<double>(kBlock - lag);
         out.lag_m[lag] += (b.tip - a.tip).norm() / static_cast<double>(kBlock - lag);
       }
@@ -202,228 +176,12 @@ Hand hand_of(const Problem& problem, const Touches& t) {
   return out;
 }
 
-Rows rows_of(const Problem& problem, std::span<const Unit> units, const Touches& t) {
-  constexpr double kLeastOfUnit = 0.25;
-  Rows rows;
-  rows.log_outliers = problem.prior.point_counts * t.log_outliers;
-  for (const Unit& unit : units) {
-    double sum = 0.0;
-    std::array<double, kColumns> mean{};
-    for (const std::uint32_t i : unit.points) {
-      const Touches::Touch& touch = t.all[i];
-      const Vec3 turned = touch.lever_m.cross(touch.out) / kLever_m;
-      const std::array<double, kColumns> one = {
-          -touch.out.x, -touch.out.y, -touch.out.z, -turned.x, -turned.y, -turned.z,
-          // Of the place on the surface: the tip's own lever holds the height that it is to
-          // explain.
-          1.0, (touch.nearest_m - t.centre_m).dot(touch.out), touch.curvature_1_m, touch.height_m};
-      sum += touch.belongs;
-      for (std::size_t k = 0; k < kColumns; ++k) {
-        mean[k] += touch.belongs * one[k];
-      }
-    }
-    if (sum < kLeastOfUnit * static_cast<double>(unit.points.size())) {
-      continue;
-    }
-    for (double& m : mean) {
-      m /= sum;
-    }
-    rows.units.push_back(&unit);
-    rows.points.push_back(sum);
-    rows.columns.push_back(mean);
-  }
-  rows.hand = problem.hand != nullptr ? *problem.hand : hand_of(problem, t);
-  if (rows.hand.blocks > 0.0) {
-    rows.within = problem.prior.point_counts *
-                  std::max(0.0, t.inliers - static_cast<double>(rows.units.size()));
-  }
-  return rows;
-}
-
-// ---------------------------------------------------------------------------------------------
-// Covariances: of the units' heights, and within a block, in units of the noise's variance.
-
-/// Correlation of a field, which falls to 1/e over its length: exponential where it is rough, and
-/// Matern's of order 3/2 where it is smooth.
-struct Field {
-  double length_m = 0.0;
-  bool smooth = false;
-  [[nodiscard]] double at(double distance_m) const {
-    constexpr double kByLength = 2.146193;  // (1 + x) exp(-x) = 1/e
-    const double x = distance_m / length_m;
-    return smooth ? (1.0 + kByLength * x) * std::exp(-kByLength * x) : std::exp(-x);
-  }
-  friend auto operator<=>(const Field&, const Field&) = default;
-};
-
-/// Its mean between two units, by their halves.
-double between(const Unit& a, const Unit& b, const Field& field) {
-  const auto correlation = [&](Vec3 p, Vec3 q) { return field.at((p - q).norm()); };
-  constexpr double kFar = 4.0;
-  const Vec3 middle_a = 0.5 * (a.quarter_m + a.three_quarters_m);
-  const Vec3 middle_b = 0.5 * (b.quarter_m + b.three_quarters_m);
-  const double longest_m2 = std::max((a.three_quarters_m - a.quarter_m).squared_norm(),
-                                     (b.three_quarters_m - b.quarter_m).squared_norm());
-  if ((middle_a - middle_b).squared_norm() > kFar * kFar * longest_m2) {
-    return correlation(middle_a, middle_b);
-  }
-  return 0.25 *
-         (correlation(a.quarter_m, b.quarter_m) + correlation(a.quarter_m, b.three_quarters_m) +
-          correlation(a.three_quarters_m, b.quarter_m) +
-          correlation(a.three_quarters_m, b.three_quarters_m));
-}
-
-/// Mean correlation between two units of a stroke of noise that wanders.
-double wandering(const Unit& a, const Unit& b, double time_s) {
-  const double length_a = std::max(1e-6, (a.end_s - a.begin_s) / time_s);
-  const double length_b = std::max(1e-6, (b.end_s - b.begin_s) / time_s);
-  if (&a == &b) {
-    return 2.0 * (length_a + std::expm1(-length_a)) / (length_a * length_a);
-  }
-  const double gap =
-      std::max(0.0, b.begin_s > a.begin_s ? b.begin_s - a.end_s : a.begin_s - b.end_s) / time_s;
-  return std::expm1(-length_a) * std::expm1(-length_b) / (length_a * length_b) * std::exp(-gap);
-}
-
-class Covariances {
- public:
-  explicit Covariances(const Rows& rows, double model_length_m)
-      : rows_(rows), model_length_m_(model_length_m) {}
-
-  /// Whitened columns of the rows; false where the covariance is not positive definite.
-  bool whiten(const Mixture& mix) {
-    const std::size_t m = rows_.units.size();
-    const Eigen::MatrixXd* const tissue =
-        mix.tissue > 0.0 ? &field({mix.length_m, mix.smooth}) : nullptr;
-    const Eigen::MatrixXd* const model =
-        mix.model > 0.0 ? &field({model_length_m_, true}) : nullptr;
-    const Eigen::MatrixXd* const noise = mix.white < 1.0 ? &along(mix.time_s) : nullptr;
-    const double tissue2 = mix.tissue * mix.tissue;
-    const double model2 = mix.model * mix.model;
-    const double stroke2 = mix.stroke * mix.stroke;
-    system_.reset(m, kColumns);
-    for (std::size_t b = 0; b < m; ++b) {
-      double* const column = system_.column_of(b);
-      const auto j = static_cast<Eigen::Index>(b);
-      for (std::size_t a = b; a < m; ++a) {
-        const auto i = static_cast<Eigen::Index>(a);
-        double sum = 0.0;
-        if (tissue != nullptr) {
-          sum += tissue2 * (*tissue)(i, j);
-        }
-        if (model != nullptr) {
-          sum += model2 * (*model)(i, j);
-        }
-        if (rows_.units[a]->stroke == rows_.units[b]->stroke) {
-          sum += stroke2;
-          if (noise != nullptr) {
-            sum += (1.0 - mix.white) * (*noise)(i, j);
-          }
-        }
-        column[a] = sum;
-      }
-      column[b] += mix.white / rows_.points[b];
-      for (std::size_t k = 0; k < kColumns; ++k) {
-        system_.right_side(b, k) = rows_.columns[b][k];
-      }
-    }
-    return system_.whiten();
-  }
-
-  using Products = Eigen::Matrix<double, kColumns, kColumns>;
-  [[nodiscard]] Products products() const {
-    Products out = Products::Zero();
-    for (std::size_t k = 0; k < system_.size(); ++k) {
-      const Eigen::Map<const Eigen::Matrix<double, kColumns, 1>> row(system_.right_sides(k));
-      out.noalias() += row * row.transpose();
-    }
-    return out;
-  }
-  [[nodiscard]] double log_determinant() const { return system_.log_determinant(); }
-
-  struct Within {
-    double log_determinant = 0.0;  ///< a dimension
-    double quadratic = 0.0;        ///< a dimension, m^2
-  };
-  [[nodiscard]] Within within(const Mixture& mix) const {
-    if (!(rows_.hand.blocks > 0.0)) {
-      return {};
-    }
-    std::array<double, kBlock> by_lag{};
-    for (std::size_t lag = 0; lag < kBlock; ++lag) {
-      by_lag[lag] = (lag == 0 ? mix.white : 0.0);
-      if (mix.white < 1.0) {
-        by_lag[lag] += (1.0 - mix.white) * std::exp(-rows_.hand.lag_s[lag] / mix.time_s);
-      }
-      if (mix.tissue > 0.0) {
-        by_lag[lag] +=
-            mix.tissue * mix.tissue * Field{mix.length_m, mix.smooth}.at(rows_.hand.lag_m[lag]);
-      }
-      by_lag[lag] += mix.model * mix.model * Field{model_length_m_, true}.at(rows_.hand.lag_m[lag]);
-    }
-    // Deviations from the mean: what is left in the seven directions across (1, ..., 1).
-    Square covariance;
-    for (std::size_t a = 0; a < kBlock; ++a) {
-      for (std::size_t b = 0; b < kBlock; ++b) {
-        covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
-            by_lag[a > b ? a - b : b - a];
-      }
-    }
-    using Across = Eigen::Matrix<double, kBlock - 1, kBlock>;
-    static const Across across = helmert();
-    using Small = Eigen::Matrix<double, kBlock - 1, kBlock - 1>;
-    const Small c = across * covariance * across.transpose();
-    const Small s =
-        across * Eigen::Map<const Square>(rows_.hand.products_m2.data()) * across.transpose();
-    const Eigen::LLT<Small> llt(c);
-    constexpr double kDimensions = kBlock - 1;
-    double log_determinant = 0.0;
-    for (Eigen::Index k = 0; k < c.rows(); ++k) {
-      log_determinant += 2.0 * std::log(llt.matrixLLT()(k, k));
-    }
-    return {log_determinant / kDimensions, llt.solve(s).trace() / kDimensions};
-  }
-
- private:
-  static Eigen::Matrix<double, kBlock - 1, kBlock> helmert() {
-    Eigen::Matrix<double, kBlock - 1, kBlock> h = Eigen::Matrix<double, kBlock - 1, kBlock>::Zero();
-    for (Eigen::Index k = 1; k < static_cast<Eigen::Index>(kBlock); ++k) {
-      const double n = static_cast<double>(k);
-      h.row(k - 1).head(k).setConstant(1.0 / std::sqrt(n * (n + 1.0)));
-      h(k - 1, k) = -n / std::sqrt(n * (n + 1.0));
-    }
-    return h;
-  }
-  template <class Key, class Of>
-  const Eigen::MatrixXd& kept(std::map<Key, Eigen::MatrixXd>& all, const Key& key, const Of& of) {
-    auto [place, is_new] = all.try_emplace(key);
-    if (is_new) {
-      const auto m = static_cast<Eigen::Index>(rows_.units.size());
-      place->second = Eigen::MatrixXd::Zero(m, m);
-      for (Eigen::Index b = 0; b < m; ++b) {
-        for (Eigen::Index a = b; a < m; ++a) {
-          place->second(a, b) = of(*rows_.units[static_cast<std::size_t>(a)],
-                                   *rows_.units[static_cast<std::size_t>(b)]);
-        }
-      }
-    }
-    return place->second;
-  }
-  const Eigen::MatrixXd& field(const Field& of) {
-    return kept(fields_, of, [&](const Unit& a, const Unit& b) { return between(a, b, of); });
-  }
-  const Eigen::MatrixXd& along(double time_s) {
-    return kept(noises_, time_s, [&](const Unit& a, const Unit& b) {
-      return a.stroke == b.stroke ? wandering(a, b, time_s) : 0.0;
-    });
-  }
-
-  const Rows& rows_;
-  double model_length_m_;
-  std::map<Field, Eigen::MatrixXd> fields_;
-  std::map<double, Eigen::MatrixXd> noises_;
-  WhitenedSystem system_;
-};
+// What a height consists of, as columns: pose (6), valley, standoff, size, curvature; the height.
+constexpr Eigen::Index kValley = 6;
+constexpr Eigen::Index kMoved = 7;  ///< how many are integrated whatever else is
+constexpr Eigen::Index kColumns = 11;
+using Columns = Eigen::Matrix<double, Eigen::Dynamic, kColumns>;
+using Products = Eigen::Matrix<double, kColumns, kColumns>;
 
 // ---------------------------------------------------------------------------------------------
 // The grid, and the prior of a point of it.
@@ -480,6 +238,227 @@ double log_prior_of(const Prior& prior, const Node& node, double s_m, double noi
   return std::log(tissue) + std::log(strokes) + std::log(model) +
          log_density_of_noise(prior, noise_m);
 }
+
+// ---------------------------------------------------------------------------------------------
+// Covariances: of the units' heights, and within a block, in units of the noise's variance.
+
+}  // namespace
+
+/// Correlation of a field, which falls to 1/e over its length: exponential where it is rough, and
+/// Matern's of order 3/2 where it is smooth.
+struct Field {
+  double length_m = 0.0;
+  bool smooth = false;
+  [[nodiscard]] double at(double distance_m) const {
+    constexpr double kByLength = 2.146193;  // (1 + x) exp(-x) = 1/e
+    const double x = distance_m / length_m;
+    return smooth ? (1.0 + kByLength * x) * std::exp(-kByLength * x) : std::exp(-x);
+  }
+  friend auto operator<=>(const Field&, const Field&) = default;
+};
+
+namespace {
+
+/// Its mean between two units, by their halves.
+double between(const Unit& a, const Unit& b, const Field& field) {
+  const auto correlation = [&](Vec3 p, Vec3 q) { return field.at((p - q).norm()); };
+  constexpr double kFar = 4.0;
+  const Vec3 middle_a = 0.5 * (a.quarter_m + a.three_quarters_m);
+  const Vec3 middle_b = 0.5 * (b.quarter_m + b.three_quarters_m);
+  const double longest_m2 = std::max((a.three_quarters_m - a.quarter_m).squared_norm(),
+                                     (b.three_quarters_m - b.quarter_m).squared_norm());
+  if ((middle_a - middle_b).squared_norm() > kFar * kFar * longest_m2) {
+    return correlation(middle_a, middle_b);
+  }
+  return 0.25 *
+         (correlation(a.quarter_m, b.quarter_m) + correlation(a.quarter_m, b.three_quarters_m) +
+          correlation(a.three_quarters_m, b.quarter_m) +
+          correlation(a.three_quarters_m, b.three_quarters_m));
+}
+
+/// Mean correlation between two units of a stroke of noise that wanders.
+double wandering(const Unit& a, const Unit& b, double time_s) {
+  const double length_a = std::max(1e-6, (a.end_s - a.begin_s) / time_s);
+  const double length_b = std::max(1e-6, (b.end_s - b.begin_s) / time_s);
+  if (&a == &b) {
+    return 2.0 * (length_a + std::expm1(-length_a)) / (length_a * length_a);
+  }
+  const double gap =
+      std::max(0.0, b.begin_s > a.begin_s ? b.begin_s - a.end_s : a.begin_s - b.end_s) / time_s;
+  return std::expm1(-length_a) * std::expm1(-length_b) / (length_a * length_b) * std::exp(-gap);
+}
+
+using Across = Eigen::Matrix<double, kBlock - 1, kBlock>;
+Across helmert() {
+  Across h = Across::Zero();
+  for (Eigen::Index k = 1; k < static_cast<Eigen::Index>(kBlock); ++k) {
+    const double n = static_cast<double>(k);
+    h.row(k - 1).head(k).setConstant(1.0 / std::sqrt(n * (n + 1.0)));
+    h(k - 1, k) = -n / std::sqrt(n * (n + 1.0));
+  }
+  return h;
+}
+
+}  // namespace
+
+struct Averaged::Units {
+  const Observations& observations;
+  const Prior& prior;
+  const Hand& hand;
+  std::vector<Unit> units;            ///< those of which enough belongs to the bone
+  std::vector<double> points;         ///< of each
+  std::vector<std::uint32_t> wanted;  ///< points of all of them
+  double within = 0.0;                ///< dimensions of what is within blocks
+
+  /// Of each unit's points, evenly, about `most_points`.
+  Units(const Observations& measured, const Prior& known, const Hand& of, std::size_t most,
+        std::size_t most_points)
+      : observations(measured), prior(known), hand(of) {
+    constexpr double kLeastOfUnit = 0.25;
+    for (Unit& unit : units_of(measured, most)) {
+      const std::size_t every = (unit.points.size() + most_points - 1) / most_points;
+      std::vector<std::uint32_t> kept_points;
+      double sum = 0.0;
+      for (std::size_t k = every / 2; k < unit.points.size(); k += every) {
+        kept_points.push_back(unit.points[k]);
+        sum += of.belongs[unit.points[k]];
+      }
+      if (sum >= kLeastOfUnit * static_cast<double>(kept_points.size())) {
+        unit.points = std::move(kept_points);
+        wanted.insert(wanted.end(), unit.points.begin(), unit.points.end());
+        units.push_back(std::move(unit));
+        points.push_back(sum);
+      }
+    }
+    if (of.blocks > 0.0) {
+      within = known.point_counts * std::max(0.0, of.inliers - static_cast<double>(units.size()));
+    }
+  }
+
+  /// Covariances, relative to the noise's variance, by what they are of; lower triangles.
+  std::map<Field, Eigen::MatrixXd> fields;
+  std::map<double, Eigen::MatrixXd> wandering_noise;
+  struct Factor {
+    Eigen::LLT<Eigen::MatrixXd> root;
+    double log_determinant = 0.0;
+    // Of the deviations within a block, a dimension:
+    double log_determinant_within = 0.0;
+    double quadratic_within_m2 = 0.0;
+  };
+  std::map<Node, std::optional<Factor>> factors;
+
+  template <class Key, class Of>
+  const Eigen::MatrixXd& kept(std::map<Key, Eigen::MatrixXd>& all, const Key& key, const Of& of) {
+    auto [place, is_new] = all.try_emplace(key);
+    if (is_new) {
+      const auto m = static_cast<Eigen::Index>(units.size());
+      place->second = Eigen::MatrixXd::Zero(m, m);
+      for (Eigen::Index b = 0; b < m; ++b) {
+        for (Eigen::Index a = b; a < m; ++a) {
+          place->second(a, b) =
+              of(units[static_cast<std::size_t>(a)], units[static_cast<std::size_t>(b)]);
+        }
+      }
+    }
+    return place->second;
+  }
+
+  /// Empty where the covariance is not positive definite.
+  const std::optional<Factor>& factor(const Node& node) {
+    auto [place, is_new] = factors.try_emplace(node);
+    if (!is_new) {
+      return place->second;
+    }
+    const Mixture mix = mixture(node, prior, observations.in_time);
+    const Field tissue{mix.length_m, mix.smooth};
+    const Field model{prior.model_length_m, true};
+    const auto m = static_cast<Eigen::Index>(units.size());
+    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(m, m);
+    const auto add_field = [&](double sd, const Field& field) {
+      if (sd > 0.0) {
+        c += sd * sd * kept(fields, field, [&](const Unit& a, const Unit& b) {
+               return between(a, b, field);
+             });
+      }
+    };
+    add_field(mix.tissue, tissue);
+    add_field(mix.model, model);
+    if (mix.white < 1.0) {
+      c += (1.0 - mix.white) * kept(wandering_noise, mix.time_s, [&](const Unit& a, const Unit& b) {
+             return a.stroke == b.stroke ? wandering(a, b, mix.time_s) : 0.0;
+           });
+    }
+    for (Eigen::Index b = 0; b < m; ++b) {
+      const auto at = static_cast<std::size_t>(b);
+      c(b, b) += mix.white / points[at];
+      // Units of a stroke stand together.
+      for (Eigen::Index a = b;
+           a < m && units[static_cast<std::size_t>(a)].stroke == units[at].stroke; ++a) {
+        c(a, b) += mix.stroke * mix.stroke;
+      }
+    }
+    Factor out;
+    out.root.compute(c);
+    if (out.root.info() != Eigen::Success) {
+      return place->second;
+    }
+    out.log_determinant = 2.0 * out.root.matrixLLT().diagonal().array().log().sum();
+    if (hand.blocks > 0.0) {
+      std::array<double, kBlock> by_lag{};
+      for (std::size_t lag = 0; lag < kBlock; ++lag) {
+        by_lag[lag] = lag == 0 ? mix.white : 0.0;
+        if (mix.white < 1.0) {
+          by_lag[lag] += (1.0 - mix.white) * std::exp(-hand.lag_s[lag] / mix.time_s);
+        }
+      }
+      // Deviations from the mean: what is left in the seven directions across (1, ..., 1).
+      Square covariance;
+      for (std::size_t a = 0; a < kBlock; ++a) {
+        for (std::size_t b = 0; b < kBlock; ++b) {
+          covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
+              by_lag[a > b ? a - b : b - a];
+        }
+      }
+      static const Across across = helmert();
+      using Small = Eigen::Matrix<double, kBlock - 1, kBlock - 1>;
+      const Eigen::LLT<Small> root(across * covariance * across.transpose());
+      const Small seen =
+          across * Eigen::Map<const Square>(hand.products_m2.data()) * across.transpose();
+      constexpr double kDimensions = kBlock - 1;
+      out.log_determinant_within =
+          2.0 * root.matrixLLT().diagonal().array().log().sum() / kDimensions;
+      out.quadratic_within_m2 = root.solve(seen).trace() / kDimensions;
+    }
+    place->second = std::move(out);
+    return place->second;
+  }
+
+  /// Means over the units.
+  [[nodiscard]] Columns columns_of(const Touches& t) const {
+    const auto m = static_cast<Eigen::Index>(units.size());
+    Columns out = Columns::Zero(m, kColumns);
+    for (Eigen::Index k = 0; k < m; ++k) {
+      for (const std::uint32_t i : units[static_cast<std::size_t>(k)].points) {
+        const Touches::Touch& touch = t.all[i];
+        const Vec3 turned = touch.lever_m.cross(touch.out) / kLever_m;
+        Eigen::Matrix<double, 1, kColumns> one;
+        one << -touch.out.x, -touch.out.y, -touch.out.z, -turned.x, -turned.y, -turned.z,
+            touch.valley_m, 1.0,
+            // Of the place on the surface: the tip's own lever holds the height that it is to
+            // explain.
+            (touch.nearest_m - t.centre_m).dot(touch.out), touch.curvature_1_m, touch.height_m;
+        out.row(k) += hand.belongs[i] / points[static_cast<std::size_t>(k)] * one;
+      }
+    }
+    // How deep valleys are has mean 0 and SD 1.
+    auto valley = out.col(kValley);
+    valley.array() -= valley.mean();
+    valley /= std::max(1e-9, std::sqrt(valley.squaredNorm() / static_cast<double>(m)));
+    return out;
+  }
+};
+
+namespace {
 
 // ---------------------------------------------------------------------------------------------
 // The evidence of a point of the grid.
@@ -580,30 +559,36 @@ struct Answer {
 
 enum class Asked : std::uint8_t { kWeight, kAll };
 
-std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const Problem& problem,
-                             const Node& node, Asked asked) {
-  const Prior& prior = problem.prior;
-  const Mixture mix = mixture(node, prior, problem.observations.in_time);
-  if (!covariances.whiten(mix)) {
+std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, const Node& node,
+                             Asked asked) {
+  const Prior& prior = units.prior;
+  const auto& factor = units.factor(node);
+  if (!factor) {
     return std::nullopt;
   }
-  const Covariances::Products all = covariances.products();
-  const Covariances::Within within = covariances.within(mix);
-  const Eigen::LLT<Matrix6> llt(all.topLeftCorner<6, 6>());
+  const Columns whitened = factor->root.matrixL().solve(columns);
+  Products all = whitened.transpose() * whitened;
+  // Tissue that is thick in valleys, by an unknown amount of the size of its unevenness.
+  const Mixture mix = mixture(node, prior, units.observations.in_time);
+  constexpr double kNone = 1e-6;
+  const double valley = std::max(kNone, mix.tissue);
+  all(kValley, kValley) += 1.0 / (valley * valley);
+  using Moved = Eigen::Matrix<double, kMoved, kMoved>;
+  const Eigen::LLT<Moved> llt(all.topLeftCorner<kMoved, kMoved>());
   if (llt.info() != Eigen::Success || !all.allFinite()) {
     return std::nullopt;
   }
-  const Vector6 pivots = llt.matrixLLT().diagonal();
+  const Vector6 pivots = llt.matrixLLT().diagonal().head<6>();
   constexpr double kLeastVisible = 1e-4;  // of the most visible motion's SD
   if (!(pivots.minCoeff() > kLeastVisible * pivots.maxCoeff())) {
     return std::nullopt;
   }
-  // Standoff, size, curvature and height, less what the pose explains.
-  const Eigen::Matrix<double, 6, 4> solved_four = llt.solve(all.topRightCorner<6, 4>());
+  // Standoff, size, curvature and height, less what pose and valleys explain.
+  const Eigen::Matrix<double, kMoved, 4> solved_four = llt.solve(all.topRightCorner<kMoved, 4>());
   const Eigen::Matrix4d left_four =
-      all.bottomRightCorner<4, 4>() - all.topRightCorner<6, 4>().transpose() * solved_four;
-  const double inside_m2 = rows.within * within.quadratic;
-  const double dimensions = static_cast<double>(rows.units.size()) + rows.within;
+      all.bottomRightCorner<4, 4>() - all.topRightCorner<kMoved, 4>().transpose() * solved_four;
+  const double inside_m2 = units.within * factor->quadratic_within_m2;
+  const double dimensions = static_cast<double>(units.units.size()) + units.within;
   const double freedom = dimensions - 6.0;
   if (!(freedom > 1.0) || !(left_four(0, 0) > 0.0)) {
     return std::nullopt;
@@ -616,23 +601,30 @@ std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const P
   kept(0, 0) = kept(1, 1) = kept(3, 2) = 1.0;
   kept(2, 2) = -lifts_m2;
   const Eigen::Matrix3d left = kept.transpose() * left_four * kept;
-  const Eigen::Matrix<double, 6, 3> solved = solved_four * kept;
+  const Eigen::Matrix<double, kMoved, 3> solved = solved_four * kept;
 
   const auto log_prior = [&](double s_m, double noise_m) {
     return log_density_of_standoff(prior, s_m) + log_prior_of(prior, node, s_m, noise_m);
   };
-  const double fixed = -0.5 * covariances.log_determinant() -
-                       0.5 * rows.within * within.log_determinant + rows.log_outliers;
-  const double log_pose = pivots.array().log().sum();
+  const double fixed = -0.5 * factor->log_determinant -
+                       0.5 * units.within * factor->log_determinant_within +
+                       prior.point_counts * units.hand.log_outliers;
+  const double log_pose = llt.matrixLLT().diagonal().array().log().sum() + std::log(valley);
   const OverStandoff over =
       over_standoff({left(2, 2) + inside_m2, left(0, 2), left(0, 0)}, freedom, log_prior);
   Answer out;
   out.log_weight = over.log_integral + fixed - log_pose;
   if (asked == Asked::kAll) {
-    const Eigen::Matrix3d raw = kept.transpose() * all.bottomRightCorner<4, 4>() * kept;
+    // The pose held, valleys integrated.
+    const Eigen::Vector4d of_valley =
+        all.row(kValley).tail<4>().transpose() / std::sqrt(all(kValley, kValley));
+    const Eigen::Matrix3d raw =
+        kept.transpose() * (all.bottomRightCorner<4, 4>() - of_valley * of_valley.transpose()) *
+        kept;
     out.log_here =
-        fixed + over_standoff({raw(2, 2) + inside_m2, raw(0, 2), raw(0, 0)}, dimensions, log_prior)
-                    .log_integral;
+        fixed - 0.5 * std::log(all(kValley, kValley)) - std::log(valley) +
+        over_standoff({raw(2, 2) + inside_m2, raw(0, 2), raw(0, 0)}, dimensions, log_prior)
+            .log_integral;
     // The size has a normal prior: integrated, it takes its part of the squares.
     const double precision = over.noise_m2 / (prior.size_sd * prior.size_sd);
     const double information = left(1, 1) + precision;
@@ -652,10 +644,10 @@ std::optional<Answer> answer(Covariances& covariances, const Rows& rows, const P
   out.part.standoff_m = over.mean_m;
   Vector6 scale;
   scale << 1.0, 1.0, 1.0, 1.0 / kLever_m, 1.0 / kLever_m, 1.0 / kLever_m;
-  const Vector6 by_standoff = scale.asDiagonal() * solved.col(0);
-  const Matrix6 inverse = llt.solve(Matrix6::Identity());
+  const Vector6 by_standoff = scale.asDiagonal() * solved.col(0).head<6>();
+  const Matrix6 inverse = llt.solve(Moved::Identity()).topLeftCorner<6, 6>();
   Eigen::Map<Vector6> step(out.part.step.data());
-  step = scale.asDiagonal() * solved.col(2) - over.mean_m * by_standoff;
+  step = scale.asDiagonal() * solved.col(2).head<6>() - over.mean_m * by_standoff;
   Eigen::Map<Rows6>(out.part.covariance.data()) =
       over.noise_m2 * (scale.asDiagonal() * inverse * scale.asDiagonal()) +
       over.variance_m2 * by_standoff * by_standoff.transpose();
@@ -680,11 +672,11 @@ double most_of(const Answers& answers) {
 constexpr int kNoLength = 3;
 
 /// The points of the grid next to one.
-std::vector<Node> neighbours_of(const Node& node, const Problem& problem) {
+std::vector<Node> neighbours_of(const Node& node, const Averaged::Units& units) {
   constexpr std::size_t kTissue = 2;
   constexpr std::size_t kLength = 3;
-  const bool in_time = problem.observations.in_time;
-  const int lengths = 2 * static_cast<int>(problem.prior.tissue_lengths_m.size());
+  const bool in_time = units.observations.in_time;
+  const int lengths = 2 * static_cast<int>(units.prior.tissue_lengths_m.size());
   const Node size = {
       in_time ? kShares : 1, in_time ? kTimes : 1, kRatios, lengths, kRatios, kRatios};
   std::vector<Node> out;
@@ -722,10 +714,9 @@ void sort_by_weight(Answers& answers) {
 
 /// Every point of the grid that has weight: from a few starts, the neighbours of whatever is
 /// likely.
-Answers explored(const Rows& rows, const Problem& problem) {
+Answers explored(Averaged::Units& units, const Columns& columns) {
   constexpr double kLikely = 6.0;
   constexpr std::size_t kMost = 700;
-  Covariances covariances(rows, problem.prior.model_length_m);
   std::map<Node, std::optional<Answer>> seen;
   std::priority_queue<std::pair<double, Node>> likely;
   double most = kNever;
@@ -733,14 +724,14 @@ Answers explored(const Rows& rows, const Problem& problem) {
     if (seen.size() >= kMost || seen.contains(node)) {
       return;
     }
-    const auto found = answer(covariances, rows, problem, node, Asked::kWeight);
+    const auto found = answer(units, columns, node, Asked::kWeight);
     if (found) {
       most = std::max(most, found->log_weight);
       likely.emplace(found->log_weight, node);
     }
     seen.emplace(node, found);
   };
-  const bool in_time = problem.observations.in_time;
+  const bool in_time = units.observations.in_time;
   for (const int share : in_time ? std::vector<int>{2, 5, 8} : std::vector<int>{0}) {
     for (const int time : in_time ? std::vector<int>{3, 6} : std::vector<int>{0}) {
       look({share, time, 0, kNoLength, 0, 0});
@@ -755,7 +746,7 @@ Answers explored(const Rows& rows, const Problem& problem) {
     if (log_weight < most - kLikely) {
       break;
     }
-    for (const Node& next : neighbours_of(node, problem)) {
+    for (const Node& next : neighbours_of(node, units)) {
       look(next);
     }
   }
@@ -769,11 +760,11 @@ Answers explored(const Rows& rows, const Problem& problem) {
   return out;
 }
 
-Answers answers_at(const Rows& rows, const Problem& problem, std::span<const Node> nodes) {
-  Covariances covariances(rows, problem.prior.model_length_m);
+Answers answers_at(Averaged::Units& units, const Touches& t, std::span<const Node> nodes) {
+  const Columns columns = units.columns_of(t);
   Answers out;
   for (const Node& node : nodes) {
-    if (auto found = answer(covariances, rows, problem, node, Asked::kAll)) {
+    if (auto found = answer(units, columns, node, Asked::kAll)) {
       out.emplace_back(node, *found);
     }
   }
@@ -810,7 +801,7 @@ Transform<Vertebra, World> stepped(const Touches& t, const Vector6& step) {
   return {rotation, centre - rotation * centre_in_world};
 }
 
-Posterior assembled(const Touches& t, const Rows& rows, Answers answers) {
+Posterior assembled(const Touches& t, const Hand& hand, Answers answers) {
   Posterior out;
   out.centre_m = t.centre_m;
   sort_by_weight(answers);
@@ -839,7 +830,6 @@ Posterior assembled(const Touches& t, const Rows& rows, Answers answers) {
   out.size = std::exp(size);
   out.size_sd = std::sqrt(std::max(0.0, size_square - size * size));
   out.uneven_m = std::sqrt(uneven_m2);
-  out.spread_m = t.spread_m;
   Matrix6 covariance = Matrix6::Zero();
   for (auto& [node, a] : answers) {
     Eigen::Map<Vector6> step(a.part.step.data());
@@ -850,30 +840,25 @@ Posterior assembled(const Touches& t, const Rows& rows, Answers answers) {
   }
   Eigen::Map<Rows6>(out.covariance.data()) = covariance;
   out.world_from_vertebra = stepped(t, mean).inverse();
-  out.inlier_share = t.inliers / static_cast<double>(t.all.size());
-  out.hand = rows.hand;
-  out.hand.belongs.clear();
-  for (const auto& touch : t.all) {
-    out.hand.belongs.push_back(touch.belongs);
-  }
+  out.hand = hand;
   return out;
 }
 
 /// Gauss-Newton steps to where the pose is likeliest, averaged over these points of the grid. A
 /// step that makes it less likely is halved, then refused; ended when neither translation nor
 /// rotation moves.
-void descend(const Problem& problem, std::span<const Unit> units, std::span<const Node> nodes,
-             int most_steps, Touches& here) {
+void descend(Averaged::Units& units, const BoneSurface& bone, std::span<const Node> nodes,
+             int most_steps, double stands_m, Touches& here) {
   constexpr int kMostHalvings = 4;
-  constexpr double kStands_m = 3e-6;
-  Answers answers = answers_at(rows_of(problem, units, here), problem, nodes);
+  Answers answers = answers_at(units, here, nodes);
   for (int k = 0; k < most_steps && !answers.empty(); ++k) {
     Vector6 step = mean_step(answers);
     const double before = log_here(answers);
     bool better = false;
     for (int halved = 0; halved <= kMostHalvings; ++halved, step *= 0.5) {
-      Touches there = touches_at(problem, stepped(here, step), &here);
-      Answers then = answers_at(rows_of(problem, units, there), problem, nodes);
+      Touches there =
+          touches_at(units.observations, bone, stepped(here, step), units.wanted, &here);
+      Answers then = answers_at(units, there, nodes);
       better = !then.empty() && log_here(then) >= before;
       if (better) {
         here = std::move(there);
@@ -882,7 +867,7 @@ void descend(const Problem& problem, std::span<const Unit> units, std::span<cons
       }
     }
     if (!better ||
-        (step.head<3>().norm() < kStands_m && kLever_m * step.tail<3>().norm() < kStands_m)) {
+        (step.head<3>().norm() < stands_m && kLever_m * step.tail<3>().norm() < stands_m)) {
       return;
     }
   }
@@ -890,34 +875,41 @@ void descend(const Problem& problem, std::span<const Unit> units, std::span<cons
 
 }  // namespace
 
+Averaged::Averaged(const Observations& observations, const Prior& prior, Hand hand)
+    : hand_(std::move(hand)),
+      few_(std::make_unique<Units>(observations, prior, hand_, 64, 6)),
+      all_(std::make_unique<Units>(observations, prior, hand_, 160, 1000000)) {}
+Averaged::~Averaged() = default;
+
 std::optional<Posterior> posterior_of(const Observations& observations, const BoneSurface& bone,
                                       const Prior& prior, const Transform<World, Vertebra>& start,
-                                      Effort effort, const Hand* hand) {
-  constexpr std::size_t kFewUnits = 64;
-  constexpr std::size_t kManyUnits = 160;
+                                      Effort effort, Averaged* shared) {
   constexpr std::size_t kFewestPoints = 24;
   constexpr std::size_t kSteering = 4;  // points of the grid that the descent uses
   constexpr std::size_t kKept = 48;
+  constexpr double kStands_m = 3e-6;
+  constexpr double kNearlyStands_m = 3e-5;
   constexpr double kAgain_m = 0.0001;
   if (observations.strokes.size() < kFewestPoints) {
     return std::nullopt;
   }
-  Problem problem{observations, bone, prior, {}, {}, hand};
-  for (const StrokePoint& p : observations.strokes) {
-    problem.centre_in_world_m += p.tip.v / static_cast<double>(observations.strokes.size());
-  }
-  const bool full = effort == Effort::kFull;
-  const std::vector<Unit> few = units_of(observations, kFewUnits);
-  const std::vector<Unit> units = full ? units_of(observations, kManyUnits) : few;
-  problem.blocks = blocks_of(observations, units);
-
-  Touches here = touches_at(problem, start.inverse(), nullptr);
-  std::vector<Node> nodes;
-  // The grid is explored where the descent begins and, if that was elsewhere, again where it ends.
-  for (const int most_steps : full ? std::vector<int>{12, 3} : std::vector<int>{12}) {
-    const Vec3 explored_at_m = here.centre_m;
-    nodes.clear();
-    for (const auto& [node, a] : explored(rows_of(problem, few, here), problem)) {
+  const auto blocks = blocks_of(observations, units_of(observations, 160));
+  Transform<Vertebra, World> from_world = start.inverse();
+  std::unique_ptr<Averaged> own;
+  // What the points tell of the hand, and where the grid has weight, is looked at where the descent
+  // begins and, if that was elsewhere, again where it ends.
+  for (int round = 0;; ++round) {
+    if (shared == nullptr) {
+      own = std::make_unique<Averaged>(
+          observations, prior,
+          hand_at(observations, prior, blocks,
+                  touches_at(observations, bone, from_world, {}, nullptr)));
+    }
+    Averaged& averaged = shared != nullptr ? *shared : *own;
+    Averaged::Units& few = averaged.few();
+    Touches here = touches_at(observations, bone, from_world, few.wanted, nullptr);
+    std::vector<Node> nodes;
+    for (const auto& [node, a] : explored(few, few.columns_of(here))) {
       if (nodes.size() < kKept) {
         nodes.push_back(node);
       }
@@ -925,18 +917,25 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
     if (nodes.empty()) {
       return std::nullopt;
     }
-    descend(problem, units, std::span(nodes).first(std::min(kSteering, nodes.size())), most_steps,
-            here);
-    if ((here.centre_m - explored_at_m).norm() < kAgain_m) {
-      break;
+    const std::span steering = std::span(nodes).first(std::min(kSteering, nodes.size()));
+    const Vec3 before_m = here.centre_m;
+    descend(few, bone, steering, 12, kStands_m, here);
+    const bool stood = (here.centre_m - before_m).norm() < kAgain_m;
+    from_world = here.from_world;
+    if (effort == Effort::kFull && (stood || round == 2)) {
+      Averaged::Units& all = averaged.all();
+      here = touches_at(observations, bone, from_world, {}, nullptr);
+      descend(all, bone, steering, 3, kNearlyStands_m, here);
+      Answers answers = answers_at(all, here, nodes);
+      return answers.empty() ? std::nullopt
+                             : std::optional(assembled(here, averaged.hand(), std::move(answers)));
+    }
+    if (effort == Effort::kRough) {
+      Answers answers = answers_at(few, here, nodes);
+      return answers.empty() ? std::nullopt
+                             : std::optional(assembled(here, averaged.hand(), std::move(answers)));
     }
   }
-  const Rows rows = rows_of(problem, units, here);
-  Answers answers = answers_at(rows, problem, nodes);
-  if (answers.empty()) {
-    return std::nullopt;
-  }
-  return assembled(here, rows, std::move(answers));
 }
 
 }  // namespace orthonav::nav::posterior

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -61,6 +62,30 @@ struct Hand {
   std::array<double, kBlock> lag_s{};  ///< mean time between points, by how many lie between
   std::array<double, kBlock> lag_m{};  ///< and mean distance
   std::vector<double> belongs;         ///< of each point, the probability that it is of the bone
+  double inliers = 0.0;                ///< their sum
+  double log_outliers = 0.0;           ///< of the points as members of the bone, or not
+  double spread_m = 0.0;               ///< SD of the members' heights altogether
+};
+
+/// The points averaged over units, under a hand, with the covariances at every point of the grid
+/// that was asked for. They depend on places in World only: all hypotheses share them.
+class Averaged {
+ public:
+  /// Keeps references to both.
+  Averaged(const Observations& observations, const Prior& prior, Hand hand);
+  ~Averaged();
+  Averaged(const Averaged&) = delete;
+  Averaged& operator=(const Averaged&) = delete;
+
+  struct Units;
+  [[nodiscard]] Units& few() { return *few_; }  ///< some points of each, to tell roughly
+  [[nodiscard]] Units& all() { return *all_; }
+  [[nodiscard]] const Hand& hand() const { return hand_; }
+
+ private:
+  Hand hand_;
+  std::unique_ptr<Units> few_;
+  std::unique_ptr<Units> all_;
 };
 
 /// The posterior of the pose under one hypothesis, as a mixture of Gaussians.
@@ -78,8 +103,6 @@ struct Posterior {
   double noise_m = 0.0;     ///< SD of points about the bone
   double standoff_m = 0.0;  ///< mean height of the tip above the bone
   double uneven_m = 0.0;    ///< SD over the bone of what is not noise
-  double spread_m = 0.0;    ///< SD of the heights altogether
-  double inlier_share = 0.0;
   Hand hand;
 };
 
@@ -107,13 +130,13 @@ struct OverStandoff {
 /// How closely to look: `kRough` takes little time and tells which hypotheses are far worse.
 enum class Effort : std::uint8_t { kRough, kFull };
 
-/// The posterior near `start`. `hand`: that of the best explanation, for all others to be compared
-/// with it; null: it is told by the points at this pose. Empty where the points leave a motion
-/// undetermined.
+/// The posterior near `start`. `shared`: under the hand of the best explanation, for all others to
+/// be compared with it; null: the hand is told by the points at this pose. Empty where the points
+/// leave a motion undetermined.
 [[nodiscard]] std::optional<Posterior> posterior_of(const Observations& observations,
                                                     const BoneSurface& bone, const Prior& prior,
                                                     const Transform<World, Vertebra>& start,
                                                     Effort effort = Effort::kFull,
-                                                    const Hand* hand = nullptr);
+                                                    Averaged* shared = nullptr);
 
 }  // namespace orthonav::nav::posterior
