@@ -144,6 +144,58 @@ Transform<World, Vertebra> mirrored_start(const VertebraModel& model, const Clou
 
 }  // namespace
 
+std::vector<PlaceToPress> places_to_press(const Posterior& posterior, const BoneSurface& bone,
+                                          const Prior& prior,
+                                          std::span<const Point<Vertebra>> targets,
+                                          std::span<const Point<Vertebra>> candidates,
+                                          std::size_t count) {
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Map<const Rows6>(posterior.covariance.data());
+  double model_m2 = 0.0;
+  for (const Part& part : posterior.parts) {
+    model_m2 += part.weight * std::pow(part.noise_m * part.of.model, 2);
+  }
+  const double press_m2 = prior.press_sd_m * prior.press_sd_m +
+                          prior.press_common_sd_m * prior.press_common_sd_m + model_m2;
+  const auto worst_m2 = [&](const Eigen::Matrix<double, 6, 6>& c) {
+    double most = 0.0;
+    for (const Point<Vertebra>& target : targets) {
+      const Vec3 arm = target.v - posterior.centre_m;
+      Eigen::Matrix<double, 3, 6> moves = Eigen::Matrix<double, 3, 6>::Zero();
+      moves.leftCols<3>().setIdentity();
+      moves.rightCols<3>() << 0.0, arm.z, -arm.y, -arm.z, 0.0, arm.x, arm.y, -arm.x, 0.0;
+      most = std::max(most, (moves * c * moves.transpose()).trace());
+    }
+    return most;
+  };
+  std::vector<PlaceToPress> out;
+  while (out.size() < count) {
+    double least_m2 = std::numeric_limits<double>::infinity();
+    Eigen::Matrix<double, 6, 6> best = covariance;
+    PlaceToPress next;
+    for (const Point<Vertebra>& at : candidates) {
+      const Vec3 out_of_bone = bone.near(at.v, bone.place_near(at.v)).out;
+      const Vec3 turned = (at.v - posterior.centre_m).cross(out_of_bone);
+      Vector6 moved;
+      moved << out_of_bone.x, out_of_bone.y, out_of_bone.z, turned.x, turned.y, turned.z;
+      const Vector6 with = covariance * moved;
+      const Eigen::Matrix<double, 6, 6> then =
+          covariance - with * with.transpose() / (press_m2 + moved.dot(with));
+      const double then_m2 = worst_m2(then);
+      if (then_m2 < least_m2) {
+        least_m2 = then_m2;
+        best = then;
+        next = {at, std::sqrt(then_m2)};
+      }
+    }
+    if (!std::isfinite(least_m2)) {
+      break;
+    }
+    covariance = best;
+    out.push_back(next);
+  }
+  return out;
+}
+
 Result<Decision> decided(const VertebraModel& model, const Observations& observations,
                          const Question& question) {
   constexpr std::size_t kFewestPoints = 100;

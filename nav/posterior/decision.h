@@ -46,6 +46,20 @@ struct Decision {
   double within_99_m = 0.0;
 };
 
+/// A place of the bone to be pressed, and what is then left of the error at the worst target: root
+/// mean square, under the answer, with all that come before it.
+struct PlaceToPress {
+  Point<Vertebra> place;
+  double rms_then_m = 0.0;
+};
+/// The places among `candidates`, which lie on the bone, that take most of the error away, one
+/// after the other. As if the model's error were another at each place.
+[[nodiscard]] std::vector<PlaceToPress> places_to_press(const Posterior& posterior,
+                                                        const BoneSurface& bone, const Prior& prior,
+                                                        std::span<const Point<Vertebra>> targets,
+                                                        std::span<const Point<Vertebra>> candidates,
+                                                        std::size_t count);
+
 /// Compares all explanations of the points. Refuses points that can't be registered at all: fewer
 /// than 100, not finite, spread too widely, on a line, or such that no pose is found.
 [[nodiscard]] Result<Decision> decided(const VertebraModel& model, const Observations& observations,

@@ -17,9 +17,18 @@ struct StrokePoint {
   double time_s = 0.0;  ///< ascending within a stroke; meaningless if not `Observations::in_time`
 };
 
+/// A place of the bare bone on which the tip was pressed for a moment.
+struct Press {
+  Point<World> tip;
+  double sd_m = 0.0;  ///< of the tip along an axis, by the tracker
+};
+
 /// Everything that was measured of one bone, in World.
 struct Observations {
   std::vector<StrokePoint> strokes;
+  std::vector<Press> presses;
+  /// SD along an axis of what shifts all of it alike: the tip, the cameras, the sizes of tags.
+  double common_sd_m = 0.0;
   /// False where the points come without strokes and times, in any order: nothing is then known of
   /// how the hand's error wanders.
   bool in_time = true;
@@ -33,10 +42,11 @@ struct Observations {
 [[nodiscard]] Observations observed(std::span<const Point<World>> points, double tip_radius_m);
 
 /// Consecutive points of a stroke that count as one row; of points in no order, those of one cell
-/// of space. Depends on places in World only, so that all hypotheses have the same.
+/// of space; or a press. Depends on places in World only, so that all hypotheses have the same.
 struct Unit {
-  int stroke = 0;
-  std::vector<std::uint32_t> points;  ///< in `Observations::strokes`
+  static constexpr int kPress = -1;
+  int stroke = 0;                     ///< or `kPress`
+  std::vector<std::uint32_t> points;  ///< in `Observations::strokes`, or the press
   Vec3 quarter_m;                     ///< World: where its halves lie
   Vec3 three_quarters_m;
   double begin_s = 0.0;

@@ -47,6 +47,7 @@ struct Touches {
     double curvature_1_m = 0.0;
   };
   std::vector<Touch> all;
+  std::vector<Touch> presses;
 };
 
 namespace {
@@ -89,6 +90,13 @@ Touches touches_at(const Observations& observations, const BoneSurface& bone,
       touch.curvature_1_m = bone.curvature_1_m(place.nearest_m, place.out, kScatter_m);
     }
     last = &touch;
+  }
+  for (std::size_t i = 0; i < observations.presses.size(); ++i) {
+    const Vec3 p = (from_world * observations.presses[i].tip).v;
+    const auto place =
+        bone.near(p, before != nullptr ? before->presses[i].nearest_m : bone.place_near(p));
+    out.presses.push_back({p - out.centre_m, place.out, place.nearest_m,
+                           place.distance_m - observations.tip_radius_m});
   }
   return out;
 }
@@ -166,8 +174,10 @@ Hand hand_at(const Observations& observations, const Prior& prior,
       }
     }
   }
+  out.noise_m = prior.noise_m;
   if (out.blocks > 0.0) {
     products /= out.blocks;
+    out.noise_m = std::max(kLeast_m, std::sqrt(products.trace() / (kBlock - 1)));
     for (std::size_t lag = 1; lag < kBlock; ++lag) {
       out.lag_s[lag] /= out.blocks;
       out.lag_m[lag] /= out.blocks;
@@ -176,10 +186,15 @@ Hand hand_at(const Observations& observations, const Prior& prior,
   return out;
 }
 
-// What a height consists of, as columns: pose (6), valley, standoff, size, curvature; the height.
+// What a height consists of, as columns: pose (6), valley, the bone's shift since the strokes (3),
+// standoff, size, curvature; the height.
 constexpr Eigen::Index kValley = 6;
-constexpr Eigen::Index kMoved = 7;  ///< how many are integrated whatever else is
-constexpr Eigen::Index kColumns = 11;
+constexpr Eigen::Index kShift = 7;
+constexpr Eigen::Index kMoved = 10;  ///< how many are integrated whatever else is
+constexpr Eigen::Index kStandoff = 10;
+constexpr Eigen::Index kCurvature = 12;
+constexpr Eigen::Index kHeight = 13;
+constexpr Eigen::Index kColumns = 14;
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, kColumns>;
 using Products = Eigen::Matrix<double, kColumns, kColumns>;
 
@@ -330,8 +345,16 @@ struct Averaged::Units {
         points.push_back(sum);
       }
     }
+    for (std::size_t k = 0; k < measured.presses.size(); ++k) {
+      const Press& press = measured.presses[k];
+      units.push_back(
+          {Unit::kPress, {static_cast<std::uint32_t>(k)}, press.tip.v, press.tip.v, 0.0, 0.0});
+      // Their errors are known in metres: relative to the noise as far as it is known.
+      const double sd_m = std::hypot(known.press_sd_m, press.sd_m);
+      points.push_back(of.noise_m * of.noise_m / (sd_m * sd_m));
+    }
     if (of.blocks > 0.0) {
-      within = known.point_counts * std::max(0.0, of.inliers - static_cast<double>(units.size()));
+      within = known.point_counts * std::max(0.0, of.inliers - static_cast<double>(strokes()));
     }
   }
 
@@ -346,6 +369,9 @@ struct Averaged::Units {
     double quadratic_within_m2 = 0.0;
   };
   std::map<Node, std::optional<Factor>> factors;
+
+  /// Presses come last.
+  [[nodiscard]] std::size_t strokes() const { return units.size() - observations.presses.size(); }
 
   template <class Key, class Of>
   const Eigen::MatrixXd& kept(std::map<Key, Eigen::MatrixXd>& all, const Key& key, const Of& of) {
@@ -374,28 +400,37 @@ struct Averaged::Units {
     const Field model{prior.model_length_m, true};
     const auto m = static_cast<Eigen::Index>(units.size());
     Eigen::MatrixXd c = Eigen::MatrixXd::Zero(m, m);
-    const auto add_field = [&](double sd, const Field& field) {
-      if (sd > 0.0) {
-        c += sd * sd * kept(fields, field, [&](const Unit& a, const Unit& b) {
-               return between(a, b, field);
-             });
-      }
+    const auto of_field = [&](const Field& field) -> const Eigen::MatrixXd& {
+      return kept(fields, field,
+                  [&](const Unit& a, const Unit& b) { return between(a, b, field); });
     };
-    add_field(mix.tissue, tissue);
-    add_field(mix.model, model);
+    // The model's error is that of presses too; tissue is beside them.
+    const auto n = static_cast<Eigen::Index>(strokes());
+    if (mix.model > 0.0) {
+      c += mix.model * mix.model * of_field(model);
+    }
+    if (mix.tissue > 0.0) {
+      c.topLeftCorner(n, n) += mix.tissue * mix.tissue * of_field(tissue).topLeftCorner(n, n);
+    }
     if (mix.white < 1.0) {
       c += (1.0 - mix.white) * kept(wandering_noise, mix.time_s, [&](const Unit& a, const Unit& b) {
-             return a.stroke == b.stroke ? wandering(a, b, mix.time_s) : 0.0;
+             const bool together = a.stroke == b.stroke && a.stroke != Unit::kPress;
+             return together ? wandering(a, b, mix.time_s) : 0.0;
            });
     }
-    for (Eigen::Index b = 0; b < m; ++b) {
+    for (Eigen::Index b = 0; b < n; ++b) {
       const auto at = static_cast<std::size_t>(b);
       c(b, b) += mix.white / points[at];
       // Units of a stroke stand together.
       for (Eigen::Index a = b;
-           a < m && units[static_cast<std::size_t>(a)].stroke == units[at].stroke; ++a) {
+           a < n && units[static_cast<std::size_t>(a)].stroke == units[at].stroke; ++a) {
         c(a, b) += mix.stroke * mix.stroke;
       }
+    }
+    const double gap = prior.press_common_sd_m / hand.noise_m;
+    c.bottomRightCorner(m - n, m - n).array() += gap * gap;
+    for (Eigen::Index b = n; b < m; ++b) {
+      c(b, b) += 1.0 / points[static_cast<std::size_t>(b)];
     }
     Factor out;
     out.root.compute(c);
@@ -437,23 +472,38 @@ struct Averaged::Units {
   [[nodiscard]] Columns columns_of(const Touches& t) const {
     const auto m = static_cast<Eigen::Index>(units.size());
     Columns out = Columns::Zero(m, kColumns);
-    for (Eigen::Index k = 0; k < m; ++k) {
+    const auto n = static_cast<Eigen::Index>(strokes());
+    const auto columns = [&](const Touches::Touch& touch) {
+      const Vec3 turned = touch.lever_m.cross(touch.out) / kLever_m;
+      Eigen::Matrix<double, 1, kColumns> one;
+      one << -touch.out.x, -touch.out.y, -touch.out.z, -turned.x, -turned.y, -turned.z,
+          touch.valley_m, touch.out.x, touch.out.y, touch.out.z, 1.0,
+          // Of the place on the surface: the tip's own lever holds the height that it is to
+          // explain.
+          (touch.nearest_m - t.centre_m).dot(touch.out), touch.curvature_1_m, touch.height_m;
+      return one;
+    };
+    // The pose is that of the last rows.
+    const bool shifts = m > n;
+    for (Eigen::Index k = 0; k < n; ++k) {
       for (const std::uint32_t i : units[static_cast<std::size_t>(k)].points) {
-        const Touches::Touch& touch = t.all[i];
-        const Vec3 turned = touch.lever_m.cross(touch.out) / kLever_m;
-        Eigen::Matrix<double, 1, kColumns> one;
-        one << -touch.out.x, -touch.out.y, -touch.out.z, -turned.x, -turned.y, -turned.z,
-            touch.valley_m, 1.0,
-            // Of the place on the surface: the tip's own lever holds the height that it is to
-            // explain.
-            (touch.nearest_m - t.centre_m).dot(touch.out), touch.curvature_1_m, touch.height_m;
-        out.row(k) += hand.belongs[i] / points[static_cast<std::size_t>(k)] * one;
+        out.row(k) += hand.belongs[i] / points[static_cast<std::size_t>(k)] * columns(t.all[i]);
       }
     }
+    if (!shifts) {
+      out.middleCols<3>(kShift).setZero();
+    }
     // How deep valleys are has mean 0 and SD 1.
-    auto valley = out.col(kValley);
+    auto valley = out.col(kValley).head(n);
     valley.array() -= valley.mean();
-    valley /= std::max(1e-9, std::sqrt(valley.squaredNorm() / static_cast<double>(m)));
+    valley /= std::max(1e-9, std::sqrt(valley.squaredNorm() / static_cast<double>(n)));
+    for (Eigen::Index k = n; k < m; ++k) {
+      // Neither tissue nor scatter is under a press.
+      out.row(k) = columns(t.presses[static_cast<std::size_t>(k - n)]);
+      out.row(k).segment<3>(kShift).setZero();
+      out(k, kValley) = out(k, kStandoff) = out(k, kCurvature) = 0.0;
+      out(k, kHeight) -= prior.press_gap_m;
+    }
     return out;
   }
 };
@@ -573,6 +623,8 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
   constexpr double kNone = 1e-6;
   const double valley = std::max(kNone, mix.tissue);
   all(kValley, kValley) += 1.0 / (valley * valley);
+  const double shift = prior.moved_sd_m / units.hand.noise_m;
+  all.diagonal().segment<3>(kShift).array() += 1.0 / (shift * shift);
   using Moved = Eigen::Matrix<double, kMoved, kMoved>;
   const Eigen::LLT<Moved> llt(all.topLeftCorner<kMoved, kMoved>());
   if (llt.info() != Eigen::Success || !all.allFinite()) {
@@ -609,20 +661,21 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
   const double fixed = -0.5 * factor->log_determinant -
                        0.5 * units.within * factor->log_determinant_within +
                        prior.point_counts * units.hand.log_outliers;
-  const double log_pose = llt.matrixLLT().diagonal().array().log().sum() + std::log(valley);
+  const double log_nuisance = std::log(valley) + 3.0 * std::log(shift);
+  const double log_pose = llt.matrixLLT().diagonal().array().log().sum() + log_nuisance;
   const OverStandoff over =
       over_standoff({left(2, 2) + inside_m2, left(0, 2), left(0, 0)}, freedom, log_prior);
   Answer out;
   out.log_weight = over.log_integral + fixed - log_pose;
   if (asked == Asked::kAll) {
-    // The pose held, valleys integrated.
-    const Eigen::Vector4d of_valley =
-        all.row(kValley).tail<4>().transpose() / std::sqrt(all(kValley, kValley));
+    // The pose held, valleys and shift integrated.
+    const Eigen::LLT<Eigen::Matrix4d> held(all.block<4, 4>(kValley, kValley));
+    const Eigen::Matrix4d across = all.block<4, 4>(kValley, kStandoff);
     const Eigen::Matrix3d raw =
-        kept.transpose() * (all.bottomRightCorner<4, 4>() - of_valley * of_valley.transpose()) *
-        kept;
+        kept.transpose() *
+        (all.bottomRightCorner<4, 4>() - across.transpose() * held.solve(across)) * kept;
     out.log_here =
-        fixed - 0.5 * std::log(all(kValley, kValley)) - std::log(valley) +
+        fixed - held.matrixLLT().diagonal().array().log().sum() - log_nuisance +
         over_standoff({raw(2, 2) + inside_m2, raw(0, 2), raw(0, 0)}, dimensions, log_prior)
             .log_integral;
     // The size has a normal prior: integrated, it takes its part of the squares.
@@ -648,9 +701,12 @@ std::optional<Answer> answer(Averaged::Units& units, const Columns& columns, con
   const Matrix6 inverse = llt.solve(Moved::Identity()).topLeftCorner<6, 6>();
   Eigen::Map<Vector6> step(out.part.step.data());
   step = scale.asDiagonal() * solved.col(2).head<6>() - over.mean_m * by_standoff;
-  Eigen::Map<Rows6>(out.part.covariance.data()) =
-      over.noise_m2 * (scale.asDiagonal() * inverse * scale.asDiagonal()) +
-      over.variance_m2 * by_standoff * by_standoff.transpose();
+  Eigen::Map<Rows6> covariance(out.part.covariance.data());
+  covariance = over.noise_m2 * (scale.asDiagonal() * inverse * scale.asDiagonal()) +
+               over.variance_m2 * by_standoff * by_standoff.transpose();
+  // What shifts all points alike shifts the pose, and nothing else.
+  const double common_m = units.observations.common_sd_m;
+  covariance.diagonal().head<3>().array() += common_m * common_m;
   if (!std::isfinite(out.log_weight) || !step.allFinite()) {
     return std::nullopt;
   }

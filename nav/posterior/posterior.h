@@ -65,6 +65,7 @@ struct Hand {
   double inliers = 0.0;                ///< their sum
   double log_outliers = 0.0;           ///< of the points as members of the bone, or not
   double spread_m = 0.0;               ///< SD of the members' heights altogether
+  double noise_m = 0.0;                ///< SD of a point about the bone, as far as it is known
 };
 
 /// The points averaged over units, under a hand, with the covariances at every point of the grid

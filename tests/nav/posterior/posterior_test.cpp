@@ -242,6 +242,64 @@ TEST(Posterior, CleanStrokesAreAcceptedAndTheirNoiseAndHeightAreTold) {
   EXPECT_LT(d->answer.uneven_m, 0.0002);
 }
 
+TEST(Posterior, PressesTellWhatTissueHides) {
+  // Where the decision asks for them, on bare bone, after strokes over 2 mm of uneven tissue.
+  constexpr std::size_t kPresses = 15;
+  std::vector<Point<Vertebra>> reachable;
+  const std::vector<Vec3>& vertices_m = bone().model->reachable().vertices_m;
+  for (std::size_t i = 0; i < vertices_m.size(); i += 1 + vertices_m.size() / 200) {
+    reachable.push_back({vertices_m[i]});
+  }
+  test::StrokeTruths truths;
+  truths.tissue = test::Tissue::kSmooth;
+  truths.mean_tissue_m = 0.002;
+  const BoneSurface surface(*bone().model);
+  const Prior prior;
+  double squares = 0.0, before_m2 = 0.0, after_m2 = 0.0, foreseen_m2 = 0.0;
+  constexpr int kRuns = 5;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    Transform<World, Vertebra> truth;
+    auto o = strokes(test::StrokeVariant::kFull, seed, truths, &truth);
+    const auto first = decided(*bone().model, o, bone().question()).value();
+    const auto places = places_to_press(first.answer, surface, prior, bone().question().targets,
+                                        reachable, kPresses);
+    ASSERT_EQ(places.size(), kPresses);
+    Random random(seed);
+    const double common_m = random.normal(prior.press_gap_m, prior.press_common_sd_m);
+    const Vec3 moved{random.normal(0.0, prior.moved_sd_m), random.normal(0.0, prior.moved_sd_m),
+                     random.normal(0.0, prior.moved_sd_m)};
+    for (const PlaceToPress& p : places) {
+      const Vec3 out = surface.near(p.place.v, surface.place_near(p.place.v)).out;
+      const double gap_m = common_m + random.normal(0.0, prior.press_sd_m);
+      o.presses.push_back({truth * Point<Vertebra>{p.place.v + gap_m * out} + moved, 0.0001});
+    }
+    const auto then = decided(*bone().model, o, bone().question()).value();
+    const Transform<World, Vertebra> moved_truth(truth.rotation(), truth.translation() + moved);
+    const double off_m = error_m(then, moved_truth);
+    squares += off_m * off_m / (then.rms_m * then.rms_m);
+    before_m2 += first.rms_m * first.rms_m;
+    after_m2 += then.rms_m * then.rms_m;
+    foreseen_m2 += std::pow(places.back().rms_then_m, 2);
+    EXPECT_FALSE(then.accepted && off_m > 0.002) << seed;
+  }
+  EXPECT_LT(after_m2, 0.5 * before_m2);
+  EXPECT_GT(squares / kRuns, 0.3) << "honest, not timid";
+  EXPECT_LT(squares / kRuns, 2.0);
+  EXPECT_NEAR(std::sqrt(after_m2 / foreseen_m2), 1.0, 0.4) << "as foreseen";
+}
+
+TEST(Posterior, WhatShiftsAllPointsAlikeIsPartOfTheError) {
+  constexpr double kCommon_m = 0.0005;
+  auto o = strokes(test::StrokeVariant::kFull, 3);
+  const auto alone = decided(*bone().model, o, bone().question()).value();
+  o.common_sd_m = kCommon_m;
+  const auto with = decided(*bone().model, o, bone().question()).value();
+  const double added_m2 = with.rms_m * with.rms_m - alone.rms_m * alone.rms_m;
+  EXPECT_NEAR(added_m2 / (3.0 * kCommon_m * kCommon_m), 1.0, 0.1);
+  EXPECT_EQ(with.answer.world_from_vertebra.translation(),
+            alone.answer.world_from_vertebra.translation());
+}
+
 TEST(Posterior, RepeatedPointsSayNothingNew) {
   const auto once =
       test::digitize_strokes(bone().from.mesh, test::StrokeVariant::kSparse, 4).value();
