@@ -170,6 +170,12 @@ class Surgeon {
   /// What they do where there is no reading; true when it has been away for so long that those
   /// before it are out of date.
   bool regain_reading(const Aim& aim, double lost_s, double tick_s);
+  /// From where the tag of a tool along `axis` is seen well, and the reference's as well where the
+  /// system relies on it, which faces the place where the surgeon stands at first.
+  [[nodiscard]] Vec3 best_view(Vec3 axis) const {
+    return SurgeonBody::best_view(
+        axis, relies_on_reference_ ? std::optional(HeadGoal{}.from_gaze) : std::nullopt);
+  }
   /// Turns the tag to and fro and leans over, so that the cameras find it again.
   void show_tag(const Aim& aim, double since_s, double tick_s);
   /// Leans to either side of `from`, farther and farther.

@@ -108,7 +108,7 @@ Vec3 SurgeonBody::pointer_axis(Vec3 surface_normal) const {
   return (0.9 * kUp - 0.42 * sideways + 0.35 * surface_normal).normalized();
 }
 
-Vec3 SurgeonBody::best_view(Vec3 axis) {
+Vec3 SurgeonBody::best_view(Vec3 axis, std::optional<Vec3> beside) {
   Vec3 best;
   double least = 1e9;
   for (double azimuth = -80.0; azimuth <= 80.0; azimuth += 10.0) {
@@ -119,8 +119,11 @@ Vec3 SurgeonBody::best_view(Vec3 axis) {
           std::cos(elevation * kRadiansPerDegree) * std::sin(azimuth * kRadiansPerDegree)};
       const double too_steep =
           std::max(0.0, 58.0 - angle_between_rad(view, axis) / kRadiansPerDegree) / 8.0;
-      const double cost = too_steep * too_steep + std::pow((elevation - 50.0) / 15.0, 2) +
-                          std::pow(azimuth / 40.0, 2);
+      const double too_flat =
+          beside ? std::max(0.0, angle_between_rad(view, *beside) / kRadiansPerDegree - 50.0) / 8.0
+                 : 0.0;
+      const double cost = too_steep * too_steep + too_flat * too_flat +
+                          std::pow((elevation - 50.0) / 15.0, 2) + std::pow(azimuth / 40.0, 2);
       if (cost >= least) {
         continue;
       }

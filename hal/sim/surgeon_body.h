@@ -63,8 +63,8 @@ class SurgeonBody {
   /// How the pointer is held over a place: leaning away from the head, so that its tag is visible.
   [[nodiscard]] Vec3 pointer_axis(Vec3 surface_normal) const;
   /// The direction from which the tag of a tool along `axis` is seen well while the surgeon stays
-  /// at the side of the table.
-  [[nodiscard]] static Vec3 best_view(Vec3 axis);
+  /// at the side of the table; and another tag, if its normal is given, not too much from the side.
+  [[nodiscard]] static Vec3 best_view(Vec3 axis, std::optional<Vec3> beside);
 
  private:
   [[nodiscard]] Grip parked(Point<Room> site) const;

@@ -92,7 +92,7 @@ Script Surgeon::find_entry(const StepOnDisplay& step, std::size_t level, Side si
       co_return;
     }
     aim.on_bone = put_on_bone(level, entry + perceived_offset, aim.outwards);
-    body_.look({aim.on_bone.point}, body_.best_view(aim.outwards));
+    body_.look({aim.on_bone.point}, best_view(aim.outwards));
     if (look_s == kQuickLook_s) {
       co_await body_.rest(kMoveHead_s);
     }
@@ -172,7 +172,7 @@ Script Surgeon::drill(const Aim& aim, Vec3 rotation_of_wire) {
       const auto reading = read_rotation();
       const double lost_s = seconds(body_.now() - last_seen);
       if (!reading && lost_s < kPatience_s &&
-          lean_where_lost({aim.on_bone.point}, body_.best_view(aim.outwards), lost_s)) {
+          lean_where_lost({aim.on_bone.point}, best_view(aim.outwards), lost_s)) {
         // Nobody drills on by numbers that are gone.
         begin += body_.now() - before;
         before = body_.now();

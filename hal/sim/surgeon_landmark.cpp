@@ -60,7 +60,7 @@ Script Surgeon::compare_tips_as_for_screw(std::size_t level) {
   const bool left = !driven_.contains({Step::kGuide, step.level, Side::kLeft});
   const Vec3 axis =
       (layout_->room_from_vertebra(level) * Direction<Vertebra>{left ? kLeftScrew : kRightScrew}).v;
-  body_.look(seat.tip, body_.best_view(axis));
+  body_.look(seat.tip, best_view(axis));
   co_await body_.rest(kLookAnew_s);
   co_await hold_at(step, seat.tip, seat.normal, axis);
 }

@@ -56,7 +56,7 @@ Script Surgeon::set_sleeve_over(const StepOnDisplay& step, std::size_t level,
   const Vec3 play = normal_vector(sleeving_, error_model_->sleeve_play_rad);
   const Vec3 axis = (rotation_from_vector(play) * outwards).normalized();
   co_await body_.take(ToolKind::kGuide, layout_->site(level));
-  body_.look(entry, body_.best_view(outwards));
+  body_.look(entry, best_view(outwards));
   co_await body_.move({entry + kOverWire_m * outwards, axis, 0.0}, kSetOver_s);
   co_await body_.move({entry + kSleeveOverBone_m * outwards, axis, 0.0}, kSetOver_s);
   body_.posture().on_wire = true;

@@ -90,7 +90,7 @@ bool Surgeon::regain_reading(const Aim& aim, double lost_s, double tick_s) {
 
 void Surgeon::show_tag(const Aim& aim, double since_s, double tick_s) {
   body_.posture().grip.roll_rad += tick_s * 0.7 * std::cos(2.0 * since_s);
-  lean({aim.on_bone.point}, body_.best_view(aim.outwards), since_s);
+  lean({aim.on_bone.point}, best_view(aim.outwards), since_s);
 }
 
 void Surgeon::lean(Point<Room> site, Vec3 from, double since_s) {
