@@ -55,6 +55,17 @@ GoldenScene turned(const std::string& name, const std::string& what, float right
                      viewer.up, 0.394f, 0.2561f)));
 }
 
+/// A tag's paper with its outline: half its width and half its height about the middle.
+void lay_paper(GoldenScene& golden, Float3 middle, Float3 across, Float3 along) {
+  golden.papers = {{middle + -1.0f * across + -1.0f * along, middle + across + -1.0f * along,
+                    middle + across + along, middle + -1.0f * across + along}};
+  render::LineItem outline;
+  outline.label = kPaperLabel;
+  outline.points.assign(golden.papers[0].begin(), golden.papers[0].end());
+  outline.closed = true;
+  golden.scene.lines.push_back(outline);
+}
+
 /// A tag's paper where the cross would hang.
 GoldenScene off_the_tag() {
   StagedOperation s(Step::kGuide);
@@ -62,15 +73,22 @@ GoldenScene off_the_tag() {
   GoldenScene golden =
       s.scene("labels_off_tag", "the cross beside a tag's outline, nothing of it on the tag");
   const Float3 middle = disc_of(golden.scene, kCrossLabel)->middle;
-  constexpr Float3 kAcross = {0.040f, 0, 0};
-  constexpr Float3 kAlong = {0, 0, 0.045f};
-  golden.papers = {{middle + -1.0f * kAcross + -1.0f * kAlong, middle + kAcross + -1.0f * kAlong,
-                    middle + kAcross + kAlong, middle + -1.0f * kAcross + kAlong}};
-  render::LineItem outline;
-  outline.label = kPaperLabel;
-  outline.points.assign(golden.papers[0].begin(), golden.papers[0].end());
-  outline.closed = true;
-  golden.scene.lines.push_back(outline);
+  lay_paper(golden, middle, {0.040f, 0, 0}, {0, 0, 0.045f});
+  return golden;
+}
+
+/// The reference's tag low in view, where the status line hangs.
+GoldenScene status_off_the_tag() {
+  StagedOperation s(Step::kGuide);
+  s.measure(guided(0.8, 0.0004, 0.0002));
+  s.guidance.drill = {nav::DrillPhase::kSet, nav::DrillAlarm::kNone, true};
+  GoldenScene golden = s.scene("labels_status_off_tag",
+                               "the status line beside a tag's outline, nothing of it on the tag");
+  const render::Head head = render::head_of(golden.views);
+  constexpr float kNearer = 0.85f;  // than the status line
+  const Float3 middle =
+      head.position + kNearer * (kStatusPlace.y * head.up + kStatusPlace.z * head.back);
+  lay_paper(golden, middle, 0.030f * head.right, 0.030f * head.up);
   return golden;
 }
 
@@ -107,6 +125,7 @@ GoldenScene rod_length() {
 void add_label_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(names());
   scenes.push_back(off_the_tag());
+  scenes.push_back(status_off_the_tag());
   scenes.push_back(off_the_trajectory());
   scenes.push_back(turned("labels_left_edge", "the site at the left edge, the cross whole", 13, 0));
   scenes.push_back(

@@ -25,6 +25,7 @@ void LabelLayout::lay_out(render::Scene& scene, const std::vector<render::View>&
   forget(shown_at);
   const Eyes eyes(views);
   point_to_entry(scene, eyes);
+  status_.lay_out(scene, eyes, patches, shown_at);
   cross_.lay_out(scene, eyes, patches, shown_at);
   judge_.begin(scene, views, patches);
   for (const LabelSubject& subject : judge_.subjects()) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/time.h"
-#include "engine/holograms/cross_place.h"
+#include "engine/holograms/block_place.h"
 #include "engine/holograms/label_judge.h"
 #include "engine/holograms/place_history.h"
 
@@ -15,8 +15,8 @@ namespace orthonav::engine {
 /// Moves the texts of a scene so that, for either eye, none covers another one, the thing that
 /// another one names, or a printed tag. The most important is placed first (LabelRank). A label
 /// without room nearby is placed farther off with a thin line; an incidental one is left out, as is
-/// any that the edge of a view would cut. Before them the target cross finds its place
-/// (CrossPlace).
+/// any that the edge of a view would cut. Before them the status line and the target cross find
+/// their places (BlockPlace).
 ///
 /// Places change with hysteresis: a blocked one is left at once, any other only after a better one
 /// has been free for `kSettled`. A label jumps from one frame to the next, since it would cross
@@ -53,7 +53,8 @@ class LabelLayout {
                                const Kept& kept, const Best& best) const;
   static void write(render::Scene& scene, const LabelSubject& subject, const Kept& kept);
 
-  CrossPlace cross_;
+  BlockPlace status_{PlacedBlock::kStatus};
+  BlockPlace cross_{PlacedBlock::kCross};
   LabelJudge judge_;
   Timestamp now_ = Timestamp::min();
   std::vector<Kept> kept_;

@@ -129,6 +129,8 @@ void find_obstacles(const render::Scene& scene, std::span<const GlarePatch> patc
   for (const render::TriangleItem& triangle : scene.triangles) {
     if (kind_of(triangle.label) == HologramKind::kTriangle) {
       finder.add(Kind::kLine, triangle.label, triangle.corners, kLineHalfWidth_m);
+    } else if (kind_of(triangle.label) == HologramKind::kTrajectory) {  // the way to the entry
+      finder.add(Kind::kNamed, triangle.label, triangle.corners, 0);
     }
   }
 }

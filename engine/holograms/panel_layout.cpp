@@ -38,11 +38,11 @@ std::array<float, 2> half_size_m() {
 
 }  // namespace
 
-HeadPanel status_panel() {
+HeadPanel status_panel(render::Float3 place) {
   const auto [across_m, up_m] = half_size_m();
   HeadPanel panel;
-  panel.middle_m = {static_cast<double>(kStatusPlace.x), static_cast<double>(kStatusPlace.y),
-                    static_cast<double>(kStatusPlace.z)};
+  panel.middle_m = {static_cast<double>(place.x), static_cast<double>(place.y),
+                    static_cast<double>(place.z)};
   panel.width_m = 2.0 * static_cast<double>(across_m);
   panel.height_m = 2.0 * static_cast<double>(up_m);
   return panel;
@@ -56,20 +56,23 @@ render::View status_panel_view() {
   return view;
 }
 
-bool PanelLayout::write(const render::Scene& scene, render::Scene& panel) {
+std::optional<render::Float3> PanelLayout::write(const render::Scene& scene, render::Scene& panel) {
+  constexpr float kRounding_m = 1e-4f;
   panel.clear();
+  render::Float3 place = kStatusPlace;
   for (const render::TextItem& text : scene.texts) {
     if (text.place != render::TextPlace::kView) {
       continue;
     }
-    if (text.position != kStatusPlace) {
-      return false;
+    place = panel.texts.empty() ? text.position : place;
+    if (text.position != place || std::abs(render::length(place) - distance_m()) > kRounding_m) {
+      return std::nullopt;
     }
     render::TextItem& on_panel = panel.texts.emplace_back();
     on_panel = text;
     on_panel.position = {0, 0, -distance_m()};
   }
-  return true;
+  return place;
 }
 
 bool PanelLayout::fits(const render::Scene& panel) {

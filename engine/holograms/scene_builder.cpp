@@ -86,6 +86,7 @@ void write_notice_alone(const render::Scene& scene, std::string_view why, render
     }
   }
   add_notice(left, translated(why), label_of(HologramKind::kStatus, 2));
+  left.texts.back().position = left.texts.front().position;  // where the status line made way
 }
 
 void SceneBuilder::update(const Guidance& guidance, Timestamp display_time) {

@@ -5,8 +5,9 @@
 namespace orthonav::engine {
 
 bool StatusPanel::show(const render::Scene& scene) {
-  shown_ = false;
-  if (!offered_ || !PanelLayout::write(scene, next_)) {
+  shown_.reset();
+  const auto place = offered_ ? PanelLayout::write(scene, next_) : std::nullopt;
+  if (!place) {
     return false;
   }
   if (next_.texts.empty()) {
@@ -21,7 +22,8 @@ bool StatusPanel::show(const render::Scene& scene) {
       return false;
     }
   }
-  return shown_ = true;
+  shown_ = status_panel(*place);
+  return true;
 }
 
 Status StatusPanel::draw() {
@@ -43,14 +45,10 @@ Status StatusPanel::draw() {
   return {};
 }
 
-std::optional<HeadPanel> StatusPanel::shown() const {
-  return shown_ ? std::optional(status_panel()) : std::nullopt;
-}
-
 void StatusPanel::ended(bool well) {
   // After a failed frame it is not known whether the display still has the released image.
   holds_ = holds_ && well;
-  shown_ = false;
+  shown_.reset();
 }
 
 }  // namespace orthonav::engine

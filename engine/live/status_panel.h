@@ -23,7 +23,7 @@ class StatusPanel {
   /// must show it. Costs almost nothing if the panel shows it already.
   bool show(const render::Scene& scene);
   /// The panel to submit with this frame; absent if it is not to be shown.
-  [[nodiscard]] std::optional<HeadPanel> shown() const;
+  [[nodiscard]] const std::optional<HeadPanel>& shown() const { return shown_; }
   /// The frame was ended, without an error if `well`; `show` of the next one follows.
   void ended(bool well);
 
@@ -39,10 +39,10 @@ class StatusPanel {
   bool offered_;
   PanelLayout layout_;
   const render::View view_ = status_panel_view();
-  render::Scene drawn_;  ///< what its newest image shows
-  render::Scene next_;   ///< what it is to show
-  bool holds_ = false;   ///< there is an image of `drawn_`
-  bool shown_ = false;   ///< in this frame
+  render::Scene drawn_;             ///< what its newest image shows
+  render::Scene next_;              ///< what it is to show
+  bool holds_ = false;              ///< there is an image of `drawn_`
+  std::optional<HeadPanel> shown_;  ///< in this frame
   std::int64_t drawn_count_ = 0;
   std::string problem_;
 };

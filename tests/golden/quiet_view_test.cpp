@@ -183,8 +183,7 @@ TEST(QuietView, ShowsOneVerdictOfWhateverIsWorstInEveryGuidingStep) {
   EXPECT_EQ(grades_in(mixed).size(), 2u) << "the control: a green angle beside a red offset";
 }
 
-/// The texts in the world that an edge of a view cuts, or that lie on paper or on the planned
-/// trajectory.
+/// The texts that an edge of a view cuts, or that lie on paper or on the planned trajectory.
 int unreadable(const GoldenScene& golden) {
   const render::Font font;
   const Eyes eyes(golden.views);
@@ -192,7 +191,7 @@ int unreadable(const GoldenScene& golden) {
   find_obstacles(golden.scene, golden.papers, eyes, obstacles);
   int count = 0;
   for (const render::TextItem& text : golden.scene.texts) {
-    if (text.place != render::TextPlace::kWorld || text.runs.empty()) {
+    if (text.runs.empty()) {
       continue;
     }
     LabelExtent extent;
@@ -213,9 +212,9 @@ int unreadable(const GoldenScene& golden) {
 
 TEST(QuietView, CutsNothingAndCoversNeitherPaperNorTrajectory) {
   for (const char* name : {"labels_left_edge", "labels_right_edge", "labels_off_tag",
-                           "labels_off_trajectory", "labels_low"}) {
-    // Of the others, CrossPlace.GoesOffPaperAndOffTheTrajectory has the controls.
-    if (std::string(name).ends_with("_edge") || std::string(name) == "labels_off_tag") {
+                           "labels_status_off_tag", "labels_off_trajectory", "labels_low"}) {
+    // Of the others, BlockPlace.GoesOffPaperAndOffTheTrajectory has the controls.
+    if (std::string(name).ends_with("_edge") || std::string(name).ends_with("off_tag")) {
       EXPECT_GT(unreadable(scene_named(name, false)), 0) << name << ": the control, as built";
     }
     EXPECT_EQ(unreadable(scene_named(name)), 0) << name;

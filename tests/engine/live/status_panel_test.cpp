@@ -143,6 +143,24 @@ TEST_F(StatusPanelOfADisplay, IsDrawnAnewAfterAFrameThatFailed) {
   EXPECT_EQ(renderer_.drawn, 2);
 }
 
+TEST_F(StatusPanelOfADisplay, GoesWithTheStatusLineWithoutBeingDrawnAnew) {
+  render::Scene aside = saying("one");
+  ASSERT_TRUE(frame(aside));
+  constexpr render::Float3 kAhead{0, 0, -0.50913f};  // as far from the eyes
+  for (render::TextItem& text : aside.texts) {
+    if (text.place == render::TextPlace::kView) {
+      text.position = kAhead;
+    }
+  }
+  ASSERT_TRUE(panel_.show(aside));
+  EXPECT_EQ(panel_.shown()->middle_m.y, 0.0);
+  EXPECT_EQ(renderer_.drawn, 1);
+  render::Scene lost;
+  write_head_lost(aside, lost);
+  EXPECT_TRUE(panel_.show(lost)) << "the notice goes with it";
+  EXPECT_EQ(panel_.shown()->middle_m.y, 0.0);
+}
+
 TEST_F(StatusPanelOfADisplay, TakesAllOrNothing) {
   render::Scene elsewhere = saying("one");
   elsewhere.texts.back().position.y += 0.01f;

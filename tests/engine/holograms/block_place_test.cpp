@@ -1,5 +1,6 @@
-// The target cross with its numbers goes to where both eyes see it whole and it covers nothing.
-#include "engine/holograms/cross_place.h"
+// The status line, and the target cross with its numbers, go to where both eyes see them whole and
+// they cover nothing.
+#include "engine/holograms/block_place.h"
 
 #include <gmock/gmock.h>
 
@@ -18,7 +19,7 @@
 #include "render/frame/frame_items.h"
 #include "tests/engine/holograms/operating_field.h"
 
-namespace orthonav::engine::cross_place_test {
+namespace orthonav::engine::block_place_test {
 namespace {
 
 using render::Float3;
@@ -122,13 +123,13 @@ constexpr float kInTheWay_deg = -9.0f;  // the block would be cut above
 
 Float3 as_built() { return disc_of(guided().scene, kCross)->middle; }
 
-TEST(CrossPlace, LeavesABlockThatIsInNobodysWay) {
+TEST(BlockPlace, LeavesABlockThatIsInNobodysWay) {
   const OperatingField field = laid_out(guided(), site_at(kClear_deg));
   EXPECT_EQ(field.scene.texts, guided().scene.texts);
   EXPECT_EQ(disc_of(field.scene, kCross)->middle, as_built());
 }
 
-TEST(CrossPlace, IsWholeInBothEyesWhereverTheSiteIsInView) {
+TEST(BlockPlace, IsWholeInBothEyesWhereverTheSiteIsInView) {
   std::size_t cut_before = 0;
   std::size_t faults_before = 0;
   for (float below_deg = -12; below_deg <= 12; below_deg += 2.0f) {
@@ -149,7 +150,7 @@ TEST(CrossPlace, IsWholeInBothEyesWhereverTheSiteIsInView) {
   EXPECT_GT(faults_before, 0u) << "nothing is in the way here";
 }
 
-TEST(CrossPlace, GoesOffPaperAndOffTheTrajectory) {
+TEST(BlockPlace, GoesOffPaperAndOffTheTrajectory) {
   const auto views = site_at(kClear_deg);
   OperatingField field = guided();
   const Float3 middle = as_built();
@@ -167,7 +168,7 @@ TEST(CrossPlace, GoesOffPaperAndOffTheTrajectory) {
       << "aside by more than its rings";
 }
 
-TEST(CrossPlace, IsLeftOutRatherThanCutAndWhatWasAskedForFirst) {
+TEST(BlockPlace, IsLeftOutRatherThanCutAndWhatWasAskedForFirst) {
   const auto far = site_at(0, 60);
   ASSERT_GT(cut_texts(guided().scene, far), 0u);
   const OperatingField gone = laid_out(guided(), far);
@@ -184,7 +185,7 @@ TEST(CrossPlace, IsLeftOutRatherThanCutAndWhatWasAskedForFirst) {
   EXPECT_EQ(cut_texts(few.scene, narrow), 0u);
 }
 
-TEST(CrossPlace, TurnsTheWholeBlockAboutTheEyes) {
+TEST(BlockPlace, TurnsTheWholeBlockAboutTheEyes) {
   const OperatingField built = guided();
   const auto views = site_at(kInTheWay_deg);
   const OperatingField field = laid_out(guided(), views);
@@ -214,7 +215,7 @@ TEST(CrossPlace, TurnsTheWholeBlockAboutTheEyes) {
   stays(place(built), place(field));
 }
 
-TEST(CrossPlace, LeavesAtOnceAndComesBackAfterASecondOfRoom) {
+TEST(BlockPlace, LeavesAtOnceAndComesBackAfterASecondOfRoom) {
   Frames frames;
   EXPECT_EQ(frames.next(site_at(kClear_deg)), as_built());
   EXPECT_NE(frames.next(site_at(kInTheWay_deg)), as_built());
@@ -227,7 +228,7 @@ TEST(CrossPlace, LeavesAtOnceAndComesBackAfterASecondOfRoom) {
   EXPECT_EQ(frames.next(site_at(kClear_deg)), as_built());
 }
 
-TEST(CrossPlace, DoesNotFollowATremblingHead) {
+TEST(BlockPlace, DoesNotFollowATremblingHead) {
   constexpr double kTremble_deg = 0.1;
   for (float below_deg = -10; below_deg <= 12; below_deg += 1.0f) {
     Random random(5);
@@ -243,6 +244,92 @@ TEST(CrossPlace, DoesNotFollowATremblingHead) {
     // A place at the edge of what is free may be left, once.
     EXPECT_LE(moves, 1) << below_deg;
   }
+}
+
+/// A tag's paper of 60 mm about the place where the head carries the status line, as far as the
+/// bone.
+GlarePatch paper_behind_status(const std::vector<render::View>& views) {
+  const render::Head head = render::head_of(views);
+  const Float3 middle =
+      head.position + 0.85f * (kStatusPlace.y * head.up + kStatusPlace.z * head.back);
+  const Float3 across = 0.030f * head.right;
+  const Float3 along = 0.030f * head.up;
+  return {middle + -1.0f * across + -1.0f * along, middle + across + -1.0f * along,
+          middle + across + along, middle + -1.0f * across + along};
+}
+
+/// Where the rows of the status line hang on the head: all in one place.
+Float3 hung(const render::Scene& scene) {
+  std::optional<Float3> place;
+  for (const render::TextItem& text : scene.texts) {
+    if (text.place == render::TextPlace::kView) {
+      EXPECT_EQ(place.value_or(text.position), text.position);
+      place = text.position;
+    }
+  }
+  return place.value_or(Float3{});
+}
+
+TEST(StatusPlace, StaysWhereNothingIsInItsWay) {
+  EXPECT_EQ(hung(laid_out(guided(), site_at(kClear_deg)).scene), kStatusPlace);
+}
+
+TEST(StatusPlace, MakesWayForTheReferencesTag) {
+  for (float below_deg = -6; below_deg <= 8; below_deg += 2.0f) {
+    const auto views = site_at(below_deg);
+    OperatingField field = guided(false, render::head_of(views).up);
+    field.papers.push_back(paper_behind_status(views));
+    EXPECT_THAT(test::faults(field, views), ::testing::Not(IsEmpty())) << "as built it is on it";
+    const OperatingField off = laid_out(field, views);
+    EXPECT_THAT(test::faults(off, views), IsEmpty()) << below_deg;
+    EXPECT_NEAR(render::length(hung(off.scene)), render::length(kStatusPlace), kRounding_m)
+        << "as large as before";
+    EXPECT_EQ(block_texts(off.scene), 3u);
+  }
+}
+
+TEST(StatusPlace, MakesWayForTheSite) {
+  const auto views = site_at(11);  // the entry under the status line
+  const auto covers = [&](const OperatingField& field) {
+    const Eyes eyes(views);
+    const BoxInEyes entry = eyes.box(std::array<Float3, 4>{});
+    static const render::Font font;
+    return std::any_of(
+        field.scene.texts.begin(), field.scene.texts.end(), [&](const render::TextItem& text) {
+          LabelExtent extent;
+          extent.width = render::line_width(font, text);
+          return text.place == render::TextPlace::kView &&
+                 overlap(grown(entry, 0.012f), eyes.box(render::world_from_caps(text, eyes.head()),
+                                                        box_at(place_of(text, extent, 0), extent)));
+        });
+  };
+  const OperatingField built = guided(false, render::head_of(views).up);
+  ASSERT_TRUE(covers(built));
+  EXPECT_FALSE(covers(laid_out(built, views)));
+}
+
+TEST(StatusPlace, LeavesAtOnceAndComesBackAfterASecondOfRoom) {
+  const auto views = site_at(kClear_deg);
+  LabelLayout layout;
+  int frame = 0;
+  const auto next = [&](bool paper) {
+    OperatingField field = guided();
+    if (paper) {
+      field.papers.push_back(paper_behind_status(views));
+    }
+    layout.lay_out(field.scene, views, field.papers, Timestamp{} + ++frame * kFrame);
+    return hung(field.scene);
+  };
+  EXPECT_EQ(next(false), kStatusPlace);
+  const Float3 aside = next(true);
+  EXPECT_NE(aside, kStatusPlace);
+  const int frames_of_a_second = static_cast<int>(LabelLayout::kSettled / kFrame);
+  for (int i = 0; i < frames_of_a_second; ++i) {
+    EXPECT_EQ(next(false), aside) << i;
+  }
+  next(false);
+  next(false);
+  EXPECT_EQ(next(false), kStatusPlace);
 }
 
 TEST(PointToEntry, ShowsTheWayWhereTheEntryIsOutOfView) {
@@ -270,4 +357,4 @@ TEST(PointToEntry, ShowsTheWayWhereTheEntryIsOutOfView) {
 }
 
 }  // namespace
-}  // namespace orthonav::engine::cross_place_test
+}  // namespace orthonav::engine::block_place_test

@@ -1,4 +1,4 @@
-#include "engine/holograms/cross_place.h"
+#include "engine/holograms/block_place.h"
 
 #include <algorithm>
 #include <array>
@@ -20,8 +20,9 @@ constexpr render::Label kPlacedCross = label_of(HologramKind::kCross, 1);
 constexpr render::Label kPlacedDepth = label_of(HologramKind::kDepth, 1);
 constexpr render::Label kPlacedOffset = label_of(HologramKind::kNumbers, 6);
 constexpr render::Label kWayToEntry = label_of(HologramKind::kTrajectory, 3);
-// The status line and the edges of the view go with every move of the head, the block does not: it
-// needs more room than labels that stand in the world need from each other. Tangents of angles.
+// The status line and the edges of the view go with every move of the head, the world does not: a
+// block needs more room than labels that stand in the world need from each other. Tangents of
+// angles.
 constexpr float kRoomToStay = 0.0010f;
 constexpr float kRoomToCome = 0.0105f;  // 0.6 degrees
 /// To the edge of a view, at least: a digit's width, and a little for texts that face the eyes
@@ -37,8 +38,8 @@ constexpr int kCostTool = 1 << 16;
 constexpr int kCostPaper = 1 << 15;
 constexpr int kCostNamed = 1 << 14;
 
-constexpr std::size_t kColumns = 2 * CrossPlace::kAside + 1;
-constexpr std::size_t kPlaces = kColumns * (2 * CrossPlace::kUp + 1);
+constexpr std::size_t kColumns = 2 * BlockPlace::kAside + 1;
+constexpr std::size_t kPlaces = kColumns * (2 * BlockPlace::kUp + 1);
 
 // The arrow: inside the edge of what eyes 72 mm apart see at its distance, above the status line.
 constexpr float kArrowInside = 0.10f;
@@ -46,19 +47,19 @@ constexpr float kAboveStatus = 0.07f;
 constexpr float kArrowDistance_m = 0.5f;
 constexpr float kArrowLength_m = 0.012f;
 
-bool of_block(render::Label label) {
+bool of_cross(render::Label label) {
   const HologramKind kind = kind_of(label);
   return kind == HologramKind::kCross || kind == HologramKind::kAngle ||
          kind == HologramKind::kNumbers || label == kPlacedDepth;
 }
 
-bool of_block(const TextItem& text) {
-  return text.place == render::TextPlace::kWorld && of_block(text.label);
-}
+bool is_row(const TextItem& text) { return text.place == render::TextPlace::kView; }
+
+bool of_cross(const TextItem& text) { return !is_row(text) && of_cross(text.label); }
 
 /// Written only where it was asked for.
 bool on_request(const TextItem& text) {
-  return of_block(text) && kind_of(text.label) == HologramKind::kNumbers &&
+  return of_cross(text) && kind_of(text.label) == HologramKind::kNumbers &&
          text.label < kPlacedOffset - 2;
 }
 
@@ -81,8 +82,8 @@ class Turn {
         towards_(render::unit_or(head.position - place, head.back)),
         right_(render::unit_or(render::cross(head.up, towards_), head.right)),
         up_(render::cross(towards_, right_)) {
-    const float yaw = CrossPlace::kStep_rad * static_cast<float>(steps[0]);
-    const float nod = CrossPlace::kStep_rad * static_cast<float>(steps[1]);
+    const float yaw = BlockPlace::kStep_rad * static_cast<float>(steps[0]);
+    const float nod = BlockPlace::kStep_rad * static_cast<float>(steps[1]);
     const float c = std::cos(yaw), s = std::sin(yaw), d = std::cos(nod), t = std::sin(nod);
     // Where right, up and towards go: first up, then aside.
     new_up_ = d * up_ + t * (c * towards_ - s * right_);
@@ -117,33 +118,42 @@ class Turn {
   Float3 new_towards_;
 };
 
-void turn_block(render::Scene& scene, const Turn& turn) {
+void turn_cross(render::Scene& scene, const Turn& turn) {
   for (render::MeshItem& mesh : scene.meshes) {
-    if (of_block(mesh.label)) {
+    if (of_cross(mesh.label)) {
       turn.turn(mesh.world_from_model);
     }
   }
   for (render::LineItem& line : scene.lines) {
-    if (of_block(line.label)) {
+    if (of_cross(line.label)) {
       std::transform(line.points.begin(), line.points.end(), line.points.begin(),
                      [&](Float3 p) { return turn.place(p); });
     }
   }
   for (render::TriangleItem& triangle : scene.triangles) {
-    if (of_block(triangle.label)) {
+    if (of_cross(triangle.label)) {
       for (Float3& corner : triangle.corners) {
         corner = turn.place(corner);
       }
     }
   }
   for (TextItem& text : scene.texts) {
-    if (of_block(text)) {
+    if (of_cross(text)) {
       text.position = turn.place(text.position);
     }
   }
 }
 
-int cost_of(const LabelObstacle& obstacle) {
+/// The rows of the status line, in the frame of the head.
+void turn_rows(render::Scene& scene, std::array<int, 2> steps) {
+  for (TextItem& text : scene.texts) {
+    if (is_row(text)) {
+      text.position = Turn(render::Head{}, text.position, steps).place(text.position);
+    }
+  }
+}
+
+int cost_of(const LabelObstacle& obstacle, PlacedBlock block) {
   switch (obstacle.kind) {
     case LabelObstacle::Kind::kWound:
       return kCostWound;
@@ -152,7 +162,7 @@ int cost_of(const LabelObstacle& obstacle) {
     case LabelObstacle::Kind::kGlare:
       return kCostPaper;
     case LabelObstacle::Kind::kNamed:
-      return of_block(obstacle.label) ? 0 : kCostNamed;
+      return block == PlacedBlock::kCross && of_cross(obstacle.label) ? 0 : kCostNamed;
     case LabelObstacle::Kind::kLeader:
       break;
   }
@@ -171,54 +181,81 @@ std::optional<Float3> entry_of(const render::Scene& scene) {
 
 }  // namespace
 
-void CrossPlace::lay_out(render::Scene& scene, const Eyes& eyes,
+void BlockPlace::lay_out(render::Scene& scene, const Eyes& eyes,
                          std::span<const GlarePatch> patches, Timestamp shown_at) {
-  const std::optional<CrossDisc> disc = disc_of(scene, kPlacedCross);
-  if (!disc) {
+  if (!find_middle(scene, eyes)) {
     return;
   }
   if (shown_at < seen_ || shown_at - kForgetPlacesAfter > seen_) {
     history_ = {};
   }
   seen_ = shown_at;
-  middle_ = disc->middle;
   // As texts there face the eyes.
   const Float3 towards = render::unit_or(eyes.head().position - middle_, eyes.head().back);
   right_ = render::unit_or(render::cross(eyes.head().up, towards), eyes.head().right);
   up_ = render::cross(towards, right_);
+  find_obstacles(scene, patches, eyes, obstacles_);
+  find_rows(scene, eyes);
+  extent_ = extent_of(scene, eyes);
+  settle(eyes, shown_at);
+  if (block_ == PlacedBlock::kStatus) {
+    if (const std::size_t place = *history_.place; place > 0) {
+      turn_rows(scene, steps_of(place));
+    }
+    return;
+  }
+  if (cost_of(*history_.place, eyes, 0) >= kCostCut) {
+    scene.texts.erase_if(on_request);
+    extent_ = extent_of(scene, eyes);
+    settle(eyes, shown_at);
+  }
+  if (cost_of(*history_.place, eyes, 0) >= kCostCut) {
+    const auto gone = [](const auto& item) { return of_cross(item.label); };
+    scene.meshes.erase_if(gone);
+    scene.lines.erase_if(gone);
+    scene.triangles.erase_if(gone);
+    scene.texts.erase_if([](const TextItem& item) { return of_cross(item); });
+    return;
+  }
+  if (const std::size_t place = *history_.place; place > 0) {
+    turn_cross(scene, {eyes.head(), middle_, steps_of(place)});
+  }
+}
+
+/// Where the block was built, metres in the world; false: the scene has none.
+bool BlockPlace::find_middle(const render::Scene& scene, const Eyes& eyes) {
+  if (block_ == PlacedBlock::kCross) {
+    const std::optional<CrossDisc> disc = disc_of(scene, kPlacedCross);
+    middle_ = disc ? disc->middle : middle_;
+    radius_m_ = disc ? disc->radius_m : 0;
+    return disc.has_value();
+  }
+  const auto* row = std::find_if(scene.texts.begin(), scene.texts.end(), is_row);
+  if (row == scene.texts.end()) {
+    return false;
+  }
+  const render::Head& head = eyes.head();
+  const Float3 at = row->position;
+  middle_ = head.position + at.x * head.right + at.y * head.up + at.z * head.back;
+  return true;
+}
+
+/// The rows of the status line, which the cross makes way for.
+void BlockPlace::find_rows(const render::Scene& scene, const Eyes& eyes) {
   rows_.clear();
   for (const TextItem& text : scene.texts) {
-    if (text.place == render::TextPlace::kView) {
+    if (block_ == PlacedBlock::kCross && is_row(text)) {
       LabelExtent extent;
       extent.width = render::line_width(font_, text);
       rows_.push_back(eyes.box(render::world_from_caps(text, eyes.head()),
                                box_at(place_of(text, extent, 0), extent)));
     }
   }
-  find_obstacles(scene, patches, eyes, obstacles_);
-  extent_ = extent_of(scene, eyes, *disc);
-  settle(eyes, shown_at);
-  if (cost_of(*history_.place, eyes, 0) >= kCostCut) {
-    scene.texts.erase_if(on_request);
-    extent_ = extent_of(scene, eyes, *disc);
-    settle(eyes, shown_at);
-  }
-  if (cost_of(*history_.place, eyes, 0) >= kCostCut) {
-    scene.meshes.erase_if([](const auto& item) { return of_block(item.label); });
-    scene.lines.erase_if([](const auto& item) { return of_block(item.label); });
-    scene.triangles.erase_if([](const auto& item) { return of_block(item.label); });
-    scene.texts.erase_if([](const TextItem& item) { return of_block(item); });
-    return;
-  }
-  if (const std::size_t place = *history_.place; place > 0) {
-    turn_block(scene, {eyes.head(), middle_, steps_of(place)});
-  }
 }
 
-CrossPlace::Extent CrossPlace::extent_of(const render::Scene& scene, const Eyes& eyes,
-                                         const CrossDisc& disc) const {
+BlockPlace::Extent BlockPlace::extent_of(const render::Scene& scene, const Eyes& eyes) const {
   const render::Head& head = eyes.head();
-  Extent extent{-disc.radius_m, -disc.radius_m, disc.radius_m, disc.radius_m};
+  Extent extent{-radius_m_, -radius_m_, radius_m_, radius_m_};
   const auto take_in = [&](Float3 p) {
     const Float3 from = p - middle_;
     const float right = dot(from, right_);
@@ -227,12 +264,12 @@ CrossPlace::Extent CrossPlace::extent_of(const render::Scene& scene, const Eyes&
               std::max(extent.right, right), std::max(extent.top, up)};
   };
   for (const render::LineItem& line : scene.lines) {
-    if (of_block(line.label)) {
+    if (block_ == PlacedBlock::kCross && of_cross(line.label)) {
       std::for_each(line.points.begin(), line.points.end(), take_in);
     }
   }
   for (const TextItem& text : scene.texts) {
-    if (!of_block(text)) {
+    if (block_ == PlacedBlock::kCross ? !of_cross(text) : !is_row(text)) {
       continue;
     }
     LabelExtent of_text;
@@ -245,7 +282,7 @@ CrossPlace::Extent CrossPlace::extent_of(const render::Scene& scene, const Eyes&
   return extent;
 }
 
-int CrossPlace::cost_of(std::size_t place, const Eyes& eyes, float margin) const {
+int BlockPlace::cost_of(std::size_t place, const Eyes& eyes, float margin) const {
   const auto steps = steps_of(place);
   const render::Head& head = eyes.head();
   const Turn turn(head, middle_, steps);
@@ -263,7 +300,7 @@ int CrossPlace::cost_of(std::size_t place, const Eyes& eyes, float margin) const
     covered |= overlap(row, box) ? kCostRow : 0;
   }
   for (const LabelObstacle& obstacle : obstacles_) {
-    const int cost = engine::cost_of(obstacle);
+    const int cost = engine::cost_of(obstacle, block_);
     if ((covered & cost) == 0 && cost > 0 && overlap(obstacle.seen, box)) {
       covered |= cost;
     }
@@ -271,7 +308,7 @@ int CrossPlace::cost_of(std::size_t place, const Eyes& eyes, float margin) const
   return covered + steps[0] * steps[0] + steps[1] * steps[1];
 }
 
-CrossPlace::Best CrossPlace::best_of(const Eyes& eyes, std::optional<std::size_t> without) const {
+BlockPlace::Best BlockPlace::best_of(const Eyes& eyes, std::optional<std::size_t> without) const {
   Best best{0, 2 * kCostCut};
   for (std::size_t place = 0; place < kPlaces; ++place) {
     const auto steps = steps_of(place);
@@ -284,7 +321,7 @@ CrossPlace::Best CrossPlace::best_of(const Eyes& eyes, std::optional<std::size_t
   return best;
 }
 
-void CrossPlace::settle(const Eyes& eyes, Timestamp now) {
+void BlockPlace::settle(const Eyes& eyes, Timestamp now) {
   const auto covered = [](int cost) { return cost / kCostNamed; };
   const bool is_new = !history_.place;
   if (history_.place.value_or(0) == 0 && covered(cost_of(0, eyes, kRoomToStay)) == 0) {
