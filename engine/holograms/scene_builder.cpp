@@ -221,9 +221,7 @@ void SceneBuilder::add_entries(render::Scene& scene) {
       entry.surface_normal =
           to_float3((world_from_vertebra * Direction<Vertebra>{outward.normalized()}).v);
       text_.clear();
-      if (names_entry(visible_, at, s)) {
-        append_screw(text_, level.plan.label, screw.side);
-      }
+      append_entry_name(text_, visible_, at, s);
       entry.text = text_;
       entry.done = level.screws[s].done;
       // From behind, where the surgeon looks from, the patient's left is on the left.

@@ -118,9 +118,8 @@ void ShownFrameWriter::write_entries(const Visibility& visible, ShownFrame& fram
       ShownHologram& entry = add(frame, HologramKind::kEntry);
       entry.level = plan.label;
       entry.side = screw.side;
-      if (names_entry(visible, at, static_cast<std::size_t>(&screw - plan.screws.data()))) {
-        append_screw(entry.text, plan.label, screw.side);
-      }
+      append_entry_name(entry.text, visible, at,
+                        static_cast<std::size_t>(&screw - plan.screws.data()));
       entry.points_in_world.push_back(at.world_from_vertebra * screw.entry);
     }
   }

@@ -6,6 +6,8 @@
 
 #include "engine/holograms/screw_holograms.h"
 #include "engine/session/coach.h"
+#include "engine/session/findings_wording.h"
+#include "engine/session/wording.h"
 
 namespace orthonav::engine {
 
@@ -173,6 +175,9 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   if (g.step != Step::kRod) {
     decide_entries(g, out);
   }
+  if (g.step != Step::kDone && g.level < g.levels.size()) {
+    out.level = &g.levels[g.level];
+  }
   out.entry_labels = g.step == Step::kAccepted || g.step == Step::kDone;
   if (const auto* strokes = std::get_if<StrokesSoFar>(&g.status.state);
       strokes != nullptr && strokes->coaching != nullptr && !strokes->coaching->enough) {
@@ -206,11 +211,20 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   out.rods = g.step == Step::kRod || g.step == Step::kDone;
 }
 
-bool names_entry(const Visibility& visible, const PlacedLevel& at, std::size_t screw) {
+void append_entry_name(std::string& out, const Visibility& visible, const PlacedLevel& at,
+                       std::size_t screw) {
   const auto& selected = visible.trajectory;
-  return visible.entry_labels &&
-         (!visible.only_selected_named ||
-          (selected && selected->at.level == at.level && selected->screw == screw));
+  const bool is_selected = selected && selected->at.level == at.level && selected->screw == screw;
+  if (!visible.entry_labels || at.level->screws[screw].done ||
+      (visible.only_selected_named && !is_selected)) {
+    return;
+  }
+  const Side side = at.level->plan.screws[screw].side;
+  if (at.level == visible.level) {
+    out += word_of(side);
+  } else {
+    append_screw(out, at.level->plan.label, side);
+  }
 }
 
 Vec3 rod_offset_m(const Guidance& guidance, const RodState& rod, const VisibilityRules& rules) {

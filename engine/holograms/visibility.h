@@ -64,11 +64,12 @@ struct VisibleCross {
 /// scene and the frame in words can't differ. Points into the guidance that it was made from, and
 /// is valid only as long as that guidance is.
 struct Visibility {
+  const LevelState* level = nullptr;             ///< in work, named by the status line; or null
   bool paths = false;                            ///< H1
   bool stroke_pattern = false;                   ///< the picture of where to stroke
   std::optional<PlacedLevel> vertebra;           ///< H2 and H12, of the current level
   std::vector<PlacedLevel> entries_of;           ///< H3: the levels whose entry points are shown
-  bool entry_labels = false;                     ///< their names too
+  bool entry_labels = false;                     ///< their names too, until a screw is in
   bool only_selected_named = false;              ///< of those, the selected screw's alone
   std::optional<Point<World>> stroke_next;       ///< H12: the middle of what to stroke next
   std::optional<Point<World>> landmark;          ///< H12: the landmark, while it is to be touched
@@ -96,8 +97,10 @@ struct Visibility {
 void decide_visibility(const Guidance& guidance, const VisibilityRules& rules,
                        Timestamp display_time, Visibility& out);
 
-/// Whether the name of a screw stands at its entry.
-[[nodiscard]] bool names_entry(const Visibility& visible, const PlacedLevel& at, std::size_t screw);
+/// The name of a screw where it stands at its entry: the side, with its level if the status line
+/// does not say that.
+void append_entry_name(std::string& out, const Visibility& visible, const PlacedLevel& at,
+                       std::size_t screw);
 
 /// From where to where the rods are shifted while they are moved away: sideways off the patient,
 /// as a rigid body, each to its own side.

@@ -16,7 +16,7 @@ constexpr const char* k99Percent =
     translatable("99 %% of errors at the screws are below %.1f mm, limit %.1f mm");
 constexpr const char* kThroughBone = translatable(
     "the pointer would have gone through bone at %.0f %% of the points, limit %.0f %%");
-constexpr const char* kRejectAndDigitize = translatable("reject level and digitize again");
+constexpr const char* kSayReject = translatable("say reject level");
 
 /// The words for a number and its limit, and the unit in which it is shown.
 struct LimitWords {
@@ -77,9 +77,8 @@ namespace {
 void append_part(std::string& out, const char* format, const nav::BonePlace& place) {
   using Part = nav::BonePlace::Part;
   using Height = nav::BonePlace::Height;
-  constexpr std::array<const char*, 3> kParts = {
-      translatable("spinous process"), translatable("lamina"),
-      translatable("facet and root of the transverse process")};
+  constexpr std::array<const char*, 3> kParts = {translatable("spinous process"),
+                                                 translatable("lamina"), translatable("facet")};
   static_assert(static_cast<int>(Part::kFacet) == 2);
   const std::size_t begin = out.size();
   out += translated(kParts[static_cast<std::size_t>(place.part)]);
@@ -163,22 +162,21 @@ void append(std::string& out, const nav::CheckAdvice& advice) {
       }
       break;
     case nav::CheckAdvice::Kind::kTouchOffLine:
-      append_printed(out, translated("touch 1 more place, %.0f mm off the line of the others"),
+      append_printed(out, translated("touch 1 more place, %.0f mm off their line"),
                      advice.value_m * 1e3);
       break;
     case nav::CheckAdvice::Kind::kReject:
-      append_printed(out, translated("check point %zu is"), advice.number);
-      out += ' ';
       append_beside_limit(out, translated("%.1f mm off, limit %.1f mm"), advice.value_m * 1e3,
                           advice.limit_m * 1e3);
-      out.append(": ").append(translated(kRejectAndDigitize));
+      out.append(": ").append(translated(kSayReject));
       break;
     case nav::CheckAdvice::Kind::kTouchMore:
       out += translated("touch 1 more place");
       break;
     case nav::CheckAdvice::Kind::kUncertain:
-      append_beside_limit(out, translated(k99Percent), advice.value_m * 1e3, advice.limit_m * 1e3);
-      out.append(": ").append(translated(kRejectAndDigitize));
+      append_beside_limit(out, translated("screws ≤ %.1f mm off, limit %.1f mm"),
+                          advice.value_m * 1e3, advice.limit_m * 1e3);
+      out.append(": ").append(translated(kSayReject));
       break;
   }
 }

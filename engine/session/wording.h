@@ -61,7 +61,7 @@ inline constexpr const char* kHeadNotLocated =
     translatable("Head not located: nothing is shown in the world");
 inline constexpr const char* kNotYet = translatable("not yet:");
 inline constexpr const char* kTouchDimple = translatable("touch the dimple");
-inline constexpr const char* kMakeDimple = translatable("make a dimple in this bone and touch it");
+inline constexpr const char* kMakeDimple = translatable("touch a new dimple");
 inline constexpr const char* kKeepOrRedo =
     translatable("say accept result to keep it, delete last to redo it");
 inline constexpr const char* kNoOtherEntry =

@@ -13,6 +13,7 @@
 
 #include "base/angle.h"
 #include "base/printed.h"
+#include "base/translation.h"
 #include "engine/golden/golden_operation.h"
 #include "engine/golden/golden_scenes.h"
 #include "engine/holograms/hologram_label.h"
@@ -20,8 +21,11 @@
 #include "engine/holograms/label_geometry.h"
 #include "engine/holograms/label_obstacles.h"
 #include "engine/holograms/label_places.h"
+#include "engine/session/wording.h"
 #include "render/frame/frame_items.h"
 #include "render/text/font.h"
+#include "tests/support/language_in_use.h"
+#include "tools/language_file.h"
 
 namespace orthonav::engine {
 namespace {
@@ -78,16 +82,81 @@ std::string count_row(const std::string& step) {
   return {};
 }
 
-TEST(QuietView, HasFourNumbersAndEightWordsAtMostWhileGuidingWithinLimits) {
-  for (const char* name : {"guide_set", "guide_drilling"}) {
-    const Reading reading = to_read(scene_named(name).scene);
-    EXPECT_LE(reading.numbers, kMostNumbers) << name;
-    EXPECT_LE(reading.words, kMostWords) << name;
-    EXPECT_GE(reading.words, 4) << name << ": the step and the next act";
+void expect_quiet(const render::Scene& scene, const std::string& name) {
+  const Reading reading = to_read(scene);
+  EXPECT_LE(reading.numbers, kMostNumbers) << name;
+  EXPECT_LE(reading.words, kMostWords) << name;
+}
+
+TEST(QuietView, HasFourNumbersAndEightWordsAtMostInEveryStepWithinLimits) {
+  for (const char* name :
+       {"setup", "digitizing", "verify", "verify_checked", "verify_many", "accepted", "guide_far",
+        "guide_set", "guide_drilling", "placed", "done"}) {
+    expect_quiet(scene_named(name).scene, name);
   }
   const Reading all = to_read(scene_named("guide_numbers").scene);
   EXPECT_GT(all.numbers, kMostNumbers) << "the control: every number, on request";
   EXPECT_GT(all.words, kMostWords);
+}
+
+/// What else a step asks for, beside all that it shows.
+void expect_quiet_whatever_is_asked() {
+  using Advice = nav::CheckAdvice::Kind;
+  const auto expect_with = [](golden::StagedOperation& s, const StepState& state) {
+    s.guidance.status.state = state;
+    const GoldenScene golden = s.scene("", "");
+    expect_quiet(golden.scene, detail_text(s.guidance.status));
+    EXPECT_GE(to_read(golden.scene).words, 3) << "the step and an act";
+  };
+  golden::StagedOperation digitize(Step::kDigitize);
+  for (const auto part : {nav::BonePlace::Part::kLamina, nav::BonePlace::Part::kFacet}) {
+    for (const bool enough : {false, true}) {
+      digitize.coaching.enough = digitize.coaching.then_touch = enough;
+      digitize.coaching.stroke_next = {part, nav::Side::kRight, nav::BonePlace::Height::kLower};
+      expect_with(digitize, StrokesSoFar{800, &digitize.coaching});
+    }
+  }
+  golden::StagedOperation verify(Step::kVerify);
+  verify.level().check_points = {{{{0, 0.057, -0.014}}, 0.0004, true}};
+  for (const nav::CheckAdvice& advice : {nav::CheckAdvice{Advice::kTouchApart, 3, 0.015, 0.0},
+                                         {Advice::kTouchApart, 2, 0.015, 0.0},
+                                         {Advice::kTouchOffLine, 1, 0.005, 0.0},
+                                         {Advice::kTouchMore, 1, 0.0026, 0.002},
+                                         {Advice::kReject, 4, 0.0031, 0.002},
+                                         {Advice::kUncertain, 1, 0.0026, 0.002}}) {
+    const nav::CheckVerdict verdict{false, 0.0, advice};
+    expect_with(verify, ChecksSoFar{&verdict});
+  }
+  expect_with(verify, ByEye{});
+  golden::StagedOperation accepted(Step::kAccepted);
+  accepted.level().screws[1].done = false;
+  const TipCheck any_way;
+  TipCheck as_for_screw;
+  as_for_screw.expect();
+  const TipCheck nobody({}, {}, false);
+  for (const TipCheck* tips :
+       std::initializer_list<const TipCheck*>{&any_way, &as_for_screw, &nobody}) {
+    for (const int missing : {0, 1}) {
+      expect_with(accepted, LandmarkSoFar{true, LandmarkTouch{true, missing, 0.0, 0.0015}, tips});
+    }
+  }
+  expect_with(accepted, LandmarkSoFar{});
+  golden::StagedOperation placed(Step::kPlaced);
+  expect_with(placed, WireSoFar{});
+  golden::StagedOperation rod(Step::kRod);
+  HeadsSoFar heads;
+  heads.unplanned = true;
+  expect_with(rod, heads);
+}
+
+TEST(QuietView, HasNoMoreWhateverAStepAsksFor) { expect_quiet_whatever_is_asked(); }
+
+TEST(QuietView, HasNoMoreInGerman) {
+  auto german = tools::language_named("de");
+  ASSERT_TRUE(german) << german.error().message;
+  const test::LanguageInUse in_use(*std::move(german));
+  const WearersLanguage language;
+  expect_quiet_whatever_is_asked();
 }
 
 TEST(QuietView, HasAsMuchToReadAsTheTableSays) {

@@ -28,10 +28,8 @@ struct Told {
   std::string not_saved;
   std::string stroke;
 };
-const Told kEnglish{"reference lost", "NOT SAVED",
-                    "digitize the right lower facet and root of the transverse process"};
-const Told kGerman{"reference verloren", "NICHT GESICHERT",
-                   "abfahren: Facette und Querfortsatzbasis unten rechts"};
+const Told kEnglish{"reference lost", "NOT SAVED", "digitize the right lower facet"};
+const Told kGerman{"reference verloren", "NICHT GESICHERT", "abfahren: Facette unten rechts"};
 
 struct ShownOn {
   std::string name;
@@ -265,10 +263,9 @@ TEST(StatusLineOnDisplays, ShowsItInGermanToo) {
 TEST(StatusLineOnDisplays, IsCutWhereNothingShortensIt) {
   // The control that must fail: the whole text on one row.
   const ShownOn display = displays()[1];
-  const Message message = refused_for_everything();
   StatusLine line;
-  line.at = {Step::kDigitize, "L4", {}};
-  line.message = &message;
+  line.at = {Step::kPlaced, "L4", Side::kRight};
+  line.state = WireSoFar{&far_off(), true};
   GoldenScene golden = drawn(line, display);
   render::TextItem& row = golden.scene.texts.back();
   row.runs.front().text = detail_text(line);

@@ -221,10 +221,9 @@ void write_tips(PartedText text, const TipCheck& tips, std::string_view separato
   std::string& out = text.out;
   if (tips.due()) {
     text.begin(Importance::kNext, separator);
-    out +=
-        tips.for_screw()
-            ? translated("put the guide's tip in it too, held as for the screw, or say go to next")
-            : translated("put the guide's tip in it too, or say go to next");
+    // How it is held matters: its tip turns with it.
+    out += tips.for_screw() ? translated("guide's tip, as drilling")
+                            : translated("now the guide's tip");
     return;
   }
   if (!tips.last() || tips.last()->corrected || !tips.offers()) {
@@ -249,15 +248,16 @@ void write_axis(PartedText text, const LandmarkSoFar& landmark, std::string_view
   text.out += translated(kSayAccept);
 }
 
-/// What the touch asks for next, after the text so far.
-void write_act_after_touch(PartedText text, const LandmarkSoFar& landmark) {
+/// What the touch asks for next.
+void write_act_after_touch(PartedText text, const LandmarkSoFar& landmark,
+                           std::string_view separator) {
   const std::size_t end = text.out.size();
   if (landmark.tips != nullptr) {
-    write_tips(text, *landmark.tips, "; ");
-    write_axis(text, landmark, "; ");
+    write_tips(text, *landmark.tips, separator);
+    write_axis(text, landmark, separator);
   }
   if (text.out.size() == end) {
-    text.begin(Importance::kNext, ": ");
+    text.begin(Importance::kNext, separator);
     text.out += translated("say go to next");
   }
 }
@@ -273,17 +273,15 @@ void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_
   }
   if (landmark.last->missing > 0) {
     text.begin(Importance::kNext, separator);
-    out += translated("lift the tip and touch the dimple again");
+    out += translated("lift, then touch again");
     return;
   }
-  text.begin(Importance::kMessage, separator);
-  out += landmark.last->first ? translated("dimple recorded") : translated("dimple found");
-  write_act_after_touch(text, landmark);
+  write_act_after_touch(text, landmark, separator);
 }
 
 void write_beside_correction(PartedText text, const LandmarkSoFar& landmark) {
   if (landmark.last && landmark.last->missing == 0) {
-    write_act_after_touch(text, landmark);
+    write_act_after_touch(text, landmark, "; ");
   }
 }
 

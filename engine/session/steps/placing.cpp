@@ -221,13 +221,13 @@ void write_wire(PartedText text, const WireSoFar& state, std::string_view separa
   std::string& out = text.out;
   if (state.wire == nullptr) {
     text.begin(Importance::kNext, separator);
-    out += translated("set the sleeve over the wire, turn it and click, or say go to next");
+    out += translated("sleeve over wire, turn, click");
     return;
   }
   const PlacedWire& wire = *state.wire;
   if (wire.within()) {
     text.begin(Importance::kNext, separator);
-    out += translated("within limits: say go to next");
+    out += translated("say go to next");
     return;
   }
   text.begin(wire.kept ? Importance::kMessage : Importance::kDanger, separator);

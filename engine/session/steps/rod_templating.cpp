@@ -265,7 +265,7 @@ void write_heads(PartedText text, const HeadsSoFar& heads) {
   } else if (heads.count > 0) {
     out += translated("touch the next head");
   } else {
-    out += heads.unplanned ? translated("touch the first head; none: say finish rod")
+    out += heads.unplanned ? translated("first head, or say finish rod")
                            : translated("touch the first head");
   }
   if (heads.seat_by_pointer_m) {

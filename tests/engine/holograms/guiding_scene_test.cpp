@@ -148,7 +148,7 @@ TEST_F(Guiding, AwayFromTheScrewShowsTheDistanceAtTheTipAlone) {
   EXPECT_THAT(drawn(g), ::testing::ElementsAre(kEntry, kTrajectory, kDepth, kStatus, kNumbers));
   const ShownFrame far = shown(g);
   EXPECT_EQ(find(far, kDepth)->text, "40 mm");
-  EXPECT_EQ(find_entry(far, "L4", Side::kLeft)->text, "L4 left") << "which screw it is";
+  EXPECT_EQ(find_entry(far, "L4", Side::kLeft)->text, "left") << "which screw it is";
   EXPECT_EQ(find_entry(far, "L4", Side::kRight)->text, "");
   EXPECT_EQ(far.status->text, "guide L4 left | tip to the entry");
 }

@@ -159,7 +159,7 @@ TEST(SceneBuilder, PutsHologramsWhereTheRegistrationSays) {
   const ShownFrame frame = shown(g);
   const ShownHologram* entry = find_entry(frame, "L4", Side::kLeft);
   ASSERT_NE(entry, nullptr);
-  EXPECT_EQ(entry->text, "L4 left");
+  EXPECT_EQ(entry->text, "left") << "the status line says the level";
   const Point<World> expected = pose * Point<Vertebra>{kLeftEntry};
   EXPECT_NEAR((entry->points_in_world[0] - expected).norm(), 0.0, kExact);
   EXPECT_NE(find_entry(frame, "L4", Side::kRight), nullptr);

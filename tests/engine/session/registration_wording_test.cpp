@@ -34,7 +34,7 @@ TEST(Wording, NeverSaysThatANumberExceedsItself) {
   EXPECT_EQ(text_of_reason(Reason::kNoise, 0.00300001, 0.003),
             "the points scatter just over 3.0 mm about the surface, limit 3.0 mm");
   EXPECT_EQ(text_of(nav::CheckAdvice{nav::CheckAdvice::Kind::kReject, 4, 0.002003, 0.002}),
-            "check point 4 is 2.003 mm off, limit 2.000 mm: reject level and digitize again");
+            "2.003 mm off, limit 2.000 mm: say reject level");
   EXPECT_EQ(line_with(Message(TouchNotRecorded{TouchNotRecorded::What::kHead,
                                                {TouchRefusal::Kind::kTipMoved, 0.00304, 0.003}})),
             "head not recorded: tip moved 3.04 mm, limit 3.00 mm");
@@ -72,7 +72,7 @@ TEST(Wording, SaysWhereToStroke) {
   using Height = nav::BonePlace::Height;
   EXPECT_EQ(text_of(kLeftLamina), "digitize the left lamina");
   EXPECT_EQ(text_of(nav::BonePlace{Part::kFacet, Side::kRight, Height::kUpper}),
-            "digitize the right upper facet and root of the transverse process");
+            "digitize the right upper facet");
   EXPECT_EQ(text_of(nav::BonePlace{Part::kSpinousProcess, {}, Height::kLower}),
             "digitize the lower spinous process");
 }
@@ -86,14 +86,12 @@ TEST(Wording, AsksForCheckPoints) {
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchApart, 1, 0.015, 0.0}),
             "touch 1 more place, 15 mm from the others");
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchOffLine, 1, 0.005, 0.0}),
-            "touch 1 more place, 5 mm off the line of the others");
+            "touch 1 more place, 5 mm off their line");
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kReject, 4, 0.0031, 0.002}),
-            "check point 4 is 3.1 mm off, limit 2.0 mm: reject level and digitize again");
+            "3.1 mm off, limit 2.0 mm: say reject level");
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchMore, 1, 0.0026, 0.002}), "touch 1 more place");
-  EXPECT_EQ(
-      text_of(nav::CheckAdvice{Kind::kUncertain, 1, 0.0026, 0.002}),
-      "99 % of errors at the screws are below 2.6 mm, limit 2.0 mm: reject level and digitize "
-      "again");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kUncertain, 1, 0.0026, 0.002}),
+            "screws ≤ 2.6 mm off, limit 2.0 mm: say reject level");
 }
 
 TEST(Wording, SaysWhereToStrokeNextOrThatItIsEnough) {

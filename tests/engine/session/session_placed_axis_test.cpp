@@ -63,10 +63,8 @@ TEST_F(PlacedSession, TheAxisIsCorrectedWithConsentBeforeTheNextScrew) {
               HasSubstr("guide's axis 1.1° off: say accept result to correct it"));
   s.says("accept");
   ASSERT_NE(said<AxisCorrected>(s.pair()), nullptr);
-  EXPECT_THAT(
-      detail_text(s.pair().status),
-      HasSubstr(
-          "guide's axis corrected by 1.1°; put the guide's tip in it too, or say go to next"));
+  EXPECT_THAT(detail_text(s.pair().status),
+              HasSubstr("guide's axis corrected by 1.1°; now the guide's tip"));
   // The mean by the described axis (0.57 degrees) and by the spin.
   EXPECT_GT(said<AxisCorrected>(s.pair())->by_rad, 0.019);
   EXPECT_LT(said<AxisCorrected>(s.pair())->by_rad, 0.02);

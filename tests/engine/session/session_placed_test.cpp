@@ -26,7 +26,7 @@ TEST_F(PlacedSession, FollowsEveryScrewAndAsksForTheSleeve) {
   EXPECT_EQ(g.status.tool, "guide");
   EXPECT_EQ(g.wire, nullptr);
   EXPECT_FALSE(g.tool) << "nothing is guided";
-  EXPECT_THAT(detail_text(g.status), HasSubstr("set the sleeve over the wire, turn it and click"));
+  EXPECT_THAT(detail_text(g.status), HasSubstr("sleeve over wire, turn, click"));
 }
 
 TEST_F(PlacedSession, AWireWithinTheLimitsIsTold) {
@@ -39,7 +39,7 @@ TEST_F(PlacedSession, AWireWithinTheLimitsIsTold) {
   EXPECT_TRUE(wire.within());
   EXPECT_EQ(g.wire, &wire);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
-  EXPECT_THAT(detail_text(g.status), HasSubstr("within limits: say go to next"));
+  EXPECT_THAT(detail_text(g.status), HasSubstr("say go to next"));
   EXPECT_EQ(step_of(s.says("next")), "accepted L4") << "the landmark before the other screw";
   EXPECT_TRUE(level().screws[0].done);
   ASSERT_TRUE(level().screws[0].wire.measured);

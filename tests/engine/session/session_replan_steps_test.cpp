@@ -63,7 +63,7 @@ TEST(SessionReplanSteps, WhatTheStepAsksForStaysAskedBesideIt) {
   for (const char* phrase : {"shorter", "move cranial", "undo", "undo"}) {
     const Guidance& g = s.says(phrase);
     ASSERT_NE(g.status.message, nullptr) << phrase;
-    EXPECT_THAT(detail_text(g.status), HasSubstr("; make a dimple in this bone and touch it"));
+    EXPECT_THAT(detail_text(g.status), HasSubstr("; touch a new dimple"));
     EXPECT_EQ(checks_asked(g.status), ChecksAsked::kTouchMore) << phrase;
   }
 }

@@ -46,7 +46,7 @@ class TipsSession : public ::testing::Test {
 TEST_F(TipsSession, TipsThatAgreeAreToldAndLeftAlone) {
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTipHeld);
   const Guidance& g = touches_by_guide(kDimple + Vec3{0.0006, 0, 0});
-  EXPECT_THAT(detail_text(g.status), HasSubstr("dimple recorded: say go to next"));
+  EXPECT_THAT(detail_text(g.status), HasSubstr("say go to next"));
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
   s.says("accept");
   ASSERT_NE(said<NotPossibleNow>(s.pair()), nullptr) << "there is nothing to correct";
@@ -142,7 +142,7 @@ TEST_F(TipsSession, AreComparedBeforeEveryScrewAndAsHeldForIt) {
   const Guidance g = s.pair();
   EXPECT_EQ(g.step, Step::kAccepted);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kGuideTipHeld);
-  EXPECT_THAT(detail_text(g.status), HasSubstr("put the guide's tip in it too, held as for the "));
+  EXPECT_THAT(detail_text(g.status), HasSubstr("guide's tip, as drilling"));
   ASSERT_NE(said<NotPossibleNow>(s.says("accept")), nullptr) << "the old one is past";
 }
 

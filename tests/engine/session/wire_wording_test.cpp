@@ -7,10 +7,9 @@ namespace orthonav::engine::wording_test {
 namespace {
 
 TEST(Wording, AsksForTheSleeveAndTellsHowTheWireStands) {
-  EXPECT_EQ(line_with(WireSoFar{}),
-            "set the sleeve over the wire, turn it and click, or say go to next");
+  EXPECT_EQ(line_with(WireSoFar{}), "sleeve over wire, turn, click");
   const PlacedWire within = wire_off(0.8, 0.0006);
-  EXPECT_EQ(line_with(WireSoFar{&within}), "within limits: say go to next");
+  EXPECT_EQ(line_with(WireSoFar{&within}), "say go to next");
   const PlacedWire turned = wire_off(2.04, 0.0006);
   EXPECT_EQ(line_with(WireSoFar{&turned}),
             "angle 2.04°, limit 2.00°: say accept result "
@@ -27,8 +26,7 @@ TEST(Wording, AsksForTheSleeveAndTellsHowTheWireStands) {
   lost.tool = "guide";
   lost.tool_lost = true;
   lost.state = WireSoFar{};
-  EXPECT_EQ(detail_text(lost),
-            "guide lost; set the sleeve over the wire, turn it and click, or say go to next");
+  EXPECT_EQ(detail_text(lost), "guide lost; sleeve over wire, turn, click");
 }
 
 TEST(Wording, SaysWhyAWireWasNotMeasuredAndWhatBecomesOfIt) {

@@ -28,7 +28,7 @@ TEST(Wording, SaysNothingOfTipsThatNobodyCompares) {
   LandmarkTouch touch;
   touch.first = true;
   const std::string line = line_with(LandmarkSoFar{true, touch, &nobody, nullptr});
-  EXPECT_EQ(line, "dimple recorded: say go to next");
+  EXPECT_EQ(line, "say go to next");
 }
 
 TEST(Wording, NamesStepsWithWhatTheyAreAbout) {
@@ -91,19 +91,17 @@ TEST(Wording, AsksForTheNextActInEveryStepAndSaysNoFigures) {
   EXPECT_EQ(line_in(Step::kVerify, ChecksSoFar{&verdict}), "passed: say accept result");
   EXPECT_EQ(line_in(Step::kVerify, ChecksSoFar{&verdict, 0.0023}),
             "moved 2.3 mm; passed: say accept result");
-  EXPECT_EQ(line_in(Step::kPlaced, WireSoFar{}),
-            "set the sleeve over the wire, turn it and click, or say go to next");
+  EXPECT_EQ(line_in(Step::kPlaced, WireSoFar{}), "sleeve over wire, turn, click");
 }
 
-TEST(Wording, AsksForTheLandmarkAndTellsThatItWasFound) {
-  EXPECT_EQ(line_with(LandmarkSoFar{false, {}}), "make a dimple in this bone and touch it");
-  EXPECT_EQ(line_with(LandmarkSoFar{true, LandmarkTouch{true, 0, 0.0, 0.0015}}),
-            "dimple recorded: say go to next");
+TEST(Wording, AsksForTheLandmarkAndOnceItWasFoundToGoOn) {
+  EXPECT_EQ(line_with(LandmarkSoFar{false, {}}), "touch a new dimple");
+  EXPECT_EQ(line_with(LandmarkSoFar{true, LandmarkTouch{true, 0, 0.0, 0.0015}}), "say go to next");
   EXPECT_EQ(line_with(LandmarkSoFar{true, {}}), "touch the dimple");
   EXPECT_EQ(line_with(LandmarkSoFar{true, LandmarkTouch{false, 0, 0.0004, 0.0015}}),
-            "dimple found: say go to next");
+            "say go to next");
   EXPECT_EQ(line_with(LandmarkSoFar{true, LandmarkTouch{false, 1, 0.0, 0.0015}}),
-            "lift the tip and touch the dimple again");
+            "lift, then touch again");
   StatusLine warned;
   warned.tool = "pointer";
   warned.tag_size_off = 0.02;
@@ -148,8 +146,7 @@ TEST(Wording, SaysEveryMessage) {
       "dimple not recorded: touches 3.1 mm apart, limit 2.1 mm: touch again");
   EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kLandmark})),
             "no touch of the dimple to delete");
-  EXPECT_EQ(line_with(Message(LandmarkMissing{false})),
-            "not yet: make a dimple in this bone and touch it");
+  EXPECT_EQ(line_with(Message(LandmarkMissing{false})), "not yet: touch a new dimple");
   EXPECT_EQ(line_with(Message(LandmarkMissing{true})), "not yet: touch the dimple");
   EXPECT_EQ(line_with(Message(LandmarkMoved{0.0023, 0.0014, false})),
             "the patient or the map moved 2.3 mm, limit 1.4 mm: check again or reject level");
