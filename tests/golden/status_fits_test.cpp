@@ -263,9 +263,13 @@ TEST(StatusLineOnDisplays, ShowsItInGermanToo) {
 TEST(StatusLineOnDisplays, IsCutWhereNothingShortensIt) {
   // The control that must fail: the whole text on one row.
   const ShownOn display = displays()[1];
+  const Message message = refused_for_everything();
   StatusLine line;
-  line.at = {Step::kPlaced, "L4", Side::kRight};
-  line.state = WireSoFar{&far_off(), true};
+  line.at = {Step::kDigitize, "L4", {}};
+  line.tool = "reference";
+  line.tool_lost = true;
+  line.message = &message;
+  line.saved = Saved::kNotSaved;
   GoldenScene golden = drawn(line, display);
   render::TextItem& row = golden.scene.texts.back();
   row.runs.front().text = detail_text(line);
