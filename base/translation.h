@@ -51,7 +51,7 @@ class Translation {
 void use_translation(std::shared_ptr<const Translation> translation);
 
 /// While one lives, this thread writes for a wearer. Everything else is written in English, so that
-/// a journal or a report can't be translated by accident.
+/// a log or a report can't be translated by accident.
 class [[nodiscard]] WearersLanguage {
  public:
   WearersLanguage();

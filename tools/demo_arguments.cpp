@@ -49,7 +49,8 @@ KeptOperation::About about_demo(const DemoArguments& arguments, const std::strin
   const engine::SetUp set_up = arguments.set_up.chosen();
   about.method = set_up.method;
   about.patient_reference = set_up.reference;
-  about.simulate(arguments.seed);
+  about.device = "sim:";
+  about.seed = arguments.seed;
   about.replaces_earlier = true;
   return about;
 }

@@ -7,7 +7,6 @@
 #include "engine/io/atomic_file.h"
 #include "engine/io/json_document.h"
 #include "engine/io/video_writer.h"
-#include "engine/session/journal.h"
 #include "engine/study/sim_scenario.h"
 #include "engine/study/simulated_operation.h"
 #include "tools/arguments.h"
@@ -88,7 +87,7 @@ class Demo {
       return bad_input(options.error().message);
     }
     const Status opened = onlookers_.open(arguments_.onlookers);
-    if (const Status ready = opened ? prepare(*source, *levels, *options) : opened; !ready) {
+    if (const Status ready = opened ? prepare() : opened; !ready) {
       return bad_input(ready.error().message);
     }
     warn_of_space("--record", arguments_.record, recording_bytes(0.0));
@@ -118,7 +117,7 @@ class Demo {
     }
   }
 
-  /// Anything already written stays, and the journal says how the run ended. An operation that
+  /// Anything already written stays, and the log says how the run ended. An operation that
   /// never began leaves nothing.
   int ended(std::string reason) {
     if (!began_) {
@@ -135,14 +134,10 @@ class Demo {
     if (const Status done = kept_.finish(false, reason); !done) {
       reason += "; " + done.error().message;
     }
-    if (const Status done = journal_->finish({{}, reason}); !done) {
-      reason += "; " + done.error().message;
-    }
     return bad_input(reason);
   }
 
-  Status prepare(const engine::Case& source, const std::vector<std::string>& levels,
-                 const engine::OperationOptions& options) {
+  Status prepare() {
     SurgeonViewOptions view_options;
     view_options.device = arguments_.device;
     auto view = SurgeonView::create(view_options);
@@ -155,19 +150,9 @@ class Demo {
       return out.error();
     }
     out_.emplace(std::move(*out));
-    engine::JournalHeader header{
-        ORTHONAV_VERSION, "sim:", set_up_.method, source.name, arguments_.seed, 0, {}};
-    header.patient_reference = set_up_.reference;
-    header.errors = engine::errors_in_use(engine::errors_in(options.sim),
-                                          {.patient_reference = set_up_.reference});
-    for (const std::string& label : levels) {
-      header.levels.push_back(engine::planned(label, source.find(label)->screws));
+    if (const Status free = kept_.check_free(arguments_.out); !free) {
+      return free;
     }
-    auto journal = engine::Journal::create(out_->file("session.orthonav"), header);
-    if (!journal) {
-      return journal.error();
-    }
-    journal_ = std::move(*journal);
     if (!arguments_.no_video) {
       engine::VideoOptions video_options;
       video_options.width_px = view_options.width_px;
@@ -192,7 +177,6 @@ class Demo {
     readings_ = std::make_unique<ReadingCurves>(view_.get());
     OperationProgress progress(readings_.get());
     engine::OperationHooks hooks;
-    hooks.session = {journal_.get()};
     hooks.loop = &progress;
     hooks.sink = view_.get();
     engine::ModelCache models(out_->file("models"));
@@ -235,9 +219,8 @@ class Demo {
     };
     note(engine::write_file(out_->file("report.json"), engine::report_json(result)));
     note(engine::write_file(out_->file("timing.json"), engine::timing_json(result.loop)));
-    note(kept_.finish(result.completed, result.why_not));
-    note(journal_->finish({result.loop.last_frame, result.completed ? "" : result.why_not}));
-    tell_of_earlier(*journal_);
+    note(kept_.finish(result.completed, result.completed ? "" : result.why_not,
+                      result.loop.last_frame));
     note(pictures_.finish());
     const bool film = video_ && note(video_->finish());
     const DemoReport report{
@@ -264,7 +247,6 @@ class Demo {
   std::unique_ptr<SurgeonView> view_;
   StepPictures pictures_;
   std::unique_ptr<ReadingCurves> readings_;
-  std::unique_ptr<engine::Journal> journal_;
   KeptOperation kept_;
   Onlookers onlookers_;
   RecordingWatch recording_{onlookers_.log()};

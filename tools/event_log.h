@@ -25,7 +25,7 @@ struct EventLogArguments {
 /// A log for people: steps, messages to the surgeon and failures of the headset, one line each with
 /// wall time and headset time. Verbose: also which tools were lost and found and which commands
 /// were heard, and everything on standard error too. No line waits for the disk; those that a slow
-/// disk could not take are counted and told at the end. The clinical record is the journal.
+/// disk could not take are counted and told at the end. The clinical record is the operation's log.
 class EventLog : public engine::LoopObserver {
  public:
   EventLog();

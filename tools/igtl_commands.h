@@ -16,7 +16,7 @@ namespace orthonav::tools {
 
 /// Requests of OpenIGTLink clients to an operation: a STRING `Command` with a spoken command, or a
 /// STRING `Plan` with a plan's text, one screw of one level. Both are handled like speech, with the
-/// same table and the same limits, and are journalled with the client's address. Anything else is
+/// same table and the same limits, and are logged with the client's address. Anything else is
 /// refused, with a line in the log. Every request is answered.
 class IgtlCommands : public igtl::TextListener,
                      public engine::Requests,

@@ -25,8 +25,12 @@ engine::OperationIdentity identity_of(const engine::Session& session,
   engine::OperationIdentity identity =
       engine::identity_of(about.case_name, session.levels(), session.tracker().tools(),
                           about.method, about.patient_reference);
-  identity.room = about.room;
+  identity.room = about.seed ? "seed " + std::to_string(*about.seed) : "";
   identity.begun = wall_time();
+  identity.orthonav = ORTHONAV_VERSION;
+  identity.device = about.device;
+  identity.seed = about.seed.value_or(0);
+  identity.epoch_100ns = about.epoch_100ns;
   return identity;
 }
 
@@ -44,6 +48,14 @@ Status KeptOperation::find(const std::string& folder) {
   return {};
 }
 
+Status KeptOperation::check_free(const std::string& folder) {
+  if (found_) {
+    return {};  // it holds the lock
+  }
+  const auto lock = env_.lock(folder);
+  return lock ? Status{} : lock.error();
+}
+
 std::vector<nav::ReferencePlace> KeptOperation::reference_places() const {
   return found_ ? found_->operation.references : std::vector<nav::ReferencePlace>();
 }
@@ -54,7 +66,7 @@ Status KeptOperation::check(const engine::Session& session, const About& about) 
                 : Status{};
 }
 
-Status KeptOperation::resume(engine::AssembledOperation& operation,
+Status KeptOperation::resume(engine::AssembledOperation& operation, const About& about,
                              engine::RecordWriter::Waits waits) {
   const std::vector<std::string> lines = engine::resume_lines(*found_);
   engine::LoggedOperation logged = found_->operation;
@@ -63,7 +75,8 @@ Status KeptOperation::resume(engine::AssembledOperation& operation,
   if (const Status restored = operation.resume(logged); !restored) {
     return Error{found_->path + ": " + restored.error().message};
   }
-  log_ = engine::OperationLog::go_on(env_, *std::exchange(found_, std::nullopt), waits);
+  log_ = engine::OperationLog::go_on(env_, *std::exchange(found_, std::nullopt), waits,
+                                     about.epoch_100ns);
   for (const std::string& line : lines) {
     std::fprintf(stderr, "orthonav: %s\n", line.c_str());
   }
@@ -80,7 +93,7 @@ Status KeptOperation::begin_anew(const engine::AssembledOperation& operation,
                                  engine::RecordWriter::Waits waits) {
   using engine::RecordLog;
   engine::OperationIdentity identity = identity_of(operation.session(), about);
-  identity.common = operation.errors().common();
+  identity.errors = operation.errors();
   begun_ = identity.begun;
   auto log = engine::OperationLog::begin(
       env_, folder, identity, operation.session().levels(), waits,
@@ -99,12 +112,12 @@ Status KeptOperation::begin_anew(const engine::AssembledOperation& operation,
 Status KeptOperation::begin(engine::AssembledOperation& operation, const std::string& folder,
                             const About& about) {
   using Waits = engine::RecordWriter::Waits;
-  const Waits waits = about.time_stands_still ? Waits::kUntilDurable : Waits::kNot;
+  const Waits waits = about.seed ? Waits::kUntilDurable : Waits::kNot;
   if (Status same = check(operation.session(), about); !same) {
     return same;
   }
   if (Status begun =
-          found_ ? resume(operation, waits) : begin_anew(operation, folder, about, waits);
+          found_ ? resume(operation, about, waits) : begin_anew(operation, folder, about, waits);
       !begun) {
     return begun;
   }
@@ -113,8 +126,9 @@ Status KeptOperation::begin(engine::AssembledOperation& operation, const std::st
   return {};
 }
 
-Status KeptOperation::finish(bool done, const std::string& reason) {
-  return log_ ? log_->finish(done, reason) : Status{};
+Status KeptOperation::finish(bool done, const std::string& reason,
+                             std::optional<Timestamp> last_pair) {
+  return log_ ? log_->finish(done, reason, last_pair) : Status{};
 }
 
 }  // namespace orthonav::tools

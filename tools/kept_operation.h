@@ -19,19 +19,17 @@ class KeptOperation {
     std::string case_name;
     std::string method;
     bool patient_reference = false;
-    std::string room;                ///< a simulated patient; empty: a real one
-    bool time_stands_still = false;  ///< simulated time, while the disk writes
-    bool replaces_earlier = false;   ///< overwrites the folder's earlier log
-
-    /// Marks the patient as the simulated one with this seed.
-    void simulate(std::uint64_t seed) {
-      room = "seed " + std::to_string(seed);
-      time_stands_still = true;
-    }
+    std::string device;            ///< the headset's name
+    std::int64_t epoch_100ns = 0;  ///< Headset::epoch_ticks_100ns
+    /// Of a simulated patient, whose time stands still while the disk writes; absent: a real one.
+    std::optional<std::uint64_t> seed;
+    bool replaces_earlier = false;  ///< overwrites the folder's earlier log
   };
   /// Looks for the last operation in the folder and locks the folder. An Error in one line: there
   /// is none, it was completed, or it can't be read.
   Status find(const std::string& folder);
+  /// Refuses a folder in which another program operates, before anything is written into it.
+  [[nodiscard]] Status check_free(const std::string& folder);
   /// Whether one was found that has not been resumed yet.
   [[nodiscard]] bool found() const { return found_.has_value(); }
   /// Where patient references lie in the World of the operation found.
@@ -49,10 +47,11 @@ class KeptOperation {
   /// first began. Empty before `begin`.
   [[nodiscard]] const std::string& begun() const { return begun_; }
   /// Closes the log; an Error if not everything was saved.
-  Status finish(bool done, const std::string& reason);
+  Status finish(bool done, const std::string& reason, std::optional<Timestamp> last_pair = {});
 
  private:
-  Status resume(engine::AssembledOperation& operation, engine::RecordWriter::Waits waits);
+  Status resume(engine::AssembledOperation& operation, const About& about,
+                engine::RecordWriter::Waits waits);
   Status begin_anew(const engine::AssembledOperation& operation, const std::string& folder,
                     const About& about, engine::RecordWriter::Waits waits);
 

@@ -51,7 +51,7 @@ Status KeptPreviews::begin(engine::AssembledOperation& operation, const std::str
   about.method = set_up.method;
   about.patient_reference = set_up.reference;
   if (room != nullptr) {
-    about.simulate(room->options().seed);
+    about.seed = room->options().seed;
   }
   return kept_->begin(operation, folder_->path().string(), about);
 }
@@ -64,7 +64,9 @@ void KeptPreviews::ended(const engine::LoopReport& report) {
   if (!kept_) {
     return;
   }
-  const std::string reason = report.ended ? "the preview was closed" : report.ended.error().message;
+  const std::string reason = report.done    ? ""
+                             : report.ended ? "the preview was closed"
+                                            : report.ended.error().message;
   if (const Status kept = kept_->finish(report.done, reason); !kept) {
     std::fprintf(stderr, "orthonav: %s\n", kept.error().message.c_str());
   }

@@ -266,39 +266,27 @@ class LiveRun {
     if (room_) {
       operation_->observe(&ground_truth_.emplace(*room_, operation_->session()));
     }
-    if (const Status opened = open_journal(); !opened) {
-      return opened;
+    if (const Status kept = keep(); !kept) {
+      return kept;
     }
     return arguments_.record.empty()
                ? Status{}
                : files_.record(*operation_, arguments_.record, *joined_, *tools, onlookers_.log());
   }
 
-  Status open_journal() {
+  Status keep() {
     if (arguments_.out.empty()) {
       return {};
     }
-    engine::JournalHeader header{ORTHONAV_VERSION,
-                                 headset_->name(),
-                                 method_.name,
-                                 case_name_,
-                                 room_ ? room_->options().seed : 0,
-                                 headset_->epoch_ticks_100ns(),
-                                 {}};
-    header.patient_reference = set_up_.reference;
-    header.errors = operation_->errors();
-    for (const engine::LevelState& level : operation_->session().levels()) {
-      header.levels.push_back(engine::planned(level.plan.label, level.plan.screws));
+    if (const Status made = files_.make_folder(arguments_.out); !made) {
+      return made;
     }
-    if (const Status opened = files_.open_journal(arguments_.out, header); !opened) {
-      return opened;
-    }
-    if (files_.journal()) {
-      operation_->observe(files_.journal());
+    if (const Status kept = files_.keep(*operation_, about()); !kept) {
+      return kept;
     }
     models_.keep();
     print_notes(models_);
-    return files_.keep(*operation_, about());
+    return {};
   }
 
   [[nodiscard]] KeptOperation::About about() const {
@@ -306,8 +294,10 @@ class LiveRun {
     about.case_name = case_name_;
     about.method = method_.name;
     about.patient_reference = set_up_.reference;
+    about.device = headset_->name();
+    about.epoch_100ns = headset_->epoch_ticks_100ns();
     if (room_) {
-      about.simulate(room_->options().seed);
+      about.seed = room_->options().seed;
     }
     return about;
   }

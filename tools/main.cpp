@@ -80,7 +80,7 @@ void add_commands(CLI::App& app, Action& action, StopSignals& signals) {
 }
 
 /// A standard stream that was closed (`2>&-`) would give its number to the next file opened, and
-/// what is printed would go into that file: a journal. Standard output stays one that fails.
+/// what is printed would go into that file: a log. Standard output stays one that fails.
 void reserve_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) < 0) {
@@ -114,7 +114,7 @@ int run(int argc, char** argv) {
   return with_output_written(action ? action() : kBadInput);
 }
 
-/// Called when an exception leaves an unguarded thread. Journal and log are on the disk by then.
+/// Called when an exception leaves an unguarded thread. The log is on the disk by then.
 void end_in_one_line() {
   last_words(one_line(orthonav::ended_by_exception("a thread").message));
   std::_Exit(kBadInput);

@@ -15,7 +15,7 @@
 namespace orthonav::tools {
 namespace {
 
-/// Enough to close journal, recording and film.
+/// Enough to close log, recording and film.
 constexpr std::size_t kReserveBytes = std::size_t{32} << 20U;
 
 /// Global: a new-handler gets no arguments.

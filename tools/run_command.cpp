@@ -23,7 +23,7 @@ void add_ends_and_results(CLI::App& run, RunArguments& arguments) {
   run.add_option("--record", arguments.record, "record the session into this new folder")
       ->check(some_text());
   run.add_option("-o,--out", arguments.out,
-                 "folder for report.html, report.json and session.orthonav")
+                 "folder for report.html, report.json and operation.resume")
       ->check(some_text());
   run.add_flag("--resume", arguments.resume,
                "continue the last operation in that folder (docs/journal.md)")

@@ -1,6 +1,5 @@
 #include "tools/run_files.h"
 
-#include <cstdio>
 #include <utility>
 
 #include "engine/case/tool_file.h"
@@ -9,36 +8,18 @@
 
 namespace orthonav::tools {
 
-void tell_of_earlier(const engine::Journal& journal) {
-  if (!journal.earlier_kept_as().empty()) {
-    std::fprintf(stderr, "orthonav: the journal of an earlier session is kept as %s\n",
-                 journal.earlier_kept_as().c_str());
-  }
-}
-
 Status joined_errors(const Status& ended, const Status& written) {
   return ended || written ? (ended ? written : ended)
                           : Status(Error{ended.error().message + "; " + written.error().message,
                                          ended.error().code});
 }
 
-Status RunFiles::open_journal(const std::string& folder, const engine::JournalHeader& header) {
+Status RunFiles::make_folder(const std::string& folder) {
   auto out = OutFolder::create("--out", folder);
   if (!out) {
     return out.error();
   }
   out_.emplace(std::move(*out));
-  auto journal = engine::Journal::create(out_->file("session.orthonav"), header);
-  if (journal) {
-    journal_ = std::move(*journal);
-    return {};
-  }
-  // A disk that can no longer be written must not stop the operation: the status line says that
-  // nothing is saved.
-  if (!kept_.found()) {
-    return journal.error();
-  }
-  std::fprintf(stderr, "orthonav: no journal from here on: %s\n", journal.error().message.c_str());
   return {};
 }
 
@@ -73,7 +54,8 @@ std::optional<engine::RecordedPairs> RunFiles::end_recording() {
 
 Status RunFiles::finish(const engine::OperationResult& result, const std::string& report,
                         bool simulated) {
-  Status first = kept_.finish(result.completed, result.why_not);
+  Status first = kept_.finish(result.completed, result.completed ? "" : result.why_not,
+                              result.loop.last_frame);
   const auto note = [&first](const Status& status) {
     if (first.ok()) {
       first = status;
@@ -82,10 +64,6 @@ Status RunFiles::finish(const engine::OperationResult& result, const std::string
   if (out_) {
     note(engine::write_file(out_->file("report.json"), report));
     note(write_demo_report(out_->path(), result, {.date = kept_.begun(), .simulated = simulated}));
-  }
-  if (journal_) {
-    note(journal_->finish({result.loop.last_frame, result.completed ? "" : result.why_not}));
-    tell_of_earlier(*journal_);
   }
   if (recorder_) {
     note(recorder_->close());
@@ -101,9 +79,6 @@ std::string RunFiles::close(std::string reason) {
     }
   };
   note(kept_.finish(false, reason));
-  if (journal_) {
-    note(journal_->finish({{}, reason}));
-  }
   if (recorder_) {
     note(recorder_->close());
     recording_->ended();

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/report/operation_result.h"
-#include "engine/session/journal.h"
 #include "hal/replay/recorder.h"
 #include "nav/tracking/tool.h"
 #include "tools/kept_operation.h"
@@ -15,19 +14,14 @@
 
 namespace orthonav::tools {
 
-/// Reports on standard error where earlier journals in the same folder were moved, if there were
-/// any.
-void tell_of_earlier(const engine::Journal& journal);
 /// In one line: why the run ended, and what of it could not be written.
 [[nodiscard]] Status joined_errors(const Status& ended, const Status& written);
 
-/// The files that `run` writes: journal and reports in one folder, a recording in another, each
-/// only if requested.
+/// The files that `run` writes: log and reports in one folder, a recording in another, each only if
+/// requested.
 class RunFiles {
  public:
-  /// Makes the folder and opens the journal in it. A resumed operation continues without a journal
-  /// if none can be made, and reports that.
-  Status open_journal(const std::string& folder, const engine::JournalHeader& header);
+  Status make_folder(const std::string& folder);
   /// The operation to be resumed, which is looked for before anything else.
   [[nodiscard]] KeptOperation& kept() { return kept_; }
   /// Begins the log of the operation in that folder, or resumes the one found.
@@ -36,8 +30,6 @@ class RunFiles {
   /// outlive this. Call it last, since the files of a begun recording stay.
   Status record(engine::AssembledOperation& operation, const std::string& folder, Headset& headset,
                 const std::vector<nav::ToolGeometry>& tools, EventLog& log);
-  /// Null: none.
-  [[nodiscard]] engine::Journal* journal() const { return journal_.get(); }
   /// Ends the recording, which `finish` closes, and returns what came to it; absent: none.
   std::optional<engine::RecordedPairs> end_recording();
 
@@ -50,7 +42,6 @@ class RunFiles {
 
  private:
   std::optional<OutFolder> out_;
-  std::unique_ptr<engine::Journal> journal_;
   KeptOperation kept_;
   std::unique_ptr<replay::RecordingHeadset> recorder_;
   std::optional<RecordingWatch> recording_;

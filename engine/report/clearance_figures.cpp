@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/report/figures_json.h"
+
 namespace orthonav::engine {
 namespace {
 

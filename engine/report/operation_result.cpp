@@ -24,7 +24,7 @@ LevelOutcome outcome_of(const LevelState& state) {
       level.check_points_m.push_back(point.distance_m);
     }
   }
-  if (state.newest) {
+  if (state.newest && state.plan.model) {
     level.registered = RegisteredLevel{level.label,          {},
                                        state.plan.model,     state.plan.screws,
                                        state.newest->points, state.newest->registration};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -148,6 +149,7 @@ class EndNote : public SessionObserver {
 
 /// report.json as docs/file-formats.md describes it: deterministic bytes for equal results.
 [[nodiscard]] std::string report_json(const OperationResult& result);
+[[nodiscard]] nlohmann::ordered_json report_of(const OperationResult& result);
 /// Wall times of the run, which differ from machine to machine.
 [[nodiscard]] std::string timing_json(const LoopReport& loop);
 

@@ -3,9 +3,8 @@
 
 #include "base/angle.h"
 #include "engine/report/clearance_figures.h"
+#include "engine/report/figures_json.h"
 #include "engine/report/operation_result.h"
-#include "engine/report/replan_figures.h"
-#include "engine/session/journal_lines.h"
 
 namespace orthonav::engine {
 namespace {
@@ -168,7 +167,7 @@ std::string dumped(const Json& document) {
 
 }  // namespace
 
-std::string report_json(const OperationResult& result) {
+Json report_of(const OperationResult& result) {
   Json out{{"method", result.method}};
   if (result.seed) {
     out["seed"] = *result.seed;
@@ -204,8 +203,10 @@ std::string report_json(const OperationResult& result) {
   put_quantile(out["frames"], "p99_ms", result.loop.intervals_ms, 0.99);
   put_quantile(out["frames"], "capture_to_photon_median_ms", result.loop.photon_ages_ms, 0.5);
   put_quantile(out["frames"], "capture_to_photon_p99_ms", result.loop.photon_ages_ms, 0.99);
-  return dumped(out);
+  return out;
 }
+
+std::string report_json(const OperationResult& result) { return dumped(report_of(result)); }
 
 std::string timing_json(const LoopReport& loop) {
   return dumped(Json{{"step_wall", series(loop.step_wall_ms)},

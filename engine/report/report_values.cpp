@@ -54,10 +54,8 @@ std::string placed_tool(const nlohmann::json& report) {
 }
 
 bool is_of_rods_alone(const nlohmann::json& report) {
-  const nlohmann::json& session = object_in(report, "session");
-  const bool planned = !session.contains("plan_recorded") || is_true(session, "plan_recorded");
   const nlohmann::json* const levels = find_in(report, "levels");
-  return planned && levels != nullptr && levels->is_array() && levels->empty();
+  return levels != nullptr && levels->is_array() && levels->empty();
 }
 
 void for_each_screw(const nlohmann::json& report,

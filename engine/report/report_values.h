@@ -31,7 +31,7 @@ struct ReportQuantity {
 /// What stands in the bone once a screw is placed: "drill", or "wire" where no other is known.
 [[nodiscard]] std::string placed_tool(const nlohmann::json& report);
 
-/// Of an operation of rods alone: its plan is known and has no level.
+/// Of an operation of rods alone: its plan has no level.
 [[nodiscard]] bool is_of_rods_alone(const nlohmann::json& report);
 
 /// Calls `take(level, name, screw)` for every screw of a report, where the name is "L4 left".

@@ -72,11 +72,8 @@ void put_tracked_way(HtmlTable& table, const json& screw) {
 }
 
 std::string grades_at_depth(const json& screw) {
-  for (const char* where : {"at_depth", "tracked"}) {
-    const json& pose = object_in(screw, where);
-    if (pose.contains("grade_probability")) {
-      return likely_grades(pose["grade_probability"]);
-    }
+  if (const json& tracked = object_in(screw, "tracked"); tracked.contains("grade_probability")) {
+    return likely_grades(tracked["grade_probability"]);
   }
   const char* why = why_none(screw, "grade_probability");
   return why == kNoMeasurement ? why : why_none(screw, "clearance");

@@ -127,9 +127,7 @@ std::vector<std::string> bound_warning(const json& report) {
   std::string names;
   std::string bounds;
   for_each_screw(report, [&](const json&, const std::string& name, const json& screw) {
-    // A journal has it as `at_depth`.
-    const json& tracked = object_in(screw, screw.contains("tracked") ? "tracked" : "at_depth");
-    const auto bound = value_of(tracked, "clearance_95_mm");
+    const auto bound = value_of(object_in(screw, "tracked"), "clearance_95_mm");
     if (bound && *bound < 0.0) {
       names += (names.empty() ? "" : ", ") + name;
       bounds += (bounds.empty() ? "" : ", ") + html_number(*bound, 1);
@@ -192,12 +190,8 @@ Verdict verdict_of(const json& report) {
   if (!completed && !why.empty()) {
     out.line += " (" + why + ")";
   }
-  // A journal without its plan does not show how many were planned.
-  const json& session = object_in(report, "session");
-  const bool planned = !session.contains("plan_recorded") || is_true(session, "plan_recorded");
-  const std::size_t all = planned ? n.screws : n.placed;
-  out.counts = (planned ? std::to_string(n.placed) + " of " : std::string()) +
-               how_many(all, "screw") + " placed" + accuracy_text(n, placed_tool(report)) + ".";
+  out.counts = std::to_string(n.placed) + " of " + how_many(n.screws, "screw") + " placed" +
+               accuracy_text(n, placed_tool(report)) + ".";
   if (is_of_rods_alone(report)) {
     out.counts = rods_text(report);
   }

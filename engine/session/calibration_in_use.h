@@ -5,12 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/session/journal_lines.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::engine {
-
-class JsonNode;
 
 /// The size of a tool's tags compared with its description, as fractions.
 struct TagSizeInUse {
@@ -39,9 +36,5 @@ struct CalibrationInUse {
 };
 
 [[nodiscard]] CalibrationInUse calibration_in_use(const nav::ToolTracker& tracker);
-/// `tags[]` and `cameras` in percent and degrees; `not_measured[]` names those not measured.
-[[nodiscard]] JournalLine calibration_json(const CalibrationInUse& found);
-/// Reads what `calibration_json` wrote.
-[[nodiscard]] CalibrationInUse calibration_of(const JsonNode& line);
 
 }  // namespace orthonav::engine

@@ -18,7 +18,7 @@ namespace orthonav::engine {
 /// screw. It is answered as if it had been said at `time`.
 struct Request {
   std::string text;  ///< "next"; with a change, its description: "plan L4 left"
-  std::string from;  ///< who asks, for the surgeon and the journal
+  std::string from;  ///< who asks, for the surgeon and the log
   Timestamp time{};
   std::optional<Replan> change;  ///< of the current screw
 };

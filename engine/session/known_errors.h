@@ -1,14 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 
-#include "engine/session/journal_lines.h"
 #include "nav/registration/tre.h"
 
 namespace orthonav::engine {
-
-class JsonNode;
 
 /// Where the SD of an error comes from.
 enum class ErrorSource {
@@ -17,6 +16,9 @@ enum class ErrorSource {
   kAssumed,  ///< nobody said: as such devices usually are (docs/headsets.md)
   kNone,     ///< there is no such error: nothing hangs on a headset's map
 };
+inline constexpr std::size_t kErrorSources = 4;
+/// "given", "simulated room", "assumed", "none".
+[[nodiscard]] std::string_view name_of(ErrorSource source);
 
 struct ErrorSd {
   double sd = 0.0;
@@ -50,10 +52,5 @@ struct ErrorsOfDevices {
 
 /// The one place that decides with which common errors an operation counts.
 [[nodiscard]] ErrorsInUse errors_in_use(const KnownErrors& known, const ErrorsOfDevices& devices);
-
-/// Of report and journal, in mm and mm/√s, each with its source.
-[[nodiscard]] JournalLine errors_json(const ErrorsInUse& errors);
-/// Reads what `errors_json` wrote.
-[[nodiscard]] ErrorsInUse errors_from(const JsonNode& node);
 
 }  // namespace orthonav::engine

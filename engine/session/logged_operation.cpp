@@ -1,5 +1,10 @@
 #include "engine/session/logged_operation.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
 #include "engine/session/operation_json.h"
 
 namespace orthonav::engine {
@@ -15,6 +20,21 @@ std::vector<Point<World>> points_of(const std::vector<nav::Region>& strokes) {
   return points;
 }
 
+/// Of a record that happened on the device's clock; nothing for others.
+std::optional<Timestamp> time_of(const JsonNode& node) {
+  if (!node.has("time_ns")) {
+    return std::nullopt;
+  }
+  // Larger times in nanoseconds are invalid.
+  constexpr double kLatest_ns = 4e18;
+  const double ns = node.number("time_ns");
+  if (!(std::abs(ns) <= kLatest_ns)) {
+    node.refuse("time_ns", "is not a time of an operation");
+    return std::nullopt;
+  }
+  return Timestamp(Duration(static_cast<std::int64_t>(ns)));
+}
+
 /// Applies one record; errors are noted in its document.
 class Applied {
  public:
@@ -23,6 +43,11 @@ class Applied {
 
   void apply() {
     using enum OperationRecord;
+    if (const auto time = time_of(node_)) {
+      time_ = *time;
+      operation_.first_time = std::min(time_, operation_.first_time.value_or(time_));
+      operation_.last_time = std::max(time_, operation_.last_time.value_or(time_));
+    }
     switch (type_) {
       case kBegun:
         return begin();
@@ -34,14 +59,28 @@ class Applied {
           operation_.references.push_back(place_from(place));
         }
         return;
-      case kGuide:
-        operation_.guide_corrected =
-            operation_.guide_corrected || node_.flag_or("corrected", false);
+      case kTips:
+        operation_.tips = tips_from(node_);
+        operation_.guide_corrected = operation_.guide_corrected || operation_.tips->corrected;
         return;
+      case kAxis:
+        operation_.axis = axis_from(node_);
+        operation_.guide_corrected = operation_.guide_corrected || operation_.axis->corrected;
+        return;
+      case kCalibration:
+        operation_.calibration = calibration_from(node_.child("found"));
+        return;
+      case kEvent:
+        return reach(named<Step>(node_, "next", kStepCount));
+      case kAsked:
+      case kNotUnderstood:
+        return;  // for people
       case kResumed:
         return operation_.go_on();
       case kEnded:
+        operation_.ended = true;
         operation_.done = node_.flag_or("done", false);
+        operation_.reason = node_.text("reason");
         return;
       case kHead:
       case kHeadDropped:
@@ -50,6 +89,7 @@ class Applied {
       case kRegion:
       case kRegionDropped:
       case kRegistration:
+      case kRestored:
       case kCheckPoint:
       case kCheckPointDropped:
       case kAccepted:
@@ -76,15 +116,32 @@ class Applied {
       operation_.state.levels.push_back(planned_level(std::move(plan)));
     }
     operation_.strokes.resize(operation_.state.levels.size());
+    operation_.landmark_touches.resize(operation_.state.levels.size());
+  }
+
+  void reach(Step step) {
+    if (operation_.steps.empty() || operation_.steps.back().step != step) {
+      operation_.steps.push_back({time_, step});
+    }
   }
 
   void apply_to_rod() {
     RodState& rod = operation_.state.rods[side_from(node_) == Side::kRight ? 1 : 0];
     if (type_ == OperationRecord::kRod) {
       rod.done = true;
-    } else {
-      rod.heads.resize(heads_after(node_, type_ == OperationRecord::kHead, rod.heads.size()));
+      return read_rod(node_, rod);
     }
+    if (rod.touched.empty()) {
+      rod.touched = TouchedHeads({}, operation_.identity.patient_reference);
+    }
+    if (type_ == OperationRecord::kHeadDropped) {
+      rod.touched.drop_last();
+    } else if (const auto added =
+                   rod.touched.add({{node_.vec3("in_world_m")}, node_.number("sd_m")});
+               !std::holds_alternative<HeadTouch>(added)) {
+      return node_.refuse("in_world_m", "is not where its head was touched before");
+    }
+    rod.heads = rod.touched.places();
   }
 
   void apply_to_level() {
@@ -94,11 +151,13 @@ class Applied {
       node_.refuse("level", "must be below " + std::to_string(levels));
       return;
     }
-    apply_to(operation_.state.levels[index], operation_.strokes[index]);
+    apply_to(index);
   }
 
-  void apply_to(LevelState& level, std::vector<nav::Region>& strokes) {
+  void apply_to(std::size_t index) {
     using enum OperationRecord;
+    LevelState& level = operation_.state.levels[index];
+    std::vector<nav::Region>& strokes = operation_.strokes[index];
     switch (type_) {
       case kRegion:
         strokes.push_back(region_from(node_.child("region")));
@@ -106,7 +165,10 @@ class Applied {
       case kRegionDropped:
         return drop_region(strokes);
       case kRegistration:
-        return apply_registration(level, strokes);
+        return apply_registration(index);
+      case kRestored:
+        level.accepted = level.registration && node_.flag_or("accepted", false);
+        return;
       case kAccepted:
         level.registration = registration_from(node_.child("registration"));
         level.accepted = true;
@@ -133,19 +195,24 @@ class Applied {
         }
         return;
       case kLandmark:
-        if (node_.flag_or("first", false)) {
-          level.landmark = landmark_from(node_.child("landmark"));
-        }
-        return;
+        return touch_landmark(index);
       case kLandmarkDropped:
         if (!node_.flag_or("stays", false)) {
           level.landmark.reset();
+        }
+        if (!operation_.landmark_touches[index].empty()) {
+          operation_.landmark_touches[index].back().dropped = true;
         }
         return;
       case kBegun:
       case kPlacesForgotten:
       case kReferences:
-      case kGuide:
+      case kTips:
+      case kAxis:
+      case kCalibration:
+      case kEvent:
+      case kAsked:
+      case kNotUnderstood:
       case kResumed:
       case kEnded:
       case kHead:
@@ -163,14 +230,45 @@ class Applied {
     }
   }
 
-  void apply_registration(LevelState& level, const std::vector<nav::Region>& strokes) const {
-    level.attempts = node_.integer("attempt");
-    if (!node_.flag_or("passed", false)) {
+  void touch_landmark(std::size_t index) {
+    LandmarkTouch touch;
+    touch.first = node_.flag_or("first", false);
+    touch.off_m = node_.number("off_m");
+    touch.limit_m = node_.number("limit_m");
+    operation_.landmark_touches[index].push_back({touch});
+    if (touch.first) {
+      operation_.state.levels[index].landmark = landmark_from(node_.child("landmark"));
+    }
+  }
+
+  void apply_registration(std::size_t index) {
+    LevelState& level = operation_.state.levels[index];
+    LoggedRegistration asked;
+    asked.time = time_;
+    asked.level = index;
+    asked.attempt = level.attempts = node_.integer("attempt");
+    asked.passed = node_.flag_or("passed", false);
+    asked.reason = node_.text("reason");
+    level.tag_size.reset();
+    if (node_.has("tag_size")) {
+      const JsonNode size = node_.child("tag_size");
+      level.tag_size = TagSizeWarning{size.text("tool"), size.number("fraction")};
+    }
+    asked.tag_size = level.tag_size;
+    if (node_.has("registration")) {
+      asked.result = registration_from(node_.child("registration"));
+    }
+    operation_.registrations.push_back(asked);
+    if (!asked.passed) {
       return;
     }
+    if (!asked.result) {
+      return node_.refuse("registration", "is missing, though it passed");
+    }
     level.forget_registration();
-    level.registration = registration_from(node_.child("registration"));
-    level.newest = {points_of(strokes), *level.registration};
+    level.registration = std::move(asked.result);
+    level.digitization_s = node_.number("digitization_s");
+    level.newest = {points_of(operation_.strokes[index]), *level.registration};
     if (hash_of(level.newest->points) != node_.text("points_hash")) {
       level.newest.reset();
     }
@@ -184,7 +282,10 @@ class Applied {
     }
     for (std::size_t i = 0; i < screws.size(); ++i) {
       level.plan.screws[i] = screw_from(screws[i]);
-      level.screws[i].redone = screws[i].integer("redone");
+      const int redone = screws[i].integer("redone");
+      if (redone != std::exchange(level.screws[i].redone, redone)) {
+        level.screws[i].wire = {};  // it was of the wire that was taken out
+      }
       level.screws[i].earlier_plans.clear();
       for (const JsonNode& earlier : screws[i].list("earlier")) {
         level.screws[i].earlier_plans.push_back(screw_from(earlier));
@@ -198,11 +299,17 @@ class Applied {
       node_.refuse("screw", "must be below " + std::to_string(level.screws.size()));
       return;
     }
-    if (type_ == OperationRecord::kWire) {
-      return;  // its outcome is recorded once the screw is done
-    }
     ScrewState& screw = level.screws[index];
+    if (type_ == OperationRecord::kWire) {
+      screw.wire = {true, wire_from(node_.child("wire"))};
+      return;
+    }
     screw.done = true;
+    screw.done_at = time_;
+    screw.at_depth.reset();
+    if (node_.has("at_depth")) {
+      screw.at_depth = at_depth_from(node_.child("at_depth"));
+    }
     screw.executed.reset();
     screw.clearance_at_depth.reset();
     screw.wire = {node_.flag_or("wire_asked", false), std::nullopt};
@@ -220,13 +327,16 @@ class Applied {
   LoggedOperation& operation_;
   OperationRecord type_;
   const JsonNode& node_;
+  Timestamp time_{};
 };
 
 Status applied(LoggedOperation& operation, const Record& record, const std::string& name) {
   const std::string where = name + ": record " + std::to_string(record.number);
+  if (record.version == 1) {
+    return Error{where + ": is of an earlier version of orthonav, which alone reads it"};
+  }
   if (record.type < static_cast<std::uint16_t>(OperationRecord::kBegun) ||
-      record.type > static_cast<std::uint16_t>(OperationRecord::kEnded) ||
-      record.version != kOperationRecordVersion) {
+      record.type > kOperationRecords || record.version != kOperationRecordVersion) {
     return Error{where + ": is of a sort that this program does not know (type " +
                  std::to_string(record.type) + ", version " + std::to_string(record.version) + ")"};
   }
@@ -245,6 +355,38 @@ Status applied(LoggedOperation& operation, const Record& record, const std::stri
 
 }  // namespace
 
+std::string_view name_of(OperationRecord record) {
+  constexpr std::string_view kNames[kOperationRecords] = {"begun",
+                                                          "region",
+                                                          "region dropped",
+                                                          "registration",
+                                                          "check point",
+                                                          "check point dropped",
+                                                          "accepted",
+                                                          "acceptance withdrawn",
+                                                          "level cleared",
+                                                          "places forgotten",
+                                                          "landmark",
+                                                          "landmark dropped",
+                                                          "wire",
+                                                          "plan",
+                                                          "screw",
+                                                          "head",
+                                                          "head dropped",
+                                                          "rod",
+                                                          "references",
+                                                          "tips",
+                                                          "resumed",
+                                                          "ended",
+                                                          "axis",
+                                                          "restored",
+                                                          "calibration",
+                                                          "event",
+                                                          "asked from outside",
+                                                          "not understood"};
+  return kNames[static_cast<std::size_t>(record) - 1];
+}
+
 void LoggedOperation::forget_places() {
   state.forget_places();
   for (LevelState& level : state.levels) {
@@ -257,23 +399,52 @@ void LoggedOperation::forget_places() {
 
 void LoggedOperation::go_on() {
   ++resumed;
-  done = false;
+  done = ended = false;
+  reason.clear();
   guide_corrected = false;
+  first_time.reset();
+  last_time.reset();
   if (!identity.patient_reference) {
     forget_places();
   }
   for (LevelState& level : state.levels) {
     level.check_points.clear();
+    for (ScrewState& screw : level.screws) {
+      if (!screw.done) {
+        screw.wire = {};  // it is guided, and its wire measured, once more
+      }
+    }
   }
   state.forget_open_rods();
+}
+
+Result<LoggedOperation> LoggedOperation::read(Env& env, const std::string& path) {
+  const auto read = read_log(env, path);
+  if (!read) {
+    return read.error();
+  }
+  if (read->records.empty()) {
+    return Error{path + ": holds no whole record of an operation"};
+  }
+  auto operation = from(read->records, path);
+  if (operation) {
+    operation->dropped_bytes = read->dropped_bytes;
+  }
+  return operation;
 }
 
 Result<LoggedOperation> LoggedOperation::from(const std::vector<Record>& records,
                                               const std::string& name) {
   LoggedOperation operation;
+  operation.records = records.size();
   for (const Record& record : records) {
     if (const Status good = applied(operation, record, name); !good) {
       return good.error();
+    }
+  }
+  for (LevelState& level : operation.state.levels) {
+    if (level.registration) {
+      level.predicted = nav::predicted_errors(*level.registration, level.plan.screws);
     }
   }
   return operation;

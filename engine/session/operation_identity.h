@@ -1,12 +1,14 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "engine/session/guidance.h"
-#include "nav/registration/tre.h"
+#include "engine/session/known_errors.h"
 #include "nav/tracking/tool.h"
 
 namespace orthonav::engine {
@@ -22,11 +24,15 @@ struct OperationIdentity {
   bool patient_reference = false;
   std::string room;   ///< identifies a simulated patient; empty: a real one
   std::string begun;  ///< wall-clock time of the start, for human readers only
-  /// As assumed at the start; a registration holds its own.
-  nav::CommonErrors common;
+  // Of no operation in particular, but what its report has to tell.
+  std::string orthonav;               ///< the version that began it
+  std::string device;                 ///< the headset's name
+  std::uint64_t seed = 0;             ///< of a simulated room; 0: nothing was drawn
+  std::int64_t epoch_100ns = 0;       ///< Headset::epoch_ticks_100ns when it began
+  std::optional<ErrorsInUse> errors;  ///< that all strokes share, as assumed at the start
 };
 
-/// Fills in all but `room`, `begun` and `common`; uses the preoperative plan.
+/// Fills in what tells operations apart, but for `room`; uses the preoperative plan.
 [[nodiscard]] OperationIdentity identity_of(const std::string& case_name,
                                             std::span<const LevelState> levels,
                                             std::span<const nav::ToolGeometry> tools,

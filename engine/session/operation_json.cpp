@@ -58,16 +58,23 @@ LogJson json_at(Timestamp time) { return {{"time_ns", time.time_since_epoch().co
 LogJson json_of(Vec3 v) { return {v.x, v.y, v.z}; }
 
 LogJson json_of(const OperationIdentity& identity) {
-  return {{"case", identity.case_name},
-          {"levels", identity.levels},
-          {"models_hash", identity.models_hash},
-          {"plan_hash", identity.plan_hash},
-          {"tools_hash", identity.tools_hash},
-          {"method", identity.method},
-          {"patient_reference", identity.patient_reference},
-          {"room", identity.room},
-          {"begun", identity.begun},
-          {"common_m", {identity.common.tip_m, identity.common.cameras_m, identity.common.map_m}}};
+  LogJson json = {{"case", identity.case_name},
+                  {"levels", identity.levels},
+                  {"models_hash", identity.models_hash},
+                  {"plan_hash", identity.plan_hash},
+                  {"tools_hash", identity.tools_hash},
+                  {"method", identity.method},
+                  {"patient_reference", identity.patient_reference},
+                  {"room", identity.room},
+                  {"begun", identity.begun},
+                  {"orthonav", identity.orthonav},
+                  {"device", identity.device},
+                  {"seed", identity.seed},
+                  {"epoch_100ns", identity.epoch_100ns}};
+  if (identity.errors) {
+    json["common_errors"] = json_of(*identity.errors);
+  }
+  return json;
 }
 
 LogJson json_of(const nav::Region& region) {
@@ -164,6 +171,93 @@ LogJson json_of(const nav::ReferencePlace& place) {
           {"world_from_reference_m", pose_json(place.anchored_from_marker.row_major())}};
 }
 
+LogJson json_of(const TipDifference& difference) {
+  LogJson json = {{"apart_m", json_of(difference.apart_m)},
+                  {"by_m", json_of(difference.by_m)},
+                  {"corrected", difference.corrected}};
+  put_bounded(json, "sd_m", difference.sd_m);
+  put_bounded(json, "limit_m", difference.limit_m);
+  return json;
+}
+
+LogJson json_of(const AxisDifference& difference) {
+  return {{"off_rad", difference.off_rad},
+          {"sd_rad", difference.sd_rad},
+          {"by_rad", difference.by_rad},
+          {"corrected", difference.corrected}};
+}
+
+LogJson json_of(const CalibrationInUse& found) {
+  LogJson json = {{"pairs_refused", found.pairs_refused}, {"tags", LogJson::array()}};
+  for (const TagSizeInUse& size : found.tags) {
+    json["tags"].push_back({{"tool", size.tool},
+                            {"applied", size.applied},
+                            {"measured", size.measured},
+                            {"sd", size.sd}});
+  }
+  if (found.cameras) {
+    const CamerasInUse& cameras = *found.cameras;
+    json["cameras"] = {{"rotation_rad", cameras.rotation_rad},
+                       {"rotation_applied", cameras.rotation_applied},
+                       {"focal_fraction", cameras.focal_fraction},
+                       {"focal_sd", cameras.focal_sd},
+                       {"baseline_fraction", cameras.baseline_fraction},
+                       {"baseline_sd", cameras.baseline_sd},
+                       {"pairs", cameras.pairs}};
+  }
+  return json;
+}
+
+LogJson json_of(const ErrorsInUse& errors) {
+  const auto one = [](const ErrorSd& error) -> LogJson {
+    return {{"sd", error.sd}, {"source", name_of(error.source)}};
+  };
+  return {{"tip_m", one(errors.tip_m)},
+          {"cameras_m", one(errors.cameras_m)},
+          {"map_m", one(errors.map_m)},
+          {"map_drift_m_per_sqrt_s", one(errors.map_drift_m_per_sqrt_s)}};
+}
+
+LogJson json_of(const nav::ScrewGuidance& at_depth) {
+  return {{"angle_rad", at_depth.angle_rad},
+          {"tip_to_entry_m", at_depth.tip_to_entry_m},
+          {"tip_off_axis_m", at_depth.tip_off_axis_m},
+          {"depth_m", at_depth.depth_m}};
+}
+
+LogJson json_of(const RodState& rod) {
+  LogJson json = {{"side", name_of(rod.side)}, {"heads", rod.heads.size()}};
+  if (rod.rod) {
+    json["length_m"] = rod.rod->length_m;
+    json["bends"] = LogJson::array();
+    for (const nav::RodBend& bend : rod.rod->bends) {
+      json["bends"].push_back({{"arc_length_m", bend.arc_length_m}, {"angle_rad", bend.angle_rad}});
+    }
+  }
+  if (rod.took_s) {
+    json["took_s"] = *rod.took_s;
+  }
+  json["no_instructions"] = rod.no_instructions;
+  if (rod.instructions) {
+    json["cut_length_m"] = rod.instructions->cut_length_m();
+    json["instructions"] = LogJson::array();
+    for (const nav::RodInstruction& bend : rod.instructions->bends) {
+      json["instructions"].push_back({{"centre_m", bend.arc.centre_m},
+                                      {"roll_rad", bend.arc.roll_rad},
+                                      {"angle_rad", bend.arc.angle_rad},
+                                      {"set_rad", bend.set_rad}});
+    }
+  }
+  if (rod.seat_by_pointer_m) {
+    json["seat_by_pointer_m"] = *rod.seat_by_pointer_m;
+  }
+  if (rod.expected) {
+    json["expected_within"] = rod.expected->within;
+    json["least_sure"] = rod.expected->least_sure;
+  }
+  return json;
+}
+
 std::string hash_of(std::span<const Point<World>> points) {
   BitHash hash;
   for (const Point<World>& point : points) {
@@ -178,6 +272,10 @@ constexpr std::size_t kMostSamples = 1'000'000;
 
 double bounded(const JsonNode& node, const char* key) {
   return node.has(key) ? node.number(key) : std::numeric_limits<double>::infinity();
+}
+
+std::optional<double> number_if(const JsonNode& node, const char* key) {
+  return node.has(key) ? std::optional(node.number(key)) : std::nullopt;
 }
 
 std::size_t count(const JsonNode& node, const char* key) {
@@ -261,7 +359,12 @@ OperationIdentity identity_from(const JsonNode& node) {
   identity.patient_reference = node.flag_or("patient_reference", false);
   identity.room = node.text("room");
   identity.begun = node.text("begun");
-  identity.common = common(node);
+  identity.orthonav = node.text("orthonav");
+  identity.device = node.text("device");
+  identity.seed = node.unsigned_integer("seed");
+  if (node.has("common_errors")) {
+    identity.errors = errors_from(node.child("common_errors"));
+  }
   return identity;
 }
 
@@ -317,22 +420,6 @@ Side side_from(const JsonNode& node) {
   return side;
 }
 
-std::size_t count_of(const JsonNode& line, const char* key) {
-  const int count = line.integer(key);
-  if (count < 0) {
-    line.refuse(key, "is negative");
-  }
-  return static_cast<std::size_t>(std::max(0, count));
-}
-
-std::size_t heads_after(const JsonNode& line, bool touched, std::size_t heads) {
-  const std::size_t touches = line.has("touches") ? count_of(line, "touches") : touched ? 1 : 0;
-  if (touched) {
-    return touches == 1 ? heads + 1 : heads;
-  }
-  return touches == 0 && heads > 0 ? heads - 1 : heads;
-}
-
 nav::ScrewPlan screw_from(const JsonNode& node) {
   nav::ScrewPlan screw;
   screw.side = side_from(node);
@@ -386,6 +473,78 @@ Landmark landmark_from(const JsonNode& node) {
 
 nav::ReferencePlace place_from(const JsonNode& node) {
   return {count(node, "tool"), pose<Marker>(node, "world_from_reference_m")};
+}
+
+TipDifference tips_from(const JsonNode& node) {
+  return {node.vec3("apart_m"), bounded(node, "sd_m"), node.vec3("by_m"), bounded(node, "limit_m"),
+          node.flag_or("corrected", false)};
+}
+
+AxisDifference axis_from(const JsonNode& node) {
+  return {node.number("off_rad"), node.number("sd_rad"), node.number("by_rad"),
+          node.flag_or("corrected", false)};
+}
+
+CalibrationInUse calibration_from(const JsonNode& node) {
+  CalibrationInUse out;
+  out.pairs_refused = static_cast<std::int64_t>(node.number("pairs_refused"));
+  for (const JsonNode& size : node.list("tags")) {
+    out.tags.push_back(
+        {size.text("tool"), size.number("applied"), size.number("measured"), size.number("sd")});
+  }
+  if (node.has("cameras")) {
+    const JsonNode cameras = node.child("cameras");
+    out.cameras = CamerasInUse{cameras.number("rotation_rad"),
+                               cameras.flag_or("rotation_applied", false),
+                               cameras.number("focal_fraction"),
+                               cameras.number("focal_sd"),
+                               cameras.number("baseline_fraction"),
+                               cameras.number("baseline_sd"),
+                               static_cast<std::int64_t>(cameras.number("pairs"))};
+  }
+  return out;
+}
+
+ErrorsInUse errors_from(const JsonNode& node) {
+  const auto one = [&node](const char* key) {
+    const JsonNode error = node.child(key);
+    return ErrorSd{error.number("sd"), named<ErrorSource>(error, "source", kErrorSources)};
+  };
+  return {one("tip_m"), one("cameras_m"), one("map_m"), one("map_drift_m_per_sqrt_s")};
+}
+
+nav::ScrewGuidance at_depth_from(const JsonNode& node) {
+  nav::ScrewGuidance out;
+  out.angle_rad = node.number("angle_rad");
+  out.tip_to_entry_m = node.number("tip_to_entry_m");
+  out.tip_off_axis_m = node.number("tip_off_axis_m");
+  out.depth_m = node.number("depth_m");
+  return out;
+}
+
+void read_rod(const JsonNode& node, RodState& rod) {
+  if (node.has("length_m")) {
+    rod.rod.emplace().length_m = node.number("length_m");
+    for (const JsonNode& bend : node.list("bends")) {
+      rod.rod->bends.push_back({bend.number("arc_length_m"), bend.number("angle_rad"), {}});
+    }
+  }
+  rod.took_s = number_if(node, "took_s");
+  rod.no_instructions = node.text("no_instructions");
+  if (node.has("cut_length_m")) {
+    rod.instructions.emplace().fit.length_m = node.number("cut_length_m");
+    for (const JsonNode& bend : node.list("instructions")) {
+      nav::RodInstruction& read = rod.instructions->bends.emplace_back();
+      read.arc.centre_m = bend.number("centre_m");
+      read.arc.roll_rad = bend.number("roll_rad");
+      read.arc.angle_rad = bend.number("angle_rad");
+      read.set_rad = bend.number("set_rad");
+    }
+  }
+  rod.seat_by_pointer_m = number_if(node, "seat_by_pointer_m");
+  if (node.has("expected_within")) {
+    rod.expected = nav::RodExpectation{node.number("expected_within"), count(node, "least_sure")};
+  }
 }
 
 }  // namespace orthonav::engine

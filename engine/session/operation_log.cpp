@@ -16,11 +16,6 @@ std::string log_in(const std::string& folder) {
   return (std::filesystem::path(folder) / "operation.resume").string();
 }
 
-/// What it was called when a log in text could be taken for it.
-std::string earlier_log_in(const std::string& folder) {
-  return (std::filesystem::path(folder) / "operation.log").string();
-}
-
 /// Labels come from files, so bytes that are not UTF-8 must not end the log.
 RecordLog::Entry entry(OperationRecord type, const LogJson& payload) {
   return {static_cast<std::uint16_t>(type), kOperationRecordVersion,
@@ -51,7 +46,7 @@ OperationLog::OperationLog(Env& env, std::unique_ptr<FolderLock> lock,
       writer_(std::move(log), waits) {}
 
 OperationLog::~OperationLog() {
-  if (!stays_ && told_ == 0) {
+  if (!stays_) {
     std::ignore = env_.remove(writer_.path());
   }
 }
@@ -74,53 +69,55 @@ Result<std::unique_ptr<OperationLog>> OperationLog::begin(Env& env, const std::s
       new OperationLog(env, std::move(*lock), std::move(*log), identity.levels, waits));
 }
 
+Result<std::string> OperationLog::path_in(Env& env, const std::string& folder) {
+  const auto path = newest_log(env, log_in(folder));
+  if (!path) {
+    return path.error();
+  }
+  if (!*path) {
+    return Error{folder + ": holds no operation.resume", ErrorCode::kNotFound};
+  }
+  return **path;
+}
+
 Result<OperationLog::Found> OperationLog::find(Env& env, const std::string& folder) {
   auto lock = env.lock(folder);
   if (!lock) {
     return lock.error();
   }
-  auto path = newest_log(env, log_in(folder));
-  if (path && !*path) {
-    path = newest_log(env, earlier_log_in(folder));
+  const auto path = path_in(env, folder);
+  if (!path && path.error().code == ErrorCode::kNotFound) {
+    return Error{path.error().message + ", there is no operation to resume", ErrorCode::kNotFound};
   }
   if (!path) {
     return path.error();
   }
-  if (!*path) {
-    return Error{folder + ": holds no operation.resume, there is no operation to resume",
-                 ErrorCode::kNotFound};
-  }
-  const auto read = read_log(env, **path);
-  if (!read) {
-    return read.error();
-  }
-  if (read->records.empty()) {
-    return Error{**path + ": holds no whole record, there is no operation to resume"};
-  }
-  auto operation = LoggedOperation::from(read->records, **path);
+  auto operation = LoggedOperation::read(env, *path);
   if (!operation) {
     return operation.error();
   }
-  return Found{std::move(*operation), **path, read->records.size(), read->dropped_bytes,
-               std::move(*lock)};
+  return Found{std::move(*operation), *path, std::move(*lock)};
 }
 
-std::unique_ptr<OperationLog> OperationLog::go_on(Env& env, Found found,
-                                                  RecordWriter::Waits waits) {
+std::unique_ptr<OperationLog> OperationLog::go_on(Env& env, Found found, RecordWriter::Waits waits,
+                                                  std::int64_t epoch_100ns) {
   auto reopened = RecordLog::reopen(env, found.path);
   std::unique_ptr<RecordLog> records =
       reopened ? std::move(reopened->log)
-               : RecordLog::closed(found.path, found.records, reopened.error());
+               : RecordLog::closed(found.path, found.operation.records, reopened.error());
   std::unique_ptr<OperationLog> log(new OperationLog(env, std::move(found.lock), std::move(records),
                                                      found.operation.identity.levels, waits));
-  log->stays_ = true;
-  log->writer_.add(entry(OperationRecord::kResumed, {{"dropped_bytes", found.dropped_bytes}}));
+  log->note(OperationRecord::kResumed,
+            {{"dropped_bytes", found.operation.dropped_bytes}, {"epoch_100ns", epoch_100ns}});
   return log;
 }
 
-Status OperationLog::finish(bool done, const std::string& reason) {
-  stays_ = true;
-  writer_.add(entry(OperationRecord::kEnded, {{"done", done}, {"reason", reason}}));
+Status OperationLog::finish(bool done, const std::string& reason,
+                            std::optional<Timestamp> last_pair) {
+  LogJson json = last_pair ? json_at(*last_pair) : LogJson::object();
+  json["done"] = done;
+  json["reason"] = reason;
+  note(OperationRecord::kEnded, json);
   return writer_.finish();
 }
 
@@ -142,7 +139,48 @@ LogJson OperationLog::about(Timestamp time, const LevelState& level) const {
 
 void OperationLog::add(OperationRecord type, Timestamp time, const LogJson& payload) {
   told_at_ = time;
+  stays_ = true;
   told_ = writer_.add(entry(type, payload));
+}
+
+void OperationLog::note(OperationRecord type, const LogJson& payload) {
+  stays_ = true;
+  writer_.add(entry(type, payload));
+}
+
+void OperationLog::happened(Timestamp time, Step from, Event event, Cell answer) {
+  LogJson json = json_at(time);
+  json["step"] = name_of(from);
+  json["event"] = name_of(event);
+  json["action"] = name_of(answer.action);
+  json["next"] = name_of(answer.next);
+  note(OperationRecord::kEvent, json);
+}
+
+void OperationLog::asked_from_outside(const Request& request) {
+  LogJson json = json_at(request.time);
+  json["from"] = request.from;
+  json["asked"] = request.text;
+  note(OperationRecord::kAsked, json);
+}
+
+void OperationLog::not_understood(const Phrase& phrase) {
+  LogJson json = json_at(phrase.time);
+  json["phrase"] = phrase.text;
+  json["confidence"] = phrase.confidence;
+  note(OperationRecord::kNotUnderstood, json);
+}
+
+void OperationLog::registration_restored(Timestamp time, const LevelState& level) {
+  LogJson json = about(time, level);
+  json["accepted"] = level.accepted;
+  note(OperationRecord::kRestored, json);
+}
+
+void OperationLog::calibration_found(Timestamp time, const CalibrationInUse& found) {
+  LogJson json = json_at(time);
+  json["found"] = json_of(found);
+  note(OperationRecord::kCalibration, json);
 }
 
 void OperationLog::region_saved(Timestamp time, const LevelState& level,
@@ -182,11 +220,19 @@ void OperationLog::registered(Timestamp time, const LevelState& level,
   LogJson json = about(time, level);
   json["attempt"] = level.attempts;
   json["passed"] = outcome.passed();
+  json["reason"] = outcome.passed() ? "" : refusal_text(outcome);
+  if (const auto& result = outcome.result) {
+    json["registration"] = json_of(*result);
+    json["weakest"] = result->weakest ? text_of(*result->weakest) : "";
+    json["advice"] = result->stroke_next ? text_of(*result->stroke_next) : "";
+    json["fits_better"] = result->fits_better;
+  }
   if (outcome.passed()) {
-    json["registration"] = json_of(*outcome.result);
     json["points_hash"] = hash_of(level.newest->points);
-  } else {
-    json["reason"] = refusal_text(outcome);
+    json["digitization_s"] = level.digitization_s;
+  }
+  if (level.tag_size) {
+    json["tag_size"] = {{"tool", level.tag_size->tool}, {"fraction", level.tag_size->fraction}};
   }
   add(OperationRecord::kRegistration, time, json);
 }
@@ -245,18 +291,14 @@ void OperationLog::landmark_dropped(Timestamp time, const LevelState& level) {
 
 void OperationLog::tips_compared(Timestamp time, const TipDifference& difference) {
   LogJson json = json_at(time);
-  json["apart_m"] = difference.apart_m.norm();
-  json["by_m"] = json_of(difference.by_m);
-  json["corrected"] = difference.corrected;
-  add(OperationRecord::kGuide, time, json);
+  json.update(json_of(difference));
+  add(OperationRecord::kTips, time, json);
 }
 
 void OperationLog::axis_compared(Timestamp time, const AxisDifference& difference) {
   LogJson json = json_at(time);
-  json["off_rad"] = difference.off_rad;
-  json["by_rad"] = difference.by_rad;
-  json["corrected"] = difference.corrected;
-  add(OperationRecord::kGuide, time, json);
+  json.update(json_of(difference));
+  add(OperationRecord::kAxis, time, json);
 }
 
 /// A wire that is kept beyond a limit is an override: the record holds both.
@@ -297,11 +339,15 @@ void OperationLog::add_plan(Timestamp time, const LevelState& level, const std::
 }
 
 void OperationLog::screw_done(Timestamp time, const LevelState& level, std::size_t screw,
-                              const ToolGuidance* /*at_depth*/) {
+                              const ToolGuidance* at_depth) {
   LogJson json = about(time, level);
   json["screw"] = screw;
   json["side"] = name_of(level.plan.screws[screw].side);
   const ScrewState& done = level.screws[screw];
+  if (at_depth != nullptr && done.at_depth) {
+    json["at_depth"] = json_of(*done.at_depth);
+    json["at_depth"]["pose_time_ns"] = at_depth->pose_time.time_since_epoch().count();
+  }
   if (done.executed) {
     json["executed"] = json_of(*done.executed);
   }
@@ -320,7 +366,8 @@ void OperationLog::head_recorded(Timestamp time, nav::Side side, const HeadTouch
   json["head"] = touch.head;
   json["touches"] = touch.touches;
   json["in_world_m"] = json_of(touch.place.v);
-  json["sd_m"] = touch.head_sd_m;
+  json["sd_m"] = touch.sd_m;
+  json["head_sd_m"] = touch.head_sd_m;
   add(OperationRecord::kHead, time, json);
 }
 
@@ -332,11 +379,8 @@ void OperationLog::head_dropped(Timestamp time, nav::Side side, const HeadTouch&
 }
 
 void OperationLog::rod_done(Timestamp time, const RodState& rod) {
-  LogJson json = about_side(time, rod.side);
-  json["heads"] = rod.heads.size();
-  if (rod.rod) {
-    json["length_m"] = rod.rod->length_m;
-  }
+  LogJson json = json_at(time);
+  json.update(json_of(rod));
   add(OperationRecord::kRod, time, json);
 }
 

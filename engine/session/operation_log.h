@@ -12,9 +12,10 @@
 
 namespace orthonav::engine {
 
-/// The log of an operation, `operation.resume` in its folder: what must survive a crash so that the
-/// operation can go on (docs/journal.md). The folder is locked meanwhile. A slow file system does
-/// not stall the session, and a disk failure does not end it.
+/// The log of an operation, `operation.resume` in its folder: everything that happens in its
+/// session, each event a record in SI units. Another program resumes the operation from it, and
+/// reports are made of it (docs/journal.md). The folder is locked meanwhile. A slow file system
+/// does not stall the session, and a disk failure does not end it.
 class OperationLog : public SessionObserver, public SaveWatch {
  public:
   /// Creates the log of an operation that has not begun.
@@ -28,24 +29,25 @@ class OperationLog : public SessionObserver, public SaveWatch {
   struct Found {
     LoggedOperation operation;
     std::string path;
-    std::size_t records = 0;
-    std::size_t dropped_bytes = 0;  ///< after the last whole record
     std::unique_ptr<FolderLock> lock;
   };
+  /// The log of the last operation in a folder; an Error, `kNotFound`, if there is none.
+  static Result<std::string> path_in(Env& env, const std::string& folder);
   /// Changes nothing in the folder. A one-line Error if there is no log or it can't be read.
   static Result<Found> find(Env& env, const std::string& folder);
-  /// Continues its log. If the disk can't be written to any more, the operation goes on unsaved,
-  /// and `written` says why.
-  static std::unique_ptr<OperationLog> go_on(Env& env, Found found, RecordWriter::Waits waits);
+  /// Continues its log, on a device whose clock began at `epoch_100ns`. If the disk can't be
+  /// written to any more, the operation goes on unsaved, and `written` says why.
+  static std::unique_ptr<OperationLog> go_on(Env& env, Found found, RecordWriter::Waits waits,
+                                             std::int64_t epoch_100ns = 0);
 
   /// Removes a new log in which nothing was recorded, unless `finish` was called.
   ~OperationLog() override;
   OperationLog(const OperationLog&) = delete;
   OperationLog& operator=(const OperationLog&) = delete;
 
-  /// Writes the last record: whether the operation was done, or why it ended. An Error if not
-  /// everything was saved.
-  Status finish(bool done, const std::string& reason);
+  /// Writes the last record: whether the operation was done, or why it ended, and the time of the
+  /// last pair, where it is known. An Error if not everything was saved.
+  Status finish(bool done, const std::string& reason, std::optional<Timestamp> last_pair = {});
   /// Waits for the disk. An Error if not everything is saved.
   [[nodiscard]] Status written() { return writer_.finish(); }
   /// What an earlier log was renamed to; empty: there was none.
@@ -53,6 +55,11 @@ class OperationLog : public SessionObserver, public SaveWatch {
 
   [[nodiscard]] Saved saved(Timestamp now, Duration lately) const override;
 
+  void happened(Timestamp time, Step from, Event event, Cell answer) override;
+  void asked_from_outside(const Request& request) override;
+  void not_understood(const Phrase& phrase) override;
+  void registration_restored(Timestamp time, const LevelState& level) override;
+  void calibration_found(Timestamp time, const CalibrationInUse& found) override;
   void region_saved(Timestamp time, const LevelState& level, const nav::Region& region) override;
   void region_dropped(Timestamp time, const LevelState& level) override;
   void level_cleared(Timestamp time, const LevelState& level) override;
@@ -86,13 +93,16 @@ class OperationLog : public SessionObserver, public SaveWatch {
                std::vector<std::string> levels, RecordWriter::Waits waits);
   [[nodiscard]] LogJson about(Timestamp time, const LevelState& level) const;
   void add_plan(Timestamp time, const LevelState& level, const std::string& why);
+  /// Of what the surgeon is told that it is saved.
   void add(OperationRecord type, Timestamp time, const LogJson& payload);
+  /// Of anything else.
+  void note(OperationRecord type, const LogJson& payload);
 
   Env& env_;
   std::unique_ptr<FolderLock> lock_;  ///< released last
   std::vector<std::string> levels_;
   RecordWriter writer_;
-  std::uint64_t told_ = 0;  ///< number of the newest record
+  std::uint64_t told_ = 0;  ///< number of the newest record of `add`
   Timestamp told_at_{};
   bool stays_ = false;  ///< the file is kept, even if nothing was recorded
 };

@@ -18,6 +18,7 @@
 #include "nav/guidance/rod.h"
 #include "nav/guidance/rod_bends.h"
 #include "nav/guidance/rod_expectation.h"
+#include "nav/guidance/screw.h"
 #include "nav/registration/check_points.h"
 #include "nav/registration/registration.h"
 
@@ -81,6 +82,9 @@ struct ScrewState {
   int redone = 0;  ///< number of times; the plan in use has the newest entry
   bool done = false;
   // Once it is done:
+  std::optional<Timestamp> done_at;
+  /// The tool against the plan as last measured at its depth; absent if it never was there.
+  std::optional<nav::ScrewGuidance> at_depth;
   /// Of the planned screw along the tool as last measured at depth.
   std::optional<nav::ScrewClearance> clearance_at_depth;
   std::optional<nav::ExecutedTrajectory> executed;  ///< where its tool went, as tracked

@@ -16,7 +16,7 @@ std::string what_it_was(const OperationLog::Found& found) {
   const OperationIdentity& identity = found.operation.identity;
   std::string line = "resuming " + found.path + ": case '" + identity.case_name + "', " +
                      levels_text(identity) + ", begun " + identity.begun + ", " +
-                     how_many(found.records, "record");
+                     how_many(found.operation.records, "record");
   if (found.operation.resumed > 0) {
     line += ", resumed before";
   }
@@ -86,8 +86,8 @@ std::vector<std::string> lost(const OperationLog::Found& found, const LoggedOper
   if (found.operation.guide_corrected) {
     lines.emplace_back("lost: the correction of the guide, compare it in the dimple again");
   }
-  if (found.dropped_bytes > 0) {
-    lines.push_back("lost: " + how_many(found.dropped_bytes, "byte") +
+  if (found.operation.dropped_bytes > 0) {
+    lines.push_back("lost: " + how_many(found.operation.dropped_bytes, "byte") +
                     " behind the last whole record, kept in " + found.path + ".dropped");
   }
   return lines;

@@ -14,7 +14,7 @@ struct OtherParts {
 };
 
 /// A headset with a clicker or a voice from elsewhere. Borrows the headset. Everything else is
-/// passed through, including the name, which records in the journal which cameras were used.
+/// passed through, including the name, which records in the log which cameras were used.
 class JoinedHeadset : public ForwardingHeadset {
  public:
   JoinedHeadset(Headset& headset, OtherParts parts)

@@ -1,18 +1,27 @@
+#include <algorithm>
+
 #include "engine/io/records.h"
+#include "engine/report/session_report.h"
 #include "engine/session/logged_operation.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {
 namespace {
 
-/// Reads the records as an operation: it may be refused in one line; an accepted one can be
-/// resumed.
+/// Reads the records as an operation: it may be refused in one line; an accepted one has a report
+/// and can be resumed.
 void insist_on_operation(const std::vector<engine::Record>& records) {
   auto operation = engine::LoggedOperation::from(records, "log");
   if (!operation) {
     insist_one_line(operation.error());
     return;
   }
+  insist(operation->first_time.has_value() == operation->last_time.has_value());
+  const bool says_nan = std::any_of(records.begin(), records.end(), [](const auto& record) {
+    return record.payload.find("nan") != std::string::npos;
+  });
+  insist(says_nan || engine::session_page(*operation, "log").find("nan") == std::string::npos);
+  insist(!engine::session_json(*operation).empty());
   operation->go_on();
   for (const engine::LevelState& level : operation->state.levels) {
     insist(!level.accepted || level.registration.has_value());
@@ -43,9 +52,10 @@ void fuzz_operation_log(std::span<const std::uint8_t> input) {
     return;
   }
   // A first line that begins an operation, then one record.
-  const engine::Record first{1, 1, 1, bytes.substr(0, end)};
-  for (std::uint16_t type = 2; type <= 22; ++type) {
-    insist_on_operation({first, {2, type, 1, bytes.substr(end + 1)}});
+  constexpr std::uint16_t kVersion = engine::kOperationRecordVersion;
+  const engine::Record first{1, 1, kVersion, bytes.substr(0, end)};
+  for (std::uint16_t type = 2; type <= engine::kOperationRecords; ++type) {
+    insist_on_operation({first, {2, type, kVersion, bytes.substr(end + 1)}});
   }
 }
 

@@ -6,7 +6,6 @@ RECORDS = "engine/io/records.cpp"
 POSIX = "engine/io/posix_env.cpp"
 FOLDERS = "engine/io/folders.cpp"
 ATOMIC = "engine/io/atomic_file.cpp"
-LINES = "engine/io/line_log.cpp"
 
 A_PREFIX = "CrashOfALog.LeavesAPrefixWithAllThatWasSavedWheneverPowerIsLost"
 EARLIER = "CrashOfALog.NeverLosesTheOperationBefore"
@@ -14,8 +13,6 @@ RESTART = "RestartOfALog.LosesNothingThatWasReadWhenPowerIsLostAfterAKill"
 TORN = "RestartOfALog.KeepsATornEndWheneverPowerIsLost"
 NO_RETRY = "RecordLog.TriesASyncThatFailedNeverAgain"
 ATOMIC_ORDER = "AtomicFile.IsDurableInTheOrderThatACrashNeeds"
-LINES_ORDER = "LineLog.IsDurableInTheOrderThatACrashNeeds"
-LINES_FAILED = "LineLog.TellsOfASyncThatFailedAndTriesNoneAfterIt"
 
 RENAME_NEW = """  if (const Status named = env.rename(unnamed(path), path); !named) {
     return named.error();
@@ -89,20 +86,4 @@ MUTATIONS = [
                           "  return late ? sync_folder(folder_of(final_path_)) : late;\n")], ATOMIC_ORDER),
     ("no sync of the folder of a file that appears", ATOMIC,
      [("  return sync_folder(folder_of(final_path_));\n", "  return {};\n")], ATOMIC_ORDER),
-    ("no sync of the folder of a journal that begins", LINES,
-     [("  durable = durable ? sync_folder(folder_of(path)) : durable;\n", "")], LINES_ORDER),
-    ("no sync of the folder after a journal that was cut off was moved aside", LINES,
-     [("    durable = sync_folder(folder_of(path));\n", "")], LINES_ORDER),
-    ("no sync of the folder after a finished journal was moved aside", LINES,
-     [("    if (Status durable = sync_folder(folder_of(path_)); !durable) {\n      return durable;\n    }\n", "")],
-     LINES_ORDER),
-    ("no sync of what decides in the journal", LINES, [("      sync(::fdatasync);\n", "      ;\n")], LINES_ORDER),
-    ("no sync of the journal at its end", LINES, [("  sync(::fsync);\n", "")], LINES_ORDER),
-    ("no sync of the folder of a journal that is finished", LINES,
-     [("  return sync_folder(folder_of(path_));\n", "  return {};\n")], LINES_ORDER),
-    ("the journal tells of no sync that failed", LINES,
-     [("    note(\"not every line may outlast a loss of power: \", log_error(unfinished(path_), errno));\n", "")],
-     LINES_FAILED),
-    ("the journal syncs again after a sync that failed", LINES, [("!sync_failed_ && how(file_)", "how(file_)")],
-     LINES_FAILED),
 ]

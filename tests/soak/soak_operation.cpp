@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "engine/case/tool_file.h"
-#include "engine/session/journal.h"
-#include "engine/session/journal_reader.h"
 #include "engine/session/operation_log.h"
 #include "engine/study/simulated_operation.h"
 #include "tests/soak/flaky_env.h"
@@ -76,14 +74,7 @@ class Attempt {
     if (const Status found = find_earlier(); !found) {
       return fail("operation log", found.error());
     }
-    const std::string journal_path = folder_ + "/session.orthonav";
-    engine::JournalHeader header{"soak", "sim:", "best", source_.name, row_.seed, 0, {}};
-    auto journal = engine::Journal::create(journal_path, header);
-    if (!journal) {
-      return fail("journal", journal.error());
-    }
     engine::OperationHooks hooks;
-    hooks.session = {journal->get()};
     hooks.loop = &pairs_;
     hooks.sink = &nobody_;
     hooks.seen_through = [&](Headset& room) -> Result<Headset*> {
@@ -101,12 +92,6 @@ class Attempt {
     row_.stalls += result ? result->loop.stalls : 0;
     if (!ended && device_losses(flaky_->done()) == 0) {
       fail("operation", ended.error());
-    }
-    if (const Status closed = (*journal)->finish({}); !closed) {
-      fail("journal", closed.error());
-    }
-    if (const auto read = engine::read_journal(journal_path); !read) {
-      fail("journal", read.error());
     }
     add_weather();
     check_log(done);
@@ -146,7 +131,7 @@ class Attempt {
     if (!found) {
       return found.error();
     }
-    records_before_ = found->records;
+    records_before_ = found->operation.records;
     earlier_ = std::move(*found);
     return {};
   }

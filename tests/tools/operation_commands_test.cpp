@@ -69,7 +69,7 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   for (const auto& entry : std::filesystem::directory_iterator(out)) {
     names.insert(entry.path().filename().string());
   }
-  for (const char* name : {"report.html", "report.json", "timing.json", "session.orthonav",
+  for (const char* name : {"report.html", "report.json", "timing.json", "operation.resume",
                            "operation.mp4", "01-setup.png"}) {
     EXPECT_EQ(names.count(name), 1u) << name;
     EXPECT_GT(std::filesystem::file_size(out + "/" + name), 100u) << name;
@@ -112,12 +112,24 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   EXPECT_EQ(report["levels"][0]["screws"][0]["done"], true);
   EXPECT_GT(report["levels"][0]["screws"][0]["planned"]["diameter_mm"].get<double>(), 3.0);
   EXPECT_GT(report["levels"][0]["screws"][0]["planned"]["length_mm"].get<double>(), 20.0);
-  std::istringstream journal(content_of(out + "/session.orthonav"));
-  int lines = 0;
-  for (std::string line; std::getline(journal, line); ++lines) {
-    EXPECT_TRUE(json::accept(line)) << line;
+  // The log tells the same: of all but the truth and the bones.
+  const Called again = orthonav({"report", out, "--out", folder.file("again.html"), "--json"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  const json told = json::parse(again.out);
+  EXPECT_GT(told["session"]["records"], 50);
+  for (const char* key : {"completed", "method", "case", "seed", "common_errors", "calibration"}) {
+    EXPECT_EQ(told[key], report[key]) << key;
   }
-  EXPECT_GT(lines, 20);
+  for (const char* key : {"accepted", "attempts", "rmse_mm", "predicted_tre_mm", "points",
+                          "digitization_s", "check_points_mm"}) {
+    EXPECT_EQ(told["levels"][0][key], report["levels"][0][key]) << key;
+  }
+  for (const std::size_t screw : {0U, 1U}) {
+    for (const char* key : {"done", "tracked", "executed", "wire", "redone"}) {
+      EXPECT_EQ(told["levels"][0]["screws"][screw][key], report["levels"][0]["screws"][screw][key])
+          << key;
+    }
+  }
   EXPECT_THAT(content_of(out + "/operation.mp4"), HasSubstr("ftyp"));
   const Called run = orthonav({"run", "--levels", "L5", "--frames", "2", "--json"});
   EXPECT_EQ(json::parse(run.out)["common_errors"], report["common_errors"]);
@@ -194,8 +206,8 @@ TEST(RunCommand, CountsWithTheCommonErrorsThatAreGiven) {
   EXPECT_EQ(errors["cameras"]["source"], "simulated room");
   EXPECT_EQ(errors["map"], (json{{"sd_mm", 0.2}, {"source", "given"}}));
   EXPECT_EQ(errors["map_drift"]["sd_mm_per_sqrt_s"], 0.0) << "what is given counts instead";
-  const std::string journal = content_of(out + "/session.orthonav");
-  EXPECT_EQ(json::parse(journal.substr(0, journal.find('\n')))["common_errors"], errors);
+  const Called told = orthonav({"report", out, "--out", folder.file("again.html"), "--json"});
+  EXPECT_EQ(json::parse(told.out)["common_errors"], errors);
   EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("tip 1.50 mm (given), cameras 0.46 mm"));
 }
 

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "tests/support/whole_log.h"
 #include "tests/tools/command_line.h"
 
 namespace orthonav::test::report_command_test {
@@ -11,30 +13,36 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-/// A real session on one level, from its first word to its last.
-std::string journal_of_a_session() {
-  return content_of(std::filesystem::path(ORTHONAV_SOURCE_DIR) / "tests/data/session.orthonav");
-}
-
 TEST(ReportCommand, MakesThePageOfASessionAndOfWhatIsLeftOfOne) {
-  const std::string whole = journal_of_a_session();
+  const std::string whole = whole_log();
   ASSERT_GT(whole.size(), 10'000U);
   const ScratchFolder folder;
   const std::string page = folder.file("page.html");
-  const Called done = orthonav({"report", folder.with("session.orthonav", whole), "--out", page,
-                                "--json", folder.file("page.json")});
+  const Called done =
+      orthonav({"report", folder.with("operation.resume", whole), "--out", page, "--json",
+                folder.file("page.json"), "--records", folder.file("records.jsonl")});
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(done.err, "");
   EXPECT_THAT(content_of(page), HasSubstr("Operation completed"));
   const json figures = json::parse(content_of(folder.file("page.json")));
   EXPECT_EQ(figures["completed"], true);
   EXPECT_EQ(figures["levels"][0]["screws"].size(), 2U);
+  std::istringstream records(content_of(folder.file("records.jsonl")));
+  std::vector<json> lines;
+  for (std::string line; std::getline(records, line);) {
+    lines.push_back(json::parse(line));
+  }
+  ASSERT_GT(lines.size(), 50U);
+  EXPECT_EQ(lines.front()["what"], "begun");
+  EXPECT_EQ(lines.back()["what"], "ended");
+  EXPECT_EQ(lines.back()["record"], lines.size());
+  EXPECT_EQ(figures["session"]["records"], lines.size());
 
   const ScratchFolder results;
-  const std::string part = results.with("session.orthonav.part", whole.substr(0, 10'240));
+  const std::string part = results.with("operation.resume", whole.substr(0, whole.size() / 2));
   const Called cut = orthonav({"report", results.file(""), "--out", page});
   ASSERT_EQ(cut.code, 0) << cut.err;
-  EXPECT_THAT(cut.err, HasSubstr("warning: " + part + ": The journal has no end: its last line"));
+  EXPECT_THAT(cut.err, HasSubstr("warning: " + part + ": The log has no end: its last record"));
   EXPECT_THAT(content_of(page), HasSubstr("This session was cut off"));
 }
 
@@ -43,13 +51,18 @@ TEST(ReportCommand, SaysWhatItCannotRead) {
   const std::string page = folder.file("page.html");
   const Called none = orthonav({"report", folder.file(""), "--out", page});
   EXPECT_EQ(none.code, 2);
-  EXPECT_THAT(none.err, HasSubstr("holds no session.orthonav and no session.orthonav.part"));
-  const Called empty = orthonav({"report", folder.with("session.orthonav", ""), "--out", page});
+  EXPECT_THAT(none.err, HasSubstr("holds no operation.resume"));
+  const std::string journal = folder.with("session.orthonav", "{\"format\":\"orthonav session\"}");
+  for (const std::string& earlier : {journal, folder.file("")}) {
+    EXPECT_THAT(orthonav({"report", earlier, "--out", page}).err,
+                HasSubstr("holds a journal (session.orthonav) of an earlier version of orthonav"));
+  }
+  const Called empty = orthonav({"report", folder.with("operation.resume", ""), "--out", page});
   EXPECT_EQ(empty.code, 2);
-  EXPECT_THAT(empty.err, HasSubstr("session.orthonav: is empty"));
-  std::ignore = folder.with("session.orthonav.part", "");
+  EXPECT_THAT(empty.err, HasSubstr("operation.resume: holds no whole record"));
+  std::ignore = folder.with("operation.resume", "not records");
   EXPECT_THAT(orthonav({"report", folder.file(""), "--out", page}).err,
-              HasSubstr("name one of them"));
+              HasSubstr("operation.resume: is not a file of records of an operation"));
   EXPECT_FALSE(std::filesystem::exists(page));
 }
 

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "engine/io/posix_env.h"
+#include "engine/session/logged_operation.h"
 #include "tests/support/wait_until.h"
 #include "tests/tools/command_line.h"
 #include "tools/stop_signals.h"
@@ -39,15 +41,6 @@ struct LongRun {
   }
 };
 
-std::vector<json> lines_of(const std::string& path) {
-  std::ifstream in(path);
-  std::vector<json> lines;
-  for (std::string line; std::getline(in, line);) {
-    lines.push_back(json::parse(line));
-  }
-  return lines;
-}
-
 /// Names that a run gives to files it has not finished.
 std::vector<std::string> unfinished_in(const std::string& folder) {
   std::vector<std::string> names;
@@ -69,10 +62,11 @@ void expect_a_whole_end(LongRun& run, const std::string& signal) {
   const json report = json::parse(in);
   EXPECT_THAT(report["why_not"].get<std::string>(), StartsWith("stopped by " + signal));
   EXPECT_TRUE(std::filesystem::exists(run.out + "/report.html"));
-  const std::vector<json> journal = lines_of(run.out + "/session.orthonav");
-  ASSERT_FALSE(journal.empty());
-  EXPECT_EQ(journal.back()["what"], "ended");
-  EXPECT_THAT(journal.back()["reason"].get<std::string>(), StartsWith("stopped by " + signal));
+  engine::PosixEnv env;
+  const auto log = engine::LoggedOperation::read(env, run.out + "/operation.resume");
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  EXPECT_TRUE(log->ended && !log->done);
+  EXPECT_THAT(log->reason, StartsWith("stopped by " + signal));
   EXPECT_THAT(unfinished_in(run.folder.file("")), ::testing::IsEmpty());
   // The recording is whole: it replays to the pair that was finished.
   const test::Called again =
@@ -97,14 +91,14 @@ TEST(StopSignals, ATerminalThatClosesIsTakenLikeCtrlC) {
 
 /// After a signal that can't be caught, the written files are under their temporary names and can
 /// be read.
-TEST(StopSignals, AKilledRunLeavesAJournalAndARecordingThatCanBeRead) {
+TEST(StopSignals, AKilledRunLeavesALogAndARecordingThatCanBeRead) {
   LongRun run;
   constexpr std::uintmax_t kThreeImages = 3 * 640 * 480;
   ASSERT_TRUE(run.is_under_way(kThreeImages));
   run.command.send(SIGKILL);
   EXPECT_EQ(run.command.wait().code, -1);
   EXPECT_THAT(unfinished_in(run.folder.file("")),
-              ::testing::UnorderedElementsAre("session.orthonav.part", "recording.part"));
+              ::testing::UnorderedElementsAre("recording.part"));
   const std::string page = run.folder.file("page.html");
   const test::Called report = orthonav({"report", run.out, "--out", page});
   EXPECT_EQ(report.code, 0) << report.err;

@@ -57,6 +57,8 @@ Event Guiding::finish_screw(OperationInWork& work, const Placing& placing, Times
   const auto& at_depth = approach_.at_depth;
   ScrewState& screw = level.screws[screw_];
   screw.done = true;
+  screw.done_at = time;
+  screw.at_depth = at_depth ? at_depth->measured : std::nullopt;
   screw.clearance_at_depth =
       at_depth ? clearance_along(level, approach_.pose_at_depth,
                                  work.tools.geometry(work.tools.guide()), work.options.astray)

@@ -7,8 +7,8 @@
 #include "engine/phantom/phantom.h"
 #include "engine/report/report_html.h"
 #include "engine/report/session_report.h"
-#include "engine/session/journal_reader.h"
 #include "tests/support/browser.h"
+#include "tests/support/whole_log.h"
 
 namespace orthonav::engine::report_layout_test {
 namespace {
@@ -79,9 +79,10 @@ TEST(ReportLayout, FitsAPhone) {
   const int report_px = width_on_a_phone(*report);
   EXPECT_GT(report_px, 0);
   EXPECT_LE(report_px, test::kPhone_px);
-  const auto session = read_journal(ORTHONAV_SOURCE_DIR "/tests/data/session.orthonav");
+  const auto session =
+      LoggedOperation::from(read_records(test::whole_log(), "log").value().records, "log");
   ASSERT_TRUE(session.ok());
-  const int session_px = width_on_a_phone(session_page(*session, "session.orthonav"));
+  const int session_px = width_on_a_phone(session_page(*session, "operation.resume"));
   EXPECT_GT(session_px, 0);
   EXPECT_LE(session_px, test::kPhone_px);
   EXPECT_GT(width_on_a_phone("<!doctype html><p style='width:600px'>wide"), test::kPhone_px)

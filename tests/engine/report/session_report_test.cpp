@@ -3,11 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "engine/session/journal_reader.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/whole_log.h"
 
 namespace orthonav::engine {
 namespace {
@@ -16,43 +14,81 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+LoggedTouch touch(bool first, double off_m, bool dropped) {
+  LandmarkTouch touched;
+  touched.first = first;
+  touched.off_m = off_m;
+  touched.limit_m = 0.0015;
+  return {touched, dropped};
+}
+
 /// One level of two screws, one of them done, cut off before the second.
-SessionRecord cut_session() {
-  SessionRecord session;
-  session.case_name = "<spine>";
-  session.method = "best";
-  session.has_plan = true;
-  session.lines = 9;
-  session.cut = true;
-  session.last_line_torn = true;
-  session.begin = Timestamp(std::chrono::seconds(101));
-  session.end = Timestamp(std::chrono::milliseconds(165'570));
-  RecordedRegistration registration;
-  registration.level = "L4";
-  registration.attempt = 2;
-  registration.passed = true;
-  registration.rmse_m = 0.00131;
-  session.registrations = {registration};
-  RecordedLevel level;
-  level.label = "L4";
+LoggedOperation cut_session() {
+  LoggedOperation session;
+  session.identity.case_name = "<spine>";
+  session.identity.method = "best";
+  session.records = 9;
+  session.dropped_bytes = 12;
+  session.first_time = Timestamp(std::chrono::seconds(101));
+  session.last_time = Timestamp(std::chrono::milliseconds(165'570));
+  OperatedLevel plan;
+  plan.label = "L4";
+  for (const double side : {1.0, -1.0}) {
+    nav::ScrewPlan screw;
+    screw.side = side > 0.0 ? Side::kLeft : Side::kRight;
+    screw.entry = {{0.015 * side, 0.02, 0.0}};
+    screw.target = {{0.015 * side, -0.02, 0.0}};
+    screw.radius_m = 0.00275;
+    plan.screws.push_back(screw);
+  }
+  LevelState level = planned_level(plan);
   level.attempts = 2;
   level.accepted = true;
-  level.registration = 0;
-  level.checks = {{-0.0004, true}};
-  level.landmark = {{true, 0.0, 0.0015, true, false},
-                    {false, 0.0004, 0.0015, true, true},
-                    {false, 0.0023, 0.0015, false, false}};
-  level.screws = {{Side::kLeft, true, session.end, RecordedPose{0.02, 0.011, 0.001, 0.0109}},
-                  {Side::kRight, false, {}, {}}};
-  session.levels = {level};
+  level.registration.emplace().rmse_m = 0.00131;
+  level.registration->common.tip_m = 0.0004;
+  level.check_points = {{{}, -0.0004, true}};
+  ScrewState& left = level.screws[0];
+  left.done = true;
+  left.done_at = session.last_time;
+  nav::ScrewGuidance at_depth;
+  at_depth.angle_rad = 0.02;
+  at_depth.tip_to_entry_m = 0.011;
+  at_depth.tip_off_axis_m = 0.001;
+  at_depth.depth_m = 0.0109;
+  left.at_depth = at_depth;
+  session.registrations = {{{}, 0, 1, false, "too few points", {}, {}},
+                           {{}, 0, 2, true, "", {}, level.registration}};
+  session.state.levels = {level};
+  session.landmark_touches = {
+      {touch(true, 0.0, false), touch(false, 0.0004, true), touch(false, 0.0023, false)}};
+  session.strokes.resize(1);
   return session;
 }
 
+ScrewState& left_of(LoggedOperation& session) { return session.state.levels[0].screws[0]; }
+
+nav::ScrewClearance clearance_of(double clearance_m, double lower_95_m) {
+  nav::ScrewClearance clearance;
+  clearance.least.clearance_m = clearance_m;
+  clearance.spread = nav::ClearanceSpread{lower_95_m, {0.93, 0.07, 0.0, 0.0, 0.0}};
+  return clearance;
+}
+
+/// Beyond its limit of the angle, and kept.
+PlacedWire kept_wire() {
+  PlacedWire wire;
+  wire.axis.angle_rad = {0.05, 0.01};
+  wire.axis.entry_m = {0.0011, 0.0006};
+  wire.angle_limit_rad = 0.035;
+  wire.entry_limit_m = 0.002;
+  wire.kept = true;
+  return wire;
+}
+
 TEST(SessionReport, SaysWhereTheToolsWentAndWhatWasNotMeasured) {
-  SessionRecord session = cut_session();
-  EXPECT_THAT(session_page(session, "j"), HasSubstr("Where the tools went: not recorded."));
+  LoggedOperation session = cut_session();
   EXPECT_THAT(session_page(session, "j"), HasSubstr("Tags and cameras in use: not recorded."));
-  RecordedScrew& left = session.levels[0].screws[0];
+  ScrewState& left = left_of(session);
   nav::ExecutedTrajectory executed;
   executed.axis = {{{0.0151, 0.0202, 0.0003}}, {0.0, -1.0, 0.0}};
   executed.depth_m = 0.0112;
@@ -60,10 +96,10 @@ TEST(SessionReport, SaysWhereTheToolsWentAndWhatWasNotMeasured) {
   executed.point_covariance_m2 = {0.36e-6, 0, 0, 0, 0.36e-6, 0, 0, 0, 0.36e-6};
   executed.direction_covariance_rad2 = {1e-4, 0, 0, 0, 0, 0, 0, 0, 1e-4};
   left.executed = executed;
-  left.at_depth->grade = "A";
-  left.at_depth->grade_probability = {0.93, 0.07, 0.0, 0.0, 0.0};
-  session.levels[0].screws[1].done = true;
-  session.levels[0].screws[1].not_measured = {"executed", "clearance"};
+  left.clearance_at_depth = clearance_of(0.002, 0.001);
+  ScrewState& right = session.state.levels[0].screws[1];
+  right.done = true;
+  right.done_at = session.last_time;
   session.calibration = CalibrationInUse{{{"guide", 0.003, 0.004, 0.001}}, {}};
   const std::string page = session_page(session, "j");
   EXPECT_THAT(page, HasSubstr("15.1, 20.2, 0.3 ± 0.60"));
@@ -76,22 +112,21 @@ TEST(SessionReport, SaysWhereTheToolsWentAndWhatWasNotMeasured) {
   EXPECT_EQ(json["levels"][0]["screws"][0]["executed"]["pairs"], 27);
   EXPECT_EQ(json["levels"][0]["screws"][1]["not_measured"][0], "executed");
   EXPECT_EQ(json["calibration"]["not_measured"][0], "cameras");
-  executed.point_covariance_m2.reset();
-  executed.direction_covariance_rad2.reset();
-  left.executed = executed;
+  left.executed->point_covariance_m2.reset();
+  left.executed->direction_covariance_rad2.reset();
   EXPECT_THAT(session_page(session, "j"), HasSubstr("± not known"));
 }
 
 TEST(SessionReport, SaysWhatWasPlannedInSurgery) {
-  SessionRecord session = cut_session();
+  LoggedOperation session = cut_session();
   EXPECT_THAT(session_page(session, "j"), Not(HasSubstr("planned in surgery")));
   EXPECT_THAT(session_json(session), Not(HasSubstr("planned_in_surgery")));
-  nav::ScrewDifference difference;
-  difference.entry_cranial_m = 0.001;
-  difference.diameter_from_m = 0.0055;
-  difference.diameter_to_m = 0.006;
-  difference.length_from_m = difference.length_to_m = 0.040;
-  session.levels[0].screws[1].planned_in_surgery = difference;
+  LevelState& level = session.state.levels[0];
+  nav::ScrewPlan& plan = level.plan.screws[1];
+  level.screws[1].earlier_plans = {plan};
+  plan.entry.v.z += 0.001;
+  plan.target.v.z += 0.001;
+  plan.radius_m = 0.003;
   EXPECT_THAT(session_page(session, "j"),
               HasSubstr("planned in surgery: entry moved 1.0 mm cranial, 6.0 \u00d7 40 mm instead "
                         "of 5.5 \u00d7 40 mm"));
@@ -103,13 +138,12 @@ TEST(SessionReport, SaysWhatWasPlannedInSurgery) {
 }
 
 TEST(SessionReport, SaysWhichErrorsLackWhatAllStrokesShare) {
-  SessionRecord session = cut_session();
-  RecordedRegistration& registration = session.registrations[0];
-  registration.predicted_tre_m = 0.0006;
-  registration.registration_only = false;
-  session.levels[0].screws[0].at_depth->clearance_95_m = 0.0012;
+  LoggedOperation session = cut_session();
+  LevelState& level = session.state.levels[0];
+  level.predicted.emplace_back().entry_m = 0.0006;
+  level.screws[0].clearance_at_depth = clearance_of(0.002, 0.0012);
   EXPECT_THAT(session_page(session, "j"), Not(HasSubstr("registration only")));
-  registration.registration_only = true;
+  level.registration->common = {};
   const std::string page = session_page(session, "j");
   EXPECT_THAT(page, HasSubstr("0.60 <small>registration only</small>"));
   EXPECT_THAT(page, HasSubstr("1.20 <small>registration only</small>"));
@@ -117,29 +151,28 @@ TEST(SessionReport, SaysWhichErrorsLackWhatAllStrokesShare) {
 }
 
 TEST(SessionReport, SaysFirstOfAllThatTheSessionWasCutOffAndWhen) {
-  const std::string page = session_page(cut_session(), "a/session.orthonav.part");
+  const std::string page = session_page(cut_session(), "a/operation.resume");
   const std::size_t cut = page.find("This session was cut off");
   ASSERT_NE(cut, std::string::npos);
   EXPECT_LT(cut, page.find("<table"));
-  EXPECT_THAT(page, HasSubstr("its last line is of 02:45.57 on the headset's clock, 64.6 s after "
-                              "the first; one more line was torn and is not used"));
-  EXPECT_THAT(page, HasSubstr("a/session.orthonav.part"));
+  EXPECT_THAT(page, HasSubstr("its last record is of 02:45.57 on the headset's clock, 64.6 s after "
+                              "the first; one more record was torn and is not used"));
+  EXPECT_THAT(page, HasSubstr("a/operation.resume"));
   EXPECT_THAT(page, HasSubstr("&lt;spine&gt;"));
 }
 
 TEST(SessionReport, TellsWhatPositionsAreRelativeTo) {
-  SessionRecord session = cut_session();
-  EXPECT_THAT(session_page(session, "j"), HasSubstr("a frame that is not recorded"));
-  session.patient_reference = false;
+  LoggedOperation session = cut_session();
   EXPECT_THAT(session_page(session, "j"), HasSubstr("the headset\u2019s map"));
-  session.patient_reference = true;
+  session.identity.patient_reference = true;
   EXPECT_THAT(session_page(session, "j"), HasSubstr("the patient reference"));
   EXPECT_EQ(nlohmann::json::parse(session_json(session))["patient_reference"], true);
 }
 
-TEST(SessionReport, CallsWhatTheJournalDoesNotHoldNotRecorded) {
+TEST(SessionReport, TellsOfEveryRegistrationAndTouchAndInventsNoFigure) {
   const std::string page = session_page(cut_session(), "j");
-  EXPECT_THAT(page, HasSubstr("not recorded"));
+  EXPECT_THAT(page, HasSubstr("<span class=bad>refused</span> too few points"));
+  EXPECT_THAT(page, HasSubstr("<span class=good>passed</span>"));
   EXPECT_THAT(page, HasSubstr(">1 of 2</td>"));
   EXPECT_THAT(page, HasSubstr(">recorded, 0.4 (taken back), <span class=bad>2.3</span></td>"));
   EXPECT_THAT(page, HasSubstr("not done"));
@@ -148,24 +181,24 @@ TEST(SessionReport, CallsWhatTheJournalDoesNotHoldNotRecorded) {
   for (const char* key : {"frames", "seed"}) {
     EXPECT_FALSE(json.contains(key)) << key;
   }
-  for (const char* key : {"points", "predicted_tre_mm", "tre_mm", "digitization_s"}) {
-    EXPECT_FALSE(json["levels"][0].contains(key)) << key;
-  }
+  EXPECT_FALSE(json["levels"][0].contains("tre_mm"));
 }
 
 TEST(SessionReport, TellsHowEveryWireWasMeasuredKeptRedoneOrNot) {
-  SessionRecord session = cut_session();
-  RecordedScrew& left = session.levels[0].screws[0];
-  RecordedScrew& right = session.levels[0].screws[1];
-  EXPECT_THAT(session_page(session, "j"), Not(HasSubstr("not measured")));
-  left.wire_asked = right.wire_asked = right.done = true;
-  left.wire = RecordedWire{0.05, 0.01, 0.0011, 0.0006, false, true};
+  LoggedOperation session = cut_session();
+  ScrewState& left = left_of(session);
+  ScrewState& right = session.state.levels[0].screws[1];
+  right.done = true;
+  right.done_at = session.last_time;
+  EXPECT_THAT(session_page(session, "j"), Not(HasSubstr("the wire was not measured")));
+  left.wire = {true, kept_wire()};
+  right.wire = {true, std::nullopt};
   left.redone = 1;
   const std::string page = session_page(session, "j");
   EXPECT_THAT(page,
               HasSubstr("<span class=bad>2.9 \u00b1 0.6\u00b0, 1.1 \u00b1 0.6 mm</span>, kept; "
                         "redone</td>"));
-  EXPECT_THAT(page, HasSubstr(">not measured</td>"));
+  EXPECT_THAT(page, HasSubstr("the wire was not measured"));
   const auto json = nlohmann::json::parse(session_json(session));
   const auto& screws = json["levels"][0]["screws"];
   EXPECT_NEAR(screws[0]["wire"]["angle_deg"].get<double>(), 2.8648, 1e-4);
@@ -173,7 +206,7 @@ TEST(SessionReport, TellsHowEveryWireWasMeasuredKeptRedoneOrNot) {
   EXPECT_EQ(screws[0]["wire"]["kept"], true);
   EXPECT_EQ(screws[0]["redone"], 1);
   EXPECT_EQ(screws[1]["wire"], "not measured");
-  left.wire->within = true;
+  left.wire.measured->angle_limit_rad = 0.06;
   EXPECT_THAT(session_page(session, "j"),
               HasSubstr(">2.9 \u00b1 0.6\u00b0, 1.1 \u00b1 0.6 mm; redone</td>"));
 }
@@ -181,8 +214,9 @@ TEST(SessionReport, TellsHowEveryWireWasMeasuredKeptRedoneOrNot) {
 TEST(SessionReport, HasTheFiguresInTheKeysOfAReport) {
   const auto json = nlohmann::json::parse(session_json(cut_session()));
   EXPECT_EQ(json["completed"], false);
-  EXPECT_THAT(json["why_not"].get<std::string>(), HasSubstr("The journal has no end"));
+  EXPECT_THAT(json["why_not"].get<std::string>(), HasSubstr("The log has no end"));
   EXPECT_EQ(json["session"]["cut"], true);
+  EXPECT_EQ(json["session"]["records"], 9);
   EXPECT_DOUBLE_EQ(json["session"]["end_s"], 165.57);
   const auto& level = json["levels"][0];
   EXPECT_EQ(level["label"], "L4");
@@ -196,46 +230,46 @@ TEST(SessionReport, HasTheFiguresInTheKeysOfAReport) {
   EXPECT_EQ(level["screws"][0]["done"], true);
   EXPECT_DOUBLE_EQ(level["screws"][0]["at_depth"]["depth_mm"], 10.9);
   EXPECT_EQ(level["screws"][1]["done"], false);
+  EXPECT_FALSE(level["screws"][1].contains("at_depth"));
 }
 
-/// A real session, cut at every tenth of it and at every byte of its last two lines.
-TEST(SessionReport, IsMadeOfAJournalThatWasCutAnywhere) {
-  const std::string whole = orthonav::test::content_of(std::filesystem::path(ORTHONAV_SOURCE_DIR) /
-                                                       "tests/data/session.orthonav");
+/// The log of a whole operation, cut at every record and at every byte of its last two.
+TEST(SessionReport, IsMadeOfALogThatWasCutAnywhere) {
+  const std::string whole = test::whole_log();
   ASSERT_GT(whole.size(), 10'000U);
-  std::vector<std::size_t> lengths;
-  for (std::size_t tenth = 1; tenth < 10; ++tenth) {
-    lengths.push_back(whole.size() * tenth / 10);
-  }
-  const std::size_t last = whole.rfind('\n', whole.size() - 2);
-  for (std::size_t at = whole.rfind('\n', last - 1) + 1; at < whole.size(); ++at) {
-    lengths.push_back(at);
-  }
-  ASSERT_GT(lengths.size(), 100U);
-  for (const std::size_t length : lengths) {
-    SCOPED_TRACE(length);
-    const auto session = read_journal_text(whole.substr(0, length), "cut");
-    ASSERT_TRUE(session.ok()) << session.error().message;
-    // All but its last line end: whole without that end, the journal is.
-    const bool is_whole = length + 1 == whole.size();
-    EXPECT_EQ(session->cut, !is_whole);
-    const auto lines = static_cast<std::size_t>(
-        std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length), '\n'));
-    EXPECT_GE(session->lines, lines);
-    EXPECT_LE(session->lines, lines + 1);
-    const std::string page = session_page(*session, "cut");
+  const auto all = read_records(whole, "whole");
+  ASSERT_TRUE(all.ok());
+  ASSERT_GT(all->records.size(), 50U);
+  const auto expect_a_report = [](LoggedOperation session, bool is_whole) {
+    EXPECT_EQ(session.ended, is_whole);
+    const std::string page = session_page(session, "cut");
     EXPECT_EQ(page.find("This session was cut off") == std::string::npos, is_whole);
-    EXPECT_FALSE(session_json(*session).empty());
+    EXPECT_EQ(page.find("nan"), std::string::npos);
+    EXPECT_FALSE(session_json(session).empty());
+  };
+  for (std::size_t n = 1; n <= all->records.size(); ++n) {
+    SCOPED_TRACE(n);
+    const auto session =
+        LoggedOperation::from({all->records.begin(), all->records.begin() + n}, "cut");
+    ASSERT_TRUE(session.ok()) << session.error().message;
+    EXPECT_EQ(session->records, n);
+    expect_a_report(*session, n == all->records.size());
+  }
+  const std::size_t last_two = all->records.back().payload.size() +
+                               all->records[all->records.size() - 2].payload.size() + 40;
+  for (std::size_t size = whole.size() - last_two; size < whole.size(); ++size) {
+    const auto cut = read_records(std::string_view(whole).substr(0, size), "cut");
+    ASSERT_TRUE(cut.ok());
+    EXPECT_GE(cut->records.size() + 2, all->records.size());
+    EXPECT_LT(cut->records.size(), all->records.size());
   }
 }
 
 TEST(SessionReport, BeginsWithWhatWasPlacedAndItsWarnings) {
-  SessionRecord session = cut_session();
-  RecordedScrew& left = session.levels[0].screws[0];
-  left.wire_asked = true;
-  left.wire = RecordedWire{0.05, 0.01, 0.0011, 0.0006, false, true};
-  left.at_depth->clearance_m = 0.0004;
-  left.at_depth->clearance_95_m = -0.0012;
+  LoggedOperation session = cut_session();
+  ScrewState& left = left_of(session);
+  left.wire = {true, kept_wire()};
+  left.clearance_at_depth = clearance_of(0.0004, -0.0012);
   const std::string page = session_page(session, "j");
   EXPECT_THAT(page, HasSubstr("This session was cut off: 1 of 2 screws placed; their true distance "
                               "from the plan is not known, 0 of 1 measured wire within the "
@@ -243,20 +277,20 @@ TEST(SessionReport, BeginsWithWhatWasPlacedAndItsWarnings) {
   EXPECT_THAT(page, HasSubstr("<li>L4 left: the wire was measured 2.9° and 1.1 mm from the plan, "
                               "beyond a limit, and kept</li><li>L4 left: as tracked, a breach of "
                               "the cortex cannot be ruled out (95 % bound −1.2 mm)</li>"));
-  session.has_plan = false;
-  EXPECT_THAT(session_page(session, "j"), HasSubstr("cut off: 1 screw placed;"));
 }
 
 TEST(SessionReport, TellsOfASessionThatEnded) {
-  SessionRecord session = cut_session();
-  session.cut = session.last_line_torn = false;
+  LoggedOperation session = cut_session();
+  session.dropped_bytes = 0;
+  session.ended = session.done = true;
   EXPECT_THAT(session_page(session, "j"), HasSubstr("Operation completed"));
   EXPECT_EQ(nlohmann::json::parse(session_json(session))["completed"], true);
+  session.done = false;
   session.reason = "stopped by SIGTERM, ended at rod";
   EXPECT_THAT(session_page(session, "j"), HasSubstr("Operation incomplete"));
   EXPECT_THAT(session_page(session, "j"), HasSubstr("; stopped by SIGTERM, ended at rod."));
-  const SessionRecord header_alone;
-  EXPECT_THAT(ending_of(header_alone), HasSubstr("no line after its first"));
+  EXPECT_EQ(nlohmann::json::parse(session_json(session))["why_not"], session.reason);
+  EXPECT_THAT(ending_of(LoggedOperation{}), HasSubstr("no record after its first"));
 }
 
 }  // namespace

@@ -7,8 +7,7 @@
 #include <filesystem>
 
 #include "engine/io/posix_env.h"
-#include "engine/session/journal.h"
-#include "engine/session/observer_list.h"
+#include "engine/session/operation_log.h"
 #include "tests/support/clock_step.h"
 #include "tests/support/is_ok.h"
 #include "tests/support/resumed_operation.h"
@@ -41,9 +40,7 @@ std::unique_ptr<OperationLog> begun(Env& env, test::ScriptedOperation& s,
 void operate_first_half(Env& env, const std::string& folder, std::chrono::seconds back) {
   auto s = touched_operation(true);
   auto log = begun(env, *s, folder);
-  auto journal = Journal::create(folder + "/session.orthonav", {}).value();
-  ObserverList both({log.get(), journal.get()});
-  s->session().observe(&both);
+  s->session().observe(log.get());
   ScriptedSurgeon surgeon(*s);
   for (int i = 0; i < kActs / 2; ++i) {
     surgeon.act();
@@ -67,10 +64,8 @@ TEST(ClockOfAnOperation, SetBackAnHourMeanwhileChangesNoByteOfItsLog) {
   }
   operate_first_half(env, steady.path().string(), 0s);
   operate_first_half(env, stepped.path().string(), 1h);
-  for (const char* file : {"operation.resume", "session.orthonav.part"}) {
-    EXPECT_GT(content_of(steady / file).size(), 1000u);
-    EXPECT_EQ(content_of(stepped / file), content_of(steady / file)) << file;
-  }
+  EXPECT_GT(content_of(steady / "operation.resume").size(), 1000u);
+  EXPECT_EQ(content_of(stepped / "operation.resume"), content_of(steady / "operation.resume"));
 }
 
 TEST(ClockOfAnOperation, SetBackBeforeItIsResumedLeavesTheOrderAndTheEnd) {
@@ -88,20 +83,6 @@ TEST(ClockOfAnOperation, SetBackBeforeItIsResumedLeavesTheOrderAndTheEnd) {
     EXPECT_EQ(record.number, ++number);
   }
   EXPECT_TRUE(LoggedOperation::from(log->records, "log")->done);
-}
-
-TEST(OperationLog, IsFoundUnderTheNameItHadBefore) {
-  const TemporaryFolder folder;
-  PosixEnv env;
-  operate_first_half(env, folder.path().string(), 0s);
-  std::filesystem::rename(folder / "operation.resume", folder / "operation.log");
-  ResumedOperation r(env, true, folder.path().string());
-  ASSERT_TRUE(is_ok(r.resumed));
-  ScriptedSurgeon(*r.operation).finish();
-  ASSERT_TRUE(is_ok(r.log->finish(true, "")));
-  EXPECT_TRUE(
-      LoggedOperation::from(read_log(env, folder.file("operation.log"))->records, "log")->done);
-  EXPECT_FALSE(std::filesystem::exists(folder / "operation.resume"));
 }
 
 /// The last operation is identified by file names, because file times follow the clock.

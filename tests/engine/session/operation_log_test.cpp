@@ -90,6 +90,120 @@ TEST(OperationLog, TellsAWholeOperation) {
   EXPECT_TRUE(told.state.rods[0].done && told.state.rods[1].done);
 }
 
+/// The records of a sort, in order.
+std::vector<nlohmann::json> all_of(MemoryEnv& env, OperationRecord type) {
+  std::vector<nlohmann::json> found;
+  for (const Record& record : records_in(env)) {
+    if (record.type == static_cast<std::uint16_t>(type)) {
+      found.push_back(nlohmann::json::parse(record.payload));
+    }
+  }
+  return found;
+}
+
+TEST(OperationLog, TellsEveryChangeOfAScrewAndItsUndoing) {
+  MemoryEnv env;
+  ScriptedOperation s({"L4"});
+  auto log = log_of(s, env);
+  s.accepts_first_level();
+  s.says("next");
+  s.says("move cranial one");
+  s.says("move cranial");
+  s.says("move cranial ten");
+  s.says("tilt lateral two");
+  s.says("undo");
+  const auto plans = all_of(env, OperationRecord::kPlan);
+  ASSERT_EQ(plans.size(), 3u) << "neither what was not understood nor what was refused";
+  EXPECT_EQ(plans[0]["label"], "L4");
+  EXPECT_EQ(plans[0]["why"], "move cranial 1.0 mm");
+  EXPECT_EQ(plans[0]["screws"][0]["side"], "left");
+  EXPECT_NEAR(plans[0]["screws"][0]["earlier"][0]["entry_m"][2].get<double>(), 0.0, 1e-12);
+  EXPECT_NEAR(plans[0]["screws"][0]["entry_m"][2].get<double>(), 0.001, 1e-12);
+  EXPECT_NEAR(plans[0]["screws"][0]["target_m"][2].get<double>(), 0.001, 1e-12);
+  EXPECT_EQ(plans[1]["screws"][0]["earlier"].size(), 2u);
+  EXPECT_EQ(plans[2]["why"], "undo");
+  EXPECT_EQ(plans[2]["screws"], plans[0]["screws"]);
+}
+
+TEST(OperationLog, TellsWhoAskedFromOutsideBeforeWhatCameOfItAndWhatWasNotUnderstood) {
+  MemoryEnv env;
+  ScriptedOperation s({"L4"});
+  auto log = log_of(s, env);
+  s.asks({"start", "10.0.0.7", {}, {}});
+  s.says("mumble");
+  const std::vector<Record> records = records_in(env);
+  ASSERT_EQ(records.size(), 4u);
+  const auto asked = nlohmann::json::parse(records[1].payload);
+  EXPECT_EQ(name_of(static_cast<OperationRecord>(records[1].type)), "asked from outside");
+  EXPECT_EQ(asked["from"], "10.0.0.7");
+  EXPECT_EQ(asked["asked"], "start");
+  EXPECT_EQ(last_of(env, OperationRecord::kEvent)["event"], "\"start\"");
+  EXPECT_EQ(last_of(env, OperationRecord::kNotUnderstood)["phrase"], "mumble");
+}
+
+TEST(OperationLog, TellsWhenAndWhyTheOperationEnded) {
+  MemoryEnv env;
+  ScriptedOperation s({"L5"});
+  auto log = log_of(s, env);
+  s.says("start");
+  ASSERT_TRUE(is_ok(log->finish(false, "cable", Timestamp(std::chrono::seconds(900)))));
+  const LoggedOperation told = recorded_in(env);
+  EXPECT_TRUE(told.ended);
+  EXPECT_EQ(told.reason, "cable");
+  EXPECT_EQ(told.last_time, Timestamp(std::chrono::seconds(900))) << "of the last pair";
+}
+
+TEST(OperationLog, GivesNoNumbersOfARegistrationThatThereIsNot) {
+  MemoryEnv env;
+  ScriptedOperation s({"L5"});
+  auto log = log_of(s, env);
+  s.unusable = "0 points, at least 100 needed";
+  s.says("start");
+  s.does({ClickerAction::kDoubleClick});
+  s.unusable.reset();
+  s.does({ClickerAction::kDoubleClick});
+  const LoggedOperation told = recorded_in(env);
+  ASSERT_EQ(told.registrations.size(), 2u);
+  EXPECT_EQ(told.registrations[0].reason, "0 points, at least 100 needed");
+  EXPECT_FALSE(told.registrations[0].passed || told.registrations[0].result);
+  EXPECT_TRUE(told.registrations[1].passed && told.registrations[1].result);
+}
+
+TEST(OperationLog, TellsWhatIsSaidOfARegistrationAndThePlacesTouchedToCheckIt) {
+  MemoryEnv env;
+  ScriptedOperation s({"L5"}, {}, Verification::kByTouch);
+  auto log = log_of(s, env);
+  s.tracker().size = nav::TagSize{-0.032, 0.001, 12, true, true};
+  s.registration.log_likelihood_ratio = std::numeric_limits<double>::infinity();
+  s.registration.tre_95_m = 0.0014;
+  s.registration.weakest = {nav::UncertainMotion::Kind::kFlexion, 0.0012};
+  s.registration.stroke_next = {nav::BonePlace::Part::kLamina, Side::kLeft,
+                                nav::BonePlace::Height::kUpper};
+  s.registration.fits_better = "L4";
+  s.registers_first_level();
+  s.touches({0.0, 0.0213, 0.0});
+  s.touches({0.02, 0.0251, 0.0});
+  s.says("delete");
+  const nlohmann::json registration = last_of(env, OperationRecord::kRegistration);
+  EXPECT_FALSE(registration["registration"].contains("log_likelihood_ratio")) << "no rival at all";
+  EXPECT_EQ(registration["weakest"], "flexion/extension (1.2 mm at the screws)");
+  EXPECT_EQ(registration["advice"], "digitize the left upper lamina");
+  EXPECT_EQ(registration["fits_better"], "L4");
+  const LoggedOperation told = recorded_in(env);
+  EXPECT_DOUBLE_EQ(told.registrations.at(0).result->tre_95_m, 0.0014);
+  EXPECT_TRUE(std::isinf(told.registrations[0].result->log_likelihood_ratio));
+  ASSERT_TRUE(told.registrations[0].tag_size);
+  EXPECT_EQ(told.registrations[0].tag_size->tool, "pointer");
+  EXPECT_DOUBLE_EQ(told.registrations[0].tag_size->fraction, -0.032);
+  const auto checks = all_of(env, OperationRecord::kCheckPoint);
+  ASSERT_EQ(checks.size(), 2u);
+  EXPECT_NEAR(checks[0]["distance_m"].get<double>(), 0.0013, 1e-9);
+  EXPECT_EQ(checks[0]["within"], true);
+  EXPECT_EQ(checks[1]["within"], false);
+  EXPECT_NEAR(checks[1]["in_world_m"][1].get<double>(), 0.0251, 1e-9);
+  EXPECT_EQ(all_of(env, OperationRecord::kCheckPointDropped).size(), 1u);
+}
+
 TEST(OperationLog, HoldsEveryNumberToTheBit) {
   nav::Registration r;
   r.world_from_vertebra = {rotation_from_vector({0.1, 1.0 / 3.0, -0.7}), {1e-300, -0.0, 1.0 / 7.0}};
@@ -122,7 +236,7 @@ TEST(OperationLog, SaysSavedOnlyOnceItIs) {
   s.strokes(5);
   const std::size_t before = env.calls().size();
   EXPECT_THAT(detail_text(s.says("save").status), EndsWith("; saved"));
-  ASSERT_EQ(env.calls().size(), before + 2) << "one write and one sync a click";
+  ASSERT_EQ(env.calls().size(), before + 4) << "one write and one sync of event and region";
   EXPECT_EQ(env.calls().back().what, test::EnvCall::What::kSync);
   EXPECT_THAT(detail_text(s.pairs(90).status), Not(HasSubstr("saved"))) << "two seconds later";
 }
@@ -240,10 +354,9 @@ TEST(OperationLog, HoldsABreachOfTheCortexWithItsReason) {
   s.says("move lateral nine");
   EXPECT_EQ(last_of(env, OperationRecord::kPlan)["screws"][0]["accepted_breach"], "")
       << "still in the bone";
-  const std::size_t before = records_in(env).size();
   s.says("tilt lateral nine");
   s.pair();
-  EXPECT_EQ(records_in(env).size(), before) << "asked, not taken yet";
+  EXPECT_EQ(all_of(env, OperationRecord::kPlan).size(), 1u) << "asked, not taken yet";
   s.says("accept");
   const nlohmann::json plan = last_of(env, OperationRecord::kPlan);
   EXPECT_EQ(plan["label"], "L4");

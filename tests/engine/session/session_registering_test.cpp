@@ -41,7 +41,7 @@ class SlowRegistration : public ::testing::Test, public SessionObserver {
   }
 
   void happened(Timestamp time, Step /*from*/, Event /*event*/, Cell /*answer*/) override {
-    EXPECT_GE(time, newest) << "a journal goes on in time";
+    EXPECT_GE(time, newest) << "a log goes on in time";
     newest = time;
   }
   void registered(Timestamp, const LevelState&, const RegistrationOutcome&) override { ++answers; }

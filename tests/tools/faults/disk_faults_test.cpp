@@ -136,7 +136,7 @@ TEST(DeviceThatFails, LeavesTheReportsOfWhatWasMeasured) {
   record(recording, test_calibration(), std::vector<std::vector<PlacedTag>>(std::size_t{70}));
   StartedCommand command({"run", "--case", folder.file("case"), "--headset",
                           "replay:" + recording + "?pace=realtime", "--out", out});
-  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(out + "/session.orthonav.part"); }));
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(out + "/operation.resume"); }));
   std::filesystem::resize_file(recording + "/VLC LF.tar", std::uintmax_t{1} << 20U);
   const Called ended = command.wait();
   EXPECT_EQ(ended.code, 2);
@@ -146,7 +146,7 @@ TEST(DeviceThatFails, LeavesTheReportsOfWhatWasMeasured) {
   EXPECT_THAT(report["why_not"].get<std::string>(),
               ::testing::AllOf(HasSubstr("ended at setup of L5"), HasSubstr("31 failures")));
   EXPECT_TRUE(std::filesystem::exists(out + "/report.html"));
-  EXPECT_THAT(content_of(out + "/session.orthonav"), HasSubstr("31 failures in a row"));
+  EXPECT_THAT(content_of(out + "/operation.resume"), HasSubstr("31 failures in a row"));
 }
 
 }  // namespace

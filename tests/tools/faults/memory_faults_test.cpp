@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "engine/io/posix_env.h"
+#include "engine/session/logged_operation.h"
 #include "tests/support/wait_until.h"
 #include "tests/tools/faults/failing_disk.h"
 #include "tests/tools/faults/short_run.h"
@@ -84,12 +86,10 @@ TEST(MemoryFaults, InTheMiddleOfARunTheyEndItInOrderWithEveryFileWhole) {
   EXPECT_THAT(ended.err, HasSubstr("orthonav: out of memory: ending in order\n"));
   const json report = json::parse(content_of(out + "/report.json"));
   EXPECT_THAT(report["why_not"].get<std::string>(), HasSubstr("stopped by SIGTERM"));
-  std::istringstream journal(content_of(out + "/session.orthonav"));
-  std::string last;
-  for (std::string line; std::getline(journal, line); last = line) {
-    EXPECT_TRUE(json::accept(line)) << line;
-  }
-  EXPECT_EQ(json::parse(last)["what"], "ended");
+  engine::PosixEnv env;
+  const auto log = engine::LoggedOperation::read(env, out + "/operation.resume");
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  EXPECT_TRUE(log->ended && !log->done);
   const Called resumed = orthonav({"run", "--case", folder.file("case"), "--headset", "sim:?seed=1",
                                    "--out", out, "--resume", "--frames", "2"});
   EXPECT_EQ(resumed.code, 0) << resumed.err;

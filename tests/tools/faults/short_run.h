@@ -45,7 +45,7 @@ class ShortRun {
 /// Whether every result exists, is complete, and covers the whole run.
 [[nodiscard]] bool all_is_kept(const ShortRun& run);
 
-/// Expects everything that exists to be readable: reports are whole or absent, journal, log and
+/// Expects everything that exists to be readable: reports are whole or absent, log and
 /// recording are read to their last whole line, record and pair.
 void expect_readable(const ShortRun& run);
 

@@ -287,7 +287,7 @@ TEST_F(EveryText, IsWrittenWithoutAllocating) {
 }
 
 TEST_F(EveryText, IsEnglishWhereNoWearerReadsIt) {
-  // The control: what a journal writes is found to be English.
+  // The control: what a log holds is found to be English.
   StatusLine line;
   line.tool = "guide";
   line.tool_lost = true;
