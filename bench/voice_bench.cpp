@@ -102,7 +102,7 @@ double worked_ms() {
 
 std::unique_ptr<CommandSpotter> new_spotter() {
   SpotterOptions options;
-  options.commands = engine::recognized_commands();
+  options.commands = engine::spotted_phrases();
   auto spotter = CommandSpotter::create(options);
   if (spotter) {
     return std::move(*spotter);
@@ -201,7 +201,7 @@ void measure_recall(const Options& options, Sureness& sureness) {
     const auto spotter = new_spotter();
     for (const double snr_db : {kClean, 20.0, 15.0, 10.0}) {
       for (const int speed : speeds) {
-        for (const std::string& command : engine::recognized_commands()) {
+        for (const std::string& command : engine::spotted_phrases()) {
           const auto noise = static_cast<Noise>(count++ % 3);
           say_one(*spotter, command, options, {std::string(voice), speed}, noise, snr_db, random,
                   figures, sureness);

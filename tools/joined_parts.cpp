@@ -21,7 +21,7 @@ Result<std::unique_ptr<JoinedHeadset>> join_parts(Headset& headset, const std::s
     return clicks.error();
   }
   parts.clicker = std::move(*clicks);
-  auto speech = open_voice(voice, engine::recognized_commands(), headset.clock(), &headset);
+  auto speech = open_voice(voice, engine::spotted_phrases(), headset.clock(), &headset);
   if (!speech) {
     return speech.error();
   }

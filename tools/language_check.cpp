@@ -39,10 +39,11 @@ bool has_word(std::string_view text, std::string_view word) {
 /// is one only after "say".
 std::optional<std::string> lost_command(std::string_view english, std::string_view text) {
   const bool say = has_word(english, "say");
-  for (std::string& command : engine::spoken_commands()) {
-    const bool told = say || command != "drill";
-    if (told && has_word(english, command) && !has_word(text, command)) {
-      return std::move(command);
+  for (const engine::Command& command : engine::kCommands) {
+    const bool told =
+        command.event != engine::Event::kSayReplan && (say || command.phrase != "drill");
+    if (told && has_word(english, command.phrase) && !has_word(text, command.phrase)) {
+      return std::string(command.phrase);
     }
   }
   return std::nullopt;

@@ -11,6 +11,7 @@
 #include "engine/live/assembled_operation.h"
 #include "engine/live/known_tools.h"
 #include "engine/report/operation_result.h"
+#include "engine/session/commands.h"
 #include "engine/study/evaluation.h"
 #include "engine/study/sim_scenario.h"
 #include "hal/open/open.h"
@@ -123,6 +124,7 @@ class LiveRun {
       return operation.error();
     }
     OpenOptions open_options;
+    open_options.phrases = engine::headset_phrases();
     open_options.room = engine::room_of(*source, *operation, engine::built_in_tools());
     open_options.room.exposure = engine::strokes_of(set_up_.method);
     if (const Status told = set_up_.tell(open_options.sim); !told) {

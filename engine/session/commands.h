@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -30,15 +31,53 @@ class Requests {
   virtual void take(Timestamp until, std::vector<Request>& requests) = 0;
 };
 
-/// What is said for each command, lower case: "go to next". Keys, scripts and logs use a command's
-/// name: "next".
-[[nodiscard]] std::vector<std::string> spoken_commands();
+/// What can be said, and who listens for it. Every device has its phrases and keys from here.
+struct Command {
+  std::string_view name;    ///< what keys, scripts, logs and other programs call it: "next"
+  std::string_view phrase;  ///< what is said, lower case: "go to next"
+  Event event;              ///< of a change of the screw: kSayReplan; `replan_from` reads which
+  char key = '\0';          ///< in the preview; 0: none
+  /// Our own recognition listens for it too. What the others announce, the session also detects.
+  bool spotted = false;
+  bool by_name = false;  ///< a headset's own recognition takes its name too
+};
 
-/// Those that our own recognition knows. The others come from the headset's recognition and from
-/// scripts; the session also detects by itself what they announce.
-[[nodiscard]] std::vector<std::string> recognized_commands();
+// Phrases are long and unlike what else is said in a room: words of one syllable sound like too
+// many others ("stop" like "start"). A headset's recognition takes one step of a move or tilt;
+// `replan_from` takes any.
+inline constexpr auto kCommands = std::to_array<Command>({
+    {"start", "begin guiding", Event::kSayStart, 's', true},
+    {"save", "save points", Event::kSaySave, 'v', true, true},      // by name as well,
+    {"delete", "delete last", Event::kSayDelete, 'd', true, true},  // as in the publication
+    {"accept", "accept result", Event::kSayAccept, 'a', true},
+    {"reject", "reject level", Event::kSayReject, 'r', true},
+    {"next", "go to next", Event::kSayNext, 'n', true},
+    {"done", "finish rod", Event::kSayDone, 'f', true},
+    {"move rod", "move template", Event::kSayMoveRod, 'm', true},
+    {"twin", "twin screw", Event::kSayTwin, 't', true},
+    {"numbers", "show numbers", Event::kSayNumbers, 'w'},
+    {"drill", "drill", Event::kSayDrill},
+    {"move cranial one", "move cranial one", Event::kSayReplan, 'y'},
+    {"move caudal one", "move caudal one", Event::kSayReplan, 'b'},
+    {"move medial one", "move medial one", Event::kSayReplan, 'g'},
+    {"move lateral one", "move lateral one", Event::kSayReplan, 'j'},
+    {"tilt cranial one", "tilt cranial one", Event::kSayReplan},
+    {"tilt caudal one", "tilt caudal one", Event::kSayReplan},
+    {"tilt medial one", "tilt medial one", Event::kSayReplan},
+    {"tilt lateral one", "tilt lateral one", Event::kSayReplan},
+    {"longer", "longer", Event::kSayReplan, ']'},
+    {"shorter", "shorter", Event::kSayReplan, '['},
+    {"thicker", "thicker", Event::kSayReplan, '.'},
+    {"thinner", "thinner", Event::kSayReplan, ','},
+    {"undo", "undo", Event::kSayReplan, 'z'},
+});
 
-/// What a phrase or a command's name asks for; nothing if it is not a command.
+/// What a headset's own recognition is told to listen for: every phrase.
+[[nodiscard]] std::vector<std::string> headset_phrases();
+/// What our own recognition listens for.
+[[nodiscard]] std::vector<std::string> spotted_phrases();
+
+/// What a phrase or a name asks for; nothing if it is no command, or a change of the screw.
 [[nodiscard]] std::optional<Event> command_event(std::string_view text);
 
 /// What is said for an event; nothing if it is not a command.

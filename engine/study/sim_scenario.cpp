@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/session/commands.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -53,6 +55,10 @@ constexpr double kOfTip = 0.8;
 sim::RoomDescription room_of(const Case& source, const Operation& operation,
                              const std::vector<nav::ToolGeometry>& tools) {
   sim::RoomDescription room;
+  const auto said = [](Event event) { return std::string(*phrase_of(event)); };
+  room.phrases = {said(Event::kSayStart),  said(Event::kSaySave),   said(Event::kSayDelete),
+                  said(Event::kSayAccept), said(Event::kSayReject), said(Event::kSayNext),
+                  said(Event::kSayDone)};
   for (const CaseLevel& level : source.levels) {
     room.levels.push_back(
         {level.label, level.mesh.vertices_m, level.mesh.triangles, level.spine_from_vertebra});

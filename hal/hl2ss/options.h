@@ -10,7 +10,6 @@
 #include "hal/api/depth_camera.h"
 #include "hal/api/research_mode.h"
 #include "hal/hl2ss/protocol.h"
-#include "hal/hl2ss/voice.h"
 
 namespace orthonav::hl2ss {
 
@@ -26,7 +25,8 @@ struct Hl2ssOptions {
   int first_port = kFirstPort;
   int standin_port = 0;  ///< of our own server's side channel; 0: none
   std::uint32_t bitrate = 12'000'000;
-  std::vector<std::string> phrases = workflow_phrases();
+  /// What its speech recognition listens for; none: it is not asked to listen.
+  std::vector<std::string> phrases;
   /// The server is asked to stamp, and to take poses, earlier by this; zero for a server with
   /// correct stamps.
   Duration stamps_late = kResearchModeStampsLate;

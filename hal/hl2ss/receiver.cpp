@@ -109,14 +109,16 @@ Status Receiver::add_events(std::int64_t filetime_offset) {
   const Duration silence = options_.standin_port > 0 ? kPacedSilence : kSilence;
   add("spatial input", port(Service::kSpatialInput), kSpatialInterval, silence,
       [this](ArrivalMeter& meter) { return std::make_unique<SpatialStream>(meter, time_); });
-  auto vocabulary = vocabulary_bytes(options_.phrases);
-  if (!vocabulary) {
-    return vocabulary.error();
+  if (!options_.phrases.empty()) {
+    auto vocabulary = vocabulary_bytes(options_.phrases);
+    if (!vocabulary) {
+      return vocabulary.error();
+    }
+    add("voice", port(Service::kVoice), Duration::max() / 2, kSilence, [&](ArrivalMeter& meter) {
+      return std::make_unique<VoiceStream>(options_.phrases, std::move(*vocabulary),
+                                           filetime_offset, meter, time_, phrases_);
+    });
   }
-  add("voice", port(Service::kVoice), Duration::max() / 2, kSilence, [&](ArrivalMeter& meter) {
-    return std::make_unique<VoiceStream>(options_.phrases, std::move(*vocabulary), filetime_offset,
-                                         meter, time_, phrases_);
-  });
   if (options_.standin_port > 0) {
     standin_ = &add("stand-in", options_.standin_port, Duration::max() / 2, kPacedSilence,
                     [this](ArrivalMeter&) {

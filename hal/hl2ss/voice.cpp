@@ -13,35 +13,6 @@ constexpr std::array kConfidences = {0.9, 0.6, 0.3, 0.0};
 
 }  // namespace
 
-std::vector<std::string> workflow_phrases() {
-  return {"begin guiding",
-          "save points",
-          "delete last",
-          "accept result",
-          "reject level",
-          "go to next",
-          "finish rod",
-          "move template",
-          "twin screw",
-          "show numbers",
-          "drill",
-          "save",  // as in the publication
-          "delete",
-          "move cranial one",
-          "move caudal one",
-          "move medial one",
-          "move lateral one",
-          "tilt cranial one",
-          "tilt caudal one",
-          "tilt medial one",
-          "tilt lateral one",
-          "longer",
-          "shorter",
-          "thicker",
-          "thinner",
-          "undo"};
-}
-
 Result<std::vector<std::uint8_t>> vocabulary_bytes(const std::vector<std::string>& phrases) {
   if (phrases.size() > kMaxPhrases) {
     return Error{"voice: " + std::to_string(phrases.size()) + " phrases, limit " +

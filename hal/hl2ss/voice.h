@@ -12,10 +12,6 @@ namespace orthonav::hl2ss {
 inline constexpr std::uint8_t kStopVoice = 0;
 inline constexpr std::uint8_t kPollVoice = 1;
 
-/// The commands of the workflow, and changes of a screw by one step each way: the headset's default
-/// vocabulary. A test compares them with the session's.
-[[nodiscard]] std::vector<std::string> workflow_phrases();
-
 /// u16 count, then each phrase as u16 byte length and UTF-16LE. Phrases are ASCII, at most 64 of at
 /// most 256 letters.
 Result<std::vector<std::uint8_t>> vocabulary_bytes(const std::vector<std::string>& phrases);

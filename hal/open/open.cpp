@@ -165,8 +165,10 @@ Result<OpenedHeadset> open_replay(const std::string& uri, const std::string& res
   return headset;
 }
 
-Result<OpenedHeadset> open_hl2ss(const std::string& rest) {
-  auto opened = hl2ss::Hl2ssHeadset::open(*hl2ss::options_of(rest));
+Result<OpenedHeadset> open_hl2ss(const std::string& rest, const OpenOptions& options) {
+  hl2ss::Hl2ssOptions wanted = *hl2ss::options_of(rest);
+  wanted.phrases = options.phrases;
+  auto opened = hl2ss::Hl2ssHeadset::open(wanted);
   std::string warning = opened ? (*opened)->depth_trouble() : "";
   auto headset = without_room(std::move(opened));
   if (headset) {
@@ -229,7 +231,7 @@ Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& 
     return open_replay(uri, rest);
   }
   if (scheme == "hl2ss") {
-    return open_hl2ss(rest);
+    return open_hl2ss(rest, options);
   }
   if (const auto registered = registered_scheme(scheme)) {
     return without_room(registered->open(rest));

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hal/api/devices.h"
 #include "hal/sim/sim_headset.h"
@@ -13,6 +14,8 @@ namespace orthonav {
 struct OpenOptions {
   sim::RoomDescription room;  ///< for `sim:`; empty: a table and a pointer
   sim::SimOptions sim;
+  /// What a headset's own speech recognition listens for, lower case; none: it hears nothing.
+  std::vector<std::string> phrases;
 };
 
 /// The opened headset with its room.

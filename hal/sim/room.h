@@ -70,6 +70,12 @@ enum class Exposure : std::uint8_t {
   kTrainedPattern
 };
 
+/// What the surgeon says, in the words that the application listens for: to begin, to save and to
+/// drop points, ...
+struct SurgeonPhrases {
+  std::string begin, save, drop, accept, reject, next, finish_rod;
+};
+
 /// The content of the operating room; fixed for a session.
 struct RoomDescription {
   std::vector<RoomLevel> levels;  ///< may be empty: a table and tools only
@@ -79,6 +85,7 @@ struct RoomDescription {
   std::vector<StandingScrew> screws = {};
   Exposure exposure = Exposure::kLaminae;
   std::vector<TagFlaws> tag_flaws = {};  ///< one for each tool; empty: none has any
+  SurgeonPhrases phrases = {};           ///< all needed where a surgeon operates
 };
 
 /// Frame of the room itself: fixed, +y up, origin on the table's top under the spine; the patient

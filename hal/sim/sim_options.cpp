@@ -58,6 +58,13 @@ Status check_surgery(const RoomDescription& room) {
   if (!layout.tool(ToolKind::kPointer)) {
     return Error{"room: the surgeon has no pointer"};
   }
+  const SurgeonPhrases& say = room.phrases;
+  for (const std::string* phrase :
+       {&say.begin, &say.save, &say.drop, &say.accept, &say.reject, &say.next, &say.finish_rod}) {
+    if (phrase->empty()) {
+      return Error{"room: the surgeon lacks a phrase to say"};
+    }
+  }
   if (!room.screws.empty()) {
     return {};
   }

@@ -152,7 +152,7 @@ Script Surgeon::perform(StepOnDisplay step) {
   const auto level = layout_->find(step.level);
   if (step.step == Step::kSetup) {
     co_await set_up();
-    co_await await_change(step, "begin guiding");
+    co_await await_change(step, words().begin);
   } else if (step.step == Step::kDigitize && level) {
     co_await digitize(*level);
     co_await await_verdict(*level, step);
@@ -170,19 +170,19 @@ Script Surgeon::perform(StepOnDisplay step) {
     }
     co_await consent_to_corrections(step);
     if (in_step(step)) {
-      body_.say("go to next");
-      co_await await_change(step, "go to next");
+      body_.say(words().next);
+      co_await await_change(step, words().next);
     }
   } else if (step.step == Step::kGuide && level && step.side) {
     co_await guide(*level, *step.side);
     if (driven_.contains(step)) {
-      co_await await_change(step, "go to next");
+      co_await await_change(step, words().next);
     }
   } else if (step.step == Step::kPlaced && level && step.side) {
     co_await look_at_wire(*level, *step.side);
   } else if (step.step == Step::kRod && step.side) {
     co_await touch_heads(*step.side);
-    co_await await_change(step, "finish rod");
+    co_await await_change(step, words().finish_rod);
   } else if (step.step == Step::kDone) {
     finished_ = true;
   } else {
@@ -195,7 +195,7 @@ Script Surgeon::set_up() {
   const Point<Room> site = operated.empty() ? layout_->middle() : layout_->site(operated.front());
   co_await body_.take(ToolKind::kPointer, site);
   co_await body_.rest(1.0);
-  body_.say("begin guiding");
+  body_.say(words().begin);
 }
 
 Script Surgeon::await_change(std::optional<StepOnDisplay> step, std::string phrase) {
@@ -235,13 +235,13 @@ Script Surgeon::verify(std::size_t level) {
   if (!in_step(step) || finished_) {
     co_return;
   }
-  body_.say(fits ? "accept result" : "reject level");
+  body_.say(fits ? words().accept : words().reject);
   moved_[level] = fits ? moved_[level] : 0;
   if (!fits && ++failures_[level] >= kMaxFailures) {
     give_up();
   }
   if (!finished_) {
-    co_await await_change(step, fits ? "accept result" : "reject level");
+    co_await await_change(step, fits ? words().accept : words().reject);
   }
 }
 

@@ -194,6 +194,7 @@ class Surgeon {
   // surgeon_rod.cpp
   Script touch_heads(Side side);
 
+  [[nodiscard]] const SurgeonPhrases& words() const { return layout_->room().phrases; }
   [[nodiscard]] bool sees_now() const;
   /// The step that the status line names, which must exist.
   [[nodiscard]] const StepOnDisplay& step_now() const { return eyes_->status()->at; }

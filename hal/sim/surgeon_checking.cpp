@@ -162,7 +162,7 @@ Script Surgeon::check_by_touch(std::size_t level, bool& fits) {
         taken_back < kMostTakenBack) {
       // The others agree: the touch slipped, or the model deviates from the bone there.
       ++taken_back;
-      body_.say("delete last");
+      body_.say(words().drop);
       co_await body_.rest(kTakeBack_s);
     }
     if (!in_step(step) || !asked(ChecksAsked::kTouchMore)) {

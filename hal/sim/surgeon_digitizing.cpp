@@ -100,7 +100,7 @@ Script Surgeon::record(std::size_t level, const StrokeRegion& region, bool slips
     body_.release();
   }
   co_await body_.rest(kLookingBack * around_s);
-  body_.say(slips ? "delete last" : "save points");
+  body_.say(slips ? words().drop : words().save);
   co_await body_.rest(kAfterWord * around_s);
 }
 

@@ -32,7 +32,7 @@ Script Surgeon::guide(std::size_t level, Side side) {
     co_await drive_wire(level, side, aim);
     driven_.insert(step);
   }
-  body_.say("go to next");
+  body_.say(words().next);
 }
 
 Script Surgeon::set_on(const Aim& aim) {

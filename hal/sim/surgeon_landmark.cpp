@@ -71,7 +71,7 @@ Script Surgeon::consent_to_corrections(const StepOnDisplay& step) {
     if (!asked(ChecksAsked::kCorrectGuide)) {
       break;
     }
-    body_.say("accept result");
+    body_.say(words().accept);
     co_await body_.rest(1.0);
     // The line reports the correction for a while; then it offers the next one, or none.
     const Timestamp end = body_.now() + from_seconds(kPatience_s);

@@ -30,7 +30,7 @@ Script Surgeon::look_at_wire(std::size_t level, Side side) {
   const bool betters = error_model_->wire_bending_rad < kBendsAgain_rad;
   if (in_step(step) && asked(ChecksAsked::kDecideOnWire) && betters &&
       redone_.insert(guiding).second) {
-    body_.say("delete last");
+    body_.say(words().drop);
     co_await body_.rest(kReadNumbers_s);
     // The line moves on to the landmark, or says that the wire can only be kept.
     if (!in_step(step)) {
@@ -39,12 +39,12 @@ Script Surgeon::look_at_wire(std::size_t level, Side side) {
     }
   }
   if (in_step(step) && (asked(ChecksAsked::kDecideOnWire) || asked(ChecksAsked::kKeepWire))) {
-    body_.say("accept result");
+    body_.say(words().accept);
     co_await body_.rest(kReadNumbers_s);
   }
   if (in_step(step)) {
-    body_.say("go to next");
-    co_await await_change(step, "go to next");
+    body_.say(words().next);
+    co_await await_change(step, words().next);
   }
 }
 

@@ -29,7 +29,7 @@ Script Surgeon::touch_heads(Side side) {
     body_.posture().contact_normal.reset();
   }
   co_await body_.rest(1.0);
-  body_.say("finish rod");
+  body_.say(words().finish_rod);
 }
 
 }  // namespace orthonav::sim

@@ -17,7 +17,7 @@
 namespace orthonav::voice {
 
 struct SpotterOptions {
-  std::vector<std::string> commands;  ///< lower case: "save points"
+  std::vector<std::string> commands;  ///< lower case
   /// Natural logarithm of the odds from which on a command counts: twelve to one. At three to one
   /// twice as many other words pass, and 4 % more commands are heard (docs/lab/voice.md).
   double least_log_odds = 2.5;

@@ -90,6 +90,7 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults, doubl
   });
   hl2ss::Hl2ssOptions client = server->client_options();
   client.profile = profile;
+  client.phrases = headset_phrases();
   auto headset = hl2ss::Hl2ssHeadset::open(client);
   EXPECT_TRUE(headset.ok()) << headset.error().message;
   if (!headset) {
@@ -153,47 +154,6 @@ TEST(OverTcp, RawIsAsExactAsTheDirectRunThroughEveryFaultAndAJumpWhileGuiding) {
   EXPECT_THAT(done.map_moves, ::testing::ElementsAre(Step::kGuide));
   EXPECT_GE(done.wires.size(), 2u);
   expect_wires_within(kPerfectAngle_deg, kPerfectEntry_m, done.wires);
-}
-
-/// The words that the headset is told to listen for are those that a session understands.
-TEST(OverTcp, TheHeadsetListensForTheWordsOfTheWorkflow) {
-  const Case spine = phantom();
-  ModelCache models;
-  auto operation = *plan_operation(spine, {"L5"}, models);
-  const Method method = *method_named("best");
-  auto headset = *sim::SimHeadset::open(room_of(spine, operation, built_in_tools()), {});
-  auto tracker = *method.create_tracker(headset->cameras().calibration(), built_in_tools(), {});
-  auto session = *Session::create(std::move(operation), std::move(tracker), method);
-  class Misheard : public SessionObserver {
-   public:
-    std::vector<std::string> phrases;
-    void not_understood(const Phrase& phrase) override { phrases.push_back(phrase.text); }
-  } misheard;
-  session->observe(&misheard);
-  std::vector<Phrase> phrases;
-  for (const std::string& text : hl2ss::workflow_phrases()) {
-    phrases.push_back({text, 1.0, {}});
-  }
-  phrases.push_back({"accepted", 1.0, {}});
-  Inputs inputs;
-  inputs.phrases = phrases;
-  StereoFrame frame;
-  ASSERT_TRUE(headset->cameras().next(frame).ok());
-  session->step(frame, inputs);
-  EXPECT_THAT(misheard.phrases, ::testing::ElementsAre("accepted"));
-  std::vector<std::string> understood = spoken_commands();
-  for (const std::string direction : {"cranial", "caudal", "medial", "lateral"}) {
-    understood.push_back("move " + direction + " one");
-    understood.push_back("tilt " + direction + " one");
-  }
-  understood.insert(understood.end(),
-                    {"longer", "shorter", "thicker", "thinner", "undo", "save", "delete"});
-  for (const std::string& phrase : hl2ss::workflow_phrases()) {
-    const auto replan = replan_from(phrase);
-    EXPECT_TRUE(command_event(phrase) || (replan && *replan)) << phrase;
-    EXPECT_FALSE(command_event(phrase) && replan && *replan) << phrase;
-  }
-  EXPECT_THAT(hl2ss::workflow_phrases(), ::testing::UnorderedElementsAreArray(understood));
 }
 
 }  // namespace

@@ -63,6 +63,8 @@ inline RoomDescription operating_room(int rings = 33) {
   room.tools = {tool("pointer", ToolKind::kPointer, 3, 0.050, 0.15),
                 tool("guide", ToolKind::kGuide, 5, 0.070, 0.15),
                 tool("reference", ToolKind::kReference, 17, 0.040, 0.06)};
+  room.phrases = {"begin guiding", "save points", "delete last", "accept result",
+                  "reject level",  "go to next",  "finish rod"};
   return room;
 }
 

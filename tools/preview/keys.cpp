@@ -2,33 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
+
+#include "engine/session/commands.h"
 
 namespace orthonav::preview {
 namespace {
 
 using enum Command;
 
-constexpr auto kBindings = std::to_array<KeyBinding>({
-    {Key::kSpace, "space", kClicker, "clicker: hold, tap, tap twice"},
-    {key_of('s'), "s", kSay, "start"},
-    {key_of('v'), "v", kSay, "save"},
-    {key_of('d'), "d", kSay, "delete"},
-    {key_of('a'), "a", kSay, "accept"},
-    {key_of('r'), "r", kSay, "reject"},
-    {key_of('n'), "n", kSay, "next"},
-    {key_of('f'), "f", kSay, "done"},
-    {key_of('m'), "m", kSay, "move rod"},
-    {key_of('t'), "t", kSay, "twin"},
-    {key_of('w'), "w", kSay, "numbers"},
-    {key_of('y'), "y", kSay, "move cranial one"},
-    {key_of('b'), "b", kSay, "move caudal one"},
-    {key_of('g'), "g", kSay, "move medial one"},
-    {key_of('j'), "j", kSay, "move lateral one"},
-    {key_of(']'), "]", kSay, "longer"},
-    {key_of('['), "[", kSay, "shorter"},
-    {key_of('.'), ".", kSay, "thicker"},
-    {key_of(','), ",", kSay, "thinner"},
-    {key_of('z'), "z", kSay, "undo"},
+constexpr KeyBinding kSpaceBar = {Key::kSpace, "space", kClicker, "clicker: hold, tap, tap twice"};
+constexpr auto kOthers = std::to_array<KeyBinding>({
     {key_of('u'), "u", kMute, "mute the headset's own clicker and voice"},
     {key_of('p'), "p", kPause, "pause, go on"},
     {Key::kLeft, "left", kBack, "one pair back"},
@@ -60,14 +44,30 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {Key::kEscape, "escape", kQuit, "quit"},
 });
 
+/// The clicker, the keys of the session's commands, and the window's own.
+std::vector<KeyBinding> every_binding() {
+  std::vector<KeyBinding> all = {kSpaceBar};
+  for (const engine::Command& command : engine::kCommands) {
+    if (command.key != '\0') {
+      all.push_back({key_of(command.key), {&command.key, 1}, kSay, command.name});
+    }
+  }
+  all.insert(all.end(), kOthers.begin(), kOthers.end());
+  return all;
+}
+
 const KeyBinding* find(const auto& fits) {
-  const auto found = std::find_if(kBindings.begin(), kBindings.end(), fits);
-  return found == kBindings.end() ? nullptr : &*found;
+  const std::span<const KeyBinding> bindings = key_bindings();
+  const auto found = std::find_if(bindings.begin(), bindings.end(), fits);
+  return found == bindings.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
-std::span<const KeyBinding> key_bindings() { return kBindings; }
+std::span<const KeyBinding> key_bindings() {
+  static const std::vector<KeyBinding> kBindings = every_binding();
+  return kBindings;
+}
 
 const KeyBinding* binding_of(Key key) {
   return find([key](const KeyBinding& binding) { return binding.key == key; });

@@ -7,6 +7,7 @@
 #include "engine/case/tool_file.h"
 #include "engine/holograms/render_values.h"
 #include "engine/live/known_tools.h"
+#include "engine/session/commands.h"
 #include "engine/session/wording.h"
 #include "engine/study/sim_scenario.h"
 #include "tools/support/eye_in_rig.h"
@@ -60,6 +61,7 @@ Result<std::unique_ptr<LiveOperation>> LiveOperation::open(const OperationSource
   options.room = engine::room_of(source.source, source.operation, engine::built_in_tools());
   options.room.exposure = engine::strokes_of(source.method.name);
   options.sim = room;
+  options.phrases = engine::headset_phrases();
   auto opened = open_with_room(source.headset, options);
   if (!opened) {
     return opened.error();

@@ -92,6 +92,7 @@ class HostileServer {
     Hl2ssOptions options;
     options.host = "127.0.0.1";
     options.first_port = base_;
+    options.phrases = {"go"};
     return options;
   }
 

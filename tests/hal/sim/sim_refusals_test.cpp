@@ -82,6 +82,8 @@ TEST(SimHeadset, RefusesBrokenRooms) {
   SimOptions surgery = hovering();
   surgery.surgeon = true;
   EXPECT_THAT(refusal(room, surgery), HasSubstr("no guide"));
+  room.phrases.next.clear();
+  EXPECT_THAT(refusal(room, surgery), HasSubstr("lacks a phrase to say"));
 }
 
 }  // namespace

@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "base/random.h"
+#include "engine/session/commands.h"
 #include "tests/support/noisy_speech.h"
 
 namespace orthonav::voice::voice_test {
 
-inline const std::vector<std::string> kCommands = {"begin guiding", "save points",   "delete last",
-                                                   "accept result", "reject level",  "go to next",
-                                                   "finish rod",    "move template", "twin screw"};
+inline const std::vector<std::string> kCommands = engine::spotted_phrases();
 
 inline std::vector<std::int16_t> said(const std::string& text) {
   const auto samples = orthonav::test::spoken(text, {"en-us", 150});

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
 #include <sstream>
 
+#include "engine/session/commands.h"
 #include "tools/preview/keys.h"
 #include "tools/preview/planning/plan_script.h"
 #include "tools/preview/script.h"
@@ -41,6 +43,32 @@ TEST(PreviewDocs, NameEveryKeyAndEveryPhrase) {
     if (binding.command == PlanCommand::kSay) {
       expect_said(text, binding.what);
     }
+  }
+}
+
+/// The commands' keys come from the session; none of them is one of the window's own.
+TEST(PreviewKeys, SayEveryCommandThatHasOne) {
+  for (const engine::Command& command : engine::kCommands) {
+    if (command.key == '\0') {
+      continue;
+    }
+    const KeyBinding* binding = binding_of(key_of(command.key));
+    ASSERT_NE(binding, nullptr) << command.name;
+    EXPECT_EQ(binding->command, Command::kSay) << command.name;
+    EXPECT_EQ(binding->what, command.name);
+    const PlanKeyBinding* of_plan = plan_binding_of(key_of(command.key));
+    if (command.event == engine::Event::kSayReplan) {
+      ASSERT_NE(of_plan, nullptr) << command.name;
+      EXPECT_EQ(of_plan->what, command.name);
+    }
+  }
+  std::set<Key> keys;
+  for (const KeyBinding& binding : key_bindings()) {
+    EXPECT_TRUE(keys.insert(binding.key).second) << binding.name;
+  }
+  keys.clear();
+  for (const PlanKeyBinding& binding : plan_key_bindings()) {
+    EXPECT_TRUE(keys.insert(binding.key).second) << binding.name;
   }
 }
 

@@ -2,27 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
+
+#include "engine/session/commands.h"
 
 namespace orthonav::preview {
 namespace {
 
 using enum PlanCommand;
 
-/// A change has the same key as during an operation.
-constexpr auto kBindings = std::to_array<PlanKeyBinding>({
+constexpr auto kOwn = std::to_array<PlanKeyBinding>({
     {Key::kRight, "right", kNext, "next screw"},
     {Key::kLeft, "left", kBefore, "the screw before"},
-    {key_of('y'), "y", kSay, "move cranial one"},
-    {key_of('b'), "b", kSay, "move caudal one"},
-    {key_of('g'), "g", kSay, "move medial one"},
-    {key_of('j'), "j", kSay, "move lateral one"},
-    {key_of(']'), "]", kSay, "longer"},
-    {key_of('['), "[", kSay, "shorter"},
-    {key_of('.'), ".", kSay, "thicker"},
-    {key_of(','), ",", kSay, "thinner"},
     {key_of('a'), "a", kSay, "auto"},
     {key_of('d'), "d", kSay, "delete"},
-    {key_of('z'), "z", kSay, "undo"},
     {key_of('r'), "r", kSay, "redo"},
     {key_of('v'), "v", kSave, "save the plan as a new case"},
     {key_of('o'), "o", kViews, "all pictures as at first"},
@@ -34,15 +27,30 @@ constexpr auto kBindings = std::to_array<PlanKeyBinding>({
     {key_of('x'), "x", kDiscard, "quit without saving, pressed twice"},
 });
 
+/// A change of the screw has the same key as during an operation.
+std::vector<PlanKeyBinding> every_binding() {
+  std::vector<PlanKeyBinding> all(kOwn.begin(), kOwn.end());
+  for (const engine::Command& command : engine::kCommands) {
+    if (command.event == engine::Event::kSayReplan && command.key != '\0') {
+      all.push_back({key_of(command.key), {&command.key, 1}, kSay, command.name});
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
-std::span<const PlanKeyBinding> plan_key_bindings() { return kBindings; }
+std::span<const PlanKeyBinding> plan_key_bindings() {
+  static const std::vector<PlanKeyBinding> kBindings = every_binding();
+  return kBindings;
+}
 
 const PlanKeyBinding* plan_binding_of(Key key) {
+  const std::span<const PlanKeyBinding> bindings = plan_key_bindings();
   const auto found =
-      std::find_if(kBindings.begin(), kBindings.end(),
+      std::find_if(bindings.begin(), bindings.end(),
                    [key](const PlanKeyBinding& binding) { return binding.key == key; });
-  return found == kBindings.end() ? nullptr : &*found;
+  return found == bindings.end() ? nullptr : &*found;
 }
 
 }  // namespace orthonav::preview
