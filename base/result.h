@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -17,10 +18,15 @@ enum class ErrorCode {
   kLost,         ///< a device, session or connection that is gone for good
 };
 
+struct Reason;  // base/reason.h
+
 /// What went wrong, in one line a user can act on: what, where, value, limit.
 struct Error {
   std::string message;
   ErrorCode code = ErrorCode::kInvalid;
+  /// Of a refusal that a wearer may read: what the message says, as data. Null: it is English
+  /// alone.
+  std::shared_ptr<const Reason> reason = nullptr;
 };
 
 /// A value, or the reason why there is none. Reading the absent one ends the program, in release

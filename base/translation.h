@@ -21,10 +21,8 @@ namespace orthonav {
 [[nodiscard]] const char* translated(const char* english);
 [[nodiscard]] std::string_view translated(std::string_view english);
 
-/// Appends a text that was printed earlier from a marked format, such as the message of an Error,
-/// in the language of `translated`. It is recognised by its format. A text of no known format is
-/// put in quotation marks, so that nobody takes it for a translation.
-void append_retold(std::string& out, std::string_view english);
+/// Whether `translated` looks texts up in another language here.
+[[nodiscard]] bool writes_for_wearer();
 
 /// Texts by the English ones.
 class Translation {
@@ -62,6 +60,26 @@ class [[nodiscard]] WearersLanguage {
  private:
   bool before_;
 };
+
+/// While one lives, this thread writes English again.
+class [[nodiscard]] InEnglish {
+ public:
+  InEnglish();
+  ~InEnglish();
+  InEnglish(const InEnglish&) = delete;
+  InEnglish& operator=(const InEnglish&) = delete;
+
+ private:
+  bool before_;
+};
+
+/// One piece of a format: literal text, or a conversion.
+struct FormatPiece {
+  std::string_view text;
+  bool conversion = false;
+};
+/// Takes the next piece off a format that is not empty. `%%` is the literal text "%".
+[[nodiscard]] FormatPiece take_piece(std::string_view& format);
 
 /// The conversions of a format in order, as "%.1f"; `%%` is none.
 [[nodiscard]] std::vector<std::string_view> conversions_of(std::string_view format);

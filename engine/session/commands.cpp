@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/angle.h"
-#include "base/printed.h"
+#include "base/reason.h"
 #include "base/translation.h"
 #include "base/units.h"
 
@@ -208,8 +208,7 @@ constexpr const char* kNotToItsEnd = translatable("not understood to its end, sa
 
 /// One line, whatever was typed.
 Error unclear(const std::string& verb, const char* problem, const std::string& example) {
-  return Error{
-      printed(translatable("%s: %s, such as \"%s\""), verb.c_str(), problem, example.c_str())};
+  return refused({translatable("%s: %s, such as \"%s\""), {verb, problem, example}});
 }
 
 struct SaidStep {
@@ -291,7 +290,7 @@ Result<Replan> one_size_from(std::span<const std::string> words) {
 
 Result<Replan> alone(std::span<const std::string> words, Replan replan) {
   if (words.size() > 1) {
-    return Error{printed(translatable("%s: stands alone"), words[0].c_str())};
+    return refused({translatable("%s: stands alone"), {words[0]}});
   }
   return replan;
 }

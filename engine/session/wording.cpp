@@ -7,6 +7,7 @@
 
 #include "base/angle.h"
 #include "base/printed.h"
+#include "base/reason.h"
 #include "base/translation.h"
 #include "engine/session/commands.h"
 #include "engine/session/numbers_wording.h"
@@ -168,7 +169,7 @@ struct MessageWriter {
     out.append(translated("refused:")).append(" ");
     const std::span<const nav::RefusalReason> reasons = m.reasons;
     if (m.error) {
-      append_retold(out, m.error->message);
+      append_error(out, *m.error);
     } else {
       append(out, reasons.first(std::min<std::size_t>(1, reasons.size())));
     }
@@ -250,14 +251,14 @@ struct MessageWriter {
   }
   void operator()(const ReplanUnclear& m) {
     text.begin(Importance::kMessage);
-    append_retold(out, m.why.message);
+    append_error(out, m.why);
   }
   void operator()(const ReplanRefusal& m) { write(text, m); }
   void operator()(const ScrewReplanned& m) { write(text, m); }
   void operator()(const NoRod& m) {
     text.begin(Importance::kMessage);
     out.append(translated("no rod:")).append(" ");
-    append_retold(out, m.why.message);
+    append_error(out, m.why);
   }
   void operator()(const MapMoved& m) {
     text.begin(Importance::kDanger);

@@ -1,12 +1,10 @@
 #include "nav/guidance/rod.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
-#include <string>
 
 #include "base/angle.h"
-#include "base/printed.h"
+#include "base/reason.h"
 #include "base/translation.h"
 #include "nav/geometry/principal_axes.h"
 #include "nav/geometry/spline.h"
@@ -29,31 +27,28 @@ constexpr double kSharpest_rad = 60.0 * kRadiansPerDegree;
 constexpr double kBack_rad = 90.0 * kRadiansPerDegree;
 constexpr double kSampling_m = 0.001;
 
-/// A length outside its limits, with enough digits to tell it from the limit.
-std::string outside(double length_m, double shortest_m, double longest_m) {
+/// A length outside its limits.
+NearLimit outside(double length_m, double shortest_m, double longest_m) {
   const double limit_m = length_m < shortest_m ? shortest_m : longest_m;
-  std::string text = beside_limit("%.4g mm;%.4g", length_m * 1e3, limit_m * 1e3);
-  text.resize(text.find(';'));
-  return text;
+  return {length_m * 1e3, limit_m * 1e3, "%.4g mm;%.4g"};
 }
 
 Error apart(std::size_t i, std::size_t j, double gap_m) {
-  return Error{printed(translatable("screw heads %zu and %zu are %s apart, limit 5-150 mm"), i + 1,
-                       j + 1, outside(gap_m, kClosestHeads_m, kFarthestHead_m).c_str())};
+  return refused({translatable("screw heads %zu and %zu are %s apart, limit 5-150 mm"),
+                  {i + 1, j + 1, outside(gap_m, kClosestHeads_m, kFarthestHead_m)}});
 }
 
 Status check(std::span<const Vec3> heads_m, double diameter_m) {
   if (!(diameter_m >= kThinnestRod_m && diameter_m <= kThickestRod_m)) {
-    return Error{printed(translatable("rod diameter is %s, limit 1-15 mm"),
-                         outside(diameter_m, kThinnestRod_m, kThickestRod_m).c_str())};
+    return refused({translatable("rod diameter is %s, limit 1-15 mm"),
+                    {outside(diameter_m, kThinnestRod_m, kThickestRod_m)}});
   }
   if (heads_m.size() < 2) {
-    return Error{
-        printed(translatable("rod needs at least 2 screw heads, got %zu"), heads_m.size())};
+    return refused({translatable("rod needs at least 2 screw heads, got %zu"), {heads_m.size()}});
   }
   for (std::size_t i = 0; i < heads_m.size(); ++i) {
     if (!heads_m[i].is_finite()) {
-      return Error{printed(translatable("screw head %zu is not finite"), i + 1)};
+      return refused({translatable("screw head %zu is not finite"), {i + 1}});
     }
   }
   for (std::size_t i = 0; i < heads_m.size(); ++i) {
@@ -97,12 +92,11 @@ Status check_run(std::span<const Vec3> heads_m, std::span<const std::size_t> ord
   for (std::size_t i = 1; i + 1 < heads_m.size(); ++i) {
     const double angle_rad = bend_rad(heads_m, i);
     if (angle_rad > kSharpest_rad) {
-      return Error{printed(
-          angle_rad > kBack_rad
-              ? translatable("rod doubles back by %s° at screw head %zu, limit 60°")
-              : translatable("rod bends by %s° at screw head %zu, limit 60°"),
-          value_beside(angle_rad * kDegreesPerRadian, kSharpest_rad * kDegreesPerRadian, 1).c_str(),
-          order[i] + 1)};
+      return refused({angle_rad > kBack_rad
+                          ? translatable("rod doubles back by %s° at screw head %zu, limit 60°")
+                          : translatable("rod bends by %s° at screw head %zu, limit 60°"),
+                      {NearLimit{angle_rad * kDegreesPerRadian, kSharpest_rad * kDegreesPerRadian},
+                       order[i] + 1}});
     }
   }
   return {};
@@ -135,8 +129,8 @@ Result<RodTemplate> rod_template(std::span<const Vec3> heads_m, double diameter_
     rod.length_m += spline->segment_length_m(i);
   }
   if (rod.length_m > kLongestRod_m) {
-    return Error{printed(translatable("rod is %s long, limit 600 mm"),
-                         outside(rod.length_m, 0.0, kLongestRod_m).c_str())};
+    return refused({translatable("rod is %s long, limit 600 mm"),
+                    {outside(rod.length_m, 0.0, kLongestRod_m)}});
   }
   return rod;
 }

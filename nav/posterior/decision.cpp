@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/random.h"
+#include "base/reason.h"
 #include "base/translation.h"
 #include "nav/registration/pose_candidates.h"
 
@@ -204,8 +205,8 @@ Result<Decision> decided(const VertebraModel& model, const Observations& observa
   if (const Status s = validate_points(tips, kFewestPoints, model.bone()); !s) {
     return s.error();
   }
-  const Error no_pose{
-      translatable("registration finds no pose: the strokes fit no part of the model")};
+  const Error no_pose =
+      refused({translatable("registration finds no pose: the strokes fit no part of the model")});
   const Cloud cloud = cloud_of(tips);
   std::vector<Tried> tried;
   const auto add_poses = [&](Explanation::Kind kind, const std::string& level,

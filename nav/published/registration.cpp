@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/reason.h"
 #include "base/translation.h"
 #include "nav/geometry/absolute_orientation.h"
 #include "nav/geometry/principal_axes.h"
@@ -33,9 +34,9 @@ Result<std::array<Transform<World, Vertebra>, 2>> coarse_poses(const ExtremePoin
   const auto exchanged =
       absolute_orientation(model_m, std::array<Vec3, 3>{digitized.e2, digitized.e1, digitized.e3});
   if (!as_named || !exchanged) {
-    return Error{translatable(
-        "registration finds no pose: the extreme points of the strokes, or of the model, lie on a "
-        "line")};
+    return refused(
+        {translatable("registration finds no pose: the extreme points of the strokes, "
+                      "or of the model, lie on a line")});
   }
   return std::array<Transform<World, Vertebra>, 2>{
       {{as_named->rotation, as_named->translation_m},

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/reason.h"
 #include "base/translation.h"
 #include "nav/registration/certain_fit.h"
 #include "nav/registration/degeneracy.h"
@@ -122,8 +123,8 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
     const auto certain =
         found.empty() ? std::nullopt : final_fit(model, cloud, found[0].fit, options);
     if (!certain) {
-      return Error{
-          translatable("registration finds no pose: the strokes fit no part of the model")};
+      return refused(
+          {translatable("registration finds no pose: the strokes fit no part of the model")});
     }
     Registration r = described(model, cloud, *certain, targets, options);
     r.points = points_in_world.size();

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <vector>
 
-#include "base/printed.h"
 #include "base/random.h"
+#include "base/reason.h"
 #include "base/translation.h"
 #include "nav/registration/registration.h"
 #include "nav/statistics/symmetric_eigen.h"
@@ -80,8 +80,8 @@ Result<PoseUncertainty> PoseUncertainty::estimate(
     std::span<const Point<World>> points_in_world) {
   const std::vector<Touch> found = touches(model, world_from_vertebra, points_in_world);
   if (found.size() <= 6) {
-    return Error{
-        printed(translatable("predicted error needs more than 6 points, got %zu"), found.size())};
+    return refused(
+        {translatable("predicted error needs more than 6 points, got %zu"), {found.size()}});
   }
   const auto n = static_cast<double>(found.size());
   PoseUncertainty result;
@@ -95,8 +95,9 @@ Result<PoseUncertainty> PoseUncertainty::estimate(
   Eigen::Map<Matrix6>(entries.data()) = info;
   const SymmetricEigen6 eigen = symmetric_eigen(entries);
   if (!(eigen.values[0] > kWeakest * eigen.values[5])) {
-    return Error{translatable(
-        "the digitized points leave a motion of the bone open: digitize another side of it")};
+    return refused(
+        {translatable("the digitized points leave a motion of the bone open: digitize "
+                      "another side of it")});
   }
   Vector6 scale;  // back from rotation · lever arm to rotation
   scale << 1, 1, 1, 1 / kLever_m, 1 / kLever_m, 1 / kLever_m;

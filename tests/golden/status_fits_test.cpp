@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/angle.h"
+#include "base/reason.h"
 #include "base/translation.h"
 #include "engine/golden/golden_stage.h"
 #include "engine/session/wording.h"
@@ -96,7 +97,9 @@ std::vector<Message> messages() {
       Message(ConfirmRedo{12}),
       Message(NoOtherEntry{}),
       Message(ScrewRedone{0.0123, 0.0123}),
-      Message(NoRod{{"screw heads 10 and 11 are 4.9999 mm apart, limit 5-150 mm"}}),
+      Message(NoRod{
+          refused({"screw heads %zu and %zu are %s apart, limit 5-150 mm",
+                   {std::size_t{10}, std::size_t{11}, NearLimit{4.9999, 5.0, "%.4g mm;%.4g"}}})}),
       Message(MapMoved{Step::kDigitize}),
       Message(MapMoved{Step::kRod}),
       Message(NoImages{}),

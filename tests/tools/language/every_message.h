@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/reason.h"
 #include "engine/session/commands.h"
 #include "engine/session/messages.h"
 #include "nav/guidance/rod.h"
@@ -91,7 +92,7 @@ inline std::vector<Error> every_registration_error() {
   add({{{0, 0, 0}}, {{kInfinite, 0, 0}}, {{0, 1, 0}}});
   add({{{0, 0, 0}}, {{9, 0, 0}}, {{0, 9, 0}}, {{0, 0, 9}}});
   add({{{0, 0, 0}}, {{0.01, 0, 0}}, {{0.02, 0, 0}}});
-  errors.push_back({"registration finds no pose: the strokes fit no part of the model"});
+  errors.push_back(refused({"registration finds no pose: the strokes fit no part of the model"}));
   return errors;
 }
 
