@@ -24,6 +24,11 @@ constexpr double kMinSize = 0.0004;
 /// tag size is reported instead.
 constexpr double kMaxRotation_rad = 0.01;
 constexpr double kMaxSize = 0.015;
+/// The error that every measured size may share: from the lens, from the light. The cameras' own,
+/// 0.6 px across the epipolar lines, as in one real unit, looks like 0.8 % at arm's length.
+constexpr double kLeastSizeSd = 0.005;
+/// SDs that make a wrong size certain.
+constexpr double kCertainSd = 5.0;
 constexpr int kCameras = kCameraUnknowns;
 using CamerasMatrix = Eigen::Matrix<double, kCameras, kCameras>;
 using CamerasVector = Eigen::Matrix<double, kCameras, 1>;
@@ -70,6 +75,44 @@ void OnlineCalibration::add(std::size_t tool, const CalibrationEquations& pair) 
   t.information += fraction * information(kTagSizeUnknown, kTagSizeUnknown);
   t.right += fraction * right(kTagSizeUnknown);
   ++pairs_;
+  const double of_size = information(kTagSizeUnknown, kTagSizeUnknown);
+  if (of_size > 0.0) {
+    const double sd = std::max(1.0 / std::sqrt(of_size), kLeastSizeSd);
+    add_size(tool, std::expm1(right(kTagSizeUnknown) / of_size), sd / std::sqrt(fraction));
+  }
+}
+
+void OnlineCalibration::add_size(std::size_t tool, double fraction, double sd) {
+  const double weight = precision(sd);
+  if (!std::isfinite(weight * fraction)) {
+    return;
+  }
+  Tool& t = tools_.at(tool);
+  t.size_information += weight;
+  t.size_sum += weight * fraction;
+  ++t.sizes;
+}
+
+std::optional<TagSize> OnlineCalibration::tag_size(std::size_t tool) const {
+  const Tool& t = tools_.at(tool);
+  if (t.sizes == 0) {
+    return std::nullopt;
+  }
+  TagSize out;
+  const double left = t.size_sum / t.size_information;
+  out.sd = std::sqrt(1.0 / t.size_information);
+  out.measurements = t.sizes;
+  out.notable = std::abs(left) > kMaxSize;
+  out.disagrees = out.notable && std::abs(left) > kCertainSd * out.sd;
+  out.applied = size_factor(tool) - 1.0;
+  out.fraction = left + out.applied;
+  return out;
+}
+
+bool OnlineCalibration::may_be_of_wrong_size() const {
+  return std::any_of(tools_.begin(), tools_.end(), [](const Tool& t) {
+    return std::abs(t.size_sum) > kMaxSize * t.size_information;
+  });
 }
 
 double OnlineCalibration::size_change(const Tool& tool, const Camera& cameras) const {
@@ -83,7 +126,7 @@ void OnlineCalibration::restart() {
   information_ = {};
   right_ = {};
   for (Tool& tool : tools_) {
-    tool = {{}, 0.0, 0.0, tool.applied};
+    tool = Tool{.applied = tool.applied};
   }
   pairs_ = 0;
 }
@@ -184,6 +227,8 @@ void OnlineCalibration::apply(const Camera& cameras) {
     right -= change * cross;
     tool.right -= tool.information * change + cross.dot(x);
     tool.applied += change;
+    tool.size_information = tool.size_sum = 0.0;
+    tool.sizes = 0;
   }
   rotation_rad_ = {cameras[0], cameras[1], cameras[2]};
   applied_rad_ = applied_rad_ + rotation_rad_;

@@ -52,12 +52,17 @@ struct CalibrationOptions {
 /// Estimates from tags in use how the right camera is turned and how large each tool's tags are
 /// (least squares with priors). At a single distance, the common size of all tags can't be
 /// distinguished from the angle between the cameras; the stated sizes are then assumed to be right
-/// on average, and only their differences are corrected.
+/// on average, and only their differences are corrected. From the same equations it says how large
+/// each tool's tags are if the cameras are as calibrated: a page "fitted to paper" is 3 % off or
+/// more, which no camera explains.
 class OnlineCalibration {
  public:
   explicit OnlineCalibration(std::size_t tools, const CalibrationOptions& options = {});
 
   void add(std::size_t tool, const CalibrationEquations& pair);
+  /// Of a tool that can't be followed at its stated size: the fraction by which its tag's corners
+  /// say that it is larger. Counts for `tag_size` alone.
+  void add_size(std::size_t tool, double fraction, double sd);
   /// Whether the two pictures of a pair may be of the same moment: whether what is left of their
   /// contradiction, after the calibration has explained what it can within its own uncertainty,
   /// happens by chance. One entry per tool that both cameras saw. A pair has the weight with which
@@ -71,6 +76,11 @@ class OnlineCalibration {
   bool correct();
   /// The rotation (rad) by which the right camera is to be turned, by the last `correct()`.
   [[nodiscard]] Vec3 rotation_rad() const { return rotation_rad_; }
+  /// The size of a tool's tags, the cameras being as calibrated. Nothing before the first pair and
+  /// after a correction.
+  [[nodiscard]] std::optional<TagSize> tag_size(std::size_t tool) const;
+  /// A tag printed at the wrong size looks like cameras that are turned towards each other.
+  [[nodiscard]] bool may_be_of_wrong_size() const;
   /// The factor of a tool's stated tag sizes by all corrections so far.
   [[nodiscard]] double size_factor(std::size_t tool) const;
   /// The SD of that factor; that of the prior before the first pair.
@@ -88,6 +98,10 @@ class OnlineCalibration {
     double information = 0.0;
     double right = 0.0;
     double applied = 0.0;  ///< logarithm of the factor
+    // What is left of the size by the cameras as calibrated.
+    double size_information = 0.0;
+    double size_sum = 0.0;  ///< of fractions, weighted by their information
+    std::int64_t sizes = 0;
   };
   struct Estimate;
   struct Priors {

@@ -50,7 +50,7 @@ PhotometricTracker::PhotometricTracker(const StereoCalibration& calibration,
     beside_ = std::make_unique<Beside>(solver_);
   }
   for (std::size_t i = 0; i < tools_.size(); ++i) {
-    trails_.push_back({std::move(followers[i]), PoseFilter{}, {}, {}, {}});
+    trails_.push_back({std::move(followers[i]), PoseFilter{}, {}, {}});
     states_.push_back({i, {}, {}, 0.0});
   }
 }
@@ -210,15 +210,6 @@ std::optional<StereoAlignment> PhotometricTracker::alignment() const {
   return calibration_.alignment();
 }
 
-std::optional<TagSize> PhotometricTracker::tag_size(std::size_t tool) const {
-  auto size = trails_.at(tool).size.estimate();
-  if (size) {
-    size->applied = calibration_.size_factor(tool) - 1.0;
-    size->fraction += size->applied;
-  }
-  return size;
-}
-
 void PhotometricTracker::forget_map() {
   for (Trail& trail : trails_) {
     trail.filter.stop();
@@ -227,7 +218,7 @@ void PhotometricTracker::forget_map() {
 }
 
 void PhotometricTracker::calibrate() {
-  if (may_be_of_wrong_size() || !calibration_.correct()) {
+  if (calibration_.may_be_of_wrong_size() || !calibration_.correct()) {
     return;
   }
   solver_.rotate_right_camera(calibration_.rotation_rad());
@@ -237,15 +228,7 @@ void PhotometricTracker::calibrate() {
   geometry_ = TagGeometry(solver_.calibration());
   for (std::size_t i = 0; i < trails_.size(); ++i) {
     trails_[i].follower.set_size_factor(calibration_.size_factor(i));
-    trails_[i].size.restart();
   }
-}
-
-bool PhotometricTracker::may_be_of_wrong_size() const {
-  return std::any_of(trails_.begin(), trails_.end(), [](const Trail& trail) {
-    const auto size = trail.size.estimate();
-    return size && size->notable;
-  });
 }
 
 bool PhotometricTracker::is_measured(std::size_t i) const {
@@ -296,11 +279,6 @@ void PhotometricTracker::measure(std::size_t i, const StereoFrame& frame, const 
   Trail& trail = trails_[i];
   if (fit.calibration && fit.left && fit.right) {
     calibration_.add(i, *fit.calibration);
-  }
-  if (fit.left && fit.right && trail.size.is_due()) {
-    if (const auto size = trail.follower.measured_size(frame, fit.rig_from_marker, solver_)) {
-      trail.size.add(*size);
-    }
   }
   TrackedPose measured{*frame.world_from_rig * fit.rig_from_marker, frame.time,
                        PoseStatus::kMeasured,
@@ -444,7 +422,7 @@ bool PhotometricTracker::find(std::size_t i, const MarkerDefinition& marker,
   }
   if (const auto ratio = size_ratio(near_->left(), near_->right(), marker.family, marker.id,
                                     marker.size_m, geometry_)) {
-    trails_[i].size.add({*ratio - 1.0, kCornersSizeSd});
+    calibration_.add_size(i, *ratio - 1.0, kCornersSizeSd);
   }
   return false;
 }

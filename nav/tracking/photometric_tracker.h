@@ -31,7 +31,9 @@ class PhotometricTracker final : public ToolTracker {
   [[nodiscard]] std::span<const ToolGeometry> tools() const override { return tools_; }
   [[nodiscard]] const SeenTags* seen_tags() const override { return &seen_; }
   [[nodiscard]] std::optional<StereoAlignment> alignment() const override;
-  [[nodiscard]] std::optional<TagSize> tag_size(std::size_t tool) const override;
+  [[nodiscard]] std::optional<TagSize> tag_size(std::size_t tool) const override {
+    return calibration_.tag_size(tool);
+  }
   [[nodiscard]] PictureAgreement picture_agreement() const override { return agreement_; }
   [[nodiscard]] double tag_size_difference_sd(std::size_t tool, std::size_t other) const override {
     return calibration_.size_difference_sd(tool, other);
@@ -43,7 +45,6 @@ class PhotometricTracker final : public ToolTracker {
     PoseFilter filter;
     Transform<World, Marker> last_seen;
     std::optional<Timestamp> last_time;
-    TagSizeEstimator size;
   };
 
   /// Forgets where the tools were: positions in another map mean nothing in this one.
@@ -51,8 +52,6 @@ class PhotometricTracker final : public ToolTracker {
   /// Applies an estimated correction of camera alignment or tag sizes to the poses once it is
   /// certain.
   void calibrate();
-  /// A tag printed at the wrong size looks like cameras that are turned towards each other.
-  [[nodiscard]] bool may_be_of_wrong_size() const;
   [[nodiscard]] bool is_measured(std::size_t i) const;
   [[nodiscard]] bool is_turn() const { return pairs_ % options_.full_search_interval == 0; }
   [[nodiscard]] bool any_recent(Timestamp time) const;

@@ -29,4 +29,16 @@ inline void rotate_right_camera(StereoCalibration& calibration, Vec3 rotation_ra
   calibration.right_from_rig = correction * calibration.right_from_rig;
 }
 
+/// The size of a tool's tags as the two cameras measure it.
+struct TagSize {
+  double fraction = 0.0;  ///< by which they are larger than stated
+  double sd = 0.0;
+  std::int64_t measurements = 0;
+  bool notable = false;  ///< more than small errors of the cameras could cause
+  /// Certainly a different size than stated: a wrong print or a wrong unit (or misaligned cameras).
+  /// Poses are then wrong.
+  bool disagrees = false;
+  double applied = 0.0;  ///< the part of `fraction` that poses take into account
+};
+
 }  // namespace orthonav::nav

@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 
 #include "nav/geometry/matrix_as.h"
-#include "nav/geometry/rays.h"
 #include "nav/tracking/tag_pose.h"
 
 namespace orthonav::nav {
@@ -94,22 +93,6 @@ struct TranslationInSpace {
     return vec_of(v);
   }
 };
-
-/// The fraction by which a tag is farther away, where the cameras' lines of sight to it meet, than
-/// either camera alone estimates. Nothing if they do not meet.
-std::optional<double> farther_than_alone(const std::array<Vec3, 2>& eyes_m,
-                                         const std::array<Vec3, 2>& alone_m) {
-  const auto both =
-      closest_point({eyes_m[0], alone_m[0] - eyes_m[0]}, {eyes_m[1], alone_m[1] - eyes_m[1]});
-  if (!both) {
-    return std::nullopt;
-  }
-  double fraction = 0.0;
-  for (std::size_t k = 0; k < 2; ++k) {
-    fraction += 0.5 * ((both->point_m - eyes_m[k]).norm() / (alone_m[k] - eyes_m[k]).norm() - 1.0);
-  }
-  return fraction;
-}
 
 }  // namespace
 
@@ -303,43 +286,6 @@ void ToolFollower::learn_exposure(const StereoFrame& frame, const Transform<Rig,
                  *across - *centre,
                  *down - *centre,
                  {view.light.blur_cells[0], view.light.blur_cells[1]}});
-}
-
-std::optional<SizeEvidence> ToolFollower::measured_size(const StereoFrame& frame,
-                                                        const Transform<Rig, Marker>& pose,
-                                                        PhotometricSolver& solver) {
-  std::size_t tag = 0;
-  while (tag < tags_.size() && !(views_[2 * tag].used && views_[2 * tag + 1].used)) {
-    ++tag;
-  }
-  if (tag == tags_.size()) {
-    return std::nullopt;
-  }
-  const StereoCalibration& c = solver.calibration();
-  const std::array<Vec3, 2> eyes = {c.left_from_rig.inverse().translation(),
-                                    c.right_from_rig.inverse().translation()};
-  std::array<Vec3, 2> alone;  // the tag's middle by each camera on its own
-  double variance = 0.0;
-  for (std::size_t k = 0; k < 2; ++k) {
-    alone_ = views_[2 * tag + k];
-    const auto fit =
-        solver.solve(frame, pose, kUndisplacedCells * alone_.tag->cell_m(), {&alone_, 1});
-    if (!fit) {
-      return std::nullopt;
-    }
-    const Transform<Rig, Tag> rig_from_tag = fit->rig_from_marker * alone_.marker_from_tag;
-    alone[k] = rig_from_tag.translation();
-    const Vec3 sight = alone[k] - eyes[k];
-    const PoseCovariance in_rig = rotated(fit->covariance, fit->rig_from_marker.rotation());
-    for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t b = 0; b < 3; ++b) {
-        variance += 0.25 * sight[static_cast<int>(a)] * in_rig[6 * a + b] *
-                    sight[static_cast<int>(b)] / std::pow(sight.squared_norm(), 2);
-      }
-    }
-  }
-  const auto fraction = farther_than_alone(eyes, alone);
-  return fraction ? std::optional(SizeEvidence{*fraction, std::sqrt(variance)}) : std::nullopt;
 }
 
 }  // namespace orthonav::nav

@@ -9,7 +9,6 @@
 #include "nav/tracking/photometric_pose.h"
 #include "nav/tracking/pose_filter.h"
 #include "nav/tracking/tag_search.h"
-#include "nav/tracking/tag_size.h"
 #include "nav/tracking/tool.h"
 
 namespace orthonav::nav {
@@ -36,12 +35,6 @@ class ToolFollower {
                                               const Transform<Rig, Marker>& expected,
                                               double doubt_m, PhotometricSolver& solver,
                                               TagSearch& search);
-  /// The fraction by which a tag that both cameras saw in the last fit is larger than stated: each
-  /// camera alone gives the distance of a tag of the stated size, both together give the true
-  /// distance. Nothing if no tag was seen by both.
-  [[nodiscard]] std::optional<SizeEvidence> measured_size(const StereoFrame& frame,
-                                                          const Transform<Rig, Marker>& pose,
-                                                          PhotometricSolver& solver);
   /// The cameras' exposure time, estimated from the tool's motion.
   [[nodiscard]] double exposure_s() const { return exposure_.exposure_s(); }
   /// Sets the factor on the stated size of its tags.

@@ -11,7 +11,6 @@
 #include "hal/api/devices.h"
 #include "nav/tracking/seen_tags.h"
 #include "nav/tracking/stereo_alignment.h"
-#include "nav/tracking/tag_size.h"
 #include "nav/tracking/tool.h"
 
 namespace orthonav::nav {

@@ -156,6 +156,19 @@ TEST(BestTracker, SaysThatTagsWerePrintedTooSmall) {
   EXPECT_FALSE(alignment && alignment->applied) << "a wrong print is no reason to turn a camera";
 }
 
+/// The least that "fit to page" takes, and the control that must fail: half of it is the cameras'.
+TEST(BestTracker, SaysThatAPageWasFittedToPaper) {
+  const auto fitted = tracked_at_size(0.97, 40);
+  const auto size = fitted->tag_size(0);
+  ASSERT_TRUE(size.has_value());
+  EXPECT_TRUE(size->disagrees) << size->fraction << " SD " << size->sd << " of "
+                               << size->measurements;
+  EXPECT_NEAR(size->fraction, -0.03, 0.004);
+  const auto nearly = tracked_at_size(0.987, 40)->tag_size(0);
+  ASSERT_TRUE(nearly.has_value());
+  EXPECT_FALSE(nearly->disagrees);
+}
+
 TEST(BestTracker, SaysThatTagsHaveAWrongUnitOrSize) {
   const auto tracker = tracked_at_size(0.75, 40);
   const auto size = tracker->tag_size(0);
