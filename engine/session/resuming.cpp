@@ -77,7 +77,8 @@ Status Resuming::restore(const LoggedOperation& logged, OperationInWork& work,
   return {};
 }
 
-std::optional<Event> Resuming::go_on(OperationInWork& work, SessionSteps& steps, Timestamp time) {
+std::optional<Event> Resuming::go_on(OperationInWork& work, const RodTemplating& rods,
+                                     Digitizing& digitizing, Verifying& verifying, Timestamp time) {
   LevelState& level = work.level();
   if (!resumed_) {
     return std::nullopt;
@@ -89,11 +90,11 @@ std::optional<Event> Resuming::go_on(OperationInWork& work, SessionSteps& steps,
   }
   told_finished_ = true;
   if (level.finished()) {
-    return steps.rods.left_to_do(work.state) ? Event::kNoScrewLeft : Event::kNoRodPlanned;
+    return rods.left_to_do(work.state) ? Event::kNoScrewLeft : Event::kNoRodPlanned;
   }
   if (!level.unverified || !level.registration) {
     if (work.level_in_work < strokes_.size()) {
-      steps.digitizing.restore(std::exchange(strokes_[work.level_in_work], {}));
+      digitizing.restore(std::exchange(strokes_[work.level_in_work], {}));
     }
     return std::nullopt;
   }
@@ -105,7 +106,7 @@ std::optional<Event> Resuming::go_on(OperationInWork& work, SessionSteps& steps,
     return Event::kRegistrationRestored;
   }
   // If the landmark has moved, its registration is verified again.
-  steps.verifying = Verifying(work, time);
+  verifying = Verifying(work, time);
   return Event::kAcceptanceRestored;
 }
 

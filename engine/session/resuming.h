@@ -5,7 +5,10 @@
 
 #include "base/result.h"
 #include "engine/session/logged_operation.h"
-#include "engine/session/session_steps.h"
+#include "engine/session/operation_in_work.h"
+#include "engine/session/steps/digitizing.h"
+#include "engine/session/steps/rod_templating.h"
+#include "engine/session/steps/verifying.h"
 
 namespace orthonav::engine {
 
@@ -17,7 +20,8 @@ class Resuming {
   Status restore(const LoggedOperation& logged, OperationInWork& work, RodTemplating& rods);
   /// A level begins: continues in the step that the operation had reached, or in the one before it
   /// in which the registration can be verified.
-  [[nodiscard]] std::optional<Event> go_on(OperationInWork& work, SessionSteps& steps,
+  [[nodiscard]] std::optional<Event> go_on(OperationInWork& work, const RodTemplating& rods,
+                                           Digitizing& digitizing, Verifying& verifying,
                                            Timestamp time);
   /// The saved regions were measured in a World that no longer exists.
   void forget_places() { strokes_.clear(); }

@@ -7,6 +7,7 @@
 
 #include "base/joined.h"
 #include "engine/session/commands.h"
+#include "engine/session/numbers_wording.h"
 
 namespace orthonav::engine {
 
@@ -34,6 +35,8 @@ constexpr bool keeps_message(Action action) {
   return action == kRefuse || action == kIgnore || action == kExplain || action == kHideGuidance ||
          action == kShowGuidance || action == kForgetMap || action == kEndTouch;
 }
+
+bool at_work(Step step) { return step != Step::kSetup && step != Step::kDone; }
 
 }  // namespace
 
@@ -65,13 +68,20 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
                  const SessionOptions& options)
     : work_(std::move(operation), std::move(tools), std::move(method), options),
       workflow_(workflow_of(options.steps, work_.rods_alone())),
-      steps_(work_) {}
+      digitizing_(work_),
+      landmarking_(options.landmark),
+      guide_checks_(options),
+      guiding_(options.drill),
+      placing_(options),
+      replanning_(options.replan),
+      rods_(work_.rods_alone() || rod_planned(work_.state.levels, nav::Side::kLeft),
+            work_.rods_alone() || rod_planned(work_.state.levels, nav::Side::kRight)) {}
 
 Status Session::resume(const LoggedOperation& logged) {
   if (work_.step != Step::kSetup || watching_.begun()) {
     return Error{"an operation is resumed before its first step"};
   }
-  return resuming_.restore(logged, work_, steps_.rods);
+  return resuming_.restore(logged, work_, rods_);
 }
 
 const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
@@ -83,23 +93,26 @@ const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   work_.no_clicker = inputs.no_clicker;
   // Events first: a press before this pair makes this pair a sample, a release before it does not.
   answer_inputs(inputs);
-  handle(steps_.digitizing.look(work_, now), now);
+  handle(digitizing_.look(work_, now), now);
   work_.tools.track(frame);
   handle(watching_.look_at_places(work_), now);
   handle(watching_.look_for_reference(work_, now), now);
   watching_.tell_places(work_, now);
-  handle(watching_.look_at_tool(work_, steps_.tool(work_), now), now);
-  handle(watching_.look_at_drift(work_, steps_.guiding, now), now);
-  steps_.collect(work_);
-  return publication_.publish(frame, inputs.display_time, work_, steps_, watching_);
+  handle(watching_.look_at_tool(work_, tool(), now), now);
+  handle(watching_.look_at_drift(work_, guiding_, now), now);
+  collect();
+  publish(frame, inputs.display_time);
+  return guidance_;
 }
 
 const Guidance& Session::expire(Timestamp display_time, std::optional<Repeated> repeats) {
-  return publication_.expire(display_time, NoImages{repeats}, work_, steps_);
+  return withdraw(display_time, NoImages{repeats});
 }
 
 const Guidance& Session::end(Timestamp display_time) {
-  return publication_.end(display_time, work_, steps_);
+  withdraw(display_time, Ended{});
+  guidance_.blank = true;
+  return guidance_;
 }
 
 void Session::answer_inputs(const Inputs& inputs) {
@@ -147,7 +160,7 @@ std::optional<Event> Session::hear(const Phrase& phrase, const std::optional<Rep
     work_.messages.echo(phrase, sure, from);
   }
   if (sure && replan && *replan) {
-    steps_.replanning.ask(**replan);
+    replanning_.ask(**replan);
     event = Event::kSayReplan;
   }
   if (sure && event) {
@@ -175,7 +188,7 @@ void Session::handle(std::optional<Raised> raised, Timestamp time) {
     if (!keeps_message(cell.action)) {
       work_.messages.clear();
       if (event != Event::kSayAccept) {
-        steps_.replanning.withdraw_question();
+        replanning_.withdraw_question();
       }
     }
     std::optional<Raised> next = act(cell.action, event, time);
@@ -192,31 +205,31 @@ std::optional<Raised> Session::begin_level(Timestamp time) {
   const auto open = std::find_if(levels.begin(), levels.end(),
                                  [](const LevelState& level) { return !level.finished(); });
   work_.level_in_work = open == levels.end() ? 0 : static_cast<std::size_t>(open - levels.begin());
-  steps_.digitizing.clear();
-  steps_.guiding.begin_level();
-  return resuming_.go_on(work_, steps_, time);
+  digitizing_.clear();
+  guiding_.begin_level();
+  return resuming_.go_on(work_, rods_, digitizing_, verifying_, time);
 }
 
 void Session::show_registration(Timestamp time) {
   work_.level().check_points.clear();
-  steps_.verifying = Verifying(work_, time);
+  verifying_ = Verifying(work_, time);
 }
 
 void Session::clear_level(Timestamp time) {
   work_.level().forget_registration();
-  steps_.digitizing.clear();
-  steps_.forget_registration(work_);
+  digitizing_.clear();
+  forget_registration();
   work_.observer->level_cleared(time, work_.level());
 }
 
 void Session::forget_places(Event why, Timestamp time) {
   work_.state.forget_places();
-  steps_.digitizing.forget_map();
+  digitizing_.forget_map();
   resuming_.forget_places();
-  steps_.forget_registration(work_);
+  forget_registration();
   work_.touches.drop();
   work_.tools.forget_poses();
-  publication_.forget_head();
+  guidance_.head.reset();
   work_.observer->places_forgotten(time);
   const Step step = work_.step;
   if (step == Step::kDigitize || step == Step::kRod || step == Step::kDone) {
@@ -226,54 +239,96 @@ void Session::forget_places(Event why, Timestamp time) {
   }
 }
 
+void Session::accept(Timestamp time) {
+  verifying_.accept(work_, time);
+  expect_landmark();
+}
+
+void Session::expect_landmark() {
+  landmarking_ = Landmarking(work_.options.landmark);
+  // On the headset's map a comparison costs more by the drift meanwhile than it gains.
+  if (work_.anchored()) {
+    guide_checks_.expect_tips();
+  }
+}
+
+void Session::select_screw() {
+  digitizing_.clear();
+  guiding_.select_open_screw(work_.level());
+}
+
+void Session::forget_registration() {
+  verifying_ = Verifying{};
+  expect_landmark();
+  placing_ = Placing(work_.options);
+  guiding_.forget_guidance();
+}
+
+void Session::drop_touch(Timestamp time) {
+  using What = TouchNotRecorded::What;
+  const What what = work_.step == Step::kVerify     ? What::kCheckPoint
+                    : work_.step == Step::kAccepted ? What::kLandmark
+                    : work_.step == Step::kPlaced   ? What::kWire
+                                                    : What::kHead;
+  work_.touches.drop();
+  work_.messages.say(TouchNotRecorded{what, {TouchRefusal::Kind::kHeldTooLong}}, time);
+}
+
+void Session::correct_guide(Timestamp time) {
+  if (landmarking_.touched() && guide_checks_.correct_guide(work_, time)) {
+    guiding_.forget_guidance();
+  } else {
+    work_.messages.say(NotPossibleNow{Event::kSayAccept}, time);
+  }
+}
+
 // A missing action does not compile here, whichever warnings are enabled (tests/build_failures).
 // clang-format off
 #pragma GCC diagnostic push
 #pragma GCC diagnostic error "-Wswitch"
 std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
   using enum Action;
-  SessionSteps& s = steps_;
   switch (action) {
     case kIgnore: break;
     case kRefuse: case kExplain: work_.messages.say(why_not(event), time); break;
     case kBeginLevel: return begin_level(time);
-    case kStartSampling: s.digitizing.press(work_.level(), time); break;
-    case kStopSampling: s.digitizing.release(time); break;
+    case kStartSampling: digitizing_.press(work_.level(), time); break;
+    case kStopSampling: digitizing_.release(time); break;
     case kBeginTouch: work_.touches.begin(); break;
     case kEndTouch: work_.touches.release(); break;
-    case kDropTouch: s.drop_touch(work_, time); break;
-    case kSaveRegion: s.digitizing.save_region(work_, time); break;
-    case kDropRegion: s.digitizing.drop_region(work_, time); break;
-    case kRegister: return s.digitizing.register_level(work_, time);
+    case kDropTouch: drop_touch(time); break;
+    case kSaveRegion: digitizing_.save_region(work_, time); break;
+    case kDropRegion: digitizing_.drop_region(work_, time); break;
+    case kRegister: return digitizing_.register_level(work_, time);
     case kShowRegistration: show_registration(time); break;
-    case kJudgeChecks: return s.verifying.judge_checks(time);
-    case kRecordCheck: s.verifying.record_check(work_, time); break;
-    case kDropCheck: s.verifying.drop_check(work_, time); break;
-    case kAccept: s.verifying.accept(work_, time); s.expect_landmark(work_); break;
+    case kJudgeChecks: return verifying_.judge_checks(time);
+    case kRecordCheck: verifying_.record_check(work_, time); break;
+    case kDropCheck: verifying_.drop_check(work_, time); break;
+    case kAccept: accept(time); break;
     case kClearLevel: clear_level(time); break;
-    case kTouchLandmark: return s.landmarking.touch_landmark(work_, s.guide_checks, time);
-    case kDropLandmark: s.landmarking.drop_landmark(work_, time); break;
-    case kJudgeLandmark: return s.landmarking.judge_landmark();
-    case kExpectLandmark: s.expect_landmark(work_); break;
-    case kVerifyAgain: s.landmarking.verify_again(work_, s.verifying, s.guiding, time); break;
-    case kConsent: return s.consent(work_, time);
-    case kCorrectGuide: s.correct_guide(work_, time); break;
-    case kKeepWire: s.placing.keep(work_, s.guiding.screw(), time); break;
-    case kSelectScrew: s.select_screw(work_); break;
-    case kToggleTwin: s.guiding.toggle_twin(); break;
-    case kToggleNumbers: s.guiding.toggle_numbers(); break;
-    case kBeginDrill: s.guiding.begin_drill(); break;
-    case kReplan: s.replanning.replan(work_, s.guiding, s.placing, time); break;
-    case kExpectWire: s.expect_wire(work_); break;
-    case kMeasureWire: s.placing.measure(work_, s.guiding, s.guide_checks, watching_.reference_hidden(work_), time); break;
-    case kJudgeWire: return s.placing.judge_wire();
-    case kJudgeRedo: return s.placing.judge_redo(work_, s.guiding, time);
-    case kFinishScrew: return s.guiding.finish_screw(work_, s.placing, time);
-    case kBeginRod: return s.rods.begin(work_);
-    case kRecordHead: s.rods.record_head(work_, time); break;
-    case kDropHead: s.rods.drop_head(work_, time); break;
-    case kFinishRod: return s.rods.finish_rod(work_, time);
-    case kMoveRod: s.rods.move_away(); break;
+    case kTouchLandmark: return landmarking_.touch_landmark(work_, guide_checks_, time);
+    case kDropLandmark: landmarking_.drop_landmark(work_, time); break;
+    case kJudgeLandmark: return landmarking_.judge_landmark();
+    case kExpectLandmark: expect_landmark(); break;
+    case kVerifyAgain: landmarking_.verify_again(work_, verifying_, guiding_, time); break;
+    case kConsent: return replanning_.consent(work_, guiding_, placing_, time) ? std::nullopt : std::optional<Raised>(Event::kNoChangePending);
+    case kCorrectGuide: correct_guide(time); break;
+    case kKeepWire: placing_.keep(work_, guiding_.screw(), time); break;
+    case kSelectScrew: select_screw(); break;
+    case kToggleTwin: guiding_.toggle_twin(); break;
+    case kToggleNumbers: guiding_.toggle_numbers(); break;
+    case kBeginDrill: guiding_.begin_drill(); break;
+    case kReplan: replanning_.replan(work_, guiding_, placing_, time); break;
+    case kExpectWire: placing_ = Placing(work_.options); break;
+    case kMeasureWire: placing_.measure(work_, guiding_, guide_checks_, watching_.reference_hidden(work_), time); break;
+    case kJudgeWire: return placing_.judge_wire();
+    case kJudgeRedo: return placing_.judge_redo(work_, guiding_, time);
+    case kFinishScrew: return guiding_.finish_screw(work_, placing_, time);
+    case kBeginRod: return rods_.begin(work_);
+    case kRecordHead: rods_.record_head(work_, time); break;
+    case kDropHead: rods_.drop_head(work_, time); break;
+    case kFinishRod: return rods_.finish_rod(work_, time);
+    case kMoveRod: rods_.move_away(); break;
     case kHideGuidance: case kShowGuidance: watching_.hide_guidance(action == kHideGuidance); break;
     case kForgetMap: forget_places(event, time); break;
   }
@@ -288,7 +343,7 @@ Message Session::why_not(Event event) const {
     case Event::kNotShown:
       return SaidBeforeShown{};
     case Event::kNotChecked:
-      return ChecksMissing{steps_.verifying.verdict().advice};
+      return ChecksMissing{verifying_.verdict().advice};
     case Event::kLandmarkMissing:
       return LandmarkMissing{work_.level().landmark.has_value()};
     case Event::kNoChangePending:
@@ -300,6 +355,194 @@ Message Session::why_not(Event event) const {
     default:
       return NotPossibleNow{event};
   }
+}
+
+void Session::collect() {
+  const WatchedTools& tools = work_.tools;
+  switch (work_.step) {
+    case Step::kDigitize:
+      return digitizing_.collect(work_);
+    case Step::kVerify:
+      if (work_.options.steps.check_points) {
+        add_tip(work_.touches.pointer, tools, tools.pointer());
+      }
+      return;
+    case Step::kAccepted:
+      if (work_.options.steps.dimple()) {
+        add_tip(work_.touches.pointer, tools, tools.pointer());
+        add_tip(work_.touches.guide, tools, tools.guide());
+      }
+      return;
+    case Step::kPlaced:
+      return placing_.collect(work_);
+    case Step::kRod:
+      return add_tip(work_.touches.pointer, tools, tools.pointer());
+    case Step::kSetup:
+    case Step::kRegistering:
+    case Step::kGuide:
+    case Step::kDone:
+      return;
+  }
+}
+
+std::optional<std::size_t> Session::tool() const {
+  const std::size_t pointer = work_.tools.pointer();
+  const MethodSteps& of_method = work_.options.steps;
+  switch (work_.step) {
+    case Step::kDigitize:
+    case Step::kRegistering:
+    case Step::kRod:
+      return pointer;
+    case Step::kVerify:
+      return of_method.check_points ? std::optional(pointer) : std::nullopt;
+    case Step::kAccepted:
+      // Once the landmark is touched, the guide is next.
+      return of_method.dimple()
+                 ? std::optional(landmarking_.touched() ? work_.tools.guide() : pointer)
+                 : std::nullopt;
+    case Step::kGuide:
+    case Step::kPlaced:
+      return work_.tools.guide();
+    case Step::kSetup:
+    case Step::kDone:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+StepOnDisplay Session::on_display() const {
+  switch (work_.step) {
+    case Step::kSetup:
+    case Step::kDone:
+      return {work_.step, {}, {}};
+    case Step::kDigitize:
+    case Step::kRegistering:
+    case Step::kVerify:
+    case Step::kAccepted:
+      return {work_.step, work_.level().plan.label, {}};
+    case Step::kGuide:
+    case Step::kPlaced:
+      return {work_.step, work_.level().plan.label,
+              work_.level().plan.screws[guiding_.screw()].side};
+    case Step::kRod:
+      return {work_.step, {}, rods_.side()};
+  }
+  return {};
+}
+
+StepState Session::state() const {
+  switch (work_.step) {
+    case Step::kDigitize:
+      return digitizing_.state();
+    case Step::kVerify:
+      return verifying_.state(work_);
+    case Step::kAccepted:
+      return landmarking_.state(work_, guide_checks_);
+    case Step::kPlaced:
+      return placing_.state();
+    case Step::kRod:
+      return rods_.state(work_);
+    case Step::kSetup:
+    case Step::kRegistering:
+    case Step::kGuide:  // what to do there follows from what a frame shows
+    case Step::kDone:
+      return {};
+  }
+  return {};
+}
+
+void Session::publish(const StereoFrame& frame, Timestamp display_time) {
+  Guidance& out = guidance_;
+  out.frame_time = frame.time;
+  out.display_time = display_time;
+  const auto in_use = tool();
+  out.pose_time =
+      in_use ? work_.tools.watch(*in_use).last_measured().value_or(Timestamp{}) : frame.time;
+  out.step = work_.step;
+  out.levels = work_.state.levels;
+  out.level = work_.level_in_work;
+  out.stale_after = work_.options.stale_after;
+  out.fade = work_.options.fade;
+  out.blank = work_.stalled.has_value();
+  out.tools = work_.tools.sights();
+  out.anchor = work_.tools.tracker().anchor();
+  if (frame.world_from_rig) {
+    out.head = out.anchor ? out.anchor->world_from_anchored.inverse() * *frame.world_from_rig
+                          : *frame.world_from_rig;
+  }
+  digitizing_.write(out);
+  verifying_.write(work_, out);
+  guiding_.write(work_, guide_checks_, watching_.guidance_hidden() || work_.stalled, out);
+  placing_.write(work_.step, out);
+  rods_.write(work_, out);
+  publish_status();
+}
+
+void Session::publish_status() {
+  work_.messages.expire(guidance_.frame_time);
+  StatusLine& line = guidance_.status;
+  line.at = on_display();
+  line.stalled = work_.stalled;
+  line.no_clicker = work_.no_clicker;
+
+  // The tool in use, and whether it can be trusted.
+  line.tool = {};
+  line.tool_lost = false;
+  line.pictures_apart = work_.tools.pictures_apart();
+  line.tag_size_off.reset();
+  if (const auto in_use = tool()) {
+    line.tool = work_.tools.geometry(*in_use).name;
+    line.tool_lost = watching_.tool_lost();
+    line.tag_size_off = work_.tools.tag_size_off(*in_use);
+  }
+  // The first of the references, while none is seen in a step that needs one.
+  const auto reference = at_work(work_.step) && watching_.reference_hidden(work_)
+                             ? work_.tools.first_reference()
+                             : std::nullopt;
+  if (reference) {
+    line.tool = work_.tools.geometry(*reference).name;
+    line.tool_lost = true;
+  }
+
+  // Tools in hand that the step does not use, and a depth stop that is set too deep.
+  in_hand_.look(work_.tools, work_.step, tool(),
+                at_work(work_.step) && !work_.rods_alone() ? &work_.level() : nullptr,
+                guidance_.frame_time);
+  const auto unused = in_hand_.unused();
+  line.unused_tool =
+      unused ? std::string_view(work_.tools.geometry(*unused).name) : std::string_view();
+  line.stop_past_target_m.reset();
+  if (stop_too_deep(guidance_.drill)) {
+    line.stop_past_target_m = guidance_.drill.stop_past_target_m;
+  }
+
+  replanning_.show(guidance_.display_time);
+  line.message = work_.messages.message();
+  line.heard = work_.messages.heard();
+  line.state = state();
+  line.saved = saved();
+  if (work_.step == Step::kVerify) {
+    verifying_.note_shown(line);
+  }
+}
+
+Saved Session::saved() const {
+  return saving_ ? saving_->saved(guidance_.frame_time, work_.options.heard_for)
+                 : Saved::kNothingNew;
+}
+
+const Guidance& Session::withdraw(Timestamp display_time, Message why) {
+  guidance_.display_time = display_time;
+  guidance_.tool.reset();
+  guiding_.lose_measurement();
+  guidance_.drill = work_.step == Step::kGuide ? guiding_.drill() : nav::DrillView{};
+  work_.tools.lose_sight();
+  guidance_.status = {};
+  guidance_.status.at = on_display();
+  guidance_.status.saved = saved();
+  why_no_guidance_ = std::move(why);
+  guidance_.status.message = &why_no_guidance_;
+  return guidance_;
 }
 
 }  // namespace orthonav::engine

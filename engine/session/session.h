@@ -8,16 +8,23 @@
 #include "engine/case/operation.h"
 #include "engine/session/commands.h"
 #include "engine/session/guidance.h"
+#include "engine/session/guide_checks.h"
 #include "engine/session/logged_operation.h"
 #include "engine/session/messages.h"
 #include "engine/session/method.h"
 #include "engine/session/operation_in_work.h"
-#include "engine/session/publication.h"
 #include "engine/session/resuming.h"
 #include "engine/session/saving.h"
 #include "engine/session/session_observer.h"
 #include "engine/session/session_options.h"
-#include "engine/session/session_steps.h"
+#include "engine/session/steps/digitizing.h"
+#include "engine/session/steps/guiding.h"
+#include "engine/session/steps/landmarking.h"
+#include "engine/session/steps/placing.h"
+#include "engine/session/steps/replanning.h"
+#include "engine/session/steps/rod_templating.h"
+#include "engine/session/steps/verifying.h"
+#include "engine/session/tools_in_hand.h"
 #include "engine/session/watching.h"
 #include "engine/session/work_watch.h"
 #include "engine/session/workflow.h"
@@ -59,9 +66,9 @@ class Session {
   /// different levels or screws, and references in other places.
   Status resume(const LoggedOperation& logged);
   /// Sets the source of what the status line says about saving; null: none. Borrowed.
-  void show_saving(const SaveWatch* saving) { publication_.show_saving(saving); }
+  void show_saving(const SaveWatch* saving) { saving_ = saving; }
   /// Sets the watch to be notified of what the session waits for; null: none. Borrowed.
-  void watch_work(WorkWatch* watch) { steps_.digitizing.watch_work(watch); }
+  void watch_work(WorkWatch* watch) { digitizing_.watch_work(watch); }
 
   /// Processes one stereo pair: answers events up to it in order of time, tracks the tools and does
   /// the step's work. The result is valid until the next call.
@@ -108,13 +115,50 @@ class Session {
   void show_registration(Timestamp time);
   void clear_level(Timestamp time);
   void forget_places(Event why, Timestamp time);
+  void accept(Timestamp time);
+  void expect_landmark();
+  void select_screw();
+  /// Discards the registration of the current level and everything based on it.
+  void forget_registration();
+  /// The button was held too long, so no click will follow.
+  void drop_touch(Timestamp time);
+  /// "accept" corrects the guide as its touch of the landmark, or of a wire, showed.
+  void correct_guide(Timestamp time);
+
+  /// Passes the newest pair to the present step.
+  void collect();
+  /// The tool that the present step works with, if any.
+  [[nodiscard]] std::optional<std::size_t> tool() const;
+  [[nodiscard]] StepOnDisplay on_display() const;
+  [[nodiscard]] StepState state() const;
+
+  // What the surgeon is shown after a pair, assembled from what each step shows.
+  void publish(const StereoFrame& frame, Timestamp display_time);
+  void publish_status();
+  /// Withdraws the guidance of the last pair, and says why.
+  const Guidance& withdraw(Timestamp display_time, Message why);
+  [[nodiscard]] Saved saved() const;
 
   OperationInWork work_;
   Workflow workflow_;
-  SessionSteps steps_;
+
+  // The steps, each with its state and actions, and what several of them share: the checks of the
+  // guide, and changes of the screw. A step that begins anew is a new object.
+  Digitizing digitizing_;
+  Verifying verifying_;
+  Landmarking landmarking_;
+  GuideChecks guide_checks_;
+  Guiding guiding_;
+  Placing placing_;
+  Replanning replanning_;
+  RodTemplating rods_;
+
   Watching watching_;
   Resuming resuming_;
-  Publication publication_;
+  const SaveWatch* saving_ = nullptr;
+  ToolsInHand in_hand_;
+  Message why_no_guidance_;  ///< replaces any other message once no pair arrives
+  Guidance guidance_;
 };
 
 }  // namespace orthonav::engine

@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "engine/session/messages.h"
-#include "engine/session/session_steps.h"
+#include "engine/session/operation_in_work.h"
+#include "engine/session/steps/guiding.h"
 #include "engine/session/watched_tools.h"
 #include "engine/session/workflow.h"
 #include "hal/api/devices.h"
