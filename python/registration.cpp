@@ -3,8 +3,8 @@
 
 #include "base/joined.h"
 #include "base/length_text.h"
-#include "engine/session/findings_wording.h"
 #include "engine/session/method.h"
+#include "engine/session/wording.h"
 #include "nav/guidance/predicted_error.h"
 #include "python/arrays.h"
 #include "python/bindings.h"

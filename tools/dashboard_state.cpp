@@ -4,7 +4,7 @@
 
 #include "base/angle.h"
 #include "base/pose_status_name.h"
-#include "engine/session/numbers_wording.h"
+#include "engine/session/steps/guiding.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::tools {

@@ -4,7 +4,7 @@
 
 #include "engine/case/plan_file.h"
 #include "engine/session/commands.h"
-#include "engine/session/replan_wording.h"
+#include "engine/session/steps/replanning.h"
 
 namespace orthonav::tools {
 namespace {

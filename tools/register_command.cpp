@@ -3,8 +3,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "engine/session/findings_wording.h"
 #include "engine/session/method.h"
+#include "engine/session/wording.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/print_text.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "engine/holograms/hologram_shapes.h"
-#include "engine/session/numbers_wording.h"
+#include "engine/session/steps/guiding.h"
 
 namespace orthonav::engine {
 

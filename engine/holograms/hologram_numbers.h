@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/holograms/hologram_cross.h"
-#include "engine/session/numbers_wording.h"
+#include "engine/session/steps/guiding.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {

@@ -13,7 +13,6 @@
 #include "base/printed.h"
 #include "base/translation.h"
 #include "engine/holograms/hologram_parts.h"
-#include "engine/session/said.h"
 #include "engine/session/wording.h"
 #include "render/float3.h"
 #include "render/shapes.h"

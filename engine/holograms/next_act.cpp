@@ -1,7 +1,7 @@
 #include "engine/holograms/next_act.h"
 
 #include "base/translation.h"
-#include "engine/session/numbers_wording.h"
+#include "engine/session/steps/guiding.h"
 
 namespace orthonav::engine {
 namespace {

@@ -8,8 +8,8 @@
 #include "engine/holograms/next_act.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
-#include "engine/session/numbers_wording.h"
 #include "engine/session/placed_wire.h"
+#include "engine/session/steps/guiding.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {

@@ -6,7 +6,6 @@
 
 #include "engine/holograms/screw_holograms.h"
 #include "engine/session/coach.h"
-#include "engine/session/findings_wording.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {

@@ -8,7 +8,6 @@
 #include "engine/case/case_writer.h"
 #include "engine/case/screw_place.h"
 #include "engine/session/commands.h"
-#include "engine/session/replan_wording.h"
 #include "engine/session/steps/replanning.h"
 #include "nav/planning/pedicle_screws.h"
 

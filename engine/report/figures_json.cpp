@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
-#include "engine/session/replan_wording.h"
+#include "engine/session/steps/replanning.h"
 
 namespace orthonav::engine {
 namespace {

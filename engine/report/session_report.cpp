@@ -13,7 +13,7 @@
 #include "engine/report/report_values.h"
 #include "engine/report/tracked_section.h"
 #include "engine/report/verdict.h"
-#include "engine/session/replan_wording.h"
+#include "engine/session/steps/replanning.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "engine/session/replan_wording.h"
+#include "engine/session/steps/replanning.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {

@@ -7,7 +7,7 @@
 
 #include "base/joined.h"
 #include "engine/session/commands.h"
-#include "engine/session/numbers_wording.h"
+#include "engine/session/steps/guiding.h"
 
 namespace orthonav::engine {
 

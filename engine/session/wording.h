@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "base/length_text.h"
 #include "base/translation.h"
 #include "engine/session/coach.h"
-#include "engine/session/findings_wording.h"
 #include "engine/session/messages.h"
 #include "engine/session/operation_state.h"
 #include "engine/session/saving.h"
@@ -15,6 +17,69 @@
 
 namespace orthonav::engine {
 
+// All words that a surgeon reads are made from data here and, of a step, in its file of steps/: in
+// English, or where a WearersLanguage lives, in the wearer's language (base/translation.h). No
+// decision ever depends on these texts.
+//
+// The status line is rewritten for every frame, into strings that keep their capacity: the `append`
+// functions do not allocate once the frame loop is warm.
+
+// Values in the formats of what is said.
+
+/// A length for a `%s`: "1.2 mm", "-- mm" if it is not finite.
+[[nodiscard]] inline std::string said_mm(double length_m, int decimals = 1) {
+  std::string text;  // shorter than what a string allocates for
+  append_mm(text, length_m, decimals);
+  return text;
+}
+
+/// Puts a format around what was appended since `begin`, which takes the place of its `%s`.
+inline void enclose(std::string& out, std::size_t begin, std::string_view format) {
+  constexpr std::string_view kPlace = "%s";
+  const std::size_t place = format.find(kPlace);
+  out.insert(begin, format.substr(0, place));
+  if (place != std::string_view::npos) {
+    out.append(format.substr(place + kPlace.size()));
+  }
+}
+
+/// Appends a format with a text in the place of its `%s`.
+inline void append_with(std::string& out, std::string_view format, std::string_view text) {
+  const std::size_t begin = out.size();
+  out.append(text);
+  enclose(out, begin, format);
+}
+
+// The findings of a registration, each as one clause.
+
+/// "left" or "right".
+[[nodiscard]] std::string_view word_of(Side side);
+/// " (registration only)": follows a bound that leaves out the errors common to all strokes.
+void append_registration_only(std::string& out);
+/// "digitize the left lamina".
+void append(std::string& out, const nav::BonePlace& place);
+/// "cranial-caudal shift (0.4 mm at the screws)".
+void append(std::string& out, const nav::UncertainMotion& motion);
+/// "registration RMSE 3.4 mm, limit 3.0 mm".
+void append(std::string& out, const nav::RefusalReason& reason);
+/// Every reason, or a text that there is none to name.
+void append(std::string& out, std::span<const nav::RefusalReason> reasons);
+/// What is wrong with the check points, and what to do; nothing if all is well.
+void append(std::string& out, const nav::CheckAdvice& advice);
+
+/// "expected error 0.6 mm, digitize the left lamina".
+void append(std::string& out, const Coaching& coaching);
+/// The same in parts; the separator comes before the first.
+void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator);
+
+/// The text of a single finding.
+template <class Finding>
+[[nodiscard]] std::string text_of(const Finding& finding) {
+  std::string out;
+  append(out, finding);
+  return out;
+}
+
 /// "saved", "NOT SAVED", "NOT RECORDED" or nothing.
 [[nodiscard]] std::string_view text_of(Saved saved);
 /// The same after `separator`.
@@ -22,13 +87,6 @@ void write_saved(PartedText text, Saved saved, std::string_view separator);
 
 /// A message to the surgeon in words, in several parts where needed.
 void write_message(PartedText text, const Message& message);
-
-// All words that a surgeon reads are made from data here, in the *_wording.cpp and, of a step, in
-// its file of steps/: in English, or where a WearersLanguage lives, in the wearer's language
-// (base/translation.h). No decision ever depends on these texts.
-//
-// The status line is rewritten for every frame, into strings that keep their capacity: the `append`
-// functions do not allocate once the frame loop is warm.
 
 /// "guide L4 left".
 void append_step(std::string& out, const StepOnDisplay& at);

@@ -89,8 +89,8 @@ struct ShownStatus {
   Notice notice = Notice::kNone;
   ChecksAsked checks = ChecksAsked::kNone;
   bool strokes_enough = false;  ///< the bar that fills while a level is stroked is full
-  std::string text;   ///< as displayed
-  std::string heard;  ///< the newest command heard, as displayed; empty: none
+  std::string text;             ///< as displayed
+  std::string heard;            ///< the newest command heard, as displayed; empty: none
 };
 
 }  // namespace orthonav

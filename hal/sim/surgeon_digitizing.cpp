@@ -72,7 +72,8 @@ Script Surgeon::digitize(std::size_t level) {
       slips = body_.random().uniform() < error_model_->bad_stroke_probability;
       co_await record(level, region, slips);
     }
-    // What was stroked before a refusal still counts: only until the display says that it is enough.
+    // What was stroked before a refusal still counts: only until the display says that it is
+    // enough.
     if (adds_strokes && eyes_->status() && eyes_->status()->strokes_enough) {
       break;
     }

@@ -8,7 +8,6 @@
 #include "base/printed.h"
 #include "base/translation.h"
 #include "engine/session/guide_checks.h"
-#include "engine/session/said.h"
 #include "engine/session/steps/guiding.h"
 #include "engine/session/steps/verifying.h"
 #include "engine/session/wording.h"

@@ -9,7 +9,6 @@
 #include "base/angle.h"
 #include "base/translation.h"
 #include "engine/session/guide_checks.h"
-#include "engine/session/said.h"
 #include "engine/session/steps/guiding.h"
 #include "engine/session/steps/replanning.h"
 #include "engine/session/wording.h"

@@ -9,6 +9,7 @@
 #include "base/time.h"
 #include "engine/session/operation_in_work.h"
 #include "engine/session/replan.h"
+#include "engine/session/status_line.h"
 #include "nav/guidance/screw.h"
 #include "nav/registration/registration.h"
 
@@ -68,5 +69,18 @@ class Replanning {
 /// Makes another entry beside the hole of a screw's first wire the plan in use. There is no way
 /// back to the hole; its plan is kept as the only earlier plan.
 void put_other_entry(LevelState& level, std::size_t screw, Point<Vertebra> entry);
+
+// Changes of a screw in words.
+
+/// "6.0 × 45 mm"; "45 mm long" if no diameter is stated.
+void append_size(std::string& out, double diameter_m, double length_m);
+/// "entry moved 1.0 mm cranial, aims 2.0° more medial, 6.0 × 45 mm instead of 5.5 × 40 mm"; "no
+/// difference" if all of it rounds to zero.
+[[nodiscard]] std::string text_of(const nav::ScrewDifference& difference);
+/// What the surgeon asked for: "move cranial 1.0 mm", "undo".
+[[nodiscard]] std::string text_of(const Replan& replan);
+
+void write(PartedText text, const ReplanRefusal& refusal);
+void write(PartedText text, const ScrewReplanned& done);
 
 }  // namespace orthonav::engine

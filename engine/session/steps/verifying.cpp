@@ -6,7 +6,6 @@
 
 #include "base/printed.h"
 #include "base/translation.h"
-#include "engine/session/said.h"
 #include "engine/session/wording.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/registration/press_fit.h"

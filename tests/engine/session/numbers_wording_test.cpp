@@ -1,4 +1,4 @@
-#include "engine/session/numbers_wording.h"
+#include "engine/session/steps/guiding.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/angle.h"
-#include "engine/session/replan_wording.h"
+#include "engine/session/steps/replanning.h"
 
 namespace orthonav::engine::spoken_replan_test {
 namespace {

@@ -4,8 +4,8 @@
 #include <thread>
 
 #include "base/angle.h"
-#include "engine/session/numbers_wording.h"
-#include "engine/session/replan_wording.h"
+#include "engine/session/steps/guiding.h"
+#include "engine/session/steps/replanning.h"
 #include "engine/session/wording.h"
 #include "tests/engine/session/status_wording.h"
 #include "tests/support/allocation_count.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/holograms/status_rows.h"
-#include "engine/session/numbers_wording.h"
+#include "engine/session/steps/guiding.h"
 #include "engine/session/wording.h"
 #include "tests/support/language_in_use.h"
 #include "tools/language_file.h"

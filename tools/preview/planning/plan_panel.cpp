@@ -4,7 +4,7 @@
 #include <array>
 
 #include "engine/case/screw_breach.h"
-#include "engine/session/replan_wording.h"
+#include "engine/session/steps/replanning.h"
 #include "nav/guidance/changed_screw.h"
 #include "nav/planning/pedicle_screws.h"
 #include "tools/preview/panel_parts.h"
