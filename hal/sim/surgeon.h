@@ -39,6 +39,8 @@ class Surgeon {
 
   /// Acts until `now`.
   void tick(Timestamp now, const Bearings& bearings);
+  /// Where the tag of the patient reference faces, which has to stay in the cameras' sight.
+  void see_reference(Vec3 faces) { reference_faces_ = faces; }
   [[nodiscard]] SurgeonBody& body() { return body_; }
   /// Whether the surgeon has seen the end of the operation or has given up.
   [[nodiscard]] bool finished() const { return finished_; }
@@ -170,11 +172,9 @@ class Surgeon {
   /// What they do where there is no reading; true when it has been away for so long that those
   /// before it are out of date.
   bool regain_reading(const Aim& aim, double lost_s, double tick_s);
-  /// From where the tag of a tool along `axis` is seen well, and the reference's as well where the
-  /// system relies on it, which faces the place where the surgeon stands at first.
+  /// From where the tag of a tool along `axis` is seen well, and the reference's as well.
   [[nodiscard]] Vec3 best_view(Vec3 axis) const {
-    return SurgeonBody::best_view(
-        axis, relies_on_reference_ ? std::optional(HeadGoal{}.from_gaze) : std::nullopt);
+    return SurgeonBody::best_view(axis, relies_on_reference_ ? reference_faces_ : std::nullopt);
   }
   /// Turns the tag to and fro and leans over, so that the cameras find it again.
   void show_tag(const Aim& aim, double since_s, double tick_s);
@@ -210,6 +210,7 @@ class Surgeon {
   SurgeonBody body_;
   GuidanceProfile guidance_;
   bool relies_on_reference_;  ///< two tags are needed, of which one may hide the other
+  std::optional<Vec3> reference_faces_;
   Vec3 misread_rad_{};  ///< of the angle; drawn before the wire goes in, constant while it does
   Bearings bearings_;
   Random checking_;  ///< a separate stream: without touches, the others stay the same

@@ -120,7 +120,7 @@ Vec3 SurgeonBody::best_view(Vec3 axis, std::optional<Vec3> beside) {
       const double too_steep =
           std::max(0.0, 58.0 - angle_between_rad(view, axis) / kRadiansPerDegree) / 8.0;
       const double too_flat =
-          beside ? std::max(0.0, angle_between_rad(view, *beside) / kRadiansPerDegree - 50.0) / 8.0
+          beside ? std::max(0.0, angle_between_rad(view, *beside) / kRadiansPerDegree - 60.0) / 4.0
                  : 0.0;
       const double cost = too_steep * too_steep + too_flat * too_flat +
                           std::pow((elevation - 50.0) / 15.0, 2) + std::pow(azimuth / 40.0, 2);

@@ -65,7 +65,7 @@ struct Program {
   explicit Program(const std::string& path) : folder(path) {
     if (auto last = OperationLog::find(env, folder)) {
       before = last->operation;
-      records_before = last->records;
+      records_before = last->operation.records;
       found = std::move(*last);
     }
   }

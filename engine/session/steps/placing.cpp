@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/angle.h"
+#include "base/printed.h"
 #include "base/translation.h"
 #include "engine/session/guide_checks.h"
 #include "engine/session/steps/guiding.h"
