@@ -88,7 +88,7 @@ GoldenScene status_off_the_tag() {
   constexpr float kNearer = 0.85f;  // than the status line
   const Float3 middle =
       head.position + kNearer * (kStatusPlace.y * head.up + kStatusPlace.z * head.back);
-  lay_paper(golden, middle, 0.030f * head.right, 0.030f * head.up);
+  lay_paper(golden, middle, 0.030f * head.right, 0.024f * head.up);
   return golden;
 }
 

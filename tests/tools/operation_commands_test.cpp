@@ -117,13 +117,18 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   ASSERT_EQ(again.code, 0) << again.err;
   const json told = json::parse(again.out);
   EXPECT_GT(told["session"]["records"], 50);
-  for (const char* key : {"completed", "method", "case", "seed", "common_errors", "calibration"}) {
+  for (const char* key : {"completed", "method", "case", "seed", "common_errors"}) {
     EXPECT_EQ(told[key], report[key]) << key;
   }
-  for (const char* key : {"accepted", "attempts", "rmse_mm", "predicted_tre_mm", "points",
-                          "digitization_s", "check_points_mm"}) {
+  for (const char* key :
+       {"accepted", "attempts", "rmse_mm", "predicted_tre_mm", "points", "digitization_s"}) {
     EXPECT_EQ(told["levels"][0][key], report["levels"][0][key]) << key;
   }
+  // As far off as each was when it was touched; the session weighs them by what came after, and it
+  // goes on to learn about the cameras.
+  EXPECT_EQ(told["levels"][0]["check_points_mm"].size(),
+            report["levels"][0]["check_points_mm"].size());
+  EXPECT_EQ(told["calibration"]["tags"].size(), report["calibration"]["tags"].size());
   for (const std::size_t screw : {0U, 1U}) {
     for (const char* key : {"done", "tracked", "executed", "wire", "redone"}) {
       EXPECT_EQ(told["levels"][0]["screws"][screw][key], report["levels"][0]["screws"][screw][key])

@@ -121,8 +121,13 @@ RoomLevel synthetic_level(const std::string& label, double z_in_spine_m) {
   return level;
 }
 
+/// What `FakeEngine` listens for.
+const SurgeonPhrases kSaid{"begin guiding", "save points", "delete last", "accept result",
+                           "reject level",  "go to next",  "finish rod"};
+
 TestCase synthetic_case() {
   TestCase made;
+  made.room.phrases = kSaid;
   made.room.tools = test_tools();
   made.room.levels = {synthetic_level("L4", 0.0), synthetic_level("L5", -0.045)};
   for (const RoomLevel& level : made.room.levels) {
@@ -144,6 +149,7 @@ std::optional<TestCase> visible_human_case(const std::vector<std::string>& opera
     return std::nullopt;
   }
   TestCase made;
+  made.room.phrases = kSaid;
   made.room.tools = test_tools();
   made.room.operated = operated;
   const auto description = nlohmann::json::parse(file);
