@@ -38,6 +38,10 @@ constexpr int kCostTool = 1 << 16;
 constexpr int kCostPaper = 1 << 15;
 constexpr int kCostNamed = 1 << 14;
 
+/// How many steps to either side, and up, the status line goes.
+constexpr int kStatusAside = 6;
+constexpr int kStatusUp = 2;
+
 constexpr std::size_t kColumns = 2 * BlockPlace::kAside + 1;
 constexpr std::size_t kPlaces = kColumns * (2 * BlockPlace::kUp + 1);
 
@@ -313,6 +317,11 @@ BlockPlace::Best BlockPlace::best_of(const Eyes& eyes, std::optional<std::size_t
   for (std::size_t place = 0; place < kPlaces; ++place) {
     const auto steps = steps_of(place);
     if (place == without || steps[0] * steps[0] + steps[1] * steps[1] >= best.cost) {
+      continue;
+    }
+    // The status line stays below what is worked on, and is looked for there.
+    if (block_ == PlacedBlock::kStatus &&
+        (std::abs(steps[1]) > kStatusUp || std::abs(steps[0]) > kStatusAside)) {
       continue;
     }
     const int cost = cost_of(place, eyes, kRoomToCome);

@@ -253,7 +253,7 @@ void write_act_after_touch(PartedText text, const LandmarkSoFar& landmark,
   const std::size_t end = text.out.size();
   if (landmark.tips != nullptr) {
     write_tips(text, *landmark.tips, separator);
-    write_axis(text, landmark, separator);
+    write_axis(text, landmark, text.out.size() == end ? separator : "; ");
   }
   if (text.out.size() == end) {
     text.begin(Importance::kNext, separator);

@@ -133,7 +133,7 @@ void find_faults(const OperatingField& field, const std::vector<Ink>& inks,
       }
     }
     for (const engine::GlarePatch& paper : field.papers) {
-      if ((guides || ink.kind == HologramKind::kStatus) && over_paper(ink, paper, view)) {
+      if (guides && over_paper(ink, paper, view)) {
         found.push_back(ink.text + " over paper");
       }
     }
