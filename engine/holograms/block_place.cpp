@@ -39,7 +39,7 @@ constexpr int kCostPaper = 1 << 15;
 constexpr int kCostNamed = 1 << 14;
 
 /// How many steps to either side, and up, the status line goes.
-constexpr int kStatusAside = 6;
+constexpr int kStatusAside = 5;
 constexpr int kStatusUp = 2;
 
 constexpr std::size_t kColumns = 2 * BlockPlace::kAside + 1;
