@@ -5,27 +5,6 @@
 #include "engine/io/image_file.h"
 
 namespace orthonav::tools {
-namespace {
-
-/// The middle of a picture, with the site, the cross and its numbers, and the status line below:
-/// the borders show nothing but drapes.
-void copy_middle(const RgbaImage& image, RgbaImage& middle) {
-  // The status line is three quarters as wide as the picture.
-  const int left = image.width_px / 10;
-  const int top = image.height_px / 8;
-  middle.width_px = image.width_px - 2 * left;
-  middle.height_px = image.height_px - top;
-  middle.pixels.clear();
-  for (int y = top; y < image.height_px; ++y) {
-    const auto row =
-        image.pixels.begin() + 4 * (static_cast<std::ptrdiff_t>(y) * image.width_px + left);
-    middle.pixels.insert(middle.pixels.end(), row,
-                         row + 4 * static_cast<std::ptrdiff_t>(middle.width_px));
-  }
-}
-
-}  // namespace
-
 Status StepPictures::picture(const RgbaImage& image, const engine::Snapshot& snapshot) {
   if (snapshot.blank) {
     return {};
@@ -46,7 +25,7 @@ Status StepPictures::picture(const RgbaImage& image, const engine::Snapshot& sna
   }
   held_shows_site_ = shows_site;
   held_tip_to_entry_m_ = tip_to_entry_m;
-  copy_middle(image, held_);
+  held_ = image;
   return {};
 }
 

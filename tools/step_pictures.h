@@ -16,8 +16,8 @@ struct StepPicture {
   std::filesystem::path path;
 };
 
-/// Keeps one picture of every step, the middle of it, where the bone is: the last one that shows
-/// more than the status line; for guiding, the one with the tip nearest to the entry.
+/// Keeps one picture of every step: the last one that shows more than the status line; for guiding,
+/// the one with the tip nearest to the entry.
 class StepPictures : public PictureSink {
  public:
   explicit StepPictures(std::filesystem::path folder) : folder_(std::move(folder)) {}

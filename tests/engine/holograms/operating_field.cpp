@@ -114,7 +114,7 @@ bool over_paper(const Ink& ink, const engine::GlarePatch& paper, const render::V
 }
 
 void find_faults(const OperatingField& field, const std::vector<Ink>& inks,
-                 const render::View& view, std::vector<std::string>& found, bool status_on_paper) {
+                 const render::View& view, std::vector<std::string>& found) {
   const float pixels_at_1m = kHeight_px / (view.tan_up + view.tan_down);
   for (std::size_t i = 0; i < inks.size(); ++i) {
     const Ink& ink = inks[i];
@@ -133,8 +133,7 @@ void find_faults(const OperatingField& field, const std::vector<Ink>& inks,
       }
     }
     for (const engine::GlarePatch& paper : field.papers) {
-      const bool status = status_on_paper && ink.kind == HologramKind::kStatus;
-      if ((guides || status) && over_paper(ink, paper, view)) {
+      if ((guides || ink.kind == HologramKind::kStatus) && over_paper(ink, paper, view)) {
         found.push_back(ink.text + " over paper");
       }
     }
@@ -243,8 +242,8 @@ std::vector<render::View> any_head(Random& random) {
   return render::stereo_pair(render::look_at(eye, looked, up, 0.394f, 0.2561f));
 }
 
-std::vector<std::string> faults(const OperatingField& field, const std::vector<render::View>& views,
-                                bool status_on_paper) {
+std::vector<std::string> faults(const OperatingField& field,
+                                const std::vector<render::View>& views) {
   std::vector<std::string> found;
   const render::Head head = render::head_of(views);
   for (const render::View& view : views) {
@@ -254,7 +253,7 @@ std::vector<std::string> faults(const OperatingField& field, const std::vector<r
         inks.push_back(*ink);
       }
     }
-    find_faults(field, inks, view, found, status_on_paper);
+    find_faults(field, inks, view, found);
   }
   return found;
 }

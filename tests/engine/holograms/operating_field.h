@@ -44,10 +44,9 @@ std::vector<render::View> any_head(Random& random);
 std::vector<render::View> head_at(float left_m, float above_m = 0.45f, float roll_rad = 0);
 
 /// Unreadable texts in any of the views, one line each: ink over ink, ink over a place, numbers
-/// that guide over paper; and the status line, if `status_on_paper`. (The name of a place behind a
-/// tag may lie there too.)
-std::vector<std::string> faults(const OperatingField& field, const std::vector<render::View>& views,
-                                bool status_on_paper = true);
+/// that guide or the status line over paper. (The name of a place behind a tag may lie there too.)
+std::vector<std::string> faults(const OperatingField& field,
+                                const std::vector<render::View>& views);
 
 /// Where a label is relative to the place it names, by its scene's texts.
 struct Standing {
