@@ -38,9 +38,8 @@ constexpr int kCostTool = 1 << 16;
 constexpr int kCostPaper = 1 << 15;
 constexpr int kCostNamed = 1 << 14;
 
-/// How many steps to either side, and up, the status line goes.
-constexpr int kStatusAside = 5;
-constexpr int kStatusUp = 2;
+/// A step up or down of the status line counts like so many aside, squared: the wound is above it.
+constexpr int kStatusUp = 16;
 
 constexpr std::size_t kColumns = 2 * BlockPlace::kAside + 1;
 constexpr std::size_t kPlaces = kColumns * (2 * BlockPlace::kUp + 1);
@@ -309,7 +308,8 @@ int BlockPlace::cost_of(std::size_t place, const Eyes& eyes, float margin) const
       covered |= cost;
     }
   }
-  return covered + steps[0] * steps[0] + steps[1] * steps[1];
+  const int up_costs = block_ == PlacedBlock::kStatus ? kStatusUp : 1;
+  return covered + steps[0] * steps[0] + up_costs * steps[1] * steps[1];
 }
 
 BlockPlace::Best BlockPlace::best_of(const Eyes& eyes, std::optional<std::size_t> without) const {
@@ -317,11 +317,6 @@ BlockPlace::Best BlockPlace::best_of(const Eyes& eyes, std::optional<std::size_t
   for (std::size_t place = 0; place < kPlaces; ++place) {
     const auto steps = steps_of(place);
     if (place == without || steps[0] * steps[0] + steps[1] * steps[1] >= best.cost) {
-      continue;
-    }
-    // The status line stays below what is worked on, and is looked for there.
-    if (block_ == PlacedBlock::kStatus &&
-        (std::abs(steps[1]) > kStatusUp || std::abs(steps[0]) > kStatusAside)) {
       continue;
     }
     const int cost = cost_of(place, eyes, kRoomToCome);

@@ -38,8 +38,7 @@ TEST_P(CrowdedLabels, LeaveEachOtherAndWhatTheyNameClear) {
     OperatingField field = GetParam().make();
     faults_before += test::faults(field, views).size();
     lay_out(field, views);
-    // The status line only goes aside, which is not always far enough.
-    EXPECT_THAT(test::faults(field, views, false), IsEmpty()) << "head " << i;
+    EXPECT_THAT(test::faults(field, views), IsEmpty()) << "head " << i;
   }
   EXPECT_GT(faults_before, 0u) << "there is nothing to lay out here";
 }
