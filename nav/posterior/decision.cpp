@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "base/reason.h"
 #include "base/translation.h"
+#include "nav/geometry/matrix_as.h"
 #include "nav/registration/pose_candidates.h"
 
 namespace orthonav::nav::posterior {
@@ -20,6 +21,7 @@ constexpr double kFarWorse = 25.0;
 constexpr std::size_t kDraws = 4096;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Rows6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
 std::vector<Point<World>> tips_of(const Observations& observations) {
@@ -66,7 +68,7 @@ std::vector<double> errors_m(const Posterior& posterior, const Transform<World, 
   Random random(20261129);
   std::size_t part = 0;
   double through = posterior.parts[0].weight;
-  Eigen::LLT<Eigen::Matrix<double, 6, 6>> root;
+  Eigen::LLT<Matrix6> root;
   std::size_t root_of = posterior.parts.size();
   for (std::size_t k = 0; k < kDraws; ++k) {
     while (part + 1 < posterior.parts.size() && (static_cast<double>(k) + 0.5) / kDraws > through) {
@@ -150,20 +152,20 @@ std::vector<PlaceToPress> places_to_press(const Posterior& posterior, const Bone
                                           std::span<const Point<Vertebra>> targets,
                                           std::span<const Point<Vertebra>> candidates,
                                           std::size_t count) {
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Map<const Rows6>(posterior.covariance.data());
+  Matrix6 covariance = Eigen::Map<const Rows6>(posterior.covariance.data());
   double model_m2 = 0.0;
   for (const Part& part : posterior.parts) {
     model_m2 += part.weight * std::pow(part.noise_m * part.of.model, 2);
   }
   const double press_m2 = prior.press_sd_m * prior.press_sd_m +
                           prior.press_common_sd_m * prior.press_common_sd_m + model_m2;
-  const auto worst_m2 = [&](const Eigen::Matrix<double, 6, 6>& c) {
+  const auto worst_m2 = [&](const Matrix6& c) {
     double most = 0.0;
     for (const Point<Vertebra>& target : targets) {
       const Vec3 arm = target.v - posterior.centre_m;
       Eigen::Matrix<double, 3, 6> moves = Eigen::Matrix<double, 3, 6>::Zero();
       moves.leftCols<3>().setIdentity();
-      moves.rightCols<3>() << 0.0, arm.z, -arm.y, -arm.z, 0.0, arm.x, arm.y, -arm.x, 0.0;
+      moves.rightCols<3>() = -skew_as<Eigen::Matrix3d>(arm);
       most = std::max(most, (moves * c * moves.transpose()).trace());
     }
     return most;
@@ -171,7 +173,7 @@ std::vector<PlaceToPress> places_to_press(const Posterior& posterior, const Bone
   std::vector<PlaceToPress> out;
   while (out.size() < count) {
     double least_m2 = std::numeric_limits<double>::infinity();
-    Eigen::Matrix<double, 6, 6> best = covariance;
+    Matrix6 best = covariance;
     PlaceToPress next;
     for (const Point<Vertebra>& at : candidates) {
       const Vec3 out_of_bone = bone.near(at.v, bone.place_near(at.v)).out;
@@ -179,8 +181,7 @@ std::vector<PlaceToPress> places_to_press(const Posterior& posterior, const Bone
       Vector6 moved;
       moved << out_of_bone.x, out_of_bone.y, out_of_bone.z, turned.x, turned.y, turned.z;
       const Vector6 with = covariance * moved;
-      const Eigen::Matrix<double, 6, 6> then =
-          covariance - with * with.transpose() / (press_m2 + moved.dot(with));
+      const Matrix6 then = covariance - with * with.transpose() / (press_m2 + moved.dot(with));
       const double then_m2 = worst_m2(then);
       if (then_m2 < least_m2) {
         least_m2 = then_m2;

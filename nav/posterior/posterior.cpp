@@ -934,14 +934,14 @@ void descend(Averaged::Units& units, const BoneSurface& bone, std::span<const No
 Averaged::Averaged(const Observations& observations, const Prior& prior, Hand hand)
     : hand_(std::move(hand)),
       few_(std::make_unique<Units>(observations, prior, hand_, 64, 6)),
-      all_(std::make_unique<Units>(observations, prior, hand_, 160, 1000000)) {}
+      all_(std::make_unique<Units>(observations, prior, hand_, kUnits,
+                                   std::max<std::size_t>(1, observations.strokes.size()))) {}
 Averaged::~Averaged() = default;
 
 std::optional<Posterior> posterior_of(const Observations& observations, const BoneSurface& bone,
                                       const Prior& prior, const Transform<World, Vertebra>& start,
                                       Effort effort, Averaged* shared) {
   constexpr std::size_t kFewestPoints = 24;
-  constexpr std::size_t kSteering = 4;  // points of the grid that the descent uses
   constexpr std::size_t kKept = 48;
   constexpr double kStands_m = 3e-6;
   constexpr double kNearlyStands_m = 3e-5;
@@ -949,22 +949,29 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
   if (observations.strokes.size() < kFewestPoints) {
     return std::nullopt;
   }
-  const auto blocks = blocks_of(observations, units_of(observations, 160));
+  // The likeliest points of the grid steer the descent.
+  const auto steering = [](std::span<const Node> nodes) {
+    return nodes.first(std::min<std::size_t>(4, nodes.size()));
+  };
+  const auto blocks = blocks_of(observations, units_of(observations, Averaged::kUnits));
   Transform<Vertebra, World> from_world = start.inverse();
   std::unique_ptr<Averaged> own;
+  const bool full = effort == Effort::kFull;
+  const int most_rounds = full ? 3 : 1;
   // What the points tell of the hand, and where the grid has weight, is looked at where the descent
   // begins and, if that was elsewhere, again where it ends.
-  for (int round = 0;; ++round) {
+  Touches here;
+  std::vector<Node> nodes;
+  for (int round = 0; round < most_rounds; ++round) {
     if (shared == nullptr) {
       own = std::make_unique<Averaged>(
           observations, prior,
           hand_at(observations, prior, blocks,
                   touches_at(observations, bone, from_world, {}, nullptr)));
     }
-    Averaged& averaged = shared != nullptr ? *shared : *own;
-    Averaged::Units& few = averaged.few();
-    Touches here = touches_at(observations, bone, from_world, few.wanted, nullptr);
-    std::vector<Node> nodes;
+    Averaged::Units& few = (shared != nullptr ? shared : own.get())->few();
+    here = touches_at(observations, bone, from_world, few.wanted, nullptr);
+    nodes.clear();
     for (const auto& [node, a] : explored(few, few.columns_of(here))) {
       if (nodes.size() < kKept) {
         nodes.push_back(node);
@@ -973,25 +980,24 @@ std::optional<Posterior> posterior_of(const Observations& observations, const Bo
     if (nodes.empty()) {
       return std::nullopt;
     }
-    const std::span steering = std::span(nodes).first(std::min(kSteering, nodes.size()));
     const Vec3 before_m = here.centre_m;
-    descend(few, bone, steering, 12, kStands_m, here);
-    const bool stood = (here.centre_m - before_m).norm() < kAgain_m;
+    descend(few, bone, steering(nodes), 12, kStands_m, here);
     from_world = here.from_world;
-    if (effort == Effort::kFull && (stood || round == 2)) {
-      Averaged::Units& all = averaged.all();
-      here = touches_at(observations, bone, from_world, {}, nullptr);
-      descend(all, bone, steering, 3, kNearlyStands_m, here);
-      Answers answers = answers_at(all, here, nodes);
-      return answers.empty() ? std::nullopt
-                             : std::optional(assembled(here, averaged.hand(), std::move(answers)));
-    }
-    if (effort == Effort::kRough) {
-      Answers answers = answers_at(few, here, nodes);
-      return answers.empty() ? std::nullopt
-                             : std::optional(assembled(here, averaged.hand(), std::move(answers)));
+    if ((here.centre_m - before_m).norm() < kAgain_m) {
+      break;
     }
   }
+  Averaged& averaged = shared != nullptr ? *shared : *own;
+  Averaged::Units& units = full ? averaged.all() : averaged.few();
+  if (full) {
+    here = touches_at(observations, bone, from_world, {}, nullptr);
+    descend(units, bone, steering(nodes), 3, kNearlyStands_m, here);
+  }
+  Answers answers = answers_at(units, here, nodes);
+  if (answers.empty()) {
+    return std::nullopt;
+  }
+  return assembled(here, averaged.hand(), std::move(answers));
 }
 
 }  // namespace orthonav::nav::posterior

@@ -16,20 +16,23 @@ namespace orthonav::nav::posterior {
 // The model of the heights. Under a pose, the signed distance d of a point at place p, at time t of
 // stroke k, is
 //
-//   d = s (1 + k u(p)) + f(p) + g(k) + n(t)
+//   d = s (1 + k u(p)) + c v(p) + f(p) + g(k) + n(t)
 //
 // s >= 0 is the mean height of the tip (tissue, a light hand), u a Gaussian field over the bone
-// (tissue's thickness), f another (the model is not the bone), g a height per stroke, n the noise
-// of hand and tracker: white from point to point, and wandering along a stroke
-// (Ornstein-Uhlenbeck). Or the point has nothing to do with the bone, and d is anything within a
-// range.
+// (tissue's thickness), v how deep in a valley the place lies (tissue is thick there, by an unknown
+// c), f another field (the model is not the bone), g a height per stroke, n the noise of hand and
+// tracker: white from point to point, and wandering along a stroke (Ornstein-Uhlenbeck). Or the
+// point has nothing to do with the bone, and d is anything within a range.
+//
+// Of a press, d is a gap in place of s, and f. The bone may have moved in World since the strokes;
+// the pose is that under the presses. What shifts strokes and presses alike adds to its covariance.
 //
 // Points are averaged over some 160 units of their strokes, whose heights are the rows. How points
 // deviate from the mean of the block of eight that they are in tells of the noise from point to
-// point. Everything but pose and s
-// is a hyperparameter, whose joint grid is summed over; the scale of all variances and the size of
-// the model are integrated in closed form, s by quadrature. The pose has a flat prior. (Rasmussen &
-// Williams 2006, sections 2.7 and 5.4.)
+// point. The pose (with a flat prior), c, the motion since the strokes, the scale of all variances
+// and the size of the model are integrated in closed form, s by quadrature; all else are
+// hyperparameters, whose joint grid is summed over. (Rasmussen & Williams 2006, sections 2.7 and
+// 5.4.)
 
 /// A point of the grid: what the heights consist of, relative to the noise.
 struct Mixture {
@@ -78,6 +81,7 @@ class Averaged {
   Averaged(const Averaged&) = delete;
   Averaged& operator=(const Averaged&) = delete;
 
+  static constexpr std::size_t kUnits = 160;
   struct Units;
   [[nodiscard]] Units& few() { return *few_; }  ///< some points of each, to tell roughly
   [[nodiscard]] Units& all() { return *all_; }
