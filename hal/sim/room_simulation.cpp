@@ -157,7 +157,7 @@ void RoomSimulation::leave_reference(RoomState& now) {
     const Vec3 beside_m = relies_on_reference_ ? kOnTheSurgeonsSide_m : kBeyondTheWound_m;
     put(now, *reference, {layout_.middle() + beside_m, {0, 1, 0}, 0.0}, std::nullopt);
     room_from_reference_ = now.room_from_marker[*reference];
-    if (surgeon_) {
+    if (surgeon_ && relies_on_reference_) {
       surgeon_->see_reference(room_from_reference_->rotation() * Vec3{0.0, 0.0, 1.0});
     }
   }

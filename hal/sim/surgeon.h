@@ -39,7 +39,8 @@ class Surgeon {
 
   /// Acts until `now`.
   void tick(Timestamp now, const Bearings& bearings);
-  /// Where the tag of the patient reference faces, which has to stay in the cameras' sight.
+  /// Where the tag of the patient reference faces, if the system relies on it: it has to stay in
+  /// the cameras' sight.
   void see_reference(Vec3 faces) { reference_faces_ = faces; }
   [[nodiscard]] SurgeonBody& body() { return body_; }
   /// Whether the surgeon has seen the end of the operation or has given up.
@@ -174,7 +175,7 @@ class Surgeon {
   bool regain_reading(const Aim& aim, double lost_s, double tick_s);
   /// From where the tag of a tool along `axis` is seen well, and the reference's as well.
   [[nodiscard]] Vec3 best_view(Vec3 axis) const {
-    return SurgeonBody::best_view(axis, relies_on_reference_ ? reference_faces_ : std::nullopt);
+    return SurgeonBody::best_view(axis, reference_faces_);
   }
   /// Turns the tag to and fro and leans over, so that the cameras find it again.
   void show_tag(const Aim& aim, double since_s, double tick_s);
