@@ -160,6 +160,8 @@ int cost_of(const LabelObstacle& obstacle, PlacedBlock block) {
   switch (obstacle.kind) {
     case LabelObstacle::Kind::kWound:
       return kCostWound;
+    case LabelObstacle::Kind::kField:
+      return block == PlacedBlock::kStatus ? kCostWound : 0;
     case LabelObstacle::Kind::kLine:
       return kind_of(obstacle.label) == HologramKind::kTriangle ? kCostTool : kCostLine;
     case LabelObstacle::Kind::kGlare:

@@ -25,8 +25,8 @@ enum class PlacedBlock {
 /// that its size stays. In this order it makes way for the edge of the view, the status line, the
 /// wound, the trajectory, the tool and white paper; of places that are alike it takes the nearest.
 ///
-/// The status line goes aside rather than up: above it is the wound, which no scene knows while it
-/// is stroked.
+/// The status line goes aside rather than up: above it is the wound, of which a scene knows what is
+/// stroked and where screws enter.
 ///
 /// Where no place is in view, the numbers that were asked for are left out first, then the cross:
 /// it is never cut. The status line is always shown. A blocked place is left at once, any other

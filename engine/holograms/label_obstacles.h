@@ -16,6 +16,7 @@ struct LabelObstacle {
     kGlare,   ///< labels lie on it only if the thing they name does
     kLine,    ///< labels prefer other places
     kWound,   ///< the target cross must not cover it
+    kField,   ///< the status line must not cover it
     kLeader,  ///< leads to a label
   };
   Kind kind = Kind::kNamed;
@@ -25,6 +26,8 @@ struct LabelObstacle {
 
 /// The entry being guided to, with its surroundings.
 inline constexpr float kWoundRadius_m = 0.012f;
+/// The wound is open so far about all entries and strokes that are shown.
+inline constexpr float kFieldRadius_m = 0.020f;
 
 /// Replaces `obstacles` by the things that a scene's labels must not cover: the anchors of all
 /// labels, target cross, rods, planned trajectory and triangle, patches. Texts are not included.

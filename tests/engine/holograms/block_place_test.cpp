@@ -308,6 +308,50 @@ TEST(StatusPlace, MakesWayForTheSite) {
   EXPECT_FALSE(covers(laid_out(built, views)));
 }
 
+/// No screw is guided, so that no trajectory tells where the wound is: strokes over a bone about
+/// the origin, or the entries of a level.
+enum class Told { kByStrokes, kByEntries, kNot };
+OperatingField open_wound(Told told) {
+  OperatingField field;
+  const std::array<ToolDot, 2> tools = {{{ToolState::kMeasured}, {ToolState::kMeasured}}};
+  add_status_line(field.scene, "digitize L4 | stroke the left lamina", tools,
+                  label_of(HologramKind::kStatus, 1));
+  for (const float aside_m : {-0.015f, 0.015f}) {
+    const std::array<Float3, 2> along = {{{aside_m, 0, -0.01f}, {aside_m, 0, 0.01f}}};
+    if (told == Told::kByStrokes) {
+      field.scene.lines.push_back({label_of(HologramKind::kPath, 1), {}, 0.001f, {}, false, 0});
+      field.scene.lines.back().points.assign(along.begin(), along.end());
+    } else if (told == Told::kByEntries) {
+      field.scene.meshes.push_back({});
+      field.scene.meshes.back().label = label_of(HologramKind::kEntry, 1);
+      field.scene.meshes.back().world_from_model = {0.002f, 0, 0,      0, 0,       0.002f, 0, 0,
+                                                    0,      0, 0.002f, 0, aside_m, 0,      0, 1};
+    }
+  }
+  return field;
+}
+
+TEST(StatusPlace, MakesWayForTheWoundThatStrokesOrEntriesShow) {
+  const auto views = site_at(11);
+  const auto lies_over_it = [&](Told told) {
+    OperatingField field = laid_out(open_wound(told), views);
+    const Eyes eyes(views);
+    static const render::Font font;
+    const std::array<Float3, 1> middle{};
+    return std::any_of(field.scene.texts.begin(), field.scene.texts.end(), [&](const auto& text) {
+      LabelExtent extent;
+      extent.width = render::line_width(font, text);
+      return text.place == render::TextPlace::kView &&
+             overlap(eyes.outline(middle, 0.015f),
+                     eyes.box(render::world_from_caps(text, eyes.head()),
+                              box_at(place_of(text, extent, 0), extent)));
+    });
+  };
+  EXPECT_FALSE(lies_over_it(Told::kByStrokes));
+  EXPECT_FALSE(lies_over_it(Told::kByEntries));
+  EXPECT_TRUE(lies_over_it(Told::kNot)) << "else it proves nothing";
+}
+
 TEST(StatusPlace, LeavesAtOnceAndComesBackAfterASecondOfRoom) {
   const auto views = site_at(kClear_deg);
   LabelLayout layout;
