@@ -53,7 +53,7 @@ class Seen {
   }
 
  private:
-  Float3 eye_, back_, right_, up_;
+  Float3 eye_{}, back_{}, right_{}, up_{};
 };
 
 std::vector<StraightPiece> seen(const std::vector<StraightPiece>& pieces, const Seen& see) {
@@ -140,7 +140,7 @@ ContourErrors ContourBench::in_motion(double rotation_rad_s, bool on_a_quad) con
   ContourErrors errors;
   engine::BoneLines lines;
   std::vector<StraightPiece> drawn;
-  Float3 drawn_for;
+  Float3 drawn_for{};
   for (int frame = 0; frame < kFrames; ++frame) {
     const double time_s = frame * kFrame_s;
     const double begin_rad = -0.5 * rotation_rad_s * kFrames * kFrame_s;

@@ -50,7 +50,7 @@ void add_actor(vtkPolyData& data, const render::Colour& colour, vtkRenderer& ren
   vtkNew<vtkMatrix4x4> matrix;
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
-      matrix->SetElement(row, column, place[static_cast<std::size_t>(4 * column + row)]);
+      matrix->SetElement(row, column, place[column][row]);
     }
   }
   actor->SetUserMatrix(matrix);
@@ -111,8 +111,8 @@ void add_triangle(const render::TriangleItem& item, vtkRenderer& renderer) {
 void add_text(const render::TextItem& item, const render::View& view, vtkRenderer& renderer) {
   const render::Head head = render::head_of({view});
   const render::Matrix4 place = render::world_from_caps(item, head);
-  const Float3 at = {place[12], place[13], place[14]};
-  const float cap_m = render::length({place[4], place[5], place[6]});
+  const Float3 at(place[3]);
+  const float cap_m = render::length(Float3(place[1]));
   const float tall = cap_m / render::length(at - head.position) / (view.tan_up + view.tan_down);
   std::string text;
   for (const render::TextRun& run : item.runs) {
@@ -152,11 +152,13 @@ void add_scene(const render::Scene& scene, const render::View& view, vtkRenderer
 
 void set_camera(const render::View& view, vtkRenderer& renderer) {
   const render::Matrix4 world_from_eye = render::rigid_inverse(view.eye_from_world);
-  const auto at = [&](std::size_t i) { return static_cast<double>(world_from_eye[i]); };
+  const auto up = world_from_eye[1];
+  const auto back = world_from_eye[2];
+  const auto at = world_from_eye[3];
   vtkCamera& camera = *renderer.GetActiveCamera();
-  camera.SetPosition(at(12), at(13), at(14));
-  camera.SetFocalPoint(at(12) - at(8), at(13) - at(9), at(14) - at(10));
-  camera.SetViewUp(at(4), at(5), at(6));
+  camera.SetPosition(at.x, at.y, at.z);
+  camera.SetFocalPoint(at.x - back.x, at.y - back.y, at.z - back.z);
+  camera.SetViewUp(up.x, up.y, up.z);
   camera.SetViewAngle(2 * std::atan(view.tan_up) * 180 / std::numbers::pi);
   camera.SetClippingRange(0.02, 10);
 }

@@ -2,23 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "render/scene.h"
 
 namespace orthonav::render {
 
-[[nodiscard]] constexpr Float3 operator+(Float3 a, Float3 b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-[[nodiscard]] constexpr Float3 operator-(Float3 a, Float3 b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-[[nodiscard]] constexpr Float3 operator*(float s, Float3 a) { return {s * a.x, s * a.y, s * a.z}; }
-[[nodiscard]] constexpr float dot(Float3 a, Float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-[[nodiscard]] constexpr Float3 cross(Float3 a, Float3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-[[nodiscard]] inline float length(Float3 a) { return std::sqrt(dot(a, a)); }
+using glm::cross;
+using glm::dot;
+using glm::length;
 [[nodiscard]] inline bool is_finite(Float3 a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
@@ -30,7 +22,7 @@ namespace orthonav::render {
 }
 
 /// The squared distance of a point from the segment between `a` and `b`.
-[[nodiscard]] constexpr float squared_distance_to_segment(Float3 p, Float3 a, Float3 b) {
+[[nodiscard]] inline float squared_distance_to_segment(Float3 p, Float3 a, Float3 b) {
   const Float3 along = b - a;
   const float squared_length = dot(along, along);
   const float part =

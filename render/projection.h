@@ -20,13 +20,12 @@ struct PixelPoint {
 /// The position between the eyes and the orientation of the head; axes are unit vectors in the
 /// world.
 struct Head {
-  Float3 position;
+  Float3 position{};
   Float3 right{1, 0, 0};
   Float3 up{0, 1, 0};
   Float3 back{0, 0, 1};
 };
 
-[[nodiscard]] Matrix4 multiplied(const Matrix4& a, const Matrix4& b);
 /// The product with (p, 1); the last row is taken as (0, 0, 0, 1).
 [[nodiscard]] Float3 transformed(const Matrix4& m, Float3 p);
 /// The point that `transformed` takes to p, of a rotation, a scale and a translation.

@@ -2,6 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,12 +15,11 @@
 namespace orthonav::render {
 
 /// World coordinates in metres, right-handed, +y up. The renderer knows nothing of surgery.
-struct Float3 {
-  float x = 0;
-  float y = 0;
-  float z = 0;
-  friend bool operator==(const Float3&, const Float3&) = default;
-};
+using Float3 = glm::vec3;
+using Float4 = glm::vec4;
+/// Columns, for column vectors, as GLSL reads it.
+using Matrix4 = glm::mat4;
+inline constexpr Matrix4 kIdentity{1.0f};
 
 /// Linear (not sRGB-encoded) colour and opacity in [0, 1]; not premultiplied.
 struct Colour {
@@ -27,10 +29,6 @@ struct Colour {
   float a = 1;
   friend bool operator==(const Colour&, const Colour&) = default;
 };
-
-/// Column-major 4×4 for column vectors, as GLSL reads it.
-using Matrix4 = std::array<float, 16>;
-inline constexpr Matrix4 kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 /// Which hologram an item belongs to; the value written into the label image. 0 is background.
 /// By convention 100·n + k for the k-th instance of hologram Hn (H3 of screw 2: 302).
@@ -84,7 +82,7 @@ inline void renew(LineItem& item) {
 /// A filled triangle, seen from both sides.
 struct TriangleItem {
   Label label = 0;
-  std::array<Float3, 3> corners;
+  std::array<Float3, 3> corners{};
   Colour colour;
 };
 inline void renew(TriangleItem& item) { item = {}; }
@@ -115,7 +113,7 @@ enum class TextAlign { kLeft, kCentre, kRight };
 struct TextItem {
   Label label = 0;
   ItemList<TextRun> runs;
-  Float3 position;
+  Float3 position{};
   TextPlace place = TextPlace::kWorld;
   TextAlign align = TextAlign::kCentre;
   float height_m = 0.006f;

@@ -209,7 +209,7 @@ std::vector<Float3> make_ring(Float3 centre, Float3 normal, float radius_m, int 
 }
 
 Matrix4 placed_at(Float3 position, float scale) {
-  return {scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, position.x, position.y, position.z, 1};
+  return {{scale, 0, 0, 0}, {0, scale, 0, 0}, {0, 0, scale, 0}, Float4(position, 1)};
 }
 
 }  // namespace orthonav::render

@@ -11,7 +11,7 @@ namespace orthonav::engine {
 /// A point of a hologram whose position in the image is asserted as a number.
 struct GoldenPoint {
   render::Label label = 0;
-  render::Float3 in_world;
+  render::Float3 in_world{};
 };
 
 /// The background behind the holograms of an `over` picture.

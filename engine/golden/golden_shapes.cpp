@@ -77,9 +77,9 @@ GoldenScene rotated_vertebra() {
       start("h2_vertebra_turned", "the same, from the side: rim where it turns away",
             close_view({0, 0.02f, 0}));
   render::Matrix4 rotation = render::kIdentity;
-  rotation[0] = rotation[10] = std::cos(0.4f);
-  rotation[8] = std::sin(0.4f);
-  rotation[2] = -rotation[8];
+  rotation[0].x = rotation[2].z = std::cos(0.4f);
+  rotation[2].x = std::sin(0.4f);
+  rotation[0].z = -rotation[2].x;
   add_vertebra(golden.scene, make_golden_vertebra(), rotation, kVertebraLabel);
   return golden;
 }

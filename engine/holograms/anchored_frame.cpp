@@ -9,17 +9,14 @@ render::Float3 taken(const Transform<World, World>& by, render::Float3 p) {
   return to_float3((by * Point<World>{{p.x, p.y, p.z}}).v);
 }
 
-/// The matrix of a model that is already placed in the scene; column-major, as `render::Matrix4`
-/// is.
+/// The matrix of a model that is already placed in the scene.
 render::Matrix4 taken(const Transform<World, World>& by, const render::Matrix4& model) {
   render::Matrix4 out = model;
-  for (std::size_t column = 0; column < 4; ++column) {
-    const std::size_t i = 4 * column;
-    const Vec3 v{model[i], model[i + 1], model[i + 2]};
-    const Vec3 w = by.rotation() * v + static_cast<double>(model[i + 3]) * by.translation();
-    out[i] = static_cast<float>(w.x);
-    out[i + 1] = static_cast<float>(w.y);
-    out[i + 2] = static_cast<float>(w.z);
+  for (int column = 0; column < 4; ++column) {
+    const render::Float4 v = model[column];
+    const Vec3 w =
+        by.rotation() * Vec3{v.x, v.y, v.z} + static_cast<double>(v.w) * by.translation();
+    out[column] = render::Float4(to_float3(w), v.w);
   }
   return out;
 }

@@ -99,26 +99,20 @@ class Turn {
     return dot(v, right_) * new_right_ + dot(v, up_) * new_up_ + dot(v, towards_) * new_towards_;
   }
   void turn(render::Matrix4& m) const {
-    for (const std::size_t column : {0U, 4U, 8U}) {
-      put(m, column, direction({m[column], m[column + 1], m[column + 2]}));
+    for (int axis = 0; axis < 3; ++axis) {
+      m[axis] = render::Float4(direction(Float3(m[axis])), 0);
     }
-    put(m, 12, place({m[12], m[13], m[14]}));
+    m[3] = render::Float4(place(Float3(m[3])), 1);
   }
 
  private:
-  static void put(render::Matrix4& m, std::size_t at, Float3 v) {
-    m[at] = v.x;
-    m[at + 1] = v.y;
-    m[at + 2] = v.z;
-  }
-
-  Float3 eyes_;
-  Float3 towards_;
-  Float3 right_;
-  Float3 up_;
-  Float3 new_right_;
-  Float3 new_up_;
-  Float3 new_towards_;
+  Float3 eyes_{};
+  Float3 towards_{};
+  Float3 right_{};
+  Float3 up_{};
+  Float3 new_right_{};
+  Float3 new_up_{};
+  Float3 new_towards_{};
 };
 
 void turn_cross(render::Scene& scene, const Turn& turn) {

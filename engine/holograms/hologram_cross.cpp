@@ -176,7 +176,7 @@ CrossPlaces places_of(const TargetCross& cross) {
     return places;
   }
   const std::array<Float3, 2> offsets = {cross.reading->tip_offset, cross.reading->top_offset};
-  std::array<Float3, 2> from_middle;  // magnified
+  std::array<Float3, 2> from_middle{};  // magnified
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     const auto [across, up] = on_disc(cross, places.right, towards_eye, offsets[i]);
     const float rim_m = kCrossScale * kRim * kCrossRings_m.back();

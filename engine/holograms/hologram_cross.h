@@ -11,14 +11,14 @@ namespace orthonav::engine {
 
 /// The eyes' position and the head's up direction, for holograms that face the eyes.
 struct Viewer {
-  render::Float3 eye;
+  render::Float3 eye{};
   render::Float3 up{0, 1, 0};  ///< unit
 };
 
 /// The tool against the plan, as the cross shows it.
 struct CrossReading {
-  render::Float3 tip_offset;  ///< from the planned axis, perpendicular to it, in the world
-  render::Float3 top_offset;  ///< of the tool's axis, 80 mm up
+  render::Float3 tip_offset{};  ///< from the planned axis, perpendicular to it, in the world
+  render::Float3 top_offset{};  ///< of the tool's axis, 80 mm up
   Grade grade = Grade::kPoor;
   /// The element that is drawn bright; of angle or offset also the way to move it.
   Worst worst = Worst::kNothing;
@@ -27,8 +27,8 @@ struct CrossReading {
 /// H7: a target that faces the eyes, above the site as they see it and to a side, clear of the
 /// tool. Its rings are at 1, 2 and 5 mm, magnified four times.
 struct TargetCross {
-  render::Float3 site;
-  render::Float3 outward;  ///< unit, along the planned axis out of the bone
+  render::Float3 site{};
+  render::Float3 outward{};  ///< unit, along the planned axis out of the bone
   Viewer viewer;
   LabelSide side = LabelSide::kLeft;    ///< of the site, as the eyes see it
   std::optional<CrossReading> reading;  ///< absent: rings without dots
@@ -54,11 +54,11 @@ inline constexpr std::array<float, 3> kCrossRings_m = {0.001f, 0.002f, 0.005f};
 /// without a reading). A dot past the rings stays at their rim; the way to move leads from the dot
 /// that is worst to where it belongs.
 struct CrossPlaces {
-  render::Float3 middle;
-  render::Float3 right;  ///< unit, of the disc
-  render::Float3 up;
-  render::Float3 normal;               ///< towards the eyes
-  std::array<render::Float3, 2> dots;  ///< tip, top
+  render::Float3 middle{};
+  render::Float3 right{};  ///< unit, of the disc
+  render::Float3 up{};
+  render::Float3 normal{};               ///< towards the eyes
+  std::array<render::Float3, 2> dots{};  ///< tip, top
   std::optional<std::array<render::Float3, 2>> way;
 };
 /// The side away from which the planned axis leans; unchanged while it hardly leans, so that it
@@ -71,7 +71,7 @@ struct CrossPlaces {
 void add_target_cross(render::Scene& scene, const TargetCross& cross, render::Label label);
 /// The outermost ring of a drawn cross; absent: the scene shows none.
 struct CrossDisc {
-  render::Float3 middle;
+  render::Float3 middle{};
   float radius_m = 0;
   const render::LineItem* ring = nullptr;  ///< never null
 };

@@ -71,7 +71,7 @@ class Block {
   }
 
   Scene& scene_;
-  Float3 place_;
+  Float3 place_{};
   Label label_;
   bool left_of_site_ = true;
   float column_ = 0;

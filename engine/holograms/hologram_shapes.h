@@ -65,8 +65,8 @@ enum class LabelSide { kLeft, kRight };  ///< as seen by the eyes
 
 /// H3: sphere of 3 mm, ring of 6 mm in the plane of the bone, label such as `L4 left`.
 struct EntryHologram {
-  render::Float3 position;
-  render::Float3 surface_normal;  ///< outward, any length
+  render::Float3 position{};
+  render::Float3 surface_normal{};  ///< outward, any length
   std::string_view text;
   bool done = false;  ///< the screw is in: a tick behind the text
   LabelSide side = LabelSide::kRight;
@@ -98,7 +98,7 @@ void add_angle_readout(render::Scene& scene, render::Float3 a, render::Float3 b,
 void take_angle_off(render::TextItem& angle);
 
 struct RodBendMark {
-  render::Float3 position;
+  render::Float3 position{};
   double angle_rad = 0.0;
   double arc_length_m = 0.0;  ///< from the rod's first end
   struct Making {
@@ -117,7 +117,7 @@ struct RodHologram {
   std::span<const RodBendMark> bends;
   std::optional<double> length_m;  ///< absent: the heads make no rod
   bool to_cut = false;             ///< the length is what it is to be cut to
-  render::Float3 offset;           ///< `move rod`: added to everything
+  render::Float3 offset{};         ///< `move rod`: added to everything
 };
 void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
 

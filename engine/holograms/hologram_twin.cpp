@@ -24,13 +24,8 @@ void add_twin(render::Scene& scene, const VirtualTwin& twin, const render::Scene
     render::MeshItem& item = scene.meshes.emplace_back();
     item = part;
     render::Matrix4& m = item.world_from_model;
-    const Float3 moved = in_twin(twin, {m[12], m[13], m[14]});
-    for (const std::size_t i : {0U, 1U, 2U, 4U, 5U, 6U, 8U, 9U, 10U}) {
-      m[i] *= kTwinScale;
-    }
-    m[12] = moved.x;
-    m[13] = moved.y;
-    m[14] = moved.z;
+    const Float3 moved = in_twin(twin, Float3(m[3]));
+    m = {kTwinScale * m[0], kTwinScale * m[1], kTwinScale * m[2], render::Float4(moved, 1)};
     item.label = label;
   }
   for (const render::LineItem& part : parts.lines) {

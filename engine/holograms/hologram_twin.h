@@ -7,8 +7,8 @@ namespace orthonav::engine {
 /// H8: a copy of the surroundings of a site, beside it and twice as large, in the patient's
 /// orientation.
 struct VirtualTwin {
-  render::Float3 site;    ///< not moved apart from the shift
-  render::Float3 beside;  ///< unit, which way the twin is shifted
+  render::Float3 site{};    ///< not moved apart from the shift
+  render::Float3 beside{};  ///< unit, which way the twin is shifted
 };
 
 inline constexpr float kTwinScale = 2.0f;

@@ -20,7 +20,7 @@ constexpr float kLineHalfWidth_m = 0.001f;
 /// Spheres and diamonds are unit shapes, scaled down; bones and rods are drawn life-size.
 bool is_small(const render::MeshItem& mesh) {
   const render::Matrix4& m = mesh.world_from_model;
-  return render::length({m[0], m[1], m[2]}) < 0.1f;
+  return render::length(Float3(m[0])) < 0.1f;
 }
 
 bool names_something(Label label) {
@@ -62,12 +62,12 @@ class Finder {
         continue;
       }
       const render::Matrix4& m = mesh.world_from_model;
-      const std::array<Float3, 1> centre = {{{m[12], m[13], m[14]}}};
-      add(Kind::kNamed, mesh.label, centre, render::length({m[0], m[1], m[2]}));
+      const std::array<Float3, 1> centre = {{Float3(m[3])}};
+      add(Kind::kNamed, mesh.label, centre, render::length(Float3(m[0])));
       const bool rod = kind_of(mesh.label) == HologramKind::kRod;
       if (rod && before && before->label == mesh.label) {
         const render::Matrix4& b = before->world_from_model;
-        const std::array<Float3, 2> span = {{{b[12], b[13], b[14]}, centre[0]}};
+        const std::array<Float3, 2> span = {{Float3(b[3]), centre[0]}};
         add(Kind::kNamed, mesh.label, span, kRodRadius_m);
       }
       before = rod ? &mesh : nullptr;
@@ -108,7 +108,7 @@ class Finder {
       for (const render::MeshItem& mesh : scene.meshes) {
         if (kind_of(mesh.label) == HologramKind::kEntry) {
           const render::Matrix4& m = mesh.world_from_model;
-          take(Float3{m[12], m[13], m[14]});
+          take(Float3(m[3]));
         }
       }
       for (const render::LineItem& line : scene.lines) {

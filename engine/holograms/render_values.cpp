@@ -1,5 +1,7 @@
 #include "engine/holograms/render_values.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include "render/shapes.h"
 
 namespace orthonav::engine {
@@ -18,13 +20,7 @@ render::Float3 to_float3(Vec3 v) {
 Vec3 to_vec3(render::Float3 v) { return {v.x, v.y, v.z}; }
 
 render::Matrix4 to_matrix(const std::array<double, 16>& row_major) {
-  render::Matrix4 out{};
-  for (std::size_t r = 0; r < 4; ++r) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      out[4 * c + r] = static_cast<float>(row_major[4 * r + c]);
-    }
-  }
-  return out;
+  return glm::transpose(glm::mat4(glm::make_mat4(row_major.data())));
 }
 
 render::View hololens2_view(const Transform<World, Eye>& world_from_eye) {

@@ -16,15 +16,15 @@ constexpr float kCoarser = 1.5f;
 constexpr float kCoarsest_m = 0.004f;
 
 Float3 into_model(const render::Matrix4& m, Float3 in_world) {
-  const Float3 d = in_world - Float3{m[12], m[13], m[14]};
+  const Float3 d = in_world - Float3(m[3]);
   const float squared = scale_of(m) * scale_of(m);
-  return {dot({m[0], m[1], m[2]}, d) / squared, dot({m[4], m[5], m[6]}, d) / squared,
-          dot({m[8], m[9], m[10]}, d) / squared};
+  return {dot(Float3(m[0]), d) / squared, dot(Float3(m[1]), d) / squared,
+          dot(Float3(m[2]), d) / squared};
 }
 
 }  // namespace
 
-float scale_of(const render::Matrix4& m) { return length(Float3{m[0], m[1], m[2]}); }
+float scale_of(const render::Matrix4& m) { return length(Float3(m[0])); }
 
 void append_pieces(const SurfaceContours::Line& line, std::vector<StraightPiece>& pieces) {
   for (std::size_t i = 1; i < line.size(); ++i) {
@@ -49,7 +49,7 @@ bool BoneLines::will_do(const Drawn& drawn, const render::MeshItem& item, Float3
   if (now - *drawn.found_at < options_.at_most_every) {
     return true;
   }
-  const Float3 middle = transformed(item.world_from_model, drawn.contours.middle());
+  const Float3 middle = render::transformed(item.world_from_model, drawn.contours.middle());
   const Float3 before = drawn.eye - middle;
   const Float3 after = eye - middle;
   const float rotation_rad = std::atan2(length(cross(before, after)), dot(before, after));
@@ -65,7 +65,7 @@ void BoneLines::find(Drawn& drawn, const render::MeshItem& item, Float3 eye) con
     for (const SurfaceContours::Line& line : lines) {
       SurfaceContours::Line kept = thinned(line, within_m / scale_of(world_from_model));
       for (Float3& p : kept) {
-        p = transformed(world_from_model, p);
+        p = render::transformed(world_from_model, p);
       }
       append_pieces(kept, drawn.pieces);
     }

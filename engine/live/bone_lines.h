@@ -48,7 +48,7 @@ class BoneLines {
     render::Label label = 0;
     SurfaceContours contours;
     render::Matrix4 world_from_model = render::kIdentity;
-    render::Float3 eye;
+    render::Float3 eye{};
     std::optional<Timestamp> found_at;
     std::vector<StraightPiece> pieces;
     bool used = true;

@@ -42,9 +42,7 @@ Quaternion rotation_of_y_to(Vec3 to) {
   return {to.z / norm, 0, -to.x / norm, w / norm};
 }
 
-Vec3 column(const render::Matrix4& m, std::size_t c) {
-  return {m[4 * c], m[4 * c + 1], m[4 * c + 2]};
-}
+Vec3 column(const render::Matrix4& m, int c) { return {m[c].x, m[c].y, m[c].z}; }
 
 /// Without blanks in front and spaces at the end, which displays treat differently; cap heights
 /// taken off the front go to `front_caps`.

@@ -124,7 +124,7 @@ void SceneObjects::add_mesh(const render::MeshItem& item, Float3 eye, Timestamp 
   if (mesh.axis.size() > 1) {
     SurfaceContours::Line line;
     for (const Float3 p : mesh.axis) {
-      line.push_back(transformed(m, p));
+      line.push_back(render::transformed(m, p));
     }
     std::vector<StraightPiece> pieces;
     append_pieces(thinned(line, kTubeWithin_m), pieces);
@@ -149,7 +149,7 @@ void SceneObjects::add_mesh(const render::MeshItem& item, Float3 eye, Timestamp 
     return;  // a halo
   }
   // Balls and diamonds are meshes of radius 1.
-  writer_.add_ball({m[12], m[13], m[14]}, scale_of(m), item.colour,
+  writer_.add_ball(Float3(m[3]), scale_of(m), item.colour,
                    kind == HologramKind::kCheckPoint ? ObjectShape::kCube : ObjectShape::kSphere);
 }
 

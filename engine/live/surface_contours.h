@@ -30,8 +30,8 @@ class SurfaceContours {
   /// Where a contour crosses an edge, and the surface's normal there.
   struct Crossing {
     std::uint64_t edge = 0;
-    render::Float3 point;
-    render::Float3 normal;
+    render::Float3 point{};
+    render::Float3 normal{};
   };
   using Segment = std::array<Crossing, 2>;
   [[nodiscard]] std::vector<Segment> segments_from(render::Float3 eye) const;
@@ -39,7 +39,7 @@ class SurfaceContours {
 
   render::MeshData mesh_;
   nav::SurfaceIndex surface_;
-  render::Float3 middle_;
+  render::Float3 middle_{};
 };
 
 /// A line reduced to the points needed to stay within `within_m` of it. The kept points, except the

@@ -10,7 +10,7 @@ namespace orthonav::render {
 namespace {
 
 Float3 middle(const LineItem& item) {
-  Float3 sum;
+  Float3 sum{};
   for (const Float3 point : item.points) {
     sum = sum + point;
   }
@@ -42,6 +42,7 @@ float distance2(const TextItem& item, const Head& head) {
 }
 
 auto key(Float3 p) { return std::tuple(p.x, p.y, p.z); }
+auto key(Float4 v) { return std::tuple(v.x, v.y, v.z, v.w); }
 auto key(const Colour& c) { return std::tuple(c.r, c.g, c.b, c.a); }
 
 template <class Range>
@@ -53,8 +54,9 @@ std::partial_ordering compare_points(const Range& a, const Range& b) {
 
 bool content_less(const MeshItem& a, const MeshItem& b) {
   const auto key_of = [](const MeshItem& item) {
-    return std::tuple(item.world_from_model, key(item.colour), key(item.tint), item.style,
-                      item.mesh->positions.size(), item.mesh->indices.size());
+    const Matrix4& m = item.world_from_model;
+    return std::tuple(key(m[0]), key(m[1]), key(m[2]), key(m[3]), key(item.colour), key(item.tint),
+                      item.style, item.mesh->positions.size(), item.mesh->indices.size());
   };
   if (const auto order = key_of(a) <=> key_of(b); order != 0) {
     return order < 0;

@@ -27,10 +27,7 @@ Matrix4 world_from_caps(const TextItem& item, const Head& head) {
   const float least_rad = item.min_height_deg * std::numbers::pi_v<float> / 180.0f;
   const float least_m = 2.0f * std::tan(0.5f * least_rad) * length(head.position - at);
   const float cap_m = std::max(item.height_m, least_m);
-  const Float3 x = cap_m * right;
-  const Float3 y = cap_m * up;
-  return {x.x,       x.y,       x.z,       0, y.x,  y.y,  y.z,  0,
-          towards.x, towards.y, towards.z, 0, at.x, at.y, at.z, 1};
+  return {Float4(cap_m * right, 0), Float4(cap_m * up, 0), Float4(towards, 0), Float4(at, 1)};
 }
 
 void FrameItems::build(const Scene& scene, const std::vector<View>& views, const Font& font,

@@ -12,14 +12,6 @@
 
 namespace orthonav::render {
 
-/// Four floats, as the shaders read them.
-struct Float4 {
-  float x = 0;
-  float y = 0;
-  float z = 0;
-  float w = 0;
-};
-
 struct MeshDraw {
   const MeshItem* item = nullptr;
   PixelRect bounds;       ///< set by FrameItems::place, as in all structs that follow
@@ -42,7 +34,7 @@ struct SpanDraw {
 /// A line of text: glyphs as three Float4 each (rectangle in cap heights, texture, ink).
 struct TextDraw {
   Label label = 0;
-  Matrix4 world_from_caps{};
+  Matrix4 world_from_caps = kIdentity;
   Colour rim;
   std::uint32_t first = 0;
   std::uint32_t count = 0;  ///< glyphs

@@ -12,8 +12,8 @@ namespace orthonav::render {
 
 /// Two points of a world, or of a surface's own frame.
 struct Segment3 {
-  Float3 from;
-  Float3 to;
+  Float3 from{};
+  Float3 to{};
 };
 
 /// A surface in a scene.
@@ -45,7 +45,7 @@ class HiddenEdges {
  private:
   struct Hiding {
     PlacedSurface surface;
-    Float4 box_px;
+    Float4 box_px{};
     std::size_t first_plane = 0;
     std::size_t planes = 0;
 

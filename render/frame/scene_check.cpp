@@ -30,26 +30,26 @@ bool is_colour(const Colour& c) {
 }
 
 bool is_affine(const Matrix4& m) {
-  for (const float value : m) {
-    if (!(std::abs(value) <= kFarthest_m)) {
-      return false;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      if (!(std::abs(m[column][row]) <= kFarthest_m)) {
+        return false;
+      }
     }
   }
-  return m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1;
+  return m[0].w == 0 && m[1].w == 0 && m[2].w == 0 && m[3].w == 1;
 }
 
 /// Positive for a rotation with a scale, negative with a reflection.
-float volume(const Matrix4& m) {
-  return dot(cross({m[0], m[1], m[2]}, {m[4], m[5], m[6]}), {m[8], m[9], m[10]});
-}
+float volume(const Matrix4& m) { return dot(cross(Float3(m[0]), Float3(m[1])), Float3(m[2])); }
 
 bool is_rigid(const Matrix4& m) {
   if (!is_affine(m)) {
     return false;
   }
-  const Float3 x = {m[0], m[1], m[2]};
-  const Float3 y = {m[4], m[5], m[6]};
-  const Float3 z = {m[8], m[9], m[10]};
+  const Float3 x(m[0]);
+  const Float3 y(m[1]);
+  const Float3 z(m[2]);
   const auto is_zero = [](float value) { return std::abs(value) <= kRigidSlack; };
   return is_zero(dot(x, x) - 1) && is_zero(dot(y, y) - 1) && is_zero(dot(x, y)) &&
          length(cross(x, y) - z) <= kRigidSlack;
@@ -57,9 +57,9 @@ bool is_rigid(const Matrix4& m) {
 
 /// Whether it is a rotation times one scale: columns of equal length, at right angles.
 bool is_uniform(const Matrix4& m) {
-  const Float3 x = {m[0], m[1], m[2]};
-  const Float3 y = {m[4], m[5], m[6]};
-  const Float3 z = {m[8], m[9], m[10]};
+  const Float3 x(m[0]);
+  const Float3 y(m[1]);
+  const Float3 z(m[2]);
   const float slack = kRigidSlack * dot(x, x);
   return std::abs(dot(y, y) - dot(x, x)) <= slack && std::abs(dot(z, z) - dot(x, x)) <= slack &&
          std::abs(dot(x, y)) <= slack && std::abs(dot(y, z)) <= slack &&

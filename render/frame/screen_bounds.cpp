@@ -70,9 +70,9 @@ void ScreenBounds::add_box(const Matrix4& world_from_box, const Box& box) {
 }
 
 void ScreenBounds::add_to_view(std::size_t view, Float3 p, float radius_m, float least_px) {
-  const Matrix4& m = clip_from_world_[view];
   Extent& extent = extents_[view];
-  const float depth = m[3] * p.x + m[7] * p.y + m[11] * p.z + m[15];
+  const Float4 clip = clip_from_world_[view] * Float4(p, 1);
+  const float depth = clip.w;
   // A point close to the plane counts as both in front of and behind it, so that rounding can't
   // lose it.
   extent.in_front |= depth > 0.99f * kNearPlane_m;
@@ -80,10 +80,8 @@ void ScreenBounds::add_to_view(std::size_t view, Float3 p, float radius_m, float
   if (extent.behind) {
     return;
   }
-  const float x = m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12];
-  const float y = m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13];
-  const float x_px = (0.5f * x / depth + 0.5f) * width_px_;
-  const float y_px = (0.5f * y / depth + 0.5f) * height_px_;
+  const float x_px = (0.5f * clip.x / depth + 0.5f) * width_px_;
+  const float y_px = (0.5f * clip.y / depth + 0.5f) * height_px_;
   const float radius_px = std::max(radius_m * scale_px_[view] / depth, least_px);
   extent.left = std::min(extent.left, x_px - radius_px);
   extent.right = std::max(extent.right, x_px + radius_px);

@@ -11,8 +11,8 @@ namespace orthonav::render {
 
 /// Corners of a box in a mesh's own coordinates.
 struct Box {
-  Float3 low;
-  Float3 high;
+  Float3 low{};
+  Float3 high{};
 };
 [[nodiscard]] Box box_of(const MeshData& mesh);
 /// Looks up the box of an item's mesh, which takes too long to be found anew in each frame.

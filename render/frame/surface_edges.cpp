@@ -90,15 +90,13 @@ struct OnScreen {
 };
 
 OnScreen on_screen(const Matrix4& clip_from_model, PixelSize size, Float3 p) {
-  const Matrix4& m = clip_from_model;
-  const float depth = m[3] * p.x + m[7] * p.y + m[11] * p.z + m[15];
+  const Float4 clip = clip_from_model * Float4(p, 1);
+  const float depth = clip.w;
   if (!(depth > kNearPlane_m)) {
     return {};
   }
-  const float x = m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12];
-  const float y = m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13];
-  return {(0.5f * x / depth + 0.5f) * static_cast<float>(size.width_px),
-          (0.5f * y / depth + 0.5f) * static_cast<float>(size.height_px), true};
+  return {(0.5f * clip.x / depth + 0.5f) * static_cast<float>(size.width_px),
+          (0.5f * clip.y / depth + 0.5f) * static_cast<float>(size.height_px), true};
 }
 
 constexpr std::uint8_t kBothAxes = 3;
@@ -122,7 +120,7 @@ Float4 lengthened(const Float4& edge, bool at_begin, bool at_end) {
 
 /// Where the eye is in a model's own frame.
 Float3 eye_in_model(const View& view, const Matrix4& world_from_model) {
-  return transformed_back(multiplied(view.eye_from_world, world_from_model), {0, 0, 0});
+  return transformed_back(view.eye_from_world * world_from_model, {0, 0, 0});
 }
 
 /// Whether each triangle faces the eye.
@@ -174,7 +172,7 @@ void SurfaceEdges::hide(const View& view, PixelSize size, const PlacedSurface& s
   if (!convex_) {
     return;
   }
-  const Matrix4 clip_from_model = multiplied(clip_from_world(view), surface.world_from_model);
+  const Matrix4 clip_from_model = clip_from_world(view) * surface.world_from_model;
   constexpr float kFar = std::numeric_limits<float>::max();
   Float4 box_px = {kFar, kFar, -kFar, -kFar};
   for (const Float3 p : positions_) {
@@ -230,7 +228,7 @@ void SurfaceEdges::seen_by(const View& view, PixelSize size, const PlacedSurface
   const Matrix4& world_from_model = surface.world_from_model;
   find_faces(planes_, eye_in_model(view, world_from_model), scratch.faces);
   const Matrix4 clip_from = clip_from_world(view);
-  find_shown(multiplied(clip_from, world_from_model), size, scratch);
+  find_shown(clip_from * world_from_model, size, scratch);
   scratch.axes.assign(positions_.size(), 0);
   for (const EdgeScratch::Shown& edge : scratch.shown) {
     scratch.axes[edge.ends[0]] |= axis_of(edge.at_px);

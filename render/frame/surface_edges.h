@@ -16,7 +16,7 @@ struct EdgeScratch {
   /// A visible edge: its ends as indices of the surface's positions, and in the image.
   struct Shown {
     std::array<std::uint32_t, 2> ends{};
-    Float4 at_px;
+    Float4 at_px{};
   };
   std::vector<std::uint8_t> faces;  ///< by triangle
   std::vector<std::uint8_t> axes;   ///< by position

@@ -115,7 +115,7 @@ void RegionRecording::triangles() const {
     if (!shows(draw.bounds, Stage::kTriangle, bound)) {
       continue;
     }
-    push({kIdentity, draw.colour, {}, {draw.label, draw.first}});
+    push({kIdentity, draw.colour, {}, {draw.label, draw.first, 0, 0}});
     vkCmdDraw(commands_, draw.count, 1, 0, 0);
   }
 }
@@ -158,7 +158,7 @@ void RegionRecording::texts() const {
       continue;
     }
     const Colour& rim = draw.rim;
-    push({draw.world_from_caps, {}, {rim.r, rim.g, rim.b, rim.a}, {draw.label, draw.first}});
+    push({draw.world_from_caps, {}, {rim.r, rim.g, rim.b, rim.a}, {draw.label, draw.first, 0, 0}});
     vkCmdDraw(commands_, 6 * draw.count, 1, 0, 0);
   }
 }
@@ -230,7 +230,7 @@ void RegionRecording::push(const GpuItem& item) const {
 
 void RegionRecording::push_line(const SpanDraw& draw) const {
   const std::uint32_t rounded = draw.rounded ? 1 : 0;
-  push({kIdentity, draw.colour, {draw.width_m}, {draw.label, draw.first, 0, rounded}});
+  push({kIdentity, draw.colour, {draw.width_m, 0, 0, 0}, {draw.label, draw.first, 0, rounded}});
 }
 
 void RegionRecording::clear(VkImageAspectFlags aspect, const PixelRect& part) const {
@@ -257,7 +257,10 @@ bool RegionRecording::mesh_stage(Stage stage, const std::vector<MeshDraw>& meshe
     const MeshLevel& level = copy->levels[number];
     const std::uint32_t style = item->style == MeshStyle::kRim ? 1 : 0;
     const Colour& tint = item->tint;
-    push({item->world_from_model, item->colour, {tint.r, tint.g, tint.b}, {item->label, 0, style}});
+    push({item->world_from_model,
+          item->colour,
+          {tint.r, tint.g, tint.b, 0},
+          {item->label, 0, style, 0}});
     const VkBuffer vertices = level.vertices.get();
     const VkDeviceSize offset = 0;
     vkCmdBindVertexBuffers(commands_, 0, 1, &vertices, &offset);

@@ -47,7 +47,7 @@ void write_line_indices(const Buffer& buffer) {
 
 float scale_of(const MeshItem& item) {
   const Matrix4& place = item.world_from_model;
-  return length({place[0], place[1], place[2]});
+  return length(Float3(place[0]));
 }
 
 /// The angle that a pixel subtends where pixels are smallest.

@@ -20,7 +20,7 @@ Float3 step_in_eye(const GoldenScene& golden, float depth_m, PixelStep step) {
 Float3 step_at(const GoldenScene& golden, Float3 point, PixelStep step) {
   const render::Matrix4& m = golden.views.front().eye_from_world;
   const Float3 in_eye = step_in_eye(golden, -render::transformed(m, point).z, step);
-  return in_eye.x * Float3{m[0], m[4], m[8]} + in_eye.y * Float3{m[1], m[5], m[9]};
+  return in_eye.x * Float3{m[0].x, m[1].x, m[2].x} + in_eye.y * Float3{m[0].y, m[1].y, m[2].y};
 }
 
 /// The numbers of a text, each by the place of its last digit.
@@ -95,10 +95,10 @@ GoldenScene moved(GoldenScene golden, render::Label label, PixelStep step) {
       continue;
     }
     render::Matrix4& m = item.world_from_model;
-    const Float3 offset = step_at(golden, {m[12], m[13], m[14]}, step);
-    m[12] += offset.x;
-    m[13] += offset.y;
-    m[14] += offset.z;
+    const Float3 offset = step_at(golden, Float3(m[3]), step);
+    m[3].x += offset.x;
+    m[3].y += offset.y;
+    m[3].z += offset.z;
   }
   for (auto& item : golden.scene.lines) {
     if (item.label != label) {

@@ -107,10 +107,10 @@ TEST_F(BadScene, MeshesThatCantBeDrawnAreNamed) {
 }
 
 TEST_F(BadScene, MirroredPlacesAreRefused) {
-  scene_.meshes[0].world_from_model[0] = -1;
+  scene_.meshes[0].world_from_model[0].x = -1;
   EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("is a reflection or singular"));
   scene_ = good_scene();
-  scene_.meshes[0].world_from_model[13] = kNaN;
+  scene_.meshes[0].world_from_model[3].y = kNaN;
   EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("finite affine"));
 }
 
@@ -130,10 +130,10 @@ TEST_F(BadScene, NormalsThatAreNotUnitVectorsAreNamed) {
 }
 
 TEST_F(BadScene, PlacesThatAreNotUniformAreRefused) {
-  scene_.meshes[0].world_from_model[5] = 2;
+  scene_.meshes[0].world_from_model[1].y = 2;
   EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("mesh 0 (label 201) has a place that shears"));
   scene_ = good_scene();
-  scene_.meshes[0].world_from_model[4] = 0.1f;
+  scene_.meshes[0].world_from_model[1].x = 0.1f;
   EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("shears or scales unevenly"));
   scene_ = good_scene();
   scene_.meshes[0].world_from_model = placed_at({0, 0, -1}, 0.0015f);
@@ -161,10 +161,10 @@ TEST_F(BadScene, EmptyItemsDrawNothing) {
 
 TEST_F(BadScene, ViewsAreChecked) {
   View view = TestRenderer::straight_ahead();
-  view.eye_from_world[0] = 2;
+  view.eye_from_world[0].x = 2;
   EXPECT_THAT(renderer_.error_of(scene_, view), HasSubstr("view 0: eye_from_world is not a rigid"));
   view = TestRenderer::straight_ahead();
-  view.eye_from_world[0] = -1;
+  view.eye_from_world[0].x = -1;
   EXPECT_THAT(renderer_.error_of(scene_, view), HasSubstr("not a rigid"));
   view = TestRenderer::straight_ahead();
   view.tan_up = 0;

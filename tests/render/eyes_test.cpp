@@ -123,8 +123,8 @@ LabelImage joined(const std::vector<LabelImage>& layers) {
 TEST(Eyes, OfUnevenAnglesEachHaveTheirOwnScale) {
   // The line lies in the left half of the left eye's picture and in the right half of the right's.
   std::vector<View> eyes = {TestRenderer::straight_ahead(), TestRenderer::straight_ahead()};
-  eyes[0].eye_from_world[12] = -0.3f;
-  eyes[1].eye_from_world[12] = 0.6f;
+  eyes[0].eye_from_world[3].x = -0.3f;
+  eyes[1].eye_from_world[3].x = 0.6f;
   eyes[1].tan_up = eyes[1].tan_down = 0.6f;
   eyes[1].tan_left = eyes[1].tan_right = 1.0f;
   const Scene scene = line_scene(0.06f, {-0.1f, 0, -1}, {0.1f, 0, -1});

@@ -38,7 +38,7 @@ TEST(Order, OfMeshesThatDifferInTintsAloneNeverChangesAFrame) {
   untinted.tints.assign(tinted.positions.size(), 0.0f);
   MeshItem item;
   item.label = 1;
-  item.world_from_model[14] = -1;
+  item.world_from_model[3].z = -1;
   item.mesh = std::make_shared<const MeshData>(tinted);
   item.tint = {1, 0, 0, 1};
   MeshItem other_tint = item;

@@ -37,16 +37,13 @@ TEST(Projection, AgreesWithTheMatrixOfTheShaders) {
   view.tan_left = 0.5f;
   view.tan_down = 0.35f;
   const Float3 p = {0.03f, -0.02f, 0.05f};
-  const Matrix4 m = clip_from_world(view);
-  const auto row = [&](std::size_t r) {
-    return m[r] * p.x + m[4 + r] * p.y + m[8 + r] * p.z + m[12 + r];
-  };
+  const Float4 clip = clip_from_world(view) * Float4(p, 1);
   const auto point = project(view, p, 400, 300);
   ASSERT_TRUE(point);
-  EXPECT_NEAR((row(0) / row(3) * 0.5f + 0.5f) * 400, point->x_px, 1e-3);
-  EXPECT_NEAR((row(1) / row(3) * 0.5f + 0.5f) * 300, point->y_px, 1e-3);
-  EXPECT_NEAR(row(3), point->depth_m, 1e-5);
-  EXPECT_NEAR(row(2) / row(3), 1 - kNearPlane_m / point->depth_m, 1e-5);
+  EXPECT_NEAR((clip.x / clip.w * 0.5f + 0.5f) * 400, point->x_px, 1e-3);
+  EXPECT_NEAR((clip.y / clip.w * 0.5f + 0.5f) * 300, point->y_px, 1e-3);
+  EXPECT_NEAR(clip.w, point->depth_m, 1e-5);
+  EXPECT_NEAR(clip.z / clip.w, 1 - kNearPlane_m / point->depth_m, 1e-5);
 }
 
 TEST(Projection, UndoesARigidTransform) {

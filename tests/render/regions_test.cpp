@@ -123,7 +123,7 @@ TEST(Regions, DrawnTogetherAreAsDrawnAlone) {
   const Scene left = sphere_scene(MeshStyle::kSolid, {1, 0.5f, 0, 1}, {-0.4f, 0.2f, -1}, 301);
   Scene right = crowded_scene();
   for (MeshItem& item : right.meshes) {
-    item.world_from_model[12] += 0.35f;
+    item.world_from_model[3].x += 0.35f;
   }
   right.lines.clear();
   right.triangles.clear();

@@ -107,9 +107,9 @@ TEST(TextPlacement, IsNeverSmallerThanItsVisualAngle) {
   item.min_height_deg = 0.8f;
   const Head head;
   const Matrix4 far = world_from_caps(item, head);
-  EXPECT_NEAR(far[5], 2 * 2 * std::tan(0.4f * 0.01745329f), 1e-5f);
+  EXPECT_NEAR(far[1].y, 2 * 2 * std::tan(0.4f * 0.01745329f), 1e-5f);
   item.position = {0, 0, -0.05f};
-  EXPECT_FLOAT_EQ(world_from_caps(item, head)[5], 0.001f) << "the twin: near, its own height";
+  EXPECT_FLOAT_EQ(world_from_caps(item, head)[1].y, 0.001f) << "the twin: near, its own height";
 }
 
 TEST(TextPlacement, StandsUprightToATiltedHead) {
@@ -120,8 +120,8 @@ TEST(TextPlacement, StandsUprightToATiltedHead) {
   head.right = {0, 1, 0};  // lying on the side
   head.up = {-1, 0, 0};
   const Matrix4 place = world_from_caps(item, head);
-  EXPECT_NEAR(place[1], 0.01f, 1e-4f) << "its right is the head's right";
-  EXPECT_LT(place[4], -0.009f) << "its up is the head's up";
+  EXPECT_NEAR(place[0].y, 0.01f, 1e-4f) << "its right is the head's right";
+  EXPECT_LT(place[1].x, -0.009f) << "its up is the head's up";
 }
 
 }  // namespace

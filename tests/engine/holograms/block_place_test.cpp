@@ -17,6 +17,7 @@
 #include "engine/holograms/label_places.h"
 #include "render/float3.h"
 #include "render/frame/frame_items.h"
+#include "render/shapes.h"
 #include "tests/engine/holograms/operating_field.h"
 
 namespace orthonav::engine::block_place_test {
@@ -210,7 +211,7 @@ TEST(BlockPlace, TurnsTheWholeBlockAboutTheEyes) {
   ASSERT_FALSE(built.scene.meshes.empty()) << "the dot of the tip";
   const auto place = [](const OperatingField& of) {
     const render::Matrix4& m = of.scene.meshes[0].world_from_model;
-    return Float3{m[12], m[13], m[14]};
+    return Float3(m[3]);
   };
   stays(place(built), place(field));
 }
@@ -324,8 +325,7 @@ OperatingField open_wound(Told told) {
     } else if (told == Told::kByEntries) {
       field.scene.meshes.push_back({});
       field.scene.meshes.back().label = label_of(HologramKind::kEntry, 1);
-      field.scene.meshes.back().world_from_model = {0.002f, 0, 0,      0, 0,       0.002f, 0, 0,
-                                                    0,      0, 0.002f, 0, aside_m, 0,      0, 1};
+      field.scene.meshes.back().world_from_model = render::placed_at({aside_m, 0, 0}, 0.002f);
     }
   }
   return field;

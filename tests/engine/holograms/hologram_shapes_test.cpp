@@ -126,7 +126,7 @@ TEST(Rod, ShowsTheRodWithoutHeadsAndHeadsWithoutARod) {
   rod.offset = {0.1f, 0, 0};
   add_rod(scene, rod, 1001);
   ASSERT_EQ(scene.meshes.size(), 1u);
-  EXPECT_FLOAT_EQ(scene.meshes[0].world_from_model[12], 0.1f);
+  EXPECT_FLOAT_EQ(scene.meshes[0].world_from_model[3].x, 0.1f);
   EXPECT_TRUE(scene.texts.empty()) << "one head has no length";
 }
 

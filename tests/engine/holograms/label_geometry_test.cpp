@@ -64,7 +64,7 @@ TEST(LabelGeometry, ATextsBoxIsAsLargeAsItLooks) {
   const auto views = render::stereo_pair(render::look_at({0, 0, 0.5f}, {}, {0, 1, 0}, 0.4f, 0.3f));
   const Eyes eyes(views);
   render::Matrix4 caps = render::kIdentity;  // cap heights of 1 cm, facing the head
-  caps[0] = caps[5] = 0.01f;
+  caps[0].x = caps[1].y = 0.01f;
   const BoxInEyes box = eyes.box(caps, {1, 0, 3, 1});
   for (const SeenBox& seen : box) {
     EXPECT_NEAR(seen.right - seen.left, 0.04f, kExactly);

@@ -14,7 +14,7 @@ namespace orthonav::test {
 /// What a label names: it must not be covered by another label, nor by its own.
 struct NamedPlace {
   std::string name;
-  render::Float3 at;
+  render::Float3 at{};
   float radius_m = 0;
   bool wound = false;  ///< only for numbers that guide
 };

@@ -46,7 +46,7 @@ TEST_F(SceneFiles, TheExampleOfTheDocsIsDrawn) {
   EXPECT_EQ(file->width_px, 1268);
   ASSERT_EQ(file->scene.meshes.size(), 2u) << "an entry, and a dot of the cross";
   EXPECT_EQ(file->scene.meshes[0].label, 301u);
-  EXPECT_FLOAT_EQ(file->scene.meshes[0].world_from_model[12], 0.0165f) << "metres";
+  EXPECT_FLOAT_EQ(file->scene.meshes[0].world_from_model[3].x, 0.0165f) << "metres";
   ASSERT_EQ(file->scene.texts.size(), 3u);
   EXPECT_EQ(file->scene.texts[0].runs[0].text, "L4 left");
   EXPECT_EQ(file->scene.texts[1].runs[0].text, "3.4°");

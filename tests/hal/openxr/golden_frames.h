@@ -27,9 +27,10 @@ inline const engine::GoldenScene& golden(const std::string& name) {
 /// The head pose that sees a golden scene as in its picture.
 inline Transform<World, Rig> head_of(const engine::GoldenScene& scene) {
   std::array<double, 16> rows{};
-  for (std::size_t r = 0; r < 4; ++r) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      rows[4 * r + c] = static_cast<double>(scene.views.front().eye_from_world[4 * c + r]);
+  for (int r = 0; r < 4; ++r) {
+    for (int c = 0; c < 4; ++c) {
+      rows[static_cast<std::size_t>(4 * r + c)] =
+          static_cast<double>(scene.views.front().eye_from_world[c][r]);
     }
   }
   const auto eye_from_world = Transform<Rig, World>::from_row_major(rows);
