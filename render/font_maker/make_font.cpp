@@ -1,16 +1,15 @@
 // make_font FONT.ttf OUT: writes the glyph atlas that render/text/font.h reads.
 #include <ft2build.h>
 #include FT_FREETYPE_H
+#include FT_MODULE_H
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <string>
 #include <vector>
 
-#include "render/font_maker/distance_field.h"
 #include "render/text/font_file.h"
 
 namespace orthonav::font_maker {
@@ -19,9 +18,8 @@ namespace {
 using render::FontFileGlyph;
 using render::FontFileHeader;
 
-constexpr int kEm_px = 48;        // of the atlas
-constexpr int kOversampling = 8;  // the outline is rasterised this much finer, then measured
-constexpr int kPadding_px = 6;    // reach of the distances on either side of the outline
+constexpr int kEm_px = 48;       // of the atlas
+constexpr FT_Int kReach_px = 6;  // of the distances on either side of the outline
 constexpr int kAtlasWidth_px = 1024;
 
 constexpr char32_t kFigureDash = U'\u2012';
@@ -53,72 +51,23 @@ struct Cell {
   std::vector<std::uint8_t> texels;
 };
 
-Mask padded_mask(const FT_Bitmap& bitmap, int left, int top, int width, int height) {
-  Mask mask{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height)};
-  for (unsigned y = 0; y < bitmap.rows; ++y) {
-    for (unsigned x = 0; x < bitmap.width; ++x) {
-      const unsigned char byte = bitmap.buffer[y * static_cast<unsigned>(bitmap.pitch) + x / 8];
-      const bool set = (byte >> (7 - x % 8) & 1) != 0;
-      mask.inside[static_cast<std::size_t>(top + static_cast<int>(y)) * width + left +
-                  static_cast<int>(x)] = set;
-    }
-  }
-  return mask;
-}
-
-/// Mean of the four fine cells around the coarse texel's centre, as a byte with 128 at the outline.
-std::uint8_t texel(const std::vector<float>& fine, int fine_width, int x, int y) {
-  const int cx = x * kOversampling + kOversampling / 2;
-  const int cy = y * kOversampling + kOversampling / 2;
-  float sum = 0;
-  for (const int dy : {-1, 0}) {
-    for (const int dx : {-1, 0}) {
-      sum += fine[static_cast<std::size_t>(cy + dy) * fine_width + cx + dx];
-    }
-  }
-  const float distance_px = 0.25f * sum / kOversampling;
-  const float value = 127.5f + 127.5f * distance_px / kPadding_px;
-  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 255.0f)));
-}
-
-int floor_to(int value, int step) {
-  return value >= 0 ? value / step * step : -((-value + step - 1) / step * step);
-}
-
 Cell cell_of(FT_Face face, char32_t code, float cap_px) {
   Cell cell;
   cell.glyph.code = static_cast<std::uint32_t>(code);
   const FT_GlyphSlot slot = face->glyph;
-  cell.glyph.advance =
-      static_cast<float>(slot->linearHoriAdvance) / 65536.0f / kOversampling / cap_px;
+  cell.glyph.advance = static_cast<float>(slot->linearHoriAdvance) / 65536.0f / cap_px;
   const FT_Bitmap& bitmap = slot->bitmap;
-  if (slot->outline.n_points == 0) {
-    return cell;  // a blank: nothing to draw
-  }
-  // Bounds of the fine picture on the coarse grid, baseline origin, y up.
-  const int pad = kPadding_px * kOversampling;
-  const int x0 = floor_to(slot->bitmap_left - pad, kOversampling);
-  const int y1 = -floor_to(-(slot->bitmap_top + pad), kOversampling);
-  const int x1 =
-      -floor_to(-(slot->bitmap_left + static_cast<int>(bitmap.width) + pad), kOversampling);
-  const int y0 = floor_to(slot->bitmap_top - static_cast<int>(bitmap.rows) - pad, kOversampling);
-  const Mask mask =
-      padded_mask(bitmap, slot->bitmap_left - x0, y1 - slot->bitmap_top, x1 - x0, y1 - y0);
-  const std::vector<float> fine = signed_distance(mask);
-  cell.width_px = mask.width / kOversampling;
-  cell.height_px = mask.height / kOversampling;
+  cell.width_px = static_cast<int>(bitmap.width);
+  cell.height_px = static_cast<int>(bitmap.rows);
   for (int y = 0; y < cell.height_px; ++y) {
-    for (int x = 0; x < cell.width_px; ++x) {
-      cell.texels.push_back(texel(fine, mask.width, x, y));
-    }
+    const std::uint8_t* row = bitmap.buffer + y * bitmap.pitch;
+    cell.texels.insert(cell.texels.end(), row, row + cell.width_px);
   }
-  const auto in_caps = [&](int fine_px) {
-    return static_cast<float>(fine_px) / kOversampling / cap_px;
-  };
-  cell.glyph.left = in_caps(x0);
-  cell.glyph.bottom = in_caps(y0);
-  cell.glyph.right = in_caps(x1);
-  cell.glyph.top = in_caps(y1);
+  // Baseline origin, y up.
+  cell.glyph.left = static_cast<float>(slot->bitmap_left) / cap_px;
+  cell.glyph.bottom = static_cast<float>(slot->bitmap_top - cell.height_px) / cap_px;
+  cell.glyph.right = static_cast<float>(slot->bitmap_left + cell.width_px) / cap_px;
+  cell.glyph.top = static_cast<float>(slot->bitmap_top) / cap_px;
   return cell;
 }
 
@@ -205,25 +154,27 @@ int make(const char* font_path, const char* out_path) {
   if (FT_Init_FreeType(&library) || FT_New_Face(library, font_path, 0, &face)) {
     return fail("the font can't be opened");
   }
-  FT_Set_Pixel_Sizes(face, 0, kEm_px * kOversampling);
+  if (FT_Property_Set(library, "sdf", "spread", &kReach_px)) {
+    return fail("FreeType has no distance fields");
+  }
+  FT_Set_Pixel_Sizes(face, 0, kEm_px);
   if (FT_Load_Char(face, U'H', FT_LOAD_NO_HINTING)) {
     return fail("the font has no H");
   }
-  const float cap_px =
-      static_cast<float>(face->glyph->metrics.horiBearingY) / 64.0f / kOversampling;
+  const float cap_px = static_cast<float>(face->glyph->metrics.horiBearingY) / 64.0f;
   std::vector<Cell> cells;
   for (const char32_t code : wanted()) {
     if (FT_Get_Char_Index(face, code) == 0) {
       continue;
     }
     if (FT_Load_Char(face, code, FT_LOAD_NO_HINTING) ||
-        FT_Render_Glyph(face->glyph, FT_RENDER_MODE_MONO)) {
+        FT_Render_Glyph(face->glyph, FT_RENDER_MODE_SDF)) {
       return fail("a glyph can't be rendered");
     }
     cells.push_back(cell_of(face, code, cap_px));
   }
   set_apart(cells);
-  const bool written = write_font(out_path, cells, kPadding_px / cap_px);
+  const bool written = write_font(out_path, cells, static_cast<float>(kReach_px) / cap_px);
   FT_Done_Face(face);
   FT_Done_FreeType(library);
   return written ? 0 : fail("the output can't be written");
