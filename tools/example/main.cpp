@@ -36,9 +36,7 @@ struct Printer : LoopObserver {
 std::unique_ptr<Headset> open_room(const Case& spine, const Operation& operation) {
   sim::SimOptions options;
   options.seed = 2;
-  SetUp set_up = SetUp::best();
-  set_up.reference = false;  // on the headset's map, which takes less time
-  must(set_up.tell(options));
+  must(SetUp::best().tell(options));
   options.error_model.pace = 8.0;
   return must(sim::SimHeadset::open(room_of(spine, operation, built_in_tools()), options));
 }
@@ -55,6 +53,7 @@ int main(int argc, char** argv) {
   // pictures.
   AssemblyOptions options;
   options.loop.max_frames = argc > 1 ? std::atoi(argv[1]) : 0;
+  options.use_reference = SetUp::best().reference;
   const auto live = must(assemble_operation(*headset, std::move(operation),
                                             must(method_named("best")), built_in_tools(), options));
   Printer printer;
