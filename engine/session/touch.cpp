@@ -56,14 +56,14 @@ TouchedPlace Touch::mean_tip(double max_spread_m) const {
 
 namespace {
 
-using Axes = std::span<const nav::Axis<World>>;
+using ToolAxes = std::span<const nav::Axis<World>>;
 
 /// SD about an axis in one pair, used where few pairs can't show it.
 constexpr double kPairTurn_rad = 0.004;
 /// A tool that turns by more from one quarter of a second to the next is not at rest.
 constexpr double kTurnAtRest_rad = 0.009;
 
-nav::Axis<World> mean_axis(Axes axes) {
+nav::Axis<World> mean_axis(ToolAxes axes) {
   Vec3 tip;
   Vec3 direction;
   for (const nav::Axis<World>& axis : axes) {
