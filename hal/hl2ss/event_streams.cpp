@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "hal/hl2ss/protocol.h"
-#include "hal/hl2ss/spatial_input.h"
 
 namespace orthonav::hl2ss {
 namespace {
@@ -15,14 +14,6 @@ constexpr std::size_t kChannels = 2;
 constexpr Duration kSpokenWithin = std::chrono::seconds(30);
 
 }  // namespace
-
-SpatialStream::SpatialStream(ArrivalMeter& meter, HeadsetTime& time)
-    : PacketStream("spatial input", {kSpatialInputBytes, false}, meter, time) {}
-
-Status SpatialStream::take(const Packet& packet, const Stamped& /*stamped*/) {
-  const auto input = read_spatial_input(packet.payload);
-  return input ? Status() : Status(input.error());
-}
 
 SoundStream::SoundStream(ArrivalMeter& meter, HeadsetTime& time)
     : PacketStream("microphone", {kMaxSoundPayload, false}, meter, time) {}
@@ -93,11 +84,11 @@ std::span<std::uint8_t> VoiceStream::room() {
 }
 
 std::vector<std::uint8_t> VoiceStream::more(HostTime now) {
-  if (asked_ || now < ask_at_) {
+  if (asked_ || now < asked_at_ + kAskEvery) {
     return {};
   }
   asked_ = true;
-  ask_at_ = now + kAskEvery;
+  asked_at_ = now;
   return {kPollVoice};
 }
 
@@ -110,6 +101,9 @@ Status VoiceStream::received(std::size_t count, HostTime at) {
     }
     if (!*answer) {
       return {};
+    }
+    if (asked_) {
+      time_.clock.round_trip(std::chrono::duration_cast<Duration>(at - asked_at_));
     }
     for (const VoiceResult& result : (*answer)->results) {
       hear(result, at);

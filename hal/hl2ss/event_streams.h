@@ -10,17 +10,6 @@
 
 namespace orthonav::hl2ss {
 
-/// Head, eyes and hands, 60 times a second: checked and counted. The packets are small, so they
-/// measure the clock well. The head of spatial input is not the rig, so it is not used as a pose.
-class SpatialStream final : public PacketStream {
- public:
-  SpatialStream(ArrivalMeter& meter, HeadsetTime& time);
-  [[nodiscard]] std::vector<std::uint8_t> opening() override { return {}; }
-
- private:
-  Status take(const Packet& packet, const Stamped& stamped) override;
-};
-
 /// Sound: the mean of its two channels is kept for at most a second.
 class SoundStream final : public PacketStream, public Microphone {
  public:
@@ -73,7 +62,7 @@ class VoiceStream final : public Protocol {
   std::vector<std::uint8_t> buffer_;
   std::size_t have_ = 0;
   bool asked_ = false;
-  HostTime ask_at_{};
+  HostTime asked_at_{};
 };
 
 }  // namespace orthonav::hl2ss

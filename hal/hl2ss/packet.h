@@ -30,6 +30,8 @@ class PacketAssembler {
   /// Room for the next bytes of the stream; `received` says how many were written there.
   std::span<std::uint8_t> room();
   void received(std::size_t count);
+  /// No byte of a further packet was received.
+  [[nodiscard]] bool is_empty() const { return begin_ == end_; }
   /// The next complete packet; nothing if more bytes are needed; an Error if a size is wrong, so
   /// that the start of the next packet is unknown. Valid until `room`.
   Result<std::optional<Packet>> next();

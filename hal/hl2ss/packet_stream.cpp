@@ -3,6 +3,9 @@
 namespace orthonav::hl2ss {
 
 Status PacketPort::received(std::size_t count, HostTime at) {
+  if (assembler_.is_empty()) {
+    began_ = at;
+  }
   assembler_.received(count);
   for (;;) {
     const auto packet = assembler_.next();
@@ -13,6 +16,7 @@ Status PacketPort::received(std::size_t count, HostTime at) {
       return {};
     }
     heard(**packet, at);
+    began_ = at;
   }
 }
 
@@ -27,7 +31,7 @@ void PacketStream::heard(const Packet& packet, HostTime at) {
   if (const Status right = check_stamp(packet, time_.stamps.as_stamped(*time)); right) {
     // It may just have shown that the clock was set.
     stamped.time = time_.stamps.told(packet.ticks, at).value_or(*time);
-    time_.clock.heard(stamped.time, at);
+    time_.clock.heard(stamped.time, began());
     stamped.in_order = meter_.heard(stamped.time, at);
   } else {
     stamped.is_trusted = false;

@@ -21,9 +21,12 @@ class PacketPort : public Protocol {
  protected:
   /// Takes a complete packet; the stream continues even if something is wrong with it.
   virtual void heard(const Packet& packet, HostTime at) = 0;
+  /// When the first byte of the packet arrived that `heard` takes.
+  [[nodiscard]] HostTime began() const { return began_; }
 
  private:
   PacketAssembler assembler_;
+  HostTime began_{};
 };
 
 /// The headset's time, which its streams share.

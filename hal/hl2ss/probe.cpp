@@ -8,14 +8,13 @@
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr std::array<std::pair<const char*, Service>, 8> kServices = {{
+constexpr std::array<std::pair<const char*, Service>, 7> kServices = {{
     {"left camera", Service::kLeftFront},
     {"right camera", Service::kRightFront},
     {"depth ahat", Service::kAhat},
     {"depth long-throw", Service::kLongThrow},
     {"remote configuration", Service::kConfiguration},
     {"microphone", Service::kMicrophone},
-    {"spatial input", Service::kSpatialInput},
     {"voice", Service::kVoice},
 }};
 constexpr auto kPatience = std::chrono::seconds(1);

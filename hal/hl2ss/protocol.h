@@ -17,7 +17,6 @@ enum class Service : std::uint8_t {
   kLongThrow = 5,
   kConfiguration = 9,
   kMicrophone = 11,
-  kSpatialInput = 12,
   kVoice = 15,
   kScene = 16,
 };
@@ -33,7 +32,6 @@ inline constexpr std::size_t kPacketHeaderBytes = 12;
 inline constexpr std::size_t kPoseBytes = 64;
 /// A complete calibration answer: four tables, a matrix, four numbers.
 inline constexpr std::size_t kCalibrationBytes = 4 * kImageBytes * 4 + kPoseBytes + 16;
-inline constexpr std::size_t kSpatialInputBytes = 1936;
 inline constexpr std::size_t kVoiceResultBytes = 32;
 inline constexpr int kMicrophoneHz = 48000;
 

@@ -12,7 +12,6 @@
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr Duration kSpatialInterval = kGreyCameraInterval / 2;
 /// A picture may depend on at most one second of earlier ones.
 constexpr std::uint64_t kGopSize = 30;
 constexpr Duration kSilence = std::chrono::seconds(3);
@@ -106,9 +105,6 @@ Status Receiver::add_cameras() {
 
 Status Receiver::add_events(std::int64_t filetime_offset) {
   const auto port = [this](Service service) { return options_.first_port + offset_of(service); };
-  const Duration silence = options_.standin_port > 0 ? kPacedSilence : kSilence;
-  add("spatial input", port(Service::kSpatialInput), kSpatialInterval, silence,
-      [this](ArrivalMeter& meter) { return std::make_unique<SpatialStream>(meter, time_); });
   if (!options_.phrases.empty()) {
     auto vocabulary = vocabulary_bytes(options_.phrases);
     if (!vocabulary) {

@@ -4,7 +4,6 @@
 
 #include "hal/hl2ss/packet.h"
 #include "hal/hl2ss/protocol.h"
-#include "hal/hl2ss/spatial_input.h"
 #include "hal/hl2ss/standin_message.h"
 #include "hal/hl2ss/video.h"
 #include "hal/hl2ss/voice.h"
@@ -69,10 +68,6 @@ void read_alone(Bytes input) {
   const auto standin = hl2ss::read_standin_message(input);
   if (standin && *standin) {
     insist((*standin)->bytes <= input.size());
-  }
-  const auto spatial = hl2ss::read_spatial_input(input);
-  if (spatial && spatial->world_from_head) {
-    insist(spatial->world_from_head->translation().is_finite());
   }
 }
 

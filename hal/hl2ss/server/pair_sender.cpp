@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "hal/hl2ss/server/packets.h"
-#include "hal/hl2ss/spatial_input.h"
 
 namespace orthonav::hl2ss {
 namespace {
@@ -13,7 +12,6 @@ namespace {
 constexpr Duration kSensorAhead(765'432'100);
 constexpr Duration kRightSensorAhead(10);
 constexpr std::int64_t kRightLaterTicks = 1'500;
-constexpr std::int64_t kHalfPairTicks = 166'667;
 constexpr int kSamplesAPair = kMicrophoneHz / 30;
 /// The first pairs open the connection and have no faults.
 constexpr std::int64_t kUntouchedPairs = 3;
@@ -138,20 +136,9 @@ void PairSender::send_events(Headset& headset, const StereoFrame& frame) {
     phrase.time -= back_;
   }
   sides_.tell(clicks, phrases, {frame.time, headset.clock().now()});
-  const std::int64_t ticks = ticks_100ns(frame.time - back_);
-  // Two packets per pair, as on the headset. The head is the rig here, since it is not used for
-  // navigation.
-  std::optional<Transform<World, Eye>> head;
-  if (frame.world_from_rig) {
-    const auto pose = jumped_from_world() * *frame.world_from_rig;
-    head = Transform<World, Eye>(pose.rotation(), pose.translation());
-  }
-  for (const std::int64_t earlier : {kHalfPairTicks, std::int64_t{0}}) {
-    sides_.spatial.send({{packet_bytes(ticks - earlier, spatial_input_bytes(head))}});
-  }
   if (sides_.hears.load()) {
-    sides_.microphone.send(
-        {{packet_bytes(ticks, tone_bytes(kSamplesAPair * pairs_, kSamplesAPair))}});
+    sides_.microphone.send({{packet_bytes(ticks_100ns(frame.time - back_),
+                                          tone_bytes(kSamplesAPair * pairs_, kSamplesAPair))}});
   }
 }
 

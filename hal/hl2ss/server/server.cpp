@@ -89,7 +89,6 @@ class RunningServer final : public Server {
         {&depth_.long_throw().port(), offset_of(Service::kLongThrow)},
         {&sides_.configuration, offset_of(Service::kConfiguration)},
         {&sides_.microphone, offset_of(Service::kMicrophone)},
-        {&sides_.spatial, offset_of(Service::kSpatialInput)},
         {&sides_.voice, offset_of(Service::kVoice)},
         {&scene_.port, offset_of(Service::kScene), [this] { return scene_.is_free(); }}};
     if (options_.standin) {

@@ -11,8 +11,8 @@
 
 namespace orthonav::hl2ss {
 
-/// The other ports than the cameras': configuration, microphone, spatial input, voice, and the side
-/// channel to our own client.
+/// The other ports than the cameras': configuration, microphone, voice, and the side channel to
+/// our own client.
 class SidePorts {
  public:
   explicit SidePorts(std::int64_t utc_offset_ticks) : utc_offset_ticks_(utc_offset_ticks) {}
@@ -54,7 +54,6 @@ class SidePorts {
  public:
   Port configuration{{[this](Bytes said) { return configure(said); }}};
   Port microphone{{[this](Bytes said) { return listen(said); }, [] {}, [this] { hears = false; }}};
-  Port spatial{{[](Bytes said) -> Result<std::size_t> { return said.size(); }}};
   Port voice{{[this](Bytes said) { return recognize(said); }, [] {},
               [this] {
                 const MutexLock lock(mutex_);

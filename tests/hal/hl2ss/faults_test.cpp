@@ -205,7 +205,7 @@ TEST(Probing, TellsWhichPortsAnswer) {
   Hl2ssOptions options = room.client_options();
   const auto ports = probe(options);
   ASSERT_TRUE(ports.ok());
-  ASSERT_EQ(ports->size(), 8u);
+  ASSERT_EQ(ports->size(), 7u);
   for (const ProbedPort& port : *ports) {
     EXPECT_EQ(port.trouble, "") << port.name;
   }

@@ -14,7 +14,6 @@
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/hl2ss/server/packets.h"
 #include "hal/hl2ss/server/port.h"
-#include "hal/hl2ss/spatial_input.h"
 #include "hal/hl2ss/voice.h"
 #include "hal/sim/hololens2.h"
 #include "tests/support/wait_until.h"
@@ -28,9 +27,6 @@ class HostileServer {
   using Words = std::function<std::vector<std::uint8_t>(std::int64_t turn)>;
   Words left = [](std::int64_t turn) { return good_image(turn, 0); };
   Words right = [](std::int64_t turn) { return good_image(turn, 1'500); };
-  Words spatial = [](std::int64_t turn) {
-    return packet_bytes(ticks_of(turn), spatial_input_bytes(std::nullopt));
-  };
   /// AHaT's port: raw pictures of 700 mm, every fourth turn.
   Words depth = [](std::int64_t turn) {
     return turn % 4 == 0 ? good_depth(turn) : std::vector<std::uint8_t>();
@@ -97,7 +93,7 @@ class HostileServer {
   }
 
  private:
-  static constexpr std::array kOffsets = {0, 2, 12, 15, 4};
+  static constexpr std::array kOffsets = {0, 2, 15, 4};
 
   void serve() {
     while (!stop_) {
@@ -124,7 +120,6 @@ class HostileServer {
       if (streams_depth_) {
         depth_port_.send({{depth(turn_)}});
       }
-      spatial_port_.send({{spatial(turn_)}});
       voice_port_.send({{voice(turn_)}});
     }
   }
@@ -152,10 +147,8 @@ class HostileServer {
   Port depth_port_{
       {[this](Bytes said) { return camera(depth_port_, depth_calibration, streams_depth_, said); },
        [] {}, [this] { streams_depth_ = false; }}};
-  Port spatial_port_{{listen}};
   Port voice_port_{{listen}};
-  std::array<Port*, 5> ports_ = {&left_port_, &right_port_, &spatial_port_, &voice_port_,
-                                 &depth_port_};
+  std::array<Port*, 4> ports_ = {&left_port_, &right_port_, &voice_port_, &depth_port_};
   int base_ = 0;
   std::int64_t turn_ = 0;
   HostTime last_turn_{};

@@ -24,7 +24,6 @@ TEST(HostileServer, GarbageOnAnyPortHurtsThatPortAlone) {
     return bytes;
   };
   HostileServer server;
-  server.spatial = garbage;
   server.voice = garbage;
   server.start();
   const auto headset = Hl2ssHeadset::open(server.client());
@@ -39,7 +38,6 @@ TEST(HostileServer, StampsThatRunBackwardsMakeNoPairs) {
   HostileServer server;
   server.left = [](std::int64_t turn) { return HostileServer::good_image(1000 - turn, 0); };
   server.right = [](std::int64_t turn) { return HostileServer::good_image(1000 - turn, 0); };
-  server.spatial = [](std::int64_t) { return std::vector<std::uint8_t>(); };
   server.start();
   const auto headset = Hl2ssHeadset::open(server.client());
   ASSERT_TRUE(headset.ok()) << headset.error().message;
@@ -77,7 +75,6 @@ TEST(HostileServer, SaysHowManyImagesWereRefusedForTheirStamps) {
     std::fill_n(packet.begin(), 8, std::uint8_t{0xff});
     return packet;
   };
-  server.spatial = [](std::int64_t) { return std::vector<std::uint8_t>(); };
   server.start();
   Hl2ssOptions options = server.client();
   // Enough for the calibrations, which come first.
@@ -94,7 +91,7 @@ TEST(HostileServer, ACalibrationThatIsNoneIsRefusedByName) {
   HostileServer server;
   server.start();
   Hl2ssOptions options = server.client();
-  options.first_port = server.client().first_port + 12;  // spatial input answers instead
+  options.first_port = server.client().first_port + 15;  // voice answers instead
   options.open_within = std::chrono::milliseconds(400);
   const auto headset = Hl2ssHeadset::open(options);
   ASSERT_FALSE(headset.ok());

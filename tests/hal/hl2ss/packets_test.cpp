@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "hal/hl2ss/protocol.h"
-#include "hal/hl2ss/spatial_input.h"
 #include "hal/hl2ss/video.h"
 
 namespace orthonav::hl2ss::parser_test {
@@ -124,29 +123,6 @@ TEST(Poses, ThatAreNoneAreToldFromDamage) {
   EXPECT_THAT(refusal(0, 3.0f), HasSubstr("not rigid"));
   EXPECT_THAT(refusal(3, 0.5f), HasSubstr("last column"));
   EXPECT_FALSE(read_pose(std::vector<std::uint8_t>(63)).ok());
-}
-
-TEST(SpatialInputs, TellTheHeadByItsAxes) {
-  const Transform<World, Eye> head(rotation_from_vector({0.1, 0.7, -0.2}), {0.1, 1.7, 0.3});
-  const auto bytes = spatial_input_bytes(head);
-  ASSERT_EQ(bytes.size(), kSpatialInputBytes);
-  const auto read = read_spatial_input(bytes);
-  ASSERT_TRUE(read.ok()) << read.error().message;
-  ASSERT_TRUE(read->world_from_head.has_value());
-  EXPECT_LT(rotation_angle_rad(read->world_from_head->rotation(), head.rotation()), kSingle);
-  EXPECT_LT((read->world_from_head->translation() - head.translation()).norm(), kSingle);
-  EXPECT_FALSE(read->eyes || read->left_hand || read->right_hand);
-}
-
-TEST(SpatialInputs, OldValuesThatAreNotValidMayBeAnything) {
-  std::vector<std::uint8_t> bytes(kSpatialInputBytes, 0xff);  // every number is NaN
-  std::memset(bytes.data(), 0, 4);
-  EXPECT_TRUE(read_spatial_input(bytes).ok());
-  for (const int valid : {1, 2, 4, 8}) {
-    bytes[0] = static_cast<std::uint8_t>(valid);
-    EXPECT_FALSE(read_spatial_input(bytes).ok()) << valid;
-  }
-  EXPECT_FALSE(read_spatial_input(std::vector<std::uint8_t>(1935)).ok());
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 #include "hal/hl2ss/boot_clock.h"
 #include "hal/hl2ss/head_track.h"
 #include "hal/hl2ss/options.h"
+#include "hal/hl2ss/packet_stream.h"
 #include "hal/hl2ss/pair_mailbox.h"
 #include "hal/hl2ss/server/faults.h"
+#include "hal/hl2ss/server/packets.h"
 
 namespace orthonav::hl2ss {
 namespace {
@@ -106,6 +108,35 @@ TEST(BootClock, ForgetsWhatItHeardBeforeTheClockWasSet) {
   EXPECT_EQ(clock.offset(), Timestamp(seconds(400)).time_since_epoch() -
                                 std::chrono::duration_cast<Duration>(now.time_since_epoch()));
   EXPECT_GE(clock.now(), Timestamp(seconds(500))) << "but never goes back";
+}
+
+/// A raw picture takes ten milliseconds and more to arrive, by which the clock must not be late.
+TEST(BootClock, LearnsFromTheFirstByteOfAPacket) {
+  struct Stream final : PacketStream {
+    Stream(ArrivalMeter& meter, HeadsetTime& time)
+        : PacketStream("test", {1000, false}, meter, time) {}
+    std::vector<std::uint8_t> opening() override { return {}; }
+    Status take(const Packet& /*packet*/, const Stamped& /*stamped*/) override { return {}; }
+  };
+  ArrivalMeter meter("test", milliseconds(33));
+  HeadsetTime time;
+  Stream stream(meter, time);
+  const auto arrives = [&](Bytes bytes, HostTime at) {
+    std::copy(bytes.begin(), bytes.end(), stream.room().begin());
+    ASSERT_TRUE(stream.received(bytes.size(), at).ok());
+  };
+  std::vector<std::uint8_t> bytes = packet_bytes(100 * kSecond, std::vector<std::uint8_t>(1000));
+  const auto second = packet_bytes(100 * kSecond + 10'000, std::vector<std::uint8_t>(1000));
+  bytes.insert(bytes.end(), second.begin(), second.end());
+  arrives(Bytes(bytes).first(500), kStart);
+  // The rest of the first packet brings the beginning of the second.
+  arrives(Bytes(bytes).subspan(500, 600), kStart + milliseconds(20));
+  const auto begun = std::chrono::duration_cast<Duration>(kStart.time_since_epoch());
+  EXPECT_EQ(time.clock.offset(), Duration(seconds(100)) - begun);
+  time.clock.restart();
+  arrives(Bytes(bytes).subspan(1100), kStart + milliseconds(40));
+  EXPECT_EQ(time.clock.offset(),
+            Duration(seconds(100)) + milliseconds(1) - begun - milliseconds(20));
 }
 
 TEST(ArrivalMeter, MeasuresGapsJitterAndOrder) {
