@@ -21,12 +21,15 @@ std::string latency_line(const char* what, const std::vector<double>& ms) {
 std::string connection_report(const ConnectionStatistics& s) {
   std::string text;
   for (const StreamStatistics& stream : s.streams) {
-    text += printed(
-        "%-14s %s in %s, jitter %.2f ms, %s (longest %.0f ms), %lld out of order, %lld damaged\n",
-        stream.name.c_str(), how_many(stream.packets, "packet").c_str(),
-        how_many(stream.connections, "connection").c_str(), stream.jitter_ms,
-        how_many(stream.gaps, "gap").c_str(), seconds(stream.longest_gap) * 1e3,
-        static_cast<long long>(stream.out_of_order), static_cast<long long>(stream.damaged));
+    text += printed("%-14s %s in %s, jitter %.2f ms, %s (longest %.0f ms), %lld damaged",
+                    stream.name.c_str(), how_many(stream.packets, "packet").c_str(),
+                    how_many(stream.connections, "connection").c_str(), stream.jitter_ms,
+                    how_many(stream.gaps, "gap").c_str(), seconds(stream.longest_gap) * 1e3,
+                    static_cast<long long>(stream.damaged));
+    if (stream.out_of_order > 0) {
+      text += printed(", %lld out of order", static_cast<long long>(stream.out_of_order));
+    }
+    text += "\n";
     if (!stream.last_trouble.empty()) {
       text += "  last trouble: " + stream.last_trouble + "\n";
     }

@@ -229,7 +229,7 @@ void add_faults(CLI::App& serve, ServeArguments& arguments) {
   serve
       .add_option(
           "--faults", arguments.faults,
-          "probabilities for each pair: gap=P, lose=P, unlocated=P, reorder=P, stall=P, "
+          "probabilities for each pair: gap=P, lose=P, unlocated=P, stall=P, "
           "half=P, cut=P, misstamp=P, corrupt=P; for each frame of the scene: scene_stall=P, "
           "scene_refuse=P, scene_cut=P; all: 0.01 of each; jump=N: World jumps at pair N; from "
           "pair N on, for lasting=M pairs (0: to the end): freeze_pictures=N, freeze_left=N, "

@@ -15,7 +15,7 @@ struct StreamStatistics {
   std::int64_t packets = 0;
   std::int64_t bytes = 0;
   std::int64_t damaged = 0;  ///< packets refused because of their own or their picture's damage
-  std::int64_t out_of_order = 0;  ///< packets stamped before their predecessor
+  std::int64_t out_of_order = 0;  ///< poses of a tracker dated before their predecessor
   std::int64_t gaps = 0;          ///< stamps more than one and a half intervals apart
   Duration longest_gap{};         ///< between two stamps
   /// Mean deviation of the transit time from packet to packet (RFC 3550, 6.4.1).

@@ -5,12 +5,8 @@
 
 namespace orthonav::hl2ss {
 
-bool ArrivalMeter::heard(Timestamp stamp, HostTime at) {
+void ArrivalMeter::heard(Timestamp stamp, HostTime at) {
   ++statistics_.packets;
-  if (last_ && stamp <= last_->stamp) {
-    ++statistics_.out_of_order;
-    return false;
-  }
   if (last_) {
     const Duration between = stamp - last_->stamp;
     if (2 * between > 3 * interval_) {
@@ -22,7 +18,6 @@ bool ArrivalMeter::heard(Timestamp stamp, HostTime at) {
     statistics_.jitter_ms += (deviation_ms - statistics_.jitter_ms) / 16.0;
   }
   last_ = Arrival{stamp, at};
-  return true;
 }
 
 }  // namespace orthonav::hl2ss

@@ -13,8 +13,7 @@ class ArrivalMeter {
   ArrivalMeter(std::string name, Duration interval) : interval_(interval) {
     statistics_.name = std::move(name);
   }
-  /// False for a packet stamped no later than an earlier one: it is counted but not measured.
-  bool heard(Timestamp stamp, HostTime at);
+  void heard(Timestamp stamp, HostTime at);
   /// A packet of a stream without a regular interval.
   void counted() { ++statistics_.packets; }
   void connected() {

@@ -12,7 +12,7 @@ namespace orthonav::hl2ss {
 /// oldest. Thread-safe; buffers are reused.
 class DepthMailbox {
  public:
-  /// Swaps `picture` in. It must be later than the one before it.
+  /// Swaps `picture` in.
   void put(DepthFrame& picture) {
     const MutexLock lock(mutex_);
     if (waiting_.size() == kMost) {

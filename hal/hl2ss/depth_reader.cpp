@@ -135,10 +135,6 @@ Result<bool> DepthReader::take_video(Bytes picture) {
 }
 
 void DepthReader::publish() {
-  if (published_ && picture_.time <= *published_) {
-    return;  // out of order; the meter counts it
-  }
-  published_ = picture_.time;
   for (std::uint16_t& value : picture_.range_mm.pixels) {
     value = millimetres_[value];
   }

@@ -64,7 +64,6 @@ class DepthReader final : public PacketPort {
   GreyImage luma_;
   std::vector<std::uint8_t> bytes_;
   UnitsUnderway<Underway> underway_;
-  std::optional<Timestamp> published_;
 };
 
 }  // namespace orthonav::hl2ss

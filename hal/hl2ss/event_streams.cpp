@@ -24,9 +24,6 @@ Status SoundStream::take(const Packet& packet, const Stamped& stamped) {
     return Error{"sound of " + std::to_string(packet.payload.size()) +
                  " bytes, must be a multiple of 4"};
   }
-  if (!stamped.in_order) {
-    return {};
-  }
   const std::size_t count = packet.payload.size() / kFrame;
   const MutexLock lock(mutex_);
   for (std::size_t i = 0; i < count; ++i) {

@@ -32,7 +32,7 @@ void PacketStream::heard(const Packet& packet, HostTime at) {
     // It may just have shown that the clock was set.
     stamped.time = time_.stamps.told(packet.ticks, at).value_or(*time);
     time_.clock.heard(stamped.time, began());
-    stamped.in_order = meter_.heard(stamped.time, at);
+    meter_.heard(stamped.time, at);
   } else {
     stamped.is_trusted = false;
     meter_.refused(right.error().message);

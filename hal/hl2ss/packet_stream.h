@@ -46,7 +46,6 @@ class PacketStream : public PacketPort {
   struct Stamped {
     Timestamp time{};
     HostTime at{};
-    bool in_order = true;    ///< after all packets before it
     bool is_trusted = true;  ///< `check_stamp` found nothing wrong
   };
   /// An Error says why the stamp must be wrong: the packet's time is then not used. `stamp` is as

@@ -84,7 +84,7 @@ Status VideoStream::take(const Packet& packet, const Stamped& stamped) {
   }
   const std::int64_t unit = underway_.add(
       {payload->trailer.sensor_ticks, stamped.time, world_from_rig, stamped.is_trusted});
-  const auto decoded = take_h264(payload->image, unit, stamped.in_order);
+  const auto decoded = take_h264(payload->image, unit);
   if (!decoded) {
     return decoded.error();
   }
@@ -105,12 +105,7 @@ Status VideoStream::take_raw(Bytes picture) {
   return {};
 }
 
-Result<bool> VideoStream::take_h264(Bytes access_unit, std::int64_t unit, bool in_order) {
-  if (!in_order) {
-    // The pictures in between are missing, and all later ones depend on them.
-    decoder_->restart();
-    return Error{"H.264 pictures out of order"};
-  }
+Result<bool> VideoStream::take_h264(Bytes access_unit, std::int64_t unit) {
   const auto decoded = decoder_->decode(access_unit, unit, image_.image);
   if (!decoded) {
     return decoded.error();

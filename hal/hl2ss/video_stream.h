@@ -49,7 +49,7 @@ class VideoStream final : public PacketStream {
   void left_out() override;
   Status take(const Packet& packet, const Stamped& stamped) override;
   Status take_raw(Bytes picture);
-  Result<bool> take_h264(Bytes access_unit, std::int64_t unit, bool in_order);
+  Result<bool> take_h264(Bytes access_unit, std::int64_t unit);
 
   CameraSide side_;
   VideoRequest request_;

@@ -110,12 +110,8 @@ Result<bool> CameraPort::send(const Image& image) {
   }
   std::vector<Chunk> chunks;
   const Fate fate = image.spoil ? spoil(packet, chunks) : Fate::kUntouched;
-  const bool held = !held_back_.empty();
   if (fate == Fate::kUntouched) {
     chunks.push_back({std::move(packet)});
-  }
-  if (held && !chunks.empty()) {
-    chunks.push_back({std::exchange(held_back_, {})});
   }
   port_.send(std::move(chunks));
   return fate != Fate::kBroken;
@@ -130,10 +126,6 @@ bool CameraPort::strikes(double probability) {
 /// The fate of a packet; unless it is untouched, `chunks` is sent instead.
 CameraPort::Fate CameraPort::spoil(std::vector<std::uint8_t>& packet, std::vector<Chunk>& chunks) {
   const auto half = packet.begin() + static_cast<std::ptrdiff_t>(packet.size() / 2);
-  if (strikes(faults_.reorder) && held_back_.empty()) {
-    held_back_ = std::move(packet);
-    return Fate::kBroken;
-  }
   if (strikes(faults_.stall)) {
     chunks.push_back({std::move(packet), kStall});
     return Fate::kLate;

@@ -42,7 +42,7 @@ class CameraPort {
     std::function<std::optional<Transform<World, Rig>>(Duration)> world_from_rig_after;
     bool spoil = true;  ///< faults may be applied to it
   };
-  /// Sends it; returns whether it will arrive complete and in order.
+  /// Sends it; returns whether it will arrive whole and rightly stamped.
   Result<bool> send(const Image& image);
   [[nodiscard]] std::int64_t faults_done() const { return faults_done_; }
   /// Exposure time sent with each image.
@@ -66,7 +66,6 @@ class CameraPort {
   std::int64_t encoded_stream_ = -1;
   std::int64_t images_ = 0;
   std::unique_ptr<VideoEncoder> encoder_;
-  std::vector<std::uint8_t> held_back_;
   std::int64_t faults_done_ = 0;
   Port port_{{[this](Bytes said) { return understand(said); }, [] {},
               [this] {

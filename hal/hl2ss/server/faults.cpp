@@ -11,11 +11,10 @@
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, double Faults::*>, 12> kProbabilities = {{
+constexpr std::array<std::pair<std::string_view, double Faults::*>, 11> kProbabilities = {{
     {"gap", &Faults::gap},
     {"lose", &Faults::lose},
     {"unlocated", &Faults::unlocated},
-    {"reorder", &Faults::reorder},
     {"stall", &Faults::stall},
     {"half", &Faults::half},
     {"cut", &Faults::cut},
@@ -36,7 +35,7 @@ constexpr std::array<std::pair<std::string_view, std::optional<std::int64_t> Fau
         {"clock_back", &Faults::clock_back},
     }};
 constexpr const char* kKnown =
-    "known are gap, lose, unlocated, reorder, stall, half, cut, misstamp, corrupt, "
+    "known are gap, lose, unlocated, stall, half, cut, misstamp, corrupt, "
     "scene_stall, scene_refuse, scene_cut (probabilities), jump, freeze_pictures, freeze_left, "
     "freeze_right, freeze_poses, shift_right, only_left, clock_back, lasting (numbers of pairs), "
     "clock_back_s and all";

@@ -17,7 +17,6 @@ struct Faults {
   double gap = 0.0;        ///< the pair is never sent
   double lose = 0.0;       ///< one of its two images is never sent
   double unlocated = 0.0;  ///< it is sent without a pose
-  double reorder = 0.0;    ///< one of its images is sent after the next one
   double stall = 0.0;      ///< nothing is sent for 0.3 s after it
   double half = 0.0;       ///< half a packet, a pause, the other half
   double cut = 0.0;        ///< half a packet, then the connection is closed

@@ -25,7 +25,7 @@ class PairSender {
         sides_(sides) {}
   /// A new session begins.
   void restart();
-  /// Whether all of it will arrive complete and in order.
+  /// Whether all of it will arrive whole and rightly stamped.
   Result<bool> send(Headset& headset, const StereoFrame& frame);
   /// Converts the client's positions back to the headset's own.
   [[nodiscard]] Transform<World, World> world_from_jumped() const;

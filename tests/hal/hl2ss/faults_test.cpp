@@ -90,7 +90,6 @@ TEST_P(UnderFault, PairsStayInOrderAndTrueAndTheSessionComesToItsEnd) {
 INSTANTIATE_TEST_SUITE_P(Every, UnderFault,
                          ::testing::Values(FaultCase{"Gaps", {.gap = 0.1}, 110},
                                            FaultCase{"Lost", {.lose = 0.05}, 110},
-                                           FaultCase{"Reordered", {.reorder = 0.05}, 110},
                                            FaultCase{"Cut", {.cut = 0.03}, 100},
                                            FaultCase{"Misstamped", {.misstamp = 0.1}, 100},
                                            FaultCase{"Corrupt", {.corrupt = 0.05}, 90}),

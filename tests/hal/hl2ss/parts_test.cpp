@@ -139,22 +139,20 @@ TEST(BootClock, LearnsFromTheFirstByteOfAPacket) {
             Duration(seconds(100)) + milliseconds(1) - begun - milliseconds(20));
 }
 
-TEST(ArrivalMeter, MeasuresGapsJitterAndOrder) {
+TEST(ArrivalMeter, MeasuresGapsAndJitter) {
   ArrivalMeter meter("left camera", Duration(33'333'333));
   const auto hears = [&](int stamp_ms, int at_ms) {
-    return meter.heard(Timestamp(milliseconds(stamp_ms)), kStart + milliseconds(at_ms));
+    meter.heard(Timestamp(milliseconds(stamp_ms)), kStart + milliseconds(at_ms));
   };
-  EXPECT_TRUE(hears(0, 10));
-  EXPECT_TRUE(hears(33, 43));
+  hears(0, 10);
+  hears(33, 43);
   EXPECT_EQ(meter.statistics().jitter_ms, 0.0);
-  EXPECT_TRUE(hears(66, 92)) << "16 ms late";
+  hears(66, 92);  // 16 ms late
   EXPECT_NEAR(meter.statistics().jitter_ms, 1.0, 1e-9);
-  EXPECT_TRUE(hears(165, 175));
-  EXPECT_FALSE(hears(132, 176));
+  hears(165, 175);
   EXPECT_EQ(meter.statistics().gaps, 1);
   EXPECT_EQ(meter.statistics().longest_gap, milliseconds(99));
-  EXPECT_EQ(meter.statistics().out_of_order, 1);
-  EXPECT_EQ(meter.statistics().packets, 5);
+  EXPECT_EQ(meter.statistics().packets, 4);
 }
 
 Timestamp pair_time(int n) { return Timestamp(Duration(33'333'333) * n); }
