@@ -98,7 +98,8 @@ function(orthonav_test name)
   include(GoogleTest)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${test_IN}/*.cpp")
   add_executable(test_${name} ${sources})
-  target_link_libraries(test_${name} PRIVATE ${test_UNPARSED_ARGUMENTS} GTest::gmock GTest::gtest_main)
+  target_link_libraries(test_${name} PRIVATE ${test_UNPARSED_ARGUMENTS} orthonav_keep_drivers
+    GTest::gmock GTest::gtest_main)
   target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_compile_definitions(test_${name} PRIVATE
     ORTHONAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}"

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "render/vulkan/failure.h"
-#include "render/vulkan/keep_drivers.h"
 
 namespace orthonav::render {
 namespace {
@@ -142,7 +141,6 @@ Instance::Instance(bool validation, MessageSink messages, VulkanHost* host)
   } else {
     check(vkCreateInstance(&info, nullptr, &instance_), "Vulkan");
   }
-  keep_loaded_drivers();
   if (!validation) {
     return;
   }
@@ -170,7 +168,6 @@ std::vector<VkPhysicalDevice> Instance::devices() const {
   check(vkEnumeratePhysicalDevices(instance_, &count, nullptr), "list of Vulkan devices");
   std::vector<VkPhysicalDevice> devices(count);
   check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "list of Vulkan devices");
-  keep_loaded_drivers();  // some are loaded only now
   return devices;
 }
 

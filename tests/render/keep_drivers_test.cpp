@@ -1,5 +1,3 @@
-#include "render/vulkan/keep_drivers.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <link.h>
@@ -21,6 +19,7 @@ int collect_drivers(dl_phdr_info* module, std::size_t, void* names) {
   return 0;
 }
 
+/// Of tests/support/keep_drivers.cpp.
 TEST(KeepDrivers, StayLoadedAfterTheLastInstance) {
   ASSERT_FALSE(list_devices().empty());
   std::vector<std::string> drivers;
