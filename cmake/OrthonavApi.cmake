@@ -4,9 +4,6 @@ find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)
   return()
 endif()
-file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}"
-     base/*.h hal/*.h nav/*.h render/*.h engine/*.h)
-list(FILTER headers EXCLUDE REGEX "${ORTHONAV_NOT_INSTALLED}")
 set(DOXYGEN_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/api")
 set(DOXYGEN_PROJECT_NAME orthonav)
 set(DOXYGEN_FULL_PATH_NAMES YES)
@@ -33,7 +30,7 @@ set(DOXYGEN_SEARCHENGINE NO)
 set(DOXYGEN_HTML_DYNAMIC_MENUS NO)
 set(DOXYGEN_HTML_TIMESTAMP NO)
 set(DOXYGEN_VERBATIM_HEADERS NO)
-doxygen_add_docs(api ALL ${headers} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" USE_STAMP_FILE
+doxygen_add_docs(api ALL ${ORTHONAV_HEADERS} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" USE_STAMP_FILE
                  COMMENT "Writing the pages of the headers")
 if(ORTHONAV_BUILD_TESTS)
   add_test(NAME api.PagesAreWrittenWithoutWarnings

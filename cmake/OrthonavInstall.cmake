@@ -8,20 +8,20 @@ set(orthonav_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/orthonav")
 install(TARGETS ${orthonav_libraries} EXPORT orthonavTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
 install(EXPORT orthonavTargets NAMESPACE orthonav:: DESTINATION "${orthonav_package_folder}" COMPONENT dev)
-# Headers of libraries that are not installed, which no program includes.
-set(ORTHONAV_NOT_INSTALLED "^(render/font_maker|engine/(golden|scan|evaluation)|hal/igtl)/")
+# Headers but those of libraries that are not installed, and those by which a library is made. Of the study, the
+# simulated room of a case alone is installed.
+file(GLOB_RECURSE ORTHONAV_HEADERS CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}"
+     base/*.h hal/*.h nav/*.h render/*.h engine/*.h)
+list(FILTER ORTHONAV_HEADERS EXCLUDE REGEX
+     "^(render/(font_maker|vulkan)|engine/(golden|scan|evaluation|study)|hal/igtl)/")
+list(APPEND ORTHONAV_HEADERS engine/study/set_up.h engine/study/sim_scenario.h)
 if(ORTHONAV_HEADSET)
-  set(ORTHONAV_NOT_INSTALLED
-      "^(render/font_maker|engine/(golden|scan|evaluation|planning|print)|hal/(hl2ss|igtl|desktop|voice|open))/")
+  list(FILTER ORTHONAV_HEADERS EXCLUDE REGEX "^(engine/(planning|print)|hal/(hl2ss|desktop|voice|open))/")
 endif()
-foreach(folder base hal nav render engine)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${folder}/*.h")
-  list(FILTER headers EXCLUDE REGEX "${ORTHONAV_NOT_INSTALLED}")
-  foreach(header IN LISTS headers)
-    get_filename_component(room "${header}" DIRECTORY)
-    install(FILES "${PROJECT_SOURCE_DIR}/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/orthonav/${room}"
-            COMPONENT dev)
-  endforeach()
+foreach(header IN LISTS ORTHONAV_HEADERS)
+  get_filename_component(room "${header}" DIRECTORY)
+  install(FILES "${PROJECT_SOURCE_DIR}/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/orthonav/${room}"
+          COMPONENT dev)
 endforeach()
 # The contract tests of devices, for those who write a device outside this tree.
 set(orthonav_contract_folder "${CMAKE_INSTALL_DATADIR}/orthonav/contract")

@@ -1,4 +1,4 @@
-option(ORTHONAV_BUILD_TESTS "Build the tests" ON)
+option(ORTHONAV_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(ORTHONAV_BUILD_BENCH "Build the benchmarks" OFF)
 option(ORTHONAV_HEADSET "Only what runs on a headset: no window, no voice, no video, no command" OFF)
 option(ORTHONAV_PYTHON "Build the Python module" OFF)
@@ -6,9 +6,11 @@ set(ORTHONAV_SANITIZE "" CACHE STRING "Sanitizers for every target: address,unde
 option(ORTHONAV_FUZZ "Build the fuzzers of tests/fuzz (clang)" OFF)
 option(ORTHONAV_UNITY "Compile several sources as one: a full build takes less than half the time" ON)
 set(ORTHONAV_UNITY_BATCH 32 CACHE STRING "How many sources are compiled as one")
-option(ORTHONAV_WARNINGS "Warn, and end the build at a warning: for those who change the code" ON)
+option(ORTHONAV_WARNINGS "Warn, and end the build at a warning: for those who change the code"
+  ${PROJECT_IS_TOP_LEVEL})
 option(ORTHONAV_COVERAGE "Instrument for line coverage" OFF)
-option(ORTHONAV_CCACHE "Compile through ccache, where it is installed: a first build takes 5 % longer" ON)
+option(ORTHONAV_CCACHE "Compile through ccache, where it is installed: a first build takes 5 % longer"
+  ${PROJECT_IS_TOP_LEVEL})
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -26,7 +28,7 @@ endif()
 # The same digits at every optimisation level: no implicit fused multiply-add.
 add_compile_options(-ffp-contract=off)
 # Reproducible objects that every checkout can share: no absolute paths in them.
-add_compile_options("-ffile-prefix-map=${CMAKE_SOURCE_DIR}=.")
+add_compile_options("-ffile-prefix-map=${PROJECT_SOURCE_DIR}=.")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC collects garbage less often: 10 % less time, for 1.4 GB of memory instead of 1.1.
   add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:--param ggc-min-expand=400 --param ggc-min-heapsize=1048576>")
