@@ -35,18 +35,14 @@ class CalibratedHeadset : public ForwardingHeadset {
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
 
  private:
-  class Cameras : public StereoCamera {
+  class Cameras : public ForwardingCamera {
    public:
     Cameras(StereoCamera& inner, StereoCalibration calibration)
-        : inner_(inner), calibration_(std::move(calibration)) {}
+        : ForwardingCamera(inner), calibration_(std::move(calibration)) {}
 
    private:
     [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
-    [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
-    Result<Next> do_next(StereoFrame& frame) override { return inner_.next(frame); }
-    bool do_tap(PairTap* tap) override { return inner_.tap(tap); }
 
-    StereoCamera& inner_;
     StereoCalibration calibration_;
   };
 

@@ -4,6 +4,44 @@
 
 namespace orthonav {
 
+/// Forwards to another camera pair; a base class for those that change or watch some of it. Borrows
+/// the other pair. One that changes what `next` returns must change what a tap sees as well, or
+/// refuse the tap.
+class ForwardingCamera : public StereoCamera {
+ public:
+  explicit ForwardingCamera(StereoCamera& inner) : inner_(inner) {}
+
+ protected:
+  [[nodiscard]] const StereoCalibration& do_calibration() const override {
+    return inner_.calibration();
+  }
+  [[nodiscard]] std::span<const std::string> do_measured_tools() const override {
+    return inner_.measured_tools();
+  }
+  bool do_tap(PairTap* tap) override { return inner_.tap(tap); }
+  [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
+  Result<Next> do_next(StereoFrame& frame) override { return inner_.next(frame); }
+
+ private:
+  StereoCamera& inner_;
+};
+
+/// Forwards to another display; a base class for those that change or watch what it shows. Borrows
+/// the other display.
+class ForwardingDisplay : public Display {
+ public:
+  explicit ForwardingDisplay(Display& inner) : inner_(inner) {}
+
+ protected:
+  [[nodiscard]] Duration do_latency() const override {
+    return inner_.predicted_display_time(Timestamp{}) - Timestamp{};
+  }
+  Status do_shown(const ShownFrame& frame) override { return inner_.shown(frame); }
+
+ private:
+  Display& inner_;
+};
+
 /// Forwards to another headset, part by part; a base class for headsets that replace some parts.
 /// Borrows the other headset.
 class ForwardingHeadset : public Headset {

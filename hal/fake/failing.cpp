@@ -44,9 +44,9 @@ Result<Next> FailingCamera::do_next(StereoFrame& frame) {
   if (fault == CameraFault::kDelay) {
     return Next::kNone;
   }
-  auto answer = inner_.next(frame);
+  auto answer = ForwardingCamera::do_next(frame);
   if (fault == CameraFault::kDrop && answer && *answer == Next::kFrame) {
-    answer = inner_.next(frame);
+    answer = ForwardingCamera::do_next(frame);
   }
   if (!answer || *answer != Next::kFrame) {
     return answer;
@@ -182,7 +182,7 @@ Status FailingDisplay::do_shown(const ShownFrame& frame) {
   if (fault_at(faults_, call_++)) {
     return Error{"display: simulated failure"};
   }
-  return inner_.shown(frame);
+  return ForwardingDisplay::do_shown(frame);
 }
 
 FailingHeadset::FailingHeadset(Headset& inner, Faults faults)

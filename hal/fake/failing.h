@@ -45,24 +45,18 @@ enum class EventFault {
 enum class DisplayFault { kError };
 
 /// Passes on a camera pair except for its faults; `at` counts the calls of next().
-class FailingCamera : public StereoCamera {
+class FailingCamera : public ForwardingCamera {
  public:
   FailingCamera(StereoCamera& inner, std::vector<Fault<CameraFault>> faults)
-      : inner_(inner), faults_(std::move(faults)) {}
+      : ForwardingCamera(inner), faults_(std::move(faults)) {}
 
  private:
-  StereoCamera& inner_;
   std::vector<Fault<CameraFault>> faults_;
   std::int64_t call_ = 0;
   StereoFrame last_;  ///< as passed on
 
-  [[nodiscard]] const StereoCalibration& do_calibration() const override {
-    return inner_.calibration();
-  }
-  [[nodiscard]] std::span<const std::string> do_measured_tools() const override {
-    return inner_.measured_tools();
-  }
-  [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
+  /// There is nothing to see before `next`, which makes the faults.
+  bool do_tap(PairTap* /*tap*/) override { return false; }
   Result<Next> do_next(StereoFrame& frame) override;
   Result<Next> spoiled(CameraFault fault, StereoFrame& frame);
 };
@@ -101,19 +95,15 @@ using FailingClicker = FailingEvents<Clicker, ClickerEvent>;
 using FailingVoice = FailingEvents<Voice, Phrase>;
 
 /// `at` counts the frames shown.
-class FailingDisplay : public Display {
+class FailingDisplay : public ForwardingDisplay {
  public:
   FailingDisplay(Display& inner, std::vector<Fault<DisplayFault>> faults)
-      : inner_(inner), faults_(std::move(faults)) {}
+      : ForwardingDisplay(inner), faults_(std::move(faults)) {}
 
  private:
-  Display& inner_;
   std::vector<Fault<DisplayFault>> faults_;
   std::int64_t call_ = 0;
 
-  [[nodiscard]] Duration do_latency() const override {
-    return inner_.predicted_display_time(Timestamp{}) - Timestamp{};
-  }
   Status do_shown(const ShownFrame& frame) override;
 };
 

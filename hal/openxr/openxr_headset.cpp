@@ -18,10 +18,10 @@ Mount mount_of(const RigOnHead& rig) {
 
 /// The other headset's pairs; with the display's poses and maps if the cameras are mounted on it.
 /// Not every runtime tells when its map moves, so the poses are watched as well.
-class Cameras : public StereoCamera, private PairTap {
+class Cameras : public ForwardingCamera, private PairTap {
  public:
   Cameras(StereoCamera& inner, const XrDisplay& display, bool mounted)
-      : inner_(inner), display_(display), mounted_(mounted) {}
+      : ForwardingCamera(inner), display_(display), mounted_(mounted) {}
   /// When the newest map began that the runtime did not tell of. From any thread.
   [[nodiscard]] Timestamp jumped() const { return jumped_.load(); }
 
@@ -33,14 +33,10 @@ class Cameras : public StereoCamera, private PairTap {
     std::int64_t jumps = 0;  ///< that the runtime did not tell of
   };
 
-  [[nodiscard]] const StereoCalibration& do_calibration() const override {
-    return inner_.calibration();
-  }
-  [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
   Result<Next> do_next(StereoFrame& frame) override {
     // The frame is reused, and a device whose map never moves does not write this field.
     frame.map_epoch = 0;
-    auto answer = inner_.next(frame);
+    auto answer = ForwardingCamera::do_next(frame);
     if (!answer || *answer != Next::kFrame) {
       return answer;
     }
@@ -50,9 +46,9 @@ class Cameras : public StereoCamera, private PairTap {
     return answer;
   }
   bool do_tap(PairTap* tap) override {
-    inner_.tap(nullptr);
+    ForwardingCamera::do_tap(nullptr);
     tap_ = tap;
-    return inner_.tap(tap != nullptr ? this : nullptr);
+    return ForwardingCamera::do_tap(tap != nullptr ? this : nullptr);
   }
   void received(const StereoFrame& pair) override {
     placed_ = pair;
@@ -80,7 +76,6 @@ class Cameras : public StereoCamera, private PairTap {
     return jumped;
   }
 
-  StereoCamera& inner_;
   const XrDisplay& display_;
   bool mounted_;
   Maps next_;
@@ -114,23 +109,16 @@ class Head : public HeadTracker {
 };
 
 /// The described frames also go to the other headset, where a simulated wearer reads them.
-class Words : public Display {
+class Words : public ForwardingDisplay {
  public:
-  Words(Display& inner, const Clock& clock, const XrDisplay& display, bool mounted)
-      : inner_(inner), clock_(clock), display_(display), mounted_(mounted) {}
+  Words(Display& inner, const XrDisplay& display, bool mounted)
+      : ForwardingDisplay(inner), display_(display), mounted_(mounted) {}
 
  private:
   [[nodiscard]] Duration do_latency() const override {
-    if (mounted_) {
-      return display_.latency();
-    }
-    const Timestamp now = clock_.now();
-    return inner_.predicted_display_time(now) - now;
+    return mounted_ ? display_.latency() : ForwardingDisplay::do_latency();
   }
-  Status do_shown(const ShownFrame& frame) override { return inner_.shown(frame); }
 
-  Display& inner_;
-  const Clock& clock_;
   const XrDisplay& display_;
   bool mounted_;
 };
@@ -144,7 +132,7 @@ class Composite : public OpenxrHeadset {
         cameras_(inner_->cameras(), pixels_, rig.mounted),
         head_(inner_->head(), pixels_, cameras_, rig.mounted),
         clicker_(pixels_, inner_->clicker()),
-        words_(inner_->display(), inner_->clock(), pixels_, rig.mounted) {}
+        words_(inner_->display(), pixels_, rig.mounted) {}
 
   [[nodiscard]] std::string name() const override {
     const std::string runtime = pixels_.name();

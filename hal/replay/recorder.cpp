@@ -250,30 +250,27 @@ class RecordingDepth : public DepthCamera {
 };
 using RecordingDepths = std::vector<std::unique_ptr<RecordingDepth>>;
 
-class RecordingCamera : public StereoCamera, private PairTap {
+class RecordingCamera : public ForwardingCamera, private PairTap {
  public:
   /// Drains the given depth cameras at each call.
-  RecordingCamera(Headset& inner, Tape& tape, const RecordingDepths& drained)
-      : inner_(inner), tape_(tape), drained_(drained), tapped_(inner.cameras().tap(this)) {}
+  RecordingCamera(StereoCamera& inner, Tape& tape, const RecordingDepths& drained)
+      : ForwardingCamera(inner), tape_(tape), drained_(drained), tapped_(inner.tap(this)) {}
   ~RecordingCamera() override { untap(); }
   RecordingCamera(const RecordingCamera&) = delete;
   RecordingCamera& operator=(const RecordingCamera&) = delete;
   /// Records nothing that comes after this.
-  void untap() { inner_.cameras().tap(nullptr); }
+  void untap() { ForwardingCamera::do_tap(nullptr); }
 
  private:
-  Headset& inner_;
   Tape& tape_;
   const RecordingDepths& drained_;
   FrameOrder order_;
   bool tapped_;
 
-  [[nodiscard]] const StereoCalibration& do_calibration() const override {
-    return inner_.cameras().calibration();
-  }
-  [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.cameras().may_repeat(); }
+  /// The one tap that there is is its own.
+  bool do_tap(PairTap* /*tap*/) override { return false; }
   Result<Next> do_next(StereoFrame& frame) override {
-    auto answer = inner_.cameras().next(frame);
+    auto answer = ForwardingCamera::do_next(frame);
     const bool came = answer && *answer == Next::kFrame;
     if (came && !tapped_) {
       tape_.pair(frame);
@@ -350,19 +347,6 @@ class RecordingEvents : public Device {
   }
 };
 
-class RecordingDisplay : public Display {
- public:
-  explicit RecordingDisplay(Headset& inner) : inner_(inner) {}
-
- private:
-  Headset& inner_;
-
-  [[nodiscard]] Duration do_latency() const override {
-    return inner_.display().predicted_display_time(Timestamp{}) - Timestamp{};
-  }
-  Status do_shown(const ShownFrame& frame) override { return inner_.display().shown(frame); }
-};
-
 class Recorder : public RecordingHeadset {
  public:
   Recorder(Headset& inner, std::unique_ptr<Headset> owned, std::unique_ptr<RecordingWriter> writer,
@@ -386,7 +370,6 @@ class Recorder : public RecordingHeadset {
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
-  [[nodiscard]] Display& display() override { return display_; }
   [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(passed_on_); }
   [[nodiscard]] Status recording_status() const override { return tape_.status(); }
   [[nodiscard]] bool recording_failed() const override { return tape_.failed(); }
@@ -406,11 +389,10 @@ class Recorder : public RecordingHeadset {
   Tape tape_;
   RecordingDepths drained_;
   RecordingDepths passed_on_;
-  RecordingCamera cameras_{inner_, tape_, drained_};
+  RecordingCamera cameras_{inner_.cameras(), tape_, drained_};
   RecordingHead head_{inner_, tape_};
   RecordingEvents<Clicker, ClickerEvent> clicker_;
   RecordingEvents<Voice, Phrase> voice_;
-  RecordingDisplay display_{inner_};
 };
 
 Result<std::unique_ptr<RecordingHeadset>> make(Headset& inner, std::unique_ptr<Headset> owned,

@@ -51,22 +51,19 @@ class Prompting : public ForwardingHeadset {
       : ForwardingHeadset(*inner),
         inner_(std::move(inner)),
         cameras_(*inner_, std::move(step)),
-        display_(*inner_) {}
+        display_(inner_->display()) {}
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
   [[nodiscard]] Display& display() override { return display_; }
 
  private:
-  class Cameras : public StereoCamera {
+  class Cameras : public ForwardingCamera {
    public:
-    Cameras(Headset& inner, StepOnDisplay step) : inner_(inner), step_(std::move(step)) {}
+    Cameras(Headset& inner, StepOnDisplay step)
+        : ForwardingCamera(inner.cameras()), inner_(inner), step_(std::move(step)) {}
 
    private:
-    [[nodiscard]] const StereoCalibration& do_calibration() const override {
-      return inner_.cameras().calibration();
-    }
-    [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.cameras().may_repeat(); }
     Result<Next> do_next(StereoFrame& frame) override {
-      auto answer = inner_.cameras().next(frame);
+      auto answer = ForwardingCamera::do_next(frame);
       if (!answer || *answer != Next::kFrame) {
         return answer;
       }
@@ -79,16 +76,12 @@ class Prompting : public ForwardingHeadset {
     Headset& inner_;
     StepOnDisplay step_;
   };
-  class Unseen : public Display {
+  class Unseen : public ForwardingDisplay {
    public:
-    explicit Unseen(Headset& inner) : inner_(inner) {}
+    using ForwardingDisplay::ForwardingDisplay;
 
    private:
-    [[nodiscard]] Duration do_latency() const override {
-      return inner_.display().predicted_display_time(Timestamp{}) - Timestamp{};
-    }
     Status do_shown(const ShownFrame&) override { return {}; }
-    Headset& inner_;
   };
   std::unique_ptr<Headset> inner_;
   Cameras cameras_;
@@ -171,28 +164,23 @@ std::unique_ptr<Headset> open_sim_with_depth() {
 class Waiting : public ForwardingHeadset {
  public:
   explicit Waiting(std::unique_ptr<Headset> inner)
-      : ForwardingHeadset(*inner), inner_(std::move(inner)), cameras_(*inner_) {}
+      : ForwardingHeadset(*inner), inner_(std::move(inner)), cameras_(inner_->cameras()) {}
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
 
  private:
-  class Cameras : public StereoCamera {
+  class Cameras : public ForwardingCamera {
    public:
-    explicit Cameras(Headset& inner) : inner_(inner) {}
+    using ForwardingCamera::ForwardingCamera;
 
    private:
-    [[nodiscard]] const StereoCalibration& do_calibration() const override {
-      return inner_.cameras().calibration();
-    }
-    [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.cameras().may_repeat(); }
     Result<Next> do_next(StereoFrame& frame) override {
       Result<Next> answer = Next::kNone;
       static_cast<void>(wait_until([&] {
-        answer = inner_.cameras().next(frame);
+        answer = ForwardingCamera::do_next(frame);
         return !answer || *answer != Next::kNone;
       }));
       return answer;
     }
-    Headset& inner_;
   };
   std::unique_ptr<Headset> inner_;
   Cameras cameras_;

@@ -7,44 +7,27 @@
 #include "hal/open/open.h"
 #include "hal/openxr/openxr_headset.h"
 #include "hal/replay/recorder.h"
-#include "tests/support/scripted_session.h"
 #include "tests/support/session_log.h"
+#include "tests/support/telling_headset.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orthonav::test {
 namespace {
 
-/// A headset with an answer to every optional query.
-class TellingHeadset : public fake::FakeHeadset {
- public:
-  TellingHeadset() : FakeHeadset(scripted_session()) {}
-  [[nodiscard]] DescribedTools described_tools() const override {
-    return ToolsFile{"a file", "its text"};
-  }
-  [[nodiscard]] std::optional<ConnectionStatistics> connection() const override {
-    ConnectionStatistics told;
-    told.pairs = 42;
-    return told;
-  }
-};
-
-void expect_passed_on(const Headset& wrapper) {
-  const DescribedTools tools = wrapper.described_tools();
-  ASSERT_TRUE(std::holds_alternative<ToolsFile>(tools)) << wrapper.name();
-  EXPECT_EQ(std::get<ToolsFile>(tools).text, "its text");
-  ASSERT_TRUE(wrapper.connection()) << wrapper.name();
-  EXPECT_EQ(wrapper.connection()->pairs, 42);
-}
-
 TEST(HeadsetsThatWrap, PassOnWhatTheOtherOneTells) {
-  const TemporaryFolder folder;
   TellingHeadset inner;
-  expect_passed_on(fake::FailingHeadset(inner, {}));
-  expect_passed_on(JoinedHeadset(inner, {}));
-  expect_passed_on(*openxr::OpenxrHeadset::around(std::make_unique<TellingHeadset>(), {}));
+  fake::FailingHeadset failing(inner, {});
+  expect_passed_on(inner, failing, false);
+  JoinedHeadset joined(inner, {});
+  expect_passed_on(inner, joined, true);
+  auto cameras = std::make_unique<TellingHeadset>();
+  const TellingHeadset& borrowed = *cameras;
+  const auto openxr = openxr::OpenxrHeadset::around(std::move(cameras), {});
+  expect_passed_on(borrowed, *openxr, true);
+  const TemporaryFolder folder;
   const auto recorder = replay::RecordingHeadset::around(inner, folder / "session");
   ASSERT_TRUE(recorder.ok()) << recorder.error().message;
-  expect_passed_on(**recorder);
+  expect_passed_on(inner, **recorder, false);
 }
 
 TEST(Headset, TellsNothingUnlessItsDeviceDoes) {

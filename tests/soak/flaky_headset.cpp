@@ -66,7 +66,7 @@ void FlakyHeadset::Cameras::begin_trouble() {
 
 Result<Next> FlakyHeadset::Cameras::do_next(StereoFrame& frame) {
   begin_trouble();
-  auto next = inner_.next(frame);
+  auto next = ForwardingCamera::do_next(frame);
   if (!next || *next != Next::kFrame) {
     return next;
   }
@@ -109,7 +109,7 @@ Status FlakyHeadset::Glasses::do_shown(const ShownFrame& frame) {
       point = world_from_jumped * point;
     }
   }
-  return inner_.shown(back_);
+  return ForwardingDisplay::do_shown(back_);
 }
 
 }  // namespace orthonav::soak

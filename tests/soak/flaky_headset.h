@@ -54,18 +54,15 @@ class FlakyHeadset : public ForwardingHeadset {
   [[nodiscard]] std::int64_t frames() const { return display_.frames; }
 
  private:
-  class Cameras : public StereoCamera {
+  class Cameras : public ForwardingCamera {
    public:
-    Cameras(StereoCamera& inner, Weather& weather) : inner_(inner), weather_(weather) {}
+    Cameras(StereoCamera& inner, Weather& weather) : ForwardingCamera(inner), weather_(weather) {}
 
    private:
-    [[nodiscard]] const StereoCalibration& do_calibration() const override {
-      return inner_.calibration();
-    }
-    [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
+    /// There is nothing to see before `next`, which makes the trouble.
+    bool do_tap(PairTap* /*tap*/) override { return false; }
     Result<Next> do_next(StereoFrame& frame) override;
     void begin_trouble();
-    StereoCamera& inner_;
     Weather& weather_;
   };
   class Speech : public Voice {
@@ -77,18 +74,14 @@ class FlakyHeadset : public ForwardingHeadset {
     Voice& inner_;
     Weather& weather_;
   };
-  class Glasses : public Display {
+  class Glasses : public ForwardingDisplay {
    public:
-    Glasses(Display& inner, Weather& weather) : inner_(inner), weather_(weather) {}
+    Glasses(Display& inner, Weather& weather) : ForwardingDisplay(inner), weather_(weather) {}
     std::int64_t stale = 0;
     std::int64_t frames = 0;
 
    private:
-    [[nodiscard]] Duration do_latency() const override {
-      return inner_.predicted_display_time(Timestamp{}) - Timestamp{};
-    }
     Status do_shown(const ShownFrame& frame) override;
-    Display& inner_;
     Weather& weather_;
     ShownFrame back_;
   };

@@ -9,7 +9,7 @@ Result<Next> PreviewHeadset::GatedCameras::do_next(StereoFrame& frame) {
     return Next::kNone;
   }
   const Timestamp asked = WallClock().now();
-  auto answer = inner_.next(frame);
+  auto answer = ForwardingCamera::do_next(frame);
   if (!answer || *answer != Next::kFrame) {
     gate_.none_came();
     return answer;

@@ -26,23 +26,15 @@ class PreviewHeadset : public ForwardingHeadset {
   [[nodiscard]] double since_pair_ms() const { return cameras_.since_pair_ms(); }
 
  private:
-  class GatedCameras : public StereoCamera {
+  class GatedCameras : public ForwardingCamera {
    public:
-    GatedCameras(StereoCamera& inner, Gate& gate) : inner_(inner), gate_(gate) {}
+    GatedCameras(StereoCamera& inner, Gate& gate) : ForwardingCamera(inner), gate_(gate) {}
     [[nodiscard]] double camera_ms() const { return camera_ms_; }
     [[nodiscard]] double since_pair_ms() const;
 
    private:
-    [[nodiscard]] const StereoCalibration& do_calibration() const override {
-      return inner_.calibration();
-    }
-    [[nodiscard]] std::span<const std::string> do_measured_tools() const override {
-      return inner_.measured_tools();
-    }
-    [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
     Result<Next> do_next(StereoFrame& frame) override;
 
-    StereoCamera& inner_;
     Gate& gate_;
     double camera_ms_ = 0.0;
     Timestamp there_{};  ///< of the delivery, in wall time

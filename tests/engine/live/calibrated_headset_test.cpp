@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/scripted_pairs.h"
+#include "tests/support/telling_headset.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orthonav::engine {
@@ -115,6 +116,15 @@ TEST_F(CalibratedHeadsetTest, RefusesWhatIsNoCalibrationOrNotThisHeadsets) {
   ASSERT_FALSE(other.ok());
   EXPECT_THAT(other.error().message,
               HasSubstr("left: is of images of 800 x 480 px, the headset's"));
+}
+
+TEST_F(CalibratedHeadsetTest, PassesOnWhatItsDeviceTells) {
+  test::TellingHeadset device;
+  const auto file = load(calibration());
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  const auto calibrated = CalibratedHeadset::create(device, *file);
+  ASSERT_TRUE(calibrated.ok()) << calibrated.error().message;
+  test::expect_passed_on(device, **calibrated, true);
 }
 
 }  // namespace

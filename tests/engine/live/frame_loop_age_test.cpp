@@ -28,18 +28,15 @@ Notice notice_of(const ShownFrame& frame) {
 }
 
 /// Its clock goes on while there is no pair.
-class WaitingCamera : public StereoCamera {
+class WaitingCamera : public ForwardingCamera {
  public:
-  explicit WaitingCamera(fake::FakeHeadset& inner) : inner_(inner) {}
+  explicit WaitingCamera(fake::FakeHeadset& inner)
+      : ForwardingCamera(inner.cameras()), inner_(inner) {}
 
  private:
   fake::FakeHeadset& inner_;
-  [[nodiscard]] const StereoCalibration& do_calibration() const override {
-    return inner_.cameras().calibration();
-  }
-  [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.cameras().may_repeat(); }
   Result<Next> do_next(StereoFrame& frame) override {
-    auto next = inner_.cameras().next(frame);
+    auto next = ForwardingCamera::do_next(frame);
     if (next && *next == Next::kNone) {
       inner_.manual_clock().advance(std::chrono::milliseconds(20));
     }

@@ -42,23 +42,18 @@ struct AtPair {
   std::function<void()> happens = [] {};
 };
 
-class EventfulCamera : public StereoCamera {
+class EventfulCamera : public ForwardingCamera {
  public:
-  EventfulCamera(StereoCamera& inner, AtPair at) : inner_(inner), at_(std::move(at)) {}
+  EventfulCamera(StereoCamera& inner, AtPair at) : ForwardingCamera(inner), at_(std::move(at)) {}
 
  private:
-  StereoCamera& inner_;
   AtPair at_;
   std::int64_t pair_ = 0;
-  [[nodiscard]] const StereoCalibration& do_calibration() const override {
-    return inner_.calibration();
-  }
-  [[nodiscard]] MayRepeat do_may_repeat() const override { return inner_.may_repeat(); }
   Result<Next> do_next(StereoFrame& frame) override {
     if (pair_++ == at_.pair) {
       at_.happens();
     }
-    return inner_.next(frame);
+    return ForwardingCamera::do_next(frame);
   }
 };
 

@@ -13,6 +13,7 @@
 #include "tests/support/resumed_operation.h"
 #include "tests/support/scripted_pairs.h"
 #include "tests/support/scripted_surgeon.h"
+#include "tests/support/telling_headset.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orthonav::soak {
@@ -35,6 +36,12 @@ TEST(MemoryCurve, GrowsByWhatIsKept) {
   const std::int64_t before = resident_kib();
   const std::vector<char> kept(std::size_t{64} << 20U, 'x');
   EXPECT_NEAR(static_cast<double>(resident_kib() - before), 65'536.0, 4'096.0) << kept.back();
+}
+
+TEST(FlakyHeadset, PassesOnWhatItsDeviceTells) {
+  test::TellingHeadset device;
+  FlakyHeadset flaky(device, Random(1), {});
+  test::expect_passed_on(device, flaky, false);
 }
 
 TEST(FlakyHeadset, CountsAFrameWhoseGuidanceIsTooOld) {

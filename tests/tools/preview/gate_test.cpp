@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "hal/fake/scripted.h"
+#include "tests/support/telling_headset.h"
+#include "tools/preview/preview_headset.h"
 
 namespace orthonav::preview::gate_test {
 namespace {
@@ -86,6 +88,15 @@ TEST(Gate, RunsToAPairAndStopsThere) {
   stream.gate.restart();
   EXPECT_EQ(stream.gate.passed(), 0);
   EXPECT_EQ(stream.pass_all(1000), 0);
+}
+
+TEST(PreviewHeadset, PassesOnWhatItsDeviceTells) {
+  test::TellingHeadset device;
+  fake::ManualClock wall;
+  Gate gate{wall};
+  Keyboard keyboard;
+  PreviewHeadset shown(device, gate, keyboard);
+  test::expect_passed_on(device, shown, true);
 }
 
 }  // namespace

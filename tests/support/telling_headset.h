@@ -1,0 +1,64 @@
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hal/api/forwarding_headset.h"
+#include "tests/support/scripted_session.h"
+
+namespace orthonav::test {
+
+/// A headset with an answer to every optional query, of its cameras too.
+class TellingHeadset : public fake::FakeHeadset {
+ public:
+  TellingHeadset() : FakeHeadset(scripted_session()) {}
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] DescribedTools described_tools() const override {
+    return ToolsFile{"a file", "its text"};
+  }
+  [[nodiscard]] std::optional<ConnectionStatistics> connection() const override {
+    ConnectionStatistics told;
+    told.pairs = 42;
+    return told;
+  }
+  [[nodiscard]] bool is_tapped() const { return cameras_.tap != nullptr; }
+
+ private:
+  struct Cameras : ForwardingCamera {
+    using ForwardingCamera::ForwardingCamera;
+    PairTap* tap = nullptr;
+    std::vector<std::string> names = {"pointer", "guide"};
+
+   private:
+    [[nodiscard]] std::span<const std::string> do_measured_tools() const override { return names; }
+    [[nodiscard]] MayRepeat do_may_repeat() const override { return {true, false}; }
+    bool do_tap(PairTap* given) override {
+      tap = given;
+      return true;
+    }
+  };
+  Cameras cameras_{FakeHeadset::cameras()};
+};
+
+/// `taps`: the wrapper lets others see pairs before it returns them; one that changes pairs only
+/// then must not.
+inline void expect_passed_on(const TellingHeadset& inner, Headset& wrapper, bool taps) {
+  SCOPED_TRACE(wrapper.name());
+  const DescribedTools tools = wrapper.described_tools();
+  ASSERT_TRUE(std::holds_alternative<ToolsFile>(tools));
+  EXPECT_EQ(std::get<ToolsFile>(tools).text, "its text");
+  ASSERT_TRUE(wrapper.connection());
+  EXPECT_EQ(wrapper.connection()->pairs, 42);
+  EXPECT_THAT(wrapper.cameras().measured_tools(), ::testing::ElementsAre("pointer", "guide"));
+  EXPECT_EQ(wrapper.cameras().may_repeat(), (MayRepeat{true, false}));
+  struct Unused : PairTap {
+    void received(const StereoFrame& /*pair*/) override {}
+  } tap;
+  const bool was_tapped = inner.is_tapped();
+  EXPECT_EQ(wrapper.cameras().tap(&tap), taps);
+  EXPECT_EQ(inner.is_tapped(), taps || was_tapped);
+  EXPECT_EQ(wrapper.cameras().tap(nullptr), taps);
+  EXPECT_EQ(inner.is_tapped(), was_tapped);
+}
+
+}  // namespace orthonav::test
