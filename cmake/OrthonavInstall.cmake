@@ -52,6 +52,7 @@ install(FILES "${PROJECT_BINARY_DIR}/orthonavConfig.cmake"
               "${PROJECT_BINARY_DIR}/orthonavConfigVersion.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindOpenCVCalib3d.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindPocketSphinx.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/FindOpenIgtLink.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/OrthonavApriltag.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/OrthonavImported.cmake"
         DESTINATION "${orthonav_package_folder}" COMPONENT dev)

@@ -17,7 +17,6 @@
 #include "tools/bad_command_line.h"
 #include "tools/command.h"
 #include "tools/help_text.h"
-#include "tools/igtl_tracker.h"
 #include "tools/memory_reserve.h"
 #include "tools/stop_signals.h"
 
@@ -93,7 +92,6 @@ int run(int argc, char** argv) {
   reserve_standard_streams();
   StopSignals signals;  // before any thread
   keep_memory_reserve();
-  register_igtl_tracker();
   CLI::App app{
       "orthonav: standalone mixed-reality navigation for orthopaedic surgery. Tried in simulation "
       "and on stand-ins, never yet on a headset or a patient.",

@@ -286,4 +286,26 @@ Result<std::unique_ptr<Hl2ssHeadset>> Hl2ssHeadset::open(const Hl2ssOptions& opt
   return std::unique_ptr<Hl2ssHeadset>(std::move(headset));
 }
 
+HeadsetScheme scheme() {
+  const auto check = [](const std::string& rest) {
+    const auto options = options_of(rest);
+    return options ? Status{} : Status(options.error());
+  };
+  const auto open = [](const std::string& rest,
+                       const std::vector<std::string>& phrases) -> Result<OpenedDevice> {
+    auto options = options_of(rest);
+    if (!options) {
+      return options.error();
+    }
+    options->phrases = phrases;
+    auto opened = Hl2ssHeadset::open(*options);
+    if (!opened) {
+      return opened.error();
+    }
+    std::string warning = (*opened)->depth_trouble();
+    return OpenedDevice{std::move(*opened), std::move(warning)};
+  };
+  return {"hl2ss", "hl2ss://HOST", check, open};
+}
+
 }  // namespace orthonav::hl2ss

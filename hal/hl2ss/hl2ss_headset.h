@@ -4,6 +4,7 @@
 #include <string>
 
 #include "hal/api/devices.h"
+#include "hal/api/headset_scheme.h"
 #include "hal/hl2ss/options.h"
 
 namespace orthonav::hl2ss {
@@ -29,5 +30,8 @@ class Hl2ssHeadset : public Headset {
     return statistics();
   }
 };
+
+/// `hl2ss://HOST[?KEY=VALUE&...]` (`options_of`).
+[[nodiscard]] HeadsetScheme scheme();
 
 }  // namespace orthonav::hl2ss

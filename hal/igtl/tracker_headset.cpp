@@ -115,4 +115,24 @@ Result<std::unique_ptr<Headset>> open_tracker(const TrackerOptions& options) {
       std::make_unique<TrackerHeadset>(name, std::move(receiver), options.tools));
 }
 
+HeadsetScheme scheme() {
+  const auto check = [](const std::string& rest) {
+    const auto options = tracker_options_of(rest);
+    return options ? Status{} : Status(options.error());
+  };
+  const auto open = [](const std::string& rest,
+                       const std::vector<std::string>& /*phrases*/) -> Result<OpenedDevice> {
+    const auto options = tracker_options_of(rest);
+    if (!options) {
+      return options.error();
+    }
+    auto opened = open_tracker(*options);
+    if (!opened) {
+      return opened.error();
+    }
+    return OpenedDevice{std::move(*opened), {}};
+  };
+  return {"igtl", "igtl://HOST", check, open};
+}
+
 }  // namespace orthonav::igtl

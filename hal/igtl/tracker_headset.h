@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "hal/api/devices.h"
+#include "hal/api/headset_scheme.h"
 #include "hal/igtl/tracker_options.h"
 
 namespace orthonav::igtl {
@@ -13,5 +14,8 @@ namespace orthonav::igtl {
 /// Times are those of this machine's steady clock. Waits for the first pose of any of the tools; an
 /// Error says what arrived instead.
 Result<std::unique_ptr<Headset>> open_tracker(const TrackerOptions& options);
+
+/// `igtl://HOST?TOOL=TRANSFORM&...` (`tracker_options_of`).
+[[nodiscard]] HeadsetScheme scheme();
 
 }  // namespace orthonav::igtl

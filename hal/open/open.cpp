@@ -1,14 +1,16 @@
 #include "hal/open/open.h"
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
 #include <utility>
 
+#include "base/mutex.h"
 #include "hal/api/uri_query.h"
 #include "hal/hl2ss/hl2ss_headset.h"
+#include "hal/igtl/tracker_headset.h"
 #include "hal/open/bad_uri.h"
 #include "hal/open/open_openxr.h"
-#include "hal/open/registered_schemes.h"
 #include "hal/replay/replay_headset.h"
 
 namespace orthonav {
@@ -26,26 +28,25 @@ sim::RoomTool default_pointer() {
   return pointer;
 }
 
-Status apply_sim_key(const std::string& uri, const UriItem& item, sim::SimOptions& options) {
+Status apply_sim_key(const UriItem& item, sim::SimOptions& options) {
   const std::string& key = item.key;
   if (key != "seed" && key != "perfect" && key != "realtime" && key != "depth") {
-    return bad_uri(uri, "unknown key \"" + key + "\"; " + kKnownSimKeys);
+    return Error{"unknown key \"" + key + "\"; " + kKnownSimKeys};
   }
   if (item.again) {
-    return bad_uri(uri, "key \"" + key + "\" is given twice");
+    return Error{"key \"" + key + "\" is given twice"};
   }
   if (key == "seed") {
     const std::string value = item.value.value_or("");
     const char* end = value.data() + value.size();
     const auto [rest, code] = std::from_chars(value.data(), end, options.seed);
     if (value.empty() || code != std::errc{} || rest != end) {
-      return bad_uri(uri,
-                     "seed \"" + value + "\" is not a whole number from 0 to 18446744073709551615");
+      return Error{"seed \"" + value + "\" is not a whole number from 0 to 18446744073709551615"};
     }
     return {};
   }
   if (item.value) {
-    return bad_uri(uri, "key \"" + key + "\" takes no value");
+    return Error{"key \"" + key + "\" takes no value"};
   }
   if (key == "perfect") {
     options.error_model = sim::ErrorModel::perfect();
@@ -60,73 +61,29 @@ Status apply_sim_key(const std::string& uri, const UriItem& item, sim::SimOption
   return {};
 }
 
-Result<sim::SimOptions> sim_options(const std::string& uri, std::string_view rest,
-                                    sim::SimOptions options) {
+Result<sim::SimOptions> sim_options(std::string_view rest, sim::SimOptions options) {
   if (rest.empty()) {
     return options;
   }
   if (rest.front() != '?') {
-    return bad_uri(
-        uri, "sim: is followed by nothing or by ?key=value&...; " + std::string(kKnownSimKeys));
+    return Error{"sim: is followed by nothing or by ?key=value&...; " + std::string(kKnownSimKeys)};
   }
   for (const UriItem& item : uri_items(rest.substr(1))) {
-    if (Status status = apply_sim_key(uri, item, options); !status) {
+    if (Status status = apply_sim_key(item, options); !status) {
       return status.error();
     }
   }
   return options;
 }
 
-constexpr const char* kReplayKeys = "known are pace=fast|realtime|step and stamps=recorder|exact";
-
-Status apply_replay_key(const std::string& uri, std::string_view item,
-                        replay::ReplayOptions& options) {
-  if (item == "pace=realtime") {
-    options.pace = replay::ReplayPace::kRealtime;
-  } else if (item == "pace=step") {
-    options.pace = replay::ReplayPace::kStepped;
-  } else if (item == "stamps=exact") {
-    options.stamps = replay::RecordedStamps::kExact;
-  } else if (item.starts_with("pace") && item != "pace=fast") {
-    return bad_uri(uri, "pace is unknown; known are fast, realtime and step");
-  } else if (item != "pace=fast" && item != "stamps=recorder") {
-    return bad_uri(uri, "\"" + std::string(item) + "\" is unknown; " + kReplayKeys);
-  }
-  return {};
-}
-
-/// Folder and options of "PATH?pace=...&stamps=...".
-Result<std::pair<std::string, replay::ReplayOptions>> replay_options(const std::string& uri,
-                                                                     const std::string& rest) {
-  // A folder's name may hold a question mark.
-  std::size_t question = rest.rfind('?');
-  if (question != std::string::npos && rest.compare(question, 5, "?pace") != 0 &&
-      rest.compare(question, 7, "?stamps") != 0) {
-    question = std::string::npos;
-  }
-  const std::string folder = rest.substr(0, question);
-  if (folder.empty()) {
-    return bad_uri(uri, "names no folder after replay:");
-  }
-  replay::ReplayOptions options;
-  if (question == std::string::npos) {
-    return std::pair(folder, options);
-  }
-  std::string_view items = std::string_view(rest).substr(question + 1);
-  while (!items.empty()) {
-    const std::size_t end = items.find('&');
-    if (Status status = apply_replay_key(uri, items.substr(0, end), options); !status) {
-      return status.error();
-    }
-    items = end == std::string_view::npos ? std::string_view{} : items.substr(end + 1);
-  }
-  return std::pair(folder, options);
+Status check_sim(const std::string& rest) {
+  const auto options = sim_options(rest, {});
+  return options ? Status{} : options.error();
 }
 
 /// The simulated operating room.
-Result<OpenedHeadset> open_sim(const std::string& uri, const std::string& rest,
-                               const OpenOptions& options) {
-  auto chosen = sim_options(uri, rest, options.sim);
+Result<OpenedHeadset> open_sim(const std::string& rest, const OpenOptions& options) {
+  auto chosen = sim_options(rest, options.sim);
   if (!chosen) {
     return chosen.error();
   }
@@ -139,42 +96,51 @@ Result<OpenedHeadset> open_sim(const std::string& uri, const std::string& rest,
     return opened.error();
   }
   sim::SimHeadset* const seen = opened->get();
-  return OpenedHeadset{std::move(*opened), seen, {}, {}};
+  return OpenedHeadset{{std::move(*opened), {}}, seen, {}};
 }
 
-/// A headset whose cameras see no simulated room.
-template <class T>
-Result<OpenedHeadset> without_room(Result<std::unique_ptr<T>> opened) {
-  if (!opened) {
-    return opened.error();
-  }
-  return OpenedHeadset{std::move(*opened), nullptr, {}, {}};
+/// Those of this library, then those from outside. Without an `open`: sim, which needs a room, and
+/// openxr, which opens another URI.
+struct Schemes {
+  Mutex mutex;
+  std::vector<HeadsetScheme> list ORTHONAV_GUARDED_BY(mutex) = {
+      {"sim", "sim:", check_sim, nullptr},
+      replay::scheme(),
+      hl2ss::scheme(),
+      igtl::scheme(),
+      {"openxr", "openxr:+URI", nullptr, nullptr}};
+};
+
+Schemes& schemes() {
+  static Schemes all;
+  return all;
 }
 
-Result<OpenedHeadset> open_replay(const std::string& uri, const std::string& rest) {
-  const auto chosen = replay_options(uri, rest);
-  if (!chosen) {
-    return chosen.error();
-  }
-  auto opened = replay::ReplayHeadset::open(chosen->first, chosen->second);
-  std::string warning = opened ? replay::cut_warning((*opened)->summary()) : "";
-  auto headset = without_room(std::move(opened));
-  if (headset) {
-    headset->warning = std::move(warning);
-  }
-  return headset;
+std::optional<HeadsetScheme> scheme_named(const std::string& name) {
+  Schemes& all = schemes();
+  const MutexLock lock(all.mutex);
+  const auto found = std::find_if(all.list.begin(), all.list.end(),
+                                  [&](const HeadsetScheme& each) { return each.name == name; });
+  return found == all.list.end() ? std::nullopt : std::optional(*found);
 }
 
-Result<OpenedHeadset> open_hl2ss(const std::string& rest, const OpenOptions& options) {
-  hl2ss::Hl2ssOptions wanted = *hl2ss::options_of(rest);
-  wanted.phrases = options.phrases;
-  auto opened = hl2ss::Hl2ssHeadset::open(wanted);
-  std::string warning = opened ? (*opened)->depth_trouble() : "";
-  auto headset = without_room(std::move(opened));
-  if (headset) {
-    headset->warning = std::move(warning);
+/// "known are sim:, replay:PATH, ... and mine:SERIAL".
+std::string known_schemes() {
+  Schemes& all = schemes();
+  const MutexLock lock(all.mutex);
+  std::string text = "known are ";
+  for (std::size_t i = 0; i < all.list.size(); ++i) {
+    const HeadsetScheme& scheme = all.list[i];
+    text += i == 0 ? "" : i + 1 == all.list.size() ? " and " : ", ";
+    text += scheme.usage.empty() ? scheme.name + ":" : scheme.usage;
   }
-  return headset;
+  return text;
+}
+
+bool is_well_formed(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+  });
 }
 
 }  // namespace
@@ -192,29 +158,32 @@ Status check_headset_uri(const std::string& uri) {
   if (colon == std::string::npos) {
     return bad_uri(uri, "has no scheme; " + known_schemes());
   }
-  const std::string scheme = uri.substr(0, colon);
-  const std::string rest = uri.substr(colon + 1);
-  if (scheme == "sim") {
-    const auto options = sim_options(uri, rest, {});
-    return options ? Status{} : options.error();
+  const std::string name = uri.substr(0, colon);
+  const auto scheme = scheme_named(name);
+  if (!scheme) {
+    return bad_uri(uri, "unknown scheme \"" + name + "\"; " + known_schemes());
   }
-  if (scheme == "replay") {
-    const auto options = replay_options(uri, rest);
-    return options ? Status{} : options.error();
-  }
-  if (scheme == "hl2ss") {
-    const auto options = hl2ss::options_of(rest);
-    return options ? Status{} : Status(bad_uri(uri, options.error().message));
-  }
-  if (scheme == "openxr") {
-    return {};
-  }
-  const auto registered = registered_scheme(scheme);
-  if (!registered) {
-    return bad_uri(uri, "unknown scheme \"" + scheme + "\"; " + known_schemes());
-  }
-  const Status good = registered->check ? registered->check(rest) : Status{};
+  const Status good = scheme->check ? scheme->check(uri.substr(colon + 1)) : Status{};
   return good ? good : Status(bad_uri(uri, good.error().message));
+}
+
+Status register_scheme(HeadsetScheme scheme) {
+  if (!is_well_formed(scheme.name)) {
+    return Error{"scheme \"" + scheme.name + "\": must be lower-case letters and digits"};
+  }
+  if (!scheme.open) {
+    return Error{"scheme \"" + scheme.name + "\": has nothing that opens it"};
+  }
+  Schemes& all = schemes();
+  const MutexLock lock(all.mutex);
+  const bool taken = std::any_of(all.list.begin(), all.list.end(), [&scheme](const auto& other) {
+    return other.name == scheme.name;
+  });
+  if (taken) {
+    return Error{"scheme \"" + scheme.name + "\": is taken"};
+  }
+  all.list.push_back(std::move(scheme));
+  return {};
 }
 
 Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& options) {
@@ -222,21 +191,19 @@ Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& 
     return good.error();
   }
   const std::size_t colon = uri.find(':');
-  const std::string scheme = uri.substr(0, colon);
+  const std::string name = uri.substr(0, colon);
   const std::string rest = uri.substr(colon + 1);
-  if (scheme == "sim") {
-    return open_sim(uri, rest, options);
+  if (name == "sim") {
+    return open_sim(rest, options);
   }
-  if (scheme == "replay") {
-    return open_replay(uri, rest);
+  if (name == "openxr") {
+    return open_openxr(uri, rest, options);
   }
-  if (scheme == "hl2ss") {
-    return open_hl2ss(rest, options);
+  auto opened = scheme_named(name)->open(rest, options.phrases);
+  if (!opened) {
+    return opened.error();
   }
-  if (const auto registered = registered_scheme(scheme)) {
-    return without_room(registered->open(rest));
-  }
-  return open_openxr(uri, rest, options);
+  return OpenedHeadset{std::move(*opened), nullptr, {}};
 }
 
 }  // namespace orthonav

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "hal/api/devices.h"
+#include "hal/api/headset_scheme.h"
 #include "hal/sim/sim_headset.h"
 
 namespace orthonav {
@@ -19,13 +18,10 @@ struct OpenOptions {
 };
 
 /// The opened headset with its room.
-struct OpenedHeadset {
-  std::unique_ptr<Headset> headset;
+struct OpenedHeadset : OpenedDevice {
   /// The room that its cameras see, if simulated; null otherwise. Exists as long as the headset.
   /// Gives access to the ground truth, which a headset does not reveal.
   sim::SimHeadset* room = nullptr;
-  /// In one line, a problem that did not prevent opening; empty: none.
-  std::string warning;
   /// Path of the cameras' calibration that a rig file names; empty: none.
   std::string calibration_file;
 };
@@ -33,8 +29,9 @@ struct OpenedHeadset {
 /// Opens a headset by URI: `sim:` (the simulated operating room;
 /// `sim:?seed=3&perfect&realtime&depth`), `replay:PATH` (a recording; `replay:PATH?pace=fast`,
 /// `realtime` or `step`; `?stamps=exact`), `hl2ss://HOST` (a HoloLens 2 over the network;
-/// `hl2ss://HOST?profile=h264`, docs/hl2ss.md), `openxr:+URI` (an OpenXR headset that takes the
-/// cameras of another one). An unknown scheme or key is refused with the known ones named.
+/// `hl2ss://HOST?profile=h264`, docs/hl2ss.md), `igtl://HOST` (tools that another program tracks,
+/// docs/igtl.md), `openxr:+URI` (an OpenXR headset that takes the cameras of another one). An
+/// unknown scheme or key is refused with the known ones named.
 Result<std::unique_ptr<Headset>> open_headset(const std::string& uri,
                                               const OpenOptions& options = {});
 
@@ -42,18 +39,8 @@ Result<std::unique_ptr<Headset>> open_headset(const std::string& uri,
 /// touching any device; the part after `openxr:` is only parsed when it is opened.
 Status check_headset_uri(const std::string& uri);
 
-/// A device that lives outside of this library, opened by URIs of its own scheme.
-struct HeadsetScheme {
-  std::string name;   ///< "mine" of "mine:REST": lower-case letters and digits
-  std::string usage;  ///< as named in error messages: "mine:SERIAL"
-  /// Refuses the part after the colon if its text alone shows that it can't be opened. Null:
-  /// nothing is refused.
-  std::function<Status(const std::string& rest)> check;
-  std::function<Result<std::unique_ptr<Headset>>(const std::string& rest)> open;
-};
-
-/// All functions above know the scheme from now on. Refuses a name that is taken or malformed, and
-/// a scheme without `open`. Thread-safe.
+/// Of a device that lives outside of this library: all functions above know its scheme from now on.
+/// Refuses a name that is taken or malformed, and a scheme without `open`. Thread-safe.
 Status register_scheme(HeadsetScheme scheme);
 
 /// The same as `open_headset`, with the simulated room.

@@ -159,9 +159,9 @@ Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
     return bad_uri(uri, cameras->headset->name() +
                             " has no cameras, and where it lies in the display's map is not known");
   }
-  return OpenedHeadset{openxr::OpenxrHeadset::around(std::move(cameras->headset), rig),
+  return OpenedHeadset{{openxr::OpenxrHeadset::around(std::move(cameras->headset), rig),
+                        std::move(cameras->warning)},
                        cameras->room,
-                       {},
                        std::move(calibration)};
 }
 

@@ -198,6 +198,50 @@ class Replay : public ReplayHeadset {
   std::vector<std::unique_ptr<ReplayDepth>> depth_;
 };
 
+constexpr const char* kKeys = "known are pace=fast|realtime|step and stamps=recorder|exact";
+
+Status apply_key(std::string_view item, ReplayOptions& options) {
+  if (item == "pace=realtime") {
+    options.pace = ReplayPace::kRealtime;
+  } else if (item == "pace=step") {
+    options.pace = ReplayPace::kStepped;
+  } else if (item == "stamps=exact") {
+    options.stamps = RecordedStamps::kExact;
+  } else if (item.starts_with("pace") && item != "pace=fast") {
+    return Error{"pace is unknown; known are fast, realtime and step"};
+  } else if (item != "pace=fast" && item != "stamps=recorder") {
+    return Error{"\"" + std::string(item) + "\" is unknown; " + kKeys};
+  }
+  return {};
+}
+
+/// Folder and options of "PATH?pace=...&stamps=...".
+Result<std::pair<std::string, ReplayOptions>> options_of(const std::string& rest) {
+  // A folder's name may hold a question mark.
+  std::size_t question = rest.rfind('?');
+  if (question != std::string::npos && rest.compare(question, 5, "?pace") != 0 &&
+      rest.compare(question, 7, "?stamps") != 0) {
+    question = std::string::npos;
+  }
+  const std::string folder = rest.substr(0, question);
+  if (folder.empty()) {
+    return Error{"names no folder after replay:"};
+  }
+  ReplayOptions options;
+  if (question == std::string::npos) {
+    return std::pair(folder, options);
+  }
+  std::string_view items = std::string_view(rest).substr(question + 1);
+  while (!items.empty()) {
+    const std::size_t end = items.find('&');
+    if (Status status = apply_key(items.substr(0, end), options); !status) {
+      return status.error();
+    }
+    items = end == std::string_view::npos ? std::string_view{} : items.substr(end + 1);
+  }
+  return std::pair(folder, options);
+}
+
 }  // namespace
 
 std::string cut_warning(const RecordingSummary& summary) {
@@ -217,6 +261,27 @@ Result<std::unique_ptr<ReplayHeadset>> ReplayHeadset::open(const std::filesystem
   }
   return std::unique_ptr<ReplayHeadset>(
       std::make_unique<Replay>("replay:" + folder.string(), std::move(*recording), options));
+}
+
+HeadsetScheme scheme() {
+  const auto check = [](const std::string& rest) {
+    const auto options = options_of(rest);
+    return options ? Status{} : Status(options.error());
+  };
+  const auto open = [](const std::string& rest,
+                       const std::vector<std::string>& /*phrases*/) -> Result<OpenedDevice> {
+    const auto options = options_of(rest);
+    if (!options) {
+      return options.error();
+    }
+    auto opened = ReplayHeadset::open(options->first, options->second);
+    if (!opened) {
+      return opened.error();
+    }
+    std::string warning = cut_warning((*opened)->summary());
+    return OpenedDevice{std::move(*opened), std::move(warning)};
+  };
+  return {"replay", "replay:PATH", check, open};
 }
 
 }  // namespace orthonav::replay

@@ -8,6 +8,7 @@
 
 #include "hal/api/depth_camera.h"
 #include "hal/api/devices.h"
+#include "hal/api/headset_scheme.h"
 #include "hal/api/research_mode.h"
 
 namespace orthonav::replay {
@@ -94,5 +95,8 @@ class ReplayHeadset : public Headset {
   virtual void step() = 0;
   [[nodiscard]] virtual const RecordingSummary& summary() const = 0;
 };
+
+/// `replay:PATH[?pace=fast|realtime|step&stamps=recorder|exact]`.
+[[nodiscard]] HeadsetScheme scheme();
 
 }  // namespace orthonav::replay

@@ -51,7 +51,12 @@ TEST(RegisteredScheme, IsOpenedCheckedAndNamedLikeTheOthers) {
   const auto check = [](const std::string& rest) {
     return rest == "1" ? Status{} : Status(Error{"must be 1"});
   };
-  const auto open = [](const std::string&) { return open_headset("sim:?perfect", brief()); };
+  std::vector<std::string> asked;
+  const auto open = [&asked](const std::string&,
+                             const std::vector<std::string>& phrases) -> Result<OpenedDevice> {
+    asked = phrases;
+    return OpenedDevice{*open_headset("sim:?perfect", brief()), "its lid is open"};
+  };
   EXPECT_FALSE(register_scheme({"sim", "", nullptr, open}).ok()) << "is ours";
   EXPECT_FALSE(register_scheme({"Mine", "", nullptr, open}).ok()) << "capital letter";
   EXPECT_FALSE(register_scheme({"mine", "", nullptr, nullptr}).ok()) << "nothing opens it";
@@ -60,6 +65,26 @@ TEST(RegisteredScheme, IsOpenedCheckedAndNamedLikeTheOthers) {
   EXPECT_THAT(refusal("mine:2"), HasSubstr("headset URI \"mine:2\": must be 1"));
   EXPECT_THAT(refusal("yours:"), HasSubstr("openxr:+URI and mine:N"));
   EXPECT_FALSE(first_image("mine:1").pixels.empty());
+  OpenOptions options;
+  options.phrases = {"ortho accept"};
+  for (const char* uri : {"mine:1", "openxr:?rig=RIG+mine:1"}) {
+    const test::TemporaryFolder folder;
+    std::string text = uri;
+    if (const auto rig = text.find("RIG"); rig != std::string::npos) {
+      text.replace(rig, 3, folder.with("rig.json", R"({"view_from_rig":
+          [[1,0,0,-50],[0,1,0,10],[0,0,1,-30],[0,0,0,1]]})"));
+    }
+    asked.clear();
+    const auto opened = open_with_room(text, options);
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    EXPECT_EQ(asked, options.phrases) << text;
+    EXPECT_EQ(opened->warning, "its lid is open") << text;
+  }
+}
+
+TEST(OpenHeadset, KnowsTrackersOverOpenIgtLink) {
+  EXPECT_THAT(refusal("igtl://host?"), HasSubstr("headset URI \"igtl://host?\": "));
+  EXPECT_THAT(check_headset_uri("igtl://host?pointer=StylusToTracker").ok(), true);
 }
 
 TEST(OpenHeadset, NamesTheKnownKeys) {

@@ -6,5 +6,5 @@
 
 std::vector<orthonav::test::DeviceCase> orthonav::test::device_cases() {
   // It has no clicks and no speech, and its pairs are black.
-  return {{"skeleton", [] { return mine::open_skeleton("30").value(); }, false, false}};
+  return {{"skeleton", [] { return mine::open_skeleton("30", {}).value().headset; }, false, false}};
 }

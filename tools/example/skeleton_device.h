@@ -1,6 +1,7 @@
 #pragma once
 
 #include <orthonav/hal/api/devices.h>
+#include <orthonav/hal/api/headset_scheme.h>
 #include <memory>
 #include <string>
 
@@ -69,9 +70,11 @@ inline StereoCalibration calibration() {
   return {camera, camera, {}, {Mat3::identity(), {-0.1, 0, 0}}};
 }
 
-inline Result<std::unique_ptr<Headset>> open_skeleton(const std::string& pairs) {
-  return std::unique_ptr<Headset>(
-      std::make_unique<SkeletonDevice>(calibration(), std::atoi(pairs.c_str())));
+/// It listens for no phrases.
+inline Result<OpenedDevice> open_skeleton(const std::string& pairs,
+                                          const std::vector<std::string>& /*phrases*/) {
+  return OpenedDevice{std::make_unique<SkeletonDevice>(calibration(), std::atoi(pairs.c_str())),
+                      {}};
 }
 
 }  // namespace mine
