@@ -126,22 +126,18 @@ void GuideChecks::compare_axis(OperationInWork& work, const nav::SpinCalibration
   work.observer->axis_compared(time, *axis_.last());
 }
 
-bool GuideChecks::correct_guide(OperationInWork& work, Timestamp time) {
+void GuideChecks::correct_guide(OperationInWork& work, Timestamp time) {
   WatchedTools& tools = work.tools;
   if (tips_.offers()) {
     const Vec3 by_m = tips_.correct();
     tools.correct_guide_tip(tools.geometry(tools.guide()).tip_in_marker - by_m);
     work.messages.say(TipCorrected{by_m.norm()}, time);
     work.observer->tips_compared(time, *tips_.last());
-    return true;
-  }
-  if (axis_.offers()) {
+  } else if (axis_.offers()) {
     tools.correct_guide_axis(axis_.correct());
     work.messages.say(AxisCorrected{axis_.last()->by_rad}, time);
     work.observer->axis_compared(time, *axis_.last());
-    return true;
   }
-  return false;
 }
 
 /// Camera errors shift everything seen in one place alike. The guide's tag is seen some 0.1 m from

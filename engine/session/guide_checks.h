@@ -157,9 +157,10 @@ class GuideChecks {
                     const nav::PressedPlace& pointer_tip, Timestamp time);
   /// The sleeve was turned over a wire.
   void compare_axis(OperationInWork& work, const nav::SpinCalibration& spin, Timestamp time);
-  /// The surgeon consents to the correction that the status line offers: of the tip first, then of
-  /// the axis. False if none is offered.
-  [[nodiscard]] bool correct_guide(OperationInWork& work, Timestamp time);
+  /// The status line offers a correction, of the tip or of the axis.
+  [[nodiscard]] bool offers() const { return tips_.offers() || axis_.offers(); }
+  /// The surgeon consents to the one that is offered: of the tip first, then of the axis.
+  void correct_guide(OperationInWork& work, Timestamp time);
 
   /// How far off the guide may be on the current level, as it was last seen.
   [[nodiscard]] ToolErrors errors(const OperationInWork& work, Timestamp now) const;

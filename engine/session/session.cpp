@@ -29,13 +29,6 @@ Event event_of(ClickerAction action) {
   return Event::kHold;
 }
 
-/// A message to the surgeon stays until something is accepted; these actions accept nothing.
-constexpr bool keeps_message(Action action) {
-  using enum Action;
-  return action == kRefuse || action == kIgnore || action == kExplain || action == kHideGuidance ||
-         action == kShowGuidance || action == kForgetMap || action == kEndTouch;
-}
-
 bool at_work(Step step) { return step != Step::kSetup && step != Step::kDone; }
 
 }  // namespace
@@ -175,19 +168,38 @@ std::optional<Event> Session::hear(const Phrase& phrase, const std::optional<Rep
   return std::nullopt;
 }
 
+bool Session::holds(State state, Timestamp time) const {
+  switch (state) {
+    case State::kBreachPending:
+      return replanning_.pending(work_, guiding_, placing_, time);
+    case State::kNotShown:
+      return !verifying_.shown_by(time);
+    case State::kChecksPassed:
+      return verifying_.passed();
+    case State::kCorrectionOffered:
+      return landmarking_.touched() && guide_checks_.offers();
+    case State::kLandmarkTouched:
+      return landmarking_.touched();
+    case State::kWireBeyondLimit:
+      return placing_.undecided();
+  }
+  return false;
+}
+
 void Session::handle(std::optional<Raised> raised, Timestamp time) {
   while (raised) {
     const Event event = raised->event;
-    const Cell cell = answer(workflow_, work_.step, event);
+    const Cell cell =
+        answer(workflow_, work_.step, event, [&](State state) { return holds(state, time); });
     work_.observer->happened(time, work_.step, event, cell);
     // The step changes first, so that an event raised by the action is answered in the new step.
     // Press and click of a touch belong to one step.
     if (std::exchange(work_.step, cell.next) != cell.next) {
       work_.touches.drop();
     }
-    if (!keeps_message(cell.action)) {
+    if (settles(cell.action)) {
       work_.messages.clear();
-      if (event != Event::kSayAccept) {
+      if (cell.action != Action::kTakeBreach) {
         replanning_.withdraw_question();
       }
     }
@@ -274,14 +286,6 @@ void Session::drop_touch(Timestamp time) {
   work_.messages.say(TouchNotRecorded{what, {TouchRefusal::Kind::kHeldTooLong}}, time);
 }
 
-void Session::correct_guide(Timestamp time) {
-  if (landmarking_.touched() && guide_checks_.correct_guide(work_, time)) {
-    guiding_.forget_guidance();
-  } else {
-    work_.messages.say(NotPossibleNow{Event::kSayAccept}, time);
-  }
-}
-
 // A missing action does not compile here, whichever warnings are enabled (tests/build_failures).
 // clang-format off
 #pragma GCC diagnostic push
@@ -290,7 +294,12 @@ std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
   using enum Action;
   switch (action) {
     case kIgnore: break;
-    case kRefuse: case kExplain: work_.messages.say(why_not(event), time); break;
+    case kRefuse: work_.messages.say(NotPossibleNow{event}, time); break;
+    case kExplainNotShown: work_.messages.say(SaidBeforeShown{}, time); break;
+    case kExplainChecks: work_.messages.say(ChecksMissing{verifying_.verdict().advice}, time); break;
+    case kExplainLandmark: work_.messages.say(LandmarkMissing{work_.level().landmark.has_value()}, time); break;
+    case kExplainWire: work_.messages.say(WireUndecided{}, time); break;
+    case kExplainNoOtherEntry: work_.messages.say(NoOtherEntry{}, time); break;
     case kBeginLevel: return begin_level(time);
     case kStartSampling: digitizing_.press(work_.level(), time); break;
     case kStopSampling: digitizing_.release(time); break;
@@ -301,27 +310,24 @@ std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
     case kDropRegion: digitizing_.drop_region(work_, time); break;
     case kRegister: return digitizing_.register_level(work_, time);
     case kShowRegistration: show_registration(time); break;
-    case kJudgeChecks: return verifying_.judge_checks(time);
     case kRecordCheck: verifying_.record_check(work_, time); break;
     case kDropCheck: verifying_.drop_check(work_, time); break;
     case kAccept: accept(time); break;
     case kClearLevel: clear_level(time); break;
     case kTouchLandmark: return landmarking_.touch_landmark(work_, guide_checks_, time);
     case kDropLandmark: landmarking_.drop_landmark(work_, time); break;
-    case kJudgeLandmark: return landmarking_.judge_landmark();
     case kExpectLandmark: expect_landmark(); break;
     case kVerifyAgain: landmarking_.verify_again(work_, verifying_, guiding_, time); break;
-    case kConsent: return replanning_.consent(work_, guiding_, placing_, time) ? std::nullopt : std::optional<Raised>(Event::kNoChangePending);
-    case kCorrectGuide: correct_guide(time); break;
+    case kCorrectGuide: guide_checks_.correct_guide(work_, time); guiding_.forget_guidance(); break;
     case kKeepWire: placing_.keep(work_, guiding_.screw(), time); break;
     case kSelectScrew: select_screw(); break;
     case kToggleTwin: guiding_.toggle_twin(); break;
     case kToggleNumbers: guiding_.toggle_numbers(); break;
     case kBeginDrill: guiding_.begin_drill(); break;
     case kReplan: replanning_.replan(work_, guiding_, placing_, time); break;
+    case kTakeBreach: replanning_.take_breach(work_, guiding_, placing_, time); break;
     case kExpectWire: placing_ = Placing(work_.options); break;
     case kMeasureWire: placing_.measure(work_, guiding_, guide_checks_, watching_.reference_hidden(work_), time); break;
-    case kJudgeWire: return placing_.judge_wire();
     case kJudgeRedo: return placing_.judge_redo(work_, guiding_, time);
     case kFinishScrew: return guiding_.finish_screw(work_, placing_, time);
     case kBeginRod: return rods_.begin(work_);
@@ -336,26 +342,6 @@ std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
 }
 // clang-format on
 #pragma GCC diagnostic pop
-
-/// What the surgeon is told if nothing is done.
-Message Session::why_not(Event event) const {
-  switch (event) {
-    case Event::kNotShown:
-      return SaidBeforeShown{};
-    case Event::kNotChecked:
-      return ChecksMissing{verifying_.verdict().advice};
-    case Event::kLandmarkMissing:
-      return LandmarkMissing{work_.level().landmark.has_value()};
-    case Event::kNoChangePending:
-      return NotPossibleNow{Event::kSayAccept};
-    case Event::kWireUndecided:
-      return WireUndecided{};
-    case Event::kNoOtherEntry:
-      return NoOtherEntry{};
-    default:
-      return NotPossibleNow{event};
-  }
-}
 
 void Session::collect() {
   const WatchedTools& tools = work_.tools;
@@ -516,8 +502,8 @@ void Session::publish_status() {
     line.stop_past_target_m = guidance_.drill.stop_past_target_m;
   }
 
-  replanning_.show(guidance_.display_time);
   line.message = work_.messages.message();
+  replanning_.show(line.message, guidance_.display_time);
   line.heard = work_.messages.heard();
   line.state = state();
   line.saved = saved();

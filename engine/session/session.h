@@ -104,11 +104,12 @@ class Session {
   [[nodiscard]] std::optional<Event> hear(const Phrase& phrase,
                                           const std::optional<Replan>& change = {},
                                           const std::string& from = {});
+  /// Whether the present step is in that state, at the time of an event.
+  [[nodiscard]] bool holds(State state, Timestamp time) const;
   /// The table's answer to an event, and to those that its action raises.
   void handle(std::optional<Raised> raised, Timestamp time);
   /// Does what the table asks for. Returns the event that results, if any.
   [[nodiscard]] std::optional<Raised> act(Action action, Event event, Timestamp time);
-  [[nodiscard]] Message why_not(Event event) const;
 
   // Actions that concern several steps.
   [[nodiscard]] std::optional<Raised> begin_level(Timestamp time);
@@ -122,8 +123,6 @@ class Session {
   void forget_registration();
   /// The button was held too long, so no click will follow.
   void drop_touch(Timestamp time);
-  /// "accept" corrects the guide as its touch of the landmark, or of a wire, showed.
-  void correct_guide(Timestamp time);
 
   /// Passes the newest pair to the present step.
   void collect();

@@ -29,16 +29,8 @@ constexpr std::array<std::string_view, kEventCount> kEventNames = {
     translatable("registration refused"),
     translatable("registration restored"),
     translatable("acceptance restored"),
-    translatable("checked"),
-    translatable("not shown"),
-    translatable("not checked"),
-    translatable("landmark touched"),
-    translatable("landmark missing"),
     translatable("landmark moved"),
     translatable("bone unchecked"),
-    translatable("wire settled"),
-    translatable("wire undecided"),
-    translatable("no change pending"),
     translatable("screw redone"),
     translatable("no other entry"),
     translatable("another screw"),
@@ -56,10 +48,19 @@ constexpr std::array<std::string_view, kEventCount> kEventNames = {
     translatable("reference moved"),
 };
 
+constexpr std::array<std::string_view, kStateCount> kStateNames = {
+    "breach pending",     "not shown",        "checks passed",
+    "correction offered", "landmark touched", "wire beyond limit",
+};
+
 constexpr std::array<std::string_view, kActionCount> kActionNames = {
     "refuse",
     "ignore",
-    "explain",
+    "explain not shown",
+    "explain checks",
+    "explain landmark",
+    "explain wire",
+    "explain no other entry",
     "begin level",
     "start sampling",
     "stop sampling",
@@ -67,21 +68,18 @@ constexpr std::array<std::string_view, kActionCount> kActionNames = {
     "drop region",
     "register",
     "show registration",
-    "judge checks",
     "record check point",
     "drop check point",
     "accept",
     "clear level",
     "touch landmark",
     "drop landmark",
-    "judge landmark",
     "expect landmark",
     "verify again",
     "correct guide",
     "select screw",
     "expect wire",
     "measure wire",
-    "judge wire",
     "keep wire",
     "judge redo",
     "finish screw",
@@ -97,17 +95,19 @@ constexpr std::array<std::string_view, kActionCount> kActionNames = {
     "show or hide numbers",
     "watch drill",
     "change screw",
-    "consent to change",
+    "take breach",
     "hide guidance",
     "show guidance",
     "forget map",
 };
 
 // A missing name at the end of an array would be empty.
-static_assert(!kEventNames.back().empty() && !kActionNames.back().empty());
+static_assert(!kEventNames.back().empty() && !kStateNames.back().empty() &&
+              !kActionNames.back().empty());
 
 }  // namespace
 
+std::string_view name_of(State state) { return kStateNames[static_cast<std::size_t>(state)]; }
 std::string_view name_of(Event event) { return kEventNames[static_cast<std::size_t>(event)]; }
 std::string_view name_of(Action action) { return kActionNames[static_cast<std::size_t>(action)]; }
 

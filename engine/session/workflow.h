@@ -34,16 +34,8 @@ enum class Event : std::uint8_t {
   kRegistrationRefused,   ///< a registration failed its limits
   kRegistrationRestored,  ///< a registration of a resumed operation, to be verified like any other
   kAcceptanceRestored,    ///< an accepted one; its landmark can show whether it still holds
-  kChecked,               ///< "accept" was said and the check points confirm the registration
-  kNotShown,              ///< "accept" was said before the registration was shown
-  kNotChecked,            ///< "accept" was said too early, or against the check points
-  kLandmarkTouched,       ///< "next" was said and the landmark was found where it was recorded
-  kLandmarkMissing,       ///< "next" was said before the landmark was touched
   kLandmarkMoved,         ///< the landmark was touched too far from where it was
   kBoneUnchecked,     ///< before a drill is set: World has drifted too far since the bone was found
-  kWireSettled,       ///< "next" was said, and nothing of the wire is left to decide
-  kWireUndecided,     ///< "next" was said of a wire beyond a limit
-  kNoChangePending,   ///< "accept" was said, and no change of the screw waits for it
   kScrewRedone,       ///< "delete" was said of a wire, and another entry was found
   kNoOtherEntry,      ///< "delete" was said of a wire, and no other entry was found
   kAnotherScrew,      ///< the level has a further screw
@@ -60,13 +52,18 @@ enum class Event : std::uint8_t {
   kReferenceSeen,     ///< a reference is seen again, or for the first time
   kReferenceMoved,    ///< references moved against each other: positions relative to them are void
 };
-inline constexpr std::size_t kEventCount = 46;
+inline constexpr std::size_t kEventCount = 38;
 
 /// What the session does about an event. The first is the default of cells without a rule.
 enum class Action : std::uint8_t {
-  kRefuse,   ///< not possible now; the surgeon is told
-  kIgnore,   ///< nothing is to be done or said
-  kExplain,  ///< the surgeon is told what is missing
+  kRefuse,  ///< not possible now; the surgeon is told
+  kIgnore,  ///< nothing is to be done or said
+  // The surgeon is told why nothing is done.
+  kExplainNotShown,
+  kExplainChecks,
+  kExplainLandmark,
+  kExplainWire,
+  kExplainNoOtherEntry,
   kBeginLevel,
   kStartSampling,
   kStopSampling,
@@ -74,21 +71,18 @@ enum class Action : std::uint8_t {
   kDropRegion,
   kRegister,
   kShowRegistration,
-  kJudgeChecks,
   kRecordCheck,
   kDropCheck,
   kAccept,
   kClearLevel,
   kTouchLandmark,
   kDropLandmark,
-  kJudgeLandmark,
   kExpectLandmark,
   kVerifyAgain,
   kCorrectGuide,
   kSelectScrew,
   kExpectWire,
   kMeasureWire,
-  kJudgeWire,
   kKeepWire,
   kJudgeRedo,
   kFinishScrew,
@@ -104,12 +98,20 @@ enum class Action : std::uint8_t {
   kToggleNumbers,
   kBeginDrill,
   kReplan,
-  kConsent,
+  kTakeBreach,
   kHideGuidance,
   kShowGuidance,
   kForgetMap,
 };
 inline constexpr std::size_t kActionCount = static_cast<std::size_t>(Action::kForgetMap) + 1;
+
+/// Whether it settles what was said last: a message to the surgeon stays until something else is
+/// done, and so does a question.
+[[nodiscard]] constexpr bool settles(Action action) {
+  using enum Action;
+  return action != kRefuse && action != kIgnore && action != kHideGuidance &&
+         action != kShowGuidance && action != kForgetMap && action != kEndTouch;
+}
 
 /// What a session asks of the surgeon besides strokes and looks. Each can be left out on its own,
 /// so that a study can measure its benefit (docs/decisions/0076-one-step-left-out.md); an operation
@@ -131,6 +133,18 @@ struct MethodSteps {
 
 using orthonav::Step;
 
+/// What the answer of a step may depend on besides the event; shown and recorded as the step. Where
+/// several hold at once, the first one that has an answer gives it.
+enum class State : std::uint8_t {
+  kBreachPending,      ///< a change of the screw that leaves the cortex was shown and not taken yet
+  kNotShown,           ///< the registration, to the surgeon
+  kChecksPassed,       ///< the check points confirm the registration, or the eye alone verifies
+  kCorrectionOffered,  ///< of the guide's tip or axis, once the landmark is touched
+  kLandmarkTouched,    ///< since the last screw, and found where it was recorded
+  kWireBeyondLimit,    ///< and neither kept nor redone yet
+};
+inline constexpr std::size_t kStateCount = 6;
+
 /// The answer of every step that has no rule of its own for the event.
 struct UsualRule {
   Event event;
@@ -146,8 +160,18 @@ struct Rule {
   Step next;
 };
 
+/// One that goes before the rule of its step while the state holds.
+struct StateRule {
+  Step step;
+  State state;
+  Event event;
+  Action action;
+  Step next;
+};
+
 namespace workflow_detail {
 using enum Step;
+using enum State;
 using enum Event;
 using enum Action;
 
@@ -204,10 +228,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     // The surgeon looks at the hologram on the bone and touches places that were not stroked for it.
     // The only way on is their own word, and it counts once the touched places bear it out, unless
     // the eye alone verifies.
-    {kVerify, kSayAccept, kJudgeChecks, kVerify},
-    {kVerify, kChecked, kAccept, kAccepted},
-    {kVerify, kNotShown, kExplain, kVerify},
-    {kVerify, kNotChecked, kExplain, kVerify},
+    {kVerify, kSayAccept, kExplainChecks, kVerify},
     {kVerify, kSayReject, kClearLevel, kDigitize},
     {kVerify, kPress, kBeginTouch, kVerify},
     {kVerify, kRelease, kEndTouch, kVerify},
@@ -218,11 +239,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
 
     // Before each screw the landmark is touched: recorded the first time, found again from then on.
     // One that is not where it was takes the acceptance back.
-    {kAccepted, kSayNext, kJudgeLandmark, kAccepted},
-    {kAccepted, kSayAccept, kConsent, kAccepted},
-    {kAccepted, kNoChangePending, kCorrectGuide, kAccepted},
-    {kAccepted, kLandmarkTouched, kSelectScrew, kGuide},
-    {kAccepted, kLandmarkMissing, kExplain, kAccepted},
+    {kAccepted, kSayNext, kExplainLandmark, kAccepted},
     {kAccepted, kLandmarkMoved, kVerifyAgain, kVerify},
     {kAccepted, kSayReplan, kReplan, kAccepted},
     {kAccepted, kSayReject, kClearLevel, kDigitize},
@@ -243,22 +260,16 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kGuide, kBoneUnchecked, kExpectLandmark, kAccepted},
     {kGuide, kSayDrill, kBeginDrill, kGuide},
     {kGuide, kSayReplan, kReplan, kGuide},
-    {kGuide, kSayAccept, kConsent, kGuide},
-    {kGuide, kNoChangePending, kExplain, kGuide},
     {kGuide, kClick, kToggleNumbers, kGuide},
 
     // The sleeve is set over the wire and clicked. A wire beyond a limit is kept by a word, redone
     // through another entry once the landmark was touched again, or the plan is changed to suit it.
-    {kPlaced, kSayNext, kJudgeWire, kPlaced},
-    {kPlaced, kSayAccept, kConsent, kPlaced},
-    {kPlaced, kNoChangePending, kKeepWire, kPlaced},
+    {kPlaced, kSayNext, kFinishScrew, kPlaced},
     {kPlaced, kSayDelete, kJudgeRedo, kPlaced},
     {kPlaced, kSayReplan, kReplan, kPlaced},
     {kPlaced, kSayReject, kClearLevel, kDigitize},
-    {kPlaced, kWireSettled, kFinishScrew, kPlaced},
-    {kPlaced, kWireUndecided, kExplain, kPlaced},
     {kPlaced, kScrewRedone, kExpectLandmark, kAccepted},
-    {kPlaced, kNoOtherEntry, kExplain, kPlaced},
+    {kPlaced, kNoOtherEntry, kExplainNoOtherEntry, kPlaced},
     {kPlaced, kAnotherScrew, kExpectLandmark, kAccepted},
     {kPlaced, kAnotherLevel, kBeginLevel, kDigitize},
     {kPlaced, kNoScrewLeft, kBeginRod, kRod},
@@ -291,6 +302,22 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDone, kReferenceMoved, kForgetMap, kDone},
 });
 
+/// "accept" and "next" mean what was asked last: a breach first, since its question is the newest.
+inline constexpr auto kStateRules = std::to_array<StateRule>({
+    {kVerify, kNotShown, kSayAccept, kExplainNotShown, kVerify},
+    {kVerify, kChecksPassed, kSayAccept, kAccept, kAccepted},
+
+    {kAccepted, kBreachPending, kSayAccept, kTakeBreach, kAccepted},
+    {kAccepted, kCorrectionOffered, kSayAccept, kCorrectGuide, kAccepted},
+    {kAccepted, kLandmarkTouched, kSayNext, kSelectScrew, kGuide},
+
+    {kGuide, kBreachPending, kSayAccept, kTakeBreach, kGuide},
+
+    {kPlaced, kBreachPending, kSayAccept, kTakeBreach, kPlaced},
+    {kPlaced, kWireBeyondLimit, kSayAccept, kKeepWire, kPlaced},
+    {kPlaced, kWireBeyondLimit, kSayNext, kExplainWire, kPlaced},
+});
+
 /// The answer that differs where rods alone are bent.
 inline constexpr auto kRulesRodsAlone = std::to_array<Rule>({
     {kSetup, kSayStart, kBeginRod, kRod},
@@ -299,7 +326,6 @@ inline constexpr auto kRulesRodsAlone = std::to_array<Rule>({
 /// The answers that differ if verification is by eye alone.
 inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kDigitize, kAcceptanceRestored, kRefuse, kDigitize},
-    {kVerify, kNotChecked, kRefuse, kVerify},
     {kVerify, kPress, kIgnore, kVerify},
     {kVerify, kRelease, kIgnore, kVerify},
     {kVerify, kClick, kIgnore, kVerify},
@@ -309,9 +335,6 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kVerify, kPoseStale, kIgnore, kVerify},
     {kVerify, kTrackingRegained, kIgnore, kVerify},
     {kAccepted, kSayNext, kSelectScrew, kGuide},
-    {kAccepted, kNoChangePending, kExplain, kAccepted},
-    {kAccepted, kLandmarkTouched, kRefuse, kAccepted},
-    {kAccepted, kLandmarkMissing, kRefuse, kAccepted},
     {kAccepted, kLandmarkMoved, kRefuse, kAccepted},
     {kAccepted, kPress, kIgnore, kAccepted},
     {kAccepted, kRelease, kIgnore, kAccepted},
@@ -412,6 +435,21 @@ static_assert(rules_are_unique(kRules) && rules_are_unique(kRulesByEye) &&
                   rules_are_unique(kRulesTouchedOnce) && rules_are_unique(kRulesWireUnmeasured) &&
                   rules_are_unique(kRulesRodsAlone),
               "two rules of the workflow share a cell");
+
+/// Those of the states are in the order in which states answer.
+consteval bool state_rules_are_in_order() {
+  for (std::size_t i = 0; i < kStateRules.size(); ++i) {
+    for (std::size_t j = i + 1; j < kStateRules.size(); ++j) {
+      const StateRule& a = kStateRules[i];
+      const StateRule& b = kStateRules[j];
+      if (a.step == b.step && a.event == b.event && a.state >= b.state) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+static_assert(state_rules_are_in_order(), "a rule of the workflow hides another one");
 }  // namespace workflow_detail
 
 /// How a registration whose numbers passed is verified before anything is guided on it.
@@ -430,9 +468,19 @@ inline constexpr Workflow kWorkflow = workflow_of(MethodSteps{});
 inline constexpr Workflow kWorkflowRodsAlone = workflow_of(MethodSteps{}, true);
 inline constexpr Workflow kWorkflowByEye = workflow_of(MethodSteps::none());
 
-/// A table's answer: every step answers every event.
+/// A table's answer while none of the states holds: every step answers every event.
 [[nodiscard]] constexpr Cell answer(const Workflow& table, Step step, Event event) {
   return table[static_cast<std::size_t>(step)][static_cast<std::size_t>(event)];
+}
+/// A table's answer; `holds(State)` says which states do.
+[[nodiscard]] constexpr Cell answer(const Workflow& table, Step step, Event event,
+                                    const auto& holds) {
+  for (const StateRule& rule : workflow_detail::kStateRules) {
+    if (rule.step == step && rule.event == event && holds(rule.state)) {
+      return {rule.next, rule.action};
+    }
+  }
+  return answer(table, step, event);
 }
 [[nodiscard]] constexpr Cell answer(Step step, Event event,
                                     Verification verification = Verification::kByTouch) {
@@ -440,6 +488,7 @@ inline constexpr Workflow kWorkflowByEye = workflow_of(MethodSteps::none());
 }
 
 using orthonav::name_of;
+[[nodiscard]] std::string_view name_of(State state);
 [[nodiscard]] std::string_view name_of(Event event);
 [[nodiscard]] std::string_view name_of(Action action);
 

@@ -26,9 +26,6 @@ class Landmarking {
                                                     Timestamp time);
   /// Takes back the touches since the step began, and the landmark if they recorded it.
   void drop_landmark(OperationInWork& work, Timestamp time);
-  [[nodiscard]] Event judge_landmark() const {
-    return touched() ? Event::kLandmarkTouched : Event::kLandmarkMissing;
-  }
   /// The landmark has moved. It is kept: the next accepted registration must put the bone where the
   /// landmark was touched first.
   void verify_again(OperationInWork& work, Verifying& verifying, Guiding& guiding,

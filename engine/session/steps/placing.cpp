@@ -154,9 +154,6 @@ void Placing::tell(OperationInWork& work, std::size_t screw, Timestamp time) con
 }
 
 void Placing::keep(OperationInWork& work, std::size_t screw, Timestamp time) {
-  if (!undecided()) {
-    return work.messages.say(NotPossibleNow{Event::kSayAccept}, time);
-  }
   wire_->kept = true;
   tell(work, screw, time);
 }

@@ -29,10 +29,7 @@ class Placing {
   /// The level has a registration. `reference_hidden`: none is seen, where one is in use.
   void measure(OperationInWork& work, const Guiding& guiding, GuideChecks& checks,
                bool reference_hidden, Timestamp time);
-  [[nodiscard]] Event judge_wire() const {
-    return undecided() ? Event::kWireUndecided : Event::kWireSettled;
-  }
-  /// The surgeon keeps a wire that lies beyond a limit.
+  /// The surgeon keeps a wire that lies beyond a limit, undecided so far.
   void keep(OperationInWork& work, std::size_t screw, Timestamp time);
   /// Another entry for the same screw. The landmark is touched first: whatever deflected the wire
   /// may have moved the bone against its registration.
@@ -43,6 +40,7 @@ class Placing {
 
   /// The wire as last measured.
   [[nodiscard]] const std::optional<PlacedWire>& wire() const { return wire_; }
+  /// Measured beyond a limit, and neither kept nor redone.
   [[nodiscard]] bool undecided() const { return wire_ && wire_->undecided(); }
   void write(Step step, Guidance& out) const;
   [[nodiscard]] StepState state() const;

@@ -247,18 +247,22 @@ void Replanning::replan(OperationInWork& work, Guiding& guiding, Placing& placin
   take(change(work.level(), std::get<std::size_t>(screw)), work, guiding, placing, time);
 }
 
-bool Replanning::consent(OperationInWork& work, Guiding& guiding, Placing& placing,
-                         Timestamp said) {
-  const auto screw = screw_to_replan(work, guiding, placing);
-  const auto* index = std::get_if<std::size_t>(&screw);
-  if (!index) {
+bool Replanning::pending(const OperationInWork& work, const Guiding& guiding,
+                         const Placing& placing, Timestamp said) const {
+  if (!question_ || !question_->shown_at || said < *question_->shown_at ||
+      said > *question_->shown_at + work.options.message_for ||
+      question_->level != work.level().plan.label) {
     return false;
   }
-  const auto outcome = consented(work.level(), *index, said, work.options.message_for);
-  if (outcome) {
-    take(*outcome, work, guiding, placing, said);
-  }
-  return outcome.has_value();
+  const auto screw = screw_to_replan(work, guiding, placing);
+  const auto* index = std::get_if<std::size_t>(&screw);
+  return index != nullptr && *index == question_->screw;
+}
+
+void Replanning::take_breach(OperationInWork& work, Guiding& guiding, Placing& placing,
+                             Timestamp time) {
+  const Question question = *std::exchange(question_, std::nullopt);
+  take(put_new(work.level(), question.screw, question.plan), work, guiding, placing, time);
 }
 
 void Replanning::take(const Outcome& outcome, OperationInWork& work, Guiding& guiding,
@@ -308,20 +312,11 @@ void put_other_entry(LevelState& level, std::size_t screw, Point<Vertebra> entry
   predict_again(level);
 }
 
-void Replanning::show(Timestamp display_time) {
-  if (question_ && !question_->shown_at) {
+void Replanning::show(const Message* message, Timestamp display_time) {
+  const auto* asks = message != nullptr ? std::get_if<ReplanRefusal>(message) : nullptr;
+  if (question_ && !question_->shown_at && asks != nullptr && asks->kind == Kind::kBreach) {
     question_->shown_at = display_time;
   }
-}
-
-std::optional<Replanning::Outcome> Replanning::consented(LevelState& level, std::size_t screw,
-                                                         Timestamp said, Duration within) {
-  const auto question = std::exchange(question_, std::nullopt);
-  if (!question || question->level != level.plan.label || question->screw != screw ||
-      !question->shown_at || said < *question->shown_at || said > *question->shown_at + within) {
-    return std::nullopt;
-  }
-  return put_new(level, screw, question->plan);
 }
 
 Replanning::Outcome Replanning::undo(LevelState& level, std::size_t screw) const {

@@ -36,12 +36,14 @@ class Replanning {
   /// in `placed` one whose wire waits for a decision. Otherwise says why not; a change that would
   /// leave the cortex waits for consent. The level has a registration.
   void replan(OperationInWork& work, Guiding& guiding, Placing& placing, Timestamp time);
-  /// A frame that shows the question is displayed at `display_time`.
-  void show(Timestamp display_time);
-  /// Applies the pending change if the surgeon consented after the question was shown and before it
-  /// expired. False: none is pending.
-  [[nodiscard]] bool consent(OperationInWork& work, Guiding& guiding, Placing& placing,
-                             Timestamp said);
+  /// A frame with this message, null for none, is displayed at `display_time`.
+  void show(const Message* message, Timestamp display_time);
+  /// Whether a breach of the current screw may be taken by what was said then: after the question
+  /// was shown, and before it expired.
+  [[nodiscard]] bool pending(const OperationInWork& work, const Guiding& guiding,
+                             const Placing& placing, Timestamp said) const;
+  /// Makes the pending change.
+  void take_breach(OperationInWork& work, Guiding& guiding, Placing& placing, Timestamp time);
   void withdraw_question() { question_.reset(); }
 
  private:
@@ -54,9 +56,6 @@ class Replanning {
   };
   [[nodiscard]] Outcome change(LevelState& level, std::size_t screw);
   [[nodiscard]] Outcome undo(LevelState& level, std::size_t screw) const;
-  /// None: no question about this screw was shown, or it has expired.
-  [[nodiscard]] std::optional<Outcome> consented(LevelState& level, std::size_t screw,
-                                                 Timestamp said, Duration within);
   /// Reports the outcome, and applies it to guidance and to the wire's assessment.
   void take(const Outcome& outcome, OperationInWork& work, Guiding& guiding, Placing& placing,
             Timestamp time) const;

@@ -150,13 +150,6 @@ void Verifying::put(const nav::Registration& registration, LevelState& level) {
   level.predicted = nav::predicted_errors(registration, level.plan.screws);
 }
 
-Event Verifying::judge_checks(Timestamp said) const {
-  if (!visible_at_ || *visible_at_ > said) {
-    return Event::kNotShown;
-  }
-  return verdict_.passed || !by_touch_ ? Event::kChecked : Event::kNotChecked;
-}
-
 void Verifying::record_check(OperationInWork& work, Timestamp time) {
   if (const auto refusal = add(work.level(), take_place(work, time), time)) {
     work.messages.say(TouchNotRecorded{TouchNotRecorded::What::kCheckPoint, *refusal}, time);

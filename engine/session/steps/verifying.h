@@ -28,8 +28,10 @@ class Verifying {
   void record_check(OperationInWork& work, Timestamp time);
   /// Takes the last check point back.
   void drop_check(OperationInWork& work, Timestamp time);
-  /// "accept" was said then. Before the registration was shown it can't be a judgement of it.
-  [[nodiscard]] Event judge_checks(Timestamp said) const;
+  /// Whether the registration was shown by then: what was said before can't be a judgement of it.
+  [[nodiscard]] bool shown_by(Timestamp said) const { return visible_at_ && *visible_at_ <= said; }
+  /// The check points confirm it, or the eye alone verifies.
+  [[nodiscard]] bool passed() const { return verdict_.passed || !by_touch_; }
   [[nodiscard]] const nav::CheckVerdict& verdict() const { return verdict_; }
   /// The level's registration includes the touched places and is in force from now on.
   void accept(OperationInWork& work, Timestamp time) const;

@@ -116,6 +116,25 @@ std::string answers_of(Step step) {
   return item(std::string(name_of(step)), answers);
 }
 
+/// What it answers otherwise in each of its states.
+std::string answers_in_states_of(Step step) {
+  std::string out;
+  for (std::size_t s = 0; s < kStateCount; ++s) {
+    const auto state = static_cast<State>(s);
+    Answers answers;
+    for (const StateRule& rule : workflow_detail::kStateRules) {
+      if (rule.step == step && rule.state == state) {
+        add(answers, rule.event,
+            text_of(rule.action, rule.next == step ? Leads() : Leads(rule.next)));
+      }
+    }
+    if (!answers.empty()) {
+      out += item(std::string(name_of(step)) + ", " + std::string(name_of(state)), answers);
+    }
+  }
+  return out;
+}
+
 std::string rules_by_step(const auto& rules) {
   std::string out;
   for (std::size_t s = 0; s < kStepCount; ++s) {
@@ -138,6 +157,7 @@ std::string workflow_text() {
   std::string out = usual_answers();
   for (std::size_t s = 0; s < kStepCount; ++s) {
     out += answers_of(static_cast<Step>(s));
+    out += answers_in_states_of(static_cast<Step>(s));
   }
   return out +
          "\nWhere rods alone are bent (`--rods-only`), nothing is registered and no screw is "
@@ -151,6 +171,24 @@ std::string workflow_text() {
          rules_by_step(workflow_detail::kRulesTouchedOnce) +
          "\nWhere it is touched, and a study leaves out that wires are measured:\n\n" +
          rules_by_step(workflow_detail::kRulesWireUnmeasured);
+}
+
+/// Answers while exactly these states hold.
+auto in(std::set<State> states) {
+  return [states = std::move(states)](State state) { return states.contains(state); };
+}
+
+/// No state, and each alone.
+std::vector<std::set<State>> every_state() {
+  std::vector<std::set<State>> all = {{}};
+  for (std::size_t s = 0; s < kStateCount; ++s) {
+    all.push_back({static_cast<State>(s)});
+  }
+  return all;
+}
+
+const Workflow& table_of(Verification verification) {
+  return verification == Verification::kByEye ? kWorkflowByEye : kWorkflow;
 }
 
 TEST(Workflow, IsWrittenDownAsItIs) {
@@ -167,18 +205,8 @@ TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
                                                 {Step::kDigitize, Event::kAcceptanceRestored},
                                                 {Step::kDigitize, Event::kNoScrewLeft},
                                                 {Step::kDigitize, Event::kNoRodPlanned},
-                                                {Step::kVerify, Event::kChecked},
-                                                {Step::kVerify, Event::kNotShown},
-                                                {Step::kVerify, Event::kNotChecked},
-                                                {Step::kAccepted, Event::kLandmarkTouched},
-                                                {Step::kAccepted, Event::kLandmarkMissing},
                                                 {Step::kAccepted, Event::kLandmarkMoved},
-                                                {Step::kAccepted, Event::kNoChangePending},
-                                                {Step::kGuide, Event::kNoChangePending},
                                                 {Step::kGuide, Event::kBoneUnchecked},
-                                                {Step::kPlaced, Event::kNoChangePending},
-                                                {Step::kPlaced, Event::kWireSettled},
-                                                {Step::kPlaced, Event::kWireUndecided},
                                                 {Step::kPlaced, Event::kScrewRedone},
                                                 {Step::kPlaced, Event::kNoOtherEntry},
                                                 {Step::kPlaced, Event::kAnotherScrew},
@@ -215,7 +243,9 @@ TEST(Workflow, EveryStepCanBeReachedAndAllButTheLastCanBeLeft) {
   for (std::size_t round = 0; round < kStepCount; ++round) {
     for (const Step step : std::set<Step>(reached)) {
       for (std::size_t e = 0; e < kEventCount; ++e) {
-        reached.insert(answer(step, static_cast<Event>(e)).next);
+        for (const auto& states : every_state()) {
+          reached.insert(answer(kWorkflow, step, static_cast<Event>(e), in(states)).next);
+        }
       }
     }
   }
@@ -236,7 +266,9 @@ TEST(Workflow, OfRodsAloneReachesTheRodsAndNothingThatNeedsARegistration) {
     const auto follow = [](const Workflow& table, std::set<Step>& steps) {
       for (const Step step : std::set<Step>(steps)) {
         for (std::size_t e = 0; e < kEventCount; ++e) {
-          steps.insert(answer(table, step, static_cast<Event>(e)).next);
+          for (const auto& states : every_state()) {
+            steps.insert(answer(table, step, static_cast<Event>(e), in(states)).next);
+          }
         }
       }
     };
@@ -252,46 +284,64 @@ INSTANTIATE_TEST_SUITE_P(Workflow, EveryVerification,
                          ::testing::Values(Verification::kByTouch, Verification::kByEye));
 
 TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
-  // The event raised on "accept" once the registration was shown, and touched places confirm it.
   const bool by_touch = GetParam() == Verification::kByTouch;
-  const Event accepting = Event::kChecked;
-  // The event raised on "next" once the landmark was found.
-  const Event guiding = by_touch ? Event::kLandmarkTouched : Event::kSayNext;
-  for (std::size_t s = 0; s < kStepCount; ++s) {
-    for (std::size_t e = 0; e < kEventCount; ++e) {
-      const auto step = static_cast<Step>(s);
-      const auto event = static_cast<Event>(e);
-      const Step next = answer(step, event, GetParam()).next;
-      if (!by_touch && step == Step::kPlaced) {
-        EXPECT_NE(answer(Step::kGuide, event, GetParam()).next, Step::kPlaced) << "never reached";
-        continue;
-      }
-      if (next == Step::kAccepted && step != Step::kAccepted) {
-        const bool after_screw = by_touch && step == Step::kPlaced &&
-                                 (event == Event::kAnotherScrew || event == Event::kScrewRedone);
-        const bool drifted = by_touch && step == Step::kGuide && event == Event::kBoneUnchecked;
-        // Accepted by the surgeon before the program ended; the landmark shows whether it still
-        // holds.
-        const bool restored =
-            by_touch && step == Step::kDigitize && event == Event::kAcceptanceRestored;
-        EXPECT_TRUE(after_screw || drifted || restored ||
-                    (step == Step::kVerify && event == accepting))
-            << s << " " << e;
-      }
-      if (next == Step::kGuide && step != Step::kGuide) {
-        EXPECT_TRUE(step == Step::kAccepted && event == guiding) << s << " " << e;
-      }
+  const Workflow& table = table_of(GetParam());
+  for (std::size_t i = 0; i < kStepCount * kEventCount * every_state().size(); ++i) {
+    const std::size_t s = i % kStepCount;
+    const std::size_t e = i / kStepCount % kEventCount;
+    const auto step = static_cast<Step>(s);
+    const auto event = static_cast<Event>(e);
+    const std::set<State> states = every_state()[i / kStepCount / kEventCount];
+    const Step next = answer(table, step, event, in(states)).next;
+    if (!by_touch && step == Step::kPlaced) {
+      EXPECT_NE(answer(Step::kGuide, event, GetParam()).next, Step::kPlaced) << "never reached";
+      continue;
+    }
+    if (next == Step::kAccepted && step != Step::kAccepted) {
+      const bool after_screw = by_touch && step == Step::kPlaced &&
+                               (event == Event::kAnotherScrew || event == Event::kScrewRedone);
+      const bool drifted = by_touch && step == Step::kGuide && event == Event::kBoneUnchecked;
+      // Accepted by the surgeon before the program ended; the landmark shows whether it still
+      // holds.
+      const bool restored =
+          by_touch && step == Step::kDigitize && event == Event::kAcceptanceRestored;
+      EXPECT_TRUE(after_screw || drifted || restored ||
+                  (step == Step::kVerify && event == Event::kSayAccept &&
+                   states.contains(State::kChecksPassed)))
+          << s << " " << e;
+    }
+    if (next == Step::kGuide && step != Step::kGuide) {
+      EXPECT_TRUE(step == Step::kAccepted && event == Event::kSayNext &&
+                  (!by_touch || states.contains(State::kLandmarkTouched)))
+          << s << " " << e;
     }
   }
-  EXPECT_EQ(answer(Step::kVerify, accepting, GetParam()), (Cell{Step::kAccepted, Action::kAccept}));
-  EXPECT_EQ(answer(Step::kVerify, Event::kSayAccept, GetParam()),
-            (Cell{Step::kVerify, Action::kJudgeChecks}));
-  EXPECT_EQ(answer(Step::kVerify, Event::kNotShown, GetParam()).next, Step::kVerify);
+  EXPECT_EQ(answer(table, Step::kVerify, Event::kSayAccept, in({State::kChecksPassed})),
+            (Cell{Step::kAccepted, Action::kAccept}));
+  EXPECT_EQ(
+      answer(table, Step::kVerify, Event::kSayAccept, in({State::kNotShown, State::kChecksPassed})),
+      (Cell{Step::kVerify, Action::kExplainNotShown}));
 }
 
 TEST(Workflow, VerifyingByTouchTheWordAloneAcceptsNothing) {
-  EXPECT_EQ(answer(Step::kVerify, Event::kSayAccept), (Cell{Step::kVerify, Action::kJudgeChecks}));
-  EXPECT_EQ(answer(Step::kVerify, Event::kNotChecked).next, Step::kVerify);
+  EXPECT_EQ(answer(Step::kVerify, Event::kSayAccept),
+            (Cell{Step::kVerify, Action::kExplainChecks}));
+}
+
+TEST(Workflow, AcceptAnswersWhatWasAskedAndAPendingBreachFirst) {
+  const auto accepted = [](Step step, std::set<State> states) {
+    return answer(kWorkflow, step, Event::kSayAccept, in(std::move(states))).action;
+  };
+  for (const Step step : {Step::kAccepted, Step::kGuide, Step::kPlaced}) {
+    EXPECT_EQ(accepted(step, {}), Action::kRefuse) << "nothing was asked";
+    EXPECT_EQ(accepted(step, {State::kBreachPending, State::kCorrectionOffered,
+                              State::kLandmarkTouched, State::kWireBeyondLimit}),
+              Action::kTakeBreach);
+  }
+  EXPECT_EQ(accepted(Step::kAccepted, {State::kLandmarkTouched}), Action::kRefuse);
+  EXPECT_EQ(accepted(Step::kAccepted, {State::kLandmarkTouched, State::kCorrectionOffered}),
+            Action::kCorrectGuide);
+  EXPECT_EQ(accepted(Step::kPlaced, {State::kWireBeyondLimit}), Action::kKeepWire);
 }
 
 TEST(Workflow, BeforeEveryScrewTheLandmarkIsTouched) {
@@ -299,7 +349,9 @@ TEST(Workflow, BeforeEveryScrewTheLandmarkIsTouched) {
     EXPECT_EQ(answer(Step::kPlaced, event), (Cell{Step::kAccepted, Action::kExpectLandmark}));
   }
   EXPECT_EQ(answer(Step::kAccepted, Event::kSayNext),
-            (Cell{Step::kAccepted, Action::kJudgeLandmark}));
+            (Cell{Step::kAccepted, Action::kExplainLandmark}));
+  EXPECT_EQ(answer(kWorkflow, Step::kAccepted, Event::kSayNext, in({State::kLandmarkTouched})),
+            (Cell{Step::kGuide, Action::kSelectScrew}));
   EXPECT_EQ(answer(Step::kAccepted, Event::kLandmarkMoved),
             (Cell{Step::kVerify, Action::kVerifyAgain}));
   EXPECT_EQ(answer(Step::kAccepted, Event::kSayNext, Verification::kByEye),
@@ -308,8 +360,9 @@ TEST(Workflow, BeforeEveryScrewTheLandmarkIsTouched) {
 
 TEST(Workflow, AfterEveryScrewItsWireIsLookedAt) {
   EXPECT_EQ(answer(Step::kGuide, Event::kSayNext), (Cell{Step::kPlaced, Action::kExpectWire}));
-  EXPECT_EQ(answer(Step::kPlaced, Event::kSayNext), (Cell{Step::kPlaced, Action::kJudgeWire}));
-  EXPECT_EQ(answer(Step::kPlaced, Event::kWireUndecided).next, Step::kPlaced);
+  EXPECT_EQ(answer(Step::kPlaced, Event::kSayNext), (Cell{Step::kPlaced, Action::kFinishScrew}));
+  EXPECT_EQ(answer(kWorkflow, Step::kPlaced, Event::kSayNext, in({State::kWireBeyondLimit})),
+            (Cell{Step::kPlaced, Action::kExplainWire}));
   EXPECT_EQ(answer(Step::kGuide, Event::kAnotherScrew).action, Action::kRefuse);
   EXPECT_EQ(answer(Step::kGuide, Event::kSayNext, Verification::kByEye),
             (Cell{Step::kGuide, Action::kFinishScrew}));
@@ -378,6 +431,11 @@ TEST(Workflow, NamesAreDistinct) {
     names.insert(name_of(static_cast<Action>(a)));
   }
   EXPECT_EQ(names.size(), kActionCount);
+  names.clear();
+  for (std::size_t s = 0; s < kStateCount; ++s) {
+    names.insert(name_of(static_cast<State>(s)));
+  }
+  EXPECT_EQ(names.size(), kStateCount);
 }
 
 }  // namespace
