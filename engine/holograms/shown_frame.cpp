@@ -8,6 +8,7 @@
 #include "engine/holograms/next_act.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
+#include "engine/session/coach.h"
 #include "engine/session/placed_wire.h"
 #include "engine/session/steps/guiding.h"
 #include "engine/session/wording.h"

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include "engine/session/operation_in_work.h"
+#include "engine/session/operation_json.h"
 
 namespace orthonav::engine {
 
@@ -152,6 +154,33 @@ ToolErrors GuideChecks::errors(const OperationInWork& work, Timestamp now) const
       std::hypot(tips_.difference_sd_m(work.tools.tag_size_difference_sd(), bone_from_guide(work)),
                  kElsewhere * cameras_m),
       axis_.sd_rad()};
+}
+
+// Its records.
+
+void log_tips(LogJson& json, const TipDifference& difference) {
+  json["apart_m"] = json_of(difference.apart_m);
+  json["by_m"] = json_of(difference.by_m);
+  json["corrected"] = difference.corrected;
+  put_bounded(json, "sd_m", difference.sd_m);
+  put_bounded(json, "limit_m", difference.limit_m);
+}
+
+TipDifference tips_from(const JsonNode& node) {
+  return {node.vec3("apart_m"), bounded(node, "sd_m"), node.vec3("by_m"), bounded(node, "limit_m"),
+          node.flag_or("corrected", false)};
+}
+
+void log_axis(LogJson& json, const AxisDifference& difference) {
+  json["off_rad"] = difference.off_rad;
+  json["sd_rad"] = difference.sd_rad;
+  json["by_rad"] = difference.by_rad;
+  json["corrected"] = difference.corrected;
+}
+
+AxisDifference axis_from(const JsonNode& node) {
+  return {node.number("off_rad"), node.number("sd_rad"), node.number("by_rad"),
+          node.flag_or("corrected", false)};
 }
 
 }  // namespace orthonav::engine

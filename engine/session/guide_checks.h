@@ -5,6 +5,7 @@
 
 #include "base/angle.h"
 #include "engine/session/landmark.h"
+#include "engine/session/operation_json.h"
 #include "engine/session/tool_in_vertebra.h"
 #include "engine/session/touch.h"
 #include "nav/calibration/spin.h"
@@ -171,5 +172,12 @@ class GuideChecks {
   TipCheck tips_;
   AxisCheck axis_;
 };
+
+// Its records in the log; `json` holds the time already.
+
+void log_tips(LogJson& json, const TipDifference& difference);
+[[nodiscard]] TipDifference tips_from(const JsonNode& node);
+void log_axis(LogJson& json, const AxisDifference& difference);
+[[nodiscard]] AxisDifference axis_from(const JsonNode& node);
 
 }  // namespace orthonav::engine

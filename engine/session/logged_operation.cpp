@@ -6,19 +6,16 @@
 #include <variant>
 
 #include "engine/session/operation_json.h"
+#include "engine/session/steps/digitizing.h"
+#include "engine/session/steps/guiding.h"
+#include "engine/session/steps/landmarking.h"
+#include "engine/session/steps/placing.h"
+#include "engine/session/steps/replanning.h"
+#include "engine/session/steps/rod_templating.h"
+#include "engine/session/steps/verifying.h"
 
 namespace orthonav::engine {
 namespace {
-
-std::vector<Point<World>> points_of(const std::vector<nav::Region>& strokes) {
-  std::vector<Point<World>> points;
-  for (const nav::Region& region : strokes) {
-    for (const nav::Sample& sample : region.samples) {
-      points.push_back(sample.tip_in_world);
-    }
-  }
-  return points;
-}
 
 /// Of a record that happened on the device's clock; nothing for others.
 std::optional<Timestamp> time_of(const JsonNode& node) {
@@ -128,20 +125,10 @@ class Applied {
   void apply_to_rod() {
     RodState& rod = operation_.state.rods[side_from(node_) == Side::kRight ? 1 : 0];
     if (type_ == OperationRecord::kRod) {
-      rod.done = true;
       return read_rod(node_, rod);
     }
-    if (rod.touched.empty()) {
-      rod.touched = TouchedHeads({}, operation_.identity.patient_reference);
-    }
-    if (type_ == OperationRecord::kHeadDropped) {
-      rod.touched.drop_last();
-    } else if (const auto added =
-                   rod.touched.add({{node_.vec3("in_world_m")}, node_.number("sd_m")});
-               !std::holds_alternative<HeadTouch>(added)) {
-      return node_.refuse("in_world_m", "is not where its head was touched before");
-    }
-    rod.heads = rod.touched.places();
+    const bool dropped = type_ == OperationRecord::kHeadDropped;
+    read_head(node_, dropped, operation_.identity.patient_reference, rod);
   }
 
   void apply_to_level() {
@@ -160,46 +147,37 @@ class Applied {
     std::vector<nav::Region>& strokes = operation_.strokes[index];
     switch (type_) {
       case kRegion:
-        strokes.push_back(region_from(node_.child("region")));
-        return;
+        return read_region(node_, strokes);
       case kRegionDropped:
-        return drop_region(strokes);
+        return read_region_dropped(node_, strokes);
       case kRegistration:
-        return apply_registration(index);
+        operation_.registrations.push_back(read_registration(node_, level, strokes));
+        operation_.registrations.back().time = time_;
+        operation_.registrations.back().level = index;
+        return;
       case kRestored:
         level.accepted = level.registration && node_.flag_or("accepted", false);
         return;
       case kAccepted:
-        level.registration = registration_from(node_.child("registration"));
-        level.accepted = true;
-        return;
+        return read_acceptance(node_, level);
       case kAcceptanceWithdrawn:
-        level.accepted = false;
-        level.check_points.clear();
-        return;
+        return read_acceptance_withdrawn(level);
       case kLevelCleared:
-        strokes.clear();
-        level.newest.reset();
-        return level.forget_registration();
+        return read_level_cleared(level, strokes);
       case kPlan:
-        return apply_plan(level);
+        return read_plan(node_, level);
       case kWire:
       case kScrew:
         return apply_to_screw(level);
       case kCheckPoint:
-        level.check_points.push_back(check_point_from(node_));
-        return;
+        return read_check_point(node_, level);
       case kCheckPointDropped:
-        if (!level.check_points.empty()) {
-          level.check_points.pop_back();
-        }
-        return;
+        return read_check_point_dropped(level);
       case kLandmark:
-        return touch_landmark(index);
+        operation_.landmark_touches[index].push_back({read_landmark_touch(node_, level)});
+        return;
       case kLandmarkDropped:
-        if (!node_.flag_or("stays", false)) {
-          level.landmark.reset();
-        }
+        read_landmark_dropped(node_, level);
         if (!operation_.landmark_touches[index].empty()) {
           operation_.landmark_touches[index].back().dropped = true;
         }
@@ -222,77 +200,6 @@ class Applied {
     }
   }
 
-  void drop_region(std::vector<nav::Region>& strokes) const {
-    if (strokes.empty()) {
-      node_.refuse("level", "has no region to be deleted");
-    } else {
-      strokes.pop_back();
-    }
-  }
-
-  void touch_landmark(std::size_t index) {
-    LandmarkTouch touch;
-    touch.first = node_.flag_or("first", false);
-    touch.off_m = node_.number("off_m");
-    touch.limit_m = node_.number("limit_m");
-    operation_.landmark_touches[index].push_back({touch});
-    if (touch.first) {
-      operation_.state.levels[index].landmark = landmark_from(node_.child("landmark"));
-    }
-  }
-
-  void apply_registration(std::size_t index) {
-    LevelState& level = operation_.state.levels[index];
-    LoggedRegistration asked;
-    asked.time = time_;
-    asked.level = index;
-    asked.attempt = level.attempts = node_.integer("attempt");
-    asked.passed = node_.flag_or("passed", false);
-    asked.reason = node_.text("reason");
-    level.tag_size.reset();
-    if (node_.has("tag_size")) {
-      const JsonNode size = node_.child("tag_size");
-      level.tag_size = TagSizeWarning{size.text("tool"), size.number("fraction")};
-    }
-    asked.tag_size = level.tag_size;
-    if (node_.has("registration")) {
-      asked.result = registration_from(node_.child("registration"));
-    }
-    operation_.registrations.push_back(asked);
-    if (!asked.passed) {
-      return;
-    }
-    if (!asked.result) {
-      return node_.refuse("registration", "is missing, though it passed");
-    }
-    level.forget_registration();
-    level.registration = std::move(asked.result);
-    level.digitization_s = node_.number("digitization_s");
-    level.newest = {points_of(operation_.strokes[index]), *level.registration};
-    if (hash_of(level.newest->points) != node_.text("points_hash")) {
-      level.newest.reset();
-    }
-  }
-
-  void apply_plan(LevelState& level) const {
-    const std::vector<JsonNode> screws = node_.list("screws");
-    if (screws.size() != level.screws.size()) {
-      node_.refuse("screws", "must be " + std::to_string(level.screws.size()));
-      return;
-    }
-    for (std::size_t i = 0; i < screws.size(); ++i) {
-      level.plan.screws[i] = screw_from(screws[i]);
-      const int redone = screws[i].integer("redone");
-      if (redone != std::exchange(level.screws[i].redone, redone)) {
-        level.screws[i].wire = {};  // it was of the wire that was taken out
-      }
-      level.screws[i].earlier_plans.clear();
-      for (const JsonNode& earlier : screws[i].list("earlier")) {
-        level.screws[i].earlier_plans.push_back(screw_from(earlier));
-      }
-    }
-  }
-
   void apply_to_screw(LevelState& level) const {
     const auto index = static_cast<std::size_t>(node_.unsigned_integer("screw"));
     if (index >= level.screws.size()) {
@@ -301,27 +208,9 @@ class Applied {
     }
     ScrewState& screw = level.screws[index];
     if (type_ == OperationRecord::kWire) {
-      screw.wire = {true, wire_from(node_.child("wire"))};
-      return;
+      return read_wire(node_, screw);
     }
-    screw.done = true;
-    screw.done_at = time_;
-    screw.at_depth.reset();
-    if (node_.has("at_depth")) {
-      screw.at_depth = at_depth_from(node_.child("at_depth"));
-    }
-    screw.executed.reset();
-    screw.clearance_at_depth.reset();
-    screw.wire = {node_.flag_or("wire_asked", false), std::nullopt};
-    if (node_.has("executed")) {
-      screw.executed = executed_from(node_.child("executed"));
-    }
-    if (node_.has("clearance")) {
-      screw.clearance_at_depth = clearance_from(node_.child("clearance"));
-    }
-    if (node_.has("wire")) {
-      screw.wire.measured = wire_from(node_.child("wire"));
-    }
+    read_screw(node_, time_, screw);
   }
 
   LoggedOperation& operation_;

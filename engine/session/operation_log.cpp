@@ -5,8 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "engine/session/steps/digitizing.h"
+#include "engine/session/steps/guiding.h"
+#include "engine/session/steps/landmarking.h"
+#include "engine/session/steps/placing.h"
 #include "engine/session/steps/replanning.h"
-#include "engine/session/wording.h"
+#include "engine/session/steps/rod_templating.h"
+#include "engine/session/steps/verifying.h"
 
 namespace orthonav::engine {
 
@@ -183,25 +188,6 @@ void OperationLog::calibration_found(Timestamp time, const CalibrationInUse& fou
   note(OperationRecord::kCalibration, json);
 }
 
-void OperationLog::region_saved(Timestamp time, const LevelState& level,
-                                const nav::Region& region) {
-  LogJson json = about(time, level);
-  json["region"] = json_of(region);
-  add(OperationRecord::kRegion, time, json);
-}
-
-void OperationLog::region_dropped(Timestamp time, const LevelState& level) {
-  add(OperationRecord::kRegionDropped, time, about(time, level));
-}
-
-void OperationLog::level_cleared(Timestamp time, const LevelState& level) {
-  add(OperationRecord::kLevelCleared, time, about(time, level));
-}
-
-void OperationLog::acceptance_withdrawn(Timestamp time, const LevelState& level) {
-  add(OperationRecord::kAcceptanceWithdrawn, time, about(time, level));
-}
-
 void OperationLog::places_forgotten(Timestamp time) {
   add(OperationRecord::kPlacesForgotten, time, json_at(time));
 }
@@ -215,55 +201,33 @@ void OperationLog::references_placed(Timestamp time, std::span<const nav::Refere
   add(OperationRecord::kReferences, time, json);
 }
 
+// What the steps tell; what each record holds is in its step's file.
+
+void OperationLog::region_saved(Timestamp time, const LevelState& level,
+                                const nav::Region& region) {
+  LogJson json = about(time, level);
+  log_region(json, region);
+  add(OperationRecord::kRegion, time, json);
+}
+
+void OperationLog::region_dropped(Timestamp time, const LevelState& level) {
+  add(OperationRecord::kRegionDropped, time, about(time, level));
+}
+
 void OperationLog::registered(Timestamp time, const LevelState& level,
                               const RegistrationOutcome& outcome) {
   LogJson json = about(time, level);
-  json["attempt"] = level.attempts;
-  json["passed"] = outcome.passed();
-  json["reason"] = outcome.passed() ? "" : refusal_text(outcome);
-  if (const auto& result = outcome.result) {
-    json["registration"] = json_of(*result);
-    json["weakest"] = result->weakest ? text_of(*result->weakest) : "";
-    json["advice"] = result->stroke_next ? text_of(*result->stroke_next) : "";
-    json["fits_better"] = result->fits_better;
-  }
-  if (outcome.passed()) {
-    json["points_hash"] = hash_of(level.newest->points);
-    json["digitization_s"] = level.digitization_s;
-  }
-  if (level.tag_size) {
-    json["tag_size"] = {{"tool", level.tag_size->tool}, {"fraction", level.tag_size->fraction}};
-  }
+  log_registration(json, level, outcome);
   add(OperationRecord::kRegistration, time, json);
 }
 
-void OperationLog::accepted(Timestamp time, const LevelState& level, std::string_view shown) {
-  LogJson json = about(time, level);
-  json["shown"] = shown;
-  json["registration"] = json_of(*level.registration);
-  json["check_points"] = level.check_points.size();
-  add(OperationRecord::kAccepted, time, json);
+void OperationLog::level_cleared(Timestamp time, const LevelState& level) {
+  add(OperationRecord::kLevelCleared, time, about(time, level));
 }
-
-namespace {
-
-LogJson about_side(Timestamp time, nav::Side side) {
-  LogJson json = json_at(time);
-  json["side"] = name_of(side);
-  return json;
-}
-
-}  // namespace
-
-// Touches, and the outcome of each screw.
 
 void OperationLog::check_point_recorded(Timestamp time, const LevelState& level) {
-  const nav::CheckPoint& point = level.check_points.back();
   LogJson json = about(time, level);
-  json["in_world_m"] = json_of(point.place.v);
-  json["distance_m"] = point.distance_m;
-  json["limit_m"] = point.limit_m;
-  json["within"] = point.within;
+  log_check_point(json, level);
   add(OperationRecord::kCheckPoint, time, json);
 }
 
@@ -271,116 +235,84 @@ void OperationLog::check_point_dropped(Timestamp time, const LevelState& level) 
   add(OperationRecord::kCheckPointDropped, time, about(time, level));
 }
 
+void OperationLog::accepted(Timestamp time, const LevelState& level, std::string_view shown) {
+  LogJson json = about(time, level);
+  log_acceptance(json, level, shown);
+  add(OperationRecord::kAccepted, time, json);
+}
+
+void OperationLog::acceptance_withdrawn(Timestamp time, const LevelState& level) {
+  add(OperationRecord::kAcceptanceWithdrawn, time, about(time, level));
+}
+
 void OperationLog::landmark_touched(Timestamp time, const LevelState& level,
                                     const LandmarkTouch& touch) {
   LogJson json = about(time, level);
-  json["first"] = touch.first;
-  json["off_m"] = touch.off_m;
-  json["limit_m"] = touch.limit_m;
-  if (touch.first) {
-    json["landmark"] = json_of(*level.landmark);
-  }
+  log_landmark_touch(json, level, touch);
   add(OperationRecord::kLandmark, time, json);
 }
 
 void OperationLog::landmark_dropped(Timestamp time, const LevelState& level) {
   LogJson json = about(time, level);
-  json["stays"] = level.landmark.has_value();
+  log_landmark_dropped(json, level);
   add(OperationRecord::kLandmarkDropped, time, json);
 }
 
 void OperationLog::tips_compared(Timestamp time, const TipDifference& difference) {
   LogJson json = json_at(time);
-  json.update(json_of(difference));
+  log_tips(json, difference);
   add(OperationRecord::kTips, time, json);
 }
 
 void OperationLog::axis_compared(Timestamp time, const AxisDifference& difference) {
   LogJson json = json_at(time);
-  json.update(json_of(difference));
+  log_axis(json, difference);
   add(OperationRecord::kAxis, time, json);
 }
 
-/// A wire that is kept beyond a limit is an override: the record holds both.
 void OperationLog::wire_measured(Timestamp time, const LevelState& level, std::size_t screw,
                                  const PlacedWire& wire) {
   LogJson json = about(time, level);
-  json["screw"] = screw;
-  json["wire"] = json_of(wire);
-  json["within"] = wire.within();
+  log_wire(json, screw, wire);
   add(OperationRecord::kWire, time, json);
 }
 
 void OperationLog::screw_redone(Timestamp time, const LevelState& level, std::size_t /*screw*/,
                                 const nav::OtherEntry& /*entry*/) {
-  add_plan(time, level, "redone");
+  LogJson json = about(time, level);
+  log_plan(json, level, "redone");
+  add(OperationRecord::kPlan, time, json);
 }
 
 void OperationLog::replanned(Timestamp time, const LevelState& level, const Replan& asked,
                              const ScrewReplanned& /*done*/) {
-  add_plan(time, level, text_of(asked));
-}
-
-/// The plan of every screw, with the reason for each accepted breach.
-void OperationLog::add_plan(Timestamp time, const LevelState& level, const std::string& why) {
   LogJson json = about(time, level);
-  json["why"] = why;
-  json["screws"] = LogJson::array();
-  for (std::size_t i = 0; i < level.plan.screws.size(); ++i) {
-    LogJson screw = json_of(level.plan.screws[i]);
-    screw["redone"] = level.screws[i].redone;
-    screw["earlier"] = LogJson::array();
-    for (const nav::ScrewPlan& earlier : level.screws[i].earlier_plans) {
-      screw["earlier"].push_back(json_of(earlier));
-    }
-    json["screws"].push_back(std::move(screw));
-  }
+  log_plan(json, level, text_of(asked));
   add(OperationRecord::kPlan, time, json);
 }
 
 void OperationLog::screw_done(Timestamp time, const LevelState& level, std::size_t screw,
                               const ToolGuidance* at_depth) {
   LogJson json = about(time, level);
-  json["screw"] = screw;
-  json["side"] = name_of(level.plan.screws[screw].side);
-  const ScrewState& done = level.screws[screw];
-  if (at_depth != nullptr && done.at_depth) {
-    json["at_depth"] = json_of(*done.at_depth);
-    json["at_depth"]["pose_time_ns"] = at_depth->pose_time.time_since_epoch().count();
-  }
-  if (done.executed) {
-    json["executed"] = json_of(*done.executed);
-  }
-  if (done.clearance_at_depth) {
-    json["clearance"] = json_of(*done.clearance_at_depth);
-  }
-  json["wire_asked"] = done.wire.asked;
-  if (done.wire.measured) {
-    json["wire"] = json_of(*done.wire.measured);
-  }
+  log_screw(json, level, screw, at_depth);
   add(OperationRecord::kScrew, time, json);
 }
 
 void OperationLog::head_recorded(Timestamp time, nav::Side side, const HeadTouch& touch) {
-  LogJson json = about_side(time, side);
-  json["head"] = touch.head;
-  json["touches"] = touch.touches;
-  json["in_world_m"] = json_of(touch.place.v);
-  json["sd_m"] = touch.sd_m;
-  json["head_sd_m"] = touch.head_sd_m;
+  LogJson json = json_at(time);
+  log_head(json, side, touch);
   add(OperationRecord::kHead, time, json);
 }
 
 void OperationLog::head_dropped(Timestamp time, nav::Side side, const HeadTouch& touch) {
-  LogJson json = about_side(time, side);
-  json["head"] = touch.head;
-  json["touches"] = touch.touches - 1;
+  LogJson json = json_at(time);
+  log_head_dropped(json, side, touch);
   add(OperationRecord::kHeadDropped, time, json);
 }
 
 void OperationLog::rod_done(Timestamp time, const RodState& rod) {
   LogJson json = json_at(time);
-  json.update(json_of(rod));
+  log_rod(json, rod);
   add(OperationRecord::kRod, time, json);
 }
 

@@ -92,7 +92,6 @@ class OperationLog : public SessionObserver, public SaveWatch {
   OperationLog(Env& env, std::unique_ptr<FolderLock> lock, std::unique_ptr<RecordLog> log,
                std::vector<std::string> levels, RecordWriter::Waits waits);
   [[nodiscard]] LogJson about(Timestamp time, const LevelState& level) const;
-  void add_plan(Timestamp time, const LevelState& level, const std::string& why);
   /// Of what the surgeon is told that it is saved.
   void add(OperationRecord type, Timestamp time, const LogJson& payload);
   /// Of anything else.

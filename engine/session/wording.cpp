@@ -10,8 +10,8 @@
 #include "base/printed.h"
 #include "base/reason.h"
 #include "base/translation.h"
-#include "engine/session/coach.h"
 #include "engine/session/commands.h"
+#include "engine/session/steps/digitizing.h"
 #include "engine/session/steps/guiding.h"
 #include "engine/session/steps/landmarking.h"
 #include "engine/session/steps/placing.h"
@@ -28,7 +28,6 @@ constexpr const char* k99Percent =
     translatable("99 %% of errors at the screws are below %.1f mm, limit %.1f mm");
 constexpr const char* kThroughBone = translatable(
     "the pointer would have gone through bone at %.0f %% of the points, limit %.0f %%");
-constexpr const char* kSayReject = translatable("say reject level");
 
 /// The words for a number and its limit, and the unit in which it is shown.
 struct LimitWords {
@@ -158,72 +157,6 @@ void append(std::string& out, std::span<const nav::RefusalReason> reasons) {
   }
 }
 
-void append(std::string& out, const nav::CheckAdvice& advice) {
-  switch (advice.kind) {
-    case nav::CheckAdvice::Kind::kNone:
-      break;
-    case nav::CheckAdvice::Kind::kTouchApart:
-      if (advice.number == 3) {
-        append_printed(out, translated("touch 3 places, %.0f mm apart"), advice.value_m * 1e3);
-      } else {
-        append_printed(out,
-                       advice.number == 1
-                           ? translated("touch %zu more place, %.0f mm from the others")
-                           : translated("touch %zu more places, %.0f mm from the others"),
-                       advice.number, advice.value_m * 1e3);
-      }
-      break;
-    case nav::CheckAdvice::Kind::kTouchOffLine:
-      append_printed(out, translated("touch 1 more place, %.0f mm off their line"),
-                     advice.value_m * 1e3);
-      break;
-    case nav::CheckAdvice::Kind::kReject:
-      append_beside_limit(out, translated("%.1f mm off, limit %.1f mm"), advice.value_m * 1e3,
-                          advice.limit_m * 1e3);
-      out.append(": ").append(translated(kSayReject));
-      break;
-    case nav::CheckAdvice::Kind::kTouchMore:
-      out += translated("touch 1 more place");
-      break;
-    case nav::CheckAdvice::Kind::kUncertain:
-      append_beside_limit(out, translated("screws ≤ %.1f mm off, limit %.1f mm"),
-                          advice.value_m * 1e3, advice.limit_m * 1e3);
-      out.append(": ").append(translated(kSayReject));
-      break;
-  }
-}
-
-void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator) {
-  std::string& out = text.out;
-  // A bar that fills as the expected error falls.
-  constexpr int kParts = 5;
-  const int filled =
-      coaching.enough ? kParts : std::min(kParts - 1, static_cast<int>(kParts * coaching.progress));
-  text.begin(Importance::kFigures, separator);
-  for (int i = 0; i < kParts; ++i) {
-    out += i < filled ? "◆" : "◇";
-  }
-  separator = " ";
-  if (coaching.enough) {
-    text.begin(Importance::kNext, separator);
-    out += coaching.then_touch ? translated("double click, then touch the bone")
-                               : translated("enough: double click");
-  } else if (coaching.against) {
-    text.begin(Importance::kMessage, separator);
-    append(out, *coaching.against);
-  } else if (coaching.stroke_next) {
-    text.begin(Importance::kNext, separator);
-    append(out, *coaching.stroke_next);
-  } else {
-    text.begin(Importance::kNext, separator);
-    out += translated("stroke on");
-  }
-}
-
-void append(std::string& out, const Coaching& coaching) {
-  write_coaching(PartedText{out}, coaching, "");
-}
-
 namespace {
 
 Importance importance_of(Saved saved) {
@@ -327,6 +260,11 @@ struct MessageWriter {
   PartedText text;
   std::string& out = text.out;
 
+  /// Of one step: in its file.
+  template <class Kind>
+  void operator()(const Kind& m) {
+    write(text, m);
+  }
   void operator()(std::monostate /*none*/) {}
   void operator()(const NotPossibleNow& m) {
     text.begin(Importance::kMessage);
@@ -346,10 +284,6 @@ struct MessageWriter {
     text.begin(Importance::kMessage);
     out += translated("not understood");
   }
-  void operator()(const SaidBeforeShown& /*m*/) {
-    text.begin(Importance::kMessage);
-    out += translated("not accepted: said before the hologram was shown");
-  }
   void operator()(const NothingToDelete& m) {
     text.begin(Importance::kMessage);
     constexpr std::array<const char*, 5> kTexts = {
@@ -357,37 +291,6 @@ struct MessageWriter {
         translatable("no head to delete"), translatable("no touch of the dimple to delete"),
         translatable("measure the wire first")};
     out += translated(kTexts[static_cast<std::size_t>(m.what)]);
-  }
-  void operator()(const ConfirmDelete& m) {
-    text.begin(Importance::kNext);
-    if (m.points == 1) {
-      out += translated("say delete last again to drop the last saved point");
-      return;
-    }
-    append_printed(out, translated("say delete last again to drop the last saved %zu points"),
-                   m.points);
-  }
-  void operator()(const RegistrationRefused& m) {
-    text.begin(Importance::kMessage);
-    out.append(translated("refused:")).append(" ");
-    const std::span<const nav::RefusalReason> reasons = m.reasons;
-    if (m.error) {
-      append_error(out, *m.error);
-    } else {
-      append(out, reasons.first(std::min<std::size_t>(1, reasons.size())));
-    }
-    if (m.another_level_fits) {
-      text.begin(Importance::kNext, "; ");
-      out += translated("verify the vertebral level");
-    } else if (m.stroke_next) {
-      text.begin(Importance::kNext, "; ");
-      append(out, *m.stroke_next);
-    }
-  }
-  void operator()(const ChecksMissing& m) {
-    text.begin(Importance::kNext);
-    out.append(translated("not accepted:")).append(" ");
-    append(out, m.advice);
   }
   void operator()(const TouchNotRecorded& m) {
     text.begin(Importance::kMessage);
@@ -398,28 +301,6 @@ struct MessageWriter {
     out.append(translated(kTexts[static_cast<std::size_t>(m.what)])).append(" ");
     append_refusal(out, m.why);
   }
-  void operator()(const LandmarkMissing& m) {
-    text.begin(Importance::kNext);
-    out.append(translated(words::kNotYet)).append(" ");
-    out += translated(m.recorded ? words::kTouchDimple : words::kMakeDimple);
-  }
-  void operator()(const LandmarkMoved& m) {
-    text.begin(Importance::kDanger);
-    append_beside_limit(out,
-                        m.anchored
-                            ? translated("the reference moved %.1f mm, limit %.1f mm")
-                            : translated("the patient or the map moved %.1f mm, limit %.1f mm"),
-                        m.off_m * 1e3, m.limit_m * 1e3);
-    text.begin(Importance::kNext, ": ");
-    out += translated("check again or reject level");
-  }
-  void operator()(const BoneUnchecked& m) {
-    text.begin(Importance::kDanger);
-    append_printed(out, translated("bone not checked for %.0f s, the map may have drifted %s"),
-                   m.for_s, said_mm(m.drift_m).c_str());
-    text.begin(Importance::kNext, ": ");
-    out += translated(words::kTouchDimple);
-  }
   void operator()(const TipCorrected& m) {
     text.begin(Importance::kMessage);
     append_printed(out, translated("guide's tip corrected by %s"), said_mm(m.by_m).c_str());
@@ -428,36 +309,10 @@ struct MessageWriter {
     text.begin(Importance::kMessage);
     append_printed(out, translated("guide's axis corrected by %.1f°"), degrees(m.by_rad));
   }
-  void operator()(const WireUndecided& /*m*/) {
-    text.begin(Importance::kNext);
-    out.append(translated(words::kNotYet)).append(" ").append(translated(words::kKeepOrRedo));
-  }
-  void operator()(const NoOtherEntry& /*m*/) {
-    text.begin(Importance::kNext);
-    out += translated(words::kNoOtherEntry);
-  }
-  void operator()(const ConfirmRedo& m) {
-    text.begin(Importance::kNext);
-    append_printed(
-        out,
-        m.redone == 1 ? translated("redone once already") : translated("redone %d times already"),
-        m.redone);
-    out.append(": ").append(
-        translated("say delete last again to redo it, accept result to keep it"));
-  }
-  void operator()(const ScrewRedone& m) {
-    text.begin(Importance::kMessage);
-    append_printed(out, translated("new entry %s from the hole, clearance %s"),
-                   said_mm(m.from_hole_m).c_str(), said_mm(m.clearance_m).c_str());
-    text.begin(Importance::kNext, ": ");
-    out += translated("take the wire out and touch the dimple");
-  }
   void operator()(const ReplanUnclear& m) {
     text.begin(Importance::kMessage);
     append_error(out, m.why);
   }
-  void operator()(const ReplanRefusal& m) { write(text, m); }
-  void operator()(const ScrewReplanned& m) { write(text, m); }
   void operator()(const NoRod& m) {
     text.begin(Importance::kMessage);
     out.append(translated("no rod:")).append(" ");

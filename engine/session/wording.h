@@ -7,7 +7,6 @@
 
 #include "base/length_text.h"
 #include "base/translation.h"
-#include "engine/session/coach.h"
 #include "engine/session/messages.h"
 #include "engine/session/operation_state.h"
 #include "engine/session/saving.h"
@@ -64,13 +63,6 @@ void append(std::string& out, const nav::UncertainMotion& motion);
 void append(std::string& out, const nav::RefusalReason& reason);
 /// Every reason, or a text that there is none to name.
 void append(std::string& out, std::span<const nav::RefusalReason> reasons);
-/// What is wrong with the check points, and what to do; nothing if all is well.
-void append(std::string& out, const nav::CheckAdvice& advice);
-
-/// "expected error 0.6 mm, digitize the left lamina".
-void append(std::string& out, const Coaching& coaching);
-/// The same in parts; the separator comes before the first.
-void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator);
 
 /// The text of a single finding.
 template <class Finding>

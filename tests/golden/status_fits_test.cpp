@@ -10,6 +10,7 @@
 #include "base/reason.h"
 #include "base/translation.h"
 #include "engine/golden/golden_stage.h"
+#include "engine/session/coach.h"
 #include "engine/session/wording.h"
 #include "render/projection.h"
 #include "tests/golden/expected_box.h"

@@ -2,7 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
+
+#include "base/printed.h"
+#include "base/reason.h"
+#include "base/translation.h"
+#include "engine/io/bit_hash.h"
+#include "engine/session/wording.h"
 
 namespace orthonav::engine {
 
@@ -273,6 +280,205 @@ StrokesSoFar Digitizing::state() const {
   }
   strokes.coaching = coach_ && coach_->newest() ? &*coach_->newest() : nullptr;
   return strokes;
+}
+
+// Its records.
+
+namespace {
+
+LogJson region_json(const nav::Region& region) {
+  LogJson tips = LogJson::array();
+  LogJson shafts = LogJson::array();
+  LogJson sds = LogJson::array();
+  for (const nav::Sample& sample : region.samples) {
+    const Vec3 tip_m = sample.tip_in_world.v;
+    tips.insert(tips.end(), {tip_m.x, tip_m.y, tip_m.z});
+    const Vec3 shaft = sample.shaft_in_world;
+    shafts.insert(shafts.end(), {shaft.x, shaft.y, shaft.z});
+    sds.push_back(sample.tip_sd_m);
+  }
+  return {{"samples", region.samples.size()},
+          {"tips_in_world_m", std::move(tips)},
+          {"shafts_in_world", std::move(shafts)},
+          {"tip_sds_m", std::move(sds)}};
+}
+
+nav::Region region_from(const JsonNode& node) {
+  nav::Region region;
+  region.saved = true;
+  const std::size_t samples = count_from(node, "samples");
+  if (samples > kMostSamples) {
+    node.refuse("samples", "must be at most 1000000");
+    return region;
+  }
+  const std::vector<double> tips_m = node.numbers("tips_in_world_m", 3 * samples);
+  const std::vector<double> shafts = node.numbers("shafts_in_world", 3 * samples);
+  const std::vector<double> sds_m = node.numbers("tip_sds_m", samples);
+  if (tips_m.size() != 3 * samples || shafts.size() != 3 * samples || sds_m.size() != samples) {
+    return region;
+  }
+  for (std::size_t i = 0; i < samples; ++i) {
+    region.samples.push_back({{{tips_m[3 * i], tips_m[3 * i + 1], tips_m[3 * i + 2]}},
+                              Timestamp{},
+                              {shafts[3 * i], shafts[3 * i + 1], shafts[3 * i + 2]},
+                              sds_m[i]});
+  }
+  return region;
+}
+
+/// Of the points that a registration was computed from.
+std::string hash_of(std::span<const Point<World>> points) {
+  BitHash hash;
+  for (const Point<World>& point : points) {
+    hash.add(point.v);
+  }
+  return hash.text();
+}
+
+std::vector<Point<World>> points_of(const std::vector<nav::Region>& strokes) {
+  std::vector<Point<World>> points;
+  for (const nav::Region& region : strokes) {
+    for (const nav::Sample& sample : region.samples) {
+      points.push_back(sample.tip_in_world);
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+void log_region(LogJson& json, const nav::Region& region) { json["region"] = region_json(region); }
+
+void read_region(const JsonNode& node, std::vector<nav::Region>& strokes) {
+  strokes.push_back(region_from(node.child("region")));
+}
+
+void read_region_dropped(const JsonNode& node, std::vector<nav::Region>& strokes) {
+  if (strokes.empty()) {
+    node.refuse("level", "has no region to be deleted");
+  } else {
+    strokes.pop_back();
+  }
+}
+
+void log_registration(LogJson& json, const LevelState& level, const RegistrationOutcome& outcome) {
+  json["attempt"] = level.attempts;
+  json["passed"] = outcome.passed();
+  json["reason"] = outcome.passed() ? "" : refusal_text(outcome);
+  if (const auto& result = outcome.result) {
+    json["registration"] = json_of(*result);
+    json["weakest"] = result->weakest ? text_of(*result->weakest) : "";
+    json["advice"] = result->stroke_next ? text_of(*result->stroke_next) : "";
+    json["fits_better"] = result->fits_better;
+  }
+  if (outcome.passed()) {
+    json["points_hash"] = hash_of(level.newest->points);
+    json["digitization_s"] = level.digitization_s;
+  }
+  if (level.tag_size) {
+    json["tag_size"] = {{"tool", level.tag_size->tool}, {"fraction", level.tag_size->fraction}};
+  }
+}
+
+LoggedRegistration read_registration(const JsonNode& node, LevelState& level,
+                                     const std::vector<nav::Region>& strokes) {
+  LoggedRegistration asked;
+  asked.attempt = level.attempts = node.integer("attempt");
+  asked.passed = node.flag_or("passed", false);
+  asked.reason = node.text("reason");
+  level.tag_size.reset();
+  if (node.has("tag_size")) {
+    const JsonNode size = node.child("tag_size");
+    level.tag_size = TagSizeWarning{size.text("tool"), size.number("fraction")};
+  }
+  asked.tag_size = level.tag_size;
+  if (node.has("registration")) {
+    asked.result = registration_from(node.child("registration"));
+  }
+  if (!asked.passed) {
+    return asked;
+  }
+  if (!asked.result) {
+    node.refuse("registration", "is missing, though it passed");
+    return asked;
+  }
+  level.forget_registration();
+  level.registration = asked.result;
+  level.digitization_s = node.number("digitization_s");
+  level.newest = {points_of(strokes), *level.registration};
+  if (hash_of(level.newest->points) != node.text("points_hash")) {
+    level.newest.reset();
+  }
+  return asked;
+}
+
+void read_level_cleared(LevelState& level, std::vector<nav::Region>& strokes) {
+  strokes.clear();
+  level.newest.reset();
+  level.forget_registration();
+}
+
+// Its words.
+
+void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator) {
+  std::string& out = text.out;
+  // A bar that fills as the expected error falls.
+  constexpr int kParts = 5;
+  const int filled =
+      coaching.enough ? kParts : std::min(kParts - 1, static_cast<int>(kParts * coaching.progress));
+  text.begin(Importance::kFigures, separator);
+  for (int i = 0; i < kParts; ++i) {
+    out += i < filled ? "◆" : "◇";
+  }
+  separator = " ";
+  if (coaching.enough) {
+    text.begin(Importance::kNext, separator);
+    out += coaching.then_touch ? translated("double click, then touch the bone")
+                               : translated("enough: double click");
+  } else if (coaching.against) {
+    text.begin(Importance::kMessage, separator);
+    append(out, *coaching.against);
+  } else if (coaching.stroke_next) {
+    text.begin(Importance::kNext, separator);
+    append(out, *coaching.stroke_next);
+  } else {
+    text.begin(Importance::kNext, separator);
+    out += translated("stroke on");
+  }
+}
+
+void append(std::string& out, const Coaching& coaching) {
+  write_coaching(PartedText{out}, coaching, "");
+}
+
+void write(PartedText text, const ConfirmDelete& m) {
+  std::string& out = text.out;
+  text.begin(Importance::kNext);
+  if (m.points == 1) {
+    out += translated("say delete last again to drop the last saved point");
+    return;
+  }
+  append_printed(out, translated("say delete last again to drop the last saved %zu points"),
+                 m.points);
+}
+
+void write(PartedText text, const RegistrationRefused& m) {
+  std::string& out = text.out;
+  text.begin(Importance::kMessage);
+  out.append(translated("refused:")).append(" ");
+  const std::span<const nav::RefusalReason> reasons = m.reasons;
+  if (m.error) {
+    append_error(out, *m.error);
+  } else {
+    append(out, reasons.first(std::min<std::size_t>(1, reasons.size())));
+  }
+  if (m.another_level_fits) {
+    text.begin(Importance::kNext, "; ");
+    out += translated("verify the vertebral level");
+  } else if (m.stroke_next) {
+    text.begin(Importance::kNext, "; ");
+    append(out, *m.stroke_next);
+  }
 }
 
 }  // namespace orthonav::engine

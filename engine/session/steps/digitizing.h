@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "engine/session/coach.h"
+#include "engine/session/logged_operation.h"
 #include "engine/session/method.h"
 #include "engine/session/operation_in_work.h"
+#include "engine/session/operation_json.h"
 #include "engine/session/operation_state.h"
 #include "engine/session/work_watch.h"
 #include "nav/tracking/worker.h"
@@ -109,5 +111,26 @@ class Digitizing {
   Registering registering_;
   std::unique_ptr<Coach> coach_;  ///< null: no coaching
 };
+
+// Its records in the log; `json` holds time and level already.
+
+/// Of a saved region.
+void log_region(LogJson& json, const nav::Region& region);
+/// `strokes`: the level's saved regions.
+void read_region(const JsonNode& node, std::vector<nav::Region>& strokes);
+void read_region_dropped(const JsonNode& node, std::vector<nav::Region>& strokes);
+/// Of a registration that was asked for, passed or not.
+void log_registration(LogJson& json, const LevelState& level, const RegistrationOutcome& outcome);
+/// One that passed becomes the level's.
+[[nodiscard]] LoggedRegistration read_registration(const JsonNode& node, LevelState& level,
+                                                   const std::vector<nav::Region>& strokes);
+void read_level_cleared(LevelState& level, std::vector<nav::Region>& strokes);
+
+/// "expected error 0.6 mm, digitize the left lamina".
+void append(std::string& out, const Coaching& coaching);
+/// The same in parts; the separator comes before the first.
+void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator);
+void write(PartedText text, const ConfirmDelete& m);
+void write(PartedText text, const RegistrationRefused& m);
 
 }  // namespace orthonav::engine

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "base/printed.h"
 #include "base/translation.h"
@@ -241,6 +242,127 @@ void Guiding::add_clearance(ToolGuidance& guidance, const OperationInWork& work,
         approach_.clearance.write(*guidance.clearance, work.level().plan.screws[screw_].side);
   } else {
     approach_.clearance.forget();
+  }
+}
+
+// Its records.
+
+namespace {
+
+LogJson executed_json(const nav::ExecutedTrajectory& executed) {
+  LogJson json = {{"point_m", json_of(executed.axis.point.v)},
+                  {"direction", json_of(executed.axis.direction)}};
+  json["depth_m"] = executed.depth_m;
+  json["pairs"] = executed.pairs;
+  if (executed.point_covariance_m2) {
+    json["point_covariance_m2"] = *executed.point_covariance_m2;
+  }
+  if (executed.direction_covariance_rad2) {
+    json["direction_covariance_rad2"] = *executed.direction_covariance_rad2;
+  }
+  return json;
+}
+
+LogJson clearance_json(const nav::ScrewClearance& clearance) {
+  const nav::Clearance& least = clearance.least;
+  LogJson json = {{"clearance_m", least.clearance_m},
+                  {"arc_length_m", least.arc_length_m},
+                  {"outward", json_of(least.outward)},
+                  {"on_tip", least.on_tip},
+                  {"place_m", json_of(least.place.v)}};
+  if (clearance.spread) {
+    json["lower_95_m"] = clearance.spread->lower_95_m;
+    json["grade_probability"] = clearance.spread->grade_probability;
+  }
+  return json;
+}
+
+/// The tool against its screw: only the figures that a report has.
+LogJson at_depth_json(const nav::ScrewGuidance& at_depth) {
+  return {{"angle_rad", at_depth.angle_rad},
+          {"tip_to_entry_m", at_depth.tip_to_entry_m},
+          {"tip_off_axis_m", at_depth.tip_off_axis_m},
+          {"depth_m", at_depth.depth_m}};
+}
+
+nav::ExecutedTrajectory executed_from(const JsonNode& node) {
+  nav::ExecutedTrajectory executed;
+  executed.axis = {{node.vec3("point_m")}, node.vec3("direction")};
+  executed.depth_m = node.number("depth_m");
+  executed.pairs = count_from(node, "pairs");
+  if (node.has("point_covariance_m2")) {
+    executed.point_covariance_m2 = array_from<9>(node, "point_covariance_m2");
+  }
+  if (node.has("direction_covariance_rad2")) {
+    executed.direction_covariance_rad2 = array_from<9>(node, "direction_covariance_rad2");
+  }
+  return executed;
+}
+
+nav::ScrewClearance clearance_from(const JsonNode& node) {
+  nav::ScrewClearance clearance;
+  clearance.least = {node.number("clearance_m"),
+                     node.number("arc_length_m"),
+                     node.vec3("outward"),
+                     node.flag_or("on_tip", false),
+                     {node.vec3("place_m")}};
+  if (node.has("lower_95_m")) {
+    clearance.spread = nav::ClearanceSpread{
+        node.number("lower_95_m"), array_from<nav::kPedicleGrades>(node, "grade_probability")};
+  }
+  return clearance;
+}
+
+nav::ScrewGuidance at_depth_from(const JsonNode& node) {
+  nav::ScrewGuidance out;
+  out.angle_rad = node.number("angle_rad");
+  out.tip_to_entry_m = node.number("tip_to_entry_m");
+  out.tip_off_axis_m = node.number("tip_off_axis_m");
+  out.depth_m = node.number("depth_m");
+  return out;
+}
+
+}  // namespace
+
+void log_screw(LogJson& json, const LevelState& level, std::size_t screw,
+               const ToolGuidance* at_depth) {
+  json["screw"] = screw;
+  json["side"] = name_of(level.plan.screws[screw].side);
+  const ScrewState& done = level.screws[screw];
+  if (at_depth != nullptr && done.at_depth) {
+    json["at_depth"] = at_depth_json(*done.at_depth);
+    json["at_depth"]["pose_time_ns"] = at_depth->pose_time.time_since_epoch().count();
+  }
+  if (done.executed) {
+    json["executed"] = executed_json(*done.executed);
+  }
+  if (done.clearance_at_depth) {
+    json["clearance"] = clearance_json(*done.clearance_at_depth);
+  }
+  json["wire_asked"] = done.wire.asked;
+  if (done.wire.measured) {
+    json["wire"] = json_of(*done.wire.measured);
+  }
+}
+
+void read_screw(const JsonNode& node, Timestamp time, ScrewState& screw) {
+  screw.done = true;
+  screw.done_at = time;
+  screw.at_depth.reset();
+  if (node.has("at_depth")) {
+    screw.at_depth = at_depth_from(node.child("at_depth"));
+  }
+  screw.executed.reset();
+  screw.clearance_at_depth.reset();
+  screw.wire = {node.flag_or("wire_asked", false), std::nullopt};
+  if (node.has("executed")) {
+    screw.executed = executed_from(node.child("executed"));
+  }
+  if (node.has("clearance")) {
+    screw.clearance_at_depth = clearance_from(node.child("clearance"));
+  }
+  if (node.has("wire")) {
+    screw.wire.measured = wire_from(node.child("wire"));
   }
 }
 

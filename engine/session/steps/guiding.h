@@ -7,6 +7,7 @@
 
 #include "base/translation.h"
 #include "engine/session/operation_in_work.h"
+#include "engine/session/operation_json.h"
 #include "engine/session/tool_in_vertebra.h"
 #include "nav/guidance/drill_watch.h"
 #include "nav/guidance/screw_numbers.h"
@@ -98,6 +99,13 @@ class Guiding {
   bool twin_ = false;
   bool numbers_ = false;
 };
+
+// Its records in the log; `json` holds time and level already.
+
+/// Of a screw that is done.
+void log_screw(LogJson& json, const LevelState& level, std::size_t screw,
+               const ToolGuidance* at_depth);
+void read_screw(const JsonNode& node, Timestamp time, ScrewState& screw);
 
 // Its numbers in a surgeon's words. Like the dots of the target cross, they say where the tip is
 // and where the tool aims, never where to go.

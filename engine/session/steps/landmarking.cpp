@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "base/angle.h"
 #include "base/printed.h"
@@ -209,6 +210,50 @@ StepState Landmarking::state(const OperationInWork& work, const GuideChecks& gui
   return LandmarkSoFar{level.landmark.has_value(), last_, &guide.tips(), &guide.axis()};
 }
 
+// Its records.
+
+void log_landmark_touch(LogJson& json, const LevelState& level, const LandmarkTouch& touch) {
+  json["first"] = touch.first;
+  json["off_m"] = touch.off_m;
+  json["limit_m"] = touch.limit_m;
+  if (touch.first) {
+    const Landmark& landmark = *level.landmark;
+    json["landmark"] = {{"in_vertebra_m", json_of(landmark.in_vertebra.v)},
+                        {"sd_m", landmark.sd_m},
+                        {"bone_sd_m", landmark.bone_sd_m}};
+  }
+}
+
+LandmarkTouch read_landmark_touch(const JsonNode& node, LevelState& level) {
+  LandmarkTouch touch;
+  touch.first = node.flag_or("first", false);
+  touch.off_m = node.number("off_m");
+  touch.limit_m = node.number("limit_m");
+  if (touch.first) {
+    const JsonNode landmark = node.child("landmark");
+    level.landmark = {{landmark.vec3("in_vertebra_m")},
+                      landmark.number("sd_m"),
+                      Timestamp{},
+                      landmark.number("bone_sd_m")};
+  }
+  return touch;
+}
+
+void log_landmark_dropped(LogJson& json, const LevelState& level) {
+  json["stays"] = level.landmark.has_value();
+}
+
+void read_landmark_dropped(const JsonNode& node, LevelState& level) {
+  if (!node.flag_or("stays", false)) {
+    level.landmark.reset();
+  }
+}
+
+void read_acceptance_withdrawn(LevelState& level) {
+  level.accepted = false;
+  level.check_points.clear();
+}
+
 // Its words.
 
 namespace {
@@ -282,6 +327,34 @@ void write_beside_correction(PartedText text, const LandmarkSoFar& landmark) {
   if (landmark.last && landmark.last->missing == 0) {
     write_act_after_touch(text, landmark, "; ");
   }
+}
+
+void write(PartedText text, const LandmarkMissing& m) {
+  std::string& out = text.out;
+  text.begin(Importance::kNext);
+  out.append(translated(words::kNotYet)).append(" ");
+  out += translated(m.recorded ? words::kTouchDimple : words::kMakeDimple);
+}
+
+void write(PartedText text, const LandmarkMoved& m) {
+  std::string& out = text.out;
+  text.begin(Importance::kDanger);
+  append_beside_limit(out,
+                      m.anchored
+                          ? translated("the reference moved %.1f mm, limit %.1f mm")
+                          : translated("the patient or the map moved %.1f mm, limit %.1f mm"),
+                      m.off_m * 1e3, m.limit_m * 1e3);
+  text.begin(Importance::kNext, ": ");
+  out += translated("check again or reject level");
+}
+
+void write(PartedText text, const BoneUnchecked& m) {
+  std::string& out = text.out;
+  text.begin(Importance::kDanger);
+  append_printed(out, translated("bone not checked for %.0f s, the map may have drifted %s"),
+                 m.for_s, said_mm(m.drift_m).c_str());
+  text.begin(Importance::kNext, ": ");
+  out += translated(words::kTouchDimple);
 }
 
 }  // namespace orthonav::engine

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "engine/session/operation_in_work.h"
+#include "engine/session/operation_json.h"
 #include "engine/session/status_line.h"
 
 namespace orthonav::engine {
@@ -66,6 +67,18 @@ class Landmarking {
   int touches_ = 0;
 };
 
+// Its records in the log; `json` holds time and level already.
+
+void log_landmark_touch(LogJson& json, const LevelState& level, const LandmarkTouch& touch);
+[[nodiscard]] LandmarkTouch read_landmark_touch(const JsonNode& node, LevelState& level);
+void log_landmark_dropped(LogJson& json, const LevelState& level);
+void read_landmark_dropped(const JsonNode& node, LevelState& level);
+/// The landmark had moved.
+void read_acceptance_withdrawn(LevelState& level);
+
+void write(PartedText text, const LandmarkMissing& m);
+void write(PartedText text, const LandmarkMoved& m);
+void write(PartedText text, const BoneUnchecked& m);
 /// Whether the landmark is still to be touched, and the result of the last touch.
 void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_view separator);
 /// After the outcome of a correction of the guide: what its touch asks for next.

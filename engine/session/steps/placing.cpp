@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <utility>
 
@@ -212,6 +213,48 @@ void Placing::write(Step step, Guidance& out) const {
 
 StepState Placing::state() const { return WireSoFar{wire_ ? &*wire_ : nullptr, no_other_entry_}; }
 
+// Its records.
+
+void log_wire(LogJson& json, std::size_t screw, const PlacedWire& wire) {
+  json["screw"] = screw;
+  json["wire"] = json_of(wire);
+  json["within"] = wire.within();
+}
+
+void read_wire(const JsonNode& node, ScrewState& screw) {
+  screw.wire = {true, wire_from(node.child("wire"))};
+}
+
+LogJson json_of(const PlacedWire& wire) {
+  LogJson json = {{"point_m", json_of(wire.axis.line.point.v)},
+                  {"direction", json_of(wire.axis.line.direction)}};
+  json["angle_rad"] = LogJson{wire.axis.angle_rad.value, wire.axis.angle_rad.sd};
+  json["entry_m"] = LogJson{wire.axis.entry_m.value, wire.axis.entry_m.sd};
+  json["point_covariance_m2"] = wire.axis.point_covariance_m2;
+  json["direction_covariance_rad2"] = wire.axis.direction_covariance_rad2;
+  json["pairs"] = wire.pairs;
+  json["angle_limit_rad"] = wire.angle_limit_rad;
+  json["entry_limit_m"] = wire.entry_limit_m;
+  json["kept"] = wire.kept;
+  return json;
+}
+
+PlacedWire wire_from(const JsonNode& node) {
+  PlacedWire wire;
+  const auto [angle_rad, angle_sd_rad] = array_from<2>(node, "angle_rad");
+  const auto [entry_m, entry_sd_m] = array_from<2>(node, "entry_m");
+  wire.axis = {{{node.vec3("point_m")}, node.vec3("direction")},
+               {angle_rad, angle_sd_rad},
+               {entry_m, entry_sd_m},
+               array_from<9>(node, "point_covariance_m2"),
+               array_from<9>(node, "direction_covariance_rad2")};
+  wire.pairs = count_from(node, "pairs");
+  wire.angle_limit_rad = node.number("angle_limit_rad");
+  wire.entry_limit_m = node.number("entry_limit_m");
+  wire.kept = node.flag_or("kept", false);
+  return wire;
+}
+
 // Its words.
 
 void write_wire(PartedText text, const WireSoFar& state, std::string_view separator) {
@@ -243,6 +286,37 @@ void write_wire(PartedText text, const WireSoFar& state, std::string_view separa
   } else {
     out += translated(state.no_other_entry ? words::kNoOtherEntry : words::kKeepOrRedo);
   }
+}
+
+void write(PartedText text, const WireUndecided& /*m*/) {
+  std::string& out = text.out;
+  text.begin(Importance::kNext);
+  out.append(translated(words::kNotYet)).append(" ").append(translated(words::kKeepOrRedo));
+}
+
+void write(PartedText text, const NoOtherEntry& /*m*/) {
+  std::string& out = text.out;
+  text.begin(Importance::kNext);
+  out += translated(words::kNoOtherEntry);
+}
+
+void write(PartedText text, const ConfirmRedo& m) {
+  std::string& out = text.out;
+  text.begin(Importance::kNext);
+  append_printed(
+      out,
+      m.redone == 1 ? translated("redone once already") : translated("redone %d times already"),
+      m.redone);
+  out.append(": ").append(translated("say delete last again to redo it, accept result to keep it"));
+}
+
+void write(PartedText text, const ScrewRedone& m) {
+  std::string& out = text.out;
+  text.begin(Importance::kMessage);
+  append_printed(out, translated("new entry %s from the hole, clearance %s"),
+                 said_mm(m.from_hole_m).c_str(), said_mm(m.clearance_m).c_str());
+  text.begin(Importance::kNext, ": ");
+  out += translated("take the wire out and touch the dimple");
 }
 
 }  // namespace orthonav::engine

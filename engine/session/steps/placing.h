@@ -5,6 +5,7 @@
 
 #include "engine/session/messages.h"
 #include "engine/session/operation_in_work.h"
+#include "engine/session/operation_json.h"
 #include "engine/session/status_line.h"
 #include "engine/session/tool_in_vertebra.h"
 #include "engine/session/touch.h"
@@ -82,6 +83,19 @@ class Placing {
   std::optional<nav::SpinCalibration> spin_;
 };
 
+// Its records in the log; `json` holds time and level already.
+
+/// A wire that is kept beyond a limit is an override: the record holds both.
+void log_wire(LogJson& json, std::size_t screw, const PlacedWire& wire);
+void read_wire(const JsonNode& node, ScrewState& screw);
+// Also in the record of the screw.
+[[nodiscard]] LogJson json_of(const PlacedWire& wire);
+[[nodiscard]] PlacedWire wire_from(const JsonNode& node);
+
+void write(PartedText text, const WireUndecided& m);
+void write(PartedText text, const NoOtherEntry& m);
+void write(PartedText text, const ConfirmRedo& m);
+void write(PartedText text, const ScrewRedone& m);
 /// "angle 2.6°, limit 2.0°: say accept result to keep it, delete last to redo it".
 void write_wire(PartedText text, const WireSoFar& state, std::string_view separator);
 

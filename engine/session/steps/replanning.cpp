@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -329,6 +330,41 @@ Replanning::Outcome Replanning::undo(LevelState& level, std::size_t screw) const
   ScrewReplanned done = put(level, screw, plan);
   done.undone = true;
   return done;
+}
+
+// Its records.
+
+void log_plan(LogJson& json, const LevelState& level, const std::string& why) {
+  json["why"] = why;
+  json["screws"] = LogJson::array();
+  for (std::size_t i = 0; i < level.plan.screws.size(); ++i) {
+    LogJson screw = json_of(level.plan.screws[i]);
+    screw["redone"] = level.screws[i].redone;
+    screw["earlier"] = LogJson::array();
+    for (const nav::ScrewPlan& earlier : level.screws[i].earlier_plans) {
+      screw["earlier"].push_back(json_of(earlier));
+    }
+    json["screws"].push_back(std::move(screw));
+  }
+}
+
+void read_plan(const JsonNode& node, LevelState& level) {
+  const std::vector<JsonNode> screws = node.list("screws");
+  if (screws.size() != level.screws.size()) {
+    node.refuse("screws", "must be " + std::to_string(level.screws.size()));
+    return;
+  }
+  for (std::size_t i = 0; i < screws.size(); ++i) {
+    level.plan.screws[i] = screw_from(screws[i]);
+    const int redone = screws[i].integer("redone");
+    if (redone != std::exchange(level.screws[i].redone, redone)) {
+      level.screws[i].wire = {};  // it was of the wire that was taken out
+    }
+    level.screws[i].earlier_plans.clear();
+    for (const JsonNode& earlier : screws[i].list("earlier")) {
+      level.screws[i].earlier_plans.push_back(screw_from(earlier));
+    }
+  }
 }
 
 // Its words.

@@ -8,6 +8,7 @@
 
 #include "base/time.h"
 #include "engine/session/operation_in_work.h"
+#include "engine/session/operation_json.h"
 #include "engine/session/replan.h"
 #include "engine/session/status_line.h"
 #include "nav/guidance/screw.h"
@@ -68,6 +69,12 @@ class Replanning {
 /// Makes another entry beside the hole of a screw's first wire the plan in use. There is no way
 /// back to the hole; its plan is kept as the only earlier plan.
 void put_other_entry(LevelState& level, std::size_t screw, Point<Vertebra> entry);
+
+// Its records in the log; `json` holds time and level already.
+
+/// The plan of every screw, with the reason for each accepted breach; `why`: for what it changed.
+void log_plan(LogJson& json, const LevelState& level, const std::string& why);
+void read_plan(const JsonNode& node, LevelState& level);
 
 // Changes of a screw in words.
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
@@ -250,6 +251,104 @@ void RodTemplating::resume(const OperationState& operation) {
   while (current_ + 1 < planned_.size() && operation.rods[current_].done &&
          planned_[current_ + 1]) {
     ++current_;
+  }
+}
+
+// Its records.
+
+namespace {
+
+std::optional<double> number_if(const JsonNode& node, const char* key) {
+  return node.has(key) ? std::optional(node.number(key)) : std::nullopt;
+}
+
+}  // namespace
+
+void log_head(LogJson& json, nav::Side side, const HeadTouch& touch) {
+  json["side"] = name_of(side);
+  json["head"] = touch.head;
+  json["touches"] = touch.touches;
+  json["in_world_m"] = json_of(touch.place.v);
+  json["sd_m"] = touch.sd_m;
+  json["head_sd_m"] = touch.head_sd_m;
+}
+
+void log_head_dropped(LogJson& json, nav::Side side, const HeadTouch& touch) {
+  json["side"] = name_of(side);
+  json["head"] = touch.head;
+  json["touches"] = touch.touches - 1;
+}
+
+void read_head(const JsonNode& node, bool dropped, bool anchored, RodState& rod) {
+  if (rod.touched.empty()) {
+    rod.touched = TouchedHeads({}, anchored);
+  }
+  if (dropped) {
+    rod.touched.drop_last();
+  } else if (const auto added = rod.touched.add({{node.vec3("in_world_m")}, node.number("sd_m")});
+             !std::holds_alternative<HeadTouch>(added)) {
+    return node.refuse("in_world_m", "is not where its head was touched before");
+  }
+  rod.heads = rod.touched.places();
+}
+
+void log_rod(LogJson& json, const RodState& rod) {
+  json["side"] = name_of(rod.side);
+  json["heads"] = rod.heads.size();
+  if (rod.rod) {
+    json["length_m"] = rod.rod->length_m;
+    json["bends"] = LogJson::array();
+    for (const nav::RodBend& bend : rod.rod->bends) {
+      json["bends"].push_back({{"arc_length_m", bend.arc_length_m}, {"angle_rad", bend.angle_rad}});
+    }
+  }
+  if (rod.took_s) {
+    json["took_s"] = *rod.took_s;
+  }
+  json["no_instructions"] = rod.no_instructions;
+  if (rod.instructions) {
+    json["cut_length_m"] = rod.instructions->cut_length_m();
+    json["instructions"] = LogJson::array();
+    for (const nav::RodInstruction& bend : rod.instructions->bends) {
+      json["instructions"].push_back({{"centre_m", bend.arc.centre_m},
+                                      {"roll_rad", bend.arc.roll_rad},
+                                      {"angle_rad", bend.arc.angle_rad},
+                                      {"set_rad", bend.set_rad}});
+    }
+  }
+  if (rod.seat_by_pointer_m) {
+    json["seat_by_pointer_m"] = *rod.seat_by_pointer_m;
+  }
+  if (rod.expected) {
+    json["expected_within"] = rod.expected->within;
+    json["least_sure"] = rod.expected->least_sure;
+  }
+}
+
+void read_rod(const JsonNode& node, RodState& rod) {
+  rod.done = true;
+  if (node.has("length_m")) {
+    rod.rod.emplace().length_m = node.number("length_m");
+    for (const JsonNode& bend : node.list("bends")) {
+      rod.rod->bends.push_back({bend.number("arc_length_m"), bend.number("angle_rad"), {}});
+    }
+  }
+  rod.took_s = number_if(node, "took_s");
+  rod.no_instructions = node.text("no_instructions");
+  if (node.has("cut_length_m")) {
+    rod.instructions.emplace().fit.length_m = node.number("cut_length_m");
+    for (const JsonNode& bend : node.list("instructions")) {
+      nav::RodInstruction& read = rod.instructions->bends.emplace_back();
+      read.arc.centre_m = bend.number("centre_m");
+      read.arc.roll_rad = bend.number("roll_rad");
+      read.arc.angle_rad = bend.number("angle_rad");
+      read.set_rad = bend.number("set_rad");
+    }
+  }
+  rod.seat_by_pointer_m = number_if(node, "seat_by_pointer_m");
+  if (node.has("expected_within")) {
+    rod.expected =
+        nav::RodExpectation{node.number("expected_within"), count_from(node, "least_sure")};
   }
 }
 

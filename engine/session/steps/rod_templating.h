@@ -6,6 +6,7 @@
 #include <span>
 
 #include "engine/session/operation_in_work.h"
+#include "engine/session/operation_json.h"
 #include "engine/session/status_line.h"
 #include "nav/guidance/rod_cut.h"
 
@@ -55,6 +56,18 @@ class RodTemplating {
   std::size_t current_ = 0;
   bool moved_away_ = false;
 };
+
+// Its records in the log; `json` holds the time already.
+
+void log_head(LogJson& json, nav::Side side, const HeadTouch& touch);
+/// The last touch was taken back: `touch` as it was recorded.
+void log_head_dropped(LogJson& json, nav::Side side, const HeadTouch& touch);
+/// `dropped`: taken back; `anchored`: to a patient reference.
+void read_head(const JsonNode& node, bool dropped, bool anchored, RodState& rod);
+/// A rod that is done: of its template and its instructions only what a report has. Its heads are
+/// told as they are touched.
+void log_rod(LogJson& json, const RodState& rod);
+void read_rod(const JsonNode& node, RodState& rod);
 
 /// The next act.
 void write_heads(PartedText text, const HeadsSoFar& heads);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "base/printed.h"
 #include "base/translation.h"
@@ -231,7 +232,101 @@ StepState Verifying::state(const OperationInWork& work) const {
   return ChecksSoFar{&verdict_, moved_m_};
 }
 
+// Its records.
+
+void log_check_point(LogJson& json, const LevelState& level) {
+  const nav::CheckPoint& point = level.check_points.back();
+  json["in_world_m"] = json_of(point.place.v);
+  json["distance_m"] = point.distance_m;
+  json["limit_m"] = point.limit_m;
+  json["within"] = point.within;
+}
+
+void read_check_point(const JsonNode& node, LevelState& level) {
+  level.check_points.push_back({{node.vec3("in_world_m")},
+                                bounded(node, "distance_m"),
+                                node.flag_or("within", false),
+                                bounded(node, "limit_m")});
+}
+
+void read_check_point_dropped(LevelState& level) {
+  if (!level.check_points.empty()) {
+    level.check_points.pop_back();
+  }
+}
+
+void log_acceptance(LogJson& json, const LevelState& level, std::string_view shown) {
+  json["shown"] = shown;
+  json["registration"] = json_of(*level.registration);
+  json["check_points"] = level.check_points.size();
+}
+
+void read_acceptance(const JsonNode& node, LevelState& level) {
+  level.registration = registration_from(node.child("registration"));
+  level.accepted = true;
+}
+
 // Its words.
+
+namespace {
+
+constexpr const char* kSayReject = translatable("say reject level");
+
+void append(std::string& out, const nav::CheckAdvice& advice) {
+  switch (advice.kind) {
+    case nav::CheckAdvice::Kind::kNone:
+      break;
+    case nav::CheckAdvice::Kind::kTouchApart:
+      if (advice.number == 3) {
+        append_printed(out, translated("touch 3 places, %.0f mm apart"), advice.value_m * 1e3);
+      } else {
+        append_printed(out,
+                       advice.number == 1
+                           ? translated("touch %zu more place, %.0f mm from the others")
+                           : translated("touch %zu more places, %.0f mm from the others"),
+                       advice.number, advice.value_m * 1e3);
+      }
+      break;
+    case nav::CheckAdvice::Kind::kTouchOffLine:
+      append_printed(out, translated("touch 1 more place, %.0f mm off their line"),
+                     advice.value_m * 1e3);
+      break;
+    case nav::CheckAdvice::Kind::kReject:
+      append_beside_limit(out, translated("%.1f mm off, limit %.1f mm"), advice.value_m * 1e3,
+                          advice.limit_m * 1e3);
+      out.append(": ").append(translated(kSayReject));
+      break;
+    case nav::CheckAdvice::Kind::kTouchMore:
+      out += translated("touch 1 more place");
+      break;
+    case nav::CheckAdvice::Kind::kUncertain:
+      append_beside_limit(out, translated("screws ≤ %.1f mm off, limit %.1f mm"),
+                          advice.value_m * 1e3, advice.limit_m * 1e3);
+      out.append(": ").append(translated(kSayReject));
+      break;
+  }
+}
+
+}  // namespace
+
+std::string text_of(const nav::CheckAdvice& advice) {
+  std::string out;
+  append(out, advice);
+  return out;
+}
+
+void write(PartedText text, const SaidBeforeShown& /*m*/) {
+  std::string& out = text.out;
+  text.begin(Importance::kMessage);
+  out += translated("not accepted: said before the hologram was shown");
+}
+
+void write(PartedText text, const ChecksMissing& m) {
+  std::string& out = text.out;
+  text.begin(Importance::kNext);
+  out.append(translated("not accepted:")).append(" ");
+  append(out, m.advice);
+}
 
 void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
   if (checks.moved_m) {

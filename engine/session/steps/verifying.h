@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/session/operation_in_work.h"
+#include "engine/session/operation_json.h"
 #include "engine/session/status_line.h"
 #include "nav/registration/pressed_places.h"
 
@@ -71,6 +72,21 @@ class Verifying {
   std::string shown_;  ///< the status line as last shown
 };
 
+// Its records in the log; `json` holds time and level already.
+
+/// Of the newest check point.
+void log_check_point(LogJson& json, const LevelState& level);
+void read_check_point(const JsonNode& node, LevelState& level);
+/// The newest was taken back.
+void read_check_point_dropped(LevelState& level);
+/// `shown`: the status line as last shown.
+void log_acceptance(LogJson& json, const LevelState& level, std::string_view shown);
+void read_acceptance(const JsonNode& node, LevelState& level);
+
+/// What is wrong with the check points, and what to do; nothing if all is well.
+[[nodiscard]] std::string text_of(const nav::CheckAdvice& advice);
+void write(PartedText text, const SaidBeforeShown& m);
+void write(PartedText text, const ChecksMissing& m);
 /// What is to be touched, and how far the landmark has moved since the registration was accepted.
 void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view separator);
 

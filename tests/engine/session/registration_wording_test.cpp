@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "engine/session/steps/digitizing.h"
+#include "engine/session/steps/verifying.h"
 #include "tests/engine/session/status_wording.h"
 
 namespace orthonav::engine::wording_test {

@@ -4,8 +4,10 @@
 #include <thread>
 
 #include "base/angle.h"
+#include "engine/session/steps/digitizing.h"
 #include "engine/session/steps/guiding.h"
 #include "engine/session/steps/replanning.h"
+#include "engine/session/steps/verifying.h"
 #include "engine/session/wording.h"
 #include "tests/engine/session/status_wording.h"
 #include "tests/support/allocation_count.h"
