@@ -130,5 +130,18 @@ TEST_F(SessionReplan, ConsentCountsOnlyForTheQuestionThatIsShown) {
   EXPECT_NEAR(nav::tilt_between_rad(s.level().screws[0].preoperative, s.left()), 0.0, kExact);
 }
 
+TEST_F(SessionReplan, AQuestionThatWasNeverOnDisplayCannotBeConsentedTo) {
+  s.says("move lateral nine");
+  s.hears_at(s.now() + std::chrono::milliseconds(1), "tilt lateral nine");
+  s.hears_at(s.now() + std::chrono::milliseconds(2), "move cranial");
+  EXPECT_EQ(notice_of(s.pair()), Notice::kNotUnderstood) << "in place of the question";
+  s.pair();
+  EXPECT_EQ(notice_of(s.says("accept")), Notice::kNotPossibleNow);
+  EXPECT_NEAR(nav::tilt_between_rad(s.level().screws[0].preoperative, s.left()), 0.0, kExact);
+  ASSERT_EQ(s.refusal("tilt lateral nine"), Kind::kBreach);
+  s.pair();
+  EXPECT_EQ(notice_of(s.says("accept")), Notice::kReplanned) << "the twin, shown";
+}
+
 }  // namespace
 }  // namespace orthonav::engine::session_replan_test
