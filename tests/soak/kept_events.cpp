@@ -10,6 +10,7 @@
 #include "engine/io/json_document.h"
 #include "engine/session/logged_operation.h"
 #include "engine/session/operation_json.h"
+#include "engine/session/steps/digitizing.h"
 
 namespace orthonav::soak {
 namespace {

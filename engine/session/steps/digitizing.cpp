@@ -303,6 +303,8 @@ LogJson region_json(const nav::Region& region) {
           {"tip_sds_m", std::move(sds)}};
 }
 
+}  // namespace
+
 nav::Region region_from(const JsonNode& node) {
   nav::Region region;
   region.saved = true;
@@ -326,7 +328,6 @@ nav::Region region_from(const JsonNode& node) {
   return region;
 }
 
-/// Of the points that a registration was computed from.
 std::string hash_of(std::span<const Point<World>> points) {
   BitHash hash;
   for (const Point<World>& point : points) {
@@ -334,6 +335,8 @@ std::string hash_of(std::span<const Point<World>> points) {
   }
   return hash.text();
 }
+
+namespace {
 
 std::vector<Point<World>> points_of(const std::vector<nav::Region>& strokes) {
   std::vector<Point<World>> points;

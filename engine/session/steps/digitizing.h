@@ -114,6 +114,9 @@ class Digitizing {
 
 // Its records in the log; `json` holds time and level already.
 
+[[nodiscard]] nav::Region region_from(const JsonNode& node);
+/// The hash of the points that a registration was computed from.
+[[nodiscard]] std::string hash_of(std::span<const Point<World>> points);
 /// Of a saved region.
 void log_region(LogJson& json, const nav::Region& region);
 /// `strokes`: the level's saved regions.
