@@ -1,6 +1,8 @@
 #include "tools/bad_command_line.h"
 
 #include <algorithm>
+#include <cctype>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -42,11 +44,38 @@ std::vector<std::string> possible(const CLI::App& command, bool option) {
   return names;
 }
 
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// The one command below whose description has a part of this word, as "to-slicer" of "plan
+/// export"; empty: none, or several.
+std::string described_by(const std::string& word, const CLI::App& command) {
+  constexpr std::size_t kShortestPart = 4;
+  std::vector<std::string> found;
+  for (const CLI::App* below : command.get_subcommands({})) {
+    const std::string description = lower_case(below->get_description());
+    std::istringstream parts(lower_case(word));
+    for (std::string part; std::getline(parts, part, '-');) {
+      if (part.size() >= kShortestPart && description.find(part) != std::string::npos) {
+        found.push_back(below->get_name());
+        break;
+      }
+    }
+  }
+  return found.size() == 1 ? found.front() : "";
+}
+
 /// Names the unexpected word, and what was probably meant.
 std::string about_word(const std::string& word, const Asked& asked) {
   const bool option = word.size() > 1 && word.front() == '-';
   const bool command = !option && !asked.command->get_subcommands({}).empty();
-  const std::string meant = closest(word, possible(*asked.command, option));
+  std::string meant = closest(word, possible(*asked.command, option));
+  if (meant.empty() && command) {
+    meant = described_by(word, *asked.command);
+  }
   return (option    ? "unknown option: "
           : command ? "unknown command: "
                     : "unexpected argument: ") +

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/joined.h"
+#include "nav/tracking/marker_detector.h"
 
 namespace orthonav::tools {
 namespace {
@@ -24,14 +25,12 @@ std::string usual_value(const std::string& option) {
   static const std::map<std::string, const char*> values = {{"--background", "NAME|FILE"},
                                                             {"--board", "FILE"},
                                                             {"--cases", "DIR"},
-                                                            {"--clicker", "DEVICE"},
                                                             {"--csv", "FILE"},
                                                             {"--db", "PATH"},
                                                             {"--device", "NAME"},
                                                             {"--dir", "DIR"},
                                                             {"--draw", "DIR"},
                                                             {"--family", "NAME"},
-                                                            {"--faults", "LIST"},
                                                             {"--headset", "URI"},
                                                             {"--host", "ADDRESS"},
                                                             {"--ids", "LIST"},
@@ -41,7 +40,6 @@ std::string usual_value(const std::string& option) {
                                                             {"--name", "NAME"},
                                                             {"--out", "PATH"},
                                                             {"--pointer", "NAME"},
-                                                            {"--profile", "NAME"},
                                                             {"--record", "DIR"},
                                                             {"--report", "FILE"},
                                                             {"--screws", "FILE"},
@@ -51,9 +49,7 @@ std::string usual_value(const std::string& option) {
                                                             {"--size", "WIDTHxHEIGHT"},
                                                             {"--slurm", "DIR"},
                                                             {"--to-bone", "X,Y,Z"},
-                                                            {"--tools", "FILE"},
-                                                            {"--voice", "DEVICE"},
-                                                            {"--without", "STEPS"}};
+                                                            {"--tools", "FILE"}};
   const auto found = values.find(option);
   return found == values.end() ? "TEXT" : found->second;
 }
@@ -69,8 +65,8 @@ std::string begun_small(std::string text) {
   return text;
 }
 
-/// The library's "TEXT:{a,b}" and our own "a|b" are choices; its words for numbers differ from
-/// ours.
+/// The library's "TEXT:{a,b}" and our own "a|b" are choices; of "NAME|a|b", too long for help, only
+/// completion has the choices. The library's words for numbers differ from ours.
 void read_value(const CLI::Option& option, OptionRow& row) {
   if (option.get_type_size() == 0) {
     return;
@@ -82,6 +78,12 @@ void read_value(const CLI::Option& option, OptionRow& row) {
     row.value = joined(row.choices, "|");
   } else if (row.value.find('|') != std::string::npos) {
     row.choices = split(row.value, '|');
+    const std::string& first = row.choices.front();
+    if (std::all_of(first.begin(), first.end(),
+                    [](unsigned char c) { return std::isupper(c) != 0; })) {
+      row.value = first;
+      row.choices.erase(row.choices.begin());
+    }
   } else if (const std::size_t colon = row.value.find(':'); colon != std::string::npos) {
     row.value = row.value.substr(colon + 1);  // "TEXT:WIDTHxHEIGHT"
   }
@@ -95,6 +97,9 @@ void read_value(const CLI::Option& option, OptionRow& row) {
     row.value = "NUMBER";
   } else if (row.value == "TEXT") {
     row.value = usual_value(row.name());
+    if (row.name() == "--family") {
+      row.choices.assign(nav::known_families().begin(), nav::known_families().end());
+    }
   }
 }
 

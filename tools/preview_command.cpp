@@ -245,8 +245,9 @@ void add_room_options(CLI::App& preview, PreviewArguments& arguments) {
       ->excludes(seed);
   preview
       .add_option("--profile", arguments.profile,
-                  "the setting of a study: liebmann-2019 (the publication's), or a file")
-      ->check(some_text());
+                  "the setting of a study: liebmann-2019 is the publication's")
+      ->check(some_text())
+      ->type_name("liebmann-2019|FILE");
   preview.add_flag("--perfect", arguments.perfect, "every source of error at zero");
   preview
       .add_option("--pace", arguments.pace, "how many times as fast the surgeon works (default: 1)")

@@ -41,14 +41,17 @@ void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
   run->add_option("--headset", arguments->headset,
                   "URI: sim:, replay:PATH, hl2ss://HOST, openxr:+URI, igtl://HOST")
       ->check(some_text())
+      ->type_name("URI|sim:|replay:|hl2ss://|openxr:|igtl://")
       ->capture_default_str();
   run->add_option("--clicker", arguments->clicker,
                   "headset, none, evdev:[PATH|NAME] or keyboard:[NAME] (docs/headsets.md)")
       ->check(some_text())
+      ->type_name("DEVICE|headset|none|evdev:|keyboard:")
       ->capture_default_str();
   run->add_option("--voice", arguments->voice,
                   "headset, none, mic:[NAME], headset-mic: or wav:FILE (docs/voice.md)")
       ->check(some_text())
+      ->type_name("DEVICE|headset|none|mic:|headset-mic:|wav:")
       ->capture_default_str();
   add_case_option(*run, arguments->case_folder);
   arguments->set_up.add_to(*run);

@@ -235,7 +235,11 @@ void add_faults(CLI::App& serve, ServeArguments& arguments) {
           "pair N on, for lasting=M pairs (0: to the end): freeze_pictures=N, freeze_left=N, "
           "freeze_right=N, freeze_poses=N, shift_right=N (stamps a pair late), only_left=N, "
           "clock_back=N (by clock_back_s=0.5)")
-      ->check(some_text());
+      ->check(some_text())
+      ->type_name(
+          "LIST|gap=|lose=|unlocated=|reorder=|stall=|half=|cut=|misstamp=|corrupt=|scene_stall=|"
+          "scene_refuse=|scene_cut=|all|jump=|lasting=|freeze_pictures=|freeze_left=|"
+          "freeze_right=|freeze_poses=|shift_right=|only_left=|clock_back=|clock_back_s=");
   serve.add_option("--slices", arguments.server.slices, "of each H.264 picture")
       ->check(whole_number(1))
       ->capture_default_str();

@@ -250,9 +250,9 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
       ->transform(folder_of_case());
   add_method_option(study, arguments.method);
   study
-      .add_option("--profile", arguments.profile,
-                  "the setting: liebmann-2019 (the publication's), or a file")
-      ->check(some_text());
+      .add_option("--profile", arguments.profile, "the setting: liebmann-2019 is the publication's")
+      ->check(some_text())
+      ->type_name("liebmann-2019|FILE");
   study
       .add_option("--measurement", arguments.measurement,
                   "pixels, or model: what pixels would tell, drawn")
@@ -265,7 +265,8 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
           "--without", arguments.without,
           "steps of the method that are left out: check-points, landmark, tips, axis, tag-sizes, "
           "wire, redo, numbers, reference")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->type_name("STEPS|check-points|landmark|tips|axis|tag-sizes|wire|redo|numbers|reference");
   arguments.surgeon.add_to(study);
   study.add_option("-t,--tools", arguments.tools, "tools file (default: the built-in ones)")
       ->check(some_text());

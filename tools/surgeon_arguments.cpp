@@ -3,6 +3,7 @@
 #include <CLI/Validators.hpp>
 #include <vector>
 
+#include "base/joined.h"
 #include "hal/sim/instruments.h"
 #include "tools/arguments.h"
 #include "tools/set_up_arguments.h"
@@ -14,10 +15,9 @@ void SurgeonArguments::add_to(CLI::App& command) {
                   "what the surgeon goes by: overlay, numbers, \"closed loop\" or published "
                   "(default: numbers)")
       ->check(CLI::IsMember(guidance_names()));
-  command
-      .add_option("--instrument", instrument,
-                  "wire, cannula, \"sleeved drill\", screw or \"robot arm\" (default: wire)")
-      ->check(some_text());
+  command.add_option("--instrument", instrument, "of the surgeon (default: wire)")
+      ->check(some_text())
+      ->type_name(joined(sim::instrument_names(), "|"));
   command
       .add_option(
           "--strokes", strokes,

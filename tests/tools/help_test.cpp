@@ -36,6 +36,7 @@ CommandPage page() {
   nail->add_option("WOOD", text, "what it goes into")->required();
   nail->add_option("-o,--out", text, "where it comes out")->type_name("FILE");
   nail->add_option("--kind", text, "which kind")->type_name("round|square");
+  nail->add_option("--head", text, "flat or none")->type_name("SHAPE|flat|none");
   nail->add_option("--blows", number, "how often it is hit, until it sits as deep as it should be")
       ->capture_default_str();
   nail->add_option("--hammer", text, "")->required();
@@ -60,6 +61,7 @@ TEST(HelpText, SaysWhatFollowsAnOptionItsDefaultAndWhatItExcludes) {
             "                              exit\n"
             "  -o, --out FILE              where it comes out\n"
             "  --kind round|square         which kind\n"
+            "  --head SHAPE                flat or none\n"
             "  --blows N                   how often it is hit, until it\n"
             "                              sits as deep as it should be\n"
             "                              (default: 3)\n"
@@ -101,6 +103,11 @@ TEST(Help, OfEveryCommandIsThereAndNamesTheMistypedWord) {
               HasSubstr("did you mean make? (see orthonav case --"));
   EXPECT_THAT(orthonav({"run", "--headest", "x"}).err,
               HasSubstr("unknown option: --headest; did you mean --headset? (see orthonav run --"));
+  const auto slicer = orthonav({"plan", "to-slicer"});
+  EXPECT_EQ(slicer.code, 2);
+  EXPECT_THAT(slicer.err, HasSubstr("unknown command: to-slicer; did you mean export? (see"));
+  EXPECT_THAT(orthonav({"plan", "screws"}).err, HasSubstr("unknown command: screws (see"))
+      << "the description of several";
   EXPECT_THAT(orthonav({"doctor", "more"}).err, HasSubstr("unexpected argument: more (see"));
 }
 
@@ -195,6 +202,16 @@ TEST(Completion, OffersCommandsOptionsChoicesAndFiles) {
   EXPECT_EQ(completed({"orthonav", "case", "make", "--convention", "v"}), "verse");
   EXPECT_EQ(completed({"orthonav", "run", "--language", ""}), "en,de");
   EXPECT_EQ(completed({"orthonav", "completion", "z"}), "zsh");
+  EXPECT_EQ(completed({"orthonav", "study", "--instrument", "sl"}), "sleeved drill");
+  EXPECT_EQ(completed({"orthonav", "study", "--profile", "lieb"}), "liebmann-2019");
+  EXPECT_EQ(completed({"orthonav", "study", "--without", "ta"}), "tag-sizes");
+  EXPECT_EQ(completed({"orthonav", "run", "--headset", "hl"}), "hl2ss://");
+  EXPECT_EQ(completed({"orthonav", "run", "--voice", ""}), "headset,none,mic:,headset-mic:,wav:");
+  EXPECT_EQ(completed({"orthonav", "run", "--clicker", "k"}), "keyboard:");
+  EXPECT_EQ(completed({"orthonav", "detect", "--family", "tag25"}), "tag25h9");
+  EXPECT_EQ(completed({"orthonav", "print", "tags", "--family", "tagStandard41"}),
+            "tagStandard41h12");
+  EXPECT_EQ(completed({"orthonav", "serve-hl2ss", "--faults", "freeze_l"}), "freeze_left=");
 }
 
 }  // namespace
