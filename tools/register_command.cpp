@@ -19,7 +19,7 @@ constexpr double kLargestModelSd_mm = 2.0;
 
 void print_screws(const engine::RegisteredLevel& level) {
   const auto place = [](const engine::PlaceError& e) {
-    return printed("%.2f mm (95 of 100 below %.2f)", e.rms_m * 1e3, e.within_95_m * 1e3);
+    return printed("%.2f mm (95 %% below %.2f)", e.rms_m * 1e3, e.within_95_m * 1e3);
   };
   for (const engine::ScrewErrors& s : engine::errors_at_screws(level)) {
     print_text("error to expect at the %s screw: entry %s, target %s\n", name_of(s.side),
@@ -130,7 +130,7 @@ constexpr const char* kRegisterFooter =
     "the\n"
     "registration alone. The limits are about these.\n"
     "With --any-bone nothing is demanded of coverage, scatter, size or mirror image, only that no\n"
-    "other pose fits as well; 99 of 100 errors must be below 2 mm at both ends of the bone along\n"
+    "other pose fits as well; 99 % of errors must be below 2 mm at both ends of the bone along\n"
     "each of its principal axes.\n"
     "With --level the strokes are tried on every other level of the case too, and refused where\n"
     "they fit one of them as well; with --model the level can't be checked.";

@@ -173,13 +173,12 @@ std::string certainty_of(const RegisteredLevel& level) {
     out = "The published method predicts no error: it is judged by eye.";
   } else if (std::isfinite(*within)) {
     // The scatter about a pose that may be wrong means nothing.
-    out =
-        std::string(r.accepted ? "95 of 100 errors " : "Were this pose right, 95 of 100 errors ") +
-        where +
-        formatted(r.accepted ? " are expected to be below %.2f mm." : " would be below %.2f mm.",
-                  *within * 1e3);
+    out = std::string(r.accepted ? "95 % of errors " : "Were this pose right, 95 % of errors ") +
+          where +
+          formatted(r.accepted ? " are expected to be below %.2f mm." : " would be below %.2f mm.",
+                    *within * 1e3);
   } else {
-    out = std::string("How large the errors ") + where + " are is not known.";
+    out = std::string("The errors ") + where + " are unknown.";
   }
   if (within && std::isfinite(*within)) {
     out += " " + sources_of(r.common);

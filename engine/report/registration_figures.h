@@ -30,7 +30,7 @@ struct RegisteredLevel {
 /// leave a motion of the bone undetermined.
 struct PlaceError {
   double rms_m = 0.0;
-  double within_95_m = 0.0;                            ///< 95 of 100 errors are smaller
+  double within_95_m = 0.0;                            ///< 95 % of errors are smaller
   std::optional<std::array<double, 9>> covariance_m2;  ///< by rows, axes of Vertebra (LPS)
 };
 
@@ -64,7 +64,7 @@ struct RunnerUpDistance {
 [[nodiscard]] std::string ambiguity_of(const RegisteredLevel& level);
 /// The sources of expected errors in addition to the registration's own.
 [[nodiscard]] std::string sources_of(const nav::CommonErrors& common);
-/// How certain the registration is, in plain sentences: the error that 95 of 100 stay below, the
+/// How certain the registration is, in plain sentences: the error that 95 % stay below, the
 /// least certain motion, and where to stroke to improve it.
 [[nodiscard]] std::string certainty_of(const RegisteredLevel& level);
 

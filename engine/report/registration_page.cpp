@@ -50,8 +50,7 @@ std::string caption(const RegisteredLevel& level, const RegistrationScene& scene
   }
   return out +
          "Points behind the bone shine through it. How the guide is tracked and how steady a hand "
-         "is comes on top of these errors. " +
-         sources_of(level.registration.common) + "</p>";
+         "is comes on top of these errors.</p>";
 }
 
 /// A level with all its drawings.

@@ -100,14 +100,14 @@ std::string rows_of_error(const RegisteredLevel& level) {
       figure_row(level.screws.empty() ? "Error where screws usually go <small>mm</small>"
                                       : "Error at the worst screw <small>mm</small>",
                  rms_figure(own_m, true), "root mean square to expect of the registration alone");
-  out += figure_row("99 of 100 errors below <small>mm</small>",
+  out += figure_row("99 % of errors below <small>mm</small>",
                     within_99_figure(level.registration.tre_99_m), "likewise");
   if (holds_common(level)) {
     out += figure_row("With what all strokes share <small>mm</small>",
-                      plain(worst_rms_m(level) * 1e3, 2), sources_of(level.registration.common));
+                      plain(worst_rms_m(level) * 1e3, 2), "likewise, of all together");
   }
   if (const auto within = worst_within_95_m(level)) {
-    out += figure_row("95 of 100 errors below <small>mm</small>", plain(*within * 1e3, 2),
+    out += figure_row("95 % of errors below <small>mm</small>", plain(*within * 1e3, 2),
                       "at the same place");
   }
   return out;
@@ -118,17 +118,18 @@ std::string row_of_checks(const RegisteredLevel& level) {
     return "";
   }
   const double limit_mm = nav::CheckPointRules{}.within_m * 1e3;
-  std::string distances;
+  double worst_m = 0.0;
   bool all_within = true;
   for (const nav::CheckPoint& check : level.check_points) {
-    distances += (distances.empty() ? "" : ", ") + html_number(check.distance_m * 1e3, 1) +
-                 (check.within ? "" : " ✗");
+    worst_m = std::max(worst_m, std::abs(check.distance_m));
     all_within = all_within && check.within;
   }
-  return figure_row(
-      "Check points <small>mm</small>", judged_cell(distances, Bound::kAtMost, all_within),
-      limit_text(at_most(0.0, 1, limit_mm, 1)),
-      "distances of places touched afterwards, which \"accept\" takes into the registration");
+  return figure_row("Check points <small>mm</small>",
+                    judged_cell(std::to_string(level.check_points.size()) + ", worst " +
+                                    html_number(worst_m * 1e3, 1),
+                                Bound::kAtMost, all_within),
+                    limit_text(at_most(0.0, 1, limit_mm, 1)),
+                    "places touched afterwards, which \"accept\" takes into the registration");
 }
 
 std::string place_row(const std::string& name, const PlaceError& e, bool judged) {
@@ -174,7 +175,7 @@ std::string screws_table(const RegisteredLevel& level) {
   std::string out = "<table class=compact><thead><tr><th>" +
                     std::string(accepted ? "errors to expect" : "errors, were this pose right") +
                     " <small>mm</small></th>" + head("RMS", rms_figure(0.0, judged)) +
-                    "<th>95 of 100 below</th>" +
+                    "<th>95 % below</th>" +
                     "<th>SD sideways</th><th>SD front to back</th><th>SD along the spine</th></tr>"
                     "</thead><tbody>";
   for (const ScrewErrors& e : errors_at_screws(level)) {

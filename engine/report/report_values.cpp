@@ -50,6 +50,7 @@ std::string placed_tool(const nlohmann::json& report) {
   const std::string instrument = text_in(report, "instrument");
   return instrument == "sleeved drill" || instrument == "robot arm" ? "drill"
          : instrument == "screw"                                    ? "screw"
+         : instrument.empty()                                       ? "trajectory"
                                                                     : "wire";
 }
 

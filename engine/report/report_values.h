@@ -28,7 +28,7 @@ struct ReportQuantity {
 /// Whether it is there and true.
 [[nodiscard]] bool is_true(const nlohmann::json& object, std::string_view key);
 
-/// What stands in the bone once a screw is placed: "drill", or "wire" where no other is known.
+/// What stands in the bone once a screw is placed: "drill"; "trajectory" where it is unknown.
 [[nodiscard]] std::string placed_tool(const nlohmann::json& report);
 
 /// Of an operation of rods alone: its plan has no level.

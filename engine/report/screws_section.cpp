@@ -92,7 +92,7 @@ std::string screws_section(const json& report) {
       truth ? "Errors, clearance and grade are against the simulation\u2019s truth; red: beyond " +
                   html_number(degrees(kOnTarget_rad), 0) + "\u00b0 or " +
                   html_number(kOnTarget_m * 1e3, 0) + " mm, or a breach. "
-            : "Errors against the truth are not known here. ";
+            : "Errors against the truth are unknown here. ";
   return "<section id=screws><h2>Screws</h2>" + table.html("lines") + "<details><summary>" +
          "size, depth, and the " + placed_tool(report) + " in place</summary>" + details.html() +
          "<p class=notes>" + errors +

@@ -261,7 +261,7 @@ void put_screws(const LoggedOperation& session, std::string& html) {
                    {"depth", "mm"},
                    {"clearance", "mm"},
                    {"95 % above", "mm"},
-                   {"wire as placed"}});
+                   {"trajectory as placed"}});
   for (const LevelState& level : session.state.levels) {
     for (std::size_t i = 0; i < level.screws.size(); ++i) {
       const ScrewState& screw = level.screws[i];
@@ -381,7 +381,7 @@ void put_steps(const LoggedOperation& session, std::string& html) {
   html += "<section><h2>Course</h2>" + table.html("narrow") + "</section>";
 }
 
-/// What was measured of the guide: its tip in the same dimple as the pointer's, its axis on a wire.
+/// What was measured of the guide: its tip in the same dimple as the pointer's, its axis in place.
 void put_guide_notes(const LoggedOperation& session, std::string& html) {
   html += "<ul class=notes><li>";
   if (!session.tips) {
@@ -395,7 +395,7 @@ void put_guide_notes(const LoggedOperation& session, std::string& html) {
             ".</li>";
   }
   if (session.axis) {
-    html += "<li>On the last wire over which its sleeve was turned, the guide\u2019s axis was " +
+    html += "<li>When its sleeve was last turned in place, the guide\u2019s axis was " +
             html_number(degrees(session.axis->off_rad), 2) + "\u00b0 off" +
             (session.axis->corrected
                  ? "; corrected by " + html_number(degrees(session.axis->by_rad), 2) + "\u00b0"

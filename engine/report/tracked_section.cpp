@@ -51,7 +51,7 @@ std::string numbers_under(const json& object, const char* key, int decimals) {
 }
 
 std::string plus_minus(const std::string& value, std::optional<double> sd, int decimals) {
-  return value + " ± " + (sd ? html_number(*sd, decimals) : "not known");
+  return value + " ± " + (sd ? html_number(*sd, decimals) : "unknown");
 }
 
 void put_tracked_way(HtmlTable& table, const json& screw) {
@@ -148,7 +148,7 @@ std::string errors_text(const json& report) {
               : error_text(errors, "map", "sd_mm", " mm"));
   const bool assumes = counted.find("(assumed)") != std::string::npos;
   return "<p>Errors that all strokes share, SD along an axis, as counted with: " + counted + "." +
-         (assumes ? " Assumed: nobody said, and such devices usually are so." : "") + "</p>";
+         (assumes ? " Assumed: usual for such devices, none was given." : "") + "</p>";
 }
 
 }  // namespace

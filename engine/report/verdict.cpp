@@ -50,7 +50,7 @@ Counts counts_of(const json& report) {
 }
 
 /// How far the screws are from the plan, as far as known.
-std::string accuracy_text(const Counts& n, const std::string& tool) {
+std::string accuracy_text(const Counts& n) {
   if (n.placed == 0) {
     return "";
   }
@@ -59,10 +59,10 @@ std::string accuracy_text(const Counts& n, const std::string& tool) {
     return "; " + of(n.on_target, n.known) + where + " within " + limits_in_words() +
            " of the plan" + kAgainstTruth;
   }
-  const std::string unknown = "; their true distance from the plan is not known";
-  return n.wires == 0 ? unknown
-                      : unknown + ", " + std::to_string(n.wires_within) + " of " +
-                            how_many(n.wires, "measured " + tool) + " within the limits";
+  const std::string unknown = "; their true distance from the plan is unknown";
+  return n.wires == 0
+             ? unknown
+             : unknown + "; " + of(n.wires_within, n.wires) + " measured within the limits";
 }
 
 /// "2 rods templated; their lengths within 0.4 mm, against the simulation's truth".
@@ -191,7 +191,7 @@ Verdict verdict_of(const json& report) {
     out.line += " (" + why + ")";
   }
   out.counts = std::to_string(n.placed) + " of " + how_many(n.screws, "screw") + " placed" +
-               accuracy_text(n, placed_tool(report)) + ".";
+               accuracy_text(n) + ".";
   if (is_of_rods_alone(report)) {
     out.counts = rods_text(report);
   }

@@ -83,7 +83,7 @@ TEST_F(RegisterAnyBone, TakesABoneThatIsTooLargeForAVertebra) {
             0.0005);
   EXPECT_FALSE(report.contains("advice")) << "which names the parts of a vertebra";
   const Called words = called(points_, {"--any-bone"});
-  EXPECT_THAT(words.out, AllOf(HasSubstr("95 of 100 errors at the ends of the bone are expected"),
+  EXPECT_THAT(words.out, AllOf(HasSubstr("95 % of errors at the ends of the bone are expected"),
                                HasSubstr("not its mirror image, was not checked"),
                                Not(HasSubstr("screw")), Not(HasSubstr("level"))));
 }

@@ -112,7 +112,7 @@ TEST(RegistrationDrawing, DrawsNoErrorsThatAreNotKnown) {
   const auto page = registration_page(level, "points.csv");
   ASSERT_TRUE(page.ok());
   EXPECT_THAT(*page, Not(HasSubstr("<ellipse")));
-  EXPECT_THAT(*page, HasSubstr("How large the errors at the screws are is not known"));
+  EXPECT_THAT(*page, HasSubstr("The errors at the screws are unknown"));
 }
 
 }  // namespace

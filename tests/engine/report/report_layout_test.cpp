@@ -64,11 +64,13 @@ ReportContent full_content() {
   return content;
 }
 
-/// How wide a page becomes on a phone, in pixels, as a browser lays it out; -1: it was not opened.
-int width_on_a_phone(const std::string& page) {
-  const std::string width = test::on_a_phone(page, "d.documentElement.scrollWidth");
-  return width == "?" ? -1 : std::stoi(width);
+/// A number of pixels of a page on a phone, as a browser lays it out; -1: it was not opened.
+int on_a_phone_px(const std::string& page, const std::string& what) {
+  const std::string px = test::on_a_phone(page, "d.documentElement." + what);
+  return px == "?" ? -1 : std::stoi(px);
 }
+int width_on_a_phone(const std::string& page) { return on_a_phone_px(page, "scrollWidth"); }
+int height_on_a_phone(const std::string& page) { return on_a_phone_px(page, "scrollHeight"); }
 
 TEST(ReportLayout, FitsAPhone) {
   if (!test::has_browser()) {
@@ -87,6 +89,32 @@ TEST(ReportLayout, FitsAPhone) {
   EXPECT_LE(session_px, test::kPhone_px);
   EXPECT_GT(width_on_a_phone("<!doctype html><p style='width:600px'>wide"), test::kPhone_px)
       << "a page that does not fit is seen";
+}
+
+TEST(ReportLayout, IsScrolledThroughOnAPhoneInTenScreens) {
+  if (!test::has_browser()) {
+    GTEST_SKIP() << test::kNoBrowser;
+  }
+  constexpr int kMost_px = 8000;
+  ReportContent content = full_content();
+  // An operation of four levels, as long as they get.
+  nlohmann::json report = nlohmann::json::parse(content.report_json);
+  for (int level = 1; level < 4; ++level) {
+    report["levels"].push_back(report["levels"][0]);
+    content.registrations.push_back(content.registrations[0]);
+  }
+  content.report_json = report.dump();
+  const auto page = report_html(content);
+  ASSERT_TRUE(page.ok()) << page.error().message;
+  const int folded_px = height_on_a_phone(*page);
+  EXPECT_GT(folded_px, 0);
+  EXPECT_LE(folded_px, kMost_px);
+  std::string unfolded = *page;
+  for (std::size_t at = unfolded.find("<details"); at != std::string::npos;
+       at = unfolded.find("<details", at + 1)) {
+    unfolded.insert(at + std::string("<details").size(), " open");
+  }
+  EXPECT_GT(height_on_a_phone(unfolded), kMost_px) << "what is folded counts where it is not";
 }
 
 /// Every table of both pages: a row that is not a card would run off the screen or have to be

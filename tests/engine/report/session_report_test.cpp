@@ -114,7 +114,7 @@ TEST(SessionReport, SaysWhereTheToolsWentAndWhatWasNotMeasured) {
   EXPECT_EQ(json["calibration"]["not_measured"][0], "cameras");
   left.executed->point_covariance_m2.reset();
   left.executed->direction_covariance_rad2.reset();
-  EXPECT_THAT(session_page(session, "j"), HasSubstr("± not known"));
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("± unknown"));
 }
 
 TEST(SessionReport, SaysWhatWasPlannedInSurgery) {
@@ -190,7 +190,7 @@ TEST(SessionReport, TellsHowEveryWireWasMeasuredKeptRedoneOrNot) {
   ScrewState& right = session.state.levels[0].screws[1];
   right.done = true;
   right.done_at = session.last_time;
-  EXPECT_THAT(session_page(session, "j"), Not(HasSubstr("the wire was not measured")));
+  EXPECT_THAT(session_page(session, "j"), Not(HasSubstr("the trajectory was not measured")));
   left.wire = {true, kept_wire()};
   right.wire = {true, std::nullopt};
   left.redone = 1;
@@ -198,7 +198,7 @@ TEST(SessionReport, TellsHowEveryWireWasMeasuredKeptRedoneOrNot) {
   EXPECT_THAT(page,
               HasSubstr("<span class=bad>2.9 \u00b1 0.6\u00b0, 1.1 \u00b1 0.6 mm</span>, kept; "
                         "redone</td>"));
-  EXPECT_THAT(page, HasSubstr("the wire was not measured"));
+  EXPECT_THAT(page, HasSubstr("the trajectory was not measured"));
   const auto json = nlohmann::json::parse(session_json(session));
   const auto& screws = json["levels"][0]["screws"];
   EXPECT_NEAR(screws[0]["wire"]["angle_deg"].get<double>(), 2.8648, 1e-4);
@@ -272,11 +272,12 @@ TEST(SessionReport, BeginsWithWhatWasPlacedAndItsWarnings) {
   left.clearance_at_depth = clearance_of(0.0004, -0.0012);
   const std::string page = session_page(session, "j");
   EXPECT_THAT(page, HasSubstr("This session was cut off: 1 of 2 screws placed; their true distance "
-                              "from the plan is not known, 0 of 1 measured wire within the "
+                              "from the plan is unknown; 0 of 1 measured within the "
                               "limits.</h2>"));
-  EXPECT_THAT(page, HasSubstr("<li>L4 left: the wire was measured 2.9° and 1.1 mm from the plan, "
-                              "beyond a limit, and kept</li><li>L4 left: as tracked, a breach of "
-                              "the cortex cannot be ruled out (95 % bound −1.2 mm)</li>"));
+  EXPECT_THAT(page,
+              HasSubstr("<li>L4 left: the trajectory was measured 2.9° and 1.1 mm from the plan, "
+                        "beyond a limit, and kept</li><li>L4 left: as tracked, a breach of "
+                        "the cortex cannot be ruled out (95 % bound −1.2 mm)</li>"));
 }
 
 TEST(SessionReport, TellsOfASessionThatEnded) {

@@ -80,13 +80,14 @@ TEST(Verdict, PutsTheGravestWarningFirst) {
             "of the plan, against the simulation’s truth.");
   EXPECT_THAT(
       verdict.warnings,
-      ElementsAre("L5 right: breached the cortex by 0.3 mm (grade B); 1.5° and 2.4 mm from the "
-                  "plan, against the simulation’s truth",
-                  "L5 left: the wire was measured 3.6° and 0.9 mm from the plan, beyond a limit, "
-                  "and kept",
-                  "L5 left: as tracked, a breach of the cortex cannot be ruled out (95 % bound "
-                  "−0.3 mm)",
-                  "L5 left: planned to leave the cortex: narrow pedicle"));
+      ElementsAre(
+          "L5 right: breached the cortex by 0.3 mm (grade B); 1.5° and 2.4 mm from the "
+          "plan, against the simulation’s truth",
+          "L5 left: the trajectory was measured 3.6° and 0.9 mm from the plan, beyond a limit, "
+          "and kept",
+          "L5 left: as tracked, a breach of the cortex cannot be ruled out (95 % bound "
+          "−0.3 mm)",
+          "L5 left: planned to leave the cortex: narrow pedicle"));
 }
 
 TEST(Verdict, SaysOnceWhatItSaysOfSeveralScrews) {
@@ -111,11 +112,11 @@ TEST(Verdict, ClaimsNothingWithoutATruth) {
   const Verdict verdict = verdict_of(report_of(left, right));
   EXPECT_EQ(verdict.line,
             "Operation completed with 1 warning: 2 of 2 screws placed; their true distance from "
-            "the plan is not known, 1 of 1 measured wire within the limits.");
-  EXPECT_THAT(verdict.warnings, ElementsAre("L5 right: the wire was not measured"));
+            "the plan is unknown; 1 of 1 measured within the limits.");
+  EXPECT_THAT(verdict.warnings, ElementsAre("L5 right: the trajectory was not measured"));
   EXPECT_THAT(verdict.line, Not(HasSubstr("truth")));
   const std::string table = screws_section(report_of(left, right));
-  EXPECT_THAT(table, AllOf(HasSubstr("Errors against the truth are not known here."),
+  EXPECT_THAT(table, AllOf(HasSubstr("Errors against the truth are unknown here."),
                            HasSubstr(">2.0 A <small>as tracked</small></td>")));
 }
 
@@ -143,7 +144,7 @@ TEST(Verdict, SaysOfHowManyPlacedScrewsTheTruthIsKnown) {
   missed.erase("entry_error_mm");
   const Verdict verdict = verdict_of(report_of(good_screw("left"), missed));
   EXPECT_THAT(verdict.line, HasSubstr("1 of 2 within 2 mm and 5°"));
-  EXPECT_THAT(verdict.warnings, ElementsAre(HasSubstr("L5 right: the wire missed the bone")));
+  EXPECT_THAT(verdict.warnings, ElementsAre(HasSubstr("L5 right: the trajectory missed the bone")));
 }
 
 TEST(ScrewsSection, HasThePlannedSizeAndWhatBecameOfEachScrew) {
