@@ -108,7 +108,8 @@ void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*
           status.saved == engine::Saved::kNotSaved || status.saved == engine::Saved::kNotRecorded;
       fails && status.saved != not_kept_) {
     not_kept_ = status.saved;
-    log_->warn("{:.2f} s: the status line says {}", time_s, engine::text_of(not_kept_));
+    log_->warn("{:.2f} s: the status line says {}", time_s,
+               not_kept_ == engine::Saved::kNotSaved ? "NOT SAVED" : "NOT RECORDED");
   }
   if (!std::exchange(pictures_apart_, status.pictures_apart) && pictures_apart_) {
     log_->warn("{:.2f} s: the two cameras' pictures do not belong together: nothing is measured",

@@ -81,9 +81,7 @@ Status KeptOperation::resume(engine::AssembledOperation& operation, const About&
     std::fprintf(stderr, "orthonav: %s\n", line.c_str());
   }
   if (const Status written = log_->written(); !written) {
-    std::fprintf(stderr, "orthonav: %s from here on: %s\n",
-                 std::string(engine::text_of(engine::Saved::kNotSaved)).c_str(),
-                 written.error().message.c_str());
+    std::fprintf(stderr, "orthonav: NOT SAVED from here on: %s\n", written.error().message.c_str());
   }
   return {};
 }

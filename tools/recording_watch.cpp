@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "base/how_many.h"
-#include "engine/session/wording.h"
 
 namespace orthonav::tools {
 
@@ -34,8 +33,7 @@ void RecordingWatch::stepped(const StereoFrame& /*frame*/, const engine::Inputs&
     return;
   }
   told_ = true;
-  warn(std::string(engine::text_of(engine::Saved::kNotRecorded)) +
-       " from here on: " + recorder_->recording_status().error().message);
+  warn("NOT RECORDED from here on: " + recorder_->recording_status().error().message);
 }
 
 void RecordingWatch::ended() {

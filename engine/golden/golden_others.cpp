@@ -26,7 +26,8 @@ GoldenScene start_rod(const std::string& name, const std::string& what) {
   return golden;
 }
 
-GoldenScene rod(const std::string& name, const std::string& what, Float3 offset) {
+GoldenScene rod(const std::string& name, const std::string& what, Float3 offset,
+                bool first_bend_only) {
   GoldenScene golden = start_rod(name, what);
   std::vector<Float3> centre_line;
   for (int i = 0; i <= 48; ++i) {
@@ -52,6 +53,7 @@ GoldenScene rod(const std::string& name, const std::string& what, Float3 offset)
   constexpr std::array<std::string_view, 3> kNames = {"L5", "L4", "L3"};
   hologram.head_names = kNames;
   hologram.offset = offset;
+  hologram.first_bend_only = first_bend_only;
   add_rod(golden.scene, hologram, kRodLabel);
   for (const Float3 head : kHeads) {
     golden.covered.push_back({kRodLabel, head + offset});
@@ -117,10 +119,13 @@ GoldenScene to_check() {
 }  // namespace
 
 void add_other_scenes(std::vector<GoldenScene>& scenes) {
-  scenes.push_back(
-      rod("h10_rod", "titanium rod through three named blue heads, two amber bends, what to cut to",
-          {}));
-  scenes.push_back(rod("h10_rod_moved", "the same rod, moved aside", {0.014f, -0.006f, -0.006f}));
+  scenes.push_back(rod(
+      "h10_rod",
+      "titanium rod through three named blue heads, two amber bends, the first with how to make "
+      "it, what to cut to",
+      {}, true));
+  scenes.push_back(rod("h10_rod_moved", "the same rod, moved aside, how to make both bends",
+                       {0.014f, -0.006f, -0.006f}, false));
   scenes.push_back(heads("h10_one_head", "one blue head, no rod, no length", 1));
   scenes.push_back(heads("h10_no_rod", "two blue heads that make no rod, no length", 2));
   scenes.push_back(status("h11_measured", "status line low in view, two filled dots in green rims",

@@ -55,15 +55,12 @@ std::string fixed_width(std::string_view text) {
   return out;
 }
 
-/// `number`: from 1.
-void add_bend(Scene& scene, const RodBendMark& bend, std::size_t number, Float3 at, Float3 along,
-              Label label) {
-  add_ring(scene, at, along, kBendRingRadius_m, kBendRingWidth_m, look::colours().fair, label);
+void add_bend_text(Scene& scene, const RodBendMark& bend, Float3 at, Label label) {
   render::TextItem& text = add_text_beside(scene, at, 1.6f, 0.0035f, 0.35f, label);
   if (bend.making) {
-    append_printed(
-        add_run(text, look::kWhite), translated("bend %zu: %.0f mm, roll %.0f°, set %.1f°"), number,
-        bend.arc_length_m * 1e3, degrees(bend.making->roll_rad), degrees(bend.making->set_rad));
+    append_printed(add_run(text, look::kWhite), translated("%.0f mm, roll %.0f°, set %.1f°"),
+                   bend.arc_length_m * 1e3, degrees(bend.making->roll_rad),
+                   degrees(bend.making->set_rad));
     return;
   }
   add_run(text, angle_text(bend.angle_rad), look::kWhite);
@@ -258,7 +255,11 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
             rod.head_names[i], look::kWhite);
   }
   for (std::size_t i = 0; i < rod.bends.size(); ++i) {
-    add_bend(scene, rod.bends[i], i + 1, rod.bends[i].position + rod.offset, along, label);
+    const Float3 at = rod.bends[i].position + rod.offset;
+    add_ring(scene, at, along, kBendRingRadius_m, kBendRingWidth_m, look::colours().fair, label);
+    if (i == 0 || !rod.first_bend_only) {
+      add_bend_text(scene, rod.bends[i], at, label);
+    }
   }
   if (rod.heads.size() < 2 || !rod.length_m) {
     return;

@@ -117,6 +117,7 @@ struct RodHologram {
   std::span<const RodBendMark> bends;
   std::optional<double> length_m;  ///< absent: the heads make no rod
   bool to_cut = false;             ///< the length is what it is to be cut to
+  bool first_bend_only = false;    ///< the other bends are rings without a text
   render::Float3 offset{};         ///< `move rod`: added to everything
 };
 void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);

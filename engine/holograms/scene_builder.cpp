@@ -350,6 +350,7 @@ void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
     }
     hologram.head_names = names_;
     hologram.bends = bends_;
+    hologram.first_bend_only = !guidance.numbers;
     hologram.offset = to_float3(rod_offset_m(guidance, rod, rules_));
     add_rod(scene, hologram, label_of(HologramKind::kRod, i + 1));
   }

@@ -204,7 +204,7 @@ std::optional<Value> meaning(const std::array<std::pair<std::string_view, Value>
   return found == words.end() ? std::nullopt : std::optional<Value>(found->second);
 }
 
-constexpr const char* kNotToItsEnd = translatable("not understood to its end, say it");
+constexpr const char* kNotToItsEnd = translatable("use the known form");
 
 /// One line, whatever was typed.
 Error unclear(const std::string& verb, const char* problem, const std::string& example) {
@@ -290,7 +290,7 @@ Result<Replan> one_size_from(std::span<const std::string> words) {
 
 Result<Replan> alone(std::span<const std::string> words, Replan replan) {
   if (words.size() > 1) {
-    return refused({translatable("%s: stands alone"), {words[0]}});
+    return refused({translatable("%s: nothing may follow it"), {words[0]}});
   }
   return replan;
 }

@@ -89,7 +89,7 @@ struct Guidance {
   /// The head's pose in the newest pair with a known one; some holograms face it.
   std::optional<Transform<World, Rig>> head;
   bool twin = false;     ///< the virtual twin was asked for
-  bool numbers = false;  ///< every number of the guide was asked for
+  bool numbers = false;  ///< every number of the guide, or of the rod, was asked for
   /// The tip was set at the entry of the selected screw, or drilled there.
   bool was_set = false;
   /// Distances of the saved samples from the registered surface, region by region; empty without a

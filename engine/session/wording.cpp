@@ -159,44 +159,6 @@ void append(std::string& out, std::span<const nav::RefusalReason> reasons) {
 
 namespace {
 
-Importance importance_of(Saved saved) {
-  switch (saved) {
-    case Saved::kNotSaved:
-      return Importance::kDanger;
-    case Saved::kNotRecorded:
-      return Importance::kMessage;
-    case Saved::kSaved:
-    case Saved::kNothingNew:
-      return Importance::kHeard;
-  }
-  return Importance::kHeard;
-}
-
-}  // namespace
-
-std::string_view text_of(Saved saved) {
-  switch (saved) {
-    case Saved::kNotSaved:
-      return translated("NOT SAVED");
-    case Saved::kSaved:
-      return translated("saved");
-    case Saved::kNotRecorded:
-      return translated("NOT RECORDED");
-    case Saved::kNothingNew:
-      return {};
-  }
-  return {};
-}
-
-void write_saved(PartedText text, Saved saved, std::string_view separator) {
-  if (const std::string_view said = text_of(saved); !said.empty()) {
-    text.begin(importance_of(saved), separator);
-    text.out += said;
-  }
-}
-
-namespace {
-
 void append_refusal(std::string& out, const TouchRefusal& why) {
   using enum TouchRefusal::Kind;
   const auto length = [&](const char* format) {
@@ -303,11 +265,11 @@ struct MessageWriter {
   }
   void operator()(const TipCorrected& m) {
     text.begin(Importance::kMessage);
-    append_printed(out, translated("guide's tip corrected by %s"), said_mm(m.by_m).c_str());
+    append_printed(out, translated("tip corrected by %s"), said_mm(m.by_m).c_str());
   }
   void operator()(const AxisCorrected& m) {
     text.begin(Importance::kMessage);
-    append_printed(out, translated("guide's axis corrected by %.1f°"), degrees(m.by_rad));
+    append_printed(out, translated("axis corrected by %.1f°"), degrees(m.by_rad));
   }
   void operator()(const ReplanUnclear& m) {
     text.begin(Importance::kMessage);
@@ -418,11 +380,6 @@ struct StateWriter {
   void operator()(const HeadsSoFar& heads) { write_heads(text, heads); }
 };
 
-bool is_correction(const Message& message) {
-  return std::holds_alternative<TipCorrected>(message) ||
-         std::holds_alternative<AxisCorrected>(message);
-}
-
 }  // namespace
 
 void append_step(std::string& out, const StepOnDisplay& at) {
@@ -471,10 +428,6 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     write_message(text, *line.message);
     if (is_about_replan(*line.message)) {
       write_beside_replan(text, line.state);
-    } else if (is_correction(*line.message)) {
-      if (const auto* landmark = std::get_if<LandmarkSoFar>(&line.state)) {
-        write_beside_correction(text, *landmark);
-      }
     }
   } else if (!taken) {
     out += told && !std::holds_alternative<std::monostate>(line.state) ? "; " : "";
@@ -492,7 +445,13 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     text.begin(Importance::kNext, out.size() > begin ? "; " : "");
     out += translated("no clicker");
   }
-  write_saved(text, line.saved, out.size() > begin ? "; " : "");
+  if (line.saved == Saved::kNotSaved) {
+    text.begin(Importance::kDanger, out.size() > begin ? "; " : "");
+    out += translated("NOT SAVED");
+  } else if (line.saved == Saved::kNotRecorded) {
+    text.begin(Importance::kMessage, out.size() > begin ? "; " : "");
+    out += translated("NOT RECORDED");
+  }
 }
 
 void append_heard(std::string& out, const HeardCommand& heard) {
@@ -509,9 +468,13 @@ void append_heard(std::string& out, const HeardCommand& heard) {
 void append_beside_step(std::string& out, const StatusLine& line, StatusParts* parts) {
   const std::size_t begin = out.size();
   append_detail(out, line, parts);
-  const bool answered = line.heard && line.heard->sure && line.saved == Saved::kSaved;
-  if (line.heard && !answered) {
-    PartedText{out, parts}.begin(Importance::kHeard, out.size() > begin ? kBetweenParts : "");
+  const std::string_view separator = out.size() > begin ? kBetweenParts : "";
+  // A mark answers what was heard: a word would be one more to read in every step.
+  if (line.saved == Saved::kSaved && (!line.heard || line.heard->sure)) {
+    PartedText{out, parts}.begin(Importance::kHeard, separator);
+    out += "✓";
+  } else if (line.heard) {
+    PartedText{out, parts}.begin(Importance::kHeard, separator);
     append_heard(out, *line.heard);
   }
 }

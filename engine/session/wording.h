@@ -72,11 +72,6 @@ template <class Finding>
   return out;
 }
 
-/// "saved", "NOT SAVED", "NOT RECORDED" or nothing.
-[[nodiscard]] std::string_view text_of(Saved saved);
-/// The same after `separator`.
-void write_saved(PartedText text, Saved saved, std::string_view separator);
-
 /// A message to the surgeon in words, in several parts where needed.
 void write_message(PartedText text, const Message& message);
 
@@ -85,7 +80,8 @@ void append_step(std::string& out, const StepOnDisplay& at);
 /// What follows the step: first a lost tool, which no message may hide, then the message or the
 /// state of the step. May be empty. `parts`, if given, receives which parts are dropped first.
 void append_detail(std::string& out, const StatusLine& line, StatusParts* parts = nullptr);
-/// The detail and the command heard: "guide lost | heard: next".
+/// The detail and the command heard, or a mark once everything is saved: "guide lost | heard:
+/// next", "guide lost | ✓".
 void append_beside_step(std::string& out, const StatusLine& line, StatusParts* parts = nullptr);
 /// "heard: save".
 void append_heard(std::string& out, const HeardCommand& heard);

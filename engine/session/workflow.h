@@ -290,6 +290,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kRod, kSayDelete, kDropHead, kRod},
     {kRod, kSayDone, kFinishRod, kRod},
     {kRod, kSayMoveRod, kMoveRod, kRod},
+    {kRod, kSayNumbers, kToggleNumbers, kRod},
     {kRod, kAnotherSide, kBeginRod, kRod},
     {kRod, kNoSideLeft, kIgnore, kDone},
     {kRod, kMapMoved, kForgetMap, kRod},

@@ -91,12 +91,14 @@ void expect_quiet(const render::Scene& scene, const std::string& name) {
 TEST(QuietView, HasFourNumbersAndEightWordsAtMostInEveryStepWithinLimits) {
   for (const char* name :
        {"setup", "digitizing", "verify", "verify_checked", "verify_many", "accepted", "guide_far",
-        "guide_set", "guide_drilling", "placed", "done"}) {
+        "guide_set", "guide_drilling", "placed", "h10_rod", "done"}) {
     expect_quiet(scene_named(name).scene, name);
   }
-  const Reading all = to_read(scene_named("guide_numbers").scene);
-  EXPECT_GT(all.numbers, kMostNumbers) << "the control: every number, on request";
-  EXPECT_GT(all.words, kMostWords);
+  for (const char* name : {"guide_numbers", "h10_rod_moved"}) {
+    const Reading all = to_read(scene_named(name).scene);
+    EXPECT_GT(all.numbers, kMostNumbers) << "the control: every number, on request";
+    EXPECT_GT(all.words, kMostWords);
+  }
 }
 
 /// What else a step asks for, beside all that it shows.
@@ -104,9 +106,13 @@ void expect_quiet_whatever_is_asked() {
   using Advice = nav::CheckAdvice::Kind;
   const auto expect_with = [](golden::StagedOperation& s, const StepState& state) {
     s.guidance.status.state = state;
-    const GoldenScene golden = s.scene("", "");
-    expect_quiet(golden.scene, detail_text(s.guidance.status));
-    EXPECT_GE(to_read(golden.scene).words, 3) << "the step and an act";
+    // Most acts are saved at once.
+    for (const Saved saved : {Saved::kNothingNew, Saved::kSaved}) {
+      s.guidance.status.saved = saved;
+      const GoldenScene golden = s.scene("", "");
+      expect_quiet(golden.scene, detail_text(s.guidance.status));
+      EXPECT_GE(to_read(golden.scene).words, 3) << "the step and an act";
+    }
   };
   golden::StagedOperation digitize(Step::kDigitize);
   for (const auto part : {nav::BonePlace::Part::kLamina, nav::BonePlace::Part::kFacet}) {
@@ -141,12 +147,19 @@ void expect_quiet_whatever_is_asked() {
     }
   }
   expect_with(accepted, LandmarkSoFar{});
+  for (const Message& corrected : {Message(TipCorrected{0.0009}), Message(AxisCorrected{0.026})}) {
+    accepted.guidance.status.message = &corrected;
+    expect_with(accepted, LandmarkSoFar{true, LandmarkTouch{true, 0, 0.0, 0.0015}, &any_way});
+  }
   golden::StagedOperation placed(Step::kPlaced);
   expect_with(placed, WireSoFar{});
   golden::StagedOperation rod(Step::kRod);
   HeadsSoFar heads;
   heads.unplanned = true;
   expect_with(rod, heads);
+  for (const std::size_t bends : {0u, 2u}) {
+    expect_with(rod, HeadsSoFar{2, 0.082, bends});
+  }
 }
 
 TEST(QuietView, HasNoMoreWhateverAStepAsksFor) { expect_quiet_whatever_is_asked(); }

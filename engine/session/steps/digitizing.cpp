@@ -436,7 +436,7 @@ void write_coaching(PartedText text, const Coaching& coaching, std::string_view 
   separator = " ";
   if (coaching.enough) {
     text.begin(Importance::kNext, separator);
-    out += coaching.then_touch ? translated("double click, then touch the bone")
+    out += coaching.then_touch ? translated("double click, touch the bone")
                                : translated("enough: double click");
   } else if (coaching.against) {
     text.begin(Importance::kMessage, separator);

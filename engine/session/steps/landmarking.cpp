@@ -292,20 +292,6 @@ void write_axis(PartedText text, const LandmarkSoFar& landmark, std::string_view
   text.out += translated(kSayAccept);
 }
 
-/// What the touch asks for next.
-void write_act_after_touch(PartedText text, const LandmarkSoFar& landmark,
-                           std::string_view separator) {
-  const std::size_t end = text.out.size();
-  if (landmark.tips != nullptr) {
-    write_tips(text, *landmark.tips, separator);
-    write_axis(text, landmark, text.out.size() == end ? separator : "; ");
-  }
-  if (text.out.size() == end) {
-    text.begin(Importance::kNext, separator);
-    text.out += translated("say go to next");
-  }
-}
-
 }  // namespace
 
 void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
@@ -320,12 +306,14 @@ void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_
     out += translated("lift, then touch again");
     return;
   }
-  write_act_after_touch(text, landmark, separator);
-}
-
-void write_beside_correction(PartedText text, const LandmarkSoFar& landmark) {
-  if (landmark.last && landmark.last->missing == 0) {
-    write_act_after_touch(text, landmark, "; ");
+  const std::size_t end = out.size();
+  if (landmark.tips != nullptr) {
+    write_tips(text, *landmark.tips, separator);
+    write_axis(text, landmark, out.size() == end ? separator : "; ");
+  }
+  if (out.size() == end) {
+    text.begin(Importance::kNext, separator);
+    out += translated("say go to next");
   }
 }
 

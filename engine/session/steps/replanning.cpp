@@ -485,13 +485,13 @@ std::string_view plain_reason(ReplanRefusal::Kind kind) {
     case kNoDiameter:
       return translated("the plan states no diameter");
     case kNoDirections:
-      return translated("it runs too far off the usual directions");
+      return translated("it is too far off the usual directions");
     case kOffTheBone:
       return translated("its axis misses the bone that a pointer reaches");
     case kOtherScrew:
       return translated("another screw is in work");
     case kIllSized:
-      return translated("no pedicle screw is so short, long, thin or thick");
+      return translated("no pedicle screw has this size");
     case kNoSuchSize:
     case kLastSize:
     case kEntryTooFar:
@@ -593,7 +593,7 @@ void write(PartedText text, const ScrewReplanned& done) {
     append_printed(out, translated("clearance %s"), said_mm(*done.clearance_m).c_str());
     append_towards(out, done.towards);
   } else {
-    out.append(", ").append(translated("clearance not known"));
+    out.append(", ").append(translated("clearance unknown"));
   }
   text.begin(Importance::kMore, "; ");
   out +=

@@ -360,7 +360,8 @@ void write_heads(PartedText text, const HeadsSoFar& heads) {
   if (heads.touch_again) {
     append_printed(out, translated("touch head %zu again"), *heads.touch_again + 1);
   } else if (heads.cut_length_m) {
-    out += translated("bend it, then say finish rod");
+    out += heads.bends == 0 ? translated("cut it, then say finish rod")
+                            : translated("bend it, then say finish rod");
   } else if (heads.count > 0) {
     out += translated("touch the next head");
   } else {

@@ -85,27 +85,36 @@ double distance_to_chain(const Vec3& at_m, const std::vector<Vec3>& chain_m) {
   return nearest_m;
 }
 
-TEST(SceneBuilder, WritesAtEachBendHowToMakeIt) {
+/// What a scene says of the bends.
+std::vector<render::TextItem> bend_texts(const render::Scene& scene) {
+  std::vector<render::TextItem> texts;
+  for (const render::TextItem& text : scene.texts) {
+    if (kind_of(text.label) == kRod && text.runs[0].text.find(" roll ") != std::string::npos) {
+      texts.push_back(text);
+    }
+  }
+  return texts;
+}
+
+TEST(SceneBuilder, WritesAtTheFirstBendHowToMakeItAndAtEachOnRequest) {
   ScriptedOperation s;
   s.finishes_every_screw();
   for (const Vec3& head : {Vec3{0.02, 0.030, 0.00}, Vec3{0.02, 0.035, 0.04},
                            Vec3{0.02, 0.036, 0.08}, Vec3{0.026, 0.030, 0.12}}) {
     s.touches(head);
   }
-  const Guidance& g = s.pair();
+  EXPECT_EQ(bend_texts(scene_of(s.pair())).size(), 1u);
+  const Guidance& g = s.says("numbers");
   const RodState& rod = g.rods[0];
   ASSERT_TRUE(rod.instructions);
   const auto& told = *rod.instructions;
   ASSERT_GE(told.bends.size(), 2u);
   std::size_t bends = 0;
-  for (const render::TextItem& text : scene_of(g).texts) {
-    if (kind_of(text.label) != kRod || !text.runs[0].text.starts_with("bend ")) {
-      continue;
-    }
+  for (const render::TextItem& text : bend_texts(scene_of(g))) {
+    ASSERT_LT(bends, told.bends.size());
     const nav::RodInstruction& bend = told.bends[bends];
-    EXPECT_EQ(text.runs[0].text,
-              printed("bend %zu: %.0f mm, roll %.0f°, set %.1f°", bends + 1,
-                      bend.arc.centre_m * 1e3, degrees(bend.arc.roll_rad), degrees(bend.set_rad)));
+    EXPECT_EQ(text.runs[0].text, printed("%.0f mm, roll %.0f°, set %.1f°", bend.arc.centre_m * 1e3,
+                                         degrees(bend.arc.roll_rad), degrees(bend.set_rad)));
     // On the finished rod, which passes the heads at the depth of its seats.
     const Vec3 at_m = {text.position.x, text.position.y, text.position.z};
     EXPECT_LT(distance_to_chain(at_m, told.seats_m), 0.006) << bends;

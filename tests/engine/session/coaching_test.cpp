@@ -29,7 +29,7 @@ TEST(Coaching, SendsWhoStrokesOverTissueToTheBone) {
   r.provisional = true;
   EXPECT_FALSE(coaching_from(r).enough) << "more strokes would help";
   r.reasons.push_back({nav::RefusalReason::Kind::kSoftTissue, 0.001, 0.0003});
-  EXPECT_EQ(text_of(coaching_from(r)), "◆◆◆◆◆ double click, then touch the bone");
+  EXPECT_EQ(text_of(coaching_from(r)), "◆◆◆◆◆ double click, touch the bone");
 }
 
 TEST(Coaching, AddsWhatAllStrokesShare) {

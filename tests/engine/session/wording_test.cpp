@@ -15,8 +15,6 @@ TEST(Wording, SaysLastWhatBecomesOfWhatIsKept) {
   StatusLine line;
   line.tool = "guide";
   line.tool_lost = true;
-  line.saved = Saved::kSaved;
-  EXPECT_EQ(detail_text(line), "guide lost; saved");
   line.saved = Saved::kNotSaved;
   EXPECT_EQ(detail_text(line), "guide lost; NOT SAVED");
   line.saved = Saved::kNotRecorded;
@@ -65,6 +63,25 @@ TEST(Wording, SaysWhichPartsGiveWayFirst) {
   EXPECT_EQ(plain, text) << "asking for the parts changes no word";
 }
 
+TEST(Wording, MarksThatEverythingIsSavedInPlaceOfWhatWasHeard) {
+  const auto beside_step = [](const StatusLine& line) {
+    std::string out;
+    append_beside_step(out, line);
+    return out;
+  };
+  StatusLine line;
+  line.state = HeadsSoFar{1};
+  HeardCommand heard{"save", true};
+  line.heard = &heard;
+  EXPECT_EQ(beside_step(line), "touch the next head | heard: save");
+  line.saved = Saved::kSaved;
+  EXPECT_EQ(beside_step(line), "touch the next head | ✓");
+  heard.sure = false;
+  EXPECT_EQ(beside_step(line), "touch the next head | heard: save? not sure");
+  line.heard = nullptr;
+  EXPECT_EQ(beside_step(line), "touch the next head | ✓");
+}
+
 std::string line_in(Step step, const StepState& state) {
   StatusLine line;
   line.at.step = step;
@@ -82,6 +99,7 @@ TEST(Wording, AsksForTheNextActInEveryStepAndSaysNoFigures) {
   EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{0}), "touch the first head");
   EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{1}), "touch the next head");
   EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{4, 0.15236, 3}), "bend it, then say finish rod");
+  EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{2, 0.038, 0}), "cut it, then say finish rod");
   EXPECT_EQ(line_in(Step::kRod, HeadsSoFar{3, 0.09, 1, {}, 0}), "touch head 1 again");
   nav::CheckVerdict verdict;
   verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};

@@ -106,6 +106,7 @@ TEST_F(EveryText, OfTheStatesIsTranslated) {
   expect_shown(HeadsSoFar{3, 0.09, 1, HeadTouch{0, {}, 0.0001, 1, 0.0004}, 2});
   expect_shown(HeadsSoFar{3, 0.09, 1, HeadTouch{0, {}, 0.0001, 2, 0.0003}});
   expect_shown(HeadsSoFar{4, 0.15, 3});
+  expect_shown(HeadsSoFar{2, 0.038, 0});
 }
 
 TEST_F(EveryText, OfWarningsIsTranslated) {
