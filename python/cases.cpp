@@ -57,9 +57,8 @@ void bind_screw(py::module_& module) {
   py::class_<nav::ScrewPlan>(module, "Screw", "A planned pedicle screw, in the model's axes.")
       .def(py::init(&screw_from), py::arg("side"), py::arg("entry"), py::arg("target"),
            py::arg("radius_m") = 0.0,
-           "side: \"left\" or \"right\" of the patient; radius_m 0: not stated, and nobody says "
-           "how\n"
-           "far the screw stays inside the bone.")
+           "side: \"left\" or \"right\" of the patient; radius_m 0: not stated; how\n"
+           "far the screw stays inside the bone is then unknown.")
       .def_property_readonly("side", [](const nav::ScrewPlan& s) { return name_of(s.side); })
       .def_property_readonly("entry", [](const nav::ScrewPlan& s) { return array_of(s.entry.v); })
       .def_property_readonly("target", [](const nav::ScrewPlan& s) { return array_of(s.target.v); })

@@ -106,7 +106,7 @@ void bind_clearance(py::class_<GuidedTool>& guidance) {
           "None for a screw without radius and a tool that is not held near the plan (15 mm, 30\n"
           "degrees)")
       .def_property_readonly("clearance_95_m", &lower_95_m,
-                             "with 95 % probability it is above that; None where nobody knows")
+                             "with 95 % probability it is above that; None if unknown")
       .def_property_readonly(
           "grade",
           [](const GuidedTool& g) {

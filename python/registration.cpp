@@ -81,7 +81,7 @@ void bind_result(py::module_& module) {
           "infinite\n"
           "where the points leave a motion open, and with \"paper\", which predicts none")
       .def_property_readonly("error_99_m", result(&Registration::tre_99_m),
-                             "what 99 of 100 errors are below at the worst screw; 0 with \"paper\"")
+                             "what 99 % of errors are below at the worst screw; 0 with \"paper\"")
       .def_property_readonly(
           "screw_errors",
           [](const RegisteredBone& b) { return nav::predicted_errors(b.registration, b.screws); })

@@ -242,7 +242,7 @@ void bind_tracker(py::module_& module) {
            "One state for each tool, in their order. left, right: uint8, rows x columns; time_s "
            "has\n"
            "to increase from pair to pair; world_from_rig: where the headset was, an identity for\n"
-           "cameras that stand still, None while nobody knows.")
+           "cameras that stand still, None while unknown.")
       .def("__repr__",
            [](const Tracker& t) { return "<Tracker: " + joined(t.tools(), ", ") + ">"; });
 }

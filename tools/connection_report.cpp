@@ -37,7 +37,7 @@ std::string connection_report(const ConnectionStatistics& s) {
   text += printed("%-14s %s, %lld dropped for newer ones, %s without a partner\n", "stereo",
                   how_many(s.pairs, "pair").c_str(), static_cast<long long>(s.dropped),
                   how_many(s.unpaired, "image").c_str());
-  text += "map moved " + how_many(s.map_moves, "time") + ", headset's clock began anew " +
+  text += "map moved " + how_many(s.map_moves, "time") + ", headset's clock restarted " +
           how_many(s.clock_restarts, "time") + "\n";
   text += printed("headset's clock minus this machine's: %.6f s, spread %.3f ms\n",
                   seconds(s.clock_offset), s.clock_spread_ms);

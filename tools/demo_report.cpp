@@ -39,7 +39,7 @@ const char* caption_of(Step step) {
 
 std::vector<std::string> notes_of(const DemoReport& report) {
   if (!report.simulated) {
-    return {"Errors against the truth are not known here. Not a medical device."};
+    return {"Errors against the truth are unknown here. Not a medical device."};
   }
   std::vector<std::string> notes;
   notes.push_back(report.perfect

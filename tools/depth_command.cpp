@@ -84,7 +84,7 @@ Result<std::size_t> frame_index(const DepthArguments& arguments, const replay::R
   }
   if (with_pose && !located()) {
     return Error{"frame " + std::to_string(index) +
-                 " has no pose: where its points lie in the world is not known"};
+                 " has no pose: the place of its points in the world is unknown"};
   }
   return static_cast<std::size_t>(index);
 }

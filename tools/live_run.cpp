@@ -66,7 +66,7 @@ class LiveRun {
     const engine::OperationResult result = result_of(std::move(report));
     const std::string text = engine::report_json(result);
     const Status kept = files_.finish(result, text, room_ != nullptr);
-    // The files are on the disk before a terminal that nobody reads can hold this up.
+    // The files are on the disk before a terminal that is not read can hold this up.
     std::fputs(arguments_.json ? text.c_str() : operation_summary(result).c_str(), stdout);
     print_figures(result.loop);
     warn_of_never_seen(operation_->session().tracker());
@@ -202,7 +202,7 @@ class LiveRun {
     }
     if (arguments_.headset.find("pace=step") != std::string::npos) {
       return Error{"headset URI \"" + arguments_.headset +
-                   "\": nobody steps here; known paces are fast and realtime"};
+                   "\": cannot be stepped here; known paces are fast and realtime"};
     }
     if (!arguments_.tools_file.empty()) {
       auto tools = engine::load_tools(arguments_.tools_file, engine::ToolTags::kOptional);

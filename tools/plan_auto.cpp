@@ -59,7 +59,7 @@ Status check_place(const AutoArguments& arguments, const engine::Case& subject) 
   for (const engine::CaseLevel& level : subject.levels) {
     if (arguments.in_place() && arguments.common.wants(level.label) && !level.screws.empty()) {
       return Error{arguments.common.case_folder + ": " + level.label +
-                   " has a plan already; --out FOLDER writes the case anew, with new plans"};
+                   " has a plan already; --out FOLDER writes a new case with new plans"};
     }
   }
   return {};

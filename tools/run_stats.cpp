@@ -48,7 +48,8 @@ void print_stats(const engine::PresentReport& report) {
 void print_stats(const ObjectDisplayStatistics& objects) {
   std::fprintf(
       stderr,
-      "%-28s %lld now, %s, %s, %s, %lld refused, %lld left out, %s, %lld given up, guidance in %s, "
+      "%-28s %lld now, %s, %s, %s, %lld refused, %lld left out, %s, %lld abandoned, guidance in "
+      "%s, "
       "too old in %lld\n",
       "objects on the headset", static_cast<long long>(objects.objects),
       how_many(objects.lists, "list").c_str(), how_many(objects.commands, "command").c_str(),

@@ -53,24 +53,24 @@ std::string ModelCache::file_of(const nav::TriangleMesh& mesh) const {
 std::shared_ptr<const nav::VertebraModel> ModelCache::load(const nav::TriangleMesh& mesh,
                                                            const MeshKey& key) {
   const std::string path = file_of(key);
-  const auto anew = [&](const Error& error) {
-    notes_.push_back(path + ": " + error.message + "; the model was prepared anew");
+  const auto again = [&](const Error& error) {
+    notes_.push_back(path + ": " + error.message + "; the model was prepared again");
     return nullptr;
   };
   const auto bytes = content_of(path);
   if (!bytes) {
-    return anew(bytes.error());
+    return again(bytes.error());
   }
   if (!*bytes) {
     return nullptr;
   }
   auto parts = decoded(**bytes, key);
   if (!parts) {
-    return anew(parts.error());
+    return again(parts.error());
   }
   auto model = nav::VertebraModel::restore(mesh, std::move(*parts));
   if (!model) {
-    return anew(Error{"does not fit its mesh (" + model.error().message + ")"});
+    return again(Error{"does not fit its mesh (" + model.error().message + ")"});
   }
   return *model;
 }

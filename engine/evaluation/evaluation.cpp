@@ -108,7 +108,7 @@ std::string where_is(Point<Scan> place, const Evaluation& found, const Bones& bo
       return "in " + level.label;
     }
   }
-  return all ? "outside the planned vertebrae" : "where is not known";
+  return all ? "outside the planned vertebrae" : "place unknown";
 }
 
 /// The levels in the order of the case, with the registrations that were accepted.

@@ -39,7 +39,7 @@ Result<std::optional<NamedFrames>> frames_named(const std::string& transform) {
     return std::optional<NamedFrames>();
   }
   if (at.size() > 1) {
-    return Error{transform + " says \"To\" more than once, so its frame is not known"};
+    return Error{transform + " says \"To\" more than once, so its frame is unknown"};
   }
   return std::optional(NamedFrames{transform.substr(0, at[0]), transform.substr(at[0] + 2)});
 }

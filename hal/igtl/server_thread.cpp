@@ -215,7 +215,7 @@ void ServerThread::serve_clients(HostTime now) {
       s = Error{"does not read"};
     }
     if (s && !here->let_in() && now - here->taken() > options_.longest_without_token) {
-      s = Error{"brought no token"};
+      s = Error{"sent no token"};
     }
     if (!s) {
       drop(here, s.error());

@@ -144,7 +144,7 @@ Result<Endpoint> resolve(const std::string& host) {
   addrinfo* found = nullptr;
   const int code = ::getaddrinfo(host.c_str(), nullptr, &hints, &found);
   if (code != 0) {
-    return Error{"host \"" + host + "\" is not known: " + std::string(::gai_strerror(code)),
+    return Error{"unknown host \"" + host + "\": " + std::string(::gai_strerror(code)),
                  code == EAI_AGAIN ? ErrorCode::kUnavailable : ErrorCode::kNotFound};
   }
   Endpoint endpoint;

@@ -157,7 +157,7 @@ Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
   }
   if (!cameras->headset->cameras().calibration().has_images()) {
     return bad_uri(uri, cameras->headset->name() +
-                            " has no cameras, and where it lies in the display's map is not known");
+                            " has no cameras, and its place in the display's map is unknown");
   }
   return OpenedHeadset{{openxr::OpenxrHeadset::around(std::move(cameras->headset), rig),
                         std::move(cameras->warning)},

@@ -57,8 +57,7 @@ Status check_tool(const RoomTool& tool) {
   }
   const int ids = tag_count(tool.family);
   if (ids == 0) {
-    return Error{name + "tag family \"" + tool.family + "\" is not known; known are " +
-                 tag_families()};
+    return Error{name + "unknown tag family \"" + tool.family + "\"; known are " + tag_families()};
   }
   if (tool.id < 0 || tool.id >= ids) {
     return Error{name + "tag id is " + std::to_string(tool.id) + ", " + tool.family + " has 0 to " +

@@ -118,7 +118,7 @@ Status Script::check(const ScriptLine& line, std::span<const ScriptWord> words) 
   switch (word->follows) {
     case Follows::kNothing:
       if (!line.rest.empty()) {
-        return error(line, "stands alone");
+        return error(line, "nothing may follow it");
       }
       return {};
     case Follows::kText:

@@ -51,7 +51,7 @@ TEST_F(IgtlToken, IsBroughtBeforeAnythingIsSent) {
     server->publish(frame());
     return server->counts().dropped == 1;
   }));
-  EXPECT_EQ(server->counts().last_drop, "brought no token");
+  EXPECT_EQ(server->counts().last_drop, "sent no token");
   EXPECT_TRUE(silent.receive(1).empty()) << "not a byte before it was dropped";
   EXPECT_EQ(known.next(), "STRING Guidance");
 }

@@ -64,7 +64,7 @@ TEST(SimHeadset, RefusesBrokenRooms) {
   room = good;
   room.tools[1].family = "tag99h9";
   EXPECT_THAT(refusal(room),
-              AllOf(HasSubstr("\"guide\": tag family \"tag99h9\" is not known"),
+              AllOf(HasSubstr("\"guide\": unknown tag family \"tag99h9\""),
                     HasSubstr("tag36h11, tag36h10, tag25h9, tag16h5, tagStandard41h12")));
   room = good;
   room.tools[1].id = 587;

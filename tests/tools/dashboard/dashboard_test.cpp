@@ -240,7 +240,7 @@ TEST_F(DashboardPage, ShowsTheOperationInABrowser) {
   EXPECT_THAT(page, HasSubstr("<h2 id=\"what\">what the surgeon sees</h2>"));
   EXPECT_THAT(page, HasSubstr("src=\"http://127.0.0.1:")) << "the view was loaded";
   EXPECT_THAT(page, HasSubstr("class=\"chip measured\""));
-  EXPECT_THAT(page, HasSubstr("<td>not known (registration only)</td>"))
+  EXPECT_THAT(page, HasSubstr("<td>unknown (registration only)</td>"))
       << "an error that has no bound is no number";
   // The browser takes a while to start, so the pair may be old by then; nothing else may be wrong.
   EXPECT_EQ(page.find("role=\"alert\">the program"), std::string::npos);
