@@ -13,7 +13,7 @@ namespace orthonav {
 namespace {
 
 using Buffer = std::array<char, 400>;
-constexpr int kMostMoreDecimals = 3;
+constexpr int kMaxMoreDecimals = 3;
 constexpr int kUsualPrecision = 6;
 
 /// One `%-8.2f` of a format.
@@ -173,7 +173,7 @@ void append_printed(std::string& out, const char* format, std::span<const Printe
 void append_beside_limit(std::string& out, const char* format, double value, double limit) {
   const std::array<PrintedValue, 2> values = {value, limit};
   const bool differ = value != limit && std::isfinite(value) && std::isfinite(limit);
-  for (int more = 0; differ && more <= kMostMoreDecimals; ++more) {
+  for (int more = 0; differ && more <= kMaxMoreDecimals; ++more) {
     const auto read = as_read(format, value, limit, more);
     if (read[0] != read[1]) {
       return append_with(out, format, values, more, "");

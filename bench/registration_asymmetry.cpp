@@ -10,7 +10,7 @@
 namespace orthonav::bench {
 namespace {
 
-constexpr std::size_t kMostVertices = 1500;
+constexpr std::size_t kMaxVertices = 1500;
 constexpr double kFarthest_m = 0.005;
 
 /// The unchanged pose, and poses turned and shifted to every side, since the best start is unknown.
@@ -33,7 +33,7 @@ std::vector<nav::CentredPose> starts(Vec3 centre_m) {
 
 double asymmetry_m(const nav::VertebraModel& model) {
   const auto& vertices_m = model.reachable().vertices_m;
-  const std::size_t step = std::max<std::size_t>(1, vertices_m.size() / kMostVertices);
+  const std::size_t step = std::max<std::size_t>(1, vertices_m.size() / kMaxVertices);
   const Vec3 centre_m = model.reachable_axes().centre_m;
   std::vector<Vec3> points_m;
   for (std::size_t i = 0; i < vertices_m.size(); i += step) {

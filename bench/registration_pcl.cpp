@@ -15,7 +15,7 @@ using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 constexpr double kMillimetres = 1e3;
 /// Farther pairs are left out. The starts are several millimetres off.
 constexpr double kFarthestPair_mm = 10.0;
-constexpr int kMostIterations = 200;
+constexpr int kMaxIterations = 200;
 
 pcl::PointXYZ point_mm(Vec3 p_m) {
   return {static_cast<float>(p_m.x * kMillimetres), static_cast<float>(p_m.y * kMillimetres),
@@ -86,7 +86,7 @@ Fit prepared(const BenchLevel& level) {
   const auto icp = std::make_shared<Icp>();
   icp->setInputTarget(target);
   icp->setMaxCorrespondenceDistance(kFarthestPair_mm);
-  icp->setMaximumIterations(kMostIterations);
+  icp->setMaximumIterations(kMaxIterations);
   icp->setTransformationEpsilon(1e-8);
   // Data that PCL computes from the target alone (its tree, GICP's covariances) is not part of a
   // timed run.

@@ -97,11 +97,11 @@ void measure_resuming(const fs::path& folder) {
     times_ms.push_back(ms_of([&] {
       auto found = engine::OperationLog::find(env, folder.string()).value();
       engine::LoggedOperation logged = found.operation;
-      logged.go_on();
+      logged.reopen();
       s->tracker().reference.places = logged.references;
       std::ignore = s->session().resume(logged);
-      std::ignore = engine::OperationLog::go_on(env, std::move(found),
-                                                engine::RecordWriter::Waits::kUntilDurable);
+      std::ignore = engine::OperationLog::reopen(env, std::move(found),
+                                                 engine::RecordWriter::Waits::kUntilDurable);
     }));
   }
   print("found, read, restored and continued", times_ms);

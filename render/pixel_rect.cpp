@@ -6,7 +6,7 @@
 namespace orthonav::render {
 namespace {
 
-constexpr std::size_t kMostRegions = 6;
+constexpr std::size_t kMaxRegions = 6;
 constexpr long kPassCost_px =
     128L * 128;  // the cost of one more pass, in pixels to clear and resolve
 
@@ -33,7 +33,7 @@ void add_region(std::vector<PixelRect>& regions, PixelRect rect) {
         best = i;
       }
     }
-    if (least > kPassCost_px && regions.size() < kMostRegions) {
+    if (least > kPassCost_px && regions.size() < kMaxRegions) {
       break;
     }
     rect = joined(regions[best], rect);

@@ -103,9 +103,9 @@ Result<Views> views_in(const StereoArguments& arguments, const nav::Chessboard& 
 /// Whether an image without the board shows one of a column and a row less: somebody counted
 /// squares.
 bool shows_one_less(const Views& views, const nav::Chessboard& board) {
-  constexpr std::size_t kMostTried = 4;
+  constexpr std::size_t kMaxTried = 4;
   const nav::Chessboard less{board.columns - 1, board.rows - 1, board.square_m};
-  for (std::size_t i = 0; i < std::min(kMostTried, views.skipped.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMaxTried, views.skipped.size()); ++i) {
     nav::ImageSize any;
     const auto corners = corners_in(views.skipped[i], less, any);
     if (less.check().empty() && corners && *corners) {

@@ -22,7 +22,7 @@
 namespace orthonav::tools {
 namespace {
 
-constexpr std::size_t kMostTagsOfTool = 64;
+constexpr std::size_t kMaxTagsOfTool = 64;
 
 struct ToolArguments {
   std::string recording;
@@ -59,7 +59,7 @@ Result<std::vector<double>> sizes_m(const std::string& text, std::size_t tags) {
 }
 
 Result<std::vector<nav::MarkerDefinition>> tags_from(const ToolArguments& arguments) {
-  const auto ids = number_list(arguments.ids, kMostTagsOfTool);
+  const auto ids = number_list(arguments.ids, kMaxTagsOfTool);
   if (!ids) {
     return Error{"--ids: " + ids.error().message};
   }

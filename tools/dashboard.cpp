@@ -25,7 +25,7 @@
 namespace orthonav::tools {
 namespace {
 
-constexpr std::size_t kMostMessages = 50;
+constexpr std::size_t kMaxMessages = 50;
 /// Browsers ask five times a second.
 constexpr Duration kTellEvery = std::chrono::milliseconds(100);
 /// An older view is no longer shown; the camera's image is shown instead.
@@ -285,7 +285,7 @@ void Dashboard::note_changes() {
   }
   const char* between = step.empty() || message.empty() ? "" : ": ";
   messages_.push_front(printed("%.1f s  ", changes_.time_s()) + step + between + message);
-  if (messages_.size() > kMostMessages) {
+  if (messages_.size() > kMaxMessages) {
     messages_.pop_back();
   }
 }

@@ -213,7 +213,7 @@ void add_depth_command(CLI::App& app, Action& action) {
           "--frames", arguments->frames,
           "Of a headset: how many frames to take (default: 30 with --all or without --out, "
           "else what --frame needs)")
-      ->check(whole_number(1, kMostLiveFrames));
+      ->check(whole_number(1, kMaxLiveFrames));
   constexpr double kMaxCellMm = 1000.0;
   command
       ->add_option("--cell-mm", arguments->cell_mm,

@@ -6,7 +6,7 @@
 
 namespace orthonav::tools {
 
-inline constexpr int kMostLiveFrames = 100000;
+inline constexpr int kMaxLiveFrames = 100000;
 
 /// Whether it is a headset's URI and not a folder.
 [[nodiscard]] bool names_headset(const std::string& source);

@@ -159,15 +159,15 @@ std::string text_of(const engine::UnassignedMetal& metal, const engine::Evaluati
 }
 
 std::string slices_text(const engine::Evaluation& evaluation) {
-  constexpr double kMostMeasured_m = 0.002;  // docs/evaluation.md
-  if (evaluation.slices_m <= kMostMeasured_m + 1e-6) {
+  constexpr double kMaxMeasured_m = 0.002;  // docs/evaluation.md
+  if (evaluation.slices_m <= kMaxMeasured_m + 1e-6) {
     return "";
   }
   const double mm = evaluation.slices_m * 1e3;
   return printed(
       "slices %.1f mm apart, tried up to %.1f mm: across them a tip is known to +-%.1f mm, and a "
       "breach below %.1f mm may not be seen",
-      mm, kMostMeasured_m * 1e3, 0.5 * mm, 0.5 * mm);
+      mm, kMaxMeasured_m * 1e3, 0.5 * mm, 0.5 * mm);
 }
 
 bool is_complete(const engine::Evaluation& evaluation) {

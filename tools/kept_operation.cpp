@@ -70,13 +70,13 @@ Status KeptOperation::resume(engine::AssembledOperation& operation, const About&
                              engine::RecordWriter::Waits waits) {
   const std::vector<std::string> lines = engine::resume_lines(*found_);
   engine::LoggedOperation logged = found_->operation;
-  logged.go_on();
+  logged.reopen();
   begun_ = logged.identity.begun;
   if (const Status restored = operation.resume(logged); !restored) {
     return Error{found_->path + ": " + restored.error().message};
   }
-  log_ = engine::OperationLog::go_on(env_, *std::exchange(found_, std::nullopt), waits,
-                                     about.epoch_100ns);
+  log_ = engine::OperationLog::reopen(env_, *std::exchange(found_, std::nullopt), waits,
+                                      about.epoch_100ns);
   for (const std::string& line : lines) {
     std::fprintf(stderr, "orthonav: %s\n", line.c_str());
   }

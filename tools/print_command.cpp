@@ -21,7 +21,7 @@
 namespace orthonav::tools {
 namespace {
 
-constexpr int kMostTags = 1000;
+constexpr int kMaxTags = 1000;
 
 struct TagArguments {
   PageArguments page;
@@ -69,7 +69,7 @@ int print_tags(const TagArguments& arguments, const std::vector<engine::PrintedT
 }
 
 int run_tags(const TagArguments& arguments) {
-  const auto ids = number_list(arguments.ids, kMostTags);
+  const auto ids = number_list(arguments.ids, kMaxTags);
   if (!ids) {
     return bad_input("--ids: " + ids.error().message);
   }

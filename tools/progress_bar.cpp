@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kRedrawEvery{200};
 constexpr std::size_t kLeastCells = 10;
-constexpr std::size_t kMostCells = 40;
+constexpr std::size_t kMaxCells = 40;
 /// Before this much is done, an estimate of the remaining time is meaningless.
 constexpr double kLeastFractionForEstimate = 0.05;
 
@@ -124,7 +124,7 @@ std::string bar_text(double fraction, const std::string& what, std::size_t colum
     text.resize(std::min(text.size(), most));
     return text;
   }
-  const std::size_t cells = std::min(most - text.size() - 3, kMostCells);
+  const std::size_t cells = std::min(most - text.size() - 3, kMaxCells);
   std::string bar(static_cast<std::size_t>(std::lround(fraction * static_cast<double>(cells))),
                   '#');
   bar.resize(cells, '.');

@@ -40,7 +40,7 @@ Result<bool> has_canal(const nav::TriangleMesh& vertebra) {
 }
 
 Status check_scale(std::span<const Vec3> points_m, bool unit_stated) {
-  constexpr double kLeast_m = 0.001, kMost_m = 10.0;
+  constexpr double kLeast_m = 0.001, kMax_m = 10.0;
   if (points_m.size() < 2) {
     return {};
   }
@@ -52,7 +52,7 @@ Status check_scale(std::span<const Vec3> points_m, bool unit_stated) {
     }
   }
   const double across_m = (high - low).norm();
-  if (across_m >= kLeast_m && across_m <= kMost_m) {
+  if (across_m >= kLeast_m && across_m <= kMax_m) {
     return {};
   }
   const bool small = across_m < kLeast_m;

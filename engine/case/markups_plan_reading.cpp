@@ -44,8 +44,8 @@ Result<std::vector<double>> diameters_in(const std::string& text, double metres_
 Result<double> stated_radius(const Markup& markup, double metres_per_unit) {
   double radius = 0.0;
   for (const std::string& text : {markup.description, markup.name}) {
-    constexpr std::size_t kMostText = 4096;  // std::regex recurses
-    const auto diameters = diameters_in(lower_case(text.substr(0, kMostText)), metres_per_unit);
+    constexpr std::size_t kMaxText = 4096;  // std::regex recurses
+    const auto diameters = diameters_in(lower_case(text.substr(0, kMaxText)), metres_per_unit);
     if (!diameters) {
       return diameters.error();
     }

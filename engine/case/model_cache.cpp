@@ -29,7 +29,7 @@ Result<std::optional<std::string>> content_of(const std::string& path) {
   if (code) {
     return Error{"cannot be read: " + code.message(), file_code(code)};
   }
-  if (size > kMostPartsBytes) {
+  if (size > kMaxPartsBytes) {
     return Error{"is damaged: " + std::to_string(size) + " bytes long"};
   }
   std::string bytes(size, '\0');

@@ -114,7 +114,7 @@ std::string encoded(const MeshKey& key, const nav::PreparedParts& parts) {
 }
 
 Result<nav::PreparedParts> decoded(std::string_view bytes, const MeshKey& key) {
-  if (bytes.size() < sizeof(Header) + kCrcBytes || bytes.size() > kMostPartsBytes) {
+  if (bytes.size() < sizeof(Header) + kCrcBytes || bytes.size() > kMaxPartsBytes) {
     return Error{"is damaged: " + std::to_string(bytes.size()) + " bytes long"};
   }
   Header header;

@@ -37,6 +37,6 @@ struct MeshKey {
 Result<nav::PreparedParts> decoded(std::string_view bytes, const MeshKey& key);
 
 /// Upper bound on the size of such a file: a mesh has at most 250 mm.
-inline constexpr std::uint64_t kMostPartsBytes = 64u << 20u;
+inline constexpr std::uint64_t kMaxPartsBytes = 64u << 20u;
 
 }  // namespace orthonav::engine

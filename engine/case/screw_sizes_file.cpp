@@ -10,12 +10,12 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr std::size_t kMostLengths = 100;
+constexpr std::size_t kMaxLengths = 100;
 
 ScrewSize size_from(const JsonNode& node) {
   ScrewSize size;
   size.diameter_m = node.number("diameter_mm") * kMetresPerMm;
-  for (const double length_mm : node.number_list("lengths_mm", kMostLengths)) {
+  for (const double length_mm : node.number_list("lengths_mm", kMaxLengths)) {
     size.lengths_m.push_back(length_mm * kMetresPerMm);
   }
   if (node.has("head_to_seat_mm")) {

@@ -10,7 +10,7 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr std::size_t kMostTrials = 1000;
+constexpr std::size_t kMaxTrials = 1000;
 
 }  // namespace
 
@@ -43,8 +43,8 @@ Result<std::vector<nav::SpringBackTrial>> load_spring_back(const std::string& pa
     if (!first || !second) {
       return Error{printed("%s: line %zu must hold two numbers", path.c_str(), number)};
     }
-    if (trials.size() == kMostTrials) {
-      return Error{printed("%s: more than %zu trials", path.c_str(), kMostTrials)};
+    if (trials.size() == kMaxTrials) {
+      return Error{printed("%s: more than %zu trials", path.c_str(), kMaxTrials)};
     }
     trials.push_back({(set_first ? *first : *second) * kRadiansPerDegree,
                       (set_first ? *second : *first) * kRadiansPerDegree});

@@ -13,14 +13,14 @@ namespace {
 
 /// Limits beyond which a fit is refused. Another vertebra of the same spine fits with 0.37 mm and
 /// more, and with a coverage of 0.90 at most; the right one with 0.06 to 0.14 mm and 0.93 or more.
-constexpr double kMostResidual_m = 0.00025;
+constexpr double kMaxResidual_m = 0.00025;
 constexpr double kLeastCoverage = 0.85;
 constexpr double kLeastEdges = 150;
 
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
-constexpr double kMostOffset_m = 0.001;
+constexpr double kMaxOffset_m = 0.001;
 
 Vec3 centre_of(const std::vector<SurfaceSample>& samples) {
   Vec3 sum;
@@ -135,7 +135,7 @@ BoneRegistration laid_on_bone(const ScanField& scan, const MetalMask& mask,
     }
     const Vector7 step = equations.information.ldlt().solve(equations.right);
     out.scan_from_vertebra = moved(out.scan_from_vertebra, centre_m, step);
-    out.offset_m = std::clamp(out.offset_m + step[6], -kMostOffset_m, kMostOffset_m);
+    out.offset_m = std::clamp(out.offset_m + step[6], -kMaxOffset_m, kMaxOffset_m);
     out.uncertainty = uncertainty_of(equations, centre_m);
     last_rounds += within == kLastWithin_m ? 1 : 0;
   }
@@ -158,11 +158,11 @@ std::string refusal(const BoneRegistration& found) {
         "vertebra, or a coarse model",
         found.coverage * 1e2, kLeastCoverage * 1e2);
   }
-  if (found.residual_m > kMostResidual_m) {
+  if (found.residual_m > kMaxResidual_m) {
     return printed(
         "its surface lies %.2f mm off the bone in the scan, limit %.2f mm: another vertebra, or a "
         "coarse model",
-        found.residual_m * 1e3, kMostResidual_m * 1e3);
+        found.residual_m * 1e3, kMaxResidual_m * 1e3);
   }
   return "";
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFewSamples = 350;
 constexpr std::size_t kManySamples = 2500;
-constexpr std::size_t kMostStarts = 7;
+constexpr std::size_t kMaxStarts = 7;
 constexpr double kMaskMargin_m = 0.002;
 
 /// Each shaft to a fraction of a voxel; one whose fit fails becomes unassigned metal.
@@ -156,7 +156,7 @@ Result<Evaluation> evaluate(const Case& subject, const Volume& volume) {
   out.slices_m = std::max({spacing_m.x, spacing_m.y, spacing_m.z});
   out.shafts = fitted(scan, straight_metal(scan), out.unassigned);
   const auto laid =
-      laid_levels(scan, mask, surfaces, spine_starts(subject, out.shafts, kMostStarts));
+      laid_levels(scan, mask, surfaces, spine_starts(subject, out.shafts, kMaxStarts));
   if (!laid) {
     return laid.error();
   }

@@ -27,7 +27,7 @@ bool is_inside(const VolumeGrid& grid, Vec3 index) {
 
 Status check_scan(const Volume& scan) {
   constexpr double kNotHu = -30.0;
-  constexpr double kMostMetal = 0.05;
+  constexpr double kMaxMetal = 0.05;
   if (scan.layers != 1) {
     return Error{"the scan has " + std::to_string(scan.layers) + " values a voxel, a CT has one"};
   }
@@ -51,9 +51,9 @@ Status check_scan(const Volume& scan) {
                          static_cast<double>(most), kMetal_hu)};
   }
   const double fraction = static_cast<double>(metal) / static_cast<double>(scan.values.size());
-  if (fraction > kMostMetal) {
+  if (fraction > kMaxMetal) {
     return Error{printed("%.0f %% of the scan has %.0f HU or more, limit %.0f %%: no CT of a spine",
-                         fraction * 1e2, kMetal_hu, kMostMetal * 1e2)};
+                         fraction * 1e2, kMetal_hu, kMaxMetal * 1e2)};
   }
   return {};
 }

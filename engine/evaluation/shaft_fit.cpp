@@ -11,7 +11,7 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr double kMostMoved_m = 0.003;  ///< from where the search put it
+constexpr double kMaxMoved_m = 0.003;  ///< from where the search put it
 
 /// The unknowns, in the order of the parameters; metres and radians.
 enum Parameter : std::size_t {
@@ -133,8 +133,8 @@ Shaft limited(const Shaft& shaft, std::span<const double> p) {
   Parameters used{};
   std::copy(p.begin(), p.end(), used.begin());
   used[kRadius] = std::clamp(used[kRadius], 3e-4, 7e-3);
-  used[kTip] = std::clamp(used[kTip], -kMostMoved_m, kMostMoved_m);
-  used[kRear] = std::clamp(used[kRear], -kMostMoved_m, kMostMoved_m);
+  used[kTip] = std::clamp(used[kTip], -kMaxMoved_m, kMaxMoved_m);
+  used[kRear] = std::clamp(used[kRear], -kMaxMoved_m, kMaxMoved_m);
   if (!shaft.is_wire()) {
     used[kBowAcross] = used[kBowAthwart] = 0.0;
   }
@@ -176,12 +176,12 @@ std::optional<Shaft> fitted_shaft(const ScanField& scan, const Shaft& found_shaf
   }
   // An end that moves far was not seen, as where two tips touch: it stays where the search put it.
   for (const std::size_t end : {kTip, kRear}) {
-    if (std::abs(best->parameters[end]) > 0.9 * kMostMoved_m) {
+    if (std::abs(best->parameters[end]) > 0.9 * kMaxMoved_m) {
       best->parameters[end] = 0.0;
     }
   }
   Shaft out = limited(shaft, best->parameters);
-  if ((out.line.middle_m - shaft.line.middle_m).norm() > kMostMoved_m ||
+  if ((out.line.middle_m - shaft.line.middle_m).norm() > kMaxMoved_m ||
       angle_between_rad(out.line.direction, shaft.line.direction) > kMostRotation_rad) {
     return std::nullopt;
   }

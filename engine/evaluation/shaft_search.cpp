@@ -190,10 +190,10 @@ bool has_head(const MetalSections& sections, double end_s_m, double radius_m) {
 /// failure.
 double settle(const MetalCloud& cloud, Centreline& line) {
   constexpr int kFewestRounds = 5;
-  constexpr int kMostRounds = 16;
+  constexpr int kMaxRounds = 16;
   double within_m = 0.0045;
   double radius_m = 0.0;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     const MetalSections sections = sections_about(cloud, line, within_m);
     const Stretch stretch = longest_stretch(sections);
     if (stretch.last <= stretch.first + 3) {
@@ -267,12 +267,12 @@ std::vector<OtherMetal> others_of(const MetalCloud& cloud) {
 }  // namespace
 
 MetalPieces straight_metal(const ScanField& scan) {
-  constexpr int kMostShafts = 40;
+  constexpr int kMaxShafts = 40;
   constexpr int kMisses = 3;
   MetalPieces out;
   MetalCloud cloud(scan);
   Random random(20240229);
-  for (int misses = 0; misses < kMisses && static_cast<int>(out.shafts.size()) < kMostShafts;) {
+  for (int misses = 0; misses < kMisses && static_cast<int>(out.shafts.size()) < kMaxShafts;) {
     const std::vector<Vec3> some = thinned(cloud.places_m());
     const auto line = some.size() < 8 ? std::nullopt : longest_line(some, random);
     if (!line) {

@@ -12,11 +12,11 @@ namespace orthonav::engine {
 
 inline constexpr render::Label kInstancesOfAKind = 100;
 /// Instances beyond this one share its label.
-inline constexpr std::size_t kMostInstances = kInstancesOfAKind - 1;
+inline constexpr std::size_t kMaxInstances = kInstancesOfAKind - 1;
 
 [[nodiscard]] constexpr render::Label label_of(HologramKind kind, std::size_t instance) {
   return kInstancesOfAKind * static_cast<render::Label>(kind) +
-         static_cast<render::Label>(std::min(instance, kMostInstances));
+         static_cast<render::Label>(std::min(instance, kMaxInstances));
 }
 /// The label must be a hologram's.
 [[nodiscard]] constexpr HologramKind kind_of(render::Label label) {

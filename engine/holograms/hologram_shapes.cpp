@@ -271,7 +271,7 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   text.min_height_deg = 0.6f;
   if (rod.to_cut) {
     append_printed(add_run(text, look::kWhite), translated("cut to %s"),
-                   said_mm(*rod.length_m).c_str());
+                   format_mm(*rod.length_m).c_str());
   } else {
     add_run(text, in_mm(*rod.length_m), look::kWhite);
   }

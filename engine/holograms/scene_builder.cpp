@@ -53,7 +53,7 @@ std::string_view level_at(const Guidance& guidance, Side side, Point<World> head
 
 }  // namespace
 
-bool hangs_on_tool(render::Label label) {
+bool depends_on_tool(render::Label label) {
   const HologramKind kind = kind_of(label);
   return kind == HologramKind::kTriangle || kind == HologramKind::kAngle ||
          kind == HologramKind::kDepth || (kind == HologramKind::kNumbers && label != kStop) ||
@@ -64,7 +64,7 @@ void hide_tool_guidance(render::Scene& scene) {
   const WearersLanguage language;
   // The number's place stays, with dashes.
   const auto of_tool = [](const auto& item) {
-    return hangs_on_tool(item.label) && kind_of(item.label) != HologramKind::kAngle;
+    return depends_on_tool(item.label) && kind_of(item.label) != HologramKind::kAngle;
   };
   scene.triangles.erase_if(of_tool);
   scene.lines.erase_if(of_tool);
@@ -170,7 +170,7 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
     const double age_s = seconds(guidance.display_time - guidance.dropped->dropped_at);
     const double left = 1.0 - age_s / seconds(guidance.fade);
     if (left > 0.0) {
-      add(guidance.dropped->region, kMostInstances, static_cast<float>(std::min(left, 1.0)));
+      add(guidance.dropped->region, kMaxInstances, static_cast<float>(std::min(left, 1.0)));
     }
   }
 }
@@ -180,7 +180,7 @@ void SceneBuilder::add_stroke_pattern(const Guidance& guidance, render::Scene& s
   constexpr Vec3 kIn_view_m{-0.035, 0.0, -0.50};
   constexpr double kScale = 0.6;
   constexpr float kWidth_m = 0.0012F;
-  constexpr render::Label kLabel = label_of(HologramKind::kPath, kMostInstances - 1);
+  constexpr render::Label kLabel = label_of(HologramKind::kPath, kMaxInstances - 1);
   const LevelState& level = guidance.levels[guidance.level];
   const nav::VertebraModel& model = *level.plan.model;
   const auto [found, made] = patterns_.try_emplace(&model);

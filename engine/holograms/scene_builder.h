@@ -84,7 +84,7 @@ class SceneBuilder {
 };
 
 /// Whether items with this label depend on a tool's pose and become wrong once it is too old.
-[[nodiscard]] bool hangs_on_tool(render::Label label);
+[[nodiscard]] bool depends_on_tool(render::Label label);
 
 /// Removes the deviation triangle from a scene and the number from its readout, if the pose they
 /// depend on became too old before they were drawn.

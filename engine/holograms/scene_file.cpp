@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kSmallest_px = 16;
 constexpr int kLargest_px = 8192;
-constexpr std::size_t kMostHolograms = 1000;
+constexpr std::size_t kMaxHolograms = 1000;
 
 double number_or(const JsonNode& node, const char* key, double fallback, double low, double high,
                  const char* unit) {
@@ -64,9 +64,9 @@ Result<SceneFile> scene_of(const JsonDocument& document, const std::string& fold
   SceneFile file;
   read_view(root.child("view"), file);
   const std::vector<JsonNode> holograms = root.list("holograms");
-  if (holograms.size() > kMostHolograms) {
+  if (holograms.size() > kMaxHolograms) {
     root.refuse("holograms", "holds " + std::to_string(holograms.size()) + ", at most " +
-                                 std::to_string(kMostHolograms));
+                                 std::to_string(kMaxHolograms));
   }
   std::map<std::string, std::size_t> count;
   for (const JsonNode& node : holograms) {

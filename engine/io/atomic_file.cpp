@@ -57,7 +57,7 @@ std::string name_beside(const fs::path& target, int attempt) {
   return (target.parent_path() / name).string();
 }
 
-constexpr int kMostAttempts = 1000;
+constexpr int kMaxAttempts = 1000;
 
 Error too_many_beside(const std::string& path) {
   return Error{path + ": 1000 unfinished writes lie beside it, remove them"};
@@ -86,7 +86,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, Staging staging) 
       return AtomicFile(way_to(file), target.string(), file);
     }
   }
-  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     const std::string beside = name_beside(target, attempt);
     const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0) {
@@ -140,7 +140,7 @@ bool AtomicFile::keep() {
 /// A link replaces no file, a rename does: where the target exists, the file takes a name beside it
 /// for that moment.
 Status AtomicFile::take_a_name() {
-  for (int attempt = -1; attempt < kMostAttempts; ++attempt) {
+  for (int attempt = -1; attempt < kMaxAttempts; ++attempt) {
     const std::string name = attempt < 0 ? final_path_ : name_beside(final_path_, attempt);
     if (::linkat(AT_FDCWD, temporary_path_.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) ==
         0) {

@@ -21,7 +21,7 @@ std::string earlier_name(const std::string& path, int number) {
 }
 
 Error too_many_earlier(const std::string& path) {
-  return Error{path + ": " + std::to_string(kMostEarlier) +
+  return Error{path + ": " + std::to_string(kMaxEarlier) +
                " earlier ones lie beside it, move them away"};
 }
 

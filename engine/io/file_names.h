@@ -11,7 +11,7 @@ namespace orthonav::engine {
 
 /// The name of an earlier file: PATH-N, N from 1 on, before the extension.
 [[nodiscard]] std::string earlier_name(const std::string& path, int number);
-inline constexpr int kMostEarlier = 1000;
+inline constexpr int kMaxEarlier = 1000;
 /// "PATH: 1000 earlier ones lie beside it, move them away".
 [[nodiscard]] Error too_many_earlier(const std::string& path);
 

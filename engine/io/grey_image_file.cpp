@@ -13,7 +13,7 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr std::int64_t kMostPixels = 100'000'000;
+constexpr std::int64_t kMaxPixels = 100'000'000;
 constexpr std::size_t kMostBytes = 512u << 20u;
 
 struct ImageSize {
@@ -26,7 +26,7 @@ Status check(const ImageSize& size) {
     return Error{"image is empty (" + std::to_string(size.width_px) + " x " +
                  std::to_string(size.height_px) + " px)"};
   }
-  if (size.width_px > kMostPixels || size.height_px > kMostPixels / size.width_px) {
+  if (size.width_px > kMaxPixels || size.height_px > kMaxPixels / size.width_px) {
     return Error{"image of " + std::to_string(size.width_px) + " x " +
                  std::to_string(size.height_px) + " px, limit 100 megapixels"};
   }

@@ -8,7 +8,7 @@
 namespace orthonav::engine::ply {
 namespace {
 
-constexpr double kMostRows = 1e8;
+constexpr double kMaxRows = 1e8;
 
 std::optional<Type> type_named(const std::string& name) {
   static const std::map<std::string, Type> kTypes = {
@@ -43,7 +43,7 @@ Status read_element(const std::vector<std::string>& words, Header& header) {
     return Error{"an element line is not \"element NAME COUNT\""};
   }
   const auto count = number_from(words[2]);
-  if (!count || *count < 0 || *count > kMostRows || *count != std::floor(*count)) {
+  if (!count || *count < 0 || *count > kMaxRows || *count != std::floor(*count)) {
     return Error{"element count " + words[2] + " must be 0 to 100000000"};
   }
   header.elements.push_back({words[1], static_cast<std::size_t>(*count), {}});

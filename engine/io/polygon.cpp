@@ -7,7 +7,7 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr std::size_t kMostCorners = 64;
+constexpr std::size_t kMaxCorners = 64;
 
 /// Twice the area of a triangle, along its normal.
 Vec3 area_m2(Vec3 a, Vec3 b, Vec3 c) { return (b - a).cross(c - a); }
@@ -40,9 +40,9 @@ Status add_face(std::span<const std::uint32_t> corners, std::size_t first_vertex
   if (n < 3) {
     return {};
   }
-  if (n > kMostCorners) {
+  if (n > kMaxCorners) {
     return Error{"a face has " + std::to_string(n) + " corners, at most " +
-                 std::to_string(kMostCorners)};
+                 std::to_string(kMaxCorners)};
   }
   const std::size_t vertices = mesh.vertices_m.size() - first_vertex;
   if (std::any_of(corners.begin(), corners.end(), [&](auto v) { return v >= vertices; })) {

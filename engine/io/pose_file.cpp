@@ -123,8 +123,8 @@ Status add_field(std::string_view line, const std::string& where, SequenceFrames
   const std::string value(trimmed(line.substr(equals + 1)));
   const std::size_t end = key.find('_');
   const auto frame = number_from(key.substr(0, end));
-  constexpr double kMostFrames = 1e9;
-  if (!frame || !(*frame >= 0.0 && *frame < kMostFrames) || end == std::string_view::npos) {
+  constexpr double kMaxFrames = 1e9;
+  if (!frame || !(*frame >= 0.0 && *frame < kMaxFrames) || end == std::string_view::npos) {
     return Error{where + "a field of no frame"};
   }
   const auto index = static_cast<int>(*frame);

@@ -10,7 +10,7 @@ namespace orthonav::engine {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostLogBytes = 1u << 30u;
+constexpr std::size_t kMaxLogBytes = 1u << 30u;
 
 std::string unnamed(const std::string& path) { return path + ".new"; }
 
@@ -32,7 +32,7 @@ Result<std::string> moved_aside(Env& env, const std::string& path) {
   if (!has(*names, path)) {
     return std::string();
   }
-  for (int number = 1; number <= kMostEarlier; ++number) {
+  for (int number = 1; number <= kMaxEarlier; ++number) {
     const std::string name = earlier_name(path, number);
     if (has(*names, name)) {
       continue;
@@ -108,7 +108,7 @@ Result<std::unique_ptr<RecordLog>> RecordLog::create(Env& env, const std::string
 }
 
 Result<RecordLog::Reopened> RecordLog::reopen(Env& env, const std::string& path) {
-  const auto bytes = env.read(path, kMostLogBytes);
+  const auto bytes = env.read(path, kMaxLogBytes);
   if (!bytes) {
     return bytes.error();
   }
@@ -174,15 +174,14 @@ Result<std::optional<std::string>> newest_log(Env& env, const std::string& path)
     return std::optional(path);
   }
   std::optional<std::string> newest;
-  for (int number = 1; number <= kMostEarlier && has(*names, earlier_name(path, number));
-       ++number) {
+  for (int number = 1; number <= kMaxEarlier && has(*names, earlier_name(path, number)); ++number) {
     newest = earlier_name(path, number);
   }
   return newest;
 }
 
 Result<RecordsRead> read_log(Env& env, const std::string& path) {
-  const auto bytes = env.read(path, kMostLogBytes);
+  const auto bytes = env.read(path, kMaxLogBytes);
   return bytes ? read_records(*bytes, path) : bytes.error();
 }
 

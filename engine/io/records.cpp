@@ -31,7 +31,7 @@ std::optional<Record> whole_record(std::string_view bytes, std::uint64_t number,
   std::string_view head = bytes;
   const std::size_t payload_bytes = take<std::uint32_t>(head);
   const auto stated = take<std::uint32_t>(head);
-  if (payload_bytes > kMostPayloadBytes || payload_bytes > bytes.size() - kHeadBytes) {
+  if (payload_bytes > kMaxPayloadBytes || payload_bytes > bytes.size() - kHeadBytes) {
     return std::nullopt;
   }
   const std::size_t checked = kHeadBytes - kLengthBytes - kCheckBytes + payload_bytes;
@@ -53,7 +53,7 @@ std::optional<Record> whole_record(std::string_view bytes, std::uint64_t number,
 }  // namespace
 
 std::uint32_t append_record(std::string& out, const Record& record, std::uint32_t check_before) {
-  ORTHONAV_CHECK(record.payload.size() <= kMostPayloadBytes && "a record is too long");
+  ORTHONAV_CHECK(record.payload.size() <= kMaxPayloadBytes && "a record is too long");
   std::string length;
   put(length, static_cast<std::uint32_t>(record.payload.size()));
   std::string rest;

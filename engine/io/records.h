@@ -31,7 +31,7 @@ struct RecordsRead {
 inline constexpr std::string_view kRecordsBegin = "orthonav records 1\n";
 /// Start value for the check of the first record.
 inline constexpr std::uint32_t kFirstCheck = 0;
-inline constexpr std::size_t kMostPayloadBytes = 64u << 20u;
+inline constexpr std::size_t kMaxPayloadBytes = 64u << 20u;
 
 /// Appends a record in its file format: length of the payload (4 bytes), check (4), number (8),
 /// type (2), version (2), all little-endian, then the payload. The check is the CRC-32C of the

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 1u << 20u;
 constexpr int kLargestSide_px = 16384;
-constexpr int kMostPixels = 64'000'000;
+constexpr int kMaxPixels = 64'000'000;
 // Numbers rounded to four digits still count as rigid.
 constexpr double kMaxShear = 1e-3;
 // Two eyes are not farther apart: a larger translation is not in metres.
@@ -116,7 +116,7 @@ CameraModel model_of(const Lens& lens, const std::string& which) {
     refuse(which, "must have positive focal lengths");
   }
   const cv::Mat camera = (cv::Mat_<double>(3, 3) << fx, 0, cx, 0, fy, cy, 0, 0, 1);
-  if (lens.width_px > kMostPixels / lens.height_px) {
+  if (lens.width_px > kMaxPixels / lens.height_px) {
     refuse(which, "has more than 64 million pixels");
   }
   const cv::TermCriteria exact(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-10);

@@ -85,7 +85,7 @@ void ObjectWriter::begin(ObjectList& list) {
 
 void ObjectWriter::label(render::Label label) {
   label_ = label;
-  of_tool_ = list_->tool_time.has_value() && hangs_on_tool(label);
+  of_tool_ = list_->tool_time.has_value() && depends_on_tool(label);
   place_ = ObjectPlace::kWorld;
 }
 

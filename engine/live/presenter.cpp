@@ -15,7 +15,7 @@ constexpr auto kIdlePause = std::chrono::milliseconds(5);
 /// How long to wait for a runtime to end a session.
 constexpr auto kLongestGoodbye = std::chrono::seconds(2);
 // More would not add information.
-constexpr std::size_t kMostProblems = 20;
+constexpr std::size_t kMaxProblems = 20;
 
 }  // namespace
 
@@ -69,7 +69,7 @@ Status Presenter::draw(const Snapshot& snapshot) {
 void Presenter::note(const std::string& problem) {
   const MutexLock lock(mutex_);
   untold_ = problem;
-  if (report_.problems.size() < kMostProblems) {
+  if (report_.problems.size() < kMaxProblems) {
     report_.problems.push_back(problem);
   }
 }
@@ -168,7 +168,7 @@ void Presenter::note_panel() {
   report_.panel_draws += panel.drawn() - std::exchange(panel_draws_, panel.drawn());
   if (panel.problem() != panel_problem_) {
     panel_problem_ = panel.problem();
-    if (!panel_problem_.empty() && report_.problems.size() < kMostProblems) {
+    if (!panel_problem_.empty() && report_.problems.size() < kMaxProblems) {
       report_.problems.push_back("status line not on its panel: " + panel_problem_);
     }
   }

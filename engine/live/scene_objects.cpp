@@ -30,7 +30,7 @@ constexpr float kPathCoarser = 2.0f;
 constexpr float kCoarsestPath_m = 0.012f;
 constexpr float kTubeWithin_m = 0.0002f;
 /// More dashes of one line would not add information.
-constexpr float kMostDashes = 24;
+constexpr float kMaxDashes = 24;
 /// A round end covers as much area as a flat one that ends this much sooner, in line widths.
 constexpr float kRoundEnd = 0.5f - std::numbers::pi_v<float> / 8;
 /// 1.5 px of a HoloLens 2 at 0.5 m, the least width the renderer draws too.
@@ -46,7 +46,7 @@ void cut_dashes(std::vector<StraightPiece>& pieces, float dash_m, float width_m)
   for (const StraightPiece& piece : pieces) {
     total_m += length(piece[1] - piece[0]);
   }
-  dash_m = std::max(dash_m, total_m / (2 * kMostDashes));
+  dash_m = std::max(dash_m, total_m / (2 * kMaxDashes));
   std::vector<StraightPiece> dashes;
   float gone_m = 0;
   for (const StraightPiece& piece : pieces) {

@@ -17,10 +17,10 @@ class SurfaceContours {
  public:
   using Line = std::vector<render::Float3>;
 
-  static constexpr std::size_t kMostTriangles = 5000;
+  static constexpr std::size_t kMaxTriangles = 5000;
   /// Takes some tens of milliseconds for a vertebra.
   explicit SurfaceContours(const render::MeshData& mesh,
-                           std::size_t most_triangles = kMostTriangles);
+                           std::size_t most_triangles = kMaxTriangles);
   /// As seen from `eye`, both in the mesh's own coordinates; the longest line first. A line that
   /// closes ends where it begins.
   [[nodiscard]] std::vector<Line> seen_from(render::Float3 eye) const;

@@ -12,7 +12,7 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr int kMostAcross = 50;
+constexpr int kMaxAcross = 50;
 constexpr int kFewestSquares = 3;
 constexpr double kSmallestM = 0.002;
 constexpr double kLargestM = 0.5;
@@ -29,9 +29,9 @@ std::string in_mm(double metres) {
 void check_counts(const Board& board, std::vector<std::string>& problems) {
   const int fewest = board.kind == BoardKind::kChessboard ? kFewestSquares : 1;
   const auto check = [&](const char* what, int count) {
-    if (count < fewest || count > kMostAcross) {
+    if (count < fewest || count > kMaxAcross) {
       problems.push_back(std::string(what) + " " + std::to_string(count) + ", must be " +
-                         std::to_string(fewest) + "-" + std::to_string(kMostAcross));
+                         std::to_string(fewest) + "-" + std::to_string(kMaxAcross));
     }
   };
   check("columns", board.columns);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kFormat = "orthonav board";
 // Larger counts are refused without reading the list.
-constexpr int kMostInFile = 1000;
+constexpr int kMaxInFile = 1000;
 
 std::optional<BoardKind> kind_from(const std::string& text) {
   for (const BoardKind kind : {BoardKind::kTags, BoardKind::kAprilGrid, BoardKind::kChessboard}) {
@@ -29,8 +29,8 @@ void read_tags(const JsonNode& node, Board& board) {
   board.family = node.text("family");
   board.gap_m = node.number("gap_mm") * kMetresPerMm;
   board.border_cells = node.integer("border_cells");
-  if (board.columns < 1 || board.columns > kMostInFile || board.rows < 1 ||
-      board.rows > kMostInFile) {
+  if (board.columns < 1 || board.columns > kMaxInFile || board.rows < 1 ||
+      board.rows > kMaxInFile) {
     return;  // `problems_of` says so
   }
   const auto count = static_cast<std::size_t>(board.columns * board.rows);

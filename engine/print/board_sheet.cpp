@@ -9,7 +9,7 @@ namespace {
 
 // A number and a stroke from it towards its corner, in shares of the free square beside the corner;
 // both stay clear of the edges that cameras measure.
-constexpr double kMostRoomMm = 8.0;
+constexpr double kMaxRoomMm = 8.0;
 constexpr double kNumberHeight = 0.42;
 constexpr double kNumberAt = 0.62;
 constexpr double kStrokeFrom = 0.38;
@@ -121,7 +121,7 @@ bool black_beside(const Board& board, const TouchPoint& point) {
 void add_numbers(Sheet& sheet, const Placed& placed) {
   const Board& board = placed.board;
   const bool chessboard = board.kind == BoardKind::kChessboard;
-  const double room_mm = std::min(kMostRoomMm, (chessboard ? board.size_m : board.gap_m) * 1e3);
+  const double room_mm = std::min(kMaxRoomMm, (chessboard ? board.size_m : board.gap_m) * 1e3);
   const double height_mm = kNumberHeight * room_mm;
   int number = 0;
   for (const TouchPoint& point : touch_points(board)) {

@@ -18,7 +18,7 @@ constexpr double kCutWidthMm = 0.1;
 // Short, so that a notch of 2 mm has several.
 constexpr double kCutDashMm = 0.5;
 constexpr double kCutGrey = 0.6;
-constexpr double kMostPixels = 200e6;
+constexpr double kMaxPixels = 200e6;
 // A file says when it was made; ours must not depend on that.
 constexpr const char* kCreated = "2000-01-01T00:00:00Z";
 
@@ -153,7 +153,7 @@ Result<std::string> pdf_of(std::span<const Sheet> sheets, const std::string& tit
 Result<GreyImage> image_of(const Sheet& sheet, double px_per_mm) {
   const double width = std::round(sheet.width_mm * px_per_mm);
   const double height = std::round(sheet.height_mm * px_per_mm);
-  if (!(width >= 1 && height >= 1 && width * height <= kMostPixels)) {
+  if (!(width >= 1 && height >= 1 && width * height <= kMaxPixels)) {
     return Error{"page image: " + printed("%f", px_per_mm) +
                  " px/mm, must give 1 pixel to 200 megapixels"};
   }

@@ -7,8 +7,8 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr double kMostQuietCells = 4.0;
-constexpr std::size_t kMostTags = 1000;
+constexpr double kMaxQuietCells = 4.0;
+constexpr std::size_t kMaxTags = 1000;
 constexpr double kApartMm = 4.0;
 
 Status fits(const PrintedTag& tag, const TagPatch& patch, const Page& page) {
@@ -62,10 +62,10 @@ Result<TagSheets> tag_sheets(const std::vector<PrintedTag>& tags, const TagSheet
   if (tags.empty()) {
     return Error{"no tags to print"};
   }
-  if (tags.size() > kMostTags) {
+  if (tags.size() > kMaxTags) {
     return Error{std::to_string(tags.size()) + " tags to print, limit 1000"};
   }
-  if (!(options.quiet_cells >= 1.0 && options.quiet_cells <= kMostQuietCells)) {
+  if (!(options.quiet_cells >= 1.0 && options.quiet_cells <= kMaxQuietCells)) {
     return Error{"quiet zone of " + mm_text(options.quiet_cells) + " cells, must be 1-4"};
   }
   const auto font = PrintFont::open();

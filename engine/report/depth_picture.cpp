@@ -10,7 +10,7 @@ namespace orthonav::engine {
 namespace {
 
 constexpr int kSamplesASide = 2;
-constexpr double kMostPixels = 1200.0;
+constexpr double kMaxPixels = 1200.0;
 /// Two surfaces this close together are the same one, drawn twice.
 constexpr double kSame_m = 1e-6;
 
@@ -44,7 +44,7 @@ DepthPicture::DepthPicture(const Viewpoint& view, const PageArea& area, double p
     : view_(view), area_(area) {
   const Vec2 size = area.size_mm();
   const double most = std::max(size.x, size.y);
-  samples_per_mm_ = kSamplesASide * std::min(pixels_per_mm, kMostPixels / most);
+  samples_per_mm_ = kSamplesASide * std::min(pixels_per_mm, kMaxPixels / most);
   const auto samples = [&](double mm) {
     return kSamplesASide *
            std::max(1, static_cast<int>(std::lround(mm * samples_per_mm_ / kSamplesASide)));

@@ -17,7 +17,7 @@ class SpineView {
   /// A mesh with more than 65,535 vertices is left out.
   template <class Frame>
   void add_bone(const nav::TriangleMesh& mesh, const Transform<Frame, Vertebra>& pose) {
-    if (mesh.vertices_m.size() <= kMostVertices) {
+    if (mesh.vertices_m.size() <= kMaxVertices) {
       bones_.push_back(mesh);
       for (Vec3& v : bones_.back().vertices_m) {
         v = (pose * Point<Vertebra>{v}).v;
@@ -36,7 +36,7 @@ class SpineView {
   [[nodiscard]] std::string section(std::string_view heading, std::string_view what) const;
 
  private:
-  static constexpr std::size_t kMostVertices = 65535;  ///< an index has 16 bits
+  static constexpr std::size_t kMaxVertices = 65535;  ///< an index has 16 bits
 
   struct Cylinder {
     Vec3 from_m;

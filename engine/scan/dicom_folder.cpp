@@ -225,9 +225,9 @@ std::vector<SliceHeader> slices_in(const std::string& path) {
     return {slice};
   }
   const auto frames = number_from(text_of(set, kFrames).value_or(""));
-  constexpr double kMostFrames = 10'000;
+  constexpr double kMaxFrames = 10'000;
   const DataSet* shared = item_of(set, kShared);
-  const DataSet* last = frames && *frames >= 1.0 && *frames <= kMostFrames
+  const DataSet* last = frames && *frames >= 1.0 && *frames <= kMaxFrames
                             ? item_of(set, kPerFrame, static_cast<std::size_t>(*frames) - 1)
                             : nullptr;
   if (slice.problem.empty() && last == nullptr) {
@@ -298,7 +298,7 @@ Status append_slices(const std::vector<SliceHeader>& slices, std::vector<float>&
 }  // namespace
 
 std::vector<SliceHeader> dicom_slices(const std::string& path) {
-  constexpr std::size_t kMostFiles = 100'000;
+  constexpr std::size_t kMaxFiles = 100'000;
   // Problems are returned; the library must not print.
   gdcm::Trace::DebugOff();
   gdcm::Trace::WarningOff();
@@ -310,7 +310,7 @@ std::vector<SliceHeader> dicom_slices(const std::string& path) {
   } else {
     for (fs::recursive_directory_iterator at(path, code), end; !code && at != end;
          at.increment(code)) {
-      if (at->is_regular_file(code) && files.size() < kMostFiles) {
+      if (at->is_regular_file(code) && files.size() < kMaxFiles) {
         files.push_back(at->path().string());
       }
     }

@@ -18,7 +18,7 @@ constexpr double kSameDirection = 1e-3;
 /// Some writers round positions to 0.1 mm, first and last slice too.
 constexpr double kMostOff_m = 0.0001 + kSame_m;
 constexpr double kMissingGap = 1.5;  ///< times the usual gap
-constexpr double kMostTilt_deg = 0.2;
+constexpr double kMaxTilt_deg = 0.2;
 
 std::string name_of(const SliceHeader& slice) {
   return std::filesystem::path(slice.file).filename().string();
@@ -153,10 +153,10 @@ Result<SliceStack> stacked(std::vector<SliceHeader> slices) {
   if (!step_m) {
     return step_m.error();
   }
-  if (const double tilt_deg = tilt_of_deg(*step_m, normal); tilt_deg > kMostTilt_deg) {
+  if (const double tilt_deg = tilt_of_deg(*step_m, normal); tilt_deg > kMaxTilt_deg) {
     return Error{
         beside_limit("the stack leans by %.1f°, limit %.1f°: gantry tilt; resample it first",
-                     tilt_deg, kMostTilt_deg)};
+                     tilt_deg, kMaxTilt_deg)};
   }
   SliceStack stack;
   const SliceHeader& first = slices.front();

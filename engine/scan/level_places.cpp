@@ -63,7 +63,7 @@ double usual_distance_m(const std::string& upper, const std::string& lower) {
 
 Status check_places(const std::vector<LevelPlace>& from_the_head, const std::string& hint,
                     std::string* unusual) {
-  constexpr double kLeastRatio = 0.72, kMostRatio = 1.35;
+  constexpr double kLeastRatio = 0.72, kMaxRatio = 1.35;
   if (from_the_head.size() < 2) {
     return {};
   }
@@ -79,7 +79,7 @@ Status check_places(const std::vector<LevelPlace>& from_the_head, const std::str
     usual_m += usual_distance_m(upper.label, lower.label);
   }
   const double ratio = measured_m / usual_m;
-  if (!(ratio >= kLeastRatio && ratio <= kMostRatio)) {
+  if (!(ratio >= kLeastRatio && ratio <= kMaxRatio)) {
     const std::string said =
         printed("%s to %s measure %.0f mm, usual are %.0f mm", from_the_head.front().label.c_str(),
                 from_the_head.back().label.c_str(), measured_m * 1e3, usual_m * 1e3);
@@ -108,16 +108,16 @@ void BoneSamples::add(Vec3 place_m) {
 }
 
 Status BoneSamples::check(const std::string& what) const {
-  constexpr double kMostOutside = 0.1, kLeastBone_hu = 50.0;
+  constexpr double kMaxOutside = 0.1, kLeastBone_hu = 50.0;
   constexpr const char* kHint =
       "; are their axes mixed up (LPS, RAS), or are they of another scan?";
   const auto divisor = [](std::size_t n) {
     return static_cast<double>(std::max<std::size_t>(n, 1));
   };
   const double outside = 1.0 - static_cast<double>(inside_) / divisor(all_);
-  if (!(outside <= kMostOutside)) {
+  if (!(outside <= kMaxOutside)) {
     return Error{printed("%.0f %% of the %s lie outside of the scan, limit %.0f %%", outside * 1e2,
-                         what.c_str(), kMostOutside * 1e2) +
+                         what.c_str(), kMaxOutside * 1e2) +
                  kHint};
   }
   const double mean_hu = sum_hu_ / divisor(inside_);

@@ -153,7 +153,7 @@ Result<Form> one_form(const Header& h, const std::array<int, 3>& size, double me
   }
   const Form sform = sform_of(h);
   double shear_m = 0.0;
-  if (const double shear = shear_rad(sform.step); shear <= kMostShear_rad) {
+  if (const double shear = shear_rad(sform.step); shear <= kMaxShear_rad) {
     shear_m = shear * metres * longest_between(sform, {{}, sform.origin}, size);
   }
   if (h.qform_code > 0) {
@@ -168,7 +168,7 @@ Result<Form> one_form(const Header& h, const std::array<int, 3>& size, double me
                   "is wrong; export it again, or set the code of the wrong one to 0",
                   apart_m * 1e3, turned * kDegreesPerRadian)};
     }
-  } else if (shear_rad(sform.step) <= kMostShear_rad) {
+  } else if (shear_rad(sform.step) <= kMaxShear_rad) {
     for (std::size_t i = 0; i < 3; ++i) {
       const double stated = std::abs(h.pixdim[i + 1]), step = sform.step[i].norm();
       if (stated > 0.0 && !(std::abs(step / stated - 1.0) <= 0.01)) {

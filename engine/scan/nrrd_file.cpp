@@ -24,11 +24,11 @@ using Fields = std::map<std::string, std::string>;
 
 /// `field: value` lines, the names in lower case.
 Fields fields_in(const std::string& path) {
-  constexpr int kMostLines = 100'000;
+  constexpr int kMaxLines = 100'000;
   Fields fields;
   std::ifstream file(path, std::ios::binary);
   std::string line;
-  for (int i = 0; i < kMostLines && std::getline(file, line); ++i) {
+  for (int i = 0; i < kMaxLines && std::getline(file, line); ++i) {
     if (line.ends_with('\r')) {
       line.pop_back();
     }

@@ -17,7 +17,7 @@ constexpr std::initializer_list<const char*> kParameters = {"TransformParameters
 constexpr std::initializer_list<const char*> kFixedParameters = {"TransformFixedParameters",
                                                                  "TranformFixedParameters"};
 /// More than any rigid transform has.
-constexpr hssize_t kMostNumbers = 64;
+constexpr hssize_t kMaxNumbers = 64;
 constexpr std::size_t kLongestKind = 256;
 constexpr std::size_t kBlock = std::size_t{1} << 12u;
 
@@ -129,9 +129,9 @@ Result<std::vector<double>> numbers_named(hid_t group, std::initializer_list<con
     return Error{what + " holds no floating-point numbers"};
   }
   const hssize_t count = count_in(data->id());
-  if (count < 0 || count > kMostNumbers) {
+  if (count < 0 || count > kMaxNumbers) {
     return Error{what + " holds " + std::to_string(count) + " numbers, limit " +
-                 std::to_string(kMostNumbers)};
+                 std::to_string(kMaxNumbers)};
   }
   std::vector<double> numbers(static_cast<std::size_t>(count));
   if (count > 0 &&

@@ -11,7 +11,7 @@ namespace orthonav::engine {
 
 Status check_grid(const VolumeGrid& grid) {
   constexpr double kLeastSpacing_m = 0.00005;
-  constexpr double kMostSpacing_m = 0.020;
+  constexpr double kMaxSpacing_m = 0.020;
   constexpr double kSquare = 1e-3;
   constexpr int kLeastSide = 2;
   constexpr int kMostSide = 10000;
@@ -21,15 +21,15 @@ Status check_grid(const VolumeGrid& grid) {
                    std::to_string(kLeastSide) + " to " + std::to_string(kMostSide)};
     }
   }
-  constexpr std::size_t kMostVoxels = std::size_t{1} << 30;
-  if (grid.voxels() > kMostVoxels) {
-    return Error{"has more than " + std::to_string(kMostVoxels) + " voxels"};
+  constexpr std::size_t kMaxVoxels = std::size_t{1} << 30;
+  if (grid.voxels() > kMaxVoxels) {
+    return Error{"has more than " + std::to_string(kMaxVoxels) + " voxels"};
   }
   for (int d = 0; d < 3; ++d) {
     const double spacing_m = grid.spacing_m[d];
-    if (!(spacing_m >= kLeastSpacing_m && spacing_m <= kMostSpacing_m)) {
+    if (!(spacing_m >= kLeastSpacing_m && spacing_m <= kMaxSpacing_m)) {
       return Error{printed("voxels of %.3f mm, must be %.2f to %.0f mm", spacing_m * 1e3,
-                           kLeastSpacing_m * 1e3, kMostSpacing_m * 1e3)};
+                           kLeastSpacing_m * 1e3, kMaxSpacing_m * 1e3)};
     }
   }
   if (!(orthonormality_error(grid.directions.transposed()) < kSquare)) {
@@ -67,11 +67,11 @@ Result<VolumeGrid> squared_grid(const std::array<int, 3>& size, const std::array
     return sized.error();
   }
   const double shear = shear_rad(steps_m);
-  if (!(shear <= kMostShear_rad)) {
+  if (!(shear <= kMaxShear_rad)) {
     return Error{beside_limit(
         "its axes are %.2f° off right angles, limit %.2f°: a tilted gantry, or a sheared export; "
         "resample it to right angles",
-        shear * kDegreesPerRadian, kMostShear_rad * kDegreesPerRadian)};
+        shear * kDegreesPerRadian, kMaxShear_rad * kDegreesPerRadian)};
   }
   // Löwdin's symmetric orthogonalization: it favours none of the axes.
   for (int round = 0; round < 4; ++round) {

@@ -65,13 +65,13 @@ struct VolumeGrid {
 
 /// The angle by which a grid's axes may miss right angles, from the rounding of its numbers; as
 /// much as a gantry tilt may (`stacked`).
-inline constexpr double kMostShear_rad = 0.2 * kRadiansPerDegree;
+inline constexpr double kMaxShear_rad = 0.2 * kRadiansPerDegree;
 
 /// How far three directions are from right angles at most, rad; pi/2 where one of them is zero.
 [[nodiscard]] double shear_rad(const std::array<Vec3, 3>& steps);
 
 /// The grid whose voxels are `steps_m` apart, in LPS, from the first one's centre. Axes that miss
-/// right angles by no more than `kMostShear_rad` are turned evenly to the nearest right ones about
+/// right angles by no more than `kMaxShear_rad` are turned evenly to the nearest right ones about
 /// the grid's middle, with a note; what misses them by more is refused, and as `check_grid` does.
 Result<VolumeGrid> squared_grid(const std::array<int, 3>& size, const std::array<Vec3, 3>& steps_m,
                                 Vec3 origin_m, std::vector<std::string>& notes);

@@ -58,7 +58,7 @@ constexpr std::array<std::string_view, 20> kUpToNineteen = {
     "fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen"};
 constexpr std::array<std::string_view, 8> kTens = {"twenty", "thirty",  "forty",  "fifty",
                                                    "sixty",  "seventy", "eighty", "ninety"};
-constexpr double kMostSaid = 99.9;
+constexpr double kMaxSaid = 99.9;
 
 std::optional<int> place_in(std::span<const std::string_view> words, std::string_view word) {
   const auto found = std::find(words.begin(), words.end(), word);
@@ -79,7 +79,7 @@ std::optional<double> typed_number(std::string_view word) {
   double value = 0.0;
   const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
   if (!digits || read.ec != std::errc() || read.ptr != word.data() + word.size() ||
-      !(value <= kMostSaid)) {
+      !(value <= kMaxSaid)) {
     return std::nullopt;
   }
   return value;

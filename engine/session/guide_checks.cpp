@@ -150,7 +150,7 @@ ToolErrors GuideChecks::errors(const OperationInWork& work, Timestamp now) const
   const LevelState& level = work.level();
   const double cameras_m = level.registration ? level.registration->common.cameras_m : 0.0;
   return {
-      level.walked_sd_m(now),
+      level.drift_sd_m(now),
       std::hypot(tips_.difference_sd_m(work.tools.tag_size_difference_sd(), bone_from_guide(work)),
                  kElsewhere * cameras_m),
       axis_.sd_rad()};

@@ -73,7 +73,7 @@ class Applied {
       case kNotUnderstood:
         return;  // for people
       case kResumed:
-        return operation_.go_on();
+        return operation_.reopen();
       case kEnded:
         operation_.ended = true;
         operation_.done = node_.flag_or("done", false);
@@ -286,7 +286,7 @@ void LoggedOperation::forget_places() {
   }
 }
 
-void LoggedOperation::go_on() {
+void LoggedOperation::reopen() {
   ++resumed;
   done = ended = false;
   reason.clear();

@@ -115,7 +115,7 @@ struct LoggedOperation {
   /// Reduces the operation to what another program can continue. Drops check points and the heads
   /// of an unfinished rod, which are touched again, and without a patient reference everything
   /// measured in World.
-  void go_on();
+  void reopen();
   void forget_places();
 };
 

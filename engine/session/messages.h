@@ -27,7 +27,7 @@ struct TouchRefusal {
     kPointerNotSeen,
     kTipMoved,  ///< by `value_m` (root mean square), above `limit_m`
     kHeldTooLong,
-    kTooMany,       ///< there are nav::kMostCheckPoints already
+    kTooMany,       ///< there are nav::kMaxCheckPoints already
     kTouchesApart,  ///< touches of one place differ by `value_m`, above `limit_m`
     kTooNear,       ///< `value_m` from a patient reference, at least `limit_m` needed
     // For the sleeve over a wire.
@@ -196,9 +196,9 @@ class Messages {
 
 /// An event that the engine detects while it answers another one or processes a pair. A function
 /// that returns one does nothing more: the session answers it next.
-struct Raised {
+struct FollowUpEvent {
   /// Implicit: most events bring no message.
-  Raised(Event what, Message message = {}) : event(what), then_say(std::move(message)) {}
+  FollowUpEvent(Event what, Message message = {}) : event(what), then_say(std::move(message)) {}
 
   Event event;
   /// Said after the event was answered, because the answer clears earlier messages.

@@ -104,8 +104,8 @@ Result<OperationLog::Found> OperationLog::find(Env& env, const std::string& fold
   return Found{std::move(*operation), *path, std::move(*lock)};
 }
 
-std::unique_ptr<OperationLog> OperationLog::go_on(Env& env, Found found, RecordWriter::Waits waits,
-                                                  std::int64_t epoch_100ns) {
+std::unique_ptr<OperationLog> OperationLog::reopen(Env& env, Found found, RecordWriter::Waits waits,
+                                                   std::int64_t epoch_100ns) {
   auto reopened = RecordLog::reopen(env, found.path);
   std::unique_ptr<RecordLog> records =
       reopened ? std::move(reopened->log)

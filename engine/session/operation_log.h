@@ -37,8 +37,8 @@ class OperationLog : public SessionObserver, public SaveWatch {
   static Result<Found> find(Env& env, const std::string& folder);
   /// Continues its log, on a device whose clock began at `epoch_100ns`. If the disk can't be
   /// written to any more, the operation goes on unsaved, and `written` says why.
-  static std::unique_ptr<OperationLog> go_on(Env& env, Found found, RecordWriter::Waits waits,
-                                             std::int64_t epoch_100ns = 0);
+  static std::unique_ptr<OperationLog> reopen(Env& env, Found found, RecordWriter::Waits waits,
+                                              std::int64_t epoch_100ns = 0);
 
   /// Removes a new log in which nothing was recorded, unless `finish` was called.
   ~OperationLog() override;

@@ -6,11 +6,11 @@
 
 namespace orthonav::engine {
 
-double BoneFound::walked_sd_m(Timestamp now) const {
+double BoneFound::drift_sd_m(Timestamp now) const {
   return drift_m_per_sqrt_s * std::sqrt(std::max(0.0, seconds(now - time)));
 }
 
-double BoneFound::sd_at_m(Timestamp now) const { return std::hypot(sd_m, walked_sd_m(now)); }
+double BoneFound::sd_at_m(Timestamp now) const { return std::hypot(sd_m, drift_sd_m(now)); }
 
 BoneFound found_by_landmark(const BoneFound& before, const LandmarkTouch& touch,
                             const Landmark& landmark, Timestamp now) {

@@ -33,7 +33,7 @@ struct BoneFound {
   double drift_m_per_sqrt_s = 0.0;
 
   /// From World's drift since then alone, and including the offset at that time.
-  [[nodiscard]] double walked_sd_m(Timestamp now) const;
+  [[nodiscard]] double drift_sd_m(Timestamp now) const;
   [[nodiscard]] double sd_at_m(Timestamp now) const;
 };
 
@@ -150,7 +150,7 @@ struct LevelState {
   }
   /// SD along an axis of World's offset from the registration, with its drift since the bone was
   /// found.
-  [[nodiscard]] double walked_sd_m(Timestamp now) const {
+  [[nodiscard]] double drift_sd_m(Timestamp now) const {
     return bone_found ? bone_found->sd_at_m(now) : 0.0;
   }
   /// World's vertebra may be shown and guided on.

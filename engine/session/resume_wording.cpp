@@ -97,7 +97,7 @@ std::vector<std::string> lost(const OperationLog::Found& found, const LoggedOper
 
 std::vector<std::string> resume_lines(const OperationLog::Found& found) {
   LoggedOperation after = found.operation;
-  after.go_on();
+  after.reopen();
   std::vector<std::string> lines = {what_it_was(found)};
   const std::vector<std::string> screws = placed(found.operation.state);
   if (!after.state.levels.empty()) {

@@ -77,8 +77,9 @@ Status Resuming::restore(const LoggedOperation& logged, OperationInWork& work,
   return {};
 }
 
-std::optional<Event> Resuming::go_on(OperationInWork& work, const RodTemplating& rods,
-                                     Digitizing& digitizing, Verifying& verifying, Timestamp time) {
+std::optional<Event> Resuming::resume_level(OperationInWork& work, const RodTemplating& rods,
+                                            Digitizing& digitizing, Verifying& verifying,
+                                            Timestamp time) {
   LevelState& level = work.level();
   if (!resumed_) {
     return std::nullopt;

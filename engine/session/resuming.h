@@ -20,9 +20,9 @@ class Resuming {
   Status restore(const LoggedOperation& logged, OperationInWork& work, RodTemplating& rods);
   /// A level begins: continues in the step that the operation had reached, or in the one before it
   /// in which the registration can be verified.
-  [[nodiscard]] std::optional<Event> go_on(OperationInWork& work, const RodTemplating& rods,
-                                           Digitizing& digitizing, Verifying& verifying,
-                                           Timestamp time);
+  [[nodiscard]] std::optional<Event> resume_level(OperationInWork& work, const RodTemplating& rods,
+                                                  Digitizing& digitizing, Verifying& verifying,
+                                                  Timestamp time);
   /// The saved regions were measured in a World that no longer exists.
   void forget_places() { strokes_.clear(); }
 

@@ -88,9 +88,9 @@ const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   answer_inputs(inputs);
   handle(digitizing_.look(work_, now), now);
   work_.tools.track(frame);
-  handle(watching_.look_at_places(work_), now);
+  handle(watching_.detect_reference_shift(work_), now);
   handle(watching_.look_for_reference(work_, now), now);
-  watching_.tell_places(work_, now);
+  watching_.publish_reference_poses(work_, now);
   handle(watching_.look_at_tool(work_, tool(), now), now);
   handle(watching_.look_at_drift(work_, guiding_, now), now);
   collect();
@@ -186,7 +186,7 @@ bool Session::holds(State state, Timestamp time) const {
   return false;
 }
 
-void Session::handle(std::optional<Raised> raised, Timestamp time) {
+void Session::handle(std::optional<FollowUpEvent> raised, Timestamp time) {
   while (raised) {
     const Event event = raised->event;
     const Cell cell =
@@ -203,7 +203,7 @@ void Session::handle(std::optional<Raised> raised, Timestamp time) {
         replanning_.withdraw_question();
       }
     }
-    std::optional<Raised> next = act(cell.action, event, time);
+    std::optional<FollowUpEvent> next = act(cell.action, event, time);
     if (!std::holds_alternative<std::monostate>(raised->then_say)) {
       work_.messages.say(std::move(raised->then_say), time);
     }
@@ -212,14 +212,14 @@ void Session::handle(std::optional<Raised> raised, Timestamp time) {
 }
 
 /// The first of the levels that is not finished.
-std::optional<Raised> Session::begin_level(Timestamp time) {
+std::optional<FollowUpEvent> Session::begin_level(Timestamp time) {
   const auto& levels = work_.state.levels;
   const auto open = std::find_if(levels.begin(), levels.end(),
                                  [](const LevelState& level) { return !level.finished(); });
   work_.level_in_work = open == levels.end() ? 0 : static_cast<std::size_t>(open - levels.begin());
   digitizing_.clear();
   guiding_.begin_level();
-  return resuming_.go_on(work_, rods_, digitizing_, verifying_, time);
+  return resuming_.resume_level(work_, rods_, digitizing_, verifying_, time);
 }
 
 void Session::show_registration(Timestamp time) {
@@ -290,7 +290,7 @@ void Session::drop_touch(Timestamp time) {
 // clang-format off
 #pragma GCC diagnostic push
 #pragma GCC diagnostic error "-Wswitch"
-std::optional<Raised> Session::act(Action action, Event event, Timestamp time) {
+std::optional<FollowUpEvent> Session::act(Action action, Event event, Timestamp time) {
   using enum Action;
   switch (action) {
     case kIgnore: break;

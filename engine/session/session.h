@@ -107,12 +107,12 @@ class Session {
   /// Whether the present step is in that state, at the time of an event.
   [[nodiscard]] bool holds(State state, Timestamp time) const;
   /// The table's answer to an event, and to those that its action raises.
-  void handle(std::optional<Raised> raised, Timestamp time);
+  void handle(std::optional<FollowUpEvent> raised, Timestamp time);
   /// Does what the table asks for. Returns the event that results, if any.
-  [[nodiscard]] std::optional<Raised> act(Action action, Event event, Timestamp time);
+  [[nodiscard]] std::optional<FollowUpEvent> act(Action action, Event event, Timestamp time);
 
   // Actions that concern several steps.
-  [[nodiscard]] std::optional<Raised> begin_level(Timestamp time);
+  [[nodiscard]] std::optional<FollowUpEvent> begin_level(Timestamp time);
   void show_registration(Timestamp time);
   void clear_level(Timestamp time);
   void forget_places(Event why, Timestamp time);

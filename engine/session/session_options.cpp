@@ -31,7 +31,7 @@ std::vector<std::string> problems_of_times(const SessionOptions& o) {
 
 }  // namespace
 
-std::vector<std::string> DrillAstray::check() const {
+std::vector<std::string> DrillSkiving::check() const {
   std::vector<std::string> problems;
   if (!(direction_rad >= 0.0 && direction_rad <= 0.2)) {
     problems.push_back("direction_rad must lie in [0, 0.2]");

@@ -20,7 +20,7 @@ namespace orthonav::engine {
 /// How far a drill or wire goes astray from the tool that guides it: SD of its direction about each
 /// direction across, from its own bending and from the hand that turns while it drills, and SD
 /// along each direction across of where it starts.
-struct DrillAstray {
+struct DrillSkiving {
   double direction_rad = 0.016;  ///< a drill in a sleeve 0.008, a corrected hand 0.014
   double start_m = 0.0004;       ///< it skives
 
@@ -57,7 +57,7 @@ struct SessionOptions {
   /// over time is added to the common errors. 0: not known.
   double map_drift_m_per_sqrt_s = 0.0;
   /// Counts in the bounds of clearance.
-  DrillAstray astray;
+  DrillSkiving astray;
   /// The clearance to the cortex along the tool is computed in every pair in which the tool is
   /// guided, which takes about a millisecond. Otherwise, only for the measurement at depth.
   bool live_clearance = true;

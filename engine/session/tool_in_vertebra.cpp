@@ -8,7 +8,7 @@ namespace {
 nav::PoseUncertainty bone_against_tool(const nav::Registration& registration,
                                        const ToolErrors& errors) {
   nav::CommonErrors more;
-  more.map_m = errors.walked_sd_m;
+  more.map_m = errors.drift_sd_m;
   if (!errors.unshared_sd_m) {
     return nav::with_common(*registration.uncertainty, more);
   }

@@ -19,7 +19,7 @@ struct ToolInVertebra {
 /// Sources of uncertainty of that pose besides the strokes and the tool's own pose, SDs along an
 /// axis.
 struct ToolErrors {
-  double walked_sd_m = 0.0;  ///< of World against the bone since it was last found
+  double drift_sd_m = 0.0;  ///< of World against the bone since it was last found
   /// SD of the errors that tool and strokes do not share. It replaces the registration's errors of
   /// tip and cameras, which shift the bone and the tool alike. Absent: those count in full.
   std::optional<double> unshared_sd_m = {};

@@ -26,7 +26,7 @@ std::optional<Event> Watching::look_at_map(const StereoFrame& frame, const Opera
   return moved && !work.anchored() ? std::optional(Event::kMapMoved) : std::nullopt;
 }
 
-std::optional<Event> Watching::look_at_places(const OperationInWork& work) {
+std::optional<Event> Watching::detect_reference_shift(const OperationInWork& work) {
   const nav::Anchor* anchor = work.tools.tracker().anchor();
   if (anchor == nullptr || std::exchange(reference_moves_, anchor->moves) == anchor->moves) {
     return std::nullopt;
@@ -46,7 +46,7 @@ std::optional<Event> Watching::look_for_reference(const OperationInWork& work, T
   return hidden ? Event::kReferenceHidden : Event::kReferenceSeen;
 }
 
-void Watching::tell_places(const OperationInWork& work, Timestamp now) {
+void Watching::publish_reference_poses(const OperationInWork& work, Timestamp now) {
   const nav::Anchor* anchor = work.tools.tracker().anchor();
   // Observers added later are notified then.
   if (anchor != nullptr && work.heard() && !anchor->places.empty() &&
@@ -66,18 +66,18 @@ std::optional<Event> Watching::look_at_tool(const OperationInWork& work,
   return in_use_.look(work.tools.watch(*tool), now, work.options.stale_after);
 }
 
-std::optional<Raised> Watching::look_at_drift(const OperationInWork& work, const Guiding& guiding,
-                                              Timestamp now) const {
+std::optional<FollowUpEvent> Watching::look_at_drift(const OperationInWork& work,
+                                                     const Guiding& guiding, Timestamp now) const {
   if (work.step != Step::kGuide) {
     return std::nullopt;
   }
   const auto& found = work.level().bone_found;
   if (!found || !work.options.steps.landmark || guiding.drill().phase != nav::DrillPhase::kAway ||
-      !(found->walked_sd_m(now) > work.options.landmark.most_walked_m)) {
+      !(found->drift_sd_m(now) > work.options.landmark.most_walked_m)) {
     return std::nullopt;
   }
-  return Raised{Event::kBoneUnchecked,
-                BoneUnchecked{seconds(now - found->time), 2.0 * found->walked_sd_m(now)}};
+  return FollowUpEvent{Event::kBoneUnchecked,
+                       BoneUnchecked{seconds(now - found->time), 2.0 * found->drift_sd_m(now)}};
 }
 
 }  // namespace orthonav::engine

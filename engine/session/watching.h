@@ -47,17 +47,18 @@ class Watching {
   [[nodiscard]] std::optional<Event> look_at_map(const StereoFrame& frame,
                                                  const OperationInWork& work);
   /// Whether references moved against each other.
-  [[nodiscard]] std::optional<Event> look_at_places(const OperationInWork& work);
+  [[nodiscard]] std::optional<Event> detect_reference_shift(const OperationInWork& work);
   /// Whether a reference is seen.
   [[nodiscard]] std::optional<Event> look_for_reference(const OperationInWork& work, Timestamp now);
   /// Reports the places of the references whenever they change.
-  void tell_places(const OperationInWork& work, Timestamp now);
+  void publish_reference_poses(const OperationInWork& work, Timestamp now);
   [[nodiscard]] std::optional<Event> look_at_tool(const OperationInWork& work,
                                                   std::optional<std::size_t> tool, Timestamp now);
   /// Until a drill is set the surgeon can go back and touch the landmark; afterwards the displayed
   /// SD grows.
-  [[nodiscard]] std::optional<Raised> look_at_drift(const OperationInWork& work,
-                                                    const Guiding& guiding, Timestamp now) const;
+  [[nodiscard]] std::optional<FollowUpEvent> look_at_drift(const OperationInWork& work,
+                                                           const Guiding& guiding,
+                                                           Timestamp now) const;
 
   /// A reference is in use but none is seen.
   [[nodiscard]] bool reference_hidden(const OperationInWork& work) const {

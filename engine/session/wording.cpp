@@ -181,7 +181,7 @@ void append_refusal(std::string& out, const TouchRefusal& why) {
       out += translated("hold too long");
       break;
     case kTooMany:
-      append_printed(out, translated("limit of %zu check points reached"), nav::kMostCheckPoints);
+      append_printed(out, translated("limit of %zu check points reached"), nav::kMaxCheckPoints);
       break;
     case kTouchesApart:
       length(translated("touches %.1f mm apart, limit %.1f mm: touch again"));
@@ -265,7 +265,7 @@ struct MessageWriter {
   }
   void operator()(const TipCorrected& m) {
     text.begin(Importance::kMessage);
-    append_printed(out, translated("tip corrected by %s"), said_mm(m.by_m).c_str());
+    append_printed(out, translated("tip corrected by %s"), format_mm(m.by_m).c_str());
   }
   void operator()(const AxisCorrected& m) {
     text.begin(Importance::kMessage);

@@ -18,7 +18,7 @@ void RodBench::spend(double mean_s) {
 
 template <class Touch>
 nav::RodCut RodBench::cut_through(Touch touch) {
-  for (int i = 0; i < kMostRodDraws; ++i) {
+  for (int i = 0; i < kMaxRodDraws; ++i) {
     std::vector<Vec3> heads_m;
     for (const Vec3& head_m : task_.heads_m) {
       heads_m.push_back(touch(head_m));

@@ -14,7 +14,7 @@
 namespace orthonav::engine {
 
 /// Draws of heads or touches that do not allow a rod are repeated; with valid options this is rare.
-inline constexpr int kMostRodDraws = 1000;
+inline constexpr int kMaxRodDraws = 1000;
 
 /// A factor of mean 1.
 [[nodiscard]] double rod_log_normal(Random& random, double relative_sd);

@@ -15,7 +15,7 @@ namespace {
 RodTask rod_task(const RodExperimentOptions& options, Random random) {
   RodTask task;
   task.hands = rod_log_normal(random, options.pace_sd);
-  for (int i = 0; i < kMostRodDraws; ++i) {
+  for (int i = 0; i < kMaxRodDraws; ++i) {
     const auto rod =
         nav::rod_template(options.heads_m.empty() ? drawn_lumbar_heads_m(random) : options.heads_m,
                           options.rod_diameter_m);

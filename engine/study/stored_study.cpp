@@ -10,13 +10,13 @@ namespace {
 
 /// A process may have some 1000 files open. If there are more files than this, each is reopened for
 /// its next operation.
-constexpr std::size_t kMostOpen = 256;
+constexpr std::size_t kMaxOpen = 256;
 
 /// Files of one study, each at its next operation.
 class Files {
  public:
   Status open(std::span<const std::string> paths) {
-    stay_open_ = paths.size() <= kMostOpen;
+    stay_open_ = paths.size() <= kMaxOpen;
     for (const std::string& path : paths) {
       files_.push_back({path, {}, {}});
       if (const Status status = advance(files_.size() - 1, -1); !status) {

@@ -14,12 +14,12 @@ namespace {
 
 /// Steps from 10 mm down to 0.01 mm; a headset's are 1 mm.
 constexpr double kLeastUnits = 1e2;
-constexpr double kMostUnits = 1e5;
+constexpr double kMaxUnits = 1e5;
 /// From this value on, AHaT means that nothing was measured.
 constexpr std::size_t kAhatNothing = 4090;
 
 Status check_scale(double units_per_m) {
-  if (!(units_per_m >= kLeastUnits && units_per_m <= kMostUnits)) {
+  if (!(units_per_m >= kLeastUnits && units_per_m <= kMaxUnits)) {
     return Error{"calibration: scale " + printed("%g", units_per_m) +
                  ", must lie in [100, 100000]"};
   }

@@ -8,7 +8,7 @@ namespace orthonav::hl2ss {
 namespace {
 
 constexpr auto kAskEvery = std::chrono::milliseconds(100);
-constexpr std::size_t kMostHeardSamples = kMicrophoneHz;
+constexpr std::size_t kMaxHeardSamples = kMicrophoneHz;
 constexpr std::size_t kChannels = 2;
 /// A phrase spoken longer ago than this is implausible.
 constexpr Duration kSpokenWithin = std::chrono::seconds(30);
@@ -33,10 +33,10 @@ Status SoundStream::take(const Packet& packet, const Stamped& stamped) {
   }
   // The stamp is the first sample's.
   end_ = stamped.time + from_seconds(static_cast<double>(count) / kMicrophoneHz);
-  if (samples_.size() <= kMostHeardSamples) {
+  if (samples_.size() <= kMaxHeardSamples) {
     return {};
   }
-  samples_.erase(samples_.begin(), samples_.end() - static_cast<std::ptrdiff_t>(kMostHeardSamples));
+  samples_.erase(samples_.begin(), samples_.end() - static_cast<std::ptrdiff_t>(kMaxHeardSamples));
   trouble_ = Error{"microphone: not read for a second, sound was dropped"};
   return {};
 }

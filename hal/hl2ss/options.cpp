@@ -16,7 +16,7 @@ constexpr const char* kKnownDepth =
     "must be ahat, ahat-h264, long-throw or long-throw-png (research mode runs one of "
     "the "
     "two)";
-constexpr int kMostFirstPort = net::kMostPort - kLastOffset;
+constexpr int kMaxFirstPort = net::kMaxPort - kLastOffset;
 
 template <class T>
 struct Choice {
@@ -78,7 +78,7 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
   if (key == "depth") {
     return choose_depth(value, options);
   }
-  const auto port = net::port_from(key, value, 1, key == "port" ? kMostFirstPort : net::kMostPort);
+  const auto port = net::port_from(key, value, 1, key == "port" ? kMaxFirstPort : net::kMaxPort);
   if (!port) {
     return port.error();
   }
@@ -102,8 +102,8 @@ Result<Hl2ssOptions> options_of(std::string_view after_scheme) {
   options.host = place->host;
   std::set<std::string> seen;
   if (place->port) {
-    if (*place->port > kMostFirstPort) {
-      return net::port_from("port", std::to_string(*place->port), 1, kMostFirstPort).error();
+    if (*place->port > kMaxFirstPort) {
+      return net::port_from("port", std::to_string(*place->port), 1, kMaxFirstPort).error();
     }
     options.first_port = *place->port;
     seen.insert("port");

@@ -7,7 +7,7 @@ namespace orthonav::hl2ss {
 namespace {
 
 /// Latencies of this many pairs are kept.
-constexpr std::size_t kMostFigures = 4096;
+constexpr std::size_t kMaxFigures = 4096;
 
 void copy(const GreyImage& from, GreyImage& to) {
   to.width_px = from.width_px;
@@ -19,10 +19,10 @@ void copy(const GreyImage& from, GreyImage& to) {
 
 void PairMailbox::note(std::vector<double>& figures, std::size_t& next, HostTime since) {
   const double ms = std::chrono::duration<double, std::milli>(HostClock::now() - since).count();
-  if (figures.size() < kMostFigures) {
+  if (figures.size() < kMaxFigures) {
     figures.push_back(ms);
   } else {
-    figures[next++ % kMostFigures] = ms;
+    figures[next++ % kMaxFigures] = ms;
   }
 }
 

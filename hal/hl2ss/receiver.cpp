@@ -18,7 +18,7 @@ constexpr Duration kSilence = std::chrono::seconds(3);
 /// A stand-in that waits for its client may be silent for as long as the client computes.
 constexpr Duration kPacedSilence = std::chrono::minutes(2);
 /// The clock is estimated from transit times and is late by some milliseconds.
-constexpr Duration kMostAhead = std::chrono::milliseconds(100);
+constexpr Duration kMaxAhead = std::chrono::milliseconds(100);
 /// How often timed actions are checked.
 constexpr int kTurnMs = 10;
 /// Without a pair for this long, the reasons are told, as when opening.
@@ -261,9 +261,9 @@ Result<Timestamp> Receiver::time_of(std::uint64_t ticks, HostTime at) const {
     return Error{"stamp " + std::to_string(ticks) + " is more than 10 s from the cameras'"};
   }
   const double ahead_s = seconds(*time - clock().now());
-  if (ahead_s > seconds(kMostAhead)) {
+  if (ahead_s > seconds(kMaxAhead)) {
     return refused("stamp %.1f ms ahead of the headset's clock, limit %.1f ms", ahead_s * 1e3,
-                   seconds(kMostAhead) * 1e3);
+                   seconds(kMaxAhead) * 1e3);
   }
   return *time;
 }

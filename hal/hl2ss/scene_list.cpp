@@ -8,7 +8,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr int kMostFuseFrames = 3;
+constexpr int kMaxFuseFrames = 3;
 /// In addition to the frames of the fuse: the frame that processes the list may have begun just
 /// before, and the frame that hides takes time to reach the eyes.
 constexpr int kFramesBesideFuse = 2;
@@ -17,10 +17,10 @@ constexpr Duration kNetwork = std::chrono::milliseconds(5);
 /// Hidden guidance is kept for this many lists: it often comes back, and keeping it costs nothing.
 constexpr std::uint64_t kKeptHiddenLists = 300;
 /// Limits per list: new objects must not displace moving ones, nor vice versa.
-constexpr std::size_t kMostCreates = 40;
+constexpr std::size_t kMaxCreates = 40;
 constexpr std::size_t kBytesToHide = 16;
 /// The beginning and the end of the list, the fuse, and the beginning of the next list.
-constexpr std::size_t kBytesAround = 16 + kMostFuseFrames * 12;
+constexpr std::size_t kBytesAround = 16 + kMaxFuseFrames * 12;
 
 /// If there is not room for everything, guidance goes first, and moving objects do not starve new
 /// ones.
@@ -69,7 +69,7 @@ int SceneClient::fuse_frames(const SceneMoment& now) const {
   const Duration left =
       ObjectDisplay::kLongestToolAge - (now.headset - *wanted_.tool_time) - until_shown;
   const auto frames = left / frame_ - kFramesBesideFuse;
-  return static_cast<int>(std::clamp<std::int64_t>(frames, 0, kMostFuseFrames));
+  return static_cast<int>(std::clamp<std::int64_t>(frames, 0, kMaxFuseFrames));
 }
 
 SceneClient::Draft SceneClient::draft_list(bool shows_tools, HostTime now) {
@@ -133,7 +133,7 @@ void SceneClient::draft_create(const DisplayObject& wanted, RemoteObject& remote
   if (remote.creating) {
     return;
   }
-  if (now < remote.ask_again || draft.creates.expected.size() >= kMostCreates) {
+  if (now < remote.ask_again || draft.creates.expected.size() >= kMaxCreates) {
     has_more_ = true;
     return;
   }
@@ -245,7 +245,7 @@ void SceneClient::append_fuse(const Draft& draft, int fuse, std::vector<std::uin
     expected_.push_back({Expected::Kind::kIdle, 0});
   }
   const auto on_the_way = static_cast<int>(round_trip_ / frame_);
-  const int early = (fuse < kMostFuseFrames ? 1 : 2) + on_the_way;
+  const int early = (fuse < kMaxFuseFrames ? 1 : 2) + on_the_way;
   awaited_ += static_cast<std::size_t>(std::max(0, fuse - early));
   append_plain(bytes, SceneCommand::kBeginList);
   expected_.push_back({});

@@ -5,7 +5,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr std::size_t kMostUpTo = 256;
+constexpr std::size_t kMaxUpTo = 256;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ Status StandinStream::take(const StandinMessage& message) {
       (void)inbox_.put(event);
     }
   } else if (const auto* up_to = std::get_if<StandinUpTo>(&message)) {
-    if (up_to_.size() == kMostUpTo) {
+    if (up_to_.size() == kMaxUpTo) {
       up_to_.pop_front();
     }
     up_to_.push_back(*up_to);

@@ -9,7 +9,7 @@ namespace {
 // grey values, at 1 Mbit/s by 15. Where anything moves, edges do: with a head at rest and
 // little noise 77 pixels and more change by over 12, with a head on a neck 230.
 constexpr int kCodingNoiseGrey = 12;
-constexpr std::size_t kMostBeyond = 30;
+constexpr std::size_t kMaxBeyond = 30;
 
 bool is_coded_anew(const GreyImage& before, const GreyImage& now) {
   if (before.pixels.size() != now.pixels.size()) {
@@ -19,7 +19,7 @@ bool is_coded_anew(const GreyImage& before, const GreyImage& now) {
   for (std::size_t i = 0; i < now.pixels.size(); ++i) {
     beyond += std::abs(now.pixels[i] - before.pixels[i]) > kCodingNoiseGrey ? 1U : 0U;
   }
-  return beyond <= kMostBeyond;
+  return beyond <= kMaxBeyond;
 }
 
 }  // namespace

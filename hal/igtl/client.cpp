@@ -16,8 +16,8 @@ bool TextReader::wants(const Header& header) const {
 }
 
 Status TextReader::read(const Header& header, Bytes body) {
-  if (!said_.allows(1, kMostASecond, HostClock::now())) {
-    return Error{"says more than " + std::to_string(kMostASecond) + " things a second"};
+  if (!said_.allows(1, kMaxASecond, HostClock::now())) {
+    return Error{"says more than " + std::to_string(kMaxASecond) + " things a second"};
   }
   const auto text = text_in(header, body);
   if (!text) {

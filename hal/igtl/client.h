@@ -20,7 +20,7 @@ namespace orthonav::igtl {
 class TextReader : public MessageReader {
  public:
   /// A client that sends more texts within a second is dropped.
-  static constexpr int kMostASecond = 20;
+  static constexpr int kMaxASecond = 20;
 
   /// Both are borrowed; `listener` may be null.
   TextReader(std::string client, TextListener* listener, const net::Token& token)

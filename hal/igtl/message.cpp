@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kPointNameBytes = 64;
 constexpr std::size_t kPointGroupBytes = 32;
-constexpr std::size_t kMostText = 65535;
+constexpr std::size_t kMaxText = 65535;
 
 std::string cut(const std::string& text, std::size_t most) { return text.substr(0, most); }
 
@@ -86,7 +86,7 @@ std::vector<std::uint8_t> packed(const Label& label,
 
 std::vector<std::uint8_t> packed_text(const Label& label, const std::string& text) {
   const auto message = ::igtl::StringMessage::New();
-  std::string most = cut(text, kMostText);
+  std::string most = cut(text, kMaxText);
   message->SetString(most);
   return bytes_of(*message, label);
 }

@@ -6,7 +6,7 @@
 namespace orthonav::igtl {
 namespace {
 
-constexpr std::size_t kMostOthers = 16;
+constexpr std::size_t kMaxOthers = 16;
 
 bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -59,7 +59,7 @@ std::optional<std::size_t> PoseFrames::tool_of(const std::string& transform) {
     }
   }
   const bool known = std::find(others_.begin(), others_.end(), transform) != others_.end();
-  if (!known && others_.size() < kMostOthers) {
+  if (!known && others_.size() < kMaxOthers) {
     others_.push_back(transform);
   }
   return std::nullopt;

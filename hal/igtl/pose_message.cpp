@@ -13,7 +13,7 @@ constexpr std::size_t kMatrixBytes = 48;
 constexpr std::size_t kTdataBytes = 70;   ///< name, type, reserved, matrix
 constexpr std::size_t kQtdataBytes = 50;  ///< name, type, reserved, position, quaternion
 /// Rounding to float changes a rotation by a thousandth of this.
-constexpr double kMostSkew = 1e-3;
+constexpr double kMaxSkew = 1e-3;
 constexpr double kFarthest_m = 20.0;
 
 double real_in(Bytes bytes, std::size_t index) {
@@ -30,7 +30,7 @@ Result<SentPose> checked_pose(const std::string& name, const Mat3& rotation, Vec
     return SentPose{name, std::nullopt};
   }
   const Vec3 translation_m = translation_mm * kMetresPerMm;
-  const auto pose = Transform<Rig, Marker>::checked(rotation, translation_m, kMostSkew);
+  const auto pose = Transform<Rig, Marker>::checked(rotation, translation_m, kMaxSkew);
   if (!pose) {
     return Error{name + ": " + pose.error().message};
   }
@@ -58,7 +58,7 @@ Result<SentPose> from_quaternion(const std::string& name, Bytes values) {
   const Vec3 v = vector_in(values, 3);
   const double w = real_in(values, 6);
   const double length = std::sqrt(v.dot(v) + w * w);
-  if (!(std::abs(length - 1.0) <= kMostSkew)) {
+  if (!(std::abs(length - 1.0) <= kMaxSkew)) {
     return Error{name + ": quaternion has length " + std::to_string(length) + ", must be 1"};
   }
   return checked_pose(name, rotation_from_quaternion({v.x, v.y, v.z, w}), vector_in(values, 0));

@@ -18,11 +18,11 @@ namespace {
 /// How often timed actions are checked.
 constexpr int kTurn_ms = 5;
 constexpr int kReadsATurn = 16;
-constexpr std::size_t kMostBytesPerSecond = std::size_t{32} << 20;
+constexpr std::size_t kMaxBytesPerSecond = std::size_t{32} << 20;
 /// A connection that is made this much more slowly than the fastest one tells of a slow network, on
 /// which messages are late indeed.
 constexpr auto kSlower = std::chrono::milliseconds(50);
-constexpr std::size_t kMostToTell = 8;
+constexpr std::size_t kMaxToTell = 8;
 
 }  // namespace
 
@@ -114,10 +114,10 @@ void PoseReceiver::read_all(HostTime now) {
 Status PoseReceiver::count_bytes(std::size_t count, HostTime now) {
   const MutexLock lock(mutex_);
   stream_.bytes += static_cast<std::int64_t>(count);
-  if (bytes_.allows(count, kMostBytesPerSecond, now)) {
+  if (bytes_.allows(count, kMaxBytesPerSecond, now)) {
     return {};
   }
-  return Error{"sends more than " + std::to_string(kMostBytesPerSecond) + " bytes a second"};
+  return Error{"sends more than " + std::to_string(kMaxBytesPerSecond) + " bytes a second"};
 }
 
 Status PoseReceiver::read(const Header& header, Bytes body) {
@@ -160,7 +160,7 @@ Status PoseReceiver::read(const Header& header, Bytes body) {
 void PoseReceiver::complain(const std::string& what) {
   const MutexLock lock(mutex_);
   stream_.last_trouble = what;
-  if (to_tell_.size() < kMostToTell) {
+  if (to_tell_.size() < kMaxToTell) {
     to_tell_.push_back({"igtl: " + options_.host + ": " + what, ErrorCode::kUnavailable});
   }
 }

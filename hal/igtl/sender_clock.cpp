@@ -10,7 +10,7 @@ constexpr std::int64_t kDriftOneIn = 10'000;
 constexpr std::int64_t kStep_ns = SenderClock::kSmallestStep.count();
 constexpr std::int64_t kSettle_ns = SenderClock::kSettle.count();
 /// A sender with more devices than tools is not watched in all of them.
-constexpr std::size_t kMostDevices = 64;
+constexpr std::size_t kMaxDevices = 64;
 /// Silence for longer says nothing about how late messages were meanwhile.
 constexpr std::int64_t kPause_ns = 1'000'000'000;
 
@@ -71,7 +71,7 @@ bool SenderClock::is_set_back(const std::string& device, std::int64_t sent_ns,
   const auto at = std::find_if(newest_.begin(), newest_.end(),
                                [&](const Newest& each) { return each.device == device; });
   if (at == newest_.end()) {
-    if (newest_.size() < kMostDevices) {
+    if (newest_.size() < kMaxDevices) {
       newest_.push_back({device, sent_ns, arrived_ns, 0});
     }
     return false;

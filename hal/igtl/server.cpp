@@ -17,7 +17,7 @@ std::vector<std::string> ServerOptions::check() const {
       ::inet_pton(AF_INET6, address.c_str(), &parsed) != 1) {
     problems.push_back("address \"" + address + "\" must be numbers, as in 127.0.0.1 or [::1]");
   }
-  if (port < 0 || port > net::kMostPort) {
+  if (port < 0 || port > net::kMaxPort) {
     problems.push_back("port " + std::to_string(port) + " must be 0 to 65535");
   }
   if (!(most_hz > 0.0) || !std::isfinite(most_hz)) {

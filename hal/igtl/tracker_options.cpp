@@ -16,9 +16,9 @@ constexpr const char* kForm =
     "igtl: is followed by //HOST[:PORT]?TOOL=TRANSFORM&..., as in "
     "//10.0.0.5?pointer=ProbeToTracker&reference=ReferenceToTracker; further keys are port, "
     "rms_mm, rms_deg and frozen_ms";
-constexpr std::size_t kMostTools = 32;
-constexpr double kMostRms = 10.0;  ///< mm, and degrees
-constexpr double kMostFrozen_ms = 60000.0;
+constexpr std::size_t kMaxTools = 32;
+constexpr double kMaxRms = 10.0;  ///< mm, and degrees
+constexpr double kMaxFrozen_ms = 60000.0;
 
 template <class Number>
 std::optional<Number> number_of(std::string_view text) {
@@ -44,13 +44,13 @@ Status take_port(std::string_view text, TrackerOptions& options) {
 Status take_number(std::string_view key, std::string_view text, TrackerOptions& options) {
   const auto value = number_of<double>(text);
   if (key == "frozen_ms") {
-    if (!value || !(*value >= 0.0 && *value <= kMostFrozen_ms)) {
+    if (!value || !(*value >= 0.0 && *value <= kMaxFrozen_ms)) {
       return out_of_range(key, text, "lie from 0 to 60000 (0: poses may stand still)");
     }
     options.frozen_after = from_seconds(*value * 1e-3);
     return {};
   }
-  if (!value || !(*value > 0.0 && *value <= kMostRms)) {
+  if (!value || !(*value > 0.0 && *value <= kMaxRms)) {
     return out_of_range(key, text, "be greater than 0 and at most 10");
   }
   if (key == "rms_mm") {
@@ -73,8 +73,8 @@ Status take_tool(std::string_view tool, std::string_view transform, TrackerOptio
                    (sent == transform ? "" : ": names are sent with 20 bytes at most")};
     }
   }
-  if (options.tools.size() == kMostTools) {
-    return Error{"names more than " + std::to_string(kMostTools) + " tools"};
+  if (options.tools.size() == kMaxTools) {
+    return Error{"names more than " + std::to_string(kMaxTools) + " tools"};
   }
   options.tools.push_back({std::string(tool), std::string(transform)});
   return {};

@@ -8,7 +8,7 @@
 
 namespace orthonav::net {
 
-inline constexpr int kMostPort = 65535;
+inline constexpr int kMaxPort = 65535;
 
 /// Where to connect to or to listen, as it is written in a URI or on the command line.
 struct HostPort {
@@ -22,7 +22,7 @@ Result<HostPort> host_and_port(std::string_view text, int least_port = 1);
 
 /// A whole number from `least` to `most`; `what` begins an Error.
 Result<int> port_from(std::string_view what, std::string_view text, int least = 1,
-                      int most = kMostPort);
+                      int most = kMaxPort);
 
 /// The host as it is written in front of a port.
 [[nodiscard]] std::string before_port(const std::string& host);

@@ -39,11 +39,11 @@ Result<Transform<Eye, Rig>> pose_from(const nlohmann::json& json, const std::str
   if (rows[12] != 0.0 || rows[13] != 0.0 || rows[14] != 0.0 || rows[15] != 1.0) {
     return Error{name + ": the last row of view_from_rig must be 0 0 0 1"};
   }
-  constexpr double kMostAway_mm = 1000.0;
+  constexpr double kMaxAway_mm = 1000.0;
   for (const std::size_t i : {3u, 7u, 11u}) {
-    if (!(std::abs(rows[i]) <= kMostAway_mm)) {
+    if (!(std::abs(rows[i]) <= kMaxAway_mm)) {
       return Error{name + ": view_from_rig is " + std::to_string(rows[i]) + " mm away, limit " +
-                   std::to_string(kMostAway_mm) + " mm"};
+                   std::to_string(kMaxAway_mm) + " mm"};
     }
     rows[i] *= 1e-3;
   }

@@ -12,11 +12,11 @@ Status take_fov(const XrFovf& fov, EyeView& view) {
   view.tan_right = std::tan(static_cast<double>(fov.angleRight));
   view.tan_up = std::tan(static_cast<double>(fov.angleUp));
   view.tan_down = -std::tan(static_cast<double>(fov.angleDown));
-  constexpr float kMost_rad = 1.55f;  // a little less than a right angle
+  constexpr float kMax_rad = 1.55f;  // a little less than a right angle
   for (const float angle : {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown}) {
-    if (!(std::fabs(angle) < kMost_rad)) {
+    if (!(std::fabs(angle) < kMax_rad)) {
       return Error{"openxr: a field of view reaches " + printed("%f", angle) + " rad, limit " +
-                   std::to_string(kMost_rad)};
+                   std::to_string(kMax_rad)};
     }
   }
   if (fov.angleLeft >= fov.angleRight || fov.angleDown >= fov.angleUp) {

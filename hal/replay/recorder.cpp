@@ -22,9 +22,9 @@ namespace {
 
 /// Four seconds of pairs and depth. Lines, which are small, may add a sixth.
 constexpr std::size_t kMostBytes = std::size_t{96} << 20U;
-constexpr std::size_t kMostBytesWithLines = std::size_t{112} << 20U;
+constexpr std::size_t kMaxBytesWithLines = std::size_t{112} << 20U;
 /// As long as a pair may wait for the disk where time goes on meanwhile.
-constexpr auto kMostWait = std::chrono::milliseconds(1);
+constexpr auto kMaxWait = std::chrono::milliseconds(1);
 
 struct PairToWrite {
   StereoFrame frame;
@@ -54,13 +54,13 @@ std::size_t bytes_of(const ToWrite& what) {
 
 /// The writer until its first failure, and that failure; what is to be written, and the thread that
 /// writes it.
-class Tape {
+class RecordingSink {
  public:
-  Tape(std::unique_ptr<RecordingWriter> writer, const Clock& clock)
+  RecordingSink(std::unique_ptr<RecordingWriter> writer, const Clock& clock)
       : clock_(clock), writer_(std::move(writer)), thread_([this] { work(); }) {}
-  ~Tape() { static_cast<void>(close()); }
-  Tape(const Tape&) = delete;
-  Tape& operator=(const Tape&) = delete;
+  ~RecordingSink() { static_cast<void>(close()); }
+  RecordingSink(const RecordingSink&) = delete;
+  RecordingSink& operator=(const RecordingSink&) = delete;
 
   /// Never waits.
   void pair(const StereoFrame& frame) {
@@ -95,7 +95,7 @@ class Tape {
   template <class Line>
   void line(Line what) {
     const MutexLock lock(mutex_);
-    add_within(kMostBytesWithLines, std::move(what));
+    add_within(kMaxBytesWithLines, std::move(what));
   }
   /// Waits until everything so far is written: for a millisecond, and for as long as the device's
   /// time stands still.
@@ -104,7 +104,7 @@ class Tape {
     const std::int64_t last = added_;
     for (bool goes_on = false; running_ && written_ < last && !goes_on;) {
       const Timestamp before = clock_.now();
-      changed_.wait_until(mutex_, Stopwatch().after(kMostWait));
+      changed_.wait_until(mutex_, Stopwatch().after(kMaxWait));
       goes_on = clock_.now() != before;
     }
   }
@@ -223,7 +223,7 @@ class Tape {
 
 class RecordingDepth : public DepthCamera {
  public:
-  RecordingDepth(DepthCamera& inner, Tape& tape) : inner_(inner), tape_(tape) {}
+  RecordingDepth(DepthCamera& inner, RecordingSink& tape) : inner_(inner), tape_(tape) {}
   /// Records all available frames.
   void drain() {
     for (auto answer = next(unseen_); answer && *answer == Next::kFrame;) {
@@ -233,7 +233,7 @@ class RecordingDepth : public DepthCamera {
 
  private:
   DepthCamera& inner_;
-  Tape& tape_;
+  RecordingSink& tape_;
   DepthFrame unseen_;
 
   [[nodiscard]] const DepthCalibration& do_calibration() const override {
@@ -253,7 +253,7 @@ using RecordingDepths = std::vector<std::unique_ptr<RecordingDepth>>;
 class RecordingCamera : public ForwardingCamera, private PairTap {
  public:
   /// Drains the given depth cameras at each call.
-  RecordingCamera(StereoCamera& inner, Tape& tape, const RecordingDepths& drained)
+  RecordingCamera(StereoCamera& inner, RecordingSink& tape, const RecordingDepths& drained)
       : ForwardingCamera(inner), tape_(tape), drained_(drained), tapped_(inner.tap(this)) {}
   ~RecordingCamera() override { untap(); }
   RecordingCamera(const RecordingCamera&) = delete;
@@ -262,7 +262,7 @@ class RecordingCamera : public ForwardingCamera, private PairTap {
   void untap() { ForwardingCamera::do_tap(nullptr); }
 
  private:
-  Tape& tape_;
+  RecordingSink& tape_;
   const RecordingDepths& drained_;
   FrameOrder order_;
   bool tapped_;
@@ -305,11 +305,11 @@ class RecordingCamera : public ForwardingCamera, private PairTap {
 
 class RecordingHead : public HeadTracker {
  public:
-  RecordingHead(Headset& inner, Tape& tape) : inner_(inner), tape_(tape) {}
+  RecordingHead(Headset& inner, RecordingSink& tape) : inner_(inner), tape_(tape) {}
 
  private:
   Headset& inner_;
-  Tape& tape_;
+  RecordingSink& tape_;
 
   [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
     const auto answer = inner_.head().world_from_rig(at);
@@ -323,11 +323,11 @@ class RecordingHead : public HeadTracker {
 template <class Device, class Event>
 class RecordingEvents : public Device {
  public:
-  RecordingEvents(Device& inner, Tape& tape) : inner_(inner), tape_(tape) {}
+  RecordingEvents(Device& inner, RecordingSink& tape) : inner_(inner), tape_(tape) {}
 
  private:
   Device& inner_;
-  Tape& tape_;
+  RecordingSink& tape_;
   /// The time of a poll for everything may not fit into a file.
   static constexpr Timestamp kLatest{Duration{kMaxNs}};
   std::optional<Timestamp> asked_until_;
@@ -386,7 +386,7 @@ class Recorder : public RecordingHeadset {
  private:
   std::unique_ptr<Headset> owned_;
   Headset& inner_;
-  Tape tape_;
+  RecordingSink tape_;
   RecordingDepths drained_;
   RecordingDepths passed_on_;
   RecordingCamera cameras_{inner_.cameras(), tape_, drained_};

@@ -31,7 +31,7 @@ constexpr std::array<Return, 10> kReturns = {{
 constexpr double kLongThrowBias = 9.0 / 5.7;
 constexpr double kReferenceM = 0.5;
 /// Grazing light: 1/cos is limited to this.
-constexpr double kMostOblique = 3.0;
+constexpr double kMaxOblique = 3.0;
 /// Less light than this gives no measurement.
 constexpr double kDarkest = 0.004;
 /// Below this much light, the noise grows from its bright to its dim SD.
@@ -40,7 +40,7 @@ constexpr double kBright = 0.5;
 constexpr double kEdgeM = 0.015;
 /// The device's unit of brightness.
 constexpr double kBrightnessUnit = 2000.0;
-constexpr double kMostBrightness = 60000.0;
+constexpr double kMaxBrightness = 60000.0;
 
 /// The surroundings of a pixel: the normal of its surface, and whether an edge runs through it.
 struct Around {
@@ -98,7 +98,7 @@ class Neighbourhood {
 DepthSensorErrors::Returned DepthSensorErrors::returned(const DepthSight& sight,
                                                         double cosine) const {
   const Return& material = kReturns[static_cast<std::size_t>(sight.material)];
-  const double oblique = 1.0 / std::max(cosine, 1.0 / kMostOblique);
+  const double oblique = 1.0 / std::max(cosine, 1.0 / kMaxOblique);
   const double bias_m = errors_.bias * material.bias_m * oblique *
                         (model_.stream == DepthStream::kLongThrow ? kLongThrowBias : 1.0);
   const double range_m = static_cast<double>(sight.range_m);
@@ -137,7 +137,7 @@ void DepthSensorErrors::measure(const DepthCalibration& calibration,
       }
       frame.range_mm.at(x, y) = static_cast<std::uint16_t>(mm);
       frame.brightness.at(x, y) =
-          static_cast<std::uint16_t>(std::min(kBrightnessUnit * light, kMostBrightness));
+          static_cast<std::uint16_t>(std::min(kBrightnessUnit * light, kMaxBrightness));
     }
   }
 }

@@ -51,8 +51,8 @@ RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, 
   states_.resize(kKept, nothing);
   if (options.surgeon && layout_.levels() > 0) {
     surgeon_ = std::make_unique<Surgeon>(
-        layout_, error_model_, Random(options.seed).fork("surgeon"), eyes_, StandingMetal(truth_),
-        options.guidance, options.relies_on_reference);
+        layout_, error_model_, Random(options.seed).fork("surgeon"), eyes_,
+        RetainedImplants(truth_), options.guidance, options.relies_on_reference);
   }
   step();
 }

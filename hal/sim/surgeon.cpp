@@ -85,7 +85,7 @@ struct OverlayComparison {
 }  // namespace
 
 Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
-                 const Eyes& eyes, StandingMetal metal, GuidanceProfile guidance,
+                 const Eyes& eyes, RetainedImplants metal, GuidanceProfile guidance,
                  bool relies_on_reference)
     : layout_(&layout),
       error_model_(&error_model),

@@ -11,8 +11,8 @@
 #include "hal/sim/error_model.h"
 #include "hal/sim/eyes.h"
 #include "hal/sim/guidance_profile.h"
+#include "hal/sim/retained_implants.h"
 #include "hal/sim/room_layout.h"
-#include "hal/sim/standing_metal.h"
 #include "hal/sim/stroke_plan.h"
 #include "hal/sim/surgeon_body.h"
 
@@ -34,7 +34,7 @@ class Surgeon {
   /// The layout and the eyes must outlive it. Only the display tells the surgeon how the metal in
   /// the bones lies relative to the plan.
   Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
-          const Eyes& eyes, StandingMetal metal, GuidanceProfile guidance,
+          const Eyes& eyes, RetainedImplants metal, GuidanceProfile guidance,
           bool relies_on_reference);
 
   /// Acts until `now`.
@@ -207,7 +207,7 @@ class Surgeon {
   const RoomLayout* layout_;
   const ErrorModel* error_model_;
   const Eyes* eyes_;
-  StandingMetal metal_;
+  RetainedImplants metal_;
   SurgeonBody body_;
   GuidanceProfile guidance_;
   bool relies_on_reference_;  ///< two tags are needed, of which one may hide the other

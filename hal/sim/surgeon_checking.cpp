@@ -32,14 +32,14 @@ constexpr double kApart_m = 0.005;
 /// A touch that does not fit is deleted if at least this many others fit, at most twice; after that
 /// the registration is rejected.
 constexpr std::size_t kKnown = 8;
-constexpr std::size_t kMostTakenBack = 2;
+constexpr std::size_t kMaxTakenBack = 2;
 constexpr double kTakeBack_s = 1.5;
 /// So many places the surgeon chooses, so that the check does not depend on what is checked; from
 /// then on they touch where the display shows a place.
 constexpr std::size_t kOwnChoice = 3;
 constexpr double kSpotsApart_m = 0.001;
 /// The largest number of places that count, if the line keeps asking.
-constexpr std::size_t kMostPlaces = 48;
+constexpr std::size_t kMaxPlaces = 48;
 /// The very ends of strokes are not touched, since the tip would slip off.
 constexpr double kFromEnd = 0.2;
 
@@ -67,7 +67,7 @@ std::vector<BoneSpot> Surgeon::places_to_check(std::size_t level) {
     }
     return least;
   };
-  while (places.size() < kMostPlaces) {
+  while (places.size() < kMaxPlaces) {
     const auto farthest = std::max_element(
         spots.begin(), spots.end(),
         [&](const BoneSpot& a, const BoneSpot& b) { return nearest_m(a) < nearest_m(b); });
@@ -157,9 +157,9 @@ Script Surgeon::check_by_touch(std::size_t level, bool& fits) {
   const std::vector<BoneSpot> places = places_to_check(level);
   std::size_t taken_back = 0;
   // If the line asks for more places than there are, a place is pressed a second time.
-  for (std::size_t touch = 0; !places.empty() && touch < 2 * kMostPlaces; ++touch) {
+  for (std::size_t touch = 0; !places.empty() && touch < 2 * kMaxPlaces; ++touch) {
     if (in_step(step) && asked(ChecksAsked::kReject) && touch >= kKnown &&
-        taken_back < kMostTakenBack) {
+        taken_back < kMaxTakenBack) {
       // The others agree: the touch slipped, or the model deviates from the bone there.
       ++taken_back;
       body_.say(words().drop);

@@ -6,7 +6,7 @@
 namespace orthonav::sim {
 namespace {
 
-constexpr int kMostTouches = 40;
+constexpr int kMaxTouches = 40;
 constexpr double kLookAnew_s = 2.0;
 /// Along a pedicle screw outward, unit: 20° of convergence, as any surgeon knows it.
 constexpr Vec3 kLeftScrew{0.342, 0.940, 0.0};
@@ -21,7 +21,7 @@ Script Surgeon::touch_landmark(std::size_t level) {
   const std::vector<BoneSpot> places =
       made ? std::vector<BoneSpot>{*dimples_[level]} : places_to_check(level);
   std::size_t place = 0;
-  for (int touch = 0; touch < kMostTouches && in_step(step) && !finished_; ++touch) {
+  for (int touch = 0; touch < kMaxTouches && in_step(step) && !finished_; ++touch) {
     dimples_[level] = places[place];
     const Seat seat = seat_in_dimple(level);
     co_await touch_at(step, seat.tip, seat.normal);
@@ -66,8 +66,8 @@ Script Surgeon::compare_tips_as_for_screw(std::size_t level) {
 }
 
 Script Surgeon::consent_to_corrections(const StepOnDisplay& step) {
-  constexpr int kMostTimes = 4;
-  for (int time = 0; time < kMostTimes && in_step(step); ++time) {
+  constexpr int kMaxTimes = 4;
+  for (int time = 0; time < kMaxTimes && in_step(step); ++time) {
     if (!asked(ChecksAsked::kCorrectGuide)) {
       break;
     }

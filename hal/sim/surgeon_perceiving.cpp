@@ -12,7 +12,7 @@ constexpr double kCentred_m = 0.0004;
 /// The numbers are read for this long, then the tip is moved; the total time is limited.
 constexpr double kReading_s = 0.6;
 constexpr double kMoving_s = 0.5;
-constexpr int kMostMoves = 6;
+constexpr int kMaxMoves = 6;
 constexpr double kPatienceForNumbers_s = 20.0;
 constexpr int kFewestNumbers = 5;
 /// One digit misread as another.
@@ -73,7 +73,7 @@ Script Surgeon::read_offset(const StepOnDisplay& step, const Aim& aim,
 }
 
 Script Surgeon::centre_tip(const StepOnDisplay& step, std::size_t level, const Aim& aim) {
-  for (int moves = 0; moves < kMostMoves && in_step(step) && !finished_; ++moves) {
+  for (int moves = 0; moves < kMaxMoves && in_step(step) && !finished_; ++moves) {
     std::optional<Vec3> offset_m;
     co_await read_offset(step, aim, offset_m);
     if (!offset_m || offset_m->norm() < kCentred_m) {

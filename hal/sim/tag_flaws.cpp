@@ -14,13 +14,13 @@ constexpr double kSharpness = 80.0;
 constexpr double kFlicker_hz = 100.0;
 /// A drop may lie anywhere on the plate, which is a little larger than the tag.
 constexpr double kPlateOverTag = 1.3;
-constexpr int kMostDrops = 20;
+constexpr int kMaxDrops = 20;
 
 /// Poisson, by counting (Knuth 1969).
 int drops(Random& random, double mean) {
   double left = random.uniform();
   int count = 0;
-  for (const double none = std::exp(-mean); left > none && count < kMostDrops; ++count) {
+  for (const double none = std::exp(-mean); left > none && count < kMaxDrops; ++count) {
     left *= random.uniform();
   }
   return count;

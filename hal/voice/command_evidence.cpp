@@ -16,7 +16,7 @@ constexpr double kFramesWeight = 0.044;
 // Beyond these, likelihood ratios say no more.
 constexpr double kLeastEvidence = -8.0;
 constexpr double kLeastAround = -300.0;
-constexpr double kMostAround = 50.0;
+constexpr double kMaxAround = 50.0;
 // The wake words of all tuning voices lie above -4.6 and last longer than this: otherwise it was
 // not said.
 constexpr double kLeastWake = -5.5;
@@ -50,7 +50,7 @@ double log_odds(const CommandEvidence& evidence) {
   }
   return kConstant + kEvidenceWeight * std::max(evidence.evidence, kLeastEvidence) +
          kLeastWeight * std::max(evidence.least, kLeastEvidence) +
-         kAroundWeight * std::clamp(evidence.around, kLeastAround, kMostAround) +
+         kAroundWeight * std::clamp(evidence.around, kLeastAround, kMaxAround) +
          kFramesWeight * evidence.frames;
 }
 

@@ -10,9 +10,9 @@ void Resampler::Free::operator()(SRC_STATE_tag* state) const { src_delete(state)
 
 Result<Resampler> Resampler::create(int from_hz, int to_hz) {
   constexpr int kLeastHz = 8000;
-  constexpr int kMostHz = 192000;
+  constexpr int kMaxHz = 192000;
   for (const int rate_hz : {from_hz, to_hz}) {
-    if (rate_hz < kLeastHz || rate_hz > kMostHz) {
+    if (rate_hz < kLeastHz || rate_hz > kMaxHz) {
       return Error{"sound: sample rate " + std::to_string(rate_hz) +
                    " Hz, must lie in [8000, 192000] Hz"};
     }

@@ -13,7 +13,7 @@ namespace {
 /// A segment is the sound above a threshold that lies at least this far above the background: the
 /// lowest threshold at which, for a while before and after it, no other sound exceeds it.
 constexpr double kLeastAboveBackground_db = 6.0;
-constexpr double kMostAboveBackground_db = 14.0;
+constexpr double kMaxAboveBackground_db = 14.0;
 constexpr double kAboveThreshold_db = 6.0;  ///< the least level of its loudest part
 constexpr double kBelowLoudest_db =
     30.0;  ///< the highest threshold, since a word's last sound fades away
@@ -209,7 +209,7 @@ std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::find(double background_
   const double least_db =
       std::max(background_db + kLeastAboveBackground_db, loudest_db - kBelowLoudest_db);
   const double most_db = std::max(
-      least_db, std::min(background_db + kMostAboveBackground_db, loudest_db - kAboveThreshold_db));
+      least_db, std::min(background_db + kMaxAboveBackground_db, loudest_db - kAboveThreshold_db));
   int quiet = quiet_frames(loudest_db - background_db);
   for (double threshold_db = least_db; threshold_db <= most_db; threshold_db += kThresholdStepDb) {
     auto stretch = stretch_above(threshold_db);

@@ -25,7 +25,7 @@ constexpr double kOutlierWeight = 0.2;
 constexpr double kFirstBodyDamping = 1e-4;
 constexpr double kLeastDamping = 1e-12;
 // A step that still fails with more damping than this will not succeed.
-constexpr double kMostBodyDamping = 1e4;
+constexpr double kMaxBodyDamping = 1e4;
 constexpr double kConverged = 1e-8;
 
 template <class A, class B>
@@ -214,7 +214,7 @@ double descend(System& system, BodyState& state, std::vector<double>& lengths_px
   double scale_px = cauchy_scale(lengths_px);
   double damping = kFirstBodyDamping;
   bool is_new = true;
-  for (int step = 0; step < kMostSteps && damping < kMostBodyDamping; ++step) {
+  for (int step = 0; step < kMostSteps && damping < kMaxBodyDamping; ++step) {
     if (is_new && step < kScaleSteps) {
       scale_px = cauchy_scale(lengths_px);
     }

@@ -9,7 +9,7 @@ namespace orthonav::nav {
 namespace {
 
 constexpr int kFewest = 3;
-constexpr int kMostSquares = 50;
+constexpr int kMaxSquares = 50;
 constexpr double kSmallestM = 0.001;
 constexpr double kLargestM = 0.5;
 
@@ -36,7 +36,7 @@ double first_colour(const GreyImage& image, const Chessboard& board,
 std::vector<std::string> Chessboard::check() const {
   std::vector<std::string> problems;
   const auto count = [&](const char* what, int value) {
-    if (value < kFewest || value > kMostSquares) {
+    if (value < kFewest || value > kMaxSquares) {
       problems.push_back(std::string("chessboard: ") + std::to_string(value) + " " + what +
                          " of inner corners, must be 3-50");
     }

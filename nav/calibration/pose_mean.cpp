@@ -16,7 +16,7 @@ constexpr double kNearM = 1e-6;
 constexpr int kSteps = 50;
 constexpr double kConvergedM = 1e-9;
 // The start is the best of this many candidates: enough when more than half of them are good.
-constexpr std::size_t kMostCandidates = 40;
+constexpr std::size_t kMaxCandidates = 40;
 
 struct Difference {
   Vec3 translation_m;
@@ -42,7 +42,7 @@ double total_m(const FromTag& centre, std::span<const FromTag> poses) {
 
 /// The pose nearest to all the others.
 FromTag middle_one(std::span<const FromTag> poses) {
-  const std::size_t stride = (poses.size() + kMostCandidates - 1) / kMostCandidates;
+  const std::size_t stride = (poses.size() + kMaxCandidates - 1) / kMaxCandidates;
   FromTag best;
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < poses.size(); i += stride) {

@@ -15,9 +15,9 @@ constexpr double kBlock_s = 0.25;
 // A stretch that has not fitted for this many more blocks won't fit again.
 constexpr int kFarFromBest = 8;
 // Tips that fit a fixed point worse than this did not rest in a dimple.
-constexpr double kMostTurningRmse_m = 0.005;
+constexpr double kMaxTurningRmse_m = 0.005;
 // A resting point farther than this from the tip in the tool file is not this pointer's tip.
-constexpr double kMostOffset_m = 0.03;
+constexpr double kMaxOffset_m = 0.03;
 
 /// Sums over poses from which the fit of any stretch follows. With q the tip from the tool file and
 /// d its offset, the tips R d + q should all be the same point p.
@@ -113,11 +113,11 @@ std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world
       const std::size_t first = blocks.first[from];
       const std::size_t end = blocks.first[to];
       const Fit fit = fit_of(blocks.before[to] - blocks.before[from]);
-      if (fit.rmse_m > kMostTurningRmse_m || fit.offset.norm() > kMostOffset_m) {
+      if (fit.rmse_m > kMaxTurningRmse_m || fit.offset.norm() > kMaxOffset_m) {
         // While the tool has turned too little to determine the offset, a wrong tip looks like a
         // motion, but no larger than its offset can cause.
         if (fit.spread_rad >= kLeastTurningSpread_rad ||
-            fit.rmse_m > 2.0 * kMostOffset_m + kMostTurningRmse_m) {
+            fit.rmse_m > 2.0 * kMaxOffset_m + kMaxTurningRmse_m) {
           ++unfit;
         }
         continue;
@@ -128,7 +128,7 @@ std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world
       if (duration_s < kLeastTurning_s || fit.spread_rad < kLeastTurningSpread_rad) {
         continue;
       }
-      const double ratio = fit.rmse_m / kMostTurningRmse_m;
+      const double ratio = fit.rmse_m / kMaxTurningRmse_m;
       const double score = duration_s * (1.0 - ratio * ratio);
       if (score <= best_score) {
         continue;

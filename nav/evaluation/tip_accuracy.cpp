@@ -15,7 +15,7 @@ namespace {
 /// A rest nearer than this to the dimple is in the dimple, or has slipped out of it.
 constexpr double kDimple_m = 0.025;
 /// If the mean tip before and after some moment differs by more than this, it slipped.
-constexpr double kMostSlip_m = 0.0015;
+constexpr double kMaxSlip_m = 0.0015;
 
 void check_limits(const char* name, const AccuracyLimits& limits,
                   std::vector<std::string>& problems) {
@@ -135,9 +135,9 @@ void note_slip(const std::optional<TipSlip>& slip, AccuracyPart& part) {
 
 void note_slips(const PointerTrack& track, const SortedRests& rests,
                 const std::vector<std::size_t>& still, AccuracyReport& report) {
-  note_slip(tip_slip(picked(track.tips, still), kMostSlip_m), report.single_point);
+  note_slip(tip_slip(picked(track.tips, still), kMaxSlip_m), report.single_point);
   note_slip(rests.slip, report.turning);
-  note_slip(tip_slip(picked(track.fixed, rests.dimple.samples), kMostSlip_m), report.turning);
+  note_slip(tip_slip(picked(track.fixed, rests.dimple.samples), kMaxSlip_m), report.turning);
 }
 
 /// The track of the measured poses, once input and options are known to be good.

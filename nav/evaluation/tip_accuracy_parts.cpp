@@ -21,9 +21,9 @@ constexpr double kBin_rad = 10.0 * std::numbers::pi / 180.0;
 constexpr double kStill_rad = 0.087;
 /// The largest number of rests away from the dimple that touch no point of the board, such as a
 /// tool laid aside.
-constexpr std::size_t kMostStrayRests = 4;
+constexpr std::size_t kMaxStrayRests = 4;
 /// Touches that fit the board worse than this belong to another board, or are in another order.
-constexpr double kMostBoardRmse_m = 0.01;
+constexpr double kMaxBoardRmse_m = 0.01;
 
 const Mat3& rotation_at(const PointerTrack& track, std::size_t i) {
   return track.world_from_marker[i].value.rotation();
@@ -266,7 +266,7 @@ Result<DistancePart> distance_part(const PointerTrack& track, const std::vector<
   for (const TipRest& rest : touches) {
     rests_m.push_back(tip_spread(picked(track.tips, rest.samples)).mean_m);
   }
-  const auto matched = board_touches(rests_m, board_points_m, kMostStrayRests);
+  const auto matched = board_touches(rests_m, board_points_m, kMaxStrayRests);
   if (!matched) {
     return Error{"accuracy test: " + matched.error().message};
   }
@@ -291,11 +291,11 @@ Result<DistancePart> distance_part(const PointerTrack& track, const std::vector<
       judged("mean error of the distances", std::abs(part.mean_error_m), options.distance_mean));
   part.judged.push_back(
       judged("largest error of a distance", part.max_error_m, options.distance_max));
-  if (part.fit_rmse_m > kMostBoardRmse_m) {
+  if (part.fit_rmse_m > kMaxBoardRmse_m) {
     part.failure = with_numbers(
         "the touches lie %.1f mm RMS from the board's points, limit %.1f mm: another board, "
         "another order, or a wrong size",
-        part.fit_rmse_m * 1e3, kMostBoardRmse_m * 1e3);
+        part.fit_rmse_m * 1e3, kMaxBoardRmse_m * 1e3);
   }
   return part;
 }

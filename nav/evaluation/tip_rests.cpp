@@ -11,7 +11,7 @@ using Samples = std::span<const TipSample>;
 constexpr double kDwell_s = 0.5;
 constexpr std::size_t kLeastRestSamples = 4;
 /// This many samples in a row may lie elsewhere without ending a rest; they are left out.
-constexpr std::size_t kMostOutliers = 2;
+constexpr std::size_t kMaxOutliers = 2;
 
 Vec3 mean_of(Samples samples, const std::vector<std::size_t>& indices) {
   Vec3 sum_m{};
@@ -54,7 +54,7 @@ void grow(Samples samples, std::vector<std::size_t>& indices) {
     }
     const Vec3 mean_m = sum_m / static_cast<double>(indices.size());
     if ((samples[i].tip_m - mean_m).norm() > kRestRadius_m) {
-      if (++outliers > kMostOutliers) {
+      if (++outliers > kMaxOutliers) {
         return;
       }
       continue;

@@ -161,9 +161,9 @@ std::vector<Vec3> CatmullRom::sampled(double spacing_m) const {
   for (std::size_t i = 0; i < segments(); ++i) {
     total_m += lengths_m[i] = segment_length_m(i);
   }
-  constexpr double kMostIntervals = 1e5;
-  const double wanted = spacing_m > 0.0 ? std::round(total_m / spacing_m) : kMostIntervals;
-  const auto intervals = static_cast<std::size_t>(std::clamp(wanted, 1.0, kMostIntervals));
+  constexpr double kMaxIntervals = 1e5;
+  const double wanted = spacing_m > 0.0 ? std::round(total_m / spacing_m) : kMaxIntervals;
+  const auto intervals = static_cast<std::size_t>(std::clamp(wanted, 1.0, kMaxIntervals));
   std::vector<Vec3> path_m;
   path_m.reserve(intervals + 1);
   path_m.push_back(points_m_[1]);

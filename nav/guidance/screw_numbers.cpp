@@ -7,7 +7,7 @@ namespace orthonav::nav {
 namespace {
 
 /// A larger offset is not one of a tool at a screw, and would not fit the display.
-constexpr double kMostShown = 9999.0;
+constexpr double kMaxShown = 9999.0;
 /// 1.2 mm is 12 tenths, regardless of the last bits.
 constexpr double kLastBits = 1e-6;
 /// 95 % of the errors along an axis lie on the safe side of so many SDs,
@@ -25,7 +25,7 @@ int rounded_up_steadily(double tenths, std::optional<int> before) {
 }
 
 std::optional<int> shown_sd(double sd_tenths) {
-  return sd_tenths <= kMostShown ? std::optional(std::max(1, rounded_up(sd_tenths))) : std::nullopt;
+  return sd_tenths <= kMaxShown ? std::optional(std::max(1, rounded_up(sd_tenths))) : std::nullopt;
 }
 
 ShownNumber shown(SteadyNumber& number, const NumberWithSd& measured, double tenth,
@@ -54,7 +54,7 @@ ShownSize shown_size(SteadyNumber& number, const NumberWithSd& size, double tent
 }  // namespace
 
 int SteadyNumber::show(double tenths, double sd_tenths) {
-  const double size = std::min(std::abs(tenths), kMostShown);
+  const double size = std::min(std::abs(tenths), kMaxShown);
   const double zero_up_to = shown_ == 0 ? kLeaveZero : kEnterZero;
   if (size <= zero_up_to && size <= sd_tenths && std::isfinite(sd_tenths)) {
     shown_ = 0;
@@ -71,7 +71,7 @@ std::optional<ShownDepth> DepthWriter::write(const NumberWithSd& depth_m, double
   const double deeper_m = certainty == Certainty::kBound ? kBoundSds * depth_m.sd : 0.0;
   const double past_entry = (depth_m.value + deeper_m) / kTenth_m;
   const double past_target = (deeper_m - to_target_m) / kTenth_m;
-  if (!(std::abs(past_entry) <= kMostShown && std::abs(past_target) <= kMostShown)) {
+  if (!(std::abs(past_entry) <= kMaxShown && std::abs(past_target) <= kMaxShown)) {
     forget();
     return std::nullopt;
   }

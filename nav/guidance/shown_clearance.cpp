@@ -7,7 +7,7 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kTenths_per_m = 1e4;
-constexpr double kMostTenths = 9999.0;
+constexpr double kMaxTenths = 9999.0;
 /// 1.2 mm is 12 tenths, regardless of the last bits.
 constexpr double kLastBitsOfTenths = 1e-6;
 /// Towards the safe side.
@@ -16,7 +16,7 @@ constexpr double kBandOfTenths = 1.0;
 }  // namespace
 
 int SteadyLeast::show(double tenths) {
-  const double within = std::clamp(tenths, -kMostTenths, kMostTenths);
+  const double within = std::clamp(tenths, -kMaxTenths, kMaxTenths);
   int digits = static_cast<int>(std::floor(within + kLastBitsOfTenths));
   if (shown_ && *shown_ <= digits && within < *shown_ + 1 + kBandOfTenths) {
     digits = *shown_;

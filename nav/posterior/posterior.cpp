@@ -112,7 +112,7 @@ Hand hand_at(const Observations& observations, const Prior& prior,
              std::span<const std::array<std::uint32_t, kBlock>> blocks, const Touches& t) {
   constexpr int kRounds = 8;
   constexpr double kLeast_m = 0.0001;
-  constexpr double kMost_m = 0.004;
+  constexpr double kMax_m = 0.004;
   constexpr double kSdByMedian = 1.4826;
   constexpr double kBelongs = 0.5;
   Hand out;
@@ -124,7 +124,7 @@ Hand hand_at(const Observations& observations, const Prior& prior,
   for (double& h : heights) {
     h = std::abs(h - mean_m);
   }
-  out.spread_m = std::clamp(kSdByMedian * median(std::move(heights)), kLeast_m, kMost_m);
+  out.spread_m = std::clamp(kSdByMedian * median(std::move(heights)), kLeast_m, kMax_m);
   out.belongs.assign(t.all.size(), 1.0);
   const double outside = prior.outlier_share / prior.outlier_range_m;
   for (int round = 0; round < kRounds; ++round) {
@@ -144,7 +144,7 @@ Hand hand_at(const Observations& observations, const Prior& prior,
     }
     mean_m = sum_m / sum;
     out.spread_m =
-        std::clamp(std::sqrt(std::max(0.0, sum_m2 / sum - mean_m * mean_m)), kLeast_m, kMost_m);
+        std::clamp(std::sqrt(std::max(0.0, sum_m2 / sum - mean_m * mean_m)), kLeast_m, kMax_m);
   }
   for (const double p : out.belongs) {
     out.inliers += p;
@@ -905,13 +905,13 @@ Posterior assembled(const Touches& t, const Hand& hand, Answers answers) {
 /// rotation moves.
 void descend(Averaged::Units& units, const BoneSurface& bone, std::span<const Node> nodes,
              int most_steps, double stands_m, Touches& here) {
-  constexpr int kMostHalvings = 4;
+  constexpr int kMaxHalvings = 4;
   Answers answers = answers_at(units, here, nodes);
   for (int k = 0; k < most_steps && !answers.empty(); ++k) {
     Vector6 step = mean_step(answers);
     const double before = log_here(answers);
     bool better = false;
-    for (int halved = 0; halved <= kMostHalvings; ++halved, step *= 0.5) {
+    for (int halved = 0; halved <= kMaxHalvings; ++halved, step *= 0.5) {
       Touches there =
           touches_at(units.observations, bone, stepped(here, step), units.wanted, &here);
       Answers then = answers_at(units, there, nodes);

@@ -87,8 +87,8 @@ std::vector<std::string> CheckPointRules::check() const {
   if (!(off_line_m >= 0.0 && off_line_m <= 0.5 * apart_m)) {
     problems.push_back("check_points.off_line_m must lie in [0, half of apart_m]");
   }
-  if (enough > kMostCheckPoints) {
-    problems.push_back("check_points.enough must be at most " + std::to_string(kMostCheckPoints));
+  if (enough > kMaxCheckPoints) {
+    problems.push_back("check_points.enough must be at most " + std::to_string(kMaxCheckPoints));
   }
   if (!(wanted_tre_99_m > 0.0 && wanted_tre_99_m <= 0.01)) {
     problems.push_back("check_points.wanted_tre_99_m must lie in (0, 0.01]");
@@ -195,19 +195,19 @@ CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRule
 
 void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points) {
   // Deviations within this many SDs may be chance and are never held against a touch.
-  constexpr double kMostSds = 4.0;
+  constexpr double kMaxSds = 4.0;
   constexpr double kTouch_m = 0.001;
   constexpr std::size_t kMany = 8;
-  constexpr double kMostWithin = 2.0;
+  constexpr double kMaxWithin = 2.0;
   const std::size_t before = joined.off_m.size() - points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double off_m = joined.off_m[before + i];
-    const double limit_m = std::max(kTouch_m, kMostSds * joined.off_sd_m[before + i]);
+    const double limit_m = std::max(kTouch_m, kMaxSds * joined.off_sd_m[before + i]);
     const bool fits = std::abs(off_m) <= limit_m;
     // Among many places, some lie beyond a fixed limit because of model error and the map's drift;
     // comparing each with the prediction from the others is the better test.
     if (fits && joined.off_m.size() >= kMany &&
-        std::abs(points[i].distance_m) <= kMostWithin * points[i].limit_m) {
+        std::abs(points[i].distance_m) <= kMaxWithin * points[i].limit_m) {
       points[i].limit_m = std::max(points[i].limit_m, std::abs(points[i].distance_m));
       points[i].within = true;
     }
@@ -226,7 +226,7 @@ CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRule
   const bool worth = next && next->tre_then_m <= (1.0 - rules.least_gain) * next->tre_m;
   if (verdict.passed && !r.accepted) {
     verdict.passed = false;
-    const bool more = points.size() < kMostCheckPoints;
+    const bool more = points.size() < kMaxCheckPoints;
     verdict.advice = {more ? CheckAdvice::Kind::kTouchMore : CheckAdvice::Kind::kUncertain, 1,
                       r.tre_99_m, PoseSearchRegistrationOptions{}.max_tre_99_m};
   } else if (verdict.passed && points.size() < rules.enough && worth &&

@@ -33,7 +33,7 @@ struct CheckPointRules {
 };
 
 /// More places than this add nothing.
-inline constexpr std::size_t kMostCheckPoints = 48;
+inline constexpr std::size_t kMaxCheckPoints = 48;
 
 /// A place of the bone, touched after the fit.
 struct CheckPoint {

@@ -10,7 +10,7 @@ namespace orthonav::nav {
 namespace {
 
 /// The remaining ones would not change the result visibly.
-constexpr std::size_t kMostHypotheses = 3;
+constexpr std::size_t kMaxHypotheses = 3;
 constexpr double kNear_m = 0.004;
 constexpr std::size_t kFewestPairs = 100;
 /// Number of points whose neighbours are searched; more would add nothing.
@@ -19,7 +19,7 @@ constexpr std::size_t kMostPoints = 1500;
 std::vector<FieldHypothesis> likeliest(std::vector<FieldHypothesis> all) {
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
-  all.resize(std::min(all.size(), kMostHypotheses));
+  all.resize(std::min(all.size(), kMaxHypotheses));
   return all;
 }
 

@@ -78,7 +78,7 @@ std::vector<CentredPose> poses_about(const CentredPose& pose) {
 }  // namespace
 
 OtherExplanations::OtherExplanations(const VertebraModel& model, const Cloud& cloud,
-                                     const CertainFit& best, double width_m,
+                                     const MarginalizedFit& best, double width_m,
                                      std::span<const Point<Vertebra>> targets,
                                      const PoseSearchRegistrationOptions& options,
                                      const Registration& r)

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "nav/registration/certain_fit.h"
+#include "nav/registration/marginalized_fit.h"
 
 namespace orthonav::nav {
 
@@ -16,7 +16,7 @@ namespace orthonav::nav {
 /// references.
 class OtherExplanations {
  public:
-  OtherExplanations(const VertebraModel& model, const Cloud& cloud, const CertainFit& best,
+  OtherExplanations(const VertebraModel& model, const Cloud& cloud, const MarginalizedFit& best,
                     double width_m, std::span<const Point<Vertebra>> targets,
                     const PoseSearchRegistrationOptions& options, const Registration& r);
 
@@ -56,7 +56,7 @@ class OtherExplanations {
 
   const VertebraModel& model_;
   const Cloud& cloud_;
-  const CertainFit& best_;
+  const MarginalizedFit& best_;
   double width_m_;
   std::span<const Point<Vertebra>> targets_;
   const PoseSearchRegistrationOptions& options_;

@@ -161,7 +161,7 @@ std::optional<NextPlace> place_to_press(const VertebraModel& model, const Regist
                                         const PressModel& press,
                                         const PoseSearchRegistrationOptions& options,
                                         double apart_m) {
-  constexpr std::size_t kMostTried = 250;
+  constexpr std::size_t kMaxTried = 250;
   constexpr double kOnBone_m = 0.003;
   const auto targets = targets_of(model, options);
   const auto world_from_vertebra = fit.moved(strokes.world_from_vertebra);
@@ -169,7 +169,7 @@ std::optional<NextPlace> place_to_press(const VertebraModel& model, const Regist
   NextPlace best;
   best.tre_m = worst_tre_m(fit.likeliest_covariance, fit.centre_m, targets);
   best.tre_then_m = std::numeric_limits<double>::infinity();
-  const std::size_t step = std::max<std::size_t>(1, stroked.size() / kMostTried);
+  const std::size_t step = std::max<std::size_t>(1, stroked.size() / kMaxTried);
   for (std::size_t i = 0; i < stroked.size(); i += step) {
     const auto nearest = model.reachable_surface().nearest((from_world * stroked[i]).v, kOnBone_m);
     if (!nearest) {

@@ -40,7 +40,7 @@ constexpr double kBothProbability = 0.125;
 /// Strokes' heights are tried with this many fields: those that explain most without them.
 constexpr std::size_t kFieldsBesideStrokes = 2;
 /// A field with more than this many times the variance of the heights is not tried.
-constexpr double kMostVariance = 4.0;
+constexpr double kMaxVariance = 4.0;
 /// Larger SDs are not tried once the evidence has fallen by this from its maximum.
 constexpr double kEvidenceLost = 8.0;
 constexpr double kLeastProbability = 0.003;
@@ -109,7 +109,7 @@ class Trial {
                         double FieldHypothesis::*sd) {
     double most = -std::numeric_limits<double>::infinity();
     for (const double sd_m : sds_m) {
-      if (sd_m * sd_m > kMostVariance * variance_m2() && sd_m > least_sd_m_) {
+      if (sd_m * sd_m > kMaxVariance * variance_m2() && sd_m > least_sd_m_) {
         return;
       }
       field.*sd = sd_m;
@@ -262,7 +262,7 @@ UnknownsSpread total_covariance(const std::vector<Tried>& tried, const UnknownsM
 std::optional<ResidualField> residual_field(const SurfaceFit& fit,
                                             std::span<const FieldHypothesis> among,
                                             double least_sd_m) {
-  return residual_field(fit, residual_units(fit, kMostUnits), among, least_sd_m);
+  return residual_field(fit, residual_units(fit, kMaxUnits), among, least_sd_m);
 }
 
 std::optional<ResidualField> residual_field(const SurfaceFit& fit, const ResidualUnits& units,

@@ -13,7 +13,7 @@
 namespace orthonav::nav {
 
 /// Number of units of a fit's points that is enough for its heights.
-inline constexpr std::size_t kMostUnits = 160;
+inline constexpr std::size_t kMaxUnits = 160;
 
 /// The estimate of pose, standoff and model size from the heights of a fit's points, with such a
 /// field marginalised.

@@ -5,10 +5,10 @@
 
 #include "base/reason.h"
 #include "base/translation.h"
-#include "nav/registration/certain_fit.h"
 #include "nav/registration/degeneracy.h"
 #include "nav/registration/errors_at_targets.h"
 #include "nav/registration/estimated_heights.h"
+#include "nav/registration/marginalized_fit.h"
 #include "nav/registration/other_explanations.h"
 #include "nav/registration/registration.h"
 #include "nav/registration/shaft_collision.h"
@@ -40,7 +40,7 @@ double inlier_fraction(const SurfaceFit& fit) {
   return static_cast<double>(inliers) / static_cast<double>(fit.points.size());
 }
 
-void estimate_errors(const VertebraModel& model, const CertainFit& fit,
+void estimate_errors(const VertebraModel& model, const MarginalizedFit& fit,
                      std::span<const Point<Vertebra>> targets, const CommonErrors& common,
                      Registration& r) {
   if (!fit.field) {
@@ -68,17 +68,17 @@ void drop_impossible(const VertebraModel& model, const Cloud& cloud,
 }
 
 /// Only for the final pose: the choice between poses does not need them.
-void estimate_heights(const CertainFit& certain, Registration& r) {
+void estimate_heights(const MarginalizedFit& certain, Registration& r) {
   if (!certain.field) {
     return;
   }
-  const ResidualUnits units = residual_units(certain.fit, kMostUnits);
+  const ResidualUnits units = residual_units(certain.fit, kMaxUnits);
   r.heights = estimated_heights(certain.fit, units, *certain.field);
   r.correlation_across_strokes = correlation_across_strokes(certain.fit, units);
 }
 
-Registration described(const VertebraModel& model, const Cloud& cloud, const CertainFit& certain,
-                       std::span<const Point<Vertebra>> targets,
+Registration described(const VertebraModel& model, const Cloud& cloud,
+                       const MarginalizedFit& certain, std::span<const Point<Vertebra>> targets,
                        const PoseSearchRegistrationOptions& options) {
   const SurfaceFit& fit = certain.fit;
   Registration r;
@@ -118,7 +118,7 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
   auto [found, width_m] = find_candidates(model, cloud, targets, options.tip_radius_m);
   drop_impossible(model, cloud, points_in_world, options, found);
   // A rival that explains all the points better replaces the best pose.
-  constexpr int kMostSwaps = 2;
+  constexpr int kMaxSwaps = 2;
   for (int swaps = 0;; ++swaps) {
     const auto certain =
         found.empty() ? std::nullopt : final_fit(model, cloud, found[0].fit, options);
@@ -132,7 +132,7 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
         shaft_collision_fraction(model, r.world_from_vertebra, points_in_world, options.shafts);
     const OtherExplanations others(model, cloud, *certain, width_m, targets, options, r);
     const std::size_t rival = others.compare_poses(found, r);
-    if (r.log_likelihood_ratio < 0.0 && swaps < kMostSwaps) {
+    if (r.log_likelihood_ratio < 0.0 && swaps < kMaxSwaps) {
       std::swap(found[0], found[rival]);
       continue;
     }

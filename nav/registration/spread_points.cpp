@@ -69,7 +69,7 @@ std::vector<Cell> cells_around(Vec3 middle, std::span<const Vec3> points_m, doub
 }
 
 /// Drops sparse cells: outliers are few but far apart, so each would get a cell of its own.
-void drop_lonely(std::vector<Cell>& cells) {
+void drop_isolated_cells(std::vector<Cell>& cells) {
   std::size_t all = 0;
   for (const Cell& cell : cells) {
     all += cell.count;
@@ -92,7 +92,7 @@ SpreadPoints::SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
   }
   const Vec3 middle = middle_of(points_m);
   std::vector<Cell> cells = cells_around(middle, points_m, reach_m);
-  drop_lonely(cells);
+  drop_isolated_cells(cells);
   Vec3 mean;
   for (const Cell& cell : cells) {
     mean += cell.point / static_cast<double>(cells.size());

@@ -12,17 +12,17 @@ constexpr double kUneven_m = 0.0003;
 /// the first height on average, and at the second one and higher.
 constexpr double kLow_m = 0.0015;
 constexpr double kHigh_m = 0.0025;
-constexpr double kMostScatterHigh_m = 0.0010;
+constexpr double kMaxScatterHigh_m = 0.0010;
 /// A size counts as off from this many SDs.
 constexpr double kCertainSds = 1.8;
 /// Root mean square error at the screws above which a pose is not good enough for pressed places.
-constexpr double kMostProvisional_m = 0.004;
+constexpr double kMaxProvisional_m = 0.004;
 
 /// The most that the points may scatter with a tip that is so high above the bone on average. Soft
 /// tissue so thick is uneven: such scatter is tissue, even if it looks like an unsteady hand.
 double most_scatter_m(double standoff_m, double most_low_m) {
   const double high = std::clamp((standoff_m - kLow_m) / (kHigh_m - kLow_m), 0.0, 1.0);
-  return std::lerp(most_low_m, std::min(most_low_m, kMostScatterHigh_m), high);
+  return std::lerp(most_low_m, std::min(most_low_m, kMaxScatterHigh_m), high);
 }
 
 /// What calls soft tissue by name, where something does; `refused` for other reasons already.
@@ -117,7 +117,7 @@ bool is_provisional(const Registration& r) {
            reason.kind == Kind::kSoftTissue;
   };
   return !r.reasons.empty() && std::all_of(r.reasons.begin(), r.reasons.end(), about_error) &&
-         r.uncertainty && r.predicted_tre_m <= kMostProvisional_m;
+         r.uncertainty && r.predicted_tre_m <= kMaxProvisional_m;
 }
 
 }  // namespace orthonav::nav

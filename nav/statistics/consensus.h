@@ -70,9 +70,9 @@ struct Consensus {
 
   /// Repeats the fit to its inliers until they no longer change; the limit follows their scatter.
   [[nodiscard]] Indices settle(Fit& found) const {
-    constexpr int kMostRefits = 20;
+    constexpr int kMaxRefits = 20;
     Indices inliers;
-    for (int round = 0; round < kMostRefits; ++round) {
+    for (int round = 0; round < kMaxRefits; ++round) {
       Indices now = within(found, limit_of_scatter(found));
       const bool same = now == inliers;
       inliers = std::move(now);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kDifference = 1e-6;
 constexpr double kFirstDamping = 1e-3;
-constexpr double kMostDamping = 1e10;
+constexpr double kMaxDamping = 1e10;
 /// Steps that gain less than this fraction of the sum count as rounding.
 constexpr double kLeastGain = 1e-10;
 /// Added to the normal matrix's diagonal, so that undetermined parameters have a finite step.
@@ -57,7 +57,7 @@ bool step_down(const NormalEquations& equations, const ResidualsOf& of, double& 
   const auto count = static_cast<Eigen::Index>(fit.parameters.size());
   std::vector<double> tried(fit.parameters.size());
   std::vector<double> residuals;
-  for (; damping < kMostDamping; damping *= 10.0) {
+  for (; damping < kMaxDamping; damping *= 10.0) {
     Eigen::MatrixXd damped = equations.matrix;
     damped.diagonal() += damping * equations.matrix.diagonal();
     damped.diagonal().array() += kLeastCurvature;

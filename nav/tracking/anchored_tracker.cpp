@@ -28,7 +28,7 @@ class AnchoredTracker final : public ToolTracker {
         limits_(limits),
         references_(std::move(references)),
         filters_(tracker_->tools().size()) {
-    tell_places();
+    publish_reference_poses();
   }
 
   std::span<const ToolState> track(const StereoFrame& frame) override {
@@ -89,7 +89,7 @@ class AnchoredTracker final : public ToolTracker {
     for (Reference& reference : references_) {
       if (seen[reference.tool].pair) {
         reference.anchored_from_marker = seen[reference.tool].world_from_marker.value;
-        tell_places();
+        publish_reference_poses();
         return &reference;
       }
     }
@@ -133,7 +133,7 @@ class AnchoredTracker final : public ToolTracker {
     reference.learning.update(here, exposure_s);
     if (++reference.pairs_learnt >= limits_.learnt_from_pairs) {
       reference.anchored_from_marker = reference.learning.state().value;
-      tell_places();
+      publish_reference_poses();
     }
   }
 
@@ -144,10 +144,10 @@ class AnchoredTracker final : public ToolTracker {
         reference = Reference{reference.tool, std::nullopt, PoseFilter(), 0, 0};
       }
     }
-    tell_places();
+    publish_reference_poses();
   }
 
-  void tell_places() {
+  void publish_reference_poses() {
     anchor_.places.clear();
     for (const Reference& reference : references_) {
       if (reference.anchored_from_marker) {

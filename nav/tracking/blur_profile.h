@@ -29,10 +29,10 @@ struct Beyond {
   float fraction;
   float slope;
   float by_blur;
-  float by_tails;
+  float by_kurtosis;
   float gaussian;
 };
-inline Beyond beyond(float f, float inverse_sd, float tails) {
+inline Beyond beyond(float f, float inverse_sd, float excess_kurtosis) {
   const float t = std::min(f * inverse_sd, kReachSd);
   const float reached = t < kReachSd ? 1.0F : 0.0F;
   const float s = t * t;
@@ -42,10 +42,11 @@ inline Beyond beyond(float f, float inverse_sd, float tails) {
   const float tail =
       u * (0.254829592F +
            u * (-0.284496736F + u * (1.421413741F + u * (-1.453152027F + u * 1.061405429F))));
-  const float by_tails = (1.0F / 24.0F) * gaussian * t * (s - 3.0F);
-  const float density = gaussian * (1.0F + tails * (1.0F / 24.0F) * (3.0F + s * (s - 6.0F)));
-  return {0.5F * tail * e + tails * by_tails, density * inverse_sd, density * t, by_tails,
-          gaussian};
+  const float by_kurtosis = (1.0F / 24.0F) * gaussian * t * (s - 3.0F);
+  const float density =
+      gaussian * (1.0F + excess_kurtosis * (1.0F / 24.0F) * (3.0F + s * (s - 6.0F)));
+  return {0.5F * tail * e + excess_kurtosis * by_kurtosis, density * inverse_sd, density * t,
+          by_kurtosis, gaussian};
 }
 
 }  // namespace orthonav::nav

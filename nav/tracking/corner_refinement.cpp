@@ -17,7 +17,7 @@ constexpr double kReach_px = 1.25;
 
 // About one ray per pixel of an edge, within these limits.
 constexpr int kFewestRays = 8;
-constexpr int kMostRays = 200;
+constexpr int kMaxRays = 200;
 // A shorter edge has no middle part that its corners leave undisturbed.
 constexpr double kShortestEdgePx = 6.0;
 constexpr double kStepPx = 0.25;
@@ -133,7 +133,7 @@ Line edge(const GreyImage& image, Vec2 a, Vec2 b, double reach_px) {
   const Vec2 normal{-along.y, along.x};
   const Vec2 rising = sense_of(image, a, b, normal) * normal;
   const double end_px = std::max(kEndPx, kEndFraction * length_px);
-  const int rays = std::clamp(static_cast<int>(length_px), kFewestRays, kMostRays);
+  const int rays = std::clamp(static_cast<int>(length_px), kFewestRays, kMaxRays);
   std::vector<Crossing> seen;
   for (int i = 0; i < rays; ++i) {
     const double at_px = end_px + (length_px - 2 * end_px) * (i + 0.5) / rays;

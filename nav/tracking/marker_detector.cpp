@@ -29,7 +29,7 @@ constexpr std::array<int, 2> kThinningWindowsPx = {3, 2};
 constexpr int kRefinementsOfThinned = 3;
 // With two corrected bits the look-up table grows with the square of the code's length: with more
 // codes than this it would take gigabytes.
-constexpr std::uint32_t kMostCodesWithTwoBits = 10000;
+constexpr std::uint32_t kMaxCodesWithTwoBits = 10000;
 
 // The library asserts on more.
 constexpr int kLargestPx = 32767;
@@ -170,7 +170,7 @@ struct MarkerDetector::Library {
     if (!family) {
       return Error{"tag family '" + name + "' could not be made"};
     }
-    if (max_hamming > 1 && family->ncodes > kMostCodesWithTwoBits) {
+    if (max_hamming > 1 && family->ncodes > kMaxCodesWithTwoBits) {
       return Error{"tag family '" + name + "' has " + std::to_string(family->ncodes) +
                    " codes; with so many max_hamming must be at most 1"};
     }

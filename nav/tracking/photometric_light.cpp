@@ -33,8 +33,8 @@ LightPrior light_prior(const Photometry& light) {
   about_zero(3, light.slope[1], 0.3);
   step(4, 0.5);
   step(5, 0.5);
-  about_zero(6, light.tails[0], 1.0);
-  about_zero(7, light.tails[1], 1.0);
+  about_zero(6, light.excess_kurtosis[0], 1.0);
+  about_zero(7, light.excess_kurtosis[1], 1.0);
   about_zero(8, light.skew, 0.3);
   for (std::size_t i = 0; i < light.response.size(); ++i) {
     about_zero(9 + i, light.response[i], 0.5);
@@ -50,7 +50,8 @@ void apply(const LightStep& step, double px_a_cell, Photometry& light) {
     light.blur_cells[i] =
         std::clamp(light.blur_cells[i] * std::exp(bounded(step[4 + i], kLargestLightStep)),
                    kBlurFloorPx / px_a_cell, kBlurCeilingCells);
-    light.tails[i] = std::clamp(light.tails[i] + bounded(step[6 + i], 1.0), -1.2, 3.0);
+    light.excess_kurtosis[i] =
+        std::clamp(light.excess_kurtosis[i] + bounded(step[6 + i], 1.0), -1.2, 3.0);
   }
   light.skew = std::clamp(light.skew + bounded(step[8], 0.5), -0.8, 0.8);
   // Stays well away from where the response would no longer rise everywhere.
@@ -61,8 +62,9 @@ void apply(const LightStep& step, double px_a_cell, Photometry& light) {
 
 void learn_noise(const ViewEquations& e, double fraction, Photometry& light) {
   // Inverses are averaged, since an occasional pair has a large value.
-  if (e.scatter > 0.0) {
-    light.scatter = 1.0 / ((1.0 - fraction) / light.scatter + fraction / e.scatter);
+  if (e.sandwich_factor > 0.0) {
+    light.sandwich_factor =
+        1.0 / ((1.0 - fraction) / light.sandwich_factor + fraction / e.sandwich_factor);
   }
   if (e.edge_fractions > 0.0) {
     light.edge_variance = (1.0 - fraction) * light.edge_variance +

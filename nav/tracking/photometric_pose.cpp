@@ -134,7 +134,7 @@ bool PhotometricSolver::gather(const StereoFrame& frame, const Transform<Rig, Ma
   model_.linearize(view.right ? frame.right : frame.left, camera_of(view),
                    view.right ? *right_rays_ : *left_rays_, tag, camera_from_tag(view, pose),
                    view.light, doubt_m / tag.cell_m(), view.cell_weights, e);
-  e.scatter = scatter(e, view.light, model_.scores());
+  e.sandwich_factor = sandwich_factor(e, view.light, model_.scores());
   view.kept_fraction = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
   return e.pixels >= kFewestPixels && view.kept_fraction >= kMinKeptFraction &&
          view.light.contrast >= kMinContrast_grey;

@@ -83,7 +83,7 @@ struct Eliminated {
 
 ReducedView reduced(const ViewEquations& equations, const Photometry& known) {
   const Eliminated e(equations, known);
-  const double trust = 1.0 / std::max(known.scatter, 1.0);
+  const double trust = 1.0 / std::max(known.sandwich_factor, 1.0);
   ReducedView view;
   Eigen::Map<Matrix6>(view.normal.data()) = trust * e.normal;
   Eigen::Map<Vector6>(view.right.data()) =
@@ -101,8 +101,8 @@ LightStep light_step(const ViewEquations& equations, const Photometry& known,
   return step;
 }
 
-double scatter(const ViewEquations& equations, const Photometry& known,
-               std::span<const float> scores) {
+double sandwich_factor(const ViewEquations& equations, const Photometry& known,
+                       std::span<const float> scores) {
   const Eliminated e(equations, known);
   const Eigen::LLT<Matrix6> pose(e.normal);
   if (pose.info() != Eigen::Success) {

@@ -22,7 +22,7 @@ struct ReducedView {
 /// How much more strongly the pieces of the tag's edges pull at the pose than noise alone would: 1
 /// if the model is right. `scores` are the pulls, as in `ViewModel::scores`. (White's sandwich,
 /// Econometrica 48, 1980, with a piece of an edge as a cluster, reduced to one number.)
-[[nodiscard]] double scatter(const ViewEquations& equations, const Photometry& light,
-                             std::span<const float> scores);
+[[nodiscard]] double sandwich_factor(const ViewEquations& equations, const Photometry& light,
+                                     std::span<const float> scores);
 
 }  // namespace orthonav::nav

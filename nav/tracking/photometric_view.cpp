@@ -17,7 +17,7 @@ constexpr double kRoughPx = 24.0;
 
 /// Along one axis: the cell, and for its low and its high edge the fraction of the blur's footprint
 /// beyond it, the derivatives of that fraction by position, by the logarithm of the blur and by its
-/// tails, and the density at the edge.
+/// excess_kurtosis, and the density at the edge.
 enum AxisColumn {
   kCell,
   kLow,
@@ -43,8 +43,8 @@ enum RowColumn {
 };
 /// Fills the columns of one axis.
 ORTHONAV_WIDE void along(const float* __restrict place, const float* __restrict scale, int n,
-                         float half, float inverse_blur, float tails, float* __restrict out,
-                         std::ptrdiff_t stride) {
+                         float half, float inverse_blur, float excess_kurtosis,
+                         float* __restrict out, std::ptrdiff_t stride) {
   float* __restrict column[kAxisColumns];
   for (int c = 0; c < kAxisColumns; ++c) {
     column[c] = out + c * stride;
@@ -56,8 +56,8 @@ ORTHONAV_WIDE void along(const float* __restrict place, const float* __restrict 
     const float cell = static_cast<float>(static_cast<int>(c));
     const float f = c - cell;
     const float inverse = inverse_blur * scale[i];
-    const Beyond low = beyond(f, inverse, tails);
-    const Beyond high = beyond(1.0F - f, inverse, tails);
+    const Beyond low = beyond(f, inverse, excess_kurtosis);
+    const Beyond high = beyond(1.0F - f, inverse, excess_kurtosis);
     column[kCell][i] = cell;
     column[kLow][i] = low.fraction;
     column[kHigh][i] = high.fraction;
@@ -65,8 +65,8 @@ ORTHONAV_WIDE void along(const float* __restrict place, const float* __restrict 
     column[kHighSlope][i] = high.slope;
     column[kLowBlur][i] = low.by_blur;
     column[kHighBlur][i] = high.by_blur;
-    column[kLowTails][i] = low.by_tails;
-    column[kHighTails][i] = high.by_tails;
+    column[kLowTails][i] = low.by_kurtosis;
+    column[kHighTails][i] = high.by_kurtosis;
     column[kLowDensity][i] = low.gaussian;
     column[kHighDensity][i] = high.gaussian;
   }
@@ -202,10 +202,10 @@ ORTHONAV_WIDE ViewModel::OnTag ViewModel::spread(const RayTable& rays, int y,
     --on.to;
   }
   along(across + on.from, scale + on.from, on.to - on.from, half_,
-        static_cast<float>(1.0 / light.blur_cells[0]), static_cast<float>(light.tails[0]),
+        static_cast<float>(1.0 / light.blur_cells[0]), static_cast<float>(light.excess_kurtosis[0]),
         row_.data() + kAcross * stride + on.from, stride);
   along(down + on.from, scale + on.from, on.to - on.from, half_,
-        static_cast<float>(1.0 / light.blur_cells[1]), static_cast<float>(light.tails[1]),
+        static_cast<float>(1.0 / light.blur_cells[1]), static_cast<float>(light.excess_kurtosis[1]),
         row_.data() + kDown * stride + on.from, stride);
   return on;
 }

@@ -31,7 +31,7 @@ struct Photometry {
   std::array<double, 2> blur_cells{0.15, 0.15};
   /// Excess kurtosis of the blur's profile along columns and along rows: 0 for a Gaussian, larger
   /// if the lens scatters light, smaller along a motion.
-  std::array<double, 2> tails{};
+  std::array<double, 2> excess_kurtosis{};
   /// Correlation of the blur between columns and rows, from an oblique view of the tag or from
   /// motion.
   double skew = 0.0;
@@ -45,14 +45,14 @@ struct Photometry {
   /// there the model's error exceeds the noise.
   double edge_variance = 0.0;
   /// How much more strongly the edges pull at the pose than noise alone would (`scatter`).
-  double scatter = 1.0;
+  double sandwich_factor = 1.0;
   bool known = false;  ///< from an earlier fit
 };
 
 /// Columns of the linear model of a view. The pose is perturbed in the frame of the tag: shift
 /// (in cells) and rotation vector.
 inline constexpr std::size_t kPoseColumns = 6;
-/// Black, contrast, slopes, logarithms of blur, tails, skew, response.
+/// Black, contrast, slopes, logarithms of blur, excess_kurtosis, skew, response.
 inline constexpr std::size_t kLightColumns = 12;
 inline constexpr std::size_t kColumns = kPoseColumns + kLightColumns;
 
@@ -64,10 +64,10 @@ inline constexpr double kRobustVariance = 0.829;
 struct ViewEquations {
   /// Upper triangle by rows of JᵀWJ over the columns and the residual as the last column.
   std::array<double, (kColumns + 1) * (kColumns + 2) / 2> sums{};
-  double pixels = 0.0;   ///< that were compared
-  double kept = 0.0;     ///< of these, by robust weight
-  double scatter = 1.0;  ///< how much more strongly the edges pull at the pose than noise alone
-                         ///< would
+  double pixels = 0.0;           ///< that were compared
+  double kept = 0.0;             ///< of these, by robust weight
+  double sandwich_factor = 1.0;  ///< how much more strongly the edges pull at the pose than noise
+                                 ///< alone would
   /// Robustly weighted least squares of the squared residuals on the black and white fractions of
   /// the pixels, away from edges: noise grows linearly from black to white.
   std::array<double, 2> squares{};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kFarthest_m = 1e5f;  // beyond it, floats resolve centimetres only
 constexpr float kWidest_m = 10.0f;
-constexpr float kMostDashes = 20000.0f;
+constexpr float kMaxDashes = 20000.0f;
 constexpr float kColourSlack = 1e-3f;  // of a fade computed in floats
 constexpr float kRigidSlack = 1e-3f;
 constexpr float kUnitSlack = 1e-2f;  // of normals stored in few digits
@@ -104,7 +104,7 @@ Status check_item(const LineItem& item) {
   if (!is_between(item.dash_m, 0, kWidest_m)) {
     return Error{"has dashes outside 0 to 10 m"};
   }
-  if (item.dash_m > 0 && run_m / item.dash_m > kMostDashes) {
+  if (item.dash_m > 0 && run_m / item.dash_m > kMaxDashes) {
     return Error{"has more than 20000 dashes"};
   }
   if (!is_colour(item.colour)) {

@@ -35,7 +35,7 @@ class EyePairRenderer final : public Renderer {
   Status remembered(Status drawn);
 
   RendererOptions options_;
-  std::array<std::unique_ptr<VulkanRenderer>, kMostViews> eyes_;  ///< right: with its first frame
+  std::array<std::unique_ptr<VulkanRenderer>, kMaxViews> eyes_;  ///< right: with its first frame
   FrameTiming timing_;
   bool lost_ = false;
 };

@@ -35,7 +35,7 @@ inline constexpr std::uint32_t kLineIndexBytes = 4 * (kIndicesPerSegment + 2 * k
   return static_cast<std::uint32_t>(indices.size() / kLineIndexBytes);
 }
 
-inline constexpr std::uint32_t kMostViews = 2;
+inline constexpr std::uint32_t kMaxViews = 2;
 
 /// Edges of meshes in one view: where they begin in the data, and how many there are.
 struct EdgeRange {
@@ -43,7 +43,7 @@ struct EdgeRange {
   std::uint32_t count = 0;
 };
 /// By view of a pass.
-using EdgeRanges = std::array<EdgeRange, kMostViews>;
+using EdgeRanges = std::array<EdgeRange, kMaxViews>;
 
 /// What the commands of one frame are made from; nothing here is owned.
 struct FrameSources {

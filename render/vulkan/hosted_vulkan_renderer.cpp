@@ -90,16 +90,16 @@ void HostedVulkanRenderer::upload_blank_background() {
   ImageSpec spec;
   spec.format = kColourFormat;
   spec.width = spec.height = 1;
-  spec.layers = kMostViews;
+  spec.layers = kMaxViews;
   spec.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   background_ = DeviceImage(device_, spec);
-  const Buffer black(device_, 4 * kMostViews, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+  const Buffer black(device_, 4 * kMaxViews, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                      BufferPlace::kUpload);
-  const std::array<std::byte, 4 * kMostViews> zeros = {};
+  const std::array<std::byte, 4 * kMaxViews> zeros = {};
   black.write(zeros.data(), zeros.size());
   const PixelRect all{0, 0, 1, 1};
   Commands& commands = drawing_.slot().commands;
-  fill_image(commands.begin(), {black, background_, {1, 1}, 4, kMostViews, kMostViews}, {&all, 1});
+  fill_image(commands.begin(), {black, background_, {1, 1}, 4, kMaxViews, kMaxViews}, {&all, 1});
   commands.run();
   drawing_.bind_background(background_);
   drawing_.bind_drawn(background_);
@@ -144,7 +144,7 @@ void HostedVulkanRenderer::make_passes() {
     copied.format = spec.colour;
     copied.width = spec.width;
     copied.height = spec.height;
-    copied.layers = kMostViews;
+    copied.layers = kMaxViews;
     copied.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     drawn_so_far_ = DeviceImage(device_, copied);
     drawing_.bind_drawn(drawn_so_far_);
@@ -216,7 +216,7 @@ Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& v
     if (const Status checked = check_views(views); !checked) {
       return checked;
     }
-    if (!pass_ || views.size() != kMostViews || !holds(images_, indices)) {
+    if (!pass_ || views.size() != kMaxViews || !holds(images_, indices)) {
       return Error{"renderer: swapchain image index out of range"};
     }
     drawing_.build(scene, views, {images_.width_px, images_.height_px}, PassKind::kColour,

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 // More lines tell nothing new, and a frame loop would fill the memory.
-constexpr std::size_t kMostMessages = 200;
+constexpr std::size_t kMaxMessages = 200;
 
 // Advice that does not apply here; everything else that the layer reports is passed on.
 constexpr std::array<std::string_view, 4> kUseless = {
@@ -42,7 +42,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL listen(VkDebugUtilsMessageSeverityFlagBitsEXT,
   auto& lines = *static_cast<std::vector<std::string>*>(messages);
   std::string line = data->pMessage != nullptr ? data->pMessage : "";
   std::replace(line.begin(), line.end(), '\n', ' ');
-  if (lines.size() < kMostMessages) {
+  if (lines.size() < kMaxMessages) {
     lines.push_back(std::move(line));
   }
   return VK_FALSE;

@@ -9,7 +9,7 @@
 namespace orthonav::render {
 namespace {
 
-constexpr int kMostIdleFrames = 300;       // five seconds of a headset's frames
+constexpr int kMaxIdleFrames = 300;        // five seconds of a headset's frames
 constexpr std::size_t kFewTriangles = 64;  // fewer cost next to nothing
 constexpr double kWorthwhile = 0.85;       // of the triangles of the level before
 
@@ -148,7 +148,7 @@ void MeshCache::end_frame() {
   }
   std::erase_if(entries_, [this](const Entry& entry) {
     const bool drawing = entry.idle_frames <= frames_in_flight_;
-    return !drawing && (entry.mesh.expired() || entry.idle_frames > kMostIdleFrames);
+    return !drawing && (entry.mesh.expired() || entry.idle_frames > kMaxIdleFrames);
   });
 }
 

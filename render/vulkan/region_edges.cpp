@@ -88,12 +88,12 @@ void RegionRecording::edges() const {
 }
 
 void RegionRecording::copy_drawn() const {
-  change_layout(commands_, {sources_.drawn, kMostViews, VK_IMAGE_LAYOUT_UNDEFINED,
+  change_layout(commands_, {sources_.drawn, kMaxViews, VK_IMAGE_LAYOUT_UNDEFINED,
                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL});
   for (const PixelRect& region : sources_.items.regions()) {
     copy_drawn(edges_within(overlap(region, region_)));
   }
-  change_layout(commands_, {sources_.drawn, kMostViews, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+  change_layout(commands_, {sources_.drawn, kMaxViews, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }
 

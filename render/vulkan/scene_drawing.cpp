@@ -78,7 +78,7 @@ float nearest_m(const MeshItem& item, const Box& box, const std::vector<View>& v
 FrameSlot::FrameSlot(const Device& device)
     : commands(device),
       bindings(device),
-      frames(device, kMostViews * kFrameStride, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+      frames(device, kMaxViews * kFrameStride, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
              BufferPlace::kUpload) {}
 
 SceneDrawing::SceneDrawing(const RendererOptions& options, const Device& device,
@@ -179,8 +179,8 @@ Status SceneDrawing::add_mesh(const MeshItem& item, const std::string& name) {
 
 /// More notes tell nothing new, and a frame loop would fill the memory.
 void SceneDrawing::note(std::string line) {
-  constexpr std::size_t kMostNotes = 200;
-  if (notes_.size() < kMostNotes) {
+  constexpr std::size_t kMaxNotes = 200;
+  if (notes_.size() < kMaxNotes) {
     notes_.push_back(std::move(line));
   }
 }

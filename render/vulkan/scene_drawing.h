@@ -32,7 +32,7 @@ struct FrameSlot {
 /// Which of a frame's views are drawn.
 struct DrawnViews {
   std::size_t first = 0;
-  std::size_t count = kMostViews;
+  std::size_t count = kMaxViews;
 };
 
 /// The common part of drawing into own images and into a host's: a scene is checked, its meshes are
@@ -84,7 +84,7 @@ class SceneDrawing {
              DrawnViews drawn, HeadTexts head_texts = HeadTexts::kDrawn);
   /// The edges of the pass whose first view is `first`.
   [[nodiscard]] EdgeRanges edges(std::size_t first) const {
-    return {edges_of_view_[first], edges_of_view_[(first + 1) % kMostViews]};
+    return {edges_of_view_[first], edges_of_view_[(first + 1) % kMaxViews]};
   }
   /// For the pass whose first view is `first`: places its items and passes its views to the
   /// shaders.

@@ -35,7 +35,7 @@ VulkanRenderer::VulkanRenderer(const RendererOptions& options)
       info_(describe(physical_)),
       device_(physical_),
       drawing_(options, device_, physical_, 1) {
-  const std::size_t both = kMostViews * image_bytes();
+  const std::size_t both = kMaxViews * image_bytes();
   background_staging_ =
       Buffer(device_, both, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::kUpload);
   readback_ = Buffer(device_, both, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::kReadback);
@@ -58,16 +58,15 @@ void VulkanRenderer::upload_blank_background() {
   spec.format = kColourFormat;
   spec.width = static_cast<std::uint32_t>(options_.width_px);
   spec.height = static_cast<std::uint32_t>(options_.height_px);
-  spec.layers = kMostViews;
+  spec.layers = kMaxViews;
   spec.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   background_ = DeviceImage(device_, spec);
   std::memset(background_staging_.mapped(), 0, background_staging_.size());
   const PixelRect all{0, 0, options_.width_px, options_.height_px};
   Commands& commands = drawing_.slot().commands;
-  fill_image(
-      commands.begin(),
-      {background_staging_, background_, {spec.width, spec.height}, 4, kMostViews, kMostViews},
-      {&all, 1});
+  fill_image(commands.begin(),
+             {background_staging_, background_, {spec.width, spec.height}, 4, kMaxViews, kMaxViews},
+             {&all, 1});
   commands.run();
   drawing_.bind_background(background_);
   if (drawing_.covers()) {

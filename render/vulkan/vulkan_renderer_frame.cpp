@@ -23,7 +23,7 @@ void VulkanRenderer::upload_backgrounds(VkCommandBuffer batch,
                              static_cast<std::uint32_t>(options_.height_px)};
   fill_image(batch,
              {background_staging_, background_, extent, 4,
-              static_cast<std::uint32_t>(backgrounds.size()), kMostViews, first * image_bytes()},
+              static_cast<std::uint32_t>(backgrounds.size()), kMaxViews, first * image_bytes()},
              drawing_.items().regions());
 }
 

@@ -75,11 +75,11 @@ struct Program {
     if (found) {
       EXPECT_TRUE(is_ok(check_same(found->operation.identity, identity, found->path)));
       LoggedOperation logged = found->operation;
-      logged.go_on();
+      logged.reopen();
       if (Status resumed = live.resume(logged); !resumed) {
         return resumed;
       }
-      log = OperationLog::go_on(env, *std::exchange(found, std::nullopt), waits);
+      log = OperationLog::reopen(env, *std::exchange(found, std::nullopt), waits);
     } else {
       log = OperationLog::begin(env, folder, identity, live.session().levels(), waits,
                                 RecordLog::Earlier::kKept)

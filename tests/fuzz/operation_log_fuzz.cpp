@@ -22,7 +22,7 @@ void insist_on_operation(const std::vector<engine::Record>& records) {
   });
   insist(says_nan || engine::session_page(*operation, "log").find("nan") == std::string::npos);
   insist(!engine::session_json(*operation).empty());
-  operation->go_on();
+  operation->reopen();
   for (const engine::LevelState& level : operation->state.levels) {
     insist(!level.accepted || level.registration.has_value());
   }

@@ -31,8 +31,8 @@ namespace orthonav::engine {
 namespace {
 
 // What a surgeon with a drill in the hand reads at a glance (docs/holograms.md).
-constexpr int kMostNumbers = 4;
-constexpr int kMostWords = 8;
+constexpr int kMaxNumbers = 4;
+constexpr int kMaxWords = 8;
 /// To the edge of a view.
 constexpr float kDigit = 0.006f;
 
@@ -84,8 +84,8 @@ std::string count_row(const std::string& step) {
 
 void expect_quiet(const render::Scene& scene, const std::string& name) {
   const Reading reading = to_read(scene);
-  EXPECT_LE(reading.numbers, kMostNumbers) << name;
-  EXPECT_LE(reading.words, kMostWords) << name;
+  EXPECT_LE(reading.numbers, kMaxNumbers) << name;
+  EXPECT_LE(reading.words, kMaxWords) << name;
 }
 
 TEST(QuietView, HasFourNumbersAndEightWordsAtMostInEveryStepWithinLimits) {
@@ -96,8 +96,8 @@ TEST(QuietView, HasFourNumbersAndEightWordsAtMostInEveryStepWithinLimits) {
   }
   for (const char* name : {"guide_numbers", "h10_rod_moved"}) {
     const Reading all = to_read(scene_named(name).scene);
-    EXPECT_GT(all.numbers, kMostNumbers) << "the control: every number, on request";
-    EXPECT_GT(all.words, kMostWords);
+    EXPECT_GT(all.numbers, kMaxNumbers) << "the control: every number, on request";
+    EXPECT_GT(all.words, kMaxWords);
   }
 }
 
@@ -245,9 +245,9 @@ TEST(QuietView, ShowsOneVerdictOfWhateverIsWorstInEveryGuidingStep) {
                 << angle_deg << "°, " << beside_m << " m, depth " << depth_m << " m, SD " << sd_m
                 << " m, clearance " << clearance.least_tenths;
             const Reading reading = to_read(scene);
-            EXPECT_LE(reading.numbers, kMostNumbers);
+            EXPECT_LE(reading.numbers, kMaxNumbers);
             if (worst == Grade::kGood) {
-              EXPECT_LE(reading.words, kMostWords);
+              EXPECT_LE(reading.words, kMaxWords);
             }
             ++count[worst];
           }

@@ -12,7 +12,7 @@ int between(Random& random, int low, int high) {
   return static_cast<int>(random.uniform(low, high + 1));
 }
 
-bool hangs_on_tool(const ShownHologram& hologram) {
+bool depends_on_tool(const ShownHologram& hologram) {
   return hologram.kind == HologramKind::kTriangle ||
          (hologram.kind == HologramKind::kAngle && hologram.reading.has_value());
 }
@@ -100,7 +100,7 @@ Status FlakyHeadset::Speech::do_poll(Timestamp until, std::vector<Phrase>& phras
 /// The wearer sees the holograms in the room's map, which did not jump.
 Status FlakyHeadset::Glasses::do_shown(const ShownFrame& frame) {
   ++frames;
-  const bool guides = std::any_of(frame.holograms.begin(), frame.holograms.end(), hangs_on_tool);
+  const bool guides = std::any_of(frame.holograms.begin(), frame.holograms.end(), depends_on_tool);
   stale += guides && frame.display_time - frame.pose_time > kStaleAfter ? 1 : 0;
   back_ = frame;
   const auto world_from_jumped = weather_.jumped_from_world.inverse();

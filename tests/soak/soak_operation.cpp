@@ -20,7 +20,7 @@ using engine::RecordWriter;
 
 /// Limit for one attempt: a simulated surgeon who makes no progress would continue for ever.
 constexpr Duration kLongest = std::chrono::minutes(45);
-constexpr int kMostResumes = 4;
+constexpr int kMaxResumes = 4;
 
 /// Draws nothing: the drawing thread takes its snapshots all the same.
 class Nobody : public engine::SnapshotSink {
@@ -150,11 +150,11 @@ class Attempt {
       log_ = std::move(*begun);
     } else {
       engine::LoggedOperation logged = earlier_->operation;
-      logged.go_on();
+      logged.reopen();
       if (const Status restored = live.resume(logged); !restored) {
         return restored;
       }
-      log_ = OperationLog::go_on(env_, *std::exchange(earlier_, std::nullopt), waits);
+      log_ = OperationLog::reopen(env_, *std::exchange(earlier_, std::nullopt), waits);
     }
     live.observe(&told_);
     live.observe(log_.get());
@@ -244,7 +244,7 @@ SoakRow soak_operation(const engine::Case& source, const engine::Operation& plan
     const std::int64_t losses = device_losses(row.troubles);
     row.completed = Attempt(source, planned, row, folder).run();
     const bool lost_device = device_losses(row.troubles) > losses;
-    if (row.completed || !lost_device || !row.trouble.empty() || row.resumed >= kMostResumes) {
+    if (row.completed || !lost_device || !row.trouble.empty() || row.resumed >= kMaxResumes) {
       return row;
     }
     ++row.resumed;

@@ -10,9 +10,9 @@ namespace orthonav::soak {
 namespace {
 
 /// Of memory, per operation: in eight hours of operations less than 10 MiB.
-constexpr double kMostGrowth_kib = 64.0;
+constexpr double kMaxGrowth_kib = 64.0;
 /// Several times what was measured.
-constexpr std::int64_t kMostResident_kib = std::int64_t{1} << 20;
+constexpr std::int64_t kMaxResident_kib = std::int64_t{1} << 20;
 
 void add(Counts& to, const Counts& counts) {
   for (std::size_t kind = 0; kind < to.size(); ++kind) {
@@ -83,7 +83,7 @@ bool SoakTotals::verdict() const {
   const double most =
       resident_kib_.empty() ? 0.0 : *std::max_element(resident_kib_.begin(), resident_kib_.end());
   const bool enough = operations() >= 2 * kWarmUp;
-  const bool good = growth() <= kMostGrowth_kib && most <= kMostResident_kib && stale_ == 0 &&
+  const bool good = growth() <= kMaxGrowth_kib && most <= kMaxResident_kib && stale_ == 0 &&
                     nothing_lost() && problems_.empty() && enough;
   for (const std::string& problem : problems_) {
     std::printf("soak: %s\n", problem.c_str());
@@ -96,7 +96,7 @@ bool SoakTotals::verdict() const {
       operations(), static_cast<long long>(completed_), static_cast<long long>(with_reference_),
       simulated_s_ / 3600.0, static_cast<long long>(troubles_), static_cast<long long>(full_disks_),
       static_cast<long long>(resumed_), most / 1024.0,
-      static_cast<long long>(kMostResident_kib / 1024), growth(), kWarmUp, kMostGrowth_kib,
+      static_cast<long long>(kMaxResident_kib / 1024), growth(), kWarmUp, kMaxGrowth_kib,
       enough ? "" : ", too few to tell", static_cast<long long>(frames_),
       static_cast<long long>(stale_), good ? "passed" : "FAILED");
   return good;

@@ -29,13 +29,13 @@ struct ResumedOperation {
     auto found = engine::OperationLog::find(env, folder).value();
     engine::LoggedOperation logged = found.operation;
     before = found.operation;
-    logged.go_on();
+    logged.reopen();
     if (reference) {
       operation->tracker().reference.places = logged.references;
     }
     resumed = operation->session().resume(logged);
-    log = engine::OperationLog::go_on(env, std::move(found),
-                                      engine::RecordWriter::Waits::kUntilDurable);
+    log = engine::OperationLog::reopen(env, std::move(found),
+                                       engine::RecordWriter::Waits::kUntilDurable);
     operation->session().observe(log.get());
     operation->session().show_saving(log.get());
   }

@@ -64,12 +64,12 @@ class ScriptedSurgeon {
   /// Goes on to the end; returns how many things it took.
   int finish() {
     int acts = 0;
-    while (acts < kMostActs && act()) {
+    while (acts < kMaxActs && act()) {
       ++acts;
     }
     return acts;
   }
-  static constexpr int kMostActs = 500;
+  static constexpr int kMaxActs = 500;
 
  private:
   static constexpr Vec3 kOnBone{0, 0.02, 0};

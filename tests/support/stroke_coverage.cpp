@@ -54,12 +54,12 @@ std::vector<Walk> walks_of_length(const TouchableBone& bone, const PosteriorLand
                                   const Random& random, const Cut& cut = {}) {
   constexpr double kFirstPitch_m = 0.003;
   constexpr double kEnough = 0.8;
-  constexpr std::uint64_t kMostPasses = 5;
+  constexpr std::uint64_t kMaxPasses = 5;
   const double got_m = length_m(walks_over(bone, marks, regions, kFirstPitch_m, random, cut));
   const double pitch_m =
       std::clamp(kFirstPitch_m * got_m / wanted_m, kFinestPitch_m, kWidestPitch_m);
   std::vector<Walk> walks;
-  for (std::uint64_t pass = 0; pass < kMostPasses && length_m(walks) < kEnough * wanted_m; ++pass) {
+  for (std::uint64_t pass = 0; pass < kMaxPasses && length_m(walks) < kEnough * wanted_m; ++pass) {
     for (Walk& walk : walks_over(bone, marks, regions, pitch_m, random.fork(pass), cut)) {
       walks.push_back(std::move(walk));
     }

@@ -11,7 +11,7 @@ namespace {
 constexpr double kArm_m = 0.45;
 constexpr double kNearest_m = 0.05;
 constexpr double kFarthest_m = 5.0;
-constexpr double kMostMagnification = 6.0;
+constexpr double kMaxMagnification = 6.0;
 constexpr double kZoomStep = 1.1;
 /// Dragging by the picture's height turns by this angle.
 constexpr double kRotationPerHeight_rad = std::numbers::pi;
@@ -51,7 +51,7 @@ void Camera::zoom(double steps) {
   if (orbits_) {
     distance_m_ = std::clamp(distance_m_ / factor, kNearest_m, kFarthest_m);
   } else {
-    magnification_ = std::clamp(magnification_ * factor, 1.0, kMostMagnification);
+    magnification_ = std::clamp(magnification_ * factor, 1.0, kMaxMagnification);
   }
 }
 

@@ -7,7 +7,7 @@ namespace orthonav::preview {
 namespace {
 
 /// A larger lag is not made up for in a rush.
-constexpr Duration kMostLag = std::chrono::milliseconds(200);
+constexpr Duration kMaxLag = std::chrono::milliseconds(200);
 
 }  // namespace
 
@@ -91,7 +91,7 @@ bool Gate::is_open() {
   if (late < Duration::zero()) {
     return false;
   }
-  if (late > kMostLag) {
+  if (late > kMaxLag) {
     anchor_ = Anchor{*last_, now};
   }
   return true;

@@ -146,7 +146,7 @@ Status PreviewApp::run_script() {
   ScriptStage stage;
   stage.resize = [this](int width, int height) { window_->resize(width, height); };
   stage.screenshot = [this](const std::string& name) { wanted_screenshot_ = name; };
-  return script_->go_on(model_, stage, wall_.now(), operation_->ended());
+  return script_->advance(model_, stage, wall_.now(), operation_->ended());
 }
 
 /// The title names the step, so that it can be read from a list of windows, and by programs that

@@ -16,7 +16,7 @@ namespace {
 constexpr Duration kPatience = std::chrono::seconds(300);
 
 /// Nine hours of pairs.
-constexpr double kMostPairs = 1e6;
+constexpr double kMaxPairs = 1e6;
 
 constexpr auto kWords = std::to_array<ScriptWord>({
     {"key", Follows::kKey},                           // down and up
@@ -26,8 +26,8 @@ constexpr auto kWords = std::to_array<ScriptWord>({
     {"until", Follows::kText},                        // waits until the step begins with this
     {"first", Follows::kText},                        // the same, then pauses, shows its first pair
     {"pause", Follows::kNothing},                     // waits until nothing moves any more
-    {"pairs", Follows::kWhole, 0, kMostPairs},        // waits until that many more have passed
-    {"scrub", Follows::kWhole, 0, kMostPairs},        // pauses, waits until that pair is shown
+    {"pairs", Follows::kWhole, 0, kMaxPairs},         // waits until that many more have passed
+    {"scrub", Follows::kWhole, 0, kMaxPairs},         // pauses, waits until that pair is shown
     {"wait", Follows::kWhole, 0, 10'000},             // lets that many pictures of the window go by
     {"drag", Follows::kTwoNumbers, -10'000, 10'000},  // orbits by hundredths of the height
     {"zoom", Follows::kNumber, -100, 100},
@@ -159,7 +159,7 @@ Status Script::check_numbers(const ScriptLine& line, const ScriptWord& word) con
   return {};
 }
 
-Status Script::go_on(PreviewModel& model, const ScriptStage& stage, Timestamp now, bool ended) {
+Status Script::advance(PreviewModel& model, const ScriptStage& stage, Timestamp now, bool ended) {
   while (!done()) {
     const ScriptLine& line = lines_[next_];
     if (!perform(line, model, stage)) {
@@ -187,7 +187,7 @@ Status Script::go_on(PreviewModel& model, const ScriptStage& stage, Timestamp no
   return {};
 }
 
-Status Script::go_on(const std::function<Status(const ScriptLine&)>& perform) {
+Status Script::advance(const std::function<Status(const ScriptLine&)>& perform) {
   while (!done()) {
     const ScriptLine& line = lines_[next_++];
     if (const Status performed = perform(line); !performed) {

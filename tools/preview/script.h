@@ -67,10 +67,10 @@ class Script {
   /// Performs the lines that are due, up to the first one that must wait; the next call continues
   /// there. `now` is wall time: a line that waits too long is an Error. `ended`: nothing more will
   /// come.
-  Status go_on(PreviewModel& model, const ScriptStage& stage, Timestamp now, bool ended);
+  Status advance(PreviewModel& model, const ScriptStage& stage, Timestamp now, bool ended);
   /// The same where nothing is waited for: performs lines up to the next picture, or to the first
   /// Error, to which file, line and word are added.
-  Status go_on(const std::function<Status(const ScriptLine&)>& perform);
+  Status advance(const std::function<Status(const ScriptLine&)>& perform);
   [[nodiscard]] bool done() const { return next_ == lines_.size(); }
 
  private:

@@ -40,7 +40,7 @@ Event after_screw(const OperationInWork& work) {
 
 /// Of a screw in the hole of a drill that goes astray from the tool.
 nav::PoseUncertainty with_astray(const nav::PoseUncertainty& of_tool,
-                                 const nav::ScrewCylinder& screw, const DrillAstray& astray) {
+                                 const nav::ScrewCylinder& screw, const DrillSkiving& astray) {
   nav::CommonErrors skived;
   skived.tip_m = astray.start_m;
   return nav::with_turn(nav::with_common(of_tool, skived), screw.entry, screw.direction,
@@ -141,7 +141,7 @@ std::optional<ToolGuidance> Guiding::guide(const OperationInWork& work, Timestam
 ToolInVertebra Guiding::in_bone(const LevelState& level, const nav::TrackedPose& pose,
                                 const nav::ToolGeometry& tool) const {
   ToolErrors errors = errors_;
-  errors.walked_sd_m = level.walked_sd_m(pose.time);
+  errors.drift_sd_m = level.drift_sd_m(pose.time);
   return in_vertebra(*level.registration, pose, tool, errors);
 }
 
@@ -209,7 +209,7 @@ void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuida
 std::optional<nav::ScrewClearance> Guiding::clearance_along(const LevelState& level,
                                                             const nav::TrackedPose& pose,
                                                             const nav::ToolGeometry& tool,
-                                                            const DrillAstray& astray) const {
+                                                            const DrillSkiving& astray) const {
   if (!level.registration) {
     return std::nullopt;
   }

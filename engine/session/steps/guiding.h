@@ -43,12 +43,11 @@ class Guiding {
   [[nodiscard]] const nav::DrillView& drill() const { return approach_.drill.view(); }
   /// Clearance of the selected screw if it were driven along the tool's axis; none if the tool is
   /// not near the plan (15 mm, 30°). Where the registration's uncertainty is known, takes the
-  /// tool's relative to the bone into account, and how far a drill goes astray (`DrillAstray`).
+  /// tool's relative to the bone into account, and how far a drill goes astray (`DrillSkiving`).
   /// Allocates nothing.
-  [[nodiscard]] std::optional<nav::ScrewClearance> clearance_along(const LevelState& level,
-                                                                   const nav::TrackedPose& pose,
-                                                                   const nav::ToolGeometry& tool,
-                                                                   const DrillAstray& astray) const;
+  [[nodiscard]] std::optional<nav::ScrewClearance> clearance_along(
+      const LevelState& level, const nav::TrackedPose& pose, const nav::ToolGeometry& tool,
+      const DrillSkiving& astray) const;
   /// Writes the selected screw and, in this step, the tool relative to it unless guidance is
   /// hidden.
   void write(const OperationInWork& work, const GuideChecks& checks, bool hidden, Guidance& out);

@@ -275,7 +275,7 @@ void write_tips(PartedText text, const TipCheck& tips, std::string_view separato
   }
   text.begin(Importance::kDanger, separator);
   append_printed(out, translated("guide's tip %s from the pointer's"),
-                 said_mm(tips.last()->apart_m.norm()).c_str());
+                 format_mm(tips.last()->apart_m.norm()).c_str());
   text.begin(Importance::kNext, ": ");
   out += translated(kSayAccept);
 }
@@ -340,7 +340,7 @@ void write(PartedText text, const BoneUnchecked& m) {
   std::string& out = text.out;
   text.begin(Importance::kDanger);
   append_printed(out, translated("bone not checked for %.0f s, the map may have drifted %s"),
-                 m.for_s, said_mm(m.drift_m).c_str());
+                 m.for_s, format_mm(m.drift_m).c_str());
   text.begin(Importance::kNext, ": ");
   out += translated(words::kTouchDimple);
 }

@@ -73,7 +73,7 @@ std::optional<TouchRefusal> Placing::take(OperationInWork& work, std::size_t scr
   use_turning(guide, resting);
   // The axis is the sleeve's own, below.
   const auto now = in_vertebra(*level.registration, pose, guide,
-                               {guide_errors.walked_sd_m, guide_errors.unshared_sd_m});
+                               {guide_errors.drift_sd_m, guide_errors.unshared_sd_m});
   if (!now.uncertainty) {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
     return TouchRefusal{TouchRefusal::Kind::kEntryUnsure, kUnknown, rules_.most_entry_sd_m};
@@ -165,7 +165,8 @@ void Placing::judge_again(OperationInWork& work, std::size_t screw, Timestamp ti
   tell(work, screw, time);
 }
 
-std::optional<Raised> Placing::judge_redo(OperationInWork& work, Guiding& guiding, Timestamp time) {
+std::optional<FollowUpEvent> Placing::judge_redo(OperationInWork& work, Guiding& guiding,
+                                                 Timestamp time) {
   LevelState& level = work.level();
   const std::size_t screw = guiding.screw();
   const auto refuse = [&](Message why) {
@@ -189,7 +190,8 @@ std::optional<Raised> Placing::judge_redo(OperationInWork& work, Guiding& guidin
   ++level.screws[screw].redone;
   guiding.forget_guidance();
   work.observer->screw_redone(time, level, screw, *other);
-  return Raised{Event::kScrewRedone, ScrewRedone{other->from_hole_m, other->clearance.clearance_m}};
+  return FollowUpEvent{Event::kScrewRedone,
+                       ScrewRedone{other->from_hole_m, other->clearance.clearance_m}};
 }
 
 bool Placing::must_confirm(int redone) { return redone > 0 && !std::exchange(confirming_, true); }
@@ -314,7 +316,7 @@ void write(PartedText text, const ScrewRedone& m) {
   std::string& out = text.out;
   text.begin(Importance::kMessage);
   append_printed(out, translated("new entry %s from the hole, clearance %s"),
-                 said_mm(m.from_hole_m).c_str(), said_mm(m.clearance_m).c_str());
+                 format_mm(m.from_hole_m).c_str(), format_mm(m.clearance_m).c_str());
   text.begin(Importance::kNext, ": ");
   out += translated("take the wire out and touch the dimple");
 }

@@ -34,8 +34,8 @@ class Placing {
   void keep(OperationInWork& work, std::size_t screw, Timestamp time);
   /// Another entry for the same screw. The landmark is touched first: whatever deflected the wire
   /// may have moved the bone against its registration.
-  [[nodiscard]] std::optional<Raised> judge_redo(OperationInWork& work, Guiding& guiding,
-                                                 Timestamp time);
+  [[nodiscard]] std::optional<FollowUpEvent> judge_redo(OperationInWork& work, Guiding& guiding,
+                                                        Timestamp time);
   /// The plan was changed: the measured wire is compared with the new plan.
   void judge_again(OperationInWork& work, std::size_t screw, Timestamp time);
 

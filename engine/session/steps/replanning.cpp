@@ -590,7 +590,7 @@ void write(PartedText text, const ScrewReplanned& done) {
   append_size(out, 2.0 * done.to.radius_m, nav::screw_length_m(done.to));
   if (done.clearance_m) {
     out += ", ";
-    append_printed(out, translated("clearance %s"), said_mm(*done.clearance_m).c_str());
+    append_printed(out, translated("clearance %s"), format_mm(*done.clearance_m).c_str());
     append_towards(out, done.towards);
   } else {
     out.append(", ").append(translated("clearance unknown"));

@@ -374,7 +374,7 @@ void write_heads(PartedText text, const HeadsSoFar& heads) {
     append_printed(out,
                    seat_m < 0.0 ? translated("rod %s above the touches")
                                 : translated("rod %s below the touches"),
-                   said_mm(std::abs(seat_m)).c_str());
+                   format_mm(std::abs(seat_m)).c_str());
   }
 }
 

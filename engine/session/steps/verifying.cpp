@@ -71,12 +71,12 @@ Verifying::Verifying(OperationInWork& work, Timestamp registered)
 void Verifying::begin_again(LevelState& level, double moved_m) {
   // Earlier places are no longer checks but still show where the bone is. They are joined with the
   // same strokes and model, so that neither counts twice, and with World's drift since then.
-  constexpr std::size_t kMostEarlier = nav::kMostCheckPoints;
+  constexpr std::size_t kMaxEarlier = nav::kMaxCheckPoints;
   if (!anchored_) {
     strokes_ = level.registration;
     pressed_.clear();
-  } else if (pressed_.size() > kMostEarlier) {
-    pressed_.erase(pressed_.begin(), pressed_.end() - kMostEarlier);
+  } else if (pressed_.size() > kMaxEarlier) {
+    pressed_.erase(pressed_.begin(), pressed_.end() - kMaxEarlier);
   }
   level.check_points.clear();
   moved_m_ = moved_m;
@@ -166,7 +166,7 @@ std::optional<TouchRefusal> Verifying::add(LevelState& level, const TouchedPlace
   if (!touched) {
     return std::get<TouchRefusal>(place);
   }
-  if (level.check_points.size() >= nav::kMostCheckPoints) {
+  if (level.check_points.size() >= nav::kMaxCheckPoints) {
     return TouchRefusal{TouchRefusal::Kind::kTooMany};
   }
   pressed_.push_back(*touched);
@@ -331,7 +331,7 @@ void write(PartedText text, const ChecksMissing& m) {
 void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
   if (checks.moved_m) {
     text.begin(Importance::kDanger, separator);
-    append_printed(text.out, translated("moved %s"), said_mm(*checks.moved_m).c_str());
+    append_printed(text.out, translated("moved %s"), format_mm(*checks.moved_m).c_str());
   }
   text.begin(Importance::kNext, checks.moved_m ? "; " : separator);
   if (checks.verdict->passed) {

@@ -39,7 +39,7 @@ constexpr const char* kKnown =
     "scene_stall, scene_refuse, scene_cut (probabilities), jump, freeze_pictures, freeze_left, "
     "freeze_right, freeze_poses, shift_right, only_left, clock_back, lasting (numbers of pairs), "
     "clock_back_s and all";
-constexpr double kMostPairs = 1e9;
+constexpr double kMaxPairs = 1e9;
 constexpr double kLongestClockBack_s = 3600.0;
 /// Probability of each fault if all are requested.
 constexpr double kALittle = 0.01;
@@ -58,7 +58,7 @@ Status apply(std::string_view item, Faults& faults) {
   const char* end = value.data() + value.size();
   const auto [rest, code] = std::from_chars(value.data(), end, number);
   const bool is_number = !value.empty() && code == std::errc{} && rest == end;
-  if (is_number && number >= 0.0 && number <= kMostPairs && number == std::floor(number)) {
+  if (is_number && number >= 0.0 && number <= kMaxPairs && number == std::floor(number)) {
     const auto pair = static_cast<std::int64_t>(number);
     if (key == "jump") {
       faults.jump_at.push_back(pair);

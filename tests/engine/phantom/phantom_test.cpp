@@ -81,7 +81,7 @@ TEST(Phantom, IsClosedAndInOnePieceWithOneCanal) {
 TEST(Phantom, HasWellShapedTriangles) {
   // Registration samples surfaces and evaluations cast rays: slivers would spoil normals.
   constexpr double kSmallestAngle_rad = 10.0 * std::numbers::pi / 180.0;
-  constexpr double kMostBelow = 0.005;
+  constexpr double kMaxBelow = 0.005;
   for (const CaseLevel& level : spine().levels) {
     std::size_t thin = 0;
     for (const auto& t : level.mesh.triangles) {
@@ -95,7 +95,7 @@ TEST(Phantom, HasWellShapedTriangles) {
       thin += smallest < kSmallestAngle_rad ? 1 : 0;
     }
     EXPECT_LT(static_cast<double>(thin) / static_cast<double>(level.mesh.triangles.size()),
-              kMostBelow)
+              kMaxBelow)
         << level.label;
   }
 }

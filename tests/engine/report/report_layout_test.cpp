@@ -95,7 +95,7 @@ TEST(ReportLayout, IsScrolledThroughOnAPhoneInTenScreens) {
   if (!test::has_browser()) {
     GTEST_SKIP() << test::kNoBrowser;
   }
-  constexpr int kMost_px = 8000;
+  constexpr int kMax_px = 8000;
   ReportContent content = full_content();
   // An operation of four levels, as long as they get.
   nlohmann::json report = nlohmann::json::parse(content.report_json);
@@ -108,13 +108,13 @@ TEST(ReportLayout, IsScrolledThroughOnAPhoneInTenScreens) {
   ASSERT_TRUE(page.ok()) << page.error().message;
   const int folded_px = height_on_a_phone(*page);
   EXPECT_GT(folded_px, 0);
-  EXPECT_LE(folded_px, kMost_px);
+  EXPECT_LE(folded_px, kMax_px);
   std::string unfolded = *page;
   for (std::size_t at = unfolded.find("<details"); at != std::string::npos;
        at = unfolded.find("<details", at + 1)) {
     unfolded.insert(at + std::string("<details").size(), " open");
   }
-  EXPECT_GT(height_on_a_phone(unfolded), kMost_px) << "what is folded counts where it is not";
+  EXPECT_GT(height_on_a_phone(unfolded), kMax_px) << "what is folded counts where it is not";
 }
 
 /// Every table of both pages: a row that is not a card would run off the screen or have to be

@@ -112,7 +112,7 @@ TEST(CrashOfAnOperation, TimesSayNothingOfTheOrder) {
   auto found = OperationLog::find(env, kLogFolder);
   ASSERT_TRUE(is_ok(found));
   ScriptedOperation again({"L4"}, {}, Verification::kByTouch);
-  auto log = OperationLog::go_on(env, std::move(*found), RecordWriter::Waits::kUntilDurable);
+  auto log = OperationLog::reopen(env, std::move(*found), RecordWriter::Waits::kUntilDurable);
   again.session().observe(log.get());
   again.registers_first_level();
   const std::vector<Record> records = read_log(env, kLogPath)->records;

@@ -145,11 +145,11 @@ TEST_F(CheckedSession, APressFromTheStrokesIsNoTouch) {
 }
 
 TEST_F(CheckedSession, StopsCountingAtTheMost) {
-  for (std::size_t i = 0; i < nav::kMostCheckPoints; ++i) {
+  for (std::size_t i = 0; i < nav::kMaxCheckPoints; ++i) {
     s.touches(kFirst);
   }
   EXPECT_EQ(touch_refusal(s.touches(kFirst)).kind, TouchRefusal::Kind::kTooMany);
-  EXPECT_EQ(points().size(), nav::kMostCheckPoints);
+  EXPECT_EQ(points().size(), nav::kMaxCheckPoints);
 }
 
 TEST_F(CheckedSession, ShowsThemWhileVerifyingOnly) {
@@ -216,7 +216,7 @@ TEST(ProvisionalRegistration, AsksForMorePlacesAndTakesOneBackAsIfItHadNotBeen) 
   s.touches(kFirst + Vec3{0.004, 0.0, 0.004});
   s.says("delete");
   EXPECT_EQ(s.pair().levels[0].registration->world_from_vertebra, three);
-  while (s.pair().levels[0].check_points.size() < nav::kMostCheckPoints) {
+  while (s.pair().levels[0].check_points.size() < nav::kMaxCheckPoints) {
     s.touches(kThird);
   }
   EXPECT_EQ(advice(s.pair()).kind, nav::CheckAdvice::Kind::kUncertain);

@@ -49,7 +49,7 @@ TEST(SessionClearance, IsThatOfTheScrewAlongTheToolAsItIsHeld) {
 }
 
 /// SD of the clearance beside a wall that runs along the screw, from its bound.
-double sd_beside_wall_m(const DrillAstray& astray) {
+double sd_beside_wall_m(const DrillSkiving& astray) {
   SessionOptions options;
   options.astray = astray;
   const auto aside = WhileGuiding(options).along({0.0255, 0.020, 0.0});

@@ -97,9 +97,9 @@ TEST_F(OnReference, NothingDriftsAndNothingIsAskedAgain) {
 
 TEST(BoneFound, WalksWithTheRootOfTime) {
   const BoneFound found{Timestamp{} + from_seconds(10.0), 0.0003, 0.0002};
-  EXPECT_NEAR(found.walked_sd_m(Timestamp{} + from_seconds(14.0)), 0.0004, kExact);
+  EXPECT_NEAR(found.drift_sd_m(Timestamp{} + from_seconds(14.0)), 0.0004, kExact);
   EXPECT_NEAR(found.sd_at_m(Timestamp{} + from_seconds(14.0)), 0.0005, kExact);
-  EXPECT_NEAR(found.walked_sd_m(Timestamp{}), 0.0, kExact) << "nothing before it";
+  EXPECT_NEAR(found.drift_sd_m(Timestamp{}), 0.0, kExact) << "nothing before it";
 }
 
 TEST(BoneFound, RecordingTheLandmarkTellsNothingAndFindingItDoes) {

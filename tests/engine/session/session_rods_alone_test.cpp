@@ -132,7 +132,7 @@ TEST(RodsAlone, GoOnAfterACrashWithTheRodThatIsNotDone) {
               ElementsAre(HasSubstr("case 'boxes', rods alone, begun"),
                           "done: the left rod, 2 heads", "lost: of the right rod 1 head"));
   LoggedOperation logged = found->operation;
-  logged.go_on();
+  logged.reopen();
   ScriptedOperation again = rods_alone();
   EXPECT_TRUE(is_ok(check_same(logged.identity, test::identity_of(again), "operation.resume")));
   ASSERT_TRUE(is_ok(again.session().resume(logged)));

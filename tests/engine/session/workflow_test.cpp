@@ -198,7 +198,7 @@ TEST(Workflow, IsWrittenDownAsItIs) {
 }
 
 TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
-  // Raised by the session itself, in these steps only.
+  // FollowUpEvent by the session itself, in these steps only.
   constexpr std::pair<Step, Event> kRaised[] = {{Step::kRegistering, Event::kRegistered},
                                                 {Step::kRegistering, Event::kRegistrationRefused},
                                                 {Step::kDigitize, Event::kRegistrationRestored},

@@ -94,14 +94,14 @@ TEST(IgtlListening, DropsWhoSaysTooMuchOrWhatIsNoText) {
   const auto server = started(&heard);
   IgtlClient talker(server->port());
   Buffer much;
-  for (int i = 0; i <= TextReader::kMostASecond; ++i) {
+  for (int i = 0; i <= TextReader::kMaxASecond; ++i) {
     const Buffer each = packed_text({"Command", 0}, "next");
     much.insert(much.end(), each.begin(), each.end());
   }
   talker.send(much);
   ASSERT_TRUE(wait_until([&] { return server->counts().dropped == 1; }));
   EXPECT_THAT(server->counts().last_drop, HasSubstr("more than 20 things a second"));
-  EXPECT_EQ(heard.lines().size(), static_cast<std::size_t>(TextReader::kMostASecond));
+  EXPECT_EQ(heard.lines().size(), static_cast<std::size_t>(TextReader::kMaxASecond));
   IgtlClient broken(server->port());
   Buffer torn = packed_text({"Plan", 0}, "{}");
   torn.back() ^= 1u;

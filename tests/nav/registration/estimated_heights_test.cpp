@@ -66,7 +66,7 @@ TEST_F(ResidualFieldTest, EstimatesTheTissueAndFindsWhatStrokesHaveInCommon) {
     ASSERT_TRUE(fit.has_value());
     const auto field = residual_field(*fit);
     ASSERT_TRUE(field.has_value());
-    const ResidualUnits units = residual_units(*fit, kMostUnits);
+    const ResidualUnits units = residual_units(*fit, kMaxUnits);
     const double correlation = correlation_across_strokes(*fit, units);
     EXPECT_EQ(correlation > 0.2, tissue_m > 0.0) << correlation;
     const auto heights = estimated_heights(*fit, units, *field);

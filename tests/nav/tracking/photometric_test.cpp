@@ -104,7 +104,7 @@ TEST(PhotometricPose, FindsTheLightAndTheBlurByItself) {
   EXPECT_NEAR(views[0].light.contrast, 52.5, 2.0);
   // A square of two pixels has an SD of 0.58 px; a cell of this tag is about 5.6 px wide.
   EXPECT_NEAR(views[0].light.blur_cells[0], 0.105, 0.03);
-  EXPECT_LT(views[0].light.tails[0], 0.0) << "a square has no tails";
+  EXPECT_LT(views[0].light.excess_kurtosis[0], 0.0) << "a square has no tails";
   EXPECT_LT(tip_error_m(fit->rig_from_marker, tilted()), 3.0 * kExactTipM);
 }
 

@@ -48,7 +48,7 @@ class KeptCommand : public ::testing::Test {
     auto found = OperationLog::find(env_, out_).value();
     engine::LevelState level = found.operation.state.levels.front();
     const auto log =
-        OperationLog::go_on(env_, std::move(found), engine::RecordWriter::Waits::kUntilDurable);
+        OperationLog::reopen(env_, std::move(found), engine::RecordWriter::Waits::kUntilDurable);
     const Timestamp then(std::chrono::seconds(60));
     level.registration.emplace().accepted = true;
     level.newest.emplace().registration = *level.registration;
@@ -177,9 +177,9 @@ TEST_F(KeptCommand, DemoInterruptedAfterItsFirstScrewEndsWithBothAndNoneTwice) {
       return std::filesystem::exists(out_ + "/operation.resume") && !placed().empty();
     });
   };
-  constexpr int kMostWaits = 20;
+  constexpr int kMaxWaits = 20;
   int waits = 0;
-  while (!placed_one() && ++waits < kMostWaits) {
+  while (!placed_one() && ++waits < kMaxWaits) {
   }
   first.send(SIGTERM);
   const Called interrupted = first.wait();

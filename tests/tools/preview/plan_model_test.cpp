@@ -179,7 +179,7 @@ TEST_F(PlanModelTest, PerformsAScriptUpToItsFirstRefusal) {
   const ScriptStage stage{[](int, int) {}, [&](const std::string& name) { taken.push_back(name); }};
   const auto run = [&](const std::string& text) {
     Script script = Script::parse(text, "s", plan_script_words()).value();
-    return script.go_on([&](const ScriptLine& line) { return perform(line, model, stage); });
+    return script.advance([&](const ScriptLine& line) { return perform(line, model, stage); });
   };
   ASSERT_TRUE(run("select L5 right\nkey ]\ndrag sagittal target 0 1\nscreenshot a.png\n").ok());
   EXPECT_EQ(editor.place(), (engine::ScrewPlace{1, nav::Side::kRight}));

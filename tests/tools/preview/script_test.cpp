@@ -15,8 +15,8 @@ struct Bench : ModelBench {
   ScriptStage stage{[this](int w, int h) { taken.push_back(std::to_string(w * 10000 + h)); },
                     [this](const std::string& name) { taken.push_back(name); }};
 
-  Status go_on(Script& script, bool ended = false) {
-    return script.go_on(model, stage, wall.now(), ended);
+  Status advance(Script& script, bool ended = false) {
+    return script.advance(model, stage, wall.now(), ended);
   }
   void show(int pair, const StepOnDisplay& at) {
     gate.pass(Timestamp(Duration(pair)));
@@ -32,17 +32,17 @@ TEST(Script, WaitsForAStepAndTakesOnePictureACall) {
   Script script =
       Script::parse("until digitize # a remark\nscreenshot a.png\nresize 640 480\nkey s\n", "t")
           .value();
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   bench.show(1, {Step::kSetup, {}, {}});
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_TRUE(bench.taken.empty());
   bench.show(2, {Step::kDigitize, "L4", {}});
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_THAT(bench.taken, ElementsAre("a.png"));
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_THAT(bench.taken, ElementsAre("a.png", "6400480"));
   EXPECT_FALSE(script.done());
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_TRUE(script.done());
   std::vector<std::string> said;
   bench.keyboard.take_phrases(said);
@@ -52,7 +52,7 @@ TEST(Script, WaitsForAStepAndTakesOnePictureACall) {
 TEST(Script, SaysWholePhrases) {
   Bench bench;
   Script script = Script::parse("say screw six forty five\nkey z\nkey y\n", "t").value();
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_TRUE(script.done());
   std::vector<std::string> said;
   bench.keyboard.take_phrases(said);
@@ -64,12 +64,12 @@ TEST(Script, CountsPairsFromWhereItWaits) {
   Bench bench;
   bench.show(1, {Step::kSetup, {}, {}});
   Script script = Script::parse("pairs 2\n", "t").value();
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   bench.show(2, {Step::kSetup, {}, {}});
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_FALSE(script.done());
   bench.show(3, {Step::kSetup, {}, {}});
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_TRUE(script.done());
 }
 
@@ -79,27 +79,27 @@ TEST(Script, PausesUntilNothingMovesAnyMore) {
   bench.gate.set_speed(0.0);
   ASSERT_TRUE(bench.gate.may_pass());  // A pair is on its way.
   Script script = Script::parse("pause\n", "t").value();
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_FALSE(script.done());
   bench.gate.pass(Timestamp(Duration(5)));  // It arrived, and is being processed.
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_FALSE(script.done());
   auto moment = std::make_shared<Moment>();
   moment->pair = 2;
   bench.timeline.push(moment);
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   EXPECT_TRUE(script.done());
 }
 
 TEST(Script, GivesUpWhenNothingMoreComesOrItTakesTooLong) {
   Bench bench;
   Script script = Script::parse("\nuntil done\n", "steps.txt").value();
-  ASSERT_TRUE(bench.go_on(script).ok());
+  ASSERT_TRUE(bench.advance(script).ok());
   bench.wall.advance(std::chrono::seconds(301));
-  const Status late = bench.go_on(script);
+  const Status late = bench.advance(script);
   ASSERT_FALSE(late.ok());
   EXPECT_THAT(late.error().message, HasSubstr("steps.txt:2: until: waited 301"));
-  const Status over = bench.go_on(script, true);
+  const Status over = bench.advance(script, true);
   ASSERT_FALSE(over.ok());
   EXPECT_THAT(over.error().message, HasSubstr("waits for done, but nothing more comes"));
 }

@@ -98,7 +98,7 @@ Status PlanApp::run_script() {
   ScriptStage stage;
   stage.resize = [this](int width, int height) { window_->resize(width, height); };
   stage.screenshot = [this](const std::string& name) { wanted_screenshot_ = name; };
-  return script_->go_on([&](const ScriptLine& line) { return perform(line, model_, stage); });
+  return script_->advance([&](const ScriptLine& line) { return perform(line, model_, stage); });
 }
 
 Status PlanApp::draw() {

@@ -10,7 +10,7 @@ namespace {
 constexpr double kHandle = 0.035;
 constexpr double kScroll_m = 0.001;
 constexpr double kDeepest_m = 0.120;
-constexpr double kMostMagnification = 6.0;
+constexpr double kMaxMagnification = 6.0;
 constexpr double kZoomStep = 1.1;
 /// Without a screw: the slices through the middle of the bone, from this far behind it.
 constexpr double kBehind_m = 0.020;
@@ -249,7 +249,7 @@ void PlanModel::scroll(double steps) {
     depth_m_ = std::clamp(across_m_ - steps * kScroll_m, 0.0, kDeepest_m);
   } else {
     magnification_ = std::clamp(magnification_ * std::pow(kZoomStep, steps),
-                                1.0 / kMostMagnification, kMostMagnification);
+                                1.0 / kMaxMagnification, kMaxMagnification);
   }
   look_anew();
 }

@@ -1,10 +1,10 @@
-#include "hal/sim/standing_metal.h"
+#include "hal/sim/retained_implants.h"
 
 #include "hal/sim/truth.h"
 
 namespace orthonav::sim {
 
-std::optional<StandingWire> StandingMetal::wire(std::string_view level, Side side) const {
+std::optional<StandingWire> RetainedImplants::wire(std::string_view level, Side side) const {
   for (const DrivenWire& wire : truth_->wires) {
     if (wire.level == level && wire.side == side) {
       return StandingWire{wire.entry, wire.direction};
@@ -13,7 +13,7 @@ std::optional<StandingWire> StandingMetal::wire(std::string_view level, Side sid
   return std::nullopt;
 }
 
-std::vector<StandingHead> StandingMetal::heads(Side side) const {
+std::vector<StandingHead> RetainedImplants::heads(Side side) const {
   std::vector<StandingHead> found;
   for (const PlacedHead& head : truth_->heads) {
     if (head.side == side) {

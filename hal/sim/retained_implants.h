@@ -25,10 +25,10 @@ struct StandingHead {
 
 /// The metal in the bones, which anyone can see and touch: the only part of the truth that the
 /// surgeon knows.
-class StandingMetal {
+class RetainedImplants {
  public:
   /// The truth must outlive it.
-  explicit StandingMetal(const Truth& truth) : truth_(&truth) {}
+  explicit RetainedImplants(const Truth& truth) : truth_(&truth) {}
   /// The wire of a screw, if there is one.
   [[nodiscard]] std::optional<StandingWire> wire(std::string_view level, Side side) const;
   [[nodiscard]] std::vector<StandingHead> heads(Side side) const;

@@ -1,4 +1,4 @@
-#include "nav/registration/certain_fit.h"
+#include "nav/registration/marginalized_fit.h"
 
 #include <algorithm>
 #include <vector>
@@ -133,20 +133,20 @@ std::optional<SurfaceFit> first_fit(const VertebraModel& model, const Cloud& clo
 
 }  // namespace
 
-std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& cloud,
-                                    const SurfaceFit& start,
-                                    const PoseSearchRegistrationOptions& options,
-                                    std::size_t units) {
-  constexpr int kMostRounds = 4;
+std::optional<MarginalizedFit> final_fit(const VertebraModel& model, const Cloud& cloud,
+                                         const SurfaceFit& start,
+                                         const PoseSearchRegistrationOptions& options,
+                                         std::size_t units) {
+  constexpr int kMaxRounds = 4;
   constexpr double kSmallStep_m = 5e-5;
   auto first = first_fit(model, cloud, start, options);
   if (!first) {
     return std::nullopt;
   }
-  CertainFit out{std::move(*first), std::nullopt};
+  MarginalizedFit out{std::move(*first), std::nullopt};
   BeyondRim beyond_rim(model);
   beyond_rim.drop_from(out.fit);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     auto field = residual_field(out.fit, residual_units(out.fit, units),
                                 out.field ? out.field->hypotheses : std::vector<FieldHypothesis>{},
                                 options.least_model_sd_m);
