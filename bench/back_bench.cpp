@@ -21,8 +21,8 @@
 #include "engine/case/tool_file.h"
 #include "engine/io/posix_env.h"
 #include "engine/phantom/phantom.h"
-#include "engine/session/operation_log.h"
-#include "engine/study/simulated_operation.h"
+#include "engine/session/log/operation_log.h"
+#include "study/simulated_operation.h"
 
 namespace orthonav {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "hal/sim/hololens2.h"
+#include "hal/sim/cameras/hololens2.h"
 #include "nav/published/corner_tracker.h"
 #include "nav/tracking/tool_tracker.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/golden/golden_scenes.h"
-#include "engine/holograms/hologram_shapes.h"
-#include "engine/holograms/label_layout.h"
+#include "engine/holograms/labels/label_layout.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "render/projection.h"
 #include "render/shapes.h"
 

@@ -10,8 +10,8 @@
 #include "base/stopwatch.h"
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
-#include "engine/study/simulated_operation.h"
 #include "nav/guidance/clearance_spread.h"
+#include "study/simulated_operation.h"
 
 namespace orthonav {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "base/random.h"
 #include "bench/wilson.h"
-#include "hal/sim/stroke_plan.h"
+#include "hal/sim/surgeon/stroke_plan.h"
 #include "nav/published/registration.h"
 #include "nav/registration/registration.h"
 #include "tests/support/registration_builder.h"

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "bench/registration_peers.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "nav/posterior/decision.h"
 #include "nav/published/registration.h"
 

@@ -12,7 +12,7 @@
 #include "bench/contour_errors.h"
 #include "bench/quantile.h"
 #include "engine/case/operation_plan.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "engine/phantom/phantom.h"
 #include "render/float3.h"
 #include "tests/hal/hl2ss/scene_link.h"

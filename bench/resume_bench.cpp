@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/io/posix_env.h"
-#include "engine/session/operation_log.h"
+#include "engine/session/log/operation_log.h"
 #include "tests/support/resumed_operation.h"
 #include "tests/support/scripted_surgeon.h"
 

@@ -8,8 +8,8 @@
 
 #include "base/random.h"
 #include "hal/api/devices.h"
-#include "hal/sim/hololens2.h"
-#include "hal/sim/room_renderer.h"
+#include "hal/sim/cameras/hololens2.h"
+#include "hal/sim/cameras/room_renderer.h"
 
 namespace orthonav::bench {
 

@@ -7,7 +7,7 @@
 
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
-#include "engine/study/simulated_operation.h"
+#include "study/simulated_operation.h"
 
 namespace orthonav {
 namespace {

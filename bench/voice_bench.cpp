@@ -17,7 +17,7 @@
 #include "bench/voice_sets.h"
 #include "bench/voice_texts.h"
 #include "bench/wilson.h"
-#include "engine/session/commands.h"
+#include "engine/session/workflow/commands.h"
 #include "hal/voice/command_spotter.h"
 #include "tests/support/noisy_speech.h"
 

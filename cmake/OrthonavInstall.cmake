@@ -13,8 +13,8 @@ install(EXPORT orthonavTargets NAMESPACE orthonav:: DESTINATION "${orthonav_pack
 file(GLOB_RECURSE ORTHONAV_HEADERS CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}"
      base/*.h hal/*.h nav/*.h render/*.h engine/*.h)
 list(FILTER ORTHONAV_HEADERS EXCLUDE REGEX
-     "^(render/(font_maker|vulkan)|engine/(golden|scan|evaluation|study)|hal/igtl)/")
-list(APPEND ORTHONAV_HEADERS engine/study/set_up.h engine/study/sim_scenario.h)
+     "^(render/(font_maker|vulkan)|engine/(golden|scan|evaluation)|hal/igtl)/")
+list(APPEND ORTHONAV_HEADERS study/set_up.h study/sim_scenario.h)
 if(ORTHONAV_HEADSET)
   list(FILTER ORTHONAV_HEADERS EXCLUDE REGEX "^(engine/(planning|print)|hal/(hl2ss|desktop|voice|open))/")
 endif()

@@ -1,4 +1,4 @@
-// The charts of a page about studies, from the JSON in #study-data (engine/study/study_page_frame.h).
+// The charts of a page about studies, from the JSON in #study-data (study/study_page_frame.h).
 (function () {
   'use strict';
   const shown = JSON.parse(document.getElementById('study-data').textContent);

@@ -4,7 +4,7 @@
 #include "base/joined.h"
 #include "base/length_text.h"
 #include "engine/session/method.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "nav/guidance/predicted_error.h"
 #include "python/arrays.h"
 #include "python/bindings.h"

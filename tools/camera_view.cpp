@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "base/guarded.h"
-#include "engine/holograms/label_layout.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/labels/label_layout.h"
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "render/renderer.h"
 
 namespace orthonav::tools {

@@ -16,7 +16,7 @@
 #include "base/translation.h"
 #include "embedded/dashboard_html.h"
 #include "engine/io/image_file.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "engine/session/work_watch.h"
 #include "tools/camera_view.h"
 #include "tools/dashboard_state.h"

@@ -5,7 +5,7 @@
 #include "base/angle.h"
 #include "base/pose_status_name.h"
 #include "engine/session/steps/guiding.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::tools {
 namespace {

@@ -3,7 +3,7 @@
 #include <deque>
 #include <string>
 
-#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "engine/session/session.h"
 
 namespace orthonav::tools {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/study/simulated_operation.h"
+#include "study/simulated_operation.h"
 #include "tools/arguments.h"
 #include "tools/calibration_argument.h"
 #include "tools/kept_operation.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/how_many.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "engine/session/work_watch.h"
 
 namespace orthonav::tools {

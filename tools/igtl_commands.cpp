@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tools/igtl_messages.h"
 #include "tools/igtl_requests.h"
 

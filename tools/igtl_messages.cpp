@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/angle.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "nav/guidance/screw_cylinder.h"
 
 namespace orthonav::tools {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/case/plan_file.h"
-#include "engine/session/commands.h"
 #include "engine/session/steps/replanning.h"
+#include "engine/session/workflow/commands.h"
 
 namespace orthonav::tools {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/result.h"
-#include "engine/session/commands.h"
+#include "engine/session/workflow/commands.h"
 
 namespace orthonav::tools {
 

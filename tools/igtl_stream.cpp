@@ -4,7 +4,7 @@
 
 #include "base/how_many.h"
 #include "base/joined.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "hal/net/host_port.h"
 #include "tools/arguments.h"
 #include "tools/igtl_messages.h"

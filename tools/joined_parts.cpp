@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "engine/session/commands.h"
+#include "engine/session/workflow/commands.h"
 #include "hal/open/open_parts.h"
 
 namespace orthonav::tools {

@@ -4,8 +4,8 @@
 #include <ctime>
 #include <utility>
 
-#include "engine/session/resume_wording.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/resume_wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::tools {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "engine/io/posix_env.h"
 #include "engine/live/assembled_operation.h"
-#include "engine/session/operation_log.h"
+#include "engine/session/log/operation_log.h"
 
 namespace orthonav::tools {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "engine/study/set_up.h"
 #include "hal/sim/sim_headset.h"
+#include "study/set_up.h"
 #include "tools/kept_operation.h"
 #include "tools/out_folder.h"
 

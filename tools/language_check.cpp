@@ -8,7 +8,7 @@
 
 #include "base/one_line.h"
 #include "base/printed.h"
-#include "engine/session/commands.h"
+#include "engine/session/workflow/commands.h"
 #include "render/text/font.h"
 #include "render/text/text_layout.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "engine/case/operation_plan.h"
-#include "engine/study/study_profile.h"
+#include "study/study_profile.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/how_many.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::tools {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/angle.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::tools {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "engine/live/frame_loop.h"
 #include "engine/report/report_html.h"
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/session/method.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/print_text.h"

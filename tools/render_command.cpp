@@ -9,9 +9,9 @@
 
 #include "base/how_many.h"
 #include "engine/golden/golden_scenes.h"
-#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/optical_model.h"
 #include "engine/holograms/scene_file.h"
+#include "engine/holograms/shapes/hologram_label.h"
 #include "engine/io/image_file.h"
 #include "engine/io/side_by_side.h"
 #include "tools/arguments.h"

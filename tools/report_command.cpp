@@ -6,7 +6,7 @@
 #include "engine/io/atomic_file.h"
 #include "engine/io/posix_env.h"
 #include "engine/report/session_report.h"
-#include "engine/session/operation_log.h"
+#include "engine/session/log/operation_log.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/json_output.h"

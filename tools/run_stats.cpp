@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "base/how_many.h"
-#include "engine/study/evaluation.h"
+#include "study/evaluation.h"
 
 namespace orthonav::tools {
 namespace {

@@ -13,7 +13,7 @@
 #include "engine/phantom/phantom.h"
 #include "engine/print/board_file.h"
 #include "engine/scan/scan_case.h"
-#include "hal/sim/stroke_plan.h"
+#include "hal/sim/surgeon/stroke_plan.h"
 #include "nav/planning/pedicle_screws.h"
 #include "tools/command.h"
 #include "tools/sample_recording.h"

@@ -6,9 +6,9 @@
 
 #include "engine/case/tool_file.h"
 #include "hal/replay/recording_writer.h"
-#include "hal/sim/grip.h"
-#include "hal/sim/hololens2.h"
-#include "hal/sim/stereo_renderer.h"
+#include "hal/sim/cameras/hololens2.h"
+#include "hal/sim/cameras/stereo_renderer.h"
+#include "hal/sim/surgeon/grip.h"
 
 namespace orthonav::tools {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/printed.h"
 #include "base/srgb.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "engine/io/image_file.h"
 #include "hal/hl2ss/scene_command.h"
 #include "render/float3.h"

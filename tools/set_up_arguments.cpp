@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/joined.h"
-#include "hal/sim/instruments.h"
+#include "hal/sim/room/instruments.h"
 #include "tools/arguments.h"
 
 namespace orthonav::tools {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/study/set_up.h"
+#include "study/set_up.h"
 
 namespace orthonav::tools {
 

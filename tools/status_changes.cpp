@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::tools {
 

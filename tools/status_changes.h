@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/time.h"
-#include "engine/session/status_line.h"
+#include "engine/session/text/status_line.h"
 
 namespace orthonav::tools {
 

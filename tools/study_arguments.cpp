@@ -9,9 +9,9 @@
 
 #include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
-#include "engine/study/left_out.h"
-#include "engine/study/study_definition.h"
-#include "engine/study/study_text.h"
+#include "study/left_out.h"
+#include "study/study_definition.h"
+#include "study/study_text.h"
 #include "tools/arguments.h"
 #include "tools/build_name.h"
 #include "tools/case_source.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/study/study.h"
-#include "engine/study/study_page.h"
-#include "engine/study/study_profile.h"
+#include "study/study.h"
+#include "study/study_page.h"
+#include "study/study_profile.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
 #include "tools/surgeon_arguments.h"

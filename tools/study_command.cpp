@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/io/json_document.h"
-#include "engine/study/study.h"
+#include "study/study.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/count_progress.h"

@@ -7,7 +7,7 @@
 
 #include "engine/io/atomic_file.h"
 #include "engine/io/json_document.h"
-#include "engine/study/comparison_page.h"
+#include "study/comparison_page.h"
 #include "tools/arguments.h"
 #include "tools/json_output.h"
 

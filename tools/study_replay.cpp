@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "engine/study/study_profile.h"
+#include "study/study_profile.h"
 
 namespace orthonav::tools {
 namespace {

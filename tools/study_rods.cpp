@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/printed.h"
-#include "engine/study/rod_experiment.h"
+#include "study/rod_experiment.h"
 #include "tools/arguments.h"
 
 namespace orthonav::tools {

@@ -12,7 +12,7 @@
 #include <set>
 
 #include "engine/io/atomic_file.h"
-#include "engine/study/study_definition.h"
+#include "study/study_definition.h"
 #include "tools/study_replay.h"
 
 namespace orthonav::tools {

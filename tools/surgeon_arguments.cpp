@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/joined.h"
-#include "hal/sim/instruments.h"
+#include "hal/sim/room/instruments.h"
 #include "tools/arguments.h"
 #include "tools/set_up_arguments.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/result.h"
 #include "hal/sim/error_model.h"
-#include "hal/sim/guidance_profile.h"
+#include "hal/sim/surgeon/guidance_profile.h"
 
 namespace orthonav::tools {
 

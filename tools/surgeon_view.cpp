@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "tools/support/eye_in_rig.h"
 
 namespace orthonav::tools {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/holograms/label_layout.h"
+#include "engine/holograms/labels/label_layout.h"
 #include "engine/holograms/optical_model.h"
 #include "engine/live/frame_loop.h"
-#include "hal/sim/room_renderer.h"
+#include "hal/sim/cameras/room_renderer.h"
 #include "hal/sim/sim_headset.h"
 #include "render/renderer.h"
 

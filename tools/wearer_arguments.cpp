@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/translation.h"
-#include "engine/holograms/hologram_colours.h"
+#include "engine/holograms/shapes/hologram_colours.h"
 #include "tools/arguments.h"
 #include "tools/language_file.h"
 

@@ -1,8 +1,8 @@
 #include "base/angle.h"
 #include "engine/golden/golden_operation.h"
-#include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
-#include "engine/holograms/screw_holograms.h"
+#include "engine/holograms/shapes/render_values.h"
+#include "engine/holograms/shapes/screw_holograms.h"
 #include "render/float3.h"
 #include "render/projection.h"
 

@@ -5,8 +5,8 @@
 
 #include "base/check.h"
 #include "engine/golden/golden_vertebra.h"
-#include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "render/float3.h"
 
 namespace orthonav::engine::golden {

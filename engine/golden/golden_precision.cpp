@@ -6,7 +6,7 @@
 #include "base/angle.h"
 #include "engine/golden/golden_stage.h"
 #include "engine/golden/golden_vertebra.h"
-#include "engine/holograms/hologram_twin.h"
+#include "engine/holograms/shapes/hologram_twin.h"
 #include "render/float3.h"
 #include "render/projection.h"
 

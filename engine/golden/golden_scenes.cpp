@@ -3,7 +3,7 @@
 #include <array>
 
 #include "engine/golden/golden_stage.h"
-#include "engine/holograms/label_layout.h"
+#include "engine/holograms/labels/label_layout.h"
 
 namespace orthonav::engine {
 namespace {

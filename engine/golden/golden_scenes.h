@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/holograms/glare_patches.h"
+#include "engine/holograms/labels/glare_patches.h"
 #include "render/renderer.h"
 
 namespace orthonav::engine {

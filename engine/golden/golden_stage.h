@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "engine/golden/golden_scenes.h"
-#include "engine/holograms/hologram_cross.h"
-#include "engine/holograms/hologram_label.h"
-#include "engine/holograms/hologram_shapes.h"
-#include "engine/holograms/hologram_status.h"
+#include "engine/holograms/shapes/hologram_cross.h"
+#include "engine/holograms/shapes/hologram_label.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_status.h"
 #include "nav/guidance/screw.h"
 #include "nav/guidance/screw_numbers.h"
 

@@ -2,7 +2,7 @@
 
 #include "engine/golden/golden_operation.h"
 #include "engine/golden/golden_vertebra.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "render/float3.h"
 
 namespace orthonav::engine::golden {

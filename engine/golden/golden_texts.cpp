@@ -4,8 +4,8 @@
 
 #include "base/angle.h"
 #include "engine/golden/golden_stage.h"
-#include "engine/holograms/hologram_numbers.h"
-#include "engine/session/wording.h"
+#include "engine/holograms/shapes/hologram_numbers.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/check.h"
 #include "embedded/golden_vertebra_ply.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "engine/io/ply_file.h"
 
 namespace orthonav::engine {

@@ -1,6 +1,6 @@
 #include "engine/holograms/anchored_frame.h"
 
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/render_values.h"
 
 namespace orthonav::engine {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/transform.h"
-#include "engine/holograms/glare_patches.h"
+#include "engine/holograms/labels/glare_patches.h"
 #include "hal/api/display.h"
 #include "render/scene.h"
 

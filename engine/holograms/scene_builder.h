@@ -4,13 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "engine/holograms/gaze_anchor.h"
-#include "engine/holograms/hologram_shapes.h"
-#include "engine/holograms/hologram_status.h"
+#include "engine/holograms/labels/gaze_anchor.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_status.h"
 #include "engine/holograms/shown_frame.h"
 #include "engine/holograms/visibility.h"
 #include "engine/session/guidance.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "hal/api/display.h"
 #include "render/scene.h"
 

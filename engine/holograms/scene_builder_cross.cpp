@@ -1,7 +1,7 @@
 #include <utility>
 
 #include "engine/holograms/scene_builder.h"
-#include "engine/holograms/screw_holograms.h"
+#include "engine/holograms/shapes/screw_holograms.h"
 
 namespace orthonav::engine {
 

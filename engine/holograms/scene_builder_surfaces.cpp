@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "render/shapes.h"
 
 namespace orthonav::engine {

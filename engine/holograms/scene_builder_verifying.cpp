@@ -1,7 +1,7 @@
-#include "engine/holograms/hologram_label.h"
-#include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
-#include "engine/holograms/screw_holograms.h"
+#include "engine/holograms/shapes/hologram_label.h"
+#include "engine/holograms/shapes/render_values.h"
+#include "engine/holograms/shapes/screw_holograms.h"
 
 namespace orthonav::engine {
 

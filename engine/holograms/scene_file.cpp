@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/angle.h"
-#include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_file_holograms.h"
 #include "engine/holograms/scene_file_values.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "engine/io/json_document.h"
 #include "render/float3.h"
 #include "render/projection.h"

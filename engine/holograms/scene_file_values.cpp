@@ -6,7 +6,7 @@
 
 #include "base/angle.h"
 #include "base/printed.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "render/float3.h"
 
 namespace orthonav::engine {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "engine/io/json_document.h"
 #include "render/scene.h"
 

@@ -4,14 +4,14 @@
 #include <array>
 
 #include "base/translation.h"
-#include "engine/holograms/hologram_shapes.h"
 #include "engine/holograms/next_act.h"
-#include "engine/holograms/render_values.h"
-#include "engine/holograms/screw_holograms.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
+#include "engine/holograms/shapes/render_values.h"
+#include "engine/holograms/shapes/screw_holograms.h"
 #include "engine/session/coach.h"
 #include "engine/session/placed_wire.h"
 #include "engine/session/steps/guiding.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/holograms/screw_holograms.h"
+#include "engine/holograms/shapes/screw_holograms.h"
 #include "engine/session/coach.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine {
 

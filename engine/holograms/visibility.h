@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "engine/session/guidance.h"
 
 namespace orthonav::engine {

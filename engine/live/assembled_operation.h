@@ -6,8 +6,8 @@
 
 #include "engine/live/frame_loop.h"
 #include "engine/session/known_errors.h"
+#include "engine/session/log/observer_list.h"
 #include "engine/session/method.h"
-#include "engine/session/observer_list.h"
 #include "nav/tracking/anchored_tracker.h"
 
 namespace orthonav::engine {

@@ -1,6 +1,6 @@
 #include "engine/live/object_presenter.h"
 
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "render/projection.h"
 
 namespace orthonav::engine {

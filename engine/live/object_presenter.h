@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "base/transform.h"
-#include "engine/holograms/label_layout.h"
+#include "engine/holograms/labels/label_layout.h"
 #include "engine/live/frame_loop.h"
 #include "engine/live/scene_objects.h"
 #include "hal/api/object_display.h"

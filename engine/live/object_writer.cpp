@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "base/srgb.h"
-#include "engine/holograms/render_values.h"
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "render/float3.h"
 #include "render/frame/frame_items.h"
 #include "render/text/text_layout.h"

@@ -8,7 +8,7 @@
 
 #include "base/histogram.h"
 #include "base/mutex.h"
-#include "engine/holograms/label_layout.h"
+#include "engine/holograms/labels/label_layout.h"
 #include "engine/live/display_renderer.h"
 #include "engine/live/frame_loop.h"
 #include "hal/api/pixel_display.h"

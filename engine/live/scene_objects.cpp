@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/holograms/hologram_label.h"
-#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_label.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "render/float3.h"
 #include "render/projection.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/mutex.h"
 #include "base/time.h"
-#include "engine/holograms/glare_patches.h"
+#include "engine/holograms/labels/glare_patches.h"
 #include "hal/api/shown_status.h"
 #include "render/scene.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/holograms/panel_layout.h"
+#include "engine/holograms/labels/panel_layout.h"
 #include "hal/api/pixel_display.h"
 #include "render/hosted_renderer.h"
 

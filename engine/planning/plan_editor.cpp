@@ -7,8 +7,8 @@
 
 #include "engine/case/case_writer.h"
 #include "engine/case/screw_place.h"
-#include "engine/session/commands.h"
 #include "engine/session/steps/replanning.h"
+#include "engine/session/workflow/commands.h"
 #include "nav/planning/pedicle_screws.h"
 
 namespace orthonav::engine {

@@ -12,7 +12,7 @@
 #include "engine/session/calibration_in_use.h"
 #include "engine/session/guidance.h"
 #include "engine/session/known_errors.h"
-#include "engine/session/session_observer.h"
+#include "engine/session/log/session_observer.h"
 #include "nav/guidance/changed_screw.h"
 #include "nav/guidance/screw_cylinder.h"
 

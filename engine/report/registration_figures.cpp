@@ -8,7 +8,7 @@
 
 #include "base/angle.h"
 #include "engine/case/operation.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/published/registration.h"
 

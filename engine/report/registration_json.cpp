@@ -4,7 +4,7 @@
 #include "base/angle.h"
 #include "engine/case/operation.h"
 #include "engine/report/registration_figures.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine {
 namespace {

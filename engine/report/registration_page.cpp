@@ -10,7 +10,7 @@
 #include "engine/report/registration_drawing.h"
 #include "engine/report/registration_tables.h"
 #include "engine/report/tissue_drawing.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/angle.h"
-#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "engine/session/placed_wire.h"
 
 namespace orthonav::engine {

@@ -14,7 +14,7 @@
 #include "engine/report/tracked_section.h"
 #include "engine/report/verdict.h"
 #include "engine/session/steps/replanning.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine {
 namespace {

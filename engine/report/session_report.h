@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/session/logged_operation.h"
+#include "engine/session/log/logged_operation.h"
 
 namespace orthonav::engine {
 

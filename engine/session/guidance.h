@@ -9,7 +9,7 @@
 #include "base/tracked.h"
 #include "engine/session/operation_state.h"
 #include "engine/session/placed_wire.h"
-#include "engine/session/status_line.h"
+#include "engine/session/text/status_line.h"
 #include "nav/guidance/drill_watch.h"
 #include "nav/guidance/screw.h"
 #include "nav/guidance/screw_numbers.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include "engine/session/log/operation_json.h"
 #include "engine/session/operation_in_work.h"
-#include "engine/session/operation_json.h"
 
 namespace orthonav::engine {
 

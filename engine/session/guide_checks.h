@@ -5,7 +5,7 @@
 
 #include "base/angle.h"
 #include "engine/session/landmark.h"
-#include "engine/session/operation_json.h"
+#include "engine/session/log/operation_json.h"
 #include "engine/session/tool_in_vertebra.h"
 #include "engine/session/touch.h"
 #include "nav/calibration/spin.h"

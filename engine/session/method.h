@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/case/operation.h"
-#include "engine/session/workflow.h"
+#include "engine/session/workflow/workflow.h"
 #include "nav/registration/registration.h"
 #include "nav/tracking/tool_tracker.h"
 

@@ -6,10 +6,10 @@
 
 #include "engine/case/operation.h"
 #include "engine/session/guidance.h"
-#include "engine/session/messages.h"
+#include "engine/session/log/session_observer.h"
 #include "engine/session/method.h"
-#include "engine/session/session_observer.h"
 #include "engine/session/session_options.h"
+#include "engine/session/text/messages.h"
 #include "engine/session/touch.h"
 #include "engine/session/watched_tools.h"
 

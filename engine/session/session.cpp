@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/joined.h"
-#include "engine/session/commands.h"
 #include "engine/session/steps/guiding.h"
+#include "engine/session/workflow/commands.h"
 
 namespace orthonav::engine {
 

@@ -10,7 +10,7 @@
 #include "engine/session/placed_wire.h"
 #include "engine/session/replan.h"
 #include "engine/session/touched_heads.h"
-#include "engine/session/workflow.h"
+#include "engine/session/workflow/workflow.h"
 #include "nav/guidance/drill_watch.h"
 #include "nav/guidance/rod_bends.h"
 #include "nav/registration/check_points.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/transform.h"
-#include "engine/session/messages.h"
+#include "engine/session/text/messages.h"
 #include "nav/registration/pressed_places.h"
 
 namespace orthonav::engine {

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <optional>
 
-#include "engine/session/messages.h"
 #include "engine/session/operation_in_work.h"
 #include "engine/session/steps/guiding.h"
+#include "engine/session/text/messages.h"
 #include "engine/session/watched_tools.h"
-#include "engine/session/workflow.h"
+#include "engine/session/workflow/workflow.h"
 #include "hal/api/devices.h"
 
 namespace orthonav::engine {

@@ -12,7 +12,7 @@
 namespace orthonav {
 
 /// The current step of the operation; the workflow's table decides every change
-/// (engine/session/workflow.h).
+/// (engine/session/workflow/workflow.h).
 enum class Step : std::uint8_t {
   kSetup,
   kDigitize,

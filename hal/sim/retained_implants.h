@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/side.h"
-#include "hal/sim/room.h"
+#include "hal/sim/room/room.h"
 
 namespace orthonav::sim {
 

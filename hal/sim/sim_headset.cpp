@@ -5,13 +5,13 @@
 #include <iterator>
 #include <utility>
 
-#include "hal/sim/hololens2.h"
-#include "hal/sim/imperfect.h"
-#include "hal/sim/sim_cameras.h"
-#include "hal/sim/sim_depth.h"
+#include "hal/sim/cameras/hololens2.h"
+#include "hal/sim/cameras/imperfect.h"
+#include "hal/sim/cameras/sim_cameras.h"
+#include "hal/sim/cameras/sim_depth.h"
+#include "hal/sim/room/surface_field.h"
+#include "hal/sim/room/tag_flaws.h"
 #include "hal/sim/sim_room.h"
-#include "hal/sim/surface_field.h"
-#include "hal/sim/tag_flaws.h"
 
 namespace orthonav::sim {
 namespace {

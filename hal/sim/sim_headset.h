@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "hal/api/devices.h"
-#include "hal/sim/depth_model.h"
+#include "hal/sim/cameras/depth_model.h"
 #include "hal/sim/error_model.h"
-#include "hal/sim/guidance_profile.h"
-#include "hal/sim/room.h"
+#include "hal/sim/room/room.h"
+#include "hal/sim/surgeon/guidance_profile.h"
 #include "hal/sim/truth.h"
 
 namespace orthonav::sim {

@@ -3,9 +3,9 @@
 
 #include "base/joined.h"
 #include "base/printed.h"
-#include "hal/sim/room_layout.h"
+#include "hal/sim/room/room_layout.h"
 #include "hal/sim/sim_headset.h"
-#include "hal/sim/stroke_plan.h"
+#include "hal/sim/surgeon/stroke_plan.h"
 
 namespace orthonav::sim {
 namespace {

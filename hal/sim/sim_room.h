@@ -6,8 +6,8 @@
 
 #include "base/mutex.h"
 #include "hal/api/devices.h"
-#include "hal/sim/head_track.h"
-#include "hal/sim/room_simulation.h"
+#include "hal/sim/cameras/head_track.h"
+#include "hal/sim/room/room_simulation.h"
 #include "hal/sim/sim_headset.h"
 
 namespace orthonav::sim {

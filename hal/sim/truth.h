@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/side.h"
-#include "hal/sim/room.h"
+#include "hal/sim/room/room.h"
 
 namespace orthonav::sim {
 
@@ -26,7 +26,7 @@ struct PlacedHead {
 };
 
 /// What actually happened; filled while the session runs, read afterwards only by the evaluation
-/// (engine/study/evaluation.h). Navigation must not use it.
+/// (study/evaluation.h). Navigation must not use it.
 struct Truth {
   std::vector<DrivenWire> wires;
   std::vector<PlacedHead> heads;

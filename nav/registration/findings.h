@@ -10,7 +10,7 @@
 namespace orthonav::nav {
 
 // What a registration finds out about itself, as data. The words for people are made elsewhere
-// (engine/session/wording.h).
+// (engine/session/text/wording.h).
 
 /// A part of the vertebra's reachable surface, as surgeons name it.
 struct BonePlace {

@@ -6,15 +6,15 @@
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
-#include "engine/session/commands.h"
-#include "engine/session/observer_list.h"
-#include "engine/study/evaluation.h"
-#include "engine/study/sim_scenario.h"
-#include "engine/study/simulated_operation.h"
+#include "engine/session/log/observer_list.h"
+#include "engine/session/workflow/commands.h"
 #include "hal/api/forwarding_headset.h"
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/hl2ss/server/server.h"
 #include "nav/evaluation/errors.h"
+#include "study/evaluation.h"
+#include "study/sim_scenario.h"
+#include "study/simulated_operation.h"
 
 namespace orthonav::engine::hl2ss_operation_test {
 namespace {

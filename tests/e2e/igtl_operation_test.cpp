@@ -12,10 +12,10 @@
 #include "engine/live/assembled_operation.h"
 #include "engine/live/known_tools.h"
 #include "engine/phantom/phantom.h"
-#include "engine/study/evaluation.h"
-#include "engine/study/sim_scenario.h"
 #include "hal/api/forwarding_headset.h"
 #include "hal/igtl/tracker_headset.h"
+#include "study/evaluation.h"
+#include "study/sim_scenario.h"
 #include "tests/support/pose_server.h"
 
 namespace orthonav::engine::igtl_operation_test {

@@ -11,8 +11,8 @@
 #include "engine/live/assembled_operation.h"
 #include "engine/live/known_tools.h"
 #include "engine/phantom/phantom.h"
-#include "engine/study/simulated_operation.h"
 #include "hal/replay/replay_headset.h"
+#include "study/simulated_operation.h"
 
 namespace orthonav::engine::operation_test {
 namespace {

@@ -8,7 +8,7 @@
 #include "hal/hl2ss/server/depth_bytes.h"
 #include "hal/hl2ss/server/depth_request.h"
 #include "hal/hl2ss/video_decoder.h"
-#include "hal/sim/depth_model.h"
+#include "hal/sim/cameras/depth_model.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {

@@ -2,7 +2,7 @@
 
 #include "engine/io/records.h"
 #include "engine/report/session_report.h"
-#include "engine/session/logged_operation.h"
+#include "engine/session/log/logged_operation.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include "engine/study/study_profile.h"
-#include "engine/study/study_reading.h"
+#include "study/study_profile.h"
+#include "study/study_reading.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "engine/golden/golden_stage.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "engine/io/mesh_file.h"
 #include "nav/geometry/mesh.h"
 #include "tests/support/is_ok.h"

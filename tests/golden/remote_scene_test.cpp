@@ -9,8 +9,8 @@
 #include <span>
 
 #include "base/srgb.h"
-#include "engine/holograms/hologram_label.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/hologram_label.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "engine/io/image_file.h"
 #include "engine/live/scene_objects.h"
 #include "hal/hl2ss/scene_client.h"

@@ -11,7 +11,7 @@
 #include "base/translation.h"
 #include "engine/golden/golden_stage.h"
 #include "engine/session/coach.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "render/projection.h"
 #include "tests/golden/expected_box.h"
 #include "tests/support/language_in_use.h"

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "engine/io/json_document.h"
-#include "engine/session/logged_operation.h"
-#include "engine/session/operation_json.h"
+#include "engine/session/log/logged_operation.h"
+#include "engine/session/log/operation_json.h"
 #include "engine/session/steps/digitizing.h"
 
 namespace orthonav::soak {

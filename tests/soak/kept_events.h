@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/io/records.h"
-#include "engine/session/session_observer.h"
+#include "engine/session/log/session_observer.h"
 
 namespace orthonav::soak {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/case/tool_file.h"
-#include "engine/session/operation_log.h"
-#include "engine/study/simulated_operation.h"
+#include "engine/session/log/operation_log.h"
+#include "study/simulated_operation.h"
 #include "tests/soak/flaky_env.h"
 
 namespace orthonav::soak {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/sim/room.h"
+#include "hal/sim/room/room.h"
 
 namespace orthonav::test {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "hal/sim/hololens2.h"
-#include "hal/sim/room_renderer.h"
+#include "hal/sim/cameras/hololens2.h"
+#include "hal/sim/cameras/room_renderer.h"
 
 namespace orthonav::sim::scene {
 

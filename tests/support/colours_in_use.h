@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/holograms/hologram_colours.h"
+#include "engine/holograms/shapes/hologram_colours.h"
 
 namespace orthonav::test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/session/operation_log.h"
+#include "engine/session/log/operation_log.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::test {

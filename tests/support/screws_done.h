@@ -6,7 +6,7 @@
 
 #include "engine/io/json_document.h"
 #include "engine/io/records.h"
-#include "engine/session/logged_operation.h"
+#include "engine/session/log/logged_operation.h"
 
 namespace orthonav::test {
 

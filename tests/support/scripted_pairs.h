@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hal/fake/scripted.h"
-#include "hal/sim/hololens2.h"
+#include "hal/sim/cameras/hololens2.h"
 
 namespace orthonav::test {
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/io/posix_env.h"
-#include "engine/session/logged_operation.h"
+#include "engine/session/log/logged_operation.h"
 #include "tests/support/wait_until.h"
 #include "tests/tools/command_line.h"
 #include "tools/stop_signals.h"

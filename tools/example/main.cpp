@@ -5,10 +5,10 @@
 #include <orthonav/engine/case/tool_file.h>
 #include <orthonav/engine/live/assembled_operation.h>
 #include <orthonav/engine/phantom/phantom.h>
-#include <orthonav/engine/session/wording.h>
-#include <orthonav/engine/study/set_up.h>
-#include <orthonav/engine/study/sim_scenario.h>
+#include <orthonav/engine/session/text/wording.h>
 #include <orthonav/hal/sim/sim_headset.h>
+#include <orthonav/study/set_up.h>
+#include <orthonav/study/sim_scenario.h>
 
 #include "must.h"
 

@@ -3,7 +3,7 @@
 //   register_points POINTS     points that a pointer took of it (CSV x,y,z in mm, in any frame)
 #include <orthonav/engine/case/points_file.h>
 #include <orthonav/engine/phantom/phantom.h>
-#include <orthonav/engine/session/wording.h>
+#include <orthonav/engine/session/text/wording.h>
 #include <orthonav/nav/guidance/predicted_error.h>
 #include <random>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/transform.h"
-#include "hal/sim/room.h"
+#include "hal/sim/room/room.h"
 
 namespace orthonav::preview {
 

@@ -1,5 +1,5 @@
 #include "tools/preview/hologram_filter.h"
-#include "engine/holograms/hologram_label.h"
+#include "engine/holograms/shapes/hologram_label.h"
 
 #include <algorithm>
 #include <iterator>

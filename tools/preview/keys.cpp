@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/session/commands.h"
+#include "engine/session/workflow/commands.h"
 
 namespace orthonav::preview {
 namespace {

@@ -5,11 +5,11 @@
 
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "engine/live/known_tools.h"
-#include "engine/session/commands.h"
-#include "engine/session/wording.h"
-#include "engine/study/sim_scenario.h"
+#include "engine/session/text/wording.h"
+#include "engine/session/workflow/commands.h"
+#include "study/sim_scenario.h"
 #include "tools/support/eye_in_rig.h"
 
 namespace orthonav::preview {

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "engine/case/case.h"
-#include "engine/holograms/label_layout.h"
+#include "engine/holograms/labels/label_layout.h"
 #include "engine/live/assembled_operation.h"
 #include "hal/open/open.h"
 #include "tools/preview/preview_headset.h"

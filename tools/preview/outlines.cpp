@@ -3,8 +3,8 @@
 #include <array>
 #include <utility>
 
-#include "engine/holograms/hologram_parts.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/hologram_parts.h"
+#include "engine/holograms/shapes/render_values.h"
 
 namespace orthonav::preview {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tools/preview/error_sources.h"
 #include "tools/preview/panel_parts.h"
 #include "tools/preview/screw_panel.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/stopwatch.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "tools/preview/outlines.h"
 #include "tools/support/eye_in_rig.h"
 

@@ -7,7 +7,7 @@
 
 #include "engine/holograms/optical_model.h"
 #include "hal/api/devices.h"
-#include "hal/sim/room_renderer.h"
+#include "hal/sim/cameras/room_renderer.h"
 #include "hal/sim/sim_headset.h"
 #include "render/renderer.h"
 #include "tools/preview/model.h"

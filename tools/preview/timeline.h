@@ -11,8 +11,8 @@
 #include "base/mutex.h"
 #include "base/tracked.h"
 #include "base/transform.h"
-#include "engine/session/workflow.h"
-#include "hal/sim/room.h"
+#include "engine/session/workflow/workflow.h"
+#include "hal/sim/room/room.h"
 #include "render/scene.h"
 
 namespace orthonav::preview {

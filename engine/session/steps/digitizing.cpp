@@ -9,7 +9,7 @@
 #include "base/reason.h"
 #include "base/translation.h"
 #include "engine/io/bit_hash.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "engine/session/coach.h"
-#include "engine/session/logged_operation.h"
+#include "engine/session/log/logged_operation.h"
+#include "engine/session/log/operation_json.h"
 #include "engine/session/method.h"
 #include "engine/session/operation_in_work.h"
-#include "engine/session/operation_json.h"
 #include "engine/session/operation_state.h"
 #include "engine/session/work_watch.h"
 #include "nav/tracking/worker.h"

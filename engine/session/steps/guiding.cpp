@@ -13,7 +13,7 @@
 #include "engine/session/guide_checks.h"
 #include "engine/session/steps/placing.h"
 #include "engine/session/steps/rod_templating.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "base/translation.h"
+#include "engine/session/log/operation_json.h"
 #include "engine/session/operation_in_work.h"
-#include "engine/session/operation_json.h"
 #include "engine/session/tool_in_vertebra.h"
 #include "nav/guidance/drill_watch.h"
 #include "nav/guidance/screw_numbers.h"

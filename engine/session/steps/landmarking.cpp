@@ -11,7 +11,7 @@
 #include "engine/session/guide_checks.h"
 #include "engine/session/steps/guiding.h"
 #include "engine/session/steps/verifying.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine {
 namespace {

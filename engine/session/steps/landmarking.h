@@ -5,9 +5,9 @@
 #include <span>
 #include <variant>
 
+#include "engine/session/log/operation_json.h"
 #include "engine/session/operation_in_work.h"
-#include "engine/session/operation_json.h"
-#include "engine/session/status_line.h"
+#include "engine/session/text/status_line.h"
 
 namespace orthonav::engine {
 

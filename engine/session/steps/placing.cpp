@@ -13,7 +13,7 @@
 #include "engine/session/guide_checks.h"
 #include "engine/session/steps/guiding.h"
 #include "engine/session/steps/replanning.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine {
 

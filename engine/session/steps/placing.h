@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "engine/session/messages.h"
+#include "engine/session/log/operation_json.h"
 #include "engine/session/operation_in_work.h"
-#include "engine/session/operation_json.h"
-#include "engine/session/status_line.h"
+#include "engine/session/text/messages.h"
+#include "engine/session/text/status_line.h"
 #include "engine/session/tool_in_vertebra.h"
 #include "engine/session/touch.h"
 #include "nav/calibration/spin.h"

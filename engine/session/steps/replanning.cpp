@@ -15,7 +15,7 @@
 #include "engine/case/screw_place.h"
 #include "engine/session/steps/guiding.h"
 #include "engine/session/steps/placing.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "nav/guidance/anatomical_deviation.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/guidance/screw_clearance.h"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/time.h"
+#include "engine/session/log/operation_json.h"
 #include "engine/session/operation_in_work.h"
-#include "engine/session/operation_json.h"
 #include "engine/session/replan.h"
-#include "engine/session/status_line.h"
+#include "engine/session/text/status_line.h"
 #include "nav/guidance/screw.h"
 #include "nav/registration/registration.h"
 

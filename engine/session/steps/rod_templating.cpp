@@ -1,7 +1,7 @@
 #include "engine/session/steps/rod_templating.h"
 #include "base/printed.h"
 #include "base/translation.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include "base/printed.h"
 #include "base/translation.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/registration/press_fit.h"
 #include "nav/registration/unstroked_surface.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/session/log/operation_json.h"
 #include "engine/session/operation_in_work.h"
-#include "engine/session/operation_json.h"
-#include "engine/session/status_line.h"
+#include "engine/session/text/status_line.h"
 #include "nav/registration/pressed_places.h"
 
 namespace orthonav::engine {

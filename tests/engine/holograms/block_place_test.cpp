@@ -1,6 +1,6 @@
 // The status line, and the target cross with its numbers, go to where both eyes see them whole and
 // they cover nothing.
-#include "engine/holograms/block_place.h"
+#include "engine/holograms/labels/block_place.h"
 
 #include <gmock/gmock.h>
 
@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "base/random.h"
-#include "engine/holograms/hologram_label.h"
-#include "engine/holograms/hologram_numbers.h"
-#include "engine/holograms/hologram_status.h"
-#include "engine/holograms/label_layout.h"
-#include "engine/holograms/label_places.h"
+#include "engine/holograms/labels/label_layout.h"
+#include "engine/holograms/labels/label_places.h"
+#include "engine/holograms/shapes/hologram_label.h"
+#include "engine/holograms/shapes/hologram_numbers.h"
+#include "engine/holograms/shapes/hologram_status.h"
 #include "render/float3.h"
 #include "render/frame/frame_items.h"
 #include "render/shapes.h"

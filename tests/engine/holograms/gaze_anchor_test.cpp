@@ -1,10 +1,10 @@
-#include "engine/holograms/gaze_anchor.h"
+#include "engine/holograms/labels/gaze_anchor.h"
 
 #include <gtest/gtest.h>
 
-#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/scene_builder.h"
-#include "engine/holograms/screw_holograms.h"
+#include "engine/holograms/shapes/hologram_label.h"
+#include "engine/holograms/shapes/screw_holograms.h"
 #include "tests/engine/live/guided_scene.h"
 
 namespace orthonav::engine::gaze_anchor_test {

@@ -1,4 +1,4 @@
-#include "engine/holograms/glare_patches.h"
+#include "engine/holograms/labels/glare_patches.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/holograms/hologram_cross.h"
-#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_cross.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "tests/engine/holograms/shown_holograms.h"
 #include "tests/support/scripted_operation.h"
 

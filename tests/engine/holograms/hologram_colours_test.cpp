@@ -1,4 +1,4 @@
-#include "engine/holograms/hologram_colours.h"
+#include "engine/holograms/shapes/hologram_colours.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <string>
 
 #include "base/srgb.h"
-#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "tests/support/colours_in_use.h"
 
 namespace orthonav::engine {

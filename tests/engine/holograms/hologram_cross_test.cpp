@@ -1,4 +1,4 @@
-#include "engine/holograms/hologram_cross.h"
+#include "engine/holograms/shapes/hologram_cross.h"
 
 #include <gtest/gtest.h>
 

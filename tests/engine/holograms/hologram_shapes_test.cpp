@@ -1,4 +1,4 @@
-#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/holograms/hologram_status.h"
+#include "engine/holograms/shapes/hologram_status.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/holograms/hologram_shapes.h"
-#include "engine/holograms/status_rows.h"
+#include "engine/holograms/labels/status_rows.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 
 namespace orthonav::engine {
 namespace {

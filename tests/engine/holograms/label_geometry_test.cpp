@@ -1,4 +1,4 @@
-#include "engine/holograms/label_geometry.h"
+#include "engine/holograms/labels/label_geometry.h"
 
 #include <gtest/gtest.h>
 

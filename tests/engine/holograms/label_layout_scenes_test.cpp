@@ -5,9 +5,9 @@
 #include <functional>
 
 #include "base/random.h"
-#include "engine/holograms/hologram_label.h"
-#include "engine/holograms/label_layout.h"
-#include "engine/holograms/label_places.h"
+#include "engine/holograms/labels/label_layout.h"
+#include "engine/holograms/labels/label_places.h"
+#include "engine/holograms/shapes/hologram_label.h"
 #include "render/frame/frame_items.h"
 #include "tests/engine/holograms/operating_field.h"
 

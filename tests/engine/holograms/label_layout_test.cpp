@@ -1,14 +1,14 @@
 // How labels keep and change their places from frame to frame.
-#include "engine/holograms/label_layout.h"
+#include "engine/holograms/labels/label_layout.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 
 #include "base/random.h"
-#include "engine/holograms/hologram_label.h"
-#include "engine/holograms/hologram_shapes.h"
-#include "engine/holograms/label_places.h"
+#include "engine/holograms/labels/label_places.h"
+#include "engine/holograms/shapes/hologram_label.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "render/float3.h"
 #include "render/frame/frame_items.h"
 #include "render/text/font.h"

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <optional>
 
-#include "engine/holograms/hologram_label.h"
-#include "engine/holograms/hologram_shapes.h"
-#include "engine/holograms/hologram_status.h"
+#include "engine/holograms/shapes/hologram_label.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_status.h"
 #include "render/float3.h"
 #include "render/frame/frame_items.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "engine/holograms/glare_patches.h"
+#include "engine/holograms/labels/glare_patches.h"
 #include "render/scene.h"
 
 namespace orthonav::test {

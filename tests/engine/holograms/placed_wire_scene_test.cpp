@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "tests/engine/holograms/shown_holograms.h"
 #include "tests/support/scripted_operation.h"
 

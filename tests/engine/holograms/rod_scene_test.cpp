@@ -7,8 +7,8 @@
 
 #include "base/angle.h"
 #include "base/printed.h"
-#include "engine/holograms/hologram_label.h"
-#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shapes/hologram_label.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "tests/engine/holograms/shown_holograms.h"
 #include "tests/support/scripted_operation.h"
 

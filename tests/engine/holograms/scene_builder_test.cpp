@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "render/float3.h"
 #include "tests/engine/holograms/shown_holograms.h"
 #include "tests/support/scripted_operation.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/scene_builder.h"
-#include "engine/session/wording.h"
+#include "engine/holograms/shapes/hologram_label.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine::scene_builder_test {
 

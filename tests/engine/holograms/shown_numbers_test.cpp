@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/printed.h"
-#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/shapes/hologram_label.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine::shown_numbers_test {

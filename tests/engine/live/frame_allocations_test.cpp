@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "engine/holograms/hologram_label.h"
-#include "engine/holograms/label_layout.h"
+#include "engine/holograms/labels/label_layout.h"
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/shapes/hologram_label.h"
 #include "hal/api/forwarding_headset.h"
 #include "hal/fake/scripted.h"
 #include "tests/engine/live/guided_scene.h"

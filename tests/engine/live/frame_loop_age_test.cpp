@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "engine/case/tool_file.h"
-#include "engine/session/wording.h"
-#include "engine/study/simulated_operation.h"
+#include "engine/session/text/wording.h"
 #include "hal/fake/failing.h"
+#include "study/simulated_operation.h"
 #include "tests/engine/live/guiding_loop.h"
 #include "tests/support/scripted_pairs.h"
 

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "hal/api/forwarding_headset.h"
 #include "hal/fake/failing.h"
 #include "tests/support/scripted_operation.h"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
-#include "engine/holograms/hologram_label.h"
-#include "engine/holograms/hologram_shapes.h"
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/shapes/hologram_label.h"
+#include "engine/holograms/shapes/hologram_shapes.h"
 #include "render/float3.h"
 #include "render/shapes.h"
 #include "tests/engine/live/guided_scene.h"

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/holograms/hologram_status.h"
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/shapes/hologram_status.h"
 #include "tests/support/allocation_count.h"
 
 namespace orthonav::engine::status_panel_test {

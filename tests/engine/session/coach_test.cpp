@@ -11,7 +11,7 @@
 #include "base/random.h"
 #include "engine/case/operation_plan.h"
 #include "engine/phantom/phantom.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/engine/session/promising_registration.h"
 #include "tests/support/scripted_operation.h"
 #include "tests/support/wait_until.h"

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "engine/session/coach.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/engine/session/promising_registration.h"
 
 namespace orthonav::engine::coach_test {

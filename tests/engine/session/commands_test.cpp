@@ -1,5 +1,5 @@
 // The one list of commands: what it gives to each device is what a session understands.
-#include "engine/session/commands.h"
+#include "engine/session/workflow/commands.h"
 
 #include <gmock/gmock.h>
 

@@ -1,12 +1,12 @@
 // What a log tells is what the session had, at every moment: state and reports are made of it.
-#include "engine/session/logged_operation.h"
+#include "engine/session/log/logged_operation.h"
 
 #include <gmock/gmock.h>
 
 #include <string>
 #include <vector>
 
-#include "engine/session/operation_log.h"
+#include "engine/session/log/operation_log.h"
 #include "tests/support/is_ok.h"
 #include "tests/support/logged_operation.h"
 #include "tests/support/memory_env.h"

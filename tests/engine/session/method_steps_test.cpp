@@ -1,9 +1,9 @@
-#include "engine/session/workflow.h"
+#include "engine/session/workflow/workflow.h"
 
 #include <gmock/gmock.h>
 
 #include "engine/session/session.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 

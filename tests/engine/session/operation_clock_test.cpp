@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "engine/io/posix_env.h"
-#include "engine/session/operation_log.h"
+#include "engine/session/log/operation_log.h"
 #include "tests/support/clock_step.h"
 #include "tests/support/is_ok.h"
 #include "tests/support/resumed_operation.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/session/operation_log.h"
+#include "engine/session/log/operation_log.h"
 #include "tests/support/is_ok.h"
 #include "tests/support/logged_operation.h"
 #include "tests/support/memory_env.h"

@@ -2,7 +2,7 @@
 
 #include <cerrno>
 
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/support/is_ok.h"
 #include "tests/support/resumed_operation.h"
 #include "tests/support/scripted_surgeon.h"

@@ -1,4 +1,4 @@
-#include "engine/session/operation_log.h"
+#include "engine/session/log/operation_log.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/is_ok.h"
 #include "tests/support/logged_operation.h"

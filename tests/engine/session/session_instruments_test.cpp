@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "engine/session/session.h"
+#include "engine/session/text/wording.h"
 #include "engine/session/tools_in_hand.h"
-#include "engine/session/wording.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 

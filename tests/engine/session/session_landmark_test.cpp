@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/session/session.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/engine/session/placed_session.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"

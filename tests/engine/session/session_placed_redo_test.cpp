@@ -1,7 +1,7 @@
 // A wire beyond a limit: its screw is redone, or its plan is changed to suit it.
 #include <gmock/gmock.h>
 
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/engine/session/placed_session.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "base/angle.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/engine/session/placed_session.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"

@@ -5,7 +5,7 @@
 
 #include "engine/holograms/scene_builder.h"
 #include "engine/session/session.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 

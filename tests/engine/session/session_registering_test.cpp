@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 #include "tests/support/wait_until.h"

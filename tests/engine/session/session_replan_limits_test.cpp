@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/angle.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/engine/session/replan_session.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"

@@ -1,7 +1,7 @@
 // In which steps a screw may be changed in surgery.
 #include <gmock/gmock.h>
 
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/engine/session/replan_session.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"

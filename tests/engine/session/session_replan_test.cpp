@@ -6,7 +6,7 @@
 #include "base/angle.h"
 #include "engine/holograms/visibility.h"
 #include "engine/phantom/phantom.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/engine/session/replan_session.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"

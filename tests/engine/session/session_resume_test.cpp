@@ -4,9 +4,9 @@
 #include <cerrno>
 
 #include "engine/holograms/scene_builder.h"
-#include "engine/session/resume_wording.h"
 #include "engine/session/session.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/resume_wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/support/is_ok.h"
 #include "tests/support/resumed_operation.h"
 #include "tests/support/said.h"

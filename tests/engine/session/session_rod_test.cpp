@@ -2,7 +2,7 @@
 
 #include "engine/session/session.h"
 #include "engine/session/steps/rod_templating.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 

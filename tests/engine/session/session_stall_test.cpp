@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "engine/holograms/visibility.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "engine/session/work_watch.h"
 #include "tests/support/scripted_operation.h"
 

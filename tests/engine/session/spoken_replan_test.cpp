@@ -1,4 +1,4 @@
-#include "engine/session/commands.h"
+#include "engine/session/workflow/commands.h"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/angle.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 namespace orthonav::engine::wording_test {
 

@@ -1,4 +1,4 @@
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 
 #include <gmock/gmock.h>
 

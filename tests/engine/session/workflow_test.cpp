@@ -1,4 +1,4 @@
-#include "engine/session/workflow.h"
+#include "engine/session/workflow/workflow.h"
 
 #include <gmock/gmock.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hal/hl2ss/server/depth_bytes.h"
-#include "hal/sim/depth_model.h"
+#include "hal/sim/cameras/depth_model.h"
 
 namespace orthonav::hl2ss::depth_parser_test {
 

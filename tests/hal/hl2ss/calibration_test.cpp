@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "hal/hl2ss/protocol.h"
-#include "hal/sim/hololens2.h"
+#include "hal/sim/cameras/hololens2.h"
 
 namespace orthonav::hl2ss {
 namespace {

@@ -15,7 +15,7 @@
 #include "hal/hl2ss/server/packets.h"
 #include "hal/hl2ss/server/port.h"
 #include "hal/hl2ss/voice.h"
-#include "hal/sim/hololens2.h"
+#include "hal/sim/cameras/hololens2.h"
 #include "tests/support/wait_until.h"
 
 namespace orthonav::hl2ss {

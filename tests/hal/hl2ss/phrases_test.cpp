@@ -1,7 +1,7 @@
 // What a headset's own recognition is told to listen for.
 #include <gmock/gmock.h>
 
-#include "engine/session/commands.h"
+#include "engine/session/workflow/commands.h"
 #include "hal/fake/scripted.h"
 #include "hal/open/open.h"
 #include "tests/hal/hl2ss/served_room.h"

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/holograms/hologram_status.h"
-#include "engine/holograms/panel_layout.h"
+#include "engine/holograms/labels/panel_layout.h"
+#include "engine/holograms/shapes/hologram_status.h"
 #include "tests/hal/openxr/drawn_frames.h"
 #include "tests/hal/openxr/software_renderer.h"
 #include "tests/hal/openxr/status_scene.h"

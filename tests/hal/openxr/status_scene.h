@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/holograms/hologram_status.h"
+#include "engine/holograms/shapes/hologram_status.h"
 #include "render/scene.h"
 
 namespace orthonav::test {

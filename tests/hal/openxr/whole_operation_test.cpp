@@ -8,9 +8,9 @@
 #include "engine/live/assembled_operation.h"
 #include "engine/live/known_tools.h"
 #include "engine/phantom/phantom.h"
-#include "engine/study/sim_scenario.h"
-#include "engine/study/simulated_operation.h"
 #include "hal/sim/sim_headset.h"
+#include "study/sim_scenario.h"
+#include "study/simulated_operation.h"
 #include "tests/hal/openxr/drawn_frames.h"
 
 namespace orthonav::test {

@@ -1,4 +1,4 @@
-#include "hal/sim/room_renderer_coverage.h"
+#include "hal/sim/cameras/room_renderer_coverage.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "hal/sim/tag_pattern.h"
+#include "hal/sim/cameras/tag_pattern.h"
 
 namespace orthonav::sim {
 namespace {

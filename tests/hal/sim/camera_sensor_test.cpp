@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hal/sim/room_renderer_sensor.h"
+#include "hal/sim/cameras/room_renderer_sensor.h"
 #include "tests/support/camera_scene.h"
 
 namespace orthonav::sim {

@@ -1,4 +1,4 @@
-#include "hal/sim/deviation.h"
+#include "hal/sim/surgeon/deviation.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "hal/sim/shown_cross.h"
+#include "hal/sim/surgeon/shown_cross.h"
 
 namespace orthonav::sim::deviation_test {
 namespace {

@@ -1,5 +1,5 @@
 // Drilling takes seconds: the wire goes where the tool points meanwhile.
-#include "hal/sim/drilling.h"
+#include "hal/sim/surgeon/drilling.h"
 
 #include <gmock/gmock.h>
 

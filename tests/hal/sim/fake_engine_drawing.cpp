@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hal/sim/shown_cross.h"
+#include "hal/sim/surgeon/shown_cross.h"
 #include "tests/hal/sim/fake_engine.h"
 
 namespace orthonav::sim {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "hal/sim/hololens2.h"
+#include "hal/sim/cameras/hololens2.h"
 #include "hal/sim/sim_headset.h"
 
 namespace orthonav::sim::head_statement_test {

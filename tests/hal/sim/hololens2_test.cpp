@@ -1,4 +1,4 @@
-#include "hal/sim/hololens2.h"
+#include "hal/sim/cameras/hololens2.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "hal/sim/imperfect.h"
+#include "hal/sim/cameras/imperfect.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hal/sim/hololens2.h"
+#include "hal/sim/cameras/hololens2.h"
 #include "tests/hal/sim/test_rooms.h"
 
 namespace orthonav::sim {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "hal/sim/instruments.h"
+#include "hal/sim/room/instruments.h"
 
 namespace orthonav::sim {
 namespace {

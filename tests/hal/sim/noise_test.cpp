@@ -1,4 +1,4 @@
-#include "hal/sim/noise.h"
+#include "hal/sim/room/noise.h"
 
 #include <gtest/gtest.h>
 

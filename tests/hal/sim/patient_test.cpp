@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "hal/sim/noise.h"
-#include "hal/sim/spine_motion.h"
-#include "hal/sim/stroke_plan.h"
-#include "hal/sim/surface_field.h"
+#include "hal/sim/room/noise.h"
+#include "hal/sim/room/spine_motion.h"
+#include "hal/sim/room/surface_field.h"
+#include "hal/sim/surgeon/stroke_plan.h"
 #include "tests/hal/sim/test_rooms.h"
 
 namespace orthonav::sim {

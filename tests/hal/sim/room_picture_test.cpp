@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "hal/sim/room_renderer.h"
+#include "hal/sim/cameras/room_renderer.h"
 #include "tests/support/camera_scene.h"
 
 namespace orthonav::sim {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <thread>
 
-#include "hal/sim/hololens2.h"
+#include "hal/sim/cameras/hololens2.h"
 #include "tests/hal/sim/hovering_headset.h"
 #include "tests/hal/sim/test_rooms.h"
 

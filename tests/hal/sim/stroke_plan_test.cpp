@@ -1,4 +1,4 @@
-#include "hal/sim/stroke_plan.h"
+#include "hal/sim/surgeon/stroke_plan.h"
 
 #include <gmock/gmock.h>
 

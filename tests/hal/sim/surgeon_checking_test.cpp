@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "hal/sim/bone_surface.h"
-#include "hal/sim/stroke_plan.h"
+#include "hal/sim/room/bone_surface.h"
+#include "hal/sim/surgeon/stroke_plan.h"
 #include "tests/hal/sim/fake_engine.h"
 
 namespace orthonav::sim {

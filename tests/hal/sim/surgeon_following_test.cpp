@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "hal/sim/bone_surface.h"
+#include "hal/sim/room/bone_surface.h"
 #include "tests/hal/sim/fake_engine.h"
 
 namespace orthonav::sim::surgeon_following_test {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "hal/sim/stroke_plan.h"
+#include "hal/sim/surgeon/stroke_plan.h"
 #include "tests/hal/sim/fake_engine.h"
 
 namespace orthonav::sim::surgeon_pace_test {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "hal/sim/bone_surface.h"
-#include "hal/sim/instruments.h"
+#include "hal/sim/room/bone_surface.h"
+#include "hal/sim/room/instruments.h"
 #include "tests/hal/sim/fake_engine.h"
 
 namespace orthonav::sim {

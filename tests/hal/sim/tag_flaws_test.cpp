@@ -1,5 +1,5 @@
 // Flaws of a tag besides its size: bent, glossy, under flickering light, with blood on it.
-#include "hal/sim/tag_flaws.h"
+#include "hal/sim/room/tag_flaws.h"
 
 #include <gmock/gmock.h>
 

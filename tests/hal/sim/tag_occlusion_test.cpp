@@ -1,5 +1,5 @@
 // What hides a tag, against the pixels of the same room.
-#include "hal/sim/tag_occlusion.h"
+#include "hal/sim/cameras/tag_occlusion.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/random.h"
-#include "hal/sim/hololens2.h"
-#include "hal/sim/room_renderer.h"
+#include "hal/sim/cameras/hololens2.h"
+#include "hal/sim/cameras/room_renderer.h"
 
 namespace orthonav::sim {
 namespace {

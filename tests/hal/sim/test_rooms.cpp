@@ -9,7 +9,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "hal/sim/bone_surface.h"
+#include "hal/sim/room/bone_surface.h"
 #include "tests/support/test_data.h"
 
 namespace orthonav::sim {

@@ -9,8 +9,8 @@
 #include <memory>
 #include <set>
 
-#include "hal/sim/hololens2.h"
-#include "hal/sim/room_renderer.h"
+#include "hal/sim/cameras/hololens2.h"
+#include "hal/sim/cameras/room_renderer.h"
 #include "tests/hal/sim/fake_engine.h"
 
 namespace orthonav::sim {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "engine/session/commands.h"
+#include "engine/session/workflow/commands.h"
 #include "tests/support/noisy_speech.h"
 
 namespace orthonav::voice::voice_test {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hal/sim/stroke_plan.h"
+#include "hal/sim/surgeon/stroke_plan.h"
 #include "nav/published/stroke_pattern.h"
 #include "nav/registration/registration.h"
 #include "tests/support/registration_builder.h"

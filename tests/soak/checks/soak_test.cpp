@@ -4,7 +4,7 @@
 
 #include "engine/case/operation_plan.h"
 #include "engine/phantom/phantom.h"
-#include "engine/session/observer_list.h"
+#include "engine/session/log/observer_list.h"
 #include "hal/fake/scripted.h"
 #include "tests/soak/flaky_headset.h"
 #include "tests/soak/memory_curve.h"

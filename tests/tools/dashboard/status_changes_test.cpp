@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/session/messages.h"
+#include "engine/session/text/messages.h"
 
 namespace orthonav::tools::status_changes_test {
 namespace {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "engine/io/posix_env.h"
-#include "engine/session/logged_operation.h"
+#include "engine/session/log/logged_operation.h"
 #include "tests/support/wait_until.h"
 #include "tests/tools/faults/failing_disk.h"
 #include "tests/tools/faults/short_run.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/io/posix_env.h"
-#include "engine/session/operation_log.h"
+#include "engine/session/log/operation_log.h"
 #include "tests/support/wait_until.h"
 #include "tests/tools/faults/failing_disk.h"
 #include "tests/tools/faults/short_run.h"

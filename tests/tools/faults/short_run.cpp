@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "engine/io/posix_env.h"
-#include "engine/session/operation_log.h"
+#include "engine/session/log/operation_log.h"
 #include "hal/replay/replay_headset.h"
 #include "tests/support/tag_scene.h"
 #include "tests/support/test_data.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/reason.h"
-#include "engine/session/commands.h"
-#include "engine/session/messages.h"
+#include "engine/session/text/messages.h"
+#include "engine/session/workflow/commands.h"
 #include "nav/guidance/rod.h"
 #include "nav/registration/registration.h"
 

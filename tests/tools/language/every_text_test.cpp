@@ -8,7 +8,7 @@
 #include "engine/session/steps/guiding.h"
 #include "engine/session/steps/replanning.h"
 #include "engine/session/steps/verifying.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/engine/session/status_wording.h"
 #include "tests/support/allocation_count.h"
 #include "tests/tools/language/every_message.h"

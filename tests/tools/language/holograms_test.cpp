@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "engine/holograms/hologram_numbers.h"
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/shapes/hologram_numbers.h"
 #include "engine/session/work_watch.h"
 #include "tests/support/scripted_operation.h"
 #include "tests/tools/language/pseudo_language.h"

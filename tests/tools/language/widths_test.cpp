@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "engine/holograms/status_rows.h"
+#include "engine/holograms/labels/status_rows.h"
 #include "engine/session/steps/guiding.h"
-#include "engine/session/wording.h"
+#include "engine/session/text/wording.h"
 #include "tests/support/language_in_use.h"
 #include "tools/language_file.h"
 

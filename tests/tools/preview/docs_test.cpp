@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "engine/session/commands.h"
+#include "engine/session/workflow/commands.h"
 #include "tools/preview/keys.h"
 #include "tools/preview/planning/plan_script.h"
 #include "tools/preview/script.h"

@@ -1,5 +1,5 @@
 #include "tools/preview/model.h"
-#include "engine/holograms/hologram_label.h"
+#include "engine/holograms/shapes/hologram_label.h"
 
 #include <gmock/gmock.h>
 

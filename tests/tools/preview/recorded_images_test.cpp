@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "hal/replay/recorder.h"
-#include "hal/sim/room_renderer.h"
+#include "hal/sim/cameras/room_renderer.h"
 #include "hal/sim/sim_headset.h"
 
 namespace orthonav::preview::recorded_images_test {

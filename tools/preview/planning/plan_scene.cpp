@@ -4,8 +4,8 @@
 
 #include "base/printed.h"
 #include "engine/case/screw_breach.h"
-#include "engine/holograms/hologram_colours.h"
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/hologram_colours.h"
+#include "engine/holograms/shapes/render_values.h"
 #include "nav/planning/pedicle_screws.h"
 #include "render/projection.h"
 #include "render/shapes.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/holograms/render_values.h"
+#include "engine/holograms/shapes/render_values.h"
 
 namespace orthonav::preview {
 namespace {

@@ -1,0 +1,156 @@
+#include "study/evaluation.h"
+
+#include <algorithm>
+
+#include "nav/evaluation/errors.h"
+#include "nav/tracking/anchor.h"
+
+namespace orthonav::engine {
+
+void GroundTruthRecorder::registered(Timestamp /*time*/, const LevelState& level,
+                                     const RegistrationOutcome& outcome) {
+  if (outcome.passed()) {
+    note(level, outcome.result->world_from_vertebra);
+  }
+}
+
+void GroundTruthRecorder::accepted(Timestamp /*time*/, const LevelState& level,
+                                   std::string_view /*shown*/) {
+  note(level, level.registration->world_from_vertebra);
+}
+
+void GroundTruthRecorder::note(const LevelState& level,
+                               const Transform<World, Vertebra>& estimated) {
+  const auto room_from_vertebra =
+      sim::room_from_level(headset_.room(), headset_.state(), level.plan.label);
+  if (!room_from_vertebra) {
+    return;
+  }
+  const auto world_from_vertebra = headset_.world_from_room() * *room_from_vertebra;
+  std::erase_if(registrations_, [&](const LevelTruth& l) { return l.label == level.plan.label; });
+  registrations_.push_back({level.plan.label, map_from_session() * estimated, world_from_vertebra});
+}
+
+Transform<World, World> GroundTruthRecorder::map_from_session() const {
+  const nav::Anchor* anchor = session_.tracker().anchor();
+  if (anchor == nullptr || !anchor->last_seen) {
+    return {};
+  }
+  return headset_.actual_from_reported(*anchor->last_seen) * anchor->world_from_anchored;
+}
+
+void GroundTruthRecorder::head_recorded(Timestamp /*time*/, nav::Side side,
+                                        const HeadTouch& touch) {
+  touched_.push_back({side, touch.head,
+                      headset_.world_from_room().inverse() * (map_from_session() * touch.place)});
+}
+
+void GroundTruthRecorder::head_dropped(Timestamp /*time*/, nav::Side side,
+                                       const HeadTouch& /*touch*/) {
+  const auto last = std::find_if(touched_.rbegin(), touched_.rend(),
+                                 [&](const TouchedHead& head) { return head.side == side; });
+  if (last != touched_.rend()) {
+    touched_.erase(std::next(last).base());
+  }
+}
+
+void GroundTruthRecorder::evaluate(std::span<const LevelState> levels,
+                                   OperationResult& result) const {
+  for (std::size_t i = 0; i < levels.size() && i < result.levels.size(); ++i) {
+    evaluate_level(levels[i], result.levels[i]);
+  }
+  for (RodOutcome& rod : result.rods) {
+    evaluate_rod(rod);
+  }
+}
+
+void GroundTruthRecorder::evaluate_level(const LevelState& state, LevelOutcome& level) const {
+  for (const LevelTruth& truth : registrations_) {
+    if (truth.label != level.label || !state.registration) {
+      continue;
+    }
+    double sum = 0.0;
+    level.errors_m.clear();
+    const auto vertebra_from_world = truth.truth.inverse();
+    for (const nav::ScrewPlan& screw : state.plan.screws) {
+      for (const Point<Vertebra> target : {screw.entry, screw.target}) {
+        const Point<Vertebra> registered = vertebra_from_world * (truth.estimated * target);
+        level.errors_m.push_back(registered - target);
+        sum += level.errors_m.back().norm();
+      }
+    }
+    level.tre_m = sum / (2.0 * static_cast<double>(state.plan.screws.size()));
+  }
+  for (std::size_t s = 0; s < level.screws.size(); ++s) {
+    ScrewOutcome& screw = level.screws[s];
+    // The last wire counts: an earlier one at the same place was taken out again.
+    for (const sim::DrivenWire& wire : headset_.truth().wires) {
+      if (wire.level != level.label || wire.side != screw.side) {
+        continue;
+      }
+      const nav::ScrewError error = nav::screw_error(
+          state.plan.screws[s], {wire.entry, wire.direction}, state.plan.model->surface());
+      screw.angle_error_rad = error.angle_rad;
+      screw.entry_error_m = error.entry_m;
+      if (state.screws[s].replanned()) {
+        const nav::ScrewError before =
+            nav::screw_error(state.screws[s].preoperative, {wire.entry, wire.direction},
+                             state.plan.model->surface());
+        screw.preoperative_angle_error_rad = before.angle_rad;
+        screw.preoperative_entry_error_m = before.entry_m;
+      }
+      const auto executed = nav::cylinder_along({wire.entry, wire.direction}, state.plan.screws[s],
+                                                state.plan.model->surface());
+      screw.driven = executed;
+      screw.executed =
+          executed ? nav::least_clearance(state.plan.model->surface(), *executed) : std::nullopt;
+    }
+  }
+}
+
+/// The mean of each head's touches.
+std::vector<Point<sim::Room>> GroundTruthRecorder::touched_heads(nav::Side side) const {
+  std::vector<Point<sim::Room>> heads;
+  std::vector<double> counts;
+  for (const TouchedHead& touched : touched_) {
+    if (touched.side != side) {
+      continue;
+    }
+    heads.resize(std::max(heads.size(), touched.head + 1));
+    counts.resize(heads.size());
+    const double count = ++counts[touched.head];
+    heads[touched.head].v += (touched.position.v - heads[touched.head].v) / count;
+  }
+  return heads;
+}
+
+void GroundTruthRecorder::evaluate_rod(RodOutcome& rod) const {
+  std::vector<Vec3> true_heads;
+  double sum = 0.0;
+  for (const Point<sim::Room>& touched : touched_heads(rod.side)) {
+    const sim::PlacedHead* nearest = nullptr;
+    for (const sim::PlacedHead& head : headset_.truth().heads) {
+      if (head.side != rod.side) {
+        continue;
+      }
+      if (!nearest || (head.position - touched).norm() < (nearest->position - touched).norm()) {
+        nearest = &head;
+      }
+    }
+    if (!nearest) {
+      return;
+    }
+    true_heads.push_back(nearest->position.v);
+    sum += (nearest->position - touched).norm();
+  }
+  if (true_heads.empty()) {
+    return;
+  }
+  rod.head_error_m = sum / static_cast<double>(true_heads.size());
+  const auto truth = nav::rod_template(true_heads);
+  if (truth && rod.length_m) {
+    rod.length_error_m = *rod.length_m - truth->length_m;
+  }
+}
+
+}  // namespace orthonav::engine
