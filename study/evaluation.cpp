@@ -27,7 +27,7 @@ void GroundTruthRecorder::note(const LevelState& level,
     return;
   }
   const auto world_from_vertebra = headset_.world_from_room() * *room_from_vertebra;
-  std::erase_if(registrations_, [&](const LevelTruth& l) { return l.label == level.plan.label; });
+  std::erase_if(registrations_, [&](const TruePose& l) { return l.label == level.plan.label; });
   registrations_.push_back({level.plan.label, map_from_session() * estimated, world_from_vertebra});
 }
 
@@ -54,58 +54,55 @@ void GroundTruthRecorder::head_dropped(Timestamp /*time*/, nav::Side side,
   }
 }
 
-void GroundTruthRecorder::evaluate(std::span<const LevelState> levels,
-                                   OperationResult& result) const {
-  for (std::size_t i = 0; i < levels.size() && i < result.levels.size(); ++i) {
-    evaluate_level(levels[i], result.levels[i]);
+void GroundTruthRecorder::evaluate(OperationResult& result) const {
+  for (std::size_t i = 0; i < result.state.levels.size(); ++i) {
+    result.truth.levels[i] = truth_of(result.state.levels[i]);
   }
-  for (RodOutcome& rod : result.rods) {
-    evaluate_rod(rod);
+  for (std::size_t i = 0; i < result.state.rods.size(); ++i) {
+    result.truth.rods[i] = truth_of(result.state.rods[i]);
   }
 }
 
-void GroundTruthRecorder::evaluate_level(const LevelState& state, LevelOutcome& level) const {
-  for (const LevelTruth& truth : registrations_) {
-    if (truth.label != level.label || !state.registration) {
-      continue;
-    }
+LevelTruth GroundTruthRecorder::truth_of(const LevelState& level) const {
+  LevelTruth truth;
+  const auto pose = std::ranges::find(registrations_, level.plan.label, &TruePose::label);
+  if (pose != registrations_.end() && level.registration) {
     double sum = 0.0;
-    level.errors_m.clear();
-    const auto vertebra_from_world = truth.truth.inverse();
-    for (const nav::ScrewPlan& screw : state.plan.screws) {
+    const auto vertebra_from_world = pose->truth.inverse();
+    for (const nav::ScrewPlan& screw : level.plan.screws) {
       for (const Point<Vertebra> target : {screw.entry, screw.target}) {
-        const Point<Vertebra> registered = vertebra_from_world * (truth.estimated * target);
-        level.errors_m.push_back(registered - target);
-        sum += level.errors_m.back().norm();
+        const Point<Vertebra> registered = vertebra_from_world * (pose->estimated * target);
+        truth.errors_m.push_back(registered - target);
+        sum += truth.errors_m.back().norm();
       }
     }
-    level.tre_m = sum / (2.0 * static_cast<double>(state.plan.screws.size()));
+    truth.tre_m = sum / (2.0 * static_cast<double>(level.plan.screws.size()));
   }
-  for (std::size_t s = 0; s < level.screws.size(); ++s) {
-    ScrewOutcome& screw = level.screws[s];
+  for (std::size_t s = 0; s < level.plan.screws.size(); ++s) {
+    const nav::ScrewPlan& plan = level.plan.screws[s];
+    ScrewTruth& screw = truth.screws.emplace_back();
     // The last wire counts: an earlier one at the same place was taken out again.
     for (const sim::DrivenWire& wire : headset_.truth().wires) {
-      if (wire.level != level.label || wire.side != screw.side) {
+      if (wire.level != level.plan.label || wire.side != plan.side) {
         continue;
       }
-      const nav::ScrewError error = nav::screw_error(
-          state.plan.screws[s], {wire.entry, wire.direction}, state.plan.model->surface());
+      const nav::SurfaceIndex& surface = level.plan.model->surface();
+      const nav::Axis<Vertebra> axis{wire.entry, wire.direction};
+      const nav::ScrewError error = nav::screw_error(plan, axis, surface);
+      screw.known = true;
       screw.angle_error_rad = error.angle_rad;
       screw.entry_error_m = error.entry_m;
-      if (state.screws[s].replanned()) {
+      if (level.screws[s].replanned()) {
         const nav::ScrewError before =
-            nav::screw_error(state.screws[s].preoperative, {wire.entry, wire.direction},
-                             state.plan.model->surface());
+            nav::screw_error(level.screws[s].preoperative, axis, surface);
         screw.preoperative_angle_error_rad = before.angle_rad;
         screw.preoperative_entry_error_m = before.entry_m;
       }
-      const auto executed = nav::cylinder_along({wire.entry, wire.direction}, state.plan.screws[s],
-                                                state.plan.model->surface());
-      screw.driven = executed;
-      screw.executed =
-          executed ? nav::least_clearance(state.plan.model->surface(), *executed) : std::nullopt;
+      screw.driven = nav::cylinder_along(axis, plan, surface);
+      screw.clearance = screw.driven ? nav::least_clearance(surface, *screw.driven) : std::nullopt;
     }
   }
+  return truth;
 }
 
 /// The mean of each head's touches.
@@ -124,7 +121,7 @@ std::vector<Point<sim::Room>> GroundTruthRecorder::touched_heads(nav::Side side)
   return heads;
 }
 
-void GroundTruthRecorder::evaluate_rod(RodOutcome& rod) const {
+RodTruth GroundTruthRecorder::truth_of(const RodState& rod) const {
   std::vector<Vec3> true_heads;
   double sum = 0.0;
   for (const Point<sim::Room>& touched : touched_heads(rod.side)) {
@@ -138,19 +135,21 @@ void GroundTruthRecorder::evaluate_rod(RodOutcome& rod) const {
       }
     }
     if (!nearest) {
-      return;
+      return {};
     }
     true_heads.push_back(nearest->position.v);
     sum += (nearest->position - touched).norm();
   }
   if (true_heads.empty()) {
-    return;
+    return {};
   }
-  rod.head_error_m = sum / static_cast<double>(true_heads.size());
-  const auto truth = nav::rod_template(true_heads);
-  if (truth && rod.length_m) {
-    rod.length_error_m = *rod.length_m - truth->length_m;
+  RodTruth truth;
+  truth.head_error_m = sum / static_cast<double>(true_heads.size());
+  const auto true_rod = nav::rod_template(true_heads);
+  if (true_rod && rod.rod) {
+    truth.length_error_m = rod.rod->length_m - true_rod->length_m;
   }
+  return truth;
 }
 
 }  // namespace orthonav::engine

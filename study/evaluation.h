@@ -28,10 +28,10 @@ class GroundTruthRecorder : public SessionObserver {
 
   /// Adds the true errors to the result: the TRE of each accepted registration at its screws'
   /// entries and targets; the angle and entry error of each driven wire; the rods'.
-  void evaluate(std::span<const LevelState> levels, OperationResult& result) const;
+  void evaluate(OperationResult& result) const;
 
  private:
-  struct LevelTruth {
+  struct TruePose {
     std::string label;
     Transform<World, Vertebra> estimated;
     Transform<World, Vertebra> truth;
@@ -42,9 +42,9 @@ class GroundTruthRecorder : public SessionObserver {
     Point<sim::Room> position;
   };
   void note(const LevelState& level, const Transform<World, Vertebra>& estimated);
-  void evaluate_level(const LevelState& state, LevelOutcome& level) const;
+  [[nodiscard]] LevelTruth truth_of(const LevelState& level) const;
   [[nodiscard]] std::vector<Point<sim::Room>> touched_heads(nav::Side side) const;
-  void evaluate_rod(RodOutcome& rod) const;
+  [[nodiscard]] RodTruth truth_of(const RodState& rod) const;
   /// From the session's World, which may be relative to a patient reference, to the headset's map.
   /// The head's noise in the pair that showed the reference is left out: it moves the bone and
   /// everything else that is seen in that pair alike.
@@ -52,7 +52,7 @@ class GroundTruthRecorder : public SessionObserver {
 
   const sim::SimHeadset& headset_;
   const Session& session_;
-  std::vector<LevelTruth> registrations_;
+  std::vector<TruePose> registrations_;
   std::vector<TouchedHead> touched_;
 };
 

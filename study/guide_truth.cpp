@@ -100,11 +100,12 @@ void GuideTruth::note_wires() {
 }
 
 void GuideTruth::evaluate(OperationResult& result) const {
-  for (LevelOutcome& level : result.levels) {
-    for (ScrewOutcome& screw : level.screws) {
+  for (std::size_t l = 0; l < result.state.levels.size(); ++l) {
+    const OperatedLevel& plan = result.state.levels[l].plan;
+    for (std::size_t s = 0; s < plan.screws.size(); ++s) {
       for (const Pierced& pierced : pierced_) {
-        if (pierced.level == level.label && pierced.side == screw.side) {
-          screw.guided = pierced.error;
+        if (pierced.level == plan.label && pierced.side == plan.screws[s].side) {
+          result.truth.levels[l].screws[s].guided = pierced.error;
         }
       }
     }

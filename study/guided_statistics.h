@@ -6,7 +6,7 @@
 namespace orthonav::engine {
 
 /// Over a study's runs: the guide's display error when wires pierced the bone; screws guided more
-/// than `kSilent_mm` off, across the plan, without a warning (ScrewOutcome::warned) and without
+/// than `kSilent_mm` off, across the plan, without a warning (`warned` in report.json) and without
 /// offsets shown as unsure; and breaches of the cortex without a warning.
 struct GuidedQuality {
   static constexpr double kSilent_mm = 2.0;

@@ -42,8 +42,8 @@ class Watchers {
   Watchers& operator=(const Watchers&) = delete;
 
   /// Adds their results.
-  void evaluate(std::span<const LevelState> levels, OperationResult& result) const {
-    ground_truth_.evaluate(levels, result);
+  void evaluate(OperationResult& result) const {
+    ground_truth_.evaluate(result);
     guide_truth_.evaluate(result);
     end_note_.explain(result);
   }
@@ -115,15 +115,15 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   if (const Status opened = tell_opened(hooks, room, method, live.session()); !opened) {
     return opened.error();
   }
-  OperationResult result =
-      outcome_of(live.session().levels(), live.session().rods(), run_until_done(hooks, live));
+  LoopReport loop = run_until_done(hooks, live);
+  OperationResult result = result_of(live.session().operation(), std::move(loop));
   result.errors = live.errors();
   result.calibration = calibration_in_use(live.session().tracker());
   // A recording that failed must not cost the operation its result.
   if (*recorder) {
     result.recording = (*recorder)->close();
   }
-  watchers.evaluate(live.session().levels(), result);
+  watchers.evaluate(result);
   return result;
 }
 

@@ -72,22 +72,24 @@ std::vector<std::uint8_t> poster_of(const DemoReport& report,
 void show_spine(const engine::OperationResult& result, bool simulated,
                 engine::ReportContent& content) {
   std::optional<Transform<Vertebra, World>> first_from_world;
-  for (const engine::LevelOutcome& level : result.levels) {
-    if (!level.accepted || !level.registered) {
+  for (std::size_t l = 0; l < result.state.levels.size(); ++l) {
+    const engine::LevelState& level = result.state.levels[l];
+    if (!level.accepted || !level.newest || !level.plan.model) {
       continue;
     }
-    const auto& world_from_vertebra = level.registered->registration.world_from_vertebra;
+    const auto& world_from_vertebra = level.newest->registration.world_from_vertebra;
     if (!first_from_world) {
       first_from_world = world_from_vertebra.inverse();
     }
     const Transform<Vertebra, Vertebra> pose = *first_from_world * world_from_vertebra;
-    content.spine.add_bone(level.registered->model->mesh(), pose);
-    for (const engine::ScrewOutcome& screw : level.screws) {
-      if (screw.size) {
-        content.spine.add_planned(*screw.size, pose);
+    content.spine.add_bone(level.plan.model->mesh(), pose);
+    for (std::size_t s = 0; s < level.screws.size(); ++s) {
+      if (const auto planned = nav::cylinder_of(level.plan.screws[s])) {
+        content.spine.add_planned(*planned, pose);
       }
-      if (screw.done && screw.driven) {
-        content.spine.add_placed(*screw.driven, pose);
+      const auto driven = engine::driven_screw(level, s, result.truth.levels[l].screws[s]);
+      if (level.screws[s].done && driven) {
+        content.spine.add_placed(*driven, pose);
       }
     }
   }
@@ -116,9 +118,9 @@ Status write_demo_report(const std::filesystem::path& folder, const engine::Oper
     content.timings.push_back(
         {"draw the surgeon's view (room and holograms)", result.loop.draw_wall_ms});
   }
-  for (const engine::LevelOutcome& level : result.levels) {
-    if (level.registered) {
-      content.registrations.push_back(*level.registered);
+  for (const engine::LevelState& level : result.state.levels) {
+    if (auto registered = engine::registered_level(level)) {
+      content.registrations.push_back(std::move(*registered));
     }
   }
   show_spine(result, report.simulated, content);

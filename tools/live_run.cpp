@@ -82,8 +82,7 @@ class LiveRun {
  private:
   engine::OperationResult result_of(engine::LoopReport report) {
     const auto& session = operation_->session();
-    engine::OperationResult result =
-        engine::outcome_of(session.levels(), session.rods(), std::move(report));
+    engine::OperationResult result = engine::result_of(session.operation(), std::move(report));
     result.method = method_.name;
     result.case_name = case_name_;
     result.patient_reference = set_up_.reference;
@@ -91,7 +90,7 @@ class LiveRun {
     result.calibration = engine::calibration_in_use(session.tracker());
     result.seed = room_ ? std::optional(room_->options().seed) : std::nullopt;
     if (ground_truth_) {
-      ground_truth_->evaluate(session.levels(), result);
+      ground_truth_->evaluate(result);
     }
     result.recorded = files_.end_recording();
     end_note_.explain(result);

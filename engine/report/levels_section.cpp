@@ -114,12 +114,7 @@ std::string rods_section(const json& report) {
     if (value_of(rod, "time_s")) {
       rods += ", in " + figure(rod, "time_s", 0) + " s";
     }
-    std::string measured;
-    for (const json& bend : rod.value("measured", json::array())) {
-      measured += (measured.empty() ? ", bends measured " : ", ") + figure(bend, "angle_deg", 1) +
-                  " \u00b1 " + figure(bend, "angle_se_deg", 1) + "\u00b0";
-    }
-    rods += measured + ".</p>" + instructions_of(rod);
+    rods += ".</p>" + instructions_of(rod);
   }
   return "<section id=rods><h2>Rods</h2>" + (rods.empty() ? "<p>No rod was templated.</p>" : rods) +
          "</section>";

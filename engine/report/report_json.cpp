@@ -1,10 +1,11 @@
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
-#include "engine/report/clearance_figures.h"
 #include "engine/report/figures_json.h"
 #include "engine/report/operation_result.h"
+#include "nav/guidance/changed_screw.h"
+#include "nav/guidance/clearance_spread.h"
 
 namespace orthonav::engine {
 namespace {
@@ -23,8 +24,54 @@ void put_quantile(Json& object, const char* key, const Histogram& values, double
   }
 }
 
+void put_least_clearance(Json& out, const nav::Clearance& least, nav::Side side) {
+  out["clearance_mm"] = least.clearance_m * 1e3;
+  out["grade"] = nav::name_of(nav::grade_of(least.clearance_m));
+  out["arc_mm"] = least.arc_length_m * 1e3;
+  out["towards"] = nav::direction_of(least, side);
+}
+
+Json clearance_json(const nav::ScrewClearance& clearance, nav::Side side) {
+  Json out;
+  put_least_clearance(out, clearance.least, side);
+  if (clearance.spread) {
+    out["clearance_95_mm"] = clearance.spread->lower_95_m * 1e3;
+    out["grade_probability"] = grades_json(clearance.spread->grade_probability);
+  }
+  return out;
+}
+
+/// The screw as planned, with the spread that the registration leaves for an exactly guided one,
+/// and its least depth about every 2 mm from 6 mm past the entry to the tip.
+void put_planned(Json& screw_json, const LevelState& level, const nav::ScrewPlan& plan) {
+  const auto cylinder = nav::cylinder_of(plan);
+  if (cylinder && level.plan.model) {
+    const nav::SurfaceIndex& surface = level.plan.model->surface();
+    const bool known = level.registration && level.registration->uncertainty;
+    if (const auto planned = nav::screw_clearance(
+            surface, *cylinder, known ? &*level.registration->uncertainty : nullptr)) {
+      screw_json["planned"] = clearance_json(*planned, plan.side);
+      constexpr double kStep_m = 0.002;
+      const double side_m = cylinder->length_m - nav::CylinderSurface::kFrom_m;
+      std::vector<double> profile_m(1 + static_cast<std::size_t>(std::max(1.0, side_m / kStep_m)));
+      if (nav::clearance_profile(surface, *cylinder, profile_m)) {
+        for (const double least_m : profile_m) {
+          screw_json["planned"]["profile_mm"].push_back(least_m * 1e3);
+        }
+      }
+    }
+  }
+  if (cylinder) {
+    screw_json["planned"]["diameter_mm"] = 2e3 * cylinder->radius_m;
+    screw_json["planned"]["length_mm"] = cylinder->length_m * 1e3;
+  }
+  if (!plan.accepted_breach.empty()) {
+    screw_json["planned"]["accepted_breach"] = plan.accepted_breach;
+  }
+}
+
 /// Nothing if no measurement was asked for.
-void put_wire(Json& out, const ScrewOutcome& screw) {
+void put_wire(Json& out, const ScrewState& screw) {
   if (!screw.wire.asked) {
     return;
   }
@@ -41,78 +88,92 @@ void put_wire(Json& out, const ScrewOutcome& screw) {
   out["redone"] = screw.redone;
 }
 
-/// The guide's errors, known only where there is a ground truth.
-void put_guided(Json& out, const ScrewOutcome& screw) {
-  if (screw.preoperative_angle_error_rad) {
-    out["preoperative_angle_error_deg"] = degrees(*screw.preoperative_angle_error_rad);
-  }
-  put_mm(out, "preoperative_entry_error_mm", screw.preoperative_entry_error_m);
-  if (screw.guided) {
-    Json& guided = out["guided"];
-    guided = Json{{"tip_mm", screw.guided->tip_m * 1e3},
-                  {"across_mm", screw.guided->across_m * 1e3},
-                  {"angle_deg", degrees(screw.guided->angle_rad)},
-                  {"sure", screw.guided->sure}};
-    if (screw.guided->across_sds) {
-      guided["across_sds"] = *screw.guided->across_sds;
-    }
-  }
-  if (screw.guided || screw.executed) {
-    out["warned"] = screw.warned();
-  }
+/// Whether the surgeon was warned of this screw: its wire was measured beyond a limit, its
+/// clearance's 95 % bound is below 0, or its planned breach was accepted.
+bool warned(const ScrewState& screw, const nav::ScrewPlan& plan) {
+  const auto& tracked = screw.clearance_at_depth;
+  const bool breach_bound = tracked && tracked->spread && tracked->spread->lower_95_m < 0.0;
+  const auto& wire = screw.wire.measured;
+  return breach_bound || !plan.accepted_breach.empty() || (wire && !wire->within());
 }
 
-Json screw_json(const ScrewOutcome& screw) {
-  Json out{{"side", name_of(screw.side)}, {"done", screw.done}};
-  if (screw.angle_error_rad) {
-    out["angle_error_deg"] = degrees(*screw.angle_error_rad);
+Json screw_json(const LevelState& level, std::size_t index, const ScrewTruth& truth) {
+  const nav::ScrewPlan& plan = level.plan.screws[index];
+  const ScrewState& screw = level.screws[index];
+  Json out{{"side", name_of(plan.side)}, {"done", screw.done}};
+  if (truth.known) {
+    out["angle_error_deg"] = degrees(truth.angle_error_rad);
   }
-  put_mm(out, "entry_error_mm", screw.entry_error_m);
-  put_guided(out, screw);
-  put_planned_in_surgery(out, screw.planned_in_surgery);
-  put_clearance(out, screw);
+  put_mm(out, "entry_error_mm", truth.entry_error_m);
+  if (truth.preoperative_angle_error_rad) {
+    out["preoperative_angle_error_deg"] = degrees(*truth.preoperative_angle_error_rad);
+  }
+  put_mm(out, "preoperative_entry_error_mm", truth.preoperative_entry_error_m);
+  if (truth.guided) {
+    Json& guided = out["guided"];
+    guided = Json{{"tip_mm", truth.guided->tip_m * 1e3},
+                  {"across_mm", truth.guided->across_m * 1e3},
+                  {"angle_deg", degrees(truth.guided->angle_rad)},
+                  {"sure", truth.guided->sure}};
+    if (truth.guided->across_sds) {
+      guided["across_sds"] = *truth.guided->across_sds;
+    }
+  }
+  if (truth.guided || truth.clearance) {
+    out["warned"] = warned(screw, plan);
+  }
+  if (screw.replanned()) {
+    put_planned_in_surgery(out, nav::difference_of(screw.preoperative, plan));
+  }
+  if (truth.clearance) {
+    put_least_clearance(out, *truth.clearance, plan.side);
+  }
+  put_planned(out, level, plan);
+  if (screw.clearance_at_depth) {
+    out["tracked"] = clearance_json(*screw.clearance_at_depth, plan.side);
+  }
   if (screw.done) {
-    put_executed(out, screw.trajectory, screw.tracked);
+    put_executed(out, screw.executed, screw.clearance_at_depth);
   }
   put_wire(out, screw);
   return out;
 }
 
-Json level_json(const LevelOutcome& level) {
-  Json out{{"label", level.label}, {"accepted", level.accepted}, {"attempts", level.attempts}};
-  put_mm(out, "rmse_mm", level.rmse_m);
-  put_mm(out, "tre_mm", level.tre_m);
-  for (const Vec3& error : level.errors_m) {
+Json level_json(const LevelState& level, const LevelTruth& truth) {
+  Json out{{"label", level.plan.label}, {"accepted", level.accepted}, {"attempts", level.attempts}};
+  if (level.registration) {
+    out["rmse_mm"] = level.registration->rmse_m * 1e3;
+  }
+  put_mm(out, "tre_mm", truth.tre_m);
+  for (const Vec3& error : truth.errors_m) {
     out["errors_mm"].push_back({error.x * 1e3, error.y * 1e3, error.z * 1e3});
   }
-  put_mm(out, "predicted_tre_mm", level.predicted_tre_m);
-  if (level.predicted_tre_m) {
-    out["registration_only"] = level.registration_only;
+  if (level.registration) {
+    out["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
+    out["registration_only"] = level.registration_only();
+    out["points"] = level.registration->points;
+    out["digitization_s"] = level.digitization_s;
+    for (const nav::CheckPoint& point : level.check_points) {
+      out["check_points_mm"].push_back(point.distance_m * 1e3);
+    }
   }
-  if (level.points) {
-    out["points"] = *level.points;
-  }
-  if (level.digitization_s) {
-    out["digitization_s"] = *level.digitization_s;
-  }
-  for (const double distance : level.check_points_m) {
-    out["check_points_mm"].push_back(distance * 1e3);
-  }
-  if (level.registered) {
-    out["registration"] = registration_json(*level.registered, {});
+  if (const auto registered = registered_level(level)) {
+    out["registration"] = registration_json(*registered, {});
   }
   out["screws"] = Json::array();
-  for (const ScrewOutcome& screw : level.screws) {
-    out["screws"].push_back(screw_json(screw));
+  for (std::size_t s = 0; s < level.plan.screws.size(); ++s) {
+    out["screws"].push_back(screw_json(level, s, truth.screws[s]));
   }
   return out;
 }
 
-Json one_rod_json(const RodOutcome& rod) {
-  Json out{{"side", name_of(rod.side)}, {"heads", rod.heads}};
-  put_mm(out, "length_mm", rod.length_m);
-  put_mm(out, "length_error_mm", rod.length_error_m);
-  put_mm(out, "head_error_mm", rod.head_error_m);
+Json one_rod_json(const RodState& rod, const RodTruth& truth) {
+  Json out{{"side", name_of(rod.side)}, {"heads", rod.heads.size()}};
+  if (rod.rod) {
+    out["length_mm"] = rod.rod->length_m * 1e3;
+  }
+  put_mm(out, "length_error_mm", truth.length_error_m);
+  put_mm(out, "head_error_mm", truth.head_error_m);
   if (rod.took_s) {
     out["time_s"] = *rod.took_s;
   }
@@ -135,14 +196,17 @@ Json one_rod_json(const RodOutcome& rod) {
 
 /// Each rod in `sides`, and the first one that has a template also by itself. Empty where no rod
 /// was planned.
-Json rods_json(const std::vector<RodOutcome>& rods) {
+Json rods_json(const OperationResult& result) {
   Json out = Json::object();
   Json sides = Json::array();
-  for (const RodOutcome& rod : rods) {
-    sides.push_back(one_rod_json(rod));
-    if (out.empty() && rod.length_m) {
+  for (std::size_t i = 0; i < result.state.rods.size(); ++i) {
+    const RodState& rod = result.state.rods[i];
+    if (!has_rod(result.state, rod)) {
+      continue;
+    }
+    sides.push_back(one_rod_json(rod, result.truth.rods[i]));
+    if (out.empty() && rod.rod) {
       out = sides.back();
-      out.erase("measured");
       out.erase("instructions");
     }
   }
@@ -190,10 +254,10 @@ Json report_of(const OperationResult& result) {
     out["calibration"] = calibration_json(*result.calibration);
   }
   out["levels"] = Json::array();
-  for (const LevelOutcome& level : result.levels) {
-    out["levels"].push_back(level_json(level));
+  for (std::size_t i = 0; i < result.state.levels.size(); ++i) {
+    out["levels"].push_back(level_json(result.state.levels[i], result.truth.levels[i]));
   }
-  out["rod"] = rods_json(result.rods);
+  out["rod"] = rods_json(result);
   if (result.recorded) {
     out["recording"] =
         Json{{"pairs_received", result.recorded->received}, {"pairs_lost", result.recorded->lost}};

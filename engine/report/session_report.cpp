@@ -90,7 +90,7 @@ Json ending_json(const LoggedOperation& session) {
 }
 
 Json figures_of(const LoggedOperation& session) {
-  OperationResult result = outcome_of(session.state.levels, session.state.rods, {});
+  OperationResult result = result_of(session.state, {});
   const OperationIdentity& identity = session.identity;
   result.method = identity.method;
   result.seed = identity.seed != 0 ? std::optional(identity.seed) : std::nullopt;

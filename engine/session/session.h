@@ -82,6 +82,7 @@ class Session {
 
   [[nodiscard]] const SessionOptions& options() const { return work_.options; }
   [[nodiscard]] Step current_step() const { return work_.step; }
+  [[nodiscard]] const OperationState& operation() const { return work_.state; }
   [[nodiscard]] std::span<const LevelState> levels() const { return work_.state.levels; }
   [[nodiscard]] std::span<const RodState> rods() const { return work_.state.rods; }
   [[nodiscard]] std::span<const nav::ToolState> tool_states() const { return work_.tools.states(); }

@@ -109,7 +109,7 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults, doubl
   if (!report.ended) {
     return done;
   }
-  done.result = outcome_of(assembled->session().levels(), assembled->session().rods(), report);
+  done.result = result_of(assembled->session().operation(), report);
   done.statistics = (*headset)->statistics();
   done.map_moves = map_log.moved;
   headset->reset();

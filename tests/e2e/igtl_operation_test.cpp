@@ -187,21 +187,22 @@ Operated operate(bool reference) {
   if (!report.ended) {
     return out;
   }
-  out.result = outcome_of((*live)->session().levels(), (*live)->session().rods(), report);
+  out.result = result_of((*live)->session().operation(), report);
   end.explain(out.result);
-  truth.evaluate((*live)->session().levels(), out.result);
+  truth.evaluate(out.result);
   return out;
 }
 
 void expect_done(const Operated& done) {
   ASSERT_TRUE(done.result.loop.done) << done.result.why_not;
   EXPECT_THAT(done.events, ::testing::Contains(Event::kTrackingLost)) << "it was hidden";
-  const auto& screws = done.result.levels.at(0).screws;
+  const auto& screws = done.result.truth.levels.at(0).screws;
   ASSERT_EQ(screws.size(), 2u);
-  for (const ScrewOutcome& screw : screws) {
-    ASSERT_TRUE(screw.entry_error_m && screw.angle_error_rad);
-    EXPECT_LT(*screw.entry_error_m, kEntry_m) << name_of(screw.side);
-    EXPECT_LT(*screw.angle_error_rad, kAngle_rad) << name_of(screw.side);
+  for (std::size_t s = 0; s < screws.size(); ++s) {
+    SCOPED_TRACE(name_of(done.result.state.levels[0].plan.screws[s].side));
+    ASSERT_TRUE(screws[s].known && screws[s].entry_error_m);
+    EXPECT_LT(*screws[s].entry_error_m, kEntry_m);
+    EXPECT_LT(screws[s].angle_error_rad, kAngle_rad);
   }
 }
 

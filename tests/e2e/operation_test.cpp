@@ -51,13 +51,15 @@ TEST_P(EveryMethod, InAPerfectWorldEveryWireLiesOnItsPlan) {
   const auto result = run_operation(lumbar_spine(), options);
   ASSERT_TRUE(result.ok()) << result.error().message;
   EXPECT_TRUE(result->completed);
-  ASSERT_EQ(result->levels.size(), 1u);
-  ASSERT_EQ(result->levels[0].screws.size(), 2u);
-  for (const ScrewOutcome& screw : result->levels[0].screws) {
-    ASSERT_TRUE(screw.angle_error_rad.has_value()) << name_of(screw.side);
-    ASSERT_TRUE(screw.entry_error_m.has_value()) << name_of(screw.side);
-    EXPECT_LT(degrees(*screw.angle_error_rad), kPerfectAngle_deg) << name_of(screw.side);
-    EXPECT_LT(*screw.entry_error_m, kPerfectEntry_m) << name_of(screw.side);
+  ASSERT_EQ(result->truth.levels.size(), 1u);
+  const auto& screws = result->truth.levels[0].screws;
+  ASSERT_EQ(screws.size(), 2u);
+  for (std::size_t s = 0; s < screws.size(); ++s) {
+    SCOPED_TRACE(name_of(result->state.levels[0].plan.screws[s].side));
+    ASSERT_TRUE(screws[s].known);
+    ASSERT_TRUE(screws[s].entry_error_m.has_value());
+    EXPECT_LT(degrees(screws[s].angle_error_rad), kPerfectAngle_deg);
+    EXPECT_LT(*screws[s].entry_error_m, kPerfectEntry_m);
   }
 }
 
@@ -98,17 +100,19 @@ double most_entry_m(const sim::ErrorModel& m) {
 /// Expects both screws within the bounds of the error model and beyond those of a perfect world, so
 /// that errors that were not applied are noticed too.
 void expect_errors_as_documented(const OperationResult& result, const sim::ErrorModel& model) {
-  ASSERT_EQ(result.levels.size(), 1u);
-  ASSERT_EQ(result.levels[0].screws.size(), 2u);
+  ASSERT_EQ(result.truth.levels.size(), 1u);
+  const auto& screws = result.truth.levels[0].screws;
+  ASSERT_EQ(screws.size(), 2u);
   double worst_rad = 0.0;
   double worst_m = 0.0;
-  for (const ScrewOutcome& screw : result.levels[0].screws) {
-    ASSERT_TRUE(screw.angle_error_rad.has_value()) << name_of(screw.side);
-    ASSERT_TRUE(screw.entry_error_m.has_value()) << name_of(screw.side);
-    EXPECT_LT(*screw.angle_error_rad, most_angle_rad(model)) << name_of(screw.side);
-    EXPECT_LT(*screw.entry_error_m, most_entry_m(model)) << name_of(screw.side);
-    worst_rad = std::max(worst_rad, *screw.angle_error_rad);
-    worst_m = std::max(worst_m, *screw.entry_error_m);
+  for (std::size_t s = 0; s < screws.size(); ++s) {
+    SCOPED_TRACE(name_of(result.state.levels[0].plan.screws[s].side));
+    ASSERT_TRUE(screws[s].known);
+    ASSERT_TRUE(screws[s].entry_error_m.has_value());
+    EXPECT_LT(screws[s].angle_error_rad, most_angle_rad(model));
+    EXPECT_LT(*screws[s].entry_error_m, most_entry_m(model));
+    worst_rad = std::max(worst_rad, screws[s].angle_error_rad);
+    worst_m = std::max(worst_m, *screws[s].entry_error_m);
   }
   EXPECT_GT(degrees(worst_rad), kPerfectAngle_deg);
   EXPECT_GT(worst_m, kPerfectEntry_m);

@@ -70,8 +70,7 @@ Result<std::string> replayed(const char* recording, std::ostream& poses) {
   if (!report.ended) {
     return report.ended.error();
   }
-  return report_json(
-      outcome_of((*operation)->session().levels(), (*operation)->session().rods(), report));
+  return report_json(result_of((*operation)->session().operation(), report));
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ double mean_across_m(const OperationOptions& options) {
   EXPECT_TRUE(result.ok());
   double sum_m = 0.0;
   int screws = 0;
-  for (const ScrewOutcome& screw : result->levels[0].screws) {
+  for (const ScrewTruth& screw : result->truth.levels[0].screws) {
     EXPECT_TRUE(screw.guided) << result->why_not;
     sum_m += screw.guided ? screw.guided->across_m : 0.0;
     ++screws;

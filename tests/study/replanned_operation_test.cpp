@@ -78,18 +78,20 @@ TEST(ReplannedOperation, TheWireFollowsThePlanInUse) {
   live->observe(static_cast<SessionObserver*>(&headset));
   const auto report = live->run();
   ASSERT_TRUE(report.ended) << report.ended.error().message;
-  OperationResult result = outcome_of(live->session().levels(), live->session().rods(), report);
+  OperationResult result = result_of(live->session().operation(), report);
   end.explain(result);
   ASSERT_TRUE(report.done) << result.why_not;
-  truth.evaluate(live->session().levels(), result);
-  const auto& screws = result.levels[0].screws;
-  ASSERT_EQ(screws.size(), 2u);
-  ASSERT_TRUE(screws[0].planned_in_surgery);
-  EXPECT_NEAR(screws[0].planned_in_surgery->entry_cranial_m, kMoved_m, 1e-6);
-  EXPECT_FALSE(screws[1].planned_in_surgery);
-  for (const ScrewOutcome& screw : screws) {
+  truth.evaluate(result);
+  const LevelState& level = result.state.levels[0];
+  ASSERT_EQ(level.screws.size(), 2u);
+  ASSERT_TRUE(level.screws[0].replanned());
+  const auto moved = nav::difference_of(level.screws[0].preoperative, level.plan.screws[0]);
+  EXPECT_NEAR(moved.entry_cranial_m, kMoved_m, 1e-6);
+  EXPECT_FALSE(level.screws[1].replanned());
+  for (std::size_t s = 0; s < level.screws.size(); ++s) {
+    const ScrewTruth& screw = result.truth.levels[0].screws[s];
     ASSERT_TRUE(screw.entry_error_m);
-    EXPECT_LT(*screw.entry_error_m, kOnItsPlan_m) << name_of(screw.side);
+    EXPECT_LT(*screw.entry_error_m, kOnItsPlan_m) << name_of(level.plan.screws[s].side);
   }
 }
 

@@ -56,17 +56,18 @@ TEST(RodsAloneOperation, TouchesTheHeadsThatStandInTheRoomAndMeasuresBothRods) {
   const auto result = run_operation(phantom(), options);
   ASSERT_TRUE(result.ok()) << result.error().message;
   EXPECT_TRUE(result->completed) << result->why_not;
-  EXPECT_TRUE(result->levels.empty());
-  ASSERT_EQ(result->rods.size(), 2u);
-  for (const RodOutcome& rod : result->rods) {
+  EXPECT_TRUE(result->state.levels.empty());
+  for (std::size_t i = 0; i < result->state.rods.size(); ++i) {
+    const RodState& rod = result->state.rods[i];
+    const RodTruth& truth = result->truth.rods[i];
     SCOPED_TRACE(name_of(rod.side));
-    EXPECT_EQ(rod.heads, 5u);
+    EXPECT_EQ(rod.heads.size(), 5u);
     // Of a touch in this room: the pick, the tip, tracking (docs/accuracy.md), three times over.
-    ASSERT_TRUE(rod.head_error_m);
-    EXPECT_GT(*rod.head_error_m, 1e-5) << "control: the room errs";
-    EXPECT_LT(*rod.head_error_m, 0.005);
-    ASSERT_TRUE(rod.length_error_m);
-    EXPECT_LT(std::abs(*rod.length_error_m), 0.005);
+    ASSERT_TRUE(truth.head_error_m);
+    EXPECT_GT(*truth.head_error_m, 1e-5) << "control: the room errs";
+    EXPECT_LT(*truth.head_error_m, 0.005);
+    ASSERT_TRUE(truth.length_error_m);
+    EXPECT_LT(std::abs(*truth.length_error_m), 0.005);
     EXPECT_NE(rod.instructions.has_value(), !rod.no_instructions.empty());
     EXPECT_EQ(rod.seat_by_pointer_m, 0.006);
     EXPECT_GT(rod.took_s.value_or(0.0), 1.0);
@@ -80,17 +81,18 @@ TEST(RodsAloneOperation, FindsTheHeadsExactlyInARoomWithoutErrors) {
   const Case spine = phantom();
   const auto result = run_operation(spine, options);
   ASSERT_TRUE(result.ok()) << result.error().message;
-  ASSERT_EQ(result->rods.size(), 2u);
-  for (const RodOutcome& rod : result->rods) {
+  for (std::size_t i = 0; i < result->state.rods.size(); ++i) {
+    const RodState& rod = result->state.rods[i];
+    const RodTruth& truth = result->truth.rods[i];
     SCOPED_TRACE(name_of(rod.side));
-    EXPECT_LT(rod.head_error_m.value_or(1.0), 1e-4);
-    EXPECT_LT(std::abs(rod.length_error_m.value_or(1.0)), 1e-4);
+    EXPECT_LT(truth.head_error_m.value_or(1.0), 1e-4);
+    EXPECT_LT(std::abs(truth.length_error_m.value_or(1.0)), 1e-4);
     ASSERT_TRUE(rod.instructions) << rod.no_instructions;
     // By every screw's own direction the rod is longer still: planned screws fan out by more than
     // the rod curves.
     const double true_m = true_cut_length_m(spine, rod.side);
     EXPECT_NEAR(rod.instructions->cut_length_m(), true_m, 0.002);
-    EXPECT_LT(*rod.length_m + 0.010, true_m - 0.003) << "control: where the heads were touched";
+    EXPECT_LT(rod.rod->length_m + 0.010, true_m - 0.003) << "control: where the heads were touched";
   }
 }
 

@@ -18,24 +18,36 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+/// A rod with a template through so many heads.
+RodState templated(nav::Side side, std::size_t heads, double length_m) {
+  RodState rod{.side = side};
+  rod.heads.resize(heads);
+  rod.rod.emplace().length_m = length_m;
+  return rod;
+}
+
+/// A level whose right wire missed the bone, and both rods.
 OperationResult measured() {
-  OperationResult result;
+  OperationState state;
+  LevelState& level = state.levels.emplace_back();
+  level.plan.label = "L4";
+  level.plan.screws = {{.side = nav::Side::kLeft}, {.side = nav::Side::kRight}};
+  level.screws = {{.done = true}, {.done = true}};
+  level.accepted = true;
+  level.attempts = 1;
+  level.registration.emplace().rmse_m = 0.0016;
+  level.registration->points = 800;
+  level.digitization_s = 120.5;
+  state.rods = {templated(nav::Side::kLeft, 2, 0.040), templated(nav::Side::kRight, 2, 0.042)};
+  OperationResult result = result_of(std::move(state), {});
   result.method = "paper";
   result.seed = 3;
   result.case_name = "phantom";
-  LevelOutcome level;
-  level.label = "L4";
-  level.accepted = true;
-  level.attempts = 1;
-  level.rmse_m = 0.0016;
-  level.tre_m = 0.002;
-  level.points = 800;
-  level.digitization_s = 120.5;
-  level.screws.push_back({nav::Side::kLeft, true, 0.05, 0.0025});
-  level.screws.push_back({nav::Side::kRight, true, 0.04, std::nullopt});
-  result.levels.push_back(level);
-  result.rods.push_back({nav::Side::kLeft, 2, 0.040, 0.001, 0.002});
-  result.rods.push_back({nav::Side::kRight, 2, 0.042, -0.003, 0.001});
+  result.truth.levels[0].tre_m = 0.002;
+  result.truth.levels[0].screws = {
+      {.known = true, .angle_error_rad = 0.05, .entry_error_m = 0.0025},
+      {.known = true, .angle_error_rad = 0.04}};
+  result.truth.rods = {RodTruth{0.001, 0.002}, RodTruth{-0.003, 0.001}};
   for (int i = 1; i <= 100; ++i) {
     result.loop.intervals_ms.add(i);
   }
@@ -71,7 +83,7 @@ TEST(ReportJson, HoldsWhatWasPlannedInSurgery) {
   s.accepts_first_level();
   s.says("next");
   s.says("move cranial two");
-  const auto json = nlohmann::json::parse(report_json(outcome_of(s.session().levels(), {}, {})));
+  const auto json = nlohmann::json::parse(report_json(result_of(s.session().operation(), {})));
   const auto& screws = json["levels"][0]["screws"];
   EXPECT_NEAR(screws[0]["planned_in_surgery"]["entry_cranial_mm"].get<double>(), 2.0, 1e-9);
   EXPECT_EQ(screws[0]["planned_in_surgery"]["text"], "entry moved 2.0 mm cranial");
@@ -87,7 +99,7 @@ TEST(ReportJson, HoldsTheDistancesOfCheckPointsWhereThereAreAny) {
   s.registers_first_level();
   s.touches({0.0, 0.0213, 0.0});
   s.touches({0.02, 0.0195, 0.0});
-  const auto result = outcome_of(s.session().levels(), s.session().rods(), {});
+  const auto result = result_of(s.session().operation(), {});
   const auto json = nlohmann::json::parse(report_json(result));
   const auto& distances = json["levels"][0]["check_points_mm"];
   ASSERT_EQ(distances.size(), 2u);
@@ -106,9 +118,9 @@ TEST(ReportJson, TellsHowEveryWireWasMeasured) {
   wire.angle_limit_rad = 0.035;
   wire.entry_limit_m = 0.002;
   wire.kept = true;
-  result.levels[0].screws[0].wire = {true, wire};
-  result.levels[0].screws[0].redone = 1;
-  result.levels[0].screws[1].wire = {true, {}};
+  result.state.levels[0].screws[0].wire = {true, wire};
+  result.state.levels[0].screws[0].redone = 1;
+  result.state.levels[0].screws[1].wire = {true, {}};
   const auto json = nlohmann::json::parse(report_json(result));
   const auto& left = json["levels"][0]["screws"][0];
   EXPECT_NEAR(left["wire"]["angle_deg"].get<double>(), 2.8648, 1e-4);
@@ -124,7 +136,7 @@ TEST(ReportJson, TellsHowEveryWireWasMeasured) {
 TEST(ReportJson, LeavesErrorsOutWhereThereIsNoTruth) {
   test::ScriptedOperation s({"L5"});
   s.accepts_first_level();
-  const auto result = outcome_of(s.session().levels(), s.session().rods(), {});
+  const auto result = result_of(s.session().operation(), {});
   const auto json = nlohmann::json::parse(report_json(result));
   EXPECT_EQ(json["completed"], false);
   EXPECT_TRUE(json["levels"][0]["accepted"]);
@@ -143,10 +155,11 @@ TEST(ReportJson, HasOneLengthOfEachRodAndNoMean) {
   EXPECT_DOUBLE_EQ(rod()["length_mm"], 40.0);
   EXPECT_DOUBLE_EQ(rod()["length_error_mm"], 1.0);
   EXPECT_DOUBLE_EQ(rod()["head_error_mm"], 2.0);
-  result.rods[0] = {nav::Side::kLeft, 1, {}, {}, {}};
+  result.state.rods[0].heads.resize(1);
+  result.state.rods[0].rod.reset();
   EXPECT_EQ(rod()["side"], "right") << "the left rod has no template";
   EXPECT_DOUBLE_EQ(rod()["length_mm"], 42.0);
-  result.rods[1] = {nav::Side::kRight, 0, {}, {}, {}};
+  result.state.rods[1] = {.side = nav::Side::kRight};
   EXPECT_FALSE(rod().contains("length_mm"));
 }
 
@@ -156,11 +169,16 @@ TEST(ReportHtml, HasEachRodByItselfAndNoneThatWasNotTouched) {
   EXPECT_THAT(page(), AllOf(HasSubstr("<p>left: length <b>40.0 mm</b>, heads touched 2, length "
                                       "error 1.00 mm, error of the heads 2.00 mm.</p>"),
                             HasSubstr("<p>right: length <b>42.0 mm</b>, heads touched 2")));
-  result.rods = {{nav::Side::kLeft, 2, 0.040, {}, {}}, {nav::Side::kRight, 0, {}, {}, {}}};
+  result.state.rods[1] = {.side = nav::Side::kRight};
+  result.truth.rods = {};
   EXPECT_THAT(page(), HasSubstr("<p>left: length <b>40.0 mm</b>, heads touched 2.</p></section>"));
-  result.rods[0] = {nav::Side::kLeft, 1, {}, {}, {}};
+  result.state.rods[0].heads.resize(1);
+  result.state.rods[0].rod.reset();
   EXPECT_THAT(page(), HasSubstr("<p>left: no template, heads touched 1.</p></section>"));
-  result.rods[0].heads = 0;
+  // Both are planned, none was touched.
+  result.state.rods[0].heads.clear();
+  result.state.levels.push_back(result.state.levels[0]);
+  result.truth.levels.push_back(result.truth.levels[0]);
   EXPECT_THAT(page(), HasSubstr("No rod was templated"));
 }
 
@@ -172,9 +190,9 @@ TEST(ReportHtml, LeavesCellsOfWhatWasNotAttemptedEmpty) {
   };
   EXPECT_THAT(page(), HasSubstr("RMSE [mm]\">1.60</td>"));
   EXPECT_THAT(page(), HasSubstr("entry error [mm]\">\u2013</td>")) << "the wire missed the bone";
-  result.levels[0] = {};
-  result.levels[0].label = "L4";
-  result.levels[0].screws.push_back({nav::Side::kLeft, false, {}, {}});
+  OperationState planned;
+  planned.levels.push_back(planned_level({.label = "L4", .screws = {{}}}));
+  result = result_of(std::move(planned), {});
   EXPECT_THAT(page(), HasSubstr("not placed"));
   EXPECT_THAT(page(), Not(HasSubstr("\u2013</td>")));
 }
@@ -182,7 +200,7 @@ TEST(ReportHtml, LeavesCellsOfWhatWasNotAttemptedEmpty) {
 TEST(ReportJson, HasRodsOnlyWhereTheyWerePlanned) {
   const auto rod = [](std::vector<std::string> labels) {
     test::ScriptedOperation s(std::move(labels));
-    const auto result = outcome_of(s.session().levels(), s.session().rods(), {});
+    const auto result = result_of(s.session().operation(), {});
     return nlohmann::json::parse(report_json(result))["rod"];
   };
   EXPECT_EQ(rod({"L5"}), nlohmann::json::object());
@@ -190,9 +208,9 @@ TEST(ReportJson, HasRodsOnlyWhereTheyWerePlanned) {
 }
 
 TEST(ReportJson, LeavesFiguresOutWhereNothingWasMeasured) {
-  OperationResult result;
-  result.levels.emplace_back();
-  const auto json = nlohmann::json::parse(report_json(result));
+  OperationState state;
+  state.levels.emplace_back();
+  const auto json = nlohmann::json::parse(report_json(result_of(std::move(state), {})));
   for (const char* key : {"rmse_mm", "points", "digitization_s"}) {
     EXPECT_FALSE(json["levels"][0].contains(key)) << key;
   }
@@ -206,7 +224,7 @@ TEST(EndNote, SaysWhereAnOperationEndedAndWhatItWasToldLast) {
   EndNote note;
   s.session().observe(&note);
   const auto why_not = [&] {
-    OperationResult result = outcome_of(s.session().levels(), s.session().rods(), {});
+    OperationResult result = result_of(s.session().operation(), {});
     note.explain(result);
     return result.why_not;
   };
@@ -219,7 +237,7 @@ TEST(EndNote, SaysWhereAnOperationEndedAndWhatItWasToldLast) {
   EXPECT_EQ(why_not(),
             "ended at digitize of L4; last registration (L4) refused: 99 points, needs at least "
             "100");
-  OperationResult broken = outcome_of(s.session().levels(), s.session().rods(), {});
+  OperationResult broken = result_of(s.session().operation(), {});
   broken.loop.ended = Error{"camera gone"};
   note.explain(broken);
   EXPECT_THAT(broken.why_not, ::testing::EndsWith("needs at least 100; camera gone"));
@@ -283,7 +301,7 @@ TEST(OperationResult, OfRodsAloneIsCompleteOnlyWithARod) {
     }
     s.says("done");
     s.says("done");
-    OperationResult result = outcome_of(s.session().levels(), s.session().rods(), {.done = true});
+    OperationResult result = result_of(s.session().operation(), {.done = true});
     end.explain(result);
     return result;
   };
@@ -291,8 +309,9 @@ TEST(OperationResult, OfRodsAloneIsCompleteOnlyWithARod) {
   EXPECT_EQ(outcome(1).why_not, "no rod: no side has two heads");
   const OperationResult whole = outcome(2);
   EXPECT_TRUE(whole.completed);
-  ASSERT_EQ(whole.rods.size(), 1u) << "a side without heads has no rod";
-  const auto side = nlohmann::json::parse(report_json(whole))["rod"]["sides"][0];
+  const auto sides = nlohmann::json::parse(report_json(whole))["rod"]["sides"];
+  ASSERT_EQ(sides.size(), 1u) << "a side without heads has no rod";
+  const auto& side = sides[0];
   EXPECT_GT(side["time_s"].get<double>(), 0.0);
   EXPECT_NEAR(side["cut_length_mm"].get<double>(), 50.0, 1e-3);
   EXPECT_DOUBLE_EQ(side["seat_by_pointer_mm"].get<double>(), 6.0);
