@@ -46,10 +46,6 @@ std::string ModelCache::file_of(const MeshKey& key) const {
   return (fs::path(folder_) / (key.text() + ".model")).string();
 }
 
-std::string ModelCache::file_of(const nav::TriangleMesh& mesh) const {
-  return file_of(MeshKey::of(mesh));
-}
-
 std::shared_ptr<const nav::VertebraModel> ModelCache::load(const nav::TriangleMesh& mesh,
                                                            const MeshKey& key) {
   const std::string path = file_of(key);

@@ -25,8 +25,6 @@ class ModelCache {
   /// no files.
   void keep();
 
-  /// Where the mesh's file is or would be.
-  [[nodiscard]] std::string file_of(const nav::TriangleMesh& mesh) const;
   /// What went wrong: one line for each file that could not be used or written.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   [[nodiscard]] int loaded() const { return loaded_; }

@@ -106,18 +106,6 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
       nameless_(std::exchange(other.nameless_, -1)),
       open_(std::exchange(other.open_, false)) {}
 
-AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
-  if (this == &other) {
-    return *this;
-  }
-  drop();
-  temporary_path_ = std::move(other.temporary_path_);
-  final_path_ = std::move(other.final_path_);
-  nameless_ = std::exchange(other.nameless_, -1);
-  open_ = std::exchange(other.open_, false);
-  return *this;
-}
-
 AtomicFile::~AtomicFile() { drop(); }
 
 void AtomicFile::drop() noexcept {

@@ -24,7 +24,6 @@ class AtomicFile {
   /// Refuses an empty name, a missing or unwritable folder, and a folder in the file's place.
   static Result<AtomicFile> create(const std::string& path, Staging staging = Staging::kNameless);
   AtomicFile(AtomicFile&& other) noexcept;
-  AtomicFile& operator=(AtomicFile&& other) noexcept;
   ~AtomicFile();
 
   /// Where to write until the commit; only this process may open it.

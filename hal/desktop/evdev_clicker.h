@@ -35,8 +35,6 @@ class EvdevClicker : public Clicker {
   /// and what is not a device; a device that is not there yet is waited for.
   static Result<std::unique_ptr<EvdevClicker>> open(const ClickerOptions& options,
                                                     const Clock& clock);
-  /// Name of the device in use; empty while there is none.
-  [[nodiscard]] std::string device_name() const { return keys_ ? keys_->name() : std::string(); }
 
  private:
   struct Change {

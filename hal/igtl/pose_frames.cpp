@@ -137,7 +137,6 @@ void PoseFrames::close() {
   }
   open_.reset();
   last_ = frame.time;
-  replaced_ += done_ ? 1 : 0;
   done_ = std::move(frame);
 }
 

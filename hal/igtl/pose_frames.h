@@ -69,7 +69,6 @@ class PoseFrames {
   void forget();
 
   [[nodiscard]] std::int64_t out_of_order() const { return out_of_order_; }
-  [[nodiscard]] std::int64_t replaced() const { return replaced_; }
   /// Names of received transforms that belong to no tool; the first few, each once.
   [[nodiscard]] const std::vector<std::string>& others() const { return others_; }
   /// Number of tools with a pose so far.
@@ -99,7 +98,6 @@ class PoseFrames {
   std::optional<Timestamp> last_;  ///< of the newest complete frame
   Timestamp heard_at_{};
   std::int64_t out_of_order_ = 0;
-  std::int64_t replaced_ = 0;
   std::vector<std::string> others_;
   std::optional<Timestamp> begun_;  ///< when this connection's first pose came
   std::optional<std::string> complaint_;

@@ -100,17 +100,6 @@ double worst_tre_m(const std::array<double, 36>& covariance, Vec3 centre_m,
 }  // namespace
 
 std::optional<JoinedPlaces> join_places(const VertebraModel& model, const Registration& strokes,
-                                        std::span<const PressedPlace> places,
-                                        const PoseSearchRegistrationOptions& options,
-                                        const PressModel& press) {
-  if (places.empty()) {
-    return std::nullopt;
-  }
-  const auto fit = fit_presses(model, strokes, places, press);
-  return fit ? join_places(model, strokes, *fit, press, options) : std::nullopt;
-}
-
-std::optional<JoinedPlaces> join_places(const VertebraModel& model, const Registration& strokes,
                                         const PressFit& fit, const PressModel& press,
                                         const PoseSearchRegistrationOptions& options) {
   if (fit.heights.empty()) {
@@ -140,19 +129,6 @@ std::optional<JoinedPlaces> join_places(const VertebraModel& model, const Regist
   r.uncertainty = with_common(whole, common);
   judge(options, r);
   return out;
-}
-
-std::optional<NextPlace> place_to_press(const VertebraModel& model, const Registration& strokes,
-                                        std::span<const Point<World>> stroked,
-                                        std::span<const PressedPlace> pressed,
-                                        const PoseSearchRegistrationOptions& options,
-                                        const PressModel& press, double apart_m) {
-  if (stroked.empty()) {
-    return std::nullopt;
-  }
-  const auto fit = fit_presses(model, strokes, pressed, press);
-  return fit ? place_to_press(model, strokes, stroked, pressed, *fit, press, options, apart_m)
-             : std::nullopt;
 }
 
 std::optional<NextPlace> place_to_press(const VertebraModel& model, const Registration& strokes,

@@ -50,17 +50,11 @@ struct JoinedPlaces {
   ModelError model;  ///< as estimated from the places
 };
 
-/// Includes pressed places in a registration: the pose is that of the bone, by strokes and places
+/// Includes pressed places, which `fit_presses` has fitted with the same model and strokes, in a
+/// registration: the pose is that of the bone, by strokes and places
 /// together, at the time the last place was pressed, and the uncertainty includes the model's own
 /// error. `accepted`, `reasons` and `provisional` are judged again; everything else measured on the
-/// strokes stays. Empty if the strokes leave a motion undetermined. `targets` as for the
-/// registration.
-[[nodiscard]] std::optional<JoinedPlaces> join_places(const VertebraModel& model,
-                                                      const Registration& strokes,
-                                                      std::span<const PressedPlace> places,
-                                                      const PoseSearchRegistrationOptions& options,
-                                                      const PressModel& press = {});
-/// The same for places that `fit_presses` has already fitted with the same model and strokes.
+/// strokes stays. Empty without places. `targets` as for the registration.
 [[nodiscard]] std::optional<JoinedPlaces> join_places(const VertebraModel& model,
                                                       const Registration& strokes,
                                                       const PressFit& fit, const PressModel& press,
@@ -78,13 +72,8 @@ struct NextPlace {
 inline constexpr double kPressesApart_m = 0.003;
 
 /// The place on the stroked bone that reduces the error at the worst target most if pressed in
-/// addition to the others, at least `apart_m` from them. Empty if none reduces it.
-[[nodiscard]] std::optional<NextPlace> place_to_press(
-    const VertebraModel& model, const Registration& strokes, std::span<const Point<World>> stroked,
-    std::span<const PressedPlace> pressed, const PoseSearchRegistrationOptions& options,
-    const PressModel& press = {}, double apart_m = kPressesApart_m);
-/// The same for `pressed` places that `fit_presses` has already fitted with the same model and
-/// strokes.
+/// addition to `pressed`, of which `fit` is, at least `apart_m` from them. Empty if none reduces
+/// it.
 [[nodiscard]] std::optional<NextPlace> place_to_press(
     const VertebraModel& model, const Registration& strokes, std::span<const Point<World>> stroked,
     std::span<const PressedPlace> pressed, const PressFit& fit, const PressModel& press,

@@ -259,12 +259,6 @@ UnknownsSpread total_covariance(const std::vector<Tried>& tried, const UnknownsM
 
 }  // namespace
 
-std::optional<ResidualField> residual_field(const SurfaceFit& fit,
-                                            std::span<const FieldHypothesis> among,
-                                            double least_sd_m) {
-  return residual_field(fit, residual_units(fit, kMaxUnits), among, least_sd_m);
-}
-
 std::optional<ResidualField> residual_field(const SurfaceFit& fit, const ResidualUnits& units,
                                             std::span<const FieldHypothesis> among,
                                             double least_sd_m) {

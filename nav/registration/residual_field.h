@@ -37,16 +37,13 @@ struct ResidualField {
   double size_log_evidence = 0.0;
 };
 
-/// Generalised least squares over units of strokes, whose noise is correlated along each stroke and
-/// whose field is correlated over the bone; the field's SD and length, and the SD of the strokes'
-/// heights, are marginalised on a grid (restricted likelihood: Patterson & Thompson 1971; Rasmussen
-/// & Williams 2006, section 2.7, for the basis functions). If `least_sd_m`
-/// is not zero, neither a bare bone nor a smaller field is tried. `among` limits the search to
-/// these hypotheses; empty: all are tried. Returns nothing if a motion is undetermined or there are
-/// fewer than 12 units.
-[[nodiscard]] std::optional<ResidualField> residual_field(
-    const SurfaceFit& fit, std::span<const FieldHypothesis> among = {}, double least_sd_m = 0.0);
-/// The same with units of the fit's points that were made before.
+/// Generalised least squares over `units` of the fit's points, whose noise is correlated along each
+/// stroke and whose field is correlated over the bone; the field's SD and length, and the SD of the
+/// strokes' heights, are marginalised on a grid (restricted likelihood: Patterson & Thompson 1971;
+/// Rasmussen & Williams 2006, section 2.7, for the basis functions). If `least_sd_m` is not zero,
+/// neither a bare bone nor a smaller field is tried. `among` limits the search to these hypotheses;
+/// empty: all are tried. Returns nothing if a motion is undetermined or there are fewer than 12
+/// units.
 [[nodiscard]] std::optional<ResidualField> residual_field(
     const SurfaceFit& fit, const ResidualUnits& units, std::span<const FieldHypothesis> among = {},
     double least_sd_m = 0.0);

@@ -8,21 +8,12 @@
 
 namespace orthonav::nav {
 
-class VertebraModel;
-
-/// How far a surface registration leaves the bone free to move, and so the error to expect at a
-/// target (the surface counterpart of Fitzpatrick & West 2001, "The distribution of target
-/// registration error in rigid-body point-based registration"). A residual along the surface's
-/// normal constrains the six motions as a plane does; the inverse of that information, times the
-/// squared residual, is the covariance of the pose (Simon 1996, "Fast and accurate shape-based
-/// registration", section 4). Points of a stroke share the tracker's error, so all points within 5
-/// mm count as one. Errors common to all points are added by `with_common`.
+/// How far a registration leaves the bone free to move, and so the error to expect at a target
+/// (Fitzpatrick & West 2001, "The distribution of target registration error in rigid-body
+/// point-based registration", of a pose with any covariance). Errors common to all points are added
+/// by `with_common`.
 class PoseUncertainty {
  public:
-  /// An Error if the points leave a motion completely undetermined (a plane, a ball, a cylinder).
-  static Result<PoseUncertainty> estimate(const VertebraModel& model,
-                                          const Transform<World, Vertebra>& world_from_vertebra,
-                                          std::span<const Point<World>> points_in_world);
   PoseUncertainty() = default;
   /// The covariance of the bone's (translation m, rotation vector rad) about a centre, row-major,
   /// in the model's frame.

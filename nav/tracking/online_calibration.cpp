@@ -239,17 +239,6 @@ double OnlineCalibration::size_factor(std::size_t tool) const {
   return std::exp(tools_.at(tool).applied);
 }
 
-double OnlineCalibration::size_sd(std::size_t tool) const {
-  const Tool& t = tools_.at(tool);
-  const double own = t.information + precision(options_.size_sd);
-  const auto found = estimate();
-  if (!found) {
-    return options_.size_sd;
-  }
-  const Eigen::Map<const CamerasVector> cross(t.cross.data());
-  return std::sqrt(1.0 / own + cross.dot(found->covariance * cross) / (own * own));
-}
-
 double OnlineCalibration::size_difference_sd(std::size_t tool, std::size_t other) const {
   const double prior = precision(options_.size_sd);
   const Tool& a = tools_.at(tool);

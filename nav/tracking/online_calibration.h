@@ -83,8 +83,6 @@ class OnlineCalibration {
   [[nodiscard]] bool may_be_of_wrong_size() const;
   /// The factor of a tool's stated tag sizes by all corrections so far.
   [[nodiscard]] double size_factor(std::size_t tool) const;
-  /// The SD of that factor; that of the prior before the first pair.
-  [[nodiscard]] double size_sd(std::size_t tool) const;
   /// The SD of how much larger one tool's tags are than another's, as a fraction.
   [[nodiscard]] double size_difference_sd(std::size_t tool, std::size_t other) const;
   /// Includes the corrections applied. Nothing before the first pair, or while a direction is

@@ -27,11 +27,6 @@ void Timeline::clear() {
   stride_ = 1;
 }
 
-std::size_t Timeline::size() const {
-  const MutexLock lock(mutex_);
-  return moments_.size();
-}
-
 std::shared_ptr<const Moment> Timeline::newest() const {
   const MutexLock lock(mutex_);
   return moments_.empty() ? nullptr : moments_.back();

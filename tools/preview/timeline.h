@@ -51,7 +51,6 @@ class Timeline {
   /// Adds a moment; replaces the last one if it is of the same pair.
   void push(std::shared_ptr<const Moment> moment);
   void clear();
-  [[nodiscard]] std::size_t size() const;
   [[nodiscard]] std::shared_ptr<const Moment> newest() const;
   /// The last one at or before that pair; before the first: the first. Null when there is none.
   [[nodiscard]] std::shared_ptr<const Moment> at(std::int64_t pair) const;

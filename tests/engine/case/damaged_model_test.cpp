@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -13,7 +12,6 @@
 namespace orthonav::engine::model_cache_test {
 namespace {
 
-namespace fs = std::filesystem;
 using nav::PreparedParts;
 using nav::VertebraModel;
 using test::TemporaryFolder;
@@ -83,7 +81,7 @@ TEST_F(ModelFiles, DamagedOnDiskAreMadeAnew) {
     Random random(seed);
     const TemporaryFolder folder;
     ModelCache cache(folder.path().string());
-    (void)folder.with(fs::path(cache.file_of(bone_)).filename(), damaged(bytes_, random));
+    (void)folder.with(name_of_file(bone_), damaged(bytes_, random));
     const auto model = cache.prepared(bone_);
     ASSERT_TRUE(model.ok()) << "damage " << seed;
     EXPECT_TRUE(same(**model, *fresh_)) << "damage " << seed;

@@ -56,7 +56,8 @@ TEST_F(ModelFiles, GiveTheSameModelToTheBitTheSecondTime) {
   first.keep();
   EXPECT_EQ(first.made(), 1);
   EXPECT_EQ(first.loaded(), 0);
-  EXPECT_TRUE(fs::exists(first.file_of(bone_)));
+  const fs::path file = fs::path(models) / name_of_file(bone_);
+  EXPECT_TRUE(fs::exists(file));
 
   ModelCache second(models);
   const auto loaded = second.prepared(bone_);
@@ -66,9 +67,9 @@ TEST_F(ModelFiles, GiveTheSameModelToTheBitTheSecondTime) {
   EXPECT_THAT(second.notes(), IsEmpty());
   EXPECT_TRUE(same(**loaded, **made));
   EXPECT_TRUE(same(**loaded, *fresh_));
-  const auto time = fs::last_write_time(second.file_of(bone_));
+  const auto time = fs::last_write_time(file);
   second.keep();
-  EXPECT_EQ(fs::last_write_time(second.file_of(bone_)), time) << "what was loaded stays as it is";
+  EXPECT_EQ(fs::last_write_time(file), time) << "what was loaded stays as it is";
 }
 
 TEST_F(ModelFiles, AreNotMadeWithoutAFolder) {
@@ -80,14 +81,12 @@ TEST_F(ModelFiles, AreNotMadeWithoutAFolder) {
 }
 
 TEST_F(ModelFiles, AreOfOneMeshEach) {
-  const TemporaryFolder folder;
-  ModelCache cache(folder.path().string());
   TriangleMesh moved = bone_;
   moved.vertices_m[3].x += 1e-12;  // any digit counts
   TriangleMesh rotated = bone_;
   std::swap(rotated.triangles[0], rotated.triangles[1]);
-  EXPECT_NE(cache.file_of(bone_), cache.file_of(moved));
-  EXPECT_NE(cache.file_of(bone_), cache.file_of(rotated));
+  EXPECT_NE(name_of_file(bone_), name_of_file(moved));
+  EXPECT_NE(name_of_file(bone_), name_of_file(rotated));
 }
 
 TEST_F(ModelFiles, RefuseAMeshThatIsNoVertebraAsPreparingDoes) {
@@ -141,7 +140,8 @@ TEST_F(ModelFiles, OfAnotherMeshUnderThisNameAreMadeAnew) {
 TEST_F(ModelFiles, AreNotConfusedByWhatIsNoFile) {
   const TemporaryFolder folder;
   ModelCache cache(folder.path().string());
-  fs::create_directory(cache.file_of(bone_));
+  const std::string file = folder.file(name_of_file(bone_));
+  fs::create_directory(file);
   const auto model = cache.prepared(bone_);
   ASSERT_TRUE(model.ok());
   EXPECT_TRUE(same(**model, *fresh_));
@@ -149,8 +149,8 @@ TEST_F(ModelFiles, AreNotConfusedByWhatIsNoFile) {
   ASSERT_THAT(cache.notes(), SizeIs(2));
   EXPECT_THAT(cache.notes()[1], HasSubstr("is not kept"));
 
-  fs::remove(cache.file_of(bone_));
-  ASSERT_EQ(mkfifo(cache.file_of(bone_).c_str(), 0600), 0);
+  fs::remove(file);
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
   ModelCache again(folder.path().string());
   ASSERT_TRUE(again.prepared(bone_).ok()) << "a pipe would be waited for";
   EXPECT_THAT(again.notes(), SizeIs(1));

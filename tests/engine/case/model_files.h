@@ -25,6 +25,10 @@ inline nav::TriangleMesh small_bone() {
   return mesh;
 }
 
+inline std::string name_of_file(const nav::TriangleMesh& mesh) {
+  return MeshKey::of(mesh).text() + ".model";
+}
+
 /// To the bit.
 inline bool same(const nav::PreparedParts& a, const nav::PreparedParts& b) {
   return a.reachable == b.reachable && a.closest_m == b.closest_m && a.distance_m == b.distance_m;
@@ -52,8 +56,7 @@ class ModelFiles : public ::testing::Test {
     SCOPED_TRACE(why);
     const test::TemporaryFolder folder;
     ModelCache cache(folder.path().string());
-    const std::string path =
-        folder.with(std::filesystem::path(cache.file_of(bone_)).filename(), content);
+    const std::string path = folder.with(name_of_file(bone_), content);
     const auto model = cache.prepared(bone_);
     ASSERT_TRUE(model.ok()) << model.error().message;
     EXPECT_TRUE(same(**model, *fresh_));

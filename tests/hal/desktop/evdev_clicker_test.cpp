@@ -171,7 +171,9 @@ TEST_F(RecordedClicker, IsFoundInTheWorkingFolderToo) {
   auto clicker = EvdevClicker::open(options_, clock_);
   std::filesystem::current_path(before);
   ASSERT_TRUE(clicker.ok()) << clicker.error().message;
-  EXPECT_EQ((*clicker)->device_name(), "events");
+  std::vector<ClickerEvent> events;
+  ASSERT_TRUE((*clicker)->poll(ms(10400), events).ok());
+  EXPECT_FALSE(events.empty());
 }
 
 TEST_F(RecordedClicker, SaysThatADeviceIsNotThere) {
@@ -327,14 +329,14 @@ TEST(EvdevClicker, TakesUpADeviceThatIsPluggedIn) {
   ASSERT_EQ(libevdev_uinput_create_from_device(description, LIBEVDEV_UINPUT_OPEN_MANAGED, &device),
             0);
   std::vector<ClickerEvent> events;
+  Status found = Error{"not polled"};
   const auto polled_until = [&](const auto& done) {
     return orthonav::test::wait_until([&] {
-      (void)(*clicker)->poll(Timestamp(std::chrono::hours(1)), events);
+      found = (*clicker)->poll(Timestamp(std::chrono::hours(1)), events);
       return done();
     });
   };
-  EXPECT_TRUE(polled_until([&] { return !(*clicker)->device_name().empty(); }));
-  EXPECT_EQ((*clicker)->device_name(), options.device);
+  EXPECT_TRUE(polled_until([&] { return found.ok(); }));
   libevdev_uinput_write_event(device, EV_KEY, KEY_VOLUMEUP, 1);
   libevdev_uinput_write_event(device, EV_SYN, SYN_REPORT, 0);
   EXPECT_TRUE(polled_until([&] { return !events.empty(); }));

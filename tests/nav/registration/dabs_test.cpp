@@ -5,6 +5,7 @@
 
 #include "base/angle.h"
 #include "nav/registration/check_points.h"
+#include "tests/nav/registration/fitted_presses.h"
 #include "tests/nav/registration/stroked_bone.h"
 
 namespace orthonav::nav::dabs_test {
@@ -56,7 +57,7 @@ class DabbedBone : public StrokedBone {
   }
   [[nodiscard]] JoinedPlaces joined(std::span<const PressedPlace> places,
                                     const PressModel& press = {}) const {
-    return join_places(*model_, registration, places, options, press).value();
+    return fitted_and_joined(*model_, registration, places, options, press).value();
   }
   /// By which the first planned axis is turned.
   [[nodiscard]] double rotation_off_deg(const Registration& r) const {
@@ -183,9 +184,9 @@ Eighth eighth_place(const DabbedBone& bone, const PressModel& press) {
   std::vector<PressedPlace> places;
   Eighth out;
   for (int k = 0; k < 8; ++k) {
-    const NextPlace next = place_to_press(bone.model(), bone.registration, bone.points, places,
-                                          bone.options, press, 0.0)
-                               .value();
+    const NextPlace next =
+        next_place(bone.model(), bone.registration, bone.points, places, bone.options, press, 0.0)
+            .value();
     EXPECT_LT(next.tre_then_m, next.tre_m);
     out = {next.tre_then_m / next.tre_m, 1.0};
     for (const PressedPlace& place : places) {

@@ -64,7 +64,7 @@ TEST_F(ResidualFieldTest, EstimatesTheTissueAndFindsWhatStrokesHaveInCommon) {
     options.with_standoff = true;
     const auto fit = fit_to_surface(surface_, cloud.points_m, cloud.truth, options);
     ASSERT_TRUE(fit.has_value());
-    const auto field = residual_field(*fit);
+    const auto field = field_of(*fit);
     ASSERT_TRUE(field.has_value());
     const ResidualUnits units = residual_units(*fit, kMaxUnits);
     const double correlation = correlation_across_strokes(*fit, units);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "nav/registration/residual_field.h"
@@ -37,6 +38,10 @@ struct Compared {
   double field_m = 0.0;
   [[nodiscard]] double ratio() const { return predicted_m / empirical_m; }
 };
+
+inline std::optional<ResidualField> field_of(const SurfaceFit& fit) {
+  return residual_field(fit, residual_units(fit, kMostUnits));
+}
 
 inline CentredPose after(CentredPose pose, const std::array<double, 6>& step) {
   pose.rotation =
@@ -83,7 +88,7 @@ class ResidualFieldTest : public ::testing::Test {
       if (!fit) {
         continue;
       }
-      const auto field = residual_field(*fit);
+      const auto field = field_of(*fit);
       if (!field) {
         continue;
       }

@@ -52,7 +52,7 @@ TEST_F(ResidualFieldTest, RepeatedPointsSayNothingNew) {
     Random same(6);
     const CentredPoints cloud = test::centred_somewhere(points, same);
     const auto fit = fit_to_surface(surface_, cloud.points_m, cloud.truth, {});
-    const auto field = residual_field(*fit);
+    const auto field = field_of(*fit);
     return PoseUncertainty(fit->pose.centre_m, field->covariance).predicted_tre_m(kTargets[0]);
   };
   EXPECT_NEAR(sd_m(copies) / sd_m(places), 1.0, 0.1);
@@ -68,7 +68,7 @@ TEST_F(ResidualFieldTest, TellsTheSizeOfTheBone) {
     const CentredPoints cloud = test::centred_somewhere(places, random);
     SurfaceFitOptions options;
     const auto fit = fit_to_surface(surface_, cloud.points_m, cloud.truth, options);
-    const auto field = residual_field(*fit);
+    const auto field = field_of(*fit);
     ASSERT_TRUE(field.has_value());
     EXPECT_NEAR(field->size, size, 0.012) << size;
     EXPECT_EQ(field->size_log_evidence > 2.5, size != 1.0) << field->size_log_evidence;
@@ -86,7 +86,7 @@ TEST_F(ResidualFieldTest, AStandoffIsFoundAndNeverNegative) {
     SurfaceFitOptions options;
     options.with_standoff = true;
     const auto fit = fit_to_surface(surface_, cloud.points_m, cloud.truth, options);
-    const auto field = residual_field(*fit);
+    const auto field = field_of(*fit);
     ASSERT_TRUE(field.has_value());
     EXPECT_GE(field->standoff_m, 0.0);
     EXPECT_NEAR(field->standoff_m, standoff_m, std::max(0.0001, 3.0 * field->standoff_sd_m));
@@ -120,16 +120,16 @@ TEST_F(ResidualFieldTest, IsNoneWhenAMotionIsOpen) {
   }
   const SurfaceFit on_front = fit_from_truth(surface_, flat);
   EXPECT_GE(residual_units(on_front, kManyUnits).all.size(), kEnoughUnits);
-  EXPECT_FALSE(residual_field(on_front).has_value());
+  EXPECT_FALSE(field_of(on_front).has_value());
   // Along a straight crest one is.
   const TriangleMesh straight =
       test::slab_bone([](double x, double) { return 0.012 * std::exp(-x * x / (0.007 * 0.007)); });
   const SurfaceIndex crest(straight);
   const SurfaceFit on_crest = fit_from_truth(crest, test::strokes_over(crest, 10));
   EXPECT_GE(residual_units(on_crest, kManyUnits).all.size(), kEnoughUnits);
-  EXPECT_FALSE(residual_field(on_crest).has_value());
+  EXPECT_FALSE(field_of(on_crest).has_value());
   // The control: the same strokes over a back on which no motion is undetermined.
-  EXPECT_TRUE(residual_field(fit_from_truth(surface_, test::strokes_over(surface_, 10))));
+  EXPECT_TRUE(field_of(fit_from_truth(surface_, test::strokes_over(surface_, 10))));
 }
 
 TEST_F(ResidualFieldTest, IsNoneOfTooFewPoints) {
@@ -142,8 +142,8 @@ TEST_F(ResidualFieldTest, IsNoneOfTooFewPoints) {
     }
     return fit_from_truth(surface_, some);
   };
-  EXPECT_FALSE(residual_field(spread(11)).has_value());
-  EXPECT_TRUE(residual_field(spread(100)).has_value());
+  EXPECT_FALSE(field_of(spread(11)).has_value());
+  EXPECT_TRUE(field_of(spread(100)).has_value());
 }
 
 }  // namespace
