@@ -95,7 +95,7 @@ void SceneBuilder::update(const Guidance& guidance, Timestamp display_time) {
 }
 
 void SceneBuilder::write_shown(const Guidance& guidance, ShownFrame& frame) {
-  shown_.write(guidance, visible_, rules_, frame);
+  shown_.write(guidance, visible_, frame);
   if (guidance.anchor) {
     take_to_map(guidance.anchor->world_from_anchored, frame);
   }
@@ -351,7 +351,7 @@ void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
     hologram.head_names = names_;
     hologram.bends = bends_;
     hologram.first_bend_only = !guidance.numbers;
-    hologram.offset = to_float3(rod_offset_m(guidance, rod, rules_));
+    hologram.offset = to_float3(rod_offset_m(guidance, rod));
     add_rod(scene, hologram, label_of(HologramKind::kRod, i + 1));
   }
 }

@@ -50,7 +50,7 @@ ShownHologram& ShownFrameWriter::add(ShownFrame& frame, HologramKind kind) {
 }
 
 void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible,
-                             const VisibilityRules& rules, ShownFrame& frame) {
+                             ShownFrame& frame) {
   const WearersLanguage language;
   used_ = 0;
   frame.display_time = guidance.display_time;
@@ -71,7 +71,7 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
     write_screw(*visible.trajectory, visible, frame);
   }
   if (visible.rods) {
-    write_rods(guidance, rules, frame);
+    write_rods(guidance, frame);
   }
   frame.holograms.resize(used_);
 }
@@ -231,13 +231,12 @@ void ShownFrameWriter::write_numbers(const nav::ScrewNumbers& numbers, nav::Side
   }
 }
 
-void ShownFrameWriter::write_rods(const Guidance& guidance, const VisibilityRules& rules,
-                                  ShownFrame& frame) {
+void ShownFrameWriter::write_rods(const Guidance& guidance, ShownFrame& frame) {
   for (const RodState& rod : guidance.rods) {
     if (!rod.visible()) {
       continue;
     }
-    const Vec3 offset = rod_offset_m(guidance, rod, rules);
+    const Vec3 offset = rod_offset_m(guidance, rod);
     ShownHologram& hologram = add(frame, HologramKind::kRod);
     for (const Point<World>& head : rod.heads) {
       hologram.points_in_world.push_back(head + offset);

@@ -15,8 +15,7 @@ namespace orthonav::engine {
 /// the frame's buffers; in the steady state it allocates nothing.
 class ShownFrameWriter {
  public:
-  void write(const Guidance& guidance, const Visibility& visible, const VisibilityRules& rules,
-             ShownFrame& frame);
+  void write(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
 
  private:
   ShownHologram& add(ShownFrame& frame, HologramKind kind);
@@ -28,7 +27,7 @@ class ShownFrameWriter {
   void write_screw(const PlacedScrew& screw, const Visibility& visible, ShownFrame& frame);
   void write_cross(const PlacedScrew& screw, const Visibility& visible, ShownFrame& frame);
   void write_sizes(const Visibility& visible, ShownFrame& frame);
-  void write_rods(const Guidance& guidance, const VisibilityRules& rules, ShownFrame& frame);
+  void write_rods(const Guidance& guidance, ShownFrame& frame);
   void write_numbers(const nav::ScrewNumbers& numbers, nav::Side side, ShownFrame& frame);
   void write_status(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
 

@@ -10,18 +10,10 @@
 
 namespace orthonav::engine {
 
-std::vector<std::string> VisibilityRules::check() const {
-  std::vector<std::string> problems = grades.check();
-  if (!(triangle_within_m > 0.0 && triangle_within_m <= 1.0)) {
-    problems.push_back("triangle_within_m must lie in (0, 1]");
-  }
-  if (!(rod_moved_away_m >= 0.0 && rod_moved_away_m <= 1.0)) {
-    problems.push_back("rod_moved_away_m must lie in [0, 1]");
-  }
-  return problems;
-}
-
 namespace {
+
+/// The tool is at the screw: its tip is this near to the planned one, between entry and target.
+constexpr double kAtScrew_m = 0.040;
 
 std::optional<PlacedLevel> placed(const LevelState& level) {
   if (!level.registration) {
@@ -104,7 +96,7 @@ void decide_tool(const Guidance& g, const ToolGuidance* fresh, const VisibilityR
   if (fresh) {
     const nav::ScrewGuidance* measured = fresh->measured ? &*fresh->measured : nullptr;
     const nav::ScrewGuidance& where = measured ? *measured : fresh->shown;
-    if (from_screw_m(where) <= rules.triangle_within_m) {
+    if (from_screw_m(where) <= kAtScrew_m) {
       out.triangle = &fresh->shown;
       out.measurement = measured;
       if (rules.cross_and_depth) {
@@ -226,10 +218,11 @@ void append_entry_name(std::string& out, const Visibility& visible, const Placed
   }
 }
 
-Vec3 rod_offset_m(const Guidance& guidance, const RodState& rod, const VisibilityRules& rules) {
+Vec3 rod_offset_m(const Guidance& guidance, const RodState& rod) {
   if (!guidance.rods_moved_away || !rod.visible()) {
     return {};
   }
+  constexpr double kMovedAway_m = 0.150;
   constexpr Vec3 kUp{0, 1, 0};
   const Vec3 along = rod.heads.back() - rod.heads.front();
   Vec3 side = along.cross(kUp);
@@ -251,7 +244,7 @@ Vec3 rod_offset_m(const Guidance& guidance, const RodState& rod, const Visibilit
   }
   const Vec3 outward = rod.heads.front().v - centre_of_rods / count;
   const double sign = outward.dot(side) < 0.0 ? -1.0 : 1.0;
-  return side.normalized() * (sign * rules.rod_moved_away_m);
+  return side.normalized() * (sign * kMovedAway_m);
 }
 
 }  // namespace orthonav::engine

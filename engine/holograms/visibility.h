@@ -11,17 +11,11 @@ namespace orthonav::engine {
 
 /// How long guidance stays valid is decided by the session and stated in the guidance.
 struct VisibilityRules {
-  /// The tool is at the screw: its tip is this near to the planned one, between entry and target.
-  double triangle_within_m = 0.040;
-  double rod_moved_away_m = 0.150;
   GradeLimits grades;
   /// H7 and H9, and the numbers beside them (H13), which the publication does not have.
   bool cross_and_depth = true;
   /// In `digitize`, a picture of the pattern in which the published method's surgeon strokes.
   bool stroke_pattern = false;
-
-  /// Every problem at once; empty when all is well.
-  [[nodiscard]] std::vector<std::string> check() const;
 };
 
 /// A registered level, whose vertebra has a pose in the world.
@@ -104,7 +98,6 @@ void append_entry_name(std::string& out, const Visibility& visible, const Placed
 
 /// From where to where the rods are shifted while they are moved away: sideways off the patient,
 /// as a rigid body, each to its own side.
-[[nodiscard]] Vec3 rod_offset_m(const Guidance& guidance, const RodState& rod,
-                                const VisibilityRules& rules);
+[[nodiscard]] Vec3 rod_offset_m(const Guidance& guidance, const RodState& rod);
 
 }  // namespace orthonav::engine

@@ -30,7 +30,7 @@ std::vector<std::string> AssemblyOptions::check() const {
   };
   add("session: ", session.check());
   add("loop: ", loop.check());
-  add("visibility: ", visibility.check());
+  add("visibility: ", visibility.grades.check());
   return problems;
 }
 
@@ -68,7 +68,7 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
       return near.error();
     }
     tracker = nav::create_anchored_tracker(std::move(*tracker), options.tracker.coast,
-                                           options.reference, options.reference_places);
+                                           options.reference_places);
     if (!tracker) {
       return tracker.error();
     }

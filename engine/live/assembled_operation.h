@@ -23,7 +23,6 @@ struct AssemblyOptions {
   /// Everything is relative to the patient reference among the tools instead of the headset's map.
   /// The published method has no reference and is refused with this option.
   bool use_reference = false;
-  nav::ReferenceLimits reference;
   /// Where references lie in the World of a resumed operation.
   std::vector<nav::ReferencePlace> reference_places;
   LoopOptions loop;

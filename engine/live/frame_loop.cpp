@@ -310,7 +310,8 @@ bool FrameLoop::finished(const LoopReport& report, Timestamp reached) {
   if (!done_since_) {
     done_since_ = report.last_frame;
   }
-  return reached - *done_since_ >= options_.after_done;
+  constexpr Duration kAfterDone = std::chrono::seconds(1);  // the last hologram is seen
+  return reached - *done_since_ >= kAfterDone;
 }
 
 }  // namespace orthonav::engine

@@ -63,7 +63,6 @@ struct LoopOptions {
   /// Ends once this much of the device's clock has passed since the first pair, though no more
   /// pairs come; 0: no limit. Without any pair in this time the cameras count as gone for good.
   Duration max_time = Duration::zero();
-  Duration after_done = std::chrono::seconds(1);  ///< how long it continues once the rod is done
   int max_errors_in_a_row = 30;  ///< of one device or the sink; beyond it the run ends
   /// Cameras that deliver nothing for this long, by the device's clock, count as gone for good.
   Duration longest_silence = std::chrono::seconds(60);

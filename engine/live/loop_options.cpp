@@ -16,9 +16,6 @@ std::vector<std::string> LoopOptions::check() const {
   if (max_time < Duration::zero()) {
     problems.push_back("max_time must not be negative");
   }
-  if (after_done < Duration::zero()) {
-    problems.push_back("after_done must not be negative");
-  }
   if (max_errors_in_a_row < 0) {
     problems.push_back("max_errors_in_a_row must not be negative");
   }

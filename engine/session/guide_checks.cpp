@@ -8,14 +8,24 @@
 #include "engine/session/operation_in_work.h"
 
 namespace orthonav::engine {
+namespace {
+
+/// Lower limit of the SD of the tag size, as a fraction: lens errors vary across the image.
+constexpr double kLeastSizeSd = 0.0003;
+/// Smaller corrections of the tip are not offered.
+constexpr double kTipWorth_m = 0.0002;
+/// Tips farther apart were not in the same dimple.
+constexpr double kMostTipsApart_m = 0.010;
+
+}  // namespace
 
 double TipCheck::along_sight_m(double size_sd) const {
-  return rules_.distance_m * std::max(size_sd, rules_.least_size_sd);
+  return kTagDistance_m * std::max(size_sd, kLeastSizeSd);
 }
 
 double TipCheck::difference_sd_m(double size_sd, const Mat3& bone_from_guide) const {
   const double tags_m = along_sight_m(size_sd) / std::sqrt(3.0);
-  const double prior_m = rules_.prior_sd_m;
+  const double prior_m = prior_sd_m_;
   if (!last_ || !(prior_m > 0.0)) {
     return std::hypot(prior_m, tags_m);
   }
@@ -34,21 +44,21 @@ std::variant<TipDifference, TouchRefusal> TipCheck::take(
     const nav::PressedPlace& place, const Transform<World, Marker>& world_from_guide,
     const nav::PressedPlace& pointer_tip, bool anchored, double size_sd) {
   const double tags_m = along_sight_m(size_sd);
-  const double each_m2 = landmark_.touch_variance_m2(anchored);
+  const double each_m2 = landmark_variance_m2(anchored);
   TipDifference found;
   found.apart_m = world_from_guide.rotation().transposed() * (place.place - pointer_tip.place);
   // The pointer's place is the mean of all its touches; the guide's is a single touch.
   found.sd_m = std::sqrt(place.sd_m * place.sd_m + pointer_tip.sd_m * pointer_tip.sd_m + each_m2 +
-                         each_m2 / landmark_.touches_of(anchored) + tags_m * tags_m / 3.0);
-  const double prior_m2 = rules_.prior_sd_m * rules_.prior_sd_m;
+                         each_m2 / landmark_touches(anchored) + tags_m * tags_m / 3.0);
+  const double prior_m2 = prior_sd_m_ * prior_sd_m_;
   const double known = prior_m2 / (prior_m2 + found.sd_m * found.sd_m);
   found.by_m = known * found.apart_m;
-  found.limit_m = rules_.worth_m / known;
+  found.limit_m = kTipWorth_m / known;
   if (!(known > 0.0)) {
-    found.limit_m = rules_.most_m;  // tips that are known exactly need no correction
+    found.limit_m = kMostTipsApart_m;  // tips that are known exactly need no correction
   }
-  if (!(found.apart_m.norm() <= rules_.most_m)) {
-    return TouchRefusal{TouchRefusal::Kind::kTouchesApart, found.apart_m.norm(), rules_.most_m};
+  if (!(found.apart_m.norm() <= kMostTipsApart_m)) {
+    return TouchRefusal{TouchRefusal::Kind::kTouchesApart, found.apart_m.norm(), kMostTipsApart_m};
   }
   last_ = found;
   compared_ = true;
@@ -60,12 +70,12 @@ Vec3 TipCheck::correct() {
   return last_->by_m;
 }
 
-double sd_of_each_rad(const nav::SpinCalibration& measured, double least_sd_rad) {
-  return std::max(measured.axis_sigma_rad / std::sqrt(2.0), least_sd_rad);
+double sd_of_each_rad(const nav::SpinCalibration& measured) {
+  return std::max(measured.axis_sigma_rad / std::sqrt(2.0), kLeastAxisSd_rad);
 }
 
 void AxisCheck::take(const nav::SpinCalibration& measured, Direction<Marker> in_use) {
-  const double sd_rad = sd_of_each_rad(measured, rules_.least_sd_rad);
+  const double sd_rad = sd_of_each_rad(measured);
   const double known = sd_rad_ * sd_rad_ / (sd_rad_ * sd_rad_ + sd_rad * sd_rad);
   AxisDifference found;
   found.off_rad = angle_between_rad(in_use.v, measured.axis_in_marker.v);
@@ -87,13 +97,6 @@ Direction<Marker> AxisCheck::correct() {
 
 namespace {
 
-/// The rules with both tips as uncertain as their calibration left them.
-TipCheckRules tips_known_to(const SessionOptions& options) {
-  TipCheckRules rules = options.tips;
-  rules.prior_sd_m = std::numbers::sqrt2 * options.placed.tip_sd_m;
-  return rules;
-}
-
 /// How the guide was last seen against the bone of the current level.
 Mat3 bone_from_guide(const OperationInWork& work) {
   const LevelState& level = work.level();
@@ -105,9 +108,10 @@ Mat3 bone_from_guide(const OperationInWork& work) {
 
 }  // namespace
 
+// Both tips are as uncertain as their calibration left them.
 GuideChecks::GuideChecks(const SessionOptions& options)
-    : tips_(tips_known_to(options), options.landmark, options.steps.tips),
-      axis_({options.placed.axis_sd_rad}) {}
+    : tips_(std::numbers::sqrt2 * options.placed.tip_sd_m, options.steps.tips),
+      axis_(options.placed.axis_sd_rad) {}
 
 void GuideChecks::compare_tips(OperationInWork& work, const nav::PressedPlace& place,
                                const nav::PressedPlace& pointer_tip, Timestamp time) {

@@ -29,22 +29,10 @@ struct TipDifference {
   [[nodiscard]] bool agrees() const { return apart_m.norm() <= limit_m; }
 };
 
-struct TipCheckRules {
-  /// Tags that are 0.3 % larger put their tool 1.35 mm too far away at this distance from the
-  /// cameras. Seen from another side the same error points in another direction, so no correction
-  /// of the tip removes it: the uncertainty of the two tools' tag sizes is part of the difference's
-  /// SD.
-  double distance_m = 0.45;
-  /// Lower limit of the SD of the tag size, as a fraction: lens errors vary across the image.
-  double least_size_sd = 0.0003;
-  /// SD along an axis of the distance between the two described tips after calibration. In a
-  /// session it follows from `PlacedWireRules::tip_sd_m`.
-  double prior_sd_m = 0.0007;
-  /// Smaller corrections are not offered.
-  double worth_m = 0.0002;
-  /// Tips farther apart were not in the same dimple.
-  double most_m = 0.010;
-};
+/// Tags that are 0.3 % larger put their tool 1.35 mm too far away at this distance from the
+/// cameras. Seen from another side the same error points in another direction, so no correction of
+/// the tip removes it: the uncertainty of the two tools' tag sizes is part of the difference's SD.
+inline constexpr double kTagDistance_m = 0.45;
 
 /// Done after the landmark was touched: before each screw with a patient reference, once in an
 /// operation without, or again at the surgeon's choice. Before a screw the guide is held as for the
@@ -52,10 +40,10 @@ struct TipCheckRules {
 /// pointer's (which shifted the registered bone), then adds up as it did in the dimple.
 class TipCheck {
  public:
-  TipCheck() = default;
-  /// `compare` false: the tips are not asked for.
-  TipCheck(const TipCheckRules& rules, const LandmarkRules& landmark, bool compare = true)
-      : rules_(rules), landmark_(landmark), compare_(compare) {}
+  /// `prior_sd_m`: SD along an axis of the distance between the two described tips after
+  /// calibration. `compare` false: the tips are not asked for.
+  explicit TipCheck(double prior_sd_m, bool compare = true)
+      : prior_sd_m_(prior_sd_m), compare_(compare) {}
 
   /// Compares the guide's tip at `place`, with the guide at `world_from_guide`, with the pointer's
   /// earlier tip at `pointer_tip`; or says why it does not count. `size_sd`: SD of the size
@@ -86,8 +74,7 @@ class TipCheck {
  private:
   [[nodiscard]] double along_sight_m(double size_sd) const;
 
-  TipCheckRules rules_;
-  LandmarkRules landmark_;
+  double prior_sd_m_ = 0.0;
   bool compare_ = true;
   bool compared_ = false;  ///< for the next screw
   bool for_screw_ = false;
@@ -105,32 +92,27 @@ struct AxisDifference {
   bool corrected = false;  ///< with the surgeon's consent
 };
 
-struct AxisCheckRules {
-  /// SD of the described axis about each direction across it; a printed tool.
-  double prior_sd_rad = 0.010;
-  /// No measurement is assumed to be better than this: errors of tags and lenses are the same in
-  /// all poses. 0.1°.
-  double least_sd_rad = 0.1 * kRadiansPerDegree;
-  /// A smaller correction is not offered.
-  double worth_rad = 0.15 * kRadiansPerDegree;
-};
+/// No measurement of an axis is assumed to be better than this: errors of tags and lenses are the
+/// same in all poses. 0.1°.
+inline constexpr double kLeastAxisSd_rad = 0.1 * kRadiansPerDegree;
+/// A smaller correction of an axis is not offered.
+inline constexpr double kAxisWorth_rad = 0.15 * kRadiansPerDegree;
 
 /// SD about each direction across the axis of an axis measured by turning the sleeve; the
 /// calibration states the SD of both directions together.
-[[nodiscard]] double sd_of_each_rad(const nav::SpinCalibration& measured,
-                                    double least_sd_rad = AxisCheckRules{}.least_sd_rad);
+[[nodiscard]] double sd_of_each_rad(const nav::SpinCalibration& measured);
 
 /// Each wire measured this way improves the estimate of the axis; a correction counts as known from
 /// then on.
 class AxisCheck {
  public:
-  AxisCheck() : AxisCheck(AxisCheckRules{}) {}
-  explicit AxisCheck(const AxisCheckRules& rules) : rules_(rules), sd_rad_(rules.prior_sd_rad) {}
+  /// `prior_sd_rad`: SD of the described axis about each direction across it.
+  explicit AxisCheck(double prior_sd_rad) : sd_rad_(prior_sd_rad) {}
 
   void take(const nav::SpinCalibration& measured, Direction<Marker> in_use);
   /// A difference waits for consent to be corrected.
   [[nodiscard]] bool offers() const {
-    return last_ && !last_->corrected && last_->by_rad >= rules_.worth_rad;
+    return last_ && !last_->corrected && last_->by_rad >= kAxisWorth_rad;
   }
   /// SD of the axis in use, about each direction across it.
   [[nodiscard]] double sd_rad() const { return sd_rad_; }
@@ -139,7 +121,6 @@ class AxisCheck {
   [[nodiscard]] const std::optional<AxisDifference>& last() const { return last_; }
 
  private:
-  AxisCheckRules rules_;
   double sd_rad_ = 0.0;  ///< of the axis in use
   std::optional<AxisDifference> last_;
   Direction<Marker> better_;

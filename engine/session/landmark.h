@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "base/time.h"
 #include "base/transform.h"
 
@@ -30,47 +27,39 @@ struct LandmarkTouch {
   [[nodiscard]] bool moved() const { return missing == 0 && !(off_m <= limit_m); }
 };
 
-/// When a landmark that is touched again counts as found in its place.
-struct LandmarkRules {
-  /// SD along an axis of a tip put into the same dimple again. Estimate.
-  double dimple_sd_m = 0.0002;
-  /// SD along an axis of tracking errors that last longer than a touch, so that averaging does not
-  /// remove them: on the headset's map, and relative to a patient reference.
-  double lasting_sd_m = 0.00035;
-  double lasting_sd_anchored_m = 0.00005;
-  /// How many touches make one place, with the tip lifted and put down again between them: on the
-  /// headset's map a single one is too imprecise.
-  int touches = 2;
-  int touches_anchored = 1;
-  /// The limit in SDs along an axis of the distance between two touches: one touch in 200 of a bone
-  /// at rest exceeds it (chi-squared with three degrees of freedom).
-  double sds = 3.583;
-  /// The limit is never more than this, however badly the tip was seen: 95 of 100 shifts by 2 mm
-  /// are detected.
-  double most_m = 0.0014;
-  /// On the headset's map: once World may have drifted by this SD along an axis since the bone was
-  /// last found, nothing is guided before it is found again. By then one drift in twenty along an
-  /// axis is longer than `most_m`.
-  double most_walked_m = 0.0007;
-  /// The least distance from the tag and the foot of a patient reference or, if the bone does not
-  /// extend that far, `reach` times its extent: a clamp that turned moves nearby places least.
-  double from_reference_m = 0.030;
-  double reach = 0.8;
+/// SD along an axis of a tip put into the same dimple again. Estimate.
+inline constexpr double kDimpleSd_m = 0.0002;
+/// SD along an axis of tracking errors that last longer than a touch, so that averaging does not
+/// remove them: on the headset's map, and relative to a patient reference.
+inline constexpr double kLastingSd_m = 0.00035;
+inline constexpr double kLastingSdAnchored_m = 0.00005;
+/// The limit in SDs along an axis of the distance between two touches: one touch in 200 of a bone
+/// at rest exceeds it (chi-squared with three degrees of freedom).
+inline constexpr double kLandmarkSds = 3.583;
+/// The limit is never more than this, however badly the tip was seen: 95 of 100 shifts by 2 mm
+/// are detected.
+inline constexpr double kMostLandmarkOff_m = 0.0014;
+/// On the headset's map: once World may have drifted by this SD along an axis since the bone was
+/// last found, nothing is guided before it is found again. By then one drift in twenty along an
+/// axis is longer than `kMostLandmarkOff_m`.
+inline constexpr double kMostWalked_m = 0.0007;
+/// The least distance from the tag and the foot of a patient reference or, if the bone does not
+/// extend that far, `kLandmarkReach` times its extent: a clamp that turned moves nearby places
+/// least.
+inline constexpr double kLandmarkFromReference_m = 0.030;
+inline constexpr double kLandmarkReach = 0.8;
 
-  [[nodiscard]] int touches_of(bool anchored) const {
-    return anchored ? touches_anchored : touches;
-  }
-  /// Variance of one touch along an axis, beyond the scatter within its press.
-  [[nodiscard]] double touch_variance_m2(bool anchored) const;
-  /// SD along an axis of the distance between two places with these SDs, each the mean of its
-  /// touches.
-  [[nodiscard]] double distance_sd_m(double recorded_sd_m, double sd_m, bool anchored) const;
-  /// The limit of a distance with this SD.
-  [[nodiscard]] double limit_m(double distance_sd_m) const;
-  /// The limit of the distance between two touches of one place.
-  [[nodiscard]] double apart_m(double sd_m, bool anchored) const;
-  /// Every problem at once; empty when all is well.
-  [[nodiscard]] std::vector<std::string> check() const;
-};
+/// How many touches make one place, with the tip lifted and put down again between them: on the
+/// headset's map a single one is too imprecise.
+[[nodiscard]] constexpr int landmark_touches(bool anchored) { return anchored ? 1 : 2; }
+/// Variance of one touch along an axis, beyond the scatter within its press.
+[[nodiscard]] double landmark_variance_m2(bool anchored);
+/// SD along an axis of the distance between two places with these SDs, each the mean of its
+/// touches.
+[[nodiscard]] double landmark_distance_sd_m(double recorded_sd_m, double sd_m, bool anchored);
+/// The limit of a distance with this SD.
+[[nodiscard]] double landmark_limit_m(double distance_sd_m);
+/// The limit of the distance between two touches of one place.
+[[nodiscard]] double landmark_apart_m(double sd_m, bool anchored);
 
 }  // namespace orthonav::engine

@@ -14,11 +14,7 @@ std::vector<std::string> PlacedWireRules::check() const {
   };
   in("angle_limit_rad", angle_limit_rad, 0.2);
   in("entry_limit_m", entry_limit_m, 0.01);
-  in("most_angle_sd_rad", most_angle_sd_rad, 0.2);
   in("most_entry_sd_m", most_entry_sd_m, 0.01);
-  in("most_turn_rad", most_turn_rad, 0.2);
-  in("on_screw_m", on_screw_m, 0.05);
-  in("on_screw_rad", on_screw_rad, 1.0);
   in("drill_diameter_m", drill_diameter_m, 0.01);
   for (const double sd : {axis_sd_rad, tip_sd_m, play_rad}) {
     if (!(sd >= 0.0 && sd <= 0.1)) {

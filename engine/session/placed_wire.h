@@ -30,19 +30,13 @@ struct PlacedWireRules {
   double angle_limit_rad = 2.0 * kRadiansPerDegree;
   double entry_limit_m = 0.002;
   /// A measurement with a larger SD can hardly tell within from beyond a limit: three quarters of
-  /// the limits.
-  double most_angle_sd_rad = 1.5 * kRadiansPerDegree;
+  /// that limit.
   double most_entry_sd_m = 0.0015;
   /// SDs of the guide's axis about each direction across it, and of its tip, after calibration.
   double axis_sd_rad = 0.010;
   double tip_sd_m = 0.0005;
   /// SD of the sleeve's direction relative to the wire in it: 0.25°.
   double play_rad = 0.25 * kRadiansPerDegree;
-  /// A sleeve that turns more than this while it is pressed (root mean square) is not at rest.
-  double most_turn_rad = 1.0 * kRadiansPerDegree;
-  /// If it is farther off the plan, the sleeve is not over this screw's wire.
-  double on_screw_m = 0.015;
-  double on_screw_rad = 30.0 * kRadiansPerDegree;
   /// Diameter of the hole that a wire leaves: another entry is at least this far from its middle.
   double drill_diameter_m = 0.0032;
 

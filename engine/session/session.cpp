@@ -62,9 +62,7 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
     : work_(std::move(operation), std::move(tools), std::move(method), options),
       workflow_(workflow_of(options.steps, work_.rods_alone())),
       digitizing_(work_),
-      landmarking_(options.landmark),
       guide_checks_(options),
-      guiding_(options.drill),
       placing_(options),
       replanning_(options.replan),
       rods_(work_.rods_alone() || rod_planned(work_.state.levels, nav::Side::kLeft),
@@ -144,7 +142,9 @@ void Session::answer_request(const Request& request) {
 
 std::optional<Event> Session::hear(const Phrase& phrase, const std::optional<Replan>& change,
                                    const std::string& from) {
-  const bool sure = phrase.confidence >= work_.options.min_voice_confidence;
+  // A wrong "accept" is worse than one said twice.
+  constexpr double kLeastConfidence = 0.5;
+  const bool sure = phrase.confidence >= kLeastConfidence;
   std::optional<Event> event = change ? std::nullopt : command_event(phrase.text);
   const std::optional<Result<Replan>> replan = change  ? Result<Replan>(*change)
                                                : event ? std::nullopt
@@ -257,7 +257,7 @@ void Session::accept(Timestamp time) {
 }
 
 void Session::expect_landmark() {
-  landmarking_ = Landmarking(work_.options.landmark);
+  landmarking_ = Landmarking();
   // On the headset's map a comparison costs more by the drift meanwhile than it gains.
   if (work_.anchored()) {
     guide_checks_.expect_tips();

@@ -5,13 +5,9 @@
 #include <vector>
 
 #include "base/time.h"
-#include "engine/session/guide_checks.h"
-#include "engine/session/landmark.h"
 #include "engine/session/placed_wire.h"
 #include "engine/session/replan.h"
-#include "engine/session/touched_heads.h"
 #include "engine/session/workflow/workflow.h"
-#include "nav/guidance/drill_watch.h"
 #include "nav/guidance/rod_bends.h"
 #include "nav/registration/check_points.h"
 
@@ -30,24 +26,15 @@ struct DrillSkiving {
 struct SessionOptions {
   /// Guidance on a pose older than this is hidden, never frozen.
   Duration stale_after = std::chrono::milliseconds(100);
-  /// A phrase with a lower confidence is not acted upon: a wrong "accept" is worse than one said
-  /// twice.
-  double min_voice_confidence = 0.5;
   double rod_diameter_m = 0.0055;
   double head_to_seat_m = nav::RodSeating{}.head_to_seat_m;
-  /// Its own diameter is ignored in favour of `rod_diameter_m`.
-  nav::RodBending rod_bending;
   /// If the tips scatter more than this over one click (root mean square about their mean), a screw
   /// head or check point was not touched at rest. Noise and tremor at the end of a 130 mm lever
   /// already cause up to 2.5 mm over three pairs in the simulated room; a moving tip causes 5 mm
   /// and more.
   double max_touch_spread_m = 0.003;
-  HeadTouchRules heads;
   MethodSteps steps;  ///< none if verification is by eye alone
   nav::CheckPointRules check_points;
-  LandmarkRules landmark;
-  TipCheckRules tips;
-  nav::DrillLimits drill;
   PlacedWireRules placed;
   ReplanLimits replan;
   /// What is known of the errors common to all strokes; without it, expected errors are those of
@@ -68,7 +55,7 @@ struct SessionOptions {
   /// A deleted path fades over this time.
   Duration fade = std::chrono::milliseconds(300);
 
-  /// `rod_bending` with `rod_diameter_m`.
+  /// Of a rod of `rod_diameter_m`.
   [[nodiscard]] nav::RodBending bending() const;
   /// SD along an axis of the map's movement until now relative to the mean of places that were
   /// spread evenly over this time.

@@ -8,23 +8,6 @@
 
 namespace orthonav::engine {
 
-std::vector<std::string> HeadTouchRules::check() const {
-  std::vector<std::string> problems;
-  const auto in = [&problems](const char* name, double value, double least, double most) {
-    if (!(value >= least && value <= most)) {
-      problems.push_back(std::string(name) + " must lie in [" + std::to_string(least) + ", " +
-                         std::to_string(most) + "]");
-    }
-  };
-  // Below 5 mm no two heads of a rod may lie, at 15 mm the nearest ones do (nav/guidance/rod.cpp).
-  in("heads.same_head_m", same_head_m, 0.005, 0.010);
-  in("heads.seating_sd_m", seating_sd_m, 0.00005, 0.002);
-  in("heads.tracking_sd_m", tracking_sd_m, 0.0, 0.002);
-  in("heads.tracking_sd_anchored_m", tracking_sd_anchored_m, 0.0, 0.002);
-  in("heads.sds", sds, 2.0, 6.0);
-  return problems;
-}
-
 std::variant<HeadTouch, TouchRefusal> TouchedHeads::add(const nav::PressedPlace& touched,
                                                         Vec3 shaft) {
   const std::optional<std::size_t> head = head_near(touched.place);
@@ -33,9 +16,9 @@ std::variant<HeadTouch, TouchRefusal> TouchedHeads::add(const nav::PressedPlace&
     return last();
   }
   const double others = static_cast<double>(touches_of(*head));
-  const double sd_m = std::max(stated_sd_m(*head), std::hypot(rules_.seating_sd_m, touched.sd_m));
+  const double sd_m = std::max(stated_sd_m(*head), std::hypot(kSeatingSd_m, touched.sd_m));
   const double limit_m =
-      rules_.sds * std::hypot(sd_m, tracking_sd_m()) * std::sqrt(1.0 + 1.0 / others);
+      kHeadSds * std::hypot(sd_m, tracking_sd_m()) * std::sqrt(1.0 + 1.0 / others);
   const double apart_m = (touched.place - place_of(*head)).norm();
   if (!(apart_m <= limit_m)) {
     return TouchRefusal{TouchRefusal::Kind::kTouchesApart, apart_m, limit_m};
@@ -84,8 +67,7 @@ double TouchedHeads::stated_sd_m(std::size_t head) const {
   for (const OneTouch& touch : touches_) {
     squares_m2 += touch.head == head ? touch.at.sd_m * touch.at.sd_m : 0.0;
   }
-  return std::hypot(rules_.seating_sd_m,
-                    std::sqrt(squares_m2 / static_cast<double>(touches_of(head))));
+  return std::hypot(kSeatingSd_m, std::sqrt(squares_m2 / static_cast<double>(touches_of(head))));
 }
 
 double TouchedHeads::sd_m(std::size_t head) const {
@@ -115,7 +97,7 @@ HeadTouch TouchedHeads::last() const {
 
 std::optional<std::size_t> TouchedHeads::head_near(Point<World> place) const {
   std::optional<std::size_t> nearest;
-  double nearest_m = rules_.same_head_m;
+  double nearest_m = kSameHead_m;
   for (std::size_t head = 0; head < heads_; ++head) {
     const double away_m = (place - place_of(head)).norm();
     if (away_m < nearest_m) {

@@ -13,26 +13,20 @@
 
 namespace orthonav::engine {
 
-/// Which touches belong to one screw head, and how sure its place is.
-struct HeadTouchRules {
-  /// A touch nearer to a head than this belongs to it. Neighbouring heads are 15 mm apart or more;
-  /// no touch errs by half of that.
-  double same_head_m = 0.0075;
-  /// SD along an axis of the pointer's ball in the drive socket of a screw (docs/rods.md). Estimate
-  /// (0.2 to 0.5 mm).
-  double seating_sd_m = 0.0003;
-  /// SD along an axis of what tracking adds to one head and not to its neighbours; touching again
-  /// does not take it away. Measured on the headset's map (0.37 mm) and with a patient reference
-  /// (0.11 mm, 0.14 with a tip that is off by 0.5 mm and held 10° differently).
-  double tracking_sd_m = 0.00037;
-  double tracking_sd_anchored_m = 0.00015;
-  /// The limit in SDs along an axis of the distance of a touch from the others of its head: one
-  /// touch in 200 exceeds it (chi-squared with three degrees of freedom).
-  double sds = 3.583;
-
-  /// Every problem at once; empty when all is well.
-  [[nodiscard]] std::vector<std::string> check() const;
-};
+/// A touch nearer to a head than this belongs to it. Neighbouring heads are 15 mm apart or more
+/// (nav/guidance/rod.cpp); no touch errs by half of that.
+inline constexpr double kSameHead_m = 0.0075;
+/// SD along an axis of the pointer's ball in the drive socket of a screw (docs/rods.md). Estimate
+/// (0.2 to 0.5 mm).
+inline constexpr double kSeatingSd_m = 0.0003;
+/// SD along an axis of what tracking adds to one head and not to its neighbours; touching again
+/// does not take it away. Measured on the headset's map (0.37 mm) and with a patient reference
+/// (0.11 mm, 0.14 with a tip that is off by 0.5 mm and held 10° differently).
+inline constexpr double kHeadTrackingSd_m = 0.00037;
+inline constexpr double kHeadTrackingSdAnchored_m = 0.00015;
+/// The limit in SDs along an axis of the distance of a touch from the others of its head: one
+/// touch in 200 exceeds it (chi-squared with three degrees of freedom).
+inline constexpr double kHeadSds = 3.583;
 
 /// One touch of a head, and what is known of the head with it.
 struct HeadTouch {
@@ -47,7 +41,7 @@ struct HeadTouch {
 class TouchedHeads {
  public:
   TouchedHeads() = default;
-  TouchedHeads(HeadTouchRules rules, bool anchored) : rules_(rules), anchored_(anchored) {}
+  explicit TouchedHeads(bool anchored) : anchored_(anchored) {}
 
   /// Records a touch: of a new head, or once more of one nearby. `shaft`: the pointer's, from the
   /// tip back, unit. Refused if it is farther from the other touches of its head than they scatter.
@@ -83,10 +77,9 @@ class TouchedHeads {
   [[nodiscard]] double stated_sd_m(std::size_t head) const;
   [[nodiscard]] std::optional<std::size_t> head_near(Point<World> place) const;
   [[nodiscard]] double tracking_sd_m() const {
-    return anchored_ ? rules_.tracking_sd_anchored_m : rules_.tracking_sd_m;
+    return anchored_ ? kHeadTrackingSdAnchored_m : kHeadTrackingSd_m;
   }
 
-  HeadTouchRules rules_;
   bool anchored_ = false;
   std::vector<OneTouch> touches_;  ///< in order
   std::size_t heads_ = 0;

@@ -11,38 +11,18 @@
 
 namespace orthonav::nav {
 
-/// When a drill is watched, and which deviations raise an alarm.
+/// Which deviations of a drill raise an alarm.
 ///
-/// The deviation: Rampersaud et al. 2001 ("Accuracy requirements for image-guided spinal pedicle
-/// screw placement", Spine 26:352-359) leave between 0 mm at T5 and 3.8 mm and 12.7° at L5 before a
-/// screw breaks through. In many pedicles a screw thus breaks through before it is off by the 2 mm
-/// of a Gertzbein-Robbins step, so 2 mm are red. Amber comes at half of that, where a drill that
-/// has just entered can still be corrected. The angles move the tip by the same distances over some
-/// 28 mm of pedicle and body.
-struct DrillLimits {
-  double amber_offset_m = 0.001;  ///< of the tip from the planned axis
-  double red_offset_m = 0.002;
-  double amber_angle_rad = 0.0349065850398866;  ///< 2°, between tool and planned axis
-  double red_angle_rad = 0.0698131700797732;    ///< 4°
-  double set_within_m = 0.002;     ///< a tip this near to the bone's surface may be set on it,
-  double set_near_axis_m = 0.005;  ///< if also this near to the planned axis
-  Duration set_after = std::chrono::milliseconds(500);  ///< and at rest for this long
-  double set_spread_m = 0.001;                          ///< a tip that moves farther does not rest
-  double advance_m = 0.002;    ///< this much deeper than where it was set: it is drilling
-  double withdrawn_m = 0.005;  ///< this far out from where it was set: it is no longer drilling
-  /// The stop comes while the tip is short of the target by this many SDs of its depth, so that
-  /// with 95 % probability it has not reached it,
-  double stop_sds = 1.645;
-  /// but by at least this margin: a hand that stops a quarter of a second later has drilled 0.75 mm
-  /// deeper at 3 mm per second,
-  double least_stop_margin_m = 0.001;
-  /// and by this margin if the SD is unknown.
-  double unknown_stop_margin_m = 0.005;
-  double stop_released_m = 0.002;  ///< the stop ends when the tip is short of it by this much again
-
-  /// Every problem at once; empty when all is well.
-  [[nodiscard]] std::vector<std::string> check() const;
-};
+/// Rampersaud et al. 2001 ("Accuracy requirements for image-guided spinal pedicle screw placement",
+/// Spine 26:352-359) leave between 0 mm at T5 and 3.8 mm and 12.7° at L5 before a screw breaks
+/// through. In many pedicles a screw thus breaks through before it is off by the 2 mm of a
+/// Gertzbein-Robbins step, so 2 mm are red. Amber comes at half of that, where a drill that has
+/// just entered can still be corrected. The angles move the tip by the same distances over some 28
+/// mm of pedicle and body.
+inline constexpr double kAmberOffset_m = 0.001;  ///< of the tip from the planned axis
+inline constexpr double kRedOffset_m = 0.002;
+inline constexpr double kAmberAngle_rad = 0.0349065850398866;  ///< 2°, between tool, planned axis
+inline constexpr double kRedAngle_rad = 0.0698131700797732;    ///< 4°
 
 /// The drill in one pair in which it was measured.
 struct DrillReading {
@@ -89,8 +69,6 @@ struct DrillView {
 /// nothing.
 class DrillWatch {
  public:
-  explicit DrillWatch(const DrillLimits& limits = {}) : limits_(limits) {}
-
   /// The surgeon has said that they are drilling, wherever the tip is.
   void begin();
   void measured(const DrillReading& reading);
@@ -108,7 +86,6 @@ class DrillWatch {
   void judge(const DrillReading& reading);
   void look_at_stop(const DrillReading& reading);
 
-  DrillLimits limits_;
   DrillView view_;
   std::optional<DrillReading> rest_;  ///< at the time the tip came to rest, in `kAway`
   Timestamp newest_{};

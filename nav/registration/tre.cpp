@@ -7,6 +7,7 @@
 #include "base/random.h"
 
 namespace orthonav::nav {
+
 std::array<double, 9> PoseUncertainty::covariance_at(Point<Vertebra> target) const {
   const Eigen::Matrix<double, 6, 6> covariance =
       Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(covariance_.data());

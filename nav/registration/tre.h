@@ -1,9 +1,7 @@
 #pragma once
 
 #include <array>
-#include <span>
 
-#include "base/result.h"
 #include "base/transform.h"
 
 namespace orthonav::nav {

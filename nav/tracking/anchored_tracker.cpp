@@ -19,13 +19,17 @@ struct Reference {
   int pairs_elsewhere = 0;  ///< in a row in which it was not where it should be
 };
 
+constexpr double kReferenceMoved_rad = 0.0105;  ///< 0.6°
+/// A further reference counts once it was seen in this many pairs together with one that already
+/// counts.
+constexpr int kLearntFromPairs = 30;
+
 class AnchoredTracker final : public ToolTracker {
  public:
   AnchoredTracker(std::unique_ptr<ToolTracker> tracker, Duration coast,
-                  const ReferenceLimits& limits, std::vector<Reference> references)
+                  std::vector<Reference> references)
       : tracker_(std::move(tracker)),
         coast_(coast),
-        limits_(limits),
         references_(std::move(references)),
         filters_(tracker_->tools().size()) {
     publish_reference_poses();
@@ -117,11 +121,11 @@ class AnchoredTracker final : public ToolTracker {
       }
       const bool elsewhere =
           (here.translation() - other.anchored_from_marker->translation()).norm() >
-              limits_.moved_m ||
+              kReferenceMoved_m ||
           rotation_angle_rad(here.rotation(), other.anchored_from_marker->rotation()) >
-              limits_.moved_rad;
+              kReferenceMoved_rad;
       other.pairs_elsewhere = elsewhere ? other.pairs_elsewhere + 1 : 0;
-      moved = moved || other.pairs_elsewhere >= limits_.pairs;
+      moved = moved || other.pairs_elsewhere >= kReferenceMovedPairs;
     }
     if (moved) {
       ++anchor_.moves;
@@ -131,7 +135,7 @@ class AnchoredTracker final : public ToolTracker {
 
   void learn(Reference& reference, const TrackedPose& here, double exposure_s) {
     reference.learning.update(here, exposure_s);
-    if (++reference.pairs_learnt >= limits_.learnt_from_pairs) {
+    if (++reference.pairs_learnt >= kLearntFromPairs) {
       reference.anchored_from_marker = reference.learning.state().value;
       publish_reference_poses();
     }
@@ -194,7 +198,6 @@ class AnchoredTracker final : public ToolTracker {
 
   std::unique_ptr<ToolTracker> tracker_;
   Duration coast_;
-  ReferenceLimits limits_;
   std::vector<Reference> references_;
   std::vector<PoseFilter> filters_;  ///< of all tools, in the anchored World
   std::vector<ToolState> states_;
@@ -203,20 +206,6 @@ class AnchoredTracker final : public ToolTracker {
 
 }  // namespace
 
-std::vector<std::string> ReferenceLimits::check() const {
-  std::vector<std::string> problems;
-  if (!(moved_m > 0.0 && moved_m <= 0.01)) {
-    problems.push_back("moved_m " + std::to_string(moved_m) + " must lie in (0, 0.01]");
-  }
-  if (!(moved_rad > 0.0 && moved_rad <= 0.2)) {
-    problems.push_back("moved_rad " + std::to_string(moved_rad) + " must lie in (0, 0.2]");
-  }
-  if (pairs < 1 || learnt_from_pairs < 1) {
-    problems.emplace_back("pairs and learnt_from_pairs must be at least 1");
-  }
-  return problems;
-}
-
 PoseCovariance relative_covariance(const PairPose& tool, const PairPose& reference) {
   const Vec3 lever_arm_m =
       tool.rig_from_marker.translation() - reference.rig_from_marker.translation();
@@ -224,11 +213,7 @@ PoseCovariance relative_covariance(const PairPose& tool, const PairPose& referen
 }
 
 Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(
-    std::unique_ptr<ToolTracker> tracker, Duration coast, const ReferenceLimits& limits,
-    std::span<const ReferencePlace> known) {
-  if (const auto problems = limits.check(); !problems.empty()) {
-    return Error{"reference: " + problems.front()};
-  }
+    std::unique_ptr<ToolTracker> tracker, Duration coast, std::span<const ReferencePlace> known) {
   std::vector<Reference> references;
   const auto tools = tracker->tools();
   for (std::size_t i = 0; i < tools.size(); ++i) {
@@ -249,7 +234,7 @@ Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(
     reference->anchored_from_marker = place.anchored_from_marker;
   }
   return std::unique_ptr<ToolTracker>(
-      std::make_unique<AnchoredTracker>(std::move(tracker), coast, limits, std::move(references)));
+      std::make_unique<AnchoredTracker>(std::move(tracker), coast, std::move(references)));
 }
 
 }  // namespace orthonav::nav

@@ -10,19 +10,10 @@
 
 namespace orthonav::nav {
 
-/// When two visible references count as having moved relative to each other.
-struct ReferenceLimits {
-  double moved_m = 0.001;
-  double moved_rad = 0.0105;  ///< 0.6°
-  /// This many pairs in a row must show it: a single pair may be wrong.
-  int pairs = 10;
-  /// A further reference counts once it was seen in this many pairs together with one that already
-  /// counts.
-  int learnt_from_pairs = 30;
-
-  /// Every problem at once; empty when all is well.
-  [[nodiscard]] std::vector<std::string> check() const;
-};
+/// Two visible references count as having moved relative to each other by more than this, or by
+/// 0.6°, if this many pairs in a row show it: a single pair may be wrong.
+inline constexpr double kReferenceMoved_m = 0.001;
+inline constexpr int kReferenceMovedPairs = 10;
 
 /// Tracks with `tracker`, and gives poses relative to the patient references among its tools, from
 /// a tool and a reference in the same pair, so that motion of head, map and patient cancels. The
@@ -30,10 +21,10 @@ struct ReferenceLimits {
 /// Without a visible reference the tools are predicted for `coast`, then lost; if `tracker` does
 /// not filter (`follows_tools`), nothing is filtered or predicted. `known`: where references lie in
 /// the World of a resumed operation; no reference then defines a new World. Refuses tools without a
-/// reference, a place for a tool that is not a reference, and invalid limits. `tracker` must give
-/// the poses of single pairs (`ToolState::pair`).
+/// reference, and a place for a tool that is not one. `tracker` must give the poses of single pairs
+/// (`ToolState::pair`).
 Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(
-    std::unique_ptr<ToolTracker> tracker, Duration coast, const ReferenceLimits& limits = {},
+    std::unique_ptr<ToolTracker> tracker, Duration coast,
     std::span<const ReferencePlace> known = {});
 
 /// The covariance, in the reference's parent frame, of a tool's pose relative to a reference: both

@@ -136,10 +136,10 @@ void expect_quiet_whatever_is_asked() {
   expect_with(verify, ByEye{});
   golden::StagedOperation accepted(Step::kAccepted);
   accepted.level().screws[1].done = false;
-  const TipCheck any_way;
-  TipCheck as_for_screw;
+  const TipCheck any_way(0.0007);
+  TipCheck as_for_screw(0.0007);
   as_for_screw.expect();
-  const TipCheck nobody({}, {}, false);
+  const TipCheck nobody(0.0007, false);
   for (const TipCheck* tips :
        std::initializer_list<const TipCheck*>{&any_way, &as_for_screw, &nobody}) {
     for (const int missing : {0, 1}) {

@@ -224,7 +224,7 @@ const engine::Guidance& ScriptedOperation::checks_by_touch() {
 }
 
 const engine::Guidance& ScriptedOperation::touches_dimple(Vec3 off_m) {
-  const int touches = engine::LandmarkRules{}.touches_of(tracker_->anchor() != nullptr);
+  const int touches = engine::landmark_touches(tracker_->anchor() != nullptr);
   for (int touch = 1; touch < touches; ++touch) {
     this->touches(kDimple + off_m);
   }
@@ -243,9 +243,8 @@ const engine::Guidance& ScriptedOperation::accepts_first_level() {
 }
 
 double guide_sd_m() {
-  engine::TipCheckRules rules;
-  rules.prior_sd_m = std::numbers::sqrt2 * engine::PlacedWireRules{}.tip_sd_m;
-  return engine::TipCheck(rules, {}).difference_sd_m(0.0, Mat3::identity());
+  return engine::TipCheck(std::numbers::sqrt2 * engine::PlacedWireRules{}.tip_sd_m)
+      .difference_sd_m(0.0, Mat3::identity());
 }
 
 }  // namespace orthonav::test

@@ -21,14 +21,12 @@ class Placing;
 /// The step in which screws are guided.
 class Guiding {
  public:
-  explicit Guiding(const nav::DrillLimits& limits = {}) : limits_(limits), approach_(limits) {}
-
   /// Selects the level's first screw that is not done, or its first.
   void select_open_screw(const LevelState& level);
   /// Another level begins: guidance of the previous one no longer applies.
   void begin_level();
   /// All guidance so far is void; the screw stays selected.
-  void forget_guidance() { approach_ = Approach(limits_); }
+  void forget_guidance() { approach_ = {}; }
   /// The tool was not measured in this pair: drops what was based on the last measurement.
   void lose_measurement();
   /// The surgeon said "drill".
@@ -55,8 +53,6 @@ class Guiding {
  private:
   /// What was measured on the way to the selected screw.
   struct Approach {
-    explicit Approach(const nav::DrillLimits& limits) : drill(limits) {}
-
     /// The last measurement with the tool at its greatest depth along the screw. Poses after its
     /// withdrawal do not count.
     std::optional<ToolGuidance> at_depth;
@@ -91,7 +87,6 @@ class Guiding {
   void add_clearance(ToolGuidance& guidance, const OperationInWork& work,
                      const nav::TrackedPose& pose, const nav::ToolGeometry& tool);
 
-  nav::DrillLimits limits_;
   ToolErrors errors_;  ///< of the tool in this pair; World's drift is in the level (BoneFound)
   std::size_t screw_ = 0;
   Approach approach_;

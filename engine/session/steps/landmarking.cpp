@@ -106,10 +106,11 @@ nav::PressedPlace Landmarking::place_in_world(const LevelState& level) const {
 std::optional<TouchRefusal> Landmarking::too_near(const LevelState& level, Point<World> place,
                                                   std::span<const ReferencePost> posts) const {
   const double here_m = nearest_m(place, posts);
-  if (here_m >= rules_.from_reference_m) {
+  if (here_m >= kLandmarkFromReference_m) {
     return std::nullopt;
   }
-  const double limit_m = std::min(rules_.from_reference_m, rules_.reach * farthest_m(level, posts));
+  const double limit_m =
+      std::min(kLandmarkFromReference_m, kLandmarkReach * farthest_m(level, posts));
   if (here_m >= limit_m) {
     return std::nullopt;
   }
@@ -124,7 +125,7 @@ std::optional<TouchRefusal> Landmarking::refusal_of(const LevelState& level,
   if (touches_ > 0) {
     const double apart_m = (here - mean_place()).norm();
     const double sd_m = std::max(place.sd_m, std::sqrt(variances_m2_ / touches_));
-    const double limit_m = rules_.apart_m(sd_m, anchored);
+    const double limit_m = landmark_apart_m(sd_m, anchored);
     if (!(apart_m <= limit_m)) {
       return TouchRefusal{TouchRefusal::Kind::kTouchesApart, apart_m, limit_m};
     }
@@ -152,9 +153,9 @@ std::variant<LandmarkTouch, TouchRefusal> Landmarking::take(LevelState& level,
   variances_m2_ += pressed->sd_m * pressed->sd_m;
   ++touches_;
   const double recorded_sd_m = level.landmark ? level.landmark->sd_m : sd_m();
-  const double distance_sd_m = rules_.distance_sd_m(recorded_sd_m, sd_m(), anchored);
-  last_ = LandmarkTouch{!level.landmark, std::max(0, rules_.touches_of(anchored) - touches_), 0.0,
-                        rules_.limit_m(distance_sd_m), distance_sd_m};
+  const double distance_sd_m = landmark_distance_sd_m(recorded_sd_m, sd_m(), anchored);
+  last_ = LandmarkTouch{!level.landmark, std::max(0, landmark_touches(anchored) - touches_), 0.0,
+                        landmark_limit_m(distance_sd_m), distance_sd_m};
   if (last_->missing > 0) {
     return *last_;
   }

@@ -20,8 +20,6 @@ class Verifying;
 /// object is made before each screw, because earlier touches do not show where the bone is now.
 class Landmarking {
  public:
-  explicit Landmarking(const LandmarkRules& rules) : rules_(rules) {}
-
   /// Takes the pressed place as the landmark, or as the guide's tip in it.
   [[nodiscard]] std::optional<Event> touch_landmark(OperationInWork& work, GuideChecks& guide,
                                                     Timestamp time);
@@ -59,7 +57,6 @@ class Landmarking {
   [[nodiscard]] nav::PressedPlace place_in_world(const LevelState& level) const;
   void forget_touches();
 
-  LandmarkRules rules_;
   std::optional<LandmarkTouch> last_;
   bool recorded_here_ = false;  ///< since the step began
   Vec3 sum_m_;                  ///< of the touches so far, in Vertebra

@@ -174,7 +174,7 @@ void RodTemplating::record_head(OperationInWork& work, Timestamp time) {
   }
   RodState& rod = current(work);
   if (rod.touched.empty()) {
-    rod.touched = TouchedHeads(work.options.heads, work.anchored());
+    rod.touched = TouchedHeads(work.anchored());
   }
   const std::size_t pointer = work.tools.pointer();
   const Direction<World> shaft = work.tools.watch(pointer).last_measured_pose().value *
@@ -281,7 +281,7 @@ void log_head_dropped(LogJson& json, nav::Side side, const HeadTouch& touch) {
 
 void read_head(const JsonNode& node, bool dropped, bool anchored, RodState& rod) {
   if (rod.touched.empty()) {
-    rod.touched = TouchedHeads({}, anchored);
+    rod.touched = TouchedHeads(anchored);
   }
   if (dropped) {
     rod.touched.drop_last();

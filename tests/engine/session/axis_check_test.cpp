@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engine/session/placed_wire.h"
+
 namespace orthonav::engine::axis_check_test {
 namespace {
 
@@ -18,7 +20,7 @@ nav::SpinCalibration measured(double off_rad, double sigma_rad) {
 }
 
 TEST(AxisCheck, TakesTheMeanByWhatIsKnown) {
-  AxisCheck check;
+  AxisCheck check(PlacedWireRules{}.axis_sd_rad);
   EXPECT_FALSE(check.offers());
   // The SD about each direction equals that of the described axis, so half of the difference
   // counts.
@@ -33,28 +35,28 @@ TEST(AxisCheck, TakesTheMeanByWhatIsKnown) {
 }
 
 TEST(AxisCheck, WhatWasCorrectedIsKnownBetterFromThenOn) {
-  AxisCheck check;
+  AxisCheck check(PlacedWireRules{}.axis_sd_rad);
   check.take(measured(0.02, 0.002), kDescribed);
   const Direction<Marker> better = check.correct();
   // A poor measurement hardly changes it.
   check.take(measured(0.0, 0.02), better);
   EXPECT_LT(check.last()->by_rad, 0.001);
   EXPECT_FALSE(check.offers());
-  AxisCheck fresh;
+  AxisCheck fresh(PlacedWireRules{}.axis_sd_rad);
   fresh.take(measured(0.02, 0.02), kDescribed);
   EXPECT_GT(fresh.last()->by_rad, 0.005) << "the twin";
 }
 
 TEST(AxisCheck, IsNeverSurerThanTagsAndLensesAllow) {
-  AxisCheck check;
+  AxisCheck check(PlacedWireRules{}.axis_sd_rad);
   check.take(measured(0.01, 0.0), kDescribed);
-  EXPECT_GE(check.last()->sd_rad, AxisCheckRules{}.least_sd_rad);
+  EXPECT_GE(check.last()->sd_rad, kLeastAxisSd_rad);
   EXPECT_LT(check.last()->by_rad, 0.01);
 }
 
 TEST(AxisCheck, HardlyOffIsNotWorthAWord) {
-  AxisCheck check;
-  check.take(measured(0.9 * AxisCheckRules{}.worth_rad, 0.001), kDescribed);
+  AxisCheck check(PlacedWireRules{}.axis_sd_rad);
+  check.take(measured(0.9 * kAxisWorth_rad, 0.001), kDescribed);
   EXPECT_FALSE(check.offers());
 }
 

@@ -125,15 +125,5 @@ TEST(SessionDrill, KeepsWhereTheToolWent) {
   EXPECT_FALSE(s.session().levels()[0].screws[1].executed.has_value());
 }
 
-TEST(SessionDrill, LimitsAreOptions) {
-  SessionOptions strict;
-  strict.drill.amber_offset_m = 0.0002;
-  Drilling s(strict);
-  s.drills_to(0.010);
-  EXPECT_EQ(s.at(0.010, 0.0003).alarm, DrillAlarm::kAmber);
-  strict.drill.amber_offset_m = 0.003;
-  EXPECT_THAT(strict.check(), ::testing::ElementsAre(::testing::StartsWith("drill: ")));
-}
-
 }  // namespace
 }  // namespace orthonav::engine::session_drill_test

@@ -23,7 +23,7 @@ using enum ClickerAction;
 constexpr double kExact = 1e-9;
 constexpr Vec3 kDimple = ScriptedOperation::kDimple;
 /// Two touches of a few pairs each are so imprecise that the limit is at its maximum.
-constexpr double kLimit_m = LandmarkRules{}.most_m;
+constexpr double kLimit_m = kMostLandmarkOff_m;
 constexpr double kJust_m = 1e-5;
 
 /// In `accepted`, with a registration that puts the box where it is: World is Vertebra.
@@ -212,7 +212,7 @@ TEST_F(AnchoredLandmark, IsRefusedNearTheReference) {
   const TouchRefusal why = touch_refusal(s.touches(near));
   EXPECT_EQ(why.kind, TouchRefusal::Kind::kTooNear);
   EXPECT_NEAR(why.value_m, 0.020, kExact);
-  EXPECT_NEAR(why.limit_m, LandmarkRules{}.from_reference_m, kExact);
+  EXPECT_NEAR(why.limit_m, kLandmarkFromReference_m, kExact);
   EXPECT_FALSE(s.session().levels()[0].landmark);
   s.touches(kFoot + Vec3{0.031, 0, 0});
   EXPECT_TRUE(s.session().levels()[0].landmark);
@@ -229,46 +229,39 @@ TEST_F(AnchoredLandmark, SaysThatItIsTheReferenceThatMoved) {
 }
 
 TEST(Landmarking, OfABoneThatDoesNotReachSoFarMayLieNearer) {
-  LandmarkRules rules;
-  rules.from_reference_m = 0.1;
-  Landmarking landmarking(rules);
+  constexpr double kSmaller = 0.6;
+  nav::TriangleMesh bone = test::box_bone();
+  for (Vec3& vertex : bone.vertices_m) {
+    vertex = kSmaller * vertex;
+  }
+  Landmarking landmarking;
   LevelState level;
-  level.plan = test::operation_of({"L4"}).levels[0];
+  level.plan.model = nav::VertebraModel::prepare(bone).value();
   level.registration = nav::Registration{};
-  const std::vector<ReferencePost> posts = {{{{0, 0.08, 0}}, {{0, 0.02, 0}}}};
-  // The farthest corner of the box's back, 30 x 25 mm from the foot, or deeper.
+  const std::vector<ReferencePost> posts = {{{{0, 0.08, 0}}, {{0, kSmaller * 0.020, 0}}}};
+  // The farthest corner of the box's back, 18 x 15 mm from the foot, or deeper.
   const auto at = [&](double x_m) {
-    return landmarking.take(level, nav::PressedPlace{{{x_m, 0.020, 0}}, 0.0003}, posts, true, {});
+    const Point<World> place{{x_m, kSmaller * 0.020, 0}};
+    return landmarking.take(level, nav::PressedPlace{place, 0.0003}, posts, true, {});
   };
-  const auto refused = at(0.020);
+  const auto refused = at(0.012);
   ASSERT_TRUE(std::holds_alternative<TouchRefusal>(refused));
   const double limit_m = std::get<TouchRefusal>(refused).limit_m;
-  EXPECT_GT(limit_m, 0.030);
-  EXPECT_LT(limit_m, 0.8 * std::hypot(0.030, 0.025, 0.040) + kExact);
+  EXPECT_GT(limit_m, kSmaller * 0.030);
+  EXPECT_LT(limit_m, kLandmarkReach * kSmaller * std::hypot(0.030, 0.025, 0.040) + kExact);
   EXPECT_TRUE(std::holds_alternative<LandmarkTouch>(at(limit_m + kJust_m)));
 }
 
-TEST(LandmarkRules, TheLimitFollowsHowSurelyBothTouchesWereSeen) {
-  LandmarkRules rules;
-  rules.most_m = 0.003;
-  const double sharp_m = rules.limit_m(rules.distance_sd_m(0.0001, 0.0001, true));
+TEST(Landmark, TheLimitFollowsHowSurelyBothTouchesWereSeen) {
+  const double sharp_m = landmark_limit_m(landmark_distance_sd_m(0.0001, 0.0001, true));
   EXPECT_NEAR(sharp_m,
-              rules.sds * std::sqrt(2.0 * (1e-8 + rules.dimple_sd_m * rules.dimple_sd_m +
-                                           std::pow(rules.lasting_sd_anchored_m, 2))),
+              kLandmarkSds * std::sqrt(2.0 * (1e-8 + kDimpleSd_m * kDimpleSd_m +
+                                              std::pow(kLastingSdAnchored_m, 2))),
               kExact);
-  EXPECT_GT(rules.limit_m(rules.distance_sd_m(0.0003, 0.0001, true)), sharp_m);
-  EXPECT_GT(rules.limit_m(rules.distance_sd_m(0.0001, 0.0001, false)), sharp_m);
-  EXPECT_EQ(rules.limit_m(rules.distance_sd_m(0.01, 0.01, false)), rules.most_m)
+  EXPECT_GT(landmark_limit_m(landmark_distance_sd_m(0.0003, 0.0001, true)), sharp_m);
+  EXPECT_GT(landmark_limit_m(landmark_distance_sd_m(0.0001, 0.0001, false)), sharp_m);
+  EXPECT_EQ(landmark_limit_m(landmark_distance_sd_m(0.01, 0.01, false)), kMostLandmarkOff_m)
       << "what matters must show";
-}
-
-TEST(LandmarkRules, NamesWhatMakesNoSense) {
-  EXPECT_TRUE(LandmarkRules{}.check().empty());
-  SessionOptions bad;
-  bad.landmark.dimple_sd_m = -0.1;
-  bad.landmark.most_m = 0.01;
-  bad.landmark.sds = std::nan("");
-  EXPECT_EQ(bad.check().size(), 3U);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "engine/session/session.h"
 #include "engine/session/steps/rod_templating.h"
 #include "engine/session/text/wording.h"
@@ -125,22 +127,24 @@ TEST_F(RodSession, RefusesATouchThatDisagreesWithItsHead) {
 }
 
 TEST_F(RodSession, SaysWhichHeadToTouchAgain) {
-  SessionOptions options;
-  options.heads.tracking_sd_m = options.heads.tracking_sd_anchored_m = 0.0005;
-  ScriptedOperation unsure({"L4", "L5"}, options);
-  unsure.finishes_every_screw();
-  unsure.touches({0.02, 0.030, 0.00});
-  unsure.touches({0.02, 0.032, 0.04});
-  EXPECT_FALSE(state<HeadsSoFar>(unsure.pair())->touch_again) << "two heads: any straight rod";
-  const Guidance& g = unsure.touches({0.02, 0.036, 0.08});
+  const auto touch_again = [this] { return state<HeadsSoFar>(s.pair())->touch_again.has_value(); };
+  constexpr std::array<Vec3, 4> kHeads = {
+      {{0.02, 0.030, 0.00}, {0.02, 0.032, 0.04}, {0.02, 0.036, 0.08}, {0.02, 0.040, 0.12}}};
+  s.touches(kHeads[0]);
+  s.touches(kHeads[1]);
+  EXPECT_FALSE(touch_again()) << "two heads: any straight rod";
+  s.touches(kHeads[2]);
+  EXPECT_FALSE(touch_again()) << "three are sure enough";
+  const Guidance& g = s.touches(kHeads[3]);
   ASSERT_TRUE(g.rods[0].expected);
-  EXPECT_LT(g.rods[0].expected->within, 0.95);
-  EXPECT_TRUE(state<HeadsSoFar>(g)->touch_again);
-  s.touches({0.02, 0.030, 0.00});
-  s.touches({0.02, 0.032, 0.04});
-  const Guidance& sure = s.touches({0.02, 0.036, 0.08});
-  ASSERT_TRUE(sure.rods[0].expected);
-  EXPECT_GT(sure.rods[0].expected->within, g.rods[0].expected->within);
+  const double once = g.rods[0].expected->within;
+  EXPECT_LT(once, 0.95);
+  EXPECT_TRUE(touch_again());
+  for (const Vec3 head : kHeads) {
+    s.touches(head);
+  }
+  ASSERT_TRUE(s.pair().rods[0].expected);
+  EXPECT_GT(s.pair().rods[0].expected->within, once);
 }
 
 TEST_F(RodSession, DropsTheLastHead) {

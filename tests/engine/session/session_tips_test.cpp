@@ -82,12 +82,15 @@ TEST_F(TipsSession, TheCorrectionIsOfTheToolHoweverItIsHeldAndByWhatIsKnown) {
   EXPECT_NEAR(tip_off_m(), by_m, kExact) << "turned, the correction turns with it";
 }
 
+/// SD along an axis of the distance between the two described tips.
+constexpr double kPriorSd_m = 0.0007;
+
 TEST(TipCheck, TheBetterATouchIsTheMoreOfItIsBelieved) {
   const nav::PressedPlace pointer{{{0, 0, 0}}, 0.0001};
   const nav::PressedPlace guide{{{0.001, 0, 0}}, 0.0001};
   double before_m = 0.001;
   for (const double size_sd : {0.0003, 0.002, 0.01}) {
-    TipCheck check({}, {});
+    TipCheck check(kPriorSd_m);
     const auto taken = check.take(guide, {}, pointer, true, size_sd);
     const double by_m = std::get<TipDifference>(taken).by_m.norm();
     EXPECT_LT(by_m, before_m) << size_sd;
@@ -97,19 +100,18 @@ TEST(TipCheck, TheBetterATouchIsTheMoreOfItIsBelieved) {
 }
 
 TEST(TipCheck, SaysHowFarTheGuideMayBeOffThePointer) {
-  const TipCheckRules rules;
-  TipCheck check(rules, LandmarkRules{});
+  TipCheck check(kPriorSd_m);
   constexpr double kSizeSd = 0.0005;
-  const double tags_m = rules.distance_m * kSizeSd / std::sqrt(3.0);
+  const double tags_m = kTagDistance_m * kSizeSd / std::sqrt(3.0);
   const Mat3 held = Mat3::identity();
-  EXPECT_NEAR(check.difference_sd_m(kSizeSd, held), std::hypot(rules.prior_sd_m, tags_m), kExact)
+  EXPECT_NEAR(check.difference_sd_m(kSizeSd, held), std::hypot(kPriorSd_m, tags_m), kExact)
       << "as their calibrations leave them";
   EXPECT_GT(check.difference_sd_m(0.004, held), 0.001) << "tags of unknown size";
   const nav::PressedPlace pointer{{{0.01, 0.02, 0.0}}, 0.0001};
   const nav::PressedPlace guide{{{0.01, 0.0215, 0.0}}, 0.0001};
   ASSERT_TRUE(std::holds_alternative<TipDifference>(check.take(guide, {}, pointer, true, kSizeSd)));
   const TipDifference found = *check.last();
-  const double left_m = rules.prior_sd_m * found.sd_m / std::hypot(rules.prior_sd_m, found.sd_m);
+  const double left_m = kPriorSd_m * found.sd_m / std::hypot(kPriorSd_m, found.sd_m);
   EXPECT_NEAR(check.difference_sd_m(kSizeSd, held),
               std::hypot(left_m, found.by_m.norm() / std::sqrt(3.0), tags_m), kExact)
       << "known, and not corrected";
@@ -122,7 +124,7 @@ TEST(TipCheck, SaysHowFarTheGuideMayBeOffThePointer) {
     EXPECT_GT(sd_m, before_m);
     before_m = sd_m;
   }
-  EXPECT_GT(before_m, rules.prior_sd_m);
+  EXPECT_GT(before_m, kPriorSd_m);
 }
 
 TEST_F(TipsSession, AGuideElsewhereIsNoTouchOfIt) {

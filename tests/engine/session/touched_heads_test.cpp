@@ -23,8 +23,7 @@ class Heads : public ::testing::Test {
     EXPECT_TRUE(std::holds_alternative<HeadTouch>(added));
     return std::holds_alternative<HeadTouch>(added) ? std::get<HeadTouch>(added) : HeadTouch{};
   }
-  HeadTouchRules rules;
-  TouchedHeads heads{rules, true};
+  TouchedHeads heads{true};
 };
 
 TEST_F(Heads, TouchedAgainAreTheMeanOfTheirTouches) {
@@ -40,24 +39,24 @@ TEST_F(Heads, TouchedAgainAreTheMeanOfTheirTouches) {
 
 TEST_F(Heads, AreOtherOnesFromTheStatedDistanceOn) {
   touch(0.0);
-  EXPECT_EQ(touch(rules.same_head_m + 1e-6).head, 1U);
-  EXPECT_TRUE(std::holds_alternative<TouchRefusal>(heads.add(at(-rules.same_head_m + 1e-6))))
+  EXPECT_EQ(touch(kSameHead_m + 1e-6).head, 1U);
+  EXPECT_TRUE(std::holds_alternative<TouchRefusal>(heads.add(at(-kSameHead_m + 1e-6))))
       << "so near it belongs to the head, but not that far off";
 }
 
 TEST_F(Heads, BecomeSurerWithEachTouch) {
   const double once_m = touch(0.0).head_sd_m;
-  EXPECT_NEAR(once_m,
-              std::hypot(std::sqrt(0.75) * std::hypot(rules.seating_sd_m, kTipSd_m),
-                         rules.tracking_sd_anchored_m),
-              1e-6);
+  EXPECT_NEAR(
+      once_m,
+      std::hypot(std::sqrt(0.75) * std::hypot(kSeatingSd_m, kTipSd_m), kHeadTrackingSdAnchored_m),
+      1e-6);
   const double twice_m = touch(0.0).head_sd_m;
   EXPECT_LT(twice_m, once_m);
   EXPECT_LT(touch(0.0).head_sd_m, twice_m);
   for (int i = 0; i < 100; ++i) {
     touch(0.0);
   }
-  EXPECT_GT(heads.sd_m(0), rules.tracking_sd_anchored_m) << "tracking is not averaged away";
+  EXPECT_GT(heads.sd_m(0), kHeadTrackingSdAnchored_m) << "tracking is not averaged away";
 }
 
 TEST_F(Heads, AreLessSureWhereTouchesScatterAndOnTheMap) {
@@ -65,15 +64,14 @@ TEST_F(Heads, AreLessSureWhereTouchesScatterAndOnTheMap) {
   TouchedHeads scattered = heads;
   const double alike_m = touch(0.0).head_sd_m;
   EXPECT_GT(std::get<HeadTouch>(scattered.add(at(0.001))).head_sd_m, alike_m);
-  TouchedHeads on_map{rules, false};
+  TouchedHeads on_map{false};
   EXPECT_GT(std::get<HeadTouch>(on_map.add(at(0.0))).head_sd_m, 0.00037);
 }
 
 TEST_F(Heads, RefuseATouchThatDisagrees) {
   touch(0.0);
-  const double limit_m =
-      rules.sds * std::sqrt(2.0) *
-      std::hypot(std::hypot(rules.seating_sd_m, kTipSd_m), rules.tracking_sd_anchored_m);
+  const double limit_m = kHeadSds * std::sqrt(2.0) *
+                         std::hypot(std::hypot(kSeatingSd_m, kTipSd_m), kHeadTrackingSdAnchored_m);
   const auto refused = heads.add(at(limit_m + 1e-6));
   ASSERT_TRUE(std::holds_alternative<TouchRefusal>(refused));
   const auto& why = std::get<TouchRefusal>(refused);
@@ -95,14 +93,6 @@ TEST_F(Heads, GiveTheirTouchesBackOneByOne) {
   EXPECT_EQ(heads.drop_last()->head, 1U);
   EXPECT_EQ(heads.heads(), 1U);
   EXPECT_EQ(touch(0.0, 0.070).head, 1U) << "the number is free again";
-}
-
-TEST(HeadTouchRules, SaysEverythingThatIsWrong) {
-  HeadTouchRules rules;
-  EXPECT_THAT(rules.check(), ElementsAre());
-  rules.same_head_m = 0.015;
-  rules.sds = 1.0;
-  EXPECT_THAT(rules.check(), ElementsAre(HasSubstr("same_head_m"), HasSubstr("heads.sds")));
 }
 
 }  // namespace

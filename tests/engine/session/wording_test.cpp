@@ -22,7 +22,7 @@ TEST(Wording, SaysLastWhatBecomesOfWhatIsKept) {
 }
 
 TEST(Wording, SaysNothingOfTipsThatNobodyCompares) {
-  const TipCheck nobody({}, {}, false);
+  const TipCheck nobody(0.0007, false);
   LandmarkTouch touch;
   touch.first = true;
   const std::string line = line_with(LandmarkSoFar{true, touch, &nobody, nullptr});

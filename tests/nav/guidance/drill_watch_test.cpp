@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979 / 180.0;
 constexpr double kTarget_m = 0.040;
-const DrillLimits kLimits;
 
 /// A drill moving straight into the bone, at 30 pairs a second.
 struct Drilled {
@@ -123,10 +122,10 @@ TEST(DrillWatch, EndsWhereTheDrillIsWithdrawn) {
 TEST(DrillWatch, IsAmberAndRedFromTheirLimitsOn) {
   Drilled d;
   d.drills_to(0.010);
-  EXPECT_EQ(d.at(0.010, kLimits.amber_offset_m, kLimits.amber_angle_rad).alarm, DrillAlarm::kNone);
+  EXPECT_EQ(d.at(0.010, kAmberOffset_m, kAmberAngle_rad).alarm, DrillAlarm::kNone);
   EXPECT_EQ(d.at(0.010, 0.0011).alarm, DrillAlarm::kAmber);
   EXPECT_EQ(d.at(0.010, 0.0, 2.1 * kDegree).alarm, DrillAlarm::kAmber);
-  EXPECT_EQ(d.at(0.010, kLimits.red_offset_m, kLimits.red_angle_rad).alarm, DrillAlarm::kAmber);
+  EXPECT_EQ(d.at(0.010, kRedOffset_m, kRedAngle_rad).alarm, DrillAlarm::kAmber);
   EXPECT_EQ(d.at(0.010, 0.0021).alarm, DrillAlarm::kRed);
   EXPECT_EQ(d.at(0.010, 0.0, 4.1 * kDegree).alarm, DrillAlarm::kRed);
   EXPECT_EQ(d.at(0.010).alarm, DrillAlarm::kNone) << "and back";
@@ -179,17 +178,6 @@ TEST(DrillWatch, ForgetsWithTheScrew) {
   d.watch.forget();
   EXPECT_EQ(d.watch.view(), DrillView{});
   EXPECT_EQ(d.at(0.020).phase, DrillPhase::kAway);
-}
-
-TEST(DrillLimits, SayEveryProblemAtOnce) {
-  EXPECT_TRUE(kLimits.check().empty());
-  DrillLimits bad;
-  bad.amber_offset_m = bad.red_offset_m;
-  bad.red_angle_rad = std::nan("");
-  bad.stop_sds = 0.0;
-  bad.unknown_stop_margin_m = 0.5 * bad.least_stop_margin_m;
-  bad.set_after = Duration::zero();
-  EXPECT_EQ(bad.check().size(), 5u);
 }
 
 }  // namespace

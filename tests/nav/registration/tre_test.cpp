@@ -1,14 +1,9 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "nav/evaluation/errors.h"
 #include "nav/guidance/predicted_error.h"
-#include "nav/published/icp.h"
 #include "nav/registration/tre.h"
-#include "tests/support/mesh_builder.h"
-#include "tests/support/registration_builder.h"
 
 namespace orthonav::nav {
 namespace {
@@ -19,8 +14,8 @@ TEST(PredictedScrewError, IsKnownAtEachScrew) {
       {Side::kRight, {{-0.015, 0.020, 0.0}}, {{-0.012, -0.018, 0.004}}}};
   std::array<double, 36> covariance{};
   for (std::size_t k = 0; k < 3; ++k) {
-    covariance[7 * k] = 1e-7;                  // shifts of 0.3 mm
-    covariance[7 * (k + 3)] = 1e-4 * (k + 1);  // turns of 0.6° and more
+    covariance[7 * k] = 1e-7;                                     // shifts of 0.3 mm
+    covariance[7 * (k + 3)] = 1e-4 * static_cast<double>(k + 1);  // turns of 0.6° and more
   }
   Registration r;
   r.uncertainty = PoseUncertainty({0.0, 0.010, 0.0}, covariance);

@@ -59,15 +59,14 @@ class SaidTracker final : public ToolTracker {
 /// A room in which everything may move: pointer, reference, and perhaps a second reference.
 class Room {
  public:
-  explicit Room(int references, const ReferenceLimits& limits = {},
-                std::span<const ReferencePlace> known = {}) {
+  explicit Room(int references, std::span<const ReferencePlace> known = {}) {
     std::vector<ToolRole> roles = {ToolRole::kPointer};
     for (int i = 0; i < references; ++i) {
       roles.push_back(ToolRole::kReference);
     }
     auto said = std::make_unique<SaidTracker>(roles);
     tools = said.get();
-    tracker = create_anchored_tracker(std::move(said), kCoast, limits, known).value();
+    tracker = create_anchored_tracker(std::move(said), kCoast, known).value();
     tools->world_from[0] = pointer;
     for (int i = 0; i < references; ++i) {
       tools->world_from[static_cast<std::size_t>(i) + 1] =
@@ -188,7 +187,7 @@ TEST_P(OneOfTwoMoves, IsNoticedBeyondTheLimits) {
   auto& knocked = *room.tools->world_from[2];
   knocked = {rotation_from_vector({0.0, rotation_rad, 0.0}) * knocked.rotation(),
              knocked.translation() + Vec3{0.0, 0.0, translation_m}};
-  room.pairs(ReferenceLimits{}.pairs - 1);
+  room.pairs(kReferenceMovedPairs - 1);
   EXPECT_EQ(room.tracker->anchor()->moves, 0) << "a few pairs may be wrong";
   room.pairs(1);
   EXPECT_EQ(room.tracker->anchor()->moves, noticed ? 1 : 0);
@@ -241,15 +240,10 @@ TEST(RelativeCovariance, IsThatOfTheDifferenceOfTwoPoses) {
   EXPECT_GT(promised[7] / (1e-8 + 25e-10), 2.0);
 }
 
-TEST(AnchoredTracker, RefusesToolsWithoutAReferenceAndLimitsWithoutSense) {
+TEST(AnchoredTracker, RefusesToolsWithoutAReference) {
   auto alone = std::make_unique<SaidTracker>(std::vector{ToolRole::kPointer});
   EXPECT_THAT(create_anchored_tracker(std::move(alone), kCoast).error().message,
               ::testing::HasSubstr("no reference"));
-  ReferenceLimits limits;
-  limits.moved_m = std::nan("");
-  auto with = std::make_unique<SaidTracker>(std::vector{ToolRole::kReference});
-  EXPECT_THAT(create_anchored_tracker(std::move(with), kCoast, limits).error().message,
-              ::testing::HasSubstr("moved_m"));
 }
 
 /// An operation that is resumed: another program, another map, the same references.
@@ -259,7 +253,7 @@ TEST(AnchoredTracker, MakesTheSameWorldOfPlacesThatAreKnown) {
   ASSERT_EQ(first.tracker->anchor()->places.size(), 2u);
   EXPECT_EQ(first.tracker->anchor()->places_changed, 3) << "none, the first, the other learnt";
   const std::vector<ReferencePlace> places = first.tracker->anchor()->places;
-  Room second(2, {}, places);
+  Room second(2, places);
   second.move_patient(kPatientMoved);
   EXPECT_LT(apart_m(second.pairs(60).world_from_marker.value, before), kSame_m);
   EXPECT_EQ(second.tracker->anchor()->moves, 0);
@@ -271,10 +265,10 @@ TEST(AnchoredTracker, MakesTheSameWorldOfPlacesThatAreKnown) {
 TEST(AnchoredTracker, NoticesThatOneOfThoseThatAreKnownMovedMeanwhile) {
   Room first(2);
   first.pairs(60);
-  Room second(2, {}, first.tracker->anchor()->places);
-  second.tools->world_from[2] = Transform<World, Marker>(
-      Mat3::identity(), {0.1, 0.05, 0.0 + 2.0 * ReferenceLimits{}.moved_m});
-  second.pairs(ReferenceLimits{}.pairs);
+  Room second(2, first.tracker->anchor()->places);
+  second.tools->world_from[2] =
+      Transform<World, Marker>(Mat3::identity(), {0.1, 0.05, 0.0 + 2.0 * kReferenceMoved_m});
+  second.pairs(kReferenceMovedPairs);
   EXPECT_EQ(second.tracker->anchor()->moves, 1);
 }
 
@@ -282,14 +276,14 @@ TEST(AnchoredTracker, WaitsForOneThatIsKnownAndRefusesAPlaceOfAnotherTool) {
   Room first(2);
   first.pairs(60);
   std::vector<ReferencePlace> places = {first.tracker->anchor()->places[0]};
-  Room second(2, {}, places);
+  Room second(2, places);
   second.tools->world_from[1].reset();
   EXPECT_EQ(second.pairs(60).world_from_marker.status, PoseStatus::kLost)
       << "the other reference would make another World";
   places[0].tool = 0;
   const auto refused = create_anchored_tracker(
       std::make_unique<SaidTracker>(std::vector{ToolRole::kPointer, ToolRole::kReference}), kCoast,
-      {}, places);
+      places);
   EXPECT_EQ(test::error_of(refused), "tools: tool 0 is not a patient reference");
 }
 
