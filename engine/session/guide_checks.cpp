@@ -15,7 +15,7 @@ constexpr double kLeastSizeSd = 0.0003;
 /// Smaller corrections of the tip are not offered.
 constexpr double kTipWorth_m = 0.0002;
 /// Tips farther apart were not in the same dimple.
-constexpr double kMostTipsApart_m = 0.010;
+constexpr double kMaxTipsApart_m = 0.010;
 
 }  // namespace
 
@@ -55,10 +55,10 @@ std::variant<TipDifference, TouchRefusal> TipCheck::take(
   found.by_m = known * found.apart_m;
   found.limit_m = kTipWorth_m / known;
   if (!(known > 0.0)) {
-    found.limit_m = kMostTipsApart_m;  // tips that are known exactly need no correction
+    found.limit_m = kMaxTipsApart_m;  // tips that are known exactly need no correction
   }
-  if (!(found.apart_m.norm() <= kMostTipsApart_m)) {
-    return TouchRefusal{TouchRefusal::Kind::kTouchesApart, found.apart_m.norm(), kMostTipsApart_m};
+  if (!(found.apart_m.norm() <= kMaxTipsApart_m)) {
+    return TouchRefusal{TouchRefusal::Kind::kTouchesApart, found.apart_m.norm(), kMaxTipsApart_m};
   }
   last_ = found;
   compared_ = true;

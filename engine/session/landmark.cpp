@@ -16,7 +16,7 @@ double landmark_distance_sd_m(double recorded_sd_m, double sd_m, bool anchored) 
 }
 
 double landmark_limit_m(double distance_sd_m) {
-  return std::min(kLandmarkSds * distance_sd_m, kMostLandmarkOff_m);
+  return std::min(kLandmarkSds * distance_sd_m, kMaxLandmarkOff_m);
 }
 
 double landmark_apart_m(double sd_m, bool anchored) {

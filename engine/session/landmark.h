@@ -38,11 +38,11 @@ inline constexpr double kLastingSdAnchored_m = 0.00005;
 inline constexpr double kLandmarkSds = 3.583;
 /// The limit is never more than this, however badly the tip was seen: 95 of 100 shifts by 2 mm
 /// are detected.
-inline constexpr double kMostLandmarkOff_m = 0.0014;
+inline constexpr double kMaxLandmarkOff_m = 0.0014;
 /// On the headset's map: once World may have drifted by this SD along an axis since the bone was
 /// last found, nothing is guided before it is found again. By then one drift in twenty along an
-/// axis is longer than `kMostLandmarkOff_m`.
-inline constexpr double kMostWalked_m = 0.0007;
+/// axis is longer than `kMaxLandmarkOff_m`.
+inline constexpr double kMaxWalked_m = 0.0007;
 /// The least distance from the tag and the foot of a patient reference or, if the bone does not
 /// extend that far, `kLandmarkReach` times its extent: a clamp that turned moves nearby places
 /// least.

@@ -73,7 +73,7 @@ std::optional<FollowUpEvent> Watching::look_at_drift(const OperationInWork& work
   }
   const auto& found = work.level().bone_found;
   if (!found || !work.options.steps.landmark || guiding.drill().phase != nav::DrillPhase::kAway ||
-      !(found->drift_sd_m(now) > kMostWalked_m)) {
+      !(found->drift_sd_m(now) > kMaxWalked_m)) {
     return std::nullopt;
   }
   return FollowUpEvent{Event::kBoneUnchecked,

@@ -19,13 +19,13 @@ namespace orthonav::engine {
 namespace {
 
 /// A sleeve that turns more than this while it is pressed (root mean square) is not at rest.
-constexpr double kMostTurn_rad = 1.0 * kRadiansPerDegree;
+constexpr double kMaxTurn_rad = 1.0 * kRadiansPerDegree;
 /// If it is farther off the plan, the sleeve is not over this screw's wire.
 constexpr double kOnScrew_m = 0.015;
 constexpr double kOnScrew_rad = 30.0 * kRadiansPerDegree;
 /// A measurement with a larger SD can hardly tell within from beyond the limit: three quarters of
 /// it.
-constexpr double kMostAngleSd_rad = 1.5 * kRadiansPerDegree;
+constexpr double kMaxAngleSd_rad = 1.5 * kRadiansPerDegree;
 
 }  // namespace
 
@@ -76,7 +76,7 @@ std::optional<TouchRefusal> Placing::take(OperationInWork& work, std::size_t scr
   const LevelState& level = work.level();
   const nav::TrackedPose& pose = work.tools.watch(work.tools.guide()).last_measured_pose();
   const nav::ToolGeometry& guide = work.tools.geometry(work.tools.guide());
-  const auto taken = work.touches.sleeve.take(work.options.max_touch_spread_m, kMostTurn_rad);
+  const auto taken = work.touches.sleeve.take(work.options.max_touch_spread_m, kMaxTurn_rad);
   if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
     return *refusal;
   }
@@ -155,8 +155,8 @@ std::optional<TouchRefusal> Placing::refusal_of(const nav::PlacedAxis& axis) con
   if (!(axis.entry_m.sd <= rules_.most_entry_sd_m)) {
     return TouchRefusal{Kind::kEntryUnsure, axis.entry_m.sd, rules_.most_entry_sd_m};
   }
-  if (!(axis.angle_rad.sd <= kMostAngleSd_rad)) {
-    return TouchRefusal{Kind::kAngleUnsure, 0.0, 0.0, axis.angle_rad.sd, kMostAngleSd_rad};
+  if (!(axis.angle_rad.sd <= kMaxAngleSd_rad)) {
+    return TouchRefusal{Kind::kAngleUnsure, 0.0, 0.0, axis.angle_rad.sd, kMaxAngleSd_rad};
   }
   return std::nullopt;
 }

@@ -229,7 +229,7 @@ TEST(LoggedOperation, KnowsEveryTouchOfTheLandmarkAndWhatItTookBack) {
   EXPECT_TRUE(touches[1].touch.held() && touches[1].dropped);
   EXPECT_NEAR(touches[2].touch.off_m, 0.0031, 1e-9);
   EXPECT_FALSE(touches[2].touch.held() || touches[2].dropped);
-  EXPECT_NEAR(touches[2].touch.limit_m, kMostLandmarkOff_m, 1e-9);
+  EXPECT_NEAR(touches[2].touch.limit_m, kMaxLandmarkOff_m, 1e-9);
 }
 
 TEST(LoggedOperation, FollowsRejectionsCheckPointsAndAMovedMap) {

@@ -22,7 +22,7 @@ constexpr double kExact = 1e-9;
 constexpr double kPairs_s = 0.1;
 constexpr double kDrift = 0.0005;  // m/sqrt(s): seconds instead of minutes
 /// After this time the map may have drifted by the limit.
-const double kLongest_s = std::pow(kMostWalked_m / kDrift, 2);
+const double kLongest_s = std::pow(kMaxWalked_m / kDrift, 2);
 const Vec3 kAway{0.0, 0.15, 0.0};
 
 SessionOptions drifting() {
@@ -62,7 +62,7 @@ TEST_F(DriftingMap, BeforeADrillIsSetAsksForTheLandmarkAgain) {
   EXPECT_FALSE(g.tool) << "nothing is guided";
   ASSERT_NE(said<BoneUnchecked>(g), nullptr);
   EXPECT_NEAR(said<BoneUnchecked>(g)->for_s, kLongest_s, kPairs_s);
-  EXPECT_NEAR(said<BoneUnchecked>(g)->drift_m, 2.0 * kMostWalked_m, 5e-5);
+  EXPECT_NEAR(said<BoneUnchecked>(g)->drift_m, 2.0 * kMaxWalked_m, 5e-5);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kTouchMore);
   EXPECT_EQ(s.says("next").step, Step::kAccepted) << "not without it";
   s.touches_dimple();

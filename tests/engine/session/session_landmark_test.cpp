@@ -23,7 +23,7 @@ using enum ClickerAction;
 constexpr double kExact = 1e-9;
 constexpr Vec3 kDimple = ScriptedOperation::kDimple;
 /// Two touches of a few pairs each are so imprecise that the limit is at its maximum.
-constexpr double kLimit_m = kMostLandmarkOff_m;
+constexpr double kLimit_m = kMaxLandmarkOff_m;
 constexpr double kJust_m = 1e-5;
 
 /// In `accepted`, with a registration that puts the box where it is: World is Vertebra.
@@ -260,7 +260,7 @@ TEST(Landmark, TheLimitFollowsHowSurelyBothTouchesWereSeen) {
               kExact);
   EXPECT_GT(landmark_limit_m(landmark_distance_sd_m(0.0003, 0.0001, true)), sharp_m);
   EXPECT_GT(landmark_limit_m(landmark_distance_sd_m(0.0001, 0.0001, false)), sharp_m);
-  EXPECT_EQ(landmark_limit_m(landmark_distance_sd_m(0.01, 0.01, false)), kMostLandmarkOff_m)
+  EXPECT_EQ(landmark_limit_m(landmark_distance_sd_m(0.01, 0.01, false)), kMaxLandmarkOff_m)
       << "what matters must show";
 }
 

@@ -40,7 +40,7 @@ struct Compared {
 };
 
 inline std::optional<ResidualField> field_of(const SurfaceFit& fit) {
-  return residual_field(fit, residual_units(fit, kMostUnits));
+  return residual_field(fit, residual_units(fit, kMaxUnits));
 }
 
 inline CentredPose after(CentredPose pose, const std::array<double, 6>& step) {
