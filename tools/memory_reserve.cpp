@@ -25,17 +25,23 @@ std::atomic<void*>& reserve() {
 }
 
 void ran_out() {
+  if (!free_memory_reserve()) {
+    std::set_new_handler(nullptr);
+  }
+}
+
+}  // namespace
+
+bool free_memory_reserve() {
   void* const kept = reserve().exchange(nullptr);
   if (kept == nullptr) {
-    std::set_new_handler(nullptr);
-    return;
+    return false;
   }
   last_words("orthonav: out of memory: ending in order\n");
   ::munmap(kept, kReserveBytes);
   ::kill(::getpid(), SIGTERM);
+  return true;
 }
-
-}  // namespace
 
 void keep_memory_reserve() {
   void* const bytes =
