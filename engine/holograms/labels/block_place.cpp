@@ -154,8 +154,6 @@ int cost_of(const LabelObstacle& obstacle, PlacedBlock block) {
   switch (obstacle.kind) {
     case LabelObstacle::Kind::kWound:
       return kCostWound;
-    case LabelObstacle::Kind::kField:
-      return block == PlacedBlock::kStatus ? kCostWound : 0;
     case LabelObstacle::Kind::kLine:
       return kind_of(obstacle.label) == HologramKind::kTriangle ? kCostTool : kCostLine;
     case LabelObstacle::Kind::kGlare:
@@ -194,6 +192,9 @@ void BlockPlace::lay_out(render::Scene& scene, const Eyes& eyes,
   right_ = render::unit_or(render::cross(eyes.head().up, towards), eyes.head().right);
   up_ = render::cross(towards, right_);
   find_obstacles(scene, patches, eyes, obstacles_);
+  if (block_ == PlacedBlock::kStatus) {
+    add_wound(scene, eyes, obstacles_);
+  }
   find_rows(scene, eyes);
   extent_ = extent_of(scene, eyes);
   settle(eyes, shown_at);

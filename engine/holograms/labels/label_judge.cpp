@@ -74,7 +74,6 @@ int LabelJudge::harm(const LabelObstacle& obstacle, render::Label label, const S
     case LabelObstacle::Kind::kLeader:
       return overlap(obstacle.seen, spot.from_others) ? kOverLeader : 0;
     case LabelObstacle::Kind::kWound:
-    case LabelObstacle::Kind::kField:
     case LabelObstacle::Kind::kLine:
       break;
   }

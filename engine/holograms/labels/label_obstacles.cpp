@@ -100,57 +100,6 @@ class Finder {
     }
   }
 
-  /// A rectangle around the entries and the strokes, as the head sees them, along their longer
-  /// side.
-  void add_field(const render::Scene& scene) {
-    const render::Head& head = eyes_.head();
-    const auto for_each_place = [&](const auto& take) {
-      for (const render::MeshItem& mesh : scene.meshes) {
-        if (kind_of(mesh.label) == HologramKind::kEntry) {
-          const render::Matrix4& m = mesh.world_from_model;
-          take(Float3(m[3]));
-        }
-      }
-      for (const render::LineItem& line : scene.lines) {
-        const HologramKind kind = kind_of(line.label);
-        if (kind == HologramKind::kEntry || kind == HologramKind::kPath) {
-          std::for_each(line.points.begin(), line.points.end(), take);
-        }
-      }
-    };
-    float count = 0;
-    Float3 sum{};
-    for_each_place([&](Float3 p) {
-      count += 1;
-      sum = sum + p;
-    });
-    if (count == 0) {
-      return;
-    }
-    const Float3 middle = (1.0f / count) * sum;
-    float across2 = 0, along2 = 0, both = 0;
-    for_each_place([&](Float3 p) {
-      const float x = dot(p - middle, head.right), y = dot(p - middle, head.up);
-      across2 += x * x;
-      along2 += y * y;
-      both += x * y;
-    });
-    const float turned = 0.5f * std::atan2(2 * both, across2 - along2);
-    const Float3 longer = std::cos(turned) * head.right + std::sin(turned) * head.up;
-    const Float3 shorter = std::cos(turned) * head.up - std::sin(turned) * head.right;
-    std::array<float, 4> ends{};  // least and most along each
-    for_each_place([&](Float3 p) {
-      const float x = dot(p - middle, longer), y = dot(p - middle, shorter);
-      ends = {std::min(ends[0], x), std::max(ends[1], x), std::min(ends[2], y),
-              std::max(ends[3], y)};
-    });
-    const std::array<Float3, 4> corners = {middle + ends[0] * longer + ends[2] * shorter,
-                                           middle + ends[1] * longer + ends[2] * shorter,
-                                           middle + ends[1] * longer + ends[3] * shorter,
-                                           middle + ends[0] * longer + ends[3] * shorter};
-    add(Kind::kField, 0, corners, kFieldRadius_m);
-  }
-
   void add_lines(const render::Scene& scene) {
     for (const render::LineItem& line : scene.lines) {
       const bool cross = kind_of(line.label) == HologramKind::kCross;
@@ -179,7 +128,6 @@ void find_obstacles(const render::Scene& scene, std::span<const GlarePatch> patc
   }
   finder.add_small_shapes(scene);
   finder.add_lines(scene);
-  finder.add_field(scene);
   for (const render::TriangleItem& triangle : scene.triangles) {
     if (kind_of(triangle.label) == HologramKind::kTriangle) {
       finder.add(Kind::kLine, triangle.label, triangle.corners, kLineHalfWidth_m);
@@ -187,6 +135,55 @@ void find_obstacles(const render::Scene& scene, std::span<const GlarePatch> patc
       finder.add(Kind::kNamed, triangle.label, triangle.corners, 0);
     }
   }
+}
+
+void add_wound(const render::Scene& scene, const Eyes& eyes,
+               std::vector<LabelObstacle>& obstacles) {
+  // Along the longer side of what the head sees.
+  const render::Head& head = eyes.head();
+  const auto for_each_place = [&](const auto& take) {
+    for (const render::MeshItem& mesh : scene.meshes) {
+      if (kind_of(mesh.label) == HologramKind::kEntry) {
+        const render::Matrix4& m = mesh.world_from_model;
+        take(Float3(m[3]));
+      }
+    }
+    for (const render::LineItem& line : scene.lines) {
+      const HologramKind kind = kind_of(line.label);
+      if (kind == HologramKind::kEntry || kind == HologramKind::kPath) {
+        std::for_each(line.points.begin(), line.points.end(), take);
+      }
+    }
+  };
+  float count = 0;
+  Float3 sum{};
+  for_each_place([&](Float3 p) {
+    count += 1;
+    sum = sum + p;
+  });
+  if (count == 0) {
+    return;
+  }
+  const Float3 middle = (1.0f / count) * sum;
+  float across2 = 0, along2 = 0, both = 0;
+  for_each_place([&](Float3 p) {
+    const float x = dot(p - middle, head.right), y = dot(p - middle, head.up);
+    across2 += x * x;
+    along2 += y * y;
+    both += x * y;
+  });
+  const float turned = 0.5f * std::atan2(2 * both, across2 - along2);
+  const Float3 longer = std::cos(turned) * head.right + std::sin(turned) * head.up;
+  const Float3 shorter = std::cos(turned) * head.up - std::sin(turned) * head.right;
+  std::array<float, 4> ends{};  // least and most along each
+  for_each_place([&](Float3 p) {
+    const float x = dot(p - middle, longer), y = dot(p - middle, shorter);
+    ends = {std::min(ends[0], x), std::max(ends[1], x), std::min(ends[2], y), std::max(ends[3], y)};
+  });
+  const std::array<Float3, 4> corners = {
+      middle + ends[0] * longer + ends[2] * shorter, middle + ends[1] * longer + ends[2] * shorter,
+      middle + ends[1] * longer + ends[3] * shorter, middle + ends[0] * longer + ends[3] * shorter};
+  obstacles.push_back({Kind::kWound, 0, eyes.outline(corners, kOpenRadius_m)});
 }
 
 }  // namespace orthonav::engine
