@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "embedded/report_css.h"
 #include "engine/report/html_text.h"
+#include "engine/report/page_style.h"
 #include "engine/report/registration_drawing.h"
 #include "engine/report/registration_tables.h"
 #include "engine/report/tissue_drawing.h"
@@ -149,7 +149,7 @@ Result<std::string> registration_page(const RegisteredLevel& level, const std::s
   std::string html =
       "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: registration"
       "</title><meta name=viewport content=\"width=device-width, initial-scale=1\"><style>";
-  html += embedded::report_css();
+  html += page_style();
   html += "</style></head><body><header><h1>orthonav <span>registration report</span></h1><p>";
   if (!level.label.empty()) {
     html += "Level <b>" + html_escaped(level.label) + "</b>, ";

@@ -5,14 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "embedded/chart_js.h"
-#include "embedded/report_css.h"
 #include "embedded/report_js.h"
 #include "engine/report/clearance_section.h"
 #include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/levels_section.h"
 #include "engine/report/operation_result.h"
+#include "engine/report/page_style.h"
 #include "engine/report/paper_section.h"
 #include "engine/report/paper_table.h"
 #include "engine/report/pictures_section.h"
@@ -144,7 +143,7 @@ std::string head(const json& report, const std::string& date) {
   return "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: operation "
          "report</title><meta name=viewport content=\"width=device-width, "
          "initial-scale=1\"><style>" +
-         std::string(embedded::report_css()) +
+         std::string(page_style()) +
          "</style></head><body><header><h1>orthonav <span>operation report</span></h1><p "
          "class=facts>" +
          fact("date", date.empty() ? "not recorded" : date) +
@@ -177,7 +176,7 @@ std::string scripts(const json& report, const ReportContent& content) {
                      script_json(plots_json(content)) +
                      "</script><script type=\"application/json\" id=error-data>" +
                      script_json(error_bars(report)) + "</script><script>";
-  return html.append(embedded::chart_js())
+  return html.append(plotting_script())
       .append("</script><script>")
       .append(embedded::report_js())
       .append("</script>");

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "base/angle.h"
-#include "embedded/report_css.h"
 #include "engine/report/html_table.h"
 #include "engine/report/html_text.h"
 #include "engine/report/operation_result.h"
+#include "engine/report/page_style.h"
 #include "engine/report/report_values.h"
 #include "engine/report/tracked_section.h"
 #include "engine/report/verdict.h"
@@ -435,7 +435,7 @@ std::string session_page(const LoggedOperation& session, const std::string& sour
   std::string html =
       "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: session</title>"
       "<meta name=viewport content=\"width=device-width, initial-scale=1\"><style>";
-  html += embedded::report_css();
+  html += page_style();
   html += "</style></head><body><header><h1>orthonav <span>report of a log</span></h1><p>Case <b>" +
           html_escaped(identity.case_name) + "</b>, method <b>" + html_escaped(identity.method) +
           "</b>, headset <b>" + html_escaped(identity.device) + "</b>, begun <b>" +
