@@ -104,12 +104,9 @@ void EventLog::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*
   if (!changes_.new_message().empty()) {
     log_->info("{:.2f} s: message: {}", time_s, changes_.new_message());
   }
-  if (const bool fails =
-          status.saved == engine::Saved::kNotSaved || status.saved == engine::Saved::kNotRecorded;
-      fails && status.saved != not_kept_) {
+  if (engine::not_kept_text(status.saved) != nullptr && status.saved != not_kept_) {
     not_kept_ = status.saved;
-    log_->warn("{:.2f} s: the status line says {}", time_s,
-               not_kept_ == engine::Saved::kNotSaved ? "NOT SAVED" : "NOT RECORDED");
+    log_->warn("{:.2f} s: the status line says {}", time_s, engine::not_kept_text(not_kept_));
   }
   if (!std::exchange(pictures_apart_, status.pictures_apart) && pictures_apart_) {
     log_->warn("{:.2f} s: the two cameras' pictures do not belong together: nothing is measured",

@@ -81,7 +81,8 @@ Status KeptOperation::resume(engine::AssembledOperation& operation, const About&
     std::fprintf(stderr, "orthonav: %s\n", line.c_str());
   }
   if (const Status written = log_->written(); !written) {
-    std::fprintf(stderr, "orthonav: NOT SAVED from here on: %s\n", written.error().message.c_str());
+    std::fprintf(stderr, "orthonav: %s from here on: %s\n",
+                 engine::not_kept_text(engine::Saved::kNotSaved), written.error().message.c_str());
   }
   return {};
 }

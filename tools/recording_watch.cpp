@@ -1,6 +1,7 @@
 #include "tools/recording_watch.h"
 
 #include <cstdio>
+#include "engine/session/text/wording.h"
 
 #include "base/how_many.h"
 
@@ -33,7 +34,8 @@ void RecordingWatch::stepped(const StereoFrame& /*frame*/, const engine::Inputs&
     return;
   }
   told_ = true;
-  warn("NOT RECORDED from here on: " + recorder_->recording_status().error().message);
+  warn(std::string(engine::not_kept_text(engine::Saved::kNotRecorded)) +
+       " from here on: " + recorder_->recording_status().error().message);
 }
 
 void RecordingWatch::ended() {

@@ -401,6 +401,12 @@ void write_beside_replan(PartedText text, const StepState& state) {
   }
 }
 
+const char* not_kept_text(Saved saved) {
+  return saved == Saved::kNotSaved      ? translatable("NOT SAVED")
+         : saved == Saved::kNotRecorded ? translatable("NOT RECORDED")
+                                        : nullptr;
+}
+
 void append_detail(std::string& out, const StatusLine& line, StatusParts* parts) {
   PartedText text{out, parts};
   const std::size_t begin = out.size();
@@ -445,12 +451,10 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     text.begin(Importance::kNext, out.size() > begin ? "; " : "");
     out += translated("no clicker");
   }
-  if (line.saved == Saved::kNotSaved) {
-    text.begin(Importance::kDanger, out.size() > begin ? "; " : "");
-    out += translated("NOT SAVED");
-  } else if (line.saved == Saved::kNotRecorded) {
-    text.begin(Importance::kMessage, out.size() > begin ? "; " : "");
-    out += translated("NOT RECORDED");
+  if (const char* const not_kept = not_kept_text(line.saved)) {
+    text.begin(line.saved == Saved::kNotSaved ? Importance::kDanger : Importance::kMessage,
+               out.size() > begin ? "; " : "");
+    out += translated(not_kept);
   }
 }
 

@@ -75,6 +75,9 @@ template <class Finding>
 /// A message to the surgeon in words, in several parts where needed.
 void write_message(PartedText text, const Message& message);
 
+/// "NOT SAVED" or "NOT RECORDED", in English; null where nothing is amiss.
+[[nodiscard]] const char* not_kept_text(Saved saved);
+
 /// "guide L4 left".
 void append_step(std::string& out, const StepOnDisplay& at);
 /// What follows the step: first a lost tool, which no message may hide, then the message or the
