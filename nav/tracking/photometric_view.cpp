@@ -17,7 +17,7 @@ constexpr double kRoughPx = 24.0;
 
 /// Along one axis: the cell, and for its low and its high edge the fraction of the blur's footprint
 /// beyond it, the derivatives of that fraction by position, by the logarithm of the blur and by its
-/// excess_kurtosis, and the density at the edge.
+/// excess kurtosis, and the density at the edge.
 enum AxisColumn {
   kCell,
   kLow,

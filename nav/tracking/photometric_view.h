@@ -52,7 +52,7 @@ struct Photometry {
 /// Columns of the linear model of a view. The pose is perturbed in the frame of the tag: shift
 /// (in cells) and rotation vector.
 inline constexpr std::size_t kPoseColumns = 6;
-/// Black, contrast, slopes, logarithms of blur, excess_kurtosis, skew, response.
+/// Black, contrast, slopes, logarithms of blur, excess kurtosis, skew, response.
 inline constexpr std::size_t kLightColumns = 12;
 inline constexpr std::size_t kColumns = kPoseColumns + kLightColumns;
 

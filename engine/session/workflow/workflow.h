@@ -437,7 +437,7 @@ static_assert(rules_are_unique(kRules) && rules_are_unique(kRulesByEye) &&
                   rules_are_unique(kRulesRodsAlone),
               "two rules of the workflow share a cell");
 
-/// Those of the states are in the order in which states answer.
+/// Of one step and event, the rules are in the order of `State`: the first that holds answers.
 consteval bool state_rules_are_in_order() {
   for (std::size_t i = 0; i < kStateRules.size(); ++i) {
     for (std::size_t j = i + 1; j < kStateRules.size(); ++j) {
