@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/histogram.h"
 #include "base/result.h"
 #include "engine/report/registration_figures.h"
 #include "engine/report/spine_view.h"
