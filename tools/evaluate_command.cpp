@@ -116,7 +116,7 @@ int run_evaluate(const EvaluateArguments& arguments) {
     return bad_input(written.error().message);
   }
   if (!arguments.json.on_stdout()) {
-    print(*evaluation);
+    print_figures(*evaluation);
   }
   return is_complete(*evaluation) ? kDone : kNo;
 }

@@ -178,7 +178,7 @@ bool is_complete(const engine::Evaluation& evaluation) {
   });
 }
 
-void print(const engine::Evaluation& evaluation) {
+void print_figures(const engine::Evaluation& evaluation) {
   print_text(
       "             angle        entry  entry (axis)  target  depth   dia-  clear-  95 %%\n");
   print_text(

@@ -21,7 +21,7 @@ inline constexpr const char* kTipNotSeen =
 [[nodiscard]] std::string grade_text(const engine::ScrewInScan& screw);
 
 /// A table on standard output.
-void print(const engine::Evaluation& evaluation);
+void print_figures(const engine::Evaluation& evaluation);
 
 /// Every figure, units in the keys (docs/evaluation.md).
 [[nodiscard]] nlohmann::ordered_json as_json(const engine::Evaluation& evaluation);
