@@ -35,7 +35,7 @@ LightPrior light_prior(const Photometry& light) {
   step(5, 0.5);
   about_zero(6, light.excess_kurtosis[0], 1.0);
   about_zero(7, light.excess_kurtosis[1], 1.0);
-  about_zero(8, light.skew, 0.3);
+  about_zero(8, light.blur_correlation, 0.3);
   for (std::size_t i = 0; i < light.response.size(); ++i) {
     about_zero(9 + i, light.response[i], 0.5);
   }
@@ -53,7 +53,7 @@ void apply(const LightStep& step, double px_a_cell, Photometry& light) {
     light.excess_kurtosis[i] =
         std::clamp(light.excess_kurtosis[i] + bounded(step[6 + i], 1.0), -1.2, 3.0);
   }
-  light.skew = std::clamp(light.skew + bounded(step[8], 0.5), -0.8, 0.8);
+  light.blur_correlation = std::clamp(light.blur_correlation + bounded(step[8], 0.5), -0.8, 0.8);
   // Stays well away from where the response would no longer rise everywhere.
   for (std::size_t i = 0; i < light.response.size(); ++i) {
     light.response[i] = std::clamp(light.response[i] + bounded(step[9 + i], 0.3), -0.9, 0.9);

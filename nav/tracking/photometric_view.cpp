@@ -212,7 +212,7 @@ ORTHONAV_WIDE ViewModel::OnTag ViewModel::spread(const RayTable& rays, int y,
 
 // Bilinear in the fractions beyond the edges, plus the effect of the blur's correlation at corners
 // (the first term of Mehler's series).
-void ViewModel::add(int k, int i, std::uint8_t grey, float skew, const float* c) {
+void ViewModel::add(int k, int i, std::uint8_t grey, float blur_correlation, const float* c) {
   const std::ptrdiff_t stride = x1_ - x0_;
   const float* row = row_.data() + i;
   const float* x = row + kAcross * stride;
@@ -233,7 +233,8 @@ void ViewModel::add(int k, int i, std::uint8_t grey, float skew, const float* c)
   out[kGrey * kBlock] = grey;
   out[kBx * kBlock] = row[kX * stride];
   out[kBy * kBlock] = row[kY * stride];
-  out[kT * kBlock] = c[0] + lx * left + hx * right + ly * c[3] + hy * c[4] + skew * corners;
+  out[kT * kBlock] =
+      c[0] + lx * left + hx * right + ly * c[3] + hy * c[4] + blur_correlation * corners;
   out[kTx * kBlock] = of(x, kLowSlope) * left + of(x, kHighSlope) * right;
   out[kTy * kBlock] = -(of(y, kLowSlope) * above + of(y, kHighSlope) * below);
   out[kTsx * kBlock] = of(x, kLowBlur) * left + of(x, kHighBlur) * right;
@@ -270,7 +271,7 @@ void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y, On
     const int cell_column = static_cast<int>(across[kCell * stride]);
     cell_[static_cast<std::size_t>(filled_)] =
         static_cast<std::uint16_t>(cell_row * tag.cells().cells + cell_column);
-    add(filled_++, i, pixels[i], static_cast<float>(light.skew),
+    add(filled_++, i, pixels[i], static_cast<float>(light.blur_correlation),
         tag.coefficients(cell_row, cell_column));
     if (filled_ == kBlock) {
       finish(light, doubt_cells, out);

@@ -34,7 +34,7 @@ struct Photometry {
   std::array<double, 2> excess_kurtosis{};
   /// Correlation of the blur between columns and rows, from an oblique view of the tag or from
   /// motion.
-  double skew = 0.0;
+  double blur_correlation = 0.0;
   /// Departure of the sensor's response from a line: like a gamma, which makes white areas grow,
   /// and like increased contrast in the middle, in the last three places.
   std::array<double, 3> response{};
@@ -52,7 +52,7 @@ struct Photometry {
 /// Columns of the linear model of a view. The pose is perturbed in the frame of the tag: shift
 /// (in cells) and rotation vector.
 inline constexpr std::size_t kPoseColumns = 6;
-/// Black, contrast, slopes, logarithms of blur, excess kurtosis, skew, response.
+/// Black, contrast, slopes, logarithms of blur, excess kurtosis, blur correlation, response.
 inline constexpr std::size_t kLightColumns = 12;
 inline constexpr std::size_t kColumns = kPoseColumns + kLightColumns;
 
@@ -128,7 +128,7 @@ class ViewModel {
   OnTag spread(const RayTable& rays, int y, const Photometry& light);
   void collect(const GreyImage& image, const BlurredTag& tag, int y, OnTag row,
                const Photometry& light, double doubt_cells, ViewEquations& out);
-  void add(int k, int i, std::uint8_t grey, float skew, const float* coefficients);
+  void add(int k, int i, std::uint8_t grey, float blur_correlation, const float* coefficients);
   void finish(const Photometry& light, double doubt_cells, ViewEquations& out);
   void compare(const Photometry& light);
   void weigh(const Photometry& light, double doubt_cells);
